@@ -57,10 +57,10 @@ typedef enum {
     QDOT_RESULT_INTERRUPTED = 13 /* interrupted by qdot_interrupt_set() */
 } qdot_result;
 
-/* A result in a few words, "unknown or taken name"; never NULL. */
+/* A result code in a few words, such as "unknown or taken name"; never NULL. */
 const char *qdot_result_text(qdot_result result);
 
-/* The version of the library, "0.1.0". */
+/* The version of the library, such as "0.1.0". */
 const char *qdot_version(void);
 
 /* Free a string that a function returned through a `char **`; NULL is allowed. */
@@ -74,7 +74,7 @@ void qdot_interrupt_set(void);
 
 typedef struct qdot_system qdot_system;
 
-/* The notations of formulas. MathML: the contents of the element <math>. */
+/* The notations in which formulas are written. MathML: only the contents of the element <math>. */
 typedef enum {
     QDOT_NOTATION_PLAIN = 0, /* the language itself: 1/2*m*r'^2 */
     QDOT_NOTATION_UNICODE = 1,
@@ -140,7 +140,7 @@ typedef struct qdot_motion qdot_motion;
  * any other error: NULL. */
 qdot_result qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion);
 
-/* Free the motion; NULL is allowed. */
+/* Free a motion; NULL is allowed. */
 void qdot_motion_free(qdot_motion *motion);
 
 /* The system to which the motion belongs, for qdot_system_error(); borrowed. */
@@ -156,12 +156,12 @@ typedef struct {
     double constraint_drift; /* the largest |f| of the constraints f = 0; NaN: there are none */
     double cpu;              /* CPU seconds of the integration alone */
     size_t steps, rejected, evaluations;
-    const char *method; /* name of the method, as "taylor"; borrowed from the motion, as are the next two */
-    const char *reason;      /* why the run ended early; NULL: it did not */
-    const char *doubt; /* why the error is unknown; NULL: it is known, or no reason is given */
+    const char *method; /* name of the integration method, such as "taylor"; borrowed from the motion, like the next two */
+    const char *reason;      /* why the integration ended before the requested time; NULL: it did not */
+    const char *doubt; /* why the error of the motion is unknown; NULL: it is known, or no reason can be given */
 } qdot_motion_summary;
 
-/* Fill *summary. size: sizeof *summary, so that a later version may have more members. */
+/* Fill in *summary; pass sizeof *summary as `size`, so that later versions may have more members. */
 qdot_result qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, size_t size);
 
 /* The number n of coordinates; the name of the i-th, i < n, borrowed from the motion, else NULL.
@@ -188,8 +188,8 @@ qdot_result qdot_motion_values(qdot_motion *motion, const char *expression, size
 typedef enum {
     QDOT_OVER_MAX = 0,
     QDOT_OVER_MIN = 1,
-    QDOT_OVER_MEAN = 2, /* mean over time */
-    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), e0 the value of the expression at `from` */
+    QDOT_OVER_MEAN = 2, /* mean of the expression over time */
+    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), where e0 is the value of the expression e at `from` */
 } qdot_over;
 
 /* The largest or least value of a scalar expression between two times, its mean or its drift, with its
@@ -197,7 +197,7 @@ typedef enum {
 qdot_result qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, double from,
                              double to, double *value, double *error);
 
-/* The times at which the steps end, [*n] in the order of the run; borrowed from the motion. */
+/* The times at which the integration steps end, [*n] in the order of the run; borrowed from the motion. */
 const double *qdot_motion_steps(const qdot_motion *motion, size_t *n);
 
 /* *n: how many events occurred; the i-th in the order of the run: its name (borrowed), time, the error of

@@ -11,18 +11,18 @@
 #include "base/text.h"
 #include "lang/workbench/complete.h"
 
-static qdot_session *session; /* global, because readline's callbacks get no argument */
+static qdot_session *session; /* the session; global, because readline's callbacks get no argument */
 static const char *lines = "";
 
-/* The words found, handed to readline one by one. */
+/* The completions that were found, which readline takes one by one. */
 static struct {
     char **at;
     size_t n, next;
 } words;
 
-/* The next of the words found; allocated by malloc, as readline frees it. */
+/* The next completion found; allocated by malloc, as readline frees it. */
 static char *
-next_word(const char *prefix, int again)
+next_completion(const char *prefix, int again)
 {
     char *word = NULL;
 
@@ -84,7 +84,7 @@ find_words(const char *prefix, int start)
 }
 
 static char **
-complete(const char *prefix, int start, int end)
+complete_word(const char *prefix, int start, int end)
 {
     const place p = text_place_at(rl_line_buffer, start);
 
@@ -95,12 +95,12 @@ complete(const char *prefix, int start, int end)
     rl_attempted_completion_over = 1;
     if (p == COMMENT || find_words(prefix, start) != QDOT_OK)
         return NULL;
-    return rl_completion_matches(prefix, next_word);
+    return rl_completion_matches(prefix, next_completion);
 }
 
-/* The characters that end a word to the left of the cursor; within quotes only the quote. */
+/* The characters that separate words left of the cursor; within quotes only the quote. */
 static char *
-breaks(void)
+word_break_characters(void)
 {
     static char quote[] = "\"";
 
@@ -111,10 +111,10 @@ void
 qdot_completion_install(qdot_session *s)
 {
     session = s;
-    rl_attempted_completion_function = complete;
+    rl_attempted_completion_function = complete_word;
     rl_basic_word_break_characters = " \t\n\"'`@$><=;|&{}()[]+-*/^,:.!%~#";
     rl_completer_quote_characters = "\"";
-    rl_completion_word_break_hook = breaks;
+    rl_completion_word_break_hook = word_break_characters;
     rl_variable_bind("expand-tilde", "on"); /* ~ has no meaning in the language */
 }
 

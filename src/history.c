@@ -35,7 +35,7 @@ make_folders(char *file)
 }
 
 static void
-find_path(void)
+find_history_path(void)
 {
     const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
 
@@ -47,7 +47,7 @@ find_path(void)
 
 /* Replace every character `from` of the text by `to`. */
 static void
-replace(char *text, char from, char to)
+replace_characters(char *text, char from, char to)
 {
     for (; (text = strchr(text, from)) != NULL; text++)
         *text = to;
@@ -59,7 +59,7 @@ qdot_history_begin(void)
     int fd;
 
     using_history();
-    find_path();
+    find_history_path();
     if (path.n == 0)
         return;
     if (!make_folders(path.at) ||
@@ -73,7 +73,7 @@ qdot_history_begin(void)
     read_history(path.at);
     stifle_history(ENTRIES);
     for (int i = 0; i < history_length; i++)
-        replace(history_get(history_base + i)->line, END_OF_LINE, '\n');
+        replace_characters(history_get(history_base + i)->line, END_OF_LINE, '\n');
 }
 
 void
@@ -89,9 +89,9 @@ qdot_history_note(const char *statement)
     last = history_get(history_base + history_length - 1);
     if (path.n == 0 || last == NULL)
         return;
-    replace(last->line, '\n', END_OF_LINE);
+    replace_characters(last->line, '\n', END_OF_LINE);
     append_history(1, path.at);
-    replace(last->line, END_OF_LINE, '\n');
+    replace_characters(last->line, END_OF_LINE, '\n');
 }
 
 void

@@ -21,7 +21,7 @@
 #include "base/text.h"
 #include "lang/workbench/highlight.h"
 
-static const qdot_session *session; /* global, because readline's callbacks get no argument */
+static const qdot_session *session; /* the session; global, because readline's callbacks get no argument */
 static const char *lines = "";
 
 enum { LONG_LINE = 200 }; /* longest line that is coloured, in bytes */
@@ -42,7 +42,7 @@ typedef struct {
 
 /* The number of columns of the character at `text`, *bytes its length; negative: unknown. */
 static int
-columns_of(const char *text, size_t *bytes)
+character_width(const char *text, size_t *bytes)
 {
     mbstate_t state = {0};
     wchar_t c;
@@ -52,9 +52,9 @@ columns_of(const char *text, size_t *bytes)
     return n == 0 || n == (size_t)-1 || n == (size_t)-2 ? -1 : wcwidth(c);
 }
 
-/* The place of a character with that many columns: in the next row if it has no room in the present one. */
+/* The position of a character of the given width: in the next row if it does not fit into the present one. */
 static place
-character_place(place p, int columns)
+position_of_character(place p, int columns)
 {
     if (p.x + columns > p.columns) {
         p.x = 0;
@@ -63,11 +63,11 @@ character_place(place p, int columns)
     return p;
 }
 
-/* The place after a character that is put at p. */
+/* The position after a character of the given width that is written at p. */
 static place
-place_behind(place p, int columns)
+position_after(place p, int columns)
 {
-    p = character_place(p, columns);
+    p = position_of_character(p, columns);
     p.x += columns;
     if (p.x == p.columns) {
         p.x = 0;
@@ -77,43 +77,43 @@ place_behind(place p, int columns)
 }
 
 static place
-below(place p)
+start_of_next_row(place p)
 {
     p.x = 0;
     p.row++;
     return p;
 }
 
-/* Step over text; false: it contains a character of unknown width. */
+/* Advance the position p over text; false: the text contains a character of unknown width. */
 static bool
-step_over(place *p, const char *text, size_t n)
+advance_over(place *p, const char *text, size_t n)
 {
     for (size_t i = 0, bytes; i < n; i += bytes) {
         int columns;
 
         if (text[i] == '\n') {
-            *p = below(*p);
+            *p = start_of_next_row(*p);
             bytes = 1;
             continue;
         }
-        columns = columns_of(text + i, &bytes);
+        columns = character_width(text + i, &bytes);
         if (columns < 0)
             return false;
-        *p = place_behind(*p, columns);
+        *p = position_after(*p, columns);
     }
     return true;
 }
 
-/* Step over the prompt as it is shown, also that of a search, without what readline is told to ignore. */
+/* Advance over the prompt as it is shown (also of a search), without what readline is told to ignore. */
 static bool
-step_over_prompt(place *p)
+advance_over_prompt(place *p)
 {
     const char *at = rl_display_prompt != NULL ? rl_display_prompt : "";
 
     while (*at != '\0') {
         const size_t n = strcspn(at, "\001");
 
-        if (!step_over(p, at, n))
+        if (!advance_over(p, at, n))
             return false;
         at += n + strcspn(at + n, "\002");
         at += *at == '\002';
@@ -124,7 +124,7 @@ step_over_prompt(place *p)
 /* --- painting the line ------------------------------------------------------------------ */
 
 static void
-move(int rows, int x)
+move_cursor(int rows, int x)
 {
     if (rows != 0)
         fprintf(rl_outstream, rows < 0 ? "\033[%dA" : "\033[%dB", abs(rows));
@@ -133,26 +133,26 @@ move(int rows, int x)
         fprintf(rl_outstream, "\033[%dC", x);
 }
 
-/* Write the line in its colours from place p, where the cursor is. All its characters have a width. */
+/* Write the line in colours from position p, where the cursor is; all characters must have known widths. */
 static void
 write_line(place p, const uint8_t *kinds)
 {
     const char *text = rl_line_buffer;
     uint8_t now = QDOT_HIGHLIGHT_PLAIN;
-    int row = p.row; /* row of the cursor, which stays after the last column of a full row */
+    int row = p.row; /* row of the cursor; after the last column of a full row the cursor stays there */
 
     for (size_t i = 0, bytes; text[i] != '\0'; i += bytes) {
         int columns;
 
         if (text[i] == '\n') {
-            p = below(p);
+            p = start_of_next_row(p);
             bytes = 1;
             continue;
         }
-        columns = columns_of(text + i, &bytes);
-        if (columns > 0 && character_place(p, columns).row > row) {
-            p = character_place(p, columns);
-            move(p.row - row, p.x);
+        columns = character_width(text + i, &bytes);
+        if (columns > 0 && position_of_character(p, columns).row > row) {
+            p = position_of_character(p, columns);
+            move_cursor(p.row - row, p.x);
             row = p.row;
         }
         if (kinds[i] != now) {
@@ -162,12 +162,12 @@ write_line(place p, const uint8_t *kinds)
             now = kinds[i];
         }
         fwrite(text + i, 1, bytes, rl_outstream);
-        p = place_behind(p, columns);
+        p = position_after(p, columns);
     }
     fputs(now != QDOT_HIGHLIGHT_PLAIN ? QDOT_COLOUR_END : "", rl_outstream);
 }
 
-/* Find the kinds of the bytes of the line, which may continue earlier lines; NULL: no memory. */
+/* Find the kinds (colours) of the bytes of the line, which may continue earlier lines; NULL: no memory. */
 static uint8_t *
 kinds_of_line(size_t *before)
 {
@@ -187,9 +187,9 @@ kinds_of_line(size_t *before)
     return kinds;
 }
 
-/* Whether more input is waiting: a long line that is being pasted is painted only after it. */
+/* Whether more input is waiting: a long line that is being pasted is coloured only at its end. */
 static bool
-waits(void)
+is_input_waiting(void)
 {
     struct pollfd input = {.fd = fileno(rl_instream), .events = POLLIN};
 
@@ -205,18 +205,18 @@ paint_line(void)
     size_t before;
 
     rl_get_screen_size(&start.rows, &start.columns);
-    if (rl_end == 0 || start.columns < 2 || !step_over_prompt(&start))
+    if (rl_end == 0 || start.columns < 2 || !advance_over_prompt(&start))
         return;
     cursor = end = start;
-    if (!step_over(&cursor, rl_line_buffer, (size_t)rl_point) ||
-        !step_over(&end, rl_line_buffer, (size_t)rl_end) || end.row >= end.rows ||
-        waits())
-        return; /* a part has scrolled off the screen and cannot be repainted */
+    if (!advance_over(&cursor, rl_line_buffer, (size_t)rl_point) ||
+        !advance_over(&end, rl_line_buffer, (size_t)rl_end) || end.row >= end.rows ||
+        is_input_waiting())
+        return; /* give up: a part has scrolled off the screen and cannot be repainted */
     kinds = kinds_of_line(&before);
     if (kinds == NULL)
         return;
     fputs("\0337", rl_outstream); /* terminal code: save the cursor position */
-    move(start.row - cursor.row, start.x);
+    move_cursor(start.row - cursor.row, start.x);
     write_line(start, kinds + before);
     fputs("\0338", rl_outstream);
     fflush(rl_outstream);
@@ -236,7 +236,7 @@ qdot_input_colours_install(const qdot_session *s)
     session = s;
     if (!qdot_terminal_has_colours(rl_outstream))
         return;
-    rl_initialize(); /* now, as with our redisplay function readline would not read the terminal's abilities */
+    rl_initialize(); /* initialise readline now: with our redisplay function it would not read the terminal's abilities */
     rl_redisplay_function = redisplay;
 }
 

@@ -21,7 +21,7 @@ static const char *const libraries[] = {
 #undef FUNCTION
 };
 
-/* Names of functions, one after another; pointers to them would have to be relocated at every start. */
+/* Names of library functions as one text; pointers to them would have to be relocated at every start. */
 static const char names[] =
 #define LIBRARY(name)
 #define FUNCTION(number, name) #name "\0"
@@ -42,7 +42,7 @@ void *qdot_late_find(size_t number);
 enum { LIBRARIES = sizeof libraries / sizeof *libraries };
 static void *handle[LIBRARIES];
 
-/* End the program as the loader does when a library or function is missing at the start. */
+/* End the program with the loader's message, as the system does when a library is missing at the start. */
 static __attribute__((noreturn)) void
 give_up(void)
 {
@@ -51,7 +51,7 @@ give_up(void)
 }
 
 static void *
-libraries_find(const char *name)
+find_function(const char *name)
 {
     for (size_t i = 0; i < LIBRARIES; i++) {
         void *symbol = dlsym(handle[i], name);
@@ -63,7 +63,7 @@ libraries_find(const char *name)
 }
 
 static void
-load(void)
+load_libraries(void)
 {
     const char *name = names;
 
@@ -73,19 +73,19 @@ load(void)
             give_up();
     }
     for (size_t i = 0; i < LATE_COUNT; i++) {
-        __atomic_store_n(&qdot_late_slot[i], libraries_find(name), __ATOMIC_RELEASE);
+        __atomic_store_n(&qdot_late_slot[i], find_function(name), __ATOMIC_RELEASE);
         while (*name++ != '\0')
             continue;
     }
 }
 
-/* Called by a function whose slot is empty; any thread may be the first. */
+/* Load the libraries; called by a function whose address is not known yet; any thread may be the first. */
 __attribute__((used)) void *
 qdot_late_find(size_t number)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-    (void)pthread_once(&once, load);
+    (void)pthread_once(&once, load_libraries);
     return qdot_late_slot[number];
 }
 

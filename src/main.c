@@ -64,7 +64,7 @@ static const char version[] =
 
 /* --- the command line --------------------------------------------------------------- */
 
-/* A script or the text of -e, in the order given. */
+/* A script, or the text of an option -e, in the order given on the command line. */
 typedef struct {
     const char *text; /* a file name, or statements */
     bool statements;
@@ -89,13 +89,13 @@ static const struct option names[] = {
 };
 
 static qdot_status
-bad_usage(void)
+fail_usage(void)
 {
     fputs("Try 'qdot --help'.\n", stderr);
     return qdot_fail(QDOT_EINVAL, "bad usage");
 }
 
-/* Limit the processor kinds to be used (num/kinds.h) by name. */
+/* Limit by name the kinds of processors (num/kinds.h) whose special code may be used. */
 static qdot_status
 limit_processor(const char *name)
 {
@@ -107,7 +107,7 @@ limit_processor(const char *name)
             return QDOT_OK;
         }
     fprintf(stderr, "qdot: --processor=%s: it is any, avx2 or avx512\n", name);
-    return bad_usage();
+    return fail_usage();
 }
 
 static qdot_status
@@ -115,7 +115,7 @@ options_read(int argc, char **argv, options *o)
 {
     int c;
 
-    /* the leading `-` of the option list returns other arguments as option 1, in their order */
+    /* the leading `-` makes getopt return other arguments as option 1, in their order */
     while ((c = getopt_long(argc, argv, "-e:iq", names, NULL)) != -1) {
         switch (c) {
         case 1: QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, false}))); break;
@@ -127,7 +127,7 @@ options_read(int argc, char **argv, options *o)
         case 'h': o->print = o->print != NULL ? o->print : usage; break;
         case 'v': o->print = o->print != NULL ? o->print : version; break;
         case 'p': QDOT_TRY(limit_processor(optarg)); break;
-        default: return bad_usage();
+        default: return fail_usage();
         }
     }
     for (; optind < argc; optind++) /* arguments after `--` are file names */
@@ -140,7 +140,7 @@ options_read(int argc, char **argv, options *o)
 /* Greek and superscripts for a terminal that shows them, ASCII that parses back
  * elsewhere. */
 static qdot_style
-style_here(void)
+choose_output_style(void)
 {
     return qdot_terminal_is(stdout) && strcmp(nl_langinfo(CODESET), "UTF-8") == 0
                ? QDOT_UNICODE
@@ -148,7 +148,7 @@ style_here(void)
 }
 
 static int
-tasks_carry_out(qdot_session *session, const options *o)
+run_tasks(qdot_session *session, const options *o)
 {
     int status = DONE;
 
@@ -178,7 +178,7 @@ tasks_carry_out(qdot_session *session, const options *o)
 
 /* The exit status of the program: `status`, or FAILED if standard output could not be written completely. */
 static int
-finish(int status)
+final_exit_status(int status)
 {
     int reason = 0;
 
@@ -197,7 +197,7 @@ finish(int status)
  * tenth of a short run. Threads share one arena: they allocate little, and one of their own costs
  * each ten pages and two system calls. */
 static void
-keep_memory(void)
+keep_freed_memory(void)
 {
 #ifdef __GLIBC__
     mallopt(M_ARENA_MAX, 1);
@@ -207,7 +207,7 @@ keep_memory(void)
 #endif
 }
 
-/* If mpirun started this process, be one of its ranks. */
+/* If mpirun started this process, join its group of processes as one rank. */
 static qdot_status
 join_ranks(const options *o)
 {
@@ -230,9 +230,9 @@ join_ranks(const options *o)
     return QDOT_EINVAL;
 }
 
-/* Make the session of a rank whose answers are given by rank 0. */
+/* Make the session of a rank other than 0, which computes, but whose answers rank 0 gives. */
 static qdot_session *
-unheard_session(void)
+make_silent_session(void)
 {
     FILE *nowhere = fopen("/dev/null", "w");
 
@@ -246,7 +246,7 @@ main(int argc, char **argv)
     qdot_session *session;
     int status;
 
-    keep_memory();
+    keep_freed_memory();
     /* for a terminal, which asks for it; reading a locale takes as long as a short script. No other
      * category: numbers stay as in C */
     if (qdot_terminal_is(stdin) || qdot_terminal_is(stdout))
@@ -259,13 +259,13 @@ main(int argc, char **argv)
         qdot_free(o.tasks.at);
         if (!qdot_ranks_are_others())
             fputs(o.print, stdout);
-        return finish(DONE);
+        return final_exit_status(DONE);
     }
     if (join_ranks(&o) != QDOT_OK) {
         qdot_free(o.tasks.at);
         return qdot_ranks_end(FAILED);
     }
-    session = qdot_rank() == 0 ? qdot_session_new(stdout, stderr) : unheard_session();
+    session = qdot_rank() == 0 ? qdot_session_new(stdout, stderr) : make_silent_session();
     if (session == NULL) {
         fputs("qdot: out of memory\n", stderr);
         qdot_free(o.tasks.at);
@@ -276,12 +276,12 @@ main(int argc, char **argv)
         session->output->colours |= QDOT_COLOURS_ANSWERS;
     if (qdot_terminal_has_colours(stderr))
         session->output->colours |= QDOT_COLOURS_ERRORS;
-    session->output->style = o.json ? QDOT_PLAIN : style_here();
+    session->output->style = o.json ? QDOT_PLAIN : choose_output_style();
     if (qdot_terminal_is(stderr) && !o.json)
         qdot_progress_line_install();
     qdot_signals_install();
-    status = tasks_carry_out(session, &o);
+    status = run_tasks(session, &o);
     qdot_session_free(session);
     qdot_free(o.tasks.at);
-    return qdot_ranks_end(finish(status));
+    return qdot_ranks_end(final_exit_status(status));
 }

@@ -16,9 +16,9 @@ static FILE *collected, *out, *err; /* stream for answers while they are collect
 static char *text;
 static size_t length;
 
-/* The command that shows pages; NULL if none is wanted. */
+/* The command that shows text page by page; NULL if no pager is wanted. */
 static const char *
-command(void)
+pager_command(void)
 {
     const char *pager = getenv("PAGER"), *term = getenv("TERM");
 
@@ -34,7 +34,7 @@ qdot_pager_begin(qdot_session *session)
 {
     size_t columns, rows;
 
-    if (session->output->json || command() == NULL ||
+    if (session->output->json || pager_command() == NULL ||
         !qdot_terminal_size(session->output->out, &columns, &rows))
         return false;
     collected = open_memstream(&text, &length);
@@ -49,7 +49,7 @@ qdot_pager_begin(qdot_session *session)
     return true;
 }
 
-/* The number of columns of a line, without the codes for colours. */
+/* The number of columns of a line, not counting colour codes. */
 static size_t
 columns_of(const char *line, size_t n)
 {
@@ -78,7 +78,7 @@ is_longer_than_the_screen(void)
         lines += 1 + (n > 0 ? (columns_of(at, n) - 1) / columns : 0);
         at += n + 1;
     }
-    return lines >= rows; /* the prompt takes one more line */
+    return lines >= rows; /* the prompt needs one more line */
 }
 
 /* Show the collected answers; false: the command could not be started. */
@@ -91,7 +91,7 @@ show_pages(void)
 
     setenv("LESS", "FRX", 0);
     fflush(NULL);
-    pager = popen(command(), "w");
+    pager = popen(pager_command(), "w");
     if (pager != NULL) {
         (void)fwrite(text, 1, length, pager);
         status = pclose(pager);

@@ -24,7 +24,7 @@ add_duration(qdot_text *line, double seconds)
 }
 
 static void
-clear(void)
+clear_progress_line(void)
 {
     fprintf(stderr, "\r%*s\r", (int)columns_shown, "");
     fflush(stderr);
@@ -32,7 +32,7 @@ clear(void)
 }
 
 static void
-show(const qdot_progress *p)
+show_progress_line(const qdot_progress *p)
 {
     qdot_text line = {0};
     size_t columns, rows, n;
@@ -61,7 +61,7 @@ show(const qdot_progress *p)
 void
 qdot_progress_line_install(void)
 {
-    static qdot_progress progress = {.show = show, .clear = clear};
+    static qdot_progress progress = {.show = show_progress_line, .clear = clear_progress_line};
 
     qdot_progress_open = &progress;
 }

@@ -30,12 +30,12 @@
 /* --- reading a line ----------------------------------------------------------------- */
 
 static struct {
-    char *line; /* line from readline, to be freed; NULL: end of input */
+    char *line; /* the line from readline, to be freed; NULL: end of input */
     bool ready;
 } answer;
 
 static void
-take_line(char *line)
+store_line(char *line)
 {
     answer.line = line;
     answer.ready = true;
@@ -65,7 +65,7 @@ wait_for_input(void)
 /* Readline may take a signal between characters that come in one go, and go on to the end of a line: what was
  * typed before Ctrl-C then stands in it. */
 static void
-clear_line(void)
+discard_line(void)
 {
     if (answer.ready) {
         free(answer.line);
@@ -80,7 +80,7 @@ clear_line(void)
 
 typedef enum { LINE, CLEARED, ENDED } line_kind;
 
-/* Read one line into *line (to be freed). CLEARED: Ctrl-C. */
+/* Read one line into *line (to be freed). Returns CLEARED if Ctrl-C was pressed. */
 static line_kind
 read_line(const char *prompt, char **line)
 {
@@ -88,12 +88,12 @@ read_line(const char *prompt, char **line)
     answer.ready = false;
     qdot_signals_waiting();
     (void)qdot_signals_take();
-    rl_callback_handler_install(prompt, take_line);
+    rl_callback_handler_install(prompt, store_line);
     for (;;) {
         /* check before waiting: readline may have received a signal while it showed the prompt */
         rl_check_signals();
         if (qdot_signals_take()) {
-            clear_line();
+            discard_line();
             return CLEARED;
         }
         if (answer.ready)
@@ -108,7 +108,7 @@ read_line(const char *prompt, char **line)
 /* --- reading and carrying out statements -------------------------------------------- */
 
 static void
-prepare(qdot_session *session)
+prepare_readline(qdot_session *session)
 {
     qdot_completion_install(session);
     rl_readline_name = "qdot";
@@ -123,7 +123,7 @@ prepare(qdot_session *session)
     qdot_input_colours_install(session);
 }
 
-/* Write `qdot 3> `, where %3 is the next value; lines that continue a statement are aligned below it. */
+/* Write `qdot 3> `, where %3 is the next value's name; lines that continue a statement are aligned below. */
 static void
 write_prompt(const qdot_session *session, bool first, qdot_text *prompt)
 {
@@ -170,17 +170,17 @@ read_statement(const qdot_session *session, qdot_text *text)
     qdot_input_colours_continue("");
     qdot_text_clear(&prompt);
     if (text->n > 0 && text->at[text->n - 1] == '\n')
-        qdot_text_truncate(text, text->n - 1); /* remove the newline: no further line came */
-    /* also keep a statement that was given up: it may be recalled and corrected */
+        qdot_text_truncate(text, text->n - 1); /* remove the newline that was added for a further line, as none came */
+    /* keep a statement that was given up, too: it may be recalled and corrected */
     if (!text->failed && text->n > 0)
         qdot_history_note(text->at);
-    /* after Ctrl-D with a bracket open carry the text out, so that its error is reported */
+    /* after Ctrl-D with an open bracket, carry out the text, so that its error is reported */
     return kind == ENDED && text->n > 0 ? LINE : kind;
 }
 
-/* Write `?word` out as `help word`, and `??word` as `help search word`. */
+/* Replace `?word` by `help word`, and `??word` by `help search word`. */
 static void
-spell_out(qdot_text *text)
+expand_help_shortcut(qdot_text *text)
 {
     const size_t blanks = strspn(qdot_text_str(text), " \t");
     qdot_text whole = {0};
@@ -194,11 +194,11 @@ spell_out(qdot_text *text)
 }
 
 static void
-input_carry_out(qdot_session *session, qdot_text *text)
+carry_out_input(qdot_session *session, qdot_text *text)
 {
     bool pages;
 
-    spell_out(text);
+    expand_help_shortcut(text);
     qdot_text_char(text, '\n');
     pages = !text->failed && !qdot_script_takes_long(text->at, text->n) && qdot_pager_begin(session);
     qdot_signals_computing();
@@ -215,7 +215,7 @@ input_carry_out(qdot_session *session, qdot_text *text)
 }
 
 static void
-greet(void)
+print_greeting(void)
 {
     size_t columns = 0, rows;
     qdot_text lines = {0};
@@ -234,17 +234,17 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
     qdot_text text = {0};
     line_kind kind = LINE;
 
-    prepare(session);
+    prepare_readline(session);
     qdot_history_begin();
     if (banner)
-        greet();
+        print_greeting();
     qdot_signals_patient(true);
     if (startup)
         qdot_startup_read(session);
     while (kind != ENDED && !session->outcome->quit) {
         kind = read_statement(session, &text);
         if (kind == LINE)
-            input_carry_out(session, &text);
+            carry_out_input(session, &text);
     }
     if (kind == ENDED)
         fputc('\n', rl_outstream);

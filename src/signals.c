@@ -12,7 +12,7 @@
 static volatile sig_atomic_t computing = 1, patient;
 
 static void
-on_interrupt(int signal_number)
+handle_interrupt(int signal_number)
 {
     if (computing && qdot_interrupt_flag && patient) {
         static const char text[] = "stopping soon (Ctrl-\\ ends qdot)\n";
@@ -33,16 +33,16 @@ on_interrupt(int signal_number)
 void
 qdot_signals_install(void)
 {
-    struct sigaction action = {.sa_handler = on_interrupt};
+    struct sigaction action = {.sa_handler = handle_interrupt};
 
-    /* No SA_RESTART, so that functions that wait for input or for gnuplot return. */
+    /* no SA_RESTART, so that calls that wait for input or for gnuplot return */
     sigemptyset(&action.sa_mask);
     if (qdot_rank() > 0)
-        action.sa_handler = SIG_IGN; /* rank 0 ends this process */
+        action.sa_handler = SIG_IGN; /* ignore Ctrl-C in other ranks, as rank 0 ends this process */
     sigaction(SIGINT, &action, NULL);
     signal(SIGXFSZ, SIG_IGN); /* writing too large a file then fails with EFBIG */
     if (qdot_rank() == 0 && qdot_ranks_count() > 1)
-        sigaction(SIGTERM, &action, NULL); /* mpirun sends it to end all ranks, and waits one second */
+        sigaction(SIGTERM, &action, NULL); /* handle SIGTERM: mpirun sends it to end all ranks, then waits one second */
 }
 
 void

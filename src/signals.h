@@ -15,10 +15,10 @@ void qdot_signals_computing(void);
 /* Choose whether a second Ctrl-C only tells how to end the program, as that would lose the session. */
 void qdot_signals_patient(bool on);
 
-/* Call when the prompt waits: Ctrl-C is only recorded. */
+/* Call when the prompt waits for input: then Ctrl-C is only recorded. */
 void qdot_signals_waiting(void);
 
-/* Whether Ctrl-C was pressed since the last call; forgets it. */
+/* Whether Ctrl-C was pressed since the last call; the record is cleared. */
 bool qdot_signals_take(void);
 
 #endif

@@ -8,7 +8,7 @@
 #include "signals.h"
 
 static void
-find_path(qdot_text *path)
+find_startup_path(qdot_text *path)
 {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
 
@@ -23,7 +23,7 @@ qdot_startup_read(qdot_session *session)
 {
     qdot_text path = {0};
 
-    find_path(&path);
+    find_startup_path(&path);
     if (path.n > 0 && !path.failed && access(path.at, F_OK) == 0) {
         qdot_signals_computing();
         (void)qdot_script_run_file(session, path.at);

@@ -11,7 +11,7 @@
 #include "lang/session/typed.h"
 #include "signals.h"
 
-/* Append a line to `text`; false: there are no more. Ctrl-C interrupts the reading, not the line. */
+/* Append a line of input to `text`; false: there are no more lines. Ctrl-C interrupts reading, not the line. */
 static bool
 stream_read_line(qdot_text *text)
 {
@@ -33,7 +33,7 @@ stream_read_line(qdot_text *text)
     return any;
 }
 
-/* What is read of the input: the lines of a statement or several, and how many lines precede them. */
+/* What has been read of the input: lines of one or several statements, and how many lines precede them. */
 typedef struct {
     qdot_text text;
     uint32_t before, lines;

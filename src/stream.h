@@ -10,7 +10,7 @@
 
 #include "lang/workbench/script.h"
 
-/* Carry out statements to the end of standard input, or to `quit`. */
+/* Carry out the statements from standard input, up to its end or to `quit`. */
 void qdot_stream_run(qdot_session *session);
 
 #endif

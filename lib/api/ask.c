@@ -43,7 +43,7 @@ qdot_system_declare(qdot_system *system, const char *text)
 
 /* Return the text of the answers, which the caller then owns. */
 static char *
-take_answers(qdot_system *system)
+take_answer_text(qdot_system *system)
 {
     char *text = system->stream[QDOT_API_ANSWERS].text;
 
@@ -77,7 +77,7 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
     session->output->json = false;
     session->output->style = before;
     result = qdot_api_end(system, status);
-    *answers = take_answers(system);
+    *answers = take_answer_text(system);
     return result;
 }
 

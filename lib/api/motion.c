@@ -22,7 +22,7 @@ qdot_api_place(const qdot_motion *motion)
 }
 
 static void
-forget_run(qdot_session *session, size_t i)
+drop_run_from_session(qdot_session *session, size_t i)
 {
     qdot_named_run gone = session->runs->at[i];
 
@@ -41,7 +41,7 @@ qdot_motion_free(qdot_motion *motion)
         const size_t i = qdot_api_place(motion);
 
         if (i < motion->system->session->runs->n)
-            forget_run(motion->system->session, i);
+            drop_run_from_session(motion->system->session, i);
     }
     qdot_named_run_release(&motion->run);
     qdot_api_release(motion->system);
@@ -49,7 +49,7 @@ qdot_motion_free(qdot_motion *motion)
     qdot_free(motion);
 }
 
-/* Copy the names of the coordinates now, as the pool of the run may not live as long. */
+/* Copy the names of the coordinates into the motion: the run's own copies may be freed before the motion is. */
 static qdot_status
 copy_names(qdot_motion *m)
 {
@@ -71,9 +71,9 @@ copy_names(qdot_motion *m)
     return QDOT_OK;
 }
 
-/* Make m hold a run of the session. */
+/* Store a run of the session in the motion m, which then keeps the run alive. */
 static qdot_status
-motion_hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
+motion_store_run(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
 {
     *m = (qdot_motion){.system = system, .run = *run, .named = named};
     ++*m->run.uses;
@@ -82,7 +82,7 @@ motion_hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool
 }
 
 static qdot_status
-motion_read_run(qdot_cursor *c, void *data)
+read_run_statement(qdot_cursor *c, void *data)
 {
     (void)data;
     return qdot_match_carry_out(c, qdot_statement_find("run"));
@@ -91,7 +91,7 @@ motion_read_run(qdot_cursor *c, void *data)
 /* The run that the call added, behind those of before; NULL: it added none. `last`: the latest of
  * before, held so that no new run can have its place in memory. */
 static const qdot_named_run *
-added_run(const qdot_session *session, const qdot_named_run *last)
+find_added_run(const qdot_session *session, const qdot_named_run *last)
 {
     const qdot_named_run *now =
         session->runs->n > 0 ? &session->runs->at[session->runs->n - 1] : NULL;
@@ -125,11 +125,11 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
         ++*last.uses;
     }
     qdot_runs_next_name(session, name, sizeof name);
-    status = qdot_api_read(system, "run", text, motion_read_run, NULL);
-    added = added_run(session, &last);
+    status = qdot_api_read(system, "run", text, read_run_statement, NULL);
+    added = find_added_run(session, &last);
     if (added == NULL) {
         qdot_free(m);
-    } else if (motion_hold(m, system, added, strcmp(added->name, name) != 0) == QDOT_OK) {
+    } else if (motion_store_run(m, system, added, strcmp(added->name, name) != 0) == QDOT_OK) {
         *motion = m;
     } else {
         qdot_motion_free(m);
@@ -149,7 +149,7 @@ qdot_motion_system(const qdot_motion *motion)
 }
 
 static const qdot_run_report *
-report_of(const qdot_motion *motion)
+get_run_report(const qdot_motion *motion)
 {
     return qdot_run_get_report(motion->run.run);
 }
@@ -164,7 +164,7 @@ qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, s
         return QDOT_RESULT_INVALID;
     if (summary == NULL || size == 0)
         return qdot_api_refuse(motion->system, "summarize: there is no summary");
-    r = report_of(motion);
+    r = get_run_report(motion);
     all = (qdot_motion_summary){
         .start = r->t0,
         .end = r->t1,
@@ -188,7 +188,7 @@ qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, s
 size_t
 qdot_motion_coordinates(const qdot_motion *motion)
 {
-    return motion != NULL ? report_of(motion)->n : 0;
+    return motion != NULL ? get_run_report(motion)->n : 0;
 }
 
 const char *
@@ -204,7 +204,7 @@ qdot_motion_end(const qdot_motion *motion, size_t n, double *q, double *v)
 
     if (motion == NULL)
         return QDOT_RESULT_INVALID;
-    r = report_of(motion);
+    r = get_run_report(motion);
     if (n != r->n)
         return qdot_api_refuse(motion->system, "end: there are %zu coordinates, not %zu", r->n, n);
     if (q != NULL)
@@ -230,7 +230,7 @@ qdot_motion_steps(const qdot_motion *motion, size_t *n)
 size_t
 qdot_motion_conserved(const qdot_motion *motion)
 {
-    return motion != NULL ? report_of(motion)->n_drifts : 0;
+    return motion != NULL ? get_run_report(motion)->n_drifts : 0;
 }
 
 qdot_result
@@ -241,9 +241,9 @@ qdot_motion_drift(const qdot_motion *motion, size_t i, const char **name, double
 
     if (motion == NULL)
         return QDOT_RESULT_INVALID;
-    if (i >= report_of(motion)->n_drifts)
+    if (i >= get_run_report(motion)->n_drifts)
         return qdot_api_refuse(motion->system, "drift: there is no conserved quantity %zu", i);
-    d = &report_of(motion)->drifts[i];
+    d = &get_run_report(motion)->drifts[i];
     if (name != NULL)
         *name = d->name;
     if (start != NULL)

@@ -1,4 +1,4 @@
-/* motion.h -- inside of lib/api: a run held by the caller. */
+/* motion.h -- inside of lib/api: a run of the equations of motion that the caller of the library holds. */
 #ifndef QDOT_API_MOTION_H
 #define QDOT_API_MOTION_H
 
@@ -7,9 +7,9 @@
 #include "lang/session/runs.h"
 
 struct qdot_motion {
-    qdot_system *system; /* counted among the uses of the system */
+    qdot_system *system; /* the system to which the run belongs; this counts as one use of it */
     qdot_named_run run;  /* the run; held here even if the session forgets it */
-    bool named;          /* named by `as NAME`: the session keeps the run, too */
+    bool named;          /* the run got a name by `as NAME`: the session keeps the run, too */
     qdot_arena *arena;
     const char **coordinates; /* names of the coordinates [qdot_motion_coordinates], in the arena */
 };

@@ -1,4 +1,4 @@
-/* system.c -- begins and ends a system and each call of it, with its messages and errors. */
+/* system.c -- creates and frees a system, and begins and ends each call on it, with its messages and errors. */
 #include "api/system.h"
 
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 /* --- texts of results ----------------------------------------------------------------- */
 
-/* The public results are the statuses of base/status.h with public names; check that the values agree. */
+/* The public results equal the statuses of base/status.h; check at compile time that the values agree. */
 #define SAME(result, status)                                                             \
     _Static_assert((int)QDOT_RESULT_##result == (int)QDOT_##status, #result)
 SAME(OK, OK);
@@ -154,9 +154,9 @@ qdot_api_begin(qdot_system *system)
     return QDOT_OK;
 }
 
-/* Delete the records for `undo`, which would keep every past run in memory. */
+/* Delete the records for `undo` that a call has made, which would keep every past run in memory. */
 static void
-forget_call(qdot_session *session)
+delete_undo_records(qdot_session *session)
 {
     if (session->undo != NULL)
         session->undo_free(session->undo);
@@ -170,7 +170,7 @@ qdot_api_end(qdot_system *system, qdot_status status)
 {
     if (status != QDOT_OK)
         system->error = *qdot_last_error();
-    forget_call(system->session);
+    delete_undo_records(system->session);
     for (int i = 0; i < QDOT_API_STREAMS; i++) {
         FILE *file = system->stream[i].file;
 
@@ -209,7 +209,7 @@ qdot_api_refuse(qdot_system *system, const char *format, ...)
 
 /* Clear a failure of the pool, but report the statement's own failure if it had one. */
 static void
-settle_pool(qdot_pool *pool)
+clear_pool_failure(qdot_pool *pool)
 {
     qdot_error error = *qdot_last_error();
 
@@ -245,7 +245,7 @@ qdot_api_read(qdot_system *system, const char *call, const char *text, qdot_api_
         status = qdot_fail(QDOT_ESYNTAX, "only one is read here");
     }
     if (status != QDOT_OK) {
-        settle_pool(session->pool);
+        clear_pool_failure(session->pool);
         qdot_answer_error(session, source, c.error_at);
     }
     if (status == QDOT_EINTR)

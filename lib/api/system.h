@@ -34,12 +34,12 @@ qdot_result qdot_api_end(qdot_system *system, qdot_status status);
 
 /* Record the success of a call that needs neither begin nor end. */
 qdot_result qdot_api_accept(qdot_system *system);
-/* End a call at once, because of an argument: "CALL: what is wrong" (printf). */
+/* End a call at once because of a wrong argument, with the error message "CALL: what is wrong" (printf format). */
 qdot_result qdot_api_refuse(qdot_system *system, const char *format, ...) QDOT_PRINTF(2, 3);
 
-/* Reads a text as tokens, from the first to the last. */
+/* The type of a function that reads the tokens of a text, from the first to the last. */
 typedef qdot_status (*qdot_api_reader)(qdot_cursor *c, void *data);
-/* Let `reader` read the whole text; an error is reported as one of `call`. */
+/* Let `reader` read the whole text; an error is reported as an error of the library call named `call`. */
 QDOT_MUST_CHECK qdot_status qdot_api_read(qdot_system *system, const char *call, const char *text,
                                           qdot_api_reader reader, void *data);
 

@@ -1,4 +1,4 @@
-/* values.c -- numbers along a run: values, extrema, means, events. */
+/* values.c -- calls that return numbers along a run: values, extrema, means, times of events. */
 #include "api/motion.h"
 #include "lang/language/read.h"
 #include "lang/session/member.h"
@@ -9,18 +9,18 @@ _Static_assert((int)QDOT_OVER_MIN == (int)QDOT_RANGE_MIN, "range");
 _Static_assert((int)QDOT_OVER_MEAN == (int)QDOT_RANGE_MEAN, "range");
 _Static_assert((int)QDOT_OVER_DRIFT == (int)QDOT_RANGE_DRIFT, "range");
 
-/* Fail unless the run is still one of the session's runs, as expressions are read in the session. */
+/* Fail unless the session still has this run: expressions of the run can only be read in its session. */
 static qdot_status
-motion_check_place(const qdot_motion *motion)
+check_session_has_run(const qdot_motion *motion)
 {
     if (qdot_api_place(motion) < motion->system->session->runs->n)
         return QDOT_OK;
     return qdot_fail(QDOT_ENAME, "the run `%s` is no longer in the system", motion->run.name);
 }
 
-/* Read the expression of the text into columns, one for each of its components [k]. */
+/* Read the expression in the text into columns of values, one column for each of its k components. */
 static qdot_status
-values_read_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
+read_value_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
 {
     const size_t start = c->at->start;
     qdot_expr value;
@@ -47,11 +47,11 @@ typedef struct {
 } samples;
 
 static qdot_status
-values_read(qdot_cursor *c, void *data)
+read_and_evaluate(qdot_cursor *c, void *data)
 {
     const samples *s = data;
     qdot_runs_columns columns = {0};
-    qdot_status status = values_read_columns(c, s->k, &columns);
+    qdot_status status = read_value_columns(c, s->k, &columns);
 
     if (status == QDOT_OK && s->n > 0)
         status = qdot_run_values(s->motion->run.run, s->k, columns.at, s->n, s->times, s->values,
@@ -76,9 +76,9 @@ qdot_motion_values(qdot_motion *motion, const char *expression, size_t n, const 
                                                   : "values are");
     status = qdot_api_begin(motion->system);
     if (status == QDOT_OK)
-        status = motion_check_place(motion);
+        status = check_session_has_run(motion);
     if (status == QDOT_OK)
-        status = qdot_api_read(motion->system, "values", expression, values_read, &s);
+        status = qdot_api_read(motion->system, "values", expression, read_and_evaluate, &s);
     return qdot_api_end(motion->system, status);
 }
 
@@ -91,11 +91,11 @@ typedef struct {
 } stretch;
 
 static qdot_status
-read_over(qdot_cursor *c, void *data)
+read_range_expression(qdot_cursor *c, void *data)
 {
     stretch *s = data;
     qdot_runs_columns columns = {0};
-    qdot_status status = values_read_columns(c, 1, &columns);
+    qdot_status status = read_value_columns(c, 1, &columns);
 
     if (status == QDOT_OK)
         status = qdot_run_range(s->motion->run.run, s->kind, columns.at[0], s->from, s->to,
@@ -120,9 +120,9 @@ qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, do
                                                   : "there is no such quantity");
     status = qdot_api_begin(motion->system);
     if (status == QDOT_OK)
-        status = motion_check_place(motion);
+        status = check_session_has_run(motion);
     if (status == QDOT_OK)
-        status = qdot_api_read(motion->system, "over", expression, read_over, &s);
+        status = qdot_api_read(motion->system, "over", expression, read_range_expression, &s);
     *value = s.value;
     if (error != NULL)
         *error = s.error;
@@ -133,14 +133,14 @@ qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, do
 
 /* Begin a call that returns the occurrences of an event in the run; *n is their number. */
 static const qdot_run_occurrence *
-occurrences(qdot_motion *motion, size_t *n, qdot_status *status)
+begin_occurrences_call(qdot_motion *motion, size_t *n, qdot_status *status)
 {
     const qdot_run_occurrence *list = NULL;
 
     *n = 0;
     *status = qdot_api_begin(motion->system);
     if (*status == QDOT_OK)
-        *status = motion_check_place(motion);
+        *status = check_session_has_run(motion);
     if (*status == QDOT_OK)
         *status = qdot_run_occurrences(motion->run.run, &list, n);
     return list;
@@ -155,7 +155,7 @@ qdot_motion_events(qdot_motion *motion, size_t *n)
         return QDOT_RESULT_INVALID;
     if (n == NULL)
         return qdot_api_refuse(motion->system, "events: the number is NULL");
-    (void)occurrences(motion, n, &status);
+    (void)begin_occurrences_call(motion, n, &status);
     return qdot_api_end(motion->system, status);
 }
 
@@ -169,7 +169,7 @@ qdot_motion_event(qdot_motion *motion, size_t i, const char **name, double *t, d
 
     if (motion == NULL)
         return QDOT_RESULT_INVALID;
-    list = occurrences(motion, &n, &status);
+    list = begin_occurrences_call(motion, &n, &status);
     if (status == QDOT_OK && i >= n)
         status = qdot_fail(QDOT_EINVAL, "event: there is no event %zu", i);
     if (status == QDOT_OK && name != NULL)

@@ -12,7 +12,7 @@
 #include "base/text.h"
 
 static qdot_status
-lock_refuse(const char *path, int reason)
+report_lock_failure(const char *path, int reason)
 {
     if (reason == EACCES || reason == EAGAIN) {
         qdot_fail(QDOT_EIO, "another process is using `%.200s`", path);
@@ -23,7 +23,7 @@ lock_refuse(const char *path, int reason)
 
 /* Lock the open file fd; *gone: the file was removed after it was opened. Returns errno on failure. */
 static int
-lock_whole(const char *path, int fd, bool *gone)
+lock_open_file(const char *path, int fd, bool *gone)
 {
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     struct stat held, now;
@@ -39,7 +39,7 @@ lock_whole(const char *path, int fd, bool *gone)
 qdot_status
 qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
 {
-    char *behind = realpath(path, NULL); /* with links resolved, so that all links to one file share one lock */
+    char *behind = realpath(path, NULL); /* with symbolic links resolved, so that all paths to one file share one lock */
     qdot_text name = {0};
     int failed = 0;
     bool gone = true;
@@ -55,7 +55,7 @@ qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
         const int fd = open(name.at, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
 
         gone = false;
-        failed = fd < 0 ? (errno == EACCES ? EPERM : errno) : lock_whole(name.at, fd, &gone);
+        failed = fd < 0 ? (errno == EACCES ? EPERM : errno) : lock_open_file(name.at, fd, &gone);
         if (failed == 0 && !gone)
             *lock = (qdot_file_lock){name.at, fd};
         else if (fd >= 0)
@@ -64,7 +64,7 @@ qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
     if (lock->path != NULL)
         return QDOT_OK;
     qdot_text_clear(&name);
-    return lock_refuse(path, failed);
+    return report_lock_failure(path, failed);
 }
 
 void

@@ -1,11 +1,11 @@
-/* interrupt.c -- the flag that Ctrl-C sets, and its test. */
+/* interrupt.c -- the flag that Ctrl-C sets, and the function that tests it. */
 #include "base/interrupt.h"
 
 #include <stdatomic.h>
 
 volatile sig_atomic_t qdot_interrupt_flag = 0;
 
-/* calls of the test until the simulated Ctrl-C; atomic: companions run on other threads */
+/* interrupt checks left until the simulated Ctrl-C; atomic, because other threads make checks, too */
 static atomic_long checks_left = -1;
 
 void

@@ -12,10 +12,10 @@ extern volatile sig_atomic_t qdot_interrupt_flag;
 void qdot_interrupt_set(void);
 void qdot_interrupt_clear(void);
 
-/* QDOT_EINTR, recorded as a failure, while the flag is set. */
+/* Return QDOT_EINTR, recorded as a failure, if the Ctrl-C flag is set. */
 qdot_status qdot_interrupt_check(void);
 
-/* For tests: simulate Ctrl-C at the n-th check from now (n = 0: the next); n < 0: not. */
+/* For tests: simulate Ctrl-C at the n-th check from now (n = 0: the next); n < 0: never. */
 void qdot_interrupt_set_at(long n);
 
 #endif

@@ -1,4 +1,4 @@
-/* memory-failure.h -- reports a failed allocation to its handler; tests can make one fail. */
+/* memory-failure.h -- tells a handler that memory allocation failed; tests can make an allocation fail. */
 #ifndef QDOT_BASE_MEMORY_FAILURE_H
 #define QDOT_BASE_MEMORY_FAILURE_H
 

@@ -15,7 +15,7 @@ static long fail_after = -1, fail_once_after = -1, visit_after = -1;
 static void (*visit)(void);
 
 static void *
-checked(void *block, size_t size)
+check_allocation(void *block, size_t size)
 {
     if (block == NULL) {
         atomic_store(&ran_out, true);
@@ -31,7 +31,7 @@ qdot_memory_ran_out(void)
 }
 
 static bool
-must_fail(void)
+allocation_must_fail(void)
 {
     if (visit_after >= 0 && visit_after-- == 0)
         visit();
@@ -83,19 +83,19 @@ record_block(void *block, size_t size)
         free(block);
         block = NULL;
     }
-    return checked(block, size);
+    return check_allocation(block, size);
 }
 
 void *
 qdot_malloc(size_t size)
 {
-    return record_block(must_fail() ? NULL : malloc(size ? size : 1), size);
+    return record_block(allocation_must_fail() ? NULL : malloc(size ? size : 1), size);
 }
 
 void *
 qdot_calloc(size_t count, size_t size)
 {
-    return record_block(must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
+    return record_block(allocation_must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
                         count * size);
 }
 
@@ -105,14 +105,14 @@ qdot_realloc(void *block, size_t size)
     bool inside = block == NULL || qdot_scope_has(block);
     void *bigger;
 
-    if (must_fail())
-        return checked(NULL, size);
+    if (allocation_must_fail())
+        return check_allocation(NULL, size);
     if (inside && block != NULL)
         qdot_scope_release(block);
     bigger = realloc(block, size ? size : 1);
     if (bigger == NULL && inside && block != NULL)
         (void)qdot_scope_note(block, 0); /* cannot fail: the scope already had an entry for this block */
-    return inside ? record_block(bigger, size) : checked(bigger, size);
+    return inside ? record_block(bigger, size) : check_allocation(bigger, size);
 }
 
 qdot_status

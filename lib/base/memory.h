@@ -28,7 +28,7 @@ QDOT_MUST_CHECK qdot_status qdot_calloc_parts(double **block, size_t count,
 
 /* For tests: make the n-th allocation from now (0: the next) and all later ones fail; n < 0: none. */
 void qdot_memory_fail_at(long n);
-/* For tests: simulate Ctrl-C at the n-th allocation from now (n = 0: the next); n < 0: not. */
+/* For tests: simulate Ctrl-C at the n-th allocation from now (n = 0: the next); n < 0: never. */
 void qdot_memory_press_at(long n);
 
 /* Grow *block (items of `size` bytes, *capacity of them) until it holds `wanted` items.

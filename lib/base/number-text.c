@@ -1,4 +1,4 @@
-/* number-text.c -- writes doubles for people and for JSON. */
+/* number-text.c -- writes floating-point numbers for human readers and for JSON. */
 #include "base/number-text.h"
 
 #include <float.h>
@@ -7,7 +7,7 @@
 
 /* Shorten the exponent of a number: 1e-9 for 1e-09. */
 static void
-tidy_exponent(qdot_text *text, size_t from)
+shorten_exponent(qdot_text *text, size_t from)
 {
     char *e = strchr(text->at + from, 'e');
 
@@ -24,9 +24,9 @@ qdot_number_text(qdot_text *text, double value, double error)
     size_t before;
 
     value += 0.0;     /* turns -0 into 0 */
-    if (error == 0) { /* the shortest text that reads back as the same double */
+    if (error == 0) { /* write the shortest text that reads back as the same double */
         digits = qdot_double_digits(value, 1);
-        if (fabs(value) >= 1 && fabs(value) < 1e15) /* as an integer: 10, not 1e+01 */
+        if (fabs(value) >= 1 && fabs(value) < 1e15) /* write the number as an integer: 10, not 1e+01 */
             digits = (int)fmax(digits, floor(log10(fabs(value))) + 1);
     } else if (isfinite(error) && isfinite(value) && value != 0) {
         digits = (int)floor(log10(fabs(value))) - (int)floor(log10(error)) + 1;
@@ -35,7 +35,7 @@ qdot_number_text(qdot_text *text, double value, double error)
     before = text->n;
     qdot_text_double(text, value, digits);
     if (!text->failed)
-        tidy_exponent(text, before);
+        shorten_exponent(text, before);
 }
 
 bool

@@ -1,4 +1,4 @@
-/* number-text.h -- writes doubles for people and for JSON. */
+/* number-text.h -- writes floating-point numbers for human readers and for JSON. */
 #ifndef QDOT_BASE_NUMBER_TEXT_H
 #define QDOT_BASE_NUMBER_TEXT_H
 
@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 
-/* Append a double for people: only the digits that its error leaves meaningful. */
+/* Append a double for human readers: only the digits that its error leaves meaningful. */
 void qdot_number_text(qdot_text *text, double value, double error);
 /* Append a double as qdot_number_text does, but "unknown" where the error leaves no digit: above half of max(1,
  * |value|). */

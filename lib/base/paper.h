@@ -1,4 +1,4 @@
-/* paper.h -- the paper on which pages are printed where the user lives. */
+/* paper.h -- the usual size of printing paper in the country where the user lives. */
 #ifndef QDOT_BASE_PAPER_H
 #define QDOT_BASE_PAPER_H
 

@@ -15,10 +15,10 @@
 
 typedef struct qdot_progress {
     const char *what; /* what is being computed: "run", "dop853, tol 1e-09" */
-    double t0, t1, t; /* the variable that advances: start, end and present value */
+    double t0, t1, t; /* start, end and present value of the variable that advances, such as the time */
     double speed;     /* steps a second; 0: not known yet */
     double left;      /* estimated seconds that remain; NaN: not known yet */
-    /* called after half a second and then a few times a second; may show a line */
+    /* called when the computation has lasted half a second and then a few times a second; may show a line */
     void (*show)(const struct qdot_progress *progress);
     /* called before other output is written, if a line was shown */
     void (*clear)(void);
@@ -27,7 +27,7 @@ typedef struct qdot_progress {
     char text[80], within[80];
     uint64_t steps, pause,
         until; /* steps since `what` began; steps between looks at the clock; the step of the next look */
-    double begun, opened, last; /* times in seconds: when this work, the whole and the line shown began */
+    double begun, opened, last; /* times in seconds at which this work, all nested work, and the line shown began */
     bool shown;
 } qdot_progress;
 

@@ -1,4 +1,4 @@
-/* scope.c -- a hash table of the blocks allocated in a scope, its own memory not included. */
+/* scope.c -- records the blocks of memory allocated within a scope in a hash table, which is itself not recorded. */
 #include "base/scope.h"
 
 #include <stdint.h>
@@ -10,15 +10,15 @@ _Thread_local qdot_scope *qdot_scope_now = NULL;
 enum { FIRST = 1024 };
 
 static size_t
-hash_slot(const qdot_scope *s, const void *block)
+hash_of_block(const qdot_scope *s, const void *block)
 {
     return (size_t)(((uintptr_t)block >> 4) * 0x9e3779b97f4a7c15u >> 20) & s->mask;
 }
 
 static size_t
-scope_find_slot(const qdot_scope *s, const void *block)
+find_slot_of_block(const qdot_scope *s, const void *block)
 {
-    size_t i = hash_slot(s, block);
+    size_t i = hash_of_block(s, block);
 
     while (s->slot[i].block != NULL && s->slot[i].block != block)
         i = (i + 1) & s->mask;
@@ -26,7 +26,7 @@ scope_find_slot(const qdot_scope *s, const void *block)
 }
 
 static bool
-scope_enlarge(qdot_scope *s)
+enlarge_table_of_blocks(qdot_scope *s)
 {
     qdot_scope bigger = {.mask = 2 * (s->mask + 1) - 1};
 
@@ -35,7 +35,7 @@ scope_enlarge(qdot_scope *s)
         return false;
     for (size_t i = 0; i <= s->mask; i++)
         if (s->slot[i].block != NULL)
-            bigger.slot[scope_find_slot(&bigger, s->slot[i].block)] = s->slot[i];
+            bigger.slot[find_slot_of_block(&bigger, s->slot[i].block)] = s->slot[i];
     free(s->slot);
     s->slot = bigger.slot;
     s->mask = bigger.mask;
@@ -91,9 +91,9 @@ qdot_scope_note(void *block, size_t size)
 
     if (s == NULL)
         return true;
-    if (2 * (s->n + 1) > s->mask && !scope_enlarge(s))
+    if (2 * (s->n + 1) > s->mask && !enlarge_table_of_blocks(s))
         return false;
-    s->slot[scope_find_slot(s, block)] = (struct qdot_noted){block, size};
+    s->slot[find_slot_of_block(s, block)] = (struct qdot_noted){block, size};
     s->n++;
     s->bytes += size;
     return true;
@@ -104,7 +104,7 @@ qdot_scope_has(const void *block)
 {
     const qdot_scope *s = qdot_scope_now;
 
-    return s != NULL && block != NULL && s->slot[scope_find_slot(s, block)].block != NULL;
+    return s != NULL && block != NULL && s->slot[find_slot_of_block(s, block)].block != NULL;
 }
 
 bool
@@ -115,12 +115,12 @@ qdot_scope_release(void *block)
 
     if (!qdot_scope_has(block))
         return false;
-    gap = scope_find_slot(s, block);
+    gap = find_slot_of_block(s, block);
     s->n--;
     s->bytes -= s->slot[gap].size;
-    /* move entries behind the gap back if the gap would hide them */
+    /* move back the entries after the slot just emptied that a search, ending at that slot, would no longer find */
     for (i = (gap + 1) & s->mask; s->slot[i].block != NULL; i = (i + 1) & s->mask) {
-        size_t from = hash_slot(s, s->slot[i].block);
+        size_t from = hash_of_block(s, s->slot[i].block);
 
         if (((i - from) & s->mask) >= ((i - gap) & s->mask)) {
             s->slot[gap] = s->slot[i];

@@ -13,7 +13,7 @@
 #include "base/text.h"
 
 static qdot_status
-fail_to_write(const qdot_sink *sink, int reason)
+report_write_failure(const qdot_sink *sink, int reason)
 {
     if (strcmp(sink->path, "-") == 0)
         return qdot_fail(QDOT_EIO, "cannot write standard output: %s", strerror(reason));
@@ -23,7 +23,7 @@ fail_to_write(const qdot_sink *sink, int reason)
 /* The file that the path names, behind links; *old: what it is now, .st_mode 0: nothing yet. *direct: it is
  * written itself. */
 static qdot_status
-find_place(qdot_sink *sink, struct stat *old, bool *direct)
+find_target_file(qdot_sink *sink, struct stat *old, bool *direct)
 {
     char *real;
 
@@ -33,22 +33,22 @@ find_place(qdot_sink *sink, struct stat *old, bool *direct)
         return QDOT_OK;
     if (stat(sink->path, old) != 0) {
         if (errno != ENOENT)
-            return fail_to_write(sink, errno);
+            return report_write_failure(sink, errno);
         *old = (struct stat){0};
         /* the path is a link to a file that does not exist yet: write directly */
         *direct = lstat(sink->path, &(struct stat){0}) == 0;
     } else if (S_ISDIR(old->st_mode)) {
-        return fail_to_write(sink, EISDIR);
+        return report_write_failure(sink, EISDIR);
     } else if (!S_ISREG(old->st_mode)) {
         *direct = true;
     } else if (access(sink->path, W_OK) != 0) {
-        return fail_to_write(sink, errno);
+        return report_write_failure(sink, errno);
     }
     if (*direct)
         return QDOT_OK;
     real = old->st_mode != 0 ? realpath(sink->path, NULL) : NULL;
     if (old->st_mode != 0 && real == NULL)
-        return fail_to_write(sink, errno);
+        return report_write_failure(sink, errno);
     sink->place = qdot_strdup(real != NULL ? real : sink->path);
     free(real);
     return sink->place != NULL ? QDOT_OK : QDOT_ENOMEM;
@@ -56,7 +56,7 @@ find_place(qdot_sink *sink, struct stat *old, bool *direct)
 
 /* Create a new file, of a unique name, in the folder of the target. */
 static qdot_status
-create_beside(qdot_sink *sink, const struct stat *old)
+create_temporary_file(qdot_sink *sink, const struct stat *old)
 {
     const char *slash = strrchr(sink->place, '/');
     const int folder = slash != NULL ? (int)(slash + 1 - sink->place) : 0;
@@ -76,21 +76,21 @@ create_beside(qdot_sink *sink, const struct stat *old)
         sink->beside = name.at;
         fd = open(sink->beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (fd < 0 && errno != EEXIST)
-            return fail_to_write(sink, errno);
+            return report_write_failure(sink, errno);
     }
     if (old->st_mode != 0)
         (void)!fchmod(fd, old->st_mode & 07777);
     sink->file = fdopen(fd, "wb");
     if (sink->file != NULL)
         return QDOT_OK;
-    status = fail_to_write(sink, errno);
+    status = report_write_failure(sink, errno);
     (void)close(fd);
     (void)unlink(sink->beside);
     return status;
 }
 
 static void
-sink_forget_names(qdot_sink *sink)
+sink_free_names(qdot_sink *sink)
 {
     qdot_free(sink->beside);
     qdot_free(sink->place);
@@ -109,15 +109,15 @@ qdot_sink_open(qdot_sink *sink, const char *path)
         return qdot_fail(QDOT_EINVAL, "a file needs a name");
     if (qdot_rank() > 0 || strcmp(path, "-") == 0) { /* with MPI only the process of rank 0 writes files */
         sink->file = qdot_rank() > 0 ? fopen("/dev/null", "wbe") : stdout;
-        return sink->file != NULL ? QDOT_OK : fail_to_write(sink, errno);
+        return sink->file != NULL ? QDOT_OK : report_write_failure(sink, errno);
     }
-    status = find_place(sink, &old, &direct);
+    status = find_target_file(sink, &old, &direct);
     if (status == QDOT_OK && direct) {
         sink->file = fopen(path, "wbe");
         if (sink->file == NULL)
-            status = fail_to_write(sink, errno);
+            status = report_write_failure(sink, errno);
     } else if (status == QDOT_OK) {
-        status = create_beside(sink, &old);
+        status = create_temporary_file(sink, &old);
     }
     if (status != QDOT_OK)
         qdot_sink_abandon(sink);
@@ -127,7 +127,7 @@ qdot_sink_open(qdot_sink *sink, const char *path)
 qdot_status
 qdot_sink_put(qdot_sink *sink, const char *bytes, size_t length)
 {
-    return fwrite(bytes, 1, length, sink->file) == length ? QDOT_OK : fail_to_write(sink, errno);
+    return fwrite(bytes, 1, length, sink->file) == length ? QDOT_OK : report_write_failure(sink, errno);
 }
 
 qdot_status
@@ -145,10 +145,10 @@ qdot_sink_close(qdot_sink *sink)
         reason = errno;
     if (reason == 0 && sink->place != NULL && rename(sink->beside, sink->place) != 0)
         reason = errno;
-    status = reason == 0 ? QDOT_OK : fail_to_write(sink, reason);
+    status = reason == 0 ? QDOT_OK : report_write_failure(sink, reason);
     if (reason != 0 && sink->beside != NULL)
         (void)unlink(sink->beside);
-    sink_forget_names(sink);
+    sink_free_names(sink);
     return status;
 }
 
@@ -160,7 +160,7 @@ qdot_sink_abandon(qdot_sink *sink)
     if (sink->file != NULL && sink->beside != NULL)
         (void)unlink(sink->beside);
     sink->file = NULL;
-    sink_forget_names(sink);
+    sink_free_names(sink);
 }
 
 qdot_status

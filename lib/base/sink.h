@@ -16,15 +16,15 @@
 
 typedef struct {
     FILE *file;
-    const char *path; /* borrowed; "-" is standard output */
+    const char *path; /* path of the file, borrowed; "-" is standard output */
     char *beside;     /* name of the temporary file that is written: path.part */
     char *place; /* the file that replaces it by renaming at the end; NULL: the file is written directly */
 } qdot_sink;
 
-/* Begin. QDOT_EIO with the system's reason; QDOT_EINVAL for an empty path; QDOT_ENOMEM. */
+/* Begin to write a file. QDOT_EIO with the system's reason; QDOT_EINVAL for an empty path; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_sink_open(qdot_sink *sink, const char *path);
 
-/* Append `length` bytes. On QDOT_EIO the sink is still to be closed. */
+/* Append `length` bytes to the file. After QDOT_EIO the caller must still close the sink. */
 QDOT_MUST_CHECK qdot_status qdot_sink_put(qdot_sink *sink, const char *bytes,
                                           size_t length);
 
@@ -32,7 +32,7 @@ QDOT_MUST_CHECK qdot_status qdot_sink_put(qdot_sink *sink, const char *bytes,
  * disk): then what was there before stays. */
 QDOT_MUST_CHECK qdot_status qdot_sink_close(qdot_sink *sink);
 
-/* Close after another failure, which stays the last error; an existing target file is unchanged. */
+/* Close after a failure elsewhere, which stays the last error; an existing target file is left unchanged. */
 void qdot_sink_abandon(qdot_sink *sink);
 
 /* Write a whole file of `length` bytes; errors as of opening, writing and closing a sink. */

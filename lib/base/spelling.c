@@ -1,4 +1,4 @@
-/* spelling.c -- the word nearest in spelling. */
+/* spelling.c -- finds the word in a list that is nearest in spelling to a given word. */
 #include "base/spelling.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 enum { LONGEST = 64 };
 
 static int
-letter_lower(char c)
+lower_case_letter(char c)
 {
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
 }
@@ -26,7 +26,7 @@ spelling_distance(const char *a, size_t n, const char *b, size_t m)
         row[0] = 2 * (int)i;
         for (size_t j = 1; j <= m; j++) {
             int change = a[i - 1] == b[j - 1]                 ? 0
-                         : letter_lower(a[i - 1]) == letter_lower(b[j - 1]) ? 1
+                         : lower_case_letter(a[i - 1]) == lower_case_letter(b[j - 1]) ? 1
                                                               : 2;
             int best = above[j - 1] + change;
 
@@ -49,7 +49,7 @@ qdot_spelling_begin(qdot_spelling *s, const char *name)
     size_t length = strlen(name);
 
     *s = (qdot_spelling){.name = name, .length = length};
-    s->least = length == 1 ? 2 /* for a name of one letter only the other case of the same letter is near */
+    s->least = length == 1 ? 2 /* to a name of one letter only the other case of that letter is near */
                            : 2 * (length < 7 ? 1 : length < 11 ? 2 : 3) + 2;
 }
 
@@ -63,7 +63,7 @@ qdot_spelling_offer(qdot_spelling *s, const char *candidate)
         s->length > m + 3)
         return;
     d = spelling_distance(s->name, s->length, candidate, m);
-    /* a one-letter name is taken for a slip of the same letter in the other case only */
+    /* a name of one letter is taken for a mistyped one only if the same letter in the other case exists */
     if (m < 2 && d > 1)
         return;
     if (d < s->least) {

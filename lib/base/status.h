@@ -19,16 +19,16 @@ typedef enum {
     QDOT_EINVAL,    /* an argument that makes no sense */
     QDOT_ESYNTAX,   /* text that is not in the language */
     QDOT_ENAME,     /* a name that is unknown, or taken */
-    QDOT_ETYPE,     /* a vector where a number belongs, wrong dimensions */
+    QDOT_ETYPE,     /* a value of the wrong kind: a vector instead of a number, wrong dimensions */
     QDOT_EDOMAIN,   /* a value that is undefined: 1/0, log 0, outside a declared domain */
     QDOT_EUNSET,    /* a parameter or function without a value */
     QDOT_ESINGULAR, /* a matrix without an inverse */
-    QDOT_ELIMIT,    /* larger than the stated limit of work or size */
+    QDOT_ELIMIT,    /* something exceeds a limit of work or size that the message states */
     QDOT_EFAILED,   /* a numerical method gave up; the message says where and why */
     QDOT_ENOTBUILT, /* a word of the language that this version does not have */
     QDOT_EIO,       /* a file or pipe cannot be read or written */
     QDOT_ENOMEM,    /* out of memory */
-    QDOT_EINTR      /* interrupted by Ctrl-C */
+    QDOT_EINTR      /* the user interrupted the computation by Ctrl-C */
 } qdot_status;
 
 #define QDOT_MUST_CHECK __attribute__((warn_unused_result))
@@ -55,7 +55,7 @@ qdot_grave(qdot_status status)
 typedef struct {
     qdot_status status;
     char message[512];
-    char hint[1024]; /* "" where there is no hint */
+    char hint[1024]; /* a hint at what to do about the failure; "" if there is none */
 } qdot_error;
 
 /* Record a failure with its message (printf) and no hint; returns `status`. */

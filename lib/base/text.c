@@ -1,4 +1,4 @@
-/* text.c -- a growing string. */
+/* text.c -- a growing string, to which texts and numbers are appended. */
 #include "base/text.h"
 
 #include <errno.h>
@@ -22,7 +22,7 @@ qdot_text_add_n(qdot_text *s, const char *text, size_t length)
         s->failed = true;
         return;
     }
-    if (length > 0) /* memcpy must not get the NULL of an empty text */
+    if (length > 0) /* skip memcpy for an empty text, whose pointer may be NULL */
         memcpy(s->at + s->n, text, length);
     s->n += length;
     s->at[s->n] = '\0';
@@ -153,7 +153,7 @@ qdot_double_digits(double x, int least)
 
     for (int digits = least; digits < 17; digits++) {
         snprintf(buffer, sizeof buffer, "%.*g", digits, x);
-        if (strtod(buffer, NULL) == x) /* in the locale in which it was printed */
+        if (strtod(buffer, NULL) == x) /* strtod reads the number in the same locale in which it was printed */
             return digits;
     }
     return 17;

@@ -1,4 +1,4 @@
-/* text.h -- a growing string. A failed append marks the string; its status is asked once, at the end. */
+/* text.h -- a growing string. A failed append marks the string, and the caller asks for its status once, at the end. */
 #ifndef QDOT_BASE_TEXT_H
 #define QDOT_BASE_TEXT_H
 
@@ -7,7 +7,7 @@
 
 #include "base/status.h"
 
-/* Start with `qdot_text s = {0};`; free with qdot_text_clear. */
+/* A growing string. Start with `qdot_text s = {0};`; free with qdot_text_clear. */
 typedef struct {
     char *at; /* NUL-terminated once anything was appended; else NULL */
     size_t n, capacity;
@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_text_read(qdot_text *s, FILE *from, const char 
 void qdot_text_truncate(qdot_text *s, size_t length);
 void qdot_text_clear(qdot_text *s);
 
-/* The characters, "" where nothing was appended. */
+/* The characters of the string, or "" if nothing was appended. */
 const char *qdot_text_str(const qdot_text *s);
 
 /* The status of all appends: QDOT_ENOMEM if any failed. */
@@ -45,7 +45,7 @@ bool qdot_ends_in(const char *text, const char *ending);
 /* Whether text contains the word with no letter or _ next to it. */
 bool qdot_has_word(const char *text, const char *word);
 
-/* Append text [n] of a page of HTML: & < > as entities, and where `quotes`, as in an attribute, " too. */
+/* Append n bytes of text to HTML, with & < > as entities; `quotes` (inside an attribute): with " as one, too. */
 void qdot_text_html(qdot_text *s, const char *text, size_t n, bool quotes);
 
 /* Append `text` as a quoted JSON string; bytes that are not UTF-8 become U+FFFD. */

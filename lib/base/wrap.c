@@ -1,4 +1,4 @@
-/* wrap.c -- breaks lines at blanks, and folds tables that are too wide. */
+/* wrap.c -- breaks lines of text at blanks, and splits tables that are too wide. */
 #include "base/wrap.h"
 
 #include <stdbool.h>
@@ -7,15 +7,15 @@
 #include "base/memory.h"
 #include "base/utf8.h"
 
-/* A part of the text that is wrapped. */
+/* A part of the text whose lines are being broken. */
 typedef struct {
     const char *at;
     size_t n;
 } piece;
 
-/* The number of terminal columns of a part; colour codes and cell marks take none. */
+/* The number of terminal columns of a part; colour codes and the control characters that mark table cells take none. */
 static size_t
-piece_columns(piece p)
+count_piece_columns(piece p)
 {
     size_t columns = 0, from = 0, i = 0;
 
@@ -37,7 +37,7 @@ piece_columns(piece p)
 /* The length in bytes of the colour code, cell mark or letter at byte i; *columns: the terminal
  * columns that it takes. */
 static size_t
-bytes_at(const char *text, size_t n, size_t i, size_t *columns)
+length_of_character_at(const char *text, size_t n, size_t i, size_t *columns)
 {
     const char *end = text[i] == '\033' ? memchr(text + i, 'm', n - i) : NULL;
     size_t letter = qdot_utf8_length(text + i);
@@ -58,7 +58,7 @@ qdot_wrap_cut(const char *text, size_t n, size_t room)
 
     while (i < n) {
         size_t own;
-        const size_t bytes = bytes_at(text, n, i, &own);
+        const size_t bytes = length_of_character_at(text, n, i, &own);
 
         if (columns > 0 && columns + own > room)
             return behind_sign > 0 ? behind_sign : i;
@@ -71,7 +71,7 @@ qdot_wrap_cut(const char *text, size_t n, size_t room)
 }
 
 static size_t
-blanks_at(piece p, size_t i)
+count_blanks_at(piece p, size_t i)
 {
     size_t n = 0;
 
@@ -81,7 +81,7 @@ blanks_at(piece p, size_t i)
 }
 
 static size_t
-letters_at(piece p, size_t i)
+count_letters_at(piece p, size_t i)
 {
     size_t n = 0;
 
@@ -106,9 +106,9 @@ begin_next_line(qdot_text *out, size_t indent)
     add_blanks(out, indent);
 }
 
-/* Append a piece of text without the marks of cells. */
+/* Append a piece of text without the control characters that mark table cells. */
 static void
-add_plain(qdot_text *out, piece p)
+add_without_cell_marks(qdot_text *out, piece p)
 {
     for (size_t i = 0, from = 0; i <= p.n; i++)
         if (i == p.n || p.at[i] == QDOT_WRAP_CELL[0]) {
@@ -123,14 +123,14 @@ enum { USUAL_INDENT = 2, LEAST_ROOM = 16 };
 
 /* The indent, in columns, of the lines that continue `line`. */
 static size_t
-indent_of(piece line, size_t width)
+continuation_indent(piece line, size_t width)
 {
-    const size_t left = blanks_at(line, 0);
+    const size_t left = count_blanks_at(line, 0);
     const size_t usual = (2 * left <= width ? left : 0) + USUAL_INDENT;
 
     for (size_t i = left; i < line.n;) {
-        const size_t letters = letters_at(line, i), blanks = blanks_at(line, i + letters);
-        const size_t columns = piece_columns((piece){line.at, i + letters + blanks});
+        const size_t letters = count_letters_at(line, i), blanks = count_blanks_at(line, i + letters);
+        const size_t columns = count_piece_columns((piece){line.at, i + letters + blanks});
 
         if (blanks >= 2 && i + letters + blanks < line.n)
             return columns + LEAST_ROOM <= width ? columns : usual;
@@ -140,7 +140,7 @@ indent_of(piece line, size_t width)
 }
 
 static bool
-piece_is_one_of(piece word, const char *const *words)
+is_one_of_words(piece word, const char *const *words)
 {
     for (; *words != NULL; words++)
         if (strlen(*words) == word.n && memcmp(*words, word.at, word.n) == 0)
@@ -150,36 +150,36 @@ piece_is_one_of(piece word, const char *const *words)
 
 /* Whether no line may be broken between two words. */
 static bool
-belong_together(piece before, piece behind)
+must_stay_together(piece before, piece behind)
 {
     static const char *const both[] = {"=", "±", "<", ">", "<=", ">=", "==", NULL};
     static const char *const first[] = {"+", "-", "−", "*", "/", NULL};
 
-    return piece_is_one_of(before, both) || piece_is_one_of(behind, both) || piece_is_one_of(before, first);
+    return is_one_of_words(before, both) || is_one_of_words(behind, both) || is_one_of_words(before, first);
 }
 
 /* The end of what begins with the word at i and stays in one line: in any case that word; more
  * only while it is not wider than `room`. */
 static size_t
-end_of_chunk(piece line, size_t i, size_t room)
+end_of_unbreakable_words(piece line, size_t i, size_t room)
 {
-    size_t end = i + letters_at(line, i);
+    size_t end = i + count_letters_at(line, i);
 
     for (size_t start = i;;) {
-        const size_t blanks = blanks_at(line, end), next = end + blanks;
-        const size_t letters = letters_at(line, next);
+        const size_t blanks = count_blanks_at(line, end), next = end + blanks;
+        const size_t letters = count_letters_at(line, next);
 
         if (blanks == 0 || letters == 0 ||
-            !belong_together((piece){line.at + start, end - start},
-                             (piece){line.at + next, letters}) ||
-            piece_columns((piece){line.at + i, next + letters - i}) > room)
+            !must_stay_together((piece){line.at + start, end - start},
+                                (piece){line.at + next, letters}) ||
+            count_piece_columns((piece){line.at + i, next + letters - i}) > room)
             return end;
         start = next;
         end = next + letters;
     }
 }
 
-/* Append a word from `column` on, cut where it is too long for a line; returns the column behind it. */
+/* Append a word that begins at `column`, cut if it is too long for a line; returns the column after its end. */
 static size_t
 add_word(qdot_text *out, piece word, size_t column, size_t indent, size_t width)
 {
@@ -188,7 +188,7 @@ add_word(qdot_text *out, piece word, size_t column, size_t indent, size_t width)
 
         qdot_text_add_n(out, word.at, n);
         if (n == word.n)
-            return column + piece_columns(word);
+            return column + count_piece_columns(word);
         begin_next_line(out, indent);
         column = indent;
         word.at += n;
@@ -198,20 +198,20 @@ add_word(qdot_text *out, piece word, size_t column, size_t indent, size_t width)
 
 /* Append a line that begins at `column`, broken to the width; the lines that continue it are indented. */
 static void
-add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t width)
+add_wrapped_line(qdot_text *out, piece line, size_t column, size_t indent, size_t width)
 {
     const size_t room = width > indent ? width - indent : 1;
     size_t i = 0;
     bool any = false; /* whether the present line already holds a word */
 
     while (i < line.n) {
-        const size_t blanks = blanks_at(line, i),
-                     end = end_of_chunk(line, i + blanks, room);
+        const size_t blanks = count_blanks_at(line, i),
+                     end = end_of_unbreakable_words(line, i + blanks, room);
         const piece chunk = {line.at + i + blanks, end - i - blanks};
 
         if (chunk.n == 0) /* the text ends with blanks */
             break;
-        if ((any || column > indent) && column + blanks + piece_columns(chunk) > width) {
+        if ((any || column > indent) && column + blanks + count_piece_columns(chunk) > width) {
             begin_next_line(out, indent);
             column = indent;
         } else {
@@ -225,12 +225,12 @@ add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t widt
 }
 
 static void
-wrap_add_line(qdot_text *out, piece line, size_t width)
+add_line_wrapped(qdot_text *out, piece line, size_t width)
 {
-    if (piece_columns(line) <= width)
+    if (count_piece_columns(line) <= width)
         qdot_text_add_n(out, line.at, line.n);
     else
-        add_broken(out, line, 0, indent_of(line, width), width);
+        add_wrapped_line(out, line, 0, continuation_indent(line, width), width);
 }
 
 /* --- folding tables ------------------------------------------------------------------- */
@@ -245,7 +245,7 @@ typedef struct {
 
 /* Cell k of a table line; empty if the line has fewer cells. */
 static piece
-cell_of(piece line, size_t k)
+cell_of_line(piece line, size_t k)
 {
     for (;; k--) {
         const char *mark = memchr(line.at, QDOT_WRAP_CELL[0], line.n);
@@ -270,9 +270,9 @@ count_cells(piece line)
     return n;
 }
 
-/* A part of the text without blanks at its two ends. */
+/* Remove the blanks at both ends of a part of a text. */
 static piece
-trimmed(piece p)
+trim_blanks(piece p)
 {
     while (p.n > 0 && p.at[p.n - 1] == ' ')
         p.n--;
@@ -285,7 +285,7 @@ trimmed(piece p)
 
 /* Take the next line of *text and move *text past its newline. */
 static piece
-take_line(const char **text)
+take_next_line(const char **text)
 {
     const piece line = {*text, strcspn(*text, "\n")};
 
@@ -293,7 +293,7 @@ take_line(const char **text)
     return line;
 }
 
-/* Take the lines of a table; false: no memory. */
+/* Read the lines of a table; false if memory runs out. */
 static bool
 read_table(const char **text, table *t)
 {
@@ -305,13 +305,13 @@ read_table(const char **text, table *t)
         return false;
     while (**text != '\0') {
         const char *at = *text;
-        const piece line = take_line(&at);
+        const piece line = take_next_line(&at);
 
         if (count_cells(line) < 2)
             break;
         for (size_t k = 0; k < t->n; k++) {
-            const piece cell = cell_of(line, k);
-            const size_t columns = piece_columns(cell);
+            const piece cell = cell_of_line(line, k);
+            const size_t columns = count_piece_columns(cell);
 
             if (qdot_vec_push(&t->cells, cell) != QDOT_OK)
                 return false;
@@ -324,19 +324,19 @@ read_table(const char **text, table *t)
 }
 
 static piece
-cell_at(const table *t, size_t row, size_t k)
+get_cell(const table *t, size_t row, size_t k)
 {
     return t->cells.at[row * t->n + k];
 }
 
 static bool
-pieces_equal(piece a, piece b)
+are_pieces_equal(piece a, piece b)
 {
     return a.n == b.n && memcmp(a.at, b.at, a.n) == 0;
 }
 
 static void
-find_keys(table *t)
+find_key_columns(table *t)
 {
     size_t alike;
 
@@ -345,44 +345,44 @@ find_keys(table *t)
         alike = 0;
         for (size_t i = 2; i < t->rows && alike < t->keys; i++)
             for (alike = 0; alike < t->keys; alike++)
-                if (!pieces_equal(cell_at(t, i, alike), cell_at(t, i - 1, alike)))
+                if (!are_pieces_equal(get_cell(t, i, alike), get_cell(t, i - 1, alike)))
                     break;
     } while (alike == t->keys && t->keys + 1 < t->n);
 }
 
 static void
-table_add_cell(qdot_text *out, const table *t, size_t row, size_t k, bool last)
+add_table_cell(qdot_text *out, const table *t, size_t row, size_t k, bool last)
 {
-    const piece cell = cell_at(t, row, k);
+    const piece cell = get_cell(t, row, k);
 
     qdot_text_add_n(out, cell.at, cell.n);
-    add_blanks(out, last ? 0 : t->width[k] - piece_columns(cell));
+    add_blanks(out, last ? 0 : t->width[k] - count_piece_columns(cell));
 }
 
 /* Append the key columns and the columns [from, to) of all rows. */
 static void
-table_add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
+add_table_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
 {
     for (size_t i = 0; i < t->rows; i++) {
         size_t last = to, column = t->key_columns;
 
-        while (last > from && trimmed(cell_at(t, i, last - 1)).n == 0)
+        while (last > from && trim_blanks(get_cell(t, i, last - 1)).n == 0)
             last--; /* leave out trailing cells that are blank */
         for (size_t k = 0; k < t->keys; k++)
-            table_add_cell(out, t, i, k, last == from && k + 1 == t->keys);
+            add_table_cell(out, t, i, k, last == from && k + 1 == t->keys);
         for (size_t k = from; k < last; column += t->width[k++]) {
             if (k + 1 < t->n)
-                table_add_cell(out, t, i, k, k + 1 == last);
-            else /* the last column may be text that is too wide */
-                add_broken(out, cell_at(t, i, k), column, t->key_columns + USUAL_INDENT,
-                           width);
+                add_table_cell(out, t, i, k, k + 1 == last);
+            else /* the text in the last column may be too wide for the line, so break it */
+                add_wrapped_line(out, get_cell(t, i, k), column, t->key_columns + USUAL_INDENT,
+                                 width);
         }
         qdot_text_char(out, '\n');
     }
 }
 
 static void
-table_add_blocks(qdot_text *out, const table *t, size_t width)
+add_table_in_blocks(qdot_text *out, const table *t, size_t width)
 {
     for (size_t from = t->keys, to; from < t->n; from = to) {
         size_t columns = t->key_columns + t->width[from];
@@ -391,17 +391,17 @@ table_add_blocks(qdot_text *out, const table *t, size_t width)
             columns += t->width[to];
         if (from > t->keys)
             qdot_text_char(out, '\n');
-        table_add_block(out, t, from, to, width);
+        add_table_block(out, t, from, to, width);
     }
 }
 
 /* Whether each word of a cell fits into `room` columns. */
 static bool
-fits_by_words(piece cell, size_t room)
+words_fit_width(piece cell, size_t room)
 {
-    for (size_t i = 0, n; i < cell.n; i += n + blanks_at(cell, i + n)) {
-        n = letters_at(cell, i);
-        if (piece_columns((piece){cell.at + i, n}) > room)
+    for (size_t i = 0, n; i < cell.n; i += n + count_blanks_at(cell, i + n)) {
+        n = count_letters_at(cell, i);
+        if (count_piece_columns((piece){cell.at + i, n}) > room)
             return false;
     }
     return true;
@@ -409,48 +409,48 @@ fits_by_words(piece cell, size_t room)
 
 /* Append each row as lines "name value"; a value that does not fit behind its name has a line of its own. */
 static void
-add_records(qdot_text *out, const table *t, size_t width)
+add_rows_as_records(qdot_text *out, const table *t, size_t width)
 {
     size_t names = 0;
 
     for (size_t k = 0; k < t->n; k++) {
-        const size_t columns = piece_columns(trimmed(cell_at(t, 0, k)));
+        const size_t columns = count_piece_columns(trim_blanks(get_cell(t, 0, k)));
 
         names = columns > names ? columns : names;
     }
     for (size_t i = 1; i < t->rows; i++)
         for (size_t k = 0; k < t->n; k++) {
-            const piece name = trimmed(cell_at(t, 0, k)),
-                        cell = trimmed(cell_at(t, i, k));
+            const piece name = trim_blanks(get_cell(t, 0, k)),
+                        cell = trim_blanks(get_cell(t, i, k));
             const size_t indent = k > 0 ? USUAL_INDENT : 0, own = indent + USUAL_INDENT;
             const size_t behind = names + 2 * USUAL_INDENT;
-            const bool beside = behind < width && fits_by_words(cell, width - behind);
+            const bool beside = behind < width && words_fit_width(cell, width - behind);
             const size_t column = beside ? behind : own;
 
             add_blanks(out, indent);
-            add_broken(out, name, indent, own, width);
+            add_wrapped_line(out, name, indent, own, width);
             if (beside)
-                add_blanks(out, column - indent - piece_columns(name));
+                add_blanks(out, column - indent - count_piece_columns(name));
             else if (cell.n > 0)
                 begin_next_line(out, own);
-            add_broken(out, cell, column, column, width);
+            add_wrapped_line(out, cell, column, column, width);
             qdot_text_char(out, '\n');
         }
 }
 
 /* Whether the last column, k, fits beside the key columns once it is broken between words. */
 static bool
-can_be_broken(const table *t, size_t k, size_t width)
+last_column_fits_wrapped(const table *t, size_t k, size_t width)
 {
     const size_t left = t->key_columns + USUAL_INDENT;
 
     for (size_t i = 0; i < t->rows; i++) {
-        const piece cell = cell_at(t, i, k);
-        const size_t blanks = blanks_at(cell, 0);
-        const piece first = {cell.at, blanks + letters_at(cell, blanks)};
+        const piece cell = get_cell(t, i, k);
+        const size_t blanks = count_blanks_at(cell, 0);
+        const piece first = {cell.at, blanks + count_letters_at(cell, blanks)};
 
-        if (t->key_columns + piece_columns(first) > width || left >= width ||
-            !fits_by_words(cell, width - left))
+        if (t->key_columns + count_piece_columns(first) > width || left >= width ||
+            !words_fit_width(cell, width - left))
             return false;
     }
     return t->key_columns + LEAST_ROOM / 2 <= width;
@@ -458,16 +458,16 @@ can_be_broken(const table *t, size_t k, size_t width)
 
 /* Whether each column fits beside the key columns, the last one perhaps broken between words. */
 static bool
-fits_in_blocks(const table *t, size_t width)
+columns_fit_beside_keys(const table *t, size_t width)
 {
     for (size_t k = t->keys; k < t->n; k++)
-        if (t->key_columns + t->width[k] > width && (k + 1 < t->n || !can_be_broken(t, k, width)))
+        if (t->key_columns + t->width[k] > width && (k + 1 < t->n || !last_column_fits_wrapped(t, k, width)))
             return false;
     return true;
 }
 
 static void
-wrap_add_table(qdot_text *out, const char **text, size_t width)
+add_table_folded(qdot_text *out, const char **text, size_t width)
 {
     const char *const start = *text;
     table t = {0};
@@ -477,15 +477,15 @@ wrap_add_table(qdot_text *out, const char **text, size_t width)
         out->failed = true;
         *text = start + strlen(start);
     } else {
-        find_keys(&t);
+        find_key_columns(&t);
         for (size_t k = 0; k < t.n; k++)
             columns += t.width[k];
         if (columns <= width)
-            add_plain(out, (piece){start, (size_t)(*text - start)});
-        else if (fits_in_blocks(&t, width))
-            table_add_blocks(out, &t, width);
+            add_without_cell_marks(out, (piece){start, (size_t)(*text - start)});
+        else if (columns_fit_beside_keys(&t, width))
+            add_table_in_blocks(out, &t, width);
         else
-            add_records(out, &t, width);
+            add_rows_as_records(out, &t, width);
     }
     qdot_free(t.cells.at);
     qdot_free(t.width);
@@ -495,17 +495,17 @@ void
 qdot_wrap(const char *text, size_t width, qdot_text *out)
 {
     if (width == 0) {
-        add_plain(out, (piece){text, strlen(text)});
+        add_without_cell_marks(out, (piece){text, strlen(text)});
         return;
     }
     while (*text != '\0') {
         const piece line = {text, strcspn(text, "\n")};
 
         if (memchr(line.at, QDOT_WRAP_CELL[0], line.n) != NULL) {
-            wrap_add_table(out, &text, width);
+            add_table_folded(out, &text, width);
             continue;
         }
-        wrap_add_line(out, line, width);
+        add_line_wrapped(out, line, width);
         qdot_text_add_n(out, line.at + line.n, line.at[line.n] == '\n');
         text += line.n + (line.at[line.n] == '\n');
     }

@@ -16,7 +16,7 @@ qdot_abbreviated_clear(qdot_abbreviated *a)
 }
 
 static bool
-may_be_part(const qdot_pool *pool, qdot_expr e)
+may_be_abbreviated(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_kind kind = qdot_expr_kind(pool, e);
 
@@ -27,7 +27,7 @@ may_be_part(const qdot_pool *pool, qdot_expr e)
 /* The number of places of each node, parents first; a part's children stand there once. named [w.n]:
  * which nodes are parts. */
 static void
-count_places(const qdot_pool *pool, qdot_walk *w, qdot_expr root, bool *named)
+count_occurrences(const qdot_pool *pool, qdot_walk *w, qdot_expr root, bool *named)
 {
     const uint64_t most = UINT32_MAX;
 
@@ -36,7 +36,7 @@ count_places(const qdot_pool *pool, qdot_walk *w, qdot_expr root, bool *named)
         const qdot_expr e = w->at[i];
         uint64_t places = qdot_walk_get(w, e), size;
 
-        if (places > 1 && may_be_part(pool, e)) {
+        if (places > 1 && may_be_abbreviated(pool, e)) {
             size = qdot_expr_size(pool, e);
             named[i] = size >= 2 && (places - 1) * (size < most ? size : most) >=
                                         QDOT_ABBREVIATE_SAVED;
@@ -54,8 +54,8 @@ count_places(const qdot_pool *pool, qdot_walk *w, qdot_expr root, bool *named)
 
 /* The next symbol D1, D2, ... whose name is free. */
 static qdot_expr
-next_symbol(qdot_pool *pool, bool (*is_taken)(const char *name, void *user), void *user,
-            unsigned *number)
+next_free_symbol(qdot_pool *pool, bool (*is_taken)(const char *name, void *user), void *user,
+                 unsigned *number)
 {
     char name[24];
 
@@ -80,13 +80,13 @@ qdot_abbreviate(qdot_pool *pool, qdot_expr e, bool (*is_taken)(const char *name,
     if (named == NULL)
         status = QDOT_ENOMEM;
     else
-        count_places(pool, &w, e, named);
+        count_occurrences(pool, &w, e, named);
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
         qdot_expr made = qdot_walk_rebuild(pool, &w, w.at[i]);
 
         if (named[i] && made != QDOT_NIL) {
             status = qdot_vec_push(&out->parts, made);
-            made = next_symbol(pool, is_taken, user, &number);
+            made = next_free_symbol(pool, is_taken, user, &number);
             if (status == QDOT_OK)
                 status = qdot_vec_push(&out->symbols, made);
         }

@@ -10,7 +10,7 @@ struct bound {
 };
 
 static void
-bound_set(struct bound *b, int64_t n, int64_t d, bool open)
+set_bound(struct bound *b, int64_t n, int64_t d, bool open)
 {
     b->x = (fmpq){n, d};
     b->known = true;
@@ -20,7 +20,7 @@ bound_set(struct bound *b, int64_t n, int64_t d, bool open)
 /* A declared bound as a rational; a multiple of pi is replaced by a rational slightly beyond it.
  * `up`: an upper bound. */
 static void
-bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
+set_declared_bound(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
 {
     const fmpq *c = NUMBER(pool, e);
     bool turn = e == QDOT_PI;
@@ -37,7 +37,7 @@ bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bo
     b->known = true;
     b->open = open || turn;
     qdot_rational_set(&b->x, c == NULL ? &(fmpq){1, 1} : c);
-    if (turn) { /* by 333/106 < pi < 355/113 */
+    if (turn) { /* replace pi by one of its rational bounds 333/106 < pi < 355/113 */
         bool more = (qdot_rational_sgn(&b->x) > 0) == up;
 
         qdot_rational_mul(&b->x, &b->x, more ? &(fmpq){355, 113} : &(fmpq){333, 106});
@@ -47,24 +47,24 @@ bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bo
 /* An end of a function's range; a multiple of pi is replaced by a rational slightly beyond it.
  * `up`: the upper end. */
 static void
-bound_end(const qdot_fun_end *end, bool up, struct bound *b)
+set_range_bound(const qdot_fun_end *end, bool up, struct bound *b)
 {
     if (!end->known)
         return;
     if (!end->angle)
-        bound_set(b, end->number, 1, end->open);
+        set_bound(b, end->number, 1, end->open);
     else if ((end->number > 0) == up)
-        bound_set(b, 355 * end->number, 226, true);
+        set_bound(b, 355 * end->number, 226, true);
     else
-        bound_set(b, 333 * end->number, 212, true);
+        set_bound(b, 333 * end->number, 212, true);
 }
 
 /* Find the bounds of a function's values for any real arguments. */
 static void
 bounds_of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
 {
-    bound_end(&qdot_fun_facts_of(id)->lo, false, lo);
-    bound_end(&qdot_fun_facts_of(id)->hi, true, hi);
+    set_range_bound(&qdot_fun_facts_of(id)->lo, false, lo);
+    set_range_bound(&qdot_fun_facts_of(id)->hi, true, hi);
 }
 
 /* Find bounds of f^k for a positive integer k, where |f| <= 1 or f >= 1. */
@@ -82,10 +82,10 @@ bounds_of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bou
     if (f->lo.angle || !f->lo.known)
         return;
     if (f->lo.number == 1) {
-        bound_set(lo, 1, 1, false);
+        set_bound(lo, 1, 1, false);
     } else if (f->lo.number == -1 && f->hi.number == 1) {
-        bound_set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
-        bound_set(hi, 1, 1, f->hi.open);
+        set_bound(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
+        set_bound(hi, 1, 1, f->hi.open);
     }
 }
 
@@ -96,7 +96,7 @@ is_two(const fmpq *k)
 }
 
 static void
-bound_square(struct bound *b, const struct bound *end)
+set_squared_bound(struct bound *b, const struct bound *end)
 {
     qdot_rational_mul(&b->x, &end->x, &end->x);
     b->known = true;
@@ -106,29 +106,29 @@ bound_square(struct bound *b, const struct bound *end)
 /* The bounds of s^2 for a symbol s with bounds: if these have opposite signs the larger square is
  * the upper bound. */
 static void
-of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct bound *hi)
+bounds_of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct bound *hi)
 {
     struct bound least = {{0, 1}, false, false}, most = {{0, 1}, false, false};
 
-    bound_declared(pool, s->lo, s->lo_open, false, &least);
-    bound_declared(pool, s->hi, s->hi_open, true, &most);
+    set_declared_bound(pool, s->lo, s->lo_open, false, &least);
+    set_declared_bound(pool, s->hi, s->hi_open, true, &most);
     if (least.known && qdot_rational_sgn(&least.x) >= 0) {
-        bound_square(lo, &least);
+        set_squared_bound(lo, &least);
         if (most.known)
-            bound_square(hi, &most);
+            set_squared_bound(hi, &most);
     } else if (most.known && qdot_rational_sgn(&most.x) <= 0) {
-        bound_square(lo, &most);
+        set_squared_bound(lo, &most);
         if (least.known)
-            bound_square(hi, &least);
+            set_squared_bound(hi, &least);
     } else if (least.known && most.known) {
         struct bound other = {{0, 1}, false, false};
         int d;
 
-        bound_square(hi, &least);
-        bound_square(&other, &most);
+        set_squared_bound(hi, &least);
+        set_squared_bound(&other, &most);
         d = qdot_rational_cmp(&other.x, &hi->x);
         if (d > 0)
-            bound_square(hi, &most);
+            set_squared_bound(hi, &most);
         else if (d == 0)
             hi->open &= other.open;
         fmpq_clear(&other.x);
@@ -147,10 +147,10 @@ bounds_of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct boun
     switch (node->kind) {
     case QDOT_SYM:
         s = &pool->symbols.at[node->at];
-        bound_declared(pool, s->lo, s->lo_open, false, lo);
-        bound_declared(pool, s->hi, s->hi_open, true, hi);
+        set_declared_bound(pool, s->lo, s->lo_open, false, lo);
+        set_declared_bound(pool, s->hi, s->hi_open, true, hi);
         if (e == QDOT_PI)
-            bound_set(lo, 333, 106, true), bound_set(hi, 355, 113, true);
+            set_bound(lo, 333, 106, true), set_bound(hi, 355, 113, true);
         break;
     case QDOT_FUN: bounds_of_function(node->op, lo, hi); break;
     case QDOT_PROD:
@@ -160,7 +160,7 @@ bounds_of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct boun
         if (s == NULL)
             bounds_of_power(pool, e, lo, hi);
         else if (is_two(NUMBER(pool, ARGS(pool, e)[2])))
-            of_square(pool, s, lo, hi);
+            bounds_of_square(pool, s, lo, hi);
         break;
     default: break;
     }
@@ -179,7 +179,7 @@ bounds_of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct boun
 /* A bound with a long denominator by a shorter one beyond it, above where `up`: the denominator of a sum of thousands of
  * fractions would grow with each. */
 static void
-shorten(struct bound *b, bool up)
+round_bound_outward(struct bound *b, bool up)
 {
     enum { LONG = 1024, SHORT = 256 };
     fmpq_t y;
@@ -200,16 +200,16 @@ shorten(struct bound *b, bool up)
     b->open = true;
 }
 
-/* Add c b to *sum, if both are known; up: an upper bound, else a lower one. */
+/* Add c times the bound b to the bound *sum of a sum, if both are known; up: an upper bound, else a lower one. */
 static void
-bound_add(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
+add_scaled_bound(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
 {
     sum->known &= b->known;
     sum->open |= b->open;
     if (!sum->known)
         return;
     qdot_rational_addmul(&sum->x, c, &b->x);
-    shorten(sum, up);
+    round_bound_outward(sum, up);
 }
 
 uint8_t
@@ -226,8 +226,8 @@ qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
         bool up = qdot_rational_sgn(c) > 0;
 
         bounds_of_term(pool, args[i], &lo, &hi);
-        bound_add(&least, c, up ? &lo : &hi, false);
-        bound_add(&most, c, up ? &hi : &lo, true);
+        add_scaled_bound(&least, c, up ? &lo : &hi, false);
+        add_scaled_bound(&most, c, up ? &hi : &lo, true);
         fmpq_clear(&lo.x);
         fmpq_clear(&hi.x);
     }

@@ -13,7 +13,7 @@ qdot_expr qdot_add(qdot_pool *pool, qdot_expr a, qdot_expr b);
 qdot_expr qdot_sub(qdot_pool *pool, qdot_expr a, qdot_expr b);
 qdot_expr qdot_neg(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b);
-qdot_expr qdot_div(qdot_pool *pool, qdot_expr a, qdot_expr b); /* b = 0: QDOT_EDOMAIN */
+qdot_expr qdot_div(qdot_pool *pool, qdot_expr a, qdot_expr b); /* fails with QDOT_EDOMAIN for b = 0 */
 qdot_expr qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b); /* 0^-1, (-1)^(1/2): fails with QDOT_EDOMAIN */
 qdot_expr qdot_pow_int(qdot_pool *pool, qdot_expr a, long n);
 qdot_expr qdot_sqrt(qdot_pool *pool, qdot_expr a);
@@ -30,7 +30,7 @@ qdot_expr qdot_vector(qdot_pool *pool, uint32_t n, const qdot_expr *components);
 qdot_expr qdot_matrix(qdot_pool *pool, uint32_t rows, uint32_t columns,
                       const qdot_expr *entries);
 qdot_expr qdot_list(qdot_pool *pool, uint32_t n, const qdot_expr *members);
-/* The node with the same kind and op but other args, made canonical. */
+/* The expression of the same kind and operator as e but with other arguments, in canonical form. */
 qdot_expr qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args);
 
 #endif

@@ -1,4 +1,4 @@
-/* calculus.c -- derivations and substitution. */
+/* calculus.c -- differentiates expressions (derivations), and substitutes in them. */
 #include "expr/calculus.h"
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 /* --- derivatives and differentials --------------------------------------------------------- */
 
-/* A derivation: a linear map with the product rule; 0 on nodes with no property in `holds` or `touches`. */
+/* A derivation (linear map with the product rule); it is 0 on nodes with none of the property bits `holds`, `touches`. */
 typedef struct {
     qdot_pool *pool;
     const qdot_walk *w;
@@ -21,7 +21,7 @@ typedef struct {
 } derivation;
 
 static qdot_expr
-derived(const derivation *d, qdot_expr e)
+known_derivative(const derivation *d, qdot_expr e)
 {
     if (!WHERE(d->pool, e, d->holds, d->touches))
         return QDOT_ZERO;
@@ -29,7 +29,7 @@ derived(const derivation *d, qdot_expr e)
 }
 
 static void
-derivation_add_term(derivation *d, qdot_expr term)
+add_term_of_derivative(derivation *d, qdot_expr term)
 {
     if (qdot_vec_push(&d->terms, term) != QDOT_OK)
         qdot_pool_fail(d->pool);
@@ -42,11 +42,11 @@ derive_sum(derivation *d, qdot_expr e)
 
     d->factors.n = 0;
     for (uint32_t k = 1; k < NODE(pool, e)->n; k += 2) {
-        qdot_expr inner = derived(d, ARGS(pool, e)[k]);
+        qdot_expr inner = known_derivative(d, ARGS(pool, e)[k]);
 
         if (inner == QDOT_ZERO)
             continue;
-        derivation_add_term(d, inner);
+        add_term_of_derivative(d, inner);
         if (qdot_vec_push(&d->factors, ARGS(pool, e)[k + 1]) != QDOT_OK)
             qdot_pool_fail(pool);
     }
@@ -61,18 +61,18 @@ derive_product(derivation *d, qdot_expr e)
 
     for (uint32_t i = 1; i < n && !FAILED(pool); i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
-        qdot_expr db = derived(d, b), dx = derived(d, ARGS(pool, e)[i + 1]);
+        qdot_expr db = known_derivative(d, b), dx = known_derivative(d, ARGS(pool, e)[i + 1]);
 
         if (db != QDOT_ZERO)
-            derivation_add_term(d, qdot_product_derived(pool, e, i, db));
+            add_term_of_derivative(d, qdot_product_derived(pool, e, i, db));
         if (dx != QDOT_ZERO)
-            derivation_add_term(d, qdot_product(pool, 3,
-                                                (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
+            add_term_of_derivative(d, qdot_product(pool, 3,
+                                                   (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
     }
 }
 
 static void
-derive_ufun(derivation *d, qdot_expr e)
+derive_undefined_function(derivation *d, qdot_expr e)
 {
     qdot_pool *pool = d->pool;
     uint32_t n = NODE(pool, e)->n / 2;
@@ -85,7 +85,7 @@ derive_ufun(derivation *d, qdot_expr e)
         return;
     }
     for (uint32_t i = 0; i < n; i++) {
-        qdot_expr inner = derived(d, ARGS(pool, e)[i]);
+        qdot_expr inner = known_derivative(d, ARGS(pool, e)[i]);
 
         if (inner == QDOT_ZERO)
             continue;
@@ -96,14 +96,14 @@ derive_ufun(derivation *d, qdot_expr e)
             qdot_expr_to_int(pool, ARGS(pool, e)[n + k], &order);
             orders[k] = (uint32_t)order + (k == i);
         }
-        derivation_add_term(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders),
-                                        inner));
+        add_term_of_derivative(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders),
+                                           inner));
     }
 }
 
-/* The value if(condition, yes, no); if one branch is 0: the other branch times a factor that is 1 or 0. */
+/* The value if(condition, yes, no); if one of its branches is 0, as the other branch times a factor that is 1 or 0. */
 static qdot_expr
-make_choice(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
+make_conditional(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
 {
     if (yes != QDOT_ZERO && no != QDOT_ZERO)
         return qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){condition, yes, no});
@@ -117,25 +117,25 @@ make_choice(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
 /* d max(a, b, ...) = a' where a > max(b, ...), else d max(b, ...): of arguments that are equal, perhaps
  * on an interval, the last one counts, as in the operations of a tape (tape/operation.def). */
 static void
-derive_extreme(derivation *d, qdot_expr e, const qdot_expr *args)
+derive_min_or_max(derivation *d, qdot_expr e, const qdot_expr *args)
 {
     qdot_pool *pool = d->pool;
     const qdot_fun_id id = NODE(pool, e)->op;
     const uint32_t n = NODE(pool, e)->n;
-    qdot_expr slope = derived(d, args[n - 1]), rest = args[n - 1];
+    qdot_expr slope = known_derivative(d, args[n - 1]), rest = args[n - 1];
 
     for (uint32_t k = n - 1; k-- > 0;) {
-        const qdot_expr inner = derived(d, args[k]);
+        const qdot_expr inner = known_derivative(d, args[k]);
 
         if (inner != QDOT_ZERO || slope != QDOT_ZERO)
-            slope = make_choice(pool,
-                                id == QDOT_MAX ? qdot_rel(pool, QDOT_LT, rest, args[k])
+            slope = make_conditional(pool,
+                                     id == QDOT_MAX ? qdot_rel(pool, QDOT_LT, rest, args[k])
                                                : qdot_rel(pool, QDOT_LT, args[k], rest),
-                                inner, slope);
+                                     inner, slope);
         rest = qdot_fun(pool, id, n - k, args + k);
     }
     if (slope != QDOT_ZERO)
-        derivation_add_term(d, slope);
+        add_term_of_derivative(d, slope);
 }
 
 static void
@@ -152,20 +152,20 @@ derive_function(derivation *d, qdot_expr e)
     for (uint32_t i = 0; i < node.n; i++)
         args[i] = ARGS(pool, e)[i];
     if (node.op == QDOT_MIN || node.op == QDOT_MAX) {
-        derive_extreme(d, e, args);
+        derive_min_or_max(d, e, args);
     } else if (node.op == QDOT_IF) {
-        qdot_expr yes = derived(d, args[1]), no = derived(d, args[2]);
+        qdot_expr yes = known_derivative(d, args[1]), no = known_derivative(d, args[2]);
 
         if (yes != QDOT_ZERO || no != QDOT_ZERO)
-            derivation_add_term(d, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){args[0], yes, no}));
+            add_term_of_derivative(d, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){args[0], yes, no}));
     } else {
         for (uint32_t i = 0; i < node.n; i++) {
-            qdot_expr inner = derived(d, args[i]);
+            qdot_expr inner = known_derivative(d, args[i]);
 
             if (inner != QDOT_ZERO)
-                derivation_add_term(d, qdot_mul(pool,
-                                                qdot_fun_derivative(pool, node.op, node.n, args, i),
-                                                inner));
+                add_term_of_derivative(d, qdot_mul(pool,
+                                                   qdot_fun_derivative(pool, node.op, node.n, args, i),
+                                                   inner));
         }
     }
     if (args != few)
@@ -187,14 +187,14 @@ derive_entries(derivation *d, qdot_expr e, bool root)
     }
     d->factors.n = 0;
     for (uint32_t i = 0; i < node.n; i++)
-        if (qdot_vec_push(&d->factors, derived(d, ARGS(pool, e)[i])) != QDOT_OK)
+        if (qdot_vec_push(&d->factors, known_derivative(d, ARGS(pool, e)[i])) != QDOT_OK)
             return qdot_pool_fail(pool);
     return qdot_rebuild(pool, e, d->factors.at);
 }
 
 static qdot_expr
-derive_by(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
-          qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
+apply_derivation(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
+                 qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
 {
     qdot_walk w;
     derivation d = {.pool = pool, .w = &w, .holds = holds};
@@ -226,7 +226,7 @@ derive_by(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
             result = qdot_sum(pool, d.terms.n, d.terms.at);
             break;
         case QDOT_UFUN:
-            derive_ufun(&d, node);
+            derive_undefined_function(&d, node);
             result = qdot_sum(pool, d.terms.n, d.terms.at);
             break;
         case QDOT_FUN:
@@ -244,7 +244,7 @@ derive_by(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
 }
 
 static qdot_expr
-with_respect_to(qdot_pool *pool, qdot_expr symbol, void *user)
+partial_derivative_of_symbol(qdot_pool *pool, qdot_expr symbol, void *user)
 {
     (void)pool;
     return symbol == *(qdot_expr *)user ? QDOT_ONE : QDOT_ZERO;
@@ -260,16 +260,16 @@ qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x)
             pool, QDOT_ETYPE,
             "a derivative is taken with respect to a name: a coordinate, a "
             "velocity, a parameter or t");
-    return derive_by(pool, e, 0, NODE(pool, x)->touches, with_respect_to, &x);
+    return apply_derivation(pool, e, 0, NODE(pool, x)->touches, partial_derivative_of_symbol, &x);
 }
 
-/* Flags of nodes that may change with time: all but parameters, formal arguments and constants. */
+/* Flags of symbols that may change with time: all except parameters, formal arguments and constants. */
 static const uint32_t in_time_holds =
     QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
     QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
 static qdot_expr
-in_time(qdot_pool *pool, qdot_expr symbol, void *user)
+time_derivative_of_symbol(qdot_pool *pool, qdot_expr symbol, void *user)
 {
     (void)user;
     switch (pool->symbols.at[NODE(pool, symbol)->at].class) {
@@ -288,11 +288,11 @@ in_time(qdot_pool *pool, qdot_expr symbol, void *user)
 qdot_expr
 qdot_ddt(qdot_pool *pool, qdot_expr e)
 {
-    return derive_by(pool, e, in_time_holds, 0, in_time, NULL);
+    return apply_derivation(pool, e, in_time_holds, 0, time_derivative_of_symbol, NULL);
 }
 
 static qdot_expr
-in_differentials(qdot_pool *pool, qdot_expr symbol, void *user)
+differential_of_symbol(qdot_pool *pool, qdot_expr symbol, void *user)
 {
     const qdot_symbol *s = &pool->symbols.at[NODE(pool, symbol)->at];
 
@@ -309,7 +309,7 @@ in_differentials(qdot_pool *pool, qdot_expr symbol, void *user)
 qdot_expr
 qdot_differential(qdot_pool *pool, qdot_expr e)
 {
-    return derive_by(pool, e, in_time_holds, 0, in_differentials, NULL);
+    return apply_derivation(pool, e, in_time_holds, 0, differential_of_symbol, NULL);
 }
 
 /* --- replacing subexpressions --------------------------------------------------------------- */
@@ -320,7 +320,7 @@ struct replacements {
 };
 
 static qdot_expr
-replacement(qdot_pool *pool, qdot_expr node, void *user)
+find_replacement(qdot_pool *pool, qdot_expr node, void *user)
 {
     const struct replacements *r = user;
 
@@ -331,9 +331,9 @@ replacement(qdot_pool *pool, qdot_expr node, void *user)
     return QDOT_NIL;
 }
 
-/* Look a node up among many sorted replacements by bisection. */
+/* Find the replacement of a node in a long sorted list, by bisection. */
 static qdot_expr
-replacement_sorted(qdot_pool *pool, qdot_expr node, void *user)
+find_replacement_by_bisection(qdot_pool *pool, qdot_expr node, void *user)
 {
     const struct replacements *r = user;
     size_t lo = 0, hi = r->n;
@@ -353,14 +353,14 @@ replacement_sorted(qdot_pool *pool, qdot_expr node, void *user)
 }
 
 static int
-by_from(const void *a, const void *b)
+compare_replaced_nodes(const void *a, const void *b)
 {
     const qdot_expr *x = a, *y = b;
 
     return *x < *y ? -1 : *x > *y;
 }
 
-/* What if(...) chooses where the replacements decide it: what it does not choose need not be defined there. */
+/* The branch of if(...) that the replacements select; the branch not selected may be undefined there. */
 static qdot_expr
 choose_branch(qdot_pool *pool, qdot_expr node, void *user)
 {
@@ -385,13 +385,13 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
         if (from[i] == QDOT_NIL || to[i] == QDOT_NIL)
             return QDOT_NIL;
         touches |= NODE(pool, from[i])->touches;
-        if (NODE(pool, from[i])->touches == 0) /* it contains numbers only */
+        if (NODE(pool, from[i])->touches == 0) /* from[i] contains numbers only */
             holds = UINT32_MAX;
     }
     if (pool->choices && e != QDOT_NIL && (NODE(pool, e)->holds & QDOT_HAS_FUN) != 0)
         e = qdot_walk_replace(pool, e, QDOT_FUN, choose_branch, &r);
     if (n < 8)
-        return qdot_walk_map_where(pool, e, holds, touches, replacement, &r);
+        return qdot_walk_map_where(pool, e, holds, touches, find_replacement, &r);
     pairs = qdot_malloc(4 * n * sizeof *pairs);
     if (pairs == NULL)
         return qdot_pool_fail(pool);
@@ -400,13 +400,13 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
         pairs[2 * i] = from[i];
         pairs[2 * i + 1] = to[i];
     }
-    qsort(pairs, n, 2 * sizeof *pairs, by_from);
+    qsort(pairs, n, 2 * sizeof *pairs, compare_replaced_nodes);
     for (size_t i = 0; i < n; i++) {
         split[i] = pairs[2 * i];
         split[n + i] = pairs[2 * i + 1];
     }
     r = (struct replacements){n, split, split + n};
-    result = qdot_walk_map_where(pool, e, holds, touches, replacement_sorted, &r);
+    result = qdot_walk_map_where(pool, e, holds, touches, find_replacement_by_bisection, &r);
     qdot_free(pairs);
     return result;
 }

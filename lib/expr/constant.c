@@ -24,7 +24,7 @@ qdot_constant_is(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & ~(QDOT_HAS_FUN | 1u << QDOT_CONST)) == 0;
 }
 
-/* Append the function as declared, x(s, t), whatever arguments it is applied to here. */
+/* Append an undefined function with its arguments as declared, x(s, t), whatever arguments e applies it to. */
 static void
 add_function(const qdot_pool *pool, qdot_expr e, qdot_text *text)
 {
@@ -76,7 +76,7 @@ is_settable(const qdot_pool *pool, qdot_expr e)
            qdot_expr_is_class(pool, e, QDOT_MOMENTUM);
 }
 
-/* Whether both are applications of one function, perhaps to different arguments. */
+/* Whether a and b are applications of the same undefined function, perhaps to different arguments. */
 static bool
 is_same_function(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -197,7 +197,7 @@ ball_logic(arb_t y, qdot_logic_op op, uint32_t n, const arb_struct *const *x)
         if (!arb_is_exact(x[i]))
             open = true;
         else if (arb_is_zero(x[i]) == (op == QDOT_AND))
-            decided = true; /* one operand decides: a false one in `and`, a true one in `or` */
+            decided = true; /* one operand decides the result: a false one in `and`, a true one in `or` */
     }
     if (decided)
         arb_set_si(y, op == QDOT_OR);
@@ -216,7 +216,7 @@ ball_if(arb_t y, const arb_struct *const *x, slong bits)
         arb_union(y, x[1], x[2], bits);
 }
 
-/* y = f(x[0] ... x[n-1]); false if f has no ball evaluation. */
+/* Compute y = f(x[0] ... x[n-1]) in ball (interval) arithmetic; false if f is not available there. */
 static bool
 ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const *x, slong bits)
 {
@@ -253,20 +253,20 @@ ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const 
 typedef struct {
     const qdot_pool *pool;
     qdot_walk walk;
-    arb_struct *ball;          /* [walk.n] the value of each node as a ball */
+    arb_struct *ball;          /* [walk.n] the value of each subexpression as a ball (an interval) */
     const arb_struct **args;   /* scratch: the balls of one node's arguments */
     size_t args_capacity;
 } evaluation;
 
 static const arb_struct *
-ball_of(const evaluation *v, qdot_expr e)
+ball_of_node(const evaluation *v, qdot_expr e)
 {
     return v->ball + qdot_walk_index(&v->walk, e);
 }
 
 /* Fail with a list of all symbols in the expression that have no value. */
 static qdot_status
-refuse_unset(const evaluation *v)
+report_unset_symbols(const evaluation *v)
 {
     qdot_vec(qdot_expr) unset = {0};
     qdot_status status = QDOT_OK;
@@ -296,7 +296,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
 
     QDOT_TRY(qdot_grow(&v->args, &v->args_capacity, n, sizeof *v->args));
     for (uint32_t k = 0; k < n && node->kind != QDOT_NUM && node->kind != QDOT_SYM; k++)
-        v->args[k] = ball_of(v, qdot_expr_arg(pool, e, k));
+        v->args[k] = ball_of_node(v, qdot_expr_arg(pool, e, k));
     switch ((qdot_kind)node->kind) {
     case QDOT_NUM:
         arb_set_fmpq(y, qdot_expr_rational(pool, e), bits);
@@ -307,7 +307,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
         else if (e == QDOT_TRUE || e == QDOT_FALSE)
             arb_set_si(y, e == QDOT_TRUE);
         else
-            return refuse_unset(v);
+            return report_unset_symbols(v);
         return QDOT_OK;
     case QDOT_SUM:
         arb_set(y, v->args[0]);
@@ -340,7 +340,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
         ball_logic(y, (qdot_logic_op)node->op, n, v->args);
         return QDOT_OK;
     case QDOT_UFUN:
-        return refuse_unset(v);
+        return report_unset_symbols(v);
     case QDOT_VEC:
     case QDOT_MAT:
     case QDOT_LIST:
@@ -349,9 +349,9 @@ evaluate_node(evaluation *v, size_t i, slong bits)
     return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
 }
 
-/* The side of `value` on which the ball lies, -1 or 1; 0 if the ball contains it. */
+/* The side of `value` on which the ball (an interval) lies, -1 or 1; 0 if the ball contains `value`. */
 static int
-ball_side_of(const arb_t ball, double value)
+side_of_value(const arb_t ball, double value)
 {
     arb_t x;
     int side = 0;
@@ -366,7 +366,7 @@ ball_side_of(const arb_t ball, double value)
     return side;
 }
 
-/* Whether all numbers of the ball round to the same double, *value. */
+/* Whether all numbers in the ball (an interval) round to the same double, *value. */
 static bool
 rounds_to_one_double(const arb_t ball, double *value)
 {
@@ -386,9 +386,9 @@ rounds_to_one_double(const arb_t ball, double *value)
     return a == b;
 }
 
-/* Fail with the reason why `e`, whose ball is not finite, has no value. */
+/* Fail with the reason why the expression `e`, whose computed interval is not finite, has no value. */
 static qdot_status
-no_value(const qdot_pool *pool, qdot_expr e, const char *why)
+report_no_value(const qdot_pool *pool, qdot_expr e, const char *why)
 {
     qdot_text text = {0};
     qdot_status status = qdot_print(pool, e, QDOT_PLAIN, &text);
@@ -400,9 +400,9 @@ no_value(const qdot_pool *pool, qdot_expr e, const char *why)
     return status;
 }
 
-/* The midpoint of the ball minus `value`. */
+/* The midpoint of the ball (an interval) minus `value`. */
 static double
-rest_of(const arb_t ball, double value)
+midpoint_minus_value(const arb_t ball, double value)
 {
     arf_t x;
     double rest;
@@ -416,7 +416,7 @@ rest_of(const arb_t ball, double value)
 }
 
 static qdot_status
-constant_evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
+evaluate_to_double(evaluation *v, qdot_expr e, double *value, int *side, double *low)
 {
     const arb_struct *y;
 
@@ -425,27 +425,27 @@ constant_evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *
             QDOT_TRY(qdot_interrupt_check());
             QDOT_TRY(evaluate_node(v, i, bits));
         }
-        if (rounds_to_one_double(ball_of(v, e), value)) {
+        if (rounds_to_one_double(ball_of_node(v, e), value)) {
             if (!isfinite(*value))
-                return no_value(v->pool, e, "is beyond what a double holds");
-            *side = ball_side_of(ball_of(v, e), *value);
-            *low = *side ? rest_of(ball_of(v, e), *value) : 0;
+                return report_no_value(v->pool, e, "is beyond what a double holds");
+            *side = side_of_value(ball_of_node(v, e), *value);
+            *low = *side ? midpoint_minus_value(ball_of_node(v, e), *value) : 0;
             return QDOT_OK;
         }
     }
-    y = ball_of(v, e);
+    y = ball_of_node(v, e);
     if (!arb_is_finite(y))
-        return no_value(v->pool, e, "is undefined or not real");
-    /* the value lies between two doubles to 4096 bits, or exactly at a jump */
+        return report_no_value(v->pool, e, "is undefined or not real");
+    /* even computed to 4096 bits the value does not decide how to round it, or it lies exactly at a jump */
     *value = arf_get_d(arb_midref(y), ARF_RND_NEAR) + 0.0;
     if (arb_rel_accuracy_bits(y) < 60)
-        return no_value(v->pool, e, "could not be decided in 4096 bits");
+        return report_no_value(v->pool, e, "could not be decided in 4096 bits");
     return QDOT_OK;
 }
 
-/* Prepare the walk of e with a ball for each node; qdot_free and walk_end by constant_release(). */
+/* Prepare to evaluate e: list its nodes and allocate a ball (an interval) for each; free_evaluation() frees them. */
 static qdot_status
-constant_prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
+prepare_evaluation(evaluation *v, qdot_pool *pool, qdot_expr e)
 {
     *v = (evaluation){.pool = pool};
     if (e == QDOT_NIL) {
@@ -464,7 +464,7 @@ constant_prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
 }
 
 static void
-constant_release(evaluation *v)
+free_evaluation(evaluation *v)
 {
     for (size_t i = 0; i < v->walk.n; i++)
         arb_clear(v->ball + i);
@@ -473,9 +473,9 @@ constant_release(evaluation *v)
     qdot_walk_end(&v->walk);
 }
 
-/* Whether an integer is small, and a double. */
+/* Whether an integer is at most 2^53 in magnitude, so that a double holds it exactly. */
 static bool
-is_double(const fmpz x)
+is_exact_double(const fmpz x)
 {
     return !COEFF_IS_MPZ(x) && x <= (slong)1 << 53 && x >= -((slong)1 << 53);
 }
@@ -483,7 +483,7 @@ is_double(const fmpz x)
 /* n/d of integers that are doubles, as most numbers of a scene and all tolerances are: the remainder
  * n - value d is a double. FLINT is not asked, which would load it (src/late.c). */
 static void
-split_small(double n, double d, double *value, int *side, double *low)
+split_small_quotient(double n, double d, double *value, int *side, double *low)
 {
     const double left = fma(-(*value = n / d), d, n);
 
@@ -501,47 +501,47 @@ qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, doub
     *value = NAN;
     *side = 0;
     *low = 0;
-    if (rational && is_double(rational->num) && is_double(rational->den)) {
-        split_small((double)rational->num, (double)rational->den, value, side, low);
+    if (rational && is_exact_double(rational->num) && is_exact_double(rational->den)) {
+        split_small_quotient((double)rational->num, (double)rational->den, value, side, low);
         return QDOT_OK;
     }
-    QDOT_TRY(constant_prepare(&v, pool, e));
-    status = constant_evaluate(&v, e, value, side, low);
-    constant_release(&v);
+    QDOT_TRY(prepare_evaluation(&v, pool, e));
+    status = evaluate_to_double(&v, e, value, side, low);
+    free_evaluation(&v);
     return status;
 }
 
-/* Whether the ball has a relative accuracy of `bits`, or is 0 to many more bits. */
+/* Whether the ball (an interval) is accurate to `bits` relative to its value, or is 0 to many more bits. */
 static bool
-ball_is_known(const arb_t ball, slong bits)
+ball_is_accurate(const arb_t ball, slong bits)
 {
     return arb_is_exact(ball) || arb_rel_accuracy_bits(ball) >= bits + 2
            || (arb_contains_zero(ball) && mag_cmp_2exp_si(arb_radref(ball), -8 * bits) < 0);
 }
 
 static qdot_status
-evaluate_real(evaluation *v, qdot_expr e, mpfr_ptr x)
+evaluate_to_mpfr(evaluation *v, qdot_expr e, mpfr_ptr x)
 {
     const slong bits = (slong)mpfr_get_prec(x);
-    const arb_struct *y = ball_of(v, e);
+    const arb_struct *y = ball_of_node(v, e);
 
     for (slong b = bits + 64; b <= 64 * bits + FIRST_BITS; b *= 2) {
         for (size_t i = 0; i < v->walk.n; i++) {
             QDOT_TRY(qdot_interrupt_check());
             QDOT_TRY(evaluate_node(v, i, b));
         }
-        if (!arb_is_finite(y) || !ball_is_known(y, bits))
+        if (!arb_is_finite(y) || !ball_is_accurate(y, bits))
             continue;
         if (arb_contains_zero(y))
             mpfr_set_zero(x, 1);
         else
             arf_get_mpfr(x, arb_midref(y), MPFR_RNDN);
         return mpfr_number_p(x) ? QDOT_OK
-                                : no_value(v->pool, e, "is beyond what can be held");
+                                : report_no_value(v->pool, e, "is beyond what can be held");
     }
     if (!arb_is_finite(y))
-        return no_value(v->pool, e, "is undefined or not real");
-    return no_value(v->pool, e, "could not be decided");
+        return report_no_value(v->pool, e, "is undefined or not real");
+    return report_no_value(v->pool, e, "could not be decided");
 }
 
 qdot_status
@@ -550,9 +550,9 @@ qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
     evaluation v;
     qdot_status status;
 
-    QDOT_TRY(constant_prepare(&v, pool, e));
-    status = evaluate_real(&v, e, x);
-    constant_release(&v);
+    QDOT_TRY(prepare_evaluation(&v, pool, e));
+    status = evaluate_to_mpfr(&v, e, x);
+    free_evaluation(&v);
     return status;
 }
 

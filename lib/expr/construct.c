@@ -27,13 +27,13 @@ qdot_rel(qdot_pool *pool, qdot_rel_op op, qdot_expr a, qdot_expr b)
 }
 
 static bool
-is_truth(const qdot_pool *pool, qdot_expr e)
+is_truth_value(const qdot_pool *pool, qdot_expr e)
 {
     return e == QDOT_TRUE || e == QDOT_FALSE || NODE(pool, e)->kind == QDOT_REL ||
            NODE(pool, e)->kind == QDOT_LOGIC;
 }
 
-/* An equation between numbers as an operand of and, or, not: true or false. */
+/* Replace an equation between numbers, as an operand of and, or, not, by true or false. */
 static qdot_expr
 decide_equation(const qdot_pool *pool, qdot_expr e)
 {
@@ -59,7 +59,7 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
             return QDOT_NIL;
-        if (!is_truth(pool, args[i]))
+        if (!is_truth_value(pool, args[i]))
             return qdot_pool_refuse(pool, QDOT_ETYPE,
                                     "and, or, not join comparisons such as x > 0");
     }
@@ -92,7 +92,7 @@ check_entries(qdot_pool *pool, uint32_t n, const qdot_expr *e)
     for (uint32_t i = 0; i < n; i++) {
         if (e[i] == QDOT_NIL)
             return false;
-        if (!qdot_pool_is_scalar(pool, e[i]) && !is_truth(pool, e[i])) {
+        if (!qdot_pool_is_scalar(pool, e[i]) && !is_truth_value(pool, e[i])) {
             qdot_pool_refuse(pool, QDOT_ETYPE, "a component must be a number");
             return false;
         }
@@ -128,7 +128,7 @@ qdot_list(qdot_pool *pool, uint32_t n, const qdot_expr *members)
 }
 
 static qdot_expr
-rebuild_pairs(qdot_pool *pool, qdot_kind kind, uint32_t n, const qdot_expr *args)
+rebuild_sum_or_product(qdot_pool *pool, qdot_kind kind, uint32_t n, const qdot_expr *args)
 {
     uint32_t k = (n - 1) / 2 + 1;
     qdot_expr few[32], *parts = k > 32 ? qdot_malloc(k * sizeof *parts) : few, e;
@@ -167,7 +167,7 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     memcpy(own, args, n * sizeof *own);
     switch (node.kind) {
     case QDOT_SUM:
-    case QDOT_PROD: result = rebuild_pairs(pool, node.kind, node.n, own); break;
+    case QDOT_PROD: result = rebuild_sum_or_product(pool, node.kind, node.n, own); break;
     case QDOT_FUN: result = qdot_fun(pool, node.op, node.n, own); break;
     case QDOT_REL: result = qdot_rel(pool, node.op, own[0], own[1]); break;
     case QDOT_LOGIC: result = qdot_logic(pool, node.op, node.n, own); break;

@@ -9,7 +9,7 @@
 #include <flint/fmpz.h>
 
 static qdot_expr
-plain(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
+make_function_node(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
     return qdot_pool_intern(pool, QDOT_FUN, (uint16_t)id, n, args,
                             qdot_sign_of_function(pool, id, args));
@@ -45,16 +45,16 @@ qdot_expr_find_function(qdot_pool *pool, qdot_expr e, size_t n, const qdot_fun_i
 }
 
 static qdot_expr
-arg0(const qdot_pool *pool, qdot_expr e)
+first_argument(const qdot_pool *pool, qdot_expr e)
 {
     return ARGS(pool, e)[0];
 }
 
 /* --- circular functions at rational multiples of pi ---------------------------------------- */
 
-/* x = c pi + rest, c rational. */
+/* Split x into c pi + rest with a rational c; returns the rest. */
 static qdot_expr
-split_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
+split_multiple_of_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
 {
     const qdot_node *node = NODE(pool, x);
 
@@ -98,11 +98,11 @@ sine_of_twelfths(qdot_pool *pool, long k)
 
 /* sin(k pi/12) for any integer k. */
 static qdot_expr
-sine_at(qdot_pool *pool, long k)
+sine_of_any_twelfth(qdot_pool *pool, long k)
 {
     k = ((k % 24) + 24) % 24;
     if (k >= 12)
-        return qdot_neg(pool, sine_at(pool, k - 12));
+        return qdot_neg(pool, sine_of_any_twelfth(pool, k - 12));
     return sine_of_twelfths(pool, k <= 6 ? k : 12 - k);
 }
 
@@ -120,10 +120,10 @@ quotient_of_values(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 /* The circular functions at k pi/12, by those of the double angle, which hold one root only:
  * tan x = (1 - cos 2x)/sin 2x, cot x = (1 + cos 2x)/sin 2x, 1/cos x = 2 sin x/sin 2x. */
 static qdot_expr
-circular_at(qdot_pool *pool, qdot_fun_id id, long k)
+circular_value_at_twelfth(qdot_pool *pool, qdot_fun_id id, long k)
 {
-    qdot_expr s = sine_at(pool, k), c = sine_at(pool, k + 6);
-    qdot_expr s2 = sine_at(pool, 2 * k), c2 = sine_at(pool, 2 * k + 6);
+    qdot_expr s = sine_of_any_twelfth(pool, k), c = sine_of_any_twelfth(pool, k + 6);
+    qdot_expr s2 = sine_of_any_twelfth(pool, 2 * k), c2 = sine_of_any_twelfth(pool, 2 * k + 6);
     bool halves = k % 2 != 0;
 
     switch (id) {
@@ -144,7 +144,7 @@ circular_at(qdot_pool *pool, qdot_fun_id id, long k)
     }
 }
 
-/* f(x + quarters pi/2) in terms of f or its co-function at x. */
+/* Write f(x + quarters pi/2), with f a circular function, by f or its co-function at x. */
 static qdot_expr
 shift_by_quarter_turns(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
 {
@@ -165,44 +165,44 @@ shift_by_quarter_turns(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarte
     return rows[row][quarters].sign < 0 ? qdot_neg(pool, e) : e;
 }
 
-/* The function of x, with a leading minus of x taken out by parity. */
+/* The function of x, after a leading minus of x was taken out by parity: sin(-x) = -sin(x). */
 static qdot_expr
-without_pi(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+apply_parity(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     bool odd = id != QDOT_COS && id != QDOT_SEC;
     qdot_expr e;
 
     if (!qdot_expr_is_negative(pool, x))
-        return plain(pool, id, 1, &x);
+        return make_function_node(pool, id, 1, &x);
     e = qdot_fun1(pool, id, qdot_neg(pool, x));
     return odd ? qdot_neg(pool, e) : e;
 }
 
 static qdot_expr
-fold_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+simplify_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     static const qdot_fun_id inverse_of[] = {QDOT_ASIN, QDOT_ACOS, QDOT_ATAN};
     fmpq_t c, twelve;
     qdot_expr rest, e = QDOT_NIL;
 
     if (id <= QDOT_TAN && qdot_expr_is_function(pool, x, inverse_of[id - QDOT_SIN]))
-        return arg0(pool, x);
+        return first_argument(pool, x);
     if (x != QDOT_ZERO && !(NODE(pool, x)->touches & NODE(pool, QDOT_PI)->touches))
-        return without_pi(pool, id, x);
+        return apply_parity(pool, id, x);
     fmpq_init(c);
     fmpq_init(twelve);
-    rest = split_pi(pool, x, c);
+    rest = split_multiple_of_pi(pool, x, c);
     qdot_rational_mul(twelve, c, &(fmpq){12, 1});
     if (rest == QDOT_ZERO && fmpz_is_one(fmpq_denref(twelve))) {
         long k = (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24);
 
-        e = circular_at(pool, id, k);
+        e = circular_value_at_twelfth(pool, id, k);
     } else if (rest != QDOT_ZERO && rest != QDOT_NIL && !fmpq_is_zero(c) &&
                fmpz_divisible_si(fmpq_numref(twelve), 6) &&
                fmpz_is_one(fmpq_denref(twelve))) {
         e = shift_by_quarter_turns(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
     } else {
-        e = without_pi(pool, id, x);
+        e = apply_parity(pool, id, x);
     }
     fmpq_clear(c);
     fmpq_clear(twelve);
@@ -212,7 +212,7 @@ fold_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 /* --- inverse circular functions at exactly known values ----------------------------------- */
 
 static qdot_expr
-inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+simplify_inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     const fmpq *v = NUMBER(pool, x);
     bool out = v != NULL && (fmpq_cmp_si(v, 1) > 0 || fmpq_cmp_si(v, -1) < 0);
@@ -221,12 +221,12 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
         if (out)
             return qdot_pool_refuse(pool, QDOT_EDOMAIN, "acos is defined from -1 to 1");
         if (!NODE(pool, x)->holds) {
-            qdot_expr s = inverse_circular(pool, QDOT_ASIN, x);
+            qdot_expr s = simplify_inverse_circular(pool, QDOT_ASIN, x);
 
             if (s != QDOT_NIL && !(NODE(pool, s)->holds & QDOT_HAS_FUN))
                 return qdot_sub(pool, qdot_mul(pool, QDOT_HALF, QDOT_PI), s);
         }
-        return plain(pool, id, 1, &x);
+        return make_function_node(pool, id, 1, &x);
     }
     if (id == QDOT_ASIN && out)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "asin is defined from -1 to 1");
@@ -235,29 +235,29 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
             qdot_expr value = QDOT_NIL;
 
             if (id == QDOT_ASIN)
-                value = sine_at(pool, k);
+                value = sine_of_any_twelfth(pool, k);
             else if (k > -6 && k < 6)
-                value = circular_at(pool, QDOT_TAN, k);
+                value = circular_value_at_twelfth(pool, QDOT_TAN, k);
             if (value == x && value != QDOT_NIL)
                 return qdot_mul(pool, qdot_expr_ratio(pool, k, 12), QDOT_PI);
         }
     }
     if (qdot_expr_is_negative(pool, x))
-        return qdot_neg(pool, inverse_circular(pool, id, qdot_neg(pool, x)));
-    return plain(pool, id, 1, &x);
+        return qdot_neg(pool, simplify_inverse_circular(pool, id, qdot_neg(pool, x)));
+    return make_function_node(pool, id, 1, &x);
 }
 
 /* --- hyperbolic functions, exponentials, logarithms ---------------------------------------- */
 
 static qdot_expr
-fold_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+simplify_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     bool even = qdot_fun_is(id, QDOT_FUN_EVEN);
 
     if (qdot_expr_is_function(pool, x, qdot_fun_facts_of(id)->inverse) && id != QDOT_ACOSH)
-        return arg0(pool, x);
+        return first_argument(pool, x);
     if (id == QDOT_ACOSH && qdot_expr_is_function(pool, x, QDOT_COSH))
-        return qdot_fun1(pool, QDOT_ABS, arg0(pool, x));
+        return qdot_fun1(pool, QDOT_ABS, first_argument(pool, x));
     if (x == QDOT_ZERO && id != QDOT_ACOSH)
         return even ? QDOT_ONE : QDOT_ZERO;
     if (id == QDOT_ACOSH && x == QDOT_ONE)
@@ -276,26 +276,26 @@ fold_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 
         return even ? e : qdot_neg(pool, e);
     }
-    return plain(pool, id, 1, &x);
+    return make_function_node(pool, id, 1, &x);
 }
 
 static qdot_expr
-fold_exp(qdot_pool *pool, qdot_expr x)
+simplify_exp(qdot_pool *pool, qdot_expr x)
 {
     if (x == QDOT_ZERO)
         return QDOT_ONE;
     if (qdot_expr_is_function(pool, x, QDOT_LOG))
-        return arg0(pool, x);
+        return first_argument(pool, x);
     if (NODE(pool, x)->kind == QDOT_PROD &&
         NODE(pool, x)->n == 3 && /* exp(k log a) = a^k */
         ARGS(pool, x)[2] == QDOT_ONE && qdot_expr_is_function(pool, ARGS(pool, x)[1], QDOT_LOG))
-        return qdot_pow(pool, arg0(pool, ARGS(pool, x)[1]), ARGS(pool, x)[0]);
-    return plain(pool, QDOT_EXP, 1, &x);
+        return qdot_pow(pool, first_argument(pool, ARGS(pool, x)[1]), ARGS(pool, x)[0]);
+    return make_function_node(pool, QDOT_EXP, 1, &x);
 }
 
 /* erf is odd, erfc(-x) = 2 - erfc(x). */
 static qdot_expr
-error_function(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+simplify_error_function(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     if (x == QDOT_ZERO)
         return id == QDOT_ERF ? QDOT_ZERO : QDOT_ONE;
@@ -304,11 +304,11 @@ error_function(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 
         return id == QDOT_ERF ? e : qdot_add(pool, qdot_expr_int(pool, 2), e);
     }
-    return plain(pool, id, 1, &x);
+    return make_function_node(pool, id, 1, &x);
 }
 
 static qdot_expr
-logarithm(qdot_pool *pool, qdot_expr x)
+simplify_logarithm(qdot_pool *pool, qdot_expr x)
 {
     const fmpq *v = NUMBER(pool, x);
 
@@ -318,14 +318,14 @@ logarithm(qdot_pool *pool, qdot_expr x)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN,
                                 "log is defined for positive numbers only");
     if (qdot_expr_is_function(pool, x, QDOT_EXP))
-        return arg0(pool, x);
-    return plain(pool, QDOT_LOG, 1, &x);
+        return first_argument(pool, x);
+    return make_function_node(pool, QDOT_LOG, 1, &x);
 }
 
 /* --- absolute value, sign, max, min, floor and the like -------------------------------------- */
 
 static qdot_expr
-absolute(qdot_pool *pool, qdot_expr x)
+simplify_absolute_value(qdot_pool *pool, qdot_expr x)
 {
     fmpq_t c;
     qdot_expr rest, e;
@@ -342,7 +342,7 @@ absolute(qdot_pool *pool, qdot_expr x)
     } else if (NODE(pool, x)->kind == QDOT_SUM && qdot_expr_is_negative(pool, x)) {
         e = qdot_fun1(pool, QDOT_ABS, qdot_neg(pool, x));
     } else {
-        e = plain(pool, QDOT_ABS, 1, &x);
+        e = make_function_node(pool, QDOT_ABS, 1, &x);
     }
     fmpq_clear(c);
     return e;
@@ -350,7 +350,7 @@ absolute(qdot_pool *pool, qdot_expr x)
 
 /* The product x without those factors that are known to be positive; it has the same sign. */
 static qdot_expr
-without_positive(qdot_pool *pool, qdot_expr x)
+drop_positive_factors(qdot_pool *pool, qdot_expr x)
 {
     qdot_expr rest = QDOT_ONE;
     uint32_t n;
@@ -366,7 +366,7 @@ without_positive(qdot_pool *pool, qdot_expr x)
 }
 
 static qdot_expr
-signum(qdot_pool *pool, qdot_expr x)
+simplify_sign(qdot_pool *pool, qdot_expr x)
 {
     uint8_t s = NODE(pool, x)->sign;
 
@@ -377,15 +377,15 @@ signum(qdot_pool *pool, qdot_expr x)
     if (x == QDOT_ZERO)
         return QDOT_ZERO;
     if (qdot_expr_is_negative(pool, x))
-        return qdot_neg(pool, signum(pool, qdot_neg(pool, x)));
-    x = without_positive(pool, qdot_expr_strip(pool, x));
-    return x == QDOT_NIL ? x : plain(pool, QDOT_SIGN, 1, &x);
+        return qdot_neg(pool, simplify_sign(pool, qdot_neg(pool, x)));
+    x = drop_positive_factors(pool, qdot_expr_strip(pool, x));
+    return x == QDOT_NIL ? x : make_function_node(pool, QDOT_SIGN, 1, &x);
 }
 
 /* Whether `other` decides that a number is not needed among the arguments of min or max: max(u, 0) is u
  * where u >= 0 is known. */
 static bool
-is_beyond_number(const qdot_pool *pool, qdot_fun_id id, qdot_expr number, qdot_expr other)
+makes_number_redundant(const qdot_pool *pool, qdot_fun_id id, qdot_expr number, qdot_expr other)
 {
     const bool max = id == QDOT_MAX;
 
@@ -394,7 +394,7 @@ is_beyond_number(const qdot_pool *pool, qdot_fun_id id, qdot_expr number, qdot_e
 }
 
 static qdot_expr
-extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
+simplify_min_or_max(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
     qdot_expr best = args[0], few[16];
     uint32_t k = 0;
@@ -416,17 +416,17 @@ extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
         bool needed = true;
 
         for (uint32_t j = 0; j < n && needed && NUMBER(pool, args[i]) != NULL; j++)
-            needed = !is_beyond_number(pool, id, args[i], args[j]);
+            needed = !makes_number_redundant(pool, id, args[i], args[j]);
         if (needed)
             few[k++] = args[i];
     }
     if (k == 0 || k == n)
-        return plain(pool, id, n, args);
-    return k == 1 ? few[0] : plain(pool, id, k, few);
+        return make_function_node(pool, id, n, args);
+    return k == 1 ? few[0] : make_function_node(pool, id, k, few);
 }
 
 static qdot_expr
-floor_of(qdot_pool *pool, qdot_expr x)
+simplify_floor(qdot_pool *pool, qdot_expr x)
 {
     const fmpq *v = NUMBER(pool, x);
     fmpz_t whole;
@@ -434,7 +434,7 @@ floor_of(qdot_pool *pool, qdot_expr x)
     qdot_expr e;
 
     if (v == NULL)
-        return plain(pool, QDOT_FLOOR, 1, &x);
+        return make_function_node(pool, QDOT_FLOOR, 1, &x);
     fmpz_init(whole);
     fmpq_init(q);
     fmpz_fdiv_q(whole, fmpq_numref(v), fmpq_denref(v));
@@ -446,20 +446,20 @@ floor_of(qdot_pool *pool, qdot_expr x)
 }
 
 static qdot_expr
-fold_mod(qdot_pool *pool, const qdot_expr *args)
+simplify_mod(qdot_pool *pool, const qdot_expr *args)
 {
     if (args[1] == QDOT_ZERO)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "mod by zero");
     if (NUMBER(pool, args[0]) == NULL ||
         NUMBER(pool, args[1]) == NULL)
-        return plain(pool, QDOT_MOD, 2, args);
+        return make_function_node(pool, QDOT_MOD, 2, args);
     return qdot_sub(
         pool, args[0],
-        qdot_mul(pool, args[1], floor_of(pool, qdot_div(pool, args[0], args[1]))));
+        qdot_mul(pool, args[1], simplify_floor(pool, qdot_div(pool, args[0], args[1]))));
 }
 
 static qdot_expr
-arctangent2(qdot_pool *pool, const qdot_expr *args)
+simplify_atan2(qdot_pool *pool, const qdot_expr *args)
 {
     qdot_expr y = args[0], x = args[1];
 
@@ -476,21 +476,21 @@ arctangent2(qdot_pool *pool, const qdot_expr *args)
         return qdot_add(pool, qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, y, x)),
                         up ? QDOT_PI : qdot_neg(pool, QDOT_PI));
     }
-    return plain(pool, QDOT_ATAN2, 2, args);
+    return make_function_node(pool, QDOT_ATAN2, 2, args);
 }
 
 static qdot_expr
-fold_if(qdot_pool *pool, const qdot_expr *args)
+simplify_if(qdot_pool *pool, const qdot_expr *args)
 {
     qdot_kind kind = NODE(pool, args[0])->kind;
 
     if (args[0] == QDOT_TRUE || args[0] == QDOT_FALSE)
         return args[args[0] == QDOT_TRUE ? 1 : 2];
     if (kind == QDOT_REL && NODE(pool, args[0])->op == QDOT_EQ) {
-        const fmpq *l = NUMBER(pool, arg0(pool, args[0]));
+        const fmpq *l = NUMBER(pool, first_argument(pool, args[0]));
         const fmpq *r = NUMBER(pool, ARGS(pool, args[0])[1]);
 
-        if (arg0(pool, args[0]) == ARGS(pool, args[0])[1])
+        if (first_argument(pool, args[0]) == ARGS(pool, args[0])[1])
             return args[1];
         if (l != NULL && r != NULL)
             return args[2];
@@ -503,7 +503,7 @@ fold_if(qdot_pool *pool, const qdot_expr *args)
     if (args[1] == args[2])
         return args[1];
     pool->choices = true;
-    return plain(pool, QDOT_IF, 3, args);
+    return make_function_node(pool, QDOT_IF, 3, args);
 }
 
 qdot_expr
@@ -517,9 +517,9 @@ qdot_hold(qdot_pool *pool, qdot_expr e)
         !qdot_expr_is_function(pool, e, QDOT_LOG))
         return e;
     if (NODE(pool, e)->kind == QDOT_PROD &&
-        qdot_rational_sgn(NUMBER(pool, arg0(pool, e))) < 0)
+        qdot_rational_sgn(NUMBER(pool, first_argument(pool, e))) < 0)
         return qdot_neg(pool, qdot_hold(pool, qdot_neg(pool, e)));
-    return plain(pool, QDOT_HOLD, 1, &e);
+    return make_function_node(pool, QDOT_HOLD, 1, &e);
 }
 
 qdot_expr
@@ -545,28 +545,28 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_TAN:
     case QDOT_SEC:
     case QDOT_CSC:
-    case QDOT_COT: return fold_circular(pool, id, args[0]);
+    case QDOT_COT: return simplify_circular(pool, id, args[0]);
     case QDOT_ASIN:
     case QDOT_ACOS:
-    case QDOT_ATAN: return inverse_circular(pool, id, args[0]);
-    case QDOT_ATAN2: return arctangent2(pool, args);
+    case QDOT_ATAN: return simplify_inverse_circular(pool, id, args[0]);
+    case QDOT_ATAN2: return simplify_atan2(pool, args);
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH:
     case QDOT_ASINH:
     case QDOT_ACOSH:
-    case QDOT_ATANH: return fold_hyperbolic(pool, id, args[0]);
-    case QDOT_EXP: return fold_exp(pool, args[0]);
-    case QDOT_LOG: return logarithm(pool, args[0]);
+    case QDOT_ATANH: return simplify_hyperbolic(pool, id, args[0]);
+    case QDOT_EXP: return simplify_exp(pool, args[0]);
+    case QDOT_LOG: return simplify_logarithm(pool, args[0]);
     case QDOT_ERF:
-    case QDOT_ERFC: return error_function(pool, id, args[0]);
-    case QDOT_ABS: return absolute(pool, args[0]);
-    case QDOT_SIGN: return signum(pool, args[0]);
+    case QDOT_ERFC: return simplify_error_function(pool, id, args[0]);
+    case QDOT_ABS: return simplify_absolute_value(pool, args[0]);
+    case QDOT_SIGN: return simplify_sign(pool, args[0]);
     case QDOT_MIN:
-    case QDOT_MAX: return extreme(pool, id, n, args);
-    case QDOT_MOD: return fold_mod(pool, args);
-    case QDOT_FLOOR: return floor_of(pool, args[0]);
-    case QDOT_IF: return fold_if(pool, args);
+    case QDOT_MAX: return simplify_min_or_max(pool, id, n, args);
+    case QDOT_MOD: return simplify_mod(pool, args);
+    case QDOT_FLOOR: return simplify_floor(pool, args[0]);
+    case QDOT_IF: return simplify_if(pool, args);
     default: return qdot_pool_refuse(pool, QDOT_EINVAL, "no such function");
     }
 }
@@ -580,14 +580,14 @@ qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 /* --- derivatives of elementary functions -------------------------------------------------------- */
 
 static qdot_expr
-one_plus(qdot_pool *pool, long c, qdot_expr x) /* 1 + c x^2 */
+one_plus_scaled_square(qdot_pool *pool, long c, qdot_expr x) /* 1 + c x^2 */
 {
     return qdot_add(pool, QDOT_ONE,
                     qdot_mul(pool, qdot_expr_int(pool, c), qdot_pow_int(pool, x, 2)));
 }
 
 static qdot_expr
-normal_density(qdot_pool *pool, long c, qdot_expr x) /* c e^(-x^2)/sqrt(pi) */
+scaled_gaussian(qdot_pool *pool, long c, qdot_expr x) /* c e^(-x^2)/sqrt(pi) */
 {
     return qdot_mul(
         pool,
@@ -597,7 +597,7 @@ normal_density(qdot_pool *pool, long c, qdot_expr x) /* c e^(-x^2)/sqrt(pi) */
 }
 
 static qdot_expr
-inverse_root(qdot_pool *pool, qdot_expr x)
+reciprocal_square_root(qdot_pool *pool, qdot_expr x)
 {
     return qdot_pow(pool, x, qdot_expr_ratio(pool, -1, 2));
 }
@@ -612,30 +612,30 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
     switch (id) {
     case QDOT_SIN: return qdot_fun1(pool, QDOT_COS, x);
     case QDOT_COS: return qdot_neg(pool, qdot_fun1(pool, QDOT_SIN, x));
-    case QDOT_TAN: return one_plus(pool, 1, qdot_fun1(pool, QDOT_TAN, x));
+    case QDOT_TAN: return one_plus_scaled_square(pool, 1, qdot_fun1(pool, QDOT_TAN, x));
     case QDOT_SEC:
         return qdot_mul(pool, qdot_fun1(pool, QDOT_SEC, x), qdot_fun1(pool, QDOT_TAN, x));
     case QDOT_CSC:
         return qdot_neg(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_CSC, x),
                                        qdot_fun1(pool, QDOT_COT, x)));
-    case QDOT_COT: return qdot_neg(pool, one_plus(pool, 1, qdot_fun1(pool, QDOT_COT, x)));
-    case QDOT_ASIN: return inverse_root(pool, one_plus(pool, -1, x));
-    case QDOT_ACOS: return qdot_neg(pool, inverse_root(pool, one_plus(pool, -1, x)));
-    case QDOT_ATAN: return qdot_div(pool, QDOT_ONE, one_plus(pool, 1, x));
+    case QDOT_COT: return qdot_neg(pool, one_plus_scaled_square(pool, 1, qdot_fun1(pool, QDOT_COT, x)));
+    case QDOT_ASIN: return reciprocal_square_root(pool, one_plus_scaled_square(pool, -1, x));
+    case QDOT_ACOS: return qdot_neg(pool, reciprocal_square_root(pool, one_plus_scaled_square(pool, -1, x)));
+    case QDOT_ATAN: return qdot_div(pool, QDOT_ONE, one_plus_scaled_square(pool, 1, x));
     case QDOT_ATAN2:
         r = qdot_add(pool, qdot_pow_int(pool, a[0], 2), qdot_pow_int(pool, a[1], 2));
         return i == 0 ? qdot_div(pool, a[1], r) : qdot_neg(pool, qdot_div(pool, a[0], r));
     case QDOT_SINH: return qdot_fun1(pool, QDOT_COSH, x);
     case QDOT_COSH: return qdot_fun1(pool, QDOT_SINH, x);
-    case QDOT_TANH: return one_plus(pool, -1, qdot_fun1(pool, QDOT_TANH, x));
-    case QDOT_ASINH: return inverse_root(pool, one_plus(pool, 1, x));
+    case QDOT_TANH: return one_plus_scaled_square(pool, -1, qdot_fun1(pool, QDOT_TANH, x));
+    case QDOT_ASINH: return reciprocal_square_root(pool, one_plus_scaled_square(pool, 1, x));
     case QDOT_ACOSH:
-        return inverse_root(pool, qdot_sub(pool, qdot_pow_int(pool, x, 2), QDOT_ONE));
-    case QDOT_ATANH: return qdot_div(pool, QDOT_ONE, one_plus(pool, -1, x));
+        return reciprocal_square_root(pool, qdot_sub(pool, qdot_pow_int(pool, x, 2), QDOT_ONE));
+    case QDOT_ATANH: return qdot_div(pool, QDOT_ONE, one_plus_scaled_square(pool, -1, x));
     case QDOT_EXP: return qdot_fun1(pool, QDOT_EXP, x);
     case QDOT_LOG: return qdot_div(pool, QDOT_ONE, x);
-    case QDOT_ERF: return normal_density(pool, 2, x);
-    case QDOT_ERFC: return normal_density(pool, -2, x);
+    case QDOT_ERF: return scaled_gaussian(pool, 2, x);
+    case QDOT_ERFC: return scaled_gaussian(pool, -2, x);
     case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
     case QDOT_FLOOR: return QDOT_ZERO;

@@ -7,7 +7,7 @@
 
 #include "expr/function.h"
 
-/* Traits of a function f of one real argument; atan2 only has QDOT_FUN_ARC. */
+/* Properties (bits) of an elementary function f of one real argument; atan2 only has QDOT_FUN_ARC. */
 enum {
     QDOT_FUN_ODD = 1,      /* f(-x) = -f(x) */
     QDOT_FUN_EVEN = 2,     /* f(-x) = f(x) */
@@ -19,15 +19,15 @@ enum {
     QDOT_FUN_POLE = 128    /* has a pole at some finite argument */
 };
 
-/* An end of the range of a function: number, or number pi/2 if `angle`. */
+/* An end of the range of values of a function: number, or number times pi/2 if `angle`. */
 typedef struct {
-    bool known; /* a bound is known */
-    bool open;  /* the function does not take the value of this end */
+    bool known; /* whether a bound on this side is known */
+    bool open;  /* the function never takes the value at this end of its range */
     bool angle;
     int number;
 } qdot_fun_end;
 
-/* A row of function.def. */
+/* A row of the table function.def: the name and the properties of an elementary function. */
 typedef struct {
     const char *name;
     int least, most; /* numbers of arguments; most < 0: any number */
@@ -36,7 +36,7 @@ typedef struct {
     qdot_fun_id inverse; /* x = inverse(v) solves f(x) = v; for an even f so does -x; QDOT_FUNCTION_KINDS: no inverse */
 } qdot_fun_facts;
 
-/* The known properties of a function; of `hold` only its name and that it has one argument. */
+/* The known properties of a function; for the internal function `hold` only its name and its one argument. */
 const qdot_fun_facts *qdot_fun_facts_of(qdot_fun_id id);
 
 /* Find *lo, *hi: doubles just outside the ends of the range of the function; infinite if it has no end. */

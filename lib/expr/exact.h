@@ -17,7 +17,7 @@ bool qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value);
 qdot_expr qdot_expr_int(qdot_pool *pool, long n);
 qdot_expr qdot_expr_ratio(qdot_pool *pool, long n, long d);
 qdot_expr qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x);
-/* "9.81" is 981/100, "1e-3" is 1/1000; more than 10^6 digits: QDOT_ELIMIT. */
+/* Make the exact number written as a decimal: "9.81" is 981/100; QDOT_ELIMIT: more than 10^6 digits. */
 qdot_expr qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length);
 /* The rational that equals a finite double exactly. */
 qdot_expr qdot_expr_of_double(qdot_pool *pool, double x);

@@ -7,11 +7,11 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 
-enum { MOST_TERMS = 1500000 }; /* limit of one call: products of terms computed */
+enum { MOST_TERMS = 1500000 }; /* the most products of two terms that one call may compute */
 
 /* The number of terms of e as a sum; 1 if e is no sum. */
 static uint32_t
-term_count(const qdot_pool *pool, qdot_expr e)
+count_terms(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_node *node = NODE(pool, e);
 
@@ -20,7 +20,7 @@ term_count(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-expand_term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
+get_term(qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     uint32_t terms;
 
@@ -32,7 +32,7 @@ expand_term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
     return qdot_mul(pool, ARGS(pool, e)[2 + 2 * i], ARGS(pool, e)[1 + 2 * i]);
 }
 
-/* The expanded product of two expanded expressions. */
+/* Multiply two expanded expressions, and expand the product. */
 static qdot_expr
 multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 {
@@ -42,8 +42,8 @@ multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 
     if (a == QDOT_NIL || b == QDOT_NIL)
         return QDOT_NIL;
-    na = term_count(pool, a);
-    nb = term_count(pool, b);
+    na = count_terms(pool, a);
+    nb = count_terms(pool, b);
     if (na == 1 && nb == 1)
         return qdot_mul(pool, a, b);
     *work += (uint64_t)na * nb;
@@ -52,10 +52,10 @@ multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
                                 "expanding it takes more than %llu products of terms",
                                 (unsigned long long)*work);
     for (uint32_t i = 0; i < na && !FAILED(pool); i++) {
-        qdot_expr x = expand_term_at(pool, a, i);
+        qdot_expr x = get_term(pool, a, i);
 
         for (uint32_t k = 0; k < nb && !FAILED(pool); k++)
-            if (qdot_vec_push(&terms, qdot_mul(pool, x, expand_term_at(pool, b, k))) != QDOT_OK)
+            if (qdot_vec_push(&terms, qdot_mul(pool, x, get_term(pool, b, k))) != QDOT_OK)
                 qdot_pool_fail(pool);
     }
     result = qdot_sum(pool, terms.n, terms.at);
@@ -63,7 +63,7 @@ multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
     return result;
 }
 
-/* s^n of an expanded sum, n >= 1, by squaring. */
+/* Compute s^n, n >= 1, for an expanded sum s, by repeated squaring. */
 static qdot_expr
 expand_power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
 {
@@ -80,7 +80,7 @@ expand_power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
 
 /* Multiply out a coefficient times one sum: 2*(a + b) becomes 2*a + 2*b. */
 static qdot_expr
-distribute(qdot_pool *pool, qdot_expr e, uint64_t *work)
+expand_multiple(qdot_pool *pool, qdot_expr e, uint64_t *work)
 {
     qdot_expr rest = qdot_expr_strip(pool, e);
 
@@ -143,7 +143,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
             result = qdot_rebuild(pool, node, args.at);
             if (NODE(pool, node)->kind == QDOT_SUM && result != QDOT_NIL &&
                 NODE(pool, result)->kind == QDOT_PROD)
-                result = distribute(pool, result, &work); /* only one term is left: expand its product with the sum */
+                result = expand_multiple(pool, result, &work); /* only one term is left: expand its product with the sum */
         } else {
             result = node;
         }
@@ -183,7 +183,7 @@ split_power(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *power)
 }
 
 static void
-groups_add(qdot_pool *pool, groups *all, qdot_expr power, qdot_expr coefficient)
+add_to_group(qdot_pool *pool, groups *all, qdot_expr power, qdot_expr coefficient)
 {
     size_t i = 0;
 
@@ -198,22 +198,22 @@ groups_add(qdot_pool *pool, groups *all, qdot_expr power, qdot_expr coefficient)
 }
 
 static void
-gather_all(qdot_pool *pool, qdot_expr e, qdot_expr x, groups *all)
+gather_coefficients(qdot_pool *pool, qdot_expr e, qdot_expr x, groups *all)
 {
     uint32_t n;
 
     if (e == QDOT_NIL)
         return;
-    n = term_count(pool, e);
+    n = count_terms(pool, e);
     for (uint32_t i = 0; i < n && !FAILED(pool); i++) {
-        qdot_expr power, rest = split_power(pool, expand_term_at(pool, e, i), x, &power);
+        qdot_expr power, rest = split_power(pool, get_term(pool, e, i), x, &power);
 
-        groups_add(pool, all, power, rest);
+        add_to_group(pool, all, power, rest);
     }
 }
 
 static void
-groups_clear(groups *all)
+free_groups(groups *all)
 {
     for (size_t i = 0; i < all->n; i++)
         qdot_free(all->at[i].coefficients.at);
@@ -221,25 +221,25 @@ groups_clear(groups *all)
 }
 
 static qdot_expr
-collect_scalar(qdot_pool *pool, qdot_expr e, void *user)
+collect_powers_in_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr x = *(qdot_expr *)user, result = QDOT_ZERO;
     groups all = {0};
 
-    gather_all(pool, qdot_expand(pool, e), x, &all);
+    gather_coefficients(pool, qdot_expand(pool, e), x, &all);
     for (size_t i = 0; i < all.n; i++)
         result = qdot_add(pool, result,
                           qdot_mul(pool, all.at[i].power,
                                    qdot_sum(pool, all.at[i].coefficients.n,
                                             all.at[i].coefficients.at)));
-    groups_clear(&all);
+    free_groups(&all);
     return FAILED(pool) ? QDOT_NIL : result;
 }
 
 qdot_expr
 qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x)
 {
-    return qdot_value_map(pool, e, collect_scalar, &x);
+    return qdot_value_map(pool, e, collect_powers_in_scalar, &x);
 }
 
 /* Whether power is x^n with n = 0, 1, 2 ... (ONE: n = 0). */
@@ -261,7 +261,7 @@ qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
 
     if (e == QDOT_NIL || wanted == QDOT_NIL)
         return QDOT_NIL;
-    gather_all(pool, qdot_expand(pool, e), x, &all);
+    gather_coefficients(pool, qdot_expand(pool, e), x, &all);
     for (size_t i = 0; i < all.n; i++) {
         qdot_expr c = qdot_sum(pool, all.at[i].coefficients.n, all.at[i].coefficients.at);
 
@@ -272,6 +272,6 @@ qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
         else if (all.at[i].power == wanted)
             result = c;
     }
-    groups_clear(&all);
+    free_groups(&all);
     return FAILED(pool) ? QDOT_NIL : result;
 }

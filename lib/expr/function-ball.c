@@ -1,7 +1,7 @@
-/* function-ball.c -- the elementary functions of one argument in ball arithmetic, a column of function.def. */
+/* function-ball.c -- the elementary functions of one argument in ball (interval) arithmetic, for the table function.def. */
 #include "expr/function-ball.h"
 
-/* Set y to sign(x), for the table; Arb's function takes no precision. */
+/* Set y to sign(x), as the table needs it; the function of the Arb library takes no precision argument. */
 static void
 ball_sign(arb_t y, const arb_t x, slong bits)
 {

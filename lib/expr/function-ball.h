@@ -12,7 +12,7 @@
  * contains 0 is [-1, 1]. */
 typedef void qdot_fun_ball(arb_t y, const arb_t x, slong bits);
 
-/* The function of ball arithmetic for this elementary function; NULL if it takes several arguments. */
+/* The ball (interval) arithmetic version of this elementary function; NULL if it has several arguments. */
 qdot_fun_ball *qdot_fun_ball_of(qdot_fun_id id);
 
 #endif

@@ -36,9 +36,9 @@ qdot_fun_facts_of(qdot_fun_id id)
     return table + id;
 }
 
-/* An end as a double: k M_PI_2 is less than k pi/2 in magnitude, so the next double outward lies beyond it. */
+/* An end of a range as a double: k M_PI_2 is less than k pi/2 in magnitude, so the next double outward lies beyond it. */
 static double
-fun_end(const qdot_fun_end *end, double none)
+range_end_as_double(const qdot_fun_end *end, double none)
 {
     if (!end->known)
         return none;
@@ -48,8 +48,8 @@ fun_end(const qdot_fun_end *end, double none)
 void
 qdot_fun_ends(qdot_fun_id id, double *lo, double *hi)
 {
-    *lo = fun_end(&table[id].lo, -INFINITY);
-    *hi = fun_end(&table[id].hi, INFINITY);
+    *lo = range_end_as_double(&table[id].lo, -INFINITY);
+    *hi = range_end_as_double(&table[id].hi, INFINITY);
 }
 
 bool

@@ -12,7 +12,7 @@ typedef enum {
 #include "expr/function.def"
 #undef X
     QDOT_FUNCTION_COUNT,
-    QDOT_HOLD = QDOT_FUNCTION_COUNT, /* qdot_hold: has no row in function.def and no name in the language */
+    QDOT_HOLD = QDOT_FUNCTION_COUNT, /* the operator of qdot_hold: it is not in function.def, and has no name in the language */
     QDOT_FUNCTION_KINDS
 } qdot_fun_id;
 

@@ -28,8 +28,8 @@ typedef struct qdot_pool qdot_pool;
 #define QDOT_NIL 0u
 
 typedef enum {
-    QDOT_NUM = 1, /* an exact rational; qdot_expr_rational() */
-    QDOT_SYM,     /* a symbol; qdot_expr_symbol() */
+    QDOT_NUM = 1, /* an exact rational number; read it by qdot_expr_rational() */
+    QDOT_SYM,     /* a symbol; read its data by qdot_expr_symbol() */
     QDOT_SUM,     /* args: c0, t1, c1, t2, c2, ...: c0 + c1 t1 + ...; every c a NUM, no t a NUM
                      or SUM or a PROD with a coefficient other than 1 */
     QDOT_PROD,    /* args: c, b1, e1, b2, e2, ...: c b1^e1 b2^e2 ...; a power is {1, b, e} */
@@ -53,7 +53,7 @@ typedef enum {
 #define QDOT_FALSE 7u
 #define QDOT_T 8u /* the symbol t of the time */
 
-typedef enum { QDOT_EQ, QDOT_LT, QDOT_LE } qdot_rel_op; /* a > b is kept as b < a */
+typedef enum { QDOT_EQ, QDOT_LT, QDOT_LE } qdot_rel_op; /* a > b is stored as b < a */
 typedef enum { QDOT_AND, QDOT_OR, QDOT_NOT } qdot_logic_op;
 
 qdot_pool *qdot_pool_new(void); /* returns NULL if memory runs out */

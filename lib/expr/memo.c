@@ -1,4 +1,4 @@
-/* memo.c -- a table of answers in the pool. */
+/* memo.c -- a table, in the pool, of stored answers to questions about expressions. */
 #include "expr/memo.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@ struct qdot_memo {
 };
 
 static size_t
-memo_slot(qdot_expr question, uint32_t asked)
+find_slot_of_question(qdot_expr question, uint32_t asked)
 {
     return (question * 2654435761u ^ asked * 40503u) >> 7 & (SLOTS - 1);
 }
@@ -23,7 +23,7 @@ memo_slot(qdot_expr question, uint32_t asked)
 bool
 qdot_memo_find(const qdot_pool *pool, qdot_expr question, uint32_t asked, void *answer, size_t size)
 {
-    const qdot_memo *m = pool->memo == NULL ? NULL : &pool->memo[memo_slot(question, asked)];
+    const qdot_memo *m = pool->memo == NULL ? NULL : &pool->memo[find_slot_of_question(question, asked)];
 
     if (m == NULL || question == QDOT_NIL || pool->budget != UINT64_MAX || m->question != question ||
         m->asked != asked || m->stamp != pool->domains)
@@ -40,7 +40,7 @@ qdot_memo_keep(qdot_pool *pool, qdot_expr question, uint32_t asked, const void *
     if (question == QDOT_NIL || pool->budget != UINT64_MAX)
         return;
     if (pool->memo == NULL) {
-        /* not recorded in the present scope, because the pool outlives the scope */
+        /* do not record this memory in the present scope, because the pool outlives the scope */
         qdot_scope *scope = qdot_scope_pause();
 
         pool->memo = qdot_calloc(SLOTS, sizeof *pool->memo);
@@ -48,7 +48,7 @@ qdot_memo_keep(qdot_pool *pool, qdot_expr question, uint32_t asked, const void *
     }
     if (pool->memo == NULL)
         return;
-    m = &pool->memo[memo_slot(question, asked)];
+    m = &pool->memo[find_slot_of_question(question, asked)];
     *m = (qdot_memo){.question = question, .asked = asked, .stamp = pool->domains};
     memcpy(m->answer, answer, size);
 }

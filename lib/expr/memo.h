@@ -14,13 +14,13 @@
 
 #include "expr/id.h"
 
-/* The size in bytes of the largest answer that can be stored. */
+/* The size in bytes of the largest answer that the table of answers can hold. */
 #define QDOT_MEMO_BYTES 48
 
 /* The kinds of questions with stored answers; the lower 8 bits hold further data on which an answer depends. */
 enum { QDOT_MEMO_LESS = 1 << 8, QDOT_MEMO_SHORTEST = 2 << 8 };
 
-/* Copy the answer of `size` bytes. False: it is not known. */
+/* Copy the stored answer to a question, of `size` bytes, to *answer; false if none is stored. */
 bool qdot_memo_find(const qdot_pool *pool, qdot_expr question, uint32_t asked, void *answer, size_t size);
 
 /* Store an answer of `size` bytes, if there is memory. */

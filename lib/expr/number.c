@@ -43,9 +43,9 @@ qdot_expr_int(qdot_pool *pool, long n)
                      : qdot_expr_ratio(pool, n, 1);
 }
 
-/* digits * 10^exponent if it is a quotient of machine words; false if not. */
+/* Make the number digits * 10^exponent if its numerator and denominator fit into machine words; else return false. */
 static bool
-small_decimal(qdot_pool *pool, const char *digits, size_t n, long exponent, qdot_expr *e)
+make_small_decimal(qdot_pool *pool, const char *digits, size_t n, long exponent, qdot_expr *e)
 {
     enum { MOST = 18 }; /* most digits that fit: 10^18 < 2^62 */
     int64_t top = 0, bottom = 1;
@@ -110,7 +110,7 @@ qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
                                 "an exact number of more than 10^6 digits");
     }
     if (qdot_text_status(&digits) == QDOT_OK &&
-        small_decimal(pool, qdot_text_str(&digits), digits.n, exponent, &e)) {
+        make_small_decimal(pool, qdot_text_str(&digits), digits.n, exponent, &e)) {
         qdot_text_clear(&digits);
         return e;
     }

@@ -11,7 +11,7 @@
 
 /* The rank of a factor in a product: parameters, time, coordinates, velocities ... */
 static int
-factor_rank(uint32_t holds)
+rank_of_factor(uint32_t holds)
 {
     static const struct {
         uint32_t mask;
@@ -26,7 +26,7 @@ factor_rank(uint32_t holds)
                                        QDOT_HAS_MULTIPLIER | QDOT_HAS_ACCELERATION |
                                        QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM;
 
-    /* start at the row of coordinates unless e contains something of the rows before it, which is rare */
+    /* skip the table rows before that of the coordinates unless e contains a symbol of theirs, which is rare */
     for (size_t i = holds & above_coordinates ? 0 : 6; i < sizeof rows / sizeof *rows;
          i++)
         if (holds & rows[i].mask)
@@ -37,9 +37,9 @@ factor_rank(uint32_t holds)
 /* The level of a factor: a function of parameters or time stands with those of coordinates, behind
  * what it multiplies: m*g*x*sin(alpha). */
 static int
-factor_level(const qdot_node *node)
+level_of_factor(const qdot_node *node)
 {
-    int l = factor_rank(node->holds);
+    int l = rank_of_factor(node->holds);
 
     return node->kind == QDOT_FUN && l > 0 && l < 3 ? 3 : l;
 }
@@ -47,19 +47,19 @@ factor_level(const qdot_node *node)
 /* Order of kinds within a level: among parameters a sum of symbols stands first, (m1 + m2)*L^2, a
  * longer one behind, m*(R^2 + h^2); undefined functions stand last but for their values at a place, f'(a)*(x - a). */
 static int
-kind_rank(const qdot_node *node)
+rank_of_kind(const qdot_node *node)
 {
     static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12};
 
-    if (node->kind == QDOT_SUM && factor_rank(node->holds) == 1 && node->size <= node->n / 2)
-        return 2; /* a sum of k terms with about k operations: the terms are hardly more than symbols */
+    if (node->kind == QDOT_SUM && rank_of_factor(node->holds) == 1 && node->size <= node->n / 2)
+        return 2; /* a sum of k terms with about k operations: its terms are hardly more than symbols */
     if (node->kind == QDOT_UFUN && !(node->holds & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
         return rank[QDOT_FUN];
     return rank[node->kind];
 }
 
 static int
-three(uint32_t a, uint32_t b)
+compare_numbers(uint32_t a, uint32_t b)
 {
     return a < b ? -1 : a > b;
 }
@@ -70,8 +70,8 @@ compare_symbols(const qdot_symbol *a, const qdot_symbol *b)
     if (a->class != b->class)
         return a->class < b->class ? -1 : 1;
     if (a->rank != b->rank)
-        return three(a->rank, b->rank);
-    return three(a->order, b->order);
+        return compare_numbers(a->rank, b->rank);
+    return compare_numbers(a->order, b->order);
 }
 
 /* The height of a node if it exceeds 64, else 64: very deep nodes come last, the deepest at the end. */
@@ -92,31 +92,31 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
         if (a == b)
             return 0;
         if (depth_beyond_64(x) != depth_beyond_64(y)) /* so that the comparison of deep expressions does not visit all levels */
-            return three(depth_beyond_64(x), depth_beyond_64(y));
-        d = x->holds == y->holds && x->kind == y->kind ? 0 : factor_level(x) - factor_level(y);
+            return compare_numbers(depth_beyond_64(x), depth_beyond_64(y));
+        d = x->holds == y->holds && x->kind == y->kind ? 0 : level_of_factor(x) - level_of_factor(y);
         if (d == 0)
-            d = kind_rank(x) - kind_rank(y);
+            d = rank_of_kind(x) - rank_of_kind(y);
         if (d != 0)
             return d;
         if (x->kind == QDOT_NUM)
             return qdot_rational_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
         if (x->kind == QDOT_SYM)
             return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
-        if (x->kind != y->kind) /* one is an elementary function, the other an undefined one */
-            return three(x->kind, y->kind);
+        if (x->kind != y->kind) /* one of the two is an elementary function, the other an undefined one */
+            return compare_numbers(x->kind, y->kind);
         if (x->kind == QDOT_FUN && x->n == 1 && y->n == 1 &&
-            /* different arguments: order sinh(u)^2, sin(v)^2 by u and v first */
+            /* if the arguments differ, order sinh(u)^2, sin(v)^2 by u and v first */
             ARGS(pool, a)[0] != ARGS(pool, b)[0]) {
             a = ARGS(pool, a)[0];
             b = ARGS(pool, b)[0];
             continue;
         }
         if (x->kind == QDOT_FUN && (x->n == 1) != (y->n == 1))
-            return three(x->n, y->n);
+            return compare_numbers(x->n, y->n);
         if (x->op != y->op)
-            return three(x->op, y->op);
+            return compare_numbers(x->op, y->op);
         if (x->n != y->n)
-            return three(x->n, y->n);
+            return compare_numbers(x->n, y->n);
         while (ARGS(pool, a)[i] == ARGS(pool, b)[i])
             i++;
         d = (int)i;
@@ -125,10 +125,10 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
     }
 }
 
-/* Find the i-th (base, exponent) of a term seen as a product. */
+/* Find the i-th base and exponent of a term, which is treated as a product of powers. */
 static void
-order_factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
-                qdot_expr *exponent)
+term_factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
+               qdot_expr *exponent)
 {
     if (NODE(pool, e)->kind != QDOT_PROD) {
         *base = e;
@@ -140,7 +140,7 @@ order_factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
 }
 
 static uint32_t
-factors(const qdot_pool *pool, qdot_expr e)
+factor_count(const qdot_pool *pool, qdot_expr e)
 {
     return NODE(pool, e)->kind == QDOT_PROD ? (NODE(pool, e)->n - 1) / 2 : 1;
 }
@@ -163,10 +163,10 @@ compare_bases(const qdot_pool *pool, qdot_expr a, qdot_expr b)
     const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
 
     if ((x->kind == QDOT_SUM) != (y->kind == QDOT_SUM) && depth_beyond_64(x) == depth_beyond_64(y) &&
-        factor_level(x) == 1 && factor_level(y) == 1)
+        level_of_factor(x) == 1 && level_of_factor(y) == 1)
         return x->kind == QDOT_SUM ? -1 : 1;
     if (x->kind == QDOT_UFUN && y->kind == QDOT_UFUN && x->op == y->op && x->n == y->n &&
-        depth_beyond_64(x) == depth_beyond_64(y) && factor_rank(x->holds) == factor_rank(y->holds))
+        depth_beyond_64(x) == depth_beyond_64(y) && rank_of_factor(x->holds) == rank_of_factor(y->holds))
         for (uint32_t i = x->n / 2; i < x->n; i++) {
             int d = qdot_rational_cmp(RATIONAL(pool, ARGS(pool, b)[i]),
                                       RATIONAL(pool, ARGS(pool, a)[i]));
@@ -180,17 +180,17 @@ compare_bases(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 int
 qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    uint32_t na = factors(pool, a), nb = factors(pool, b), ha = NODE(pool, a)->holds;
-    int d = NODE(pool, b)->holds == ha ? 0 : factor_rank(NODE(pool, b)->holds) - factor_rank(ha);
+    uint32_t na = factor_count(pool, a), nb = factor_count(pool, b), ha = NODE(pool, a)->holds;
+    int d = NODE(pool, b)->holds == ha ? 0 : rank_of_factor(NODE(pool, b)->holds) - rank_of_factor(ha);
 
     if (d != 0 || a == b)
         return d;
     while (na > 0 && nb > 0) {
         qdot_expr base_a, base_b, exp_a, exp_b;
 
-        order_factor_at(pool, a, --na, &base_a, &exp_a);
-        order_factor_at(pool, b, --nb, &base_b, &exp_b);
-        d = factor_rank(NODE(pool, base_a)->holds) != factor_rank(NODE(pool, base_b)->holds)
+        term_factor_at(pool, a, --na, &base_a, &exp_a);
+        term_factor_at(pool, b, --nb, &base_b, &exp_b);
+        d = rank_of_factor(NODE(pool, base_a)->holds) != rank_of_factor(NODE(pool, base_b)->holds)
                 ? 0
                 : is_root_of_sum(pool, base_a, exp_a) - is_root_of_sum(pool, base_b, exp_b);
         if (d == 0)
@@ -200,7 +200,7 @@ qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
         if (d != 0)
             return d;
     }
-    return three(na, nb);
+    return compare_numbers(na, nb);
 }
 
 bool
@@ -209,7 +209,7 @@ qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
     switch (NODE(pool, e)->kind) {
     case QDOT_NUM: return qdot_rational_sgn(RATIONAL(pool, e)) < 0;
     case QDOT_PROD: return qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
-    case QDOT_SUM: /* a sum known to be positive is not turned: cosh(v) - cos(u) */
+    case QDOT_SUM: /* a sum known to be positive is not replaced by its negative: cosh(v) - cos(u) */
         return NODE(pool, e)->sign & (QDOT_GE0 | QDOT_LE0)
                    ? !(NODE(pool, e)->sign & QDOT_GE0)
                    : qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
@@ -220,7 +220,7 @@ qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
 /* --- signs of products and sums --------------------------------------------------------- */
 
 static uint8_t
-flip(uint8_t s)
+flip_sign_bits(uint8_t s)
 {
     return (uint8_t)((s & QDOT_NE0) | (s & QDOT_GE0 ? QDOT_LE0 : 0) |
                      (s & QDOT_LE0 ? QDOT_GE0 : 0));
@@ -277,7 +277,7 @@ qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
         uint8_t s = NODE(pool, args[i])->sign;
 
         if (qdot_rational_sgn(RATIONAL(pool, args[i + 1])) < 0)
-            s = flip(s);
+            s = flip_sign_bits(s);
         all &= s;
         any |= s & QDOT_NE0;
     }

@@ -1,4 +1,4 @@
-/* pool.c -- the pool: interning, failure, symbols, numbers. */
+/* pool.c -- the pool of expressions: it shares equal nodes, and stores symbols, numbers and the first failure. */
 #include "expr/pool.h"
 
 #include <stdarg.h>
@@ -17,7 +17,7 @@
 #include "expr/printed.h"
 
 static uint32_t
-hash_mix(uint32_t h, uint32_t x)
+mix_into_hash(uint32_t h, uint32_t x)
 {
     h ^= x + 0x9e3779b9u + (h << 6) + (h >> 2);
     h *= 0x85ebca6bu;
@@ -103,7 +103,7 @@ is_same_node(const qdot_pool *pool, qdot_expr e, qdot_kind kind, uint16_t op, ui
 }
 
 static qdot_status
-rehash(qdot_pool *pool)
+enlarge_hash_table(qdot_pool *pool)
 {
     uint32_t size = (pool->mask + 1) * 2;
     uint32_t *bigger = qdot_calloc(size, sizeof *bigger);
@@ -125,7 +125,7 @@ rehash(qdot_pool *pool)
 
 /* Append a node and enter it in the hash table. */
 static qdot_expr
-pool_append(qdot_pool *pool, const qdot_node *node)
+append_node(qdot_pool *pool, const qdot_node *node)
 {
     uint32_t i;
 
@@ -134,7 +134,7 @@ pool_append(qdot_pool *pool, const qdot_node *node)
     if (pool->nodes.n * 2 > pool->mask) {
         /* not recorded in the present scope, because the pool outlives the scope */
         qdot_scope *scope = qdot_scope_pause();
-        qdot_status status = rehash(pool);
+        qdot_status status = enlarge_hash_table(pool);
 
         qdot_scope_resume(scope);
         if (status != QDOT_OK)
@@ -160,9 +160,9 @@ qdot_pool_interrupted(qdot_pool *pool)
     return true;
 }
 
-/* Whether to continue: counts against the budget (more for a node with many args), and tests for Ctrl-C. */
+/* Whether to make another node: counts it against the work budget (more for many args), and tests for Ctrl-C. */
 static bool
-may_work(qdot_pool *pool, uint32_t args)
+may_continue_work(qdot_pool *pool, uint32_t args)
 {
     uint64_t cost = 1 + args / 16;
 
@@ -185,17 +185,17 @@ qdot_expr
 qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
                  const qdot_expr *args, uint8_t sign)
 {
-    uint32_t hash = hash_mix(hash_mix(kind, op), n), i;
+    uint32_t hash = mix_into_hash(mix_into_hash(kind, op), n), i;
     qdot_node node = {.kind = (uint8_t)kind, .sign = sign, .op = op, .n = n};
     bool inside = args >= pool->args.at && args < pool->args.at + pool->args.n;
     size_t offset = inside ? (size_t)(args - pool->args.at) : 0;
 
-    if (!may_work(pool, n))
+    if (!may_continue_work(pool, n))
         return QDOT_NIL;
     for (uint32_t k = 0; k < n; k++) {
         if (args[k] == QDOT_NIL)
             return qdot_pool_refuse(pool, QDOT_EINVAL, "an expression without a value");
-        hash = hash_mix(hash, args[k]);
+        hash = mix_into_hash(hash, args[k]);
     }
     for (i = hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask)
         if (is_same_node(pool, pool->table[i], kind, op, n, args, hash))
@@ -225,7 +225,7 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
     if (n > 0)
         memmove(pool->args.at + pool->args.n, args, n * sizeof *args);
     pool->args.n += n;
-    return pool_append(pool, &node);
+    return append_node(pool, &node);
 }
 
 /* --- numbers as nodes ----------------------------------------------------------------- */
@@ -242,13 +242,13 @@ static uint32_t
 hash_fmpz(uint32_t h, const fmpz_t x)
 {
     if (!COEFF_IS_MPZ(*x))
-        return hash_mix(hash_mix(h, (uint32_t)*x), (uint32_t)((uint64_t)*x >> 32));
-    h = hash_mix(h, (uint32_t)fmpz_fdiv_ui(x, 4294967291u));
-    return hash_mix(h, (uint32_t)fmpz_bits(x) * 2 + (fmpz_sgn(x) < 0));
+        return mix_into_hash(mix_into_hash(h, (uint32_t)*x), (uint32_t)((uint64_t)*x >> 32));
+    h = mix_into_hash(h, (uint32_t)fmpz_fdiv_ui(x, 4294967291u));
+    return mix_into_hash(h, (uint32_t)fmpz_bits(x) * 2 + (fmpz_sgn(x) < 0));
 }
 
 static bool
-rational_is_small(const fmpq_t x)
+is_small_rational(const fmpq_t x)
 {
     return !COEFF_IS_MPZ(*fmpq_numref(x)) && !COEFF_IS_MPZ(*fmpq_denref(x));
 }
@@ -256,7 +256,7 @@ rational_is_small(const fmpq_t x)
 bool
 qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
 {
-    if (rational_is_small(x))
+    if (is_small_rational(x))
         return false;
     if (fmpz_bits(fmpq_numref(x)) <= QDOT_MAX_BITS &&
         fmpz_bits(fmpq_denref(x)) <= QDOT_MAX_BITS)
@@ -265,9 +265,9 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
     return true;
 }
 
-/* Memory of the pool itself, which never moves; NULL if there is none. */
+/* Allocate memory in the pool, which never moves; NULL if memory runs out. */
 static void *
-pool_room(qdot_pool *pool, size_t bytes)
+allocate_in_pool(qdot_pool *pool, size_t bytes)
 {
     qdot_scope *scope = qdot_scope_pause(); /* not recorded in the present scope, because the pool outlives the scope */
     void *room = qdot_arena_take(pool->arena, bytes);
@@ -279,7 +279,7 @@ pool_room(qdot_pool *pool, size_t bytes)
 /* *y = x for as long as the pool lives: a large integer is one of GMP's that is only read, in the
  * pool's own memory, so that any thread may use it, whose FLINT made it or not. */
 static bool
-keep_integer(qdot_pool *pool, fmpz *y, const fmpz_t x)
+store_integer(qdot_pool *pool, fmpz *y, const fmpz_t x)
 {
     const __mpz_struct *from;
     size_t bytes;
@@ -290,7 +290,7 @@ keep_integer(qdot_pool *pool, fmpz *y, const fmpz_t x)
         return true;
     from = COEFF_TO_PTR(*x);
     bytes = mpz_size(from) * sizeof(mp_limb_t);
-    room = pool_room(pool, sizeof *from + bytes);
+    room = allocate_in_pool(pool, sizeof *from + bytes);
     if (room == NULL)
         return false;
     memcpy(room + sizeof *from, mpz_limbs_read(from), bytes);
@@ -304,10 +304,10 @@ qdot_expr
 qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
 {
     qdot_node node = {.kind = QDOT_NUM, .sign = sign_of_number(x)};
-    bool small = rational_is_small(x);
+    bool small = is_small_rational(x);
     fmpq *copy;
 
-    if (!may_work(pool, 0) || qdot_number_too_large(pool, x))
+    if (!may_continue_work(pool, 0) || qdot_number_too_large(pool, x))
         return QDOT_NIL;
     node.hash = hash_fmpz(hash_fmpz(QDOT_NUM, fmpq_numref(x)), fmpq_denref(x));
     for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0;
@@ -321,12 +321,12 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
             return e;
     }
     node.at = (uint32_t)pool->numbers.n;
-    copy = pool_room(pool, sizeof *copy);
-    if (copy == NULL || !keep_integer(pool, fmpq_numref(copy), fmpq_numref(x)) ||
-        !keep_integer(pool, fmpq_denref(copy), fmpq_denref(x)) ||
+    copy = allocate_in_pool(pool, sizeof *copy);
+    if (copy == NULL || !store_integer(pool, fmpq_numref(copy), fmpq_numref(x)) ||
+        !store_integer(pool, fmpq_denref(copy), fmpq_denref(x)) ||
         qdot_vec_push(&pool->numbers, copy) != QDOT_OK)
         return qdot_pool_fail(pool);
-    return pool_append(pool, &node);
+    return append_node(pool, &node);
 }
 
 /* --- symbols as nodes ----------------------------------------------------------------- */
@@ -334,13 +334,13 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
 /* The symbol if it is there, else nil; *hash that of its node. What has a base is known by it,
  * whatever its name. */
 static qdot_expr
-known_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash)
+find_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash)
 {
-    uint32_t h = hash_mix(hash_mix(hash_mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
+    uint32_t h = mix_into_hash(mix_into_hash(mix_into_hash(QDOT_SYM, wanted->class), wanted->base), wanted->order);
 
     if (wanted->base == QDOT_NIL)
         for (const char *c = wanted->name; *c != '\0'; c++)
-            h = hash_mix(h, (unsigned char)*c);
+            h = mix_into_hash(h, (unsigned char)*c);
     *hash = h;
     for (uint32_t i = h & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
         qdot_expr e = pool->table[i];
@@ -355,16 +355,16 @@ known_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash)
 }
 
 static qdot_expr
-symbol(qdot_pool *pool, const qdot_symbol *wanted)
+find_or_make_symbol(qdot_pool *pool, const qdot_symbol *wanted)
 {
     qdot_node node = {.kind = QDOT_SYM, .sign = wanted->sign};
     qdot_symbol copy = *wanted;
     qdot_scope *scope;
     qdot_expr e;
 
-    if (!may_work(pool, 0))
+    if (!may_continue_work(pool, 0))
         return QDOT_NIL;
-    e = known_symbol(pool, wanted, &node.hash);
+    e = find_symbol(pool, wanted, &node.hash);
     if (e != QDOT_NIL)
         return e;
     scope = qdot_scope_pause();
@@ -383,13 +383,13 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
                                                : QDOT_HAS_ACCELERATION;
     if (qdot_vec_push(&pool->symbols, copy) != QDOT_OK)
         return qdot_pool_fail(pool);
-    return pool_append(pool, &node);
+    return append_node(pool, &node);
 }
 
 qdot_expr
 qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name)
 {
-    return symbol(pool, &(qdot_symbol){.class = class, .name = name});
+    return find_or_make_symbol(pool, &(qdot_symbol){.class = class, .name = name});
 }
 
 void
@@ -406,7 +406,7 @@ qdot_symbol_show(qdot_pool *pool, qdot_expr x)
     qdot_expr other;
 
     s->hidden = true;
-    other = known_symbol(pool, s, &hash);
+    other = find_symbol(pool, s, &hash);
     if (other != QDOT_NIL)
         qdot_symbol_hide(pool, other);
     s->hidden = false;
@@ -417,7 +417,7 @@ has_symbol(const qdot_pool *pool, qdot_class class, const char *name)
 {
     uint32_t hash;
 
-    return known_symbol(pool, &(qdot_symbol){.class = class, .name = name}, &hash) != QDOT_NIL;
+    return find_symbol(pool, &(qdot_symbol){.class = class, .name = name}, &hash) != QDOT_NIL;
 }
 
 bool
@@ -433,20 +433,20 @@ qdot_symbol_is_known(const qdot_pool *pool, const char *name)
     return qdot_symbol_is_declared(pool, name) || has_symbol(pool, QDOT_FORMAL, name);
 }
 
-/* A symbol that belongs to a coordinate, named by the coordinate's name between two texts. */
+/* Make a symbol that belongs to a coordinate: its name is the coordinate's name between `before` and `after`. */
 static qdot_expr
-symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t order,
-             const char *before, const char *after)
+make_coordinate_symbol(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t order,
+                       const char *before, const char *after)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, coordinate);
     qdot_symbol wanted = {
         .class = class, .base = coordinate, .order = order, .rank = s->rank};
     qdot_text name = {0};
     uint32_t hash;
-    qdot_expr e = known_symbol(pool, &wanted, &hash);
+    qdot_expr e = find_symbol(pool, &wanted, &hash);
 
     if (e != QDOT_NIL)
-        return may_work(pool, 0) ? e : QDOT_NIL;
+        return may_continue_work(pool, 0) ? e : QDOT_NIL;
     qdot_text_add(&name, before);
     qdot_text_add(&name, s->name);
     qdot_text_add(&name, after);
@@ -457,7 +457,7 @@ symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t o
         return qdot_pool_fail(pool);
     }
     wanted.name = qdot_text_str(&name);
-    e = symbol(pool, &wanted);
+    e = find_or_make_symbol(pool, &wanted);
     qdot_text_clear(&name);
     return e;
 }
@@ -475,7 +475,7 @@ qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
     if (s->order > 0)
         coordinate = s->base;
     return order == 0 ? coordinate
-                      : symbol_about(pool, QDOT_COORD, coordinate, order, "", "");
+                      : make_coordinate_symbol(pool, QDOT_COORD, coordinate, order, "", "");
 }
 
 qdot_expr
@@ -489,9 +489,9 @@ qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate)
     if (!known)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a coordinate is needed here");
     if (class == QDOT_DIFFERENTIAL)
-        return symbol_about(pool, class, coordinate, 0, "d", "");
-    return symbol_about(pool, class, coordinate, 0,
-                        class == QDOT_MOMENTUM ? "p[" : "delta[", "]");
+        return make_coordinate_symbol(pool, class, coordinate, 0, "d", "");
+    return make_coordinate_symbol(pool, class, coordinate, 0,
+                                  class == QDOT_MOMENTUM ? "p[" : "delta[", "]");
 }
 
 void
@@ -542,8 +542,8 @@ qdot_pool_new(void)
            qdot_expr_ratio(pool, 1, 1) == QDOT_ONE &&
            qdot_expr_ratio(pool, -1, 1) == QDOT_MINUS_ONE &&
            qdot_expr_ratio(pool, 1, 2) == QDOT_HALF &&
-           symbol(pool,
-                  &(qdot_symbol){.class = QDOT_CONST, .name = "pi", .sign = QDOT_POS}) ==
+           find_or_make_symbol(pool,
+                               &(qdot_symbol){.class = QDOT_CONST, .name = "pi", .sign = QDOT_POS}) ==
                QDOT_PI &&
            qdot_symbol_get(pool, QDOT_CONST, "true") == QDOT_TRUE &&
            qdot_symbol_get(pool, QDOT_CONST, "false") == QDOT_FALSE &&

@@ -15,7 +15,7 @@ typedef struct qdot_memo qdot_memo;
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* nodes.at[0] is nil */
     qdot_vec(qdot_expr) args;
-    qdot_vec(fmpq *) numbers; /* in the arena, at fixed addresses; read only: FLINT must not clear them */
+    qdot_vec(fmpq *) numbers; /* numbers in the arena, at fixed addresses; read only: FLINT must not free them */
     qdot_vec(qdot_symbol) symbols;
     qdot_vec(qdot_ufun) ufuns;
     uint32_t *table; /* open hash table of node ids, mask + 1 slots */
@@ -37,16 +37,16 @@ qdot_expr qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_
 qdot_expr qdot_pool_refuse(qdot_pool *pool, qdot_status status, const char *format, ...)
     QDOT_PRINTF(3, 4);
 
-/* Order of terms in a sum: accelerations, velocities ... first, then as a book sorts. */
+/* Order of terms in a sum: accelerations, velocities ... first, then in the usual order of textbooks. */
 int qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 
-/* e without its numerical coefficient; and for any scalar also the coefficient c. */
+/* _strip: e without its numerical coefficient; _unscale, for any scalar: also that coefficient, c. */
 qdot_expr qdot_expr_strip(qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c);
 
 /* -1 times a SUM, with every coefficient negated, so that -(a - b) becomes b - a. */
 qdot_expr qdot_sum_turned(qdot_pool *pool, qdot_expr sum);
-/* Whether e as a factor only combines with factors of the same base. */
+/* Whether e, as a factor of a product, combines only with factors of the same base. */
 bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
 
 /* A difference among the factors of e that can take a minus sign before them: -m*(a - b) is
@@ -58,7 +58,7 @@ qdot_expr qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const q
 /* The PROD e with the factor b^x at args[i] replaced by x b^(x - 1) inner. */
 qdot_expr qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner);
 
-/* y = x^n within the limit on digits; x not zero if n < 0. False: refused. */
+/* Compute y = x^n if it has not too many digits; x must not be 0 for n < 0. False: refused. */
 bool qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n);
 /* b^e = c base^exponent, e not an integer: c takes everything rational, the remaining exponent is
  * in (0, 1), usually 1/q of an integer free of q-th powers; base 1: nothing remains. False:

@@ -8,7 +8,7 @@
 #include "expr/print-name.h"
 #include "formula/formula.h"
 
-/* The formula notation in which a style is written. */
+/* The notation (LaTeX, MathML, a line of text ...) in which formulas of this style are written. */
 qdot_notation_kind qdot_print_notation(qdot_style style);
 
 /* Append e as a child of the parent; `in` a LIST of symbols if it is a series in them, else nil. Errors: QDOT_EINVAL
@@ -17,7 +17,7 @@ QDOT_MUST_CHECK qdot_status qdot_print_formula(const qdot_pool *pool, qdot_expr 
                                                qdot_notation_kind notation, qdot_formula *out,
                                                qdot_formula_id parent);
 
-/* Append a formula of the style's notation as text. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Append a formula as text, in the notation of the style. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_print_written(const qdot_formula *f, qdot_formula_id id, qdot_style style,
                                                qdot_text *out);
 

@@ -1,4 +1,4 @@
-/* print-function.c -- elementary and undefined functions, and their derivatives, as formulas. */
+/* print-function.c -- prints elementary and undefined functions, and their derivatives. */
 #include <string.h>
 
 #include "expr/exact.h"
@@ -46,7 +46,7 @@ qdot_print_function(printer *p, qdot_expr e, int context)
 
 /* --- printing undefined functions --------------------------------------------------------------- */
 
-/* Print the arguments (s, t) of an application, or the declared ones. */
+/* Print the arguments (s, t) to which a function is applied, or the arguments with which it was declared. */
 static void
 print_arguments(printer *p, qdot_expr e, bool declared)
 {
@@ -59,7 +59,7 @@ print_arguments(printer *p, qdot_expr e, bool declared)
 }
 
 static uint32_t
-derivative_order(const qdot_pool *pool, qdot_expr e, uint32_t i)
+order_of_derivative(const qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     long order = 0;
 
@@ -67,9 +67,9 @@ derivative_order(const qdot_pool *pool, qdot_expr e, uint32_t i)
     return (uint32_t)order;
 }
 
-/* Print subs(diff(x(s, t), s, 2), s = a), the shortest text that parses back. */
+/* Print a derivative as subs(diff(x(s, t), s, 2), s = a), the shortest text that can be read back. */
 static void
-derivative_plain(printer *p, qdot_expr e, bool moved)
+print_derivative_as_input(printer *p, qdot_expr e, bool moved)
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
@@ -78,16 +78,16 @@ derivative_plain(printer *p, qdot_expr e, bool moved)
     if (moved)
         qdot_print_text(p, "subs(");
     for (uint32_t i = 0; i < n; i++)
-        if (derivative_order(pool, e, i) > 0)
+        if (order_of_derivative(pool, e, i) > 0)
             qdot_print_text(p, "diff(");
     qdot_print_spelled(p, f->name);
     print_arguments(p, e, true);
     for (uint32_t i = 0; i < n; i++) {
-        if (derivative_order(pool, e, i) == 0)
+        if (order_of_derivative(pool, e, i) == 0)
             continue;
         qdot_print_text(p, ", ");
         child(p, ARGS(pool, f->formals)[i], TOP);
-        if (derivative_order(pool, e, i) > 1) {
+        if (order_of_derivative(pool, e, i) > 1) {
             qdot_print_text(p, ", ");
             child(p, ARGS(pool, e)[n + i], TOP);
         }
@@ -108,7 +108,7 @@ derivative_plain(printer *p, qdot_expr e, bool moved)
 
 /* Print the order of a derivative as a superscript of `sign`, or of e: ∂², s². */
 static void
-with_order(printer *p, qdot_formula_sign sign, qdot_expr e, uint32_t order)
+print_with_order(printer *p, qdot_formula_sign sign, qdot_expr e, uint32_t order)
 {
     const qdot_formula_id outer = p->at;
 
@@ -123,9 +123,9 @@ with_order(printer *p, qdot_formula_sign sign, qdot_expr e, uint32_t order)
     p->at = outer;
 }
 
-/* Print ∂²x/∂s ∂t, drawn if possible; other arguments than the declared ones follow. */
+/* Print a partial derivative ∂²x/∂s ∂t, as a fraction if possible; arguments other than the declared ones follow. */
 static void
-derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int context)
+print_partial_derivative(printer *p, qdot_expr e, uint32_t total, bool moved, int context)
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
@@ -138,19 +138,19 @@ derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int cont
     print_begin_bracket(p, !moved && context >= BASE);
     apply = print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
     bar = print_begin_row(p);
-    with_order(p, QDOT_SIGN_PARTIAL, QDOT_NIL, total);
+    print_with_order(p, QDOT_SIGN_PARTIAL, QDOT_NIL, total);
     print_sign(p, QDOT_SIGN_BLANK);
     qdot_print_spelled(p, f->name);
     p->at = bar;
     print_begin_row(p);
     for (uint32_t i = 0; i < f->arity; i++) {
-        if (derivative_order(pool, e, i) == 0)
+        if (order_of_derivative(pool, e, i) == 0)
             continue;
         if (!first)
             print_sign(p, QDOT_SIGN_BLANK);
         print_sign(p, QDOT_SIGN_PARTIAL);
         print_sign(p, QDOT_SIGN_BLANK);
-        with_order(p, QDOT_SIGN_PARTIAL, ARGS(pool, f->formals)[i], derivative_order(pool, e, i));
+        print_with_order(p, QDOT_SIGN_PARTIAL, ARGS(pool, f->formals)[i], order_of_derivative(pool, e, i));
         first = false;
     }
     p->at = apply;
@@ -170,16 +170,16 @@ qdot_print_ufun(printer *p, qdot_expr e, int context)
     bool moved = false;
 
     for (uint32_t i = 0; i < f->arity; i++) {
-        total += derivative_order(pool, e, i);
+        total += order_of_derivative(pool, e, i);
         moved |= ARGS(pool, e)[i] != ARGS(pool, f->formals)[i];
     }
     if (total > 0 && f->arity > 1 && is_drawn(p)) {
-        derivative_partial(p, e, total, moved, context);
+        print_partial_derivative(p, e, total, moved, context);
         return;
     }
     if (total > 0 && !is_drawn(p) &&
         (f->arity > 1 || (p->notation == QDOT_NOTATION_SCRIPT && (!moved || total > 3)))) {
-        derivative_plain(p, e, moved);
+        print_derivative_as_input(p, e, moved);
         return;
     }
     print_begin(p, QDOT_FORMULA_APPLY, 0, 0);

@@ -1,4 +1,4 @@
-/* print-number.c -- numbers as formulas. */
+/* print-number.c -- prints numbers in formulas. */
 #include <stdio.h>
 #include <string.h>
 
@@ -30,17 +30,17 @@ fraction_character(const fmpq_t x)
     return NULL;
 }
 
-/* |x| as a decimal number: its numerator times factor^times 10^-places. */
+/* The absolute value of x = p/q as a decimal number: |p| times factor^times times 10^-places. */
 struct decimal {
     ulong factor, times, places;
 };
 
-/* A decimal number longer than its fraction is written only up to this many digits. */
+/* A decimal number with more digits than its fraction is used only up to this many digits. */
 enum { LONGEST_DECIMAL = 40 };
 
-/* The exponents of 5 and 2 in q; whether nothing else is left. Small q avoid FLINT, which is loaded late. */
+/* Find the exponents of 5 and 2 in q; whether q has no other prime factors. Small q are treated without FLINT. */
 static bool
-fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
+count_fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
 {
     fmpz_t rest, five, two;
     bool all;
@@ -67,7 +67,7 @@ fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
     return all;
 }
 
-/* The number of digits of n, or one more. */
+/* The number of decimal digits of n, or one more. */
 static size_t
 count_digits(const fmpz_t n)
 {
@@ -82,17 +82,17 @@ count_digits(const fmpz_t n)
 
 /* Whether x = p/q is written as a decimal: q has a factor 5 and otherwise only factors 2. */
 static bool
-as_decimal(const fmpq_t x, struct decimal *d)
+find_decimal_form(const fmpq_t x, struct decimal *d)
 {
     ulong fives, twos;
     size_t more;
 
-    if (!fives_and_twos(fmpq_denref(x), &fives, &twos) || fives == 0)
+    if (!count_fives_and_twos(fmpq_denref(x), &fives, &twos) || fives == 0)
         return false;
     d->factor = twos > fives ? 5 : 2;
     d->times = twos > fives ? twos - fives : fives - twos;
     d->places = twos > fives ? twos : fives;
-    /* number of decimal digits that the missing factor 2^k or 5^k adds */
+    /* number of decimal digits that multiplying the numerator by factor^times (2^k or 5^k) adds */
     more = twos > fives ? d->times * 7 / 10 : d->times * 31 / 100;
     return count_digits(fmpq_numref(x)) + more <= LONGEST_DECIMAL ||
            more <= count_digits(fmpq_denref(x));
@@ -103,7 +103,7 @@ is_decimal(const fmpq_t x)
 {
     struct decimal d;
 
-    return as_decimal(x, &d);
+    return find_decimal_form(x, &d);
 }
 
 bool
@@ -121,7 +121,7 @@ struct numbers {
 enum { LARGEST_SHORT = 20 }; /* largest numerator and denominator of a short fraction: 1/5, 3/20; 9.81 stays decimal */
 
 static void
-note_number(const fmpq_t x, struct numbers *seen)
+note_number_kind(const fmpq_t x, struct numbers *seen)
 {
     static const fmpz largest[1] = {LARGEST_SHORT};
     ulong fives, twos;
@@ -132,13 +132,13 @@ note_number(const fmpq_t x, struct numbers *seen)
         seen->decimal = true;
         seen->long_decimal |= fmpz_cmpabs(fmpq_numref(x), largest) > 0 || fmpz_cmp(fmpq_denref(x), largest) > 0;
     } else {
-        seen->fraction |= !fives_and_twos(fmpq_denref(x), &fives, &twos);
+        seen->fraction |= !count_fives_and_twos(fmpq_denref(x), &fives, &twos);
     }
 }
 
-/* Look at the numbers among the arguments of a node; a number that is an exponent says nothing of the others. */
+/* Note which kinds of numbers (decimals, fractions) are among the arguments of a node, exponents left out. */
 static void
-note_arguments(const qdot_pool *pool, qdot_expr e, struct numbers *seen)
+note_argument_kinds(const qdot_pool *pool, qdot_expr e, struct numbers *seen)
 {
     const qdot_node *node = NODE(pool, e);
     const uint32_t step = node->kind == QDOT_PROD ? 2 : 1;
@@ -147,7 +147,7 @@ note_arguments(const qdot_pool *pool, qdot_expr e, struct numbers *seen)
         const qdot_expr k = ARGS(pool, e)[i];
 
         if (NODE(pool, k)->kind == QDOT_NUM)
-            note_number(RATIONAL(pool, k), seen);
+            note_number_kind(RATIONAL(pool, k), seen);
     }
 }
 
@@ -160,7 +160,7 @@ qdot_print_wants_fractions(const qdot_pool *pool, qdot_expr e, bool *wants)
     QDOT_TRY(qdot_walk_begin(pool, e, &w));
     for (size_t i = 0; i < w.n; i++)
         if (NODE(pool, w.at[i])->kind != QDOT_NUM && NODE(pool, w.at[i])->kind != QDOT_SYM)
-            note_arguments(pool, w.at[i], &seen);
+            note_argument_kinds(pool, w.at[i], &seen);
     qdot_walk_end(&w);
     *wants = seen.fraction && seen.decimal && !seen.long_decimal;
     return QDOT_OK;
@@ -173,7 +173,7 @@ qdot_print_is_compact(const printer *p, const fmpq_t x)
 }
 
 static void
-small_integer(int64_t n, qdot_text *out)
+append_small_integer(int64_t n, qdot_text *out)
 {
     char digits[24], *at = digits + sizeof digits;
     uint64_t left = n < 0 ? -(uint64_t)n : (uint64_t)n;
@@ -188,12 +188,12 @@ small_integer(int64_t n, qdot_text *out)
 }
 
 static void
-integer(const fmpz_t n, qdot_text *out)
+append_integer(const fmpz_t n, qdot_text *out)
 {
     char few[64], *digits = few;
 
     if (!COEFF_IS_MPZ(*n)) {
-        small_integer(*n, out);
+        append_small_integer(*n, out);
         return;
     }
     if (fmpz_sizeinbase(n, 10) + 2 > sizeof few) {
@@ -212,9 +212,9 @@ integer(const fmpz_t n, qdot_text *out)
 /* A number with more zeros after the point than this is written with a power of ten. */
 enum { MOST_ZEROS = 3 };
 
-/* Append the digits of |n| factor^times. */
+/* Append the digits of |n| factor^times, that is, of a decimal number without its point. */
 static void
-decimal_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
+append_numerator_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
 {
     fmpz_t whole;
 
@@ -234,13 +234,13 @@ decimal_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
     fmpz_pow_ui(whole, whole, d->times);
     fmpz_mul(whole, whole, n);
     fmpz_abs(whole, whole);
-    integer(whole, out);
+    append_integer(whole, out);
     fmpz_clear(whole);
 }
 
-/* Append the digits [n] with the decimal point, as 9.81 or 0.05; small: the 6.67 of 6.67e-11. */
+/* Append the digits [n] with a decimal point, such as 9.81 or 0.05; small: only the mantissa 6.67 of 6.67e-11. */
 static void
-decimal_text(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
+append_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
 {
     const size_t whole = small ? 1 : n > places ? n - places : 0;
 
@@ -251,24 +251,24 @@ decimal_text(const char *digits, size_t n, ulong places, bool small, qdot_text *
     qdot_text_add_n(out, digits + whole, n - whole);
 }
 
-/* Append the size of x as a decimal number in a line. */
+/* Append the absolute value of x as a decimal number within a line of text, such as 9.81 or 6.67e-11. */
 static void
-line_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
+append_decimal_in_line(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
 {
-    decimal_text(digits, n, places, small, out);
+    append_decimal(digits, n, places, small, out);
     if (small)
         qdot_text_format(out, "e-%lu", places - n + 1);
 }
 
 /* Append a decimal number as a drawn formula: 6.67 10^-11. */
 static void
-drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small)
+print_drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small)
 {
     qdot_formula *f = p->out;
     size_t from = f->text.n;
     qdot_formula_id power, row;
 
-    decimal_text(digits, n, places, small, &f->text);
+    append_decimal(digits, n, places, small, &f->text);
     qdot_formula_add_tail(f, p->at, QDOT_TEXT_NUMBER, from);
     if (!small)
         return;
@@ -282,7 +282,7 @@ drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small
     qdot_formula_add_tail(f, row, QDOT_TEXT_NUMBER, from);
 }
 
-/* Print x as a decimal number with its sign; bracket as for qdot_print_number. */
+/* Print x as a decimal number with its sign; `bracket` as for qdot_print_number. */
 static void
 print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
 {
@@ -291,7 +291,7 @@ print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
     qdot_text digits = {0};
     bool small, product, wrap;
 
-    decimal_digits(fmpq_numref(x), d, &digits);
+    append_numerator_digits(fmpq_numref(x), d, &digits);
     if (qdot_text_status(&digits) != QDOT_OK) {
         p->status = QDOT_ENOMEM;
         qdot_text_clear(&digits);
@@ -307,11 +307,11 @@ print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
     if (minus)
         print_sign(p, QDOT_SIGN_NEGATIVE);
     if (is_drawn(p)) {
-        drawn_decimal(p, digits.at, digits.n, d->places, small);
+        print_drawn_decimal(p, digits.at, digits.n, d->places, small);
     } else {
         const size_t from = p->out->text.n;
 
-        line_decimal(digits.at, digits.n, d->places, small, &p->out->text);
+        append_decimal_in_line(digits.at, digits.n, d->places, small, &p->out->text);
         qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NUMBER, from);
     }
     qdot_text_clear(&digits);
@@ -320,12 +320,12 @@ print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
 
 /* Append the digits of |n| for an integer n. */
 static void
-print_size(printer *p, const fmpz_t n)
+print_absolute_integer(printer *p, const fmpz_t n)
 {
     qdot_text *out = &p->out->text;
     const size_t from = out->n;
 
-    integer(n, out);
+    append_integer(n, out);
     if (out->n > from && out->at[from] == '-') { /* drop the minus sign: print |n| */
         memmove(out->at + from, out->at + from + 1, out->n - from);
         out->n--;
@@ -338,7 +338,7 @@ qdot_print_integer(printer *p, uint32_t n)
 {
     const size_t from = p->out->text.n;
 
-    small_integer(n, &p->out->text);
+    append_small_integer(n, &p->out->text);
     qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NUMBER, from);
 }
 
@@ -351,7 +351,7 @@ qdot_print_number(printer *p, const fmpq_t x, int bracket)
     const qdot_formula_id outer = p->at;
     struct decimal d;
 
-    if (!p->fractions && as_decimal(x, &d)) {
+    if (!p->fractions && find_decimal_form(x, &d)) {
         print_decimal(p, x, &d, bracket);
         return;
     }
@@ -366,9 +366,9 @@ qdot_print_number(printer *p, const fmpq_t x, int bracket)
     } else {
         if (!whole)
             print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
-        print_size(p, fmpq_numref(x));
+        print_absolute_integer(p, fmpq_numref(x));
         if (!whole)
-            print_size(p, fmpq_denref(x));
+            print_absolute_integer(p, fmpq_denref(x));
     }
     p->at = outer;
 }

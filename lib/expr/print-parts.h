@@ -8,7 +8,7 @@
 #include "expr/print-name.h"
 #include "formula/formula.h"
 
-/* The precedence of the context of a part, which decides whether it needs brackets. */
+/* The context in which an expression is printed, which decides whether it needs brackets. */
 enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
 
 /* An expression to print in its context, multiplied by `coefficient` (a NUM) unless that is nil. */
@@ -16,23 +16,23 @@ struct part {
     qdot_expr e, coefficient;
     int context;
     bool turned; /* print -1 times the sum e; for a product, with one difference negated */
-    qdot_formula_id at; /* the empty SPAN node of the formula that it fills */
+    qdot_formula_id at; /* the empty node of the formula (a SPAN) that this part will fill */
 };
 
 typedef struct {
     const qdot_pool *pool;
     qdot_notation_kind notation;
     qdot_expr ascending; /* a LIST of symbols: order terms by their degree in them; nil: canonical order */
-    qdot_expr below; /* a difference in the denominators of several matrix entries: printed with one sign in all */
+    qdot_expr below; /* a difference that is in the denominators of several matrix entries, all printed with the same sign */
     bool fractions; /* decimals are printed as fractions, too: 1/5 beside 5/3 */
-    bool below_turned, turning; /* this difference was negated; an entry with it is being written */
+    bool below_turned, turning; /* that difference was negated; an entry with it is being written */
     qdot_formula *out;
     qdot_formula_id at;     /* the formula node to which children are appended */
     qdot_vec(struct part) todo; /* stack of parts still to be printed */
     qdot_status status;
 } printer;
 
-/* Whether the denominator of e is the difference whose sign must be kept. */
+/* Whether e has p->below, a difference common to several denominators, as a factor in its denominator. */
 static inline bool
 is_over_below(const printer *p, qdot_expr e)
 {
@@ -44,7 +44,7 @@ is_over_below(const printer *p, qdot_expr e)
     return false;
 }
 
-/* The difference among the factors of e into which a minus sign can be absorbed (pool.h). */
+/* The factor of e, a difference such as a - b, into which a minus sign can be absorbed: b - a. */
 static inline qdot_expr
 turnable(const printer *p, qdot_expr e)
 {
@@ -75,10 +75,10 @@ print_sign(printer *p, qdot_formula_sign sign)
     qdot_formula_add_sign(p->out, p->at, sign);
 }
 
-/* Append text unchanged, in a superscript as well as in a line. */
+/* Append text unchanged to the formula, in a superscript as well as in a line. */
 void qdot_print_text(printer *p, const char *text);
 
-/* Begin a child to which further children are appended, until p->at is set back to the returned value. */
+/* Begin a child node of the formula; what follows is appended to it until p->at is set to the returned value. */
 static inline qdot_formula_id
 print_begin(printer *p, qdot_formula_kind kind, unsigned what, unsigned flags)
 {
@@ -88,21 +88,21 @@ print_begin(printer *p, qdot_formula_kind kind, unsigned what, unsigned flags)
     return outer;
 }
 
-/* Begin round brackets if they are needed. */
+/* Begin round brackets around what is printed next, if they are needed. */
 static inline qdot_formula_id
 print_begin_bracket(printer *p, bool needed)
 {
     return needed ? print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, 0) : p->at;
 }
 
-/* Begin one of several children: a row in drawn formulas. */
+/* Begin one of several children of a formula node: as a row of its own in drawn formulas. */
 static inline qdot_formula_id
 print_begin_row(printer *p)
 {
     return print_begin(p, is_drawn(p) ? QDOT_FORMULA_ROW : QDOT_FORMULA_SPAN, 0, 0);
 }
 
-/* Begin an only child, which needs no node of its own in a line. */
+/* Begin the only child of a formula node; written in a line, it needs no node of its own. */
 static inline qdot_formula_id
 print_begin_one(printer *p)
 {
@@ -130,7 +130,7 @@ bool qdot_print_is_compact(const printer *p, const fmpq_t x);
 /* Whether e holds a fraction that has no decimal form beside decimals that are short fractions. Errors: QDOT_ENOMEM,
  * QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_print_wants_fractions(const qdot_pool *pool, qdot_expr e, bool *wants);
-/* p/q; bracket 1: a negative number in brackets, 2: a fraction too. (print-number.c) */
+/* Print the rational x; bracket 1: a negative number in brackets, 2: a fraction in brackets, too. (print-number.c) */
 void qdot_print_number(printer *p, const fmpq_t x, int bracket);
 void qdot_print_integer(printer *p, uint32_t n);
 /* c * e, e without a coefficient (or the number 1); a context below 0: the sign is already

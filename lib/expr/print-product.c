@@ -12,13 +12,13 @@
 
 /* The factors of a product that are written under one root sign. */
 struct root {
-    bool any, above;  /* there is a common root; it is above the fraction bar */
+    bool any, above;  /* several factors share one root sign; it is above the fraction bar */
     bool decimal;     /* the number under the root is written as a decimal one */
-    uint32_t last;    /* the last factor above (or below) the bar: the root is written there */
+    uint32_t last;    /* the last of these factors above (or below) the bar: the root is written there */
     fmpq_t c, number; /* the coefficient before the product, and the number under the root */
 };
 
-/* Whether b^e belongs in the denominator. */
+/* Whether the factor b^e is written in the denominator. */
 static bool
 is_in_denominator(const qdot_pool *pool, qdot_expr e)
 {
@@ -32,7 +32,7 @@ is_in_denominator(const qdot_pool *pool, qdot_expr e)
 
 /* Print |n/d| for integers n and d that are not nodes of the pool. */
 static void
-say_number(printer *p, const fmpz_t n, const fmpz_t d)
+print_absolute_quotient(printer *p, const fmpz_t n, const fmpz_t d)
 {
     fmpq_t x;
 
@@ -46,7 +46,7 @@ say_number(printer *p, const fmpz_t n, const fmpz_t d)
 
 /* Print a number as an exponent, in LaTeX with a slash as in r^{1/3}; size: print its absolute value. */
 static void
-number_exponent(printer *p, const fmpq *x, bool size)
+print_number_exponent(printer *p, const fmpq *x, bool size)
 {
     fmpq_t c;
 
@@ -64,8 +64,8 @@ number_exponent(printer *p, const fmpq *x, bool size)
         }
         print_begin(p, QDOT_FORMULA_FRACTION, 0, QDOT_FORMULA_SLANTED);
         fmpz_abs(fmpq_numref(c), fmpq_numref(c));
-        say_number(p, fmpq_numref(c), NULL);
-        say_number(p, fmpq_denref(c), NULL);
+        print_absolute_quotient(p, fmpq_numref(c), NULL);
+        print_absolute_quotient(p, fmpq_denref(c), NULL);
         p->at = outer;
     } else {
         qdot_print_number(p, c, 0);
@@ -73,9 +73,9 @@ number_exponent(printer *p, const fmpq *x, bool size)
     fmpq_clear(c);
 }
 
-/* Print the exponent, negated in a denominator; in a line a bare one gets no brackets. */
+/* Print the exponent of a power, negated in a denominator; within a line of text, a `bare` one gets no brackets. */
 static void
-exponent_part(printer *p, qdot_expr e, bool turned, bool bare)
+print_exponent_expression(printer *p, qdot_expr e, bool turned, bool bare)
 {
     const fmpq *x = qdot_expr_rational(p->pool, e);
     const qdot_formula_id outer = print_begin_one(p);
@@ -83,7 +83,7 @@ exponent_part(printer *p, qdot_expr e, bool turned, bool bare)
     if (!is_drawn(p))
         print_begin_bracket(p, !bare);
     if (x != NULL && is_drawn(p))
-        number_exponent(p, x, turned);
+        print_number_exponent(p, x, turned);
     else
         child(p, e, turned ? MAGNITUDE : TOP);
     p->at = outer;
@@ -92,7 +92,7 @@ exponent_part(printer *p, qdot_expr e, bool turned, bool bare)
 /* What a power begins with is to be appended from here on; p->at is to be set to what is returned. integer: the
  * exponent is a positive integer, which a line has as superscripts. */
 static qdot_formula_id
-power_begin(printer *p, bool integer)
+begin_power(printer *p, bool integer)
 {
     return print_begin(p, QDOT_FORMULA_POWER, 0,
                        integer && p->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_RAISED : 0);
@@ -115,7 +115,7 @@ print_exponent(printer *p, qdot_expr e, bool turned)
     bool integer = exponent_is_integer(pool, e, turned), bare = integer; /* `bare`: printed without brackets */
 
     if (integer && p->notation == QDOT_NOTATION_LINE) {
-        say_number(p, fmpq_numref(x), NULL);
+        print_absolute_quotient(p, fmpq_numref(x), NULL);
         return;
     }
     if (x != NULL)
@@ -126,22 +126,22 @@ print_exponent(printer *p, qdot_expr e, bool turned)
                NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
     else
         bare = NODE(pool, e)->kind == QDOT_SYM;
-    exponent_part(p, e, turned, bare);
+    print_exponent_expression(p, e, turned, bare);
 }
 
 static bool
-is_circular(const qdot_pool *pool, qdot_expr e)
+is_circular_function(const qdot_pool *pool, qdot_expr e)
 {
     return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op <= QDOT_COT;
 }
 
 /* Print sin(x)^2 as sin²(x). */
 static void
-power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
+print_power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
 {
     const char *name = qdot_fun_name(NODE(p->pool, b)->op);
     const qdot_formula_id all = print_begin(p, QDOT_FORMULA_APPLY, 0, 0),
-                          apply = power_begin(p, exponent_is_integer(p->pool, e, turned)), power = print_begin_one(p);
+                          apply = begin_power(p, exponent_is_integer(p->pool, e, turned)), power = print_begin_one(p);
 
     qdot_formula_add_text(p->out, p->at, QDOT_TEXT_FUNCTION, name, strlen(name));
     p->at = power;
@@ -154,7 +154,7 @@ power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
 
 /* Whether e is 1/2 or -1/2. */
 static bool
-is_sqrt(const qdot_pool *pool, qdot_expr e)
+is_half_exponent(const qdot_pool *pool, qdot_expr e)
 {
     const fmpq *x = qdot_expr_rational(pool, e);
 
@@ -167,9 +167,9 @@ exponent_is_even(const fmpq *x)
     return x != NULL && fmpz_is_one(fmpq_denref(x)) && fmpz_is_even(fmpq_numref(x));
 }
 
-/* Whether e can follow √ without brackets. */
+/* Whether e can follow the sign √ without brackets. */
 static bool
-is_bare(const qdot_pool *pool, qdot_expr e)
+needs_no_brackets_under_root(const qdot_pool *pool, qdot_expr e)
 {
     return NODE(pool, e)->kind == QDOT_SYM ||
            (NODE(pool, e)->kind == QDOT_NUM &&
@@ -180,7 +180,7 @@ is_bare(const qdot_pool *pool, qdot_expr e)
 /* b as a base or a factor; an even power is written of the side that is not negative:
  * (cosh(v) - cos(u))^2. */
 static void
-base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
+print_base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
 {
     turned |= exponent_is_even(x) && NODE(p->pool, b)->kind == QDOT_SUM &&
               (NODE(p->pool, b)->sign & QDOT_LE0);
@@ -193,23 +193,23 @@ print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool 
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool half = is_sqrt(pool, e) && (down || qdot_rational_sgn(x) > 0);
+    bool half = is_half_exponent(pool, e) && (down || qdot_rational_sgn(x) > 0);
     qdot_formula_id outer, power;
 
     if (half) {
         outer = print_begin(p, QDOT_FORMULA_ROOT, 0,
-                            p->notation == QDOT_NOTATION_LINE && is_bare(pool, b) ? QDOT_FORMULA_BARE : 0);
+                            p->notation == QDOT_NOTATION_LINE && needs_no_brackets_under_root(pool, b) ? QDOT_FORMULA_BARE : 0);
         child(p, b, TOP);
         p->at = outer;
     } else if (down ? e == QDOT_MINUS_ONE : e == QDOT_ONE) {
-        base(p, b, x, flip, context);
-    } else if (p->notation != QDOT_NOTATION_SCRIPT && is_circular(pool, b) && x != NULL &&
+        print_base(p, b, x, flip, context);
+    } else if (p->notation != QDOT_NOTATION_SCRIPT && is_circular_function(pool, b) && x != NULL &&
                fmpz_is_one(fmpq_denref(x)) && (down || qdot_rational_sgn(x) > 0)) {
-        power_of_function(p, b, e, down);
+        print_power_of_function(p, b, e, down);
     } else {
-        outer = power_begin(p, exponent_is_integer(pool, e, down));
+        outer = begin_power(p, exponent_is_integer(pool, e, down));
         power = print_begin_one(p);
-        base(p, b, x, flip, BASE);
+        print_base(p, b, x, flip, BASE);
         p->at = power;
         print_exponent(p, e, down);
         p->at = outer;
@@ -218,9 +218,9 @@ print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool 
 
 /* --- factors under a common root ---------------------------------------------------------------- */
 
-/* Whether b^x, x half an odd number, is taken out of a root of a product by the constructors. */
+/* Whether the constructors take b^x, x half an odd number, out of the root of a product. */
 static bool
-leaves_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+is_taken_out_of_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *e = qdot_expr_rational(pool, x);
 
@@ -229,7 +229,7 @@ leaves_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
            (NODE(pool, b)->sign & QDOT_GE0);
 }
 
-/* Whether a factor stays under a root when a product is read back: one factor of unknown sign. */
+/* Whether a factor of unknown sign stays under the root sign when the printed product is read back. */
 static bool
 stays_under_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
@@ -244,10 +244,10 @@ is_number_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 }
 
 static bool
-is_under(const qdot_pool *pool, const struct root *r, qdot_expr b, qdot_expr x)
+is_under_root(const qdot_pool *pool, const struct root *r, qdot_expr b, qdot_expr x)
 {
     return r->any &&
-           (leaves_root(pool, b, x) || stays_under_root(pool, b, x) || is_number_root(pool, b, x));
+           (is_taken_out_of_root(pool, b, x) || stays_under_root(pool, b, x) || is_number_root(pool, b, x));
 }
 
 /* The factors of c e that go under one root, at least two of them. c sqrt(n), c = a/b, is
@@ -263,7 +263,7 @@ find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
     for (uint32_t i = 1; i < n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
-        out += leaves_root(pool, b, x);
+        out += is_taken_out_of_root(pool, b, x);
         in += stays_under_root(pool, b, x);
         if (is_number_root(pool, b, x))
             number = RATIONAL(pool, b);
@@ -275,7 +275,7 @@ find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
         bool up = !is_in_denominator(pool, x);
 
-        if (is_under(pool, r, b, x) && up >= r->above) {
+        if (is_under_root(pool, r, b, x) && up >= r->above) {
             r->last = i;
             r->above = up;
         }
@@ -298,7 +298,7 @@ find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
 }
 
 static void
-forget_root(struct root *r)
+clear_root(struct root *r)
 {
     if (!r->any)
         return;
@@ -306,9 +306,9 @@ forget_root(struct root *r)
     fmpq_clear(r->number);
 }
 
-/* Print b^k under the root, where k is the numerator of 2 x. */
+/* Print the factor b^(k/2) of a product under the product's root sign, as b^|k|. */
 static void
-under_root(printer *p, qdot_expr b, qdot_expr x, int context)
+print_power_under_root(printer *p, qdot_expr b, qdot_expr x, int context)
 {
     ulong k = fmpz_get_ui(fmpq_numref(RATIONAL(p->pool, x)));
     uint32_t power = (uint32_t)((slong)k < 0 ? -k : k);
@@ -318,7 +318,7 @@ under_root(printer *p, qdot_expr b, qdot_expr x, int context)
         child(p, b, context);
         return;
     }
-    outer = power_begin(p, true);
+    outer = begin_power(p, true);
     row = print_begin_one(p);
     child(p, b, BASE);
     p->at = row;
@@ -326,36 +326,36 @@ under_root(printer *p, qdot_expr b, qdot_expr x, int context)
     p->at = outer;
 }
 
-/* Print the numerator or denominator of the fraction under the root. */
+/* Print the numerator or denominator of the fraction that stands under the root sign. */
 static void
-root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t count,
-          bool fraction)
+print_radicand_part(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t count,
+                    bool fraction)
 {
     const qdot_pool *pool = p->pool;
     const fmpz *number = down ? fmpq_denref(r->number) : fmpq_numref(r->number);
     bool first = true, shown = count == 0 || (r->decimal ? !down : !fmpz_is_one(number));
 
     if (shown)
-        say_number(p, number, r->decimal ? fmpq_denref(r->number) : NULL);
+        print_absolute_quotient(p, number, r->decimal ? fmpq_denref(r->number) : NULL);
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
-        if (!is_under(pool, r, b, x) || NODE(pool, b)->kind == QDOT_NUM ||
+        if (!is_under_root(pool, r, b, x) || NODE(pool, b)->kind == QDOT_NUM ||
             (is_in_denominator(pool, x) == r->above) != down)
             continue;
         if (!first || shown)
             print_sign(p, QDOT_SIGN_TIMES);
-        under_root(p, b, x,
-                   is_drawn(p) && count + shown == 1 ? TOP
-                   : down && count + shown == 1      ? BASE
-                   : fraction || count + shown > 1   ? FACTOR
+        print_power_under_root(p, b, x,
+                               is_drawn(p) && count + shown == 1 ? TOP
+                               : down && count + shown == 1      ? BASE
+                               : fraction || count + shown > 1   ? FACTOR
                                                      : TOP);
         first = false;
     }
 }
 
 static void
-open_root(printer *p, qdot_expr e, const struct root *r)
+print_common_root(printer *p, qdot_expr e, const struct root *r)
 {
     const qdot_pool *pool = p->pool;
     uint32_t count[2] = {0, 0};
@@ -366,7 +366,7 @@ open_root(printer *p, qdot_expr e, const struct root *r)
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
-        if (is_under(pool, r, b, x) && NODE(pool, b)->kind != QDOT_NUM)
+        if (is_under_root(pool, r, b, x) && NODE(pool, b)->kind != QDOT_NUM)
             count[is_in_denominator(pool, x) == r->above]++;
     }
     fraction = count[1] > 0 || below_bar;
@@ -375,20 +375,20 @@ open_root(printer *p, qdot_expr e, const struct root *r)
     if (fraction) {
         print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
         bar = print_begin_row(p);
-        root_side(p, e, r, false, count[0], fraction);
+        print_radicand_part(p, e, r, false, count[0], fraction);
         p->at = bar;
         print_begin_row(p);
         print_begin_bracket(p, several);
-        root_side(p, e, r, true, count[1], fraction);
+        print_radicand_part(p, e, r, true, count[1], fraction);
     } else {
-        root_side(p, e, r, false, count[0], fraction);
+        print_radicand_part(p, e, r, false, count[0], fraction);
     }
     p->at = outer;
 }
 
 /* --- printing products ------------------------------------------------------------------------ */
 
-/* The number of factors in the denominator (or numerator), with the root as one. */
+/* The number of factors in the denominator (or numerator), where those under the root sign count as one. */
 static uint32_t
 count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool down)
 {
@@ -398,25 +398,25 @@ count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool dow
         return e != QDOT_ONE && !down;
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2)
         count += is_in_denominator(pool, ARGS(pool, e)[i + 1]) == down &&
-                 !is_under(pool, r, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+                 !is_under_root(pool, r, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
     return count;
 }
 
 /* The sign between a number and the factor b^e after it. */
 static qdot_formula_sign
-joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
+sign_after_number(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
     if (NODE(p->pool, b)->kind != QDOT_NUM)
         return QDOT_SIGN_TIMES;
-    /* 2 √3: a short number times a root needs no sign between */
-    return is_sqrt(p->pool, e) && qdot_print_is_compact(p, number) ? QDOT_SIGN_TIMES
+    /* a short number before a root needs no product sign: 2 √3 */
+    return is_half_exponent(p->pool, e) && qdot_print_is_compact(p, number) ? QDOT_SIGN_TIMES
                                                                 : QDOT_SIGN_DOT;
 }
 
 /* Where a factor stands: of parameters, the roots of their sums behind them, functions and the
  * others: a sqrt(b + c) x sin(alpha). */
 static uint32_t
-factor_class(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+factor_print_rank(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *k = qdot_expr_rational(pool, x);
 
@@ -429,32 +429,32 @@ factor_class(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 /* The factors of e above (below) the bar; number: what stands before them already, or NULL;
  * turned: the base that is written as its negative. */
 static void
-factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *number,
-        int context, qdot_expr turned)
+print_factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *number,
+              int context, qdot_expr turned)
 {
     const qdot_pool *pool = p->pool;
     bool first = true;
 
     if (NODE(pool, e)->kind != QDOT_PROD) {
         if (number != NULL)
-            print_sign(p, joint(p, number, e, QDOT_ONE));
+            print_sign(p, sign_after_number(p, number, e, QDOT_ONE));
         child(p, e, context);
         return;
     }
     for (uint32_t k = 0; k < 3 * (NODE(pool, e)->n / 2); k++) {
         uint32_t i = 1 + 2 * (k % (NODE(pool, e)->n / 2));
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
-        bool under = is_under(pool, r, b, x);
+        bool under = is_under_root(pool, r, b, x);
 
-        if (factor_class(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
+        if (factor_print_rank(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
             (under ? i != r->last || r->above == down : is_in_denominator(pool, x) != down))
             continue;
         if (first && number != NULL)
-            print_sign(p, under ? QDOT_SIGN_TIMES : joint(p, number, b, x));
+            print_sign(p, under ? QDOT_SIGN_TIMES : sign_after_number(p, number, b, x));
         else if (!first)
             print_sign(p, NODE(pool, b)->kind == QDOT_NUM && !under ? QDOT_SIGN_DOT : QDOT_SIGN_TIMES);
         if (under)
-            open_root(p, e, r);
+            print_common_root(p, e, r);
         else
             print_factor(p, b, x, down, context, b == turned || (p->turning && b == p->below));
         first = false;
@@ -462,7 +462,7 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
 }
 
 static bool
-has_pi_below(const qdot_pool *pool, qdot_expr e)
+has_pi_in_denominator(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < NODE(pool, e)->n; i += 2)
         if (ARGS(pool, e)[i] == QDOT_PI && is_in_denominator(pool, ARGS(pool, e)[i + 1]))
@@ -492,7 +492,7 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
              down = count_factors(pool, e, &r, true);
     /* where the number's denominator goes: 1/2*m/r, but 1/(2*r) if the numerator is otherwise
      * empty, and h/(2*pi) */
-    bool inside = fraction && down > 0 && (up == 0 || drawn || has_pi_below(pool, e));
+    bool inside = fraction && down > 0 && (up == 0 || drawn || has_pi_in_denominator(pool, e));
     bool number = up == 0 || decimal || !fmpz_is_pm1(fmpq_numref(x)) ||
                   (fraction && !inside);
     bool several = !drawn && (down > 1 || inside), frac = drawn && down > 0;
@@ -511,32 +511,32 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
         print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
     bar = down > 0 ? print_begin_row(p) : p->at;
     if (number && r.any) {
-        say_number(p, fmpq_numref(x), inside ? NULL : fmpq_denref(x));
+        print_absolute_quotient(p, fmpq_numref(x), inside ? NULL : fmpq_denref(x));
     } else if (number) {
         child(p, c, inside ? NUMERATOR : MAGNITUDE);
     }
     if (up > 0)
-        factors(p, e, &r, false, number ? x : NULL,
-                frac && number + up == 1 ? TOP
-                : written > 1 || minus   ? FACTOR
-                : context < 0            ? TERM
+        print_factors(p, e, &r, false, number ? x : NULL,
+                      frac && number + up == 1 ? TOP
+                      : written > 1 || minus   ? FACTOR
+                      : context < 0            ? TERM
                                          : context,
-                turned);
+                      turned);
     if (down > 0) {
         p->at = bar;
         print_begin_row(p);
         print_begin_bracket(p, several);
         if (inside && r.any)
-            say_number(p, fmpq_denref(x), NULL);
+            print_absolute_quotient(p, fmpq_denref(x), NULL);
         else if (inside)
             child(p, c, DENOMINATOR);
-        factors(p, e, &r, true, inside ? x : NULL,
-                frac && down == 1 && !inside ? TOP
-                : several || frac            ? FACTOR
+        print_factors(p, e, &r, true, inside ? x : NULL,
+                      frac && down == 1 && !inside ? TOP
+                      : several || frac            ? FACTOR
                                              : BASE,
-                turned);
+                      turned);
     }
     p->at = outer;
     p->turning = false;
-    forget_root(&r);
+    clear_root(&r);
 }

@@ -1,4 +1,4 @@
-/* print-symbol.c -- names and symbols as formulas. */
+/* print-symbol.c -- prints names and symbols. */
 #include "formula/name.h"
 
 #include <stdio.h>
@@ -8,8 +8,8 @@
 #include "expr/print-parts.h"
 
 static bool
-name_is_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
-              const char *digits, size_t n_digits)
+is_name_with_index_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
+                         const char *digits, size_t n_digits)
 {
     qdot_text other = {0};
     bool is;
@@ -25,19 +25,19 @@ name_is_known(const qdot_pool *pool, const char *name, size_t letters, const cha
 /* Whether x[1], x_1 may stand as x₁, which is else x1, else x[1]: no name that comes before is
  * there. */
 static bool
-index_is_lowered(const qdot_pool *pool, const char *name)
+may_print_index_lowered(const qdot_pool *pool, const char *name)
 {
     qdot_name_digits d;
 
     return qdot_name_index(name, &d) &&
            (pool == NULL ||
-            (!name_is_known(pool, name, d.letters, "%.*s", d.at, d.n) &&
-             (d.brackets || !name_is_known(pool, name, d.letters, "[%.*s]", d.at, d.n))));
+            (!is_name_with_index_known(pool, name, d.letters, "%.*s", d.at, d.n) &&
+             (d.brackets || !is_name_with_index_known(pool, name, d.letters, "[%.*s]", d.at, d.n))));
 }
 
-/* Append a name with dots or primes, as a child of the parent. */
+/* Append a name with dots or primes to a node of the formula. */
 static void
-symbol_add_name(qdot_formula *f, qdot_formula_id parent, const qdot_pool *pool, const char *name, uint32_t order,
+add_symbol_name(qdot_formula *f, qdot_formula_id parent, const qdot_pool *pool, const char *name, uint32_t order,
          qdot_notation_kind notation)
 {
     const size_t from = f->text.n;
@@ -49,14 +49,14 @@ symbol_add_name(qdot_formula *f, qdot_formula_id parent, const qdot_pool *pool, 
     if (notation == QDOT_NOTATION_SCRIPT)
         qdot_text_add(&f->text, name);
     else
-        qdot_name_line(name, order, index_is_lowered(pool, name), &f->text);
+        qdot_name_line(name, order, may_print_index_lowered(pool, name), &f->text);
     qdot_formula_add_tail(f, parent, QDOT_TEXT_NAME, from);
 }
 
 void
 qdot_print_spelled(printer *p, const char *name)
 {
-    symbol_add_name(p->out, p->at, p->pool, name, 0, p->notation);
+    add_symbol_name(p->out, p->at, p->pool, name, 0, p->notation);
 }
 
 void
@@ -70,7 +70,7 @@ qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_
         return;
     }
     if (style == QDOT_UNICODE) {
-        qdot_name_line(name, 0, index_is_lowered(pool, name), out);
+        qdot_name_line(name, 0, may_print_index_lowered(pool, name), out);
         return;
     }
     all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
@@ -84,7 +84,7 @@ qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_
 
 /* The end of the digits in the name of a symbol that represents a number; NULL for other symbols. */
 static const char *
-number_end(const qdot_symbol *s)
+end_of_number_digits(const qdot_symbol *s)
 {
     return s->class == QDOT_FORMAL ? strchr(s->name, '#') : NULL;
 }
@@ -92,12 +92,12 @@ number_end(const qdot_symbol *s)
 bool
 qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e)
 {
-    return qdot_expr_kind(pool, e) == QDOT_SYM && number_end(qdot_expr_symbol(pool, e)) != NULL;
+    return qdot_expr_kind(pool, e) == QDOT_SYM && end_of_number_digits(qdot_expr_symbol(pool, e)) != NULL;
 }
 
-/* Print the digits, in a drawn formula with their power of ten: 1.5 10^-9. */
+/* Print the digits of a number, in a drawn formula with its power of ten: 1.5 10^-9. */
 static void
-number_digits(printer *p, const char *name, size_t length)
+print_number_digits(printer *p, const char *name, size_t length)
 {
     const char *power = is_drawn(p) ? memchr(name, 'e', length) : NULL;
     const size_t digits = power != NULL ? (size_t)(power - name) : length;
@@ -116,19 +116,19 @@ number_digits(printer *p, const char *name, size_t length)
 /* A symbol that stands for a number, such as `-1.5e-9#3`: what stands before the #, in brackets where it has a sign or
  * would stand beside another number without a sign between. */
 static void
-number_name(printer *p, const char *name, size_t length)
+print_number_symbol(printer *p, const char *name, size_t length)
 {
     const qdot_formula_id outer = p->at;
 
     if (p->notation != QDOT_NOTATION_SCRIPT || *name == '-')
         print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, QDOT_FORMULA_FIXED);
-    number_digits(p, name, length);
+    print_number_digits(p, name, length);
     p->at = outer;
 }
 
 /* Print a symbol derived from a coordinate q: p with q as index, dq, or delta q. */
 static void
-about_coordinate(printer *p, const qdot_symbol *s, const char *name)
+print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name)
 {
     const bool momentum = s->class == QDOT_MOMENTUM;
     const qdot_formula_id outer = p->at;
@@ -137,7 +137,7 @@ about_coordinate(printer *p, const qdot_symbol *s, const char *name)
         const size_t from = p->out->text.n;
 
         qdot_text_add(&p->out->text, momentum ? "p[" : s->class == QDOT_DELTA ? "δ" : "d");
-        qdot_name_line(name, s->order, index_is_lowered(p->pool, name), &p->out->text);
+        qdot_name_line(name, s->order, may_print_index_lowered(p->pool, name), &p->out->text);
         qdot_text_add(&p->out->text, momentum ? "]" : "");
         qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NAME, from);
         return;
@@ -147,7 +147,7 @@ about_coordinate(printer *p, const qdot_symbol *s, const char *name)
         print_sign(p, QDOT_SIGN_DELTA);
     else
         qdot_print_text(p, momentum ? "p" : "d");
-    symbol_add_name(p->out, p->at, p->pool, name, s->order, p->notation);
+    add_symbol_name(p->out, p->at, p->pool, name, s->order, p->notation);
     p->at = outer;
 }
 
@@ -155,18 +155,18 @@ void
 qdot_print_symbol_parts(printer *p, qdot_expr e)
 {
     const qdot_symbol *s = qdot_expr_symbol(p->pool, e);
-    const char *mark = number_end(s);
+    const char *mark = end_of_number_digits(s);
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base)->name : s->name;
 
     if (s->class == QDOT_WORDS)
         qdot_formula_add_text(p->out, p->at, QDOT_TEXT_WORDS, s->name, strlen(s->name));
     else if (mark != NULL)
-        number_name(p, s->name, (size_t)(mark - s->name));
+        print_number_symbol(p, s->name, (size_t)(mark - s->name));
     else if (p->notation == QDOT_NOTATION_SCRIPT)
         qdot_print_text(p, s->name);
     else if (s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL || s->class == QDOT_DELTA)
-        about_coordinate(p, s, name);
+        print_coordinate_symbol(p, s, name);
     else
-        symbol_add_name(p->out, p->at, p->pool, name, s->order, p->notation);
+        add_symbol_name(p->out, p->at, p->pool, name, s->order, p->notation);
 }

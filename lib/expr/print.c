@@ -18,7 +18,7 @@
 /* --- printing sums ---------------------------------------------------------------------------- */
 
 static bool
-is_minus(const qdot_pool *pool, qdot_expr number)
+is_negative_number(const qdot_pool *pool, qdot_expr number)
 {
     return qdot_rational_sgn(RATIONAL(pool, number)) < 0;
 }
@@ -28,7 +28,7 @@ is_minus(const qdot_pool *pool, qdot_expr number)
 static void
 term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
 {
-    bool minus = is_minus(p->pool, c) != turned;
+    bool minus = is_negative_number(p->pool, c) != turned;
     bool flip = minus && turnable(p, t) != QDOT_NIL;
 
     if (minus && !flip)
@@ -41,7 +41,7 @@ term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
 /* Terms stand in their order, the number last. But constants stand before what coordinates enter
  * by functions alone: m + M sin(x)^2, R + r cos(x). */
 static bool
-term_is_constant(const qdot_pool *pool, qdot_expr e)
+is_constant_term(const qdot_pool *pool, qdot_expr e)
 {
     return (NODE(pool, e)->holds & ~(QDOT_HAS_PARAM | QDOT_HAS_FORMAL | QDOT_HAS_FUN)) ==
            0;
@@ -49,7 +49,7 @@ term_is_constant(const qdot_pool *pool, qdot_expr e)
 
 /* Whether a term contains coordinates only as arguments of functions: R sin(x), r cos(x). */
 static bool
-is_by_functions(const qdot_pool *pool, qdot_expr e)
+has_coordinates_only_in_functions(const qdot_pool *pool, qdot_expr e)
 {
     bool any = false;
     const qdot_node *node = NODE(pool, e);
@@ -63,16 +63,16 @@ is_by_functions(const qdot_pool *pool, qdot_expr e)
     for (uint32_t i = 1; i < node->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
 
-        if (!term_is_constant(pool, b) && NODE(pool, b)->kind != QDOT_FUN &&
+        if (!is_constant_term(pool, b) && NODE(pool, b)->kind != QDOT_FUN &&
             NODE(pool, b)->kind != QDOT_SYM)
             return false;
-        any |= !term_is_constant(pool, b) && NODE(pool, b)->kind == QDOT_FUN;
+        any |= !is_constant_term(pool, b) && NODE(pool, b)->kind == QDOT_FUN;
     }
     return any;
 }
 
 static bool
-constants_first(const qdot_pool *pool, qdot_expr e)
+constants_go_first(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_expr *args = ARGS(pool, e);
     uint32_t n = NODE(pool, e)->n, constants = args[0] != QDOT_ZERO, others = 0;
@@ -80,9 +80,9 @@ constants_first(const qdot_pool *pool, qdot_expr e)
     if (!(NODE(pool, e)->holds & QDOT_HAS_FUN) || n > 64)
         return false;
     for (uint32_t i = 1; i < n; i += 2) {
-        if (term_is_constant(pool, args[i]))
+        if (is_constant_term(pool, args[i]))
             constants++;
-        else if (is_by_functions(pool, args[i]))
+        else if (has_coordinates_only_in_functions(pool, args[i]))
             others++;
         else
             return false;
@@ -91,18 +91,18 @@ constants_first(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-needs_minus(const printer *p, qdot_expr e, bool turned, uint32_t i)
+term_needs_minus(const printer *p, qdot_expr e, bool turned, uint32_t i)
 {
     const qdot_expr *args = ARGS(p->pool, e);
 
-    return is_minus(p->pool, i == 0 ? args[0] : args[i + 1]) != turned &&
+    return is_negative_number(p->pool, i == 0 ? args[0] : args[i + 1]) != turned &&
            (i == 0 || turnable(p, args[i]) == QDOT_NIL);
 }
 
 /* What stands in a term beside parameters and functions; of the number nothing; roots of sums are a
  * sort of their own. */
 static uint32_t
-sort_of(const qdot_pool *pool, qdot_expr e, uint32_t i)
+term_sort_class(const qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     const uint32_t either = QDOT_HAS_PARAM | QDOT_HAS_FORMAL | QDOT_HAS_FUN;
     const uint32_t root = UINT32_C(1) << 31;
@@ -122,16 +122,16 @@ sort_of(const qdot_pool *pool, qdot_expr e, uint32_t i)
 /* The term at `lead` needs no minus, those before it do: it goes first, and what is of the sort of
  * one passed goes before that too: m2 + m3 - m1, but y - x + 1. */
 static void
-pluses_first(const printer *p, qdot_expr e, bool turned, uint32_t *order, uint32_t lead,
-             uint32_t n)
+move_plus_terms_first(const printer *p, qdot_expr e, bool turned, uint32_t *order, uint32_t lead,
+                      uint32_t n)
 {
     for (uint32_t k = lead; k < n; k++) {
         uint32_t to = k, i = order[k];
 
-        if (needs_minus(p, e, turned, i))
+        if (term_needs_minus(p, e, turned, i))
             continue;
-        while (to > 0 && needs_minus(p, e, turned, order[to - 1]) &&
-               (k == lead || sort_of(p->pool, e, i) == sort_of(p->pool, e, order[to - 1])))
+        while (to > 0 && term_needs_minus(p, e, turned, order[to - 1]) &&
+               (k == lead || term_sort_class(p->pool, e, i) == term_sort_class(p->pool, e, order[to - 1])))
             to--;
         memmove(order + to + 1, order + to, (k - to) * sizeof *order);
         order[to] = i;
@@ -141,25 +141,25 @@ pluses_first(const printer *p, qdot_expr e, bool turned, uint32_t *order, uint32
 /* The terms as they are written, 0 the number: where the first needs a minus, those that need none
  * lead. */
 static uint32_t
-arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
+order_terms(const printer *p, qdot_expr e, bool turned, uint32_t *order)
 {
     const qdot_pool *pool = p->pool;
     const qdot_expr *args = ARGS(pool, e);
     uint32_t n = NODE(pool, e)->n, count = 0, lead = 0, others;
     uint32_t late = NODE(pool, e)->holds & QDOT_HAS_MULTIPLIER;
-    bool first = constants_first(pool, e);
+    bool first = constants_go_first(pool, e);
 
     if (NODE(pool, e)->holds == 0 && args[0] != QDOT_ZERO) /* a number first, then roots: 2 + sqrt(2) */
         order[count++] = 0;
 
     for (uint32_t i = 1; i < n; i += 2)
         if (!(NODE(pool, args[i])->holds & late) &&
-            (!first || term_is_constant(pool, args[i])))
+            (!first || is_constant_term(pool, args[i])))
             order[count++] = i;
     if (args[0] != QDOT_ZERO && NODE(pool, e)->holds != 0)
         order[count++] = 0;
     for (uint32_t i = 1; i < n && first; i += 2)
-        if (!term_is_constant(pool, args[i]))
+        if (!is_constant_term(pool, args[i]))
             order[count++] = i;
     others = count;
     for (uint32_t i = 1; i < n; i += 2) /* order of the terms: m g + lambda x, multipliers last */
@@ -168,11 +168,11 @@ arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
     if (others == 0)
         others = count;
     for (; lead < others; lead++) {
-        if (!needs_minus(p, e, turned, order[lead]))
+        if (!term_needs_minus(p, e, turned, order[lead]))
             break;
     }
     if (lead > 0 && lead < others)
-        pluses_first(p, e, turned, order, lead, others);
+        move_plus_terms_first(p, e, turned, order, lead, others);
     return count;
 }
 
@@ -193,7 +193,7 @@ degree_of_power(const printer *p, qdot_expr b, qdot_expr x)
 }
 
 static long
-degree(const printer *p, qdot_expr term)
+degree_of_term(const printer *p, qdot_expr term)
 {
     long sum = 0;
 
@@ -204,9 +204,9 @@ degree(const printer *p, qdot_expr term)
     return sum;
 }
 
-/* Sort the terms by their degree, and keep their order within a degree. */
+/* Sort the terms of a sum by degree, and keep their order among terms of the same degree. */
 static uint32_t
-arrange_by_degree(const printer *p, qdot_expr e, uint32_t *order)
+order_terms_by_degree(const printer *p, qdot_expr e, uint32_t *order)
 {
     const qdot_expr *args = ARGS(p->pool, e);
     uint32_t n = NODE(p->pool, e)->n, count = 0;
@@ -214,10 +214,10 @@ arrange_by_degree(const printer *p, qdot_expr e, uint32_t *order)
     if (args[0] != QDOT_ZERO)
         order[count++] = 0;
     for (uint32_t i = 1; i < n; i += 2) {
-        long of = degree(p, args[i]);
+        long of = degree_of_term(p, args[i]);
         uint32_t k = count++;
 
-        for (; k > 0 && (order[k - 1] == 0 ? 0 : degree(p, args[order[k - 1]])) > of; k--)
+        for (; k > 0 && (order[k - 1] == 0 ? 0 : degree_of_term(p, args[order[k - 1]])) > of; k--)
             order[k] = order[k - 1];
         order[k] = i;
     }
@@ -225,7 +225,7 @@ arrange_by_degree(const printer *p, qdot_expr e, uint32_t *order)
 }
 
 static void
-open_sum(printer *p, qdot_expr e, int context, bool turned)
+print_sum(printer *p, qdot_expr e, int context, bool turned)
 {
     const qdot_expr *args = ARGS(p->pool, e);
     uint32_t few[34], n = NODE(p->pool, e)->n / 2 + 2, count;
@@ -237,8 +237,8 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
         return;
     }
     count = p->ascending != QDOT_NIL && context < FACTOR
-                ? arrange_by_degree(p, e, order)
-                                     : arrange(p, e, turned, order);
+                ? order_terms_by_degree(p, e, order)
+                                     : order_terms(p, e, turned, order);
     for (uint32_t k = 0; k < count; k++) {
         uint32_t i = order[k];
 
@@ -254,9 +254,9 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
 
 /* --- conditions, vectors, matrices, lists --------------------------------------------------------- */
 
-/* Print a relation with a number on the right: x > 0. */
+/* Print a relation so that a number stands on its right: x > 0. */
 static void
-open_relation(printer *p, qdot_expr e, int context)
+print_relation(printer *p, qdot_expr e, int context)
 {
     static const qdot_formula_sign signs[] = {QDOT_SIGN_EQUALS, QDOT_SIGN_LESS, QDOT_SIGN_AT_MOST, QDOT_SIGN_GREATER,
                                               QDOT_SIGN_AT_LEAST};
@@ -274,7 +274,7 @@ open_relation(printer *p, qdot_expr e, int context)
 
 /* Whether an operand of `and`, `or`, `not` needs brackets: `not` binds tightest. */
 static bool
-is_bracketed(const qdot_pool *pool, uint16_t op, qdot_expr part)
+needs_brackets(const qdot_pool *pool, uint16_t op, qdot_expr part)
 {
     const qdot_node *node = NODE(pool, part);
 
@@ -283,7 +283,7 @@ is_bracketed(const qdot_pool *pool, uint16_t op, qdot_expr part)
 }
 
 static void
-open_logic(printer *p, qdot_expr e, int context)
+print_logic(printer *p, qdot_expr e, int context)
 {
     const qdot_node *node = NODE(p->pool, e);
     const qdot_formula_id outer = print_begin_bracket(p, context > TOP);
@@ -295,14 +295,14 @@ open_logic(printer *p, qdot_expr e, int context)
 
         if (i > 0)
             print_sign(p, node->op == QDOT_AND ? QDOT_SIGN_AND : QDOT_SIGN_OR);
-        child(p, part, is_bracketed(p->pool, node->op, part) ? TERM : TOP);
+        child(p, part, needs_brackets(p->pool, node->op, part) ? TERM : TOP);
     }
     p->at = outer;
 }
 
 /* Print a vector (a, b); a vector of equations by itself as (a, b) = (c, d). */
 static void
-open_vector(printer *p, qdot_expr e, int context)
+print_vector(printer *p, qdot_expr e, int context)
 {
     uint32_t n = NODE(p->pool, e)->n;
     bool equations = context == TOP;
@@ -330,7 +330,7 @@ open_vector(printer *p, qdot_expr e, int context)
 }
 
 static void
-open_matrix(printer *p, qdot_expr e)
+print_matrix(printer *p, qdot_expr e)
 {
     const qdot_node *node = NODE(p->pool, e);
     const qdot_formula_id outer = print_begin(p, QDOT_FORMULA_TABLE, 0, 0);
@@ -342,7 +342,7 @@ open_matrix(printer *p, qdot_expr e)
 }
 
 static void
-open_number(printer *p, qdot_expr e, int context)
+print_number_node(printer *p, qdot_expr e, int context)
 {
     fmpq_t c;
 
@@ -363,7 +363,7 @@ open_number(printer *p, qdot_expr e, int context)
 }
 
 static void
-open_node(printer *p, const struct part *x)
+print_node(printer *p, const struct part *x)
 {
     const qdot_pool *pool = p->pool;
     const qdot_node *node = NODE(pool, x->e);
@@ -374,22 +374,22 @@ open_node(printer *p, const struct part *x)
         return;
     }
     switch (node->kind) {
-    case QDOT_NUM: open_number(p, x->e, x->context); break;
+    case QDOT_NUM: print_number_node(p, x->e, x->context); break;
     case QDOT_SYM: qdot_print_symbol_parts(p, x->e); break;
-    case QDOT_SUM: open_sum(p, x->e, x->context, x->turned); break;
+    case QDOT_SUM: print_sum(p, x->e, x->context, x->turned); break;
     case QDOT_PROD:
         qdot_print_scaled(p, ARGS(pool, x->e)[0], x->e, x->context, false);
         break;
     case QDOT_FUN: qdot_print_function(p, x->e, x->context); break;
     case QDOT_UFUN: qdot_print_ufun(p, x->e, x->context); break;
-    case QDOT_REL: open_relation(p, x->e, x->context); break;
-    case QDOT_LOGIC: open_logic(p, x->e, x->context); break;
-    case QDOT_VEC: open_vector(p, x->e, x->context); break;
+    case QDOT_REL: print_relation(p, x->e, x->context); break;
+    case QDOT_LOGIC: print_logic(p, x->e, x->context); break;
+    case QDOT_VEC: print_vector(p, x->e, x->context); break;
     case QDOT_LIST:
         print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_SQUARE, 0);
         children(p, x->e, 0, node->n);
         break;
-    default: open_matrix(p, x->e);
+    default: print_matrix(p, x->e);
     }
 }
 
@@ -399,30 +399,30 @@ qdot_print_text(printer *p, const char *text)
     qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NAME, text, strlen(text));
 }
 
-/* The circumstances on which the printed form of x depends, apart from the expression itself. */
+/* The context of x, apart from the expression itself, on which its printed form depends. */
 static uint32_t
-printing_context(const printer *p, const struct part *x)
+get_printing_context(const printer *p, const struct part *x)
 {
     return (uint32_t)(x->context - NUMERATOR) << 4 | (uint32_t)p->fractions << 3 | (uint32_t)p->notation << 1 | x->turned;
 }
 
-/* Print x; a sum, function or name that was printed before shares the children of its node. */
+/* Print x; if an equal sum, function or name was printed before, share the children of its node. */
 static void
-open_part(printer *p, struct part x)
+print_part(printer *p, struct part x)
 {
     uint8_t kind = NODE(p->pool, x.e)->kind;
     const bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL && p->below == QDOT_NIL &&
                        (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN || kind == QDOT_SYM);
-    const qdot_formula_id of = again ? qdot_printed_find(p->pool->printed, x.e, printing_context(p, &x)) : 0;
+    const qdot_formula_id of = again ? qdot_printed_find(p->pool->printed, x.e, get_printing_context(p, &x)) : 0;
 
     if (of != 0) {
         qdot_formula_share(p->out, x.at, of);
         return;
     }
-    open_node(p, &x);
+    print_node(p, &x);
     qdot_formula_unwrap(p->out, x.at);
     if (again && p->status == QDOT_OK)
-        p->status = qdot_printed_keep(p->pool->printed, x.e, printing_context(p, &x), x.at);
+        p->status = qdot_printed_keep(p->pool->printed, x.e, get_printing_context(p, &x), x.at);
 }
 
 void
@@ -432,14 +432,14 @@ qdot_print_part(printer *p, struct part x)
 
     if (x.coefficient == QDOT_NIL && kind == QDOT_NUM &&
         (x.context < 0 || qdot_rational_sgn(RATIONAL(p->pool, x.e)) >= 0)) {
-        open_number(p, x.e, x.context);
+        print_number_node(p, x.e, x.context);
         return;
     }
     x.at = qdot_formula_add(p->out, p->at, QDOT_FORMULA_SPAN, 0, 0);
     if (x.coefficient == QDOT_NIL && kind == QDOT_SYM) {
         const qdot_formula_id at = p->at;
 
-        open_part(p, x);
+        print_part(p, x);
         p->at = at;
     } else if (qdot_vec_push(&p->todo, x) != QDOT_OK) {
         p->status = QDOT_ENOMEM;
@@ -448,14 +448,14 @@ qdot_print_part(printer *p, struct part x)
 
 /* The difference in the denominator of a matrix entry; nil if there is none. */
 static qdot_expr
-difference_below(const qdot_pool *pool, qdot_expr e)
+difference_in_denominator(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < NODE(pool, e)->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
         if (ARGS(pool, e)[i + 1] == QDOT_MINUS_ONE && NODE(pool, b)->kind == QDOT_SUM &&
             !(NODE(pool, b)->sign & QDOT_GE0))
             for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2)
-                if (is_minus(pool, ARGS(pool, b)[k]))
+                if (is_negative_number(pool, ARGS(pool, b)[k]))
                     return b;
     }
     return QDOT_NIL;
@@ -464,18 +464,18 @@ difference_below(const qdot_pool *pool, qdot_expr e)
 /* Entries of a matrix over one difference show it alike, with the sign by which fewer of them have a
  * minus, else the first none: [d, -b; -c, a] over a*d - b*c. */
 static void
-find_below(printer *p, qdot_expr e)
+find_common_denominator(printer *p, qdot_expr e)
 {
     const qdot_node *node = NODE(p->pool, e);
     int minuses = 0, count = 0;
 
     for (uint32_t i = 0; i < node->n && node->kind == QDOT_MAT; i++) {
-        qdot_expr entry = ARGS(p->pool, e)[i], b = difference_below(p->pool, entry);
+        qdot_expr entry = ARGS(p->pool, e)[i], b = difference_in_denominator(p->pool, entry);
         bool minus;
 
         if (b == QDOT_NIL || (p->below != QDOT_NIL && b != p->below))
             continue;
-        minus = is_minus(p->pool, ARGS(p->pool, entry)[0]);
+        minus = is_negative_number(p->pool, ARGS(p->pool, entry)[0]);
         if (count == 0)
             p->below_turned = minus;
         p->below = b;
@@ -509,18 +509,18 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
                                       : qdot_fail(QDOT_EINVAL, "nothing to print");
     qdot_printed_begin(pool->printed, out);
     QDOT_TRY(qdot_print_wants_fractions(pool, e, &p.fractions));
-    find_below(&p, e);
+    find_common_denominator(&p, e);
     child(&p, e, TOP);
     while (p.status == QDOT_OK && p.todo.n > 0) {
-        open_part(&p, p.todo.at[--p.todo.n]);
+        print_part(&p, p.todo.at[--p.todo.n]);
         if (p.status == QDOT_OK)
             p.status = out->failed ? QDOT_ENOMEM : qdot_interrupt_check();
     }
     qdot_free(p.todo.at);
-    if (p.status == QDOT_OK) /* a number or a name needs no further steps */
+    if (p.status == QDOT_OK) /* for a number or a name nothing else is left to print */
         p.status = qdot_formula_status(out);
     if (p.status != QDOT_OK)
-        /* forget the formula nodes of expressions that were not printed completely */
+        /* forget the nodes stored for expressions that were not printed completely */
         qdot_printed_forget(pool->printed);
     return p.status;
 }

@@ -13,7 +13,7 @@ struct slot {
 
 struct qdot_printed {
     struct slot *slot;         /* [SLOTS] hash table, 48 kB; NULL: nothing was stored yet */
-    const qdot_formula *of;    /* the formula to which the nodes belong, while it has this stamp */
+    const qdot_formula *of;    /* the formula that the stored nodes belong to, if it still has this stamp */
     uint32_t stamp;
     qdot_formula own;
 };
@@ -63,7 +63,7 @@ qdot_printed_begin(qdot_printed *printed, qdot_formula *formula)
 }
 
 static size_t
-printed_slot(qdot_expr e, uint32_t how)
+find_slot_of_expression(qdot_expr e, uint32_t how)
 {
     return (e * 2654435761u ^ how * 40503u) >> 7 & (SLOTS - 1);
 }
@@ -71,7 +71,7 @@ printed_slot(qdot_expr e, uint32_t how)
 qdot_formula_id
 qdot_printed_find(const qdot_printed *printed, qdot_expr e, uint32_t how)
 {
-    const struct slot *s = printed->slot == NULL ? NULL : &printed->slot[printed_slot(e, how)];
+    const struct slot *s = printed->slot == NULL ? NULL : &printed->slot[find_slot_of_expression(e, how)];
 
     return s == NULL || s->e != e || s->how != how ? 0 : s->id;
 }
@@ -83,6 +83,6 @@ qdot_printed_keep(qdot_printed *p, qdot_expr e, uint32_t how, qdot_formula_id id
         p->slot = qdot_calloc(SLOTS, sizeof *p->slot);
     if (p->slot == NULL)
         return QDOT_ENOMEM;
-    p->slot[printed_slot(e, how)] = (struct slot){e, how, id};
+    p->slot[find_slot_of_expression(e, how)] = (struct slot){e, how, id};
     return QDOT_OK;
 }

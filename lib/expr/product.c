@@ -9,7 +9,7 @@
 
 #include <flint/fmpz.h>
 
-/* A factor base^exponent. settled: it is canonical by itself, though another pair may have the same base. */
+/* A factor base^exponent of a product. settled: it is canonical by itself, though another factor may have the same base. */
 struct pair {
     qdot_expr base, exponent;
     bool settled;
@@ -24,7 +24,7 @@ struct product {
 };
 
 static void
-product_begin(struct product *p, qdot_pool *pool)
+begin_product(struct product *p, qdot_pool *pool)
 {
     p->pool = pool;
     fmpq_init(&p->c);
@@ -36,7 +36,7 @@ product_begin(struct product *p, qdot_pool *pool)
 }
 
 static void
-product_end(struct product *p)
+free_product(struct product *p)
 {
     fmpq_clear(&p->c);
     if (p->at != p->few)
@@ -44,7 +44,7 @@ product_end(struct product *p)
 }
 
 static void
-product_push(struct product *p, qdot_expr base, qdot_expr exponent)
+push_factor(struct product *p, qdot_expr base, qdot_expr exponent)
 {
     if (base == QDOT_NIL || exponent == QDOT_NIL) {
         p->failed = true;
@@ -69,7 +69,7 @@ product_push(struct product *p, qdot_expr base, qdot_expr exponent)
 }
 
 static void
-product_scale(struct product *p, const fmpq *c)
+multiply_by_number(struct product *p, const fmpq *c)
 {
     if (fmpq_is_one(c))
         return;
@@ -80,7 +80,7 @@ product_scale(struct product *p, const fmpq *c)
 
 /* Multiply p by base^exponent, where the base is a number. */
 static void
-push_number(struct product *p, qdot_expr base, qdot_expr exponent)
+push_power_of_number(struct product *p, qdot_expr base, qdot_expr exponent)
 {
     qdot_pool *pool = p->pool;
     const fmpq *e = NUMBER(pool, exponent);
@@ -89,7 +89,7 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
 
     if (e == NULL) {
         if (base != QDOT_ONE)
-            product_push(p, base, exponent);
+            push_factor(p, base, exponent);
         return;
     }
     if (base == QDOT_ZERO && qdot_rational_sgn(e) < 0) {
@@ -98,7 +98,7 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
         return;
     }
     if (base == QDOT_ZERO || base == QDOT_ONE || exponent == QDOT_ONE) {
-        product_scale(p, RATIONAL(pool, base));
+        multiply_by_number(p, RATIONAL(pool, base));
         return;
     }
     fmpq_init(b);
@@ -111,13 +111,13 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
     } else {
         good = qdot_number_root(pool, b, k, y, &base, &exponent);
         if (good && base != QDOT_ONE) {
-            product_push(p, base, exponent);
+            push_factor(p, base, exponent);
             if (!p->failed)
                 p->at[p->n - 1].settled = true;
         }
     }
     if (good)
-        product_scale(p, y);
+        multiply_by_number(p, y);
     else
         p->failed = true;
     fmpq_clear(b);
@@ -160,33 +160,33 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
     fmpq_t c;
 
     fmpq_init(c);
-    product_begin(&rest, pool);
+    begin_product(&rest, pool);
     qdot_rational_set(c, RATIONAL(pool, ARGS(pool, base)[0]));
     if (qdot_rational_sgn(c) < 0) {
         fmpq_neg(c, c);
         fmpq_neg(&rest.c, &rest.c);
     }
     if (!fmpq_is_one(c))
-        push_number(p, qdot_expr_fmpq(pool, c), k);
+        push_power_of_number(p, qdot_expr_fmpq(pool, c), k);
     for (uint32_t i = 1; i < n && !p->failed; i += 2) {
         qdot_expr b = ARGS(pool, base)[i], e = ARGS(pool, base)[i + 1];
 
         /* x^(1/2) is real only where x >= 0 */
         if ((NODE(pool, b)->sign & QDOT_GE0) || is_fraction(pool, e))
-            product_push(p, b, qdot_mul(pool, e, k));
+            push_factor(p, b, qdot_mul(pool, e, k));
         else if (is_even_integer(pool, e))
-            product_push(p, qdot_fun1(pool, QDOT_ABS, b), qdot_mul(pool, e, k));
+            push_factor(p, qdot_fun1(pool, QDOT_ABS, b), qdot_mul(pool, e, k));
         else
-            product_push(&rest, b, e);
+            push_factor(&rest, b, e);
     }
     if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
         if (rest.n == (n - 1) / 2 &&
             qdot_rational_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
-            product_push(p, base, k); /* no factor could be taken out of the root */
+            push_factor(p, base, k); /* no factor could be taken out of the root */
         } else if (rest.n == 0 && !(NODE(pool, base)->sign & QDOT_NE0)) {
             p->n = 0; /* sqrt(-x^2) is real only at x = 0: take nothing out of the root */
             fmpq_one(&p->c);
-            product_push(p, base, k);
+            push_factor(p, base, k);
         } else {
             qdot_expr f = qdot_expr_fmpq(pool, &rest.c);
 
@@ -194,13 +194,13 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
                 f = qdot_mul(pool, f,
                              qdot_pow(pool, rest.at[i].base, rest.at[i].exponent));
             if (f != QDOT_NIL && NODE(pool, f)->kind == QDOT_NUM)
-                push_number(p, f, k);
+                push_power_of_number(p, f, k);
             else
-                product_push(p, f, k);
+                push_factor(p, f, k);
         }
     }
     fmpq_clear(c);
-    product_end(&rest);
+    free_product(&rest);
 }
 
 /* --- the canonical form ------------------------------------------------------------------ */
@@ -208,36 +208,36 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
 /* Append the pairs (base, exponent) of a product, except the pair whose base has the index
  * `without` (0: all). */
 static void
-take_pairs(struct product *p, qdot_expr e, uint32_t without)
+push_factors_of(struct product *p, qdot_expr e, uint32_t without)
 {
     qdot_pool *pool = p->pool;
 
     for (uint32_t i = 1; i < NODE(pool, e)->n && !p->failed; i += 2)
         if (i != without) {
-            product_push(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+            push_factor(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
             if (!p->failed)
                 p->at[p->n - 1].settled = true;
         }
 }
 
 static void
-product_take(struct product *p, qdot_expr e)
+product_multiply(struct product *p, qdot_expr e)
 {
     qdot_pool *pool = p->pool;
 
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM: product_scale(p, RATIONAL(pool, e)); return;
+    case QDOT_NUM: multiply_by_number(p, RATIONAL(pool, e)); return;
     case QDOT_PROD:
         if (ARGS(pool, e)[0] != QDOT_ONE)
-            product_scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
-        take_pairs(p, e, 0);
+            multiply_by_number(p, RATIONAL(pool, ARGS(pool, e)[0]));
+        push_factors_of(p, e, 0);
         return;
-    default: product_push(p, e, QDOT_ONE);
+    default: push_factor(p, e, QDOT_ONE);
     }
 }
 
 static int
-by_id(const void *a, const void *b)
+compare_base_ids(const void *a, const void *b)
 {
     const struct pair *x = a, *y = b;
 
@@ -253,13 +253,13 @@ compare_pairs(const void *a, const void *b, void *pool)
     return d != 0 ? d : qdot_expr_compare(pool, x->exponent, y->exponent);
 }
 
-/* Sort the factors, by their ids or in canonical order; by insertion if there are few. */
+/* Sort the factors of the product, by node ids or in canonical order; by insertion if there are few. */
 static void
-product_sort(struct product *p, bool ids)
+sort_factors(struct product *p, bool ids)
 {
     if (p->n > 16) {
         if (ids)
-            qsort(p->at, p->n, sizeof *p->at, by_id);
+            qsort(p->at, p->n, sizeof *p->at, compare_base_ids);
         else
             qsort_r(p->at, p->n, sizeof *p->at, compare_pairs, p->pool);
         return;
@@ -307,7 +307,7 @@ merge_exponentials(struct product *p)
     if (sum == QDOT_NIL)
         p->failed = true;
     else
-        product_take(p, qdot_fun1(pool, QDOT_EXP, sum));
+        product_multiply(p, qdot_fun1(pool, QDOT_EXP, sum));
     return true;
 }
 
@@ -336,15 +336,15 @@ merge_roots(struct product *p)
                 if (b == QDOT_NIL)
                     p->failed = true;
                 else
-                    push_number(p, b, e);
+                    push_power_of_number(p, b, e);
                 return true;
             }
     return false;
 }
 
-/* sqrt(b - a) (a - b)^n is (-1)^n (b - a)^(n + 1/2). */
+/* Merge powers of a sum and of its negative: sqrt(b - a) (a - b)^n is (-1)^n (b - a)^(n + 1/2). */
 static bool
-merge_turned(struct product *p)
+merge_opposite_sums(struct product *p)
 {
     qdot_pool *pool = p->pool;
 
@@ -369,9 +369,9 @@ merge_turned(struct product *p)
     return false;
 }
 
-/* Whether sign(u) is among the factors; if so it is removed. */
+/* Remove a factor sign(u) from the product; returns whether there was one. */
 static bool
-takes_sign(struct product *p, size_t n, qdot_expr u)
+remove_sign_factor(struct product *p, size_t n, qdot_expr u)
 {
     for (size_t i = 0; i < n; i++) {
         const qdot_node *base = NODE(p->pool, p->at[i].base);
@@ -388,13 +388,13 @@ takes_sign(struct product *p, size_t n, qdot_expr u)
 /* Merge equal bases, then rewrite each pair that is not canonical. Returns whether the list
  * changed in a way that asks for another round. */
 static bool
-round_of_merging(struct product *p)
+run_merging_round(struct product *p)
 {
     qdot_pool *pool = p->pool;
     size_t kept = 0, n;
     bool again = false;
 
-    product_sort(p, true);
+    sort_factors(p, true);
     for (size_t i = 0; i < p->n; i++) {
         if (kept > 0 && p->at[kept - 1].base == p->at[i].base) {
             qdot_expr e = qdot_add(pool, p->at[kept - 1].exponent, p->at[i].exponent);
@@ -418,14 +418,14 @@ round_of_merging(struct product *p)
         if (x.exponent == QDOT_ZERO)
             continue;
         if (base->kind == QDOT_PROD && is_integer(pool, x.exponent)) {
-            /* the list is rebuilt after the part not yet processed */
+            /* what was handled is put back after the part of the list not yet processed */
             qdot_expr e = x.base;
             fmpq_t y;
 
             fmpq_init(y);
             if (qdot_number_power(pool, y, RATIONAL(pool, ARGS(pool, e)[0]),
                                   fmpq_numref(RATIONAL(pool, x.exponent))))
-                product_scale(p, y);
+                multiply_by_number(p, y);
             else
                 p->failed = true;
             fmpq_clear(y);
@@ -433,7 +433,7 @@ round_of_merging(struct product *p)
             for (uint32_t k = 1; k < NODE(pool, e)->n && !p->failed; k += 2) {
                 qdot_expr inner = qdot_mul(pool, ARGS(pool, e)[k + 1], x.exponent);
 
-                product_push(p, ARGS(pool, e)[k], inner);
+                push_factor(p, ARGS(pool, e)[k], inner);
             }
             n = p->n;
             again = true;
@@ -442,24 +442,24 @@ round_of_merging(struct product *p)
             qdot_expr arg = ARGS(pool, x.base)[0];
 
             p->n = n;
-            product_push(p, arg, x.exponent);
+            push_factor(p, arg, x.exponent);
             n = p->n;
             again = true;
         } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS &&
                    is_integer(pool, x.exponent) &&
                    qdot_rational_sgn(RATIONAL(pool, x.exponent)) > 0 &&
-                   takes_sign(p, n, ARGS(pool, x.base)[0])) {
+                   remove_sign_factor(p, n, ARGS(pool, x.base)[0])) {
             qdot_expr arg = ARGS(pool, x.base)[0]; /* |u| sign(u) = u */
 
             p->n = n;
-            product_push(p, arg, x.exponent);
+            push_factor(p, arg, x.exponent);
             n = p->n;
             again = true;
         } else if (base->kind == QDOT_SUM && is_integer(pool, x.exponent) &&
                    qdot_expr_is_negative(pool, x.base)) {
             /* replace (b - a)^n by (a - b)^n with a sign, so that both forms combine */
             p->n = n;
-            product_push(p, qdot_sum_turned(pool, x.base), x.exponent);
+            push_factor(p, qdot_sum_turned(pool, x.base), x.exponent);
             n = p->n;
             if (!is_even_integer(pool, x.exponent))
                 fmpq_neg(&p->c, &p->c);
@@ -470,7 +470,7 @@ round_of_merging(struct product *p)
                 p->at[kept++] = x;
             } else {
                 p->n = n;
-                push_number(p, x.base, x.exponent);
+                push_power_of_number(p, x.base, x.exponent);
                 again |= p->n > n;
                 n = p->n;
             }
@@ -485,7 +485,7 @@ round_of_merging(struct product *p)
 /* Whether nothing but merging and sorting is to be done to a pair: an integer power of what no
  * other factor can change but its like. */
 static bool
-is_plain(const qdot_pool *pool, const struct pair *x)
+needs_only_merging(const qdot_pool *pool, const struct pair *x)
 {
     const qdot_node *base = NODE(pool, x->base);
 
@@ -501,17 +501,17 @@ is_plain(const qdot_pool *pool, const struct pair *x)
 }
 
 static bool
-all_plain(const struct product *p)
+all_need_only_merging(const struct product *p)
 {
     for (size_t i = 0; i < p->n; i++)
-        if (!is_plain(p->pool, &p->at[i]))
+        if (!needs_only_merging(p->pool, &p->at[i]))
             return false;
     return p->n <= 16;
 }
 
-/* Sort the pairs, and combine pairs with equal bases. The factors of each product are already sorted. */
+/* Sort the pairs (base, exponent), and combine pairs with equal bases. The factors of each product are already sorted. */
 static void
-product_gather(struct product *p)
+product_combine_equal_bases(struct product *p)
 {
     qdot_pool *pool = p->pool;
     size_t kept = 0;
@@ -536,9 +536,9 @@ product_gather(struct product *p)
     p->n = kept;
 }
 
-/* Whether the list may contain something that is not canonical yet. */
+/* Whether the list of factors may contain something that is not canonical yet. */
 static bool
-unsettled(const struct product *p)
+may_be_uncanonical(const struct product *p)
 {
     qdot_kind kind = p->n == 0 ? QDOT_SYM : NODE(p->pool, p->at[0].base)->kind;
 
@@ -547,19 +547,19 @@ unsettled(const struct product *p)
 }
 
 static qdot_expr
-product_finish(struct product *p)
+make_product_node(struct product *p)
 {
     qdot_pool *pool = p->pool;
     qdot_expr few[33], *args = few, e = QDOT_NIL;
-    bool again = true, plain = all_plain(p);
+    bool again = true, plain = all_need_only_merging(p);
 
     if (plain)
-        product_gather(p);
-    for (int round = 0; !plain && again && !p->failed && round < 64 && unsettled(p); round++) {
-        again = round_of_merging(p);
+        product_combine_equal_bases(p);
+    for (int round = 0; !plain && again && !p->failed && round < 64 && may_be_uncanonical(p); round++) {
+        again = run_merging_round(p);
         again |= !p->failed && merge_exponentials(p);
         again |= !p->failed && merge_roots(p);
-        again |= !p->failed && merge_turned(p);
+        again |= !p->failed && merge_opposite_sums(p);
     }
     if (p->failed || FAILED(pool))
         return QDOT_NIL;
@@ -574,7 +574,7 @@ product_finish(struct product *p)
         NODE(pool, p->at[0].base)->kind == QDOT_SUM)
         return qdot_sum_turned(pool, p->at[0].base);
     if (!plain)
-        product_sort(p, false);
+        sort_factors(p, false);
     if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)
         return qdot_pool_fail(pool);
     args[0] = fmpq_is_one(&p->c) ? QDOT_ONE : qdot_expr_fmpq(pool, &p->c);
@@ -609,11 +609,11 @@ qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)
     }
     if (FAILED(pool))
         return QDOT_NIL;
-    product_begin(&p, pool);
+    begin_product(&p, pool);
     for (size_t i = 0; i < n && !p.failed; i++)
-        product_take(&p, factors[i]);
-    e = product_finish(&p);
-    product_end(&p);
+        product_multiply(&p, factors[i]);
+    e = make_product_node(&p);
+    free_product(&p);
     return e;
 }
 
@@ -625,23 +625,23 @@ qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner)
 
     if (inner == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
-    product_begin(&p, pool);
+    begin_product(&p, pool);
     qdot_rational_set(&p.c, RATIONAL(pool, ARGS(pool, e)[0]));
-    take_pairs(&p, e, i);
+    push_factors_of(&p, e, i);
     if (x != QDOT_ONE) {
         qdot_expr less = qdot_sub(pool, x, QDOT_ONE);
 
         if (NODE(pool, b)->kind == QDOT_NUM && less != QDOT_NIL)
-            push_number(&p, b, less);
+            push_power_of_number(&p, b, less);
         else
-            product_push(&p, b, less);
+            push_factor(&p, b, less);
         if (!p.failed)
-            product_take(&p, x);
+            product_multiply(&p, x);
     }
     if (!p.failed)
-        product_take(&p, inner);
-    result = product_finish(&p);
-    product_end(&p);
+        product_multiply(&p, inner);
+    result = make_product_node(&p);
+    free_product(&p);
     return result;
 }
 
@@ -666,15 +666,15 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return qdot_pool_intern(pool, QDOT_PROD, 0, 3, args,
                                 qdot_sign_of_product(pool, 3, args));
     }
-    product_begin(&p, pool);
+    begin_product(&p, pool);
     kind = NODE(pool, a)->kind;
     if (kind == QDOT_NUM)
-        push_number(&p, a, b);
+        push_power_of_number(&p, a, b);
     else if (kind == QDOT_PROD && !is_integer(pool, b))
         push_power_of_product(&p, a, b);
     else
-        product_push(&p, a, b);
-    e = product_finish(&p);
-    product_end(&p);
+        push_factor(&p, a, b);
+    e = make_product_node(&p);
+    free_product(&p);
     return e;
 }

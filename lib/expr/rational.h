@@ -26,7 +26,7 @@ qdot_rational_is_small(const fmpq *x)
            (uint64_t)x->den <= QDOT_SMALL;
 }
 
-/* Set y = n/d, d > 0, both less than 2^62. */
+/* Set the rational number y = n/d, d > 0, both less than 2^62. */
 static inline void
 qdot_rational_make(fmpq *y, int64_t n, int64_t d)
 {
@@ -132,10 +132,10 @@ qdot_rational_equal(const fmpq *a, const fmpq *b)
 {
     if (COEFF_IS_MPZ(a->num) || COEFF_IS_MPZ(a->den))
         return fmpq_equal(a, b);
-    return a->num == b->num && a->den == b->den; /* large numbers: FLINT stores equal values as equal words */
+    return a->num == b->num && a->den == b->den; /* large numbers: FLINT represents equal values by equal words */
 }
 
-/* Whether an integer is k, |k| < 2^62. */
+/* Whether the integer x equals k, where |k| < 2^62. */
 static inline bool
 qdot_integer_is(const fmpz_t x, int64_t k)
 {

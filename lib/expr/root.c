@@ -47,7 +47,7 @@ qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
 
 /* Write n = outside^q * inside, n > 0, where inside contains no q-th powers of the primes found. */
 static void
-extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
+extract_powers_from_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
 {
     fmpz_factor_t f;
     fmpz_t power;
@@ -62,7 +62,7 @@ extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
     }
     fmpz_set(inside, n);
     fmpz_factor_init(f);
-    /* past 64 bits only small primes are taken out: the form stays correct */
+    /* from numbers of more than 64 bits only small primes are taken out of the root: still correct, perhaps not simplest */
     if (fmpz_bits(n) <= 64)
         fmpz_factor(f, n);
     else
@@ -77,9 +77,9 @@ extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
     fmpz_clear(power);
 }
 
-/* inside^(1/q) as inside^(1/g), g least: 4^(1/4) is 2^(1/2). Returns g. */
+/* Write inside^(1/q) as inside^(1/g) with the smallest possible g: 4^(1/4) is 2^(1/2). Returns g. */
 static ulong
-reduce_root(fmpz_t inside, ulong q)
+reduce_degree_of_root(fmpz_t inside, ulong q)
 {
     fmpz_t root;
     ulong g = q;
@@ -132,10 +132,10 @@ qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
         fmpz_pow_ui(inside, fmpq_denref(b), q - k);
         fmpz_mul(all, all, inside);
         fmpq_div_fmpz(c, c, fmpq_denref(b));
-        extract_root(outside, inside, all, q);
+        extract_powers_from_root(outside, inside, all, q);
         fmpq_mul_fmpz(c, c, outside);
         if (!fmpz_is_one(inside)) {
-            q = reduce_root(inside, q);
+            q = reduce_degree_of_root(inside, q);
             fmpq_set_fmpz(rest, inside);
             *base = qdot_expr_fmpq(pool, rest);
             *exponent = qdot_expr_ratio(pool, 1, (long)q);

@@ -1,4 +1,4 @@
-/* scale.c -- multiplies expressions by numbers; products and powers that need no merging. */
+/* scale.c -- multiplies expressions by numbers; makes products and powers whose factors need no merging. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -6,7 +6,7 @@
 #include <string.h>
 
 static qdot_expr
-number_times(qdot_pool *pool, qdot_expr a, qdot_expr b)
+multiply_numbers(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     fmpq_t c;
     qdot_expr e;
@@ -31,7 +31,7 @@ qdot_sum_turned(qdot_pool *pool, qdot_expr sum)
     for (uint32_t i = 0; i < n; i++) {
         args[i] = ARGS(pool, sum)[i];
         if (i % 2 == 0)
-            args[i] = number_times(pool, QDOT_MINUS_ONE, args[i]);
+            args[i] = multiply_numbers(pool, QDOT_MINUS_ONE, args[i]);
     }
     if (!FAILED(pool))
         e = qdot_pool_intern(pool, QDOT_SUM, 0, n, args, qdot_sign_of_sum(pool, n, args));
@@ -42,7 +42,7 @@ qdot_sum_turned(qdot_pool *pool, qdot_expr sum)
 
 /* The expression c e for a number c; the factors of e are copied as they are. */
 static qdot_expr
-multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
+multiply_by_number(qdot_pool *pool, qdot_expr c, qdot_expr e)
 {
     uint32_t n = NODE(pool, e)->kind == QDOT_PROD ? NODE(pool, e)->n : 3;
     qdot_expr few[33], *args = few, result = QDOT_NIL;
@@ -50,11 +50,11 @@ multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
     if (c == QDOT_ONE || c == QDOT_ZERO)
         return c == QDOT_ONE ? e : c;
     if (NODE(pool, e)->kind == QDOT_NUM)
-        return number_times(pool, c, e);
+        return multiply_numbers(pool, c, e);
     if (NODE(pool, e)->kind == QDOT_SUM &&
         (c == QDOT_MINUS_ONE || qdot_expr_is_negative(pool, e))) {
         e = qdot_sum_turned(pool, e);
-        c = number_times(pool, QDOT_MINUS_ONE, c);
+        c = multiply_numbers(pool, QDOT_MINUS_ONE, c);
         if (c == QDOT_ONE || c == QDOT_NIL || e == QDOT_NIL)
             return c == QDOT_NIL ? c : e;
     }
@@ -62,7 +62,7 @@ multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
         return qdot_pool_fail(pool);
     if (NODE(pool, e)->kind == QDOT_PROD) {
         memcpy(args, ARGS(pool, e), n * sizeof *args);
-        args[0] = number_times(pool, c, args[0]);
+        args[0] = multiply_numbers(pool, c, args[0]);
     } else {
         args[0] = c;
         args[1] = e;
@@ -132,7 +132,7 @@ qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e)
 
 /* Whether b^x is an odd power of a sum of unknown sign, whose sign may be reversed. */
 static bool
-is_free(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+has_reversible_sign(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *k = NUMBER(pool, x);
 
@@ -141,7 +141,7 @@ is_free(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 }
 
 static bool
-has_minus(const qdot_pool *pool, qdot_expr sum)
+has_minus_term(const qdot_pool *pool, qdot_expr sum)
 {
     for (uint32_t k = 0; k < NODE(pool, sum)->n; k += 2)
         if (qdot_rational_sgn(RATIONAL(pool, ARGS(pool, sum)[k])) < 0)
@@ -153,12 +153,12 @@ qdot_expr
 qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
 {
     uint32_t n = NODE(pool, e)->n;
-    qdot_expr power = QDOT_NIL; /* a factor to an odd power, if there is no other */
+    qdot_expr power = QDOT_NIL; /* a factor that is an odd power of a difference, used if no factor is a difference itself */
 
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
-        if (!is_free(pool, b, x) || !has_minus(pool, b))
+        if (!has_reversible_sign(pool, b, x) || !has_minus_term(pool, b))
             continue;
         if (x == QDOT_ONE)
             return b;
@@ -176,9 +176,9 @@ qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (!qdot_pool_is_scalar(pool, a) || !qdot_pool_is_scalar(pool, b))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed here");
     if (NODE(pool, a)->kind == QDOT_NUM)
-        return multiple(pool, a, b);
+        return multiply_by_number(pool, a, b);
     if (NODE(pool, b)->kind == QDOT_NUM)
-        return multiple(pool, b, a);
+        return multiply_by_number(pool, b, a);
     if (a != b && qdot_expr_is_atom(pool, a) && qdot_expr_is_atom(pool, b)) {
         bool turned = qdot_expr_compare(pool, a, b) > 0;
         qdot_expr args[] = {QDOT_ONE, turned ? b : a, QDOT_ONE, turned ? a : b, QDOT_ONE};

@@ -5,12 +5,12 @@
 #include "expr/walk.h"
 
 static uint64_t
-plus(uint64_t a, uint64_t b)
+add_saturating(uint64_t a, uint64_t b)
 {
     return a > UINT64_MAX - b ? UINT64_MAX : a + b;
 }
 
-/* The size of a child: from the walk, or (without a walk) from its node. */
+/* The number of operations of a subexpression: from the walk w, or if that is NULL from its node. */
 static uint64_t
 child_size(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
 {
@@ -25,7 +25,7 @@ size_of_number(const fmpq *x)
 }
 
 static bool
-leading_minus(const qdot_pool *pool, qdot_expr sum)
+begins_with_minus(const qdot_pool *pool, qdot_expr sum)
 {
     const qdot_expr *args = ARGS(pool, sum);
 
@@ -44,7 +44,7 @@ is_integer_rational(const fmpq *x)
 }
 
 static bool
-is_unit(const fmpq *x) /* +-1/n: the numerator 1 is not written beside a factor */
+is_unit_fraction(const fmpq *x) /* +-1/n: the numerator 1 is not written beside a factor */
 {
     return fmpz_is_pm1(fmpq_numref(x));
 }
@@ -54,16 +54,16 @@ size_of_sum(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 {
     const qdot_expr *args = ARGS(pool, e);
     /* the minus of a term counts as the operator that joins it, if a term without minus can come first */
-    uint64_t size = leading_minus(pool, e);
+    uint64_t size = begins_with_minus(pool, e);
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         const fmpq *c = RATIONAL(pool, args[i + 1]);
 
-        size = plus(size, child_size(pool, w, args[i]));
-        size = plus(size, (uint64_t)!is_integer_rational(c) + !is_unit(c) + (i > 1));
+        size = add_saturating(size, child_size(pool, w, args[i]));
+        size = add_saturating(size, (uint64_t)!is_integer_rational(c) + !is_unit_fraction(c) + (i > 1));
     }
     if (args[0] != QDOT_ZERO)
-        size = plus(size, 1 + (uint64_t)!is_integer_rational(RATIONAL(pool, args[0])));
+        size = add_saturating(size, 1 + (uint64_t)!is_integer_rational(RATIONAL(pool, args[0])));
     return size;
 }
 
@@ -73,21 +73,21 @@ size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     const qdot_expr *args = ARGS(pool, e);
     const fmpq *c = RATIONAL(pool, args[0]);
     uint64_t size = qdot_rational_sgn(c) < 0 && qdot_expr_turnable(pool, e) == QDOT_NIL;
-    uint64_t operands = (uint64_t)!is_unit(c) + !is_integer_rational(c);
-    bool above = !is_unit(c);
+    uint64_t operands = (uint64_t)!is_unit_fraction(c) + !is_integer_rational(c);
+    bool above = !is_unit_fraction(c);
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         const fmpq *x = NUMBER(pool, args[i + 1]);
 
         above |= x == NULL || qdot_rational_sgn(x) > 0;
         operands++;
-        size = plus(size, child_size(pool, w, args[i]));
+        size = add_saturating(size, child_size(pool, w, args[i]));
         if (x == NULL)
-            size = plus(plus(size, 1), child_size(pool, w, args[i + 1]));
-        else if (!is_unit(x) || !is_integer_rational(x)) /* the exponent is written: a power or a root */
-            size = plus(size, 1);
+            size = add_saturating(add_saturating(size, 1), child_size(pool, w, args[i + 1]));
+        else if (!is_unit_fraction(x) || !is_integer_rational(x)) /* the exponent is written: a power or a root */
+            size = add_saturating(size, 1);
     }
-    return plus(size, operands - above); /* a quotient counts as one more operation: 1/x divides too */
+    return add_saturating(size, operands - above); /* a quotient counts as one more operation: 1/x divides too */
 }
 
 static uint64_t
@@ -104,10 +104,10 @@ size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     case QDOT_PROD: return size_of_product(pool, e, w);
     default:
         for (uint32_t i = 0; i < n; i++)
-            size = plus(size, child_size(pool, w, args[i]));
+            size = add_saturating(size, child_size(pool, w, args[i]));
         for (uint32_t i = n; i < node->n; i++) /* the orders of derivatives of a UFUN */
-            size = plus(size, args[i] != QDOT_ZERO);
-        return plus(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
+            size = add_saturating(size, args[i] != QDOT_ZERO);
+        return add_saturating(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
     }
 }
 

@@ -1,4 +1,4 @@
-/* sum.c -- makes sums; a sum is a map from terms to rational coefficients. */
+/* sum.c -- makes sums of expressions; a sum is stored as terms with rational coefficients. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -21,7 +21,7 @@ struct sum {
 };
 
 static void
-sum_begin(struct sum *s, qdot_pool *pool)
+begin_sum(struct sum *s, qdot_pool *pool)
 {
     s->pool = pool;
     fmpq_init(&s->constant);
@@ -32,38 +32,38 @@ sum_begin(struct sum *s, qdot_pool *pool)
 }
 
 static void
-term_clear(struct term *t)
+free_term(struct term *t)
 {
     if (t->id == QDOT_NIL)
         fmpq_clear(&t->c);
 }
 
 static void
-sum_end(struct sum *s)
+free_sum(struct sum *s)
 {
     for (size_t i = 0; i < s->n; i++)
-        term_clear(&s->at[i]);
+        free_term(&s->at[i]);
     fmpq_clear(&s->constant);
     if (s->at != s->few)
         qdot_free(s->at);
 }
 
 static void
-fail(struct sum *s)
+sum_fail(struct sum *s)
 {
     qdot_pool_fail(s->pool);
     s->failed = true;
 }
 
 static const fmpq *
-term_coefficient(const struct sum *s, const struct term *t)
+coefficient_of_term(const struct sum *s, const struct term *t)
 {
     return t->id != QDOT_NIL ? RATIONAL(s->pool, t->id) : &t->c;
 }
 
 /* Append a * b * term; a and b are numbers, and the term has no coefficient. */
 static void
-sum_push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
+push_term(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
 {
     struct term *t;
 
@@ -72,7 +72,7 @@ sum_push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
         size_t capacity = s->at == s->few ? 0 : s->capacity;
 
         if (qdot_grow(&bigger, &capacity, s->n * 2, sizeof *bigger) != QDOT_OK) {
-            fail(s);
+            sum_fail(s);
             return;
         }
         if (s->at == s->few)
@@ -94,7 +94,7 @@ sum_push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
 }
 
 static void
-sum_add_number(struct sum *s, qdot_expr a, qdot_expr b)
+add_number_to_sum(struct sum *s, qdot_expr a, qdot_expr b)
 {
     if (a != QDOT_ZERO && b != QDOT_ZERO)
         qdot_rational_addmul(&s->constant, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
@@ -102,42 +102,42 @@ sum_add_number(struct sum *s, qdot_expr a, qdot_expr b)
 
 /* Add c times e to the sum, where c is a number. */
 static void
-sum_add(struct sum *s, qdot_expr e, qdot_expr c)
+add_multiple_to_sum(struct sum *s, qdot_expr e, qdot_expr c)
 {
     qdot_pool *pool = s->pool;
     qdot_expr own, rest;
 
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM: sum_add_number(s, e, c); return;
+    case QDOT_NUM: add_number_to_sum(s, e, c); return;
     case QDOT_PROD:
         own = ARGS(pool, e)[0];
         if (own == QDOT_ONE) {
-            sum_push(s, e, c, QDOT_ONE);
+            push_term(s, e, c, QDOT_ONE);
             return;
         }
         rest = qdot_expr_strip(pool, e);
         if (rest == QDOT_NIL)
-            fail(s);
+            sum_fail(s);
         else if (NODE(pool, rest)->kind != QDOT_SUM)
-            sum_push(s, rest, own, c);
+            push_term(s, rest, own, c);
         else if ((c = qdot_mul(pool, own, c)) == QDOT_NIL)
-            fail(s);
+            sum_fail(s);
         else
-            sum_add(s, rest, c); /* recursion of one level: `rest` has no coefficient */
+            add_multiple_to_sum(s, rest, c); /* one level of recursion only, since `rest` has no coefficient */
         return;
     case QDOT_SUM:
-        sum_add_number(s, ARGS(pool, e)[0], c);
+        add_number_to_sum(s, ARGS(pool, e)[0], c);
         for (uint32_t i = 1; i < NODE(pool, e)->n && !s->failed; i += 2)
-            sum_push(s, ARGS(pool, e)[i], ARGS(pool, e)[i + 1], c);
+            push_term(s, ARGS(pool, e)[i], ARGS(pool, e)[i + 1], c);
         return;
-    default: sum_push(s, e, c, QDOT_ONE);
+    default: push_term(s, e, c, QDOT_ONE);
     }
 }
 
 /* --- sorting and merging terms ------------------------------------------------------------ */
 
 static int
-by_id(const void *a, const void *b)
+compare_term_ids(const void *a, const void *b)
 {
     const struct term *x = a, *y = b;
 
@@ -145,14 +145,14 @@ by_id(const void *a, const void *b)
 }
 
 static bool
-ordered(const struct sum *s, const struct term *a, const struct term *b)
+terms_are_ordered(const struct sum *s, const struct term *a, const struct term *b)
 {
     return a->term == b->term || qdot_expr_compare_terms(s->pool, a->term, b->term) < 0;
 }
 
 /* Combine equal neighbouring terms, and drop zeros. */
 static void
-sum_merge(struct sum *s)
+merge_equal_terms(struct sum *s)
 {
     size_t kept = 0;
 
@@ -166,9 +166,9 @@ sum_merge(struct sum *s)
         }
         last = &s->at[kept - 1];
         fmpq_init(c);
-        qdot_rational_add(c, term_coefficient(s, last), term_coefficient(s, t));
-        term_clear(last);
-        term_clear(t);
+        qdot_rational_add(c, coefficient_of_term(s, last), coefficient_of_term(s, t));
+        free_term(last);
+        free_term(t);
         last->id = QDOT_NIL;
         last->c = *c;
         if (fmpq_is_zero(c)) {
@@ -188,17 +188,17 @@ merge_runs(const struct sum *s, const struct term *from, size_t a, size_t b, siz
 
     for (size_t n = a; n < c; n++)
         to[n] =
-            k == c || (i < b && ordered(s, &from[i], &from[k])) ? from[i++] : from[k++];
+            k == c || (i < b && terms_are_ordered(s, &from[i], &from[k])) ? from[i++] : from[k++];
 }
 
 /* Sort the terms by merging existing runs, as the terms of sums are already sorted. */
 static void
-sort_runs(struct sum *s, uint32_t *start, size_t runs)
+merge_sorted_runs(struct sum *s, uint32_t *start, size_t runs)
 {
     struct term *other = qdot_malloc(s->n * sizeof *other), *from = s->at, *to = other;
 
     if (other == NULL) {
-        fail(s);
+        sum_fail(s);
         return;
     }
     while (runs > 1) {
@@ -223,60 +223,60 @@ sort_runs(struct sum *s, uint32_t *start, size_t runs)
 }
 
 static void
-sort_few(struct sum *s)
+sort_few_terms(struct sum *s)
 {
     for (size_t i = 1; i < s->n; i++) {
         struct term t = s->at[i];
         size_t k = i;
 
-        for (; k > 0 && !ordered(s, &s->at[k - 1], &t); k--)
+        for (; k > 0 && !terms_are_ordered(s, &s->at[k - 1], &t); k--)
             s->at[k] = s->at[k - 1];
         s->at[k] = t;
     }
 }
 
 static void
-sum_sort(struct sum *s)
+sort_terms(struct sum *s)
 {
     uint32_t *start;
     size_t runs;
 
     if (s->n <= 8) {
-        sort_few(s);
-        sum_merge(s);
+        sort_few_terms(s);
+        merge_equal_terms(s);
         return;
     }
     start = qdot_malloc(s->n * sizeof *start);
     if (start == NULL) {
-        fail(s);
+        sum_fail(s);
         return;
     }
     for (int pass = 0; pass < 2; pass++) {
         runs = 0;
         for (size_t i = 0; i < s->n; i++)
-            if (i == 0 || !ordered(s, &s->at[i - 1], &s->at[i]))
+            if (i == 0 || !terms_are_ordered(s, &s->at[i - 1], &s->at[i]))
                 start[runs++] = (uint32_t)i;
         if (pass == 1 || runs < s->n / 4 || s->n < 64)
             break;
         /* the items have no order, as after multiplying out: put like terms together, by their ids */
-        qsort(s->at, s->n, sizeof *s->at, by_id);
-        sum_merge(s);
+        qsort(s->at, s->n, sizeof *s->at, compare_term_ids);
+        merge_equal_terms(s);
     }
     if (runs > 1)
-        sort_runs(s, start, runs);
+        merge_sorted_runs(s, start, runs);
     qdot_free(start);
-    sum_merge(s);
+    merge_equal_terms(s);
 }
 
 static qdot_expr
-sum_finish(struct sum *s)
+make_sum_node(struct sum *s)
 {
     qdot_pool *pool = s->pool;
     qdot_expr few[33], *args = few, e = QDOT_NIL;
 
     if (s->failed || FAILED(pool))
         return QDOT_NIL;
-    sum_sort(s);
+    sort_terms(s);
     if (s->failed)
         return QDOT_NIL;
     if (s->n == 0)
@@ -310,7 +310,7 @@ sum_finish(struct sum *s)
 
 /* Whether every e is scalar; if not the pool keeps the failure. */
 static bool
-scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
+check_all_scalar(qdot_pool *pool, size_t n, const qdot_expr *e)
 {
     if (FAILED(pool))
         return false;
@@ -325,15 +325,15 @@ scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
     return true;
 }
 
-/* The sum of c[i] terms[i]; c NULL: all 1. */
+/* The sum of c[i] times terms[i]; c NULL: all coefficients are 1. */
 static qdot_expr
-sum_combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
+make_linear_combination(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
 {
     struct sum s;
     qdot_expr e;
     size_t only = 0, count = 0;
 
-    if (!scalars(pool, n, terms))
+    if (!check_all_scalar(pool, n, terms))
         return QDOT_NIL;
     for (size_t i = 0; i < n && count < 2; i++)
         if (terms[i] != QDOT_ZERO) {
@@ -344,39 +344,39 @@ sum_combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *term
         return count == 0  ? QDOT_ZERO
                : c == NULL ? terms[only]
                            : qdot_mul(pool, c[only], terms[only]);
-    sum_begin(&s, pool);
+    begin_sum(&s, pool);
     /* sums of numbers make no nodes, so Ctrl-C is tested here */
     for (size_t i = 0; i < n && !s.failed && !qdot_pool_interrupted(pool); i++)
-        sum_add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
-    e = sum_finish(&s);
-    sum_end(&s);
+        add_multiple_to_sum(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
+    e = make_sum_node(&s);
+    free_sum(&s);
     return e;
 }
 
 qdot_expr
 qdot_sum(qdot_pool *pool, size_t n, const qdot_expr *terms)
 {
-    return sum_combine(pool, n, NULL, terms);
+    return make_linear_combination(pool, n, NULL, terms);
 }
 
 qdot_expr
 qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
 {
-    if (!scalars(pool, n, c))
+    if (!check_all_scalar(pool, n, c))
         return QDOT_NIL;
-    return sum_combine(pool, n, c, terms);
+    return make_linear_combination(pool, n, c, terms);
 }
 
 qdot_expr
 qdot_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    return sum_combine(pool, 2, NULL, (qdot_expr[]){a, b});
+    return make_linear_combination(pool, 2, NULL, (qdot_expr[]){a, b});
 }
 
 qdot_expr
 qdot_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    return sum_combine(pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}, (qdot_expr[]){a, b});
+    return make_linear_combination(pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}, (qdot_expr[]){a, b});
 }
 
 qdot_expr

@@ -42,11 +42,11 @@ typedef struct {
     qdot_class class;
     const char *name;  /* plain: "theta[1]", "theta[1]'", "dr", "lambda[rod]", "delta[r]" */
     qdot_expr base; /* for a time derivative, momentum, differential or delta: its coordinate (or t) */
-    uint32_t order;    /* of the time derivative: 0 q, 1 q', 2 q'' */
+    uint32_t order;    /* order of the time derivative: 0 for q, 1 for q', 2 for q'' */
     uint32_t rank;     /* order of declaration; a time derivative has its coordinate's */
     qdot_expr lo, hi;  /* bounds of the declared domain; nil: unbounded */
     bool lo_open, hi_open;
-    bool hidden;       /* cannot be looked up by its name */
+    bool hidden;       /* the symbol cannot be found by its name */
     uint8_t sign;
 } qdot_symbol;
 
@@ -66,10 +66,10 @@ bool qdot_symbol_is_declared(const qdot_pool *pool, const char *name);
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
 /* The symbol dq or dt, p[q], or delta[q] for `class` DIFFERENTIAL, MOMENTUM or DELTA. */
 qdot_expr qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate);
-/* Declare lo < x < hi (nil: no bound; open: strict). Before x is used. */
+/* Declare the domain lo < x < hi of x, before x is used (nil: no bound; open: strict, else with the bound itself). */
 void qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open,
                         qdot_expr hi, bool hi_open);
-/* NULL unless e is a SYM. Valid until the next constructor call. */
+/* The symbol data of e; NULL unless e is a SYM. Valid until the next constructor call. */
 const qdot_symbol *qdot_expr_symbol(const qdot_pool *pool, qdot_expr e);
 bool qdot_expr_is_class(const qdot_pool *pool, qdot_expr e, qdot_class class);
 /* Whether e is the coordinate itself (order 0). */

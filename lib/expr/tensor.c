@@ -26,7 +26,7 @@ typedef struct {
 } parts;
 
 static bool
-parts_begin(qdot_pool *pool, parts *p, size_t n)
+allocate_components(qdot_pool *pool, parts *p, size_t n)
 {
     p->at = n > 32 ? qdot_malloc(n * sizeof *p->at) : p->few;
     if (p->at == NULL)
@@ -35,7 +35,7 @@ parts_begin(qdot_pool *pool, parts *p, size_t n)
 }
 
 static void
-parts_end(parts *p)
+free_components(parts *p)
 {
     if (p->at != p->few)
         qdot_free(p->at);
@@ -48,7 +48,7 @@ is_tensor(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-same_shape(const qdot_pool *pool, qdot_expr a, qdot_expr b)
+has_same_shape(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
 
@@ -64,17 +64,17 @@ map_components(qdot_pool *pool, qdot_expr a, qdot_expr b,
     parts p;
     qdot_expr result;
 
-    if (!parts_begin(pool, &p, n))
+    if (!allocate_components(pool, &p, n))
         return QDOT_NIL;
     for (uint32_t i = 0; i < n; i++)
         p.at[i] = f(pool, ARGS(pool, a)[i], pairwise ? ARGS(pool, b)[i] : b);
     result = qdot_rebuild(pool, a, p.at);
-    parts_end(&p);
+    free_components(&p);
     return result;
 }
 
 static qdot_expr
-shapes_differ(qdot_pool *pool, const char *verb, qdot_expr a, qdot_expr b)
+report_different_shapes(qdot_pool *pool, const char *verb, qdot_expr a, qdot_expr b)
 {
     const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
 
@@ -108,14 +108,14 @@ qdot_value_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_add(pool, a, b);
-    if ((is_tensor(pool, a) || is_equation(pool, a)) && same_shape(pool, a, b) &&
+    if ((is_tensor(pool, a) || is_equation(pool, a)) && has_same_shape(pool, a, b) &&
         is_equation(pool, a) == is_equation(pool, b))
         return map_components(pool, a, b, qdot_value_add, true);
     if (is_equation(pool, a) && qdot_expr_is_scalar(pool, b))
         return map_components(pool, a, b, qdot_value_add, false);
     if (is_equation(pool, b) && qdot_expr_is_scalar(pool, a))
         return map_components(pool, b, a, qdot_value_add, false);
-    return shapes_differ(pool, "add", a, b);
+    return report_different_shapes(pool, "add", a, b);
 }
 
 qdot_expr
@@ -130,12 +130,12 @@ qdot_value_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (!qdot_expr_is_scalar(pool, a) && !qdot_expr_is_scalar(pool, b) &&
-        !same_shape(pool, a, b))
-        return shapes_differ(pool, "subtract", a, b);
+        !has_same_shape(pool, a, b))
+        return report_different_shapes(pool, "subtract", a, b);
     return qdot_value_add(pool, a, qdot_value_neg(pool, b));
 }
 
-/* The product (rows x inner) (inner x columns), by reading entries of flat args. */
+/* The product of matrices a (rows x inner) and b (inner x columns), whose entries are stored row by row. */
 static qdot_expr
 matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -151,10 +151,10 @@ matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
                          pool, QDOT_ETYPE,
                          "cannot multiply a %ux%u matrix and a vector of %u components",
                          rows, inner, deep)
-                   : shapes_differ(pool, "multiply", a, b);
-    if (!parts_begin(pool, &p, (size_t)rows * columns))
+                   : report_different_shapes(pool, "multiply", a, b);
+    if (!allocate_components(pool, &p, (size_t)rows * columns))
         return QDOT_NIL;
-    if (parts_begin(pool, &terms, inner)) {
+    if (allocate_components(pool, &terms, inner)) {
         for (uint32_t i = 0; i < rows; i++)
             for (uint32_t j = 0; j < columns; j++) {
                 for (uint32_t k = 0; k < inner; k++)
@@ -165,9 +165,9 @@ matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
         result = !vector    ? qdot_matrix(pool, rows, columns, p.at)
                  : rows > 1 ? qdot_vector(pool, rows, p.at)
                             : p.at[0];
-        parts_end(&terms);
+        free_components(&terms);
     }
-    parts_end(&p);
+    free_components(&p);
     return result;
 }
 
@@ -185,7 +185,7 @@ qdot_value_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (NODE(pool, a)->kind == QDOT_MAT && is_tensor(pool, b))
         return matrix_product(pool, a, b);
     if (NODE(pool, a)->kind == QDOT_VEC && NODE(pool, b)->kind == QDOT_VEC) {
-        qdot_expr none = shapes_differ(pool, "multiply", a, a);
+        qdot_expr none = report_different_shapes(pool, "multiply", a, a);
 
         if (pool->error.status == QDOT_ETYPE) {
             strcpy(pool->error.message, "cannot multiply a vector and a vector");
@@ -193,7 +193,7 @@ qdot_value_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
         }
         return none;
     }
-    return shapes_differ(pool, "multiply", a, b);
+    return report_different_shapes(pool, "multiply", a, b);
 }
 
 qdot_expr
@@ -233,12 +233,12 @@ qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         if (NODE(pool, a)->n != size * size)
             return qdot_pool_refuse(pool, QDOT_ETYPE,
                                     "a power of a matrix that is not square");
-        if (!parts_begin(pool, &p, (size_t)size * size))
+        if (!allocate_components(pool, &p, (size_t)size * size))
             return QDOT_NIL;
         for (uint32_t i = 0; i < size * size; i++)
             p.at[i] = i % (size + 1) == 0 ? QDOT_ONE : QDOT_ZERO;
         result = qdot_matrix(pool, size, size, p.at);
-        parts_end(&p);
+        free_components(&p);
     }
     for (; n > 0 && result != QDOT_NIL; n >>= 1) {
         if (n & 1)
@@ -250,7 +250,7 @@ qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
 }
 
 static qdot_expr
-equate(qdot_pool *pool, qdot_expr a, qdot_expr b)
+make_equation(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     return qdot_rel(pool, QDOT_EQ, a, b);
 }
@@ -261,19 +261,19 @@ qdot_value_equation(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
-        return equate(pool, a, b);
+        return make_equation(pool, a, b);
     if ((is_tensor(pool, a) || NODE(pool, a)->kind == QDOT_LIST) &&
-        same_shape(pool, a, b))
+        has_same_shape(pool, a, b))
         return map_components(pool, a, b,
-                              NODE(pool, a)->kind == QDOT_LIST ? qdot_value_equation : equate,
+                              NODE(pool, a)->kind == QDOT_LIST ? qdot_value_equation : make_equation,
                               true);
-    return shapes_differ(pool, "equate", a, b);
+    return report_different_shapes(pool, "equate", a, b);
 }
 
 /* --- products of vectors ------------------------------------------------------------------- */
 
 static bool
-vectors(qdot_pool *pool, const char *what, qdot_expr a, qdot_expr b)
+check_vectors(qdot_pool *pool, const char *what, qdot_expr a, qdot_expr b)
 {
     if (!check_operands(pool, a, b))
         return false;
@@ -294,22 +294,22 @@ qdot_dot(qdot_pool *pool, qdot_expr a, qdot_expr b)
     /* in one dimension vectors are scalars */
     if (check_operands(pool, a, b) && qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_mul(pool, a, b);
-    if (!vectors(pool, "dot", a, b))
+    if (!check_vectors(pool, "dot", a, b))
         return QDOT_NIL;
     n = NODE(pool, a)->n;
     if (n != NODE(pool, b)->n)
-        return shapes_differ(pool, "dot", a, b);
-    if (!parts_begin(pool, &p, n))
+        return report_different_shapes(pool, "dot", a, b);
+    if (!allocate_components(pool, &p, n))
         return QDOT_NIL;
     for (uint32_t i = 0; i < n; i++)
         p.at[i] = qdot_mul(pool, ARGS(pool, a)[i], ARGS(pool, b)[i]);
     result = qdot_sum(pool, n, p.at);
-    parts_end(&p);
+    free_components(&p);
     return result;
 }
 
 static qdot_expr
-minor2(qdot_pool *pool, qdot_expr a, qdot_expr b, uint32_t i, uint32_t j)
+two_by_two_minor(qdot_pool *pool, qdot_expr a, qdot_expr b, uint32_t i, uint32_t j)
 {
     return qdot_sub(pool, qdot_mul(pool, ARGS(pool, a)[i], ARGS(pool, b)[j]),
                     qdot_mul(pool, ARGS(pool, a)[j], ARGS(pool, b)[i]));
@@ -320,14 +320,14 @@ qdot_cross(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     qdot_expr c[3];
 
-    if (!vectors(pool, "cross", a, b))
+    if (!check_vectors(pool, "cross", a, b))
         return QDOT_NIL;
     if (NODE(pool, a)->n != NODE(pool, b)->n || NODE(pool, a)->n > 3)
-        return shapes_differ(pool, "cross", a, b);
+        return report_different_shapes(pool, "cross", a, b);
     if (NODE(pool, a)->n == 2)
-        return minor2(pool, a, b, 0, 1);
+        return two_by_two_minor(pool, a, b, 0, 1);
     for (uint32_t i = 0; i < 3; i++)
-        c[i] = minor2(pool, a, b, (i + 1) % 3, (i + 2) % 3);
+        c[i] = two_by_two_minor(pool, a, b, (i + 1) % 3, (i + 2) % 3);
     return qdot_vector(pool, 3, c);
 }
 
@@ -342,7 +342,7 @@ qdot_norm(qdot_pool *pool, qdot_expr a)
 /* --- functions of matrices -------------------------------------------------------------------- */
 
 static bool
-matrix(qdot_pool *pool, const char *what, qdot_expr a, bool square)
+check_matrix(qdot_pool *pool, const char *what, qdot_expr a, bool square)
 {
     if (a == QDOT_NIL || qdot_pool_failed(pool))
         return false;
@@ -365,17 +365,17 @@ qdot_transpose(qdot_pool *pool, qdot_expr a)
     parts p;
     qdot_expr result;
 
-    if (!matrix(pool, "transpose", a, false))
+    if (!check_matrix(pool, "transpose", a, false))
         return QDOT_NIL;
     columns = NODE(pool, a)->op;
     rows = NODE(pool, a)->n / columns;
-    if (!parts_begin(pool, &p, NODE(pool, a)->n))
+    if (!allocate_components(pool, &p, NODE(pool, a)->n))
         return QDOT_NIL;
     for (uint32_t i = 0; i < rows; i++)
         for (uint32_t j = 0; j < columns; j++)
             p.at[j * rows + i] = ARGS(pool, a)[i * columns + j];
     result = qdot_matrix(pool, columns, rows, p.at);
-    parts_end(&p);
+    free_components(&p);
     return result;
 }
 
@@ -384,7 +384,7 @@ qdot_trace(qdot_pool *pool, qdot_expr a)
 {
     qdot_expr sum = QDOT_ZERO;
 
-    if (!matrix(pool, "trace", a, true))
+    if (!check_matrix(pool, "trace", a, true))
         return QDOT_NIL;
     for (uint32_t i = 0, n = NODE(pool, a)->op; i < n; i++)
         sum = qdot_add(pool, sum, ARGS(pool, a)[i * (n + 1)]);
@@ -427,7 +427,7 @@ determinant(qdot_pool *pool, uint32_t n, const qdot_expr *entry)
 enum { LARGEST = 12 };
 
 static bool
-not_too_large(qdot_pool *pool, const char *what, uint32_t n)
+check_matrix_size(qdot_pool *pool, const char *what, uint32_t n)
 {
     if (n <= LARGEST)
         return true;
@@ -442,10 +442,10 @@ qdot_det(qdot_pool *pool, qdot_expr a)
     qdot_expr entry[LARGEST * LARGEST];
     uint32_t n;
 
-    if (!matrix(pool, "det", a, true))
+    if (!check_matrix(pool, "det", a, true))
         return QDOT_NIL;
     n = NODE(pool, a)->op;
-    if (!not_too_large(pool, "det", n))
+    if (!check_matrix_size(pool, "det", n))
         return QDOT_NIL;
     memcpy(entry, ARGS(pool, a), (size_t)n * n * sizeof *entry);
     return determinant(pool, n, entry);
@@ -472,10 +472,10 @@ qdot_inverse(qdot_pool *pool, qdot_expr a)
     qdot_expr entry[LARGEST * LARGEST], inverse[LARGEST * LARGEST], det;
     uint32_t n;
 
-    if (!matrix(pool, "inverse", a, true))
+    if (!check_matrix(pool, "inverse", a, true))
         return QDOT_NIL;
     n = NODE(pool, a)->op;
-    if (!not_too_large(pool, "inverse", n))
+    if (!check_matrix_size(pool, "inverse", n))
         return QDOT_NIL;
     memcpy(entry, ARGS(pool, a), (size_t)n * n * sizeof *entry);
     det = determinant(pool, n, entry);
@@ -528,7 +528,7 @@ qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j)
         return QDOT_NIL;
     if (NODE(pool, a)->kind == QDOT_LIST || NODE(pool, a)->kind == QDOT_VEC)
         return qdot_entry(pool, qdot_entry(pool, a, i), j);
-    if (!matrix(pool, "[i, j]", a, false))
+    if (!check_matrix(pool, "[i, j]", a, false))
         return QDOT_NIL;
     columns = NODE(pool, a)->op;
     rows = NODE(pool, a)->n / columns;

@@ -4,11 +4,11 @@
 
 #include "expr/id.h"
 
-/* After a constructor: QDOT_OK, or the pool's failure if value is nil. */
+/* Call after a constructor: returns QDOT_OK, or the failure of the pool if the value is nil. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr value);
-/* "a vector", "an equation" ... in a user's words. */
+/* The kind of the value e in a user's words: "a vector", "an equation" ... */
 const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
-/* Set *value to `made`, after the check of qdot_value_kind_check. */
+/* Set *value to `made`, the result of a constructor; fails as qdot_value_kind_check does. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made,
                                                  qdot_expr *value);
 bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);

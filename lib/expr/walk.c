@@ -1,4 +1,4 @@
-/* walk.c -- lists the reachable nodes in topological order; common parts of passes over them. */
+/* walk.c -- lists all subexpressions of an expression in topological order, for passes over them. */
 #include "expr/walk.h"
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@ hash_id(uint32_t e)
 }
 
 static size_t
-walk_find_slot(const qdot_walk *w, qdot_expr e)
+find_slot_of_node(const qdot_walk *w, qdot_expr e)
 {
     uint32_t i = hash_id(e) & w->mask;
 
@@ -25,7 +25,7 @@ walk_find_slot(const qdot_walk *w, qdot_expr e)
 }
 
 static qdot_status
-walk_enlarge(qdot_walk *w)
+enlarge_node_table(qdot_walk *w)
 {
     uint32_t size = (w->mask + 1) * 2;
     uint32_t *slot = qdot_calloc(size, sizeof *slot);
@@ -37,11 +37,11 @@ walk_enlarge(qdot_walk *w)
     w->slot = slot;
     w->mask = size - 1;
     for (size_t k = 0; k < w->n; k++)
-        slot[walk_find_slot(w, w->at[k])] = (uint32_t)k + 1;
+        slot[find_slot_of_node(w, w->at[k])] = (uint32_t)k + 1;
     return QDOT_OK;
 }
 
-/* Sort ids ascending by merging runs, as nodes are made in order; scratch [n]. */
+/* Sort ids ascending by merging runs that are sorted already, since nodes are made in order; scratch [n]. */
 static void
 sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
 {
@@ -77,7 +77,7 @@ sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
 static qdot_status
 add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
 {
-    size_t place = walk_find_slot(w, e);
+    size_t place = find_slot_of_node(w, e);
 
     if (w->slot[place] != 0)
         return QDOT_OK;
@@ -90,15 +90,15 @@ add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
     QDOT_TRY(qdot_grow(&w->at, capacity, w->n + 1, sizeof *w->at));
     w->at[w->n++] = e;
     w->slot[place] = (uint32_t)w->n;
-    return w->n * 2 > w->mask ? walk_enlarge(w) : QDOT_OK;
+    return w->n * 2 > w->mask ? enlarge_node_table(w) : QDOT_OK;
 }
 
-/* Enter all nodes into the hash table. */
+/* Enter all nodes of the walk into its hash table. */
 static void
-place_nodes(qdot_walk *w)
+fill_hash_table(qdot_walk *w)
 {
     memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
-    for (size_t k = 0; k < w->n; k++) { /* each node is met for the first time */
+    for (size_t k = 0; k < w->n; k++) { /* each node occurs only once in w->at, so it is not in the table yet */
         uint32_t i = hash_id(w->at[k]) & w->mask;
 
         while (w->slot[i] != 0)
@@ -108,8 +108,8 @@ place_nodes(qdot_walk *w)
 }
 
 static qdot_status
-walk_begin_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
-                 uint32_t touches, qdot_walk *w)
+begin_walk_from_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
+                      uint32_t touches, qdot_walk *w)
 {
     size_t capacity = QDOT_WALK_FEW;
     qdot_status status = QDOT_OK;
@@ -154,7 +154,7 @@ walk_begin_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32
             w->at[k] = e;
         }
         sort_ids(w->at, w->n, (qdot_expr *)w->value);
-        place_nodes(w);
+        fill_hash_table(w);
     }
     memset(w->value, 0, w->n * sizeof *w->value);
     return QDOT_OK;
@@ -163,23 +163,23 @@ walk_begin_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32
 qdot_status
 qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_walk *w)
 {
-    return walk_begin_roots(pool, n, roots, UINT32_MAX, 0, w);
+    return begin_walk_from_roots(pool, n, roots, UINT32_MAX, 0, w);
 }
 
 qdot_status
 qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w)
 {
-    return walk_begin_roots(pool, 1, &e, UINT32_MAX, 0, w);
+    return begin_walk_from_roots(pool, 1, &e, UINT32_MAX, 0, w);
 }
 
 qdot_status
 qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds,
                       uint32_t touches, qdot_walk *w)
 {
-    return walk_begin_roots(pool, 1, &e, holds, touches, w);
+    return begin_walk_from_roots(pool, 1, &e, holds, touches, w);
 }
 
-/* A node and its position in the new order. */
+/* A node of a walk and its position in the new order of the nodes. */
 typedef struct {
     qdot_expr e;
     size_t place;
@@ -205,9 +205,9 @@ list_reachable(qdot_walk *w, size_t n, const qdot_expr *roots, met *m)
     }
 }
 
-/* Store the height of every node (0 for a leaf) as its value; returns the largest. */
+/* Store the height of every node of the expression tree (0 if it has no children) as its value; returns the largest. */
 static size_t
-heights(qdot_walk *w)
+compute_heights(qdot_walk *w)
 {
     uint64_t most = 0;
 
@@ -234,7 +234,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
     size_t *first; /* [heights] position of the first node of each height */
     size_t most;
 
-    QDOT_TRY(walk_begin_roots(pool, n, roots, UINT32_MAX, 0, w));
+    QDOT_TRY(begin_walk_from_roots(pool, n, roots, UINT32_MAX, 0, w));
     if (w->n == 0)
         return QDOT_OK;
     m = qdot_malloc(w->n * sizeof *m);
@@ -246,7 +246,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
         return QDOT_ENOMEM;
     }
     list_reachable(w, n, roots, m);
-    most = heights(w);
+    most = compute_heights(w);
     for (size_t k = 0; k < w->n; k++)
         first[w->value[k] + 1]++;
     for (size_t height = 0; height < most; height++)
@@ -255,7 +255,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
         m[k].place = first[qdot_walk_get(w, m[k].e)]++;
     for (size_t k = 0; k < w->n; k++)
         w->at[m[k].place] = m[k].e;
-    place_nodes(w);
+    fill_hash_table(w);
     memset(w->value, 0, w->n * sizeof *w->value);
     qdot_free(m);
     qdot_free(first);
@@ -280,7 +280,7 @@ qdot_walk_end(qdot_walk *w)
 size_t
 qdot_walk_index(const qdot_walk *w, qdot_expr e)
 {
-    uint32_t slot = w->slot[walk_find_slot(w, e)];
+    uint32_t slot = w->slot[find_slot_of_node(w, e)];
 
     return slot == 0 ? SIZE_MAX : slot - 1;
 }

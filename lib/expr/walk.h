@@ -16,14 +16,14 @@
 
 enum { QDOT_WALK_FEW = 32 };
 
-/* Must not be copied: with few nodes it contains pointers to itself. */
+/* The list of all subexpressions of an expression. Must not be copied: with few nodes it points into itself. */
 typedef struct qdot_walk {
     const qdot_pool *pool;
-    qdot_expr *at;   /* [n] ascending ids or heights, children before parents; owned */
+    qdot_expr *at;   /* [n] nodes, ascending by id or by height, children before parents; owned */
     size_t n;
     uint32_t *slot;  /* open hash table from node id to index + 1; owned */
     uint32_t mask;
-    uint64_t *value; /* [n] a word of data for each node, 0 at first; owned */
+    uint64_t *value; /* [n] a 64-bit value for each node, 0 at first; owned */
     qdot_expr few[QDOT_WALK_FEW];
     uint32_t few_slot[2 * QDOT_WALK_FEW];
     uint64_t few_value[QDOT_WALK_FEW];

@@ -1,4 +1,4 @@
-/* box.c -- lays out a formula as nested boxes, each measured when all its children are. */
+/* box.c -- lays out a formula as nested boxes; a box is measured when all its children are. */
 #include "formula/box.h"
 
 #include <inttypes.h>
@@ -10,7 +10,7 @@
 typedef struct {
     qdot_boxes *to;
     qdot_vec(size_t)
-        open; /* for each open node: index in `done` of its first finished box */
+        open; /* for each open formula node: index in `done` of its first finished box */
     qdot_vec(uint32_t) done; /* finished boxes of nodes that are still open */
     qdot_text spelled, copy; /* scratch texts */
 } reader;
@@ -18,7 +18,7 @@ typedef struct {
 /* --- boxes of texts ------------------------------------------------------------------------- */
 
 static const char *
-text_of(const qdot_boxes *b, const qdot_box *x)
+get_box_text(const qdot_boxes *b, const qdot_box *x)
 {
     return b->text.at + x->first;
 }
@@ -30,7 +30,7 @@ is_text(const qdot_boxes *b, uint32_t i)
 }
 
 static qdot_status
-box_finish(reader *r, qdot_box x)
+append_finished_box(reader *r, qdot_box x)
 {
     QDOT_TRY(qdot_vec_push(&r->to->box, x));
     return qdot_vec_push(&r->done, (uint32_t)(r->to->box.n - 1));
@@ -38,7 +38,7 @@ box_finish(reader *r, qdot_box x)
 
 /* Make a box of the text added from byte `from` on. */
 static qdot_status
-finish_text(reader *r, size_t from, qdot_box_role role)
+make_text_box(reader *r, size_t from, qdot_box_role role)
 {
     const qdot_text *t = &r->to->text;
     qdot_box x = {.kind = QDOT_BOX_TEXT, .role = (uint8_t)role, .first = (uint32_t)from};
@@ -48,21 +48,21 @@ finish_text(reader *r, size_t from, qdot_box_role role)
         return qdot_fail(QDOT_ELIMIT, "the formula is too long to be laid out");
     x.count = (uint32_t)(t->n - from);
     x.columns = x.count > 0 ? (uint32_t)qdot_utf8_columns(t->at + from, x.count) : 0;
-    return box_finish(r, x);
+    return append_finished_box(r, x);
 }
 
 static qdot_status
-box_add_text(reader *r, const char *text, qdot_box_role role)
+append_text_box(reader *r, const char *text, qdot_box_role role)
 {
     const size_t from = r->to->text.n;
 
     qdot_text_add(&r->to->text, text);
-    return finish_text(r, from, role);
+    return make_text_box(r, from, role);
 }
 
 /* Whether a term begins here, so that a + or - here is the sign of one operand, not of two. */
 static bool
-term_begins(const reader *r)
+is_at_begin_of_term(const reader *r)
 {
     const size_t first = r->open.n > 0 ? r->open.at[r->open.n - 1] : 0;
     uint8_t role;
@@ -74,33 +74,33 @@ term_begins(const reader *r)
            role == QDOT_BOX_OPENING || role == QDOT_BOX_WORD;
 }
 
-/* Append words of a text as one box: a word of a relation if it ends in a blank, otherwise a name. */
+/* Append words of a text as one box: a word of a relation if the text ends in a blank, otherwise a name. */
 static qdot_status
-box_add_words(reader *r, const char *text, size_t n)
+append_word_box(reader *r, const char *text, size_t n)
 {
     const size_t from = r->to->text.n;
 
     qdot_text_add_n(&r->to->text, text, n);
-    QDOT_TRY(finish_text(r, from,
-                         n > 0 && text[n - 1] == ' ' ? QDOT_BOX_WORD : QDOT_BOX_NAME));
+    QDOT_TRY(make_text_box(r, from,
+                           n > 0 && text[n - 1] == ' ' ? QDOT_BOX_WORD : QDOT_BOX_NAME));
     r->to->box.at[r->done.at[r->done.n - 1]].label = 1;
     return QDOT_OK;
 }
 
 static qdot_status
-box_add_leaf(reader *r, const qdot_formula *f, const qdot_formula_node *leaf)
+append_leaf_box(reader *r, const qdot_formula *f, const qdot_formula_node *leaf)
 {
     const char *const text = f->text.at + leaf->child;
     const size_t from = r->to->text.n;
 
     if (leaf->what == QDOT_TEXT_WORDS || leaf->what == QDOT_TEXT_LABEL)
-        return box_add_words(r, text, leaf->n);
+        return append_word_box(r, text, leaf->n);
     qdot_text_add_n(&r->to->text, text, leaf->n);
-    return finish_text(r, from, QDOT_BOX_NAME);
+    return make_text_box(r, from, QDOT_BOX_NAME);
 }
 
 static qdot_status
-box_add_sign(reader *r, const qdot_formula_node *node)
+append_sign_box(reader *r, const qdot_formula_node *node)
 {
     static const char *const written[] = {
 #define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) unicode,
@@ -117,13 +117,13 @@ box_add_sign(reader *r, const qdot_formula_node *node)
     if (sign == QDOT_SIGN_BLANK)
         return QDOT_OK;
     if (sign == QDOT_SIGN_NEGATIVE || sign == QDOT_SIGN_MINUS)
-        sign = term_begins(r) ? QDOT_SIGN_NEGATIVE : QDOT_SIGN_MINUS;
+        sign = is_at_begin_of_term(r) ? QDOT_SIGN_NEGATIVE : QDOT_SIGN_MINUS;
     else if (sign == QDOT_SIGN_COMMA_BELOW)
         sign = QDOT_SIGN_COMMA;
     else if (sign == QDOT_SIGN_BESIDE)
         sign = QDOT_SIGN_TIMES;
-    return box_add_text(r, written[sign],
-                        sign == QDOT_SIGN_MINUS ? QDOT_BOX_SIGN
+    return append_text_box(r, written[sign],
+                           sign == QDOT_SIGN_MINUS ? QDOT_BOX_SIGN
                                                 : roles[qdot_formula_sign_duty(node)]);
 }
 
@@ -150,10 +150,10 @@ static const character fractions[] = {
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
-/* Append the text in characters of a table, as superscripts; false, and nothing appended, if one is missing. */
+/* Append a text in the raised or lowered characters of a table; if one is missing, append nothing, return false. */
 static bool
-translate(qdot_text *to, const char *text, size_t bytes, const character *table,
-          size_t count)
+append_script_characters(qdot_text *to, const char *text, size_t bytes, const character *table,
+                         size_t count)
 {
     const size_t from = to->n;
 
@@ -176,12 +176,12 @@ translate(qdot_text *to, const char *text, size_t bytes, const character *table,
 /* The texts of a box, one behind the other, if it has nothing else: appended to `copy`, which is not the
  * text of the boxes. */
 static bool
-spell(const qdot_boxes *b, uint32_t i, qdot_text *copy)
+append_box_texts(const qdot_boxes *b, uint32_t i, qdot_text *copy)
 {
     const qdot_box *x = b->box.at + i;
 
     if (x->kind == QDOT_BOX_TEXT) {
-        qdot_text_add_n(copy, text_of(b, x), x->count);
+        qdot_text_add_n(copy, get_box_text(b, x), x->count);
         return true;
     }
     if (x->kind != QDOT_BOX_ROW)
@@ -191,7 +191,7 @@ spell(const qdot_boxes *b, uint32_t i, qdot_text *copy)
 
         if (y->kind != QDOT_BOX_TEXT)
             return false;
-        qdot_text_add_n(copy, text_of(b, y), y->count);
+        qdot_text_add_n(copy, get_box_text(b, y), y->count);
     }
     return true;
 }
@@ -199,7 +199,7 @@ spell(const qdot_boxes *b, uint32_t i, qdot_text *copy)
 /* --- sizes of boxes --------------------------------------------------------------------------- */
 
 static void
-append_box(qdot_box *row, const qdot_box *x)
+enlarge_row_by_box(qdot_box *row, const qdot_box *x)
 {
     row->columns += x->columns;
     if (x->above > row->above)
@@ -230,8 +230,8 @@ measure_table(qdot_boxes *b, qdot_box *table)
         qdot_box row = {0};
 
         for (uint32_t c = 0; c < table->across; c++)
-            append_box(&row,
-                       b->box.at + b->children.at[table->first + r * table->across + c]);
+            enlarge_row_by_box(&row,
+                               b->box.at + b->children.at[table->first + r * table->across + c]);
         height += qdot_box_height(&row) + (r > 0 && row.above > 0);
     }
     table->above = (height - 1) / 2;
@@ -264,9 +264,9 @@ finish_row(reader *r, qdot_box x)
     if (x.count == 1)
         return qdot_vec_push(&r->done, b->children.at[x.first]);
     for (uint32_t k = 0; k < x.count; k++)
-        append_box(&x, b->box.at + b->children.at[x.first + k]);
+        enlarge_row_by_box(&x, b->box.at + b->children.at[x.first + k]);
     stretch_brackets(b, &x);
-    return box_finish(r, x);
+    return append_finished_box(r, x);
 }
 
 /* Finish a fraction; as ½ if there is such a character. */
@@ -281,24 +281,24 @@ finish_fraction(reader *r, qdot_box x)
         const size_t from = b->text.n;
 
         qdot_text_truncate(&r->spelled, 0);
-        spell(b, of[0], &r->spelled);
+        append_box_texts(b, of[0], &r->spelled);
         qdot_text_char(&r->spelled, '/');
-        spell(b, of[1], &r->spelled);
+        append_box_texts(b, of[1], &r->spelled);
         for (size_t k = 0; k < COUNT(fractions) && !r->spelled.failed; k++)
             if (strcmp(qdot_text_str(&r->spelled), fractions[k].of) == 0)
                 qdot_text_add(&b->text, fractions[k].is);
         if (b->text.n > from)
-            return finish_text(r, from, QDOT_BOX_NAME);
+            return make_text_box(r, from, QDOT_BOX_NAME);
     }
     up = b->box.at + of[0];
     down = b->box.at + of[1];
     x.columns = up->columns > down->columns ? up->columns : down->columns;
     x.above = qdot_box_height(up);
     x.below = qdot_box_height(down);
-    return box_finish(r, x);
+    return append_finished_box(r, x);
 }
 
-/* Write a super- or subscript as characters such as ², on the line of its base; *own: these exist. */
+/* Write a super- or subscript as characters such as ², next to its base; *own: such characters exist. */
 static qdot_status
 append_script(reader *r, const qdot_box *x, bool super, bool *own)
 {
@@ -310,20 +310,20 @@ append_script(reader *r, const qdot_box *x, bool super, bool *own)
     qdot_text_truncate(&r->spelled, 0);
     qdot_text_truncate(&r->copy, 0);
     *own = b->box.at[base].above + b->box.at[base].below == 0 &&
-           spell(b, script, &r->spelled);
+           append_box_texts(b, script, &r->spelled);
     if (*own && is_text(b, base)) {
-        spell(b, base, &r->copy);
+        append_box_texts(b, base, &r->copy);
         qdot_text_add_n(&b->text, qdot_text_str(&r->copy), r->copy.n);
     }
-    *own = *own && translate(&b->text, qdot_text_str(&r->spelled), r->spelled.n,
-                             super ? superscripts : subscripts,
-                             super ? COUNT(superscripts) : COUNT(subscripts));
+    *own = *own && append_script_characters(&b->text, qdot_text_str(&r->spelled), r->spelled.n,
+                                            super ? superscripts : subscripts,
+                                            super ? COUNT(superscripts) : COUNT(subscripts));
     b->text.failed = b->text.failed || r->spelled.failed || r->copy.failed;
     if (!*own) {
         qdot_text_truncate(&b->text, from);
         return QDOT_OK;
     }
-    QDOT_TRY(finish_text(r, from, QDOT_BOX_NAME));
+    QDOT_TRY(make_text_box(r, from, QDOT_BOX_NAME));
     if (is_text(b, base))
         return QDOT_OK;
     row.first = (uint32_t)b->children.n;
@@ -333,9 +333,9 @@ append_script(reader *r, const qdot_box *x, bool super, bool *own)
     return finish_row(r, row);
 }
 
-/* Set a script as a raised or lowered box next to its base. */
+/* Set a super- or subscript as a raised or lowered box next to its base. */
 static qdot_status
-finish_beside(reader *r, qdot_box x)
+finish_script_beside_base(reader *r, qdot_box x)
 {
     const qdot_boxes *b = r->to;
     const bool super = x.kind == QDOT_BOX_SUPER;
@@ -346,10 +346,10 @@ finish_beside(reader *r, qdot_box x)
     x.above =
         super ? base->above + qdot_box_height(script) - (base->above > 0) : base->above;
     x.below = super ? base->below : base->below + qdot_box_height(script);
-    return box_finish(r, x);
+    return append_finished_box(r, x);
 }
 
-/* Write p with index θ and a square: ² as a character above θ on the line of p; *own: it exists. */
+/* Write a symbol with index and exponent, as p_θ², with ² above the θ, if such a character exists (*own). */
 static qdot_status
 append_above_index(reader *r, const qdot_box *x, bool *own)
 {
@@ -375,7 +375,7 @@ append_above_index(reader *r, const qdot_box *x, bool *own)
     lower.across = b->box.at[whole].columns - b->box.at[letter].columns;
     QDOT_TRY(qdot_vec_push(&b->children, whole));
     QDOT_TRY(qdot_vec_push(&b->children, index));
-    return finish_beside(r, lower);
+    return finish_script_beside_base(r, lower);
 }
 
 static qdot_status
@@ -386,7 +386,7 @@ finish_script(reader *r, qdot_box x)
     QDOT_TRY(append_script(r, &x, x.kind == QDOT_BOX_SUPER, &own));
     if (!own && x.kind == QDOT_BOX_SUPER)
         QDOT_TRY(append_above_index(r, &x, &own));
-    return own ? QDOT_OK : finish_beside(r, x);
+    return own ? QDOT_OK : finish_script_beside_base(r, x);
 }
 
 /* Finish a symbol with upper indices, then lower ones. */
@@ -420,13 +420,13 @@ finish_accent(reader *r, const qdot_box *x, uint32_t dots)
     if (!is_text(b, base) || b->box.at[base].count == 0)
         return qdot_vec_push(&r->done, base);
     qdot_text_truncate(&r->copy, 0);
-    spell(b, base, &r->copy);
+    append_box_texts(b, base, &r->copy);
     letter = qdot_utf8_length(qdot_text_str(copy));
     qdot_text_add_n(&b->text, qdot_text_str(copy), letter);
     qdot_text_add(&b->text, marks[dots]);
     qdot_text_add_n(&b->text, qdot_text_str(copy) + letter, copy->n - letter);
     b->text.failed = b->text.failed || copy->failed;
-    return finish_text(r, from, QDOT_BOX_NAME);
+    return make_text_box(r, from, QDOT_BOX_NAME);
 }
 
 static qdot_status
@@ -437,12 +437,12 @@ finish_root(reader *r, qdot_box x)
     x.columns = under->columns + qdot_box_root_sign(under);
     x.above = under->above + 1;
     x.below = under->below;
-    return box_finish(r, x);
+    return append_finished_box(r, x);
 }
 
 /* --- nodes of the formula as boxes ------------------------------------------------------------ */
 
-/* Close the innermost open node x: the boxes finished since it was opened become its children. */
+/* Close the innermost open formula node; the boxes finished since it was opened become the children of box x. */
 static qdot_status
 close_node(reader *r, qdot_box *x)
 {
@@ -457,7 +457,7 @@ close_node(reader *r, qdot_box *x)
     return QDOT_OK;
 }
 
-/* Close the innermost node as one row; a single box stays itself. */
+/* Close the innermost formula node as one row; a row of a single box is replaced by that box. */
 static qdot_status
 close_row(reader *r)
 {
@@ -473,9 +473,9 @@ open_node(reader *r)
     return qdot_vec_push(&r->open, r->done.n);
 }
 
-/* Whether each child of a node becomes a box of its own. */
+/* Whether each child of a formula node becomes a box of its own. */
 static bool
-is_of_cells(const qdot_formula_node *node)
+has_box_per_child(const qdot_formula_node *node)
 {
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION:
@@ -488,17 +488,17 @@ is_of_cells(const qdot_formula_node *node)
     }
 }
 
-/* Whether all children of a node form one box, which the node decorates. */
+/* Whether all children of a formula node form one box, which the node decorates, with a root sign or dots. */
 static bool
-is_about_one(const qdot_formula_node *node)
+decorates_one_box(const qdot_formula_node *node)
 {
     return node->kind == QDOT_FORMULA_ROOT || node->kind == QDOT_FORMULA_ACCENT ||
            node->kind == QDOT_FORMULA_PRIMES;
 }
 
-/* Whether the boxes of a node join the row around it. */
+/* Whether the boxes of a formula node become part of the row that contains the node. */
 static bool
-is_open_row(const qdot_formula_node *node)
+joins_outer_row(const qdot_formula_node *node)
 {
     return node->kind == QDOT_FORMULA_APPLY ||
            (node->kind == QDOT_FORMULA_SPAN && !(node->flags & QDOT_FORMULA_LABEL));
@@ -511,20 +511,20 @@ box_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     reader *r = walk->user;
 
     if (node->kind == QDOT_FORMULA_TEXT)
-        return box_add_leaf(r, walk->formula, node);
+        return append_leaf_box(r, walk->formula, node);
     if (node->kind == QDOT_FORMULA_SIGN)
-        return box_add_sign(r, node);
-    if (is_open_row(node))
+        return append_sign_box(r, node);
+    if (joins_outer_row(node))
         return QDOT_OK;
     QDOT_TRY(open_node(r));
     if (node->kind == QDOT_FORMULA_BRACKET)
-        return box_add_text(r, opening[node->what], QDOT_BOX_OPENING);
+        return append_text_box(r, opening[node->what], QDOT_BOX_OPENING);
     if (node->kind == QDOT_FORMULA_TABLE || node->kind == QDOT_FORMULA_CASES) {
-        QDOT_TRY(box_add_text(r, node->kind == QDOT_FORMULA_CASES ? "{" : "[",
-                              QDOT_BOX_OPENING));
+        QDOT_TRY(append_text_box(r, node->kind == QDOT_FORMULA_CASES ? "{" : "[",
+                                 QDOT_BOX_OPENING));
         QDOT_TRY(open_node(r));
     }
-    return is_of_cells(node) || is_about_one(node) ? open_node(r) : QDOT_OK;
+    return has_box_per_child(node) || decorates_one_box(node) ? open_node(r) : QDOT_OK;
 }
 
 static qdot_status
@@ -532,34 +532,34 @@ box_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
 {
     reader *r = walk->user;
 
-    if (!is_of_cells(node))
+    if (!has_box_per_child(node))
         return QDOT_OK;
     QDOT_TRY(close_row(r));
     QDOT_TRY(open_node(r));
-    return node->kind == QDOT_FORMULA_CASES && k % 2 == 1 ? box_add_words(r, "if ", 3)
+    return node->kind == QDOT_FORMULA_CASES && k % 2 == 1 ? append_word_box(r, "if ", 3)
                                                           : QDOT_OK;
 }
 
 /* Finish a table with its brackets. */
 static qdot_status
-leave_table(reader *r, const qdot_formula_node *node)
+finish_table_node(reader *r, const qdot_formula_node *node)
 {
     qdot_box table = {.kind = QDOT_BOX_TABLE,
                       .across = node->kind == QDOT_FORMULA_CASES ? 2 : node->n};
 
     if (node->kind == QDOT_FORMULA_CASES)
-        QDOT_TRY(box_add_words(r, "otherwise", 9));
+        QDOT_TRY(append_word_box(r, "otherwise", 9));
     QDOT_TRY(close_node(r, &table));
     QDOT_TRY(measure_table(r->to, &table));
-    QDOT_TRY(box_finish(r, table));
+    QDOT_TRY(append_finished_box(r, table));
     if (node->kind != QDOT_FORMULA_CASES)
-        QDOT_TRY(box_add_text(r, "]", QDOT_BOX_CLOSING));
+        QDOT_TRY(append_text_box(r, "]", QDOT_BOX_CLOSING));
     return close_row(r);
 }
 
 /* Append primes, or the order of a derivative in brackets. */
 static qdot_status
-box_add_order(reader *r, uint32_t n)
+append_derivative_order(reader *r, uint32_t n)
 {
     const size_t from = r->to->text.n;
 
@@ -567,12 +567,12 @@ box_add_order(reader *r, uint32_t n)
         qdot_text_add(&r->to->text, "′");
     if (n > 3)
         qdot_text_format(&r->to->text, "(%" PRIu32 ")", n);
-    return finish_text(r, from, QDOT_BOX_NAME);
+    return make_text_box(r, from, QDOT_BOX_NAME);
 }
 
-/* Finish a node that decorates or contains whole boxes. */
+/* Finish a formula node that decorates boxes or contains whole boxes. */
 static qdot_status
-leave_structure(reader *r, const qdot_formula_node *node)
+finish_structure_node(reader *r, const qdot_formula_node *node)
 {
     const bool ordered = node->kind == QDOT_FORMULA_PRIMES ||
                          (node->kind == QDOT_FORMULA_ACCENT && node->n > 3);
@@ -582,7 +582,7 @@ leave_structure(reader *r, const qdot_formula_node *node)
                                                               : QDOT_BOX_SUPER};
 
     if (ordered)
-        QDOT_TRY(box_add_order(r, node->n));
+        QDOT_TRY(append_derivative_order(r, node->n));
     QDOT_TRY(close_node(r, &x));
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION: return finish_fraction(r, x);
@@ -600,16 +600,16 @@ box_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     static const char *const closing[] = {")", "]", "|", "⌋"};
     reader *r = walk->user;
 
-    if (is_open_row(node))
+    if (joins_outer_row(node))
         return QDOT_OK;
-    if (is_of_cells(node) || is_about_one(node)) {
+    if (has_box_per_child(node) || decorates_one_box(node)) {
         QDOT_TRY(close_row(r));
         return node->kind == QDOT_FORMULA_TABLE || node->kind == QDOT_FORMULA_CASES
-                   ? leave_table(r, node)
-                   : leave_structure(r, node);
+                   ? finish_table_node(r, node)
+                   : finish_structure_node(r, node);
     }
     if (node->kind == QDOT_FORMULA_BRACKET)
-        QDOT_TRY(box_add_text(r, closing[node->what], QDOT_BOX_CLOSING));
+        QDOT_TRY(append_text_box(r, closing[node->what], QDOT_BOX_CLOSING));
     QDOT_TRY(close_row(r));
     if (node->flags & QDOT_FORMULA_LABEL)
         r->to->box.at[r->done.at[r->done.n - 1]].label = 1;
@@ -618,14 +618,14 @@ box_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 
 /* Finish the formula as one row, even if it has one box. */
 static qdot_status
-finish_all(reader *r)
+finish_formula(reader *r)
 {
     qdot_box x = {.kind = QDOT_BOX_ROW};
 
     QDOT_TRY(close_node(r, &x));
     for (uint32_t k = 0; k < x.count; k++)
-        append_box(&x, r->to->box.at + r->to->children.at[x.first + k]);
-    return box_finish(r, x);
+        enlarge_row_by_box(&x, r->to->box.at + r->to->children.at[x.first + k]);
+    return append_finished_box(r, x);
 }
 
 qdot_status
@@ -642,7 +642,7 @@ qdot_boxes_build(const qdot_formula *f, qdot_formula_id id, qdot_boxes *boxes)
     *boxes = (qdot_boxes){0};
     status = qdot_formula_pass(&walk, id);
     if (status == QDOT_OK)
-        status = finish_all(&r);
+        status = finish_formula(&r);
     qdot_free(r.open.at);
     qdot_free(r.done.at);
     qdot_text_clear(&r.spelled);

@@ -25,7 +25,7 @@ typedef enum {
     QDOT_BOX_TABLE  /* cells of a table, row by row */
 } qdot_box_kind;
 
-/* The role of a text in its row. */
+/* The role of a text box in its row. */
 typedef enum {
     QDOT_BOX_NAME, /* a number or a name */
     QDOT_BOX_RELATION,
@@ -41,7 +41,7 @@ typedef enum {
 
 typedef struct {
     uint8_t kind, role;
-    uint8_t label; /* belongs to the words or the name with which an answer begins */
+    uint8_t label; /* whether the text belongs to the words or the name that precede the value in an answer */
     uint32_t first, count; /* first child and number of children; for a text its first byte and length */
     uint32_t columns, above, below;
     uint32_t across; /* for a table: cells in a row; for a subscript: columns of the base above it */
@@ -65,7 +65,7 @@ qdot_box_root_sign(const qdot_box *under)
     return under->above + under->below == 0 ? 1 : under->above + under->below + 3;
 }
 
-/* The height of a box, in lines. */
+/* The height of a box, in lines of text. */
 static inline uint32_t
 qdot_box_height(const qdot_box *b)
 {

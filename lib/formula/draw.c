@@ -1,11 +1,11 @@
-/* draw.c -- boxes drawn into a grid of characters, by a stack. */
+/* draw.c -- draws boxes into a grid of characters, with a stack of the boxes still to be drawn. */
 #include "formula/draw.h"
 
 #include <string.h>
 
 #include "base/utf8.h"
 
-/* A character (0: a space) and the mark over it (0: none). */
+/* A character of the grid (0: a space) and the accent over it (0: none). */
 typedef struct {
     uint32_t c, mark;
 } cell;
@@ -25,14 +25,14 @@ typedef struct {
 } canvas;
 
 static void
-canvas_put(canvas *c, size_t x, size_t y, uint32_t character)
+put_character(canvas *c, size_t x, size_t y, uint32_t character)
 {
     if (x < c->columns && y < c->rows)
         c->grid[y * c->columns + x].c = character;
 }
 
 static void
-later(canvas *c, uint32_t box, size_t x, size_t y)
+push_box_to_draw(canvas *c, uint32_t box, size_t x, size_t y)
 {
     const task t = {box, x, y};
 
@@ -41,7 +41,7 @@ later(canvas *c, uint32_t box, size_t x, size_t y)
 }
 
 static const qdot_box *
-box_at(const canvas *c, uint32_t i)
+get_box(const canvas *c, uint32_t i)
 {
     return c->boxes->box.at + i;
 }
@@ -53,7 +53,7 @@ draw_text(canvas *c, const char *text, size_t bytes, size_t x, size_t y)
         const uint32_t character = qdot_utf8_decode(text + i, &n);
 
         if (qdot_utf8_columns(text + i, n) > 0)
-            canvas_put(c, x++, y, character);
+            put_character(c, x++, y, character);
         else if (x > 0 && x - 1 < c->columns && y < c->rows)
             c->grid[y * c->columns + x - 1].mark = character;
     }
@@ -77,10 +77,10 @@ draw_bracket(canvas *c, const qdot_box *b, size_t x, size_t y)
         if (strlen(tall[i].sign) != b->count || memcmp(tall[i].sign, text, b->count) != 0)
             continue;
         for (size_t r = 0; r < height; r++)
-            canvas_put(c, x, first + r,
-                       r == 0            ? tall[i].top
-                       : r + 1 == height ? tall[i].bottom
-                       : r == height / 2 ? tall[i].middle
+            put_character(c, x, first + r,
+                          r == 0            ? tall[i].top
+                          : r + 1 == height ? tall[i].bottom
+                          : r == height / 2 ? tall[i].middle
                                   : tall[i].on);
     }
 }
@@ -89,42 +89,42 @@ static void
 draw_fraction(canvas *c, const qdot_box *b, size_t x, size_t y)
 {
     const uint32_t *of = c->boxes->children.at + b->first;
-    const qdot_box *up = box_at(c, of[0]), *down = box_at(c, of[1]);
+    const qdot_box *up = get_box(c, of[0]), *down = get_box(c, of[1]);
 
     for (size_t i = 0; i < b->columns; i++)
-        canvas_put(c, x + i, y, 0x2500);
-    later(c, of[0], x + (b->columns - up->columns) / 2, y - up->below - 1);
-    later(c, of[1], x + (b->columns - down->columns) / 2, y + down->above + 1);
+        put_character(c, x + i, y, 0x2500);
+    push_box_to_draw(c, of[0], x + (b->columns - up->columns) / 2, y - up->below - 1);
+    push_box_to_draw(c, of[1], x + (b->columns - down->columns) / 2, y + down->above + 1);
 }
 
 static void
 draw_root(canvas *c, const qdot_box *b, size_t x, size_t y)
 {
     const uint32_t of = c->boxes->children.at[b->first];
-    const qdot_box *under = box_at(c, of);
+    const qdot_box *under = get_box(c, of);
     const size_t sign = qdot_box_root_sign(under), height = qdot_box_height(under);
 
     for (size_t i = height > 1 ? sign - 1 : sign; i < b->columns; i++)
-        canvas_put(c, x + i, y - under->above - 1, '_');
+        put_character(c, x + i, y - under->above - 1, '_');
     if (height == 1) {
-        canvas_put(c, x, y, 0x221A);
+        put_character(c, x, y, 0x221A);
     } else {
-        canvas_put(c, x, y + under->below, 0x2572);
+        put_character(c, x, y + under->below, 0x2572);
         for (size_t r = 0; r < height; r++)
-            canvas_put(c, x + 1 + r, y + under->below - r, 0x2571);
+            put_character(c, x + 1 + r, y + under->below - r, 0x2571);
     }
-    later(c, of, x + sign, y);
+    push_box_to_draw(c, of, x + sign, y);
 }
 
 static void
 draw_script(canvas *c, const qdot_box *b, size_t x, size_t y)
 {
     const uint32_t *of = c->boxes->children.at + b->first;
-    const qdot_box *base = box_at(c, of[0]), *script = box_at(c, of[1]);
+    const qdot_box *base = get_box(c, of[0]), *script = get_box(c, of[1]);
 
-    later(c, of[0], x, y);
-    later(c, of[1], x + base->columns - (b->kind == QDOT_BOX_SUB ? b->across : 0),
-          b->kind == QDOT_BOX_SUB ? y + base->below + 1 + script->above
+    push_box_to_draw(c, of[0], x, y);
+    push_box_to_draw(c, of[1], x + base->columns - (b->kind == QDOT_BOX_SUB ? b->across : 0),
+                     b->kind == QDOT_BOX_SUB ? y + base->below + 1 + script->above
                                   : y - base->above - (base->above == 0) - script->below);
 }
 
@@ -138,20 +138,20 @@ draw_table(canvas *c, const qdot_box *b, size_t x, size_t y)
         size_t at = y - b->above, widest = 0;
 
         for (uint32_t i = 0; i < rows; i++)
-            if (box_at(c, of[i * b->across + j])->columns > widest)
-                widest = box_at(c, of[i * b->across + j])->columns;
+            if (get_box(c, of[i * b->across + j])->columns > widest)
+                widest = get_box(c, of[i * b->across + j])->columns;
         for (uint32_t i = 0; i < rows; i++) {
-            const qdot_box *own = box_at(c, of[i * b->across + j]);
+            const qdot_box *own = get_box(c, of[i * b->across + j]);
             uint32_t above = 0, below = 0;
 
             for (uint32_t k = 0; k < b->across; k++) {
-                const qdot_box *other = box_at(c, of[i * b->across + k]);
+                const qdot_box *other = get_box(c, of[i * b->across + k]);
 
                 above = other->above > above ? other->above : above;
                 below = other->below > below ? other->below : below;
             }
             at += above + (i > 0 && above > 0);
-            later(c, of[i * b->across + j], x + (widest - own->columns) / 2, at);
+            push_box_to_draw(c, of[i * b->across + j], x + (widest - own->columns) / 2, at);
             at += below + 1;
         }
         x += widest + QDOT_BOX_GAP;
@@ -164,15 +164,15 @@ draw_row(canvas *c, const qdot_box *b, size_t x, size_t y)
     for (uint32_t k = 0; k < b->count; k++) {
         const uint32_t child = c->boxes->children.at[b->first + k];
 
-        later(c, child, x, y);
-        x += box_at(c, child)->columns;
+        push_box_to_draw(c, child, x, y);
+        x += get_box(c, child)->columns;
     }
 }
 
 static void
 box_draw(canvas *c, task t)
 {
-    const qdot_box *b = box_at(c, t.box);
+    const qdot_box *b = get_box(c, t.box);
 
     switch (b->kind) {
     case QDOT_BOX_TEXT:
@@ -190,7 +190,7 @@ box_draw(canvas *c, task t)
 }
 
 static void
-add_character(qdot_text *out, uint32_t c)
+append_utf8_character(qdot_text *out, uint32_t c)
 {
     if (c < 0x80) {
         qdot_text_char(out, (char)(c != 0 ? c : ' '));
@@ -209,9 +209,9 @@ add_character(qdot_text *out, uint32_t c)
     qdot_text_char(out, (char)(0x80 | (c & 0x3F)));
 }
 
-/* Write the lines without trailing spaces, the first columns of the baseline in colour. */
+/* Write the lines of the grid without trailing spaces; the first columns of the baseline are in colour. */
 static void
-canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdot_text *out)
+write_grid(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdot_text *out)
 {
     for (size_t y = 0; y < c->rows; y++) {
         const cell *row = c->grid + y * c->columns;
@@ -227,9 +227,9 @@ canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, q
             if (!inside && x < painted && !blank)
                 qdot_text_add(out, colour->code);
             inside = inside || (x < painted && !blank);
-            add_character(out, row[x].c);
+            append_utf8_character(out, row[x].c);
             if (row[x].mark != 0)
-                add_character(out, row[x].mark);
+                append_utf8_character(out, row[x].mark);
             if (inside && (x + 1 == painted || x + 1 == n)) {
                 qdot_text_add(out, colour->end);
                 inside = false;
@@ -239,9 +239,9 @@ canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, q
     }
 }
 
-/* Find the lines above and below the baseline of items next to each other. */
+/* Find how many lines items next to each other need above and below their baseline. */
 static void
-items_measure(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
+measure_items(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
               size_t *below)
 {
     *above = *below = 0;
@@ -258,7 +258,7 @@ qdot_draw_height(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n)
 {
     size_t above, below;
 
-    items_measure(boxes, items, n, &above, &below);
+    measure_items(boxes, items, n, &above, &below);
     return above + 1 + below;
 }
 
@@ -270,7 +270,7 @@ qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n,
     size_t above, below;
     qdot_status status;
 
-    items_measure(boxes, items, n, &above, &below);
+    measure_items(boxes, items, n, &above, &below);
     for (size_t i = 0; i < n; i++) {
         const qdot_box *b = boxes->box.at + items[i].box;
 
@@ -284,12 +284,12 @@ qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n,
     if (!c.grid)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++) {
-        later(&c, items[i].box, items[i].x, above);
+        push_box_to_draw(&c, items[i].box, items[i].x, above);
         while (c.status == QDOT_OK && c.todo.n > 0)
             box_draw(&c, c.todo.at[--c.todo.n]);
     }
     if (c.status == QDOT_OK)
-        canvas_write(&c, above, colour, out);
+        write_grid(&c, above, colour, out);
     *lines += c.rows;
     status = c.status;
     qdot_free(c.grid);

@@ -7,13 +7,13 @@
 
 #include "formula/box.h"
 
-/* A box and the column at which it begins. */
+/* A box to be drawn, and the column at which it begins. */
 typedef struct {
     uint32_t box;
     size_t x;
 } qdot_draw_item;
 
-/* The first columns of the baseline are written between these terminal codes; code NULL: none. */
+/* Colour for the first columns of the baseline: terminal codes before and after them; code NULL: none. */
 typedef struct {
     size_t columns;
     const char *code, *end;

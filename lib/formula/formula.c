@@ -1,4 +1,4 @@
-/* formula.c -- nodes of a formula and their lists of children. */
+/* formula.c -- the nodes of a formula, and the lists of their children. */
 #include "formula/formula.h"
 
 #include <ctype.h>
@@ -141,7 +141,7 @@ qdot_formula_find_parts(const qdot_formula *f, qdot_formula_id id, qdot_formula_
         }
         for (qdot_formula_id c = 0; (c = qdot_formula_child(f, top, c)) != 0;)
             QDOT_TRY(qdot_vec_push(&parts->todo, c));
-        /* reverse the order, so that the first child is taken first */
+        /* reverse the order on the stack, so that the first child is taken first */
         for (size_t to = parts->todo.n; from + 1 < to; from++) {
             const qdot_formula_id c = parts->todo.at[--to];
 
@@ -174,7 +174,7 @@ qdot_formula_sign_duty(const qdot_formula_node *node)
 
 /* The change of nesting by a LaTeX bracket at this byte: braces, \left ... \right, \begin ... \end. */
 static int
-latex_depth(const char *at, size_t n)
+latex_bracket_depth_change(const char *at, size_t n)
 {
     static const struct {
         const char *begins;
@@ -190,9 +190,9 @@ latex_depth(const char *at, size_t n)
     return 0;
 }
 
-/* The length of the sign at this byte that joins terms or sides of an equation; 0: none. */
+/* The length of a sign at this byte that joins terms or the sides of an equation; 0: there is none. */
 static size_t
-latex_sign(const char *at, size_t n, qdot_formula_sign *sign)
+length_of_latex_sign(const char *at, size_t n, qdot_formula_sign *sign)
 {
     static const struct {
         const char *text;
@@ -225,9 +225,9 @@ qdot_formula_add_latex(qdot_formula *f, qdot_formula_id parent, const char *text
         qdot_formula_sign sign;
         size_t length = 0;
 
-        depth += latex_depth(text + i, n - i);
+        depth += latex_bracket_depth_change(text + i, n - i);
         if (depth == 0)
-            length = latex_sign(text + i, n - i, &sign);
+            length = length_of_latex_sign(text + i, n - i, &sign);
         if (length > 0) {
             if (i > from)
                 qdot_formula_add_text(f, parent, QDOT_TEXT_WORDS, text + from, i - from);

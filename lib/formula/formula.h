@@ -30,7 +30,7 @@ typedef uint32_t qdot_formula_id;
 typedef enum {
     QDOT_FORMULA_SPAN,     /* children side by side, as if they were children of the parent */
     QDOT_FORMULA_ROW,      /* children side by side, as one unit */
-    QDOT_FORMULA_TEXT,     /* a text, with one of the roles below */
+    QDOT_FORMULA_TEXT,     /* a text, with one of the roles of qdot_formula_role */
     QDOT_FORMULA_SIGN,     /* a sign of sign.def */
     QDOT_FORMULA_FRACTION, /* two children: numerator, denominator */
     QDOT_FORMULA_ROOT,     /* the square root of all children */
@@ -62,14 +62,14 @@ typedef enum {
     QDOT_BRACKET_FLOOR
 } qdot_formula_shape;
 
-/* The function of a sign in its row. */
+/* The function that a sign has in its row of a formula. */
 typedef enum {
     QDOT_DUTY_NONE,
     QDOT_DUTY_COLON,
     QDOT_DUTY_RELATION,
-    QDOT_DUTY_TERMS, /* + or - between two terms */
+    QDOT_DUTY_TERMS, /* a plus or minus between two terms */
     QDOT_DUTY_ERROR,
-    QDOT_DUTY_LOGIC, /* `and`, `or` */
+    QDOT_DUTY_LOGIC, /* the word `and` or `or` */
     QDOT_DUTY_TIMES,
     QDOT_DUTY_COMMA
 } qdot_formula_duty;
@@ -94,27 +94,27 @@ enum {
 
 typedef struct {
     uint8_t kind, what, flags; /* kind of the node; its role, sign or shape; flags */
-    qdot_formula_id next; /* next child of the parent; for the last child the first one; 0: in no list */
+    qdot_formula_id next; /* next child of its parent; of the last child: the first child; 0: it is in no list */
     uint32_t child;            /* the last child, 0: none; for TEXT the index of its first byte */
     uint32_t n;                /* number of bytes, dots, primes, or cells in a row */
 } qdot_formula_node;
 
 /* Start with `qdot_formula f = {0};`, free with qdot_formula_clear. */
 typedef struct {
-    qdot_vec(qdot_formula_node) nodes; /* nodes.at[0] is nil */
+    qdot_vec(qdot_formula_node) nodes; /* all nodes of the formula; nodes.at[0] stands for nil */
     qdot_text text;                    /* the bytes of all TEXT nodes */
     bool failed;
     uint32_t stamp; /* stamp of the cache that refers to nodes of this formula (expr/printed) */
 } qdot_formula;
 
 void qdot_formula_clear(qdot_formula *f);
-/* Remove all nodes but keep the memory. */
+/* Remove all nodes of the formula, but keep its memory for reuse. */
 void qdot_formula_empty(qdot_formula *f);
 
 /* QDOT_ENOMEM if memory ran out in any earlier call; otherwise QDOT_OK. */
 QDOT_MUST_CHECK qdot_status qdot_formula_status(const qdot_formula *f);
 
-/* Create a node without children and without a parent. */
+/* Create a formula node that has no children and no parent. */
 qdot_formula_id qdot_formula_new(qdot_formula *f, qdot_formula_kind kind, unsigned what, unsigned flags);
 
 /* Make child, which has no parent yet, the last child of parent. */
@@ -154,7 +154,7 @@ qdot_formula_child(const qdot_formula *f, qdot_formula_id parent, qdot_formula_i
     return child == last ? 0 : qdot_formula_at(f, child != 0 ? child : last)->next;
 }
 
-/* The parts of a row, from left to right. */
+/* The parts of a row of a formula, from left to right. */
 typedef struct {
     qdot_vec(qdot_formula_id) part, todo; /* the parts; nodes still to be looked at (scratch) */
 } qdot_formula_parts;

@@ -1,4 +1,4 @@
-/* layout.c -- writes a formula as a sequence of boxes and chooses where to break its lines. */
+/* layout.c -- writes a formula as a sequence of boxes, and chooses where to break its lines. */
 #include "formula/layout.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ static const double deeper = 0.35, between_factors = 0.75, before_sign = 0.15, a
  * beginning of a name that is cut. */
 enum { usual_indent = 4, least_room = 16, least_cut = 8 };
 
-/* A box that cannot be broken, and the number of brackets around it. */
+/* A box that is not broken any further, and the number of brackets around it. */
 typedef struct {
     uint32_t box, depth;
 } item;
@@ -26,8 +26,8 @@ typedef struct {
     qdot_boxes boxes;
     const qdot_layout_request *request;
     size_t width, indent;
-    size_t labels; /* number of leading items that are names or words */
-    size_t name;   /* of these, the first item of the name, after `spring s1: ` */
+    size_t labels; /* number of leading items that belong to names or words before the value */
+    size_t name;   /* index of the first label item that belongs to the name, after words such as `spring s1: ` */
     bool several;  /* relations outside brackets, and words: each is one of several formulas */
     qdot_vec(item) todo;  /* stack of nodes still to be written */
     qdot_vec(item) items; /* the items in reading order */
@@ -36,16 +36,16 @@ typedef struct {
 } layout;
 
 static const qdot_box *
-box_of(const layout *l, uint32_t box)
+get_box(const layout *l, uint32_t box)
 {
     return l->boxes.box.at + box;
 }
 
 /* --- parts of an item that is too wide for a line --------------------------------------------- */
 
-/* Push a box; the last pushed is the leftmost. */
+/* Push a box onto the stack of boxes still to be written; the last one pushed is the leftmost. */
 static void
-layout_push(layout *l, uint32_t box, uint32_t depth)
+push_box(layout *l, uint32_t box, uint32_t depth)
 {
     const item x = {box, depth};
 
@@ -67,25 +67,25 @@ push_text(layout *l, const char *text, qdot_box_role role, uint32_t depth)
     if (l->status == QDOT_OK)
         l->status = qdot_vec_push(&l->boxes.box, x);
     if (l->status == QDOT_OK)
-        layout_push(l, (uint32_t)(l->boxes.box.n - 1), depth);
+        push_box(l, (uint32_t)(l->boxes.box.n - 1), depth);
 }
 
 /* Push a box in brackets, unless it is a name. */
 static void
 push_bracketed(layout *l, uint32_t box, uint32_t depth)
 {
-    const bool name = box_of(l, box)->kind == QDOT_BOX_TEXT;
+    const bool name = get_box(l, box)->kind == QDOT_BOX_TEXT;
 
     if (!name)
         push_text(l, ")", QDOT_BOX_CLOSING, depth);
-    layout_push(l, box, depth + !name);
+    push_box(l, box, depth + !name);
     if (!name)
         push_text(l, "(", QDOT_BOX_OPENING, depth);
 }
 
 /* Push the boxes of a row; its brackets get the height of one line. */
 static void
-layout_push_row(layout *l, const qdot_box *row, uint32_t depth)
+push_row_of_boxes(layout *l, const qdot_box *row, uint32_t depth)
 {
     uint32_t inside = 0;
 
@@ -99,7 +99,7 @@ layout_push_row(layout *l, const qdot_box *row, uint32_t depth)
             x->above = x->below = 0;
             inside = x->role == QDOT_BOX_CLOSING;
         }
-        layout_push(l, child, depth + (bracket ? 0 : inside));
+        push_box(l, child, depth + (bracket ? 0 : inside));
     }
 }
 
@@ -107,14 +107,14 @@ static void
 push_table(layout *l, const qdot_box *table, uint32_t depth)
 {
     for (uint32_t k = table->count; k-- > 0;) {
-        layout_push(l, l->boxes.children.at[table->first + k], depth);
+        push_box(l, l->boxes.children.at[table->first + k], depth);
         if (k > 0)
             push_text(l, k % table->across > 0 ? ", " : ";",
                       k % table->across > 0 ? QDOT_BOX_COMMA : QDOT_BOX_END, depth);
     }
 }
 
-/* Push bytes [from, from + n) of a text as a box. */
+/* Push bytes [from, from + n) of a text, as a box, onto the stack of boxes to be written. */
 static void
 push_piece(layout *l, qdot_box whole, size_t from, size_t n, uint32_t depth)
 {
@@ -123,25 +123,25 @@ push_piece(layout *l, qdot_box whole, size_t from, size_t n, uint32_t depth)
     whole.columns = (uint32_t)qdot_utf8_columns(l->boxes.text.at + whole.first, n);
     if (l->status == QDOT_OK)
         l->status = qdot_vec_push(&l->boxes.box, whole);
-    layout_push(l, (uint32_t)(l->boxes.box.n - 1), depth);
+    push_box(l, (uint32_t)(l->boxes.box.n - 1), depth);
 }
 
-/* Push an index without brackets; its commas are typed as _. */
+/* Push an index without brackets onto the stack of boxes to be written; its commas become _, as typed. */
 static void
 push_index(layout *l, uint32_t index, uint32_t depth)
 {
-    const qdot_box row = *box_of(l, index);
+    const qdot_box row = *get_box(l, index);
 
     if (row.kind != QDOT_BOX_ROW)
-        layout_push(l, index, depth);
+        push_box(l, index, depth);
     for (uint32_t k = row.kind == QDOT_BOX_ROW ? row.count : 0; k-- > 0;) {
         const uint32_t child = l->boxes.children.at[row.first + k];
-        const qdot_box *x = box_of(l, child);
+        const qdot_box *x = get_box(l, child);
 
         if (x->kind == QDOT_BOX_TEXT && x->role == QDOT_BOX_COMMA)
             push_text(l, "_", QDOT_BOX_NAME, depth);
         else
-            layout_push(l, child, depth);
+            push_box(l, child, depth);
     }
     push_text(l, "_", QDOT_BOX_NAME, depth);
 }
@@ -152,8 +152,8 @@ static void
 push_indexed(layout *l, const qdot_box *sub, uint32_t depth)
 {
     const uint32_t base = l->boxes.children.at[sub->first], index = l->boxes.children.at[sub->first + 1];
-    const uint32_t letters = box_of(l, base)->columns - sub->across;
-    const qdot_box whole = *box_of(l, base);
+    const uint32_t letters = get_box(l, base)->columns - sub->across;
+    const qdot_box whole = *get_box(l, base);
     size_t n = 0;
 
     if (whole.kind != QDOT_BOX_TEXT) {
@@ -175,7 +175,7 @@ push_parts(layout *l, qdot_box x, uint32_t depth)
     const uint32_t *of = l->boxes.children.at + x.first;
 
     switch (x.kind) {
-    case QDOT_BOX_ROW: layout_push_row(l, &x, depth); break;
+    case QDOT_BOX_ROW: push_row_of_boxes(l, &x, depth); break;
     case QDOT_BOX_TABLE: push_table(l, &x, depth); break;
     case QDOT_BOX_SUB: push_indexed(l, &x, depth); break;
     case QDOT_BOX_ROOT:
@@ -193,13 +193,13 @@ push_parts(layout *l, qdot_box x, uint32_t depth)
 /* Of lines that follow: behind the first relation, where there is one not far from the left; else
  * a little more than the blanks that the first begins with. */
 static size_t
-indent_of(const layout *l)
+continuation_indent(const layout *l)
 {
-    const qdot_box *all = box_of(l, (uint32_t)(l->boxes.box.n - 1));
+    const qdot_box *all = get_box(l, (uint32_t)(l->boxes.box.n - 1));
     size_t columns = 0, blanks = 0;
 
     for (uint32_t k = 0; k < all->count; k++) {
-        const qdot_box *b = box_of(l, l->boxes.children.at[all->first + k]);
+        const qdot_box *b = get_box(l, l->boxes.children.at[all->first + k]);
 
         if (k == 0 && b->kind == QDOT_BOX_TEXT)
             while (blanks < b->count && l->boxes.text.at[b->first + blanks] == ' ')
@@ -221,23 +221,23 @@ is_drawn(const layout *l, const qdot_box *b)
     bool table = false;
 
     for (uint32_t k = 0; b->kind == QDOT_BOX_ROW && k < b->count; k++)
-        table = table || box_of(l, l->boxes.children.at[b->first + k])->kind == QDOT_BOX_TABLE;
+        table = table || get_box(l, l->boxes.children.at[b->first + k])->kind == QDOT_BOX_TABLE;
     return b->kind != QDOT_BOX_ROW || table;
 }
 
 /* The formula as boxes that fit into a line. What is drawn may have all of it but the usual
  * indent. */
 static qdot_status
-layout_split_formula(layout *l)
+split_formula_into_items(layout *l)
 {
     const uint32_t all = (uint32_t)(l->boxes.box.n - 1);
 
-    l->indent = indent_of(l);
+    l->indent = continuation_indent(l);
 
-    layout_push_row(l, box_of(l, all), 0);
+    push_row_of_boxes(l, get_box(l, all), 0);
     while (l->status == QDOT_OK && l->todo.n > 0) {
         const item x = l->todo.at[--l->todo.n];
-        const qdot_box *b = box_of(l, x.box);
+        const qdot_box *b = get_box(l, x.box);
 
         if (b->kind == QDOT_BOX_TEXT || b->columns <= l->width - l->indent) {
             l->status = qdot_vec_push(&l->items, x);
@@ -256,9 +256,9 @@ layout_split_formula(layout *l)
 /* --- breaking a formula into lines ------------------------------------------------------------ */
 
 static qdot_box_role
-role_of(const layout *l, size_t i)
+item_role(const layout *l, size_t i)
 {
-    const qdot_box *b = box_of(l, l->items.at[i].box);
+    const qdot_box *b = get_box(l, l->items.at[i].box);
 
     return b->kind == QDOT_BOX_TEXT ? (qdot_box_role)b->role : QDOT_BOX_NAME;
 }
@@ -266,38 +266,38 @@ role_of(const layout *l, size_t i)
 /* Whether item i, which is higher than a line, follows a relation and does not fit into a line with it: then the
  * relation ends a line. */
 static bool
-stands_alone(const layout *l, size_t i)
+needs_own_line(const layout *l, size_t i)
 {
     const qdot_box *b;
 
-    if (i == 0 || i >= l->items.n || role_of(l, i - 1) != QDOT_BOX_RELATION)
+    if (i == 0 || i >= l->items.n || item_role(l, i - 1) != QDOT_BOX_RELATION)
         return false;
-    b = box_of(l, l->items.at[i].box);
+    b = get_box(l, l->items.at[i].box);
     return qdot_box_height(b) > 1 &&
-           box_of(l, l->items.at[i - 1].box)->columns + b->columns > l->width - l->indent;
+           get_box(l, l->items.at[i - 1].box)->columns + b->columns > l->width - l->indent;
 }
 
 /* Whether a line may begin with item i. */
 static bool
-may_begin(const layout *l, size_t i)
+may_begin_line(const layout *l, size_t i)
 {
-    if (stands_alone(l, i) || stands_alone(l, i + 1))
-        return stands_alone(l, i);
-    switch (role_of(l, i)) {
+    if (needs_own_line(l, i) || needs_own_line(l, i + 1))
+        return needs_own_line(l, i);
+    switch (item_role(l, i)) {
     case QDOT_BOX_RELATION:
     case QDOT_BOX_SIGN:
     case QDOT_BOX_TIMES:
     case QDOT_BOX_OVER: return true;
     default:
-        return i > 0 && (role_of(l, i - 1) == QDOT_BOX_COMMA || role_of(l, i - 1) == QDOT_BOX_WORD);
+        return i > 0 && (item_role(l, i - 1) == QDOT_BOX_COMMA || item_role(l, i - 1) == QDOT_BOX_WORD);
     }
 }
 
 /* Whether item i is a word with a colon. */
 static bool
-ends_label(const layout *l, size_t i)
+is_end_of_label(const layout *l, size_t i)
 {
-    const qdot_box *b = box_of(l, l->items.at[i].box);
+    const qdot_box *b = get_box(l, l->items.at[i].box);
 
     return b->count >= 2 && l->boxes.text.at[b->first + b->count - 2] == ':';
 }
@@ -306,11 +306,11 @@ ends_label(const layout *l, size_t i)
 static double
 cost_of_break(const layout *l, size_t i)
 {
-    const qdot_box_role role = role_of(l, i);
+    const qdot_box_role role = item_role(l, i);
 
-    if (i > 0 && role_of(l, i - 1) == QDOT_BOX_WORD)
-        return ends_label(l, i - 1) ? after_label : after_word;
-    if (stands_alone(l, i))
+    if (i > 0 && item_role(l, i - 1) == QDOT_BOX_WORD)
+        return is_end_of_label(l, i - 1) ? after_label : after_word;
+    if (needs_own_line(l, i))
         return 0;
     if (role == QDOT_BOX_RELATION && l->several)
         return between_factors;
@@ -322,25 +322,25 @@ cost_of_break(const layout *l, size_t i)
 /* Whether a line that begins with item `from` ends before item i in any case: behind a row of a matrix, and before
  * the value of a name that an earlier line has begun with. */
 static bool
-must_begin(const layout *l, size_t from, size_t i)
+must_break_before(const layout *l, size_t from, size_t i)
 {
-    return role_of(l, i - 1) == QDOT_BOX_END ||
-           (i == l->labels && from > l->name && role_of(l, i) == QDOT_BOX_RELATION);
+    return item_role(l, i - 1) == QDOT_BOX_END ||
+           (i == l->labels && from > l->name && item_role(l, i) == QDOT_BOX_RELATION);
 }
 
 /* Where the line that begins with item `from` in column x ends: the number of its last item and
  * one. */
 static size_t
-end_of_line(const layout *l, size_t from, size_t x)
+choose_line_end(const layout *l, size_t from, size_t x)
 {
     const double room = (double)l->width - (double)x;
     size_t columns = 0, best = 0, i = from;
     double least = 0;
 
     for (; i < l->items.n; i++) {
-        if (i > from && must_begin(l, from, i))
+        if (i > from && must_break_before(l, from, i))
             return i;
-        if (i > from && x + columns > l->indent && may_begin(l, i)) {
+        if (i > from && x + columns > l->indent && may_begin_line(l, i)) {
             const double lost = 1 - (double)columns / room + cost_of_break(l, i);
 
             if (best == 0 || lost <= least) {
@@ -348,7 +348,7 @@ end_of_line(const layout *l, size_t from, size_t x)
                 least = lost;
             }
         }
-        columns += box_of(l, l->items.at[i].box)->columns;
+        columns += get_box(l, l->items.at[i].box)->columns;
         if (columns > l->width - x && best > 0)
             return best;
     }
@@ -357,11 +357,11 @@ end_of_line(const layout *l, size_t from, size_t x)
 
 /* Remove the space before a sign that begins a line, and make a product sign visible there. */
 static qdot_status
-trim_first(layout *l, size_t i)
+trim_item_at_line_begin(layout *l, size_t i)
 {
-    const qdot_box *b = box_of(l, l->items.at[i].box);
+    const qdot_box *b = get_box(l, l->items.at[i].box);
     const uint32_t depth = l->items.at[i].depth;
-    const qdot_box_role role = role_of(l, i);
+    const qdot_box_role role = item_role(l, i);
     qdot_text rest = {0};
 
     if (role == QDOT_BOX_TIMES)
@@ -382,8 +382,8 @@ trim_first(layout *l, size_t i)
 static void
 count_labels(layout *l)
 {
-    for (; l->labels < l->items.n && box_of(l, l->items.at[l->labels].box)->label; l->labels++)
-        if (role_of(l, l->labels) == QDOT_BOX_WORD && ends_label(l, l->labels))
+    for (; l->labels < l->items.n && get_box(l, l->items.at[l->labels].box)->label; l->labels++)
+        if (item_role(l, l->labels) == QDOT_BOX_WORD && is_end_of_label(l, l->labels))
             l->name = l->labels + 1;
 }
 
@@ -394,15 +394,15 @@ count_relations(layout *l)
     size_t relations = 0, words = 0;
 
     for (size_t i = 0; i < l->items.n; i++) {
-        relations += l->items.at[i].depth == 0 && role_of(l, i) == QDOT_BOX_RELATION;
-        words += role_of(l, i) == QDOT_BOX_WORD;
+        relations += l->items.at[i].depth == 0 && item_role(l, i) == QDOT_BOX_RELATION;
+        words += item_role(l, i) == QDOT_BOX_WORD;
     }
     l->several = relations > 1 && words > 1;
 }
 
 /* --- lines that have no place to be broken at ---------------------------------------------------- */
 
-/* Replace item i by the boxes on the stack. */
+/* Replace item i of the line by the boxes that are on the stack. */
 static qdot_status
 replace_item(layout *l, size_t i)
 {
@@ -421,10 +421,10 @@ replace_item(layout *l, size_t i)
 
 /* Split item i, a name or a number, into two, the first of which is not wider than `room`. */
 static qdot_status
-cut_item(layout *l, size_t i, size_t room)
+split_item_at_width(layout *l, size_t i, size_t room)
 {
     const item x = l->items.at[i];
-    qdot_box whole = *box_of(l, x.box);
+    qdot_box whole = *get_box(l, x.box);
     const size_t n = qdot_wrap_cut(l->boxes.text.at + whole.first, whole.count, room);
 
     push_piece(l, whole, n, whole.count - n, x.depth);
@@ -433,17 +433,17 @@ cut_item(layout *l, size_t i, size_t room)
     return replace_item(l, i);
 }
 
-/* The widest of items [from, end) that has parts; `end` if there is none. */
+/* The index of the widest among items [from, end) that consists of parts; `end` if there is none. */
 static size_t
-widest_of(const layout *l, size_t from, size_t end)
+widest_divisible_item(const layout *l, size_t from, size_t end)
 {
     size_t widest = end;
 
     for (size_t i = from; i < end; i++) {
-        const qdot_box *b = box_of(l, l->items.at[i].box);
+        const qdot_box *b = get_box(l, l->items.at[i].box);
 
         if (b->kind != QDOT_BOX_TEXT &&
-            (widest == end || b->columns > box_of(l, l->items.at[widest].box)->columns))
+            (widest == end || b->columns > get_box(l, l->items.at[widest].box)->columns))
             widest = i;
     }
     return widest;
@@ -452,27 +452,27 @@ widest_of(const layout *l, size_t from, size_t end)
 /* The line of items [from, *end) from column x on is wider than the terminal: what has parts is taken apart, and the
  * line is to be ended anew; where nothing has any it ends before the item that is too much, or within that. */
 static qdot_status
-narrow_line(layout *l, size_t from, size_t x, size_t *end)
+make_line_narrower(layout *l, size_t from, size_t x, size_t *end)
 {
-    size_t i = widest_of(l, from, *end), columns;
+    size_t i = widest_divisible_item(l, from, *end), columns;
 
     if (i < *end) {
-        push_parts(l, *box_of(l, l->items.at[i].box), l->items.at[i].depth);
+        push_parts(l, *get_box(l, l->items.at[i].box), l->items.at[i].depth);
         *end = 0;
         return replace_item(l, i);
     }
-    for (i = from; (columns = box_of(l, l->items.at[i].box)->columns) + x <= l->width; i++)
+    for (i = from; (columns = get_box(l, l->items.at[i].box)->columns) + x <= l->width; i++)
         x += columns;
     *end = i;
     if (i > from && (columns + l->indent <= l->width || x + least_cut > l->width))
         return QDOT_OK;
     *end = 0;
-    return cut_item(l, i, l->width - x);
+    return split_item_at_width(l, i, l->width - x);
 }
 
-/* Write items [from, end) as a line from column x on; count it only if enough lines are drawn. */
+/* Write items [from, end) as a line from column x on; once enough lines are drawn, only count the line. */
 static qdot_status
-layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
+write_line_of_items(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
 {
     qdot_draw_colour colour = {.code = l->request->paint, .end = l->request->end};
 
@@ -481,7 +481,7 @@ layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, 
         const qdot_draw_item at = {l->items.at[i].box, x};
 
         QDOT_TRY(qdot_vec_push(&l->line, at));
-        x += box_of(l, at.box)->columns;
+        x += get_box(l, at.box)->columns;
         if (i < l->labels)
             colour.columns = x;
     }
@@ -498,12 +498,12 @@ layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, 
 static bool
 is_too_wide(const layout *l, size_t from, size_t end, size_t x)
 {
-    const qdot_box *last = box_of(l, l->items.at[end - 1].box);
+    const qdot_box *last = get_box(l, l->items.at[end - 1].box);
     const bool blank = last->kind == QDOT_BOX_TEXT && last->count > 0 &&
                        l->boxes.text.at[last->first + last->count - 1] == ' ';
 
     for (size_t i = from; i < end; i++)
-        x += box_of(l, l->items.at[i].box)->columns;
+        x += get_box(l, l->items.at[i].box)->columns;
     return x > l->width + blank;
 }
 
@@ -514,13 +514,13 @@ write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
         size_t x = from > 0 ? l->indent : 0;
 
         if (from > 0)
-            QDOT_TRY(trim_first(l, from));
+            QDOT_TRY(trim_item_at_line_begin(l, from));
         do {
-            end = end_of_line(l, from, x);
+            end = choose_line_end(l, from, x);
             if (is_too_wide(l, from, end, x))
-                QDOT_TRY(narrow_line(l, from, x, &end));
+                QDOT_TRY(make_line_narrower(l, from, x, &end));
         } while (end == 0);
-        QDOT_TRY(layout_write_line(l, from, end, x, out, size));
+        QDOT_TRY(write_line_of_items(l, from, end, x, out, size));
     }
     return QDOT_OK;
 }
@@ -534,7 +534,7 @@ qdot_layout_part(const qdot_formula *f, qdot_formula_id id, const qdot_layout_re
     qdot_status status = qdot_boxes_build(f, id, &l.boxes);
 
     if (status == QDOT_OK)
-        status = layout_split_formula(&l);
+        status = split_formula_into_items(&l);
     count_labels(&l);
     count_relations(&l);
     if (status == QDOT_OK)

@@ -19,7 +19,7 @@
 #include "formula/formula.h"
 
 typedef struct {
-    size_t columns, lines; /* size of what was drawn */
+    size_t columns, lines; /* number of columns and lines of what was drawn */
 } qdot_layout_size;
 
 typedef struct {
@@ -34,7 +34,7 @@ QDOT_MUST_CHECK qdot_status qdot_layout_part(const qdot_formula *f, qdot_formula
                                              const qdot_layout_request *request, qdot_text *out,
                                              qdot_layout_size *size);
 
-/* As qdot_layout_part, with all lines and without colour; size may be NULL. */
+/* As qdot_layout_part, but shows all lines, without colour; size may be NULL. */
 QDOT_MUST_CHECK qdot_status qdot_layout(const qdot_formula *f, qdot_formula_id id, size_t width, qdot_text *out,
                                         qdot_layout_size *size);
 

@@ -35,7 +35,7 @@ struct parts {
 /* The row of the Greek letter that `at` begins with and behind which Greek letters, or nothing,
  * stand; -1: there is none. Names are short. */
 static int
-next_greek(const char *at, size_t length)
+match_greek_letter(const char *at, size_t length)
 {
     enum { LONGEST = 64 };
     bool ends[LONGEST + 1] = {[0] = true}; /* ends[k]: the last k letters are Greek letters */
@@ -59,7 +59,7 @@ next_greek(const char *at, size_t length)
 static bool
 is_greek(const char *at, size_t length)
 {
-    return next_greek(at, length) >= 0;
+    return match_greek_letter(at, length) >= 0;
 }
 
 /* Append the letters of a name as shown: unchanged, or Greek letters for their names if `all_greek`. */
@@ -71,7 +71,7 @@ add_letters(const char *at, size_t length, bool all_greek, qdot_text *out)
         return;
     }
     while (length > 0) {
-        const int i = next_greek(at, length);
+        const int i = match_greek_letter(at, length);
         const size_t n = strlen(greek[i].spelled);
 
         qdot_text_add(out, greek[i].letter);
@@ -90,7 +90,7 @@ qdot_name_greek(const char *letter)
 }
 
 static struct parts
-name_split(const char *name)
+split_name(const char *name)
 {
     struct parts p = {0};
     size_t n = strcspn(name, "["), head = strcspn(name, "_");
@@ -119,7 +119,7 @@ name_split(const char *name)
 }
 
 static bool
-all_digits(const char *text, size_t n)
+has_only_digits(const char *text, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (!is_digit(text[i]))
@@ -128,7 +128,7 @@ all_digits(const char *text, size_t n)
 }
 
 static void
-print_lowered(const char *digits, size_t n, qdot_text *out)
+append_subscript_digits(const char *digits, size_t n, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++)
         qdot_text_add(out, subscript[digits[i] - '0']);
@@ -137,26 +137,26 @@ print_lowered(const char *digits, size_t n, qdot_text *out)
 bool
 qdot_name_index(const char *name, qdot_name_digits *index)
 {
-    const struct parts p = name_split(name);
+    const struct parts p = split_name(name);
 
     index->letters = p.letters;
     index->brackets = p.index > 0;
     index->at = name + (p.index > 0 ? p.index_at : p.below_at);
     index->n = p.index > 0 ? p.index : p.below;
-    return p.digits == 0 && !(p.index > 0 && p.below > 0) && all_digits(index->at, index->n);
+    return p.digits == 0 && !(p.index > 0 && p.below > 0) && has_only_digits(index->at, index->n);
 }
 
 /* --- names of several letters ------------------------------------------------------------------ */
 
 static bool
-is_long(const qdot_formula *f, const qdot_formula_node *node)
+is_long_name(const qdot_formula *f, const qdot_formula_node *node)
 {
     return node->kind == QDOT_FORMULA_TEXT && node->what == QDOT_TEXT_NAME && node->n > 1 &&
            qdot_name_greek(f->text.at + node->child) == NULL;
 }
 
 static const qdot_formula_node *
-first_of(const qdot_formula *f, const qdot_formula_node *node)
+first_child(const qdot_formula *f, const qdot_formula_node *node)
 {
     return qdot_formula_at(f, qdot_formula_at(f, node->child)->next);
 }
@@ -167,21 +167,21 @@ qdot_name_is_long_at_begin(const qdot_formula *f, const qdot_formula_node *node)
     while (node->child != 0 &&
            (node->kind == QDOT_FORMULA_POWER || node->kind == QDOT_FORMULA_INDEX || node->kind == QDOT_FORMULA_ACCENT ||
             node->kind == QDOT_FORMULA_PRIMES || node->kind == QDOT_FORMULA_ROW || node->kind == QDOT_FORMULA_SPAN))
-        node = first_of(f, node);
-    return is_long(f, node);
+        node = first_child(f, node);
+    return is_long_name(f, node);
 }
 
 bool
 qdot_name_is_long_at_end(const qdot_formula *f, const qdot_formula_node *node)
 {
-    return is_long(f, node->kind == QDOT_FORMULA_ACCENT ? first_of(f, node) : node);
+    return is_long_name(f, node->kind == QDOT_FORMULA_ACCENT ? first_child(f, node) : node);
 }
 
 /* --- names written in a line ------------------------------------------------------------------ */
 
 /* A copy of the next part of a name, up to the sign `between`; moves *i past it. */
 static char *
-next_part(const char *at, size_t length, char between, size_t *i)
+copy_next_part(const char *at, size_t length, char between, size_t *i)
 {
     size_t n = *i;
     char *part;
@@ -195,11 +195,11 @@ next_part(const char *at, size_t length, char between, size_t *i)
 }
 
 static void
-line_parts(const char *at, size_t length, char between, qdot_text *out)
+append_index_in_line(const char *at, size_t length, char between, qdot_text *out)
 {
     for (size_t i = 0; i < length;) {
         const bool first = i == 0;
-        char *part = next_part(at, length, between, &i);
+        char *part = copy_next_part(at, length, between, &i);
 
         if (part == NULL) {
             out->failed = true;
@@ -207,7 +207,7 @@ line_parts(const char *at, size_t length, char between, qdot_text *out)
         }
         if (!first)
             qdot_text_char(out, between);
-        if (all_digits(part, strlen(part)) || strchr(part, '[') != NULL)
+        if (has_only_digits(part, strlen(part)) || strchr(part, '[') != NULL)
             qdot_text_add(out, part); /* x[1,2] keeps its brackets */
         else
             qdot_name_line(part, 0, qdot_name_index(part, &(qdot_name_digits){0}), out);
@@ -218,23 +218,23 @@ line_parts(const char *at, size_t length, char between, qdot_text *out)
 void
 qdot_name_line(const char *name, uint32_t order, bool lowered, qdot_text *out)
 {
-    struct parts p = name_split(name);
+    struct parts p = split_name(name);
     bool one = (p.letter != NULL || p.letters == 1) && (p.index == 0 || lowered);
 
     add_letters(name, p.letters, p.greek, out);
     if (one && (order == 1 || order == 2))
         qdot_text_add(out, order == 1 ? "\u0307" : "\u0308");
-    print_lowered(name + p.digits_at, p.digits, out);
+    append_subscript_digits(name + p.digits_at, p.digits, out);
     if (lowered) {
-        print_lowered(name + (p.index > 0 ? p.index_at : p.below_at),
-                      p.index > 0 ? p.index : p.below, out);
+        append_subscript_digits(name + (p.index > 0 ? p.index_at : p.below_at),
+                                p.index > 0 ? p.index : p.below, out);
     } else if (p.below > 0) {
         qdot_text_char(out, '_');
-        line_parts(name + p.below_at, p.below, '_', out);
+        append_index_in_line(name + p.below_at, p.below, '_', out);
     }
     if (!lowered && p.index > 0) {
         qdot_text_char(out, '[');
-        line_parts(name + p.index_at, p.index, ',', out);
+        append_index_in_line(name + p.index_at, p.index, ',', out);
         qdot_text_char(out, ']');
     }
     if (!one || order > 2)
@@ -246,11 +246,11 @@ qdot_name_line(const char *name, uint32_t order, bool lowered, qdot_text *out)
 
 /* Append the parts of an index, letters and numbers, with commas between them. */
 static void
-drawn_parts(qdot_formula *f, qdot_formula_id below, const char *at, size_t length, char between)
+append_drawn_index(qdot_formula *f, qdot_formula_id below, const char *at, size_t length, char between)
 {
     for (size_t i = 0; i < length;) {
         const bool first = i == 0;
-        char *part = next_part(at, length, between, &i);
+        char *part = copy_next_part(at, length, between, &i);
 
         if (part == NULL) {
             f->failed = true;
@@ -258,7 +258,7 @@ drawn_parts(qdot_formula *f, qdot_formula_id below, const char *at, size_t lengt
         }
         if (!first)
             qdot_formula_add_sign(f, below, QDOT_SIGN_COMMA_BELOW);
-        if (all_digits(part, strlen(part)))
+        if (has_only_digits(part, strlen(part)))
             qdot_formula_add_text(f, below, QDOT_TEXT_NUMBER, part, strlen(part));
         else
             qdot_formula_add_name(f, below, part, 0);
@@ -269,7 +269,7 @@ drawn_parts(qdot_formula *f, qdot_formula_id below, const char *at, size_t lengt
 void
 qdot_formula_add_name(qdot_formula *f, qdot_formula_id parent, const char *name, uint32_t order)
 {
-    const struct parts p = name_split(name);
+    const struct parts p = split_name(name);
     qdot_formula_id base, below;
     size_t from;
 
@@ -291,8 +291,8 @@ qdot_formula_add_name(qdot_formula *f, qdot_formula_id parent, const char *name,
         if (p.below + p.index > 0)
             qdot_formula_add_sign(f, below, QDOT_SIGN_COMMA_BELOW);
     }
-    drawn_parts(f, below, name + p.below_at, p.below, '_');
+    append_drawn_index(f, below, name + p.below_at, p.below, '_');
     if (p.below > 0 && p.index > 0)
         qdot_formula_add_sign(f, below, QDOT_SIGN_COMMA_BELOW);
-    drawn_parts(f, below, name + p.index_at, p.index, ',');
+    append_drawn_index(f, below, name + p.index_at, p.index, ',');
 }

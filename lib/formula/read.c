@@ -1,4 +1,4 @@
-/* read.c -- reads a formula as it is typed, from left to right, with a stack of the brackets that are open. */
+/* read.c -- reads a typed formula from left to right, with a stack of the brackets that are open. */
 #include "formula/read.h"
 
 #include <ctype.h>
@@ -7,7 +7,7 @@
 #include "base/utf8.h"
 #include "formula/name.h"
 
-/* What an open bracket becomes. */
+/* What becomes of an open bracket and its contents when it is closed. */
 typedef enum { WHOLE, ROUND, SQUARE, BARS, CALL, ROOT } group_kind; /* WHOLE: all of the text */
 
 /* The text between two brackets: a row of terms, each a product of factors. The last factor waits for an exponent, for
@@ -30,7 +30,7 @@ typedef struct {
     qdot_formula_sign sign;
 } spelling;
 
-/* Those that begin alike: the longer one first. */
+/* The signs as they are typed; of two that begin alike the longer one stands first. */
 static const spelling signs[] = {
     {"+", QDOT_SIGN_PLUS},  {"-", QDOT_SIGN_MINUS},    {"==", QDOT_SIGN_EQUALS},  {"=", QDOT_SIGN_EQUALS},
     {"!=", QDOT_SIGN_UNEQUAL}, {"<=", QDOT_SIGN_AT_MOST}, {">=", QDOT_SIGN_AT_LEAST}, {"<", QDOT_SIGN_LESS},
@@ -47,14 +47,14 @@ static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴", "⁵",
 enum { DIGITS = 10 };
 
 static group *
-top(reader *r)
+innermost_group(reader *r)
 {
     return r->groups.at + r->groups.n - 1;
 }
 
 /* The value of the superscript digit at this place, which has *n bytes; -1: there is none. */
 static int
-raised_digit(const char *at, size_t *n)
+superscript_digit_value(const char *at, size_t *n)
 {
     for (int i = 0; i < DIGITS; i++) {
         *n = strlen(superscript[i]);
@@ -76,18 +76,18 @@ begins_name(const char *at)
     size_t n;
 
     return isalpha((unsigned char)*at) || *at == '_' ||
-           ((unsigned char)*at >= 0x80 && strncmp(at, "√", strlen("√")) != 0 && raised_digit(at, &n) < 0);
+           ((unsigned char)*at >= 0x80 && strncmp(at, "√", strlen("√")) != 0 && superscript_digit_value(at, &n) < 0);
 }
 
 static bool
-continues_name(const char *at)
+may_continue_name(const char *at)
 {
     return begins_name(at) || is_digit(*at);
 }
 
-/* The end of the index that `open` begins, `[1,2]`; NULL: it is not closed. */
+/* The end of an index such as `[1,2]`, which begins at `open`; NULL if it is not closed. */
 static const char *
-index_end(const char *open)
+find_end_of_index(const char *open)
 {
     int depth = 0;
 
@@ -101,9 +101,9 @@ index_end(const char *open)
 
 /* --- joining what was read ---------------------------------------------------------------- */
 
-/* Remove the round brackets of a numerator, a denominator or an exponent where it is drawn, which needs none. */
+/* Remove the round brackets of an operand of a fraction, or of an exponent, if the formula is drawn and needs none. */
 static qdot_formula_id
-without_bracket(const reader *r, qdot_formula_id id)
+drop_round_brackets(const reader *r, qdot_formula_id id)
 {
     qdot_formula_node *node = r->f->nodes.at + id;
 
@@ -113,16 +113,16 @@ without_bracket(const reader *r, qdot_formula_id id)
     return id;
 }
 
-/* The last factor is complete: no power, no prime follows. */
+/* Finish the last factor of a product: no power or prime can follow it any more. */
 static void
-end_factor(reader *r)
+finish_factor(reader *r)
 {
-    group *g = top(r);
+    group *g = innermost_group(r);
 
     if (g->factor == 0)
         return;
     if (g->over != 0) {
-        qdot_formula_append(r->f, g->over, without_bracket(r, g->factor));
+        qdot_formula_append(r->f, g->over, drop_round_brackets(r, g->factor));
         g->factor = g->over;
         g->over = 0;
     }
@@ -133,42 +133,42 @@ end_factor(reader *r)
 }
 
 static void
-end_term(reader *r)
+finish_term(reader *r)
 {
-    group *g = top(r);
+    group *g = innermost_group(r);
 
-    end_factor(r);
-    if (g->over != 0) { /* `a/` and nothing behind it */
+    finish_factor(r);
+    if (g->over != 0) { /* nothing stands after `a/`, so the denominator is empty */
         g->factor = qdot_formula_new(r->f, QDOT_FORMULA_ROW, 0, 0);
-        end_factor(r);
+        finish_factor(r);
     }
     qdot_formula_append(r->f, g->row, g->product);
     g->product = 0;
 }
 
-/* A new factor; power: what was read belongs to that, the last factor or a part of it. */
+/* Add a factor to the product; power (not 0): add it as the exponent of that power node instead. */
 static void
-take_factor(reader *r, qdot_formula_id id, qdot_formula_id power)
+append_factor(reader *r, qdot_formula_id id, qdot_formula_id power)
 {
     if (power != 0) {
-        qdot_formula_append(r->f, power, without_bracket(r, id));
+        qdot_formula_append(r->f, power, drop_round_brackets(r, id));
         return;
     }
-    end_factor(r);
-    top(r)->factor = id;
+    finish_factor(r);
+    innermost_group(r)->factor = id;
 }
 
 static qdot_formula_id
-new_text(const reader *r, qdot_formula_role role, const char *text, size_t n)
+make_text_node(const reader *r, qdot_formula_role role, const char *text, size_t n)
 {
     return qdot_formula_add_text(r->f, 0, role, text, n);
 }
 
 /* Read a character that has no meaning in a formula: it is shown as it was typed. */
 static void
-take_label(reader *r, size_t n)
+read_other_character(reader *r, size_t n)
 {
-    take_factor(r, new_text(r, strchr(".:;", *r->at) != NULL ? QDOT_TEXT_WORDS : QDOT_TEXT_LABEL, r->at, n), 0);
+    append_factor(r, make_text_node(r, strchr(".:;", *r->at) != NULL ? QDOT_TEXT_WORDS : QDOT_TEXT_LABEL, r->at, n), 0);
     r->at += n;
 }
 
@@ -181,7 +181,7 @@ open_group(reader *r, group_kind kind, qdot_formula_id head, qdot_formula_id pow
                                           : QDOT_BRACKET_ROUND;
 
     if (power == 0)
-        end_factor(r);
+        finish_factor(r);
     if (qdot_vec_push(&r->groups, ((group){.kind = kind,
                                            .row = qdot_formula_new(r->f, as, kind == ROOT ? 0 : shape, 0),
                                            .head = head,
@@ -196,8 +196,8 @@ close_group(reader *r)
     group g;
     qdot_formula_id id;
 
-    end_term(r);
-    g = *top(r);
+    finish_term(r);
+    g = *innermost_group(r);
     id = g.row;
     r->groups.n--;
     if (g.kind == CALL) {
@@ -205,13 +205,13 @@ close_group(reader *r)
         qdot_formula_append(r->f, id, g.head);
         qdot_formula_append(r->f, id, g.row);
     }
-    take_factor(r, id, g.power);
+    append_factor(r, id, g.power);
 }
 
 /* --- names and numbers -------------------------------------------------------------------- */
 
 static qdot_formula_id
-new_name(const reader *r, const char *name, uint32_t order)
+make_name_node(const reader *r, const char *name, uint32_t order)
 {
     const qdot_formula_id all = qdot_formula_new(r->f, QDOT_FORMULA_SPAN, 0, 0);
     const size_t from = r->f->text.n;
@@ -228,7 +228,7 @@ new_name(const reader *r, const char *name, uint32_t order)
 
 /* Whether a name before a bracket is that of a function, which is no letter of a formula: atan2, but not f1. */
 static bool
-names_function(const char *name, size_t n)
+is_function_name(const char *name, size_t n)
 {
     qdot_text shown = {0};
     bool is;
@@ -240,7 +240,7 @@ names_function(const char *name, size_t n)
     return is;
 }
 
-/* A name with its index and its primes, and the bracket of a function. */
+/* Read a name with its index and its primes, and the opening bracket if it is the name of a function. */
 static void
 read_name(reader *r, qdot_formula_id power)
 {
@@ -249,14 +249,14 @@ read_name(reader *r, qdot_formula_id power)
     size_t n;
     char *name;
 
-    while (continues_name(r->at))
+    while (may_continue_name(r->at))
         r->at++;
     n = (size_t)(r->at - start);
     if (strncmp(start, "sqrt(", n + 1) == 0 || strncmp(start, "abs(", n + 1) == 0) {
         open_group(r, *start == 's' ? ROOT : BARS, 0, power);
         return;
     }
-    end = *r->at == '[' ? index_end(r->at) : NULL;
+    end = *r->at == '[' ? find_end_of_index(r->at) : NULL;
     r->at = end != NULL ? end : r->at;
     name = qdot_strndup(start, (size_t)(r->at - start));
     for (; *r->at == '\''; r->at++)
@@ -264,26 +264,26 @@ read_name(reader *r, qdot_formula_id power)
     if (name == NULL)
         r->f->failed = true;
     else if (*r->at != '(')
-        take_factor(r, new_name(r, name, order), power);
+        append_factor(r, make_name_node(r, name, order), power);
     else
-        open_group(r, CALL, end == NULL && order == 0 && names_function(name, n)
-                                ? new_text(r, QDOT_TEXT_FUNCTION, name, n)
-                                : new_name(r, name, order), power);
+        open_group(r, CALL, end == NULL && order == 0 && is_function_name(name, n)
+                                ? make_text_node(r, QDOT_TEXT_FUNCTION, name, n)
+                                : make_name_node(r, name, order), power);
     qdot_free(name);
 }
 
-/* Before a minus and before a number a product has a dot: a*-b would be read as a difference, 2*3 as one number. */
+/* Show the product sign as a dot before a minus or a number: a*-b would look like a difference, 2*3 like one number. */
 static void
-show_times(reader *r)
+show_product_dot(reader *r)
 {
-    const qdot_formula_id product = top(r)->product;
+    const qdot_formula_id product = innermost_group(r)->product;
     qdot_formula_node *last = r->f->nodes.at + (product != 0 ? r->f->nodes.at[product].child : 0);
 
     if (product != 0 && last->kind == QDOT_FORMULA_SIGN && last->what == QDOT_SIGN_TIMES)
         last->what = QDOT_SIGN_DOT;
 }
 
-/* A number; drawn 1e-9 is 10^-9, 2e5 is 2 10^5. */
+/* Read a number; 1e-9 is drawn as 10^-9, 2e5 as 2 10^5. */
 static void
 read_number(reader *r, qdot_formula_id power)
 {
@@ -292,8 +292,8 @@ read_number(reader *r, qdot_formula_id power)
     size_t n;
 
     if (power == 0) {
-        end_factor(r);
-        show_times(r);
+        finish_factor(r);
+        show_product_dot(r);
     }
     while (is_digit(*r->at) || *r->at == '.')
         r->at++;
@@ -301,13 +301,13 @@ read_number(reader *r, qdot_formula_id power)
     end = r->at + (*r->at == 'e' || *r->at == 'E');
     end += end > r->at && (*end == '-' || *end == '+');
     if (end == r->at || !is_digit(*end)) {
-        take_factor(r, new_text(r, QDOT_TEXT_NUMBER, start, n), power);
+        append_factor(r, make_text_node(r, QDOT_TEXT_NUMBER, start, n), power);
         return;
     }
     for (r->at = end; is_digit(*r->at);)
         r->at++;
     if (r->notation != QDOT_NOTATION_DRAWN) {
-        take_factor(r, new_text(r, QDOT_TEXT_NUMBER, start, (size_t)(r->at - start)), power);
+        append_factor(r, make_text_node(r, QDOT_TEXT_NUMBER, start, (size_t)(r->at - start)), power);
         return;
     }
     all = qdot_formula_new(r->f, QDOT_FORMULA_SPAN, 0, 0);
@@ -321,7 +321,7 @@ read_number(reader *r, qdot_formula_id power)
     if (end[-1] == '-')
         qdot_formula_add_sign(r->f, exponent, QDOT_SIGN_NEGATIVE);
     qdot_formula_add_text(r->f, exponent, QDOT_TEXT_NUMBER, end, (size_t)(r->at - end));
-    take_factor(r, all, power);
+    append_factor(r, all, power);
 }
 
 /* Read a name, a number or a bracket, as the exponent of `power` if that is a node (not 0). False: none of these is here. */
@@ -345,9 +345,9 @@ read_factor(reader *r, qdot_formula_id power)
 
 /* The exponent of the last factor, within which a further `^` is read, as a^b^c is a^(b^c); 0: it has none. */
 static qdot_formula_id
-last_exponent(reader *r)
+find_last_exponent(reader *r)
 {
-    qdot_formula_id id = top(r)->factor, exponent = 0;
+    qdot_formula_id id = innermost_group(r)->factor, exponent = 0;
 
     for (;;) {
         qdot_formula_node *node = r->f->nodes.at + id;
@@ -365,18 +365,18 @@ last_exponent(reader *r)
 static qdot_formula_id
 begin_power(reader *r)
 {
-    const qdot_formula_id exponent = last_exponent(r);
+    const qdot_formula_id exponent = find_last_exponent(r);
     const qdot_formula_id power = exponent != 0 ? exponent : qdot_formula_new(r->f, QDOT_FORMULA_POWER, 0, 0);
-    qdot_formula_id base = top(r)->factor;
+    qdot_formula_id base = innermost_group(r)->factor;
 
     if (exponent == 0) {
-        top(r)->factor = power;
+        innermost_group(r)->factor = power;
     } else {
         base = qdot_formula_new(r->f, QDOT_FORMULA_ROW, 0, 0);
         qdot_formula_share(r->f, base, exponent);
         if (base == 0)
             return 0;
-        if (r->f->nodes.at[base].kind == QDOT_FORMULA_ROW) { /* its bracket went, being an exponent's */
+        if (r->f->nodes.at[base].kind == QDOT_FORMULA_ROW) { /* the brackets of the base were removed, as it was an exponent */
             r->f->nodes.at[base].kind = QDOT_FORMULA_BRACKET;
             r->f->nodes.at[base].what = QDOT_BRACKET_ROUND;
         }
@@ -396,8 +396,8 @@ read_power(reader *r)
     const bool follows = begins_name(digits) || is_digit(*digits) || *digits == '(';
     qdot_formula_id power, exponent;
 
-    if (top(r)->factor == 0 || !follows) {
-        take_label(r, 1);
+    if (innermost_group(r)->factor == 0 || !follows) {
+        read_other_character(r, 1);
         return;
     }
     power = begin_power(r);
@@ -412,7 +412,7 @@ read_power(reader *r)
     read_factor(r, exponent);
 }
 
-/* √2: the root of the factor that follows; sqrt(x) is read as a name. */
+/* Read √ and the factor that follows it, as in √2; sqrt(x) is read as a name. */
 static bool
 read_root(reader *r)
 {
@@ -420,30 +420,30 @@ read_root(reader *r)
     const bool is = strncmp(r->at, "√", n) == 0 && (begins_name(r->at + n) || is_digit(r->at[n]));
 
     if (is) {
-        end_factor(r);
+        finish_factor(r);
         r->at += n;
-        top(r)->factor = qdot_formula_new(r->f, QDOT_FORMULA_ROOT, 0,
-                                          r->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_BARE : 0);
-        read_factor(r, top(r)->factor);
+        innermost_group(r)->factor = qdot_formula_new(r->f, QDOT_FORMULA_ROOT, 0,
+                                                      r->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_BARE : 0);
+        read_factor(r, innermost_group(r)->factor);
     }
     return is;
 }
 
-/* Raised digits: sin²(x). */
+/* Read superscript digits, such as the exponent of sin²(x). */
 static bool
-read_raised(reader *r)
+read_superscript_digits(reader *r)
 {
     const size_t from = r->f->text.n;
     qdot_formula_id power;
     size_t n;
-    int digit = raised_digit(r->at, &n);
+    int digit = superscript_digit_value(r->at, &n);
 
-    if (digit < 0 || top(r)->factor == 0)
+    if (digit < 0 || innermost_group(r)->factor == 0)
         return false;
     power = begin_power(r);
     if (power != 0 && r->notation == QDOT_NOTATION_LINE)
         r->f->nodes.at[power].flags |= QDOT_FORMULA_RAISED;
-    for (; digit >= 0; digit = raised_digit(r->at, &n)) {
+    for (; digit >= 0; digit = superscript_digit_value(r->at, &n)) {
         qdot_text_char(&r->f->text, (char)('0' + digit));
         r->at += n;
     }
@@ -461,8 +461,8 @@ skip_blanks(reader *r)
 static void
 read_add_sign(reader *r, qdot_formula_sign sign, size_t n)
 {
-    end_term(r);
-    qdot_formula_add_sign(r->f, top(r)->row, sign);
+    finish_term(r);
+    qdot_formula_add_sign(r->f, innermost_group(r)->row, sign);
     r->at += n;
     skip_blanks(r);
 }
@@ -471,7 +471,7 @@ read_add_sign(reader *r, qdot_formula_sign sign, size_t n)
 static bool
 read_sign(reader *r)
 {
-    const group *g = top(r);
+    const group *g = innermost_group(r);
 
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++) {
         const size_t n = strlen(signs[i].typed);
@@ -479,7 +479,7 @@ read_sign(reader *r)
         if (strncmp(r->at, signs[i].typed, n) != 0)
             continue;
         if (signs[i].sign == QDOT_SIGN_MINUS && g->factor == 0) {
-            show_times(r);
+            show_product_dot(r);
             qdot_formula_add_sign(r->f, g->product != 0 ? g->product : g->row, QDOT_SIGN_NEGATIVE);
             r->at++;
         } else {
@@ -507,16 +507,16 @@ read_blank(reader *r)
         read_add_sign(r, QDOT_SIGN_BESIDE, 0);
 }
 
-/* `*` and `/` between two factors. */
+/* Read `*` or `/` between two factors. */
 static bool
 read_product(reader *r)
 {
-    group *g = top(r);
+    group *g = innermost_group(r);
     qdot_formula_id above;
 
     if ((*r->at != '*' && *r->at != '/') || g->factor == 0)
         return false;
-    end_factor(r);
+    finish_factor(r);
     if (*r->at == '*') {
         qdot_formula_add_sign(r->f, g->product, QDOT_SIGN_TIMES);
     } else {
@@ -526,7 +526,7 @@ read_product(reader *r)
 
             node->kind = QDOT_FORMULA_ROW;
             if (r->f->nodes.at[node->child].next == node->child)
-                above = without_bracket(r, node->child);
+                above = drop_round_brackets(r, node->child);
         }
         g->over = qdot_formula_new(r->f, QDOT_FORMULA_FRACTION, 0, 0);
         qdot_formula_append(r->f, g->over, above);
@@ -545,13 +545,13 @@ read_primes(reader *r)
 
     for (; *r->at == '\''; r->at++)
         n++;
-    qdot_formula_append(r->f, id, top(r)->factor);
+    qdot_formula_append(r->f, id, innermost_group(r)->factor);
     qdot_formula_count(r->f, id, n);
-    top(r)->factor = id;
+    innermost_group(r)->factor = id;
 }
 
 static void
-read_next(reader *r)
+read_next_element(reader *r)
 {
     if (*r->at == ')' || *r->at == ']') {
         close_group(r);
@@ -560,13 +560,13 @@ read_next(reader *r)
         read_blank(r);
     else if (*r->at == '^')
         read_power(r);
-    else if (*r->at == '\'' && top(r)->factor != 0)
+    else if (*r->at == '\'' && innermost_group(r)->factor != 0)
         read_primes(r);
-    else if (!read_factor(r, 0) && !read_root(r) && !read_raised(r) && !read_product(r) && !read_sign(r))
-        take_label(r, qdot_utf8_length(r->at) > 1 ? qdot_utf8_length(r->at) : 1);
+    else if (!read_factor(r, 0) && !read_root(r) && !read_superscript_digits(r) && !read_product(r) && !read_sign(r))
+        read_other_character(r, qdot_utf8_length(r->at) > 1 ? qdot_utf8_length(r->at) : 1);
 }
 
-/* Whether every bracket is closed by its own. */
+/* Whether every bracket in the typed formula is closed by a bracket of its kind. */
 static bool
 is_balanced(const char *typed)
 {
@@ -600,8 +600,8 @@ qdot_formula_read(qdot_formula *f, qdot_formula_id parent, const char *typed, qd
         return;
     }
     while (*r.at != '\0' && !f->failed)
-        read_next(&r);
+        read_next_element(&r);
     if (!f->failed)
-        end_term(&r);
+        finish_term(&r);
     qdot_free(r.groups.at);
 }

@@ -4,7 +4,7 @@
 #include "base/interrupt.h"
 
 static qdot_status
-walk_enter(qdot_formula_walk *walk, qdot_formula_id id)
+enter_node(qdot_formula_walk *walk, qdot_formula_id id)
 {
     const qdot_formula_node *node = qdot_formula_at(walk->formula, id);
 
@@ -16,7 +16,7 @@ walk_enter(qdot_formula_walk *walk, qdot_formula_id id)
 
 /* Step to the next child of the innermost open node, or leave that node. */
 static qdot_status
-walk_step(qdot_formula_walk *walk)
+step_to_next_node(qdot_formula_walk *walk)
 {
     qdot_formula_frame *f = walk->open.at + walk->open.n - 1;
     const qdot_formula_node *node = qdot_formula_at(walk->formula, f->id);
@@ -29,16 +29,16 @@ walk_step(qdot_formula_walk *walk)
     f->child = qdot_formula_at(walk->formula, f->child != 0 ? f->child : node->child)->next;
     if (f->k > 0 && node->kind != QDOT_FORMULA_SPAN && walk->between != NULL)
         QDOT_TRY(walk->between(walk, node, f->k));
-    return walk_enter(walk, f->child);
+    return enter_node(walk, f->child);
 }
 
 qdot_status
 qdot_formula_pass(qdot_formula_walk *walk, qdot_formula_id id)
 {
-    qdot_status status = walk->formula->nodes.n > id ? walk_enter(walk, id) : QDOT_OK;
+    qdot_status status = walk->formula->nodes.n > id ? enter_node(walk, id) : QDOT_OK;
 
     for (unsigned i = 0; status == QDOT_OK && walk->open.n > 0; i++) {
-        status = walk_step(walk);
+        status = step_to_next_node(walk);
         if (status == QDOT_OK && i % 64 == 0)
             status = qdot_interrupt_check();
     }

@@ -1,4 +1,4 @@
-/* width.c -- counts the letters of a formula. */
+/* width.c -- counts the letters of a formula, to estimate its width. */
 #include "formula/width.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 
 /* The number of letters in the text of a sign, without the blanks around it. */
 static size_t
-sign_letters(unsigned sign)
+count_letters_of_sign(unsigned sign)
 {
     switch (sign) {
     case QDOT_SIGN_TIMES:
@@ -24,21 +24,21 @@ sign_letters(unsigned sign)
 
 /* The width of the order of a derivative: n marks, or the digits of n in brackets. */
 static size_t
-order_letters(uint32_t n, uint32_t most)
+count_letters_of_order(uint32_t n, uint32_t most)
 {
     return n <= most ? n : n < 10 ? 3 : 4;
 }
 
 static qdot_status
-width_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
+add_width_of_node_begin(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     size_t *letters = walk->user;
 
     switch (node->kind) {
     case QDOT_FORMULA_TEXT: *letters += qdot_utf8_columns(walk->formula->text.at + node->child, node->n); break;
-    case QDOT_FORMULA_SIGN: *letters += sign_letters(node->what); break;
-    case QDOT_FORMULA_ACCENT: *letters += node->n > 3 ? order_letters(node->n, 0) : 0; break;
-    case QDOT_FORMULA_PRIMES: *letters += order_letters(node->n, 3); break;
+    case QDOT_FORMULA_SIGN: *letters += count_letters_of_sign(node->what); break;
+    case QDOT_FORMULA_ACCENT: *letters += node->n > 3 ? count_letters_of_order(node->n, 0) : 0; break;
+    case QDOT_FORMULA_PRIMES: *letters += count_letters_of_order(node->n, 3); break;
     case QDOT_FORMULA_BRACKET:
     case QDOT_FORMULA_TABLE: *letters += 2; break;
     case QDOT_FORMULA_CASES: *letters += 1 + strlen("otherwise"); break;
@@ -48,7 +48,7 @@ width_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
 }
 
 static qdot_status
-width_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
+add_width_between_children(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
 {
     size_t *letters = walk->user;
 
@@ -58,7 +58,7 @@ width_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k
 }
 
 static qdot_status
-width_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
+add_width_of_node_end(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     (void)walk;
     (void)node;
@@ -69,7 +69,7 @@ qdot_status
 qdot_formula_width(const qdot_formula *f, qdot_formula_id id, size_t *letters)
 {
     qdot_formula_walk walk = {
-        .formula = f, .user = letters, .enter = width_enter, .between = width_between, .leave = width_leave};
+        .formula = f, .user = letters, .enter = add_width_of_node_begin, .between = add_width_between_children, .leave = add_width_of_node_end};
 
     *letters = 0;
     return qdot_formula_pass(&walk, id);

@@ -18,14 +18,14 @@ static const char *const signs[] = {
 
 typedef struct {
     qdot_text *out;
-    size_t raised; /* the exponents around the present node */
+    size_t raised; /* number of exponents that contain the present node */
 } writer;
 
 enum { MOST_DOTS = 2 };
 
-/* The k-th child of a node; 0: there are not so many. */
+/* The k-th child of a node; 0 if the node has fewer children. */
 static qdot_formula_id
-kth_child(const qdot_formula *f, const qdot_formula_node *node, uint32_t k)
+get_kth_child(const qdot_formula *f, const qdot_formula_node *node, uint32_t k)
 {
     qdot_formula_id child = node->child;
 
@@ -37,9 +37,9 @@ kth_child(const qdot_formula *f, const qdot_formula_node *node, uint32_t k)
     return child;
 }
 
-/* The node that a row or span of one consists of. */
+/* The node itself, or, for a row or span with a single child, that child; found through several such levels. */
 static const qdot_formula_node *
-alone(const qdot_formula *f, qdot_formula_id id)
+skip_single_child_rows(const qdot_formula *f, qdot_formula_id id)
 {
     const qdot_formula_node *node = qdot_formula_at(f, id);
 
@@ -55,22 +55,22 @@ is_text(const qdot_formula_node *node, qdot_formula_role role)
     return node->kind == QDOT_FORMULA_TEXT && node->what == role;
 }
 
-/* Whether an index consists of digits, which are written as small ones. */
+/* Whether an index consists of digits only, which are written as subscript characters. */
 static bool
 has_low_digits(const qdot_formula *f, const qdot_formula_node *index)
 {
-    return is_text(alone(f, kth_child(f, index, 1)), QDOT_TEXT_NUMBER);
+    return is_text(skip_single_child_rows(f, get_kth_child(f, index, 1)), QDOT_TEXT_NUMBER);
 }
 
-/* The derivative's primes that stand behind the accented letters and their index: there is no room for dots. */
+/* The number of primes that are written after an accented letter and its index, where there is no room for dots. */
 static uint32_t
-primes_of(const qdot_formula *f, const qdot_formula_node *accent)
+primes_of_accent(const qdot_formula *f, const qdot_formula_node *accent)
 {
     const qdot_formula_node *letter;
 
     if (accent->kind != QDOT_FORMULA_ACCENT)
         return 0;
-    letter = alone(f, kth_child(f, accent, 0));
+    letter = skip_single_child_rows(f, get_kth_child(f, accent, 0));
     return accent->n <= MOST_DOTS && letter->kind == QDOT_FORMULA_TEXT &&
                    qdot_utf8_columns(f->text.at + letter->child, letter->n) == 1
                ? 0
@@ -79,35 +79,35 @@ primes_of(const qdot_formula *f, const qdot_formula_node *accent)
 
 /* Whether a root needs no brackets, as √2 and √θ₁. */
 static bool
-stands_bare(const qdot_formula *f, const qdot_formula_node *root)
+root_needs_no_brackets(const qdot_formula *f, const qdot_formula_node *root)
 {
-    const qdot_formula_node *first = qdot_formula_at(f, kth_child(f, root, 0));
+    const qdot_formula_node *first = qdot_formula_at(f, get_kth_child(f, root, 0));
 
-    first = first->kind == QDOT_FORMULA_SPAN ? alone(f, kth_child(f, root, 0)) : first;
-    return kth_child(f, root, 1) == 0 &&
+    first = first->kind == QDOT_FORMULA_SPAN ? skip_single_child_rows(f, get_kth_child(f, root, 0)) : first;
+    return get_kth_child(f, root, 1) == 0 &&
            (first->kind == QDOT_FORMULA_TEXT || first->kind == QDOT_FORMULA_INDEX || first->kind == QDOT_FORMULA_ACCENT);
 }
 
-/* Whether the power is set above the index of its base. */
+/* Whether the exponent of a power is set directly above the index of its base. */
 static bool
-stands_above(const qdot_formula *f, const qdot_formula_node *power)
+exponent_is_above_index(const qdot_formula *f, const qdot_formula_node *power)
 {
-    const qdot_formula_node *base = qdot_formula_at(f, kth_child(f, power, 0));
+    const qdot_formula_node *base = qdot_formula_at(f, get_kth_child(f, power, 0));
 
     return base->kind == QDOT_FORMULA_INDEX && !has_low_digits(f, base) &&
-           primes_of(f, qdot_formula_at(f, kth_child(f, base, 0))) == 0 &&
-           is_text(qdot_formula_at(f, kth_child(f, power, 1)), QDOT_TEXT_NUMBER);
+           primes_of_accent(f, qdot_formula_at(f, get_kth_child(f, base, 0))) == 0 &&
+           is_text(qdot_formula_at(f, get_kth_child(f, power, 1)), QDOT_TEXT_NUMBER);
 }
 
 /* --- looking into a part ------------------------------------------------------------------ */
 
-/* What a part has in it: signs between terms, products or fractions at its top; a power anywhere. */
+/* What a part of a formula contains: signs between terms, products or fractions at its top; a power anywhere. */
 typedef struct {
     bool terms, factors, power;
 } contents;
 
 static qdot_status
-contents_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
+note_contents_of_node(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     contents *c = walk->user;
     const qdot_formula_duty duty = qdot_formula_sign_duty(node);
@@ -125,7 +125,7 @@ contents_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
 }
 
 static qdot_status
-contents_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
+ignore_end_of_node(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     (void)walk;
     (void)node;
@@ -135,7 +135,7 @@ contents_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 static qdot_status
 find_contents(const qdot_formula *f, qdot_formula_id id, contents *c)
 {
-    qdot_formula_walk walk = {.formula = f, .user = c, .enter = contents_enter, .leave = contents_leave};
+    qdot_formula_walk walk = {.formula = f, .user = c, .enter = note_contents_of_node, .leave = ignore_end_of_node};
 
     *c = (contents){0};
     return qdot_formula_pass(&walk, id);
@@ -145,7 +145,7 @@ find_contents(const qdot_formula *f, qdot_formula_id id, contents *c)
 
 /* Append text; a backslash before each character that is a command in enhanced text makes gnuplot print it. */
 static void
-add_literally(qdot_text *out, const char *text, size_t n)
+append_escaped(qdot_text *out, const char *text, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         if (strchr("^_{}@&~\\", text[i]) != NULL)
@@ -154,19 +154,19 @@ add_literally(qdot_text *out, const char *text, size_t n)
     }
 }
 
-/* Whether the present text is the exponent that add_above has written. */
+/* Whether the present text is an exponent that was already written, above the index of its base. */
 static bool
-is_written(const qdot_formula_walk *walk)
+is_written_exponent(const qdot_formula_walk *walk)
 {
     const qdot_formula_node *outer = qdot_formula_outer(walk);
 
     return outer != NULL && outer->kind == QDOT_FORMULA_POWER && walk->open.at[walk->open.n - 1].k == 1 &&
-           stands_above(walk->formula, outer);
+           exponent_is_above_index(walk->formula, outer);
 }
 
-/* Whether the present text is the only one in an index. */
+/* Whether the present text is the digits of an index, which are written as subscript characters. */
 static bool
-is_low(const qdot_formula_walk *walk)
+is_subscript_text(const qdot_formula_walk *walk)
 {
     for (size_t i = walk->open.n; i-- > 0;) {
         const qdot_formula_node *outer = qdot_formula_at(walk->formula, walk->open.at[i].id);
@@ -187,13 +187,13 @@ gnuplot_add_text(qdot_formula_walk *walk, const qdot_formula_node *node)
     const char *text = walk->formula->text.at + node->child;
 
     if (node->what != QDOT_TEXT_NUMBER) {
-        add_literally(out, text, node->n);
+        append_escaped(out, text, node->n);
         return;
     }
-    if (is_written(walk))
+    if (is_written_exponent(walk))
         return;
-    if (!is_low(walk)) {
-        add_literally(out, text, node->n);
+    if (!is_subscript_text(walk)) {
+        append_escaped(out, text, node->n);
         return;
     }
     for (uint32_t i = 0; i < node->n; i++)
@@ -218,13 +218,13 @@ gnuplot_add_sign(const writer *w, unsigned sign)
     qdot_text_add(w->out, text);
 }
 
-/* A bracket before (or behind) a side of a fraction that a line would not hold together. */
+/* Append a bracket before or after a numerator or denominator that needs one when the fraction is in one line. */
 static qdot_status
 gnuplot_add_bracket(const writer *w, const qdot_formula *f, const qdot_formula_node *fraction, uint32_t k, char bracket)
 {
     contents c;
 
-    QDOT_TRY(find_contents(f, kth_child(f, fraction, k), &c));
+    QDOT_TRY(find_contents(f, get_kth_child(f, fraction, k), &c));
     if (c.terms || (k == 1 && c.factors))
         qdot_text_char(w->out, bracket);
     return QDOT_OK;
@@ -240,7 +240,7 @@ gnuplot_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     case QDOT_FORMULA_TEXT: gnuplot_add_text(walk, node); break;
     case QDOT_FORMULA_SIGN: gnuplot_add_sign(w, node->what); break;
     case QDOT_FORMULA_FRACTION: return gnuplot_add_bracket(w, walk->formula, node, 0, '(');
-    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, stands_bare(walk->formula, node) ? "√" : "√("); break;
+    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, root_needs_no_brackets(walk->formula, node) ? "√" : "√("); break;
     case QDOT_FORMULA_BRACKET: qdot_text_add(w->out, opening[node->what]); break;
     case QDOT_FORMULA_TABLE: qdot_text_char(w->out, '['); break;
     default: break;
@@ -248,15 +248,15 @@ gnuplot_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     return QDOT_OK;
 }
 
-/* What stands between a base and its exponent. */
+/* Write what stands between a base and its exponent. */
 static qdot_status
 begin_exponent(writer *w, const qdot_formula *f, const qdot_formula_node *power)
 {
     contents c;
 
-    if (stands_above(f, power))
+    if (exponent_is_above_index(f, power))
         return QDOT_OK;
-    QDOT_TRY(find_contents(f, kth_child(f, power, 1), &c));
+    QDOT_TRY(find_contents(f, get_kth_child(f, power, 1), &c));
     qdot_text_add(w->out, c.power ? "\\^(" : "^{");
     w->raised += !c.power;
     return QDOT_OK;
@@ -271,13 +271,13 @@ begin_index(const writer *w, const qdot_formula_walk *walk, const qdot_formula_n
     if (has_low_digits(f, index))
         return;
     if (outer == NULL || outer->kind != QDOT_FORMULA_POWER || walk->open.at[walk->open.n - 2].k != 0 ||
-        !stands_above(f, outer)) {
+        !exponent_is_above_index(f, outer)) {
         qdot_text_add(w->out, "_{");
         return;
     }
-    outer = qdot_formula_at(f, kth_child(f, outer, 1));
+    outer = qdot_formula_at(f, get_kth_child(f, outer, 1));
     qdot_text_add(w->out, "@^{");
-    add_literally(w->out, f->text.at + outer->child, outer->n);
+    append_escaped(w->out, f->text.at + outer->child, outer->n);
     qdot_text_add(w->out, "}_{/*0.97 ");
 }
 
@@ -309,11 +309,11 @@ gnuplot_add_primes(const writer *w, uint32_t n)
 }
 
 static void
-end_accent(const qdot_formula_walk *walk, const qdot_formula_node *node)
+gnuplot_end_accent(const qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     const writer *w = walk->user;
     const qdot_formula_node *outer = qdot_formula_outer(walk);
-    const uint32_t primes = primes_of(walk->formula, node);
+    const uint32_t primes = primes_of_accent(walk->formula, node);
 
     if (primes == 0)
         qdot_text_add(w->out, node->n == 1 ? "\u0307" : node->n == 2 ? "\u0308" : "");
@@ -322,13 +322,13 @@ end_accent(const qdot_formula_walk *walk, const qdot_formula_node *node)
 }
 
 static qdot_status
-end_exponent(writer *w, const qdot_formula *f, const qdot_formula_node *power)
+write_end_of_exponent(writer *w, const qdot_formula *f, const qdot_formula_node *power)
 {
     contents c;
 
-    if (stands_above(f, power))
+    if (exponent_is_above_index(f, power))
         return QDOT_OK;
-    QDOT_TRY(find_contents(f, kth_child(f, power, 1), &c));
+    QDOT_TRY(find_contents(f, get_kth_child(f, power, 1), &c));
     qdot_text_char(w->out, c.power ? ')' : '}');
     w->raised -= !c.power;
     return QDOT_OK;
@@ -342,14 +342,14 @@ gnuplot_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION: return gnuplot_add_bracket(w, walk->formula, node, 1, ')');
-    case QDOT_FORMULA_POWER: return end_exponent(w, walk->formula, node);
+    case QDOT_FORMULA_POWER: return write_end_of_exponent(w, walk->formula, node);
     case QDOT_FORMULA_INDEX:
         qdot_text_add(w->out, has_low_digits(walk->formula, node) ? "" : "}");
-        gnuplot_add_primes(w, primes_of(walk->formula, qdot_formula_at(walk->formula, kth_child(walk->formula, node, 0))));
+        gnuplot_add_primes(w, primes_of_accent(walk->formula, qdot_formula_at(walk->formula, get_kth_child(walk->formula, node, 0))));
         break;
-    case QDOT_FORMULA_ACCENT: end_accent(walk, node); break;
+    case QDOT_FORMULA_ACCENT: gnuplot_end_accent(walk, node); break;
     case QDOT_FORMULA_PRIMES: gnuplot_add_primes(w, node->n); break;
-    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, stands_bare(walk->formula, node) ? "" : ")"); break;
+    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, root_needs_no_brackets(walk->formula, node) ? "" : ")"); break;
     case QDOT_FORMULA_BRACKET: qdot_text_add(w->out, closing[node->what]); break;
     case QDOT_FORMULA_TABLE: qdot_text_char(w->out, ']'); break;
     case QDOT_FORMULA_TENSOR: qdot_text_char(w->out, '}'); break;

@@ -1,4 +1,4 @@
-/* write-latex.c -- formulas in LaTeX. */
+/* write-latex.c -- writes formulas in LaTeX. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -14,8 +14,8 @@ static const char *const signs[] = {
 
 typedef struct {
     qdot_text *out;
-    size_t name, times; /* where a name of several letters, a sign of multiplication ended last */
-    bool parted;        /* ... and the sign stood behind such a name */
+    size_t name, times; /* output positions at which a name of several letters, and a product sign, ended last */
+    bool parted;        /* the last product sign stands after a name of several letters */
 } writer;
 
 /* Functions with a LaTeX command. */
@@ -41,7 +41,7 @@ latex_add_function(qdot_text *out, const char *name, size_t n)
     qdot_text_char(out, '}');
 }
 
-/* Letters with accents are no mathematics to LaTeX, but text. */
+/* Append a name in roman type; if it contains accented letters as text, since LaTeX formulas have none. */
 static void
 latex_add_roman(qdot_text *out, const char *name, size_t n)
 {
@@ -66,7 +66,7 @@ latex_add_roman(qdot_text *out, const char *name, size_t n)
     qdot_text_char(out, '}');
 }
 
-/* A sign of multiplication, which is a blank that LaTeX drops. */
+/* Append a product sign: a blank, which LaTeX does not print. */
 static void
 latex_add_times(writer *w)
 {
@@ -75,7 +75,7 @@ latex_add_times(writer *w)
     w->times = w->out->n;
 }
 
-/* Greek letters as commands; several letters in roman type. */
+/* Append a name: Greek letters as LaTeX commands, other names of several letters in roman type. */
 static void
 latex_add_name(qdot_text *out, const char *name, size_t n)
 {
@@ -165,7 +165,7 @@ latex_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k
     return QDOT_OK;
 }
 
-/* Append the order of a derivative that has too many dots, after a base with an index. */
+/* Append the order of a derivative, which has too many dots to draw, after its base and index. */
 static void
 latex_add_order(qdot_text *out, const qdot_formula_node *accent)
 {
@@ -174,7 +174,7 @@ latex_add_order(qdot_text *out, const qdot_formula_node *accent)
 }
 
 static void
-leave_accent(const qdot_formula_walk *walk, const qdot_formula_node *node, qdot_text *out)
+latex_leave_accent(const qdot_formula_walk *walk, const qdot_formula_node *node, qdot_text *out)
 {
     const qdot_formula_node *outer = qdot_formula_outer(walk);
 
@@ -201,7 +201,7 @@ latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
         latex_add_order(out, qdot_formula_at(walk->formula, qdot_formula_at(walk->formula, node->child)->next));
         break;
     case QDOT_FORMULA_ACCENT:
-        leave_accent(walk, node, out);
+        latex_leave_accent(walk, node, out);
         w->name = qdot_name_is_long_at_end(walk->formula, node) ? out->n : w->name;
         break;
     case QDOT_FORMULA_PRIMES:

@@ -1,4 +1,4 @@
-/* write-line.c -- writes a formula on one line, as input of the language or for people. */
+/* write-line.c -- writes a formula on one line, as input of the language or for human readers. */
 #include <inttypes.h>
 
 #include "formula/walk.h"
@@ -19,7 +19,7 @@ typedef struct {
 } writer;
 
 static void
-line_add_raised(qdot_text *out, const char *digits, size_t n)
+append_superscript_digits(qdot_text *out, const char *digits, size_t n)
 {
     static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
 
@@ -39,7 +39,7 @@ line_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
         outer = w->script ? NULL : qdot_formula_outer(walk);
         if (outer != NULL && outer->kind == QDOT_FORMULA_POWER && (outer->flags & QDOT_FORMULA_RAISED) &&
             walk->open.at[walk->open.n - 1].k == 1)
-            line_add_raised(w->out, walk->formula->text.at + node->child, node->n);
+            append_superscript_digits(w->out, walk->formula->text.at + node->child, node->n);
         else
             qdot_text_add_n(w->out, walk->formula->text.at + node->child, node->n);
         break;
@@ -71,7 +71,7 @@ line_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
 }
 
 static void
-line_add_primes(const writer *w, uint32_t n)
+append_primes(const writer *w, uint32_t n)
 {
     char digits[16];
 
@@ -79,14 +79,14 @@ line_add_primes(const writer *w, uint32_t n)
         qdot_text_add(w->out, w->script ? "'" : "′");
     if (n > 3) {
         qdot_text_add(w->out, "⁽");
-        line_add_raised(w->out, digits, (size_t)snprintf(digits, sizeof digits, "%" PRIu32, n));
+        append_superscript_digits(w->out, digits, (size_t)snprintf(digits, sizeof digits, "%" PRIu32, n));
         qdot_text_add(w->out, "⁾");
     }
 }
 
 /* Whether a table, such as a matrix, has a single row. */
 static bool
-is_one_row(const qdot_formula *f, const qdot_formula_node *table)
+is_single_row_table(const qdot_formula *f, const qdot_formula_node *table)
 {
     qdot_formula_id last = table->child;
 
@@ -105,9 +105,9 @@ line_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     case QDOT_FORMULA_ROOT: qdot_text_add(w->out, node->flags & QDOT_FORMULA_BARE ? "" : ")"); break;
     case QDOT_FORMULA_BRACKET: qdot_text_add(w->out, closing[node->what]); break;
     case QDOT_FORMULA_TABLE: /* a matrix with one row must not look like a list */
-        qdot_text_add(w->out, is_one_row(walk->formula, node) ? ";]" : "]");
+        qdot_text_add(w->out, is_single_row_table(walk->formula, node) ? ";]" : "]");
         break;
-    case QDOT_FORMULA_PRIMES: line_add_primes(w, node->n); break;
+    case QDOT_FORMULA_PRIMES: append_primes(w, node->n); break;
     default: break;
     }
     return QDOT_OK;

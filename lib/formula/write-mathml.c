@@ -1,4 +1,4 @@
-/* write-mathml.c -- formulas in presentation MathML, also in the form for pages. */
+/* write-mathml.c -- writes formulas in presentation MathML, also in the variant for HTML pages. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -16,9 +16,9 @@ typedef struct {
     qdot_text *out;
     bool page;              /* write the form for HTML pages */
     bool behind_times;      /* the last thing written was a multiplication sign */
-    bool behind_name;       /* ... which stood behind a name of several letters */
-    size_t name;            /* where such a name ended last */
-    qdot_vec(uint8_t) flat; /* for each open bracket: its content is about one line high */
+    bool behind_name;       /* ... and that sign stands after a name of several letters */
+    size_t name;            /* position in the output where the last name of several letters ended */
+    qdot_vec(uint8_t) flat; /* for each open bracket: whether its contents are about one line high */
     qdot_vec(
         size_t) above; /* for each open tensor: where its upper indices begin and end in `out` */
 } writer;
@@ -85,9 +85,9 @@ mathml_add_text(qdot_text *out, const qdot_formula_node *node, const char *text)
 
 /* --- the form for pages ------------------------------------------------------------------------- */
 
-/* Stop the traversal at a node that is higher than one line. */
+/* Stop the traversal at a node that is higher than one line: a fraction, a root or a table. */
 static qdot_status
-high_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
+stop_at_high_node(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     (void)walk;
     return node->kind == QDOT_FORMULA_FRACTION || node->kind == QDOT_FORMULA_ROOT ||
@@ -97,7 +97,7 @@ high_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
 }
 
 static qdot_status
-high_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
+ignore_node_end(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     (void)walk;
     (void)node;
@@ -111,7 +111,7 @@ mathml_open_bracket(writer *w, const qdot_formula *f, const qdot_formula_node *n
     bool flat = w->page && node->what == QDOT_BRACKET_ROUND;
 
     if (flat) {
-        qdot_formula_walk walk = {.formula = f, .enter = high_enter, .leave = high_leave};
+        qdot_formula_walk walk = {.formula = f, .enter = stop_at_high_node, .leave = ignore_node_end};
         const qdot_status status =
             qdot_formula_pass(&walk, (qdot_formula_id)(node - f->nodes.at));
 
@@ -149,7 +149,7 @@ first_child(const qdot_formula *f, const qdot_formula_node *node)
     return node->child == 0 ? node : skip_plain_rows(f, qdot_formula_at(f, node->child)->next);
 }
 
-/* Whether a power (or primes) of a name with an index is written directly above that index. */
+/* Whether an exponent (or primes) of a name with an index is written directly above the index. */
 static bool
 is_above_index(const writer *w, const qdot_formula *f, const qdot_formula_node *node)
 {
@@ -158,7 +158,7 @@ is_above_index(const writer *w, const qdot_formula *f, const qdot_formula_node *
            first_child(f, node)->kind == QDOT_FORMULA_INDEX;
 }
 
-/* Whether the present node, an indexed name or a row of one, is the base of a power that writes its tags. */
+/* Whether the present node is an indexed name, alone or in a row, that is the base of a power written above its index. */
 static bool
 is_index_below(const writer *w, const qdot_formula_walk *walk)
 {

@@ -19,7 +19,7 @@ typedef struct {
     qdot_formula_id sign, factor;
 } qdot_formula_before;
 
-/* The nodes before part i of a row. */
+/* The nodes that stand before part i of a row: a sign, and what precedes the sign. */
 static inline qdot_formula_before
 qdot_formula_before_part(const qdot_formula_parts *parts, size_t i)
 {
@@ -29,7 +29,7 @@ qdot_formula_before_part(const qdot_formula_parts *parts, size_t i)
 /* Write a formula in LaTeX, for its mathematics mode. A thin space stands between two names of several letters, mass and
  * length, which would be read as one. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
-/* The same for a node of a row. */
+/* As qdot_formula_write_latex, for one node of a row, given what stands before it in the row. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_latex_part(const qdot_formula *f, qdot_formula_id id,
                                                           qdot_formula_before before, qdot_text *out);
 

@@ -33,10 +33,10 @@ typedef enum {
     QDOT_ASM_DIV,
     QDOT_ASM_ROOT,      /* reg = sqrt(b) */
     QDOT_ASM_MADD,      /* reg = first b + reg */
-    QDOT_ASM_MSUB, /* reg = first reg + b; the next three with the signs of MSUB, NMADD, NMSUB */
+    QDOT_ASM_MSUB, /* reg = first b - reg */
     QDOT_ASM_NMADD,     /* reg = reg - first b */
     QDOT_ASM_NMSUB,     /* reg = -first b - reg */
-    QDOT_ASM_MADD_OVER, /* reg = first reg + b, and so on */
+    QDOT_ASM_MADD_OVER, /* reg = first reg + b; the next three with the signs of MSUB, NMADD, NMSUB */
     QDOT_ASM_MSUB_OVER,
     QDOT_ASM_NMADD_OVER,
     QDOT_ASM_NMSUB_OVER,
@@ -58,20 +58,20 @@ qdot_asm_fused(bool over, bool minus_product, bool minus_other)
 /* What holds an address. The code is a function of the first three; a function that it calls gets
  * its first arguments there. Those after WORK_NOW belong to the caller of the code (_save). */
 typedef enum {
-    QDOT_ASM_ROWS,      /* coefficients, row by row, in a row by order */
-    QDOT_ASM_CONSTANTS, /* numbers that are the same at every order */
+    QDOT_ASM_ROWS,      /* address of the coefficients: row by row, in each row by order */
+    QDOT_ASM_CONSTANTS, /* address of numbers that are the same at every order */
     QDOT_ASM_WORK,
     QDOT_ASM_ROWS_NOW, /* the address of ROWS moved on to the present order */
     QDOT_ASM_WORK_NOW,
     QDOT_ASM_FACTOR, /* for a sum of products: the first row, and (PARTNER) the row multiplied by it */
     QDOT_ASM_PARTNER,
-    QDOT_ASM_TERMS,     /* address in the code where the terms of a sum begin */
+    QDOT_ASM_TERMS,     /* code address where the terms of a sum begin */
     QDOT_ASM_ROWS_HALF, /* the address of ROWS moved on to half of the present order */
     QDOT_ASM_CONSTANTS_NOW,
     QDOT_ASM_SECOND_PARTNER,
-    QDOT_ASM_TERMS_OF_PAIRS, /* code addresses: terms of two sums at once (PAIRS), of a sum of squares (SQUARES) */
+    QDOT_ASM_TERMS_OF_PAIRS, /* code addresses of the terms of two sums at once (PAIRS), and of a sum of squares (SQUARES) */
     QDOT_ASM_TERMS_OF_SQUARES,
-    QDOT_ASM_TERMS_LEFT, /* code address: the terms when fewer are left; never holds the address of an operand */
+    QDOT_ASM_TERMS_LEFT, /* code address of the terms when fewer are left; never holds the address of an operand */
     QDOT_ASM_BASES
 } qdot_asm_base;
 
@@ -88,9 +88,9 @@ typedef struct {
     size_t kind;  /* kind of processor: 0 SSE2, 1 AVX2 and FMA, 2 AVX-512 */
     bool far; /* encode every offset in four bytes, so that equal operations have equal length */
     int mask;     /* AVX-512: the mask register of the next instructions; 0: none */
-    bool zeroing; /* lanes outside the mask become 0; otherwise they keep their values */
+    bool zeroing; /* lanes outside the mask become 0; otherwise they stay unchanged */
     unsigned char nowhere[16]; /* bytes are written here after a failure */
-    /* For each register: when it was last used, and whether it is reserved. */
+    /* For each register: when it was used last, and whether it is reserved. */
     unsigned clock, used[QDOT_ASM_REGISTERS];
     bool taken[QDOT_ASM_REGISTERS];
 } qdot_asm;
@@ -99,7 +99,7 @@ typedef struct {
  * num/kinds.h. */
 bool qdot_asm_is_here(void);
 size_t qdot_asm_kind(void);
-/* The number of doubles in a vector; the number of registers, which count from 0. */
+/* _lanes: the number of doubles in a vector register; the other: the number of registers, counted from 0. */
 int qdot_asm_lanes(const qdot_asm *m);
 int qdot_asm_registers(const qdot_asm *m);
 
@@ -120,7 +120,7 @@ qdot_asm_at(qdot_asm_base base, int32_t offset)
 
 void qdot_asm_do(qdot_asm *m, qdot_asm_operation op, qdot_asm_width width, int reg,
                  int first, qdot_operand b);
-/* Set all lanes of reg to 0. */
+/* Append an instruction that sets all lanes of register reg to 0. */
 void qdot_asm_clear(qdot_asm *m, int reg);
 
 /* --- vectors whose lanes are orders, one after another (vector.c) --------------------- *
@@ -129,7 +129,7 @@ void qdot_asm_clear(qdot_asm *m, int reg);
  * those below it, `known` both. AVX-512 has these sets in mask registers, the others in two
  * vectors. */
 
-/* The first free register when the code for the lanes begins. */
+/* The number of the first register that is free where the code for the vector lanes begins. */
 int qdot_asm_first_free(const qdot_asm *m);
 
 typedef enum {
@@ -157,28 +157,28 @@ void qdot_asm_slide(qdot_asm *m, int to, qdot_operand low, const qdot_operand *h
 
 /* --- addresses, loops, calls ---------------------------------------------------------- */
 
-/* Set base register `to` to from + offset; _set_code: to the address of a position in the code. */
+/* _set: set base register `to` to from + offset; _set_code: to the address of a position in the code. */
 void qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset);
 void qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place);
 /* What stands between the two is run `times`, at least once; returns its place. Not one in
  * another. _repeat_as: as often as the 32 bits at that place say, when it is run. */
 size_t qdot_asm_repeat(qdot_asm *m, int times);
 size_t qdot_asm_repeat_as(qdot_asm *m, qdot_operand times);
-/* Directly after _repeat_as: return if the number of repetitions is 0; the loop begins after it. */
+/* Directly after _repeat_as: append code that returns if the number of repetitions is 0; then the loop begins. */
 void qdot_asm_return_if_none(qdot_asm *m);
 void qdot_asm_again(qdot_asm *m, size_t from);
-/* Call the code at this position, or at an address; _leave ends it. */
+/* Append a call of the code at this position, or at an address; _leave: append its return. */
 void qdot_asm_enter(qdot_asm *m, size_t place);
 void qdot_asm_enter_at(qdot_asm *m, qdot_asm_base at);
 void qdot_asm_leave(qdot_asm *m);
-/* Return to the caller of the generated code. */
+/* Append the return to the caller of the generated code. */
 void qdot_asm_return(qdot_asm *m);
 /* A C function is called; what the code was run with is there again after it, registers are not.
  * Between _frame and _unframe, the latter before the return. */
 void qdot_asm_frame(qdot_asm *m);
 void qdot_asm_call(qdot_asm *m, void (*function)(void));
 void qdot_asm_unframe(qdot_asm *m);
-/* Save the caller's address registers, and restore them before the return. */
+/* Append code that saves the caller's address registers, or restores them before the return. */
 void qdot_asm_save(qdot_asm *m);
 void qdot_asm_restore(qdot_asm *m);
 
@@ -190,7 +190,7 @@ qdot_asm_use(qdot_asm *m, int reg)
     m->used[reg] = ++m->clock;
 }
 
-/* The least recently used register of from ... end - 1 that is not reserved; marks it as used. */
+/* The register among from ... end - 1, not reserved, whose last use was earliest; marks it as used. */
 int qdot_asm_fresh(qdot_asm *m, int from, int end);
 
 #endif

@@ -1,8 +1,8 @@
-/* vector.c -- operations on some lanes of a vector, by masks or by vectors that replace them. */
+/* vector.c -- instructions on some lanes of a vector register, chosen by AVX-512 masks or, without these, by vectors. */
 #include "machine/x86.h"
 
 enum {
-    /* registers that select lanes: masks of AVX-512, or AVX2 registers */
+    /* numbers of registers that select lanes: AVX-512 masks, or AVX2 registers */
     older = 4,
     known = 5,
     newest = 1, /* used with AVX-512 masks only */
@@ -38,7 +38,7 @@ qdot_asm_first_lane(qdot_asm *m, qdot_operand ones)
 void
 qdot_asm_next_lane(qdot_asm *m)
 {
-    /* codes of a permutation: lanes 0, 0, 1, 2; in each half lanes 0, 0 */
+    /* Permutation codes: the first gives lanes 0, 0, 1, 2; the second, lanes 0, 0 of each half. */
     enum { first_twice = 0x90, first_in_both = 0 };
 
     if (m->kind < 2)
@@ -80,9 +80,9 @@ qdot_asm_add_product(qdot_asm *m, int to, int factor, qdot_operand b,
     m->mask = 0;
 }
 
-/* Load an operand into a register if it is in memory. */
+/* Load the operand b into the register `reg` if it is in memory; returns the register that holds it. */
 static int
-in_register(qdot_asm *m, qdot_operand b, int reg)
+load_into_register(qdot_asm *m, qdot_operand b, int reg)
 {
     if (!b.memory)
         return b.reg;
@@ -90,13 +90,13 @@ in_register(qdot_asm *m, qdot_operand b, int reg)
     return reg;
 }
 
-/* With low = (a, b, c, d) and high = (e, ...): spare = (c, d, e, ...), to = (b, c, d, e). */
+/* From low = (a, b, c, d) and high = (e, ...) make spare = (c, d, e, ...) and to = (b, c, d, e). */
 static void
-slide_by_halves(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high,
-                int spare)
+shift_lanes_by_halves(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high,
+                      int spare)
 {
     enum { upper_then_lower = 0x21, upper_then_0 = 0x81, second_then_first = 5 };
-    const int from = in_register(m, low, to);
+    const int from = load_into_register(m, low, to);
 
     qdot_x86_move_lanes(m, QDOT_X86_HALVES, spare, from, high ? *high : qdot_asm_in(from),
                         high ? upper_then_lower : upper_then_0);
@@ -104,15 +104,15 @@ slide_by_halves(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high,
                         second_then_first);
 }
 
-/* With low = (a, b) and high = (c, d): to = (b, c). */
+/* From low = (a, b) and high = (c, d) make to = (b, c). */
 static void
-slide_by_pairs(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high, int spare)
+shift_lanes_by_pairs(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high, int spare)
 {
     enum { second_then_first = 1 };
 
     if (!high)
         qdot_asm_clear(m, spare);
-    qdot_x86_move_lanes(m, QDOT_X86_PAIRS, to, in_register(m, low, to),
+    qdot_x86_move_lanes(m, QDOT_X86_PAIRS, to, load_into_register(m, low, to),
                         high ? *high : qdot_asm_in(spare), second_then_first);
 }
 
@@ -120,13 +120,13 @@ void
 qdot_asm_slide(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high, int spare)
 {
     if (m->kind < 1) {
-        slide_by_pairs(m, to, low, high, spare);
+        shift_lanes_by_pairs(m, to, low, high, spare);
     } else if (m->kind < 2) {
-        slide_by_halves(m, to, low, high, spare);
+        shift_lanes_by_halves(m, to, low, high, spare);
     } else if (high) {
-        qdot_x86_move_lanes(m, QDOT_X86_ALIGN, to, in_register(m, *high, spare), low, 1);
+        qdot_x86_move_lanes(m, QDOT_X86_ALIGN, to, load_into_register(m, *high, spare), low, 1);
     } else {
-        const int from = in_register(m, low, to);
+        const int from = load_into_register(m, low, to);
 
         m->mask = all_but_last;
         m->zeroing = true;

@@ -41,7 +41,7 @@ static const unsigned char saved[] = {RBX, RBP, R12, R13, R14, R15};
 enum { scratch = 15 }; /* SSE2: the register for intermediate results */
 
 static bool
-is_fused(int name)
+is_fused_operation(int name)
 {
     return name >= QDOT_ASM_MADD && name <= QDOT_ASM_NMSUB_OVER;
 }
@@ -54,17 +54,17 @@ mandatory_prefix(int name, bool wide)
 }
 
 static unsigned char
-opcode(int name, bool wide)
+opcode_of(int name, bool wide)
 {
-    return (unsigned char)(instructions[name].opcode + (is_fused(name) && !wide));
+    return (unsigned char)(instructions[name].opcode + (is_fused_operation(name) && !wide));
 }
 
-/* The length of the longest instruction, in bytes. */
+/* The length in bytes of the longest instruction. */
 enum { longest = 16 };
 
-/* The address for one more instruction; after a failure, always the same place. */
+/* The address at which to write one more instruction; after a failure, always the same unused place. */
 static unsigned char *
-room_for_instruction(qdot_asm *m)
+reserve_instruction(qdot_asm *m)
 {
     if (m->status == QDOT_OK && m->bytes.n + longest > m->bytes.capacity)
         m->status = qdot_grow(&m->bytes.at, &m->bytes.capacity, m->bytes.n + longest, 1);
@@ -72,14 +72,14 @@ room_for_instruction(qdot_asm *m)
 }
 
 static void
-written(qdot_asm *m, const unsigned char *from, const unsigned char *to)
+count_written_bytes(qdot_asm *m, const unsigned char *from, const unsigned char *to)
 {
     if (m->status == QDOT_OK)
         m->bytes.n += (size_t)(to - from);
 }
 
 static unsigned char *
-little_endian(unsigned char *at, uint32_t value)
+put_little_endian(unsigned char *at, uint32_t value)
 {
     for (int i = 0; i < 4; i++)
         *at++ = (unsigned char)(value >> 8 * i);
@@ -89,10 +89,10 @@ little_endian(unsigned char *at, uint32_t value)
 static void
 write_bytes(qdot_asm *m, size_t n, const unsigned char *bytes)
 {
-    unsigned char *from = room_for_instruction(m);
+    unsigned char *from = reserve_instruction(m);
 
     memcpy(from, bytes, n);
-    written(m, from, from + n);
+    count_written_bytes(m, from, from + n);
 }
 
 #define BYTES(m, ...)                                                                    \
@@ -100,22 +100,22 @@ write_bytes(qdot_asm *m, size_t n, const unsigned char *bytes)
                 (const unsigned char[]){__VA_ARGS__})
 
 static void
-asm_write_number(qdot_asm *m, uint32_t value)
+write_number_bytes(qdot_asm *m, uint32_t value)
 {
     unsigned char bytes[4];
 
-    little_endian(bytes, value);
+    put_little_endian(bytes, value);
     write_bytes(m, sizeof bytes, bytes);
 }
 
-/* Write the position of code relative to the end of this number. */
+/* Write a position in the code as its distance from the end of this number. */
 static void
-asm_write_place(qdot_asm *m, size_t place)
+write_relative_position(qdot_asm *m, size_t place)
 {
-    asm_write_number(m, (uint32_t)(place - (m->bytes.n + 4)));
+    write_number_bytes(m, (uint32_t)(place - (m->bytes.n + 4)));
 }
 
-/* A byte with the low three bits of a register's number in its low bits; middle: in the next three bits. */
+/* `byte` with the low three bits of a register's number in its low three bits; _middle: in its next three bits. */
 static unsigned char
 low_bits_of(unsigned byte, int reg)
 {
@@ -123,61 +123,61 @@ low_bits_of(unsigned byte, int reg)
 }
 
 static unsigned char
-middle(unsigned byte, int reg)
+middle_bits_of(unsigned byte, int reg)
 {
     return (unsigned char)(byte | (reg & 7) << 3);
 }
 
-/* The part of the prefix with the fourth bit of the registers' numbers. */
+/* The part of an instruction's prefix with the fourth bits of the numbers of its registers. */
 static unsigned char
 fourth_bits_of(unsigned byte, int reg, int base)
 {
     return (unsigned char)(byte | reg >> 3 << 2 | base >> 3);
 }
 
-/* Bit `at` of a register's number, moved to bit `to` and inverted, as EVEX needs it. */
+/* Bit `at` of a register's number, moved to bit `to` and inverted, as the EVEX prefix of AVX-512 needs it. */
 static unsigned
-inverted(int reg, int at, int to)
+inverted_bit_of(int reg, int at, int to)
 {
     return (unsigned)(~reg >> at & 1) << to;
 }
 
 static unsigned char *
-prefix(const qdot_asm *m, unsigned char *at, int name, bool wide, int reg, int first,
-       qdot_operand b)
+write_evex_prefix(const qdot_asm *m, unsigned char *at, int name, bool wide, int reg, int first,
+                  qdot_operand b)
 {
-    const unsigned sixteens = b.memory ? 1 : inverted(b.reg, 4, 0);
+    const unsigned sixteens = b.memory ? 1 : inverted_bit_of(b.reg, 4, 0);
     const unsigned length = wide ? 2 : 0;
 
     *at++ = 0x62;
-    *at++ = (unsigned char)(inverted(reg, 3, 7) | sixteens << 6 | inverted(b.reg, 3, 5) |
-                            inverted(reg, 4, 4) | instructions[name].map);
+    *at++ = (unsigned char)(inverted_bit_of(reg, 3, 7) | sixteens << 6 | inverted_bit_of(b.reg, 3, 5) |
+                            inverted_bit_of(reg, 4, 4) | instructions[name].map);
     *at++ = (unsigned char)(0x84 | (unsigned)(~first & 15) << 3 | mandatory_prefix(name, wide));
     *at++ = (unsigned char)((unsigned)m->zeroing << 7 | length << 5 |
-                            (unsigned)b.spread << 4 | inverted(first, 4, 3) |
+                            (unsigned)b.spread << 4 | inverted_bit_of(first, 4, 3) |
                             (unsigned)m->mask);
     return at;
 }
 
-/* Write a VEX prefix, which cannot mask lanes; only a broadcast has another width. */
+/* Write the VEX prefix of an AVX2 instruction, which cannot mask lanes; only a broadcast has another vector width. */
 static unsigned char *
-narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_operand b)
+write_vex_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_operand b)
 {
     const unsigned doubles = name != QDOT_ASM_SPREAD && name != QDOT_X86_HALVES;
 
     *at++ = 0xc4;
-    *at++ = (unsigned char)(inverted(reg, 3, 7) | 1u << 6 | inverted(b.reg, 3, 5) |
+    *at++ = (unsigned char)(inverted_bit_of(reg, 3, 7) | 1u << 6 | inverted_bit_of(b.reg, 3, 5) |
                             instructions[name].map);
     *at++ = (unsigned char)(doubles << 7 | (unsigned)(~first & 15) << 3 |
                             (unsigned)wide << 2 | mandatory_prefix(name, wide));
     return at;
 }
 
-/* Write the operands; an offset divisible by the operand's size takes one byte if the quotient does. */
+/* Write the bytes for the operands; an offset that is a small multiple of the operand's size takes one byte. */
 static unsigned char *
-asm_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
+write_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
 {
-    const unsigned char form = low_bits_of(middle(0, reg), b.reg);
+    const unsigned char form = low_bits_of(middle_bits_of(0, reg), b.reg);
 
     if (!b.memory) {
         *at++ = 0xc0 | form;
@@ -187,101 +187,101 @@ asm_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int 
         *at++ = (unsigned char)(b.offset / size);
     } else {
         *at++ = 0x80 | form;
-        at = little_endian(at, (uint32_t)b.offset);
+        at = put_little_endian(at, (uint32_t)b.offset);
     }
     return at;
 }
 
-/* Emit an instruction of three operands, for AVX-512 or (`narrow`) AVX2. */
+/* Append an instruction of three operands, for AVX-512 or (`narrow`) AVX2. */
 static void
-three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first,
-               qdot_operand b)
+emit_three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first,
+                    qdot_operand b)
 {
     const bool whole = wide && name != QDOT_ASM_SPREAD && !b.spread;
-    unsigned char *start = room_for_instruction(m), *at = start;
+    unsigned char *start = reserve_instruction(m), *at = start;
 
-    at = narrow ? narrow_prefix(at, name, wide, reg, first, b)
-                : prefix(m, at, name, wide, reg, first, b);
-    *at++ = opcode(name, wide);
-    written(m, start, asm_operands(m, at, reg, b, narrow ? 1 : whole ? 64 : 8));
+    at = narrow ? write_vex_prefix(at, name, wide, reg, first, b)
+                : write_evex_prefix(m, at, name, wide, reg, first, b);
+    *at++ = opcode_of(name, wide);
+    count_written_bytes(m, start, write_operands(m, at, reg, b, narrow ? 1 : whole ? 64 : 8));
 }
 
 /* --- SSE2: reg <- f(reg, b) ------------------------------------------------------------- */
 
 static void
-two_operands(qdot_asm *m, int name, bool wide, int reg, qdot_operand b)
+emit_two_operands(qdot_asm *m, int name, bool wide, int reg, qdot_operand b)
 {
     const unsigned char registers = fourth_bits_of(0x40, reg, b.reg);
-    unsigned char *start = room_for_instruction(m), *at = start;
+    unsigned char *start = reserve_instruction(m), *at = start;
 
     *at++ = wide ? 0x66 : 0xf2;
     if (registers != 0x40)
         *at++ = registers;
     *at++ = 0x0f;
-    *at++ = opcode(name, wide);
-    written(m, start, asm_operands(m, at, reg, b, 1));
+    *at++ = opcode_of(name, wide);
+    count_written_bytes(m, start, write_operands(m, at, reg, b, 1));
 }
 
-/* Load a whole register, or as much memory as the instruction reads. */
+/* Append a load of a whole register, or of as much memory as the instruction reads. */
 static void
-asm_load(qdot_asm *m, bool wide, int reg, qdot_operand b)
+emit_load(qdot_asm *m, bool wide, int reg, qdot_operand b)
 {
-    two_operands(m, QDOT_ASM_LOAD, wide || !b.memory, reg, b);
+    emit_two_operands(m, QDOT_ASM_LOAD, wide || !b.memory, reg, b);
 }
 
-/* Emit an operation of two operands other than a fused product and sum; vectors in memory may be unaligned. */
+/* Append an SSE2 operation of two operands, none fused; vectors in memory may be unaligned. */
 static void
-from_two(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
+emit_sse2_operation(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
     if (b.memory ? wide : b.reg == reg && reg != first) {
-        asm_load(m, wide, scratch, b);
+        emit_load(m, wide, scratch, b);
         b = qdot_asm_in(scratch);
     }
     if (reg != first)
-        asm_load(m, wide, reg, qdot_asm_in(first));
-    two_operands(m, name, wide, reg, b);
+        emit_load(m, wide, reg, qdot_asm_in(first));
+    emit_two_operands(m, name, wide, reg, b);
 }
 
-/* Compute in two instructions what AVX2 can compute fused, with a single rounding. */
+/* Append a product and a sum as two SSE2 instructions, which AVX2 has as one fused instruction. */
 static void
-product_then_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
+emit_product_and_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
     const unsigned which = (unsigned)(name - QDOT_ASM_MADD);
     const bool over = which & 4, product = which & 2,
-               other = which & 1; /* whether the product, and whether the other term, is negative */
+               other = which & 1; /* whether the product is negative; whether the other term is */
     const qdot_operand in_scratch = qdot_asm_in(scratch), term = over ? b : in_scratch;
 
     if (!over)
-        asm_load(m, wide, scratch, b);
-    two_operands(m, QDOT_ASM_MUL, wide, over ? reg : scratch, qdot_asm_in(first));
+        emit_load(m, wide, scratch, b);
+    emit_two_operands(m, QDOT_ASM_MUL, wide, over ? reg : scratch, qdot_asm_in(first));
     if (product != other && over == other) {
-        two_operands(m, QDOT_ASM_SUB, wide, reg, term);
+        emit_two_operands(m, QDOT_ASM_SUB, wide, reg, term);
         return;
     }
     if (product == other) {
-        two_operands(m, QDOT_ASM_ADD, wide, reg, term);
+        emit_two_operands(m, QDOT_ASM_ADD, wide, reg, term);
         if (!product)
             return;
-        two_operands(m, QDOT_X86_XOR, true, scratch, in_scratch);
+        emit_two_operands(m, QDOT_X86_XOR, true, scratch, in_scratch);
     } else if (over) {
-        asm_load(m, wide, scratch, b);
+        emit_load(m, wide, scratch, b);
     }
-    two_operands(m, QDOT_ASM_SUB, wide, scratch, qdot_asm_in(reg));
-    asm_load(m, wide, reg, in_scratch);
+    emit_two_operands(m, QDOT_ASM_SUB, wide, scratch, qdot_asm_in(reg));
+    emit_load(m, wide, reg, in_scratch);
 }
 
 static void
-by_sse2(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
+emit_by_sse2(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
     switch (name) {
-    case QDOT_ASM_LOAD: asm_load(m, wide, reg, b); break;
+    case QDOT_ASM_LOAD: emit_load(m, wide, reg, b); break;
     case QDOT_ASM_STORE:
-    case QDOT_ASM_ROOT: two_operands(m, name, wide, reg, b); break;
+    case QDOT_ASM_ROOT: emit_two_operands(m, name, wide, reg, b); break;
     case QDOT_ASM_SPREAD:
-        asm_load(m, false, reg, b);
+        emit_load(m, false, reg, b);
         qdot_x86_move_lanes(m, QDOT_X86_PAIRS, reg, reg, qdot_asm_in(reg), 0);
         break;
-    default: (is_fused(name) ? product_then_sum : from_two)(m, name, wide, reg, first, b);
+    default: (is_fused_operation(name) ? emit_product_and_sum : emit_sse2_operation)(m, name, wide, reg, first, b);
     }
 }
 
@@ -293,9 +293,9 @@ qdot_x86_emit(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand
     if (b.memory)
         b.reg = general[b.reg];
     if (m->kind == 0)
-        by_sse2(m, name, wide, reg, first, b);
+        emit_by_sse2(m, name, wide, reg, first, b);
     else
-        three_operands(m, m->kind == 1, name, wide, reg, first, b);
+        emit_three_operands(m, m->kind == 1, name, wide, reg, first, b);
 }
 
 /* One number has no lanes to spread to; a register is copied whole, for nothing of it is waited
@@ -318,7 +318,7 @@ qdot_asm_clear(qdot_asm *m, int reg)
     const qdot_operand itself = qdot_asm_in(reg);
 
     if (m->kind > 1 && reg < 16)
-        three_operands(m, true, QDOT_X86_XOR, true, reg, reg, itself);
+        emit_three_operands(m, true, QDOT_X86_XOR, true, reg, reg, itself);
     else
         qdot_x86_emit(m, QDOT_X86_XOR, true, reg, reg, itself);
 }
@@ -334,20 +334,20 @@ void
 qdot_x86_set_mask(qdot_asm *m, int r, unsigned lanes)
 {
     BYTES(m, 0xb8); /* the instruction mov eax, lanes */
-    asm_write_number(m, lanes);
-    BYTES(m, 0xc5, 0xf8, 0x92, middle(0xc0, r)); /* the instruction kmovw r, eax */
+    write_number_bytes(m, lanes);
+    BYTES(m, 0xc5, 0xf8, 0x92, middle_bits_of(0xc0, r)); /* the instruction kmovw r, eax */
 }
 
 void
 qdot_x86_join_masks(qdot_asm *m, int r, int more)
 {
-    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle(low_bits_of(0xc0, more), r)); /* the instruction korw */
+    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle_bits_of(low_bits_of(0xc0, more), r)); /* the instruction korw */
 }
 
 void
 qdot_x86_raise_mask(qdot_asm *m, int r)
 {
-    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle(low_bits_of(0xc0, r), r), 1); /* the instruction kshiftlw by 1 */
+    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle_bits_of(low_bits_of(0xc0, r), r), 1); /* the instruction kshiftlw by 1 */
 }
 
 /* --- addresses, loops, calls ------------------------------------------------------------ */
@@ -357,23 +357,23 @@ qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset)
 {
     const int reg = general[to], base = general[from];
 
-    BYTES(m, fourth_bits_of(0x48, reg, base), 0x8d, low_bits_of(middle(0x80, reg), base)); /* the instruction lea */
-    asm_write_number(m, (uint32_t)offset);
+    BYTES(m, fourth_bits_of(0x48, reg, base), 0x8d, low_bits_of(middle_bits_of(0x80, reg), base)); /* the instruction lea */
+    write_number_bytes(m, (uint32_t)offset);
 }
 
 void
 qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place)
 {
     BYTES(m, fourth_bits_of(0x48, general[to], 0), 0x8d,
-          middle(0x05, general[to])); /* the instruction lea [rip + ...] */
-    asm_write_place(m, place);
+          middle_bits_of(0x05, general[to])); /* the instruction lea [rip + ...] */
+    write_relative_position(m, place);
 }
 
 size_t
 qdot_asm_repeat(qdot_asm *m, int times)
 {
     BYTES(m, 0xb9); /* the instruction mov ecx, times */
-    asm_write_number(m, (uint32_t)times);
+    write_number_bytes(m, (uint32_t)times);
     return m->bytes.n;
 }
 
@@ -381,7 +381,7 @@ size_t
 qdot_asm_repeat_as(qdot_asm *m, qdot_operand times)
 {
     BYTES(m, 0x8b, low_bits_of(0x88, general[times.reg])); /* the instruction mov ecx, times */
-    asm_write_number(m, (uint32_t)times.offset);
+    write_number_bytes(m, (uint32_t)times.offset);
     return m->bytes.n;
 }
 
@@ -389,7 +389,7 @@ void
 qdot_asm_again(qdot_asm *m, size_t from)
 {
     BYTES(m, 0xff, 0xc9, 0x0f, 0x85); /* the instructions dec ecx; jnz from */
-    asm_write_place(m, from);
+    write_relative_position(m, from);
 }
 
 void
@@ -408,7 +408,7 @@ void
 qdot_asm_enter(qdot_asm *m, size_t place)
 {
     BYTES(m, 0xe8);
-    asm_write_place(m, place);
+    write_relative_position(m, place);
 }
 
 void
@@ -448,7 +448,7 @@ qdot_asm_return(qdot_asm *m)
 void
 qdot_asm_frame(qdot_asm *m)
 {
-    /* push rdi, rsi, rdx: with the return address 32 bytes, the alignment that calls need */
+    /* save the three argument registers rdi, rsi, rdx; with the return address 32 bytes, the alignment that calls need */
     BYTES(m, 0x57, 0x56, 0x52);
 }
 
@@ -458,8 +458,8 @@ qdot_asm_call(qdot_asm *m, void (*function)(void))
     const uint64_t address = (uint64_t)(uintptr_t)function;
 
     BYTES(m, 0x48, 0xb8); /* the instruction mov rax, address */
-    asm_write_number(m, (uint32_t)address);
-    asm_write_number(m, (uint32_t)(address >> 32));
+    write_number_bytes(m, (uint32_t)address);
+    write_number_bytes(m, (uint32_t)(address >> 32));
     BYTES(m, 0xff, 0xd0);                   /* the instruction call rax */
     BYTES(m, 0x48, 0x8b, 0x7c, 0x24, 0x10); /* the instruction mov rdi, [rsp + 16] */
     BYTES(m, 0x48, 0x8b, 0x74, 0x24, 0x08); /* the instruction mov rsi, [rsp + 8] */

@@ -24,7 +24,7 @@ enum {
     QDOT_X86_COUNT
 };
 
-/* Emit any instruction; _move_lanes: one with an extra byte `how` that says how lanes move. */
+/* Append any instruction; _move_lanes: one with an extra byte `how` that says how lanes move. */
 void qdot_x86_emit(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b);
 void qdot_x86_move_lanes(qdot_asm *m, int name, int reg, int first, qdot_operand b,
                          int how);

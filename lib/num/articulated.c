@@ -1,4 +1,4 @@
-/* articulated.c -- factors M along a tree; solves by vectors along a path, otherwise node by node. */
+/* articulated.c -- factors a mass matrix along a tree of bodies; solves with vectors along a path, else node by node. */
 #include "num/articulated.h"
 
 #include <float.h>
@@ -16,7 +16,7 @@ enum {
 
 #define NONE QDOT_ARTICULATED_NONE
 
-/* The elimination compiled for nodes with m components and c unknowns. */
+/* The elimination compiled for nodes of a tree with m components and c unknowns each. */
 typedef struct {
     size_t m, c;
     void (*chain)(qdot_articulated *a);
@@ -32,24 +32,24 @@ typedef struct {
 
 struct qdot_articulated {
     size_t nodes, m, c, slots;
-    const plane_kernels *plane; /* kernels for a short path of links in a plane; NULL: not such a tree */
+    const plane_kernels *plane; /* kernels for a short path of bodies in a plane; NULL: not such a tree */
     const kernels *kernels; /* compiled elimination for nodes of this size; NULL: none */
     bool path;
-    size_t *slot;     /* [nodes] the slot of each node in the arrays */
-    uint32_t *parent; /* [nodes x m] parent component of each component */
+    size_t *slot;     /* [nodes] index of each node's place (slot) in the arrays */
+    uint32_t *parent; /* [nodes x m] for each component that component of the parent node to which it is relative */
     uint8_t *unknowns;
-    double *weight, *below; /* [nodes x m x m] weight W of a node; W summed over the node and its descendants */
-    double *passed;         /* [nodes x m x m] the matrix I summed over the children; scratch */
+    double *weight, *below; /* [nodes x m x m] weight W of a node; the sum of W over the node and its descendants */
+    double *passed;         /* [nodes x m x m] the articulated inertia I summed over a node's children; scratch */
     double *numbers;        /* one allocated block that holds the arrays below */
     double *there;          /* [slots] 1 in the slot of a node, else 0 */
     double *I_0, *I, *A, *Up, *Down; /* [m x m] each; products along a part of the path to its ends */
     double *B, *H;                   /* [m x c], [c x c] blocks of the elimination of one node */
     double *d, *Z, *x, *w; /* right-hand sides and solution of a solve: d, Z [m], x, w [c] */
-    double *up, *down; /* [3 x m x m] in groups of 8: products over 1, 2 and 4 parts of the path */
-    /* For a path of links in a plane also (articulated-plane.def): */
+    double *up, *down; /* [3 x m x m] in groups of 8: products of matrices over 1, 2 and 4 parts of the path */
+    /* Used only for a path of bodies in a plane (articulated-plane.def): */
     double *W, *Below;    /* [4] entries of `weight` and `below`, by slots */
-    double *t, *tn, *wt;  /* [2] plane vectors: link t, link of the next node, w */
-    double *own, *ratio;  /* [slots] the factors k, and w.t' */
+    double *t, *tn, *wt;  /* [2] vectors in the plane: link t of a node, link of the next node, w */
+    double *own, *ratio;  /* [slots] the factors k, and the products w.t' */
 };
 
 #define SHAPES(X) X(1, 1) X(2, 1) X(3, 1) X(3, 2)
@@ -85,7 +85,7 @@ QDOT_KIND_END
 
 /* The compiled elimination for nodes of this size; NULL if there is none. */
 static const kernels *
-kernels_of(size_t m, size_t c)
+find_kernels(size_t m, size_t c)
 {
     const kernels *k = portable_kernels;
 
@@ -126,7 +126,7 @@ is_tree(const qdot_articulated_tree *t)
 }
 
 static bool
-is_path(const qdot_articulated_tree *t)
+is_path_of_nodes(const qdot_articulated_tree *t)
 {
     for (size_t e = 0; e < t->nodes * t->m; e++)
         if (t->parent[e] != (e < t->m ? NONE : (uint32_t)(e - t->m)))
@@ -136,7 +136,7 @@ is_path(const qdot_articulated_tree *t)
 
 /* Whether there is at most one node per lane, each with two components and one unknown. */
 static bool
-is_plane(const qdot_articulated_tree *t)
+is_plane_path(const qdot_articulated_tree *t)
 {
     bool everywhere = t->nodes <= pieces && t->m == 2 && t->c == 1;
 
@@ -148,7 +148,7 @@ is_plane(const qdot_articulated_tree *t)
 /* Node n of a path: its piece, one of eight, and its index in it; the first pieces may have one
  * more. */
 static size_t
-slot_on_path(size_t n, size_t nodes)
+slot_of_path_node(size_t n, size_t nodes)
 {
     const size_t longest = (nodes + pieces - 1) / pieces;
     const size_t longer = nodes - pieces * (longest - 1);
@@ -160,7 +160,7 @@ slot_on_path(size_t n, size_t nodes)
 }
 
 static const plane_kernels *
-plane_kernels_here(void)
+available_plane_kernels(void)
 {
 #ifdef QDOT_X86_KINDS
     if (qdot_kind_is_here(2))
@@ -172,7 +172,7 @@ plane_kernels_here(void)
 }
 
 static double *
-numbers_reserve(double **numbers, size_t n)
+reserve_numbers(double **numbers, size_t n)
 {
     double *at = *numbers;
 
@@ -180,17 +180,17 @@ numbers_reserve(double **numbers, size_t n)
     return at;
 }
 
-/* Allocate the arrays for a path of links in a plane, from `at` on. */
+/* Place the arrays for a path of bodies in a plane in the allocated numbers, from `at` on. */
 static void
-make_plane(qdot_articulated *a, double *at)
+place_plane_arrays(qdot_articulated *a, double *at)
 {
-    a->W = numbers_reserve(&at, 4 * a->slots);
-    a->Below = numbers_reserve(&at, 4 * a->slots);
-    a->t = numbers_reserve(&at, 2 * a->slots);
-    a->tn = numbers_reserve(&at, 2 * a->slots);
-    a->wt = numbers_reserve(&at, 2 * a->slots);
-    a->own = numbers_reserve(&at, a->slots);
-    a->ratio = numbers_reserve(&at, a->slots);
+    a->W = reserve_numbers(&at, 4 * a->slots);
+    a->Below = reserve_numbers(&at, 4 * a->slots);
+    a->t = reserve_numbers(&at, 2 * a->slots);
+    a->tn = reserve_numbers(&at, 2 * a->slots);
+    a->wt = reserve_numbers(&at, 2 * a->slots);
+    a->own = reserve_numbers(&at, a->slots);
+    a->ratio = reserve_numbers(&at, a->slots);
     for (size_t n = 0; n < a->nodes; n++)
         for (size_t e = 0; e < 4; e++) {
             a->W[e * a->slots + a->slot[n]] = a->weight[n * 4 + e];
@@ -199,7 +199,7 @@ make_plane(qdot_articulated *a, double *at)
 }
 
 static qdot_status
-make_numbers(qdot_articulated *a)
+allocate_numbers(qdot_articulated *a)
 {
     const size_t m = a->m, c = a->c, square = m * m * a->slots;
     const size_t all =
@@ -213,23 +213,23 @@ make_numbers(qdot_articulated *a)
     at = a->numbers;
     while ((uintptr_t)at % (pieces * sizeof *at) != 0)
         at++;
-    a->there = numbers_reserve(&at, a->slots);
-    a->I_0 = numbers_reserve(&at, square);
-    a->I = numbers_reserve(&at, square);
-    a->A = numbers_reserve(&at, square);
-    a->Up = numbers_reserve(&at, square);
-    a->Down = numbers_reserve(&at, square);
-    a->B = numbers_reserve(&at, m * c * a->slots);
-    a->H = numbers_reserve(&at, c * c * a->slots);
-    a->d = numbers_reserve(&at, m * a->slots);
-    a->Z = numbers_reserve(&at, m * a->slots);
-    a->x = numbers_reserve(&at, m * a->slots);
-    a->w = numbers_reserve(&at, c * a->slots);
-    a->up = numbers_reserve(&at, 3 * m * m * pieces);
-    a->down = numbers_reserve(&at, 3 * m * m * pieces);
+    a->there = reserve_numbers(&at, a->slots);
+    a->I_0 = reserve_numbers(&at, square);
+    a->I = reserve_numbers(&at, square);
+    a->A = reserve_numbers(&at, square);
+    a->Up = reserve_numbers(&at, square);
+    a->Down = reserve_numbers(&at, square);
+    a->B = reserve_numbers(&at, m * c * a->slots);
+    a->H = reserve_numbers(&at, c * c * a->slots);
+    a->d = reserve_numbers(&at, m * a->slots);
+    a->Z = reserve_numbers(&at, m * a->slots);
+    a->x = reserve_numbers(&at, m * a->slots);
+    a->w = reserve_numbers(&at, c * a->slots);
+    a->up = reserve_numbers(&at, 3 * m * m * pieces);
+    a->down = reserve_numbers(&at, 3 * m * m * pieces);
     if (a->plane)
-        make_plane(a, at);
-    /* let slots without a node pass on unchanged what they receive */
+        place_plane_arrays(a, at);
+    /* a slot without a node passes on unchanged what it receives */
     for (size_t i = 0; i < m; i++)
         for (size_t s = 0; s < a->slots; s++)
             a->A[(i * m + i) * a->slots + s] = 1;
@@ -238,9 +238,9 @@ make_numbers(qdot_articulated *a)
     return QDOT_OK;
 }
 
-/* Add the matrix `from` [m x m] of node n to that of its parent. */
+/* Add the matrix `from` [m x m] of node n to that of its parent node, component by component. */
 static void
-pass_on(const qdot_articulated *a, size_t n, const double *from, double *to)
+add_to_parent(const qdot_articulated *a, size_t n, const double *from, double *to)
 {
     const size_t m = a->m;
     const uint32_t *parent = a->parent + n * m;
@@ -252,7 +252,7 @@ pass_on(const qdot_articulated *a, size_t n, const double *from, double *to)
 }
 
 static qdot_status
-articulated_allocate(qdot_articulated *a, const qdot_articulated_tree *t)
+allocate_arrays(qdot_articulated *a, const qdot_articulated_tree *t)
 {
     const size_t entries = t->nodes * t->m, square = entries * t->m;
 
@@ -269,10 +269,10 @@ articulated_allocate(qdot_articulated *a, const qdot_articulated_tree *t)
     memcpy(a->weight, t->weight, square * sizeof *a->weight);
     memcpy(a->below, t->weight, square * sizeof *a->below);
     for (size_t n = t->nodes; n-- > 0;)
-        pass_on(a, n, a->below + n * t->m * t->m, a->below);
+        add_to_parent(a, n, a->below + n * t->m * t->m, a->below);
     for (size_t n = 0; n < t->nodes; n++)
-        a->slot[n] = a->path ? slot_on_path(n, t->nodes) : n;
-    return make_numbers(a);
+        a->slot[n] = a->path ? slot_of_path_node(n, t->nodes) : n;
+    return allocate_numbers(a);
 }
 
 qdot_status
@@ -292,10 +292,10 @@ qdot_articulated_new(const qdot_articulated_tree *t, qdot_articulated **articula
     a->m = t->m;
     a->c = t->c;
     a->slots = (t->nodes + pieces - 1) / pieces * pieces;
-    a->kernels = kernels_of(t->m, t->c);
-    a->path = a->kernels && is_path(t);
-    a->plane = a->path && is_plane(t) ? plane_kernels_here() : NULL;
-    status = articulated_allocate(a, t);
+    a->kernels = find_kernels(t->m, t->c);
+    a->path = a->kernels && is_path_of_nodes(t);
+    a->plane = a->path && is_plane_path(t) ? available_plane_kernels() : NULL;
+    status = allocate_arrays(a, t);
     if (status != QDOT_OK) {
         qdot_articulated_free(a);
         return status;
@@ -339,7 +339,7 @@ qdot_articulated_is_path(const qdot_articulated *a)
 
 /* --- factorisation along the tree --------------------------------------------------- */
 
-/* Intermediate results for the present node. */
+/* Intermediate results of the elimination of the present node. */
 typedef struct {
     double S[most_unknowns * most]; /* [c x m] the block S of this node */
     double I[most * most], A[most * most], rest[most * most];
@@ -400,7 +400,7 @@ invert(node *v, const size_t m, const size_t c, size_t unknowns, const double *b
     return c;
 }
 
-/* Compute A, B, H of a node, and the inertia I that remains for its parent, in `rest`; returns as `invert`. */
+/* Compute A, B, H of a node, and the inertia I that it passes to its parent; returns c, or the index of a bad pivot. */
 INLINE size_t
 eliminate(node *v, const size_t m, const size_t c, size_t unknowns, const double *below,
           double *lost)
@@ -459,7 +459,7 @@ put(double *to, size_t slots, size_t at, const double *from, const size_t n)
         to[e * slots + at] = from[e];
 }
 
-/* Factor from the leaves to the roots. */
+/* Factor the matrix from the leaves of the tree to its roots. */
 INLINE bool
 factor_of(qdot_articulated *a, const size_t m, const size_t c, const double *const *S,
           double *lost, size_t *failed, size_t *unknown)
@@ -490,7 +490,7 @@ factor_of(qdot_articulated *a, const size_t m, const size_t c, const double *con
         if (a->path && n > 0)
             memcpy(a->passed + (n - 1) * square, v.rest, square * sizeof *v.rest);
         else if (!a->path)
-            pass_on(a, n, v.rest, a->passed);
+            add_to_parent(a, n, v.rest, a->passed);
     }
     return true;
 }
@@ -521,7 +521,7 @@ qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *los
 
 /* --- solutions node by node --------------------------------------------------------- */
 
-/* Pass A Z + I d + B r from node n up to its parent. */
+/* Pass the vector A Z + I d + B r from node n up to its parent. */
 INLINE void
 go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
       const qdot_articulated_equations *e)
@@ -549,7 +549,7 @@ go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
     }
 }
 
-/* Compute q, x and F of node n from its parent's x. */
+/* Compute the unknowns q and x and F of node n from the x of its parent. */
 INLINE void
 go_down(qdot_articulated *a, const size_t m, const size_t c, size_t n,
         const qdot_articulated_equations *e)

@@ -50,7 +50,7 @@ typedef struct {
      * relative; _NONE: to nothing. Each node has one parent, which precedes it. */
     const uint32_t *parent;
     const double *weight;    /* [nodes x m x m] weights W of the nodes, symmetric */
-    const uint8_t *unknowns; /* [nodes] number of unknowns, <= c */
+    const uint8_t *unknowns; /* [nodes] number of unknowns of each node, <= c */
 } qdot_articulated_tree;
 
 typedef struct qdot_articulated qdot_articulated;
@@ -76,12 +76,12 @@ QDOT_MUST_CHECK bool qdot_articulated_factor(qdot_articulated *a, const double *
 /* One system of equations: S as when it was factored; right-hand sides d times `factor`, and r;
  * solution q and F. Arrays of slots. */
 typedef struct {
-    const double *const *S, *const *d, *const *r; /* S [c m], d [m], r [c] at each node */
+    const double *const *S, *const *d, *const *r; /* arrays of one value for each node: S [c m], d [m], r [c] */
     double factor;
-    double *const *q, *const *F; /* q [c], F [m] at each node */
+    double *const *q, *const *F; /* output, one value for each node: q [c], F [m] */
 } qdot_articulated_equations;
 
-/* Solve the linear system along the tree. Unused slots must contain finite numbers. */
+/* Solve the linear system along the tree. Slots without a node must contain finite numbers. */
 void qdot_articulated_solve(qdot_articulated *a, const qdot_articulated_equations *equations);
 
 #endif

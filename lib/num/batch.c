@@ -1,4 +1,4 @@
-/* batch.c -- the kernels of batch.def for each kind of processor, and their selection. */
+/* batch.c -- the functions of batch.def compiled for each kind of processor, and their selection. */
 #include "num/batch.h"
 
 #include <math.h>

@@ -31,7 +31,7 @@ typedef struct {
     const double *x;
 } qdot_batch_series;
 
-/* The values y + carry of many systems, [n] groups of lanes. */
+/* The states y + carry of many systems side by side: [n] groups of numbers, one number for each system. */
 typedef struct {
     double *y, *carry;
 } qdot_batch_sum;
@@ -77,7 +77,7 @@ typedef struct {
      * library, which does not affect the others. */
     void (*sincos)(const double *x, double *sine, double *cosine);
 
-    /* out = 1/max(1, |y|), [n] */
+    /* weights of components: out [n] = 1/max(1, |y|) */
     void (*weights)(size_t n, const double *y, double *out);
 
     /* Whether the derivatives of a polynomial satisfy the equations: for i >= `checked`, with
@@ -89,7 +89,7 @@ typedef struct {
      * set or none. */
     void (*confirm)(const qdot_batch_series *series, const qdot_batch_defect *defect,
                     int64_t *good, int64_t *finite);
-    /* to [n] = from, in the lanes whose bits are set */
+    /* copy from [n] to `to` in those lanes (systems) whose bits are set */
     void (*blend)(size_t n, const int64_t *set, const double *from, double *to);
 
     /* A [n x n] = L S L^T, S = 1 in the first `positive` rows and -1 in the others -> L below and
@@ -97,24 +97,24 @@ typedef struct {
      * and their Schur complement negative definite, by more than 2^-40 of what elimination takes
      * from a diagonal entry; else the lane gets NaN or infinities. */
     void (*factor)(size_t n, size_t positive, double *A);
-    /* x [n] <- (L S L^T)^-1 x */
+    /* solve with the factors of `factor`: x [n] <- (L S L^T)^-1 x */
     void (*solve)(size_t n, size_t positive, const double *L, double *x);
-    /* inverse [n x n] of L S L^T */
+    /* compute the inverse [n x n] of the matrix L S L^T, given by its factors */
     void (*invert)(size_t n, size_t positive, const double *L, double *inverse);
     /* inverse of A [2 x 2] by its cofactors; A[0][1] is not read; NaN in a lane in which A is not
      * positive definite. */
     void (*invert_two)(const double *A, double *inverse);
-    /* y [n] = A x */
+    /* multiply by a matrix: y [n] = A x */
     void (*multiply)(size_t n, const double *A, const double *x, double *y);
 } qdot_batch_kernels;
 
 /* The best kernels that this processor can run. */
 const qdot_batch_kernels *qdot_batch_kernels_get(void);
 
-/* Kind i of those this processor can run, the portable one first; NULL past the last. */
+/* Kind i of kernels among those that this processor can run, the portable one first; NULL past the last. */
 const qdot_batch_kernels *qdot_batch_kernels_at(size_t i);
 
-/* The kind that _get returns: the last available one (num/kinds.h). */
+/* The index of the kernels that qdot_batch_kernels_get returns: the last available kind (num/kinds.h). */
 size_t qdot_batch_kind(void);
 
 #endif

@@ -1,13 +1,13 @@
-/* bordered.c -- inverts a bordered matrix; rows have a fixed length, so that the compiler can vectorise. */
+/* bordered.c -- inverts a matrix ((M, A^T), (A, 0)); rows have a fixed length, so that the compiler can vectorise. */
 #include "num/bordered.h"
 
 #include <math.h>
 
 enum { most = QDOT_BORDERED_MOST };
 
-/* Solve row k for unknown k and eliminate that from the other rows. */
+/* Solve row k for unknown k, and eliminate this unknown from the other rows. */
 static void
-pivot_exchange(size_t all, double (*K)[most], size_t k)
+exchange_pivot(size_t all, double (*K)[most], size_t k)
 {
     const double inverse = 1 / K[k][k];
 
@@ -25,7 +25,7 @@ pivot_exchange(size_t all, double (*K)[most], size_t k)
     }
 }
 
-/* Invert S = A D^-1 A^T; the pivots tell how independent each row is of those before it. */
+/* Invert S = A D^-1 A^T; false if a pivot shows that a row of A depends nearly on those before it. */
 static bool
 invert_schur(size_t m, double (*S)[most], double least)
 {
@@ -36,12 +36,12 @@ invert_schur(size_t m, double (*S)[most], double least)
     for (size_t k = 0; k < m; k++) {
         if (!(S[k][k] > least * whole[k] && whole[k] < INFINITY))
             return false;
-        pivot_exchange(m, S, k);
+        exchange_pivot(m, S, k);
     }
     return true;
 }
 
-/* With W = D^-1 A^T and V = W S^-1:  K^-1 = [ D^-1 - V W^T   V ; V^T   -S^-1 ]. */
+/* Invert by blocks: with W = D^-1 A^T and V = W S^-1,  K^-1 = [ D^-1 - V W^T   V ; V^T   -S^-1 ]. */
 bool
 qdot_bordered_invert_diagonal(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST],
                               double least)
@@ -93,14 +93,14 @@ qdot_bordered_invert(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST], double
     for (size_t k = 0; k < n; k++) {
         if (!(K[k][k] > 0 && K[k][k] < INFINITY))
             return false;
-        pivot_exchange(n + m, K, k);
+        exchange_pivot(n + m, K, k);
     }
     for (size_t k = n; k < n + m; k++)
         whole[k] = -K[k][k];
     for (size_t k = n; k < n + m; k++) {
         if (!(-K[k][k] > least * whole[k] && whole[k] < INFINITY))
             return false;
-        pivot_exchange(n + m, K, k);
+        exchange_pivot(n + m, K, k);
     }
     return true;
 }

@@ -24,7 +24,7 @@
 bool qdot_bordered_invert(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST],
                           double least);
 
-/* As qdot_bordered_invert, for a diagonal M, in half the time. */
+/* Invert like qdot_bordered_invert, but for a diagonal M, in half the time. */
 bool qdot_bordered_invert_diagonal(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST],
                                    double least);
 

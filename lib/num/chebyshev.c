@@ -1,4 +1,4 @@
-/* chebyshev.c -- fits Chebyshev series, sums them by Clenshaw's method, and finds roots by halving. */
+/* chebyshev.c -- fits Chebyshev series, sums them by Clenshaw's method, and finds roots by halving intervals. */
 #include "num/chebyshev.h"
 
 #include <float.h>
@@ -8,7 +8,7 @@
 
 enum { most = QDOT_CHEBYSHEV_MOST, quarters = 4 * most };
 
-/* The most halvings: the smallest interval is 2^-44 of the whole. */
+/* The largest number of halvings of an interval: the smallest has 2^-44 of the whole length. */
 enum { deepest = 45 };
 
 /* The most intervals that halving about one root makes; a series of n coefficients has fewer than n roots. */
@@ -17,7 +17,7 @@ enum { pieces_of_root = 2 * deepest };
 /* A fit is good if its last coefficients are below this fraction of the largest. */
 static const double unfitted = 0x1p-36;
 
-/* cos(m pi / (2 most)); and T_k at the nodes, row by row */
+/* table of cos(m pi / (2 most)), and of T_k at the nodes, row by row */
 static double cosine[quarters];
 static double at_node[2 * most][most];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -25,7 +25,7 @@ static pthread_once_t once = PTHREAD_ONCE_INIT;
 /* The values T_k, k < n, at node j of n nodes; the rows for `most` nodes come first, then those for
  * half as many. */
 static const double *
-node_row(int n, int j)
+node_table_row(int n, int j)
 {
     return at_node[2 * most - 2 * n + j];
 }
@@ -57,7 +57,7 @@ qdot_chebyshev_fit(int n, const double *values, double *c)
 
     pthread_once(&once, fill_cosines);
     for (int j = 0; j < n; j++) {
-        const double *T = node_row(n, j);
+        const double *T = node_table_row(n, j);
 
         for (int k = 0; k < n; k++)
             sum[k] += values[j] * T[k];
@@ -83,7 +83,7 @@ qdot_chebyshev_at(int n, const double *c, double x)
 void
 qdot_chebyshev_derivative(int n, const double *c, double *d)
 {
-    double above = 0, at = 0; /* d_(k+2) and d_(k+1) of the backward recurrence */
+    double above = 0, at = 0; /* coefficients d_(k+2) and d_(k+1) of the derivative */
 
     for (int k = n - 2; k >= 0; k--) {
         double now = above + 2 * (k + 1) * c[k + 1];
@@ -105,12 +105,12 @@ qdot_chebyshev_integral(int n, const double *c)
     return sum;
 }
 
-/* T_k((x - 1)/2) = sum_j half[k][j] T_j(x), j = 0 ... k: by T_k+1(y) = 2 y T_k(y) - T_k-1(y). */
+/* coefficients in T_k((x - 1)/2) = sum_j half[k][j] T_j(x), j = 0 ... k, from T_k+1(y) = 2 y T_k(y) - T_k-1(y) */
 static double half[most][most];
 static pthread_once_t once_half = PTHREAD_ONCE_INIT;
 
 static void
-fill_half(void)
+fill_half_table(void)
 {
     long double two[2][most + 1] = {{1}, {-0.5L, 0.5L}};
 
@@ -132,11 +132,11 @@ fill_half(void)
 void
 qdot_chebyshev_halves(int n, const double *c, double *left, double *right)
 {
-    pthread_once(&once_half, fill_half);
+    pthread_once(&once_half, fill_half_table);
     memset(left, 0, (size_t)n * sizeof *left);
     memset(right, 0, (size_t)n * sizeof *right);
     for (int k = 0; k < n; k++) {
-        double mirrored = k % 2 ? -c[k] : c[k]; /* coefficient of c(-x) */
+        double mirrored = k % 2 ? -c[k] : c[k]; /* the coefficient of the mirrored series c(-x) */
 
         for (int j = 0; j <= k; j++) {
             left[j] += half[k][j] * c[k];
@@ -160,7 +160,7 @@ qdot_chebyshev_size(int n, const double *c)
 {
     double largest = 0;
 
-    for (int k = 0; k < n; k++) /* a NaN is ignored */
+    for (int k = 0; k < n; k++) /* the comparison ignores a NaN */
         largest = fabs(c[k]) > largest ? fabs(c[k]) : largest;
     return largest;
 }
@@ -199,21 +199,21 @@ qdot_chebyshev_sign(int n, const double *c)
 /* --- roots of a series -------------------------------------------------------------- */
 
 typedef struct {
-    double lo, hi; /* the ends of the whole interval */
+    double lo, hi; /* the ends of the interval of x on which the whole series is defined */
     double at_lo, at_hi;
     int n;
     double c[most];
 } piece;
 
 static bool
-changes(double a, double b)
+sign_changes(double a, double b)
 {
     return (a < 0) != (b < 0);
 }
 
-/* The number of coefficients up to the last one above the rounding error of the sum. */
+/* The number of coefficients of a series up to the last one above the rounding error of its sum. */
 static int
-series_shorten(int n, const double *c)
+shorten_series(int n, const double *c)
 {
     double least = 0x1p-56 * qdot_chebyshev_size(n, c);
 
@@ -229,9 +229,9 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
     const double rounding = 4 * DBL_EPSILON * qdot_chebyshev_spread(n, c);
     double at_lo = qdot_chebyshev_at(n, c, lo), at_hi = qdot_chebyshev_at(n, c, hi), x = lo;
 
-    int kept = 0; /* the end that the last step did not move: -1 lo, 1 hi, 0 none yet */
+    int kept = 0; /* which end of the interval the last step did not move: -1 lo, 1 hi, 0 none yet */
 
-    n = series_shorten(n, c);
+    n = shorten_series(n, c);
     for (int k = 0; k < 100; k++) {
         double now;
 
@@ -243,7 +243,7 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
         now = qdot_chebyshev_at(n, c, x);
         if (fabs(now) <= rounding)
             break;
-        if (changes(at_lo, now)) {
+        if (sign_changes(at_lo, now)) {
             hi = x;
             at_hi = now;
             at_lo *= kept < 0 ? 0.5 : 1;
@@ -258,9 +258,9 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
     return x;
 }
 
-/* The only root of p on an interval whose ends differ in sign. */
+/* The only root of the piece p of a series, an interval at whose ends the signs differ. */
 static double
-piece_root(const piece *p)
+root_of_piece(const piece *p)
 {
     const double x = qdot_chebyshev_root(p->n, p->c, -1, 1);
 
@@ -279,7 +279,7 @@ is_monotone(const piece *p)
 }
 
 static void
-piece_halve(const piece *p, piece *left, piece *right)
+halve_piece(const piece *p, piece *left, piece *right)
 {
     double middle = qdot_chebyshev_at(p->n, p->c, 0);
 
@@ -290,8 +290,8 @@ piece_halve(const piece *p, piece *left, piece *right)
     right->hi = p->hi;
     right->at_hi = p->at_hi;
     qdot_chebyshev_halves(p->n, p->c, left->c, right->c);
-    left->n = series_shorten(p->n, left->c);
-    right->n = series_shorten(p->n, right->c);
+    left->n = shorten_series(p->n, left->c);
+    right->n = shorten_series(p->n, right->c);
 }
 
 int
@@ -302,7 +302,7 @@ qdot_chebyshev_crossings(int n, const double *c, double *roots)
 
     if (!isfinite(qdot_chebyshev_spread(n, c)) || !isfinite(c[0]))
         return -1;
-    stack[0] = (piece){.lo = -1, .hi = 1, .n = series_shorten(n, c)};
+    stack[0] = (piece){.lo = -1, .hi = 1, .n = shorten_series(n, c)};
     memcpy(stack[0].c, c, (size_t)n * sizeof *c);
     stack[0].at_lo = qdot_chebyshev_at(stack[0].n, c, -1);
     stack[0].at_hi = qdot_chebyshev_at(stack[0].n, c, 1);
@@ -314,11 +314,11 @@ qdot_chebyshev_crossings(int n, const double *c, double *roots)
         if (qdot_chebyshev_sign(p->n, p->c) != 0)
             continue;
         if (is_monotone(p) || p->hi - p->lo < 0x1p-43) {
-            if (changes(p->at_lo, p->at_hi) && found < n)
-                roots[found++] = piece_root(p);
+            if (sign_changes(p->at_lo, p->at_hi) && found < n)
+                roots[found++] = root_of_piece(p);
             continue;
         }
-        piece_halve(p, &left, &right);
+        halve_piece(p, &left, &right);
         stack[depth++] = right;
         stack[depth++] = left;
     }

@@ -17,7 +17,7 @@
 
 enum { QDOT_CHEBYSHEV_MOST = 64 };
 
-/* Node j of n, descending in x; n: 8, 16, 32 or 64. */
+/* Chebyshev node number j of n = 8, 16, 32 or 64, descending in x. */
 double qdot_chebyshev_node(int n, int j);
 
 /* The point of the interval a ... b that corresponds to x in -1 ... 1. */
@@ -27,12 +27,12 @@ qdot_chebyshev_place(double a, double b, double x)
     return 0.5 * (a + b) + 0.5 * (b - a) * x;
 }
 
-/* Find the coefficients c [n] of the polynomial through values [n] at the nodes. */
+/* Find the coefficients c [n] of the Chebyshev series that has values [n] at the nodes. */
 void qdot_chebyshev_fit(int n, const double *values, double *c);
 
 double qdot_chebyshev_at(int n, const double *c, double x);
 
-/* Find the coefficients d [n - 1] of the derivative by x; n > 1. */
+/* Find the Chebyshev coefficients d [n - 1] of the derivative of a series by x; n > 1. */
 void qdot_chebyshev_derivative(int n, const double *c, double *d);
 
 /* The integral of the series over -1 ... 1. */
@@ -58,10 +58,10 @@ double qdot_chebyshev_spread(int n, const double *c);
  * the last ones are not small: then p does not represent the function. */
 double qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho);
 
-/* The sign of p if its bounds show that it is constant, else 0. */
+/* The sign of a series p on -1 ... 1 if bounds show that it is the same everywhere, else 0. */
 int qdot_chebyshev_sign(int n, const double *c);
 
-/* The root of a monotonic p between lo and hi, where its signs differ. */
+/* The root of a monotonic series between lo and hi, at which its signs differ. */
 double qdot_chebyshev_root(int n, const double *c, double lo, double hi);
 
 /* The x at which p changes its sign, ascending, into roots [n]; returns their number. Of several

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* The matrix index of row i of a block; `index` is NULL for the whole matrix, and then optimised away. */
+/* The matrix index of row i of a block; `index` NULL stands for the whole matrix. */
 static inline size_t
 block_member(const size_t *index, size_t i)
 {
@@ -15,7 +15,7 @@ block_member(const size_t *index, size_t i)
 /* Row i of L, without its diagonal, is there: is its pivot d more than rounding? Uses
  * column i above the diagonal for v; a row of L has the norm sqrt(a_jj). */
 static bool
-is_resolved(double *a, size_t n, const size_t *index, size_t i, double diagonal, double d)
+pivot_is_significant(double *a, size_t n, const size_t *index, size_t i, double diagonal, double d)
 {
     const size_t column = block_member(index, i);
     const double *ai = a + column * n;
@@ -39,11 +39,11 @@ is_resolved(double *a, size_t n, const size_t *index, size_t i, double diagonal,
     return d > 4 * (double)(i + 1) * DBL_EPSILON * size * size;
 }
 
-/* Factor the block with the m rows and columns `index`; returns m, or the index of a bad pivot. */
+/* Factor the block with the m rows and columns `index`; returns m, or the index of a pivot that is not positive. */
 static inline size_t
 factor_block(double *a, size_t n, const size_t *index, size_t m)
 {
-    double lost = 1; /* the smallest pivot ratio d / a_kk so far */
+    double lost = 1; /* the smallest ratio d / a_kk of a pivot to its original entry so far */
 
     for (size_t i = 0; i < m; i++) {
         double *ai = a + block_member(index, i) * n;
@@ -62,7 +62,7 @@ factor_block(double *a, size_t n, const size_t *index, size_t m)
         if (!(d > 0 && d < INFINITY))
             return i;
         lost = fmin(lost, d / diagonal);
-        if (lost < 1e-4 && !is_resolved(a, n, index, i, diagonal, d))
+        if (lost < 1e-4 && !pivot_is_significant(a, n, index, i, diagonal, d))
             return i;
         ai[block_member(index, i)] = sqrt(d);
     }
@@ -70,7 +70,7 @@ factor_block(double *a, size_t n, const size_t *index, size_t m)
 }
 
 static inline void
-cholesky_solve_block(const double *a, size_t n, const size_t *index, size_t m, double *b)
+solve_block(const double *a, size_t n, const size_t *index, size_t m, double *b)
 {
     for (size_t i = 0; i < m; i++) {
         const double *ai = a + block_member(index, i) * n;
@@ -122,9 +122,9 @@ void
 qdot_cholesky_solve(const double *a, size_t n, const qdot_structure *s, double *b)
 {
     if (!s || qdot_structure_is_full(s)) {
-        cholesky_solve_block(a, n, NULL, n, b);
+        solve_block(a, n, NULL, n, b);
         return;
     }
     for (size_t k = 0; k < s->blocks; k++)
-        cholesky_solve_block(a, n, s->index + s->start[k], s->start[k + 1] - s->start[k], b);
+        solve_block(a, n, s->index + s->start[k], s->start[k + 1] - s->start[k], b);
 }

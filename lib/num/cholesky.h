@@ -39,7 +39,7 @@
 QDOT_MUST_CHECK qdot_status qdot_cholesky_factor(double *a, size_t n,
                                                  const qdot_structure *s, size_t *failed);
 
-/* Solve with a factored `a` of the same structure; b [n] is overwritten by x. */
+/* Solve a linear system with a matrix factored for the same structure; b [n] is overwritten by the solution x. */
 void qdot_cholesky_solve(const double *a, size_t n, const qdot_structure *s, double *b);
 
 #endif

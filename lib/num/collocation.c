@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
-/* Families of nodes: the zeros of P_s, P_s - P_(s-1), P_s - P_(s-2); the value is the difference of degrees. */
+/* Families of nodes: zeros of the Legendre polynomials' differences P_s, P_s - P_(s-1), P_s - P_(s-2). */
 typedef enum { GAUSS, RADAU, LOBATTO } family;
 
-/* P_s(x) minus the polynomial that the family subtracts; s >= 1, for Lobatto s >= 2. */
+/* The Legendre polynomial P_s(x) minus P_(s-1) for Radau, P_(s-2) for Lobatto; s >= 1, for Lobatto s >= 2. */
 static qdot_two
-legendre(int s, family of, qdot_two x)
+node_polynomial(int s, family of, qdot_two x)
 {
     qdot_two p[3] = {x, {1, 0}, {0, 0}}; /* the Legendre polynomials P_k, P_(k-1), P_(k-2) */
 
@@ -24,9 +24,9 @@ legendre(int s, family of, qdot_two x)
     return of == GAUSS ? p[0] : qdot_two_sub(p[0], p[of]);
 }
 
-/* The polynomial whose zeros are the nodes, at x, in doubles. */
+/* The polynomial whose zeros are the nodes of the method, at x, in doubles. */
 static double
-legendre_near(int s, family of, double x)
+node_polynomial_double(int s, family of, double x)
 {
     double p[3] = {x, 1, 0};
 
@@ -41,22 +41,22 @@ legendre_near(int s, family of, double x)
 /* The zero of the polynomial between low and high, where its sign changes: by bisection, then with a constant
  * slope. */
 static qdot_two
-zero_between(int s, family of, double low, double high)
+find_zero_between(int s, family of, double low, double high)
 {
-    const bool rises = legendre_near(s, of, high) > 0;
+    const bool rises = node_polynomial_double(s, of, high) > 0;
     qdot_two x;
     double slope;
 
     for (int k = 0; k < 40; k++) {
         const double middle = 0.5 * (low + high);
 
-        *((legendre_near(s, of, middle) > 0) == rises ? &high : &low) = middle;
+        *((node_polynomial_double(s, of, middle) > 0) == rises ? &high : &low) = middle;
     }
     x = (qdot_two){0.5 * (low + high), 0};
     slope =
-        (legendre_near(s, of, x.hi + 1e-6) - legendre_near(s, of, x.hi - 1e-6)) / 2e-6;
+        (node_polynomial_double(s, of, x.hi + 1e-6) - node_polynomial_double(s, of, x.hi - 1e-6)) / 2e-6;
     for (int k = 0; k < 4; k++)
-        x = qdot_two_sub(x, qdot_two_div_double(legendre(s, of, x), slope));
+        x = qdot_two_sub(x, qdot_two_div_double(node_polynomial(s, of, x), slope));
     return x;
 }
 
@@ -72,9 +72,9 @@ find_nodes(int s, family of, qdot_two *c)
     for (int k = 0; k < CELLS && found < most; k++) {
         const double low = -1 + 2 * (k - 0.317) / CELLS, high = low + 2.0 / CELLS;
 
-        if ((legendre_near(s, of, low) > 0) != (legendre_near(s, of, high) > 0))
+        if ((node_polynomial_double(s, of, low) > 0) != (node_polynomial_double(s, of, high) > 0))
             c[found++] = qdot_two_scale(
-                qdot_two_add_double(zero_between(s, of, low, high), 1), 0.5);
+                qdot_two_add_double(find_zero_between(s, of, low, high), 1), 0.5);
     }
     if (of == LOBATTO)
         c[0] = (qdot_two){0, 0};
@@ -82,7 +82,7 @@ find_nodes(int s, family of, qdot_two *c)
         c[s - 1] = (qdot_two){1, 0};
 }
 
-/* Find L_j as a polynomial: the product of (x - c_k)/(c_j - c_k) over k != j. */
+/* Find the coefficients of Lagrange's polynomial L_j: the product of (x - c_k)/(c_j - c_k) over k != j. */
 static void
 find_lagrange(qdot_collocation *m, int j)
 {
@@ -118,7 +118,7 @@ qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w)
 }
 
 static void
-collocation_fill(int stages, family of, qdot_collocation *m)
+fill_coefficients(int stages, family of, qdot_collocation *m)
 {
     *m = (qdot_collocation){.stages = stages, .order = 2 * stages - (int)of};
     find_nodes(stages, of, m->c);
@@ -132,17 +132,17 @@ collocation_fill(int stages, family of, qdot_collocation *m)
 void
 qdot_collocation_gauss(int stages, qdot_collocation *m)
 {
-    collocation_fill(stages, GAUSS, m);
+    fill_coefficients(stages, GAUSS, m);
 }
 
 void
 qdot_collocation_radau(int stages, qdot_collocation *m)
 {
-    collocation_fill(stages, RADAU, m);
+    fill_coefficients(stages, RADAU, m);
 }
 
 void
 qdot_collocation_lobatto(int stages, qdot_collocation *m)
 {
-    collocation_fill(stages, LOBATTO, m);
+    fill_coefficients(stages, LOBATTO, m);
 }

@@ -31,17 +31,17 @@ typedef struct {
     int stages, order;
     qdot_two c[QDOT_COLLOCATION_MOST];
     qdot_two b[QDOT_COLLOCATION_MOST];
-    qdot_two a[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST]; /* a[i][j]: weight of slope j in stage i */
-    /* L_j(x) = sum_k l[j][k] x^k, k below stages */
+    qdot_two a[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST]; /* a[i][j]: weight of the derivative at stage j in stage i */
+    /* Lagrange's polynomials of the nodes: L_j(x) = sum_k l[j][k] x^k, k below the number of stages */
     qdot_two l[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST];
 } qdot_collocation;
 
-/* fills Gauss's method; the caller must check that stages is 1 .. QDOT_COLLOCATION_MOST */
+/* Fill in Gauss's method; the caller must check that 1 <= stages <= QDOT_COLLOCATION_MOST. */
 void qdot_collocation_gauss(int stages, qdot_collocation *m);
 void qdot_collocation_radau(int stages, qdot_collocation *m);
-void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* needs stages >= 2 */
+void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* fill in Lobatto's method; stages >= 2 */
 
-/* Find the interpolation weights w_j(x), into w [stages]. */
+/* Find the weights w [stages] of the stages for interpolation at x. */
 void qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w);
 
 #endif

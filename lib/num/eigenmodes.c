@@ -1,4 +1,4 @@
-/* eigenmodes.c -- eigenvectors by GSL, and a linear system for the coefficients. */
+/* eigenmodes.c -- decomposes a vector into eigenvectors of a matrix, by GSL and a linear system. */
 #include "num/eigenmodes.h"
 
 #include <stdbool.h>
@@ -43,7 +43,7 @@ eigenmodes_release(solver *s)
 }
 
 static double complex
-of_gsl(gsl_complex z)
+complex_of_gsl(gsl_complex z)
 {
     return GSL_REAL(z) + I * GSL_IMAG(z);
 }
@@ -62,15 +62,15 @@ eigenmodes_solve(solver *s, size_t n, const double *A, const double *f, double c
     if (gsl_eigen_nonsymmv(s->A, s->lambda, s->V, s->work) != GSL_SUCCESS)
         return qdot_fail(QDOT_EFAILED, "the eigenvectors were not found");
     for (size_t k = 0; k < n; k++) {
-        lambda[k] = of_gsl(gsl_vector_complex_get(s->lambda, k));
+        lambda[k] = complex_of_gsl(gsl_vector_complex_get(s->lambda, k));
         for (size_t i = 0; i < n; i++)
-            v[k * n + i] = of_gsl(gsl_matrix_complex_get(s->V, i, k));
+            v[k * n + i] = complex_of_gsl(gsl_matrix_complex_get(s->V, i, k));
     }
     if (gsl_linalg_complex_LU_decomp(s->V, s->order, &sign) != GSL_SUCCESS
         || gsl_linalg_complex_LU_solve(s->V, s->order, s->f, s->c) != GSL_SUCCESS)
         return qdot_fail(QDOT_EFAILED, "the eigenvectors do not span the space");
     for (size_t k = 0; k < n; k++)
-        c[k] = of_gsl(gsl_vector_complex_get(s->c, k));
+        c[k] = complex_of_gsl(gsl_vector_complex_get(s->c, k));
     return QDOT_OK;
 }
 

@@ -17,9 +17,9 @@
 typedef struct {
     size_t n;
     gsl_matrix *A;
-    /* right eigenvectors as columns; LU factors of V; left eigenvectors, rows of V^-1 */
+    /* right eigenvectors as columns; LU factors of V; left eigenvectors as rows of V^-1 */
     gsl_matrix_complex *V, *LU, *W;
-    gsl_vector_complex *lambda, *mu; /* [n] eigenvalues of A; of its transpose */
+    gsl_vector_complex *lambda, *mu; /* [n] eigenvalues of the matrix A; eigenvalues of its transpose */
     gsl_permutation *order;
     gsl_eigen_nonsymmv_workspace *work;
     double complex *planes; /* [4n] vectors that span two invariant planes */
@@ -57,7 +57,7 @@ eigenvalues_release(solver *s)
     qdot_free(s->planes);
 }
 
-/* A bound of |w_k (error of A) v_m|, from E and the rounding of A. */
+/* A bound of |w_k (error of A) v_m|, from the errors E of the entries and rounding in A. */
 static double
 error_between(const solver *s, const double *A, const double *E, size_t k, size_t m)
 {
@@ -108,9 +108,9 @@ find_left_vectors(solver *s, const double *A)
     }
 }
 
-/* Component i of the right eigenvector v_k, and of the left eigenvector w_k. */
+/* Component i of the right eigenvector v_k; the next function: of the left eigenvector w_k. */
 static double complex
-right(const solver *s, size_t k, size_t i)
+right_component(const solver *s, size_t k, size_t i)
 {
     const gsl_complex x = gsl_matrix_complex_get(s->V, i, k);
 
@@ -118,7 +118,7 @@ right(const solver *s, size_t k, size_t i)
 }
 
 static double complex
-left(const solver *s, size_t k, size_t i)
+left_component(const solver *s, size_t k, size_t i)
 {
     const gsl_complex x = gsl_matrix_complex_get(s->W, k, i);
 
@@ -128,36 +128,36 @@ left(const solver *s, size_t k, size_t i)
 /* Orthonormal q_0, q_1, columns of Q, in the plane of v_k and v_j, and L, the rows dual to them in the plane of w_k and
  * w_j. Whether both are planes. */
 static bool
-find_planes(const solver *s, size_t k, size_t j, double complex *Q, double complex *L)
+find_invariant_planes(const solver *s, size_t k, size_t j, double complex *Q, double complex *L)
 {
     const size_t n = s->n;
     double complex along = 0, G[4] = {0}, det;
     double size = 0;
 
-    for (size_t i = 0; i < n; i++) { /* uses that GSL's eigenvectors have length 1 */
-        Q[2 * i] = right(s, k, i);
-        along += conj(Q[2 * i]) * right(s, j, i);
+    for (size_t i = 0; i < n; i++) { /* use that GSL's eigenvectors have length 1 */
+        Q[2 * i] = right_component(s, k, i);
+        along += conj(Q[2 * i]) * right_component(s, j, i);
     }
     for (size_t i = 0; i < n; i++) {
-        Q[2 * i + 1] = right(s, j, i) - along * Q[2 * i];
+        Q[2 * i + 1] = right_component(s, j, i) - along * Q[2 * i];
         size = hypot(size, cabs(Q[2 * i + 1]));
     }
     for (size_t i = 0; i < n && size > 0; i++)
         Q[2 * i + 1] /= size;
     for (size_t i = 0; i < n; i++)
         for (int m = 0; m < 2; m++) {
-            G[m] += left(s, k, i) * Q[2 * i + m];
-            G[2 + m] += left(s, j, i) * Q[2 * i + m];
+            G[m] += left_component(s, k, i) * Q[2 * i + m];
+            G[2 + m] += left_component(s, j, i) * Q[2 * i + m];
         }
     det = G[0] * G[3] - G[1] * G[2];
     for (size_t i = 0; i < n; i++) {
-        L[i] = (G[3] * left(s, k, i) - G[1] * left(s, j, i)) / det;
-        L[n + i] = (G[0] * left(s, j, i) - G[2] * left(s, k, i)) / det;
+        L[i] = (G[3] * left_component(s, k, i) - G[1] * left_component(s, j, i)) / det;
+        L[n + i] = (G[0] * left_component(s, j, i) - G[2] * left_component(s, k, i)) / det;
     }
     return size > 0 && isfinite(cabs(det)) && cabs(det) > 0;
 }
 
-/* The change of eigenvalue k by E within the plane of eigenvectors k and j. */
+/* The change of eigenvalue k by the errors E of A within the plane of the eigenvectors k and j. */
 static double
 error_in_plane(const solver *s, const double *A, const double *E, const double complex *Q, const double complex *L)
 {
@@ -182,9 +182,9 @@ eigenvalue_distance(const solver *s, size_t j, size_t k)
     return gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->lambda, j), gsl_vector_complex_get(s->lambda, k)));
 }
 
-/* Lower the error bounds by these left vectors where they are better. */
+/* Lower the error bounds of eigenvalues by the left eigenvectors where these give smaller ones. */
 static void
-bound_errors(const solver *s, const double *A, const double *E, double *error)
+lower_error_bounds(const solver *s, const double *A, const double *E, double *error)
 {
     double complex *const Q = s->planes, *const L = s->planes + 2 * s->n;
 
@@ -199,7 +199,7 @@ bound_errors(const solver *s, const double *A, const double *E, double *error)
                 continue;
             both = error_between(s, A, E, k, j) * error_between(s, A, E, j, k);
             sum += 4 * sqrt(both) < eigenvalue_distance(s, j, k) ? 4 * both / eigenvalue_distance(s, j, k) : sqrt(both);
-            if (find_planes(s, k, j, Q, L))
+            if (find_invariant_planes(s, k, j, Q, L))
                 error[k] = fmin(error[k], error_in_plane(s, A, E, Q, L));
         }
         error[k] = fmin(error[k], sum);
@@ -223,7 +223,7 @@ is_as_large(const double *re, const double *im, const double *error, size_t j, s
 }
 
 static void
-numbers_exchange(double *x, size_t j, size_t k)
+exchange_numbers(double *x, size_t j, size_t k)
 {
     const double kept = x[j];
 
@@ -238,20 +238,20 @@ eigenvalues_sort(size_t first, size_t end, bool (*before)(const double *re, cons
 {
     for (size_t i = first + 1; i < end; i++)
         for (size_t k = i; k > first && before(re, im, k, k - 1); k--) {
-            numbers_exchange(re, k, k - 1);
-            numbers_exchange(im, k, k - 1);
-            numbers_exchange(error, k, k - 1);
+            exchange_numbers(re, k, k - 1);
+            exchange_numbers(im, k, k - 1);
+            exchange_numbers(error, k, k - 1);
         }
 }
 
 static bool
-is_larger(const double *re, const double *im, size_t k, size_t j)
+has_larger_modulus(const double *re, const double *im, size_t k, size_t j)
 {
     return modulus(re, im, k) > modulus(re, im, j);
 }
 
 static bool
-is_to_the_right(const double *re, const double *im, size_t k, size_t j)
+has_larger_real_part(const double *re, const double *im, size_t k, size_t j)
 {
     return re[k] > re[j] || (re[k] == re[j] && im[k] > im[j]);
 }
@@ -259,11 +259,11 @@ is_to_the_right(const double *re, const double *im, size_t k, size_t j)
 void
 qdot_eigenvalues_arrange(size_t n, double *re, double *im, double *error)
 {
-    eigenvalues_sort(0, n, is_larger, re, im, error);
+    eigenvalues_sort(0, n, has_larger_modulus, re, im, error);
     for (size_t first = 0, end; first < n; first = end) {
         for (end = first + 1; end < n && is_as_large(re, im, error, end - 1, end);)
             end++;
-        eigenvalues_sort(first, end, is_to_the_right, re, im, error);
+        eigenvalues_sort(first, end, has_larger_real_part, re, im, error);
     }
 }
 
@@ -288,11 +288,11 @@ eigenvalues_solve(solver *s, const double *A, const double *E, double *re, doubl
         error[k] = NAN;
     }
     if (known)
-        bound_errors(s, A, E, error);
+        lower_error_bounds(s, A, E, error);
     else
         gsl_matrix_complex_set_all(s->W, gsl_complex_rect(NAN, NAN));
     find_left_vectors(s, A);
-    bound_errors(s, A, E, error);
+    lower_error_bounds(s, A, E, error);
     qdot_eigenvalues_arrange(n, re, im, error);
     return QDOT_OK;
 }
@@ -326,9 +326,9 @@ raise_to_power(size_t K, size_t count, double *re, double *im, double *error)
     }
 }
 
-/* The number nearest to (x, y) among those not taken; n if none is left. */
+/* The index of the number nearest to (x, y) among those not taken yet; n if none is left. */
 static size_t
-nearest_to(double x, double y, size_t n, const double *re, const double *im, const bool *taken)
+find_nearest(double x, double y, size_t n, const double *re, const double *im, const bool *taken)
 {
     size_t best = n;
 
@@ -341,16 +341,16 @@ nearest_to(double x, double y, size_t n, const double *re, const double *im, con
 /* Take the K numbers nearest to (x, y): their mean *re, *im; *error: theirs, and how far they are from it. Whether what is
  * nearest to the conjugate (x, -y) is among them: then they are one real number. */
 static bool
-cluster_take(size_t K, size_t n, const double *all, bool *taken, size_t *own, double x, double y, double *re,
+take_cluster(size_t K, size_t n, const double *all, bool *taken, size_t *own, double x, double y, double *re,
              double *im, double *error)
 {
     const double *const a = all, *const b = all + n, *const off = all + 2 * n;
-    const size_t mate = nearest_to(x, -y, n, a, b, taken);
+    const size_t mate = find_nearest(x, -y, n, a, b, taken);
     bool real = false;
 
     *re = *im = *error = 0;
     for (size_t k = 0; k < K; k++) {
-        const size_t i = own[k] = nearest_to(x, y, n, a, b, taken);
+        const size_t i = own[k] = find_nearest(x, y, n, a, b, taken);
 
         taken[i] = true;
         real = real || i == mate;
@@ -363,19 +363,19 @@ cluster_take(size_t K, size_t n, const double *all, bool *taken, size_t *own, do
     return real;
 }
 
-/* Find n numbers, each of which occurs K times in all [3 x K n], sorted by modulus: re, im, error. */
+/* Find n numbers, each of which occurs K times in all [3 x K n] (re, im, error), sorted by modulus. */
 static void
-cluster_means(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
+find_cluster_means(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
 {
     const size_t count = K * n;
 
     for (size_t i = 0, first = 0; i < n; i++) {
         while (taken[first])
             first++;
-        if (cluster_take(K, count, all, taken, own, all[first], all[count + first], &re[i], &im[i], &error[i]) ||
+        if (take_cluster(K, count, all, taken, own, all[first], all[count + first], &re[i], &im[i], &error[i]) ||
             i + 1 == n)
             continue;
-        (void)cluster_take(K, count, all, taken, own, re[i], -im[i], &re[i + 1], &im[i + 1], &error[i + 1]);
+        (void)take_cluster(K, count, all, taken, own, re[i], -im[i], &re[i + 1], &im[i + 1], &error[i + 1]);
         re[i + 1] = re[i];
         im[i + 1] = -im[i];
         error[i + 1] = fmax(error[i], error[i + 1]);
@@ -412,7 +412,7 @@ qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E
     }
     if (status == QDOT_OK) {
         raise_to_power(K, count, all, all + count, all + 2 * count);
-        cluster_means(K, n, all, taken, own, re, im, error);
+        find_cluster_means(K, n, all, taken, own, re, im, error);
         qdot_eigenvalues_arrange(n, re, im, error);
     }
     qdot_free(C);

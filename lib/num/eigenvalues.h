@@ -31,7 +31,7 @@
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues(size_t n, const double *A, const double *E,
                                              double *re, double *im, double *error);
 
-/* Find the eigenvalues of the product of A [K x n x n], the first to act first, with errors E [K x n x n]. */
+/* Find the eigenvalues of a product of K matrices A [K x n x n], of which the first acts first, with errors E. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E,
                                                         double *re, double *im, double *error);
 

@@ -8,7 +8,7 @@ qdot_hermite_at(const qdot_hermite_end *from, const qdot_hermite_end *to, double
                 double *v)
 {
     const double v0 = h * from->v, a0 = h * h * from->a;
-    const double d = to->y - from->y - v0 - 0.5 * a0; /* the part left to the powers s^3 and higher */
+    const double d = to->y - from->y - v0 - 0.5 * a0; /* what the powers s^3 to s^5 must add at the end */
     const double e = h * to->v - v0 - a0, f = h * h * to->a - a0;
     const double c3 = 10 * d - 4 * e + 0.5 * f, c4 = -15 * d + 7 * e - f;
     const double c5 = 6 * d - 3 * e + 0.5 * f;

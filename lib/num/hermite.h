@@ -15,16 +15,16 @@
 #ifndef QDOT_NUM_HERMITE_H
 #define QDOT_NUM_HERMITE_H
 
-/* Value y, slope v and second derivative a at one end. */
+/* The value y, the first derivative v and the second derivative a at one end of an interval. */
 typedef struct {
     double y, v, a;
 } qdot_hermite_end;
 
-/* y at t0 + s h, and its slope there into *v (unless NULL). */
+/* The value at t0 + s h of the polynomial through both ends; its derivative there goes into *v (unless NULL). */
 double qdot_hermite_at(const qdot_hermite_end *from, const qdot_hermite_end *to, double h,
                        double s, double *v);
 
-/* Set a at both ends to the second derivatives of the cubic through y and v. */
+/* Set the second derivatives a at both ends to those of the cubic polynomial through y and v. */
 void qdot_hermite_cubic_ends(qdot_hermite_end *from, qdot_hermite_end *to, double h);
 
 #endif

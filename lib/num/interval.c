@@ -1,10 +1,10 @@
-/* interval.c -- bounds of sums, products, powers and waves over intervals. */
+/* interval.c -- bounds of sums, products, powers, sines and cosines over intervals. */
 #include "num/interval.h"
 
 #include <float.h>
 #include <math.h>
 
-/* Relative error of the library's functions. */
+/* Relative error assumed for functions of the C library. */
 static const double off = 4 * DBL_EPSILON;
 
 qdot_interval
@@ -81,7 +81,7 @@ qdot_interval_sum(qdot_interval a, qdot_interval b)
 {
     qdot_interval d = qdot_interval_outward(a.lo + b.lo, a.hi + b.hi);
 
-    if (a.lo >= 0 && b.lo >= 0) /* rounding cannot change the sign */
+    if (a.lo >= 0 && b.lo >= 0) /* the product is not negative: rounding cannot change its sign */
         d.lo = fmax(d.lo, 0);
     if (a.hi <= 0 && b.hi <= 0)
         d.hi = fmin(d.hi, 0);
@@ -91,7 +91,7 @@ qdot_interval_sum(qdot_interval a, qdot_interval b)
 /* The least and the largest of f at the corners of a box; corners at which f is undefined are
  * skipped. */
 static qdot_interval
-of_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
+bounds_at_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
 {
     const double x[] = {f(a.lo, b.lo), f(a.lo, b.hi), f(a.hi, b.lo), f(a.hi, b.hi)};
     double lo = NAN, hi = NAN;
@@ -103,15 +103,15 @@ of_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
     return qdot_interval_outward(lo, hi);
 }
 
-/* The product, with 0 times infinity = 0. */
+/* The product of two bounds, with 0 times infinity = 0. */
 static double
-bound_times(double x, double y)
+multiply_bounds(double x, double y)
 {
     return x == 0 || y == 0 ? 0 : x * y;
 }
 
 static double
-bound_over(double x, double y)
+divide_bounds(double x, double y)
 {
     return x / y;
 }
@@ -123,10 +123,10 @@ qdot_interval_product(qdot_interval a, qdot_interval b, bool same)
 
     if (same)
         return qdot_interval_within(
-            of_corners(bound_times, qdot_interval_size(a), qdot_interval_size(a)), 0, INFINITY);
+            bounds_at_corners(multiply_bounds, qdot_interval_size(a), qdot_interval_size(a)), 0, INFINITY);
     if ((a.lo == 0 && a.hi == 0) || (b.lo == 0 && b.hi == 0))
         return qdot_interval_point(0);
-    d = of_corners(bound_times, a, b);
+    d = bounds_at_corners(multiply_bounds, a, b);
     if ((a.lo >= 0 && b.lo >= 0) || (a.hi <= 0 && b.hi <= 0))
         d.lo = fmax(d.lo, 0);
     if ((a.lo >= 0 && b.hi <= 0) || (a.hi <= 0 && b.lo >= 0))
@@ -138,7 +138,7 @@ qdot_interval
 qdot_interval_quotient(qdot_interval a, qdot_interval b)
 {
     if (b.lo > 0 || b.hi < 0)
-        return of_corners(bound_over, a, b);
+        return bounds_at_corners(divide_bounds, a, b);
     if (b.hi == 0) {
         a = qdot_interval_negative(a);
         b = qdot_interval_negative(b);
@@ -150,7 +150,7 @@ qdot_interval_quotient(qdot_interval a, qdot_interval b)
                        : qdot_interval_whole;
 }
 
-/* The highest points of the wave lie at top + 2 pi k, the lowest halfway between. */
+/* The maxima of the function (sine or cosine) lie at top + 2 pi k, the minima halfway between. */
 qdot_interval
 qdot_interval_wave(double (*f)(double), qdot_interval a, double top)
 {
@@ -172,7 +172,7 @@ qdot_interval
 qdot_interval_angle(qdot_interval y, qdot_interval x)
 {
     if (x.lo > 0 || y.lo > 0 || y.hi < 0)
-        return of_corners(atan2, y, x);
+        return bounds_at_corners(atan2, y, x);
     return qdot_interval_outward(-M_PI, M_PI);
 }
 
@@ -183,13 +183,13 @@ qdot_interval_power(qdot_interval a, qdot_interval b)
 
     if (even)
         a = qdot_interval_size(a);
-    if (a.lo > 0 || (a.lo == 0 && b.lo >= 0)) /* also for base 0, as pow(0, 0) = 1 is an end of 0 < v^p <= 1 */
-        return qdot_interval_within(of_corners(pow, a, b), 0, INFINITY);
+    if (a.lo > 0 || (a.lo == 0 && b.lo >= 0)) /* includes base 0, since pow(0, 0) = 1 is an end of 0 < v^p <= 1 */
+        return qdot_interval_within(bounds_at_corners(pow, a, b), 0, INFINITY);
     if (a.lo == 0 && qdot_interval_is_point(b))
         return (qdot_interval){qdot_interval_outward(pow(a.hi, b.lo), 0).lo, INFINITY};
     if (qdot_interval_is_point(b) && b.lo == floor(b.lo) && (b.lo > 0 || a.hi < 0))
-        return of_corners(pow, a, b);
-    if (qdot_interval_is_point(b) && b.lo == floor(b.lo) && a.hi == 0) /* odd: 1/x over -1..0 is in -infinity..-1 */
+        return bounds_at_corners(pow, a, b);
+    if (qdot_interval_is_point(b) && b.lo == floor(b.lo) && a.hi == 0) /* an odd power: 1/x over -1..0 lies in -infinity..-1 */
         return qdot_interval_negative(qdot_interval_power(qdot_interval_negative(a), b));
     return qdot_interval_whole;
 }

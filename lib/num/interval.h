@@ -21,9 +21,9 @@ extern const qdot_interval qdot_interval_whole; /* the interval of all numbers *
 
 qdot_interval qdot_interval_point(double x);
 bool qdot_interval_is_point(qdot_interval a);
-/* The smallest interval that contains both. */
+/* The smallest interval that contains both intervals. */
 qdot_interval qdot_interval_around(qdot_interval a, qdot_interval b);
-/* The part of a inside least ... most; outside the function is undefined. */
+/* The part of the interval a inside least ... most, the domain of a function. */
 qdot_interval qdot_interval_within(qdot_interval a, double least, double most);
 /* lo ... hi rounded outward. A lower bound that overflows becomes the largest double: the exact value is
  * finite. */
@@ -32,14 +32,14 @@ qdot_interval qdot_interval_outward(double lo, double hi);
 qdot_interval qdot_interval_negative(qdot_interval a);
 qdot_interval qdot_interval_size(qdot_interval a); /* the interval of |x| */
 qdot_interval qdot_interval_sum(qdot_interval a, qdot_interval b);
-/* same: both factors are the same value, so the product is its square. */
+/* The product of two intervals; `same`: both factors have the same value, so that it is a square. */
 qdot_interval qdot_interval_product(qdot_interval a, qdot_interval b, bool same);
 qdot_interval qdot_interval_quotient(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_power(qdot_interval a, qdot_interval b);
 /* the interval of x - y floor(x/y) */
 qdot_interval qdot_interval_remainder(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* the interval of atan2(y, x) */
-/* The image of the interval a under a function that is increasing (_falling: decreasing) on all of it. */
+/* The image of the interval a under a function that is increasing (qdot_interval_falling: decreasing) on it. */
 qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
 qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);
 /* Bounds of sin (top = pi/2) or cos (top = 0): maxima at top + 2 pi k, minima halfway between. */

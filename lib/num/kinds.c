@@ -1,4 +1,4 @@
-/* kinds.c -- the limit on the processor kinds that are used, for tests. */
+/* kinds.c -- the limit, for tests, on which kinds of processor instructions are used. */
 #include "num/kinds.h"
 
 /* The C library has asked the processor at the start of the program, if it tells: to ask again, as

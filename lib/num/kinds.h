@@ -45,7 +45,7 @@
 void qdot_kind_limit(size_t kind);
 size_t qdot_kind_most(void);
 
-/* Whether this processor is of a kind within the limit. */
+/* Whether this processor can run code for that kind of processor, and the limit allows it. */
 bool qdot_kind_is_here(size_t kind);
 
 /* a b + c for portable kernels, for numbers and for vectors: fused if the target always has an

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* (1 + sqrt 17) / 8: with it two 1 x 1 steps let entries grow as much as one 2 x 2 step. */
+/* Bunch and Kaufman's (1 + sqrt 17) / 8: two 1 x 1 steps then let entries grow as much as one 2 x 2 step. */
 static const double alpha = 0.6403882032022076;
 
 qdot_status
@@ -41,9 +41,9 @@ singular(size_t unknown, size_t *failed)
     return qdot_fail(QDOT_ESINGULAR, "the matrix is singular (row %zu)", unknown + 1);
 }
 
-/* Find the largest |entry| of each row of S A S, into `largest`, where S holds the scales of the unknowns. */
+/* Find the largest |entry| of each row of S A S; S is diagonal and holds the scales of the unknowns. */
 static void
-row_maxima(const double *a, size_t n, const double *scale, double *largest)
+find_row_maxima(const double *a, size_t n, const double *scale, double *largest)
 {
     for (size_t i = 0; i < n; i++)
         largest[i] = 0;
@@ -61,7 +61,7 @@ row_maxima(const double *a, size_t n, const double *scale, double *largest)
 /* Choose S and apply it. Each pass halves the exponents that are left; a row of zeros or
  * an entry that is not finite is told. */
 static qdot_status
-equilibrate(qdot_ldlt *f, double *a, size_t *failed)
+equilibrate_matrix(qdot_ldlt *f, double *a, size_t *failed)
 {
     const size_t n = f->n;
 
@@ -70,7 +70,7 @@ equilibrate(qdot_ldlt *f, double *a, size_t *failed)
     for (int pass = 0; pass < 8; pass++) {
         bool changed = false;
 
-        row_maxima(a, n, f->scale, f->work);
+        find_row_maxima(a, n, f->scale, f->work);
         for (size_t i = 0; i < n; i++) {
             int e;
 
@@ -92,7 +92,7 @@ equilibrate(qdot_ldlt *f, double *a, size_t *failed)
 }
 
 static void
-swap(double *x, double *y)
+swap_numbers(double *x, double *y)
 {
     double t = *x;
 
@@ -100,9 +100,9 @@ swap(double *x, double *y)
     *y = t;
 }
 
-/* Exchange unknowns p < q of the symmetric matrix, including the rows of L. */
+/* Exchange the unknowns p < q of the symmetric matrix, and the corresponding rows of the factor L. */
 static void
-interchange(qdot_ldlt *f, double *a, size_t p, size_t q)
+interchange_unknowns(qdot_ldlt *f, double *a, size_t p, size_t q)
 {
     const size_t n = f->n;
     size_t o = f->order[p];
@@ -110,15 +110,15 @@ interchange(qdot_ldlt *f, double *a, size_t p, size_t q)
     f->order[p] = f->order[q];
     f->order[q] = o;
     for (size_t j = 0; j < p; j++)
-        swap(&a[p * n + j], &a[q * n + j]);
+        swap_numbers(&a[p * n + j], &a[q * n + j]);
     for (size_t j = p + 1; j < q; j++)
-        swap(&a[j * n + p], &a[q * n + j]);
+        swap_numbers(&a[j * n + p], &a[q * n + j]);
     for (size_t i = q + 1; i < n; i++)
-        swap(&a[i * n + p], &a[i * n + q]);
-    swap(&a[p * n + p], &a[q * n + q]);
+        swap_numbers(&a[i * n + p], &a[i * n + q]);
+    swap_numbers(&a[p * n + p], &a[q * n + q]);
 }
 
-/* The largest |entry| of column c among rows from k on, without the diagonal. */
+/* The largest |entry| of column c among the rows from k on, except the diagonal entry. */
 static double
 column_maximum(const double *a, size_t n, size_t k, size_t c, size_t *at)
 {
@@ -136,7 +136,7 @@ column_maximum(const double *a, size_t n, size_t k, size_t c, size_t *at)
 }
 
 static void
-eliminate_one(double *a, size_t n, size_t k)
+eliminate_single_pivot(double *a, size_t n, size_t k)
 {
     for (size_t i = k + 1; i < n; i++) {
         double l = a[i * n + k] / a[k * n + k];
@@ -148,9 +148,9 @@ eliminate_one(double *a, size_t n, size_t k)
         a[i * n + k] /= a[k * n + k];
 }
 
-/* Solve a 2 x 2 block D at row k: replace (x, y) by D^-1 (x, y), in a form that does not overflow. */
+/* Solve with the 2 x 2 block D at row k: replace (x, y) by D^-1 (x, y), in a form that does not overflow. */
 static void
-solve_pair(const double *a, size_t n, size_t k, double *x, double *y)
+solve_with_pivot_pair(const double *a, size_t n, size_t k, double *x, double *y)
 {
     double d21 = a[(k + 1) * n + k], d11 = a[k * n + k] / d21;
     double d22 = a[(k + 1) * n + k + 1] / d21, det = d11 * d22 - 1;
@@ -161,12 +161,12 @@ solve_pair(const double *a, size_t n, size_t k, double *x, double *y)
 }
 
 static void
-eliminate_two(double *a, size_t n, size_t k)
+eliminate_pivot_pair(double *a, size_t n, size_t k)
 {
     for (size_t i = k + 2; i < n; i++) {
         double l1 = a[i * n + k], l2 = a[i * n + k + 1];
 
-        solve_pair(a, n, k, &l1, &l2);
+        solve_with_pivot_pair(a, n, k, &l1, &l2);
         for (size_t j = i; j < n; j++)
             a[j * n + i] -= l1 * a[j * n + k] + l2 * a[j * n + k + 1];
         a[i * n + k] = l1;
@@ -180,7 +180,7 @@ qdot_ldlt_factor(qdot_ldlt *f, double *a, size_t *failed)
     const size_t n = f->n;
     const double threshold = 16 * (double)n * DBL_EPSILON;
 
-    QDOT_TRY(equilibrate(f, a, failed));
+    QDOT_TRY(equilibrate_matrix(f, a, failed));
     for (size_t i = 0; i < n; i++) {
         f->order[i] = i;
         f->pair[i] = false;
@@ -201,12 +201,12 @@ qdot_ldlt_factor(qdot_ldlt *f, double *a, size_t *failed)
             }
         }
         if (pivot != k + two)
-            interchange(f, a, k + two, pivot);
+            interchange_unknowns(f, a, k + two, pivot);
         f->pair[k] = two;
         if (two)
-            eliminate_two(a, n, k);
+            eliminate_pivot_pair(a, n, k);
         else
-            eliminate_one(a, n, k);
+            eliminate_single_pivot(a, n, k);
         k += two ? 2 : 1;
     }
     return QDOT_OK;
@@ -228,7 +228,7 @@ qdot_ldlt_solve(const qdot_ldlt *f, const double *a, double *b)
         }
     for (size_t k = 0; k < n; k += f->pair[k] ? 2 : 1) {
         if (f->pair[k])
-            solve_pair(a, n, k, &x[k], &x[k + 1]);
+            solve_with_pivot_pair(a, n, k, &x[k], &x[k + 1]);
         else
             x[k] /= a[k * n + k];
     }

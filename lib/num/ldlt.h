@@ -20,12 +20,12 @@
 
 #include "base/status.h"
 
-/* Work space for matrices of one size; nothing is allocated after _init. */
+/* Work space for factoring matrices of one size; nothing is allocated after qdot_ldlt_init. */
 typedef struct {
     size_t n;
-    size_t *order; /* [n] the unknown at each place after the interchanges */
+    size_t *order; /* [n] the unknown at each position after the interchanges */
     bool *pair;    /* [n] true at the first row of a 2 x 2 block */
-    double *scale; /* [n] scale factors S, by unknown */
+    double *scale; /* [n] scale factors S of the unknowns */
     double *work;  /* [n] scratch */
 } qdot_ldlt;
 
@@ -39,7 +39,7 @@ void qdot_ldlt_clear(qdot_ldlt *f);
  * Returns QDOT_OK; QDOT_ESINGULAR, `a` then half overwritten: singular, or not finite. */
 QDOT_MUST_CHECK qdot_status qdot_ldlt_factor(qdot_ldlt *f, double *a, size_t *failed);
 
-/* Solve with a factored `a`; b [n] is overwritten by x. */
+/* Solve a linear system with a factored matrix `a`; b [n] is overwritten by the solution x. */
 void qdot_ldlt_solve(const qdot_ldlt *f, const double *a, double *b);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Rows with a smaller squared sine are left to a rank-revealing method. */
+/* Rows of A whose squared sine to the rows before is smaller are left to a rank-revealing method. */
 static const double independent = 1e-6;
 
 bool

@@ -28,7 +28,7 @@ typedef struct {
 bool qdot_least_move_factor(qdot_least_move *s, const double *A, const double *D,
                             size_t step);
 
-/* Solve: x [n] from c [m], which is overwritten. */
+/* Find the smallest x [n], measured by D, with A x = c [m]; c is overwritten. */
 void qdot_least_move_solve(const qdot_least_move *s, double *c, double *x);
 
 #endif

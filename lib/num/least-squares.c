@@ -18,16 +18,16 @@ static const double near_offset = 1e-4, least_offset = 1e-10, least_move = 4e-16
  * residuals with u. */
 static const double rounding = 1e-9;
 
-/* The value of all residuals where the model is undefined, so that no step leads there. */
+/* The value given to all residuals where the model is undefined, so that no step of the search leads there. */
 static const double nowhere = 1e150;
 
 typedef struct {
     qdot_least_squares *x;
-    double *at;         /* [p] the unknowns at which x->f and x->J were computed */
-    bool known;         /* `at` is set */
+    double *at;         /* [p] the unknowns at which the residuals x->f and the Jacobian x->J were computed */
+    bool known;         /* whether `at` is set */
     qdot_status status; /* a failure that ends the search */
     gsl_matrix *U, *V;  /* singular vectors of J: U [n x p], V [p x p] */
-    gsl_vector *S, *work, *size, *along; /* [p] each: singular values, then scratch vectors */
+    gsl_vector *S, *work, *size, *along; /* [p] each: singular values of the Jacobian, then scratch vectors */
 } search;
 
 void
@@ -40,14 +40,14 @@ qdot_least_squares_clear(qdot_least_squares *x)
 /* --- the residuals of the model ----------------------------------------------------------- */
 
 static bool
-is_nowhere(qdot_status status)
+model_is_undefined(qdot_status status)
 {
     return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR
            || status == QDOT_EINVAL || status == QDOT_ELIMIT;
 }
 
 static bool
-all_finite(size_t n, const double *x)
+all_are_finite(size_t n, const double *x)
 {
     double sum = 0;
 
@@ -56,9 +56,9 @@ all_finite(size_t n, const double *x)
     return sum == 0;
 }
 
-/* Evaluate x->f and x->J at u. */
+/* Evaluate the residuals x->f and their Jacobian x->J at u. */
 static qdot_status
-least_squares_evaluate(search *s, const double *u)
+evaluate_model(search *s, const double *u)
 {
     qdot_least_squares *x = s->x;
     qdot_status status;
@@ -69,19 +69,19 @@ least_squares_evaluate(search *s, const double *u)
     memcpy(s->at, u, x->p * sizeof *u);
     x->models++;
     status = x->model(u, x->f, x->J, x->user);
-    if (status == QDOT_OK && !(all_finite(x->n, x->f) && all_finite(x->n * x->p, x->J)))
+    if (status == QDOT_OK && !(all_are_finite(x->n, x->f) && all_are_finite(x->n * x->p, x->J)))
         status = qdot_fail(QDOT_EFAILED, "the numbers to be fitted are not finite");
     s->known = status == QDOT_OK;
     return status;
 }
 
 static int
-gsl_f(const gsl_vector *u, void *user, gsl_vector *f)
+residuals_for_gsl(const gsl_vector *u, void *user, gsl_vector *f)
 {
     search *s = user;
-    const qdot_status status = least_squares_evaluate(s, u->data);
+    const qdot_status status = evaluate_model(s, u->data);
 
-    if (status != QDOT_OK && !is_nowhere(status)) {
+    if (status != QDOT_OK && !model_is_undefined(status)) {
         s->status = status;
         return GSL_EFAILED;
     }
@@ -94,7 +94,7 @@ static int
 gsl_J(const gsl_vector *u, void *user, gsl_matrix *J)
 {
     search *s = user;
-    const qdot_status status = least_squares_evaluate(s, u->data);
+    const qdot_status status = evaluate_model(s, u->data);
 
     if (status != QDOT_OK) {
         s->status = status;
@@ -108,7 +108,7 @@ gsl_J(const gsl_vector *u, void *user, gsl_matrix *J)
 /* --- singular values: J = U S V^T with columns of length 1 ----------------------------------- */
 
 static qdot_status
-jacobian_decompose(search *s)
+decompose_jacobian(search *s)
 {
     const qdot_least_squares *x = s->x;
 
@@ -136,9 +136,9 @@ reducible_part(search *s)
     return gsl_blas_dnrm2(s->along) / fmax(gsl_blas_dnrm2(&f.vector), 1e-300);
 }
 
-/* Compute C J^T f into x->left, the step that is left. */
+/* Compute the Gauss-Newton step C J^T f that remains at the end, into x->left. */
 static void
-gradient_in_covariance(const search *s)
+compute_remaining_step(const search *s)
 {
     const qdot_least_squares *x = s->x;
 
@@ -151,9 +151,9 @@ gradient_in_covariance(const search *s)
     }
 }
 
-/* Compute C = D V S^-2 V^T D, the step left D V S^-1 U^T f (D = 1/size), and a direction without slope. */
+/* Compute the covariance C = D V S^-2 V^T D, the remaining step D V S^-1 U^T f (D = 1/size), an undetermined direction. */
 static void
-least_squares_conclude(search *s)
+compute_covariance(search *s)
 {
     qdot_least_squares *x = s->x;
     const size_t p = x->p;
@@ -171,7 +171,7 @@ least_squares_conclude(search *s)
                 sum / gsl_vector_get(s->size, i) / gsl_vector_get(s->size, j);
         }
     }
-    gradient_in_covariance(s);
+    compute_remaining_step(s);
     for (size_t i = 0, most = 0; i < p && lost; i++) {
         if (fabs(gsl_matrix_get(s->V, i, p - 1)) > fabs(gsl_matrix_get(s->V, most, p - 1)) + 1e-9)
             most = i;
@@ -184,7 +184,7 @@ least_squares_conclude(search *s)
 
 /* --- the search for the minimum -------------------------------------------------------------- */
 
-/* Whether the last step moved u [p] by no more than rounding. */
+/* Whether the last step moved the unknowns u [p] by no more than rounding errors. */
 static bool
 has_stopped_moving(const search *s, const gsl_vector *move, const gsl_vector *u)
 {
@@ -194,9 +194,9 @@ has_stopped_moving(const search *s, const gsl_vector *move, const gsl_vector *u)
     return true;
 }
 
-/* Whether the remaining step is rounding error, compared by the changes of the residuals. */
+/* Whether the remaining step is rounding error, judged by the changes of the residuals that it causes. */
 static bool
-step_is_rounding(const search *s)
+step_is_rounding_error(const search *s)
 {
     double most = 0;
 
@@ -205,34 +205,34 @@ step_is_rounding(const search *s)
     return gsl_blas_dnrm2(s->along) <= rounding * most;
 }
 
-/* Take Gauss-Newton steps as long as each reduces the offset. */
+/* Take Gauss-Newton steps as long as each of them reduces the part of the residuals that can be reduced. */
 static qdot_status
-gauss_newton_steps(search *s)
+take_gauss_newton_steps(search *s)
 {
     qdot_least_squares *x = s->x;
     double before = reducible_part(s);
 
     x->converged = true;
     while (before > least_offset && x->steps++ < 2 * x->most_steps) {
-        gradient_in_covariance(s);
+        compute_remaining_step(s);
         for (size_t k = 0; k < x->p; k++)
             x->u[k] -= x->left[k];
-        QDOT_TRY(least_squares_evaluate(s, x->u));
-        QDOT_TRY(jacobian_decompose(s));
+        QDOT_TRY(evaluate_model(s, x->u));
+        QDOT_TRY(decompose_jacobian(s));
         if (!(reducible_part(s) < before)) {
             for (size_t k = 0; k < x->p; k++)
                 x->u[k] += x->left[k];
-            QDOT_TRY(least_squares_evaluate(s, x->u));
-            return jacobian_decompose(s);
+            QDOT_TRY(evaluate_model(s, x->u));
+            return decompose_jacobian(s);
         }
         before = reducible_part(s);
     }
     return QDOT_OK;
 }
 
-/* Iterate until the search ends; x->u, f, J are then those of its end. */
+/* Iterate until the search ends; x->u, x->f and x->J are then those of its last point. */
 static qdot_status
-least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
+iterate_search(search *s, gsl_multifit_nlinear_workspace *w)
 {
     qdot_least_squares *x = s->x;
     bool over = false;
@@ -240,11 +240,11 @@ least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
 
     while (true) {
         memcpy(x->u, gsl_multifit_nlinear_position(w)->data, x->p * sizeof *x->u);
-        QDOT_TRY(least_squares_evaluate(s, x->u)); /* recomputed only if the last step was rejected */
-        QDOT_TRY(jacobian_decompose(s));
-        x->converged = over && step_is_rounding(s);
+        QDOT_TRY(evaluate_model(s, x->u)); /* evaluate again: does nothing unless the last step was rejected */
+        QDOT_TRY(decompose_jacobian(s));
+        x->converged = over && step_is_rounding_error(s);
         if (reducible_part(s) <= near_offset)
-            return gauss_newton_steps(s);
+            return take_gauss_newton_steps(s);
         if (over || x->steps == x->most_steps)
             return QDOT_OK;
         code = gsl_multifit_nlinear_iterate(w);
@@ -258,17 +258,17 @@ least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
 }
 
 static qdot_status
-run(search *s)
+run_search(search *s)
 {
     qdot_least_squares *x = s->x;
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_fdf model = {
-        .f = gsl_f, .df = gsl_J, .n = x->n, .p = x->p, .params = s};
+        .f = residuals_for_gsl, .df = gsl_J, .n = x->n, .p = x->p, .params = s};
     const gsl_vector_view u = gsl_vector_view_array(x->u, x->p);
     gsl_multifit_nlinear_workspace *w;
     qdot_status status;
 
-    QDOT_TRY(least_squares_evaluate(s, x->u)); /* the model must have finite values at the start */
+    QDOT_TRY(evaluate_model(s, x->u)); /* the model must have finite values at the start */
     how.scale = gsl_multifit_nlinear_scale_more;
     how.solver = gsl_multifit_nlinear_solver_svd;
     w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, x->n, x->p);
@@ -278,17 +278,17 @@ run(search *s)
                  ? QDOT_OK
                  : qdot_fail(QDOT_EFAILED, "the squares have no finite sum");
     if (status == QDOT_OK)
-        status = least_squares_iterate(s, w);
+        status = iterate_search(s, w);
     gsl_multifit_nlinear_free(w);
     if (status == QDOT_OK)
-        least_squares_conclude(s);
+        compute_covariance(s);
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
         x->chi2 += x->f[i] * x->f[i];
     return status;
 }
 
 static bool
-least_squares_allocate(search *s)
+allocate_search(search *s)
 {
     qdot_least_squares *x = s->x;
     const size_t n = x->n, p = x->p;
@@ -323,7 +323,7 @@ qdot_least_squares_find(qdot_least_squares *x)
     x->most_steps = x->most_steps > 0 ? x->most_steps : 200;
     x->steps = x->models = 0;
     x->chi2 = 0;
-    status = least_squares_allocate(&s) ? run(&s) : QDOT_ENOMEM;
+    status = allocate_search(&s) ? run_search(&s) : QDOT_ENOMEM;
     gsl_matrix_free(s.U);
     gsl_matrix_free(s.V);
     gsl_vector_free(s.S);

@@ -29,13 +29,13 @@ typedef struct {
     double least;      /* smallest relative singular value that counts as non-zero; 0: 1e-10 */
     size_t most_steps; /* largest number of steps; 0: 200 */
 
-    double *u;              /* [p] the unknowns. In: the start; out: the minimum */
+    double *u;              /* [p] the unknowns. Input: the start; output: the minimum */
     size_t steps, models;   /* steps of the search; number of model evaluations */
     bool converged;
     double chi2;            /* sum of squares |f|^2 at u */
     double *f, *J;          /* residuals f [n] and J = df/du [n x p] at u */
     double *covariance;     /* [p x p] covariance C of u; NaN where it is not determined */
-    double *left;           /* [p] the step C J^T f that remains at u */
+    double *left;           /* [p] the Gauss-Newton step C J^T f that remains at u */
     double *undetermined; /* [p] direction of scaled u that f does not determine, length 1, largest entry > 0; 0: none */
 } qdot_least_squares;
 

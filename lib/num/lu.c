@@ -1,10 +1,10 @@
-/* lu.c -- Gaussian elimination by rows, between the first and the last non-zero entry of each row. */
+/* lu.c -- Gaussian elimination by rows, only between the first and the last non-zero entry of each row. */
 #include "num/lu.h"
 
 #include <math.h>
 
 static inline void
-numbers_swap(double *a, double *b)
+swap_numbers(double *a, double *b)
 {
     const double kept = *a;
 
@@ -14,15 +14,15 @@ numbers_swap(double *a, double *b)
 
 /* Exchange rows i and j of A [n x n]. */
 static void
-rows_exchange(size_t n, double *A, size_t i, size_t j)
+exchange_rows(size_t n, double *A, size_t i, size_t j)
 {
     for (size_t c = 0; c < n; c++)
-        numbers_swap(A + i * n + c, A + j * n + c);
+        swap_numbers(A + i * n + c, A + j * n + c);
 }
 
-/* Find the first and last non-zero entries of the rows; im may be NULL. */
+/* Find the first and the last non-zero entry of each row; the imaginary part im may be NULL. */
 static void
-find_ends(size_t n, const double *re, const double *im, qdot_lu_row *rows)
+find_row_ends(size_t n, const double *re, const double *im, qdot_lu_row *rows)
 {
     for (size_t i = 0; i < n; i++, re += n, im = im ? im + n : NULL) {
         size_t from = 0, to = n;
@@ -36,18 +36,18 @@ find_ends(size_t n, const double *re, const double *im, qdot_lu_row *rows)
     }
 }
 
-/* Move row `best` to position k. */
+/* Move row `best` to position k, which gets the pivot row. */
 static void
-bring_row(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t best)
+move_row_to(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t best)
 {
     const qdot_lu_row kept = rows[k];
 
     rows[k].pivot = best;
     if (best == k)
         return;
-    rows_exchange(n, re, k, best);
+    exchange_rows(n, re, k, best);
     if (im)
-        rows_exchange(n, im, k, best);
+        exchange_rows(n, im, k, best);
     rows[k].from = rows[best].from;
     rows[k].to = rows[best].to;
     rows[best].from = kept.from;
@@ -57,7 +57,7 @@ bring_row(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t 
 bool
 qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows)
 {
-    find_ends(n, A, NULL, rows);
+    find_row_ends(n, A, NULL, rows);
     for (size_t k = 0; k < n; k++) {
         const double *restrict from = A + k * n;
         size_t best = k;
@@ -66,7 +66,7 @@ qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows)
         for (size_t i = k + 1; i < n; i++)
             if (fabs(A[i * n + k]) > fabs(A[best * n + k]))
                 best = i;
-        bring_row(n, A, NULL, rows, k, best);
+        move_row_to(n, A, NULL, rows, k, best);
         inverse = 1 / from[k];
         if (!isfinite(inverse) || inverse == 0)
             return false;
@@ -90,7 +90,7 @@ void
 qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b)
 {
     for (size_t k = 0; k < n; k++)
-        numbers_swap(b + k, b + rows[k].pivot);
+        swap_numbers(b + k, b + rows[k].pivot);
     for (size_t i = 1; i < n; i++)
         for (size_t j = rows[i].from; j < i; j++)
             b[i] -= A[i * n + j] * b[j];
@@ -101,11 +101,11 @@ qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b)
     }
 }
 
-/* Eliminate column k from a lower row, in the columns before `to`. */
+/* Eliminate column k from a lower row by the pivot row, in the columns before `to`. */
 static void
-row_eliminate(size_t to, size_t k, const double *restrict from_re,
-              const double *restrict from_im, const double *inverse, double *restrict re,
-              double *restrict im)
+eliminate_from_row(size_t to, size_t k, const double *restrict from_re,
+                   const double *restrict from_im, const double *inverse, double *restrict re,
+                   double *restrict im)
 {
     const double by_re = re[k] * inverse[0] - im[k] * inverse[1];
     const double by_im = re[k] * inverse[1] + im[k] * inverse[0];
@@ -121,7 +121,7 @@ row_eliminate(size_t to, size_t k, const double *restrict from_re,
 bool
 qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
 {
-    find_ends(n, re, im, rows);
+    find_row_ends(n, re, im, rows);
     for (size_t k = 0; k < n; k++) {
         size_t best = k;
         double most = 0, a, b, size, inverse[2];
@@ -134,7 +134,7 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
                 best = i;
             }
         }
-        bring_row(n, re, im, rows, k, best);
+        move_row_to(n, re, im, rows, k, best);
         a = re[k * n + k] / most;
         b = im[k * n + k] / most;
         size = most * (a * a + b * b);
@@ -145,8 +145,8 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
         for (size_t i = k + 1; i < n; i++) {
             if (re[i * n + k] == 0 && im[i * n + k] == 0)
                 continue;
-            row_eliminate(rows[k].to, k, re + k * n, im + k * n, inverse, re + i * n,
-                          im + i * n);
+            eliminate_from_row(rows[k].to, k, re + k * n, im + k * n, inverse, re + i * n,
+                               im + i * n);
             if (rows[i].to < rows[k].to)
                 rows[i].to = rows[k].to;
         }
@@ -154,10 +154,10 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
     return true;
 }
 
-/* x + i y -= (row i of re + i im, columns from ... to - 1) (x + i y) */
+/* Subtract the known part of row i: x + i y -= (row i of re + i im, columns from ... to - 1) (x + i y) */
 static inline void
-row_subtract_known(const double *re, const double *im, size_t i, size_t from, size_t to, double *x,
-                   double *y)
+subtract_known_part(const double *re, const double *im, size_t i, size_t from, size_t to, double *x,
+                    double *y)
 {
     for (size_t j = from; j < to; j++) {
         x[i] -= re[j] * x[j] - im[j] * y[j];
@@ -170,16 +170,16 @@ qdot_lu_solve_complex(size_t n, const double *re, const double *im,
                       const qdot_lu_row *rows, double *x, double *y)
 {
     for (size_t k = 0; k < n; k++) {
-        numbers_swap(x + k, x + rows[k].pivot);
-        numbers_swap(y + k, y + rows[k].pivot);
+        swap_numbers(x + k, x + rows[k].pivot);
+        swap_numbers(y + k, y + rows[k].pivot);
     }
     for (size_t i = 1; i < n; i++)
-        row_subtract_known(re + i * n, im + i * n, i, rows[i].from, i, x, y);
+        subtract_known_part(re + i * n, im + i * n, i, rows[i].from, i, x, y);
     for (size_t i = n; i-- > 0;) {
         const double c = re[i * n + i], d = im[i * n + i];
         double u, v;
 
-        row_subtract_known(re + i * n, im + i * n, i, i + 1, rows[i].to, x, y);
+        subtract_known_part(re + i * n, im + i * n, i, i + 1, rows[i].to, x, y);
         u = x[i];
         v = y[i];
         x[i] = u * c - v * d;
@@ -202,7 +202,7 @@ neighbours(size_t n, const bool *pattern, size_t i)
 /* The unknown of fewest neighbours among those not taken yet that are next to i (i == n: any); n if
  * there is none. taken[i]: 1 where i stands in the order. */
 static size_t
-nearest(size_t n, const bool *pattern, const size_t *taken, size_t i)
+next_neighbour(size_t n, const bool *pattern, const size_t *taken, size_t i)
 {
     size_t best = n, fewest = n + 1;
 
@@ -225,7 +225,7 @@ qdot_lu_order(size_t n, const bool *pattern, size_t *order, size_t *scratch)
     for (size_t i = 0; i < n; i++)
         scratch[i] = 0;
     while (count < n) {
-        size_t next = nearest(n, pattern, scratch, done < count ? order[done] : n);
+        size_t next = next_neighbour(n, pattern, scratch, done < count ? order[done] : n);
 
         if (next == n) {
             done++;

@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The pivot, the first and the last column of a row. */
+/* The pivot row, and the first and the last column of the non-zero entries of a row. */
 typedef struct {
     size_t pivot, from, to;
 } qdot_lu_row;
@@ -24,13 +24,13 @@ typedef struct {
  * entries are near the diagonal (Cuthill & McKee); scratch [n]. */
 void qdot_lu_order(size_t n, const bool *pattern, size_t *order, size_t *scratch);
 
-/* Factor A in place, with rows [n] as output. False, with A undefined, if a pivot is 0 or not finite. */
+/* Factor A in place; rows [n] gets pivots and row ends. False, with A undefined, if a pivot is 0 or not finite. */
 bool qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows);
 
-/* Solve A x = b with the factors; b [n] in, x out. */
+/* Solve A x = b with the factors of A; b [n] is replaced by x. */
 void qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b);
 
-/* Factor and solve for complex matrices re + i im; the factors hold the inverses of the pivots. */
+/* Factor, and solve, for complex matrices re + i im; the factors hold the inverses of the pivots. */
 bool qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows);
 void qdot_lu_solve_complex(size_t n, const double *re, const double *im,
                            const qdot_lu_row *rows, double *b_re, double *b_im);

@@ -1,4 +1,4 @@
-/* real.c -- arrays of MPFR numbers, sums of products, linear equations. */
+/* real.c -- arrays of MPFR numbers (of any precision), sums of products, linear equations. */
 #include "num/real.h"
 
 #include <limits.h>
@@ -10,7 +10,7 @@
 /* --- arrays of numbers -------------------------------------------------------------- */
 
 static mpfr_prec_t
-bits_of_whole_limbs(mpfr_prec_t bits)
+round_to_whole_limbs(mpfr_prec_t bits)
 {
     return (bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS * GMP_NUMB_BITS;
 }
@@ -18,7 +18,7 @@ bits_of_whole_limbs(mpfr_prec_t bits)
 double
 qdot_reals_size(size_t n, mpfr_prec_t bits)
 {
-    return (double)n * ((double)bits_of_whole_limbs(bits) / CHAR_BIT + sizeof(mpfr_t));
+    return (double)n * ((double)round_to_whole_limbs(bits) / CHAR_BIT + sizeof(mpfr_t));
 }
 
 qdot_status
@@ -30,7 +30,7 @@ qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits)
     if (bits < MPFR_PREC_MIN || bits > 1 << 24)
         return qdot_fail(QDOT_EINVAL, "a precision of %ld bits is out of range",
                          (long)bits);
-    bits = bits_of_whole_limbs(bits);
+    bits = round_to_whole_limbs(bits);
     per = (size_t)bits / GMP_NUMB_BITS;
     v->at = qdot_calloc(n + 1, sizeof *v->at);
     v->limbs = qdot_calloc(n * per + 1, sizeof *v->limbs);
@@ -72,12 +72,12 @@ qdot_real_log2(mpfr_srcptr x)
 size_t
 qdot_real_dot_work(mpfr_prec_t bits)
 {
-    return 4 * ((size_t)bits_of_whole_limbs(bits) / GMP_NUMB_BITS) + 8;
+    return 4 * ((size_t)round_to_whole_limbs(bits) / GMP_NUMB_BITS) + 8;
 }
 
-/* The largest exponent of a product; false if a factor is not finite. */
+/* Find the largest exponent of the products a[i] b[i]; false if a factor is not finite. */
 static bool
-largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponent, bool *some)
+find_largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponent, bool *some)
 {
     *some = false;
     for (size_t j = 0; j < n; j++, b--) {
@@ -94,9 +94,9 @@ largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponen
     return true;
 }
 
-/* Set sum to +-acc 2^exponent, where acc [m] has its binary point below the highest limb. */
+/* Set `sum` to +-acc 2^exponent, where acc [m] is an integer of limbs with its binary point below the highest limb. */
 static void
-sum_settle(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
+set_sum(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
 {
     const size_t limbs = (size_t)mpfr_get_prec(sum) / GMP_NUMB_BITS;
     mp_limb_t *to = mpfr_custom_get_significand(sum);
@@ -137,7 +137,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
     mpfr_exp_t top = 0;
     bool some;
 
-    if (!largest_exponent(a, b, n, &top, &some)) {
+    if (!find_largest_exponent(a, b, n, &top, &some)) {
         mpfr_set_nan(sum);
         return;
     }
@@ -157,7 +157,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
         below %= GMP_NUMB_BITS;
         if (skipped > limbs)
             continue;
-        /* the product matters to `kept` limbs after the point: multiply only these */
+        /* only `kept` limbs of the product after the binary point matter: multiply only these */
         kept = limbs + 1 - skipped;
         used = kept < limbs ? kept : limbs;
         x = (const mp_limb_t *)mpfr_custom_get_significand(a[j]) + limbs - used;
@@ -169,7 +169,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
         high = product + 2 * used - kept;
         if (below > 0)
             mpn_rshift(product + 2 * used - kept, high, (mp_size_t)kept, (unsigned)below);
-        /* acc has its highest limb before the point, then the skipped ones */
+        /* acc begins with a limb before the binary point, then come the skipped ones */
         used = m - 1 - skipped - kept;
         if (mpfr_signbit(a[j]) == mpfr_signbit(*b))
             mpn_add(acc + used, acc + used, (mp_size_t)(m - used), high,
@@ -178,13 +178,13 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
             mpn_sub(acc + used, acc + used, (mp_size_t)(m - used), high,
                     (mp_size_t)kept);
     }
-    sum_settle(sum, acc, m, top);
+    set_sum(sum, acc, m, top);
 }
 
 /* --- systems of linear equations ---------------------------------------------------- */
 
 static double
-largest_of_row(size_t n, const mpfr_t *row)
+largest_in_row(size_t n, const mpfr_t *row)
 {
     double most = -INFINITY;
 
@@ -211,7 +211,7 @@ qdot_real_lu(size_t n, mpfr_t *a, size_t *order, double *scale, size_t *failed, 
     const double least = -(double)(mpfr_get_prec(w[0]) - 16);
 
     for (size_t i = 0; i < n; i++) {
-        scale[i] = largest_of_row(n, a + i * n);
+        scale[i] = largest_in_row(n, a + i * n);
         order[i] = i;
         *failed = i;
         if (!isfinite(scale[i]))

@@ -22,22 +22,22 @@
  * precision must not be used on them. Start from {0}. */
 typedef struct {
     size_t n;
-    mpfr_prec_t bits; /* precision, a multiple of the bits of a limb */
+    mpfr_prec_t bits; /* precision in bits, a multiple of the bits of a machine word (limb) */
     mpfr_t *at;       /* [n] the numbers, 0 at first */
     mp_limb_t *limbs;
 } qdot_reals;
 
-/* Make n numbers of `bits` bits, rounded up to whole limbs. Errors: QDOT_ENOMEM; QDOT_EINVAL (bits). */
+/* Make n numbers of `bits` bits, rounded up to whole machine words. Errors: QDOT_ENOMEM; QDOT_EINVAL (bits). */
 QDOT_MUST_CHECK qdot_status qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits);
 void qdot_reals_clear(qdot_reals *v);
 
 /* The memory in bytes of n numbers with `bits` bits. */
 double qdot_reals_size(size_t n, mpfr_prec_t bits);
 
-/* log2 |x|; -INFINITY for 0, NaN if x is not finite. */
+/* The logarithm log2 |x|; -INFINITY for 0, NaN if x is not finite. */
 double qdot_real_log2(mpfr_srcptr x);
 
-/* The number of limbs that qdot_real_dot needs as work space for `bits`. */
+/* The number of machine words (limbs) that qdot_real_dot needs as work space for a precision of `bits`. */
 size_t qdot_real_dot_work(mpfr_prec_t bits);
 
 /* sum = sum_{j=0..n-1} a[j] b[-j], to within 2^(3 - bits) of n times its largest term. All
@@ -58,7 +58,7 @@ void qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n,
 QDOT_MUST_CHECK qdot_status qdot_real_lu(size_t n, mpfr_t *a, size_t *order,
                                          double *scale, size_t *failed, mpfr_t *w);
 
-/* Solve A x = b with the factors of qdot_real_lu; b [n] in, x out; y [n], w [1] scratch. */
+/* Solve A x = b with the factors of qdot_real_lu; b [n] is replaced by x; y [n], w [1]: work space. */
 void qdot_real_solve(size_t n, const mpfr_t *a, const size_t *order, mpfr_t *b, mpfr_t *y,
                      mpfr_t *w);
 

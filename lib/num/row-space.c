@@ -36,7 +36,7 @@ qdot_row_space_init(qdot_row_space *f, size_t m, size_t n)
 }
 
 static double
-length(const double *x, size_t n)
+vector_length(const double *x, size_t n)
 {
     double most = 0, sum = 0;
 
@@ -51,7 +51,7 @@ length(const double *x, size_t n)
 
 /* Apply a reflection: x [n] -= beta (v . x) v. */
 static void
-reflect(const double *v, double beta, size_t n, double *x)
+apply_reflection(const double *v, double beta, size_t n, double *x)
 {
     double dot = 0;
 
@@ -62,7 +62,7 @@ reflect(const double *v, double beta, size_t n, double *x)
         x[i] -= dot * v[i];
 }
 
-/* The next row to factor: the first with a remainder above tol, or the one with the largest; m if none. */
+/* The next row to factor: the first whose remainder exceeds tol, or that with the largest remainder; m if none. */
 static size_t
 next_row(const qdot_row_space *f, size_t k, double tol, bool in_order)
 {
@@ -70,7 +70,7 @@ next_row(const qdot_row_space *f, size_t k, double tol, bool in_order)
     double most = tol;
 
     for (size_t i = k; i < f->m; i++) {
-        double left = length(f->rows + f->order[i] * f->n + k, f->n - k);
+        double left = vector_length(f->rows + f->order[i] * f->n + k, f->n - k);
 
         if (!(left > most))
             continue;
@@ -90,7 +90,7 @@ qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_or
     memcpy(f->rows, A, f->m * n * sizeof *f->rows);
     for (size_t i = 0; i < f->m; i++) {
         f->order[i] = i;
-        f->size[i] = length(A + i * n, n);
+        f->size[i] = vector_length(A + i * n, n);
         for (size_t j = 0; j < n && f->size[i] > 0; j++)
             f->rows[i * n + j] /= f->size[i];
     }
@@ -104,25 +104,25 @@ qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_or
         memmove(f->order + k + 1, f->order + k, (next - k) * sizeof *f->order);
         f->order[k] = row;
         v = f->rows + row * n + k;
-        norm = v[0] > 0 ? -length(v, n - k) : length(v, n - k);
+        norm = v[0] > 0 ? -vector_length(v, n - k) : vector_length(v, n - k);
         head = v[0] - norm;
-        /* the Householder vector v = row - norm e_1; its reflection maps the row to norm e_1 */
+        /* the Householder vector v = row - norm e_1, whose reflection maps the row to norm e_1 */
         f->beta[row] = -1 / (norm * head);
         v[0] = head;
         for (size_t i = k + 1; i < f->m; i++)
-            reflect(v, f->beta[row], n - k, f->rows + f->order[i] * n + k);
+            apply_reflection(v, f->beta[row], n - k, f->rows + f->order[i] * n + k);
         f->diagonal[row] = norm;
     }
 }
 
-/* Replace x by Q times the vector (z, 0). */
+/* Replace x by Q (z, 0), that is, from the coordinates of the orthogonal factor Q to the original ones. */
 static void
-turn_back(const qdot_row_space *f, double *x)
+multiply_by_q(const qdot_row_space *f, double *x)
 {
     for (size_t k = f->rank; k-- > 0;) {
         size_t row = f->order[k];
 
-        reflect(f->rows + row * f->n + k, f->beta[row], f->n - k, x + k);
+        apply_reflection(f->rows + row * f->n + k, f->beta[row], f->n - k, x + k);
     }
 }
 
@@ -142,7 +142,7 @@ qdot_row_space_shortest(qdot_row_space *f, const double *b, double *x, double *l
     }
     memset(x, 0, n * sizeof *x);
     memcpy(x, z, rank * sizeof *x);
-    turn_back(f, x);
+    multiply_by_q(f, x);
     if (!lambda)
         return;
     memset(lambda, 0, f->m * sizeof *lambda);
@@ -163,8 +163,8 @@ qdot_row_space_tangent(qdot_row_space *f, double *x)
     for (size_t k = 0; k < f->rank; k++) {
         size_t row = f->order[k];
 
-        reflect(f->rows + row * f->n + k, f->beta[row], f->n - k, x + k);
+        apply_reflection(f->rows + row * f->n + k, f->beta[row], f->n - k, x + k);
     }
     memset(x, 0, f->rank * sizeof *x);
-    turn_back(f, x);
+    multiply_by_q(f, x);
 }

@@ -17,10 +17,10 @@
 
 #include "base/status.h"
 
-/* Work space for matrices of at most m x n; nothing is allocated after _init. */
+/* Work space for matrices of at most m x n; nothing is allocated after qdot_row_space_init. */
 typedef struct {
     size_t m, n, rank;
-    size_t *order; /* [m] rows by pivot: the first `rank` are independent */
+    size_t *order; /* [m] rows in the order in which they were pivots: the first `rank` are independent */
     double *rows;  /* [m x n] L left of its diagonal, Householder vectors right of it */
     double *diagonal; /* [m] the diagonal of L, by row */
     double *size;  /* [m] length of each row of A */
@@ -42,7 +42,7 @@ void qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool 
 void qdot_row_space_shortest(qdot_row_space *f, const double *b, double *x,
                              double *lambda);
 
-/* Remove the component in the row space from x [n]: the rest is tangent to A x = const. */
+/* Remove from x [n] its component in the row space of A: the rest is tangent to A x = const. */
 void qdot_row_space_tangent(qdot_row_space *f, double *x);
 
 #endif

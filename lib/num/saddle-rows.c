@@ -1,16 +1,16 @@
-/* saddle-rows.c -- finds rows of A that have shrunk to rounding error or depend on others. */
+/* saddle-rows.c -- finds rows of A that have shrunk to rounding errors or depend on other rows. */
 #include <math.h>
 
 #include "num/saddle.h"
 
-/* A row has faded if its squared norm falls below this fraction of its largest. */
+/* A row counts as lost in rounding errors if its squared norm falls below this fraction of its largest one. */
 static const double faded = 1e-14;
 
-/* A row is part of a dependency if its coefficient, relative to the largest, is above this. */
+/* A row takes part in a linear dependency if its coefficient, relative to the largest, is above this. */
 static const double participates = 1e-6;
 
 static double
-squared(const qdot_saddle *s, size_t k)
+squared_row_norm(const qdot_saddle *s, size_t k)
 {
     return qdot_saddle_row(s, k, s->A + k * s->n);
 }
@@ -18,20 +18,20 @@ squared(const qdot_saddle *s, size_t k)
 bool
 qdot_saddle_has_faded(const qdot_saddle *s, size_t k)
 {
-    return squared(s, k) < faded * s->widest[k];
+    return squared_row_norm(s, k) < faded * s->widest[k];
 }
 
 double
 qdot_saddle_remains(const qdot_saddle *s, size_t k)
 {
-    return s->widest[k] > 0 ? sqrt(squared(s, k) / s->widest[k]) : 1;
+    return s->widest[k] > 0 ? sqrt(squared_row_norm(s, k) / s->widest[k]) : 1;
 }
 
 bool
 qdot_saddle_widens(const qdot_saddle *s)
 {
     for (size_t k = 0; k < s->m; k++)
-        if (s->widest[k] > 0 && squared(s, k) > 4 * s->widest[k])
+        if (s->widest[k] > 0 && squared_row_norm(s, k) > 4 * s->widest[k])
             return true;
     return false;
 }
@@ -42,7 +42,7 @@ qdot_saddle_faded(qdot_saddle *s)
     size_t found = s->m;
 
     for (size_t k = 0; k < s->m; k++) {
-        const double sum = squared(s, k);
+        const double sum = squared_row_norm(s, k);
 
         if (sum > s->widest[k])
             s->widest[k] = s->aside ? s->widest[k] : sum;
@@ -75,7 +75,7 @@ qdot_saddle_weakest(qdot_saddle *s, double *row, double *column)
 /* Express column k by the first `sound` pivots, into s->u; returns how many take part and marks
  * them in `part`. */
 static size_t
-depend(const qdot_saddle *s, size_t k, size_t sound, const double *part, size_t *met)
+express_by_pivots(const qdot_saddle *s, size_t k, size_t sound, const double *part, size_t *met)
 {
     const size_t n = s->n;
     size_t count = 0;
@@ -100,8 +100,8 @@ depend(const qdot_saddle *s, size_t k, size_t sound, const double *part, size_t 
  * is none of those that make up for the lost rank, no longer than these and one that shares rows with them. m: there is
  * none. */
 static size_t
-next_dependency(const qdot_saddle *s, size_t sound, bool lost, const double *part, size_t longest,
-                size_t *count)
+find_next_dependency(const qdot_saddle *s, size_t sound, bool lost, const double *part, size_t longest,
+                     size_t *count)
 {
     size_t next = s->m;
 
@@ -110,9 +110,9 @@ next_dependency(const qdot_saddle *s, size_t sound, bool lost, const double *par
 
         if (part[s->pivot[k]] > 0)
             continue;
-        taking_part = depend(s, k, sound, part, &met);
+        taking_part = express_by_pivots(s, k, sound, part, &met);
         if (!lost && (met == 0 || taking_part > longest))
-            continue; /* a redundant row that is not part of this dependency */
+            continue; /* skip a redundant row that is not part of this dependency */
         if (next == s->m || taking_part < *count) {
             next = k;
             *count = taking_part;
@@ -125,7 +125,7 @@ void
 qdot_saddle_parts(qdot_saddle *s, double below, double *part)
 {
     const size_t last = s->last, rank = s->rank < s->m ? s->rank : s->m;
-    size_t sound = 0; /* number of pivots that are not small */
+    size_t sound = 0; /* number of pivots that are not small, so that their rows are independent */
     size_t longest = 0, count = 0, k;
 
     for (k = 0; k < s->m; k++)
@@ -138,10 +138,10 @@ qdot_saddle_parts(qdot_saddle *s, double below, double *part)
     for (size_t found = 0;; found++) {
         size_t met;
 
-        k = next_dependency(s, sound, found < rank - sound, part, longest, &count);
+        k = find_next_dependency(s, sound, found < rank - sound, part, longest, &count);
         if (k == s->m)
             return;
-        (void)depend(s, k, sound, part, &met);
+        (void)express_by_pivots(s, k, sound, part, &met);
         longest = count > longest ? count : longest;
         part[s->pivot[k]] = 1;
         for (size_t j = 0; j < sound; j++)

@@ -28,17 +28,17 @@ static const double nothing = 0x1p-92, lightest = 0x1p-14;
  * largest. */
 static const double shrunk = 0x1p-10;
 
-/* Up to this many unknowns an inverse is computed if there are many right-hand sides. */
+/* Up to this many unknowns the inverse is computed if there are many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
 static double
-weight_of(const qdot_saddle *s, size_t k)
+multiplier_weight(const qdot_saddle *s, size_t k)
 {
     return s->weight ? s->weight[k] : 1;
 }
 
 static size_t
-saddle_row_width(const qdot_saddle *s)
+padded_row_width(const qdot_saddle *s)
 {
     return (s->n + s->m + lanes - 1) / lanes * lanes;
 }
@@ -71,7 +71,7 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
     s->y = qdot_calloc(all, sizeof *s->y);
     s->keep = qdot_calloc(all, sizeof *s->keep);
     if (inverted)
-        s->inverse = qdot_calloc(saddle_row_width(s) * (n + m), sizeof *s->inverse);
+        s->inverse = qdot_calloc(padded_row_width(s) * (n + m), sizeof *s->inverse);
     s->start = qdot_calloc(m + 1, sizeof *s->start);
     s->column = qdot_calloc(m * n + 1, sizeof *s->column);
     if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->widest ||
@@ -178,9 +178,9 @@ add_multiple(size_t n, double c, const double *a, double *y)
 
 /* --- factorisation of the system ---------------------------------------------------- */
 
-/* A power of two that scales x to about 1: 2^-k, with its square if `root`; 1 for x = 0. */
+/* A power of two that scales x to about 1; if `root`, one whose square does; 1 for x = 0. */
 static double
-scale_of(double x, bool root)
+scale_to_one(double x, bool root)
 {
     int k = x > 0 && isfinite(x) ? ilogb(x) : 0;
 
@@ -204,13 +204,13 @@ scale_unknowns(qdot_saddle *s)
         *was = fmax(*was, mass);
         if (*was == 0)
             *was = most;
-        s->d[i] = scale_of(fmax(mass, lightest * *was), true);
+        s->d[i] = scale_to_one(fmax(mass, lightest * *was), true);
     }
 }
 
-/* The size relative to which row k of R, which has that norm, is judged. */
+/* The size relative to which row k of the scaled matrix R = E A D is judged to be small; `norm`: its norm. */
 static double
-size_of_row(const qdot_saddle *s, size_t k, double norm)
+reference_size_of_row(const qdot_saddle *s, size_t k, double norm)
 {
     const double *A = s->A + k * s->n;
     double least;
@@ -223,7 +223,7 @@ size_of_row(const qdot_saddle *s, size_t k, double norm)
 
 /* Compute S = D M D and the rows of R = E A D, where D and E are diagonal scales. */
 static void
-saddle_scale(qdot_saddle *s)
+scale_matrices(qdot_saddle *s)
 {
     const size_t n = s->n;
 
@@ -236,16 +236,16 @@ saddle_scale(qdot_saddle *s)
 
         for (size_t i = 0; i < n; i++)
             row[i] = s->A[k * n + i] * s->d[i];
-        s->e[k] = scale_of(size_of_row(s, k, sqrt(dot_product(n, row, row))), false);
+        s->e[k] = scale_to_one(reference_size_of_row(s, k, sqrt(dot_product(n, row, row))), false);
         for (size_t i = 0; i < n; i++)
             row[i] *= s->e[k];
         s->pivot[k] = k;
     }
 }
 
-/* Move the remaining column of largest norm to position k; returns its norm. */
+/* Move the remaining column of largest norm to position k as pivot; returns its norm. */
 static double
-bring_forward(qdot_saddle *s, size_t k)
+choose_pivot_column(qdot_saddle *s, size_t k)
 {
     const size_t n = s->n;
     double most = -1;
@@ -276,7 +276,7 @@ bring_forward(qdot_saddle *s, size_t k)
 
 /* Apply a reflection: x -= beta v (v . x) with v = (1, column k below its diagonal). */
 static void
-reflect(const qdot_saddle *s, size_t k, double *x)
+apply_reflection(const qdot_saddle *s, size_t k, double *x)
 {
     const double *v = s->R + k * s->n;
     double sum = x[k] + dot_product(s->n - k - 1, v + k + 1, x + k + 1);
@@ -286,9 +286,9 @@ reflect(const qdot_saddle *s, size_t k, double *x)
     add_multiple(s->n - k - 1, -sum, v + k + 1, x + k + 1);
 }
 
-/* Reflect column k (Householder), whose norm from row k on is given. */
+/* Apply the Householder reflection that eliminates column k below row k, where it has the given norm. */
 static void
-column_reflect(qdot_saddle *s, size_t k, double norm)
+reflect_column(qdot_saddle *s, size_t k, double norm)
 {
     const size_t n = s->n;
     double *column = s->R + k * n, head = column[k];
@@ -303,12 +303,12 @@ column_reflect(qdot_saddle *s, size_t k, double norm)
         column[i] /= head - diagonal;
     column[k] = diagonal;
     for (size_t j = k + 1; j < s->m; j++)
-        reflect(s, k, s->R + j * n);
+        apply_reflection(s, k, s->R + j * n);
 }
 
-/* Factor A^T: find R, the reflections and the rank. */
+/* Factor A^T by Householder reflections: find the triangle R, the reflections and the rank. */
 static qdot_status
-triangulate(qdot_saddle *s, size_t *failed)
+factor_constraints(qdot_saddle *s, size_t *failed)
 {
     const size_t n = s->n, most = s->m < n ? s->m : n;
     const bool known = s->rank != QDOT_SADDLE_UNKNOWN;
@@ -319,7 +319,7 @@ triangulate(qdot_saddle *s, size_t *failed)
     s->surplus = 0;
     for (k = 0; k < most; k++) {
         QDOT_TRY(qdot_interrupt_check());
-        norm = bring_forward(s, k);
+        norm = choose_pivot_column(s, k);
         if (!isfinite(norm))
             break;
         if (k == 0)
@@ -331,7 +331,7 @@ triangulate(qdot_saddle *s, size_t *failed)
         s->quality = first > 0 ? norm / first : 0;
         if (known && !(norm > lost * first))
             break;
-        column_reflect(s, k, norm);
+        reflect_column(s, k, norm);
     }
     s->last = k;
     if (!isfinite(norm) || (known && k < s->rank)) {
@@ -353,21 +353,21 @@ form_Q(qdot_saddle *s)
         double *column = s->Q + j * n;
 
         column[j] = 1;
-        for (size_t k = s->rank; k-- > 0;) /* Q e_j = H_1 ... H_r e_j */
-            reflect(s, k, column);
+        for (size_t k = s->rank; k-- > 0;) /* multiply the reflections: Q e_j = H_1 ... H_r e_j */
+            apply_reflection(s, k, column);
     }
 }
 
-/* Multiply: y = S x. */
+/* Multiply by the scaled mass matrix: y = S x. */
 static void
-times_mass(const qdot_saddle *s, const double *x, double *y)
+multiply_by_mass(const qdot_saddle *s, const double *x, double *y)
 {
     for (size_t i = 0; i < s->n; i++)
         y[i] = dot_product(s->n, s->S + i * s->n, x);
 }
 
 static qdot_status
-factor_free(qdot_saddle *s, size_t *failed)
+factor_in_null_space(qdot_saddle *s, size_t *failed)
 {
     const size_t n = s->n, r = s->rank, f = n - r;
     size_t where = 0;
@@ -375,7 +375,7 @@ factor_free(qdot_saddle *s, size_t *failed)
 
     for (size_t j = 0; j < f; j++) {
         QDOT_TRY(qdot_interrupt_check());
-        times_mass(s, s->Q + (r + j) * n, s->w);
+        multiply_by_mass(s, s->Q + (r + j) * n, s->w);
         for (size_t i = j; i < f; i++)
             s->N[i * f + j] = dot_product(n, s->Q + (r + i) * n, s->w);
     }
@@ -386,7 +386,7 @@ factor_free(qdot_saddle *s, size_t *failed)
                            : qdot_cholesky_factor(s->N, f, NULL, &where);
     if (status == QDOT_OK)
         return QDOT_OK;
-    /* report the unknown that this direction moves most */
+    /* report the unknown that moves most in the direction in which the matrix is singular */
     *failed = 0;
     for (size_t i = 1; i < n; i++)
         if (fabs(s->Q[(r + where) * n + i]) > fabs(s->Q[(r + where) * n + *failed]))
@@ -397,7 +397,7 @@ factor_free(qdot_saddle *s, size_t *failed)
 /* R E^-1 W (unscaled multipliers over their weights) = T^T V^T, V's columns orthonormal, by
  * Gram-Schmidt twice. V by columns, T by rows. */
 static void
-orthogonalise(qdot_saddle *s)
+orthogonalise_multipliers(qdot_saddle *s)
 {
     const size_t m = s->m, r = s->rank;
 
@@ -406,7 +406,7 @@ orthogonalise(qdot_saddle *s)
 
         for (size_t k = 0; k < m; k++)
             v[k] = k < j ? 0
-                         : s->R[k * s->n + j] / s->e[s->pivot[k]] * weight_of(s, s->pivot[k]);
+                         : s->R[k * s->n + j] / s->e[s->pivot[k]] * multiplier_weight(s, s->pivot[k]);
         for (size_t i = 0; i < j; i++)
             s->T[i * m + j] = 0;
         for (int twice = 0; twice < 2; twice++)
@@ -426,7 +426,7 @@ orthogonalise(qdot_saddle *s)
 /* Factor by the pattern and return the independence of the rows; without a mass somewhere the
  * pattern is not used again. */
 static double
-factor_pattern(qdot_saddle *s)
+factor_sparse(qdot_saddle *s)
 {
     const double left = sqrt(qdot_sparse_factor(&s->sparse));
 
@@ -434,16 +434,16 @@ factor_pattern(qdot_saddle *s)
     return left;
 }
 
-/* Factor by the sparsity pattern; false if that is impossible or not accurate enough. */
+/* Factor by the sparsity pattern of M and A; false if that is impossible or not accurate enough. */
 static bool
-factor_directly(qdot_saddle *s)
+factor_sparse_if_accurate(qdot_saddle *s)
 {
     const bool known = s->rank == s->m;
     double left;
 
     if (!s->patterned || (!known && s->rank != QDOT_SADDLE_UNKNOWN))
         return false;
-    left = factor_pattern(s);
+    left = factor_sparse(s);
     if (!s->patterned)
         return false;
     if (left > more * s->record) {
@@ -458,19 +458,19 @@ qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed)
 {
     s->factored++;
     s->direct = false;
-    saddle_scale(s);
-    QDOT_TRY(triangulate(s, failed));
+    scale_matrices(s);
+    QDOT_TRY(factor_constraints(s, failed));
     form_Q(s);
-    QDOT_TRY(factor_free(s, failed));
+    QDOT_TRY(factor_in_null_space(s, failed));
     if (s->rank < s->m)
-        orthogonalise(s);
+        orthogonalise_multipliers(s);
     return QDOT_OK;
 }
 
 qdot_status
 qdot_saddle_factor(qdot_saddle *s, size_t *failed)
 {
-    if (!factor_directly(s))
+    if (!factor_sparse_if_accurate(s))
         return qdot_saddle_factor_fully(s, failed);
     s->factored++;
     s->direct = true;
@@ -486,7 +486,7 @@ qdot_saddle_independence(qdot_saddle *s)
     double found = 0;
 
     if (s->patterned && s->rank == s->m) {
-        found = factor_pattern(s);
+        found = factor_sparse(s);
         if (s->patterned)
             return found;
         found = 0;
@@ -501,7 +501,7 @@ qdot_saddle_independence(qdot_saddle *s)
 
 /* --- solution of the system --------------------------------------------------------- */
 
-/* Find the multipliers mu, scaled back, from u = Y^T (b - M x). */
+/* Find the Lagrange multipliers mu in original scale from u = Y^T (b - M x). */
 static void
 multipliers(qdot_saddle *s, double *u, double *mu)
 {
@@ -526,13 +526,13 @@ multipliers(qdot_saddle *s, double *u, double *mu)
 
         for (size_t j = 0; j < r; j++)
             sum += s->V[j * m + k] * u[j];
-        mu[s->pivot[k]] = sum * weight_of(s, s->pivot[k]);
+        mu[s->pivot[k]] = sum * multiplier_weight(s, s->pivot[k]);
     }
 }
 
-/* Solve by the null space of A. */
+/* Solve the system by the null space of A. */
 static void
-saddle_solve_null_space(qdot_saddle *s)
+solve_in_null_space(qdot_saddle *s)
 {
     const size_t n = s->n, r = s->rank, f = n - r;
     double *x = s->x, *c = s->x + n, *u = s->u, *w = s->w, *y = s->y;
@@ -550,7 +550,7 @@ saddle_solve_null_space(qdot_saddle *s)
     for (size_t i = 0; i < n; i++)
         x[i] *= s->d[i];
     if (f > 0) {
-        times_mass(s, y, w);
+        multiply_by_mass(s, y, w);
         for (size_t i = 0; i < n; i++)
             w[i] = x[i] - w[i];
         for (size_t j = 0; j < f; j++)
@@ -562,7 +562,7 @@ saddle_solve_null_space(qdot_saddle *s)
         for (size_t j = 0; j < f; j++)
             add_multiple(n, u[j], s->Q + (r + j) * n, y);
     }
-    times_mass(s, y, w);
+    multiply_by_mass(s, y, w);
     for (size_t i = 0; i < n; i++)
         w[i] = x[i] - w[i];
     for (size_t j = 0; j < r; j++)
@@ -578,12 +578,12 @@ qdot_saddle_solve(qdot_saddle *s)
     if (s->direct)
         qdot_sparse_solve(&s->sparse, s->x);
     else
-        saddle_solve_null_space(s);
+        solve_in_null_space(s);
 }
 
-/* Add a b to the sum, in twice the precision. */
+/* Add the product a b to a sum, in twice the precision. */
 static void
-sum_add_product(qdot_sum *sum, double a, double b)
+add_product(qdot_sum *sum, double a, double b)
 {
     double p = a * b;
 
@@ -591,7 +591,7 @@ sum_add_product(qdot_sum *sum, double a, double b)
     sum->carry += fma(a, b, -p);
 }
 
-/* Subtract K x from b, in twice the precision. */
+/* Subtract K x from the right-hand side b, in twice the precision. */
 static void
 subtract_product(const qdot_saddle *s, const double *x, double *b)
 {
@@ -601,9 +601,9 @@ subtract_product(const qdot_saddle *s, const double *x, double *b)
         qdot_sum left = {.sum = b[i]};
 
         for (size_t j = 0; j < n; j++)
-            sum_add_product(&left, i < n ? -s->M[i * n + j] : -s->A[(i - n) * n + j], x[j]);
+            add_product(&left, i < n ? -s->M[i * n + j] : -s->A[(i - n) * n + j], x[j]);
         for (size_t k = 0; i < n && k < m; k++)
-            sum_add_product(&left, -s->A[k * n + i], x[n + k]);
+            add_product(&left, -s->A[k * n + i], x[n + k]);
         b[i] = qdot_sum_value(&left);
     }
 }
@@ -633,7 +633,7 @@ qdot_saddle_solve_refined(qdot_saddle *s)
 void
 qdot_saddle_prepare(qdot_saddle *s)
 {
-    const size_t all = s->n + s->m, w = saddle_row_width(s);
+    const size_t all = s->n + s->m, w = padded_row_width(s);
 
     for (size_t j = 0; s->inverse && j < all; j++) {
         memset(s->x, 0, all * sizeof *s->x);
@@ -652,6 +652,6 @@ qdot_saddle_apply(qdot_saddle *s)
         qdot_saddle_solve(s);
         return;
     }
-    qdot_series_kernels_get()->multiply(saddle_row_width(s), all, s->inverse, s->x, s->keep);
+    qdot_series_kernels_get()->multiply(padded_row_width(s), all, s->inverse, s->x, s->keep);
     memcpy(s->x, s->keep, all * sizeof *s->x);
 }

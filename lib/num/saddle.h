@@ -41,7 +41,7 @@
 #include "num/ldlt.h"
 #include "num/sparse.h"
 
-/* Work space for systems of one size; nothing is allocated after _init. */
+/* Work space for linear systems of one size; nothing is allocated after qdot_saddle_init. */
 typedef struct {
     size_t n, m;
     double *M; /* [n x n] written by the caller, both triangles */
@@ -51,35 +51,35 @@ typedef struct {
 
     size_t rank;      /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
     double quality;   /* |R_rr / R_11| of the last factorisation; 1 if r is 0 */
-    double surplus;   /* |R_kk / R_11| of the largest column left out; 0 if there is none */
+    double surplus;   /* |R_kk / R_11| of the largest column beyond the rank, which was left out; 0 if there is none */
     size_t factored;  /* how many factorisations have been made */
     size_t last;      /* position of the last pivot; after a failure, of the pivot that failed */
     size_t *pivot;    /* [m] the rows of A in the order of pivoting */
     double *widest; /* [m] largest squared norm of each row of A so far; the caller may set a start value */
-    bool aside;       /* the rows of A at this state do not update `widest` */
+    bool aside;       /* do not let the rows of A at this state update `widest` */
     double *heaviest; /* [n] largest value of each diagonal entry of M so far */
 
     bool indefinite; /* Z^T M Z is factored as LDL^T, otherwise by Cholesky */
     double *d, *e;   /* [n], [m] scale factors of unknowns and of rows of A */
     double *S;       /* [n x n] the scaled matrix M */
     double *Q;       /* [n x n] transposed: row j is column j of Q */
-    double *R; /* [m x n] row j is column j of the reduced A^T P: R, then Householder vectors */
+    double *R; /* [m x n] row j is column j of the triangular factor of A^T, with Householder vectors below it */
     double *beta;    /* [m] factors of the Householder reflections */
     double *N;       /* [n x n] Z^T M Z, then its factors */
     double *V, *T;   /* [m x m] the factors of R^T = V T if r < m */
     double *inverse; /* [w x (n + m)] columns of the inverse, padded to w >= n + m, whole vectors */
-    double *u, *w, *y, *keep; /* [n + m + 8] scratch, each */
+    double *u, *w, *y, *keep; /* [n + m + 8] each: scratch */
     qdot_ldlt ldlt;
 
     size_t *start; /* [m + 1] row i of A may be non-zero at column[start[i]] ... column[start[i + 1] - 1] */
     uint32_t *column; /* [start[m]] the columns of these entries */
     bool patterned;   /* the caller gave the pattern of A; otherwise all entries count */
     qdot_sparse sparse;
-    double record; /* largest `quality` that a sparse factorisation has found so far */
+    double record; /* the largest `quality` (smallest pivot ratio) that a sparse factorisation has found so far */
     bool direct;   /* the last factorisation was the sparse one */
 } qdot_saddle;
 
-/* Position of an entry of M or A. */
+/* The position (row and column) of an entry of M or A. */
 typedef struct {
     uint32_t row, column;
 } qdot_saddle_entry;
@@ -99,7 +99,7 @@ QDOT_MUST_CHECK qdot_status qdot_saddle_pattern(qdot_saddle *s, size_t masses,
                                                 size_t slopes,
                                                 const qdot_saddle_entry *of_A);
 
-/* Row k of A times x [n]; _row_size: sum |A_ki| max(|x_i|, least). */
+/* Row k of A times x [n]; qdot_saddle_row_size: sum |A_ki| max(|x_i|, least). */
 double qdot_saddle_row(const qdot_saddle *s, size_t k, const double *x);
 double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
                             double least);
@@ -108,13 +108,13 @@ double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
  * there is none. Call it once before each factorisation. */
 size_t qdot_saddle_faded(qdot_saddle *s);
 
-/* Whether the norm of a row is more than twice its largest value so far. */
+/* Whether the norm of some row of A is more than twice its largest value so far. */
 bool qdot_saddle_widens(const qdot_saddle *s);
 
-/* Whether row k had shrunk to rounding error at that call. */
+/* Whether row k of A had shrunk to rounding errors at the latest call of qdot_saddle_faded. */
 bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
-/* The length of row k relative to its largest at earlier calls; 1 at the first call. */
+/* The length of row k of A relative to its largest at earlier calls of qdot_saddle_faded; 1 at the first call. */
 double qdot_saddle_remains(const qdot_saddle *s, size_t k);
 
 /* Factor for M and A, which are kept. QDOT_ESINGULAR: A has lost rank
@@ -129,10 +129,10 @@ QDOT_MUST_CHECK qdot_status qdot_saddle_factor_fully(qdot_saddle *s, size_t *fai
  * factorisation, and not usable for solving. */
 double qdot_saddle_independence(qdot_saddle *s);
 
-/* Solve for s->x, which holds the right-hand side. */
+/* Solve the system for s->x, which holds the right-hand side before and the solution afterwards. */
 void qdot_saddle_solve(qdot_saddle *s);
 
-/* Solve for s->x, and correct it once by the residual in twice the precision. */
+/* Solve the system for s->x, and correct the solution once by the residual in twice the precision. */
 void qdot_saddle_solve_refined(qdot_saddle *s);
 
 /* For many right-hand sides: call _prepare once, then _apply for each s->x. Its error is usually

@@ -1,4 +1,4 @@
-/* series.c -- the kernels of series.def for each kind of processor, and their selection. */
+/* series.c -- the functions of series.def compiled for each kind of processor, and their selection. */
 #include "num/series.h"
 
 #include <math.h>
@@ -29,13 +29,13 @@ qdot_series_weights_set(qdot_series_weights *w, int p, double term, double fall)
         w->upper[k] = upper ? (from + fall * (p - k)) / k : INFINITY;
         w->lower[k] = lower ? (from + term) / k : INFINITY;
     }
-    /* 0 is read as 2^-bias, and infinity or NaN as 2^(bias + 1) */
+    /* read 0 as 2^-bias, and infinity or NaN as 2^(bias + 1) */
     w->upper_most = (bias - 1) / p;
     w->lower_most = half >= 2 ? (bias - 1 + term) / half : INFINITY;
     w->lower_least = half >= 2 ? (term - bias) / half : -INFINITY;
 }
 
-/* log2 of the largest coefficient of order k; -inf if all are 0, inf if one is not finite. */
+/* The logarithm log2 of the largest coefficient of order k; -inf if all are 0, inf if one is not finite. */
 static double
 log_largest(size_t n, const double *x, size_t stride, const double *scale, int k)
 {
@@ -51,7 +51,7 @@ log_largest(size_t n, const double *x, size_t stride, const double *scale, int k
     return log2(most);
 }
 
-/* The reach of a series for any coefficients, also 0 and not finite. */
+/* How far a Taylor series can be used (its reach), for any coefficients, also 0 and not finite ones. */
 static qdot_series_reach
 reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights *w,
              const double *scale)
@@ -104,7 +104,7 @@ rest_of_product(four_doubles a, four_doubles b, four_doubles p)
 #define FOUR_REST(a, b, p) rest_of_product(a, b, p)
 #define FOUR_SUMS(a, b, c, d)                                                            \
     ((portable_four){(a)[0] + (a)[1], (b)[0] + (b)[1], (c)[0] + (c)[1], (d)[0] + (d)[1]})
-/* a in the lanes where the comparison holds, else b */
+/* Take a in those lanes in which the comparison holds, else b. */
 #define PORTABLE_PICK(bits, a, b, compared)                                              \
     (((bits)(a) & (bits)((a)compared(b))) | ((bits)(b) & ~(bits)((a)compared(b))))
 typedef int32_t portable_halves __attribute__((vector_size(16), aligned(8)));

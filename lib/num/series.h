@@ -21,13 +21,13 @@
 
 #include <stddef.h>
 
-/* The highest order for which there are unrolled functions. */
+/* The highest order of a Taylor series for which there are unrolled functions. */
 #define QDOT_SERIES_MOST 48
 
-/* sum_{j=0..n-1} a[j] b[-j], for the n for which it was compiled. */
+/* The sum of products sum_{j=0..n-1} a[j] b[-j], for the n for which the function was compiled. */
 typedef double qdot_series_dot(const double *a, const double *b);
 
-/* The two sums of a[j] b[-j] and a[j] c[-j] over j = 0..n-1. */
+/* The sums of the products a[j] b[-j] and a[j] c[-j] over j = 0..n-1. */
 typedef struct {
     double b, c;
 } qdot_series_two;
@@ -60,12 +60,12 @@ typedef struct {
     const double *x; /* [n x stride] Taylor coefficients: order k of component i at x[i stride + k] */
     size_t stride;
     int p;
-    double s, unit;          /* the time advances by unit * s */
+    double s, unit;          /* the time advances by `unit` times s */
     /* All of these arrays have room for 8 more numbers: */
-    const double *y, *carry; /* [n] the state, and its low part: the state is y + carry */
+    const double *y, *carry; /* [n] the state as two doubles: it is y + carry */
     double *next, *next_carry;
-    const double *least;  /* [n] lower bound of the sizes, positive (ode/scale.h) */
-    double *size, *scale; /* [n] max(least, |next|), and its inverse */
+    const double *least;  /* [n] positive lower bounds of the sizes of the components (ode/scale.h) */
+    double *size, *scale; /* [n] size of each component, max(least, |next|), and the inverse of the size */
     /* [n] Only for components from `linked` on: the derivative at the end times the step, sum k
      * x_k s^k, and the sum of the sizes of its terms, of x_1 s and of `size`. */
     double *slope, *terms;
@@ -74,7 +74,7 @@ typedef struct {
 typedef struct {
     const char *name; /* kind of processor: "portable", "avx2", "avx512" */
 
-    /* dot[n], pair[n]: sums of n products, n = 0 ... QDOT_SERIES_MOST + 1 */
+    /* dot[n], pair[n]: functions that sum n products, n = 0 ... QDOT_SERIES_MOST + 1 */
     qdot_series_dot *dot[QDOT_SERIES_MOST + 2];
     qdot_series_pair *pair[QDOT_SERIES_MOST + 2];
 
@@ -90,7 +90,7 @@ typedef struct {
     void (*tails)(size_t n, const double *x, size_t stride, int p, double s,
                   double *value, double *slope);
 
-    /* A bound for the change of one series: sum_{k=1..p} |x_k| |s|^k. */
+    /* A bound for the change of a variable by its Taylor series: sum_{k=1..p} |x_k| |s|^k. */
     double (*span)(const double *x, int p, double s);
 
     /* peaks[k] = max_i scale[i] |x[i stride + k]|, k = 0 ... p, infinite or NaN if a coefficient
@@ -108,20 +108,20 @@ typedef struct {
     qdot_series_reach (*reach)(size_t n, const double *x, size_t stride,
                                const qdot_series_weights *w, const double *scale);
 
-    /* Advance a state by its series (qdot_series_step). */
+    /* Advance a state by its Taylor series (qdot_series_step). */
     void (*advance)(const qdot_series_step *step);
 
     /* y [m] = sum_{j=0..n-1} A[j m + ...] x[j], m a multiple of 8: a matrix by its
      * columns, filled up to m rows. y may not be x. */
     void (*multiply)(size_t m, size_t n, const double *A, const double *x, double *y);
-    /* y[j] += c a[j], j = 0 ... n-1 */
+    /* Add a multiple of a vector: y[j] += c a[j], j = 0 ... n-1. */
     void (*add)(size_t n, double c, const double *a, double *y);
 } qdot_series_kernels;
 
 /* The best kernels that this processor can run. */
 const qdot_series_kernels *qdot_series_kernels_get(void);
 
-/* Kind i of those this processor can run, the portable one first; NULL past the last. */
+/* Kind i of kernels among those that this processor can run, the portable one first; NULL past the last. */
 const qdot_series_kernels *qdot_series_kernels_at(size_t i);
 
 #endif

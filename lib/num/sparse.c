@@ -1,4 +1,4 @@
-/* sparse.c -- sparse LDL^T: ordering by minimum degree, fill-in pattern, factorisation by rows. */
+/* sparse.c -- sparse LDL^T factorisation: minimum degree ordering, fill-in pattern, factorisation by rows. */
 #include "num/sparse.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ qdot_sparse_clear(qdot_sparse *s)
 
 /* --- the order of elimination ------------------------------------------------------- */
 
-/* Unknowns not yet eliminated, with their neighbours. */
+/* The graph of the unknowns that are not eliminated yet; neighbours share an entry of the matrix. */
 typedef struct {
     size_t n, positive;
     bool *beside;   /* [n x n] whether two unknowns are neighbours */
@@ -41,7 +41,7 @@ typedef struct {
 } graph;
 
 static void
-graph_join(graph *g, uint32_t a, uint32_t b)
+join_unknowns(graph *g, uint32_t a, uint32_t b)
 {
     if (a == b || g->beside[a * g->n + b])
         return;
@@ -53,7 +53,7 @@ graph_join(graph *g, uint32_t a, uint32_t b)
 }
 
 static uint32_t
-graph_next_pivot(const graph *g)
+choose_next_pivot(const graph *g)
 {
     uint32_t best = 0;
     size_t least = SIZE_MAX;
@@ -66,9 +66,9 @@ graph_next_pivot(const graph *g)
     return best;
 }
 
-/* Eliminate u: its neighbours become neighbours of each other; returns their number. */
+/* Eliminate the unknown u: its neighbours become neighbours of each other; returns their number. */
 static size_t
-graph_eliminate(graph *g, uint32_t u)
+eliminate_unknown(graph *g, uint32_t u)
 {
     size_t count = 0;
 
@@ -82,7 +82,7 @@ graph_eliminate(graph *g, uint32_t u)
     g->degree[u] = SIZE_MAX;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++)
-            graph_join(g, g->near[i], g->near[j]);
+            join_unknowns(g, g->near[i], g->near[j]);
     return count;
 }
 
@@ -93,8 +93,8 @@ static qdot_status
 find_order(qdot_sparse *s, graph *g, numbers *columns)
 {
     for (size_t k = 0; k < s->n; k++) {
-        uint32_t u = graph_next_pivot(g);
-        size_t count = graph_eliminate(g, u);
+        uint32_t u = choose_next_pivot(g);
+        size_t count = eliminate_unknown(g, u);
 
         s->order[k] = u;
         s->column_start[k + 1] = s->column_start[k] + count;
@@ -105,7 +105,7 @@ find_order(qdot_sparse *s, graph *g, numbers *columns)
 }
 
 static qdot_status
-sparse_order(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, numbers *columns)
+find_sparse_order(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, numbers *columns)
 {
     const size_t n = s->n;
     graph g = {.n = n, .positive = s->positive};
@@ -117,7 +117,7 @@ sparse_order(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, num
     g.near = qdot_calloc(n + 1, sizeof *g.near);
     if (g.beside && g.degree && g.waits && g.near) {
         for (size_t i = 0; i < count; i++)
-            graph_join(&g, entries[i].row, entries[i].column);
+            join_unknowns(&g, entries[i].row, entries[i].column);
         status = find_order(s, &g, columns);
     }
     qdot_free(g.beside);
@@ -138,7 +138,7 @@ by_number(const void *a, const void *b)
 }
 
 static int
-by_row(const void *a, const void *b)
+compare_by_row(const void *a, const void *b)
 {
     const qdot_sparse_entry *x = a, *y = b;
 
@@ -146,15 +146,15 @@ by_row(const void *a, const void *b)
 }
 
 static void
-counts_to_starts(size_t n, size_t *start)
+replace_counts_by_starts(size_t n, size_t *start)
 {
     for (size_t k = 0; k < n; k++)
         start[k + 1] += start[k];
 }
 
-/* Store the columns of L by position, each ascending, and the same entries by rows. */
+/* Store the columns of the factor L, each ascending by position, and the same entries by rows. */
 static qdot_status
-lay_out(qdot_sparse *s, const uint32_t *place, const numbers *columns)
+store_pattern(qdot_sparse *s, const uint32_t *place, const numbers *columns)
 {
     const size_t n = s->n;
     size_t *at = qdot_calloc(n + 1, sizeof *at);
@@ -172,7 +172,7 @@ lay_out(qdot_sparse *s, const uint32_t *place, const numbers *columns)
         s->column_row[i] = place[columns->at[i]];
         s->row_start[s->column_row[i] + 1]++;
     }
-    counts_to_starts(n, s->row_start);
+    replace_counts_by_starts(n, s->row_start);
     memcpy(at, s->row_start, n * sizeof *at);
     for (size_t k = 0; k < n; k++) {
         size_t from = s->column_start[k], to = s->column_start[k + 1];
@@ -189,10 +189,10 @@ lay_out(qdot_sparse *s, const uint32_t *place, const numbers *columns)
     return QDOT_OK;
 }
 
-/* Store the given entries, permuted to the lower triangle, by rows. */
+/* Store the given entries, permuted to the lower triangle, row by row. */
 static qdot_status
-take_entries(qdot_sparse *s, const uint32_t *place, size_t count,
-             const qdot_sparse_entry *entries)
+store_entries(qdot_sparse *s, const uint32_t *place, size_t count,
+              const qdot_sparse_entry *entries)
 {
     s->given = qdot_calloc(count + 1, sizeof *s->given);
     if (!s->given)
@@ -203,8 +203,8 @@ take_entries(qdot_sparse *s, const uint32_t *place, size_t count,
         s->given[i] = (qdot_sparse_entry){a > b ? a : b, a > b ? b : a, entries[i].value};
         s->given_start[s->given[i].row + 1]++;
     }
-    qsort(s->given, count, sizeof *s->given, by_row);
-    counts_to_starts(s->n, s->given_start);
+    qsort(s->given, count, sizeof *s->given, compare_by_row);
+    replace_counts_by_starts(s->n, s->given_start);
     return QDOT_OK;
 }
 
@@ -226,13 +226,13 @@ qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive, size_t count,
     s->low = qdot_calloc(n + 1, sizeof *s->low);
     if (place && s->order && s->given_start && s->row_start && s->column_start &&
         s->inverse && s->y && s->low)
-        status = sparse_order(s, count, entries, &columns);
+        status = find_sparse_order(s, count, entries, &columns);
     for (size_t k = 0; status == QDOT_OK && k < n; k++)
         place[s->order[k]] = (uint32_t)k;
     if (status == QDOT_OK)
-        status = lay_out(s, place, &columns);
+        status = store_pattern(s, place, &columns);
     if (status == QDOT_OK)
-        status = take_entries(s, place, count, entries);
+        status = store_entries(s, place, count, entries);
     qdot_free(columns.at);
     qdot_free(place);
     return status;
@@ -240,7 +240,7 @@ qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive, size_t count,
 
 /* --- factorisation and solution ----------------------------------------------------- */
 
-/* Compute row k of L, and its D; *made: the value from which D was computed, to judge its accuracy. */
+/* Compute row k of L, and entry k of D; *made: the value from which D was computed, to judge its accuracy. */
 static double
 factor_row(qdot_sparse *s, size_t k, double *made)
 {
@@ -310,7 +310,7 @@ qdot_sparse_solve(const qdot_sparse *s, double *b)
     memset(y, 0, s->n * sizeof *y);
 }
 
-/* *hi + *low -= a x */
+/* Subtract a product from a number in two doubles: *hi + *low -= a x. */
 static inline void
 two_subtract_product(double a, double x, double *hi, double *low)
 {

@@ -30,7 +30,7 @@ typedef struct {
 
 typedef struct {
     size_t n, positive;
-    uint32_t *order; /* [n] the unknown at each place of the elimination order */
+    uint32_t *order; /* [n] the unknown at each position of the elimination order */
     /* Offsets of the given entries by row, of the rows of K, and of the columns of L. */
     size_t *given_start, *row_start, *column_start; /* [n + 1] each */
     qdot_sparse_entry *given;
@@ -56,7 +56,7 @@ void qdot_sparse_clear(qdot_sparse *s);
  * before it. 0, with the factors undefined, if a sign is wrong or something is not finite. */
 double qdot_sparse_factor(qdot_sparse *s);
 
-/* Solve with the factors in s; b [n] is overwritten by the solution. */
+/* Solve a linear system with the factors in s; b [n] is overwritten by the solution. */
 void qdot_sparse_solve(const qdot_sparse *s, double *b);
 
 /* Subtract K x from b, for the given matrix K, in twice the precision. */

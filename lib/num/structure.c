@@ -1,10 +1,10 @@
-/* structure.c -- connected blocks by union-find, numbered in order of first appearance. */
+/* structure.c -- finds blocks of connected unknowns by union-find, numbered in order of first appearance. */
 #include "num/structure.h"
 
 #include "base/memory.h"
 
 static size_t
-block_root(size_t *parent, size_t i)
+find_block_root(size_t *parent, size_t i)
 {
     while (parent[i] != i) {
         parent[i] = parent[parent[i]];
@@ -15,10 +15,10 @@ block_root(size_t *parent, size_t i)
 
 /* Join two blocks: the smaller root becomes the root of both, so a block's root is its first member. */
 static void
-blocks_join(size_t *parent, size_t i, size_t j)
+join_blocks(size_t *parent, size_t i, size_t j)
 {
-    i = block_root(parent, i);
-    j = block_root(parent, j);
+    i = find_block_root(parent, i);
+    j = find_block_root(parent, j);
     if (i < j)
         parent[j] = i;
     else
@@ -27,10 +27,10 @@ blocks_join(size_t *parent, size_t i, size_t j)
 
 /* Count the members of each block, then list them: a counting sort by block. */
 static void
-blocks_collect(qdot_structure *s, size_t *parent, size_t *block)
+collect_blocks(qdot_structure *s, size_t *parent, size_t *block)
 {
     for (size_t i = 0; i < s->n; i++) {
-        size_t r = block_root(parent, i);
+        size_t r = find_block_root(parent, i);
 
         block[i] = r == i ? s->blocks++ : block[r];
         s->start[block[i] + 1]++;
@@ -60,8 +60,8 @@ qdot_structure_find(const bool *pattern, size_t n, qdot_structure *out)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
                 if (i != j && pattern[i * n + j])
-                    blocks_join(parent, i, j);
-        blocks_collect(out, parent, block);
+                    join_blocks(parent, i, j);
+        collect_blocks(out, parent, block);
         status = QDOT_OK;
     } else {
         qdot_structure_clear(out);

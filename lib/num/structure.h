@@ -16,7 +16,7 @@
 
 typedef struct {
     size_t n;      /* number of unknowns */
-    size_t blocks; /* number of blocks */
+    size_t blocks; /* number of blocks of connected unknowns */
     size_t *start; /* [blocks + 1] block b is index[start[b]] .. index[start[b + 1] - 1] */
     size_t *index; /* [n] unknowns: ascending within a block, blocks by their first unknown */
 } qdot_structure;

@@ -39,7 +39,7 @@ qdot_sum_value(const qdot_sum *s)
     return s->sum + s->carry;
 }
 
-/* Add x to a value kept as hi + lo, and keep |lo| <= ulp(hi)/2. */
+/* Add x to a number kept as hi + lo, and keep |lo| <= ulp(hi)/2. */
 static inline void
 qdot_sum_advance(double *hi, double *lo, double x)
 {

@@ -1,4 +1,4 @@
-/* two.c -- functions of sums of two doubles, for each kind of processor. */
+/* two.c -- functions of numbers that are sums of two doubles, for each kind of processor. */
 #include "num/two.h"
 
 #include <stdbool.h>
@@ -8,12 +8,12 @@
 
 #include "num/kinds.h"
 
-enum { QUARTER = 512, POWERS = 64 }; /* table steps: of an angle up to pi/2, of a power up to 2 */
+enum { QUARTER = 512, POWERS = 64 }; /* table sizes: steps of an angle up to pi/2, steps of a power of two up to 2 */
 
-/* For larger arguments three doubles of the step are not enough for the reduction. */
+/* For larger arguments three doubles of the table step are not enough to reduce the angle. */
 static const double most_angle = 0x1p40;
 
-/* pi/(2 QUARTER) and log(2)/POWERS, in three doubles each */
+/* the table steps pi/(2 QUARTER) and log(2)/POWERS, in three doubles each */
 static double angle_step[3], power_step[3];
 static qdot_two sines[QUARTER + 1], powers[POWERS];
 

@@ -23,7 +23,7 @@ typedef struct {
 /* Inlined into kernels that are compiled for several processors. */
 #define QDOT_TWO_INLINE static inline __attribute__((always_inline))
 
-/* a + b rounded, and the rounding error (as qdot_two_sum of num/sum.h). */
+/* The sum a + b rounded, and its rounding error (as qdot_two_sum of num/sum.h). */
 QDOT_TWO_INLINE double
 qdot_two_rounded_sum(double a, double b, double *e)
 {
@@ -33,7 +33,7 @@ qdot_two_rounded_sum(double a, double b, double *e)
     return s;
 }
 
-/* The number hi + lo, where |lo| does not exceed |hi|. */
+/* The number hi + lo as a pair, where |lo| must not exceed |hi|. */
 QDOT_TWO_INLINE qdot_two
 qdot_two_of(double hi, double lo)
 {
@@ -144,15 +144,15 @@ qdot_two_dot_value(qdot_two_dot d)
     return qdot_two_of(d.sum, d.rest);
 }
 
-/* Sums of products in twice the precision, for one kind of processor. */
+/* Functions for sums of products in twice the precision, compiled for one kind of processor. */
 typedef struct {
     qdot_two (*mul)(qdot_two a, qdot_two b);
-    /* The products sum_{j<n} a[j] b[j] and sum_{j<n} a[j] b[-j]. */
+    /* The sums of products sum_{j<n} a[j] b[j] and sum_{j<n} a[j] b[-j]. */
     qdot_two (*dot)(size_t n, const qdot_two *a, const qdot_two *b);
     qdot_two (*convolve)(size_t n, const qdot_two *a, const qdot_two *b);
-    /* two[k] = s^k for k <= m and power[k] = s^k, as a double, for k <= p; p >= m >= 1 */
+    /* Compute powers of s: two[k] = s^k for k <= m, power[k] = s^k as a double for k <= p; p >= m >= 1. */
     void (*powers)(qdot_two s, int m, int p, qdot_two *two, double *power);
-    /* sum_{k=0..m} first[k] two[k] + sum_{k=m+1..p} x[k] power[k] */
+    /* Sum a Taylor series: sum_{k=0..m} first[k] two[k] + sum_{k=m+1..p} x[k] power[k]. */
     qdot_two (*series)(int m, int p, const qdot_two *first, const qdot_two *two,
                        const double *x, const double *power);
 } qdot_two_kernels;
@@ -180,9 +180,9 @@ typedef struct {
     qdot_two (*erfc)(qdot_two x);
 } qdot_two_functions;
 
-/* The best functions that this processor can run; the first call fills their tables. */
+/* The best functions that this processor can run; their tables are filled by the first call. */
 const qdot_two_functions *qdot_two_functions_get(void);
-/* Kind i of those this processor can run, the portable one first; NULL past the last. */
+/* Kind i of functions among those that this processor can run, the portable one first; NULL past the last. */
 const qdot_two_functions *qdot_two_functions_at(size_t i);
 
 #endif

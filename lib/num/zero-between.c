@@ -5,12 +5,12 @@
 #include <float.h>
 #include <math.h>
 
-/* The most steps of the method; the number of intervals that are searched for a change of sign. */
+/* The most steps of the method; the number of parts of the interval that are searched for a change of sign. */
 enum { MOST_STEPS = 60, PARTS = 16 };
 
-/* Evaluate the only function at u; NaN if undefined. Its error goes to s->error[0]. */
+/* Evaluate the only function of the problem at u; NaN if undefined. Its error goes to s->error[0]. */
 static qdot_status
-between_value(qdot_zero_search *s, double u, double *f)
+evaluate_at(qdot_zero_search *s, double u, double *f)
 {
     QDOT_TRY(s->p->at(&u, f, s->error, NULL, s->p->user));
     return QDOT_OK;
@@ -19,7 +19,7 @@ between_value(qdot_zero_search *s, double u, double *f)
 /* Find the first interval of a grid whose ends differ in sign, or its point of smallest |f|. *end
  * [2], *f [2]. */
 static qdot_status
-search_signs(qdot_zero_search *s, double *end, double *f, bool *found)
+search_sign_change(qdot_zero_search *s, double *end, double *f, bool *found)
 {
     const double low = s->p->low[0], high = s->p->high[0];
     double last = NAN, least = INFINITY, at = low;
@@ -29,7 +29,7 @@ search_signs(qdot_zero_search *s, double *end, double *f, bool *found)
         const double u = i == PARTS ? high : low + (high - low) * i / PARTS;
         double one;
 
-        QDOT_TRY(between_value(s, u, &one));
+        QDOT_TRY(evaluate_at(s, u, &one));
         *found = (last < 0 && one >= 0) || (last > 0 && one <= 0);
         if (*found) {
             end[0] = at;
@@ -47,9 +47,9 @@ search_signs(qdot_zero_search *s, double *end, double *f, bool *found)
     return QDOT_OK;
 }
 
-/* The next u: by Newton's method if that stays between the ends and converges fast enough; else the middle. */
+/* The next u to try: by Newton's method if it stays between the ends and converges fast enough; else the middle. */
 static double
-next_place(const qdot_zero_search *s, const double *end, double slope, double last_move)
+next_trial_value(const qdot_zero_search *s, const double *end, double slope, double last_move)
 {
     const double u = s->r->u[0], to = u - s->r->f[0] / slope;
     const double a = fmin(end[0], end[1]), b = fmax(end[0], end[1]);
@@ -57,9 +57,9 @@ next_place(const qdot_zero_search *s, const double *end, double slope, double la
     return to > a && to < b && fabs(to - u) < last_move / 2 ? to : a + (b - a) / 2;
 }
 
-/* Find the zero between ends [2], where f [2] differs in sign, by Newton's method and bisection. */
+/* Find the zero between ends [2], where the function values f [2] differ in sign, by Newton's method and bisection. */
 static qdot_status
-between_refine(qdot_zero_search *s, double *end, double *f)
+refine_between_ends(qdot_zero_search *s, double *end, double *f)
 {
     qdot_zero_result *r = s->r;
     double move = INFINITY;
@@ -79,7 +79,7 @@ between_refine(qdot_zero_search *s, double *end, double *f)
             s->order = 1;
         }
         if (!(s->slope[0] != 0) ||
-            !isfinite(s->slope[0])) /* no slope is known: use that of the chord */
+            !isfinite(s->slope[0])) /* the derivative is not known: use the slope of the chord between the ends */
             s->slope[0] = (f[1] - f[0]) / (end[1] - end[0]);
         (void)qdot_zero_find_step(s);
         qdot_zero_estimate_order(s);
@@ -91,7 +91,7 @@ between_refine(qdot_zero_search *s, double *end, double *f)
         }
         end[(r->f[0] < 0) == (f[0] < 0) ? 0 : 1] = r->u[0];
         f[(r->f[0] < 0) == (f[0] < 0) ? 0 : 1] = r->f[0];
-        r->u[0] = next_place(s, end, s->slope[0], move);
+        r->u[0] = next_trial_value(s, end, s->slope[0], move);
         move = fabs(r->u[0] - before);
     }
     qdot_zero_state_errors(s);
@@ -104,12 +104,12 @@ qdot_zero_find_between(qdot_zero_search *s)
     double end[2] = {s->p->low[0], s->p->high[0]}, f[2];
     bool found;
 
-    QDOT_TRY(between_value(s, end[0], &f[0]));
-    QDOT_TRY(between_value(s, end[1], &f[1]));
+    QDOT_TRY(evaluate_at(s, end[0], &f[0]));
+    QDOT_TRY(evaluate_at(s, end[1], &f[1]));
     found = (f[0] < 0 && f[1] > 0) || (f[0] > 0 && f[1] < 0);
     if (!found)
-        QDOT_TRY(search_signs(s, end, f, &found));
+        QDOT_TRY(search_sign_change(s, end, f, &found));
     s->r->answer = QDOT_ZERO_SLOW;
-    return found ? between_refine(s, end, f) : qdot_zero_descend(s);
+    return found ? refine_between_ends(s, end, f) : qdot_zero_descend(s);
 }
 

@@ -1,4 +1,4 @@
-/* zero-family.c -- decides whether a zero belongs to a family, in directions in which J is singular. */
+/* zero-family.c -- decides whether a zero of F belongs to a continuous family, where the Jacobian J is singular. */
 #include "num/zero-parts.h"
 
 #include <math.h>
@@ -21,23 +21,23 @@ enum { CORRECTIONS = 6 };
 
 typedef enum {
     OTHER, /* another zero was found, at least half as far away as the step */
-    BACK,  /* Newton's corrections lead back to the known zero */
+    BACK,  /* Newton's corrections lead back to the zero from which the test started */
     LOST   /* Newton's corrections do not converge to a zero */
 } beside_answer;
 
 typedef struct {
     qdot_zero_search *s;
-    size_t rank;        /* rank of J at the zero */
+    size_t rank;        /* rank of the Jacobian J at the zero */
     bool first_order;
-    double *u, *error;  /* [n] the zero, and its error */
+    double *u, *error;  /* [n] the zero, and its error bounds */
     double *ways, *way; /* [n x n] directions as columns, of which the last n - rank do not change F; [n] one direction */
-    double *f;          /* [2m] F at the trial point, then the errors of F */
+    double *f;          /* [2m] function values F at the trial point, then their errors */
 } family;
 
 /* Start h units beside the zero along `way`, and make `corrections` corrections. J at the zero is
  * overwritten. */
 static qdot_status
-look_beside(const family *x, double h, int corrections, beside_answer *answer)
+search_zero_beside(const family *x, double h, int corrections, beside_answer *answer)
 {
     qdot_zero_search *s = x->s;
     const size_t n = s->p->n;
@@ -71,21 +71,21 @@ look_beside(const family *x, double h, int corrections, beside_answer *answer)
 
 /* Find the smallest distance along `way`, in its units, at which F is distinguishable from 0. */
 static qdot_status
-find_open(const family *x, double *open)
+find_distance_without_zero(const family *x, double *open)
 {
     beside_answer answer = BACK;
 
     for (*open = beside[0]; *open > nearest; *open /= 10) {
-        QDOT_TRY(look_beside(x, *open / 10, 0, &answer));
+        QDOT_TRY(search_zero_beside(x, *open / 10, 0, &answer));
         if (answer == OTHER)
             break;
     }
     return QDOT_OK;
 }
 
-/* Examine the k-th direction: OTHER if the zero belongs to a family along it; else *open. */
+/* Test the k-th direction: OTHER if the zero belongs to a family along it; else *open: the distance without zeros. */
 static qdot_status
-look_along(const family *x, size_t k, beside_answer *answer, double *open)
+test_direction(const family *x, size_t k, beside_answer *answer, double *open)
 {
     const size_t n = x->s->p->n, most = x->first_order ? sizeof beside / sizeof *beside : 1;
     double one;
@@ -98,7 +98,7 @@ look_along(const family *x, size_t k, beside_answer *answer, double *open)
         for (size_t i = 0; i < most; i++) {
             beside_answer this;
 
-            QDOT_TRY(look_beside(x, beside[i], CORRECTIONS, &this));
+            QDOT_TRY(search_zero_beside(x, beside[i], CORRECTIONS, &this));
             if (this == OTHER)
                 *answer = OTHER;
             if (this == OTHER)
@@ -106,14 +106,14 @@ look_along(const family *x, size_t k, beside_answer *answer, double *open)
             if (this == BACK)
                 *answer = BACK;
         }
-        QDOT_TRY(find_open(x, &one));
+        QDOT_TRY(find_distance_without_zero(x, &one));
         *open = fmax(*open, one);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-look_along_all(const family *x)
+test_all_directions(const family *x)
 {
     qdot_zero_search *s = x->s;
     const size_t n = s->p->n;
@@ -123,7 +123,7 @@ look_along_all(const family *x)
         beside_answer answer;
         double open;
 
-        QDOT_TRY(look_along(x, k, &answer, &open));
+        QDOT_TRY(test_direction(x, k, &answer, &open));
         isolated += answer == BACK;
         s->r->vague_rank = s->r->vague_rank || answer == LOST;
         for (size_t j = 0; j < n && answer == BACK; j++)
@@ -134,7 +134,7 @@ look_along_all(const family *x)
 }
 
 static void
-keep_zero(const family *x, bool back)
+restore_zero(const family *x, bool back)
 {
     const size_t n = x->s->p->n, m = x->s->p->m;
     double *const there[] = {x->u, x->error, x->f, x->f + m};
@@ -160,8 +160,8 @@ qdot_zero_verify_family(qdot_zero_search *s)
     x.way = x.error + n;
     x.f = x.way + n;
     x.ways = x.f + 2 * m;
-    keep_zero(&x, false);
-    status = qdot_zero_evaluate(s); /* J may have been computed elsewhere */
+    restore_zero(&x, false);
+    status = qdot_zero_evaluate(s); /* evaluate again, since the Jacobian J may have been computed at another point */
     (void)qdot_zero_find_step(s);
     x.rank = s->r->rank;
     x.first_order = s->order < of_first_order &&
@@ -170,8 +170,8 @@ qdot_zero_verify_family(qdot_zero_search *s)
         for (size_t k = 0; k < n; k++)
             x.ways[j * n + k] = gsl_matrix_get(s->V, j, k);
     if (status == QDOT_OK)
-        status = look_along_all(&x);
-    keep_zero(&x, true);
+        status = test_all_directions(&x);
+    restore_zero(&x, true);
     qdot_free(x.u);
     return status;
 }

@@ -10,7 +10,7 @@ typedef struct {
     const qdot_zero_problem *p;
     qdot_zero_result *r;
     double *slope;             /* [m x n] the derivatives J of F at r->u */
-    double *u, *f, *error;     /* [n], [m], [m] the end of a step; F there and its error */
+    double *u, *f, *error;     /* [n], [m], [m] the end point of a step; F at this point and its error */
     double *trial;             /* [n] scratch: a trial point */
     double *unit, *unit_f;     /* [n], [m] scale of each unknown and of each function */
     double *small;             /* [m] a function smaller than this may count as 0 */
@@ -23,32 +23,32 @@ typedef struct {
     double *last_u, *last; /* [n] the point at which `order` was estimated last, and `whole` at that point */
     bool has_last;             /* whether last_u and last are set */
     double reach;              /* the longest step allowed where J is nearly singular */
-    double *step, *whole;      /* [n] the step, and the full step without damping (mu = 0) */
-    double *from_error;        /* [n] the change of the step that the errors of F cause */
+    double *step, *whole;      /* [n] the step taken, and the full Newton step without damping (mu = 0) */
+    double *from_error;        /* [n] the change of the step caused by the errors of F */
     gsl_matrix *U, *V;
     gsl_vector *singular, *work;
 } qdot_zero_search;
 
 /* --- steps of the search (zero-step.c) --- */
 
-/* Evaluate F, its errors and its Jacobian J at r->u. */
+/* Evaluate the function F, its errors and its Jacobian J at r->u. */
 QDOT_MUST_CHECK qdot_status qdot_zero_evaluate(qdot_zero_search *s);
-/* The value u, moved inside the bounds of the j-th unknown if it lies outside. */
+/* The value u of the j-th unknown, moved to the nearer bound if it lies outside its bounds. */
 double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
-/* The norm of the function values f, each in its own unit. */
+/* The norm of the function values f, each measured in its own unit. */
 double qdot_zero_norm(const qdot_zero_search *s, const double *f);
-/* Choose units of unknowns and functions from J at r->u. */
+/* Choose units of the unknowns and of the functions from the Jacobian J at r->u. */
 void qdot_zero_choose_units(qdot_zero_search *s);
 /* Whether |F| fell, from r->f to f along the fraction `part` of the step, by at least half of what
  * J predicts. */
 bool qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part);
-/* The Newton step [n] for values f [m] with this J; returns its length in units of the unknowns. */
+/* Compute the Newton step [n] for values f [m] with the present Jacobian; returns its length in units of the unknowns. */
 double qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step);
-/* Find the step, the errors of the unknowns and the rank. False: J is 0 to rounding, or not finite. */
+/* Find the step, the errors of the unknowns and the rank of J. False: J is 0 to rounding, or not finite. */
 bool qdot_zero_find_step(qdot_zero_search *s);
-/* Whether f [m] is 0 within its errors [m] and rounding. */
+/* Whether all function values f [m] are 0 within their errors [m] and rounding. */
 bool qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const double *error);
-/* Whether the step is so small that errors of F and rounding can explain it. */
+/* Whether the Newton step is so small that errors of F and rounding can explain it. */
 bool qdot_zero_step_is_nothing(const qdot_zero_search *s);
 /* Whether F is 0 within its errors and rounding of u, which are small beside what F was at the guess, or beside what
  * it is made of: where the last bit of u moves F by as much as the guess was off, nothing is found. */

@@ -10,12 +10,12 @@
 
 #include "base/memory.h"
 
-/* Each new search begins this many times farther from the guess than the last; the first at 0.04. */
+/* Each new search starts this many times farther from the guess than the one before; the first starts at 0.04. */
 static const double farther = 1.6;
 /* Where J is nearly singular, the first step is no longer than first_reach, in units of the unknowns, and each one after
  * a whole step no longer than `reaching` times that. */
 static const double first_reach = 0.1, reaching = 4;
-/* How strongly large |F| shortens the steps of a search at first. */
+/* How strongly large values |F| shorten the steps of a search at first. */
 static const double damping = 0.01;
 /* The most steps of a search, halvings of a step, steps within which |F| must halve, and further searches. */
 enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PATIENCE = 8, TRIES = 8 };
@@ -25,7 +25,7 @@ enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PATIENCE = 8, TRIES = 8 };
 /* Move along the step, halved until |F|, or the next step with this J, becomes smaller. *gone: that
  * succeeded. */
 static qdot_status
-walk_along(qdot_zero_search *s, bool *gone)
+walk_along_step(qdot_zero_search *s, bool *gone)
 {
     const size_t n = s->p->n;
     const double size = qdot_zero_norm(s, s->r->f);
@@ -46,7 +46,7 @@ walk_along(qdot_zero_search *s, bool *gone)
         if (s->damping == 0)
             *gone = qdot_zero_is_predicted(s, s->f, part);
         else
-            *gone = qdot_zero_norm(s, s->f) < size /* false for NaN */
+            *gone = qdot_zero_norm(s, s->f) < size /* false also for NaN */
                     || qdot_zero_take_step(s, s->f, s->trial) < (1 - part / 4) * s->length;
     }
     if (*gone)
@@ -54,9 +54,9 @@ walk_along(qdot_zero_search *s, bool *gone)
     return QDOT_OK;
 }
 
-/* Search by Newton's method from r->u on; give up if |F| does not halve within some steps. */
+/* Search by Newton's method from r->u; give up if |F| does not halve within PATIENCE steps. */
 static qdot_status
-descend_once(qdot_zero_search *s)
+search_from_start(qdot_zero_search *s)
 {
     qdot_zero_result *r = s->r;
     double before = INFINITY;
@@ -88,7 +88,7 @@ descend_once(qdot_zero_search *s)
             before = size;
         }
         if (gone)
-            QDOT_TRY(walk_along(s, &gone));
+            QDOT_TRY(walk_along_step(s, &gone));
         if (!gone) {
             r->answer = qdot_zero_is_zero(s) ? QDOT_ZERO_FOUND : QDOT_ZERO_NONE;
             break;
@@ -101,7 +101,7 @@ descend_once(qdot_zero_search *s)
     return QDOT_OK;
 }
 
-/* Copy the result of a search. */
+/* Copy the result of a search from one structure to another. */
 static void
 copy_result(const qdot_zero_search *s, const qdot_zero_result *from, qdot_zero_result *to)
 {
@@ -119,15 +119,15 @@ copy_result(const qdot_zero_search *s, const qdot_zero_result *from, qdot_zero_r
  * short that |F| hardly falls. The search then goes on from there without damping, with steps that may grow as long as
  * J predicts F at their ends; if these find no zero, its result is the place where the damped search ended (crept). */
 static qdot_status
-search_once(qdot_zero_search *s, qdot_zero_result *crept, bool *done)
+search_with_and_without_damping(qdot_zero_search *s, qdot_zero_result *crept, bool *done)
 {
     const qdot_zero_problem *p = s->p;
 
-    QDOT_TRY(descend_once(s));
+    QDOT_TRY(search_from_start(s));
     if (s->gave_up && s->r->answer == QDOT_ZERO_NONE && !p->once) {
         copy_result(s, s->r, crept);
         s->damping = 0;
-        QDOT_TRY(descend_once(s));
+        QDOT_TRY(search_from_start(s));
         s->damping = damping;
         if (s->r->answer != QDOT_ZERO_FOUND)
             copy_result(s, crept, s->r);
@@ -136,9 +136,9 @@ search_once(qdot_zero_search *s, qdot_zero_result *crept, bool *done)
     return *done && p->wanted ? p->wanted(s->r->u, s->r->rank, done, p->user) : QDOT_OK;
 }
 
-/* Whether this search found a zero, or came nearer to one, in units of F [m] at the guess. */
+/* Whether this search found a zero, or came nearer to one than *best, measured in the units of F [m] at the guess. */
 static bool
-is_better(const qdot_zero_search *s, const double *unit_f, const qdot_zero_result *best)
+is_better_result(const qdot_zero_search *s, const double *unit_f, const qdot_zero_result *best)
 {
     double most = 0, most_best = 0;
 
@@ -173,7 +173,7 @@ qdot_zero_descend(qdot_zero_search *s)
     if (guess == NULL)
         return QDOT_ENOMEM;
     memcpy(guess, s->r->u, n * sizeof *guess);
-    status = search_once(s, &crept, &done);
+    status = search_with_and_without_damping(s, &crept, &done);
     copy_result(s, s->r, &best);
     memcpy(unit_f, s->unit_f, m * sizeof *unit_f);
     for (int k = 1; k <= TRIES && status == QDOT_OK && !done && !s->p->once; k++) {
@@ -185,8 +185,8 @@ qdot_zero_descend(qdot_zero_search *s)
                                 guess[j] + s->unit[j] * pow(farther, k) / 40 *
                                                ((double)(drawn >> 33) / 1073741824.0 - 1));
         }
-        status = search_once(s, &crept, &done);
-        if (is_better(s, unit_f, &best))
+        status = search_with_and_without_damping(s, &crept, &done);
+        if (is_better_result(s, unit_f, &best))
             copy_result(s, s->r, &best);
     }
     if (!done)
@@ -198,7 +198,7 @@ qdot_zero_descend(qdot_zero_search *s)
 /* --- the whole search ---------------------------------------------------------------------------- */
 
 static bool
-zero_search_allocate(qdot_zero_search *s)
+allocate_search(qdot_zero_search *s)
 {
     const size_t n = s->p->n, m = s->p->m, rows = m > n ? m : n;
     double *room = qdot_calloc(m * n + 8 * n + 4 * m + 1, sizeof *room);
@@ -235,7 +235,7 @@ qdot_zero_find(const qdot_zero_problem *p, qdot_zero_result *r)
     qdot_status status = QDOT_ENOMEM;
 
     r->steps = 0;
-    if (zero_search_allocate(&s))
+    if (allocate_search(&s))
         status = between ? qdot_zero_find_between(&s) : qdot_zero_descend(&s);
     if (status == QDOT_OK)
         status = qdot_zero_verify_family(&s);

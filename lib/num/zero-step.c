@@ -10,15 +10,15 @@ static const double least_singular = 1e-8;
 /* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by
  * this error then. */
 static const double finest = 1e-10;
-/* An unknown whose relative change changes F by less than this part does not affect F. */
+/* An unknown does not count as affecting F if its relative change changes F by less than this part. */
 static const double least_slope = 1e-12;
-/* If a singular value is below this part of the largest one seen, the length of steps is limited. */
+/* The length of steps is limited where a singular value of J is below this part of the largest one seen so far. */
 static const double nearly_singular = 0.3;
-/* F counts as 0 below this part of the terms of which it is the difference, unless its errors are larger. */
+/* F counts as 0 below this fraction of the terms whose difference it is, unless its errors are larger. */
 static const double least_part = 1e-6;
-/* The order of a zero is estimated only if F exceeds its error by the factor `clear`, up to highest_order. */
+/* The order of a zero, up to highest_order, is estimated only if F exceeds its error by the factor `clear`. */
 static const double clear = 100, highest_order = 20;
-/* An unknown counts as not determined if its error exceeds this fraction of it, or of its unit. */
+/* An unknown counts as not determined if its error exceeds this fraction of its value, or of its unit. */
 static const double least_known = 0.1;
 
 qdot_status
@@ -69,15 +69,15 @@ qdot_zero_choose_units(qdot_zero_search *s)
         if (s->r->f_error[i] > finest * s->unit_f[i])
             s->unit_f[i] = fmax(s->unit_f[i], fmin(s->r->f_error[i] / finest, most));
         s->unit_f[i] = s->unit_f[i] > 0 ? s->unit_f[i] : 1;
-        if (s->small[i] == 0) /* set once, at the guess */
+        if (s->small[i] == 0) /* set only once, at the guess */
             s->small[i] = fmax(fmax(1e-3 * fabs(s->r->f[i]), 1e-9 * s->unit_f[i]),
                                s->p->size != NULL ? least_part * s->p->size[i] : 0);
     }
 }
 
-/* Decompose J = U S V^T in the chosen units, with at least as many rows as columns. */
+/* Decompose the Jacobian J = U S V^T in the chosen units, filled up to at least as many rows as columns. */
 static void
-slope_decompose(qdot_zero_search *s)
+decompose_jacobian(qdot_zero_search *s)
 {
     const size_t n = s->p->n, m = s->p->m;
 
@@ -88,7 +88,7 @@ slope_decompose(qdot_zero_search *s)
     (void)gsl_linalg_SV_decomp(s->U, s->V, s->singular, s->work);
 }
 
-/* The Newton step [n] for values f [m] with this J; returns its length in units of the unknowns. */
+/* Compute the Newton step [n] for values f [m] with the present Jacobian; returns its length in units of the unknowns. */
 double
 qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step)
 {
@@ -127,7 +127,7 @@ qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part)
     return size - qdot_zero_norm(s, f) > 0.5 * (size - sqrt(sum));
 }
 
-/* Whether F is 0 within its errors and rounding. */
+/* Whether all function values f [m] are 0 within their errors [m] and rounding. */
 bool
 qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const double *error)
 {
@@ -139,9 +139,9 @@ qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const dou
     return true;
 }
 
-/* A bound below which singular values of J at a zero may be errors of J; 0 if J is exact. */
+/* A bound below which singular values of J at a zero may be due to errors of J; 0 if J is exact. */
 static double
-slope_noise(const qdot_zero_search *s)
+jacobian_noise(const qdot_zero_search *s)
 {
     const size_t n = s->p->n, m = s->p->m;
     double sum = 0;
@@ -157,7 +157,7 @@ slope_noise(const qdot_zero_search *s)
     return sqrt(sum);
 }
 
-/* Find the step, the errors of the unknowns and the rank. False: J is 0 to rounding, or not finite. */
+/* Find the step, the errors of the unknowns and the rank of J. False: J is 0 to rounding, or not finite. */
 bool
 qdot_zero_find_step(qdot_zero_search *s)
 {
@@ -172,9 +172,9 @@ qdot_zero_find_step(qdot_zero_search *s)
     for (size_t i = 0; i < m * n; i++)
         if (!isfinite(s->slope[i]))
             return false;
-    slope_decompose(s);
+    decompose_jacobian(s);
     most = gsl_vector_get(s->singular, 0);
-    noise = fmax(least_singular * most, slope_noise(s));
+    noise = fmax(least_singular * most, jacobian_noise(s));
     s->strongest = fmax(s->strongest, most);
     while (s->r->rank < n && gsl_vector_get(s->singular, s->r->rank) > noise)
         s->r->rank++;
@@ -207,7 +207,7 @@ qdot_zero_find_step(qdot_zero_search *s)
 
 /* --- accuracy of the result ------------------------------------------------------------------- */
 
-/* Whether the step is no larger than errors of F and rounding explain. */
+/* Whether the Newton step is so small that errors of F and rounding can explain it. */
 bool
 qdot_zero_step_is_nothing(const qdot_zero_search *s)
 {

@@ -31,18 +31,18 @@
 #include "base/status.h"
 
 typedef struct {
-    size_t n, m; /* number of unknowns, of functions */
+    size_t n, m; /* number of unknowns, and number of functions F */
     /* F [m] at u [n] with its errors [m] (NaN: unknown), and, unless slope is NULL, J [m x n]. F[0] = NaN: it
      * cannot be had there. */
     qdot_status (*at)(const double *u, double *f, double *error, double *slope,
                       void *user);
     void *user;
     const double *low, *high; /* [n] bounds of u; NULL or infinite: unbounded */
-    const double *unit; /* [n] scale of u, given with a guess near a zero; NULL: |u| at the guess, or 1 if that is 0 */
-    /* Set by `at`, may be NULL: errors of J [m x n], and sizes of the terms whose differences give F [m]. */
+    const double *unit; /* [n] scale of each unknown, given with a guess near a zero; NULL: |u| at the guess, 1 if u is 0 */
+    /* Set by the callback `at`; may be NULL: errors of the Jacobian [m x n]; size of the terms whose differences give F [m]. */
     const double *slope_error, *size;
-    bool once;                /* a search without result is not started again from other points */
-    bool verify;              /* test whether the unknowns that J leaves open form a family */
+    bool once;                /* make only one search: do not start again from other points if it fails */
+    bool verify;              /* test whether the unknowns that the Jacobian leaves undetermined form a family of zeros */
     /* Whether a zero, with u and rank, is acceptable; otherwise the search goes on from other
      * points. NULL: always. */
     qdot_status (*wanted)(const double *u, size_t rank, bool *is, void *user);
@@ -60,15 +60,15 @@ typedef enum {
 
 typedef struct {
     qdot_zero_answer answer;
-    double *u, *error; /* [n] in: the guess; out: the best point and its error; owned by the caller */
-    double *f, *f_error; /* [m] F at u, and its errors */
+    double *u, *error; /* [n] input: the guess; output: the best point and its error; owned by the caller */
+    double *f, *f_error; /* [m] the function values F at u, and their errors */
     size_t rank;         /* how many directions of u F fixes: that of J at the end, and more at a zero of higher
                             order */
-    bool vague_rank; /* `verify` could not decide whether the remaining directions are a family */
+    bool vague_rank; /* `verify` could not decide whether the undetermined directions belong to a family of zeros */
     size_t steps;        /* number of evaluations of J */
 } qdot_zero_result;
 
-/* Search for a zero of F. Errors: those of `at`, QDOT_ENOMEM. */
+/* Search for a zero of F. Errors: those of the callback `at`, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_zero_find(const qdot_zero_problem *p,
                                            qdot_zero_result *r);
 

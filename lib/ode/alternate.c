@@ -7,13 +7,13 @@
 #include "ode/taylor.h"
 #include "ode/whole.h"
 
-/* The number of steps between two comparisons: while the stiff method is used, and while series are. */
+/* The number of steps between two comparisons of speed, while the stiff method is used and while series are. */
 enum { looks = 32, looks_at_series = 512 };
 
-/* The factor by which series must be faster for a change, and the work (in expansions) to wait before it. */
+/* The factor by which series must be faster before the method is changed; the work to wait for that, in expansions. */
 static const double gain = 4, first_patience = 1000;
 
-/* Series are left only if at least this much work (about ns) remains. */
+/* Change from series to the stiff method only if at least this much work (in about ns) remains. */
 static const double worth_changing = 3e6;
 
 typedef struct {
@@ -22,19 +22,19 @@ typedef struct {
     const qdot_ode_method *now;      /* the method in use: the stiff one or Taylor series */
     qdot_ode_meter *meter;
     double t1;
-    double expansion; /* work of one series expansion (unit: meter.h) */
+    double expansion; /* work of one Taylor expansion (unit: meter.h) */
     double patience;  /* work during which series must win before the method changes */
     uint64_t steps;   /* steps taken since the method was last changed */
     double t, work;   /* time and work at the last comparison */
-    double won_since; /* work at the first of the latest comparisons in a row that series won; NaN: none */
+    double won_since; /* work at the first of the latest comparisons in a row that series won; NaN: they did not win the last */
     double won_at;    /* the time t of that first comparison */
-    double pace;      /* progress in t per unit of work of the stiff method since `won_at` */
-    bool over;        /* this part of the run has been ended here */
+    double pace;      /* progress in t per unit of work that the stiff method has made since `won_at` */
+    bool over;        /* this part of the run ended because the method is to be changed */
 } turns;
 
-/* Whether series have been faster for long enough and enough work is left to make a change worthwhile. */
+/* End this part if series have been faster for long enough and enough work is left to make a change worthwhile. */
 static qdot_status
-turns_compare_pace(turns *a, double t, const double *y)
+compare_with_series(turns *a, double t, const double *y)
 {
     const double pace = fabs(t - a->t) / (a->meter->work - a->work);
     double h = 0;
@@ -55,9 +55,9 @@ turns_compare_pace(turns *a, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Whether Taylor series have become slower than the stiff method was. */
+/* End this part if Taylor series have become slower than the stiff method was. */
 static void
-look_at_series(turns *a, double t)
+compare_with_stiff_method(turns *a, double t)
 {
     const double pace = fabs(t - a->t) / (a->meter->work - a->work);
 
@@ -67,7 +67,7 @@ look_at_series(turns *a, double t)
 }
 
 static qdot_status
-turns_accepted(double t, const double *y, bool *stop, void *user)
+step_accepted(double t, const double *y, bool *stop, void *user)
 {
     turns *a = user;
 
@@ -78,15 +78,15 @@ turns_accepted(double t, const double *y, bool *stop, void *user)
     if (*stop || ++a->steps % (a->now->series ? looks_at_series : looks) != 0)
         return QDOT_OK;
     if (a->now->series)
-        look_at_series(a, t);
+        compare_with_stiff_method(a, t);
     else
-        QDOT_TRY(turns_compare_pace(a, t, y));
+        QDOT_TRY(compare_with_series(a, t, y));
     *stop = a->over;
     return QDOT_OK;
 }
 
 static qdot_status
-expanded(qdot_ode_expanded *step, void *user)
+step_expanded(qdot_ode_expanded *step, void *user)
 {
     turns *a = user;
 
@@ -102,17 +102,17 @@ qdot_ode_alternates(const qdot_ode_system *system, const qdot_ode_method *method
     return options->alternates && method->stiff && method->kernel && system->series;
 }
 
-/* Integrate with one method from y at t, until it ends or is replaced; *more: another method follows. */
+/* Integrate with one method from y at t, until the run ends or the method is to be changed; *more: it is. */
 static qdot_status
-take_turn(turns *a, double t, bool first, double *y, qdot_ode_result *result, bool *more)
+integrate_with_one_method(turns *a, double t, bool first, double *y, qdot_ode_result *result, bool *more)
 {
     qdot_ode_options own = *a->options;
     qdot_status status;
 
     own.alternates = false;
     own.now = NULL;
-    own.accepted = turns_accepted;
-    own.expanded = a->options->expanded ? expanded : NULL;
+    own.accepted = step_accepted;
+    own.expanded = a->options->expanded ? step_expanded : NULL;
     own.user = a;
     own.meter = a->meter;
     own.stiff_work = worth_changing;
@@ -157,7 +157,7 @@ qdot_ode_alternate_integrate(const qdot_ode_system *system, const qdot_ode_metho
         qdot_ode_meter_begin(&meter, t0, t1);
     a.patience = first_patience * a.expansion;
     while (more && status == QDOT_OK) {
-        status = take_turn(&a, t, t == t0, y, result, &more);
+        status = integrate_with_one_method(&a, t, t == t0, y, result, &more);
         qdot_ode_stats_add(&sum, &result->stats);
         t = result->t;
         if (more && a.now->series)

@@ -24,7 +24,7 @@
 bool qdot_ode_alternates(const qdot_ode_system *system, const qdot_ode_method *method,
                          const qdot_ode_options *options);
 
-/* As qdot_ode_integrate, with changes of method. Begins with *options->now, if that is given and set. */
+/* Integrate like qdot_ode_integrate, changing methods on the way. Begins with *options->now if that is given and set. */
 QDOT_MUST_CHECK qdot_status qdot_ode_alternate_integrate(const qdot_ode_system *system,
                                                          const qdot_ode_method *method,
                                                          const qdot_ode_options *options,

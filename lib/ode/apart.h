@@ -16,7 +16,7 @@
  * its steps. */
 bool qdot_ode_is_apart(const qdot_ode_system *system, const qdot_ode_options *options);
 
-/* Copy the part's components out of y; copy them back into y. */
+/* Copy the components of a decoupled part out of y into the part's state; the second function copies them back. */
 void qdot_ode_part_gather(const qdot_ode_part *part, const double *y, double *own);
 void qdot_ode_part_scatter(const qdot_ode_part *part, const double *own, double *y);
 
@@ -25,9 +25,9 @@ void qdot_ode_part_scatter(const qdot_ode_part *part, const double *own, double 
 qdot_ode_options qdot_ode_part_options(const qdot_ode_part *part,
                                        const qdot_ode_options *whole, double *carry);
 
-/* Add the counts of a part to those of the whole. */
+/* Add the counts of steps and evaluations of a part to those of the whole. */
 void qdot_ode_part_add(qdot_ode_result *whole, const qdot_ode_result *part);
-/* If the part ended early, end the whole integration at that time. */
+/* If the integration of a part ended early, end the whole integration at that time. */
 void qdot_ode_part_end(qdot_ode_result *whole, const qdot_ode_result *part);
 
 #endif

@@ -1,4 +1,4 @@
-/* batch.c -- Taylor-series steps of independent solutions, one in each lane. */
+/* batch.c -- Taylor-series steps of many independent solutions at once, one in each vector lane. */
 #include "ode/batch.h"
 #include "ode/run.h"
 
@@ -18,24 +18,24 @@ enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60, line = 64 };
 
 static const int64_t max_steps = 50000000;
 
-/* A projection moves a state by about its own rounding error, whatever the tolerance. */
+/* A projection onto the constraints moves a state by about its own rounding error, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
-/* The fraction of the interval for a first step if the upper half of its series is 0. */
+/* The fraction of the interval for a first step if the upper half of the solution's Taylor series is 0. */
 static const double part_of_way = 0.31830988618379067;
 
-/* Data of groups of lanes; counts and flags are integers, a flag has all bits set or none. */
+/* Data of all lanes of a group, one solution in each; counts and flags are integers, a flag has all bits set or none. */
 typedef struct {
     _Alignas(64) double t[L], t1[L];
     double direction[L], unit[L], old_unit[L];
-    double end[L], h[L], most[L]; /* end and length of the step being tried; largest length allowed for now */
-    double moved[L];                  /* how far a projection moved the end of the step */
+    double end[L], h[L], most[L]; /* end and length of the step being tried; largest length allowed at present */
+    double moved[L];                  /* how far a projection onto the constraints moved the end of the step */
     double s[L], way[L], now[L]; /* s: step in units of time, with t1_low; way, now: without it, in the unit before and after */
-    int64_t active[L], tried[L]; /* flags: the lane has a solution; its step is being checked */
-    int64_t good[L], defined[L];      /* flags: the step is accepted; f is defined at its end */
+    int64_t active[L], tried[L]; /* flags: the lane has a solution; the step of this solution is being checked */
+    int64_t good[L], defined[L];      /* flags: the step is accepted; the equations are defined at its end */
     int64_t ended[L], ends[L];        /* the last series ended, and its step was good; the one
                                          being tried is such a one */
-    int64_t tries[L], rescales[L];    /* counts since the last accepted step */
+    int64_t tries[L], rescales[L];    /* counts of attempts and of changes of unit since the last accepted step */
     int64_t steps[L], rejected[L];    /* counts of the solution in the lane */
     size_t member[L];
 } lanes;
@@ -66,7 +66,7 @@ typedef struct {
     size_t n, moving, waiting; /* number of components; how many, the first, vary; next solution without a lane */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
     int64_t most_steps;
-    double log_aim; /* log2 of the error that a step aims at, as in taylor.c */
+    double log_aim; /* log2 of the error at which a step aims, as in taylor.c */
     /* By order: 1/k; log2 of how large terms may be, of the upper half beside that aim, of the
      * lower one; 0. */
     double inverse[QDOT_SERIES_MOST + 1], upper[QDOT_SERIES_MOST + 1];
@@ -75,9 +75,9 @@ typedef struct {
 
 /* --- solutions begin and end in lanes ----------------------------------------------- */
 
-/* Put the next member into lane l at its start; without a further member the lane is ignored. */
+/* Put the next solution into lane l at its start; if there is none the lane is ignored from now on. */
 static void
-lane_enter(batch *b, size_t l)
+enter_lane(batch *b, size_t l)
 {
     qdot_batch_run *run = b->run;
     lanes *a = &b->at;
@@ -108,7 +108,7 @@ lane_enter(batch *b, size_t l)
 }
 
 static void
-lane_leave(batch *b, size_t l, qdot_batch_outcome outcome)
+leave_lane(batch *b, size_t l, qdot_batch_outcome outcome)
 {
     const lanes *a = &b->at;
 
@@ -118,13 +118,13 @@ lane_leave(batch *b, size_t l, qdot_batch_outcome outcome)
                                                         .rejected = (size_t)a->rejected[l]};
     for (size_t i = 0; i < b->n; i++)
         b->run->y[a->member[l] * b->n + i] = b->y[i * L + l];
-    lane_enter(b, l);
+    enter_lane(b, l);
 }
 
 /* --- steps of all lanes ------------------------------------------------------------- */
 
 static void
-lanes_begin_series(batch *b)
+begin_series_in_lanes(batch *b)
 {
     lanes *a = &b->at;
     double t[L], *y = b->value; /* an array that is not in use here */
@@ -137,23 +137,23 @@ lanes_begin_series(batch *b)
 }
 
 static qdot_batch_series
-series_of(const batch *b)
+series_of_lanes(const batch *b)
 {
     return (qdot_batch_series){b->moving, b->system->checked, b->system->stride, b->system->x};
 }
 
 static const double *
-series_coefficient(const batch *b, size_t i, int k)
+address_of_coefficient(const batch *b, size_t i, int k)
 {
     return b->system->x + (i * b->system->stride + (size_t)k) * L;
 }
 
-/* Confirm the steps of all lanes, as `confirms` of taylor.c does for one solution. */
+/* Check the steps of all lanes by the equations at their ends, as `confirms` in taylor.c does for one solution. */
 static void
 confirm(batch *b)
 {
     lanes *a = &b->at;
-    const qdot_batch_series series = series_of(b);
+    const qdot_batch_series series = series_of_lanes(b);
     const qdot_batch_defect defect = {.slope = b->slope,
                                       .first = b->first,
                                       .next = b->next,
@@ -168,7 +168,7 @@ confirm(batch *b)
             a->good[l] = 0;
 }
 
-/* Return a lane to the start of its step, to try a quarter of the length. */
+/* Return lane l to the start of its step, to try a quarter of the length. */
 static void
 reject(batch *b, size_t l)
 {
@@ -179,13 +179,13 @@ reject(batch *b, size_t l)
     a->ended[l] = 0;
     a->unit[l] = a->direction[l] * qdot_step_unit(a->most[l]);
     if (++a->tries[l] > most_tries || a->most[l] < qdot_step_floor(a->t[l]))
-        lane_leave(b, l, QDOT_BATCH_STUCK);
+        leave_lane(b, l, QDOT_BATCH_STUCK);
 }
 
 /* Accept or reject the steps tried by the series begun at their ends. Returns whether some lane
  * must begin anew. */
 static bool
-lanes_judge(batch *b)
+judge_lanes(batch *b)
 {
     lanes *a = &b->at;
     int64_t taken[L], odd[L];
@@ -197,27 +197,27 @@ lanes_judge(batch *b)
     b->kernels->blend(b->moving, taken, b->next_carry, b->carry);
     for (size_t l = 0; b->system->taken && l < L; l++)
         if (taken[l] && b->system->taken(l, b->system->looker)) {
-            lane_leave(b, l, QDOT_BATCH_LEFT);
+            leave_lane(b, l, QDOT_BATCH_LEFT);
             odd[l] = 0;
-            again = true; /* the new solution in the lane is to be checked, too */
+            again = true; /* repeat, since the new solution in the lane is to be checked, too */
         }
     for (size_t l = 0; again && l < L; l++) {
         if (!odd[l])
             continue;
         if (!a->tried[l])
-            lane_leave(b, l, QDOT_BATCH_UNDEFINED);
+            leave_lane(b, l, QDOT_BATCH_UNDEFINED);
         else if (!taken[l])
             reject(b, l);
         else
-            lane_leave(b, l, a->t[l] == a->t1[l] ? QDOT_BATCH_DONE : QDOT_BATCH_LIMIT);
+            leave_lane(b, l, a->t[l] == a->t1[l] ? QDOT_BATCH_DONE : QDOT_BATCH_LIMIT);
     }
     memset(a->tried, 0, sizeof a->tried);
     return again;
 }
 
-/* Try a step of at most h; its end is rounded to a double, or to t1 if that is near. */
+/* Try a step of at most the length h in lane l; its end is rounded to a double, or to t1 if that is near. */
 static void
-lane_try_step(batch *b, size_t l, double h)
+try_step_in_lane(batch *b, size_t l, double h)
 {
     lanes *a = &b->at;
     double rest = a->direction[l] * (a->t1[l] - a->t[l]), end = a->t1[l];
@@ -234,7 +234,7 @@ lane_try_step(batch *b, size_t l, double h)
     a->end[l] = end;
     a->h[l] = h = end - a->t[l];
     if (end != a->t1[l] && qdot_step_is_too_short(a->t[l], fabs(h))) {
-        lane_leave(b, l, QDOT_BATCH_STUCK);
+        leave_lane(b, l, QDOT_BATCH_STUCK);
         return;
     }
     a->tried[l] = -1;
@@ -244,11 +244,11 @@ lane_try_step(batch *b, size_t l, double h)
     a->now[l] = h / a->unit[l];
 }
 
-/* Find log2 of the steps, in units, from the halves of the series: see `log_step` of taylor.c. */
+/* Find log2 of the step of each lane, in units, from both halves of the series; see `log_step` in taylor.c. */
 static void
 log_steps(const batch *b, const double *weight, double *upper, double *lower)
 {
-    const qdot_batch_series series = series_of(b);
+    const qdot_batch_series series = series_of_lanes(b);
     const int p = b->run->order;
 
     b->kernels->log_steps(&series, p / 2 + 1, p, weight, b->inverse, b->upper, upper);
@@ -258,7 +258,7 @@ log_steps(const batch *b, const double *weight, double *upper, double *lower)
 /* For lane l, whose step does not follow directly from the series: another unit, or a possible
  * step. */
 static void
-choose_step(batch *b, size_t l, double step, const double *weight)
+choose_step_of_lane(batch *b, size_t l, double step, const double *weight)
 {
     const int p = b->run->order;
     lanes *a = &b->at;
@@ -267,7 +267,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
     if (isnan(step)) {
         far = -10 - 40 * (double)a->rescales[l];
     } else if (isinf(step)) {
-        const qdot_batch_series series = series_of(b);
+        const qdot_batch_series series = series_of_lanes(b);
         double whole[L];
 
         b->kernels->log_steps(&series, 1, p, weight, b->inverse, b->nothing, whole);
@@ -277,17 +277,17 @@ choose_step(batch *b, size_t l, double step, const double *weight)
         a->unit[l] = ldexp(a->unit[l], (int)fmax(-300, fmin(300, floor(far))));
         a->rescales[l]++;
         if (!(fabs(a->unit[l]) >= DBL_MIN && isfinite(a->unit[l])))
-            lane_leave(b, l, QDOT_BATCH_STUCK);
+            leave_lane(b, l, QDOT_BATCH_STUCK);
     } else if (isnan(step)) {
-        a->h[l] = a->unit[l]; /* the point itself is good: only the step beyond it fails */
+        a->h[l] = a->unit[l]; /* the start point itself is good: only a step beyond it fails */
         reject(b, l);
     } else
-        lane_try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
+        try_step_in_lane(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
 }
 
 /* Choose the step of each lane from its series, or a new unit of time for the series. */
 static void
-choose_steps(batch *b)
+choose_steps_of_lanes(batch *b)
 {
     double upper[L], lower[L], steps[L], *weight = b->value; /* an array that is not in use here */
     int64_t left[L];
@@ -298,22 +298,22 @@ choose_steps(batch *b)
         return;
     for (size_t l = 0; l < L; l++)
         if (left[l])
-            choose_step(b, l, steps[l], weight);
+            choose_step_of_lane(b, l, steps[l], weight);
 }
 
-/* Evaluate the state at the end of each lane's step, and the slopes that verify it. */
+/* Evaluate the state at the end of each lane's step, and the time derivatives there that verify the step. */
 static void
-lanes_evaluate_ends(batch *b)
+evaluate_ends_in_lanes(batch *b)
 {
     const qdot_ode_batch *system = b->system;
-    const qdot_batch_series series = series_of(b);
+    const qdot_batch_series series = series_of_lanes(b);
 
     b->kernels->tails(&series, b->run->order, b->at.s, b->value, b->slope);
     b->kernels->advance(&series, b->at.s, b->at.old_unit, b->value,
                         (qdot_batch_sum){b->y, b->carry},
                         (qdot_batch_sum){b->next, b->next_carry});
     for (size_t i = system->checked; i < b->moving; i++)
-        memcpy(b->first + i * L, series_coefficient(b, i, 1), L * sizeof *b->first);
+        memcpy(b->first + i * L, address_of_coefficient(b, i, 1), L * sizeof *b->first);
     if (system->project) {
         double t[L];
 
@@ -327,7 +327,7 @@ lanes_evaluate_ends(batch *b)
 /* Shorten steps that would go over a part of f that is not seen where they begin: near_length of
  * taylor-length.c. */
 static void
-come_near(batch *b)
+shorten_near_hidden_parts(batch *b)
 {
     static const double narrowest = 0x1p-26;
     lanes *a = &b->at;
@@ -345,13 +345,13 @@ come_near(batch *b)
             continue;
         a->unit[l] = a->old_unit[l];
         a->tried[l] = 0;
-        lane_try_step(b, l, near[l] * fabs(a->old_unit[l]));
+        try_step_in_lane(b, l, near[l] * fabs(a->old_unit[l]));
     }
 }
 
-/* Pass the steps that lanes are about to try to the callback. */
+/* Pass the steps that the lanes are about to try to the caller's callback. */
 static qdot_status
-lanes_show(const batch *b)
+show_steps_to_caller(const batch *b)
 {
     const qdot_ode_batch *system = b->system;
     const lanes *a = &b->at;
@@ -374,7 +374,7 @@ lanes_show(const batch *b)
 }
 
 static bool
-is_active(const batch *b)
+some_lane_is_active(const batch *b)
 {
     for (size_t l = 0; l < L; l++)
         if (b->at.active[l])
@@ -383,31 +383,31 @@ is_active(const batch *b)
 }
 
 static qdot_status
-batch_loop(batch *b)
+run_batch_loop(batch *b)
 {
     const qdot_ode_batch *system = b->system;
 
     for (size_t l = 0; l < L; l++)
-        lane_enter(b, l);
-    while (is_active(b)) {
+        enter_lane(b, l);
+    while (some_lane_is_active(b)) {
         QDOT_TRY(qdot_interrupt_check());
-        lanes_begin_series(b);
-        while (lanes_judge(b)) /* f may be undefined at the start of a solution */
-            lanes_begin_series(b);
-        if (!is_active(b))
+        begin_series_in_lanes(b);
+        while (judge_lanes(b)) /* repeat, since the equations may be undefined at the start of a solution */
+            begin_series_in_lanes(b);
+        if (!some_lane_is_active(b))
             break;
         system->extend(b->run->order, system->user);
         b->run->expansions++;
-        choose_steps(b);
-        come_near(b);
-        QDOT_TRY(lanes_show(b));
-        lanes_evaluate_ends(b);
+        choose_steps_of_lanes(b);
+        shorten_near_hidden_parts(b);
+        QDOT_TRY(show_steps_to_caller(b));
+        evaluate_ends_in_lanes(b);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-batch_check(const qdot_ode_batch *system, const qdot_batch_run *run)
+check_batch_arguments(const qdot_ode_batch *system, const qdot_batch_run *run)
 {
     if (system->n == 0)
         return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
@@ -442,7 +442,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     qdot_status status;
 
     run->expansions = 0;
-    QDOT_TRY(batch_check(system, run));
+    QDOT_TRY(check_batch_arguments(system, run));
     memory = qdot_calloc(7 * size + line / sizeof *memory, sizeof *memory);
     if (!memory)
         return QDOT_ENOMEM;
@@ -460,7 +460,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
         b.upper[k] = qdot_step_fall(b.log_aim, run->order) * (run->order - k);
         b.lower[k] = qdot_step_term(log2(qdot_step_aim(term_tol, false)));
     }
-    status = batch_loop(&b);
+    status = run_batch_loop(&b);
     qdot_free(memory);
     return status;
 }

@@ -28,9 +28,9 @@ typedef struct {
     size_t lane, member;
     double t, t_end, unit;
     int order;
-    bool last;       /* t_end is the end of this solution's run */
-    const double *x; /* coefficients of the lane, see above */
-    const double *y; /* y_i = y[i QDOT_LANES] at t */
+    bool last;       /* whether t_end is the end of this solution's run */
+    const double *x; /* Taylor coefficients of the lane, stored as in the system's x */
+    const double *y; /* component y_i at t is y[i QDOT_LANES] */
 } qdot_batch_step;
 
 /* As qdot_ode_series, every number a group of lanes. A lane where f is undefined gets
@@ -41,13 +41,13 @@ typedef struct {
                         the carry of the others enters order 1 */
     size_t still;    /* number of last components that are constant: their coefficients of order 1
                         and above are 0 */
-    const double *x; /* x_ik of lane l = x[(i stride + k) QDOT_LANES + l] */
+    const double *x; /* coefficient x_ik of the solution in lane l is x[(i stride + k) QDOT_LANES + l] */
     size_t stride;
-    /* Lane `lane` now computes solution `member`: load its parameters. NULL: nothing to load. */
+    /* Called when lane `lane` begins to compute solution `member`: load its parameters. NULL: nothing to load. */
     void (*take)(size_t lane, size_t member, void *user);
-    /* Compute orders 0 and 1 through y [n groups] at t [a group], in units of time [a group]. */
+    /* Compute orders 0 and 1 of the series through y [n groups] at times t, with the given units of time. */
     void (*begin)(const double *t, const double *y, const double *unit, void *user);
-    /* Compute orders 2 ... p, after the orders below them. */
+    /* Compute orders 2 ... p of the series from the orders below them. */
     void (*extend)(int p, void *user);
     /* Project y + carry [n groups], each lane at its t [a group], as qdot_ode_system.project
      * does; moved [a group] as there, NaN in a lane in which that fails. NULL: no projection. */
@@ -82,12 +82,12 @@ typedef struct {
     size_t members;
     int order;
     double tol, term_tol; /* tolerances as in qdot_ode_options: 1e-16 to 1 */
-    const double *t0, *t1; /* [members] start and end times; t1 < t0 integrates backwards */
-    double t1_low;         /* the exact t1 less its double, the same for all members */
+    const double *t0, *t1; /* [members] start and end times; t1 < t0 means to integrate backwards */
+    double t1_low;         /* the exact t1 minus its double, the same for all members */
     uint64_t most_steps;   /* largest number of steps tried by one member; 0: 50 million */
-    double *y;             /* [members x n] in: start states; out: end states */
+    double *y;             /* [members x n] input: start states; output: end states */
     qdot_batch_result *results; /* [members] how each solution ended */
-    size_t expansions;          /* out: number of expansions; one for all lanes counts once */
+    size_t expansions;          /* output: number of expansions; one made for all lanes together counts once */
 } qdot_batch_run;
 
 /* Run all members. Errors: QDOT_EINVAL (order, tol, times or starts not finite), QDOT_ENOMEM,

@@ -1,4 +1,4 @@
-/* between.c -- the state inside a step, by a polynomial through values and slopes at three times. */
+/* between.c -- the state inside a step, by a polynomial through values and derivatives at three times. */
 #include "ode/between.h"
 
 #include <math.h>
@@ -10,11 +10,11 @@
  * tolerances at most. */
 static const double most = 4;
 
-/* The largest |x^2 (1 - x)^2 (x - 1/2)| in 0 ... 1, divided by its slope in the middle, 1/16. */
+/* The largest |x^2 (1 - x)^2 (x - 1/2)| in 0 ... 1, divided by the derivative of this in the middle, 1/16. */
 static const double largest = 0.1432;
 
 static void
-between_evaluate(size_t n, const double *P, const double *y0, double x, double *y)
+evaluate_polynomial(size_t n, const double *P, const double *y0, double x, double *y)
 {
     for (size_t i = 0; i < n; i++) {
         double sum = 0;
@@ -26,7 +26,7 @@ between_evaluate(size_t n, const double *P, const double *y0, double x, double *
 }
 
 static qdot_status
-between_find(qdot_ode_stepper *s, double t0, double h, const double *y1, double *P, bool *good)
+find_polynomial(qdot_ode_stepper *s, double t0, double h, const double *y1, double *P, bool *good)
 {
     const size_t n = s->system->n;
     double *room = P + QDOT_BETWEEN_DEGREE * n;
@@ -41,8 +41,8 @@ between_find(qdot_ode_stepper *s, double t0, double h, const double *y1, double 
     for (size_t i = 0; i < n && *good; i++) {
         const double D = y1[i] - s->y[i], E = s->trial[i] - s->y[i];
         const double a = h * s->dydt[i], b = h * room[i], middle = h * s->trial_dydt[i];
-        const double q = 16 * (E - 0.5 * D - 0.125 * (a - b)); /* coefficient of x^2 (1 - x)^2 */
-        const double r = 16 * (middle - 1.5 * D + 0.25 * (a + b)); /* coefficient of x^2 (1 - x)^2 (x - 1/2) */
+        const double q = 16 * (E - 0.5 * D - 0.125 * (a - b)); /* the polynomial's coefficient of x^2 (1 - x)^2 */
+        const double r = 16 * (middle - 1.5 * D + 0.25 * (a + b)); /* the polynomial's coefficient of x^2 (1 - x)^2 (x - 1/2) */
         const double size = qdot_ode_size(s->system->scales, i, s->y[i]);
 
         P[i] = a;
@@ -66,10 +66,10 @@ qdot_between_read(qdot_between *b, qdot_ode_stepper *s, double t0, double h, con
     if (!b->P)
         return QDOT_ENOMEM;
     if (!b->known)
-        QDOT_TRY(between_find(s, t0, h, y1, b->P, &b->good));
+        QDOT_TRY(find_polynomial(s, t0, h, y1, b->P, &b->good));
     b->known = true;
     *done = b->good;
     if (b->good)
-        between_evaluate(n, b->P, s->y, x, y);
+        evaluate_polynomial(n, b->P, s->y, x, y);
     return QDOT_OK;
 }

@@ -27,8 +27,8 @@ qdot_between_fits(const qdot_ode_method *method)
 }
 
 typedef struct {
-    double *P; /* [(DEGREE + 1) x n] coefficients P_j, then scratch [n]; allocated at first use */
-    bool known, good; /* the polynomial was computed for the present step; it is accurate enough */
+    double *P; /* [(DEGREE + 1) x n] coefficients of the polynomial, then scratch [n]; allocated at first use */
+    bool known, good; /* the polynomial was computed for the present step; and is accurate enough */
 } qdot_between;
 
 /* The state y [n] at the part x of the step from where `s`, of the partner, was started at t0, to y1 at

@@ -1,4 +1,4 @@
-/* companion-ways.c -- the methods by which companions are integrated, their starts, and their cost limits. */
+/* companion-ways.c -- the methods of companion runs (for error estimates), their starts, and their cost limits. */
 #include <math.h>
 #include <stdint.h>
 
@@ -9,7 +9,7 @@
 
 static const double unit = 0x1p-53;
 
-/* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
+/* Rounding error of a velocity computed from a conserved momentum, in units of 2^-53. */
 static const double derived = 4;
 
 /* The cost allowed for each companion, relative to the run. The rest of QDOT_COMPANION_MOST is for
@@ -23,14 +23,14 @@ static const double shares[] = {1.55, 1.3};
 static const double at_first = 0.8, at_first_stiff = 0.25, at_first_multistep = 0.75;
 static const double beside_stiff = 0.4;
 
-/* The smallest error stated is 2u sqrt(steps), u = 2^-53, where the root counts at most this. */
+/* The smallest error stated is 2u sqrt(steps), u = 2^-53, in which the square root counts at most this. */
 static const double most_floor = 32;
 
 /* Nearer to its companion_tol a stiff method of ours meets the rounding of most scenes, and its steps
  * become many; a coarse run is this far above it, so as not to share the run's rounding. */
 static const double above_rounding = 10, beyond_rounding = 10;
 
-/* The factors by which the tolerances of companions are coarser or finer than that of the run. */
+/* The factors by which the tolerances of companion runs are coarser or finer than that of the run. */
 static const double coarser = 4, finer[] = {16, 32};
 
 /* What both companions by Taylor series should cost, of the work of the run, and which powers of their
@@ -55,9 +55,9 @@ qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *meth
                                                                                       : method->partner);
 }
 
-/* The work of a run by Taylor series with tolerance tol, except for a common factor. */
+/* The work of a run by Taylor series with tolerance tol, up to a factor that does not depend on tol. */
 static double
-work_of(const qdot_ode_series *series, double tol, int more)
+taylor_work(const qdot_ode_series *series, double tol, int more)
 {
     const int p = qdot_ode_taylor_order(series, tol, false, more);
 
@@ -67,14 +67,14 @@ work_of(const qdot_ode_series *series, double tol, int more)
 /* For a run by Taylor series with tolerance tol: the tightest of these tolerances that both
  * companions can afford. */
 static double
-affordable_tolerance(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
+find_affordable_tolerance(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
 {
-    const double most = foreseen * work_of(series, tol, 0);
+    const double most = foreseen * taylor_work(series, tol, 0);
     double theirs = tol, work;
 
     for (size_t k = 0; k < sizeof powers / sizeof *powers; k++) {
         theirs = fmax(pow(taylor->companion_ratio, powers[k]) * tol, taylor->companion_tol);
-        work = work_of(series, theirs, qdot_companion_orders(0)) + work_of(series, theirs, qdot_companion_orders(1));
+        work = taylor_work(series, theirs, qdot_companion_orders(0)) + taylor_work(series, theirs, qdot_companion_orders(1));
         if (work <= most)
             break;
     }
@@ -89,7 +89,7 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
     bool same = partner == method;
 
     if (same && partner->series)
-        return affordable_tolerance(system->series, partner, tol);
+        return find_affordable_tolerance(system->series, partner, tol);
     if (partner->series)
         return fmax(fmin(partner->companion_ratio, method->companion_ratio) * tol,
                     partner->companion_tol);
@@ -161,7 +161,7 @@ qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
 /* Signs without a pattern that a symmetric system could share (Knuth's multiplicative
  * hash of the index, bit 31). */
 static bool
-goes_up(size_t i, size_t number)
+is_shifted_up(size_t i, size_t number)
 {
     return (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
 }
@@ -175,7 +175,7 @@ qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
 }
 
 static double
-doubles_away(size_t number)
+shift_in_doubles(size_t number)
 {
     return number == 0 ? 1 : QDOT_COMPANION_FAR;
 }
@@ -183,26 +183,26 @@ doubles_away(size_t number)
 /* The shift of component i (of that size, see scale.h) at the start of companion `number` of a run
  * in two doubles. */
 static double
-initial_shift(double tol, double size, size_t i, size_t number)
+shift_of_component(double tol, double size, size_t i, size_t number)
 {
-    const double by = doubles_away(number) * QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
+    const double by = shift_in_doubles(number) * QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
 
-    return goes_up(i, number) ? by : -by;
+    return is_shifted_up(i, number) ? by : -by;
 }
 
 double
 qdot_companion_moved(double y, double scale, size_t i, size_t number)
 {
-    const bool up = goes_up(i, number);
+    const bool up = is_shifted_up(i, number);
 
     if (y == 0)
-        return (up ? unit : -unit) * doubles_away(number) * scale;
-    return y + doubles_away(number) * (nextafter(y, up ? INFINITY : -INFINITY) - y);
+        return (up ? unit : -unit) * shift_in_doubles(number) * scale;
+    return y + shift_in_doubles(number) * (nextafter(y, up ? INFINITY : -INFINITY) - y);
 }
 
-/* The first coordinate, or velocity, of the size of component i. */
+/* The first coordinate that has the same size as component i; if that is a velocity, the first such velocity. */
 static size_t
-first_of_size(size_t n, const double *y, size_t i)
+first_of_same_size(size_t n, const double *y, size_t i)
 {
     size_t k = i < n / 2 ? 0 : n / 2;
 
@@ -215,7 +215,7 @@ bool
 qdot_companion_has_alike(size_t n, const double *y)
 {
     for (size_t i = 0; i < n; i++)
-        if (first_of_size(n, y, i) != i)
+        if (first_of_same_size(n, y, i) != i)
             return true;
     return false;
 }
@@ -225,12 +225,12 @@ qdot_companion_beside(const double *scales, size_t n, const double *y, size_t nu
                       double *start, double *low)
 {
     for (size_t i = 0; i < n; i++) {
-        const size_t as = alike ? first_of_size(n, y, i) : i;
+        const size_t as = alike ? first_of_same_size(n, y, i) : i;
         const double in = qdot_companion_unit(scales, n, y, i), way = y[i] == y[as] ? 1 : -1;
 
         start[i] = low ? y[i] : way * qdot_companion_moved(way * y[i], in, as, number);
         if (low)
-            low[i] += way * initial_shift(tol, fmax(in, fabs(y[i])), as, number);
+            low[i] += way * shift_of_component(tol, fmax(in, fabs(y[i])), as, number);
     }
 }
 

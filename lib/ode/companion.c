@@ -1,4 +1,4 @@
-/* companion.c -- repeats a run once or twice, slightly disturbed, to estimate its error. */
+/* companion.c -- repeats a run once or twice from slightly disturbed starts (companion runs) to estimate its error. */
 #include "ode/companion.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static const double reading = 0.12, readings = 3.5;
  * where they step over what a finer one sees; by less than that, the two distances differ by chance. */
 static const double refutes = 10;
 
-/* Errors before the end raise the error estimate at the end by at most this factor. */
+/* Errors of the run at earlier times raise the error estimate at the end by at most this factor. */
 static const double most_between = 30;
 
 /* Times at which states are compared before the end, as parts of the run. They are irregular, so
@@ -34,29 +34,29 @@ static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };
 
-/* The state of one companion run. */
+/* The state of one companion run, which repeats the run for an error estimate. */
 typedef struct {
     const qdot_companion *of;
     qdot_ode_system system;
     size_t number; /* 0 for the first companion, 1 for the second */
     double t0;
-    double *start; /* [n] start state: y0 moved by its rounding error */
-    double *low;   /* [n] low-order part: the start is start + low */
+    double *start; /* [n] start state of the companion: y0 moved by its rounding error */
+    double *low;   /* [n] low-order part of the start state, which is start + low */
     double *y;     /* [n] the present state of the companion */
-    double *own;   /* [PLACES x n] its states at the comparison times */
-    double *left;  /* [n] the state at t_left, the last of a more accurate way that was given up */
-    double t_left; /* time of the state `left`; t0: there is none */
-    qdot_trajectory *tr; /* where its states are stored: the caller's trajectory, or `held` */
+    double *own;   /* [PLACES x n] states of the companion at the comparison times */
+    double *left;  /* [n] the state at t_left, where a more accurate method was given up */
+    double t_left; /* time of the state `left`; equal to t0: there is none */
+    qdot_trajectory *tr; /* where the companion's states are stored: the caller's trajectory, or `held` */
     qdot_trajectory held;
     qdot_companion_way way;
-    double tol;           /* the tolerance of the present way */
-    double spent;         /* work of earlier ways, and of reading states */
-    qdot_ode_meter meter; /* counts the work of the present way */
+    double tol;           /* the tolerance of the companion's present method */
+    double spent;         /* work of methods tried before, and of reading states */
+    qdot_ode_meter meter; /* counts the work of the companion's present method */
     qdot_ode_result result;
-    bool given_up; /* it was ended because of its cost */
+    bool given_up; /* whether the companion was ended because of its cost */
     bool arrived;
-    bool running;  /* its thread is running */
-    bool finished; /* the thread has ended: `result` is valid */
+    bool running;  /* whether the companion's thread is running */
+    bool finished; /* whether the companion's thread has ended, so that `result` is valid */
     pthread_t thread;
 } follower;
 
@@ -65,7 +65,7 @@ struct qdot_companion {
     const double *scales; /* [n] scales s_i of the system (scale.h) */
     const qdot_ode_method *run; /* the method of the run */
     const qdot_ode_meter *meter;
-    double tol, t1, t1_low, t0_low; /* tolerance and times of the run: end, low parts of end and start */
+    double tol, t1, t1_low, t0_low; /* tolerance and times of the run: end, low parts of the exact end and start */
     bool leading, alternates;
     size_t samples;
     double times[PLACES];
@@ -73,16 +73,16 @@ struct qdot_companion {
     size_t n_shown;
     const qdot_trajectory *course; /* the stored run; NULL: not available */
     const qdot_ode_system *of_course;
-    atomic_bool leave; /* the run ended early: companions must not go beyond t_end */
+    atomic_bool leave; /* set when the run ended early: companions must not go beyond t_end */
     double t_end;
-    double floor; /* the smallest error that is stated */
+    double floor; /* the smallest error that is stated for the run */
     double steps; /* number of steps of the run */
     follower at[2];
     size_t count, arrived;
 };
 
 static qdot_status
-follower_look(double t, const double *y, bool *stop, void *user)
+stop_at_end_of_run(double t, const double *y, bool *stop, void *user)
 {
     const follower *f = user;
     const qdot_companion *c = f->of;
@@ -93,21 +93,21 @@ follower_look(double t, const double *y, bool *stop, void *user)
     return QDOT_OK;
 }
 
-/* Integrate the companion to t1, or beyond the end of the run, by one method. */
+/* Integrate the companion by one method to t1, or to beyond the time at which the run ended. */
 static void
-run_by(follower *f, const qdot_companion_plan *by)
+integrate_companion_by(follower *f, const qdot_companion_plan *by)
 {
     const qdot_companion *c = f->of;
     const qdot_ode_options options = {.tol = by->tol,
                                       .first_share = qdot_companion_first_share(f->number),
-                                      .accepted = follower_look,
+                                      .accepted = stop_at_end_of_run,
                                       .user = f,
                                       .order_more = qdot_companion_orders(f->number),
                                       .term_tol = qdot_companion_term_tol(c->tol, f->number),
                                       .leading = c->leading,
                                       .alternates = c->alternates,
                                       .meter = &f->meter,
-                                      /* the meter bounds the work */
+                                      /* no limit here: the meter bounds the work */
                                       .stiff_work = INFINITY,
                                       .apart = true,
                                       .carry = f->low,
@@ -131,7 +131,7 @@ bool
 qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
                              const qdot_ode_meter *meter)
 {
-    /* a stiff method may need most of its work in a moment, as where a relaxation oscillation jumps */
+    /* allow for a stiff method that most work may fall into a moment, as where a relaxation oscillation jumps */
     if (method->stiff)
         return failed || meter->over;
     return meter->over && !qdot_ode_meter_is_stuck(meter);
@@ -140,7 +140,7 @@ qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
 /* The way is given up: count its work, and keep where it was when it could first be seen to cost too much,
  * which does not depend on how fast the run came. */
 static void
-follower_give_up(follower *f)
+give_up_method(follower *f)
 {
     const qdot_companion *c = f->of;
     const double *times = f->tr->t, direction = c->t1 < f->t0 ? -1 : 1;
@@ -161,9 +161,9 @@ follower_give_up(follower *f)
         f->t_left = t;
 }
 
-/* Integrate by the first possible method from f->way on. */
+/* Integrate the companion by the first possible method, from f->way on. */
 static void
-run_ways(follower *f)
+integrate_companion(follower *f)
 {
     const qdot_companion *c = f->of;
     qdot_companion_plan by;
@@ -173,37 +173,37 @@ run_ways(follower *f)
         if (f->way == QDOT_COMPANION_WAYS)
             return;
         f->tol = by.tol;
-        run_by(f, &by);
+        integrate_companion_by(f, &by);
         f->given_up = f->meter.over;
         if (f->result.outcome != QDOT_ODE_FAILED
             || !qdot_companion_leads_nowhere(c->run, true, &f->meter))
             return;
-        follower_give_up(f);
+        give_up_method(f);
     }
 }
 
 static void
-follower_run_all(follower *f)
+integrate_all_companions(follower *f)
 {
     f->result = (qdot_ode_result){0};
     f->way = QDOT_COMPANION_SERIES;
     f->spent = 0;
     f->t_left = f->t0;
-    run_ways(f);
+    integrate_companion(f);
     f->finished = true;
 }
 
 static void *
-thread_main(void *user)
+companion_thread(void *user)
 {
     follower *f = user;
 
-    follower_run_all(f);
+    integrate_all_companions(f);
     return NULL;
 }
 
 static void
-companion_release(qdot_companion *c)
+release_companions(qdot_companion *c)
 {
     for (size_t k = 0; k < c->count; k++) {
         qdot_free(c->at[k].start);
@@ -220,7 +220,7 @@ companion_release(qdot_companion *c)
 /* The times between, as many as reading there is a small part of the work; none if the run is so short
  * that two of them would be the same double. */
 static void
-choose_times(qdot_companion *c, uint64_t steps)
+choose_comparison_times(qdot_companion *c, uint64_t steps)
 {
     const double t0 = c->at[0].t0, work = c->meter ? c->meter->work : 0;
     const double left = reading * work + reading * QDOT_COMPANION_LEAST;
@@ -263,7 +263,7 @@ qdot_companion_show(qdot_companion *c, size_t k, const double *y)
     c->n_shown = k + 1;
 }
 
-/* The scaled distance max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)). */
+/* The scaled distance of two states: max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)). */
 static double
 scaled_distance(const qdot_companion *c, const double *scales, const double *a, const double *b)
 {
@@ -305,7 +305,7 @@ qdot_companion_bound_of(double x, size_t count, const double *theirs)
 /* Error bound of the run's state y, relative to these scales, from the companions' states at time k
  * (SIZE_MAX: at the end). */
 static double
-bound_at(const qdot_companion *c, const double *scales, const double *y, size_t k)
+error_bound_at(const qdot_companion *c, const double *scales, const double *y, size_t k)
 {
     double worst = 0;
 
@@ -322,14 +322,14 @@ bound_at(const qdot_companion *c, const double *scales, const double *y, size_t 
     return worst;
 }
 
-/* The median of the error bounds at the sampled times. */
+/* The median of the run's error bounds at the comparison times before the end. */
 static double
-median_between(const qdot_companion *c, const double *scales)
+median_error_before_end(const qdot_companion *c, const double *scales)
 {
     double errors[PLACES];
 
     for (size_t k = 0; k < c->samples; k++) {
-        double worst = bound_at(c, scales, c->shown + k * c->n, k);
+        double worst = error_bound_at(c, scales, c->shown + k * c->n, k);
         size_t at = k;
 
         for (; at > 0 && errors[at - 1] > worst; at--)
@@ -340,7 +340,7 @@ median_between(const qdot_companion *c, const double *scales)
 }
 
 static qdot_status
-follower_prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
+prepare_companion(qdot_companion *c, const qdot_companion_request *request, size_t number)
 {
     follower *f = c->at + number;
 
@@ -362,7 +362,7 @@ follower_prepare(qdot_companion *c, const qdot_companion_request *request, size_
     qdot_companion_beside(request->units ? request->units : c->scales, c->n, request->y0, number, false,
                           request->tol, f->start,
                           c->leading ? f->low : NULL);
-    if (f->system.project) { /* move the start only in directions that the constraints allow */
+    if (f->system.project) { /* move the start state only in directions that the constraints allow */
         double by;
 
         QDOT_TRY(f->system.project(f->t0, f->start, f->low, &by, f->system.user));
@@ -392,16 +392,16 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
     atomic_init(&c->leave, false);
-    status = c->shown ? follower_prepare(c, request, 0) : QDOT_ENOMEM;
+    status = c->shown ? prepare_companion(c, request, 0) : QDOT_ENOMEM;
     if (status == QDOT_OK && request->twin)
-        status = follower_prepare(c, request, 1);
+        status = prepare_companion(c, request, 1);
     if (status != QDOT_OK) {
-        companion_release(c);
+        release_companions(c);
         return status;
     }
     for (size_t k = 0; k < c->count && request->threaded; k++)
         c->at[k].running =
-            pthread_create(&c->at[k].thread, NULL, thread_main, c->at + k) == 0;
+            pthread_create(&c->at[k].thread, NULL, companion_thread, c->at + k) == 0;
     *out = c;
     return QDOT_OK;
 }
@@ -409,25 +409,25 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
 /* It arrived, before the run had, at a price that is too high beside that of the whole run: the
  * other ways. */
 static void
-follower_judge_cost(follower *f)
+judge_cost_of_companion(follower *f)
 {
     double work;
 
     while (f->of->meter && f->way != QDOT_COMPANION_WAYS
            && f->result.outcome != QDOT_ODE_FAILED && qdot_ode_meter_exceeds(&f->meter, &work)) {
-        follower_give_up(f);
+        give_up_method(f);
         f->way++;
         f->given_up = true;
         f->result.outcome = QDOT_ODE_FAILED;
         snprintf(f->result.reason, sizeof f->result.reason,
                  QDOT_ODE_METER_REASON, f->meter.factor);
-        run_ways(f);
+        integrate_companion(f);
     }
 }
 
-/* Read the companion's state at the time at which the run ended, if that is before t1. */
+/* Read the companion's state at the time at which the run ended, if that is earlier than t1. */
 static void
-follower_read_end(follower *f)
+read_end_of_companion(follower *f)
 {
     const qdot_companion *c = f->of;
 
@@ -439,9 +439,9 @@ follower_read_end(follower *f)
     }
 }
 
-/* Whether the companion failed beyond the end of the run, before it was told of that end. */
+/* Whether the companion failed at a time beyond the end of the run, before it was told of that end. */
 static bool
-failed_beyond(const follower *f)
+failed_after_end_of_run(const follower *f)
 {
     const qdot_trajectory *tr = f->tr;
     const double way = f->of->t1 < f->t0 ? -1 : 1;
@@ -449,9 +449,9 @@ failed_beyond(const follower *f)
     return !f->given_up && tr->count > 0 && way * (tr->t[tr->count - 1] - f->of->t_end) >= 0;
 }
 
-/* Read the companion's states at the sampled times, if the run has given its own; whether all are available. */
+/* Read the companion's states at the comparison times, if the run has given its own; true if all are available. */
 static bool
-read_between(follower *f)
+read_states_before_end(follower *f)
 {
     const qdot_companion *c = f->of;
     qdot_trajectory_cursor *cursor;
@@ -467,7 +467,7 @@ read_between(follower *f)
     return status == QDOT_OK;
 }
 
-/* Finish the companion: evaluate its end, and (whole) whether its states at the sampled times are known. */
+/* Evaluate the companion's state at the end, and (if `whole`) whether its states at the comparison times are known. */
 static bool
 finish_companion(follower *f, bool whole, qdot_companion_estimate *out)
 {
@@ -475,10 +475,10 @@ finish_companion(follower *f, bool whole, qdot_companion_estimate *out)
     double each;
 
     if (!f->finished)
-        follower_run_all(f);
-    follower_judge_cost(f);
-    if (!whole && (f->result.outcome != QDOT_ODE_FAILED || failed_beyond(f)))
-        follower_read_end(f);
+        integrate_all_companions(f);
+    judge_cost_of_companion(f);
+    if (!whole && (f->result.outcome != QDOT_ODE_FAILED || failed_after_end_of_run(f)))
+        read_end_of_companion(f);
     f->arrived = f->result.outcome == QDOT_ODE_DONE;
     if (f->number == 0 || (out->known && !f->given_up))
         out->result = f->result;
@@ -490,9 +490,9 @@ finish_companion(follower *f, bool whole, qdot_companion_estimate *out)
     each = f->meter.work / (double)(f->tr->count > 1 ? f->tr->count - 1 : 1);
     out->work += f->spent + (f->way == QDOT_COMPANION_WAYS ? 0 : f->meter.work);
     out->of_point += each;
-    /* if only the first companion gives the error at the end, it alone gives the error of all values */
+    /* if only the first companion gives the error at the end, it alone gives the errors of all values */
     out->kept[f->number] = f->tr->count > 1 && (f->number == 0 || f->arrived || !out->known);
-    if (!f->arrived || !whole || !read_between(f))
+    if (!f->arrived || !whole || !read_states_before_end(f))
         return f->number > 0 && f->given_up;
     out->work += each * (double)c->samples;
     return true;
@@ -502,11 +502,11 @@ void
 qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
     c->steps = (double)steps;
-    choose_times(c, steps);
+    choose_comparison_times(c, steps);
     c->floor = qdot_companion_floor(&c->at[0].system, c->leading, steps);
 }
 
-/* Whether a finer companion, abandoned because of its cost, had shown a larger error than the coarse one. */
+/* Whether a finer companion, given up because of its cost, had shown a larger error than the coarse one shows. */
 static bool
 is_refuted(const follower *f)
 {
@@ -528,20 +528,20 @@ is_refuted(const follower *f)
     return shown > refutes * fmax(said, c->tol);
 }
 
-/* The error of the end state y relative to these scales; `between`: including states before it. */
+/* The error of the run's end state y relative to the given scales; `between`: including the states before it. */
 static double
-end_error_of(const qdot_companion *c, const double *scales, const double *y, bool between)
+error_of_end_state(const qdot_companion *c, const double *scales, const double *y, bool between)
 {
-    const double error = fmax(c->floor, bound_at(c, scales, y, SIZE_MAX));
+    const double error = fmax(c->floor, error_bound_at(c, scales, y, SIZE_MAX));
 
-    return between ? fmax(error, fmin(median_between(c, scales), most_between * error)) : error;
+    return between ? fmax(error, fmin(median_error_before_end(c, scales), most_between * error)) : error;
 }
 
 void
 qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                       double *difference, qdot_companion_estimate *out)
 {
-    /* a time next to t1 counts as t1 */
+    /* a time within rounding errors of t1 counts as t1 */
     bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1), between = true;
 
     c->t_end = t_end;
@@ -564,13 +564,13 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     c->arrived = c->count == 2 && c->at[1].arrived ? 2 : 1;
     if (whole && c->n_shown > 0 && c->meter) /* add the work of reading the states of the run itself */
         out->work += c->meter->work / fmax(1, c->steps) * (double)c->n_shown;
-    out->error = out->known ? end_error_of(c, c->scales, y, between) : NAN;
-    out->plain = out->known ? end_error_of(c, NULL, y, between) : NAN;
+    out->error = out->known ? error_of_end_state(c, c->scales, y, between) : NAN;
+    out->plain = out->known ? error_of_end_state(c, NULL, y, between) : NAN;
     for (size_t i = 0; i < c->n && difference; i++) {
         const double ends[] = {c->at[0].y[i], c->count == 2 ? c->at[1].y[i] : 0};
 
         difference[i] =
             out->known ? qdot_companion_bound_of(y[i], c->arrived, ends) : NAN;
     }
-    companion_release(c);
+    release_companions(c);
 }

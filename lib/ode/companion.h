@@ -79,24 +79,24 @@
 #include "ode/meter.h"
 #include "ode/trajectory.h"
 
-/* The method by which a companion is integrated. */
+/* The method by which a companion run (a repetition that estimates the run's error) is integrated. */
 typedef enum {
     QDOT_COMPANION_SERIES,
     QDOT_COMPANION_PARTNER,
     QDOT_COMPANION_FINER,
     QDOT_COMPANION_COARSE,
-    QDOT_COMPANION_WAYS /* number of ways; also: no way is left */
+    QDOT_COMPANION_WAYS /* number of these methods; also: no method is left */
 } qdot_companion_way;
 
 typedef struct {
     bool known;
-    double error, plain;    /* the two errors defined above; NaN if unknown */
-    double tol;             /* the companion's tolerance tol* */
-    qdot_companion_way way; /* the last way that was tried */
-    qdot_ode_result result; /* result of the companion: its cost, why it did not arrive */
-    double work;            /* work of both companions by all ways (meter.h) */
-    double of_point;        /* work of reading the states of both at one time */
-    bool kept[2]; /* companion k is stored in request->kept[k] and may be used for errors of values along the run */
+    double error, plain;    /* the run's estimated error, relative to the scales s_i; the same for s_i = 1; NaN if unknown */
+    double tol;             /* the tolerance tol* of the companion run */
+    qdot_companion_way way; /* the last method that was tried for the companion */
+    qdot_ode_result result; /* result of the companion run: its cost, why it did not arrive */
+    double work;            /* work of both companion runs by all methods tried (meter.h) */
+    double of_point;        /* work of reading the states of both companions at one time */
+    bool kept[2]; /* whether companion k is stored in request->kept[k] and may be used for errors of values along the run */
 } qdot_companion_estimate;
 
 typedef struct qdot_companion qdot_companion;
@@ -111,32 +111,32 @@ typedef struct qdot_companion qdot_companion;
  * the run's in 3.5 cases of 100, and below half of it in 0.8; its median is 4.5 times that. If rounding is little
  * beside what moving the start by one double makes, it is 2 of these. */
 double qdot_companion_bound(double apart, double own);
-/* With a single companion, `own` counts as this many times `apart`: the bound is 13/4 of that. */
+/* With a single companion, the error `own` counts as this many times `apart`, so that the bound is 13/4 `apart`. */
 #define QDOT_COMPANION_ALONE 0.5
 
-/* The distance of a value x of the run from the mean of the values [count] of its companions, 1 or 2. */
+/* The distance of a value x of the run from the weighted mean of the values [count] of its companions, 1 or 2. */
 double qdot_companion_apart(double x, size_t count, const double *theirs);
 
-/* The error `own` from the values of two companions. */
+/* The error `own` of companion runs: 2/3 of the distance between the values of both. */
 double qdot_companion_own(const double *theirs);
 
-/* The error bound of a value x, from those of the companions. NaN if one of them has no value. */
+/* The error bound of a value x of the run, from the values of its companions. NaN if one of them has no value. */
 double qdot_companion_bound_of(double x, size_t count, const double *theirs);
 
 typedef struct {
     const qdot_ode_system *system;  /* for the companion alone if `threaded`; borrowed
                                        until _finish */
-    const qdot_ode_system *twin; /* the system for the second companion, borrowed until _finish; NULL: only one companion */
+    const qdot_ode_system *twin; /* the system for the second companion run, borrowed until _finish; NULL: only one companion */
     const qdot_ode_method *method;  /* the method of the run */
     double tol, t0, t1;             /* tolerance, start and end time of the run */
-    double t1_low;                  /* exact end time minus t1 (run.h) */
+    double t1_low;                  /* exact end time minus its double t1 (run.h) */
     const double *y0;               /* [n] start state; borrowed during _start */
-    const double *carry;            /* [n] exact start minus y0; NULL: 0; borrowed during _start */
+    const double *carry;            /* [n] exact start state minus y0; NULL: 0; borrowed during _start */
     const double *units;            /* [n] in what y0 is moved where it is 0 (qdot_companion_unit);
                                        NULL: the system's scales; likewise */
     bool alternates; /* the run changes between a stiff method and series (alternate.h) */
-    bool leading;                   /* the run has first orders in two doubles (run.h) */
-    double t0_low;                  /* exact start time minus t0 (run.h) */
+    bool leading;                   /* the run computes the first orders of its series in two doubles (run.h) */
+    double t0_low;                  /* exact start time minus its double t0 (run.h) */
     const qdot_ode_meter *meter;    /* of the run, begun (meter.h); NULL: companions may cost what
                                        they like; likewise */
     qdot_trajectory *kept[2];       /* {0}, where to store what each goes through, until _finish; NULL:
@@ -159,10 +159,10 @@ QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_companion_request *r
  * but not more than 30 times that at the end: if errors die out, as in stiff scenes, the last
  * step may leave far less than those before. *count is 0 for other methods. */
 const double *qdot_companion_times(const qdot_companion *c, size_t *count);
-/* The sampled times, as fractions of the interval. */
+/* The times before the end at which companions are compared with the run, as fractions of the interval. */
 const double *qdot_companion_places(size_t *count);
 
-/* Give the companion the state y [n] of the run at sampled time k; it is copied. */
+/* Give the companions the state y [n] of the run at comparison time k; it is copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
 
 /* Show all states of the run, borrowed until _finish: where a way was given up, the run is compared with
@@ -189,7 +189,7 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
 #define QDOT_COMPANION_MOST 3.0
 #define QDOT_COMPANION_LEAST 1e6
 
-/* The remaining part of the work allowance QDOT_COMPANION_MOST, for a run of the given work, after `spent`. */
+/* What remains of the work QDOT_COMPANION_MOST allowed for companions of a run of the given work, after `spent`. */
 double qdot_companion_left(double work, double spent);
 
 /* The meter of companion `number` by that way beside that of a run by `method`, after
@@ -206,14 +206,14 @@ void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
 bool qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
                                   const qdot_ode_meter *meter);
 
-/* Tell the companions the number of steps of the run. */
+/* Tell the companions the number of steps of the run, by which comparison times and the smallest error are chosen. */
 void qdot_companion_limit(qdot_companion *c, uint64_t steps);
 
 /* The first step of a companion, as a part of that which the run would take: a few steps may grow
  * alike whatever the tolerance, and err alike. */
 double qdot_companion_first_share(size_t number);
 
-/* The smallest error stated for a run of `steps` steps; `leading`: for a run in two doubles. */
+/* The smallest error stated for a run of `steps` steps; `leading`: for one with first orders in two doubles. */
 double qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_t steps);
 
 /* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1, until they
@@ -223,7 +223,7 @@ double qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
 
-/* Additional orders of a companion by Taylor series (qdot_ode_options.order_more), and their maximum. */
+/* How many more orders a companion run by Taylor series has (qdot_ode_options.order_more), and the largest number. */
 int qdot_companion_orders(size_t number);
 #define QDOT_COMPANION_ORDERS 3
 
@@ -235,7 +235,7 @@ double qdot_companion_term_tol(double tol, size_t number);
  * for scenes that would stop series and is accurate enough itself. */
 bool qdot_companion_is_by_series(const qdot_ode_method *method);
 
-/* Choose the method of a companion, and its tolerance *tol. */
+/* Choose the method of a companion run, and its tolerance *tol. */
 const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
                                              const qdot_ode_method *method);
 double qdot_companion_tolerance(const qdot_ode_system *system,
@@ -259,7 +259,7 @@ double qdot_companion_moved(double y, double scale, size_t i, size_t number);
 #define QDOT_COMPANION_AIMS 0.125
 void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, bool alike, double tol,
                            double *start, double *low);
-/* Whether some coordinates of y [n], or some velocities, are of one size. */
+/* Whether some coordinates of y [n], or some velocities, are of the same size. */
 bool qdot_companion_has_alike(size_t n, const double *y);
 
 #endif

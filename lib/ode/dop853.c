@@ -9,7 +9,7 @@
 enum { rows = 16, degree = 7 };
 
 static double
-ratio_of(double e5, double e3)
+ratio_of_errors(double e5, double e3)
 {
     double size = sqrt(e5 * e5 + 0.01 * e3 * e3);
 
@@ -25,7 +25,7 @@ ratio_of(double e5, double e3)
     sum += (a) * k[(j) * n + i];                                                         \
     low += (double)(a##L - (long double)(a)) * k[(j) * n + i];
 
-/* Evaluate stage `row` at the state y + h * (sum of the terms). */
+/* Evaluate stage `row` of the method at the state y + h * (sum of the terms). */
 #define EVALUATE(row, c, terms)                                                          \
     for (size_t i = 0; i < n; i++) {                                                     \
         double sum = -0.0, low = -0.0;                                                   \
@@ -34,9 +34,9 @@ ratio_of(double e5, double e3)
     }                                                                                    \
     QDOT_TRY(qdot_ode_stepper_rhs(s, t + (c) * h, trial, k + (row) * n));
 
-/* The increment into s->z, the state into s->trial, from k_0 .. k_11. */
+/* Compute the increment, into s->z, and the new state, into s->trial, from the stages k_0 ... k_11; returns its error ratio. */
 static double
-dop853_finish(qdot_ode_stepper *s, double h)
+finish_step(qdot_ode_stepper *s, double h)
 {
     const size_t n = s->system->n;
     const double *k = s->stages, *y = s->y, unit = fabs(h) / s->tol;
@@ -64,7 +64,7 @@ dop853_finish(qdot_ode_stepper *s, double h)
         if (!(third <= e3))
             e3 = third;
     }
-    return ratio_of(e5, e3);
+    return ratio_of_errors(e5, e3);
 }
 
 static qdot_status
@@ -79,12 +79,12 @@ dop853_step(qdot_ode_stepper *s, double t, double h, double *ratio)
 #define STAGE(row, c, terms) EVALUATE(row, c, terms)
 #include "ode/dop853.def"
 
-    *ratio = dop853_finish(s, h);
+    *ratio = finish_step(s, h);
     return QDOT_OK;
 }
 
 static qdot_status
-dense(qdot_ode_stepper *s, double t, double h, double *F)
+prepare_interpolation(qdot_ode_stepper *s, double t, double h, double *F)
 {
     const size_t n = s->system->n;
     const double *y = s->y, *carry = s->carry;
@@ -107,7 +107,7 @@ dense(qdot_ode_stepper *s, double t, double h, double *F)
 }
 
 static void
-dop853_at(size_t n, const double *F, const double *y0, double x, double *y)
+interpolate_state(size_t n, const double *F, const double *y0, double x, double *y)
 {
     for (size_t i = 0; i < n; i++) {
         double p = F[6 * n + i] * x;
@@ -119,4 +119,4 @@ dop853_at(size_t n, const double *F, const double *y0, double x, double *y)
 }
 
 const qdot_ode_kernel qdot_dop853 = {
-    .stages = rows, .powers = degree, .step = dop853_step, .dense = dense, .at = dop853_at};
+    .stages = rows, .powers = degree, .step = dop853_step, .dense = prepare_interpolation, .at = interpolate_state};

@@ -37,7 +37,7 @@
 
 #include "ode/stepper.h"
 
-/* The row `dop853` of method.h. */
+/* The functions of the method dop853, for the table of method.h. */
 extern const qdot_ode_kernel qdot_dop853;
 
 #endif

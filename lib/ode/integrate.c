@@ -8,7 +8,7 @@
 #include "ode/apart.h"
 #include "ode/whole.h"
 
-/* An integration of all parts from y at t0 to the time at which the first of them ends. */
+/* An integration of all decoupled parts of a system from y at t0, to the time at which the first of them ends. */
 typedef struct {
     const qdot_ode_system *system;
     const qdot_ode_method *method;
@@ -19,9 +19,9 @@ typedef struct {
     qdot_ode_result *result;
 } parts;
 
-/* Integrate part k to the time that the earlier parts have reached. */
+/* Integrate part k of the system to the time that the earlier parts have reached. */
 static qdot_status
-run_part(const parts *p, size_t k, qdot_ode_result *result)
+integrate_part(const parts *p, size_t k, qdot_ode_result *result)
 {
     const qdot_ode_part *part = p->system->parts + k;
     qdot_ode_options own = qdot_ode_part_options(part, p->options, p->room + p->system->n);
@@ -40,14 +40,14 @@ run_part(const parts *p, size_t k, qdot_ode_result *result)
 }
 
 static qdot_status
-run_parts(const parts *p)
+integrate_parts(const parts *p)
 {
     qdot_ode_result r;
     qdot_error failure = {0};
     qdot_status ended = QDOT_OK;
 
     for (size_t k = 0; k < p->system->n_parts; k++) {
-        qdot_status status = run_part(p, k, &r);
+        qdot_status status = integrate_part(p, k, &r);
 
         if (r.outcome == QDOT_ODE_DONE)
             continue;
@@ -58,8 +58,8 @@ run_parts(const parts *p)
         }
         if (ended == QDOT_EINTR || ended == QDOT_ENOMEM)
             break;
-        for (size_t j = 0; j < k; j++) /* the parts before went further: repeat them to the earlier end */
-            if (run_part(p, j, &r) != QDOT_OK && ended == QDOT_OK) {
+        for (size_t j = 0; j < k; j++) /* the earlier parts went further: repeat them up to the earlier end */
+            if (integrate_part(p, j, &r) != QDOT_OK && ended == QDOT_OK) {
                 ended = QDOT_EFAILED;
                 failure = *qdot_last_error();
             }
@@ -70,9 +70,9 @@ run_parts(const parts *p)
 }
 
 static qdot_status
-integrate_apart(const qdot_ode_system *system, const qdot_ode_method *method,
-                const qdot_ode_options *options, double t0, double t1, double *y,
-                qdot_ode_result *result)
+integrate_decoupled(const qdot_ode_system *system, const qdot_ode_method *method,
+                    const qdot_ode_options *options, double t0, double t1, double *y,
+                    qdot_ode_result *result)
 {
     double *start = qdot_malloc(3 * system->n * sizeof *start);
     parts p = {.system = system,
@@ -94,7 +94,7 @@ integrate_apart(const qdot_ode_system *system, const qdot_ode_method *method,
         return QDOT_ENOMEM;
     }
     memcpy(start, y, system->n * sizeof *y);
-    status = run_parts(&p);
+    status = integrate_parts(&p);
     qdot_free(start);
     return status;
 }
@@ -110,6 +110,6 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
         options = &defaults;
     if (qdot_ode_alternates(system, method, options))
         return qdot_ode_alternate_integrate(system, method, options, t0, t1, y, result);
-    return (qdot_ode_is_apart(system, options) ? integrate_apart : qdot_ode_whole_integrate)(
+    return (qdot_ode_is_apart(system, options) ? integrate_decoupled : qdot_ode_whole_integrate)(
         system, method, options, t0, t1, y, result);
 }

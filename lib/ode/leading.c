@@ -1,4 +1,4 @@
-/* leading.c -- decides which orders of a series need two doubles, and sums the series with them. */
+/* leading.c -- decides which of the first orders of a Taylor series need two doubles, and sums the series with them. */
 #include "ode/leading.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "ode/taylor-numbers.h"
 
 static bool
-is_following(const qdot_ode_system *system, size_t i)
+is_derived_component(const qdot_ode_system *system, size_t i)
 {
     const qdot_ode_following *f = system->following;
 
@@ -19,9 +19,9 @@ is_following(const qdot_ode_system *system, size_t i)
     return false;
 }
 
-/* The highest order with a term whose rounding error matters; power: s^k at order k. */
+/* The highest order of the series with a term whose rounding error matters; `power` holds s^k at order k. */
 static int
-orders_of_terms(const qdot_ode_leading_step *step, const double *power)
+highest_order_with_rounding(const qdot_ode_leading_step *step, const double *power)
 {
     const qdot_ode_series *series = step->system->series;
     int m = 1;
@@ -36,7 +36,7 @@ orders_of_terms(const qdot_ode_leading_step *step, const double *power)
     return m;
 }
 
-/* Whether doubles were accurate enough at order k. */
+/* Whether a single double was accurate enough for order k of the series. */
 static bool
 doubles_suffice(const qdot_ode_leading_step *step, int k, double power)
 {
@@ -48,19 +48,19 @@ doubles_suffice(const qdot_ode_leading_step *step, int k, double power)
         if (!(fabs(leading->x[i * leading->stride + (size_t)k].hi
                    - series->x[i * series->stride + (size_t)k])
                   * step->scale[i] <= most)
-            && !is_following(step->system, i))
+            && !is_derived_component(step->system, i))
             return false;
     return true;
 }
 
-/* Find how many orders need two doubles; power: the powers s^k of the step. */
+/* Find how many first orders of the series need two doubles; `power` holds the powers s^k of the step s. */
 static qdot_status
-find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
+find_orders_in_two_doubles(const qdot_ode_leading_step *step, const double *power, int *m)
 {
     const qdot_ode_leading *leading = step->system->leading;
     const int most =
         step->p <= QDOT_ODE_LEADING_MOST ? step->p - 1 : QDOT_ODE_LEADING_MOST;
-    const int least = orders_of_terms(step, power);
+    const int least = highest_order_with_rounding(step, power);
 
     QDOT_TRY(leading->begin(&step->at, step->unit, leading->user));
     for (*m = 1; *m <= most; ++*m) {
@@ -85,11 +85,11 @@ qdot_ode_leading_advance(const qdot_ode_leading_step *step, double *next,
     int m;
 
     kernels->powers(s, QDOT_ODE_LEADING_MOST, step->p, two, power);
-    QDOT_TRY(find_orders(step, power, &m));
+    QDOT_TRY(find_orders_in_two_doubles(step, power, &m));
     for (size_t i = 0; i < step->system->n; i++) {
         qdot_two sum;
 
-        if (is_following(step->system, i))
+        if (is_derived_component(step->system, i))
             continue;
         sum = kernels->series(m, step->p, leading->x + i * leading->stride, two,
                               series->x + i * series->stride, power);

@@ -23,7 +23,7 @@
 
 #include "ode/run.h"
 
-/* Two doubles are used for tolerances up to this one, for which a double is not enough. */
+/* First orders are computed in two doubles for tolerances up to this one, for which one double is not enough. */
 #define QDOT_ODE_LEADING_TOL 1.0001e-14
 
 /* A step from `at` by h + h_low, order p; its series x of system->series, in that unit, has been
@@ -32,7 +32,7 @@ typedef struct {
     const qdot_ode_system *system;
     qdot_ode_place at;
     double h, h_low, unit, eps;
-    const double *scale; /* [n] 1/max(s_i, |y_i|), s_i the scales of scale.h */
+    const double *scale; /* [n] 1/max(s_i, |y_i|) for each component, s_i the scales of scale.h */
     int p;
 } qdot_ode_leading_step;
 

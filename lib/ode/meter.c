@@ -1,10 +1,10 @@
-/* meter.c -- records the work of runs along time, and compares it. */
+/* meter.c -- records the computing work of a run along its time, to compare it with that of another run. */
 #include "ode/meter.h"
 
 #include <float.h>
 #include <math.h>
 
-/* A mark is set whenever work has grown by this fraction, and at least by `least` (ns). */
+/* A mark (time, work) is stored whenever the work has grown by this fraction, and at least by `least` (ns). */
 static const double part = 0.125, least = 5e4;
 
 static const double stands_still = 0.02;
@@ -39,11 +39,11 @@ set_mark(qdot_ode_meter *m)
     atomic_store_explicit(&m->count, k + 1, memory_order_release);
 }
 
-/* Find the work that the run had done at time t; false if that is not known yet. */
+/* Find the work that the run `run` had done at time t; false if that is not known yet. */
 static bool
-work_at(const qdot_ode_meter *run, double t, double *work)
+find_work_at(const qdot_ode_meter *run, double t, double *work)
 {
-    /* read in this order: a run that has ended sets no more marks */
+    /* read `ended` first: a run that has ended sets no more marks */
     const bool ended = atomic_load_explicit(&run->ended, memory_order_acquire);
     const size_t count = atomic_load_explicit(&run->count, memory_order_acquire);
 
@@ -57,9 +57,9 @@ work_at(const qdot_ode_meter *run, double t, double *work)
     return ended;
 }
 
-/* Whether t lies beyond the end of the other run, if that has ended. */
+/* Whether t lies beyond the end of the run with which this one is compared, if that has ended. */
 static bool
-is_beyond_end(const qdot_ode_meter *m, double t)
+is_beyond_end_of_other(const qdot_ode_meter *m, double t)
 {
     return m->direction * (t - m->beside->far) > 4 * DBL_EPSILON * fabs(m->beside->far);
 }
@@ -67,18 +67,18 @@ is_beyond_end(const qdot_ode_meter *m, double t)
 /* Whether so much is too much at t, where that is known. What is done beyond the end of the run
  * depends on when that is heard of, and is not judged. */
 static bool
-is_too_much(const qdot_ode_meter *m, double t, double work, bool *known)
+exceeds_limit(const qdot_ode_meter *m, double t, double work, bool *known)
 {
     double w;
 
-    *known = work_at(m->beside, m->direction * INFINITY, &w);
-    if (*known && is_beyond_end(m, t))
+    *known = find_work_at(m->beside, m->direction * INFINITY, &w);
+    if (*known && is_beyond_end_of_other(m, t))
         return false;
     if (*known && m->spent + work > m->factor * w + m->allowance)
         return true;
     if (m->whole_only)
         return false;
-    *known = work_at(m->beside, t, &w);
+    *known = find_work_at(m->beside, t, &w);
     return *known && work > m->early_factor * w + m->early;
 }
 
@@ -96,7 +96,7 @@ qdot_ode_meter_add(qdot_ode_meter *m, double t, double work)
     for (bool known; m->judged < atomic_load(&m->count); m->judged++) {
         const qdot_ode_mark *mark = m->marks + m->judged;
 
-        m->over = m->over || is_too_much(m, mark->t, mark->work, &known);
+        m->over = m->over || exceeds_limit(m, mark->t, mark->work, &known);
         if (m->over)
             return qdot_fail(QDOT_ELIMIT, QDOT_ODE_METER_REASON, m->factor);
         if (!known)
@@ -118,12 +118,12 @@ qdot_ode_meter_exceeds(const qdot_ode_meter *m, double *work)
     bool known;
 
     for (size_t k = 0; k < count && m->beside; k++)
-        if (is_too_much(m, m->marks[k].t, m->marks[k].work, &known)) {
+        if (exceeds_limit(m, m->marks[k].t, m->marks[k].work, &known)) {
             *work = m->marks[k].work;
             return true;
         }
     *work = m->work;
-    return m->beside && is_too_much(m, m->far, m->work, &known);
+    return m->beside && exceeds_limit(m, m->far, m->work, &known);
 }
 
 bool

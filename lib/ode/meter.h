@@ -37,31 +37,31 @@ typedef struct {
 struct qdot_ode_meter {
     const qdot_ode_meter *beside; /* meter of the run with which this work is compared, borrowed; NULL: no limit */
     double factor, allowance;
-    double early_factor, early; /* the same two bounds, applied at each mark */
-    double spent;      /* work of earlier attempts for the same purpose */
+    double early_factor, early; /* the limits `factor` and `allowance` as they are applied at each mark, before the end */
+    double spent;      /* work of earlier attempts for the same purpose, which counts, too */
     double direction;  /* direction of time: +1 or -1 */
     double t0;
     bool whole_only;   /* decoupled parts each start at t0, so only the total can be compared */
-    double work;       /* work so far */
-    double far;        /* farthest t reached so far */
-    double next;       /* work at which the next mark will be set */
-    size_t judged;     /* number of own marks already compared */
+    double work;       /* the work so far */
+    double far;        /* the farthest time t reached so far */
+    double next;       /* the work at which the next mark will be set */
+    size_t judged;     /* number of marks of this run that have been compared with the other run */
     bool over;         /* the work exceeded its limit */
     atomic_size_t count;
     atomic_bool ended;
     qdot_ode_mark marks[QDOT_ODE_MARKS];
 };
 
-/* The reason why a companion was ended; %.2g: the factor. */
+/* The reason that is stated when a companion run is ended; %.2g stands for the factor. */
 #define QDOT_ODE_METER_REASON "it would take more than %.2g times the work of this one"
 
-/* Begin to count the work of an integration from t0 towards t1; beside, factor and allowance are kept. */
+/* Begin to count the work of an integration from t0 towards t1; the fields beside, factor and allowance are kept. */
 void qdot_ode_meter_begin(qdot_ode_meter *m, double t0, double t1);
 
-/* The integration has reached t with `work` more. QDOT_ELIMIT: it costs too much. */
+/* Record that the integration has reached t with `work` more. QDOT_ELIMIT: it costs too much. */
 QDOT_MUST_CHECK qdot_status qdot_ode_meter_add(qdot_ode_meter *m, double t, double work);
 
-/* The integration has ended: its total work counts for all times beyond its end. */
+/* Record that the integration has ended: its total work then counts for all times beyond its end. */
 void qdot_ode_meter_end(qdot_ode_meter *m);
 
 /* Whether it has cost too much beside the run, which has ended. *work: what it had cost when that
@@ -75,7 +75,7 @@ bool qdot_ode_meter_is_stuck(const qdot_ode_meter *m);
 /* The work in ns for the operations counted in `stats`, by a method without series. */
 double qdot_ode_work(const qdot_ode_system *system, const qdot_ode_stats *stats);
 
-/* The work of one expansion to order p. */
+/* The work in ns of one Taylor expansion to order p. */
 double qdot_ode_expansion_work(const qdot_ode_series *series, int p);
 
 #endif

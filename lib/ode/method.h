@@ -14,21 +14,21 @@
 
 typedef struct qdot_ode_method {
     const char *name;
-    int order;           /* order of accuracy; of a variable-order method the highest */
+    int order;           /* order of accuracy; of a method with variable order the highest one */
     bool needs_jacobian; /* needs the system's Jacobian */
-    bool multistep;      /* uses earlier steps: starts with low order */
+    bool multistep;      /* uses values of earlier steps, and therefore starts with low order */
     bool stiff;          /* stable for stiff systems: stability does not limit its step */
-    int error_power; /* its error estimate is proportional to h to this power; 0: present order + 1 */
+    int error_power; /* the error estimate is proportional to this power of the step h; 0: to the present order + 1 */
     const char *partner; /* the one-step method of its companion run (companion.h; of a stiff method
                             it is radau) and, unless it has a kernel, of its output between steps
                             (trajectory.h) */
-    double companion_ratio; /* tolerance of the run divided by that of its companion */
-    double companion_tol;   /* the smallest companion tolerance that still improves accuracy */
+    double companion_ratio; /* tolerance of a run divided by that of the companion run that estimates its error */
+    double companion_tol;   /* the smallest tolerance of a companion run that still improves accuracy */
     const char *fits;       /* one line for the user: when to use the method */
     const void *stepper; /* GSL's stepper type, const gsl_odeiv2_step_type *const *; NULL: not from GSL */
     bool series;            /* integrates by Taylor series, which the system must provide */
     const struct qdot_ode_kernel *kernel; /* our own one-step method (stepper.h); NULL: none */
-    /* the kernel, for methods with constant steps (geometric/geometric.h) */
+    /* functions of a geometric method with constant steps (geometric/geometric.h) */
     const struct qdot_geometric_kernel *geometric;
 } qdot_ode_method;
 

@@ -21,11 +21,11 @@ typedef struct {
     int p, direction;
     double log2_tol;
     qdot_reals numbers;
-    mpfr_t *y, *next, *slope, *first; /* [n] state, end of the step, derivatives at the end and at the start */
+    mpfr_t *y, *next, *slope, *first; /* [n] state, end of the step; derivatives at the end and at the start */
     mpfr_ptr t, t1, h, end, rest, w, v;
     bool extended;
-    qdot_error undefined; /* the last error of f */
-    bool met;             /* f has failed */
+    qdot_error undefined; /* the last error of the right-hand side f */
+    bool met;             /* whether f has failed */
 } state;
 
 int
@@ -75,7 +75,7 @@ qdot_precise_inside(const qdot_precise_run *run, size_t k)
 enum { looks = 1 << 14 };
 static const double hopeless = 1e10;
 
-/* Reserve memory for one more point, chunk by chunk, between steps. */
+/* Reserve memory for one more point, in chunks; done between steps. */
 static qdot_status
 precise_reserve(qdot_precise_run *run, double max_bytes)
 {
@@ -97,7 +97,7 @@ precise_reserve(qdot_precise_run *run, double max_bytes)
 }
 
 static void
-store(qdot_precise_run *run, mpfr_srcptr t, const mpfr_t *y)
+store_point(qdot_precise_run *run, mpfr_srcptr t, const mpfr_t *y)
 {
     mpfr_t *point = qdot_precise_point(run, run->count++);
 
@@ -110,13 +110,13 @@ void
 qdot_precise_cut(qdot_precise_run *run, mpfr_srcptr t, const mpfr_t *y)
 {
     run->count--;
-    store(run, t, y);
+    store_point(run, t, y);
     run->result.t = mpfr_get_d(t, RN);
 }
 
 /* --- the length of a step ------------------------------------------------------------ */
 
-/* Find log2 max(1, |y|). */
+/* The logarithm log2 max(1, |y|) of a number. */
 static double
 log2_size(mpfr_srcptr y)
 {
@@ -128,7 +128,7 @@ log2_size(mpfr_srcptr y)
 /* log2 of the step; INFINITY where orders from ... p hold nothing; NaN where they are not
  * finite. */
 static double
-log2_step(const state *s, int from)
+log2_of_step(const state *s, int from)
 {
     const qdot_precise_system *system = s->system;
     double least = INFINITY;
@@ -195,7 +195,7 @@ precise_evaluate(const qdot_precise_system *system, int p, mpfr_srcptr h, mpfr_t
 /* Places inside the step, from the series in doubles: x_k h^k = (x_k 2^(e k)) m^k with
  * h = m 2^e keeps the powers within what a double holds. */
 static void
-precise_sample_inside(const state *s)
+sample_step_in_doubles(const state *s)
 {
     const qdot_precise_system *system = s->system;
     double *to = s->run->inside
@@ -223,9 +223,9 @@ precise_sample_inside(const state *s)
     }
 }
 
-/* Whether the slope of the polynomial agrees with the equations evaluated at its end. */
+/* Whether the derivative of the Taylor polynomial agrees with the equations at its end. */
 static bool
-confirms(const state *s)
+is_confirmed_at_end(const state *s)
 {
     const qdot_precise_system *system = s->system;
     const double share = log2(10.0 * (s->p + 1)) + s->log2_tol;
@@ -246,7 +246,7 @@ confirms(const state *s)
 }
 
 static void
-keep_first(state *s)
+keep_first_derivatives(state *s)
 {
     for (size_t i = 0; i < s->n; i++)
         mpfr_set(s->first[i], s->system->x[i * s->system->stride + 1], RN);
@@ -255,7 +255,7 @@ keep_first(state *s)
 /* Whether it also is inside the step, at places without a pattern. The series is begun
  * anew afterwards. */
 static qdot_status
-confirms_inside(state *s, bool *good)
+is_confirmed_inside(state *s, bool *good)
 {
     static const double places[] = {0.31830988618379067, 0.70710678118654752};
     qdot_status status = QDOT_OK;
@@ -263,11 +263,11 @@ confirms_inside(state *s, bool *good)
     for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
         mpfr_mul_d(s->v, s->h, places[k], RN);
         precise_evaluate(s->system, s->p, s->v, s->next, s->slope, s->w);
-        keep_first(s);
+        keep_first_derivatives(s);
         mpfr_add(s->v, s->v, s->t, RN);
         status = precise_begin_series(s, s->v, s->next);
         if (status == QDOT_OK) {
-            *good = confirms(s);
+            *good = is_confirmed_at_end(s);
             status = precise_begin_series(s, s->t, s->y);
         }
         if (status == QDOT_OK)
@@ -285,14 +285,14 @@ precise_try_step(state *s, bool unsure, bool *good)
 {
     *good = true;
     if (unsure)
-        QDOT_TRY(confirms_inside(s, good));
+        QDOT_TRY(is_confirmed_inside(s, good));
     if (!*good)
         return QDOT_OK;
     precise_evaluate(s->system, s->p, s->h, s->next, s->slope, s->w);
-    keep_first(s);
-    precise_sample_inside(s);
+    keep_first_derivatives(s);
+    sample_step_in_doubles(s);
     QDOT_TRY(precise_begin_series(s, s->end, s->next));
-    *good = confirms(s);
+    *good = is_confirmed_at_end(s);
     if (!*good)
         return QDOT_OK;
     mpfr_set(s->t, s->end, RN);
@@ -303,7 +303,7 @@ precise_try_step(state *s, bool unsure, bool *good)
 }
 
 static qdot_status
-precise_too_small(const state *s)
+fail_with_small_step(const state *s)
 {
     double t = mpfr_get_d(s->t, RN);
 
@@ -315,9 +315,9 @@ precise_too_small(const state *s)
     return qdot_hint("the solution has a singularity there");
 }
 
-/* Set h and the end of the step from the desired length; if near, the end is t1, and *last is set. */
+/* Set h and the end of the step from the desired length; near t1 the end is t1 itself, and *last is set. */
 static void
-cut_step(state *s, double log2_h)
+set_step_end(state *s, double log2_h)
 {
     double rest;
 
@@ -342,7 +342,7 @@ cut_step(state *s, double log2_h)
 }
 
 static qdot_status
-precise_advance(state *s)
+advance_one_step(state *s)
 {
     double most = INFINITY, least;
     qdot_ode_stats *stats = &s->run->result.stats;
@@ -359,7 +359,7 @@ precise_advance(state *s)
         if (status == QDOT_OK)
             status = precise_extend_series(s);
         if (status == QDOT_OK) {
-            log2_h = log2_step(s, s->p / 2 + 1);
+            log2_h = log2_of_step(s, s->p / 2 + 1);
             if (isnan(log2_h))
                 status = qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
             else if (s->system->near)
@@ -369,10 +369,10 @@ precise_advance(state *s)
             bool unsure = isinf(log2_h);
 
             log2_h = fmin(log2_h, most);
-            cut_step(s, log2_h);
+            set_step_end(s, log2_h);
             log2_h = qdot_real_log2(s->h);
             if (log2_h < least && !mpfr_equal_p(s->end, s->t1))
-                return precise_too_small(s);
+                return fail_with_small_step(s);
             status = precise_try_step(s, unsure, &good);
             if (status == QDOT_OK && good)
                 return QDOT_OK;
@@ -385,13 +385,13 @@ precise_advance(state *s)
             s->undefined = *qdot_last_error();
         most = log2_h - 2;
         if (isnan(most) || tries == max_tries || most < least)
-            return precise_too_small(s);
+            return fail_with_small_step(s);
     }
 }
 
-/* Stop a run that would need hopelessly many steps, as in trajectory.c. */
+/* Stop a run that would need hopelessly many steps, as trajectory.c does. */
 static qdot_status
-precise_foresee(const state *s)
+stop_hopeless_run(const state *s)
 {
     const double t0 = mpfr_get_d(qdot_precise_point(s->run, 0)[0], RN);
     const double t = mpfr_get_d(s->t, RN), t1 = mpfr_get_d(s->t1, RN);
@@ -414,14 +414,14 @@ precise_loop(state *s)
     qdot_status status;
 
     QDOT_TRY(precise_reserve(s->run, max_bytes));
-    store(s->run, s->t, s->y);
+    store_point(s->run, s->t, s->y);
     if (mpfr_equal_p(s->t, s->t1))
         return QDOT_OK;
     status = precise_begin_series(s, s->t, s->y);
     if (qdot_ode_may_be_undefined(status)) {
         s->undefined = *qdot_last_error();
         s->met = true;
-        return precise_too_small(s);
+        return fail_with_small_step(s);
     }
     QDOT_TRY(status);
     while (!mpfr_equal_p(s->t, s->t1) && result->outcome != QDOT_ODE_STOPPED) {
@@ -431,11 +431,11 @@ precise_loop(state *s)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps",
                              mpfr_get_d(s->t, RN), (unsigned long long)max_steps);
         QDOT_TRY(precise_reserve(s->run, max_bytes));
-        QDOT_TRY(precise_advance(s));
+        QDOT_TRY(advance_one_step(s));
         qdot_progress_at(mpfr_get_d(s->t, RN));
-        store(s->run, s->t, s->y);
+        store_point(s->run, s->t, s->y);
         if (s->run->count % looks == 0)
-            QDOT_TRY(precise_foresee(s));
+            QDOT_TRY(stop_hopeless_run(s));
         if (s->options->accepted)
             QDOT_TRY(s->options->accepted(s->t, (const mpfr_t *)s->y, &stop,
                                           s->options->user));
@@ -505,9 +505,9 @@ qdot_precise_integrate(const qdot_precise_system *system,
 
 /* --- states between points ----------------------------------------------------------- */
 
-/* The index of the last point at or before t, in the direction of the run. */
+/* The index of the last stored point at or before t, in the direction of the run. */
 static size_t
-precise_locate(const qdot_precise_run *run, mpfr_srcptr t, bool backwards)
+find_point_before(const qdot_precise_run *run, mpfr_srcptr t, bool backwards)
 {
     size_t lo = 0, hi = run->count;
 
@@ -543,7 +543,7 @@ qdot_precise_at(const qdot_precise_run *run, const qdot_precise_system *system,
         return qdot_fail(QDOT_EDOMAIN,
                          "t = %.15g is outside the run, which covers %.15g to %.15g",
                          mpfr_get_d(t, RN), mpfr_get_d(first, RN), mpfr_get_d(last, RN));
-    k = precise_locate(run, t, backwards);
+    k = find_point_before(run, t, backwards);
     point = (const mpfr_t *)qdot_precise_point(run, k);
     if (mpfr_equal_p(t, point[0])) {
         for (size_t i = 0; i < run->n; i++)

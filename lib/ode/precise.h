@@ -25,22 +25,22 @@
  * of qdot_ode_system. */
 typedef struct {
     size_t n;
-    size_t checked;     /* dy_i/dt for i below this is itself a component, and needs no check */
+    size_t checked;     /* dy_i/dt with i below this is itself a component of y, and needs no check */
     mpfr_prec_t bits;   /* precision of all numbers in bits */
     int most;           /* highest order that the callbacks can compute */
     const mpfr_t *x;    /* x_ik = x[i stride + k], written by the callbacks */
     size_t stride;
-    /* begin: compute orders 0 and 1 of the solution through y [n] at t; extend: orders 2 ... p */
+    /* begin: compute orders 0 and 1 of the solution through y [n] at t; extend: compute orders 2 ... p */
     qdot_status (*begin)(mpfr_srcptr t, const mpfr_t *y, void *user);
     qdot_status (*extend)(int p, void *user);
-    /* As `near` of qdot_ode_series, for log2 of a step; NULL: any step */
+    /* Limit a step like `near` of qdot_ode_series, for log2 of the step; NULL: any step is allowed */
     double (*near)(int p, double log2_h, void *user);
     void *user; /* passed to the callbacks; borrowed */
 } qdot_precise_system;
 
 typedef struct {
     double log2_tol;
-    int order;          /* order of the expansions, at most system->most */
+    int order;          /* order of the Taylor expansions, at most system->most */
     uint64_t max_steps; /* largest number of steps; 0: 50 million */
     double max_bytes;   /* largest memory for stored points, in bytes; 0: 2e9 */
     /* Called after every accepted step, when the point is stored: as in qdot_ode_options; a
@@ -49,7 +49,7 @@ typedef struct {
     void *user;
 } qdot_precise_options;
 
-/* Points of a run: t, then y [n]. Start from {0}. */
+/* The stored points of a run: t, then y [n]. Initialise with {0}. */
 typedef struct {
     size_t n, count;
     int order;
@@ -67,13 +67,13 @@ enum { QDOT_PRECISE_CHUNK = 64, QDOT_PRECISE_INSIDE = 3 };
 
 void qdot_precise_run_clear(qdot_precise_run *run);
 
-/* Point k: t at [0], y at [1 ... n]. */
+/* The stored point k: its t at [0], y at [1 ... n]. */
 mpfr_t *qdot_precise_point(const qdot_precise_run *run, size_t k);
 
-/* The rows of doubles between points k and k + 1. */
+/* The rows (t, y) in doubles stored between points k and k + 1. */
 const double *qdot_precise_inside(const qdot_precise_run *run, size_t k);
 
-/* The order for a tolerance and the cost of an expansion to order p. */
+/* The order of expansions for a tolerance, given the cost of an expansion as a polynomial in its order p. */
 int qdot_precise_order_for(double log2_tol, const double cost[3]);
 
 /* Integrate from t0, y0 [n] to t1, all of the system's precision. Errors as
@@ -91,7 +91,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_at(const qdot_precise_run *run,
                                             const qdot_precise_system *system,
                                             mpfr_srcptr t, size_t *near, mpfr_t *y);
 
-/* Move the last point back to t, within the last step, with state y [n]. */
+/* Replace the last point by the time t within the last step, with state y [n]. */
 void qdot_precise_cut(qdot_precise_run *run, mpfr_srcptr t, const mpfr_t *y);
 
 #endif

@@ -12,9 +12,9 @@ enum { MOST = QDOT_RADAU_MOST };
 
 static qdot_radau_basis bases[QDOT_RADAU_KINDS];
 
-/* Find the coefficients of N(x), whose zeros are the nodes of the method. */
+/* Find the coefficients of the polynomial N(x) whose zeros are the nodes of the method. */
 static void
-find_nodal(const qdot_radau_basis *b, double *N)
+find_nodal_polynomial(const qdot_radau_basis *b, double *N)
 {
     N[0] = 1;
     for (size_t k = 0; k < b->stages; k++) {
@@ -27,7 +27,7 @@ find_nodal(const qdot_radau_basis *b, double *N)
 
 /* The k-th derivative of the polynomial N at x. */
 static double
-derivative(size_t degree, const double *N, size_t k, double x)
+derivative_of_polynomial(size_t degree, const double *N, size_t k, double x)
 {
     double sum = 0;
 
@@ -41,15 +41,15 @@ derivative(size_t degree, const double *N, size_t k, double x)
     return sum;
 }
 
-/* Find all roots lambda of sum_k N^(k)(0) lambda^(s-k), by Weierstrass' iteration. */
+/* Find all roots lambda of sum_k N^(k)(0) lambda^(s-k), the eigenvalues of A^-1, by Weierstrass' iteration. */
 static void
 find_eigenvalues(size_t s, const double *N, double complex *lambda)
 {
     double p[MOST + 1], moved = 1;
 
     for (size_t k = 0; k <= s; k++)
-        p[k] = derivative(s, N, k, 0);
-    for (size_t i = 0; i < s; i++) /* start points on a circle, no two of them complex conjugates */
+        p[k] = derivative_of_polynomial(s, N, k, 0);
+    for (size_t i = 0; i < s; i++) /* choose start points on a circle, no two of them complex conjugates */
         lambda[i] = 6 + 6 * cexp(2 * acos(-1) * I * ((double)i + 0.3) / (double)s);
     for (int tries = 0; tries < 200 && moved > 1e-15; tries++) {
         moved = 0;
@@ -68,7 +68,7 @@ find_eigenvalues(size_t s, const double *N, double complex *lambda)
 
 /* Sort the eigenvalues into the basis: first the real one, then one of each conjugate pair. */
 static void
-basis_sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
+sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
 {
     size_t at = 1;
 
@@ -85,9 +85,9 @@ basis_sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
     b->spaces = at;
 }
 
-/* Set column k of the matrix of eigenvectors; for a conjugate pair also the next column. */
+/* Set column k of the matrix of eigenvectors of A^-1; for a conjugate pair also the next column. */
 static void
-set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *im)
+set_eigenvector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *im)
 {
     const size_t s = b->stages, column = k ? 2 * k - 1 : 0;
     const double complex mu = 1 / (b->lambda_re[k] + I * b->lambda_im[k]);
@@ -96,7 +96,7 @@ set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *i
         double complex u = 0;
 
         for (size_t d = s; d > 0; d--)
-            u = u * mu + derivative(s, N, d, b->c[i]);
+            u = u * mu + derivative_of_polynomial(s, N, d, b->c[i]);
         re[i * s + column] = creal(u);
         im[i * s + column] = cimag(u);
         b->right_re[k][i] = (k ? 2 : 1) * creal(u);
@@ -108,16 +108,16 @@ set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *i
     }
 }
 
-/* Find the left eigenvectors w_k, the rows of the inverse of that matrix. */
+/* Find the left eigenvectors w_k, the rows of the inverse of the matrix of eigenvectors. */
 static void
-find_vectors(qdot_radau_basis *b, const double *N)
+find_eigenvectors(qdot_radau_basis *b, const double *N)
 {
     const size_t s = b->stages;
     double re[MOST * MOST], im[MOST * MOST];
     qdot_lu_row rows[MOST];
 
     for (size_t k = 0; k < b->spaces; k++)
-        set_vector(b, N, k, re, im);
+        set_eigenvector(b, N, k, re, im);
     (void)qdot_lu_factor_complex(s, re, im, rows);
     for (size_t i = 0; i < s; i++) {
         double x[MOST] = {0}, y[MOST] = {0};
@@ -134,7 +134,7 @@ find_vectors(qdot_radau_basis *b, const double *N)
 /* (A^-1)_ij, the slope at c_i of the polynomial that is 1 at c_j, 0 at 0 and the other nodes:
  * x L_j(x)/c_j. */
 static void
-find_inverse(qdot_radau_basis *b, const qdot_collocation *m)
+find_inverse_matrix(qdot_radau_basis *b, const qdot_collocation *m)
 {
     for (size_t i = 0; i < b->stages; i++)
         for (size_t j = 0; j < b->stages; j++) {
@@ -147,9 +147,9 @@ find_inverse(qdot_radau_basis *b, const qdot_collocation *m)
         }
 }
 
-/* Find the interpolation weights 1/(c_j prod (c_j - c_k)). */
+/* Find the weights 1/(c_j prod (c_j - c_k)) of interpolation at the nodes c_j. */
 static void
-find_weights(qdot_radau_basis *b)
+find_interpolation_weights(qdot_radau_basis *b)
 {
     for (size_t j = 0; j < b->stages; j++) {
         double product = b->c[j];
@@ -161,7 +161,7 @@ find_weights(qdot_radau_basis *b)
 }
 
 static void
-basis_make(qdot_radau_basis *b, size_t stages)
+make_basis(qdot_radau_basis *b, size_t stages)
 {
     double N[MOST + 1];
     double complex lambda[MOST];
@@ -175,30 +175,30 @@ basis_make(qdot_radau_basis *b, size_t stages)
         for (size_t j = 0; j < stages; j++)
             b->a[i][j] = m.a[i][j].hi;
     }
-    find_inverse(b, &m);
-    find_weights(b);
-    find_nodal(b, N);
+    find_inverse_matrix(b, &m);
+    find_interpolation_weights(b);
+    find_nodal_polynomial(b, N);
     find_eigenvalues(stages, N, lambda);
-    basis_sort_eigenvalues(b, lambda);
-    find_vectors(b, N);
+    sort_eigenvalues(b, lambda);
+    find_eigenvectors(b, N);
 }
 
 static void
-make_first(void)
+make_basis_of_3_stages(void)
 {
-    basis_make(bases, 3);
+    make_basis(bases, 3);
 }
 
 static void
-make_second(void)
+make_basis_of_5_stages(void)
 {
-    basis_make(bases + 1, 5);
+    make_basis(bases + 1, 5);
 }
 
 static void
-make_third(void)
+make_basis_of_7_stages(void)
 {
-    basis_make(bases + 2, 7);
+    make_basis(bases + 2, 7);
 }
 
 const qdot_radau_basis *
@@ -206,7 +206,7 @@ qdot_radau_basis_get(size_t kind)
 {
     static pthread_once_t once[] = {PTHREAD_ONCE_INIT, PTHREAD_ONCE_INIT,
                                     PTHREAD_ONCE_INIT};
-    static void (*const makers[])(void) = {make_first, make_second, make_third};
+    static void (*const makers[])(void) = {make_basis_of_3_stages, make_basis_of_5_stages, make_basis_of_7_stages};
 
     pthread_once(once + kind, makers[kind]);
     return bases + kind;

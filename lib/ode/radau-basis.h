@@ -21,7 +21,7 @@
 enum {
     QDOT_RADAU_MOST = 7,  /* largest number of stages */
     QDOT_RADAU_KINDS = 3, /* number of methods: 3, 5, 7 stages */
-    QDOT_RADAU_SPACES = 4 /* largest number of eigenspaces; k = 0 belongs to the real eigenvalue */
+    QDOT_RADAU_SPACES = 4 /* largest number of eigenspaces of A^-1; k = 0 belongs to the real eigenvalue */
 };
 
 typedef struct {
@@ -29,20 +29,20 @@ typedef struct {
     double c[QDOT_RADAU_MOST];
     double a[QDOT_RADAU_MOST][QDOT_RADAU_MOST], inverse[QDOT_RADAU_MOST][QDOT_RADAU_MOST];
     double first
-        [QDOT_RADAU_MOST]; /* Lagrange polynomials at 0: p(0) = sum_i first[i] p(c_i) */
+        [QDOT_RADAU_MOST]; /* values of Lagrange polynomials at 0: p(0) = sum_i first[i] p(c_i) */
     double weight[QDOT_RADAU_MOST]; /* weights of barycentric interpolation at the nodes */
     double lambda_re[QDOT_RADAU_SPACES], lambda_im[QDOT_RADAU_SPACES];
-    /* right eigenvectors u, doubled for conjugate pairs, and left eigenvectors w */
+    /* right eigenvectors u of A^-1, doubled for conjugate pairs, and left eigenvectors w */
     double right_re[QDOT_RADAU_SPACES][QDOT_RADAU_MOST],
         right_im[QDOT_RADAU_SPACES][QDOT_RADAU_MOST];
     double left_re[QDOT_RADAU_SPACES][QDOT_RADAU_MOST],
         left_im[QDOT_RADAU_SPACES][QDOT_RADAU_MOST];
 } qdot_radau_basis;
 
-/* The basis of that kind, below QDOT_RADAU_KINDS; static. */
+/* The basis of the Radau method number `kind` < QDOT_RADAU_KINDS; static. */
 const qdot_radau_basis *qdot_radau_basis_get(size_t kind);
 
-/* Weights w [stages]: the polynomial with value 0 at 0 and z_i at c_i has the value sum_i w_i z_i at x. */
+/* Find weights w [stages] such that the polynomial with value 0 at 0 and z_i at c_i has the value sum_i w_i z_i at x. */
 void qdot_radau_interpolate(const qdot_radau_basis *b, double x, double *w);
 
 #endif

@@ -68,9 +68,9 @@ qdot_radau_residual(const qdot_radau_linear *l, double t, const double *y,
     return check_finite(r, l->m, "right-hand side");
 }
 
-/* Reorder the unknowns if entries are non-zero that were 0 so far. */
+/* Choose a new order of the unknowns if entries are non-zero that were 0 so far. */
 static void
-look_at_pattern(qdot_radau_linear *l)
+update_pattern(qdot_radau_linear *l)
 {
     enum { few = 4 };
     const size_t m = l->m;
@@ -104,12 +104,12 @@ qdot_radau_slopes(qdot_radau_linear *l, double t, const double *y, const double 
     QDOT_TRY(check_finite(l->dq, m * m, "Jacobian"));
     QDOT_TRY(check_finite(l->mass, m * m, "Jacobian"));
     QDOT_TRY(check_finite(l->dv, m * m, "Jacobian"));
-    look_at_pattern(l);
+    update_pattern(l);
     return QDOT_OK;
 }
 
 static bool
-factor_space(qdot_radau_linear *l, size_t k, double h)
+factor_for_eigenspace(qdot_radau_linear *l, size_t k, double h)
 {
     const double a = l->basis->lambda_re[k], b = l->basis->lambda_im[k],
                  size = a * a + b * b;
@@ -135,7 +135,7 @@ qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h)
 {
     l->basis = basis;
     for (size_t k = 0; k < basis->spaces; k++)
-        if (!factor_space(l, k, h))
+        if (!factor_for_eigenspace(l, k, h))
             return false;
     return true;
 }

@@ -20,21 +20,21 @@
 
 typedef struct {
     const qdot_ode_system *system; /* the system to be integrated; borrowed */
-    size_t m, v, p; /* number of unknowns; of velocities, the first of them; of positions, v or 0 */
+    size_t m, v, p; /* number of unknowns; of velocities, which come first among these; of positions, v or 0 */
     double *room;                  /* the allocated block that holds the arrays of doubles */
     double *dq, *dv, *mass;        /* [m x m] derivatives of f - M a by q and by v; mass matrix M */
     double *dt;                    /* [m] scratch */
     double *re[QDOT_RADAU_SPACES],
-        *im[QDOT_RADAU_SPACES]; /* [m x m] LU factors, real and imaginary parts; im[0] is NULL */
+        *im[QDOT_RADAU_SPACES]; /* [m x m] LU factors for each eigenspace, real and imaginary parts; im[0] is NULL */
     qdot_lu_row *rows[QDOT_RADAU_SPACES];
-    bool *pattern;   /* [m x m] entries that have been non-zero, and their transposes */
+    bool *pattern;   /* [m x m] which entries have ever been non-zero, or their transposes have */
     size_t *order;   /* [m] order of the unknowns that keeps the factors sparse */
     size_t *scratch; /* [m] scratch */
-    double *put[2];  /* [m] a right side in this order: real, imaginary part */
-    const qdot_radau_basis *basis; /* method for which the matrices are factored */
+    double *put[2];  /* [m] a right-hand side in this order: real part, imaginary part */
+    const qdot_radau_basis *basis; /* the Radau method for which the matrices are factored */
 } qdot_radau_linear;
 
-/* Allocate. Errors: QDOT_ENOMEM; clear l in any case. */
+/* Allocate the arrays of l. Errors: QDOT_ENOMEM; clear l in any case. */
 QDOT_MUST_CHECK qdot_status qdot_radau_linear_init(qdot_radau_linear *l,
                                                    const qdot_ode_system *system);
 void qdot_radau_linear_clear(qdot_radau_linear *l);
@@ -45,21 +45,21 @@ QDOT_MUST_CHECK qdot_status qdot_radau_residual(const qdot_radau_linear *l, doub
                                                 const double *y, const double *a,
                                                 const double *z, double *r);
 
-/* Evaluate the derivatives at (t, y, a), and the multipliers there. Same errors. */
+/* Evaluate the derivatives of f - M a at (t, y, a), and the multipliers there. Same errors. */
 QDOT_MUST_CHECK qdot_status qdot_radau_slopes(qdot_radau_linear *l, double t,
                                               const double *y, const double *a, double *z);
 
-/* Factor for a step h. False if a matrix is singular. */
+/* Factor the matrices of all eigenspaces for a step h. False if a matrix is singular. */
 bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h);
 
-/* Solve with the matrix of eigenspace k; im is not read for k = 0. */
+/* Solve with the factored matrix of eigenspace k; im is not read for k = 0. */
 void qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im);
 
-/* Estimate the rounding error of f - M a caused by y, a and z: b [m], of either sign. */
+/* Estimate the rounding error of f - M a that is caused by rounding of y, a and z: b [m], of either sign. */
 void qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a,
                       const double *z, double *b);
 
-/* Multiply: b = M v + Dq q; q NULL: without the second term. */
+/* Multiply vectors by the matrices: b = M v + Dq q; if q is NULL, without the second term. */
 void qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q,
                       double *b);
 

@@ -37,10 +37,10 @@ static const double agree = 0.1, harmless = 0.1, agree_roundings = 1000, fell_by
  * constraints, whatever these are. */
 static const double by_multipliers = 0.05;
 
-/* The factors by which steps are shortened after one whose iteration failed. */
+/* The factors by which a step is shortened after its iteration failed. */
 static const double shorter = 0.6, half = 0.5;
 
-/* The slowest convergence to go on with; a multiple of rounding errors of f; an error that lets steps grow. */
+/* The slowest convergence rate to go on with; a multiple of rounding errors of f; an error that lets steps grow. */
 static const double stagnates = 0.3, several = 6, grows = 0.03;
 
 typedef struct {
@@ -48,26 +48,26 @@ typedef struct {
     size_t n, p, v; /* numbers of components: y = (q [p], v [v]) */
     size_t m, w; /* m unknowns of the linear equations (v, z); w components of a stage (q, v, z) */
     size_t kind;     /* index of the method in radau-basis.h: 3, 5 or 7 stages */
-    bool kept;       /* the matrices do not change along the run */
+    bool kept;       /* whether the matrices stay the same along the run */
     double *room;    /* the allocated block that holds the arrays below */
     double *Z;       /* [MOST x w] stages minus (y, z) at the start of the step */
-    double *z;       /* [m] multipliers at the start; those of stages are relative to these */
+    double *z;       /* [m] multipliers at the start of the step; those of the stages are relative to these */
     double *a;       /* [MOST x m] accelerations of the stages */
-    double *R, *R_before; /* [MOST x m] residuals of the stages; those of the previous iteration */
-    double *re, *im; /* [m] right side of a linear system, real and imaginary part */
-    double *forces; /* [m] sum of magnitudes of the terms of each force, where slopes were evaluated */
-    double *weight;  /* [w] 1/(tol max(scale_i, |y_i|)) */
+    double *R, *R_before; /* [MOST x m] residuals of the equations at the stages; those of the previous iteration */
+    double *re, *im; /* [m] right-hand side of a linear system, real and imaginary part */
+    double *forces; /* [m] sum of magnitudes of the terms of each force, where the derivatives were evaluated */
+    double *weight;  /* [w] weight of each component in error norms, 1/(tol max(scale_i, |y_i|)) */
     double *before;  /* [MOST x w] stages of the last accepted step */
-    const qdot_radau_basis *before_basis; /* method of these stages; NULL: none */
+    const qdot_radau_basis *before_basis; /* the Radau method of the stages `before`; NULL: there are none */
     double before_h, h;
-    bool slopes, fresh;             /* the Jacobian has been evaluated; at the present y */
+    bool slopes, fresh;             /* whether the Jacobian has been evaluated; whether that was at the present y */
     double factored;                /* step length for which the matrices are factored; 0: none */
-    double rate, rate_before, left; /* Newton: convergence rate, that of the last step, remaining error */
+    double rate, rate_before, left; /* Newton's iteration: convergence rate, that of the last step, remaining error */
     double fall; /* factor by which the last iteration reduced the residual of the forces */
     int iterations, since; /* iterations of this step; steps since the number of stages changed */
-    double ratio;                   /* error ratio of the last accepted step */
-    double fell; /* error ratio of that step / step before, reduced to equal lengths; 0: unknown */
-    double most; /* step length not to be exceeded for `cautious` more steps, as the iteration failed */
+    double ratio;                   /* error ratio (error divided by tolerance) of the last accepted step */
+    double fell; /* error ratio of the last step divided by that before, for equal lengths; 0: unknown */
+    double most; /* step length not to be exceeded for `cautious` more steps, because the iteration failed */
     int cautious;
     bool rejected;
 } radau;
@@ -75,7 +75,7 @@ typedef struct {
 /* --- allocating and choosing stages --------------------------------------------------- */
 
 static void
-radau_drop(qdot_ode_stepper *s)
+free_radau(qdot_ode_stepper *s)
 {
     radau *r = s->own;
 
@@ -88,7 +88,7 @@ radau_drop(qdot_ode_stepper *s)
 }
 
 static qdot_status
-radau_make(qdot_ode_stepper *s)
+allocate_radau(qdot_ode_stepper *s)
 {
     radau *r = s->own = qdot_calloc(1, sizeof *r);
 
@@ -103,7 +103,7 @@ radau_make(qdot_ode_stepper *s)
     r->kind = s->tol > 1e-8 ? 1 : 2;
     return qdot_calloc_parts(&r->room, 10,
                              (const qdot_part[]){{&r->Z, MOST * r->w},
-                                                 {&r->z, r->m}, /* larger than the number of multipliers */
+                                                 {&r->z, r->m}, /* larger than needed: m exceeds the number of multipliers */
                                                  {&r->a, MOST * r->m},
                                                  {&r->R, MOST * r->m},
                                                  {&r->R_before, MOST * r->m},
@@ -115,7 +115,7 @@ radau_make(qdot_ode_stepper *s)
 }
 
 static void
-restart(qdot_ode_stepper *s)
+start_without_history(qdot_ode_stepper *s)
 {
     radau *r = s->own;
 
@@ -147,9 +147,9 @@ larger(double a, double b)
 
 /* --- Newton's iteration for the stages -------------------------------------------------- */
 
-/* The sum over j of w_j x_j for 3, 5 or 7 stages, whose values are `stride` apart. */
+/* The sum over the stages j of w_j x_j for 3, 5 or 7 stages, whose values are `stride` apart in x. */
 static inline double
-over_stages(size_t stages, const double *w, const double *x, size_t stride)
+sum_over_stages(size_t stages, const double *w, const double *x, size_t stride)
 {
     double sum = w[0] * x[0] + w[1] * x[stride] + w[2] * x[2 * stride];
 
@@ -160,63 +160,63 @@ over_stages(size_t stages, const double *w, const double *x, size_t stride)
     return sum;
 }
 
-/* Compute positions of the stages, minus q, from their velocities. */
+/* Compute the positions of the stages, minus q at the start, from their velocities. */
 static void
-stages_positions(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
+find_stage_positions(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
     radau *r = s->own;
 
     for (size_t i = 0; i < b->stages; i++)
         for (size_t l = 0; l < r->p; l++) {
-            const double sum = over_stages(b->stages, b->a[i], r->Z + r->p + l, r->w);
+            const double sum = sum_over_stages(b->stages, b->a[i], r->Z + r->p + l, r->w);
 
             r->Z[i * r->w + l] =
                 h * (b->c[i] * s->y[r->p + l] + (sum + b->c[i] * s->carry[r->p + l]));
         }
 }
 
-/* Whether the step is not much longer than the previous one, if there is one. */
+/* Whether the step is not much longer than the previous one; false if there is none. */
 static bool
-is_near(const radau *r)
+is_near_last_length(const radau *r)
 {
     return r->before_basis && fabs(r->h) <= far * fabs(r->before_h);
 }
 
-/* Predict the stages by the polynomial of the last step; y if there is none or it is too far. */
+/* Predict the stages by the polynomial of the last step; by y if there is none or the new step is much longer. */
 static void
-predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
+predict_stages(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
     radau *r = s->own;
-    const qdot_radau_basis *old = is_near(r) ? r->before_basis : NULL;
+    const qdot_radau_basis *old = is_near_last_length(r) ? r->before_basis : NULL;
     double w[MOST];
 
     if (!old)
         memset(r->Z, 0, b->stages * r->w * sizeof *r->Z);
     for (size_t i = 0; i < b->stages && old; i++) {
         qdot_radau_interpolate(old, 1 + b->c[i] * h / r->before_h, w);
-        w[old->stages - 1] -= 1; /* subtract the value at the end of the old step */
+        w[old->stages - 1] -= 1; /* subtract the value of the polynomial at the end of the old step */
         for (size_t l = r->p; l < r->w; l++)
-            r->Z[i * r->w + l] = over_stages(old->stages, w, r->before + l, r->w);
+            r->Z[i * r->w + l] = sum_over_stages(old->stages, w, r->before + l, r->w);
     }
-    stages_positions(s, b, h);
+    find_stage_positions(s, b, h);
 }
 
-/* Compute accelerations of the stages: a_i = 1/h sum_j (A^-1)_ij Z_j. */
+/* Compute the accelerations of the stages: a_i = 1/h sum_j (A^-1)_ij Z_j. */
 static void
-accelerate(radau *r, const qdot_radau_basis *b, double h)
+find_accelerations(radau *r, const qdot_radau_basis *b, double h)
 {
     for (size_t i = 0; i < b->stages; i++)
         for (size_t l = 0; l < r->v; l++)
             r->a[i * r->m + l] =
-                over_stages(b->stages, b->inverse[i], r->Z + r->p + l, r->w) / h;
+                sum_over_stages(b->stages, b->inverse[i], r->Z + r->p + l, r->w) / h;
 }
 
 static qdot_status
-residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
+find_residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
 {
     radau *r = s->own;
 
-    accelerate(r, b, h);
+    find_accelerations(r, b, h);
     for (size_t i = 0; i < b->stages; i++) {
         const double *Z = r->Z + i * r->w;
 
@@ -231,9 +231,9 @@ residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
     return QDOT_OK;
 }
 
-/* Solve for the change of the velocities that the residuals require; it replaces `a`. */
+/* Solve for the change of the velocities that the residuals of the stages require; it replaces `a`. */
 static void
-newton_solve(radau *r, const qdot_radau_basis *b)
+solve_for_change(radau *r, const qdot_radau_basis *b)
 {
     const size_t m = r->m;
 
@@ -241,8 +241,8 @@ newton_solve(radau *r, const qdot_radau_basis *b)
         memset(r->a + i * m, 0, m * sizeof *r->a);
     for (size_t k = 0; k < b->spaces; k++) {
         for (size_t l = 0; l < m; l++) {
-            r->re[l] = over_stages(b->stages, b->left_re[k], r->R + l, m);
-            r->im[l] = k ? over_stages(b->stages, b->left_im[k], r->R + l, m) : 0;
+            r->re[l] = sum_over_stages(b->stages, b->left_re[k], r->R + l, m);
+            r->im[l] = k ? sum_over_stages(b->stages, b->left_im[k], r->R + l, m) : 0;
         }
         qdot_radau_solve(&r->linear, k, r->re, r->im);
         for (size_t i = 0; i < b->stages; i++)
@@ -252,9 +252,9 @@ newton_solve(radau *r, const qdot_radau_basis *b)
     }
 }
 
-/* Add the change, in `a`, to the stages. Returns its size in units of the tolerance. */
+/* Add the change of velocities, in `a`, to the stages. Returns its size in units of the tolerance. */
 static double
-newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
+apply_change(radau *r, const qdot_radau_basis *b, double h)
 {
     double size = 0;
 
@@ -262,7 +262,7 @@ newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
         double *Z = r->Z + i * r->w;
 
         for (size_t l = 0; l < r->p; l++) {
-            const double by = h * over_stages(b->stages, b->a[i], r->a + l, r->m);
+            const double by = h * sum_over_stages(b->stages, b->a[i], r->a + l, r->m);
 
             Z[l] += by;
             size = larger(fabs(by) * r->weight[l], size);
@@ -279,9 +279,9 @@ newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
     return size;
 }
 
-/* The change of a stage caused by rounding of f, in units of the tolerance. */
+/* The change of a stage that rounding errors of f cause, in units of the tolerance. */
 static double
-newton_noise(const qdot_ode_stepper *s, double h)
+change_by_rounding(const qdot_ode_stepper *s, double h)
 {
     radau *r = s->own;
     const double part = h / r->linear.basis->lambda_re[0];
@@ -297,9 +297,9 @@ newton_noise(const qdot_ode_stepper *s, double h)
     return several * noise;
 }
 
-/* Whether velocity j has no mass, so that the other velocities determine it without delay. */
+/* Whether velocity j has no mass, so that the other velocities determine it at every moment. */
 static bool
-is_algebraic(const qdot_radau_linear *l, size_t j)
+is_massless_velocity(const qdot_radau_linear *l, size_t j)
 {
     for (size_t i = 0; i < l->m; i++)
         if (l->mass[i * l->m + j] != 0)
@@ -311,12 +311,12 @@ is_algebraic(const qdot_radau_linear *l, size_t j)
  * multipliers by velocities (they are no results of a step, but the iteration goes on while they are
  * wrong). */
 static void
-weigh_algebraic(radau *r, double h)
+set_algebraic_weights(radau *r, double h)
 {
     const qdot_radau_linear *l = &r->linear;
 
     for (size_t j = 0; j < r->p; j++)
-        if (is_algebraic(l, j))
+        if (is_massless_velocity(l, j))
             r->weight[r->p + j] = fmin(r->weight[r->p + j], fabs(h) * r->weight[j]);
     for (size_t k = r->v; k < r->m; k++) {
         double most = 0;
@@ -334,7 +334,7 @@ weigh_algebraic(radau *r, double h)
 /* The sum of the magnitudes of the terms of f - M a, row l, stage i; forces as where the
  * derivatives were taken. */
 static double
-defect_terms(const radau *r, size_t i, size_t l)
+sum_of_term_magnitudes(const radau *r, size_t i, size_t l)
 {
     const double *mass = r->linear.mass + l * r->m, *dv = r->linear.dv + l * r->m;
     double sum = r->forces[l];
@@ -354,7 +354,7 @@ static bool
 forces_agree(radau *r, const qdot_radau_basis *b)
 {
     const bool first = r->iterations == 1;
-    const double left = first && !is_near(r) ? 1 : r->left;
+    const double left = first && !is_near_last_length(r) ? 1 : r->left;
     double worst = 0;
 
     for (size_t i = 0; i < b->stages; i++)
@@ -363,10 +363,10 @@ forces_agree(radau *r, const qdot_radau_basis *b)
             const double matters = harmless * fabs(r->linear.mass[l * r->m + l] / r->h) / r->weight[r->p + l];
             const double fall = first ? r->fall : missing / fmax(before, DBL_MIN);
 
-            if (left * missing > agree * r->forces[l] && left * missing > agree * defect_terms(r, i, l))
+            if (left * missing > agree * r->forces[l] && left * missing > agree * sum_of_term_magnitudes(r, i, l))
                 return false;
             if (missing > matters && (first ? fall * missing > matters : fall > fell_by)
-                && missing > agree_roundings * DBL_EPSILON * defect_terms(r, i, l))
+                && missing > agree_roundings * DBL_EPSILON * sum_of_term_magnitudes(r, i, l))
                 return false;
             if (!first && before > matters)
                 worst = fmax(worst, fall);
@@ -383,9 +383,9 @@ power_three_quarters(double x)
     return sqrt(x * sqrt(x));
 }
 
-/* Iterate the stages and their accelerations `a`; *converged. */
+/* Iterate to find the stages and their accelerations `a`; *converged tells whether that succeeded. */
 static qdot_status
-newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
+iterate_stages(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
                bool *converged)
 {
     radau *r = s->own;
@@ -397,18 +397,18 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
     double before = 0;
 
     *converged = false;
-    weigh_algebraic(r, h);
-    predict(s, b, h);
+    set_algebraic_weights(r, h);
+    predict_stages(s, b, h);
     r->left = power_three_quarters(fmax(r->left, DBL_EPSILON));
-    r->fall = is_near(r) ? power_three_quarters(fmax(r->fall, DBL_EPSILON)) : 1;
+    r->fall = is_near_last_length(r) ? power_three_quarters(fmax(r->fall, DBL_EPSILON)) : 1;
     for (r->iterations = 1; r->iterations <= most; r->iterations++) {
         double size, *R = r->R_before;
 
         r->R_before = r->R;
         r->R = R;
-        QDOT_TRY(residuals(s, b, t, h));
-        newton_solve(r, b);
-        size = newton_apply_change(r, b, h);
+        QDOT_TRY(find_residuals(s, b, t, h));
+        solve_for_change(r, b);
+        size = apply_change(r, b, h);
         if (!isfinite(size))
             return QDOT_OK;
         if (r->iterations >= judged) {
@@ -416,9 +416,9 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
 
             r->rate = r->iterations == judged ? rate : sqrt(rate * r->rate_before);
             r->rate_before = rate;
-            if (size > enough && rate > stagnates && size <= newton_noise(s, h)) {
-                *converged = true; /* converged up to rounding */
-                accelerate(r, b, h);
+            if (size > enough && rate > stagnates && size <= change_by_rounding(s, h)) {
+                *converged = true; /* as far as rounding allows */
+                find_accelerations(r, b, h);
                 return QDOT_OK;
             }
             if (r->rate >= 0.99 && size > enough)
@@ -432,7 +432,7 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
         if (r->left * size > enough
             || (r->left * size > wanted && r->rate < stagnates && r->iterations < most))
             continue;
-        accelerate(r, b, h);
+        find_accelerations(r, b, h);
         if (forces_agree(r, b)) {
             *converged = true;
             return QDOT_OK;
@@ -480,13 +480,13 @@ estimate(qdot_ode_stepper *s, const qdot_radau_basis *b, double h, const double 
 /* What rounding of f makes of an estimate that matters is no error of the step, which would get
  * shorter for it and no better. */
 static void
-spare_noise(qdot_ode_stepper *s, double h, double *ratio)
+ignore_rounding_noise(qdot_ode_stepper *s, double h, double *ratio)
 {
     double noise;
 
     if (*ratio <= grows || !isfinite(*ratio))
         return;
-    noise = newton_noise(s, h);
+    noise = change_by_rounding(s, h);
     if (!(noise > grows))
         return;
     *ratio = fmax(*ratio - noise, grows);
@@ -496,12 +496,12 @@ spare_noise(qdot_ode_stepper *s, double h, double *ratio)
 /* Where a motion is stiff and off its slow course the defect is large, and the error is not: once
  * more with f at the state that the estimate leads to. */
 static qdot_status
-radau_judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double *ratio)
+judge_step(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double *ratio)
 {
     radau *r = s->own;
 
     *ratio = estimate(s, b, h, s->dydt);
-    spare_noise(s, h, ratio);
+    ignore_rounding_noise(s, h, ratio);
     if (*ratio <= 1 || !isfinite(*ratio) || (r->before_basis && !r->rejected))
         return QDOT_OK;
     for (size_t l = 0; l < r->n; l++)
@@ -509,14 +509,14 @@ radau_judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, 
     if (qdot_ode_stepper_rhs(s, t, s->trial, s->trial_dydt) != QDOT_OK)
         return QDOT_OK;
     *ratio = estimate(s, b, h, s->trial_dydt);
-    spare_noise(s, h, ratio);
+    ignore_rounding_noise(s, h, ratio);
     return QDOT_OK;
 }
 
 /* --- choosing steps and stages --------------------------------------------------------- */
 
 static qdot_status
-radau_prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool *regular)
+prepare_matrices(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool *regular)
 {
     radau *r = s->own;
 
@@ -542,7 +542,7 @@ radau_prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h
 /* By how much the error of steps of one length falls from step to step, as a transient dies out: of the
  * last two such factors the lesser one. 1: it does not, or is not known. */
 static double
-error_decay(radau *r, const qdot_radau_basis *b, double h, double ratio)
+decay_of_error(radau *r, const qdot_radau_basis *b, double h, double ratio)
 {
     const double grown = h / r->before_h, before = r->fell;
     double fell = r->ratio / ratio;
@@ -568,16 +568,16 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
         r->weight[l] = 1 / (s->tol * qdot_ode_size(s->system->scales, l, s->y[l]));
     r->h = h;
     while (!converged) {
-        QDOT_TRY(radau_prepare(s, b, t, h, &regular));
+        QDOT_TRY(prepare_matrices(s, b, t, h, &regular));
         if (regular)
-            QDOT_TRY(newton_iterate(s, b, t, h, &converged));
+            QDOT_TRY(iterate_stages(s, b, t, h, &converged));
         if (converged || r->fresh)
             break;
         r->slopes = false;
     }
     *ratio = INFINITY;
     if (converged)
-        QDOT_TRY(radau_judge(s, b, t, h, ratio));
+        QDOT_TRY(judge_step(s, b, t, h, ratio));
     else
         r->most = shorter * fabs(h), r->cautious = steady;
     if (!converged && regular && r->rate < 1) /* the step control aims at a tenth of the tolerance (whole.c) */
@@ -585,7 +585,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
     if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
     if (*ratio <= 1) {
-        const double fell = error_decay(r, b, h, *ratio);
+        const double fell = decay_of_error(r, b, h, *ratio);
 
         r->ratio = *ratio;
         *ratio /= r->rate < fast && *ratio < bounds ? fell : 1;
@@ -603,7 +603,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
 /* More stages where the iteration converges fast, or the error bounds the steps and it converges;
  * fewer where it hardly does, and the error would allow longer steps. */
 static void
-choose_stages(const qdot_ode_stepper *s)
+choose_number_of_stages(const qdot_ode_stepper *s)
 {
     radau *r = s->own;
     const size_t old = r->kind;
@@ -621,7 +621,7 @@ choose_stages(const qdot_ode_stepper *s)
 }
 
 static void
-radau_accepted(qdot_ode_stepper *s)
+step_accepted(qdot_ode_stepper *s)
 {
     radau *r = s->own;
     double *Z = r->before;
@@ -635,11 +635,11 @@ radau_accepted(qdot_ode_stepper *s)
     r->fresh = false;
     if (r->rate > (r->m > dear * r->before_basis->stages ? reuse_dear : reuse))
         r->slopes = false;
-    choose_stages(s);
+    choose_number_of_stages(s);
 }
 
 static double
-radau_power(const qdot_ode_stepper *s)
+power_of_step_in_error(const qdot_ode_stepper *s)
 {
     const radau *r = s->own;
 
@@ -647,7 +647,7 @@ radau_power(const qdot_ode_stepper *s)
 }
 
 static size_t
-another(qdot_ode_stepper *s)
+other_number_of_stages(qdot_ode_stepper *s)
 {
     radau *r = s->own;
 
@@ -655,9 +655,9 @@ another(qdot_ode_stepper *s)
     return QDOT_RADAU_KINDS;
 }
 
-/* Write rows of F for interpolation: the stages, then their number. */
+/* Write rows of F by which states inside the step are interpolated: the stages, then their number. */
 static qdot_status
-dense(qdot_ode_stepper *s, double t, double h, double *F)
+write_interpolation_rows(qdot_ode_stepper *s, double t, double h, double *F)
 {
     const radau *r = s->own;
     const size_t stages = r->linear.basis->stages;
@@ -671,7 +671,7 @@ dense(qdot_ode_stepper *s, double t, double h, double *F)
 }
 
 static void
-radau_at(size_t n, const double *F, const double *y0, double x, double *y)
+interpolate_state(size_t n, const double *F, const double *y0, double x, double *y)
 {
     const qdot_radau_basis *b = qdot_radau_basis_get((size_t)F[MOST * n]);
     double w[MOST];
@@ -688,13 +688,13 @@ radau_at(size_t n, const double *F, const double *y0, double x, double *y)
 
 const qdot_ode_kernel qdot_radau = {.powers = MOST + 1,
                                     .step = radau_step,
-                                    .dense = dense,
-                                    .at = radau_at,
-                                    .open = radau_make,
-                                    .close = radau_drop,
-                                    .restart = restart,
-                                    .accepted = radau_accepted,
-                                    .power = radau_power,
-                                    .another = another,
+                                    .dense = write_interpolation_rows,
+                                    .at = interpolate_state,
+                                    .open = allocate_radau,
+                                    .close = free_radau,
+                                    .restart = start_without_history,
+                                    .accepted = step_accepted,
+                                    .power = power_of_step_in_error,
+                                    .another = other_number_of_stages,
                                     .keeps_step = true,
                                     .forward = true};

@@ -41,7 +41,7 @@
 
 #include "ode/stepper.h"
 
-/* The kernel of method `radau`. */
+/* The functions of the method `radau`, for the table of method.h. */
 extern const qdot_ode_kernel qdot_radau;
 
 /* For tests: use only 3, 5 or 7 stages from now on. */

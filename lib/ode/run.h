@@ -9,7 +9,7 @@
 #include "ode/method.h"
 #include "ode/system.h"
 
-/* The numbers of steps and evaluations in an integration. */
+/* Counts of steps and evaluations in an integration. */
 typedef struct {
     uint64_t steps;          /* accepted steps */
     uint64_t rejected;       /* steps tried and rejected, for whatever reason */
@@ -17,13 +17,13 @@ typedef struct {
     uint64_t jacobians;      /* evaluations of df/dy */
     uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
                                 not tell); a step of bsimp broken off counts in full */
-    uint64_t projections;    /* steps whose end was moved by system->project */
+    uint64_t projections;    /* steps whose end was moved onto the constraints by system->project */
     double raised;           /* by Taylor series and radau: the tolerance that rounding of the
                                 equations left, where it is more than that asked for; else 0 */
     double cpu;              /* CPU seconds of this thread */
 } qdot_ode_stats;
 
-/* Add the counts of another part of the run. */
+/* Add the counts of another part of the run to the sum. */
 static inline void
 qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
 {
@@ -43,7 +43,7 @@ typedef struct {
     double t, t_end, unit;
     int order;
     const double *y;
-    const double *carry; /* [n] exact state minus y; NULL: 0 */
+    const double *carry; /* [n] exact state minus its double y; NULL: 0 */
 } qdot_ode_expanded;
 
 typedef struct qdot_ode_meter qdot_ode_meter;
@@ -53,7 +53,7 @@ typedef struct {
     double tol;         /* tolerance, 1e-16 .. 1; default 1e-12 */
     double h_fixed;     /* > 0: steps of (at most) this length, whatever their error */
     double h_first;     /* > 0: length of the first step to try */
-    double first_share; /* > 0: multiplies the first step length that a method finds itself */
+    double first_share; /* > 0: factor of the first step length that a method finds itself */
     uint64_t max_steps; /* largest number of steps tried; default 50 million */
     /* largest number of evaluations of f, for methods with difference quotients; default: no limit */
     uint64_t max_evaluations;
@@ -72,18 +72,18 @@ typedef struct {
     qdot_status (*expanded)(qdot_ode_expanded *step, void *user);
     bool at_doubles; /* steps that may be of any length end at doubles of t exactly, so that states
                         within them can be located to less than a double */
-    double t1_low; /* exact end time minus t1: the run ends at the sum; not for steps of constant length */
+    double t1_low; /* exact end time minus its double t1; the run ends at the exact time; not for steps of constant length */
     /* taylor only: the exact initial state less y [n], borrowed; orders added to those that the
      * tolerance needs. */
     const double *carry;
     int order_more;
     double past;       /* taylor only: number of steps in earlier runs of this system (written.h) */
-    double term_tol; /* taylor only: rounding errors of terms below this do not count; default: tol */
+    double term_tol; /* taylor only: rounding errors of the series' terms below this do not count; default: tol */
     /* taylor only: whether the first orders of every step are in two doubles (leading.h), which
      * the system must support; the exact t0 less t0; where to store, while `accepted` runs, a
      * pointer to the state less y; [n] out, the end state less y. */
     bool leading;
-    bool judged; /* a run with `leading` that finds it harmful ends with result.unfit (taylor.h) */
+    bool judged; /* end a run with `leading` that finds it harmful with result.unfit (taylor.h) */
     double t0_low;
     const double **beyond;
     double *end_low;
@@ -91,7 +91,7 @@ typedef struct {
      * where to store, while `accepted` and `expanded` run, the method of that step; borrowed. */
     bool alternates;
     const qdot_ode_method **now;
-    /* continue the solution that was begun last (system->following) */
+    /* continue the solution that was begun last, instead of a new one (system->following) */
     bool goes_on;
     /* For a system of parts: call `accepted` for each part, with its components. Otherwise such a
      * system is integrated as a whole if `accepted` or `expanded` is set. */
@@ -99,18 +99,18 @@ typedef struct {
 } qdot_ode_options;
 
 typedef enum {
-    QDOT_ODE_DONE,    /* t1 was reached */
-    QDOT_ODE_STOPPED, /* `accepted` set *stop */
-    QDOT_ODE_FAILED   /* it failed: `reason` says where and why; the state is the last good one */
+    QDOT_ODE_DONE,    /* the end time t1 was reached */
+    QDOT_ODE_STOPPED, /* the callback `accepted` ended the run by setting *stop */
+    QDOT_ODE_FAILED   /* the integration failed: `reason` says where and why; the state is the last good one */
 } qdot_ode_outcome;
 
 typedef struct {
     qdot_ode_outcome outcome;
-    double t; /* time of the end state; exactly t1 if done */
-    bool unfit; /* failed, as first orders in two doubles make the steps worse */
-    bool stiff; /* failed, as stability limits the step length (stiffness.h) */
+    double t; /* time of the end state; exactly t1 if the run arrived there */
+    bool unfit; /* it failed because first orders in two doubles make the steps worse */
+    bool stiff; /* it failed because stability limits the step length (stiffness.h) */
     qdot_ode_stats stats;
-    char reason[512]; /* why it failed; otherwise "" */
+    char reason[512]; /* why the integration failed; otherwise "" */
 } qdot_ode_result;
 
 /* The tolerance and the maximum number of steps given in the options, or their defaults. */
@@ -143,7 +143,7 @@ QDOT_MUST_CHECK qdot_status qdot_ode_check_tolerance(double tol);
 QDOT_MUST_CHECK qdot_status qdot_ode_check_limits(const qdot_ode_system *system, double t0,
                                                   double t1, const double *y);
 
-/* Record in `result` that an integration ended at t with that status. */
+/* Record in `result` that an integration ended at time t with the given status. */
 void qdot_ode_end(qdot_ode_result *result, double t, qdot_status status);
 
 /* Begin an integration: enter the solution through y [n] at t (system->following), unless

@@ -13,14 +13,14 @@
 #include <math.h>
 #include <stddef.h>
 
-/* The scale s_i in scales [n]; 1 if scales is NULL. */
+/* The scale s_i of component i, from the array `scales` [n]; 1 if this is NULL. */
 static inline double
 qdot_ode_scale(const double *scales, size_t i)
 {
     return scales ? scales[i] : 1;
 }
 
-/* The size of component i: max(s_i, |y|); s_i if y is a NaN. */
+/* The size of component i of a state: max(s_i, |y|); s_i if y is a NaN. */
 static inline double
 qdot_ode_size(const double *scales, size_t i, double y)
 {

@@ -1,4 +1,4 @@
-/* stepper.c -- steps by GSL or by a kernel of ours, with the state kept as a sum of two doubles. */
+/* stepper.c -- steps by GSL or by a method of our own, with the state kept as a sum of two doubles. */
 #include "ode/stepper.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 static pthread_once_t handler_once = PTHREAD_ONCE_INIT;
 
 static void
-handler_off(void)
+turn_off_gsl_handler(void)
 {
     gsl_set_error_handler_off();
 }
@@ -31,7 +31,7 @@ qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t, const double *y, double *dyd
 }
 
 static inline void
-increment_add(qdot_ode_stepper *s, const double *z, double *y)
+add_increment(qdot_ode_stepper *s, const double *z, double *y)
 {
     for (size_t i = 0; i < s->system->n; i++)
         y[i] = s->y[i] + (s->carry[i] + s->scale[i] * z[i]);
@@ -40,14 +40,14 @@ increment_add(qdot_ode_stepper *s, const double *z, double *y)
 /* The functions that GSL calls. After any failure except GSL_EBADFUNC its multistep methods
  * restore their history; s->broken keeps the original status. */
 static int
-inner_rhs(double t, const double *z, double *zdot, void *user)
+rhs_for_gsl(double t, const double *z, double *zdot, void *user)
 {
     qdot_ode_stepper *s = user;
 
     if (s->method->multistep) {
         s->broken = qdot_ode_stepper_rhs(s, t, z, zdot);
     } else {
-        increment_add(s, z, s->trial);
+        add_increment(s, z, s->trial);
         s->broken = qdot_ode_stepper_rhs(s, t, s->trial, zdot);
         if (s->method->stiff)
             for (size_t i = 0; i < s->system->n; i++)
@@ -57,14 +57,14 @@ inner_rhs(double t, const double *z, double *zdot, void *user)
 }
 
 static int
-inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user)
+jacobian_for_gsl(double t, const double *z, double *dfdy, double *dfdt, void *user)
 {
     qdot_ode_stepper *s = user;
     const size_t n = s->system->n;
     const double *y = z;
 
     if (!s->method->multistep) {
-        increment_add(s, z, s->trial);
+        add_increment(s, z, s->trial);
         y = s->trial;
     }
     s->jacobians++;
@@ -83,15 +83,15 @@ inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user
     return GSL_SUCCESS;
 }
 
-/* GSL's control object; multistep methods only ask it for the error level. */
+/* GSL's object for step control, which GSL's multistep methods only ask for the tolerated error. */
 typedef struct {
     double tol;
     const double *scales; /* [n] scales s_i of the system (scale.h) */
 } level_of_error;
 
 static int
-error_level(void *state, const double y, const double dydt, const double h,
-            const size_t ind, double *level)
+tolerated_error_for_gsl(void *state, const double y, const double dydt, const double h,
+                        const size_t ind, double *level)
 {
     const level_of_error *of = state;
 
@@ -102,13 +102,13 @@ error_level(void *state, const double y, const double dydt, const double h,
 }
 
 static void *
-control_alloc(void)
+allocate_control_for_gsl(void)
 {
     return qdot_calloc(1, sizeof(level_of_error));
 }
 
 static int
-control_init(void *state, double tol, double eps_rel, double a_y, double a_dydt)
+ignore_control_options(void *state, double tol, double eps_rel, double a_y, double a_dydt)
 {
     (void)eps_rel;
     (void)a_y;
@@ -118,8 +118,8 @@ control_init(void *state, double tol, double eps_rel, double a_y, double a_dydt)
 }
 
 static int
-control_adjust(void *state, size_t n, unsigned order, const double *y,
-               const double *error, const double *dydt, double *h)
+keep_step_for_gsl(void *state, size_t n, unsigned order, const double *y,
+                  const double *error, const double *dydt, double *h)
 {
     (void)state;
     (void)n;
@@ -132,7 +132,7 @@ control_adjust(void *state, size_t n, unsigned order, const double *y,
 }
 
 static int
-control_driver(void *state, const gsl_odeiv2_driver *driver)
+ignore_driver_of_gsl(void *state, const gsl_odeiv2_driver *driver)
 {
     (void)state;
     (void)driver;
@@ -140,8 +140,8 @@ control_driver(void *state, const gsl_odeiv2_driver *driver)
 }
 
 static const gsl_odeiv2_control_type control_type = {
-    "qdot",      control_alloc,  control_init, control_adjust,
-    error_level, control_driver, qdot_free,
+    "qdot",      allocate_control_for_gsl,  ignore_control_options, keep_step_for_gsl,
+    tolerated_error_for_gsl, ignore_driver_of_gsl, qdot_free,
 };
 
 static bool
@@ -180,7 +180,7 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
     if (method->needs_jacobian && !system->jacobian)
         return qdot_fail(QDOT_EINVAL, "%s needs the Jacobian of the equations",
                          method->name);
-    pthread_once(&handler_once, handler_off);
+    pthread_once(&handler_once, turn_off_gsl_handler);
     s = qdot_calloc(1, sizeof *s);
     if (!s)
         return QDOT_ENOMEM;
@@ -194,7 +194,7 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
     *out = s;
     if (!s->step)
         return QDOT_OK;
-    s->inner = (gsl_odeiv2_system){inner_rhs, inner_jacobian, system->n, s};
+    s->inner = (gsl_odeiv2_system){rhs_for_gsl, jacobian_for_gsl, system->n, s};
     s->driver = (gsl_odeiv2_driver){.sys = &s->inner, .s = s->step, .c = s->control};
     gsl_odeiv2_control_init(s->control, tol, 0, 0, 0);
     ((level_of_error *)s->control->state)->scales = system->scales;
@@ -218,7 +218,7 @@ qdot_ode_stepper_free(qdot_ode_stepper *s)
 }
 
 static void
-choose_scale(qdot_ode_stepper *s)
+choose_scales(qdot_ode_stepper *s)
 {
     bool scaled = s->method->stiff && !s->method->multistep && !s->method->kernel;
 
@@ -232,16 +232,16 @@ qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y)
     memcpy(s->y, y, s->system->n * sizeof *y);
     memset(s->carry, 0, s->system->n * sizeof *y);
     s->dydt_known = false;
-    choose_scale(s);
+    choose_scales(s);
     if (s->step)
         gsl_odeiv2_step_reset(s->step);
     else if (s->method->kernel->restart)
         s->method->kernel->restart(s);
 }
 
-/* The error of the step just tried relative to the tolerance; INFINITY if anything is not finite. */
+/* The error of the step just tried divided by the tolerance; INFINITY if anything is not finite. */
 static double
-stepper_error_ratio(const qdot_ode_stepper *s)
+error_ratio_of_step(const qdot_ode_stepper *s)
 {
     double ratio = 0;
 
@@ -258,7 +258,7 @@ stepper_error_ratio(const qdot_ode_stepper *s)
     return ratio;
 }
 
-/* Try a step of a multistep method, for which s->z is the new state itself. */
+/* Try a step of a multistep method of GSL, for which s->z is the new state itself. */
 static int
 apply_multistep(qdot_ode_stepper *s, double t, double h)
 {
@@ -282,13 +282,13 @@ apply_onestep(qdot_ode_stepper *s, double t, double h)
         s->zdot[i] = s->dydt[i] / s->scale[i];
     }
     gsl = gsl_odeiv2_step_apply(s->step, t, h, s->z, s->error, s->zdot, NULL, &s->inner);
-    if (s->method->stiff) /* an extrapolation method of order 2k factors k + 1 matrices */
+    if (s->method->stiff) /* count factorisations: an extrapolation method of order 2k factors k + 1 matrices */
         s->factorisations += gsl_odeiv2_step_order(s->step) / 2 + 1;
-    increment_add(s, s->z, s->trial);
+    add_increment(s, s->z, s->trial);
     return gsl;
 }
 
-/* Try a step by GSL's method. */
+/* Try a step by a method of GSL. */
 static qdot_status
 apply_gsl(qdot_ode_stepper *s, double t, double h, double *ratio)
 {
@@ -297,7 +297,7 @@ apply_gsl(qdot_ode_stepper *s, double t, double h, double *ratio)
     if (s->broken != QDOT_OK)
         return s->broken;
     if (gsl == GSL_SUCCESS)
-        *ratio = stepper_error_ratio(s);
+        *ratio = error_ratio_of_step(s);
     return QDOT_OK;
 }
 
@@ -345,9 +345,9 @@ qdot_ode_stepper_project(qdot_ode_stepper *s, double t, double *ratio)
     return QDOT_OK;
 }
 
-/* Compute those components that are functions of the others, at the end of the step, in s->trial. */
+/* Compute, at the end of the step in s->trial, those components that are functions of the others. */
 static void
-take_followers(qdot_ode_stepper *s)
+derive_components(qdot_ode_stepper *s)
 {
     const qdot_ode_following *f = s->system->following;
 
@@ -369,20 +369,20 @@ qdot_ode_stepper_accept(qdot_ode_stepper *s)
         memcpy(s->carry, s->moved_carry, n * sizeof *s->carry);
         s->projected = false;
         s->dydt_known = false;
-        choose_scale(s);
+        choose_scales(s);
         return;
     }
 
     if (s->method->multistep) {
         memcpy(s->y, s->z, n * sizeof *s->y);
-        take_followers(s);
+        derive_components(s);
         return;
     }
     for (size_t i = 0; i < n; i++)
         qdot_sum_advance(&s->y[i], &s->carry[i], s->scale[i] * s->z[i]);
-    take_followers(s);
+    derive_components(s);
     memcpy(s->dydt, s->trial_dydt, n * sizeof *s->dydt);
-    choose_scale(s);
+    choose_scales(s);
 }
 
 double

@@ -39,7 +39,7 @@
 typedef struct qdot_ode_stepper qdot_ode_stepper;
 typedef struct qdot_ode_kernel qdot_ode_kernel;
 
-/* A one-step method that GSL does not have: dop853.h, radau.h. */
+/* A one-step method that is not from GSL: dop853.h, radau.h. */
 struct qdot_ode_kernel {
     size_t stages; /* number of rows [n] in s->stages */
     size_t powers; /* number of rows [n] of the interpolating polynomial */
@@ -49,7 +49,7 @@ struct qdot_ode_kernel {
     /* The polynomial F [powers x n] through the step just tried, s->trial_dydt known;
      * s->trial is lost. */
     qdot_status (*dense)(qdot_ode_stepper *s, double t, double h, double *F);
-    /* Interpolate y [n] at the fraction x of a step, 0 to 1, that began at y0 [n]. */
+    /* Interpolate the state y [n] at the fraction x (0 to 1) of a step that began at y0 [n]. */
     void (*at)(size_t n, const double *F, const double *y0, double x, double *y);
 
     /* Of a method that keeps more than stages, in s->own; else NULL: made with the stepper (close
@@ -63,8 +63,8 @@ struct qdot_ode_kernel {
     /* Change to the next interpolation formula, after the last to the first; returns their number.
      * NULL: only one. */
     size_t (*another)(qdot_ode_stepper *s);
-    bool keeps_step; /* a new step length is costly: keep the old one if possible */
-    bool forward;    /* a step must not be read backwards from its end */
+    bool keeps_step; /* a change of the step length is costly: keep the old length if possible */
+    bool forward;    /* steps may not be interpolated backwards from their end */
 };
 
 struct qdot_ode_stepper {
@@ -75,22 +75,22 @@ struct qdot_ode_stepper {
     double *room;      /* the allocated block that holds the arrays below */
     double *y, *carry; /* [n] the state at the start of the step is y + carry */
     double *dydt;      /* [n] f at the start of the step; one-step methods only */
-    double *z, *error; /* [n] result of the step tried, increment or new state; its error estimate */
+    double *z, *error; /* [n] result of the step tried (increment or new state), and its error estimate */
     double *zdot;      /* [n] dydt_i / scale_i */
-    double *scale;     /* [n] the scale factors s_i of the formula above */
+    double *scale;     /* [n] the scale factors s_i by which GSL's variables z are multiplied */
     double *trial;     /* [n] end state of the step tried: y + carry + s z */
     double *trial_dydt; /* [n] f at the end of the step tried */
     bool dydt_known;
 
     uint64_t evaluations, jacobians, factorisations;
-    double raised; /* the tolerance that rounding of f allows, if larger than the requested one */
-    qdot_status broken; /* failure of a callback during the step tried */
+    double raised; /* the tolerance that rounding errors of f allow, if larger than the requested one */
+    qdot_status broken; /* status of a callback that failed during the step tried */
 
     double *stages; /* [stages x n] stage values of a kernel */
-    void *own;      /* data of a kernel, allocated by its `open` */
+    void *own;      /* data of a one-step method, allocated by its function `open` */
 
-    /* If the system projects: the projected end of the step as a sum, and whether it was moved. */
-    double *moved, *moved_carry; /* [n] the projected end is moved + moved_carry */
+    /* If the system projects onto constraints: the projected end of the step, and whether it was moved. */
+    double *moved, *moved_carry; /* [n] the projected end as two doubles is moved + moved_carry */
     bool projected;
 
     gsl_odeiv2_step *step;       /* GSL's step object; NULL if the method has a kernel */
@@ -105,10 +105,10 @@ QDOT_MUST_CHECK qdot_status qdot_ode_stepper_new(const qdot_ode_system *system,
                                                  double tol, qdot_ode_stepper **out);
 void qdot_ode_stepper_free(qdot_ode_stepper *s);
 
-/* Begin at y [n], without history. */
+/* Begin at the state y [n], without history of earlier steps. */
 void qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y);
 
-/* Evaluate f at (t, y [n]) into dydt, and count that. QDOT_EDOMAIN if it is not finite. */
+/* Evaluate f at (t, y [n]) into dydt, and count this evaluation. QDOT_EDOMAIN if it is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t,
                                                  const double *y, double *dydt);
 
@@ -125,7 +125,7 @@ QDOT_MUST_CHECK qdot_status qdot_ode_stepper_try(qdot_ode_stepper *s, double t, 
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_project(qdot_ode_stepper *s, double t,
                                                      double *ratio);
 
-/* Accept the step just tried. */
+/* Accept the step just tried: its end becomes the present state. */
 void qdot_ode_stepper_accept(qdot_ode_stepper *s);
 
 /* The exponent p such that the error of the step just tried is proportional to h^p. */

@@ -1,4 +1,4 @@
-/* stiffness.c -- detects stiffness: whether samples of hundreds of steps lie on a parabola. */
+/* stiffness.c -- detects stiffness: whether states sampled over hundreds of steps lie on a parabola in time. */
 #include "ode/stiffness.h"
 
 #include <math.h>
@@ -8,14 +8,14 @@
 #include "base/memory.h"
 #include "ode/scale.h"
 
-/* The numbers of steps between successive samples, 4000 in total; at first an eighth of these. */
+/* The numbers of steps between successive samples of the state, 4000 in total; at first an eighth of these. */
 static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
 static const int eager = 8, windows_eager = 2;
 
-/* The number of steps before the first sample: shorter runs need none. */
+/* The number of steps before the first sample is taken: shorter runs need no test. */
 static const int first_wait = 100;
 
-/* The deviation from a parabola, relative to the range, up to which a component is smooth. */
+/* The deviation from a parabola, relative to its range, up to which a component counts as smooth. */
 static const double share = 1e-2;
 
 static const double work_default = 5e9;
@@ -34,7 +34,7 @@ qdot_ode_stiffness_clear(qdot_ode_stiffness *s)
     *s = (qdot_ode_stiffness){0};
 }
 
-/* Whether component i lies on the parabola through its first, middle and last sample. */
+/* Whether component i of the samples lies on the parabola through the first, middle and last of them. */
 static bool
 component_is_smooth(const qdot_ode_stiffness *s, size_t i, const qdot_ode_stiff_step *at)
 {
@@ -60,7 +60,7 @@ component_is_smooth(const qdot_ode_stiffness *s, size_t i, const qdot_ode_stiff_
 }
 
 static bool
-are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
+all_components_are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
 {
     for (size_t i = 0; i < at->n; i++)
         if (!component_is_smooth(s, i, at))
@@ -71,7 +71,7 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
 /* Estimate |df/dy| by differences of size `by` in both directions, in units of the components'
  * sizes; room [3n]. */
 static qdot_status
-steepness(const qdot_ode_stiff_step *at, double by, double *room, double *slope)
+estimate_largest_derivative(const qdot_ode_stiff_step *at, double by, double *room, double *slope)
 {
     const qdot_ode_system *system = at->system;
     const size_t n = at->n;
@@ -96,7 +96,7 @@ steepness(const qdot_ode_stiff_step *at, double by, double *room, double *slope)
  * taken from near by to as far as steps may err: a motion that is held in a layer narrower than that jumps
  * from side to side of it. */
 static qdot_status
-may_bind(const qdot_ode_stiff_step *at, double h, bool *may)
+stability_may_limit_steps(const qdot_ode_stiff_step *at, double h, bool *may)
 {
     double *room, slope = 0;
     qdot_status status = QDOT_OK;
@@ -109,33 +109,33 @@ may_bind(const qdot_ode_stiff_step *at, double h, bool *may)
         return QDOT_ENOMEM;
     *may = false;
     for (double by = difference; status == QDOT_OK && !*may && by <= fmax(difference, at->noise); by *= 10) {
-        status = steepness(at, by, room, &slope);
+        status = estimate_largest_derivative(at, by, room, &slope);
         *may = status != QDOT_OK || !(h * slope < least_bound);
     }
     qdot_free(room);
     return qdot_grave(status);
 }
 
-/* The number of steps from sample k - 1 to k. */
+/* The number of steps from sample k - 1 to sample k of the state. */
 static int
-steps_to(const qdot_ode_stiffness *s, size_t k)
+steps_to_sample(const qdot_ode_stiffness *s, size_t k)
 {
     return (s->windows < windows_eager || s->high) && k > 0 ? waits[k] / eager : waits[k];
 }
 
 static int
-steps_between(const qdot_ode_stiffness *s)
+steps_of_window(const qdot_ode_stiffness *s)
 {
     int sum = 0;
 
     for (size_t k = 1; k < QDOT_ODE_STIFF_PLACES; k++)
-        sum += steps_to(s, k);
+        sum += steps_to_sample(s, k);
     return sum;
 }
 
-/* Store a sample; *enough: there are now enough of them for a judgement. */
+/* Store a sample of the state; *enough: there are now enough samples for a judgement. */
 static qdot_status
-stiffness_keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
+store_sample(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
 {
     if (!s->y)
         s->y = qdot_malloc(QDOT_ODE_STIFF_PLACES * at->n * sizeof *s->y);
@@ -144,14 +144,14 @@ stiffness_keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enoug
     memcpy(s->y + s->count * at->n, at->y, at->n * sizeof *s->y);
     s->t[s->count++] = at->t;
     *enough = s->count == QDOT_ODE_STIFF_PLACES;
-    s->wait = steps_to(s, *enough ? 0 : s->count);
+    s->wait = steps_to_sample(s, *enough ? 0 : s->count);
     return QDOT_OK;
 }
 
 /* Steps of length h to t1, if they go on to grow as they did from the first half of the window to the second:
  * h exp(k n) after n of them. */
 static double
-steps_left(const qdot_ode_stiffness *s, double h, double t1)
+estimate_steps_left(const qdot_ode_stiffness *s, double h, double t1)
 {
     enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
     const double so = fabs((t1 - s->t[LAST]) / h);
@@ -159,7 +159,7 @@ steps_left(const qdot_ode_stiffness *s, double h, double t1)
     double growth, k;
 
     for (size_t i = 1; i <= LAST; i++)
-        *(i <= MIDDLE ? &first : &second) += steps_to(s, i);
+        *(i <= MIDDLE ? &first : &second) += steps_to_sample(s, i);
     growth = fabs((s->t[LAST] - s->t[MIDDLE]) * first / ((s->t[MIDDLE] - s->t[0]) * second));
     k = 2 * log(growth) / (first + second);
     return k > 0 ? log1p(k * so) / k : so;
@@ -182,16 +182,16 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     bool enough;
 
     s->high = at->high;
-    QDOT_TRY(stiffness_keep(s, at, &enough));
+    QDOT_TRY(store_sample(s, at, &enough));
     if (!enough)
         return QDOT_OK;
-    step = (at->t - s->t[0]) / steps_between(s);
-    left = steps_left(s, step, at->t1);
-    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at);
+    step = (at->t - s->t[0]) / steps_of_window(s);
+    left = estimate_steps_left(s, step, at->t1);
+    *stiff = !at->implicit && left * at->work > worth && all_components_are_smooth(s, at);
     if (*stiff)
-        QDOT_TRY(may_bind(at, fabs(step), stiff));
+        QDOT_TRY(stability_may_limit_steps(at, fabs(step), stiff));
     s->count = 0;
-    s->steps += (uint64_t)steps_between(s);
+    s->steps += (uint64_t)steps_of_window(s);
     s->windows++;
     if (s->steps >= patient && left > (double)at->most && !*stiff)
         return qdot_fail(QDOT_ELIMIT,

@@ -36,8 +36,8 @@ typedef struct {
     double t[QDOT_ODE_STIFF_PLACES];
     size_t count; /* number of sampled states */
     int wait;     /* steps until the next sample; 0: no sample yet */
-    int windows;  /* windows examined so far; the first have 500 steps, later ones 4000 */
-    bool high;    /* windows always have 500 steps, because the steps are of high order and long */
+    int windows;  /* windows of steps examined so far; the first have 500 steps, later ones 4000 */
+    bool high;    /* all windows have only 500 steps, because the steps are long and of high order */
     uint64_t steps; /* total number of steps in all windows */
 } qdot_ode_stiffness;
 
@@ -49,15 +49,15 @@ typedef struct {
     size_t n;
     double t, t1;    /* present time, end time of the run */
     const double *y; /* [n] the present state */
-    const double *scales; /* [n] scales s_i of the system (scale.h) */
+    const double *scales; /* [n] scales s_i of the components (scale.h) */
     double noise; /* rounding noise relative to the size of a component */
     double work;   /* work of one step (unit: meter.h) */
     uint64_t most; /* largest number of steps that the run may take */
-    bool implicit; /* the method is implicit: stability does not limit its steps */
-    bool high;     /* series steps: a few hundred states on one parabola suffice */
+    bool implicit; /* the method is implicit, so that stability does not limit its steps */
+    bool high;     /* steps by Taylor series of high order: a few hundred states on one parabola suffice */
 } qdot_ode_stiff_step;
 
-/* Whether the step just taken is one of the few that are sampled. */
+/* Whether the state after the step just taken is one of the few that are sampled. */
 bool qdot_ode_stiffness_is_due(qdot_ode_stiffness *s);
 
 /* Then look. QDOT_ELIMIT: steps are bound by stability, and *stiff, or too many are left;

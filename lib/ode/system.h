@@ -11,13 +11,13 @@
 #include "base/status.h"
 #include "num/two.h"
 
-/* The position of a solution: time t + t_low, state y + carry [n] (carry NULL: 0). */
+/* A point of a solution: time t + t_low, state y + carry [n] (carry NULL: 0). */
 typedef struct {
     double t, t_low;
     const double *y, *carry;
 } qdot_ode_place;
 
-/* The first orders of a series in sums of two doubles (ode/leading.h). */
+/* The first orders of a Taylor series in sums of two doubles (ode/leading.h). */
 typedef struct {
     const qdot_two *x; /* coefficients x_ik = x[i stride + k] for k below the stride */
     size_t stride;
@@ -32,15 +32,15 @@ typedef struct {
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
 
-/* value of `digits` in code, unless everything solved for is a number */
+/* value of `digits` with machine code, unless all that is solved for are numbers */
 enum { QDOT_ODE_DIGITS = 18 };
 
 /* What expansions cost, in nanoseconds, of which only the ratios matter: one to order p takes about
  * c[0] + c[1] p + c[2] p^2. Orders are chosen by it (ode/taylor.h). */
 typedef struct {
     double kernels[3];
-    double code[3]; /* the same for generated machine code; all 0: no code available */
-    double wider; /* with code: added for each `of_vector` orders, also begun ones, beyond `narrow` */
+    double code[3]; /* the same three coefficients for generated machine code; all 0: no code is available */
+    double wider; /* with machine code: added for each `of_vector` orders (or a part of these) beyond `narrow` */
     int narrow, of_vector;
     /* Natural digits that an order is chosen for at least where there is code: an oscillation that
      * is hardly there bounds the step, and as it has no singularity a higher order is worth more
@@ -48,10 +48,10 @@ typedef struct {
      * oscillation grow as well (ode/taylor.h). */
     double digits;
     bool by_stability;
-    double worth; /* generating code for order p costs as much as it saves in worth/p expansions */
+    double worth; /* generating machine code for order p costs as much as it saves in worth/p expansions */
 } qdot_ode_cost;
 
-/* Expansions by machine code. */
+/* Callbacks for Taylor expansions by generated machine code. */
 typedef struct {
     /* Write it for expansions to order p, before a `begin`, so that others of the same shape, to orders
      * up to `most`, can share it; NULL: none can be. */
@@ -75,13 +75,13 @@ typedef struct {
     size_t stride;
     size_t checked; /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
                        state holds beyond y enters order 1 */
-    qdot_ode_cost cost; /* the cost of an expansion */
-    /* Called before many expansions to order p. May be NULL. */
+    qdot_ode_cost cost; /* the cost of a Taylor expansion */
+    /* Called before many expansions to order p are made. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
     qdot_ode_code code;
-    /* Compute orders 0 and 1 of the solution through y [n] at t. */
+    /* Compute orders 0 and 1 of the Taylor series of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
-    /* Continue the expansion with orders 2 ... p. */
+    /* Continue the Taylor series with orders 2 ... p. */
     qdot_status (*extend)(int p, void *user);
     /* What the coefficients at the point begun last are worth, relative to the state, where
      * that may be less than a double: near a singularity that the solution passes
@@ -104,12 +104,12 @@ typedef struct {
  * stays constant along a solution: velocities, where momenta are kept. */
 typedef struct {
     size_t n;
-    const size_t *index; /* [n] indices of the derived components */
+    const size_t *index; /* [n] indices of the components that are derived from the others */
     /* The solution to be followed begins at y + carry (carry NULL: 0): what is constant along
      * it is found there, and kept until another one is entered. Entered twice in a row it is
      * the same solution, by its y. Failures as those of f. */
     qdot_status (*enter)(double t, const double *y, const double *carry, void *user);
-    /* Compute the derived components of y from the others. QDOT_EDOMAIN if undefined. */
+    /* Compute the derived components of y from the other components. QDOT_EDOMAIN if undefined. */
     qdot_status (*derive)(double t, double *y, void *user);
     void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_following;
@@ -135,11 +135,11 @@ typedef struct {
     void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_mass_form;
 
-/* Conversion to canonical momenta p for a system with state y = (q, q'). Fails like the system's f. */
+/* Conversion of a system with state y = (q, q') to canonical momenta p. Can fail like f of the system. */
 typedef struct {
     qdot_status (*momenta)(double t, const double *q, const double *v, double *p, void *user);
     qdot_status (*velocity)(double t, const double *q, const double *p, double *v, void *user);
-    /* Compute the force p'. */
+    /* Compute the force, p' = dp/dt. */
     qdot_status (*force)(double t, const double *q, const double *v, double *F, void *user);
     void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_phase;
@@ -148,10 +148,10 @@ typedef struct {
  * them themselves; others take the accelerations under them from f. Failures as those of f. */
 typedef struct {
     size_t m;
-    /* positions: g [m] at (t, q); velocities: dg/dt [m] at (t, q, v) */
+    /* positions: compute the constraint values g [m] at (t, q); velocities: dg/dt [m] at (t, q, v) */
     qdot_status (*positions)(double t, const double *q, double *g, void *user);
     qdot_status (*velocities)(double t, const double *q, const double *v, double *w, void *user);
-    /* Add the constraint forces: F [n] += A^T lambda. */
+    /* Add the constraint forces to F [n]: A^T lambda. */
     qdot_status (*pull)(double t, const double *q, const double *lambda, double *F, void *user);
     /* S = A M^-1 A^T at (t, q), until the next call; with it nu [m] = S^-1 c [m], of least norm where
      * rows are redundant, and x [n] = M^-1 A^T nu: A x = c. c is lost. */
@@ -160,17 +160,17 @@ typedef struct {
     void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_bonds;
 
-/* A step that is about to be accepted, with the tolerance. */
+/* A step that is about to be accepted, and the tolerance. */
 typedef struct {
     double t, t_end, tol;
     const double *y, *y_end; /* [n] states at t and at t_end */
-    double until;         /* out: the step may be accepted up to this time; t_end: the whole step */
-    uint64_t evaluations; /* out: number of evaluations of f, approximately */
+    double until;         /* output: the step may be accepted up to this time; t_end: the whole step */
+    uint64_t evaluations; /* output: number of evaluations of f, approximately */
 } qdot_ode_look;
 
-/* A decoupled part of a system. */
+/* A part of a system that is decoupled from the other parts. */
 typedef struct {
-    const struct qdot_ode_system *system; /* the part as a system, which has no parts itself; borrowed */
+    const struct qdot_ode_system *system; /* the part as a system of its own, which has no parts; borrowed */
     const size_t *index; /* [system->n] indices of its components in the whole system */
 } qdot_ode_part;
 
@@ -183,9 +183,9 @@ typedef struct {
  * once. */
 typedef struct qdot_ode_system {
     size_t n; /* number of components of y, at least 1 */
-    /* Compute dydt [n] = f(t, y [n]). */
+    /* Compute the right-hand side dydt [n] = f(t, y [n]). */
     qdot_status (*rhs)(double t, const double *y, double *dydt, void *user);
-    /* dfdy [n x n row-major] = df_i/dy_j, dfdt [n] = df/dt; NULL if not available */
+    /* Compute dfdy [n x n, row-major] = df_i/dy_j and dfdt [n] = df/dt; NULL if not available. */
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
     void *user; /* passed to the callbacks; borrowed */
@@ -193,9 +193,9 @@ typedef struct qdot_ode_system {
     const qdot_ode_mass_form *mass_form;
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
-    const qdot_ode_phase *phase; /* conversion to canonical momenta, if not `halves`; NULL: none; borrowed */
+    const qdot_ode_phase *phase; /* conversion to canonical momenta, unless `halves` is set; NULL: none; borrowed */
     const qdot_ode_bonds *bonds; /* holonomic constraints, for geometric methods; NULL: none; borrowed */
-    /* Taylor coefficients of the solution; NULL if not available; borrowed */
+    /* Taylor coefficients of the solution; NULL if these are not available; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing
      * of it: dydt is 0 there, and rows of coefficients hold its series, to the order below
@@ -217,14 +217,14 @@ typedef struct qdot_ode_system {
      * the whole (ode/apart.h). */
     const qdot_ode_part *parts;
     size_t n_parts;
-    /* The first orders of the series in two doubles each; NULL if not available; borrowed */
+    /* The first orders of the Taylor series in two doubles each; NULL if not available; borrowed */
     const qdot_ode_leading *leading;
     /* [n] s_i, positive: errors of y_i are relative to max(s_i, |y_i|) (scale.h). NULL: all are 1;
      * borrowed */
     const double *scales;
 } qdot_ode_system;
 
-/* Whether a status means that f is undefined at a point. */
+/* Whether a status can mean that f is undefined at a point, so that a shorter step may succeed. */
 static inline bool
 qdot_ode_may_be_undefined(qdot_status status)
 {

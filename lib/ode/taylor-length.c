@@ -1,4 +1,4 @@
-/* taylor-length.c -- expands the series at a point, and finds how long a step it allows. */
+/* taylor-length.c -- expands the solution in a Taylor series at a point, and finds how long a step that allows. */
 #include "ode/taylor.h"
 
 #include <float.h>
@@ -13,14 +13,14 @@ typedef qdot_ode_taylor_run run;
  * from which on it does so in any case. */
 static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
 
-/* The smallest relative defect used: it is computed in doubles, where a stiff force has few correct digits. */
+/* The smallest relative defect that limits a step: below, a stiff force has too few correct digits in doubles. */
 static const double least_held = 1e-14;
 
 /* log2 of the step in units: that of the radius which the upper half of the coefficients
  * shows, and what order p leaves of it under tol; kept so short that the rounding of no
  * term counts. INFINITY where the upper half holds nothing; NaN where it is not finite. */
 static double
-log_step(run *r)
+log2_of_step(run *r)
 {
     qdot_series_reach reach;
     double l;
@@ -33,9 +33,9 @@ log_step(run *r)
     return qdot_smaller(l, reach.lower);
 }
 
-/* Find the step allowed by all coefficients, not only the last ones, as log2; INFINITY if all are 0. */
+/* The log2 of the step that all coefficients allow, not only the last ones; INFINITY if all are 0. */
 static double
-log_step_of_all(run *r)
+log2_of_step_by_all_orders(run *r)
 {
     double least = INFINITY;
 
@@ -77,7 +77,7 @@ qdot_ode_taylor_run_begin(run *r, double t, const double *y)
  * errors do: it is summed up to its least term, as an asymptotic series, which is about its
  * error. */
 static void
-cut_series(run *r, double h)
+cut_series_at_least_term(run *r, double h)
 {
     const double least = qdot_ode_taylor_least_term(r->series, r->n, r->p,
                                                     h / fabs(r->unit), r->scale, &r->cut);
@@ -88,7 +88,7 @@ cut_series(run *r, double h)
 /* A step that would end just before or upon a place near which the coefficients are inaccurate
  * goes beyond it, if that is not far and was not rejected before, or stays well before it. */
 static void
-keep_off(run *r, double *h, double most)
+avoid_ending_near_singularity(run *r, double *h, double most)
 {
     const qdot_ode_series *series = r->series;
     const double noise = series->noise ? series->noise(series->user) : 0;
@@ -103,7 +103,7 @@ keep_off(run *r, double *h, double most)
     if ((*h >= .8 * ahead || noise > near_noise) && over * ahead <= most) {
         *h = qdot_smaller(most, fmax(*h, over * ahead));
         r->place = r->t + r->direction * ahead;
-        cut_series(r, *h);
+        cut_series_at_least_term(r, *h);
     } else if (*h > 0.5 * ahead) {
         *h = 0.5 * ahead;
     }
@@ -112,7 +112,7 @@ keep_off(run *r, double *h, double most)
 /* As much of a step as no part of f is stepped over in. What would be narrower than so many parts of
  * t is none: a divisor that comes down to 0 there divides 0, a pole that nothing turns about. */
 static double
-near_length(const run *r, double h)
+step_before_hidden_parts(const run *r, double h)
 {
     static const double narrowest = 0x1p-26;
     const double unit = fabs(r->unit);
@@ -123,32 +123,32 @@ near_length(const run *r, double h)
 /* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of
  * the series is brought near the step where it is far from it. */
 static qdot_status
-length_of_step(run *r, double most, double *h)
+find_step_length(run *r, double most, double *h)
 {
-    double ends = 0; /* a unit of time in which the series is finite, so that any step is allowed */
+    double ends = 0; /* a unit of time in which the series ends (upper half 0), so that any step is allowed; 0: none yet */
 
     for (int tries = 0;; tries++) {
         double l, far;
 
         QDOT_TRY(qdot_ode_taylor_run_expand(r));
-        l = log_step(r);
-        /* NaN from underflow to 0 after a change of the unit: go back to the unit before */
+        l = log2_of_step(r);
+        /* NaN because coefficients underflow to 0 after a change of the unit of time: go back to the unit before */
         if (isnan(l) && ends != 0) {
             qdot_ode_taylor_run_set_unit(r, ends);
             QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
             tries = 8;
             continue;
         }
-        if (isnan(l)) { /* overflow, provided that the first orders are finite */
+        if (isnan(l)) { /* coefficients overflow, provided that the first orders are finite */
             far = -10 - 40 * tries;
         } else {
             ends = l < INFINITY ? 0 : r->unit;
             *h = fabs(r->unit) * qdot_rough_exp2(l);
             if (r->series->near)
-                *h = near_length(r, *h);
-            keep_off(r, h, most);
-            /* if coefficients underflow use the others; a polynomial allows any step */
-            far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
+                *h = step_before_hidden_parts(r, *h);
+            avoid_ending_near_singularity(r, h, most);
+            /* use the other coefficients if the last ones underflow; a polynomial allows any step */
+            far = l < INFINITY ? l : fmax(0, log2_of_step_by_all_orders(r));
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;
         }
@@ -169,7 +169,7 @@ qdot_status
 qdot_ode_taylor_run_length(run *r, double most, double *h)
 {
     if (!(r->options->h_fixed > 0))
-        return length_of_step(r, most, h);
+        return find_step_length(r, most, h);
     *h = r->options->h_fixed;
     return qdot_ode_taylor_run_expand(r);
 }

@@ -31,14 +31,14 @@ qdot_step_fall(double log_aim, int p)
     return fmax(0, 2.0 / 3 + log_aim / p);
 }
 
-/* log2 of the largest term, relative to the state, whose rounding error may matter. */
+/* The log2 of the largest term of a series, relative to the state, whose rounding error may matter. */
 static inline double
 qdot_step_term(double log_aim)
 {
     return fmax(-1, log_aim + 53);
 }
 
-/* The shortest step allowed at t. */
+/* The length of the shortest step that is allowed at time t. */
 static inline double
 qdot_step_floor(double t)
 {
@@ -54,7 +54,7 @@ qdot_step_is_too_short(double t, double h)
     return !(h > 16 * DBL_EPSILON * fabs(t) && h > 16 * DBL_MIN) && h < qdot_step_floor(t);
 }
 
-/* The largest power of two that is not above |h|, with the sign of h. */
+/* The largest power of two that is not above |h|, with the sign of h: the unit of time of a series. */
 static inline double
 qdot_step_unit(double h)
 {
@@ -89,7 +89,7 @@ qdot_smaller(double a, double b)
     return a < b ? a : b;
 }
 
-/* The power 2^x to 0.002, for the estimate of a step; exp2 takes as long as three orders of a series. */
+/* The power 2^x with an error of 0.002, to estimate a step; exp2 would take as long as three orders of a series. */
 static inline double
 qdot_rough_exp2(double x)
 {

@@ -18,16 +18,16 @@ typedef struct {
     qdot_ode_result *result;
     size_t n;
     double tol, t, t1, direction;
-    double place; /* singular time that the present step passes; NaN: none */
-    double noise; /* relative noise of dy/dt per unit of time: the defect cannot be smaller */
-    double defect; /* defect of the step tried, as relative error per unit of time; 0: not computed */
-    double held; /* tol, or the accuracy of the coefficients if that is worse */
+    double place; /* time of a singularity that the present step passes over; NaN: none */
+    double noise; /* relative noise of dy/dt per unit of time, below which the defect of a step cannot fall */
+    double defect; /* defect of the step tried: its relative error per unit of time; 0: not computed */
+    double held; /* the accuracy in force: tol, or the accuracy of the coefficients if that is worse */
     uint64_t max_steps;
-    double work;      /* work of one expansion (unit: meter.h) */
+    double work;      /* work of one Taylor expansion (unit: meter.h) */
     uint64_t counted; /* number of expansions whose work has been counted */
     int p;
-    int highest;   /* the highest order used by the run and its companions */
-    int cut;       /* the order up to which the present step is summed: p or less */
+    int highest;   /* the highest order used by the run and its companion runs (companion.h) */
+    int cut;       /* the order up to which the series is summed in the present step: p or less */
     double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
                                              may at the point at hand, of a term */
     double unit;   /* unit of time of the series: t' = t + unit s; a signed power of two */
@@ -36,19 +36,19 @@ typedef struct {
     qdot_ode_written written;
     double t0, first_unit;
 
-    /* [n], with the work space that qdot_series_step needs */
-    double *y, *carry;           /* [n] the present state is y + carry */
+    /* [n] each, with the further work space that qdot_series_step needs: */
+    double *y, *carry;           /* [n] the present state as two doubles is y + carry */
     double *least;               /* [n] scales s_i of the system (scale.h) */
     double *scale;               /* [n] 1/max(least_i, |y_i|) */
     double *next, *next_carry;   /* [n] state at the end of the step tried: next + next_carry */
     double *next_size, *next_scale;
-    double *slope, *terms; /* [n] derivative of the polynomial at the end of the step; sizes of its terms */
+    double *slope, *terms; /* [n] derivative of the Taylor polynomial at the end of the step; magnitudes of its terms */
     size_t *confirmed; /* [n_confirmed] indices of the components whose defect is computed */
     size_t n_confirmed;
-    qdot_series_step step;       /* the step, as these arrays describe it, for qdot_series_step */
+    qdot_series_step step;       /* the present step for qdot_series_step, which refers to the arrays above */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] largest term of each order, padded to full vectors */
     qdot_series_weights weights;
-    qdot_error undefined;      /* the last error of f */
+    qdot_error undefined;      /* the last error of the right-hand side f */
     double undefined_at;       /* end of the step at which f was undefined; NaN: none yet */
     qdot_ode_crawl crawl;
     qdot_ode_stiffness stiffness;

@@ -5,10 +5,10 @@
 #include "ode/companion.h"
 #include "ode/taylor-numbers.h"
 
-/* The lowest order; companions use orders that are higher than that of the run. */
+/* The lowest order; the highest increase of the order for companion runs (companion.h). */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* For orders from 6 on: 10 z, where z bounds the region with |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */
+/* Stability limits for orders from 6 on: 10 z, where |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6 up to z. */
 static const unsigned char stable[] = {
     5,   17,  33,  12,  14,  19,  33,  50,  26,  28,  35,  49,  65,  42,  45,
     51,  65,  81,  60,  62,  68,  81,  97,  112, 79,  85,  97,  113, 128, 97,
@@ -23,7 +23,7 @@ qdot_ode_taylor_stable(int p)
 }
 
 static double
-cost_of(const qdot_ode_cost *cost, int p)
+cost_of_expansion(const qdot_ode_cost *cost, int p)
 {
     const bool written = cost->code[0] > 0;
     const double *c = written ? cost->code : cost->kernels;
@@ -33,9 +33,9 @@ cost_of(const qdot_ode_cost *cost, int p)
            (cost->wider > 0 ? cost->wider * ((more + cost->of_vector - 1) / cost->of_vector) : 0);
 }
 
-/* The order with the least cost for a time as long as the radius of convergence. */
+/* The order whose expansions cost least for a time as long as the radius of convergence. */
 static int
-best_order(const qdot_ode_cost *model, int most, double tol, bool leading)
+find_cheapest_order(const qdot_ode_cost *model, int most, double tol, bool leading)
 {
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
     const bool more_digits = model->code[0] > 0 && L < model->digits;
@@ -45,7 +45,7 @@ best_order(const qdot_ode_cost *model, int most, double tol, bool leading)
     if (more_digits)
         L = model->digits;
     for (int p = least_order; p <= most - of_companions; p++) {
-        double cost = cost_of(model, p) * exp(L / p);
+        double cost = cost_of_expansion(model, p) * exp(L / p);
 
         if (by_stability)
             cost *= p / qdot_ode_taylor_stable(p);
@@ -60,7 +60,7 @@ best_order(const qdot_ode_cost *model, int most, double tol, bool leading)
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
 {
-    const int best = best_order(&series->cost, series->most, tol, leading) + more;
+    const int best = find_cheapest_order(&series->cost, series->most, tol, leading) + more;
 
     return best < series->most ? best : series->most;
 }
@@ -81,9 +81,9 @@ qdot_ode_taylor_highest(const qdot_ode_system *system, double tol, bool leading,
 double
 qdot_ode_taylor_cost(const qdot_ode_cost *cost, int most, double tol)
 {
-    const int p = best_order(cost, most, tol, false);
+    const int p = find_cheapest_order(cost, most, tol, false);
 
-    return cost_of(cost, p) * exp(-log(qdot_step_aim(tol, false)) / p);
+    return cost_of_expansion(cost, p) * exp(-log(qdot_step_aim(tol, false)) / p);
 }
 
 double
@@ -108,9 +108,9 @@ qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p, doubl
     return least;
 }
 
-/* Whether all coefficients of order p are 0. */
+/* Whether the coefficients of order p of all n components are 0. */
 static bool
-is_order_zero(const qdot_ode_series *series, size_t n, int p)
+coefficients_are_zero(const qdot_ode_series *series, size_t n, int p)
 {
     for (size_t i = 0; i < n; i++)
         if (series->x[i * series->stride + (size_t)p] != 0)
@@ -121,7 +121,7 @@ is_order_zero(const qdot_ode_series *series, size_t n, int p)
 int
 qdot_ode_taylor_last_order(const qdot_ode_system *system, int p)
 {
-    while (p > 2 && is_order_zero(system->series, system->n, p))
+    while (p > 2 && coefficients_are_zero(system->series, system->n, p))
         p--;
     return p;
 }

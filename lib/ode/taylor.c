@@ -1,4 +1,4 @@
-/* taylor.c -- integrates by Taylor series: order, length and confirmation of steps, compensated sums. */
+/* taylor.c -- integrates by Taylor series: order, length and check of steps, compensated sums. */
 #include "ode/taylor.h"
 
 #include <float.h>
@@ -19,26 +19,26 @@ enum { ARRAYS = 10 };
 
 typedef qdot_ode_taylor_run run;
 
-/* A projection moves a state by about its own rounding error, whatever the tolerance. */
+/* A projection onto the constraints moves a state by about its own rounding error, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
 /* A defect that falls by less than this when the step is divided by 4 is noise, if it is less than
  * this of the state over the step. */
 static const double falls = 0.125, most_noise = 1e-5;
 
-/* After this number of rejected steps, the lowest orders are no longer computed in two doubles. */
+/* After this many rejected steps the lowest orders of the series are no longer computed in two doubles. */
 enum { taken_back = 100 };
 
-/* Attempts at a point where f is undefined, each with a quarter of the step. */
+/* The largest number of attempts at a point beyond which f is undefined, each with a quarter of the step before. */
 static const int max_undefined = 60;
 
 /* --- the state at the end of a step ------------------------------------------------- */
 
-/* Compute next = y + carry + sum_{k>=1} x_k s^k up to `order`, and its slope. */
+/* Compute next = y + carry + sum_{k>=1} x_k s^k up to the given order, and the time derivative of this sum. */
 static void
 advance_state(run *r, int order, double s)
 {
-    r->step.x = r->series->x; /* a `begin` may have changed where the series is stored */
+    r->step.x = r->series->x; /* read the address again: a `begin` may have changed where the series is stored */
     r->step.stride = r->series->stride;
     r->step.p = order;
     r->step.s = s;
@@ -46,9 +46,9 @@ advance_state(run *r, int order, double s)
     r->kernels->advance(&r->step);
 }
 
-/* Set the pointers of the step to the arrays that are in use now. */
+/* Set the pointers in r->step to the arrays that are in use now. */
 static void
-aim_step(run *r)
+set_step_arrays(run *r)
 {
     r->step = (qdot_series_step){.n = r->n,
                                  .linked = r->series->checked,
@@ -63,7 +63,7 @@ aim_step(run *r)
                                  .terms = r->terms};
 }
 
-/* Accept the step just tried. */
+/* Accept the step just tried: its end becomes the present state. */
 static void
 accept_taylor_step(run *r)
 {
@@ -77,9 +77,9 @@ accept_taylor_step(run *r)
     r->step.scale = r->next_scale;
 }
 
-/* Update the size and the scale of component i after a change of the state. */
+/* Update the size and the scale (1/size) of component i after a change of the state. */
 static void
-take_size(run *r, size_t i)
+update_size(run *r, size_t i)
 {
     r->next_size[i] = qdot_ode_size(r->least, i, r->next[i]);
     r->next_scale[i] = 1 / r->next_size[i];
@@ -91,7 +91,7 @@ take_size(run *r, size_t i)
  * their derived values there. These may be sensitive to rounding of the others, so this only detects
  * a wrong series. */
 static bool
-followers_agree(const run *r, double h, double share)
+derived_components_agree(const run *r, double h, double share)
 {
     const qdot_ode_following *f = r->system->following;
 
@@ -109,7 +109,7 @@ followers_agree(const run *r, double h, double share)
 /* Whether the slope of the polynomial, in r->slope over that part of the step h, is that of
  * the equations begun anew at its end. */
 static bool
-confirms(const run *r, double h, double part, double old_held)
+is_confirmed_at_end(const run *r, double h, double part, double old_held)
 {
     const qdot_ode_series *series = r->series;
     const double now = part * h * r->per_unit, rounding = 64 * DBL_EPSILON;
@@ -123,12 +123,12 @@ confirms(const run *r, double h, double part, double old_held)
         if (!(fabs(r->slope[i] - f) <= share * r->next_size[i] + rounding * r->terms[i]))
             return false;
     }
-    return followers_agree(r, part * h, share);
+    return derived_components_agree(r, part * h, share);
 }
 
-/* The largest defect of a component at the end of the step, relative to its size, divided by |h|. */
+/* The largest defect (error of the derivative) of a component at the end of the step, relative to its size, by |h|. */
 static double
-defect_of(const run *r, double h)
+find_defect(const run *r, double h)
 {
     const double now = h * r->per_unit;
     double most = 0;
@@ -145,7 +145,7 @@ defect_of(const run *r, double h)
 /* Whether it also is inside the step, at places without a pattern. The series is
  * begun anew at y afterwards. */
 static qdot_status
-confirms_inside(run *r, double h, bool *good)
+is_confirmed_inside(run *r, double h, bool *good)
 {
     static const double places[] = {0.31830988618379067, 0.70710678118654752};
     const double old_held = r->held;
@@ -155,7 +155,7 @@ confirms_inside(run *r, double h, bool *good)
         advance_state(r, r->p, places[k] * h / r->unit);
         status = qdot_ode_taylor_run_begin(r, r->t + places[k] * h, r->next);
         if (status == QDOT_OK) {
-            *good = confirms(r, h, places[k], old_held);
+            *good = is_confirmed_at_end(r, h, places[k], old_held);
             status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
@@ -164,9 +164,9 @@ confirms_inside(run *r, double h, bool *good)
     return status;
 }
 
-/* Project the state at the end of the step just tried onto the constraints. */
+/* Project the state at the end of the step just tried onto the constraints; *moved: how far it moved. */
 static qdot_status
-taylor_project(run *r, double t_end, double *moved)
+project_end_of_step(run *r, double t_end, double *moved)
 {
     double undefined = 0;
 
@@ -179,13 +179,13 @@ taylor_project(run *r, double t_end, double *moved)
         return QDOT_OK;
     QDOT_TRY(r->system->project(t_end, r->next, r->next_carry, moved, r->system->user));
     for (size_t i = 0; i < r->n && *moved > 0; i++)
-        take_size(r, i);
+        update_size(r, i);
     return QDOT_OK;
 }
 
-/* Compute those components that are functions of the others, at the end of the step. */
+/* Compute, at the end of the step, those components that are functions of the others. */
 static void
-take_followers(run *r)
+derive_components(run *r)
 {
     const qdot_ode_following *f = r->system->following;
 
@@ -194,22 +194,22 @@ take_followers(run *r)
 
         r->next[i] = r->series->x[i * r->series->stride];
         r->next_carry[i] = 0;
-        take_size(r, i);
+        update_size(r, i);
     }
 }
 
-/* Generate machine code for the expansions if the steps so far suggest that many will follow. */
+/* Generate machine code for the expansions if the steps so far suggest that many more will follow. */
 static qdot_status
-write_code(run *r, double t)
+generate_code_if_useful(run *r, double t)
 {
     const double steps = (double)r->result->stats.steps + 1;
 
     return qdot_ode_written_next(&r->written, steps, steps * (r->t1 - t) / (t - r->t0));
 }
 
-/* Decide whether to generate machine code from the length of the first step, before it is taken. */
+/* Decide whether to generate machine code from the length of the first step, before that is taken. */
 static qdot_status
-judge_first(run *r, double most, double *h)
+decide_code_by_first_step(run *r, double most, double *h)
 {
     bool again;
 
@@ -222,9 +222,9 @@ judge_first(run *r, double most, double *h)
     return qdot_ode_taylor_run_length(r, most, h);
 }
 
-/* Recompute the end of the step with the first orders in two doubles. */
+/* Recompute the state at the end of the step with the first orders of the series in two doubles. */
 static qdot_status
-advance_in_two(run *r, double t_end)
+advance_in_two_doubles(run *r, double t_end)
 {
     qdot_ode_leading_step step = {.system = r->system,
                                   .at = {r->t, r->t == r->t0 ? r->options->t0_low : 0, r->y,
@@ -242,9 +242,9 @@ advance_in_two(run *r, double t_end)
 /* Noise that a step did not meet any more is forgotten, little by little; with that which it met,
  * it was held to no more than `raised`. */
 static void
-judge_noise(run *r, double h, double old_held)
+record_noise_of_step(run *r, double h, double old_held)
 {
-    const double defect = defect_of(r, h);
+    const double defect = find_defect(r, h);
     const double raised = defect * fabs(h) / (10 * (r->p + 1));
 
     if (raised > qdot_larger(r->held, old_held)) {
@@ -260,7 +260,7 @@ judge_noise(run *r, double h, double old_held)
  * by 4^p, meets the rounding of the equations: shorter ones err as much. *most: the length that it
  * then may have again. */
 static bool
-is_noise(run *r, double before, double h, double *most)
+is_defect_only_noise(run *r, double before, double h, double *most)
 {
     const double noise = 2 * qdot_larger(r->defect, before);
 
@@ -283,7 +283,7 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
 
     *good = true;
     if (unsure && !fixed)
-        QDOT_TRY(confirms_inside(r, h, good));
+        QDOT_TRY(is_confirmed_inside(r, h, good));
     if (!*good)
         return QDOT_OK;
     if (r->options->expanded) {
@@ -295,25 +295,25 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
         h = t_end - r->t;
     }
     if (t_end == r->t1)
-        h += r->options->t1_low; /* the defect must be computed over the full length, t1_low included */
+        h += r->options->t1_low; /* compute the defect over the full length of the step, t1_low included */
     advance_state(r, r->cut, h * r->per_unit);
     if (r->options->leading)
-        QDOT_TRY(advance_in_two(r, t_end));
-    QDOT_TRY(taylor_project(r, t_end, &moved));
+        QDOT_TRY(advance_in_two_doubles(r, t_end));
+    QDOT_TRY(project_end_of_step(r, t_end, &moved));
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
         return QDOT_OK;
     qdot_ode_taylor_run_set_unit(r, qdot_step_unit(h));
-    QDOT_TRY(write_code(r, t_end));
+    QDOT_TRY(generate_code_if_useful(r, t_end));
     status = qdot_ode_taylor_run_begin(r, t_end, r->next);
     if (status == QDOT_OK)
-        *good = fixed || confirms(r, h, 1, old_held);
+        *good = fixed || is_confirmed_at_end(r, h, 1, old_held);
     if (status == QDOT_OK && !*good)
-        r->defect = defect_of(r, h);
+        r->defect = find_defect(r, h);
     if (status == QDOT_OK && *good && r->noise > 0)
-        judge_noise(r, h, old_held);
+        record_noise_of_step(r, h, old_held);
     if (status == QDOT_OK && *good)
-        take_followers(r);
+        derive_components(r);
     if (status == QDOT_OK && *good && r->options->accepted) {
         bool stop = false;
 
@@ -350,7 +350,7 @@ taylor_too_small(const run *r)
                      "what double precision can hold");
 }
 
-/* The end of a step of length h, rounded to a double, or t1 if that is near. */
+/* The end of a step of length h, rounded to a double; t1 itself if the end is near t1. */
 static double
 end_of_step(const run *r, double h)
 {
@@ -378,14 +378,14 @@ taylor_advance(run *r)
         if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                              (unsigned long long)r->max_steps);
-        if (tries > 0) { /* the series now belongs to another point: compute it again */
+        if (tries > 0) { /* a further attempt: compute the series again, as it now belongs to another point */
             qdot_ode_taylor_run_set_unit(r, r->direction * qdot_step_unit(most));
             status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
             status = qdot_ode_taylor_run_length(r, most, &h);
         if (status == QDOT_OK && r->written.first)
-            status = judge_first(r, most, &h);
+            status = decide_code_by_first_step(r, most, &h);
         if (status == QDOT_OK) {
             r->defect = 0;
             unsure = isinf(h);
@@ -398,7 +398,7 @@ taylor_advance(run *r)
             if (status == QDOT_OK && good)
                 return QDOT_OK;
         } else if (qdot_ode_may_be_undefined(status)) {
-            /* the point itself is defined; only points beyond it are not */
+            /* the start point itself is good: f is undefined only beyond it */
             h = fabs(r->unit);
         }
         if (status != QDOT_OK && !qdot_ode_may_be_undefined(status))
@@ -408,7 +408,7 @@ taylor_advance(run *r)
             r->undefined = *qdot_last_error();
             r->undefined_at = r->t + r->direction * h;
         }
-        if (status == QDOT_OK && is_noise(r, before, h, &most))
+        if (status == QDOT_OK && is_defect_only_noise(r, before, h, &most))
             continue;
         before = status == QDOT_OK ? r->defect : 0;
         most = 0.25 * h;
@@ -418,11 +418,11 @@ taylor_advance(run *r)
     }
 }
 
-/* Count the work done since the last count. */
+/* Report to the meter (meter.h) the work done since the last report. */
 static qdot_status
-taylor_count_work(run *r)
+report_work(run *r)
 {
-    /* a rejected step includes a second beginning */
+    /* the number of expansions: a rejected step needs a second one at its start */
     const uint64_t now = r->result->stats.evaluations + r->result->stats.rejected;
     const double work = (double)(now - r->counted) * r->work;
 
@@ -450,7 +450,7 @@ look_for_stiffness(run *r)
 /* Under a stiff force the rounding of low orders is that of another start, which the others carry on and
  * which dies out; low orders in two doubles do not fit to these, and nearly all steps are taken back. */
 static qdot_status
-look_for_misfit(run *r)
+end_if_two_doubles_do_harm(run *r)
 {
     const qdot_ode_stats *s = &r->result->stats;
 
@@ -483,9 +483,9 @@ taylor_loop(run *r)
     while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED) {
         QDOT_TRY(taylor_advance(r));
         if (r->options->meter)
-            QDOT_TRY(taylor_count_work(r));
+            QDOT_TRY(report_work(r));
         qdot_progress_at(r->t);
-        QDOT_TRY(look_for_misfit(r));
+        QDOT_TRY(end_if_two_doubles_do_harm(r));
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
         if (qdot_ode_stiffness_is_due(&r->stiffness))
             QDOT_TRY(look_for_stiffness(r));
@@ -493,9 +493,9 @@ taylor_loop(run *r)
     return QDOT_OK;
 }
 
-/* List the arrays that a run allocates. */
+/* List the addresses of the pointers to all arrays that a run allocates. */
 static void
-list_arrays(run *r, double ***arrays)
+list_allocated_arrays(run *r, double ***arrays)
 {
     arrays[0] = &r->y;
     arrays[1] = &r->carry;
@@ -515,7 +515,7 @@ taylor_make_room(run *r)
     const qdot_ode_following *f = r->system->following;
     double **arrays[ARRAYS];
 
-    list_arrays(r, arrays);
+    list_allocated_arrays(r, arrays);
     for (size_t i = 0; i < ARRAYS; i++) {
         *arrays[i] = qdot_calloc(r->n + 8, sizeof(double));
         if (!*arrays[i])
@@ -534,7 +534,7 @@ taylor_make_room(run *r)
         if (!follows)
             r->confirmed[r->n_confirmed++] = i;
     }
-    aim_step(r);
+    set_step_arrays(r);
     return QDOT_OK;
 }
 
@@ -572,17 +572,17 @@ taylor_release(run *r)
 {
     double **arrays[ARRAYS];
 
-    list_arrays(r, arrays);
+    list_allocated_arrays(r, arrays);
     for (size_t i = 0; i < ARRAYS; i++)
         qdot_free(*arrays[i]);
     qdot_free(r->confirmed);
     qdot_ode_stiffness_clear(&r->stiffness);
 }
 
-/* The data of an integration before it has begun. */
+/* Make the data of an integration that has not begun yet. */
 static run
-run_of(const qdot_ode_system *system, const qdot_ode_options *options, double t0, double t1,
-       qdot_ode_result *result)
+make_run(const qdot_ode_system *system, const qdot_ode_options *options, double t0, double t1,
+         qdot_ode_result *result)
 {
     return (run){.system = system,
                  .series = system->series,
@@ -608,7 +608,7 @@ qdot_ode_taylor_first_step(const qdot_ode_system *system, const qdot_ode_options
 {
     const qdot_ode_options plain = {.tol = options->tol, .goes_on = true};
     qdot_ode_result result = {0};
-    run r = run_of(system, &plain, t, t1, &result);
+    run r = make_run(system, &plain, t, t1, &result);
     qdot_status status = taylor_prepare(&r, t, t1, y);
 
     *h = 0;
@@ -630,7 +630,7 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
 {
     static const qdot_ode_options defaults = {0};
     double cpu_start = qdot_cpu_now();
-    run r = run_of(system, options ? options : &defaults, t0, t1, result);
+    run r = make_run(system, options ? options : &defaults, t0, t1, result);
     qdot_status status;
 
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};

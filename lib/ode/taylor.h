@@ -52,7 +52,7 @@
 
 #include "ode/run.h"
 
-/* As qdot_ode_integrate, which calls this if system->series exists. */
+/* Integrate as qdot_ode_integrate does, which calls this if system->series exists. */
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *system,
                                                       const qdot_ode_options *options,
                                                       double t0, double t1, double *y,
@@ -93,13 +93,13 @@ double qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_expand(const qdot_ode_system *system, int p,
                                                    double t0, double h,
                                                    const double *y0);
-/* The highest order, at most p, with a non-zero coefficient; at least 2. */
+/* The highest order, at most p, at which some coefficient of the series is not 0; at least 2. */
 int qdot_ode_taylor_last_order(const qdot_ode_system *system, int p);
 /* The state y [n] at t + t_low of a step, by the series that is there, its coefficients taken as exact:
  * the first orders in two doubles. Not for systems with `following`. */
 void qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
                                   double t_low, qdot_two *y);
-/* Find the rounding error of that value caused by terms that are not in two doubles: rounding [n]. */
+/* Find the rounding error of the series' value caused by terms that are not in two doubles: rounding [n]. */
 void qdot_ode_taylor_rounding_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
                                   double *rounding);
 void qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,

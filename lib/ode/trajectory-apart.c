@@ -1,11 +1,11 @@
-/* trajectory-apart.c -- trajectories of systems with decoupled parts: a track for each part. */
+/* trajectory-apart.c -- trajectories of systems with decoupled parts: one trajectory (track) for each part. */
 #include "base/memory.h"
 #include "ode/apart.h"
 #include "ode/trajectory.h"
 
-/* Make the points of the whole: those of the finest track, with the other tracks read there. */
+/* Make the points of the whole system: those of the finest track (part), with the other tracks read at these times. */
 static qdot_status
-put_together(qdot_trajectory *tr, const qdot_ode_system *system)
+merge_tracks(qdot_trajectory *tr, const qdot_ode_system *system)
 {
     const double direction = tr->result.t < tr->t[0] ? -1 : 1;
     const qdot_trajectory *finest = tr->tracks;
@@ -37,10 +37,10 @@ put_together(qdot_trajectory *tr, const qdot_ode_system *system)
     return status;
 }
 
-/* Integrate the track of part k to the time that the earlier parts have reached. */
+/* Integrate the trajectory of part k to the time that the earlier parts have reached. */
 static qdot_status
-run_track(qdot_trajectory *tr, size_t k, const qdot_ode_part *part,
-          const qdot_ode_options *options, const double *y0, double *room)
+integrate_track(qdot_trajectory *tr, size_t k, const qdot_ode_part *part,
+                const qdot_ode_options *options, const double *y0, double *room)
 {
     qdot_ode_options own = qdot_ode_part_options(part, options, room + part->system->n);
     qdot_status status;
@@ -66,7 +66,7 @@ qdot_trajectory_record_apart(qdot_trajectory *tr, const qdot_ode_system *system,
     status = room && tr->tracks ? QDOT_OK : QDOT_ENOMEM;
     tr->n_tracks = tr->tracks ? system->n_parts : 0;
     for (size_t k = 0; k < system->n_parts && status == QDOT_OK; k++) {
-        status = run_track(tr, k, system->parts + k, options, y0, room);
+        status = integrate_track(tr, k, system->parts + k, options, y0, room);
         if (status != QDOT_OK && status != QDOT_ENOMEM) {
             ended = status;
             failure = *qdot_last_error();
@@ -75,7 +75,7 @@ qdot_trajectory_record_apart(qdot_trajectory *tr, const qdot_ode_system *system,
     }
     qdot_free(room);
     if (status == QDOT_OK)
-        status = put_together(tr, system);
+        status = merge_tracks(tr, system);
     if (status != QDOT_OK || ended == QDOT_OK)
         return status;
     qdot_fail_again(&failure);

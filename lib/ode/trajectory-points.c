@@ -1,4 +1,4 @@
-/* trajectory-points.c -- changes stored points of a run: shortens, subdivides, uses a component as time. */
+/* trajectory-points.c -- changes the stored points of a run: shortens, subdivides, uses a component as time. */
 #include <math.h>
 #include <string.h>
 
@@ -28,10 +28,10 @@ qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k)
     return tr->method;
 }
 
-/* Append the points of a piece to `to`, with each step divided into `parts` parts. */
+/* Append the points of one piece of the run to `to`, with each step divided into `parts` parts. */
 static qdot_status
-refine_piece(const qdot_trajectory *tr, qdot_trajectory_cursor *c, size_t piece,
-             size_t parts, qdot_trajectory *to)
+subdivide_piece(const qdot_trajectory *tr, qdot_trajectory_cursor *c, size_t piece,
+                size_t parts, qdot_trajectory *to)
 {
     const size_t last = qdot_trajectory_last_of(tr, piece);
     double *y = qdot_malloc((tr->n + 1) * sizeof *y);
@@ -68,7 +68,7 @@ qdot_trajectory_refine(qdot_trajectory *tr, const qdot_ode_system *system, size_
     status = first ? QDOT_OK : QDOT_ENOMEM;
     for (size_t i = 0; i < tr->pieces.n && status == QDOT_OK; i++) {
         first[i] = to.count;
-        status = refine_piece(tr, c, i, parts, &to);
+        status = subdivide_piece(tr, c, i, parts, &to);
     }
     qdot_trajectory_close(c);
     if (status == QDOT_OK) {

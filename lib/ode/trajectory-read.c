@@ -13,27 +13,27 @@
 
 struct qdot_trajectory_cursor {
     const qdot_trajectory *tr;
-    const qdot_ode_system *systems; /* [modes] the systems that the pieces of the run use */
-    const qdot_ode_system *system;  /* the system of the present piece */
+    const qdot_ode_system *systems; /* [modes] the systems of equations that the pieces of the run use, by mode */
+    const qdot_ode_system *system;  /* the system of equations of the present piece */
     size_t piece;
-    bool series;         /* the step from point `at` is a Taylor step */
-    int order;           /* order of that Taylor step */
+    bool series;         /* whether the step that begins at point `at` is a Taylor step */
+    int order;           /* order of the Taylor step that begins at point `at` */
     qdot_ode_stepper *s; /* stepper of a one-step method; NULL: none */
     size_t at;           /* index of the stored point before the time read last */
     qdot_between between; /* polynomial of the present step, for methods of low order */
-    bool fresh;          /* the stepper or series has been started at point `at` */
-    double *F;           /* polynomial of a half step, for methods with a kernel */
-    bool known;          /* it has been tried to compute F */
+    bool fresh;          /* whether the stepper or the series has been started at point `at` */
+    double *F;           /* polynomial of a half step, for one-step methods of our own */
+    bool known;          /* whether it has been tried to compute F for the present step */
     bool second;         /* F belongs to the second half of the step */
-    bool good;           /* F was computed with success */
-    /* For a run in decoupled parts: */
-    qdot_trajectory_cursor **tracks; /* [tr->n_tracks] a cursor for each part */
+    bool good;           /* whether F was computed with success */
+    /* Used for a run in decoupled parts: */
+    qdot_trajectory_cursor **tracks; /* [tr->n_tracks] a cursor for the trajectory of each part */
     double *own;                     /* [n] the state of one part */
 };
 
-/* Whether a is at or before b in the direction of the run. */
+/* Whether time a is at or before time b in the direction of the run. */
 static bool
-not_beyond(const qdot_trajectory *tr, double a, double b)
+is_at_or_before(const qdot_trajectory *tr, double a, double b)
 {
     return tr->t[0] <= tr->t[tr->count - 1] ? a <= b : a >= b;
 }
@@ -41,12 +41,12 @@ not_beyond(const qdot_trajectory *tr, double a, double b)
 size_t
 qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
 {
-    size_t low = 0, high = tr->count; /* t[low] is at or before t, t[high] after t */
+    size_t low = 0, high = tr->count; /* indices of points such that t[low] is at or before t, and t[high] after t */
 
-    if (near < tr->count && not_beyond(tr, tr->t[near], t)) {
+    if (near < tr->count && is_at_or_before(tr, tr->t[near], t)) {
         low = near;
         for (size_t k = near + 1; k < near + 3; k++) {
-            if (k >= tr->count || !not_beyond(tr, tr->t[k], t)) {
+            if (k >= tr->count || !is_at_or_before(tr, tr->t[k], t)) {
                 high = k < tr->count ? k : tr->count;
                 break;
             }
@@ -56,7 +56,7 @@ qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
 
-        if (not_beyond(tr, tr->t[middle], t))
+        if (is_at_or_before(tr, tr->t[middle], t))
             low = middle;
         else
             high = middle;
@@ -64,9 +64,9 @@ qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
     return low;
 }
 
-/* The values of the integration variable at the stored points. */
+/* The values of the variable by which the run was integrated (usually t) at the stored points. */
 static const double *
-steps_of(const qdot_trajectory *tr)
+integration_variable(const qdot_trajectory *tr)
 {
     return tr->s ? tr->s : tr->t;
 }
@@ -83,9 +83,9 @@ open_stepper(qdot_trajectory_cursor *c)
     return qdot_ode_stepper_new(c->system, method, c->tr->tol, &c->s);
 }
 
-/* Use the equations of this piece of the run from now on. */
+/* Use the equations of the given piece of the run from now on. */
 static qdot_status
-cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
+enter_piece(qdot_trajectory_cursor *c, size_t piece)
 {
     const size_t first = c->tr->pieces.at[piece].first;
     const qdot_ode_system *system = c->systems + c->tr->pieces.at[piece].mode;
@@ -93,7 +93,7 @@ cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
     c->piece = piece;
     if (system->following && !c->tr->entered) /* the system may have been used for another solution since */
         QDOT_TRY(system->following->enter(
-            steps_of(c->tr)[first], c->tr->y + first * c->tr->n,
+            integration_variable(c->tr)[first], c->tr->y + first * c->tr->n,
             c->tr->leading ? c->tr->low + first * c->tr->n : NULL,
             system->following->user));
     if (system == c->system)
@@ -116,7 +116,7 @@ cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
     return open_stepper(c);
 }
 
-/* Open a cursor for each decoupled part; runs in decoupled parts have a single piece. */
+/* Open a cursor for the trajectory of each decoupled part; runs in decoupled parts have a single piece. */
 static qdot_status
 open_tracks(qdot_trajectory_cursor *c)
 {
@@ -148,7 +148,7 @@ qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
         return QDOT_ENOMEM;
     c->tr = tr;
     c->systems = system;
-    status = tr->n_tracks > 0 ? open_tracks(c) : cursor_enter_piece(c, 0);
+    status = tr->n_tracks > 0 ? open_tracks(c) : enter_piece(c, 0);
     if (status != QDOT_OK) {
         qdot_trajectory_close(c);
         return status;
@@ -175,11 +175,11 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
 /* Step from the stored point to t in as few steps as the tolerance allows; the last one leaves
  * the state in s->trial without being accepted, so that the next query can start here too. */
 static qdot_status
-walk(qdot_trajectory_cursor *c, double t)
+walk_to_time(qdot_trajectory_cursor *c, double t)
 {
-    enum { most = 2000 }; /* largest number of steps inside one step of the run: many only near a singularity */
+    enum { most = 2000 }; /* largest number of steps inside one step of the run: only near a singularity are there many */
     qdot_ode_stepper *s = c->s;
-    double now = steps_of(c->tr)[c->at], h = t - now;
+    double now = integration_variable(c->tr)[c->at], h = t - now;
 
     for (int tries = 0;; tries++) {
         double ratio, factor = 0.25;
@@ -213,13 +213,13 @@ walk(qdot_trajectory_cursor *c, double t)
     }
 }
 
-/* Read the state from the series about the stored point. */
+/* Read the state at t from the Taylor series about the stored point. */
 static qdot_status
 read_series(qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
     const double *y0 = tr->y + c->at * tr->n;
-    const double *at = steps_of(tr) + c->at, t0 = at[0], h = at[1] - t0;
+    const double *at = integration_variable(tr) + c->at, t0 = at[0], h = at[1] - t0;
 
     if (!c->fresh)
         QDOT_TRY(qdot_ode_taylor_expand(c->system, c->order, t0, h, y0));
@@ -236,18 +236,18 @@ read_series(qdot_trajectory_cursor *c, double t, double *y)
 /* The polynomial of half the step: from its beginning, or back from its end; of the whole one
  * where steps cannot be taken back. */
 static qdot_status
-find_polynomial(qdot_trajectory_cursor *c, bool second)
+find_step_polynomial(qdot_trajectory_cursor *c, bool second)
 {
     const qdot_trajectory *tr = c->tr;
     const size_t from = c->at + second;
-    const double *at = steps_of(tr);
+    const double *at = integration_variable(tr);
     const double part = tr->method->kernel->forward ? 1 : 0.5;
     const double h = part * (at[c->at + 1 - second] - at[from]);
     size_t formulas = 1;
     double ratio;
     qdot_status status;
 
-    /* if this formula has too large an error, the step was made with another formula */
+    /* try all formulas: if one has too large an error, the step was made with another */
     for (size_t k = 0; k < formulas; k++) {
         qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
         status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
@@ -264,27 +264,27 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
     return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ? QDOT_OK : status;
 }
 
-/* Read the state from the step's polynomial; c->good is false if it has none. */
+/* Read the state at t from the step's interpolating polynomial; c->good is false if there is none. */
 static qdot_status
 read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
-    const double start = steps_of(tr)[c->at], end = steps_of(tr)[c->at + 1];
+    const double start = integration_variable(tr)[c->at], end = integration_variable(tr)[c->at + 1];
     const bool forward = tr->method->kernel->forward;
     const bool second = !forward && fabs(t - start) > fabs(end - t);
     const double x = second ? (t - end) / (start - end) : (t - start) / (end - start);
 
     if (!c->known || c->second != second)
-        QDOT_TRY(find_polynomial(c, second));
+        QDOT_TRY(find_step_polynomial(c, second));
     if (c->good)
         c->s->method->kernel->at(tr->n, c->F, tr->y + (c->at + second) * tr->n,
                                      forward ? x : 2 * x, y);
     return QDOT_OK;
 }
 
-/* Compute those components that are functions of the others, at the state read. */
+/* Compute those components that are functions of the others, at the state just read. */
 static qdot_status
-cursor_derive(const qdot_trajectory_cursor *c, double t, double *y)
+derive_components_at(const qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_ode_following *f = c->system->following;
 
@@ -304,20 +304,20 @@ qdot_trajectory_read_tracks(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* Compute the state within the step that begins at point c->at. */
+/* Compute the state at t within the step that begins at stored point c->at. */
 static qdot_status
-cursor_read_step(qdot_trajectory_cursor *c, double t, double *y)
+read_inside_step(qdot_trajectory_cursor *c, double t, double *y)
 {
     if (c->tracks)
         return qdot_trajectory_read_tracks(c, t, y);
     if (c->series) {
         QDOT_TRY(read_series(c, t, y));
-        return cursor_derive(c, t, y);
+        return derive_components_at(c, t, y);
     }
     if (c->F) {
         QDOT_TRY(read_polynomial(c, t, y));
         if (c->good)
-            return cursor_derive(c, t, y);
+            return derive_components_at(c, t, y);
     }
     if (!c->fresh) {
         qdot_ode_stepper_start(c->s, c->tr->y + c->at * c->tr->n);
@@ -325,14 +325,14 @@ cursor_read_step(qdot_trajectory_cursor *c, double t, double *y)
     }
     c->fresh = true;
     if (qdot_between_fits(c->tr->method)) {
-        const double *t0 = steps_of(c->tr) + c->at, h = t0[1] - *t0;
+        const double *t0 = integration_variable(c->tr) + c->at, h = t0[1] - *t0;
         bool done;
         QDOT_TRY(qdot_between_read(&c->between, c->s, *t0, h, c->tr->y + (c->at + 1) * c->tr->n,
                                    (t - *t0) / h, y, &done));
         if (done)
-            return cursor_derive(c, t, y);
+            return derive_components_at(c, t, y);
     }
-    QDOT_TRY(walk(c, t));
+    QDOT_TRY(walk_to_time(c, t));
     memcpy(y, c->s->trial, c->tr->n * sizeof *y);
     return QDOT_OK;
 }
@@ -340,7 +340,7 @@ cursor_read_step(qdot_trajectory_cursor *c, double t, double *y)
 /* The same where t is a component: its root by Newton's steps, halving where they leave what is
  * left. */
 static qdot_status
-read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
+read_at_time_component(qdot_trajectory_cursor *c, double t, double *y)
 {
     enum { most = 200 };
     const qdot_trajectory *tr = c->tr;
@@ -351,7 +351,7 @@ read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
     for (int tries = 0; tries < most; tries++) {
         double gap, next;
 
-        QDOT_TRY(cursor_read_step(c, s, y));
+        QDOT_TRY(read_inside_step(c, s, y));
         gap = y[tr->clock] - t;
         if (gap == 0)
             break;
@@ -366,9 +366,9 @@ read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* Compute the state at t, which lies in the step from point k on, or at that point. */
+/* Compute the state at t, which lies in the step that begins at stored point k, or at that point. */
 static qdot_status
-read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
+read_from_point(qdot_trajectory_cursor *c, size_t k, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
 
@@ -381,7 +381,7 @@ read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
     }
-    return tr->s ? read_by_clock(c, t, y) : cursor_read_step(c, t, y);
+    return tr->s ? read_at_time_component(c, t, y) : read_inside_step(c, t, y);
 }
 
 qdot_status
@@ -401,8 +401,8 @@ qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
     while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
         piece++;
     if (!c->tracks)
-        QDOT_TRY(cursor_enter_piece(c, piece));
-    return read_from(c, k, t, y);
+        QDOT_TRY(enter_piece(c, piece));
+    return read_from_point(c, k, t, y);
 }
 
 qdot_status
@@ -413,23 +413,23 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
     const size_t last = qdot_trajectory_last_of(tr, piece);
 
     if (!c->tracks)
-        QDOT_TRY(cursor_enter_piece(c, piece));
-    if (not_beyond(tr, t, tr->t[low]))
-        return read_from(c, low, tr->t[low], y);
-    if (not_beyond(tr, tr->t[last], t))
-        return read_from(c, last, tr->t[last], y);
-    if (c->at >= low && c->at < last && not_beyond(tr, tr->t[c->at], t)
-        && !not_beyond(tr, tr->t[c->at + 1], t))
-        return read_from(c, c->at, t, y);
+        QDOT_TRY(enter_piece(c, piece));
+    if (is_at_or_before(tr, t, tr->t[low]))
+        return read_from_point(c, low, tr->t[low], y);
+    if (is_at_or_before(tr, tr->t[last], t))
+        return read_from_point(c, last, tr->t[last], y);
+    if (c->at >= low && c->at < last && is_at_or_before(tr, tr->t[c->at], t)
+        && !is_at_or_before(tr, tr->t[c->at + 1], t))
+        return read_from_point(c, c->at, t, y);
     for (size_t high = last; high - low > 1;) {
         size_t middle = low + (high - low) / 2;
 
-        if (not_beyond(tr, tr->t[middle], t))
+        if (is_at_or_before(tr, tr->t[middle], t))
             low = middle;
         else
             high = middle;
     }
-    return read_from(c, low, t, y);
+    return read_from_point(c, low, t, y);
 }
 
 bool

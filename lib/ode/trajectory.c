@@ -1,4 +1,4 @@
-/* trajectory.c -- stores the points of a run. */
+/* trajectory.c -- stores the points of a run for reading states between them. */
 #include "ode/trajectory.h"
 
 #include <string.h>
@@ -20,12 +20,12 @@ typedef struct {
     qdot_trajectory *tr;
     const qdot_ode_options *options;
     double t1;
-    const double *low; /* [n] exact state minus y; NULL: 0 */
+    const double *low; /* [n] exact state minus its double y; NULL: 0 */
     const qdot_ode_method *now; /* the method in use, if the run changes it; NULL: the trajectory's */
 } recorder;
 
 static qdot_status
-pass_expanded(qdot_ode_expanded *step, void *user)
+pass_on_expanded(qdot_ode_expanded *step, void *user)
 {
     recorder *r = user;
 
@@ -57,16 +57,16 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     *tr = (qdot_trajectory){0};
 }
 
-/* Initial capacity of arrays in doubles, so that short runs rarely reallocate. */
+/* Initial capacity of arrays in doubles, so large that short runs rarely reallocate. */
 enum { first_room = 512 };
 
 static size_t
-at_least(size_t wanted, size_t least)
+maximum(size_t wanted, size_t least)
 {
     return wanted > least ? wanted : least;
 }
 
-/* Reserve memory for one more point. */
+/* Reserve memory for one more point of the trajectory. */
 static qdot_status
 trajectory_make_room(qdot_trajectory *tr, double t)
 {
@@ -77,10 +77,10 @@ trajectory_make_room(qdot_trajectory *tr, double t)
         return qdot_hint("a coarser tolerance or a shorter run needs fewer points");
     }
     if (wanted > tr->t_capacity)
-        QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, at_least(wanted, first_room / 8),
+        QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, maximum(wanted, first_room / 8),
                            sizeof *tr->t));
     if (wanted * tr->n > tr->y_capacity)
-        QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, at_least(wanted * tr->n, first_room),
+        QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, maximum(wanted * tr->n, first_room),
                            sizeof *tr->y));
     return QDOT_OK;
 }
@@ -91,7 +91,7 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     const size_t n = tr->n;
     double *to;
 
-    /* capacity is a power of two: test the limit of points whenever it grows */
+    /* test the limit on stored points only when the capacity, a power of two, grows */
     if (tr->count == tr->t_capacity || (tr->count + 1) * n > tr->y_capacity)
         QDOT_TRY(trajectory_make_room(tr, t));
     to = tr->y + tr->count * n;
@@ -101,23 +101,23 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Store the low part of the last point; NULL: 0. */
+/* Store the low part (exact state minus y) of the last point; NULL: 0. */
 static qdot_status
 store_low(qdot_trajectory *tr, const double *low)
 {
     const size_t n = tr->n, at = (tr->count - 1) * n;
 
     if (at + n > tr->low_capacity)
-        QDOT_TRY(qdot_grow(&tr->low, &tr->low_capacity, at_least(at + n, first_room),
+        QDOT_TRY(qdot_grow(&tr->low, &tr->low_capacity, maximum(at + n, first_room),
                            sizeof *tr->low));
     for (size_t i = 0; i < n; i++)
         tr->low[at + i] = low ? low[i] : 0;
     return QDOT_OK;
 }
 
-/* Stop a run that has made little progress in many steps, before it reaches the limit of steps. */
+/* Stop a run that has made little progress in many steps, long before it reaches the limit of steps. */
 static qdot_status
-recorder_foresee(const recorder *r, double t)
+stop_hopeless_run(const recorder *r, double t)
 {
     const double steps = (double)r->tr->count, t0 = r->tr->t[0];
     const double all = steps * ((r->t1 - t0) / (t - t0));
@@ -131,15 +131,15 @@ recorder_foresee(const recorder *r, double t)
 }
 
 static qdot_status
-record(double t, const double *y, bool *stop, void *user)
+record_step(double t, const double *y, bool *stop, void *user)
 {
     recorder *r = user;
 
     const qdot_ode_meter *meter = r->options->meter;
 
-    /* a run with a meter to compare with is a companion, and must go as far as its run */
+    /* do not stop a companion run (its meter has a run to compare with), which must go as far as its run */
     if (r->tr->count % looks == 0 && !(meter && meter->beside))
-        QDOT_TRY(recorder_foresee(r, t));
+        QDOT_TRY(stop_hopeless_run(r, t));
     if (r->options->now)
         *r->options->now = r->now;
     if (r->options->accepted)
@@ -151,10 +151,10 @@ record(double t, const double *y, bool *stop, void *user)
     return r->tr->leading ? store_low(r->tr, r->low) : QDOT_OK;
 }
 
-/* Store the first point of a piece, and the options that are kept with the run. */
+/* Store the first point of a piece of the run, and the options that are kept with the run. */
 static qdot_status
-store_first(qdot_trajectory *tr, const qdot_ode_options *options, double t0,
-            const double *y)
+store_first_point(qdot_trajectory *tr, const qdot_ode_options *options, double t0,
+                  const double *y)
 {
     QDOT_TRY(qdot_trajectory_store(tr, t0, y));
     return tr->leading ? store_low(tr, options->carry) : QDOT_OK;
@@ -172,7 +172,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     double *y = qdot_malloc(system->n * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
-    if (y) /* copied first, because y0 may be a stored point that is about to be removed */
+    if (y) /* copy the start first, since y0 may be a stored point that is about to be removed */
         memcpy(y, y0, system->n * sizeof *y);
     qdot_trajectory_clear(tr);
     tr->n = system->n;
@@ -182,16 +182,16 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     tr->leading = own.leading;
     tr->t0_low = own.t0_low;
     tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
-    own.accepted = record;
+    own.accepted = record_step;
     own.apart = false;
-    own.expanded = own.expanded ? pass_expanded : NULL;
+    own.expanded = own.expanded ? pass_on_expanded : NULL;
     own.beyond = &r.low;
     own.now = &r.now;
     own.user = &r;
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, whole);
     if (status == QDOT_OK)
-        status = store_first(tr, &own, t0, y);
+        status = store_first_point(tr, &own, t0, y);
     if (status == QDOT_OK && qdot_ode_is_apart(system, &theirs))
         status = qdot_trajectory_record_apart(tr, system, &theirs, t1, y);
     else if (status == QDOT_OK)
@@ -207,7 +207,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
                        bool jumped, const qdot_ode_options *options, double t1,
                        const double *y0)
 {
-    /* replace the callback `accepted`: whether parts are integrated separately depended on the caller's */
+    /* replace the callback `accepted` by the recorder; whether parts are integrated apart depended on the caller's */
     qdot_ode_options own = *options;
     qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
     recorder r = {.tr = tr,
@@ -219,9 +219,9 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     double *y = qdot_malloc(system->n * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
-    own.accepted = record;
+    own.accepted = record_step;
     own.apart = false;
-    own.expanded = own.expanded ? pass_expanded : NULL;
+    own.expanded = own.expanded ? pass_on_expanded : NULL;
     own.beyond = &r.low;
     own.now = &r.now;
     own.user = &r;
@@ -234,7 +234,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, piece);
     if (status == QDOT_OK)
-        status = store_first(tr, &own, t0, y);
+        status = store_first_point(tr, &own, t0, y);
     clear_tracks(tr);
     if (status == QDOT_OK && piece.first == 0 && qdot_ode_is_apart(system, options))
         status = qdot_trajectory_record_apart(tr, system, options, t1, y);

@@ -27,12 +27,12 @@
 #include "ode/run.h"
 
 typedef struct {
-    size_t first; /* index of its first point */
-    size_t mode;  /* index of the system that it uses */
-    bool jumped;  /* it starts from a state other than the end of the previous piece */
+    size_t first; /* index of the first point of the piece */
+    size_t mode;  /* index (mode) of the system of equations that the piece uses */
+    bool jumped;  /* the piece starts from a state other than the end of the piece before */
 } qdot_trajectory_piece;
 
-/* A change of the method (alternate.h). */
+/* A change of the integration method during a run (alternate.h). */
 typedef struct {
     size_t first; /* index of the point from which the new method is used */
     const qdot_ode_method *method;
@@ -40,15 +40,15 @@ typedef struct {
 
 typedef struct qdot_trajectory {
     size_t n;     /* number of components of the state */
-    size_t count; /* number of stored points, initial state included */
-    double *t;    /* [count] times, monotone in the direction of the run, strictly within a piece */
+    size_t count; /* number of stored points, the initial state included */
+    double *t;    /* [count] times of the points, strictly monotone within a piece, in the direction of the run */
     double *y;    /* [count x n] states, row-major */
-    const qdot_ode_method *method; /* the method of the steps before the first entry of `turns` */
+    const qdot_ode_method *method; /* the integration method of the steps before the first entry of `turns` */
     double tol;
-    int order_more;         /* order_more of the run's options (run.h) */
-    bool leading;           /* leading of the run's options: first orders in two doubles */
-    double t0_low;          /* exact start time minus t[0] */
-    double *low;            /* [count x n] exact states minus y, if `leading` */
+    int order_more;         /* increase of the order, as in the run's options (run.h) */
+    bool leading;           /* as in the run's options: first orders in two doubles */
+    double t0_low;          /* exact start time minus its double t[0] */
+    double *low;            /* [count x n] exact states minus their doubles y, if `leading` */
     qdot_ode_result result; /* result of the run */
     bool entered;           /* its solution was entered before its first point: it is a part of a
                                longer one (`following` of ode/system.h) */
@@ -57,15 +57,15 @@ typedef struct qdot_trajectory {
     qdot_vec(qdot_trajectory_turn) turns;
     /* For a system integrated in parts (ode/apart.h): the trajectory of each part; the points
      * above are those of the part with the most. One piece only. */
-    struct qdot_trajectory *tracks; /* [n_tracks] trajectory of each decoupled part */
+    struct qdot_trajectory *tracks; /* [n_tracks] trajectories (tracks) of the decoupled parts */
     size_t n_tracks;
     /* Of a run by another variable s, in which t is a component of the state
      * (qdot_trajectory_by_clock): */
-    double *s;    /* [count] the variable s at the points; NULL: s is t itself */
-    size_t clock; /* index of the component of the state that is t */
+    double *s;    /* [count] the variable s by which the run was integrated, at the points; NULL: s is t itself */
+    size_t clock; /* index of the component of the state that is the time t, if s is not t */
 } qdot_trajectory;
 
-/* Start from {0}; release with qdot_trajectory_clear. */
+/* Release a trajectory, which must have been initialised with {0}. */
 void qdot_trajectory_clear(qdot_trajectory *tr);
 
 /* Integrate as qdot_ode_integrate does and store the run (earlier contents are dropped).
@@ -112,14 +112,14 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_open(const qdot_trajectory *tr,
                                                  qdot_trajectory_cursor **out);
 void qdot_trajectory_close(qdot_trajectory_cursor *c);
 
-/* Read the state at t with a cursor; result and errors as those of qdot_trajectory_at. */
+/* Read the state at t with a cursor; results and errors are those of qdot_trajectory_at. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
                                                  double *y);
 
-/* The number of evaluations of f by reading so far; 0 with series. */
+/* The number of evaluations of f that reading with this cursor has needed so far; 0 for Taylor series. */
 uint64_t qdot_trajectory_evaluations(const qdot_trajectory_cursor *c);
 
-/* The mode of the piece to which the state just read belongs. */
+/* The mode (index of the system of equations) of the piece to which the state just read belongs. */
 size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 
 /* The series of the step that the last read was within, of the system *of; false: it was by none, or at
@@ -127,7 +127,7 @@ size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 bool qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system **of,
                               qdot_ode_expanded *step);
 
-/* Read the state of the given piece of the run at t, or at the end of the piece that is nearer to t. */
+/* Read the state of the given piece of the run at t; outside of the piece, at its end that is nearer to t. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);
 
@@ -138,7 +138,7 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_record_apart(qdot_trajectory *tr,
                                                          const qdot_ode_system *system,
                                                          const qdot_ode_options *options,
                                                          double t1, const double *y0);
-/* Append a point; _read_tracks: read the state from the tracks only. */
+/* Append a point; qdot_trajectory_read_tracks: read the state from the trajectories of the parts only. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,
@@ -155,19 +155,19 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_refine(qdot_trajectory *tr,
  * points is that component, s what t was. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_by_clock(qdot_trajectory *tr, size_t clock);
 
-/* Tell the cursor that stored points have been changed. */
+/* Tell the cursor that stored points of its trajectory have been changed. */
 void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 
-/* The piece to which stored point k belongs. */
+/* The index of the piece of the run to which stored point k belongs. */
 size_t qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k);
 
-/* The method of the step from stored point k on. */
+/* The integration method of the step that begins at stored point k. */
 const qdot_ode_method *qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k);
 
-/* The index of the last point of a piece. */
+/* The index of the last stored point of a piece. */
 size_t qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece);
 
-/* Restrict the times *low ... *high to those that the run covers. */
+/* Restrict the interval of times *low ... *high to times that the run covers. */
 void qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high);
 
 /* Whether the run goes backwards in time. */

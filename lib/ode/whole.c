@@ -1,4 +1,4 @@
-/* whole.c -- the loop of an integration: try a step, judge it, accept it, choose the next. */
+/* whole.c -- the loop of an integration: tries a step, judges it, accepts it, chooses the next. */
 #include "ode/whole.h"
 
 #include <float.h>
@@ -20,14 +20,14 @@
  * an order of 8 the whole run costs a quarter more and errs eight times less. */
 static const double aim = 0.1;
 
-/* Where a new step size is costly, the step grows by at least this factor or not at all. */
+/* If a new step length is costly, the step grows by at least this factor or not at all. */
 static const double worthwhile = 1.2;
 
 /* The most that a step changes by, and that of a method that damps what is stiff: behind what dies out
  * its steps have far to grow. */
 static const double most_change = 5, most_change_stiff = 25;
 
-/* Steps of fewer than this many smallest steps are limited by the resolution of t, not by stability. */
+/* Steps shorter than this many smallest steps are limited by the resolution of t, not by stability. */
 static const double coarse = 64;
 
 /* Tries at one place that fail because f is undefined: each divides the step by 4, so
@@ -43,16 +43,16 @@ typedef struct {
     double direction; /* direction of time: +1 or -1 */
     double h;         /* length of the next step to try, positive */
     uint64_t max_steps;
-    int undefined;      /* number of attempts in a row from this t at which f was undefined */
+    int undefined;      /* number of attempts in a row from this t in which f was undefined */
     bool just_rejected; /* the last try was rejected: the next step must not grow */
-    qdot_error last_undefined; /* the last error of f */
+    qdot_error last_undefined; /* the last error of the right-hand side f */
     double undefined_at;       /* end of the step at which f was undefined; NaN: none yet */
-    double margin, margin_at; /* value of system->margin at the last step taken back, and its time t */
+    double margin, margin_at; /* value of system->margin at the last step that was rejected, and the time t of that */
     double best;               /* largest value of system->margin so far */
     double longest;            /* length of the longest step taken so far */
     double work;               /* work already reported to the meter (meter.h) */
     qdot_ode_stiffness stiffness;
-    uint64_t looked;           /* evaluations of f used to detect what a step would miss */
+    uint64_t looked;           /* evaluations of f used to detect forces that a step would miss */
     int crawled;               /* number of steps in a row that were tiny compared with the rest of the run */
 } run;
 
@@ -71,14 +71,14 @@ spacing(double t)
 }
 
 static double
-floor_of_step(const run *r)
+least_step_length(const run *r)
 {
     return fmax(16 * spacing(r->t), 16 * DBL_MIN);
 }
 
-/* The norm max_i |x_i| / (tol max(s_i, |y_i|)). */
+/* The scaled norm max_i |x_i| / (tol max(s_i, |y_i|)) of a change x of the state. */
 static double
-norm(const run *r, const double *x, const double *y)
+scaled_norm(const run *r, const double *x, const double *y)
 {
     double largest = 0;
 
@@ -91,7 +91,7 @@ norm(const run *r, const double *x, const double *y)
 /* Hairer's starting step: from the size of y, a scale at least, and of y', then of y'' by an Euler
  * step. */
 static qdot_status
-first_step(run *r, double distance)
+choose_first_step(run *r, double distance)
 {
     qdot_ode_stepper *s = r->s;
     const size_t n = s->system->n;
@@ -101,7 +101,7 @@ first_step(run *r, double distance)
 
     QDOT_TRY(qdot_ode_stepper_rhs(s, r->t, s->y, s->dydt));
     s->dydt_known = true;
-    d1 = norm(r, s->dydt, s->y);
+    d1 = scaled_norm(r, s->dydt, s->y);
     h0 = d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
     h0 = fmin(h0, distance);
     r->h = h0;
@@ -109,12 +109,12 @@ first_step(run *r, double distance)
         s->trial[i] = s->y[i] + r->direction * h0 * s->dydt[i];
     if (qdot_ode_stepper_rhs(s, r->t + r->direction * h0, s->trial, s->trial_dydt) !=
         QDOT_OK) {
-        /* f is undefined beyond t: begin with h0, as the steps will show how far f is defined */
+        /* begin with the step h0 although f is undefined at its end: the steps will show how far f is defined */
         return QDOT_OK;
     }
     for (size_t i = 0; i < n; i++)
         s->trial_dydt[i] -= s->dydt[i];
-    d2 = norm(r, s->trial_dydt, s->y) / h0;
+    d2 = scaled_norm(r, s->trial_dydt, s->y) / h0;
     if (fmax(d1, d2) <= 1e-15)
         r->h = fmax(1e-6, h0 * 1e-3);
     else
@@ -123,12 +123,12 @@ first_step(run *r, double distance)
     if (r->options->first_share > 0)
         r->h *= r->options->first_share;
     /* the step is below the spacing of doubles at t, as for a system at rest at large t */
-    if (r->h < 2 * floor_of_step(r))
-        r->h = fmin(2 * floor_of_step(r), distance);
+    if (r->h < 2 * least_step_length(r))
+        r->h = fmin(2 * least_step_length(r), distance);
     return QDOT_OK;
 }
 
-/* The time left to t1 + t1_low, computed exactly near the end. */
+/* The time left until the exact end t1 + t1_low, computed without rounding near the end. */
 static double
 remaining_time(const run *r)
 {
@@ -138,7 +138,7 @@ remaining_time(const run *r)
 /* A step of about h that ends on a double of t, where a little more or less costs nothing: what is
  * stored there belongs to that t, and not to one half a double beside it. */
 static double
-to_a_double(const run *r, double h)
+round_step_end(const run *r, double h)
 {
     const qdot_ode_method *method = r->s->method;
 
@@ -151,20 +151,20 @@ to_a_double(const run *r, double h)
 /* The step to try now. If the rest after it would be too short for a step, the step includes it
  * or is shortened so that both are equal. A rest that has no two steps is one. */
 static double
-whole_choose_step(const run *r, bool *last)
+choose_step(const run *r, bool *last)
 {
     double rest = remaining_time(r);
 
-    *last = r->h >= rest * (1 - 1e-12) || (rest < 2 * floor_of_step(r) && !(r->options->h_fixed > 0));
+    *last = r->h >= rest * (1 - 1e-12) || (rest < 2 * least_step_length(r) && !(r->options->h_fixed > 0));
     if (*last)
         return rest;
     if (!r->s->method->multistep && !(r->options->h_fixed > 0) && r->h > 0.5 * rest)
-        return to_a_double(r, 0.5 * rest);
-    return to_a_double(r, r->h);
+        return round_step_end(r, 0.5 * rest);
+    return round_step_end(r, r->h);
 }
 
 static void
-control(run *r, double h, double ratio, bool accepted)
+control_step_length(run *r, double h, double ratio, bool accepted)
 {
     const bool stiff = r->s->method->kernel && r->s->method->stiff;
     const double most = stiff ? most_change_stiff : most_change;
@@ -181,13 +181,13 @@ control(run *r, double h, double ratio, bool accepted)
     if (accepted && r->s->method->kernel && r->s->method->kernel->keeps_step && factor >= 1
         && factor < worthwhile)
         factor = 1;
-    /* a step shortened to end at t1 does not reduce the next one */
+    /* a step that was shortened to end at t1 does not reduce the next one */
     r->h = accepted ? fmax(h * factor, h < r->h * (1 - 1e-9) ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
 
-/* Handle a step in which f is undefined somewhere. */
+/* Handle a step inside which f is undefined somewhere: try a shorter one, or fail. */
 static qdot_status
-whole_undefined(run *r, double h, qdot_status status)
+handle_undefined_step(run *r, double h, qdot_status status)
 {
     if (!qdot_ode_may_be_undefined(status))
         return status;
@@ -196,7 +196,7 @@ whole_undefined(run *r, double h, qdot_status status)
     r->result->stats.rejected++;
     r->just_rejected = true;
     r->h = 0.25 * h;
-    if (++r->undefined > max_undefined || r->h < floor_of_step(r) ||
+    if (++r->undefined > max_undefined || r->h < least_step_length(r) ||
         r->options->h_fixed > 0) {
         qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                   r->last_undefined.message);
@@ -207,9 +207,9 @@ whole_undefined(run *r, double h, qdot_status status)
 }
 
 static qdot_status
-whole_too_small(run *r)
+fail_with_too_small_step(run *r)
 {
-    /* the cause is a point where f is undefined that has not been passed */
+    /* the cause is a point not yet passed at which f is undefined */
     if (r->direction * (r->undefined_at - r->t) >= 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                          r->last_undefined.message);
@@ -219,7 +219,7 @@ whole_too_small(run *r)
                          "rounding", r->t, r->h);
     qdot_fail(QDOT_EFAILED,
               "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g",
-              r->t, floor_of_step(r), r->s->tol);
+              r->t, least_step_length(r), r->s->tol);
     return qdot_hint("the solution has a singularity there, or the tolerance is below "
                      "what double precision can hold");
 }
@@ -227,7 +227,7 @@ whole_too_small(run *r)
 /* Called after a rejected step, and now and then. The place ahead is where the margin,
  * extrapolated linearly, would be 0. */
 static bool
-crawls_to_singularity(run *r)
+approaches_singularity(run *r)
 {
     const qdot_ode_system *system = r->s->system;
     double now, ahead;
@@ -246,9 +246,9 @@ crawls_to_singularity(run *r)
     return r->crawled >= most_crawled;
 }
 
-/* Accept a step whose error is small enough, unless the caller objects. */
+/* Accept a step whose error is small enough, unless the caller's callback objects. */
 static qdot_status
-whole_accept(run *r, double h, double ratio, bool last, bool *stop)
+accept_step(run *r, double h, double ratio, bool last, bool *stop)
 {
     qdot_ode_result *result = r->result;
     double t = r->t, t_carry = r->t_carry;
@@ -263,11 +263,11 @@ whole_accept(run *r, double h, double ratio, bool last, bool *stop)
         qdot_status status = r->options->accepted(t, r->s->trial, stop, r->options->user);
 
         if (status == QDOT_EDOMAIN)
-            return whole_undefined(r, h, status);
+            return handle_undefined_step(r, h, status);
         QDOT_TRY(status);
     }
     r->longest = fmax(r->longest, h);
-    control(r, h, ratio, true);
+    control_step_length(r, h, ratio, true);
     result->stats.projections += r->s->projected;
     qdot_ode_stepper_accept(r->s);
     r->t = t;
@@ -278,9 +278,9 @@ whole_accept(run *r, double h, double ratio, bool last, bool *stop)
     return QDOT_OK;
 }
 
-/* Find whether the step passes over no force that acts for a shorter time; if it does, shorten it. */
+/* Find whether the step passes over a force that acts only for a shorter time; if so, shorten it. */
 static qdot_status
-whole_look(run *r, double h, double end, bool *clear)
+look_for_missed_forces(run *r, double h, double end, bool *clear)
 {
     const qdot_ode_system *system = r->s->system;
     qdot_ode_look step = {.t = r->t,
@@ -295,7 +295,7 @@ whole_look(run *r, double h, double end, bool *clear)
         return QDOT_OK;
     QDOT_TRY(system->look(&step, system->user));
     r->looked += step.evaluations;
-    if (step.until == end || fmin(fabs(step.until - r->t), 0.5 * h) < floor_of_step(r))
+    if (step.until == end || fmin(fabs(step.until - r->t), 0.5 * h) < least_step_length(r))
         return QDOT_OK;
     *clear = false;
     r->result->stats.rejected++;
@@ -305,10 +305,10 @@ whole_look(run *r, double h, double end, bool *clear)
 }
 
 static qdot_status
-whole_advance(run *r, bool *stop)
+advance_one_step(run *r, bool *stop)
 {
     bool last, clear;
-    double h = whole_choose_step(r, &last), ratio;
+    double h = choose_step(r, &last), ratio;
     qdot_status status;
 
     QDOT_TRY(qdot_interrupt_check());
@@ -319,36 +319,36 @@ whole_advance(run *r, bool *stop)
         r->s->evaluations + r->looked >= r->options->max_evaluations)
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %llu evaluations", r->t,
                          (unsigned long long)r->options->max_evaluations);
-    if (!last && h < floor_of_step(r))
-        return whole_too_small(r);
+    if (!last && h < least_step_length(r))
+        return fail_with_too_small_step(r);
     status = qdot_ode_stepper_try(r->s, r->t, r->direction * h, &ratio);
     if (status != QDOT_OK)
-        return whole_undefined(r, h, status);
+        return handle_undefined_step(r, h, status);
     if (ratio <= 1)
         status = qdot_ode_stepper_project(
             r->s, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &ratio);
     if (status != QDOT_OK)
-        return whole_undefined(r, h, status);
+        return handle_undefined_step(r, h, status);
     if (r->options->h_fixed > 0 && ratio < INFINITY)
         ratio = fmin(ratio, 1);
     if (ratio <= 1) {
-        QDOT_TRY(whole_look(r, h, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &clear));
+        QDOT_TRY(look_for_missed_forces(r, h, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &clear));
         if (!clear)
             return QDOT_OK;
-        QDOT_TRY(whole_accept(r, h, ratio, last, stop));
-        return r->result->stats.steps % seldom == 0 && crawls_to_singularity(r) ? whole_too_small(r) : QDOT_OK;
+        QDOT_TRY(accept_step(r, h, ratio, last, stop));
+        return r->result->stats.steps % seldom == 0 && approaches_singularity(r) ? fail_with_too_small_step(r) : QDOT_OK;
     }
     r->result->stats.rejected++;
     r->just_rejected = true;
-    control(r, h, ratio, false);
+    control_step_length(r, h, ratio, false);
     if (r->options->h_fixed > 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: the step overflows", r->t);
-    return r->h < floor_of_step(r) || crawls_to_singularity(r) ? whole_too_small(r) : QDOT_OK;
+    return r->h < least_step_length(r) || approaches_singularity(r) ? fail_with_too_small_step(r) : QDOT_OK;
 }
 
-/* Count the work done since the last count. */
+/* Report to the meter (meter.h) the work done since the last report. */
 static qdot_status
-whole_count_work(run *r)
+report_work_of_run(run *r)
 {
     const qdot_ode_stats stats = {.evaluations = r->s->evaluations + r->looked,
                                   .jacobians = r->s->jacobians,
@@ -390,7 +390,7 @@ whole_loop(run *r)
     } else if (r->options->h_first > 0) {
         r->h = fmin(r->options->h_first, distance);
     } else {
-        qdot_status status = first_step(r, distance);
+        qdot_status status = choose_first_step(r, distance);
 
         if (qdot_ode_may_be_undefined(status)) {
             r->last_undefined = *qdot_last_error();
@@ -400,10 +400,10 @@ whole_loop(run *r)
         QDOT_TRY(status);
     }
     while (r->t != r->t1) {
-        QDOT_TRY(whole_advance(r, &stop));
+        QDOT_TRY(advance_one_step(r, &stop));
         if (r->options->meter)
-            QDOT_TRY(whole_count_work(r));
-        if (qdot_ode_stiffness_is_due(&r->stiffness) && r->h > coarse * floor_of_step(r))
+            QDOT_TRY(report_work_of_run(r));
+        if (qdot_ode_stiffness_is_due(&r->stiffness) && r->h > coarse * least_step_length(r))
             QDOT_TRY(look_for_stiffness(r));
         qdot_progress_at(r->t);
         if (stop) {
@@ -415,7 +415,7 @@ whole_loop(run *r)
 }
 
 static void
-whole_collect_stats(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
+collect_statistics(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
 {
     result->stats.evaluations = s->evaluations;
     result->stats.jacobians = s->jacobians;
@@ -455,7 +455,7 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
         qdot_ode_stepper_start(r.s, y);
         status = whole_loop(&r);
         memcpy(y, r.s->y, system->n * sizeof *y);
-        whole_collect_stats(result, r.s, cpu_start);
+        collect_statistics(result, r.s, cpu_start);
         result->stats.evaluations += r.looked;
         qdot_ode_stepper_free(r.s);
         qdot_ode_stiffness_clear(&r.stiffness);

@@ -4,7 +4,7 @@
 
 #include "ode/run.h"
 
-/* As qdot_ode_integrate, options not NULL: by Taylor series or by steps of stepper.h. */
+/* Integrate as qdot_ode_integrate does (options not NULL), by Taylor series or by steps of stepper.h. */
 QDOT_MUST_CHECK qdot_status qdot_ode_whole_integrate(const qdot_ode_system *system,
                                                      const qdot_ode_method *method,
                                                      const qdot_ode_options *options,

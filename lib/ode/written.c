@@ -1,4 +1,4 @@
-/* written.c -- decides when generating machine code pays, by the estimated number of remaining steps. */
+/* written.c -- decides when it pays to generate machine code, by the estimated number of remaining steps. */
 #include "ode/written.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static const double few_steps = 4;
 static const double by_first = 1.5;
 
 static bool
-pays(const qdot_ode_written *w, double steps, double left)
+code_pays(const qdot_ode_written *w, double steps, double left)
 {
     return left * w->p * fmin(1, (steps + 1) / few_steps) > w->worth;
 }
@@ -58,7 +58,7 @@ qdot_ode_written_first(qdot_ode_written *w, double left, bool *again)
 qdot_status
 qdot_ode_written_next(qdot_ode_written *w, double steps, double left)
 {
-    if (w->done || !pays(w, steps, left))
+    if (w->done || !code_pays(w, steps, left))
         return QDOT_OK;
     return qdot_ode_written_now(w);
 }

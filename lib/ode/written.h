@@ -18,19 +18,19 @@
 
 typedef struct {
     const qdot_ode_code *code; /* the system's generator of machine code; borrowed */
-    double worth; /* cost of generating code, as `worth` of qdot_ode_cost */
+    double worth; /* cost of generating code, with the meaning of `worth` in qdot_ode_cost */
     int p;
-    int most;      /* highest order of this run and its companions, which share the code */
-    bool done;     /* the decision has been made */
-    bool on_trial; /* code of an earlier run is used, until the first step shows whether it fits */
-    bool first;    /* the decision after the first step is still to be made */
+    int most;      /* highest order of this run and its companion runs, which share the code */
+    bool done;     /* whether it has been decided if code is generated */
+    bool on_trial; /* code of an earlier run is used for now: the first step shows whether it fits */
+    bool first;    /* whether the decision after the first step is still to be made */
 } qdot_ode_written;
 
 /* Begin a run whose expansions have order p; `most`: as in qdot_ode_written; past: steps of earlier
  * such runs. */
 qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p, int most, double past);
 
-/* Generate the code now, whatever it costs. */
+/* Generate the machine code now, whatever it costs. */
 QDOT_MUST_CHECK qdot_status qdot_ode_written_now(qdot_ode_written *written);
 
 /* Decide by the first step, which will be 1/(1 + left) of the span. *again: expand it once more,
@@ -38,7 +38,7 @@ QDOT_MUST_CHECK qdot_status qdot_ode_written_now(qdot_ode_written *written);
 QDOT_MUST_CHECK qdot_status qdot_ode_written_first(qdot_ode_written *written, double left,
                                                    bool *again);
 
-/* Decide after `steps` steps, with about `left` to follow; call before the next expansion begins. */
+/* Decide after `steps` steps, with about `left` more to follow; call before the next expansion begins. */
 QDOT_MUST_CHECK qdot_status qdot_ode_written_next(qdot_ode_written *written, double steps,
                                                   double left);
 

@@ -1,4 +1,4 @@
-/* items.c -- records which items of some work are done, given away or left. */
+/* items.c -- records which items of a parallel computation are done, handed out or left. */
 #include "parallel/items.h"
 
 enum { ANSWERED = 1, KILLED = 2 };
@@ -21,9 +21,9 @@ qdot_items_free(qdot_items *items)
     qdot_free(items->state);
 }
 
-/* Take a chunk of the items that were never handed out. */
+/* Take a chunk of the items that have never been handed out. */
 static qdot_items_chunk
-take_fresh(qdot_items *items, double most)
+take_new_items(qdot_items *items, double most)
 {
     const bool *skip = items->skip;
     qdot_items_chunk r = {.count = 0};
@@ -45,7 +45,7 @@ qdot_items_take(qdot_items *items, double most)
     qdot_items_chunk *last, r;
 
     if (items->again.n == 0)
-        return take_fresh(items, most);
+        return take_new_items(items, most);
     last = &items->again.at[items->again.n - 1];
     r = *last;
     if (r.count > 1 && (double)r.count > most)
@@ -78,7 +78,7 @@ qdot_items_begin(qdot_items *items, qdot_items_chunk chunk)
 {
     if (chunk.first < items->first || chunk.first > items->end ||
         chunk.count > items->end - chunk.first)
-        return QDOT_OK; /* the chunk is not one of ours */
+        return QDOT_OK; /* ignore a chunk that was not handed out here */
     for (size_t k = chunk.first; k < chunk.first + chunk.count; k++)
         items->state[k - items->first] &= (unsigned char)~ANSWERED;
     items->left += chunk.count;

@@ -1,4 +1,4 @@
-/* mates.c -- hands out items to other ranks, and receives their answers. */
+/* mates.c -- hands out items to other ranks (processes of MPI), and receives their answers. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ struct qdot_mate {
     size_t workers;
 };
 
-/* The headers of messages. */
+/* The headers of messages between ranks. */
 typedef struct {
     uint64_t number, workers;
 } ready;
@@ -50,7 +50,7 @@ qdot_mates_free(qdot_crew *c)
     qdot_text_clear(&c->out);
 }
 
-/* Give a rank up to two chunks, so that it need not wait between them. */
+/* Give a rank up to two chunks of items, so that it need not wait between them. */
 static void
 give_chunks(qdot_crew *c, size_t rank)
 {
@@ -71,7 +71,7 @@ give_chunks(qdot_crew *c, size_t rank)
 }
 
 static qdot_status
-mate_hear(qdot_crew *c, const qdot_rank_message *m)
+receive_from_rank(qdot_crew *c, const qdot_rank_message *m)
 {
     qdot_mate *mate = &c->mates[m->from];
     const char *at = qdot_text_str(&m->bytes);
@@ -94,7 +94,7 @@ mate_hear(qdot_crew *c, const qdot_rank_message *m)
     return QDOT_OK;
 }
 
-/* Hand out again the items that lost ranks have not answered. A rank that answers again is no longer lost. */
+/* Hand out again the items that lost ranks have not answered. A rank that is heard again no longer counts as lost. */
 static qdot_status
 hand_out_lost(qdot_crew *c)
 {
@@ -120,7 +120,7 @@ qdot_mates_serve(qdot_crew *c)
     if (c->mates == NULL)
         return QDOT_OK;
     while (status == QDOT_OK && qdot_ranks_next(&m)) {
-        status = mate_hear(c, &m);
+        status = receive_from_rank(c, &m);
         give_chunks(c, m.from);
     }
     qdot_text_clear(&m.bytes);

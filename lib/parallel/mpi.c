@@ -18,7 +18,7 @@ static const char library[] = "libmpi.so.40"; /* OpenMPI 3 to 5 */
     X(Allgather) X(Allreduce) X(Comm_rank) X(Comm_set_errhandler) X(Comm_size)           \
         X(Finalize) X(Get_count) X(Init) X(Iprobe) X(Isend) X(Recv) X(Test)
 
-/* MPI_NAME is mpi.NAME. MPI's constants are addresses within the library of OpenMPI. */
+/* Addresses of MPI's functions: MPI_NAME is mpi.NAME. In OpenMPI the constants are addresses in the library, too. */
 static struct {
 #define X(name) __typeof__(&MPI_##name) name;
     FUNCTIONS(X)
@@ -54,9 +54,9 @@ mpi_find_function(void *handle, const char *name, bool *all)
 }
 
 static qdot_status
-mpi_load(void)
+load_mpi_library(void)
 {
-    /* RTLD_GLOBAL: the parts that MPI loads later need its symbols */
+    /* use RTLD_GLOBAL, because the parts that MPI loads later need its symbols */
     void *handle = dlopen(library, RTLD_NOW | RTLD_GLOBAL);
     bool all = true;
 
@@ -80,8 +80,8 @@ qdot_mpi_begin(size_t *count, size_t *mine)
 {
     int n = 1, rank = 0;
 
-    QDOT_TRY(mpi_load());
-    /* workers are forked from a rank and send no messages, so no warning is needed */
+    QDOT_TRY(load_mpi_library());
+    /* switch off a warning: workers are forked from a rank and send no messages */
     setenv("OMPI_MCA_mpi_warn_on_fork", "0", 0);
     if (mpi.Init(NULL, NULL) != MPI_SUCCESS)
         return qdot_fail(QDOT_EIO, "MPI does not begin");
@@ -126,7 +126,7 @@ qdot_mpi_gather(const void *bytes, size_t n, void *all)
 /* --- sending and receiving messages ----------------------------------------------------- */
 
 static void
-parcel_release(parcel *p)
+free_message(parcel *p)
 {
     if (--p->references == 0)
         qdot_free(p);
@@ -144,7 +144,7 @@ qdot_mpi_sending(void)
         if (mpi.Test(&s->request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done)
             sendings.at[n++] = *s;
         else
-            parcel_release(s->parcel);
+            free_message(s->parcel);
     }
     return sendings.n = n;
 }
@@ -171,12 +171,12 @@ qdot_mpi_send(size_t first, size_t end, int what, const void *bytes, size_t n)
             sendings.n--;
         }
     }
-    parcel_release(p);
+    free_message(p);
     (void)qdot_mpi_sending();
 }
 
 static bool
-probe(int from, int what, MPI_Status *status)
+message_has_arrived(int from, int what, MPI_Status *status)
 {
     int come = 0;
 
@@ -188,7 +188,7 @@ qdot_mpi_look(size_t *from, int *what)
 {
     MPI_Status status;
 
-    if (!probe(MPI_ANY_SOURCE, MPI_ANY_TAG, &status))
+    if (!message_has_arrived(MPI_ANY_SOURCE, MPI_ANY_TAG, &status))
         return false;
     *from = (size_t)status.MPI_SOURCE;
     *what = status.MPI_TAG;
@@ -203,7 +203,7 @@ qdot_mpi_take(size_t from, int what, qdot_text *bytes)
     char *at;
 
     qdot_text_truncate(bytes, 0);
-    if (!probe((int)from, what, &status) ||
+    if (!message_has_arrived((int)from, what, &status) ||
         mpi.Get_count(&status, mpi.byte, &n) != MPI_SUCCESS)
         return;
     at = qdot_malloc((size_t)n + 1);
@@ -217,7 +217,7 @@ qdot_mpi_take(size_t from, int what, qdot_text *bytes)
     qdot_free(at);
 }
 
-#else /* built without MPI, which then is never started */
+#else /* built without MPI, which is then never started */
 
 qdot_status
 qdot_mpi_begin(size_t *count, size_t *mine)

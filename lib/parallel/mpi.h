@@ -21,14 +21,14 @@ void qdot_mpi_gather(const void *bytes, size_t n, void *all);
 /* Send copies of the bytes [n < 2 GB] to the ranks first ... end - 1. What cannot be sent is missed by
  * the receiver alone. */
 void qdot_mpi_send(size_t first, size_t end, int what, const void *bytes, size_t n);
-/* How many messages are still being sent. */
+/* The number of messages that are still being sent. */
 size_t qdot_mpi_sending(void);
-/* Whether a message has arrived; its sender and its kind. */
+/* Whether a message has arrived; its sender goes to *from, and its kind to *what. */
 bool qdot_mpi_look(size_t *from, int *what);
 /* Receive the message that qdot_mpi_look found, into `bytes`, which is emptied first. */
 void qdot_mpi_take(size_t from, int what, qdot_text *bytes);
 
-/* End MPI together with all ranks, each of which calls this; _abort: end all ranks with that exit status. */
+/* End MPI together with all ranks, each of which calls this; qdot_mpi_abort: end all ranks with an exit status. */
 void qdot_mpi_finalize(void);
 void qdot_mpi_abort(int status) __attribute__((noreturn));
 

@@ -1,4 +1,4 @@
-/* ranks.c -- starts the ranks, shares data from rank 0, notices lost ranks, and ends them all. */
+/* ranks.c -- starts the ranks (MPI processes), shares data of rank 0, notices lost ranks, and ends them all. */
 #define _GNU_SOURCE
 #include "parallel/ranks.h"
 
@@ -31,17 +31,17 @@ typedef struct {
 static struct {
     place *places;   /* [ranks] the process of each rank */
     double *heard;   /* [ranks] time of the last message from each rank */
-    double beaten;   /* time of this rank's last sign of life to rank 0 */
-    uint64_t shared; /* how often texts were shared with all ranks */
+    double beaten;   /* time of the last message by which this rank showed rank 0 that it is alive */
+    uint64_t shared; /* number of texts that have been shared with all ranks */
     size_t stuck;    /* number of messages that their receivers have not taken */
-    int sentinel;    /* a pipe to the watching process; -1: none */
+    int sentinel;    /* a pipe to the process that watches this rank; -1: there is none */
 } ranks = {.sentinel = -1};
 
 /* How a rank ends: together with the other ranks, or alone. */
 enum { GO_TOGETHER, GO_ALONE };
 
 static void
-rest(void)
+sleep_shortly(void)
 {
     const struct timespec moment = {.tv_nsec = 1000000};
 
@@ -51,7 +51,7 @@ rest(void)
 /* --- identity and start of the ranks ----------------------------------------------------- */
 
 static uint64_t
-hash(uint64_t from, const void *bytes, size_t n)
+hash_bytes(uint64_t from, const void *bytes, size_t n)
 {
     for (const unsigned char *at = bytes; n > 0; n--)
         from = (from ^ *at++) * 0x100000001b3;
@@ -61,7 +61,7 @@ hash(uint64_t from, const void *bytes, size_t n)
 /* Where a process can be asked for by its number: this start of a machine, and this space of numbers.
  * Where that cannot be known no two are the same. */
 static uint64_t
-machine_here(void)
+hash_of_this_machine(void)
 {
     char bytes[256] = "";
     FILE *file = fopen("/proc/sys/kernel/random/boot_id", "re");
@@ -72,13 +72,13 @@ machine_here(void)
     if (file != NULL)
         fclose(file);
     if (n == 0 || m <= 0)
-        return hash(hash(0xcbf29ce484222325, &self, sizeof self), bytes, sizeof bytes);
-    return hash(0xcbf29ce484222325, bytes, n + (size_t)m);
+        return hash_bytes(hash_bytes(0xcbf29ce484222325, &self, sizeof self), bytes, sizeof bytes);
+    return hash_bytes(0xcbf29ce484222325, bytes, n + (size_t)m);
 }
 
-/* A hash of results of this C library's functions on this processor, to compare machines. */
+/* A hash of results of this C library's functions on this processor, by which machines are compared. */
 static uint64_t
-digits_here(void)
+hash_of_numerical_results(void)
 {
     double (*const functions[])(double) = {sin, cos, tan,  asin, atan,
                                            exp, log, sinh, tanh, cbrt};
@@ -89,7 +89,7 @@ digits_here(void)
             volatile double x = k / 64.0;
             const double y[] = {functions[i](x), pow(x, 1.3), atan2(x, 0.7)};
 
-            all = hash(all, y, sizeof y);
+            all = hash_bytes(all, y, sizeof y);
         }
     return all;
 }
@@ -97,7 +97,7 @@ digits_here(void)
 /* A copy of rank 0 that does nothing but wait for its death: mpirun, if it is to recover from deaths,
  * would then leave the others waiting for ever. Before MPI begins, whose connections it must not hold. */
 static void
-set_sentinel(void)
+start_watching_process(void)
 {
     const pid_t parent = getppid();
     int ends[2];
@@ -117,7 +117,7 @@ set_sentinel(void)
             n = read(ends[0], &c, 1);
         while (n < 0 && errno == EINTR);
         if (n == 0) {
-            sleep(3); /* without recovery the process has ended by then */
+            sleep(3); /* wait, because without recovery the process has ended by then */
             kill(parent, SIGTERM);
         }
         _exit(0);
@@ -126,9 +126,9 @@ set_sentinel(void)
     ranks.sentinel = ends[1];
 }
 
-/* End all ranks if MPI_Init, which waits for every rank, does not return because one has died. */
+/* End all ranks if MPI_Init, which waits for every rank, does not return because a rank has died. */
 static void
-ranks_give_up(int signal_number)
+end_all_ranks_on_signal(int signal_number)
 {
     static const char text[] =
         "qdot: the other ranks have not begun within two minutes\n";
@@ -138,9 +138,9 @@ ranks_give_up(int signal_number)
 }
 
 static qdot_status
-ranks_gather_places(size_t *kind)
+gather_process_addresses(size_t *kind)
 {
-    const place here = {machine_here(), digits_here(), getpid()};
+    const place here = {hash_of_this_machine(), hash_of_numerical_results(), getpid()};
     int least = (int)*kind;
 
     ranks.places = qdot_calloc(qdot_ranks_count(), sizeof *ranks.places);
@@ -171,12 +171,12 @@ qdot_ranks_begin(size_t *kind)
     }
     if (ours != NULL && atol(ours) == 1)
         return QDOT_OK;
-    set_sentinel();
-    if (ranks.sentinel >= 0 && signal(SIGALRM, ranks_give_up) != SIG_ERR)
+    start_watching_process();
+    if (ranks.sentinel >= 0 && signal(SIGALRM, end_all_ranks_on_signal) != SIG_ERR)
         alarm(GATHERING);
     QDOT_TRY(qdot_mpi_begin(&count, &mine));
     qdot_rank_set(mine, count);
-    QDOT_TRY(ranks_gather_places(kind));
+    QDOT_TRY(gather_process_addresses(kind));
     alarm(0);
     if (ranks.places[qdot_rank()].digits == ranks.places[0].digits)
         return QDOT_OK;
@@ -198,7 +198,7 @@ qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n)
     qdot_mpi_send(to, to + 1, what, bytes, n);
 }
 
-/* Leave a rank other than 0 as rank 0 commands. */
+/* End a rank other than rank 0 in the way that rank 0 commands. */
 static void __attribute__((noreturn)) leave(void)
 {
     qdot_text word = {0};
@@ -213,7 +213,7 @@ static void __attribute__((noreturn)) leave(void)
         while (!qdot_mpi_look(&from, &what)) {
             if (qdot_wall_now() > until)
                 _exit(0);
-            rest();
+            sleep_shortly();
         }
         qdot_mpi_take(from, what, &word);
     } while (what != QDOT_RANK_END);
@@ -222,9 +222,9 @@ static void __attribute__((noreturn)) leave(void)
     _exit(0);
 }
 
-/* Whether a message has arrived; also continues sending. */
+/* Whether a message has arrived; also continues the sending of messages. */
 static bool
-ranks_poll(size_t *from, int *what)
+poll_messages(size_t *from, int *what)
 {
     bool come = qdot_mpi_look(from, what);
 
@@ -254,7 +254,7 @@ qdot_ranks_next(qdot_rank_message *m)
 {
     int what;
 
-    if (!ranks_poll(&m->from, &what))
+    if (!poll_messages(&m->from, &what))
         return false;
     qdot_mpi_take(m->from, what, &m->bytes);
     m->what = (qdot_rank_what)what;
@@ -267,10 +267,10 @@ qdot_ranks_has_shared(void)
     size_t from;
     int what;
 
-    return ranks_poll(&from, &what) && what == QDOT_RANK_SHARED;
+    return poll_messages(&from, &what) && what == QDOT_RANK_SHARED;
 }
 
-/* Whether rank is on this machine and its process is known to be dead. */
+/* Whether the given rank runs on this machine and its process is known to be dead. */
 static bool
 is_dead(size_t rank)
 {
@@ -288,13 +288,13 @@ qdot_ranks_is_lost(size_t rank)
 
 /* --- data that rank 0 shares ------------------------------------------------------------- */
 
-/* The header of a text sent in pieces. */
+/* The header of a text that rank 0 sends in pieces. */
 typedef struct {
     uint64_t number, n;
-    qdot_error error; /* the error whose status all ranks share */
+    qdot_error error; /* the error whose status all ranks are to return */
 } share_head;
 
-/* Wait as long as ranks receive what was sent; one that received nothing is not waited for again. */
+/* Wait while ranks receive what was sent to them; a rank that received nothing is not waited for again. */
 static void
 wait_until_sent(double seconds)
 {
@@ -306,13 +306,13 @@ wait_until_sent(double seconds)
         if (left < before)
             last = qdot_wall_now();
         before = left;
-        rest();
+        sleep_shortly();
     }
     ranks.stuck = left;
 }
 
 static void
-share_send(qdot_status status, const qdot_text *text)
+send_shared_text(qdot_status status, const qdot_text *text)
 {
     share_head h = {.number = ranks.shared, .n = text->n};
 
@@ -327,14 +327,14 @@ share_send(qdot_status status, const qdot_text *text)
 }
 
 static void
-wait_for_piece(qdot_text *piece)
+receive_piece(qdot_text *piece)
 {
     size_t from;
     int what;
 
     for (;;) {
-        if (!ranks_poll(&from, &what)) {
-            rest();
+        if (!poll_messages(&from, &what)) {
+            sleep_shortly();
             continue;
         }
         qdot_mpi_take(from, what, piece);
@@ -344,18 +344,18 @@ wait_for_piece(qdot_text *piece)
 }
 
 static qdot_status
-share_receive(qdot_text *text)
+receive_shared_text(qdot_text *text)
 {
     qdot_text piece = {0};
     share_head h;
 
     qdot_text_truncate(text, 0);
-    wait_for_piece(&piece);
+    receive_piece(&piece);
     if (piece.n != sizeof h)
         return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", qdot_rank());
     memcpy(&h, piece.at, sizeof h);
     while (text->n < h.n) {
-        wait_for_piece(&piece);
+        receive_piece(&piece);
         qdot_text_add_n(text, qdot_text_str(&piece), piece.n);
         if (qdot_text_status(text) != QDOT_OK || piece.failed)
             break;
@@ -374,8 +374,8 @@ qdot_ranks_share(qdot_status status, qdot_text *text)
         return status;
     ranks.shared++;
     if (qdot_rank() > 0)
-        return share_receive(text);
-    share_send(status, text);
+        return receive_shared_text(text);
+    send_shared_text(status, text);
     return status;
 }
 
@@ -393,9 +393,9 @@ qdot_ranks_read(qdot_text *text, FILE *from, const char *path, size_t most)
 
 /* --- ending all ranks -------------------------------------------------------------------- */
 
-/* Wait for the goodbyes of ranks that may still come. Returns the number missed; *asleep: one may be alive. */
+/* Wait for the last messages of ranks that may still answer. Returns how many are missing; *asleep: one may be alive. */
 static size_t
-wait_for_goodbyes(bool *asleep)
+wait_for_last_messages(bool *asleep)
 {
     bool *gone = qdot_calloc(qdot_ranks_count(), sizeof *gone);
     const double begun = qdot_wall_now();
@@ -415,7 +415,7 @@ wait_for_goodbyes(bool *asleep)
         }
         if (!*asleep || qdot_wall_now() - begun > longest)
             break;
-        rest();
+        sleep_shortly();
     }
     qdot_text_clear(&m.bytes);
     qdot_free(gone);
@@ -423,7 +423,7 @@ wait_for_goodbyes(bool *asleep)
 }
 
 static int
-end_all(int status)
+end_all_ranks(int status)
 {
     bool asleep;
     size_t lost;
@@ -431,16 +431,16 @@ end_all(int status)
 
     fflush(NULL);
     qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_END, "", 0);
-    lost = wait_for_goodbyes(&asleep);
+    lost = wait_for_last_messages(&asleep);
     if (lost > 0)
         fprintf(stderr, "qdot: %zu of %zu ranks were lost\n", lost, qdot_ranks_count());
     if (ranks.sentinel >= 0 && write(ranks.sentinel, "", 1) != 1)
-        lost += 0; /* the sentinel has already ended: nothing to do */
+        lost += 0; /* the watching process has already ended: nothing to do */
     if (asleep)
         qdot_mpi_abort(status);
     word = lost > 0 ? GO_ALONE : GO_TOGETHER;
     qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_END, &word, 1);
-    if (lost > 0) { /* MPI_Finalize would wait for the lost ranks */
+    if (lost > 0) { /* do not call MPI_Finalize, which would wait for the lost ranks */
         wait_until_sent(1);
         _exit(status);
     }
@@ -456,8 +456,8 @@ qdot_ranks_end(int status)
     if (qdot_ranks_count() == 1)
         return status;
     if (qdot_rank() == 0)
-        return end_all(status);
-    for (;;) /* until a message ends this process */
+        return end_all_ranks(status);
+    for (;;) /* wait until a message ends this process */
         if (!qdot_ranks_next(&m))
-            rest();
+            sleep_shortly();
 }

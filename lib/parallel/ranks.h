@@ -18,7 +18,7 @@
 
 enum { QDOT_RANKS_SHORT = 4000 };
 
-/* The kind of a message; kinds from QDOT_RANK_ALIVE on are internal to this module. */
+/* The kinds of messages between ranks; those from QDOT_RANK_ALIVE on are internal to this module. */
 typedef enum {
     QDOT_RANK_READY = 1, /* to rank 0: this rank is free and asks for work */
     QDOT_RANK_CHUNK,     /* from rank 0: a chunk of work */
@@ -40,7 +40,7 @@ typedef struct {
  * takes no part and says so. QDOT_ENOTBUILT: this program has no MPI; QDOT_EIO: it cannot be loaded. */
 QDOT_MUST_CHECK qdot_status qdot_ranks_begin(size_t *kind);
 
-/* Send a copy of bytes [n]. */
+/* Send a copy of bytes [n] to the rank `to`. */
 void qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n);
 /* The next message that has come, if there is one; m->bytes is emptied or filled. Not rank 0: ends
  * this process if rank 0 has said so. */

@@ -1,4 +1,4 @@
-/* workers.c -- hands out items to processes and collects their answers. */
+/* workers.c -- hands out items of a computation to processes, and collects their answers. */
 #define _GNU_SOURCE
 #include "parallel/workers.h"
 
@@ -31,7 +31,7 @@ typedef qdot_items_chunk request; /* what a worker is asked for: a chunk of item
 
 typedef struct qdot_worker {
     pid_t pid;
-    int ask, answer; /* pipe ends for questions and answers; -1: the worker has ended */
+    int ask, answer; /* pipe ends: for what the worker is asked, for its answers; -1: the worker has ended */
     qdot_hand hand;
 } worker;
 
@@ -69,7 +69,7 @@ write_all(int to, const void *bytes, size_t n)
 }
 
 static bool
-pipe_read_all(int from, void *bytes, size_t n)
+read_all(int from, void *bytes, size_t n)
 {
     for (char *at = bytes; n > 0;) {
         const ssize_t come = read(from, at, n);
@@ -87,7 +87,7 @@ pipe_read_all(int from, void *bytes, size_t n)
 /* Until there is nothing more to do. Ctrl-C is for the process that began the work, which ends its
  * workers; they end with it, however it ends. */
 static void
-serve(const qdot_workers_job *job, int ask, int answer)
+serve_requests(const qdot_workers_job *job, int ask, int answer)
 {
     qdot_text text = {0};
     request r;
@@ -99,7 +99,7 @@ serve(const qdot_workers_job *job, int ask, int answer)
     signal(SIGTERM, SIG_DFL);
     qdot_progress_open = NULL;
     qdot_threads_are_taken = qdot_ranks_are_there() || job->workers >= qdot_workers_processors();
-    while (pipe_read_all(ask, &r, sizeof r)) {
+    while (read_all(ask, &r, sizeof r)) {
         if (job->begin)
             job->begin(r.first, r.count, job->user);
         for (size_t k = r.first; k < r.first + r.count; k++) {
@@ -117,7 +117,7 @@ serve(const qdot_workers_job *job, int ask, int answer)
 }
 
 static bool
-worker_start(qdot_crew *c, worker *w)
+start_worker(qdot_crew *c, worker *w)
 {
     int ask[2], answer[2];
 
@@ -131,7 +131,7 @@ worker_start(qdot_crew *c, worker *w)
     }
     w->pid = fork();
     if (w->pid == 0) {
-        /* close the other workers' pipes: a pipe ends only when all its writers are closed */
+        /* close the pipes of the other workers: a pipe ends only when all its writers are closed */
         for (size_t i = 0; i < c->job->workers; i++)
             if (&c->workers[i] != w && c->workers[i].pid > 0) {
                 close(c->workers[i].ask);
@@ -139,7 +139,7 @@ worker_start(qdot_crew *c, worker *w)
             }
         close(ask[1]);
         close(answer[0]);
-        serve(c->job, ask[0], answer[1]);
+        serve_requests(c->job, ask[0], answer[1]);
     }
     close(ask[0]);
     close(answer[1]);
@@ -154,7 +154,7 @@ worker_start(qdot_crew *c, worker *w)
 }
 
 static void
-worker_end(worker *w, bool at_once)
+end_worker(worker *w, bool at_once)
 {
     if (w->answer < 0)
         return;
@@ -192,9 +192,9 @@ qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most)
     return r;
 }
 
-/* Record that a worker has answered item k, and the time of a chunk when it is complete. */
+/* Record that a worker has answered item k, and how long a chunk took when it is complete. */
 static void
-hand_note_answer(qdot_hand *h, size_t k)
+record_answer(qdot_hand *h, size_t k)
 {
     double now, seconds;
 
@@ -219,7 +219,7 @@ qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes, size_t n)
     const qdot_answer_head h = {.item = k, .n = bytes != NULL ? n : QDOT_NO_ANSWER};
 
     if (!qdot_items_answer(&c->items, k))
-        return QDOT_OK; /* an answer from a rank that was thought lost */
+        return QDOT_OK; /* ignore a second answer, from a rank that was thought lost */
     if (qdot_rank() == 0)
         return c->job->done(k, bytes, n, c->job->user);
     qdot_text_add_n(&c->out, (const char *)&h, sizeof h);
@@ -247,7 +247,7 @@ qdot_hand_take(qdot_crew *c, qdot_hand *hand, const char *bytes, size_t n)
         else
             QDOT_TRY(qdot_crew_answer(c, (size_t)h.item, come->at + at, (size_t)h.n));
         at += h.n != QDOT_NO_ANSWER ? (size_t)h.n : 0;
-        hand_note_answer(hand, (size_t)h.item);
+        record_answer(hand, (size_t)h.item);
     }
     if (at > 0) {
         memmove(come->at, come->at + at, come->n - at);
@@ -280,15 +280,15 @@ feed_worker(qdot_crew *c, worker *w)
         kill(w->pid, SIGKILL);
 }
 
-/* Replace a worker that died; its unanswered items are done again. */
+/* Replace a worker that died; the items that it has not answered are done again. */
 static qdot_status
-worker_replace(qdot_crew *c, worker *w)
+replace_worker(qdot_crew *c, worker *w)
 {
     qdot_hand *h = &w->hand;
     qdot_items_chunk rest = h->has[0];
     size_t killer;
 
-    worker_end(w, true);
+    end_worker(w, true);
     if (h->n > 0) {
         h->n = 0;
         rest.first += rest.count - h->left[0];
@@ -296,17 +296,17 @@ worker_replace(qdot_crew *c, worker *w)
         killer = rest.first;
         if (!qdot_items_survives(&c->items, killer))
             QDOT_TRY(qdot_crew_answer(c, killer, NULL, 0));
-        /* hand them out one by one: the next death shows which of them caused it */
+        /* hand out the items one by one: the next death shows which of them caused it */
         for (size_t k = rest.first; k < rest.first + rest.count; k++)
             QDOT_TRY(qdot_items_give(&c->items, (qdot_items_chunk){k, 1}));
     }
-    if ((c->items.left > 0 || qdot_rank() > 0) && !worker_start(c, w))
+    if ((c->items.left > 0 || qdot_rank() > 0) && !start_worker(c, w))
         return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
     return QDOT_OK;
 }
 
 static qdot_status
-listen_to(qdot_crew *c, worker *w)
+read_from_worker(qdot_crew *c, worker *w)
 {
     static char bytes[READ];
     const ssize_t n = read(w->answer, bytes, sizeof bytes);
@@ -314,7 +314,7 @@ listen_to(qdot_crew *c, worker *w)
     if (n < 0 && errno == EINTR)
         return QDOT_OK;
     if (n <= 0)
-        return worker_replace(c, w);
+        return replace_worker(c, w);
     QDOT_TRY(qdot_hand_take(c, &w->hand, bytes, (size_t)n));
     if (qdot_rank() > 0)
         return qdot_mates_send(c, w->hand.n == 0);
@@ -322,9 +322,9 @@ listen_to(qdot_crew *c, worker *w)
     return QDOT_OK;
 }
 
-/* Work until all items are answered; on other ranks, until rank 0 wants no more. */
+/* Work until all items are answered; on ranks other than 0, until rank 0 wants no more. */
 static qdot_status
-workers_carry_out(qdot_crew *c, struct pollfd *polled)
+carry_out_work(qdot_crew *c, struct pollfd *polled)
 {
     const int moment = qdot_ranks_count() > 1 ? 1 : 200;
     bool over = false;
@@ -339,7 +339,7 @@ workers_carry_out(qdot_crew *c, struct pollfd *polled)
             return qdot_fail(QDOT_EIO, "workers cannot be heard: %s", strerror(errno));
         for (size_t i = 0; i < c->job->workers; i++)
             if (polled[i].fd >= 0 && (polled[i].revents & (POLLIN | POLLHUP | POLLERR)))
-                QDOT_TRY(listen_to(c, &c->workers[i]));
+                QDOT_TRY(read_from_worker(c, &c->workers[i]));
         if (qdot_rank() > 0)
             QDOT_TRY(qdot_mates_take(c, &over));
         else
@@ -349,7 +349,7 @@ workers_carry_out(qdot_crew *c, struct pollfd *polled)
 }
 
 static qdot_status
-start_all(qdot_crew *c)
+start_all_workers(qdot_crew *c)
 {
     bool over = false;
 
@@ -361,7 +361,7 @@ start_all(qdot_crew *c)
         QDOT_TRY(qdot_mates_take(c, &over));
     }
     for (size_t i = 0; i < c->job->workers && !over; i++)
-        if (!worker_start(c, &c->workers[i]))
+        if (!start_worker(c, &c->workers[i]))
             return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
     return QDOT_OK;
 }
@@ -379,13 +379,13 @@ qdot_workers_run(const qdot_workers_job *job)
     status = qdot_items_new(&c.items, job->first, job->end, job->skip, qdot_rank() == 0);
     if (status == QDOT_OK && !(polled && c.workers))
         status = QDOT_ENOMEM;
-    fflush(NULL); /* so that buffered output is not written twice after fork */
+    fflush(NULL); /* write out buffered output, which otherwise would be written twice after fork */
     if (status == QDOT_OK)
-        status = start_all(&c);
+        status = start_all_workers(&c);
     if (status == QDOT_OK)
-        status = workers_carry_out(&c, polled);
+        status = carry_out_work(&c, polled);
     for (size_t i = 0; c.workers && i < job->workers; i++)
-        worker_end(&c.workers[i], status != QDOT_OK || qdot_rank() > 0);
+        end_worker(&c.workers[i], status != QDOT_OK || qdot_rank() > 0);
     signal(SIGPIPE, before);
     qdot_mates_free(&c);
     qdot_items_free(&c.items);

@@ -17,15 +17,15 @@
 #include "base/text.h"
 
 typedef struct qdot_workers_job {
-    size_t first, end; /* the items first ... end - 1 */
+    size_t first, end; /* the items of work are first ... end - 1 */
     const bool *skip;  /* [end] items that are not to be done; NULL: all are */
     size_t workers;    /* number of worker processes, at least 1 */
-    double seconds;    /* a first estimate of the seconds for an item; 0: unknown */
+    double seconds;    /* a first estimate of the seconds that an item takes; 0: unknown */
     void *user;
-    size_t least;      /* smallest number of items handed out together, if enough are left; 0: 1 */
-    /* In a worker: the items first ... first + count - 1 come next; NULL: this is not needed. */
+    size_t least;      /* smallest number of items handed out together, as long as enough are left; 0: 1 */
+    /* Called in a worker: the items first ... first + count - 1 come next; NULL if not needed. */
     void (*begin)(size_t first, size_t count, void *user);
-    /* in a worker: compute item k and append its answer */
+    /* Called in a worker: compute item k and append its answer. */
     void (*work)(size_t k, qdot_text *answer, void *user);
     /* Here: item k is answered, in whatever order; bytes NULL: two workers died of it. An error ends
      * the work. */

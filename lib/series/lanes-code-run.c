@@ -1,4 +1,4 @@
-/* lanes-code-run.c -- the writer of machine code for lanes: slots, registers, sums; runs the code. */
+/* lanes-code-run.c -- makes and runs machine code for Taylor series in vector lanes: memory, addresses, passes. */
 #include "series/lanes-code.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "series/taylor-text.h"
 
 enum {
-    /* longer code would not be in the cache when it is needed */
+    /* in bytes; longer code would no longer be in the cache when it is needed */
     most_bytes = 1 << 19,
     /* Orders of a block, and registers of sums that a sequence of terms makes: those of one
      * product or of two, each in chains that do not wait for each other. Behind them one for
@@ -23,18 +23,18 @@ typedef void kernel(double *coefficients, const double *scalars, double *work);
 struct qdot_lanes_code {
     qdot_taylor_text *text;
     size_t entry;
-    bool halves; /* the code runs once for each half of a group */
+    bool halves; /* whether the code runs twice, once for each half of a group of lanes */
     size_t group;
-    double *coefficients; /* the coefficients on which the code works; borrowed */
+    double *coefficients; /* the Taylor coefficients on which the code works; borrowed */
     double *scalars;
     double *allocated, *work;
 };
 
 /* --- loops over orders -------------------------------------------------------------- */
 
-/* Set the addresses to those of order k, or to those of the next pass of the loop. */
+/* Write code that sets the address registers for order k, or (further) for the next pass of the loop over orders. */
 static void
-set_addresses(qdot_lanes_writer *w, bool further, int k)
+write_address_update(qdot_lanes_writer *w, bool further, int k)
 {
     const struct {
         qdot_asm_base now, from;
@@ -65,8 +65,8 @@ set_addresses(qdot_lanes_writer *w, bool further, int k)
 
 /* Write one order of a block, from `first` on, or the same order of a block so many blocks earlier. */
 static void
-write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_order *write,
-          void *user)
+write_code_of_order(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_order *write,
+                    void *user)
 {
     const int phase = (k - first) % w->block + (k < first ? w->block : 0);
 
@@ -76,9 +76,9 @@ write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_ord
     write(w, k, user);
 }
 
-/* The order from which on no term of a block is a product of two coefficients of that block. */
+/* The order from which on no product in a block of orders has both of its coefficients in that block. */
 static int
-least_of_loop(const qdot_lanes_writer *w, int late)
+least_order_of_loop(const qdot_lanes_writer *w, int late)
 {
     for (size_t i = w->t->still; i < w->t->length; i++)
         if (qdot_recurrence_find(w->t->steps.at[i].op, QDOT_DO_SQUARED))
@@ -90,26 +90,26 @@ void
 qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
                   qdot_lanes_write_order *write, void *user)
 {
-    const int least = least_of_loop(w, late) > loop ? least_of_loop(w, late) : loop;
+    const int least = least_order_of_loop(w, late) > loop ? least_order_of_loop(w, late) : loop;
     const int blocks = to >= least ? (to - least + 1) / w->block : 0;
     const int first = to + 1 - blocks * w->block;
     size_t start = 0;
 
     for (int k = from; k < first; k++)
-        write_one(w, k, from, first, write, user);
+        write_code_of_order(w, k, from, first, write, user);
     if (blocks == 0)
         return;
     qdot_writer_leave(w, w->registers);
     if (!w->counting) {
-        set_addresses(w, false, first);
+        write_address_update(w, false, first);
         start = qdot_asm_repeat(&w->m, blocks);
     }
     w->any = QDOT_WRITER_ANY + first % w->block;
     for (int i = 0; i < w->block; i++)
-        write_one(w, w->any + i, from, w->any, write, user);
+        write_code_of_order(w, w->any + i, from, w->any, write, user);
     qdot_writer_leave(w, w->registers);
     if (!w->counting) {
-        set_addresses(w, true, w->block);
+        write_address_update(w, true, w->block);
         qdot_asm_again(&w->m, start);
     }
 }
@@ -117,7 +117,7 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
 /* --- writing all code --------------------------------------------------------------- */
 
 static void
-find_rows(qdot_lanes_writer *w)
+choose_rows_to_keep(qdot_lanes_writer *w)
 {
     const qdot_program *t = w->t;
 
@@ -133,17 +133,17 @@ find_rows(qdot_lanes_writer *w)
         for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
             if (rows[r] != QDOT_NO_ROW)
                 w->rows[rows[r]].moving = true;
-        /* the step length depends on these rows (near.h) */
+        /* keep these rows, because the step length depends on their coefficients (near.h) */
         if (qdot_recurrence_exponential(s->op) > 0 || qdot_recurrence_divisor(s->op))
             for (size_t r = 0; r < 4; r++)
                 w->rows[(qdot_program_row[]){s->x, s->y, s->z, s->to}[r]].kept = true;
     }
 }
 
-/* Write all code. In the second pass the places of rows are known; sums come first. */
+/* Write all of the code. In the second pass it is known where rows are stored; the code for sums comes first. */
 static void
-write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
-          size_t *entry)
+write_complete_code(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
+                    size_t *entry)
 {
     w->counting = counting;
     w->k = 0;
@@ -171,7 +171,7 @@ write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *us
 }
 
 static qdot_status
-make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
+allocate_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
 {
     const size_t tables = (size_t)QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE;
 
@@ -194,9 +194,9 @@ make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
     return QDOT_OK;
 }
 
-/* Generate the code; *code is NULL if that is not possible. */
+/* Generate the machine code; *code is NULL if that is not possible on this processor. */
 static qdot_status
-lanes_code_build(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
+build_code(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
 {
     qdot_lanes_code *c = qdot_calloc(1, sizeof *c);
     qdot_status status = QDOT_ENOMEM;
@@ -208,14 +208,14 @@ lanes_code_build(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot
         c->text = qdot_calloc(1, sizeof *c->text);
     if (c && c->text && w->rows && w->steps) {
         atomic_init(&c->text->users, 1);
-        find_rows(w);
-        write_all(w, true, write, user, &c->entry);
-        write_all(w, false, write, user, &c->entry);
+        choose_rows_to_keep(w);
+        write_complete_code(w, true, write, user, &c->entry);
+        write_complete_code(w, false, write, user, &c->entry);
         status = w->status != QDOT_OK ? w->status : w->m.status;
     }
     if (status == QDOT_OK && w->m.bytes.n <= most_bytes) {
         runs = qdot_taylor_text_fill(c->text, w->m.bytes.at, w->m.bytes.n);
-        status = make_memory(c, w);
+        status = allocate_memory(c, w);
     }
     if (status == QDOT_OK && runs) {
         *code = c;
@@ -235,7 +235,7 @@ qdot_status
 qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write *write,
                     void *user, qdot_lanes_code **code)
 {
-    /* code for one double uses instructions that both kinds have */
+    /* code for single doubles uses only instructions that both kinds of processor have */
     const size_t kind = at->group > 1 || qdot_asm_kind() == 0 ? qdot_asm_kind() : 1;
     qdot_lanes_writer w = {.m = {.kind = kind},
                            .at = *at,
@@ -253,7 +253,7 @@ qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write 
     w.moment = w.chains;
     w.windows = w.registers == QDOT_ASM_REGISTERS;
     w.first_free = w.moment + 1 + (w.windows ? 2 * w.block : 0);
-    status = lanes_code_build(&w, write, user, code);
+    status = build_code(&w, write, user, code);
     qdot_free(w.rows);
     qdot_free(w.steps);
     qdot_free(w.scalars.at);

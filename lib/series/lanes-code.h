@@ -32,16 +32,16 @@
 typedef struct qdot_lanes_code qdot_lanes_code;
 typedef struct qdot_lanes_writer qdot_lanes_writer;
 
-/* A row of the program by its number, or one of the caller's numbers. */
+/* A row (the coefficients of one intermediate result) of the series program, or a number of the caller. */
 typedef uint32_t qdot_lanes_row;
 
-/* The coefficient of one order of a row. */
+/* The Taylor coefficient of one order of a row (an intermediate result of the program). */
 typedef struct {
     qdot_lanes_row row;
     int order;
 } qdot_lanes_at;
 
-/* The two factors of the products in a sum. */
+/* The two rows whose coefficients are multiplied in a sum of products. */
 typedef struct {
     qdot_lanes_row x, y;
 } qdot_lanes_pair;
@@ -54,9 +54,9 @@ enum { QDOT_LANES_NOTHING = -1 };
 /* What is written. Called twice, the same in both: the first time to learn which rows it
  * wants to all orders. */
 typedef void qdot_lanes_write(qdot_lanes_writer *writer, void *user);
-/* Writes the code of one order. */
+/* A function that writes the machine code of one order of the Taylor series. */
 typedef void qdot_lanes_write_order(qdot_lanes_writer *writer, int k, void *user);
-/* A number that depends on the order. */
+/* A function that gives a factor depending on the order k. */
 typedef double qdot_lanes_by_order(int k);
 
 /* Of the program whose coefficients are `at`, both borrowed; `numbers` further ones are the
@@ -70,20 +70,20 @@ bool qdot_lanes_may_be_code(void);
 void qdot_lanes_code_free(qdot_lanes_code *code);
 void qdot_lanes_code_run(const qdot_lanes_code *code);
 
-/* The size of the code in bytes. */
+/* The size of the generated machine code in bytes. */
 size_t qdot_lanes_code_size(const qdot_lanes_code *code);
-/* The address of a number, filled by the caller before a run: [a group]. */
+/* The address of the caller's number i, which the caller fills before a run: one value for each lane. */
 double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);
 
 /* --- writing code ------------------------------------------------------------------- */
 
 qdot_lanes_at qdot_lanes_number(const qdot_lanes_writer *w, size_t i);
-/* Declare that all orders of a row of the program are read after the run. */
+/* Declare that the coefficients of all orders of a row are read after the run of the code. */
 void qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row);
-/* A constant with the same value in every lane. */
+/* A constant operand with the same value in every lane. */
 qdot_lanes_at qdot_lanes_scalar(qdot_lanes_writer *w, double value);
 
-/* A constant f(k), with the same value in every lane. */
+/* A constant operand f(k), which depends on the order k, with the same value in every lane. */
 qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k);
 
 /* Orders from ... to, low ones each written for itself, the others four at a time, as a loop,
@@ -92,12 +92,12 @@ qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f,
 void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
                        qdot_lanes_write_order *write, void *user);
 
-/* Write order k = 1, 2, ... of all steps; lower orders, and order k of the inputs, must be known. */
+/* Write code for order k = 1, 2, ... of all steps; lower orders, and order k of the inputs, must be known. */
 void qdot_lanes_steps(qdot_lanes_writer *w, int k);
 /* Stage k of a motion: every step at order k + its lead, newest coefficients of the unknowns being
  * 0; of what holds them rows of the equations alone are there then. */
 void qdot_lanes_steps_without(qdot_lanes_writer *w, const qdot_motion *motion, int k);
-/* Complete order k after the unknowns are known: the rows that later orders read. */
+/* Write code that completes order k once the unknowns are known, for the rows that later orders read. */
 void qdot_lanes_steps_with(qdot_lanes_writer *w);
 /* The caller's first numbers are what steps multiply by for the rate of a row, or (`twice`) the rate
  * of a rate, at an order that is so much above the stage's: (k + 1)/unit, (k + 1)(k + 2)/unit^2,
@@ -110,16 +110,16 @@ bool qdot_lanes_wants_rate(const qdot_lanes_writer *w, bool twice, int lead);
  * behind the steps of every order, k being theirs or always as many orders below. */
 qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
-/* Begin a sum as a copy of `a`. */
+/* Begin a sum in a register as a copy of the coefficient a. */
 qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
-/* Begin a sum as `a`, reusing its register if nothing else reads it (_unread). */
+/* Begin a sum as the coefficient a, in the register that holds it if nothing else reads it (_unread). */
 qdot_lanes_sum qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a);
-/* Add or subtract: sum +- a; _add_product: sum +- a b; _store: a = sum, which frees the register. */
+/* Add to a sum: sum +- a; _add_product: sum +- a b; _store: a = sum, which frees the register. */
 void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                     qdot_lanes_at a);
 void qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                             qdot_lanes_at a, qdot_lanes_at b);
-/* Subtract from a: a - sum; _scale: multiply by a; _negate: change the sign. */
+/* Change a sum to a - sum; qdot_lanes_scale: multiply it by a; _negate: change its sign. */
 void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum);

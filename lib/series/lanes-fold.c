@@ -2,9 +2,9 @@
  * rate, a product that another one is added to. */
 #include "series/lanes-writer.h"
 
-/* The step that computes a row; NULL for an input or a constant. */
+/* The step of the series program that computes a row; NULL for an input or a constant. */
 static const qdot_program_step *
-step_that_makes(const qdot_lanes_writer *w, qdot_program_row row)
+step_of_row(const qdot_lanes_writer *w, qdot_program_row row)
 {
     const size_t i = w->rows[row].step;
 
@@ -14,7 +14,7 @@ step_that_makes(const qdot_lanes_writer *w, qdot_program_row row)
 static bool
 is_folded(const qdot_lanes_writer *w, qdot_program_row row)
 {
-    return step_that_makes(w, row) && w->steps[w->rows[row].step].folded;
+    return step_of_row(w, row) && w->steps[w->rows[row].step].folded;
 }
 
 qdot_writer_addend
@@ -23,7 +23,7 @@ qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_row row)
     qdot_writer_addend t = {.row = row};
 
     while (is_folded(w, t.row)) {
-        const qdot_program_step *s = step_that_makes(w, t.row);
+        const qdot_program_step *s = step_of_row(w, t.row);
 
         t.minus ^= s->op == QDOT_T_NEG;
         t.rates += s->op == QDOT_T_RATE;
@@ -41,14 +41,14 @@ lanes_step_is_product(int op)
 const qdot_program_step *
 qdot_writer_within(const qdot_lanes_writer *w, const qdot_program_step *product)
 {
-    const qdot_program_step *z = product->op == QDOT_T_MADD ? step_that_makes(w, product->z) : NULL;
+    const qdot_program_step *z = product->op == QDOT_T_MADD ? step_of_row(w, product->z) : NULL;
 
     return z && lanes_step_is_product(z->op) && is_folded(w, product->z) ? z : NULL;
 }
 
-/* Whether the row only occurs as a summand of the step: as z, or as its only operand. */
+/* Whether a step reads the row only as a summand: as its operand z, or as its only operand. */
 static bool
-only_adds(const qdot_program_step *s, qdot_program_row row)
+is_only_summand(const qdot_program_step *s, qdot_program_row row)
 {
     switch (s->op) {
     case QDOT_T_NEG:
@@ -66,7 +66,7 @@ only_adds(const qdot_program_step *s, qdot_program_row row)
 }
 
 static void
-find_readers(qdot_lanes_writer *w)
+count_readers(qdot_lanes_writer *w)
 {
     for (size_t i = w->t->still; i < w->t->length; i++) {
         const qdot_program_step *s = w->t->steps.at + i;
@@ -77,15 +77,15 @@ find_readers(qdot_lanes_writer *w)
             if ((r > 0 && rows[r] == rows[0]) || (r > 1 && rows[r] == rows[1]))
                 continue;
             w->rows[rows[r]].readers++;
-            w->rows[rows[r]].linear += only_adds(s, rows[r]);
+            w->rows[rows[r]].linear += is_only_summand(s, rows[r]);
             w->rows[rows[r]].rated |= s->op == QDOT_T_RATE;
         }
     }
 }
 
-/* Mark rows that belong to equations or unknowns: they must be computed. */
+/* Mark the rows of the program that belong to equations or unknowns of the motion: they must be computed. */
 static void
-find_fixed(qdot_lanes_writer *w, const qdot_motion *m)
+mark_required_rows(qdot_lanes_writer *w, const qdot_motion *m)
 {
     for (size_t i = 0; i < m->equations.n; i++)
         w->rows[m->equations.at[i]].equation = w->rows[m->equations.at[i]].wanted = true;
@@ -95,7 +95,7 @@ find_fixed(qdot_lanes_writer *w, const qdot_motion *m)
 }
 
 static void
-fold_sign_or_rate(qdot_lanes_writer *w, size_t i)
+fold_negation_or_rate(qdot_lanes_writer *w, size_t i)
 {
     const qdot_program_step *s = w->t->steps.at + i;
     const qdot_writer_row *to = w->rows + s->to;
@@ -106,11 +106,11 @@ fold_sign_or_rate(qdot_lanes_writer *w, size_t i)
         w->steps[i].folded = true;
 }
 
-/* Fold the sum to which step i adds its product into the step. */
+/* Make step i, a product, part of the step that adds this product to a sum. */
 static void
 fold_product(qdot_lanes_writer *w, size_t i)
 {
-    const qdot_program_step *s = w->t->steps.at + i, *z = step_that_makes(w, s->z);
+    const qdot_program_step *s = w->t->steps.at + i, *z = step_of_row(w, s->z);
     int inner;
 
     w->steps[i].pairs = 1;
@@ -124,9 +124,9 @@ fold_product(qdot_lanes_writer *w, size_t i)
     w->steps[i].pairs += inner;
 }
 
-/* Mark the rows from which equations are made, and the steps that contribute to no equation. */
+/* Mark the rows on which equations depend, and the steps on which no equation depends. */
 static void
-find_wanted(qdot_lanes_writer *w)
+mark_wanted_rows(qdot_lanes_writer *w)
 {
     for (size_t i = w->t->length; i-- > w->t->still;) {
         const qdot_program_step *s = w->t->steps.at + i;
@@ -145,9 +145,9 @@ void
 qdot_writer_fold(qdot_lanes_writer *w, const qdot_motion *m)
 {
     w->motion = m;
-    find_readers(w);
-    find_fixed(w, m);
-    find_wanted(w);
+    count_readers(w);
+    mark_required_rows(w, m);
+    mark_wanted_rows(w);
     for (size_t i = w->t->still; i < w->t->length; i++) {
         const qdot_program_step *s = w->t->steps.at + i;
 
@@ -155,6 +155,6 @@ qdot_writer_fold(qdot_lanes_writer *w, const qdot_motion *m)
             fold_product(w, i);
         else if ((s->op == QDOT_T_NEG || s->op == QDOT_T_RATE) &&
                  !w->rows[s->to].equation)
-            fold_sign_or_rate(w, i);
+            fold_negation_or_rate(w, i);
     }
 }

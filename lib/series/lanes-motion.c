@@ -1,4 +1,4 @@
-/* lanes-motion.c -- writes the machine code for the stages of a motion in lanes. */
+/* lanes-motion.c -- writes machine code that expands the solution of equations of motion, one in each vector lane. */
 #include "series/lanes-motion.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ enum {
 struct qdot_lanes_motion {
     const qdot_motion *motion;
     qdot_lanes_code *code;
-    size_t *inverse; /* [blocks] index where the inverse of a block's K begins; its Cholesky factor is n n further on */
+    size_t *inverse; /* [blocks] index where the inverse of a block's matrix K begins; its Cholesky factor is n n further on */
     size_t unknown;  /* index of the first number of the unknowns */
     size_t group;
     int to, factored;
@@ -29,13 +29,13 @@ struct qdot_lanes_motion {
 /* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
  * which a division is exact but for the last bit (series/program.h). */
 static double
-inverse_once(int k)
+inverse_of_order(int k)
 {
     return 1.0 / (k + 1);
 }
 
 static double
-inverse_twice(int k)
+inverse_of_two_orders(int k)
 {
     return 1.0 / ((k + 1) * (k + 2));
 }
@@ -47,15 +47,15 @@ beyond(double inverse, int k, int divisor)
 }
 
 static double
-once_beyond(int k)
+rounding_of_inverse_of_order(int k)
 {
-    return beyond(inverse_once(k), k, k + 1);
+    return beyond(inverse_of_order(k), k, k + 1);
 }
 
 static double
-twice_beyond(int k)
+rounding_of_inverse_of_two_orders(int k)
 {
-    return beyond(inverse_twice(k), k, (k + 1) * (k + 2));
+    return beyond(inverse_of_two_orders(k), k, (k + 1) * (k + 2));
 }
 
 static double
@@ -65,12 +65,12 @@ rate_factor(int k)
 }
 
 static double
-rate_of_rate(int k)
+second_rate_factor(int k)
 {
     return (double)(k + 1) * (k + 2);
 }
 
-/* Write the code for: to = number * f(k). */
+/* Write machine code for: coefficient `to` = number * f(k). */
 static void
 write_factor(qdot_lanes_writer *w, size_t number, qdot_lanes_by_order *f, int k,
              qdot_lanes_at to)
@@ -85,20 +85,20 @@ write_factor(qdot_lanes_writer *w, size_t number, qdot_lanes_by_order *f, int k,
 /* --- writing one stage ----------------------------------------------------------------- */
 
 static void
-write_rates(qdot_lanes_writer *w, int k)
+write_rate_factors(qdot_lanes_writer *w, int k)
 {
     for (int lead = 0; lead < QDOT_LANES_LEADS; lead++) {
         if (qdot_lanes_wants_rate(w, false, lead))
             write_factor(w, PER_UNIT, rate_factor, k + lead, qdot_lanes_rate(w, false, lead));
         if (qdot_lanes_wants_rate(w, true, lead))
-            write_factor(w, PER_UNIT_SQUARE, rate_of_rate, k + lead,
+            write_factor(w, PER_UNIT_SQUARE, second_rate_factor, k + lead,
                          qdot_lanes_rate(w, true, lead));
     }
 }
 
-/* The location of coefficient k of unknown i: in its row, or in a number if it has none. */
+/* Where coefficient k of unknown i is stored: in its row, or in a number if it has no row. */
 static qdot_lanes_at
-unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
+place_of_unknown(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
 {
     const qdot_program_row row = c->motion->unknowns.at[c->motion->solved.at[i]].row;
 
@@ -106,9 +106,9 @@ unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t 
                               : qdot_lanes_number(w, c->unknown + i);
 }
 
-/* Write the solution for a block by its Cholesky factor with inverted diagonal: -L y = E, L^T a = y. */
+/* Write code that solves for the unknowns of a block by a Cholesky factor L with inverted diagonal: L L^T a = -E. */
 static void
-write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
+write_cholesky_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
 {
     const qdot_motion *m = c->motion;
     const size_t first = m->blocks.at[b], n = m->blocks.at[b + 1] - first;
@@ -119,32 +119,32 @@ write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k
 
         qdot_lanes_add(w, &y, true, (qdot_lanes_at){m->equations.at[first + i], k});
         for (size_t j = 0; j < i; j++)
-            qdot_lanes_add_product(w, &y, true, unknown_at_order(w, c, first + j, k),
+            qdot_lanes_add_product(w, &y, true, place_of_unknown(w, c, first + j, k),
                                    qdot_lanes_number(w, L + i * n + j));
         qdot_lanes_scale(w, &y, qdot_lanes_number(w, L + i * n + i));
-        qdot_lanes_store(w, y, unknown_at_order(w, c, first + i, k));
+        qdot_lanes_store(w, y, place_of_unknown(w, c, first + i, k));
     }
     for (size_t i = n; i-- > 0;) {
         qdot_lanes_sum a = QDOT_LANES_NOTHING;
 
-        qdot_lanes_add(w, &a, false, unknown_at_order(w, c, first + i, k));
+        qdot_lanes_add(w, &a, false, place_of_unknown(w, c, first + i, k));
         for (size_t j = i + 1; j < n; j++)
-            qdot_lanes_add_product(w, &a, true, unknown_at_order(w, c, first + j, k),
+            qdot_lanes_add_product(w, &a, true, place_of_unknown(w, c, first + j, k),
                                    qdot_lanes_number(w, L + j * n + i));
         qdot_lanes_scale(w, &a, qdot_lanes_number(w, L + i * n + i));
-        qdot_lanes_store(w, a, unknown_at_order(w, c, first + i, k));
+        qdot_lanes_store(w, a, place_of_unknown(w, c, first + i, k));
     }
 }
 
-/* Write the solution -K^-1 E for the unknowns of block b at order k. */
+/* Write code for the unknowns -K^-1 E of block b at order k, where K is the matrix and E the residuals. */
 static void
-write_block(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
+write_unknowns_of_block(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
 {
     const qdot_motion *m = c->motion;
     const size_t first = m->blocks.at[b], n = m->blocks.at[b + 1] - first;
 
     if (k <= c->factored && n > 1) {
-        write_solution(w, c, b, k);
+        write_cholesky_solution(w, c, b, k);
         return;
     }
     for (size_t i = 0; i < n; i++) {
@@ -154,17 +154,17 @@ write_block(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
             qdot_lanes_add_product(w, &a, false,
                                    (qdot_lanes_at){m->equations.at[first + j], k},
                                    qdot_lanes_number(w, c->inverse[b] + i * n + j));
-        qdot_lanes_store(w, a, unknown_at_order(w, c, first + i, k));
+        qdot_lanes_store(w, a, place_of_unknown(w, c, first + i, k));
     }
 }
 
 static void
-write_integral(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lanes_at a,
-               size_t unit, qdot_lanes_by_order *more, size_t factor, qdot_lanes_at to)
+write_integrated_coefficient(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lanes_at a,
+                             size_t unit, qdot_lanes_by_order *more, size_t factor, qdot_lanes_at to)
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
-    /* low orders divide (program.h); orders inside the loop are higher */
+    /* low orders divide exactly (program.h); the orders in the loop are higher */
     if (c->to >= QDOT_TAYLOR_EXACT_FROM && k <= QDOT_TAYLOR_EXACT) {
         qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
                                qdot_lanes_scalar_of(w, more, k));
@@ -174,41 +174,41 @@ write_integral(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lan
     qdot_lanes_store(w, sum, to);
 }
 
-/* Write the code for coefficients k + 1 of the velocity and k + 2 of the position of an unknown. */
+/* Write code for coefficients k + 1 of the velocity and k + 2 of the position whose acceleration is an unknown. */
 static void
-write_integrals(qdot_lanes_writer *w, const qdot_lanes_motion *c,
-                const qdot_motion_unknown *u, qdot_lanes_at a, int k)
+write_integrated_unknown(qdot_lanes_writer *w, const qdot_lanes_motion *c,
+                         const qdot_motion_unknown *u, qdot_lanes_at a, int k)
 {
     if (u->twice != QDOT_NO_ROW)
-        write_integral(w, c, k, a, UNIT_SQUARE, twice_beyond, TWICE,
-                       (qdot_lanes_at){u->twice, k + 2});
+        write_integrated_coefficient(w, c, k, a, UNIT_SQUARE, rounding_of_inverse_of_two_orders, TWICE,
+                                     (qdot_lanes_at){u->twice, k + 2});
     if (u->once != QDOT_NO_ROW)
-        write_integral(w, c, k, a, UNIT, once_beyond, ONCE,
-                       (qdot_lanes_at){u->once, k + 1});
+        write_integrated_coefficient(w, c, k, a, UNIT, rounding_of_inverse_of_order, ONCE,
+                                     (qdot_lanes_at){u->once, k + 1});
 }
 
-/* Write stage m: each step at order m plus its lead. */
+/* Write code for stage m of the expansion: each step at order m plus its lead (how many orders it is ahead). */
 static void
-write_stage(qdot_lanes_writer *w, int m, void *user)
+write_stage_code(qdot_lanes_writer *w, int m, void *user)
 {
     const qdot_lanes_motion *c = user;
     const qdot_motion *motion = c->motion;
     const int k = m - motion->program.lead;
 
-    write_rates(w, k);
+    write_rate_factors(w, k);
     qdot_lanes_steps_without(w, motion, k);
-    write_factor(w, UNIT, inverse_once, k, qdot_lanes_number(w, ONCE));
-    write_factor(w, UNIT_SQUARE, inverse_twice, k, qdot_lanes_number(w, TWICE));
+    write_factor(w, UNIT, inverse_of_order, k, qdot_lanes_number(w, ONCE));
+    write_factor(w, UNIT_SQUARE, inverse_of_two_orders, k, qdot_lanes_number(w, TWICE));
     for (size_t b = 0; b + 1 < motion->blocks.n; b++)
-        write_block(w, c, b, k);
+        write_unknowns_of_block(w, c, b, k);
     for (size_t i = 0; i < motion->equations.n; i++)
         qdot_lanes_unread(w, (qdot_lanes_at){motion->equations.at[i], k});
     for (size_t i = 0, solved = 0; i < motion->unknowns.n; i++) {
         const qdot_motion_unknown *u = motion->unknowns.at + i;
 
-        write_integrals(w, c, u,
-                        u->value != QDOT_NO_ROW ? (qdot_lanes_at){u->value, k}
-                                                : unknown_at_order(w, c, solved++, k),
+        write_integrated_unknown(w, c, u,
+                                 u->value != QDOT_NO_ROW ? (qdot_lanes_at){u->value, k}
+                                                : place_of_unknown(w, c, solved++, k),
                         k);
     }
     for (size_t i = 0; i < motion->solved.n; i++)
@@ -217,20 +217,20 @@ write_stage(qdot_lanes_writer *w, int m, void *user)
 }
 
 static void
-write_stages(qdot_lanes_writer *w, void *user)
+write_all_stages(qdot_lanes_writer *w, void *user)
 {
     const qdot_lanes_motion *c = user;
     const int lead = c->motion->program.lead;
     const int exact = c->to >= QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT : 0;
     const int loop = (c->factored > exact ? c->factored : exact) + 1;
 
-    qdot_lanes_orders(w, 1 + lead, lead, loop + lead, c->to + lead, write_stage, user);
+    qdot_lanes_orders(w, 1 + lead, lead, loop + lead, c->to + lead, write_stage_code, user);
 }
 
 /* --- building and running the code ----------------------------------------------------- */
 
 static qdot_status
-lanes_motion_make(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_motion **code)
+make_motion_code(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_motion **code)
 {
     const qdot_motion *m = c->motion;
     size_t numbers = INVERSES;
@@ -249,7 +249,7 @@ lanes_motion_make(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_
     c->unknown = numbers;
     if (m->program.lead < QDOT_LANES_LEADS)
         QDOT_TRY(
-            qdot_lanes_code_new(rows, numbers + m->solved.n, write_stages, c, &c->code));
+            qdot_lanes_code_new(rows, numbers + m->solved.n, write_all_stages, c, &c->code));
     if (c->code)
         *code = c;
     return QDOT_OK;
@@ -267,7 +267,7 @@ qdot_lanes_motion_new(const qdot_lanes_rows *rows, const qdot_motion *motion, in
         return QDOT_ENOMEM;
     *c = (qdot_lanes_motion){
         .motion = motion, .group = rows->group, .to = to, .factored = factored};
-    status = lanes_motion_make(c, rows, code);
+    status = make_motion_code(c, rows, code);
     if (!*code)
         qdot_lanes_motion_free(c);
     return status;

@@ -13,7 +13,7 @@
 
 typedef struct qdot_lanes_motion qdot_lanes_motion;
 
-/* Blocks larger than this have no code. */
+/* For motions with larger blocks of coupled unknowns no machine code is generated. */
 enum { QDOT_LANES_SOLVED = 16 };
 
 /* Stages 1 ... to, of rows of the motion's program; all borrowed. Up to stage `factored` a block is

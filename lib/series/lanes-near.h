@@ -8,7 +8,7 @@
 
 #include "series/lanes.h"
 
-/* Whether the program contains exponentials or quotients that may hide forces. */
+/* Whether the program contains exponentials or quotients that may hide forces acting only for a short time. */
 bool qdot_lanes_may_hide(const qdot_lanes *lanes);
 /* As qdot_taylor_near, for lanes whose rows have orders up to p: near [a group] for steps s [a group], of
  * which a NaN is none. */

@@ -1,18 +1,18 @@
-/* lanes-sums.c -- writes sums of products over orders; those of a block of orders together. */
+/* lanes-sums.c -- writes machine code for sums of products of coefficients; for a block of four orders together. */
 #include "series/lanes-writer.h"
 
 /* A sequence of terms has sums of `products` times the orders of a block; register c of the
  * i-th order's of one. */
 static int
-chains_of(const qdot_lanes_writer *w, int products)
+number_of_partial_sums(const qdot_lanes_writer *w, int products)
 {
     return w->chains / (w->block * products);
 }
 
 static int
-chain(const qdot_lanes_writer *w, int products, int product, int i, int c)
+register_of_partial_sum(const qdot_lanes_writer *w, int products, int product, int i, int c)
 {
-    const int n = chains_of(w, products);
+    const int n = number_of_partial_sums(w, products);
 
     return (product * w->block + i) * n + c % n;
 }
@@ -33,7 +33,7 @@ other(const qdot_lanes_writer *w, bool window, int p, int i, int j)
 /* Term j of a factor and its partner; and of a second one: of the orders that have coefficients below the
  * block's first alone in it. */
 static void
-emit_term(qdot_lanes_writer *w, bool window, int products, int j)
+write_term_of_sum(qdot_lanes_writer *w, bool window, int products, int j)
 {
     const int last = w->block - 1;
 
@@ -44,12 +44,12 @@ emit_term(qdot_lanes_writer *w, bool window, int products, int j)
                          other(w, false, p, last, j));
     for (int i = 0; i <= last && i < j; i++)
         for (int p = 0; p < products; p++)
-            qdot_writer_emit(w, QDOT_ASM_MADD, chain(w, products, p, i, j), w->moment,
+            qdot_writer_emit(w, QDOT_ASM_MADD, register_of_partial_sum(w, products, p, i, j), w->moment,
                              other(w, window, p, i, j));
 }
 
 static int
-smaller(int a, int b)
+smaller_number(int a, int b)
 {
     return a < b ? a : b;
 }
@@ -57,17 +57,17 @@ smaller(int a, int b)
 void
 qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at)
 {
-    w->m.far = !w->windows; /* use long offsets, unless windows keep all offsets within one byte */
-    for (int n = smaller((int)w->at.stride - 1, QDOT_SERIES_MOST + 1); n > 0; n--) {
+    w->m.far = !w->windows; /* use long offsets in instructions, unless windows keep all offsets within one byte */
+    for (int n = smaller_number((int)w->at.stride - 1, QDOT_SERIES_MOST + 1); n > 0; n--) {
         at[n] = w->m.bytes.n;
-        emit_term(w, window, products, n);
+        write_term_of_sum(w, window, products, n);
     }
     w->m.far = false;
     qdot_asm_leave(&w->m);
 }
 
 static void
-address(qdot_lanes_writer *w, qdot_asm_base to, qdot_lanes_row row, int order)
+write_address(qdot_lanes_writer *w, qdot_asm_base to, qdot_lanes_row row, int order)
 {
     const qdot_operand rm = qdot_writer_place(w, (qdot_lanes_at){row, order});
 
@@ -75,9 +75,9 @@ address(qdot_lanes_writer *w, qdot_asm_base to, qdot_lanes_row row, int order)
         qdot_asm_set(&w->m, to, (qdot_asm_base)rm.reg, rm.offset);
 }
 
-/* Enter the loop over terms at the address in a register, or with `less` fewer terms for lower orders. */
+/* Jump into the loop over the terms, at the address in a register, or `less` terms later for lower orders. */
 static void
-enter_in_loop(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int less)
+write_jump_into_terms(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int less)
 {
     if (less > 0)
         qdot_asm_set(&w->m, QDOT_ASM_TERMS_LEFT, at,
@@ -85,20 +85,20 @@ enter_in_loop(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int l
     qdot_asm_enter_at(&w->m, less > 0 ? QDOT_ASM_TERMS_LEFT : at);
 }
 
-/* Call the code that adds terms n, n - 1, ..., 1 of a block from order K on; z for two products only. */
+/* Call the code that adds terms n, n - 1, ..., 1 of the sums of a block from order K on; z: for two products only. */
 static void
-call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
-           const qdot_lanes_row *z, int n, int K)
+write_call_of_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
+                    const qdot_lanes_row *z, int n, int K)
 {
     const qdot_lanes_row others[] = {y, z ? *z : y};
     const bool any = K > QDOT_WRITER_ANY / 2, square = n < K - 1;
     const bool window = w->windows && !square;
 
     qdot_lanes_keep(w, x);
-    address(w, QDOT_ASM_FACTOR, x, 0);
+    write_address(w, QDOT_ASM_FACTOR, x, 0);
     for (int i = 0; i < (z ? 2 : 1); i++) {
         qdot_lanes_keep(w, others[i]);
-        address(w, other_base[i], others[i], K);
+        write_address(w, other_base[i], others[i], K);
         for (int c = 0; window && c < n && c < w->block - 1; c++)
             qdot_writer_emit(w, QDOT_ASM_LOAD, other(w, true, i, c, n).reg, 0,
                              qdot_writer_place(w, (qdot_lanes_at){others[i], K - n + c}));
@@ -106,31 +106,31 @@ call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
     if (w->counting)
         return;
     if (any)
-        enter_in_loop(w,
-                      z        ? QDOT_ASM_TERMS_OF_PAIRS
-                      : square ? QDOT_ASM_TERMS_OF_SQUARES
+        write_jump_into_terms(w,
+                              z        ? QDOT_ASM_TERMS_OF_PAIRS
+                              : square ? QDOT_ASM_TERMS_OF_SQUARES
                                : QDOT_ASM_TERMS,
-                      z        ? w->pair
-                      : square ? w->half
+                              z        ? w->pair
+                              : square ? w->half
                                : w->dot,
-                      square ? (w->any - 1) / 2 - n : w->any - K);
+                              square ? (w->any - 1) / 2 - n : w->any - K);
     else
         qdot_asm_enter(&w->m, z ? w->pair[n] : square ? w->half[n] : w->dot[n]);
 }
 
 static void
-clear_chains(qdot_lanes_writer *w)
+clear_partial_sums(qdot_lanes_writer *w)
 {
     qdot_writer_leave(w, w->first_free);
     for (int r = 0; r < w->chains; r++)
         qdot_writer_clear(w, r);
 }
 
-/* Add the partial sums (chains) of a sum into the first. */
+/* Add all partial sums of a sum into the first of them. */
 static int
-chains_add_up(qdot_lanes_writer *w, int products, int product, int i)
+add_partial_sums(qdot_lanes_writer *w, int products, int product, int i)
 {
-    const int to = chain(w, products, product, i, 0), n = chains_of(w, products);
+    const int to = register_of_partial_sum(w, products, product, i, 0), n = number_of_partial_sums(w, products);
 
     for (int half = n / 2; half > 0; half /= 2)
         for (int c = 0; c < half; c++)
@@ -139,15 +139,15 @@ chains_add_up(qdot_lanes_writer *w, int products, int product, int i)
 }
 
 static qdot_lanes_at
-number_ahead(const qdot_lanes_writer *w, size_t sum, int i)
+place_of_later_sum(const qdot_lanes_writer *w, size_t sum, int i)
 {
     return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * w->t->length +
                                     sum * (size_t)(w->block - 1) + (size_t)i - 1);
 }
 
-/* The index of the next sum of this order, with space for it in `ahead`. */
+/* The index of the next sum of this order, with an entry for it in `ahead`. */
 static size_t
-next_sum(qdot_lanes_writer *w)
+new_sum_index(qdot_lanes_writer *w)
 {
     const size_t sum = w->sum++;
 
@@ -161,46 +161,46 @@ next_sum(qdot_lanes_writer *w)
 /* What n terms have made of a sum: of the block's first order, the value; of the others, kept
  * until they come. */
 static qdot_lanes_sum
-share_out(qdot_lanes_writer *w, size_t sum, int products, int product, int n)
+distribute_partial_sums(qdot_lanes_writer *w, size_t sum, int products, int product, int n)
 {
     qdot_lanes_sum first = QDOT_LANES_NOTHING;
 
     if (n > 0) {
         first = qdot_writer_take(w);
         qdot_writer_emit(w, QDOT_ASM_LOAD, first, 0,
-                         qdot_asm_in(chains_add_up(w, products, product, 0)));
+                         qdot_asm_in(add_partial_sums(w, products, product, 0)));
     }
     for (int i = 1; i < w->block && i < n; i++)
-        qdot_writer_put(w, chains_add_up(w, products, product, i), number_ahead(w, sum, i));
+        qdot_writer_put(w, add_partial_sums(w, products, product, i), place_of_later_sum(w, sum, i));
     if (w->status == QDOT_OK)
         w->ahead.at[sum] = n;
     return first;
 }
 
 static qdot_lanes_sum
-take_ahead(qdot_lanes_writer *w, size_t sum)
+take_part_of_sum(qdot_lanes_writer *w, size_t sum)
 {
     qdot_lanes_sum value = QDOT_LANES_NOTHING;
 
     if (w->status == QDOT_OK && w->ahead.at[sum] > w->phase)
-        qdot_lanes_add(w, &value, false, number_ahead(w, sum, w->phase));
+        qdot_lanes_add(w, &value, false, place_of_later_sum(w, sum, w->phase));
     return value;
 }
 
 static bool
-both_move(const qdot_lanes_writer *w, const qdot_lanes_pair *pair)
+both_vary(const qdot_lanes_writer *w, const qdot_lanes_pair *pair)
 {
     return w->rows[pair->x].moving && w->rows[pair->y].moving;
 }
 
-/* Add the terms of order k that contain coefficients of its own block, the newest last. */
+/* Add those products of order k that contain coefficients of its own block of orders, the newest ones last. */
 static void
-add_outer(qdot_lanes_writer *w, qdot_lanes_sum *sum, size_t pairs,
-          const qdot_lanes_pair *pair, int k)
+add_products_of_block(qdot_lanes_writer *w, qdot_lanes_sum *sum, size_t pairs,
+                      const qdot_lanes_pair *pair, int k)
 {
-    for (int j = smaller(w->phase, k - 1); j > 0; j--)
+    for (int j = smaller_number(w->phase, k - 1); j > 0; j--)
         for (size_t i = 0; i < pairs; i++) {
-            if (!both_move(w, pair + i))
+            if (!both_vary(w, pair + i))
                 continue;
             qdot_lanes_add_product(w, sum, false, (qdot_lanes_at){pair[i].x, j},
                                    (qdot_lanes_at){pair[i].y, k - j});
@@ -213,28 +213,28 @@ add_outer(qdot_lanes_writer *w, qdot_lanes_sum *sum, size_t pairs,
 qdot_lanes_sum
 qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs, const qdot_lanes_pair *pair, int k)
 {
-    const size_t number = next_sum(w);
-    const int n = k - 1; /* number of terms at the first order of the block */
+    const size_t number = new_sum_index(w);
+    const int n = k - 1; /* number of terms of the sum at the first order of the block */
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
     size_t moving = 0;
 
     for (size_t i = 0; i < pairs; i++) {
         qdot_lanes_keep(w, pair[i].x);
         qdot_lanes_keep(w, pair[i].y);
-        moving += both_move(w, pair + i);
+        moving += both_vary(w, pair + i);
     }
     if (w->phase > 0) {
-        sum = take_ahead(w, number);
-        add_outer(w, &sum, pairs, pair, k);
+        sum = take_part_of_sum(w, number);
+        add_products_of_block(w, &sum, pairs, pair, k);
         return sum;
     }
     if (n > 0 && moving > 0) {
-        clear_chains(w);
+        clear_partial_sums(w);
         for (size_t i = 0; i < pairs; i++)
-            if (both_move(w, pair + i))
-                call_terms(w, pair[i].x, pair[i].y, NULL, n, k);
+            if (both_vary(w, pair + i))
+                write_call_of_terms(w, pair[i].x, pair[i].y, NULL, n, k);
     }
-    return share_out(w, number, 1, 0, moving > 0 ? n : 0);
+    return distribute_partial_sums(w, number, 1, 0, moving > 0 ? n : 0);
 }
 
 void
@@ -244,17 +244,17 @@ qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
     const qdot_lanes_pair pairs[] = {{x, y}, {x, z}};
     size_t number[2];
 
-    if (k < 2 || w->phase > 0 || !both_move(w, pairs) || !both_move(w, pairs + 1)) {
+    if (k < 2 || w->phase > 0 || !both_vary(w, pairs) || !both_vary(w, pairs + 1)) {
         for (int i = 0; i < 2; i++)
             sums[i] = qdot_lanes_dots(w, 1, pairs + i, k);
         return;
     }
     for (int i = 0; i < 2; i++)
-        number[i] = next_sum(w);
-    clear_chains(w);
-    call_terms(w, x, y, &z, k - 1, k);
+        number[i] = new_sum_index(w);
+    clear_partial_sums(w);
+    write_call_of_terms(w, x, y, &z, k - 1, k);
     for (int i = 0; i < 2; i++)
-        sums[i] = share_out(w, number[i], 2, i, k - 1);
+        sums[i] = distribute_partial_sums(w, number[i], 2, i, k - 1);
 }
 
 /* Half of the terms, twice, and the one in the middle. Of those that are not of the block the
@@ -262,7 +262,7 @@ qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
 qdot_lanes_sum
 qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
 {
-    const size_t number = next_sum(w);
+    const size_t number = new_sum_index(w);
     const int K = k - w->phase, n = K > 2 ? (K - 1) / 2 : 0, last = (k - 1) / 2;
     const int from = n > w->phase ? n : w->phase;
     const qdot_lanes_at middle = {x, k / 2};
@@ -272,18 +272,18 @@ qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
     if (!w->rows[x].moving)
         return QDOT_LANES_NOTHING;
     if (w->phase > 0) {
-        sum = take_ahead(w, number);
+        sum = take_part_of_sum(w, number);
     } else {
         if (n > 0) {
-            clear_chains(w);
-            call_terms(w, x, x, NULL, n, K);
+            clear_partial_sums(w);
+            write_call_of_terms(w, x, x, NULL, n, K);
         }
-        sum = share_out(w, number, 1, 0, n);
+        sum = distribute_partial_sums(w, number, 1, 0, n);
     }
     for (int j = last; j > from; j--)
         qdot_lanes_add_product(w, &sum, false, (qdot_lanes_at){x, j},
                                (qdot_lanes_at){x, k - j});
-    for (int j = smaller(w->phase, last); j > 0; j--)
+    for (int j = smaller_number(w->phase, last); j > 0; j--)
         qdot_lanes_add_product(w, &sum, false, (qdot_lanes_at){x, j},
                                (qdot_lanes_at){x, k - j});
     qdot_lanes_scale(w, &sum, qdot_lanes_scalar(w, 2));
@@ -293,7 +293,7 @@ qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
 }
 
 static qdot_lanes_at
-rest(const qdot_lanes_writer *w, size_t step, int i)
+place_of_remainder(const qdot_lanes_writer *w, size_t step, int i)
 {
     return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * step + (size_t)i);
 }
@@ -303,7 +303,7 @@ qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum, b
 {
     w->steps[step].rests[i] = sum != QDOT_LANES_NOTHING;
     if (stored && sum != QDOT_LANES_NOTHING)
-        qdot_writer_put(w, sum, rest(w, step, i));
+        qdot_writer_put(w, sum, place_of_remainder(w, step, i));
 }
 
 qdot_lanes_sum
@@ -312,6 +312,6 @@ qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i)
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
     if (qdot_writer_is_kept(w, step, i))
-        qdot_lanes_add(w, &sum, false, rest(w, step, i));
+        qdot_lanes_add(w, &sum, false, place_of_remainder(w, step, i));
     return sum;
 }

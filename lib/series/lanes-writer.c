@@ -1,4 +1,4 @@
-/* lanes-writer.c -- locations of coefficients, register allocation, operations on an accumulator. */
+/* lanes-writer.c -- addresses of coefficients, register allocation, and sums in registers, for generated code. */
 #include <string.h>
 
 #include "series/lanes-writer.h"
@@ -6,24 +6,24 @@
 /* --- places of coefficients --------------------------------------------------------- */
 
 static bool
-is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
+is_program_row(const qdot_lanes_writer *w, qdot_lanes_row row)
 {
     return row < w->t->rows.n;
 }
 
-/* Whether `a` is the coefficient of the present order of a row of the program. */
+/* Whether a is the coefficient of the present (newest) order of a row of the program. */
 static bool
-is_newest(const qdot_lanes_writer *w, qdot_lanes_at a)
+is_newest_coefficient(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
     return a.order == w->k + w->t->rows.at[a.row].lead;
 }
 
-/* Whether a coefficient of a row is 0 and never written, or left out. */
+/* Whether a coefficient of a row is known to be 0 and never written, or is left out. */
 static bool
-coefficient_vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
+coefficient_is_zero(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    return is_row(w, a.row) && a.order > 0 &&
-           (!w->rows[a.row].moving || (w->rows[a.row].absent && is_newest(w, a)));
+    return is_program_row(w, a.row) && a.order > 0 &&
+           (!w->rows[a.row].moving || (w->rows[a.row].absent && is_newest_coefficient(w, a)));
 }
 
 void
@@ -40,22 +40,22 @@ qdot_writer_groups(const qdot_lanes_writer *w)
 }
 
 static qdot_operand
-groups_from(const qdot_lanes_writer *w, qdot_asm_base base, size_t groups)
+operand_at_groups(const qdot_lanes_writer *w, qdot_asm_base base, size_t groups)
 {
     return qdot_asm_at(base, (int32_t)groups * w->bytes);
 }
 
 /* The groups of all coefficients of the program, `groups` in number, at an order. */
 static qdot_operand
-of_order(const qdot_lanes_writer *w, size_t groups, int order)
+operand_of_order(const qdot_lanes_writer *w, size_t groups, int order)
 {
     const int any = w->any, half = any / 2;
 
     if (order > half + half / 2)
-        return groups_from(w, QDOT_ASM_ROWS_NOW, groups + (size_t)order - (size_t)any);
+        return operand_at_groups(w, QDOT_ASM_ROWS_NOW, groups + (size_t)order - (size_t)any);
     if (order > half / 2) /* terms of a square reach only up to half of the order */
-        return groups_from(w, QDOT_ASM_ROWS_HALF, groups + (size_t)order - (size_t)half);
-    return groups_from(w, QDOT_ASM_ROWS, groups + (size_t)order);
+        return operand_at_groups(w, QDOT_ASM_ROWS_HALF, groups + (size_t)order - (size_t)half);
+    return operand_at_groups(w, QDOT_ASM_ROWS, groups + (size_t)order);
 }
 
 qdot_operand
@@ -77,14 +77,14 @@ qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
                                (QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE +
                                 (int32_t)(a.row - QDOT_WRITER_SCALARS)));
     if (a.row >= QDOT_WRITER_INVERSES)
-        return groups_from(w, QDOT_ASM_ROWS,
-                           w->t->rows.n * w->at.stride + a.row - QDOT_WRITER_INVERSES);
+        return operand_at_groups(w, QDOT_ASM_ROWS,
+                                 w->t->rows.n * w->at.stride + a.row - QDOT_WRITER_INVERSES);
     if (a.row >= QDOT_WRITER_NUMBERS)
-        return groups_from(w, QDOT_ASM_WORK, a.row - QDOT_WRITER_NUMBERS);
-    if (a.order > 0 && !is_newest(w, a))
+        return operand_at_groups(w, QDOT_ASM_WORK, a.row - QDOT_WRITER_NUMBERS);
+    if (a.order > 0 && !is_newest_coefficient(w, a))
         w->rows[a.row].kept = true;
     order = a.order > 0 && !w->rows[a.row].kept ? 1 : a.order;
-    return of_order(w, a.row * w->at.stride, order);
+    return operand_of_order(w, a.row * w->at.stride, order);
 }
 
 qdot_lanes_at
@@ -145,7 +145,7 @@ qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int fir
 }
 
 static void
-register_store_ahead(qdot_lanes_writer *w, int reg)
+store_if_newer(qdot_lanes_writer *w, int reg)
 {
     if (w->reg[reg].ahead)
         qdot_writer_emit(w, QDOT_ASM_STORE, reg, 0, qdot_writer_place(w, w->reg[reg].at));
@@ -158,16 +158,16 @@ qdot_writer_settle(qdot_lanes_writer *w)
     for (int r = 0; r < w->registers; r++) {
         qdot_writer_register *reg = w->reg + r;
 
-        if (reg->ahead && is_row(w, reg->at.row) && !w->rows[reg->at.row].kept)
+        if (reg->ahead && is_program_row(w, reg->at.row) && !w->rows[reg->at.row].kept)
             reg->holds = reg->ahead = false;
-        register_store_ahead(w, r);
+        store_if_newer(w, r);
     }
 }
 
 static void
-register_leave(qdot_lanes_writer *w, int reg)
+release_register(qdot_lanes_writer *w, int reg)
 {
-    register_store_ahead(w, reg);
+    store_if_newer(w, reg);
     w->reg[reg].holds = false;
 }
 
@@ -175,23 +175,23 @@ void
 qdot_writer_leave(qdot_lanes_writer *w, int end)
 {
     for (int r = 0; r < end; r++)
-        register_leave(w, r);
+        release_register(w, r);
 }
 
-/* The least recently used register from `lowest` on that is not reserved. */
+/* The least recently used register from `lowest` on that is not reserved; its content is stored if necessary. */
 static int
-register_fresh(qdot_lanes_writer *w, int lowest)
+free_least_used_register(qdot_lanes_writer *w, int lowest)
 {
     const int reg = qdot_asm_fresh(&w->m, lowest, w->registers);
 
-    register_leave(w, reg);
+    release_register(w, reg);
     return reg;
 }
 
 /* The first register that an order may use: only the first order of a block calls code that uses
  * earlier ones. */
 static int
-first_taken(const qdot_lanes_writer *w)
+first_usable_register(const qdot_lanes_writer *w)
 {
     return w->phase > 0 ? 0 : w->first_free;
 }
@@ -199,14 +199,14 @@ first_taken(const qdot_lanes_writer *w)
 int
 qdot_writer_take(qdot_lanes_writer *w)
 {
-    const int reg = register_fresh(w, first_taken(w));
+    const int reg = free_least_used_register(w, first_usable_register(w));
 
     w->m.taken[reg] = true;
     return reg;
 }
 
 static int
-holder(const qdot_lanes_writer *w, qdot_lanes_at a)
+find_register_with(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
     for (int r = 0; r < w->registers; r++)
         if (w->reg[r].holds && w->reg[r].at.row == a.row && w->reg[r].at.order == a.order)
@@ -215,35 +215,35 @@ holder(const qdot_lanes_writer *w, qdot_lanes_at a)
 }
 
 static void
-fetch(qdot_lanes_writer *w, int reg, qdot_lanes_at a)
+load_from_memory(qdot_lanes_writer *w, int reg, qdot_lanes_at a)
 {
     qdot_writer_emit(w, a.row >= QDOT_WRITER_SCALARS ? QDOT_ASM_SPREAD : QDOT_ASM_LOAD,
                      reg, 0, qdot_writer_place(w, a));
 }
 
 static int
-register_load(qdot_lanes_writer *w, qdot_lanes_at a)
+load_into_register(qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    int reg = holder(w, a);
+    int reg = find_register_with(w, a);
 
     if (reg >= 0) {
         qdot_asm_use(&w->m, reg);
         return reg;
     }
-    reg = register_fresh(w, 0);
-    fetch(w, reg, a);
+    reg = free_least_used_register(w, 0);
+    load_from_memory(w, reg, a);
     w->reg[reg].holds = true;
     w->reg[reg].at = a;
     return reg;
 }
 
-/* The operand for `a` in an instruction: the register that holds it, or its address. */
+/* The operand for coefficient `a` in an instruction: the register that holds it, or its address in memory. */
 static qdot_operand
-writer_operand(qdot_lanes_writer *w, qdot_lanes_at a)
+find_operand(qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    if (a.row < QDOT_WRITER_SCALARS && holder(w, a) < 0)
+    if (a.row < QDOT_WRITER_SCALARS && find_register_with(w, a) < 0)
         return qdot_writer_place(w, a);
-    return qdot_asm_in(register_load(w, a));
+    return qdot_asm_in(load_into_register(w, a));
 }
 
 void
@@ -258,17 +258,17 @@ qdot_writer_clear(qdot_lanes_writer *w, int reg)
 qdot_lanes_sum
 qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    const int held = holder(w, a);
+    const int held = find_register_with(w, a);
     int reg = held;
 
-    if (held < first_taken(w) || w->reg[held].ahead) {
+    if (held < first_usable_register(w) || w->reg[held].ahead) {
         if (held >= 0)
             qdot_asm_use(&w->m, held);
-        reg = register_fresh(w, first_taken(w));
+        reg = free_least_used_register(w, first_usable_register(w));
         if (held >= 0)
             qdot_writer_emit(w, QDOT_ASM_LOAD, reg, 0, qdot_asm_in(held));
         else
-            fetch(w, reg, a);
+            load_from_memory(w, reg, a);
     }
     w->reg[reg].holds = false;
     w->m.taken[reg] = true;
@@ -279,7 +279,7 @@ qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
 qdot_lanes_sum
 qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    const int held = holder(w, a);
+    const int held = find_register_with(w, a);
 
     if (held >= 0)
         w->reg[held].ahead = false;
@@ -291,9 +291,9 @@ qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes
 {
     qdot_operand rm;
 
-    if (coefficient_vanishes(w, a))
+    if (coefficient_is_zero(w, a))
         return;
-    rm = writer_operand(w, a);
+    rm = find_operand(w, a);
     if (*sum == QDOT_LANES_NOTHING) {
         *sum = qdot_writer_take(w);
         if (!minus) {
@@ -310,10 +310,10 @@ qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
 {
     if (*sum == QDOT_LANES_NOTHING)
         qdot_lanes_add(w, sum, false, a);
-    else if (coefficient_vanishes(w, a))
+    else if (coefficient_is_zero(w, a))
         qdot_lanes_negate(w, sum);
     else
-        qdot_writer_emit(w, QDOT_ASM_SUB, *sum, register_load(w, a), qdot_asm_in(*sum));
+        qdot_writer_emit(w, QDOT_ASM_SUB, *sum, load_into_register(w, a), qdot_asm_in(*sum));
 }
 
 void
@@ -324,17 +324,17 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
     int reg;
     qdot_operand rm;
 
-    if (coefficient_vanishes(w, a) || coefficient_vanishes(w, b))
+    if (coefficient_is_zero(w, a) || coefficient_is_zero(w, b))
         return;
-    if (holder(w, a) < 0 && holder(w, b) >= 0) {
+    if (find_register_with(w, a) < 0 && find_register_with(w, b) >= 0) {
         const qdot_lanes_at other = a;
 
         a = b;
         b = other;
     }
-    passing = is_row(w, a.row) && !is_newest(w, a) && holder(w, a) < 0;
-    reg = register_load(w, a);
-    rm = writer_operand(w, b);
+    passing = is_program_row(w, a.row) && !is_newest_coefficient(w, a) && find_register_with(w, a) < 0;
+    reg = load_into_register(w, a);
+    rm = find_operand(w, b);
     if (passing)
         w->m.used[reg] = 0;
     if (*sum == QDOT_LANES_NOTHING) {
@@ -353,12 +353,12 @@ qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
 {
     if (*sum == QDOT_LANES_NOTHING)
         return;
-    if (coefficient_vanishes(w, a)) {
+    if (coefficient_is_zero(w, a)) {
         w->m.taken[*sum] = false;
         *sum = QDOT_LANES_NOTHING;
         return;
     }
-    qdot_writer_emit(w, QDOT_ASM_MUL, *sum, *sum, writer_operand(w, a));
+    qdot_writer_emit(w, QDOT_ASM_MUL, *sum, *sum, find_operand(w, a));
 }
 
 void
@@ -390,7 +390,7 @@ qdot_writer_join(qdot_lanes_writer *w, qdot_asm_operation op, qdot_lanes_sum *su
 void
 qdot_lanes_unread(qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    const int reg = holder(w, a);
+    const int reg = find_register_with(w, a);
 
     if (reg < 0)
         return;
@@ -413,8 +413,8 @@ qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
         qdot_writer_clear(w, sum);
     }
     qdot_lanes_unread(w, to);
-    (void)qdot_writer_place(w, to); /* make sure that its place exists */
-    if (is_row(w, to.row))
+    (void)qdot_writer_place(w, to); /* make sure that the coefficient has a place in memory */
+    if (is_program_row(w, to.row))
         w->rows[to.row].absent = false;
     w->m.taken[sum] = false;
     w->reg[sum].holds = w->reg[sum].ahead = true;

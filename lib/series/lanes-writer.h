@@ -19,19 +19,19 @@ enum {
     QDOT_WRITER_MOST_TABLES = 16
 };
 
-/* Bits of row numbers that denote constants and tables instead of rows of the program. */
+/* Bits of row numbers that denote constants and tables of factors instead of rows of the program. */
 enum {
     QDOT_WRITER_NUMBERS = 1 << 24,
     QDOT_WRITER_INVERSES = 2 << 24,
     QDOT_WRITER_SCALARS = 3 << 24,
-    QDOT_WRITER_TABLES = 4 << 24, /* tables of scalars: entry k for order k */
+    QDOT_WRITER_TABLES = 4 << 24, /* tables of factors: entry k is used at order k */
     QDOT_WRITER_TABLE = QDOT_SERIES_MOST + 8,
     /* What is written for all blocks of a loop is written as of this order or the next, odd
      * if theirs are, and those beside it; half of it is half of theirs. */
     QDOT_WRITER_ANY = 1000
 };
 
-/* The content of a register while code is written. */
+/* What a register holds while machine code is written. */
 typedef struct {
     bool holds;
     bool ahead; /* the register holds a newer value than memory; stored when the register is needed */
@@ -39,26 +39,26 @@ typedef struct {
 } qdot_writer_register;
 
 typedef struct {
-    bool moving; /* the row is not constant in t */
-    bool kept;   /* all orders of the row are kept */
-    bool absent; /* its newest coefficient is not computed, as it is unknown or 0 */
-    bool wanted; /* an equation of the unknowns depends on it */
+    bool moving; /* whether the row depends on t */
+    bool kept;   /* whether the coefficients of all orders of the row are kept */
+    bool absent; /* the newest coefficient of the row is not computed, as it is unknown or 0 */
+    bool wanted; /* whether an equation for the unknowns depends on the row */
     bool equation;
-    size_t step; /* the step that computes the row; SIZE_MAX: none */
-    int readers; /* number of steps that read the row */
-    int linear;  /* number of its readers that only add the row or take its rate */
-    bool rated;  /* some steps read the time derivative (rate) of the row */
+    size_t step; /* index of the step that computes the row; SIZE_MAX: none */
+    int readers; /* number of steps of the program that read the row */
+    int linear;  /* number of steps that only add the row, or take its time derivative */
+    bool rated;  /* whether some steps read the time derivative of the row */
 } qdot_writer_row;
 
 typedef struct {
-    bool folded; /* the step is not carried out by itself, but within its readers */
-    bool idle;   /* no equation depends on the row */
-    bool lacks;  /* it is absent only because the newest coefficient of its argument is */
-    int pairs;   /* number of products in its sum, including those that it adds for folded steps */
-    bool rests[QDOT_WRITER_RESTS]; /* whether this sum has a remainder at the present order */
+    bool folded; /* the step is not carried out by itself, but as a part of the steps that read its result */
+    bool idle;   /* no equation for the unknowns depends on the step */
+    bool lacks;  /* the result is incomplete only because the newest coefficient of its argument is unknown */
+    int pairs;   /* number of products in the step's sum, including those of folded steps */
+    bool rests[QDOT_WRITER_RESTS]; /* whether each sum of the step has a remainder to be kept at the present order */
 } qdot_writer_step;
 
-/* A row, its derivative or its second derivative, with a sign. */
+/* A row of the program, or its first or second time derivative, with a sign. */
 typedef struct {
     bool minus;
     int rates;
@@ -69,15 +69,15 @@ struct qdot_lanes_writer {
     qdot_asm m;
     qdot_lanes_rows at;
     const qdot_program *t;
-    const qdot_motion *motion; /* the motion whose steps are written; NULL: the steps of a tape */
-    int32_t bytes;             /* size of a group of lanes in bytes */
+    const qdot_motion *motion; /* the motion whose steps are written; NULL: only the steps of a program */
+    int32_t bytes;             /* size of a group (one number for each lane) in bytes */
     size_t numbers;
-    bool counting; /* first pass: only counts, writes no code */
-    qdot_writer_row *rows;   /* [rows] what is known of each row */
-    qdot_writer_step *steps; /* [length] what is known of each step */
-    bool without;            /* newest coefficients that nobody needs may be left out */
-    int k;                   /* the present order; a row is at order k + its lead */
-    unsigned rates;          /* bits: which of the factors qdot_lanes_rate the written code reads */
+    bool counting; /* whether this is the first pass, which only counts and writes no code */
+    qdot_writer_row *rows;   /* [rows] properties of each row */
+    qdot_writer_step *steps; /* [length] properties of each step */
+    bool without;            /* whether newest coefficients that nothing needs may be left out */
+    int k;                   /* the present order; rows are computed at order k + their lead */
+    unsigned rates;          /* bits that tell which of the factors qdot_lanes_rate the written code reads */
     qdot_vec(double) scalars;
     qdot_vec(qdot_lanes_by_order *) tables;
     int registers, chains, moment, first_free; /* counts of registers and partial sums, the scratch and first free register */
@@ -102,20 +102,20 @@ qdot_writer_inverse(size_t step)
     return (qdot_lanes_at){QDOT_WRITER_INVERSES + (qdot_lanes_row)step, 0};
 }
 
-/* Write an instruction, except in the pass that only finds which rows are needed. */
+/* Write an instruction, except in the first pass, which only finds which rows are needed. */
 void qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int first,
                       qdot_operand rm);
 qdot_operand qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
-/* Reserve a free register; its contents are undefined. */
+/* Reserve a free register for a sum; its contents are undefined. */
 int qdot_writer_take(qdot_lanes_writer *w);
-/* Store the registers with results that later orders read. */
+/* Write code that stores those registers whose values later orders read. */
 void qdot_writer_settle(qdot_lanes_writer *w);
-/* Forget the contents of registers below `end`, after storing what memory does not have. */
+/* Forget what registers below `end` hold, after storing values that memory does not have. */
 void qdot_writer_leave(qdot_lanes_writer *w, int end);
-/* Store a register to a location; no other register then holds its old value. */
+/* Write code that stores a register at `a`; no other register then counts as holding the old value. */
 void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
 void qdot_writer_clear(qdot_lanes_writer *w, int reg);
-/* The number of groups of work space. */
+/* The number of groups of numbers that the code needs as work space. */
 size_t qdot_writer_groups(const qdot_lanes_writer *w);
 /* The sequence of terms of one product or two; at [stride] where they begin. With windows every
  * coefficient of the other factors is loaded once, else once for each order. */
@@ -128,7 +128,7 @@ qdot_writer_addend qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_r
 const qdot_program_step *qdot_writer_within(const qdot_lanes_writer *w,
                                             const qdot_program_step *product);
 
-/* Begin to write order k. */
+/* Begin to write the code of order k. */
 static inline void
 qdot_writer_begin(qdot_lanes_writer *w, int k)
 {
@@ -137,7 +137,7 @@ qdot_writer_begin(qdot_lanes_writer *w, int k)
     w->sum = 0;
 }
 
-/* The code length in bytes of one term of such a sequence, including all orders of a block. */
+/* The length in bytes of the code of one term of a sequence of terms, for all orders of a block. */
 static inline size_t
 qdot_writer_term(const qdot_lanes_writer *w, const size_t *at)
 {
@@ -150,7 +150,7 @@ void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
                       qdot_lanes_row z, int k, qdot_lanes_sum *sums);
 qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);
 
-/* Replace `sum` by `sum op other`; the register of `other` is freed. */
+/* Write code that replaces `sum` by `sum op other`; the register of `other` becomes free. */
 void qdot_writer_join(qdot_lanes_writer *w, qdot_asm_operation op, qdot_lanes_sum *sum,
                       qdot_lanes_sum other);
 

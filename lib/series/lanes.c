@@ -1,4 +1,4 @@
-/* lanes.c -- a series program for several solutions at once, a lane of a vector for each. */
+/* lanes.c -- evaluates a series program for several solutions at once, one in each lane of a vector. */
 #include "series/lanes.h"
 
 #include <limits.h>
@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
     double *row;
     double near, far;
-    int64_t limit; /* 2^53 times the probability of `far`, rounded up */
+    int64_t limit; /* 2^53 times the probability of choosing `far`, rounded up */
 } drawn;
 
 typedef struct {
@@ -50,25 +50,25 @@ static const lanes_kernels *const kinds[] = {
 struct qdot_lanes {
     const qdot_batch_kernels *kernels;
     const lanes_kernels *kind;
-    const qdot_motion *motion; /* the motion that it computes; NULL: a program alone */
+    const qdot_motion *motion; /* the motion that is computed; NULL: only a program */
     const qdot_program *program;
-    double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* [lanes] unit of time of a motion, and its inverse */
-    bool has_rates, has_kept; /* some step takes a time derivative; all orders of some row are kept */
+    double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* [lanes] unit of time of a motion in each lane, and its inverse */
+    bool has_rates, has_kept; /* some step takes a time derivative; some row keeps the coefficients of all orders */
     size_t stride;
-    void *memory;          /* the allocated block that contains the coefficients */
+    void *memory;          /* the allocated block that contains the coefficients, before alignment */
     double *coefficients;  /* [rows x stride groups] coefficients, aligned to a cache line */
     /* [length groups] of each step, behind the coefficients: by which all its orders are multiplied in place of a
      * division */
     double *inverses;
-    lanes_step *steps;     /* [length + 1] the steps, then QDOT_T_END */
+    lanes_step *steps;     /* [length + 1] the steps of the program, then QDOT_T_END */
     drawn *drawn; /* [n_drawn] constants that are rounded at random to a neighbouring double */
     size_t n_drawn;
-    double inverse[QDOT_SERIES_MOST + 1]; /* the numbers 1/k, k the index */
+    double inverse[QDOT_SERIES_MOST + 1]; /* table of the numbers 1/k by index k */
 };
 
 static void
-lanes_evaluate_tape(const qdot_tape *tape, const qdot_batch_kernels *kernels, const double *in,
-                    double *out, double *work)
+evaluate_tape_in_lanes(const qdot_tape *tape, const qdot_batch_kernels *kernels, const double *in,
+                       double *out, double *work)
 {
     size_t n = tape->inputs * QDOT_LANES;
 
@@ -86,13 +86,13 @@ lanes_evaluate_tape(const qdot_tape *tape, const qdot_batch_kernels *kernels, co
 void
 qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work)
 {
-    lanes_evaluate_tape(tape, NULL, in, out, work);
+    evaluate_tape_in_lanes(tape, NULL, in, out, work);
 }
 
 void
 qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work)
 {
-    lanes_evaluate_tape(tape, qdot_batch_kernels_get(), in, out, work);
+    evaluate_tape_in_lanes(tape, qdot_batch_kernels_get(), in, out, work);
 }
 
 void
@@ -107,19 +107,19 @@ qdot_lanes_free(qdot_lanes *t)
 }
 
 static double *
-lanes_place(const qdot_lanes *t, qdot_program_row row)
+address_of_row(const qdot_lanes *t, qdot_program_row row)
 {
     return row == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)row * t->stride * QDOT_LANES;
 }
 
-/* Allocate rows for orders up to `most`. */
+/* Allocate the rows of coefficients for orders up to `most`. */
 static qdot_status
 lanes_allocate(qdot_lanes *t, int most)
 {
     const qdot_program *p = t->program;
     const size_t line = 64;
 
-    /* one more order for recorded changes (correct); an odd stride spreads rows over all sets of the cache */
+    /* one more order for recorded changes; an odd stride spreads rows over all sets of the cache */
     t->stride = ((size_t)most + 2) | 1;
     t->memory = qdot_calloc((p->rows.n * t->stride + p->length) * QDOT_LANES +
                                 line / sizeof(double),
@@ -157,14 +157,14 @@ lanes_set_constants(qdot_lanes *t, bool shaken)
         const qdot_program_row_info *row = p->rows.at + r;
 
         if (row->source == QDOT_ROW_CONSTANT)
-            set_constant(t, lanes_place(t, r), p->constants.at + row->at, shaken);
+            set_constant(t, address_of_row(t, r), p->constants.at + row->at, shaken);
         for (size_t l = 0; l < QDOT_LANES && row->source == QDOT_ROW_WHOLE; l++)
-            lanes_place(t, r)[l] = row->at;
+            address_of_row(t, r)[l] = row->at;
     }
 }
 
 static void
-set_steps(qdot_lanes *t)
+copy_steps(qdot_lanes *t)
 {
     for (size_t i = 0; i < t->program->steps.n; i++) {
         const qdot_program_step *s = t->program->steps.at + i;
@@ -179,24 +179,24 @@ set_steps(qdot_lanes *t)
             .newest = t->motion ? s->newest : UCHAR_MAX,
             .still = s->still,
             .kept = s->kept || !t->motion,
-            .to = lanes_place(t, s->to),
-            .second = lanes_place(t, s->second),
-            .third = lanes_place(t, s->third),
-            .d = lanes_place(t, s->d),
+            .to = address_of_row(t, s->to),
+            .second = address_of_row(t, s->second),
+            .third = address_of_row(t, s->third),
+            .d = address_of_row(t, s->d),
             .c = s->op == QDOT_T_RATE ? t->per_unit : t->inverses + i * QDOT_LANES,
-            .x = lanes_place(t, s->x),
-            .y = lanes_place(t, s->y),
-            .z = lanes_place(t, s->z)};
+            .x = address_of_row(t, s->x),
+            .y = address_of_row(t, s->y),
+            .z = address_of_row(t, s->z)};
     }
 }
 
-/* Allocate and fill everything that depends on the program only. */
+/* Allocate and fill everything that depends only on the program. */
 static qdot_status
 lanes_fill(qdot_lanes *t, bool shaken, int most)
 {
     QDOT_TRY(lanes_allocate(t, most));
     lanes_set_constants(t, shaken);
-    set_steps(t);
+    copy_steps(t);
     for (int k = 1; k <= QDOT_SERIES_MOST; k++)
         t->inverse[k] = 1.0 / k;
     t->kernels = qdot_batch_kernels_get();
@@ -204,7 +204,7 @@ lanes_fill(qdot_lanes *t, bool shaken, int most)
     return QDOT_OK;
 }
 
-/* Make lanes for a program, or for that of a motion. */
+/* Make the coefficient arrays of all lanes for a program, or for the program of a motion. */
 static qdot_status
 lanes_make(const qdot_program *program, const qdot_motion *motion, bool shaken, int most,
            qdot_lanes **lanes)
@@ -268,13 +268,13 @@ qdot_lanes_stride(const qdot_lanes *t)
 const double *
 qdot_lanes_output(const qdot_lanes *t, size_t i)
 {
-    return lanes_place(t, t->program->outputs.at[i]);
+    return address_of_row(t, t->program->outputs.at[i]);
 }
 
 const double *
 qdot_lanes_series(const qdot_lanes *t, qdot_program_row row)
 {
-    return lanes_place(t, row);
+    return address_of_row(t, row);
 }
 
 bool
@@ -289,9 +289,9 @@ qdot_lanes_draw(qdot_lanes *t, const double *time)
     t->kind->draw(t->drawn, t->n_drawn, time);
 }
 
-/* Carry out the steps from index `from` on, each at order k plus its lead. */
+/* Carry out the steps of the program from index `from` on, each at order k plus its lead. */
 static void
-lanes_begin_steps(qdot_lanes *t, int k, size_t from)
+carry_out_steps(qdot_lanes *t, int k, size_t from)
 {
     for (size_t i = from; i < t->program->length; i++) {
         const lanes_step *s = t->steps + i;
@@ -309,7 +309,7 @@ qdot_lanes_order(qdot_lanes *t, int k)
     const qdot_program *p = t->program;
 
     if (k <= 0)
-        lanes_begin_steps(t, k, k > -p->lead ? p->still : 0);
+        carry_out_steps(t, k, k > -p->lead ? p->still : 0);
     else
         t->kind->order(t->kernels, t->steps + p->still, p->length - p->still, k, t->inverse);
 }
@@ -332,11 +332,11 @@ qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
         t->per_unit[l] = 1 / unit[l];
 }
 
-/* Store order k of an unknown, and the resulting coefficients of its integrals. */
+/* Store order k of an unknown, and the coefficients of its integrals (velocity, position) that follow. */
 static void
-lanes_put_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
+store_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
 {
-    double *row = lanes_place(t, u->row), *once = lanes_place(t, u->once), *twice = lanes_place(t, u->twice);
+    double *row = address_of_row(t, u->row), *once = address_of_row(t, u->once), *twice = address_of_row(t, u->twice);
 
     if (row)
         memcpy(row + k * QDOT_LANES, a, QDOT_LANES * sizeof *a);
@@ -348,10 +348,10 @@ lanes_put_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const doubl
 }
 
 static void
-lanes_clear_row(const qdot_lanes *t, qdot_program_row row, int k)
+clear_coefficient(const qdot_lanes *t, qdot_program_row row, int k)
 {
     if (row != QDOT_NO_ROW)
-        memset(lanes_place(t, row) + k * QDOT_LANES, 0, QDOT_LANES * sizeof(double));
+        memset(address_of_row(t, row) + k * QDOT_LANES, 0, QDOT_LANES * sizeof(double));
 }
 
 void
@@ -362,23 +362,23 @@ qdot_lanes_stage(qdot_lanes *t, int k)
     for (size_t i = 0; i < m->solved.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[i];
 
-        lanes_clear_row(t, u->row, k);
-        lanes_clear_row(t, u->once, k + 1);
-        lanes_clear_row(t, u->twice, k + 2);
+        clear_coefficient(t, u->row, k);
+        clear_coefficient(t, u->once, k + 1);
+        clear_coefficient(t, u->twice, k + 2);
     }
     qdot_lanes_order(t, k);
     for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
 
         if (u->value != QDOT_NO_ROW)
-            lanes_put_unknown(t, u, lanes_place(t, u->value) + k * QDOT_LANES, k);
+            store_unknown(t, u, address_of_row(t, u->value) + k * QDOT_LANES, k);
     }
 }
 
 static void
 change_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *by, int k)
 {
-    double *row = lanes_place(t, u->row), *once = lanes_place(t, u->once), *twice = lanes_place(t, u->twice);
+    double *row = address_of_row(t, u->row), *once = address_of_row(t, u->once), *twice = address_of_row(t, u->twice);
     double by_once[QDOT_LANES], by_twice[QDOT_LANES];
     const size_t note = t->stride - 1;
 

@@ -13,15 +13,15 @@
 #include "num/batch.h"
 #include "series/motion.h"
 
-/* Evaluate out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
+/* Evaluate a tape in all lanes: out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
 void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work);
-/* As qdot_lanes_eval, with sines and cosines computed as in series. */
+/* Evaluate like qdot_lanes_eval, but with sines and cosines computed as in the Taylor series. */
 void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work);
 
-/* The series program with its coefficients, one for each thread. */
+/* A series program with its coefficients in all lanes; each thread needs its own. */
 typedef struct qdot_lanes qdot_lanes;
 
-/* As qdot_taylor_of_program; the program is borrowed. */
+/* Make an object like qdot_taylor_of_program, for several lanes; the program is borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_lanes_of_program(const qdot_program *program, bool shaken,
                                                   int most, qdot_lanes **lanes);
 void qdot_lanes_free(qdot_lanes *lanes);
@@ -33,10 +33,10 @@ size_t qdot_lanes_stride(const qdot_lanes *lanes);
 const double *qdot_lanes_output(const qdot_lanes *lanes, size_t i);
 bool qdot_lanes_is_constant(const qdot_lanes *lanes, size_t i);
 
-/* As qdot_taylor_draw; t is a group, with one time for each lane. */
+/* Choose randomly rounded constants as qdot_taylor_draw does; t is a group, one time for each lane. */
 void qdot_lanes_draw(qdot_lanes *lanes, const double *t);
 
-/* As qdot_taylor_order, qdot_taylor_change; newest [n groups]. */
+/* Compute orders as qdot_taylor_order and qdot_taylor_change do; newest [n groups]. */
 void qdot_lanes_order(qdot_lanes *lanes, int k);
 void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest);
 
@@ -45,7 +45,7 @@ void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest
 typedef struct {
     const qdot_program *program;
     double *coefficients;
-    size_t stride, group; /* in doubles: distance of two rows in groups; size of a group */
+    size_t stride, group; /* distance of two rows, in groups; size of a group, in doubles */
 } qdot_lanes_rows;
 
 qdot_lanes_rows qdot_lanes_get_rows(qdot_lanes *lanes);

@@ -4,11 +4,11 @@
 
 #include <string.h>
 
-/* The largest numbers of rows that a step reads and writes. */
+/* The largest numbers of rows that a step of the program reads, and that it writes. */
 enum { READS = 3, WRITES = 4 };
 
 static void
-reads_of(const qdot_program_step *s, qdot_program_row rows[READS])
+list_rows_read(const qdot_program_step *s, qdot_program_row rows[READS])
 {
     rows[0] = s->x;
     rows[1] = s->y;
@@ -16,7 +16,7 @@ reads_of(const qdot_program_step *s, qdot_program_row rows[READS])
 }
 
 static void
-writes_of(const qdot_program_step *s, qdot_program_row rows[WRITES])
+list_rows_written(const qdot_program_step *s, qdot_program_row rows[WRITES])
 {
     rows[0] = s->to;
     rows[1] = s->second;
@@ -24,14 +24,14 @@ writes_of(const qdot_program_step *s, qdot_program_row rows[WRITES])
     rows[3] = s->d;
 }
 
-/* The number of orders by which a step reads its operands ahead of its result. */
+/* The number of orders by which a step must read its operands ahead of its result. */
 static int
-step_reads_ahead(const qdot_program_step *s)
+orders_read_ahead(const qdot_program_step *s)
 {
     return s->op == QDOT_T_RATE;
 }
 
-/* Find the lead of each step: the largest that is asked of its rows; it asks the same of its operands. */
+/* Find the lead of each step (by how many orders it is ahead): the largest lead asked of its rows. */
 static void
 find_leads(qdot_program *p)
 {
@@ -41,7 +41,7 @@ find_leads(qdot_program *p)
         qdot_program_step *s = p->steps.at + i;
 
         s->lead = 0;
-        writes_of(s, rows);
+        list_rows_written(s, rows);
         for (int k = 0; k < WRITES; k++)
             if (rows[k] != QDOT_NO_ROW && p->rows.at[rows[k]].lead > s->lead)
                 s->lead = (signed char)p->rows.at[rows[k]].lead;
@@ -50,19 +50,19 @@ find_leads(qdot_program *p)
                 p->rows.at[rows[k]].lead = s->lead;
         if (s->lead > p->lead)
             p->lead = s->lead;
-        reads_of(s, rows);
+        list_rows_read(s, rows);
         for (int k = 0; k < READS; k++) {
             qdot_program_row_info *row = p->rows.at + rows[k];
 
-            if (row->lead < s->lead + step_reads_ahead(s))
-                row->lead = s->lead + step_reads_ahead(s);
+            if (row->lead < s->lead + orders_read_ahead(s))
+                row->lead = s->lead + orders_read_ahead(s);
         }
     }
 }
 
-/* Record that an input is known to that lead; newest [rows]: rows that contain unknowns. */
+/* Record the order (lead) to which an input is known; newest [rows]: rows that contain unknowns. */
 static qdot_status
-row_settle(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *newest)
+record_known_row(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *newest)
 {
     qdot_program_row_info *row;
 
@@ -78,18 +78,18 @@ row_settle(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *ne
 }
 
 static qdot_status
-settle_unknown(qdot_motion *m, const qdot_motion_unknown *u, bool *newest)
+record_known_unknown(qdot_motion *m, const qdot_motion_unknown *u, bool *newest)
 {
     const bool solved = u->value == QDOT_NO_ROW;
 
-    QDOT_TRY(row_settle(m, u->row, 0, solved, newest));
-    QDOT_TRY(row_settle(m, u->once, solved ? 1 : 0, solved, newest));
-    return row_settle(m, u->twice, solved ? 2 : 0, solved, newest);
+    QDOT_TRY(record_known_row(m, u->row, 0, solved, newest));
+    QDOT_TRY(record_known_row(m, u->once, solved ? 1 : 0, solved, newest));
+    return record_known_row(m, u->twice, solved ? 2 : 0, solved, newest);
 }
 
-/* Mark the operands that a step reads at their newest order. */
+/* Mark those operands that a step reads at their newest order. */
 static void
-find_newest(qdot_program *p, bool *newest)
+mark_newest_operands(qdot_program *p, bool *newest)
 {
     qdot_program_row rows[WRITES];
 
@@ -97,26 +97,26 @@ find_newest(qdot_program *p, bool *newest)
         qdot_program_step *s = p->steps.at + i;
 
         s->newest = 0;
-        reads_of(s, rows);
+        list_rows_read(s, rows);
         for (int k = 0; k < READS; k++)
-            if (newest[rows[k]] && p->rows.at[rows[k]].lead == s->lead + step_reads_ahead(s))
+            if (newest[rows[k]] && p->rows.at[rows[k]].lead == s->lead + orders_read_ahead(s))
                 s->newest |= (unsigned char)(QDOT_X_NEWEST << k);
-        writes_of(s, rows);
+        list_rows_written(s, rows);
         for (int k = 0; k < WRITES; k++)
             if (rows[k] != QDOT_NO_ROW)
                 newest[rows[k]] = s->newest != 0;
     }
 }
 
-/* Whether the step's sums contain lower orders of its own results or of its operands. */
+/* Whether the sums of a step contain lower orders of its own results or of its operands. */
 static bool
-sums_itself(const qdot_program_step *s)
+sums_lower_orders(const qdot_program_step *s)
 {
     return qdot_recurrence_looks_back(s->op) && s->op > QDOT_T_NMADD;
 }
 
 static bool
-sums_over(const qdot_program_step *s, int operand)
+sums_lower_orders_of(const qdot_program_step *s, int operand)
 {
     return qdot_recurrence_looks_back(s->op) && (operand < 2 || s->op > QDOT_T_NMADD);
 }
@@ -124,7 +124,7 @@ sums_over(const qdot_program_step *s, int operand)
 /* A step is kept if a row of it is read at lower orders, by a step that leads less, or by one
  * that is kept; read [rows]. */
 static void
-find_kept(qdot_program *p, bool *read)
+mark_kept_steps(qdot_program *p, bool *read)
 {
     qdot_program_row rows[WRITES];
 
@@ -133,14 +133,14 @@ find_kept(qdot_program *p, bool *read)
     for (size_t i = p->length; i-- > p->still;) {
         qdot_program_step *s = p->steps.at + i;
 
-        s->kept = s->newest && sums_itself(s);
-        writes_of(s, rows);
+        s->kept = s->newest && sums_lower_orders(s);
+        list_rows_written(s, rows);
         for (int k = 0; k < WRITES; k++)
             s->kept = s->kept || (s->newest && rows[k] != QDOT_NO_ROW && read[rows[k]]);
-        reads_of(s, rows);
+        list_rows_read(s, rows);
         for (int k = 0; k < READS; k++)
-            read[rows[k]] = read[rows[k]] || s->kept || sums_over(s, k)
-                            || p->rows.at[rows[k]].lead > s->lead + step_reads_ahead(s);
+            read[rows[k]] = read[rows[k]] || s->kept || sums_lower_orders_of(s, k)
+                            || p->rows.at[rows[k]].lead > s->lead + orders_read_ahead(s);
     }
 }
 
@@ -155,11 +155,11 @@ qdot_motion_arrange(qdot_motion *m)
         return QDOT_ENOMEM;
     find_leads(p);
     for (size_t i = 0; i < m->unknowns.n && status == QDOT_OK; i++)
-        status = settle_unknown(m, m->unknowns.at + i, newest);
+        status = record_known_unknown(m, m->unknowns.at + i, newest);
     if (status == QDOT_OK) {
-        find_newest(p, newest);
+        mark_newest_operands(p, newest);
         memset(newest, 0, p->rows.n * sizeof *newest);
-        find_kept(p, newest);
+        mark_kept_steps(p, newest);
     }
     qdot_free(newest);
     return status;
@@ -206,7 +206,7 @@ qdot_motion_end_block(qdot_motion *m)
 }
 
 static void
-line_add_product(qdot_program_builder *b, qdot_program_row K, qdot_program_row u, qdot_motion_line *to)
+add_product_to_equation(qdot_program_builder *b, qdot_program_row K, qdot_program_row u, qdot_motion_line *to)
 {
     if (to->right == QDOT_NO_ROW)
         return;
@@ -214,7 +214,7 @@ line_add_product(qdot_program_builder *b, qdot_program_row K, qdot_program_row u
                                  : qdot_program_operation(b, QDOT_OP_MADD, K, u, to->E);
 }
 
-/* Write equations; constant factors come last, as they add nothing before the unknowns are known. */
+/* Write the equations as rows; constant factors come last, as they add nothing before the unknowns are known. */
 void
 qdot_motion_write(const qdot_motion *m, qdot_program_builder *b, size_t from,
                   qdot_motion_line *lines, size_t first, size_t end)
@@ -228,9 +228,9 @@ qdot_motion_write(const qdot_motion *m, qdot_program_builder *b, size_t from,
 
             if (m->program.rows.n > 0 /* none: its end fails */ && m->program.rows.at[x->at].still != number)
                 continue;
-            line_add_product(b, x->at, lines[x->j].u, lines + x->i);
+            add_product_to_equation(b, x->at, lines[x->j].u, lines + x->i);
             if (x->i != x->j)
-                line_add_product(b, x->at, lines[x->i].u, lines + x->j);
+                add_product_to_equation(b, x->at, lines[x->i].u, lines + x->j);
         }
     for (size_t i = first; i < end; i++)
         if (lines[i].right != QDOT_NO_ROW && lines[i].E == QDOT_NO_ROW)

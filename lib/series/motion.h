@@ -36,12 +36,12 @@
 #include "series/program.h"
 
 typedef struct {
-    qdot_program_row value;       /* the row that gives the unknown; QDOT_NO_ROW: it is solved for */
-    qdot_program_row row;         /* the row of the unknown u; QDOT_NO_ROW: nothing reads it */
-    qdot_program_row once, twice; /* rows of the integrals of u, u' = rate of once; QDOT_NO_ROW: no such input */
+    qdot_program_row value;       /* the row that gives the unknown; QDOT_NO_ROW: the unknown is solved for */
+    qdot_program_row row;         /* the row of the unknown u itself; QDOT_NO_ROW: no step reads it */
+    qdot_program_row once, twice; /* rows of the first and second integral of u by t; QDOT_NO_ROW: there is no such input */
 } qdot_motion_unknown;
 
-/* An entry of K: K_ij and K_ji are order 0 of a row. */
+/* An entry of the matrix K of the equations: K_ij and K_ji are the coefficient of order 0 of a row. */
 typedef struct {
     uint32_t i, j;
     qdot_program_row at;
@@ -50,13 +50,13 @@ typedef struct {
 typedef struct {
     qdot_program program;
     qdot_vec(qdot_motion_unknown) unknowns;
-    qdot_vec(uint32_t) solved; /* indices in `unknowns` of those that equations determine */
-    qdot_vec(qdot_program_row) equations; /* [solved.n] rows of the equations E; K couples only unknowns of one block */
+    qdot_vec(uint32_t) solved; /* indices in `unknowns` of those unknowns that equations determine */
+    qdot_vec(qdot_program_row) equations; /* [solved.n] rows of the residuals E; K couples unknowns of one block only */
     qdot_vec(uint32_t) blocks; /* first index in `solved` of each block, and the end of the last block */
     qdot_vec(qdot_motion_entry) entries;  /* K, its other entries 0; none: it follows from steps
                                              that are `newest` (_column of an executor) */
-    qdot_vec(qdot_program_row) right; /* right sides of the explicit equations, which are the first right.n equations */
-    size_t written; /* number of steps at the end of the program that compute only these equations' rows */
+    qdot_vec(qdot_program_row) right; /* right-hand sides of the explicit equations, which are the first right.n equations */
+    size_t written; /* number of steps at the end of the program that compute only the rows of explicit equations */
 } qdot_motion;
 
 /* Once the program has ended: the leads of steps and rows, which steps are `newest`, and which of
@@ -77,7 +77,7 @@ QDOT_MUST_CHECK qdot_status qdot_motion_solve(qdot_motion *motion, qdot_motion_u
                                               qdot_program_row equation);
 QDOT_MUST_CHECK qdot_status qdot_motion_end_block(qdot_motion *motion);
 
-/* An unknown that is solved for: the right side of its equation (QDOT_NO_ROW: not in rows); its residual E. */
+/* An unknown that is solved for: rows of u, of its equation's right side (QDOT_NO_ROW: none), of the residual E. */
 typedef struct {
     qdot_program_row u, right, E;
 } qdot_motion_line;
@@ -94,7 +94,7 @@ qdot_motion_is_explicit(const qdot_motion *m)
     return m->right.n == m->solved.n;
 }
 
-/* The first stage: order 0 of the rows with the largest lead. */
+/* The first stage of an expansion, at which the rows with the largest lead have order 0. */
 static inline int
 qdot_motion_first(const qdot_motion *m)
 {

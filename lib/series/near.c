@@ -1,4 +1,4 @@
-/* near.c -- shortens a step near negligible terms: sums that grow with it, polynomials at a few points. */
+/* near.c -- shortens a step so that no term that is negligible at its start can grow unseen. */
 #include "series/near.h"
 
 #include <float.h>
@@ -14,7 +14,7 @@ qdot_near_limit(int p, double u0, double digits)
     return fmax(0.5 * (p + 1), fabs(u0) - digits - QDOT_NEAR_BEYOND);
 }
 
-/* The sum of |x_k| s^k over k >= 1, in two partial sums that the processor computes in parallel. */
+/* The sum of |x_k| s^k over k >= 1, by even and odd orders, which the processor sums in parallel. */
 double
 qdot_near_sum(int p, const double *x, double s)
 {
@@ -32,7 +32,7 @@ qdot_near_sum(int p, const double *x, double s)
 }
 
 static double
-sum_of_sizes(int p, const double *log2_sizes, double log2_h)
+sum_of_magnitudes(int p, const double *log2_sizes, double log2_h)
 {
     double sum = 0;
 
@@ -44,7 +44,7 @@ sum_of_sizes(int p, const double *log2_sizes, double log2_h)
 double
 qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
 {
-    double high = INFINITY, low; /* upper end: one term alone reaches the limit; lower end: each term has 1/p of it */
+    double high = INFINITY, low; /* bounds: at `high` one term alone reaches the limit; at `low` each term has 1/p of it */
 
     for (int k = 1; k <= p; k++)
         if (log2_sizes[k] > -INFINITY)
@@ -53,12 +53,12 @@ qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
     if (!(log2_h > low))
         return log2_h;
     high = fmin(high, log2_h);
-    if (sum_of_sizes(p, log2_sizes, high) <= limit)
+    if (sum_of_magnitudes(p, log2_sizes, high) <= limit)
         return high;
     for (int i = 0; i < halvings; i++) {
         const double middle = 0.5 * (low + high);
 
-        if (sum_of_sizes(p, log2_sizes, middle) <= limit)
+        if (sum_of_magnitudes(p, log2_sizes, middle) <= limit)
             low = middle;
         else
             high = middle;
@@ -88,7 +88,7 @@ static const double well_before = 8;
 enum { quarters = 4, shorter = 40 };
 
 static double
-polynomial_value(int p, const double *b, double s)
+evaluate_polynomial(int p, const double *b, double s)
 {
     double sum = b[p];
 
@@ -97,12 +97,12 @@ polynomial_value(int p, const double *b, double s)
     return sum;
 }
 
-/* The first quarter of the step after which b is much smaller than b_0; 0 if there is none. */
+/* The first quarter of the step at whose end the divisor b is much smaller than b_0; 0 if there is none. */
 static int
-falls_in(int p, const double *b, double s)
+quarter_where_divisor_falls(int p, const double *b, double s)
 {
     for (int j = 1; j <= quarters; j++)
-        if (!(polynomial_value(p, b, s * j / quarters) / b[0] >= QDOT_NEAR_LEFT))
+        if (!(evaluate_polynomial(p, b, s * j / quarters) / b[0] >= QDOT_NEAR_LEFT))
             return j;
     return 0;
 }
@@ -118,7 +118,7 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
 {
     const double size = fabs(b[0]), whole = s;
 
-    if (isinf(s)) { /* a single term already exceeds the limit there */
+    if (isinf(s)) { /* a single term of the sum already exceeds the limit there */
         double least = 0;
 
         for (int k = 1; k <= p; k++)
@@ -131,11 +131,11 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
     for (int i = 0; i < shorter && !(qdot_near_sum(p, b, s) <= well_before * size); i++)
         s *= 0.5;
     for (int i = 0; i < shorter; i++) {
-        const int j = falls_in(p, b, s);
+        const int j = quarter_where_divisor_falls(p, b, s);
 
         if (j == 0)
             return s;
-        if (root && polynomial_value(p, b, s * j / quarters) / b[0] <= 0)
+        if (root && evaluate_polynomial(p, b, s * j / quarters) / b[0] <= 0)
             return whole;
         s *= j > 1 ? (double)(j - 1) / quarters : 0.5 / quarters;
     }

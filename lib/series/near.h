@@ -28,10 +28,10 @@
 /* The threshold E above, without the digits of the numbers themselves: 20 more, in powers of e. */
 #define QDOT_NEAR_BEYOND 20.0
 
-/* The sum of |x_k| s^k over k >= 1, from x [p + 1]. */
+/* The sum of |x_k| s^k over k >= 1 of a series with coefficients x [p + 1]. */
 double qdot_near_sum(int p, const double *x, double s);
 
-/* The bound on u described above, where u_0 is the argument of an exponential. */
+/* The largest change of u within a step, if u, with coefficient u_0, is the argument of an exponential. */
 double qdot_near_limit(int p, double u0, double digits);
 
 /* log2 of the longest step, at most log2_h (INFINITY: any), whose sum over the sizes, log2 |u_k|
@@ -66,7 +66,7 @@ qdot_near_taken(double s, double near, double least)
 }
 #define QDOT_NEAR_FINER 0x1p-20
 
-/* Whether the series [p + 1] of a quotient has terms at s as large as its first. */
+/* Whether the series [p + 1] of a quotient has, at the end s of the step, terms as large as its first one. */
 bool qdot_near_diverges(int p, const double *quotient, double s);
 
 #endif

@@ -1,4 +1,4 @@
-/* precise.c -- evaluates a series program in MPFR numbers. */
+/* precise.c -- evaluates a series program in MPFR numbers, to many digits. */
 #include "series/precise.h"
 
 #include <math.h>
@@ -8,19 +8,19 @@
 #include "num/real.h"
 #include "series/near.h"
 
-/* Temporaries: U1 and U2 of recurrence.def, and one for sums. */
+/* Number of temporaries: U1 and U2 of recurrence.def, and one for sums. */
 enum { SCRATCH = 3 };
 
 struct qdot_precise {
     const qdot_program *program;
-    const qdot_motion *motion; /* the motion that it computes; NULL: the tape whose program is */
+    const qdot_motion *motion; /* the motion that is computed; NULL: the tape from which the program was made */
     qdot_program own;
     size_t stride;
-    qdot_reals numbers; /* [rows x stride] coefficients, rows of inputs first */
+    qdot_reals numbers; /* [rows x stride] Taylor coefficients, rows of inputs first */
     qdot_reals scratch; /* [SCRATCH] numbers for intermediate results */
-    mp_limb_t *work;    /* limbs of work space for sums of products */
-    mpfr_t *w;          /* the same numbers: scratch.at */
-    qdot_reals notes; /* [rows] of a motion: the change of the newest coefficient of each row; 0 between calls */
+    mp_limb_t *work;    /* work space for sums of products, in machine words */
+    mpfr_t *w;          /* the scratch numbers once more: scratch.at */
+    qdot_reals notes; /* [rows] for a motion: the change of the newest coefficient of each row; 0 between calls */
 };
 
 /* Orders that are looked at of arguments of exponentials: those beyond add little to a step that
@@ -30,14 +30,14 @@ enum { QDOT_PRECISE_NEAR = 200 };
 #define RN MPFR_RNDN
 
 static inline mpfr_t *
-precise_place(const qdot_precise *p, qdot_program_row row)
+coefficients_of(const qdot_precise *p, qdot_program_row row)
 {
     return p->numbers.at + (size_t)row * p->stride;
 }
 
 /* --- sums of products --------------------------------------------------------------- */
 
-/* Set sum to the convolution of a_j b_{k-j} over j = from..k-below. */
+/* Set sum to the convolution sum of a_j b_{k-j} over j = from ... k - below. */
 static void
 convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k, int from,
          int below)
@@ -50,7 +50,7 @@ convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k,
         mpfr_set_zero(sum, 1);
 }
 
-/* Set sum to the convolution of a_j a_{k-j} over j = from..k-from; w[2] is used. */
+/* Set sum to the convolution sum of a_j a_{k-j} over j = from ... k - from; uses w[2]. */
 static void
 convolve_square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
 {
@@ -68,7 +68,7 @@ convolve_square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
 
 /* --- evaluation of order 0 ----------------------------------------------------------- */
 
-/* Set d = a - b floor(a/b). */
+/* Set d to the remainder a - b floor(a/b). */
 static void
 mpfr_modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
 {
@@ -78,7 +78,7 @@ mpfr_modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
     mpfr_sub(d, a, w, RN);
 }
 
-/* Set d = tanh(a) and slope = 1 - tanh(a)^2. */
+/* Set d = tanh(a) and slope to the derivative 1 - tanh(a)^2. */
 static void
 hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
 {
@@ -87,7 +87,7 @@ hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
     mpfr_ui_sub(slope, 1, slope, RN);
 }
 
-/* Set d = log(1 + e^a). */
+/* Set d to the softplus function log(1 + e^a). */
 static void
 mpfr_softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
 {
@@ -105,21 +105,21 @@ mpfr_softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
 }
 
 static void
-precise_value(qdot_precise *p, const qdot_program_step *i)
+evaluate_order_zero(qdot_precise *p, const qdot_program_step *i)
 {
-    mpfr_srcptr a = precise_place(p, i->x)[0], b = precise_place(p, i->y)[0], c = precise_place(p, i->z)[0];
-    mpfr_ptr d = precise_place(p, i->to)[0], w = p->w[0];
+    mpfr_srcptr a = coefficients_of(p, i->x)[0], b = coefficients_of(p, i->y)[0], c = coefficients_of(p, i->z)[0];
+    mpfr_ptr d = coefficients_of(p, i->to)[0], w = p->w[0];
 
     switch (i->zero) {
 #define NOT_IN_PROGRAMS mpfr_set_nan(d)
-#define other precise_place(p, i->second)[0]
+#define other coefficients_of(p, i->second)[0]
 #define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, two, precise, ...) \
     case QDOT_OP_##ID: precise; break;
 #include "tape/operation.def"
 #undef X
     case QDOT_ZERO_POWER: mpfr_pow(d, b, c, RN); break;
     case QDOT_ZERO_SINHCOSH: mpfr_sinh_cosh(d, other, a, RN); break;
-    case QDOT_ZERO_RATE: mpfr_set(d, precise_place(p, i->x)[1], RN); break;
+    case QDOT_ZERO_RATE: mpfr_set(d, coefficients_of(p, i->x)[1], RN); break;
     default: mpfr_set_nan(d);
 #undef other
 #undef NOT_IN_PROGRAMS
@@ -128,12 +128,12 @@ precise_value(qdot_precise *p, const qdot_program_step *i)
 
 /* --- evaluation of order k ----------------------------------------------------------- */
 
-#define ROW(row) precise_place(precise, i->row)
+#define ROW(row) coefficients_of(precise, i->row)
 #define U1 precise->w[0]
 #define U2 precise->w[1]
 
 static void
-precise_order(qdot_precise *precise, const qdot_program_step *i, int k)
+evaluate_step(qdot_precise *precise, const qdot_program_step *i, int k)
 {
     switch (i->op) {
 #define NEWEST(row) ROW(row)[k]
@@ -145,7 +145,7 @@ precise_order(qdot_precise *precise, const qdot_program_step *i, int k)
     }
 }
 
-/* Compute the coefficients of order k of all steps, each shifted by the step's lead. */
+/* Compute the coefficients of order k of all steps, each at order k plus the step's lead. */
 void
 qdot_precise_order(qdot_precise *p, int k)
 {
@@ -153,21 +153,21 @@ qdot_precise_order(qdot_precise *p, int k)
 
     for (; i->op != QDOT_T_END; i++)
         if (k + i->lead > 0)
-            precise_order(p, i, k + i->lead);
+            evaluate_step(p, i, k + i->lead);
         else if (k + i->lead == 0 || i->still)
-            precise_value(p, i);
+            evaluate_order_zero(p, i);
 }
 
 /* --- unknowns: accelerations and multipliers ----------------------------------------- */
 
-/* Coefficient k of a row if it exists; otherwise NULL. */
+/* Coefficient k of a row; NULL if the row does not exist. */
 static mpfr_ptr
 precise_at(const qdot_precise *p, qdot_program_row row, int k)
 {
-    return row != QDOT_NO_ROW && (size_t)k < p->stride ? precise_place(p, row)[k] : NULL;
+    return row != QDOT_NO_ROW && (size_t)k < p->stride ? coefficients_of(p, row)[k] : NULL;
 }
 
-/* Compute the coefficients of the integrals of an unknown from its order k. */
+/* Compute the coefficients of the integrals of an unknown (velocity, position) from its coefficient of order k. */
 static void
 precise_integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr a, int k)
 {
@@ -180,7 +180,7 @@ precise_integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcp
 }
 
 static void
-precise_clear_unknown(const qdot_precise *p, const qdot_motion_unknown *u, int k)
+clear_unknown(const qdot_precise *p, const qdot_motion_unknown *u, int k)
 {
     const mpfr_ptr newest[] = {precise_at(p, u->row, k), precise_at(p, u->once, k + 1), precise_at(p, u->twice, k + 2)};
 
@@ -195,7 +195,7 @@ qdot_precise_stage(qdot_precise *p, int k)
     const qdot_motion *m = p->motion;
 
     for (size_t i = 0; i < m->solved.n && k >= 0; i++)
-        precise_clear_unknown(p, m->unknowns.at + m->solved.at[i], k);
+        clear_unknown(p, m->unknowns.at + m->solved.at[i], k);
     qdot_precise_order(p, k);
     for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
@@ -203,15 +203,15 @@ qdot_precise_stage(qdot_precise *p, int k)
         if (u->value == QDOT_NO_ROW)
             continue;
         if (u->row != QDOT_NO_ROW)
-            mpfr_set(precise_place(p, u->row)[k], precise_place(p, u->value)[k], RN);
-        precise_integrate(p, u, precise_place(p, u->value)[k], k);
+            mpfr_set(coefficients_of(p, u->row)[k], coefficients_of(p, u->value)[k], RN);
+        precise_integrate(p, u, coefficients_of(p, u->value)[k], k);
     }
 }
 
 /* Find the changes of the rows of a step from the changes of its operands; operands that were known already do not
  * change. */
 static void
-note_step(qdot_precise *precise, const qdot_program_step *i, int k)
+change_of_step(qdot_precise *precise, const qdot_program_step *i, int k)
 {
     mpfr_t *note = precise->notes.at, *zero = note + precise->program->rows.n;
     mpfr_ptr note_x = i->newest & QDOT_X_NEWEST ? note[i->x] : *zero;
@@ -256,9 +256,9 @@ precise_apply_note(qdot_precise *p, qdot_program_row row, int k)
         mpfr_add(x, x, p->notes.at[row], RN);
 }
 
-/* Record the changes for an unknown that changes by d at stage k. */
+/* Record the changes of the rows of an unknown that changes by d at stage k. */
 static void
-note_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k)
+record_change_of_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k)
 {
     mpfr_t *note = p->notes.at;
 
@@ -270,15 +270,15 @@ note_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k
         mpfr_div_ui(note[u->twice], note[u->once], (unsigned long)k + 2, RN);
 }
 
-/* Compute the changes of the rows of all steps, or only of those that later orders read. */
+/* Compute the changes of the rows of all steps, or (all false) only of steps that later orders read. */
 static void
-note_steps(qdot_precise *p, int k, bool all)
+find_changes_of_steps(qdot_precise *p, int k, bool all)
 {
     const qdot_program_step *i = p->program->steps.at + p->program->still;
 
     for (; i->op != QDOT_T_END; i++)
         if (i->kept || (all && i->newest))
-            note_step(p, i, k + i->lead);
+            change_of_step(p, i, k + i->lead);
 }
 
 void
@@ -290,12 +290,12 @@ qdot_precise_change(qdot_precise *p, int k, const mpfr_t *by)
     for (size_t j = 0; j < m->solved.n; j++) {
         const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[j];
 
-        note_unknown(p, u, by[j], k);
+        record_change_of_unknown(p, u, by[j], k);
         precise_apply_note(p, u->row, k);
         precise_apply_note(p, u->once, k + 1);
         precise_apply_note(p, u->twice, k + 2);
     }
-    note_steps(p, k, false);
+    find_changes_of_steps(p, k, false);
     for (; i->op != QDOT_T_END; i++)
         if (i->kept) {
             precise_apply_note(p, i->to, k + i->lead);
@@ -312,16 +312,16 @@ qdot_precise_column(qdot_precise *p, size_t first, size_t n, size_t j, mpfr_t *c
 
     for (size_t i = 0; i < m->solved.n; i++) {
         mpfr_set_ui(p->w[0], i == first + j, RN);
-        note_unknown(p, m->unknowns.at + m->solved.at[i], p->w[0], 0);
+        record_change_of_unknown(p, m->unknowns.at + m->solved.at[i], p->w[0], 0);
     }
-    note_steps(p, 0, true);
+    find_changes_of_steps(p, 0, true);
     for (size_t i = 0; i < n; i++)
         mpfr_set(column[i * n], p->notes.at[m->equations.at[first + i]], RN);
 }
 
-/* Shorten a step so that the argument of an exponential, `times` u, does not change by too much. */
+/* Shorten a step so that the argument of an exponential, `times` u, changes by no more than the limit of near.h. */
 static double
-near_argument(const mpfr_t *u, int k, double times, double digits, double log2_h)
+step_for_argument(const mpfr_t *u, int k, double times, double digits, double log2_h)
 {
     double sizes[QDOT_PRECISE_NEAR + 1];
     const double limit = qdot_near_limit(k, times * mpfr_get_d(u[0], RN), digits) / times;
@@ -331,9 +331,9 @@ near_argument(const mpfr_t *u, int k, double times, double digits, double log2_h
     return qdot_near_log2(k, sizes, limit, log2_h);
 }
 
-/* Find the terms of a series for the step 2^log2_h, relative to its first term. */
+/* Find the terms of a series at the end of the step 2^log2_h, relative to its first term. */
 static void
-in_parts(const mpfr_t *x, int k, double log2_h, double *out)
+terms_relative_to_first(const mpfr_t *x, int k, double log2_h, double *out)
 {
     const double first = qdot_real_log2(x[0]);
 
@@ -344,31 +344,31 @@ in_parts(const mpfr_t *x, int k, double log2_h, double *out)
 }
 
 static double
-precise_divisor_nearness(const qdot_precise *p, const qdot_program_step *i, int k, double log2_h)
+step_for_divisor(const qdot_precise *p, const qdot_program_step *i, int k, double log2_h)
 {
     const char which = qdot_recurrence_divisor(i->op);
-    const mpfr_t *x = precise_place(p, which == 'x' ? i->x : which == 'y' ? i->y : i->z);
+    const mpfr_t *x = coefficients_of(p, which == 'x' ? i->x : which == 'y' ? i->y : i->z);
     double terms[QDOT_PRECISE_NEAR + 1], most = INFINITY, part;
 
     if (mpfr_zero_p(x[0]))
         return log2_h;
-    for (int j = 1; j <= k; j++) /* up to the s at which one term is eight times the first */
+    for (int j = 1; j <= k; j++) /* end of the search: an s at which one term is eight times the first */
         if (!mpfr_zero_p(x[j]))
             most = fmin(most, (3 + qdot_real_log2(x[0]) - qdot_real_log2(x[j])) / j);
     if (isinf(most))
         return log2_h;
     if (log2_h <= most) {
-        in_parts(x, k, log2_h, terms);
+        terms_relative_to_first(x, k, log2_h, terms);
         if (!qdot_near_may_fall(k, terms, 1))
             return log2_h;
     }
-    if (i->op == QDOT_T_DIV && !isinf(log2_h) && !mpfr_zero_p(precise_place(p, i->to)[0])) {
-        in_parts(precise_place(p, i->to), k, log2_h, terms);
+    if (i->op == QDOT_T_DIV && !isinf(log2_h) && !mpfr_zero_p(coefficients_of(p, i->to)[0])) {
+        terms_relative_to_first(coefficients_of(p, i->to), k, log2_h, terms);
         if (!qdot_near_diverges(k, terms, 1))
             return log2_h;
     }
     most = fmin(log2_h, most);
-    in_parts(x, k, most, terms);
+    terms_relative_to_first(x, k, most, terms);
     part = qdot_near_divisor(k, terms, i->op == QDOT_T_SQRT, 1);
     return part == 1 ? log2_h : most + log2(part);
 }
@@ -385,9 +385,9 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
         const double times = qdot_recurrence_exponential(i->op);
 
         if (times > 0)
-            log2_h = near_argument(precise_place(p, i->x), k, times, digits, log2_h);
+            log2_h = step_for_argument(coefficients_of(p, i->x), k, times, digits, log2_h);
         else if (qdot_recurrence_divisor(i->op))
-            log2_h = precise_divisor_nearness(p, i, k, log2_h);
+            log2_h = step_for_divisor(p, i, k, log2_h);
     }
     return log2_h;
 }
@@ -402,16 +402,16 @@ precise_set_constants(qdot_precise *p, qdot_pool *pool)
 
         if (row->source == QDOT_ROW_CONSTANT)
             QDOT_TRY(qdot_constant_real(pool, p->program->constants.at[row->at].exact,
-                                        precise_place(p, r)[0]));
+                                        coefficients_of(p, r)[0]));
         else if (row->source == QDOT_ROW_WHOLE)
-            mpfr_set_si(precise_place(p, r)[0], row->at, RN);
+            mpfr_set_si(coefficients_of(p, r)[0], row->at, RN);
     }
     return QDOT_OK;
 }
 
-/* Allocate the rows of a program that exists already. */
+/* Allocate the rows of coefficients of a program that exists already. */
 static qdot_status
-precise_make_rows(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
+allocate_rows(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
 {
     p->stride = (size_t)(most + p->program->lead) + 1;
     QDOT_TRY(qdot_reals_init(&p->numbers, p->program->rows.n * p->stride, bits));
@@ -426,8 +426,8 @@ precise_make_rows(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
 }
 
 static qdot_status
-make_new(qdot_pool *pool, const qdot_tape *tape, const qdot_motion *motion, int most,
-         mpfr_prec_t bits, qdot_precise **precise)
+make_precise_program(qdot_pool *pool, const qdot_tape *tape, const qdot_motion *motion, int most,
+                     mpfr_prec_t bits, qdot_precise **precise)
 {
     qdot_precise *p = qdot_calloc(1, sizeof *p);
     qdot_status status = QDOT_OK;
@@ -440,7 +440,7 @@ make_new(qdot_pool *pool, const qdot_tape *tape, const qdot_motion *motion, int 
     if (!motion)
         status = qdot_program_init(tape, qdot_tape_inputs(tape), most == 0, &p->own);
     if (status == QDOT_OK)
-        status = precise_make_rows(p, pool, most, bits);
+        status = allocate_rows(p, pool, most, bits);
     if (status != QDOT_OK) {
         qdot_precise_free(p);
         return status;
@@ -453,14 +453,14 @@ qdot_status
 qdot_precise_new(qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t bits,
                  qdot_precise **precise)
 {
-    return make_new(pool, tape, NULL, most, bits, precise);
+    return make_precise_program(pool, tape, NULL, most, bits, precise);
 }
 
 qdot_status
 qdot_precise_of_motion(qdot_pool *pool, const qdot_motion *motion, int most,
                        mpfr_prec_t bits, qdot_precise **precise)
 {
-    return make_new(pool, NULL, motion, most, bits, precise);
+    return make_precise_program(pool, NULL, motion, most, bits, precise);
 }
 
 void
@@ -479,7 +479,7 @@ qdot_precise_free(qdot_precise *p)
 mpfr_t *
 qdot_precise_input(qdot_precise *p, size_t i)
 {
-    return precise_place(p, (qdot_program_row)i);
+    return coefficients_of(p, (qdot_program_row)i);
 }
 
 size_t
@@ -491,7 +491,7 @@ qdot_precise_stride(const qdot_precise *p)
 const mpfr_t *
 qdot_precise_row(const qdot_precise *p, qdot_program_row row)
 {
-    return (const mpfr_t *)precise_place(p, row);
+    return (const mpfr_t *)coefficients_of(p, row);
 }
 
 const mpfr_t *

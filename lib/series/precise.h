@@ -16,7 +16,7 @@
 
 #include "series/motion.h"
 
-typedef struct qdot_precise qdot_precise; /* must not be shared between threads */
+typedef struct qdot_precise qdot_precise; /* coefficients in many digits; must not be shared between threads */
 
 /* For orders 0 ... most, with numbers of `bits` (rounded up to whole limbs). The pool is
  * used here and not kept; the tape is not kept. Errors: QDOT_ENOTBUILT (most > 0 and an
@@ -31,7 +31,7 @@ void qdot_precise_free(qdot_precise *p);
 mpfr_t *qdot_precise_input(qdot_precise *p, size_t i);
 size_t qdot_precise_stride(const qdot_precise *p);
 
-/* Coefficients by order of output i. */
+/* The Taylor coefficients of output i, by order. */
 const mpfr_t *qdot_precise_output(const qdot_precise *p, size_t i);
 /* log2 of a step, INFINITY for any, or of as much of it as carries no argument of an exponential
  * too far (near.h), orders up to k being there. */

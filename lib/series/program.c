@@ -12,15 +12,15 @@ typedef struct qdot_program_builder builder;
 struct qdot_program_builder {
     qdot_program *program;
     bool values_only;
-    row *at; /* [places] the row that holds the present value of each place of the tape */
-    /* [rows] sine row of the (sin, cos) pair of an argument row; QDOT_NO_ROW: none yet */
+    row *at; /* [places] the row that holds the present value of each place (storage cell) of the tape */
+    /* [rows] row of the sine in the pair (sin, cos) of an argument; QDOT_NO_ROW: there is none yet */
     qdot_vec(row) sincos, sinhcosh;
-    qdot_program_step nothing;       /* after a failure steps are written here and ignored */
+    qdot_program_step nothing;       /* after a failure steps are written into this one and ignored */
     qdot_status status;
 };
 
 static row
-new_row(builder *b, qdot_program_source source, int at, bool still)
+add_new_row(builder *b, qdot_program_source source, int at, bool still)
 {
     const qdot_program_row_info info = {.source = source, .still = still, .at = at};
 
@@ -40,13 +40,13 @@ row_is_constant(const builder *b, row r)
 }
 
 static void
-program_add_step(builder *b, qdot_program_step step)
+append_step(builder *b, qdot_program_step step)
 {
     if (b->status == QDOT_OK)
         b->status = qdot_vec_push(&b->program->steps, step);
 }
 
-/* The step that was added to the program last. */
+/* The step that was appended to the program last. */
 static qdot_program_step *
 last_step(builder *b)
 {
@@ -68,10 +68,10 @@ static row
 program_emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
 {
     const bool still = row_is_constant(b, x) && row_is_constant(b, y) && row_is_constant(b, z);
-    const row to = new_row(b, QDOT_ROW_COMPUTED, 0, still);
+    const row to = add_new_row(b, QDOT_ROW_COMPUTED, 0, still);
 
     b->program->convolutions += still ? 0 : qdot_recurrence_cost(op);
-    program_add_step(b, (qdot_program_step){.op = (uint16_t)op,
+    append_step(b, (qdot_program_step){.op = (uint16_t)op,
                               .zero = (uint16_t)zero,
                               .sign = 1,
                               .still = still,
@@ -85,34 +85,34 @@ program_emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
     return to;
 }
 
-/* Give the last step of the program the additional row that its recurrence needs. */
+/* Give the last step of the program the additional row d that its recurrence needs. */
 static void
-with_d(builder *b)
+add_row_d(builder *b)
 {
-    const row d = new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
+    const row d = add_new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
 
     last_step(b)->d = d;
 }
 
 static void
-with_second(builder *b)
+add_second_row(builder *b)
 {
-    const row second = new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
+    const row second = add_new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
 
     last_step(b)->second = second;
 }
 
 static void
-with_third(builder *b)
+add_third_row(builder *b)
 {
-    const row third = new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
+    const row third = add_new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
 
     last_step(b)->third = third;
 }
 
-/* Add the step constant * x, or constant * x plus or minus z. */
+/* Append the step constant * x, or constant * x plus or minus z. */
 static row
-emit_scaled(builder *b, qdot_op op, row constant, row x, row z)
+append_scaled(builder *b, qdot_op op, row constant, row x, row z)
 {
     static const qdot_recurrence scale[QDOT_OP_COUNT] = {[QDOT_OP_MUL] = QDOT_T_SCALE,
                                                         [QDOT_OP_MADD] = QDOT_T_SCALEADD,
@@ -124,7 +124,7 @@ emit_scaled(builder *b, qdot_op op, row constant, row x, row z)
 }
 
 static row
-emit_product(builder *b, qdot_op op, row x, row y, row z)
+append_product(builder *b, qdot_op op, row x, row y, row z)
 {
     static const qdot_recurrence plain[QDOT_OP_COUNT] = {[QDOT_OP_MUL] = QDOT_T_MUL,
                                                         [QDOT_OP_MADD] = QDOT_T_MADD,
@@ -133,10 +133,10 @@ emit_product(builder *b, qdot_op op, row x, row y, row z)
     row square;
 
     if (row_is_constant(b, x))
-        return emit_scaled(b, op, x, y, z);
+        return append_scaled(b, op, x, y, z);
     if (row_is_constant(b, y))
-        return emit_scaled(b, op, y, x, z);
-    if (x != y) /* the later row first, as rows are computed in order */
+        return append_scaled(b, op, y, x, z);
+    if (x != y) /* take the later row as the first factor, as rows are computed in order */
         return x > y ? program_emit(b, plain[op], op, x, y, z) : program_emit(b, plain[op], op, y, x, z);
     square = program_emit(b, QDOT_T_SQUARE, QDOT_OP_MUL, x, x, x);
     if (op == QDOT_OP_MADD)
@@ -148,7 +148,7 @@ emit_product(builder *b, qdot_op op, row x, row y, row z)
     return square;
 }
 
-/* Find the row of the sine in a pair for x; *cosine: the row of the cosine. */
+/* Find the row of the sine of x, or hyperbolic sine; *cosine: the row of the cosine. Both are made together. */
 static row
 pair(builder *b, qdot_recurrence op, row x, row *cosine)
 {
@@ -163,8 +163,8 @@ pair(builder *b, qdot_recurrence op, row x, row *cosine)
         return *made;
     }
     to = program_emit(b, op, op == QDOT_T_SINCOS ? QDOT_OP_SINCOS : QDOT_ZERO_SINHCOSH, x, x, x);
-    with_second(b);
-    with_d(b);
+    add_second_row(b);
+    add_row_d(b);
     *cosine = to + 1;
     if (b->status == QDOT_OK)
         (op == QDOT_T_SINCOS ? b->sincos.at : b->sinhcosh.at)[x] = to;
@@ -172,13 +172,13 @@ pair(builder *b, qdot_recurrence op, row x, row *cosine)
 }
 
 static row
-whole_number_row(builder *b, int n)
+integer_row(builder *b, int n)
 {
-    return new_row(b, QDOT_ROW_WHOLE, n, true);
+    return add_new_row(b, QDOT_ROW_WHOLE, n, true);
 }
 
 static row
-emit_sum(builder *b, qdot_op op, row x, row y)
+append_sum(builder *b, qdot_op op, row x, row y)
 {
     return program_emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
 }
@@ -193,11 +193,11 @@ root(builder *b, row x)
 static row
 quadratic(builder *b, int c, int d, row x)
 {
-    const row square = emit_product(b, QDOT_OP_MUL, x, x, x), one = whole_number_row(b, 1);
+    const row square = append_product(b, QDOT_OP_MUL, x, x, x), one = integer_row(b, 1);
 
     if (c < 0)
-        return emit_sum(b, QDOT_OP_SUB, square, one);
-    return emit_sum(b, d > 0 ? QDOT_OP_ADD : QDOT_OP_SUB, one, square);
+        return append_sum(b, QDOT_OP_SUB, square, one);
+    return append_sum(b, d > 0 ? QDOT_OP_ADD : QDOT_OP_SUB, one, square);
 }
 
 /* The row of an inverse function or a logarithm f with f(x)' = sign x'/u. */
@@ -207,7 +207,7 @@ ratio(builder *b, qdot_op f, int sign, row x, row u)
     const row to = program_emit(b, QDOT_T_RATIO, f, x, u, u);
 
     last_step(b)->sign = sign;
-    with_d(b);
+    add_row_d(b);
     return to;
 }
 
@@ -217,7 +217,7 @@ along(builder *b, qdot_op f, row x, row slope)
 {
     const row to = program_emit(b, QDOT_T_ALONG, f, x, slope, slope);
 
-    with_d(b);
+    add_row_d(b);
     return to;
 }
 
@@ -226,7 +226,7 @@ exponential(builder *b, row x)
 {
     const row to = program_emit(b, QDOT_T_EXP, QDOT_OP_EXP, x, x, x);
 
-    with_d(b);
+    add_row_d(b);
     return to;
 }
 
@@ -235,8 +235,8 @@ tangent(builder *b, row x)
 {
     const row to = program_emit(b, QDOT_T_TANH, QDOT_OP_TANH, x, x, x);
 
-    with_second(b);
-    with_d(b);
+    add_second_row(b);
+    add_row_d(b);
     return to;
 }
 
@@ -254,29 +254,29 @@ emit_power(builder *b, row x, row exponent)
 
     if (row_is_constant(b, exponent)) {
         to = program_emit(b, QDOT_T_POW, QDOT_OP_POW, x, exponent, exponent);
-        with_d(b);
+        add_row_d(b);
         return to;
     }
-    l = emit_product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, 1, x, x), exponent, exponent);
+    l = append_product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, 1, x, x), exponent, exponent);
     to = program_emit(b, QDOT_T_EXP, QDOT_ZERO_POWER, l, x, exponent);
-    with_d(b);
+    add_row_d(b);
     return to;
 }
 
 static row
 arctangent(builder *b, row y, row x)
 {
-    row xx = emit_product(b, QDOT_OP_MUL, x, x, x), u = emit_product(b, QDOT_OP_MADD, y, y, xx);
+    row xx = append_product(b, QDOT_OP_MUL, x, x, x), u = append_product(b, QDOT_OP_MADD, y, y, xx);
     row to = program_emit(b, QDOT_T_ATAN2, QDOT_OP_ATAN2, y, x, u);
 
-    with_second(b);
-    with_third(b);
-    with_d(b);
+    add_second_row(b);
+    add_third_row(b);
+    add_row_d(b);
     return to;
 }
 
 static row
-build_one(builder *p, const qdot_instruction *i, row *second)
+append_instruction(builder *p, const qdot_instruction *i, row *second)
 {
     const qdot_op op = (qdot_op)i->op;
     const row x = p->at[i->x];
@@ -293,7 +293,7 @@ build_one(builder *p, const qdot_instruction *i, row *second)
     }
 }
 
-/* The name of the first operation on the tape that has no series; NULL if all have one. */
+/* The name of the first operation on the tape that has no Taylor series; NULL if all have one. */
 const char *
 qdot_program_hindrance(const qdot_tape *tape)
 {
@@ -303,9 +303,9 @@ qdot_program_hindrance(const qdot_tape *tape)
     return NULL;
 }
 
-/* Move the steps whose rows are constant to the front, otherwise keeping the order. */
+/* Move the steps whose rows are constant in time to the front, otherwise keeping their order. */
 static qdot_status
-still_ones_first(qdot_program *p)
+move_constant_steps_first(qdot_program *p)
 {
     qdot_program_step *moving = qdot_calloc(p->steps.n + 1, sizeof *moving);
     size_t n = 0;
@@ -346,7 +346,7 @@ qdot_program_begin(size_t inputs, size_t moving, bool values_only, qdot_program 
     b->program = program;
     b->values_only = values_only;
     for (size_t i = 0; i < inputs; i++)
-        new_row(b, QDOT_ROW_INPUT, (int)i, i >= moving);
+        add_new_row(b, QDOT_ROW_INPUT, (int)i, i >= moving);
     return QDOT_OK;
 }
 
@@ -355,13 +355,13 @@ qdot_program_number(builder *b, qdot_program_constant number)
 {
     if (b->status == QDOT_OK)
         b->status = qdot_vec_push(&b->program->constants, number);
-    return new_row(b, QDOT_ROW_CONSTANT, (int)b->program->constants.n - 1, true);
+    return add_new_row(b, QDOT_ROW_CONSTANT, (int)b->program->constants.n - 1, true);
 }
 
 row
 qdot_program_unknown(builder *b)
 {
-    return new_row(b, QDOT_ROW_UNKNOWN, 0, false);
+    return add_new_row(b, QDOT_ROW_UNKNOWN, 0, false);
 }
 
 row
@@ -370,8 +370,8 @@ qdot_program_operation(builder *b, qdot_op op, row x, row y, row z)
     switch (op) {
     case QDOT_OP_NEG: return program_emit(b, QDOT_T_NEG, op, x, x, x);
     case QDOT_OP_ADD:
-    case QDOT_OP_SUB: return emit_sum(b, op, x, y);
-    default: return emit_product(b, op, x, y, z);
+    case QDOT_OP_SUB: return append_sum(b, op, x, y);
+    default: return append_product(b, op, x, y, z);
     }
 }
 
@@ -382,7 +382,7 @@ qdot_program_rate(builder *b, row x)
 }
 
 static void
-program_append_tape(builder *b, const qdot_tape *tape, const row *in, row *out)
+append_tape(builder *b, const qdot_tape *tape, const row *in, row *out)
 {
     for (size_t i = 0; i < tape->inputs; i++)
         b->at[i] = in[i];
@@ -392,7 +392,7 @@ program_append_tape(builder *b, const qdot_tape *tape, const row *in, row *out)
                                        tape->exact[i]});
     for (size_t i = 0; i < tape->length && b->status == QDOT_OK; i++) {
         const qdot_instruction *instruction = tape->code + i;
-        row second = QDOT_NO_ROW, to = build_one(b, instruction, &second);
+        row second = QDOT_NO_ROW, to = append_instruction(b, instruction, &second);
 
         b->at[instruction->to] = to;
         if (instruction->op == QDOT_OP_SINCOS)
@@ -415,7 +415,7 @@ qdot_program_append(builder *b, const qdot_tape *tape, const row *in, row *out)
     if (b->status == QDOT_OK && !b->at)
         b->status = QDOT_ENOMEM;
     if (b->status == QDOT_OK)
-        program_append_tape(b, tape, in, out);
+        append_tape(b, tape, in, out);
     else
         memset(out, 0, tape->outputs * sizeof *out);
     qdot_free(b->at);
@@ -427,9 +427,9 @@ qdot_program_end(builder *b)
     qdot_status status = b->status;
 
     if (status == QDOT_OK)
-        status = still_ones_first(b->program);
+        status = move_constant_steps_first(b->program);
     if (status == QDOT_OK) {
-        program_add_step(b, (qdot_program_step){.op = QDOT_T_END});
+        append_step(b, (qdot_program_step){.op = QDOT_T_END});
         status = b->status;
     }
     if (status != QDOT_OK)

@@ -21,48 +21,48 @@
  * orders err by more than that. */
 enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
 
-/* The recurrences, by their names in recurrence.def. */
+/* The recurrences for Taylor coefficients, by their names in recurrence.def. */
 typedef enum {
     QDOT_T_END,
-    QDOT_T_VALUE, /* order 0 only: an operation that switches, as abs or a comparison */
+    QDOT_T_VALUE, /* only order 0: an operation that switches, such as abs or a comparison */
 #define RECURRENCE(ID, cost, body) QDOT_T_##ID,
 #include "series/recurrence.def"
-    QDOT_T_LINK, /* to' = unit x, second' = unit to (no row: none) */
-    QDOT_T_RATE, /* to = x'/unit: order k of `to` from order k + 1 of x (motion.h) */
+    QDOT_T_LINK, /* integrals: to' = unit x, second' = unit to (second no row: only one) */
+    QDOT_T_RATE, /* time derivative: to = x'/unit, so that order k of `to` is computed from order k + 1 of x (motion.h) */
     QDOT_T_COUNT
 } qdot_recurrence;
 
-/* Values of order 0 that are no operations of operation.def. */
+/* Ways to compute order 0 of a row that are not operations of operation.def. */
 enum {
     QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, /* order 0 of `to` and `second` is sinh x, cosh x */
-    QDOT_ZERO_POWER,                    /* order 0 of `to` is y^z; x is log of it */
+    QDOT_ZERO_POWER,                    /* order 0 of `to` is y^z; x is the row of its logarithm */
     QDOT_ZERO_RATE,
     QDOT_ZERO_COUNT
 };
 
-typedef uint32_t qdot_program_row; /* index of a row */
+typedef uint32_t qdot_program_row; /* index of a row, the Taylor coefficients of one intermediate result */
 
 #define QDOT_NO_ROW UINT32_MAX
 
-/* The origin of the coefficient of order 0 of a row. */
+/* Where the coefficient of order 0 of a row comes from. */
 typedef enum {
-    QDOT_ROW_INPUT,    /* the caller: input number `at` */
-    QDOT_ROW_CONSTANT, /* constant `at` of the program */
+    QDOT_ROW_INPUT,    /* the caller gives it: input number `at` */
+    QDOT_ROW_CONSTANT, /* constant number `at` of the program */
     QDOT_ROW_WHOLE,    /* the integer `at` */
-    QDOT_ROW_COMPUTED, /* a step of the program */
-    QDOT_ROW_UNKNOWN   /* solved for from equations (motion.h) */
+    QDOT_ROW_COMPUTED, /* a step of the program computes it */
+    QDOT_ROW_UNKNOWN   /* it is an unknown, solved for from equations (motion.h) */
 } qdot_program_source;
 
 typedef struct {
     qdot_program_source source;
-    bool still; /* constant in time: only order 0 is not 0 */
+    bool still; /* the row is constant in time: only its coefficient of order 0 is not 0 */
     int at;
-    int lead; /* at stage k of a motion its order k + lead is computed (motion.h) */
+    int lead; /* at stage k of a motion the row is computed at order k + lead (motion.h) */
 } qdot_program_row_info;
 
 /* A constant, as a tape stores it (expr/constant.h). */
 typedef struct {
-    double value, low; /* the nearest double; the exact constant less that double, rounded */
+    double value, low; /* the nearest double; the exact constant minus that double, rounded */
     signed char side;
     qdot_expr exact;
 } qdot_program_constant;
@@ -70,27 +70,27 @@ typedef struct {
 /* The bits of qdot_program_step.newest. */
 enum { QDOT_X_NEWEST = 1, QDOT_Y_NEWEST = 2, QDOT_Z_NEWEST = 4 };
 
-/* A step. Rows that it does not have are QDOT_NO_ROW; operands that it does not have are x. */
+/* A step computes rows from rows. Rows that it does not write are QDOT_NO_ROW; operands it does not read are x. */
 typedef struct {
-    uint16_t op, zero; /* its recurrence; how order 0 is computed: an operation of a tape or one of the above */
-    int sign;          /* +1 or -1: sign in the recurrence RATIO */
-    bool still;        /* its result is constant in time: only order 0 */
-    /* bits for those operands x, y, z whose newest coefficient depends on unknowns (motion.h); */
+    uint16_t op, zero; /* its recurrence; how order 0 is computed: an operation of a tape or one of the ways above */
+    int sign;          /* +1 or -1: the sign in the recurrence RATIO */
+    bool still;        /* the result is constant in time: only order 0 is computed */
+    /* bits for those operands x, y, z whose newest coefficient depends on unknowns (motion.h) */
     unsigned char newest;
     bool kept;            /* later orders read the result of the step */
-    signed char lead;  /* the lead (motion.h) of the rows that the step writes */
+    signed char lead;  /* by how many orders the rows that the step writes are ahead (motion.h) */
     qdot_program_row to, second, third, d, x, y, z;
 } qdot_program_step;
 
 typedef struct {
-    size_t inputs, moving; /* number of inputs; how many of them, the first, vary in time */
+    size_t inputs, moving; /* number of inputs; how many of these vary in time, which come first */
     qdot_vec(qdot_program_constant) constants;
     qdot_vec(qdot_program_row_info) rows; /* inputs first, then constants, then results of steps */
-    qdot_vec(qdot_program_step) steps;    /* constant steps first; a step QDOT_T_END at the end */
+    qdot_vec(qdot_program_step) steps;    /* steps whose rows are constant come first; the last step is QDOT_T_END */
     size_t length, still; /* number of steps; number of the constant steps among them */
     qdot_vec(qdot_program_row) outputs;
-    double convolutions; /* products of two series to be summed at each order; a square counts half */
-    int lead;            /* the largest lead (motion.h) of a step */
+    double convolutions; /* number of products of two series to be summed at each order; a square counts half */
+    int lead;            /* the largest lead of a step: by how many orders its rows are ahead (motion.h) */
 } qdot_program;
 
 /* The program of a tape, which is not kept, whose inputs from `moving` on are numbers. With
@@ -126,23 +126,23 @@ qdot_program_row qdot_program_rate(qdot_program_builder *b, qdot_program_row x);
  * program is then empty. */
 QDOT_MUST_CHECK qdot_status qdot_program_end(qdot_program_builder *b);
 
-/* The number of programs made by this process; used by tests. */
+/* The number of programs that this process has made; used by tests. */
 size_t qdot_program_made(void);
 
-/* Whether a tape has a series: NULL, or the name of an operation that has none. */
+/* NULL if all operations of a tape have a Taylor series; else the name of one that has none. */
 const char *qdot_program_hindrance(const qdot_tape *tape);
 
-/* Whether the recurrence sums products of lower orders. */
+/* Whether the recurrence sums products of coefficients of lower orders. */
 static inline bool
 qdot_recurrence_looks_back(int op)
 {
     return op >= QDOT_T_MUL && op < QDOT_T_LINK;
 }
 
-/* The number of convolutions that one order costs; a square counts half. */
+/* The number of convolution sums that one order of a recurrence costs; a square counts half. */
 double qdot_recurrence_cost(int op);
 
-/* The result of the recurrence is the exponential of this many times its argument; 0: it is no exponential. */
+/* A factor: the recurrence gives the exponential of its argument times this; 0: it is no exponential. */
 static inline double
 qdot_recurrence_exponential(int op)
 {

@@ -1,4 +1,4 @@
-/* recurrence-operations.c -- the rows of recurrence.def as data. */
+/* recurrence-operations.c -- the recurrences of recurrence.def as tables of operations. */
 #include "series/recurrence-operations.h"
 
 #define DO(verb_, ...) {.verb = QDOT_DO_##verb_, __VA_ARGS__},

@@ -20,7 +20,7 @@ typedef enum {
     QDOT_OF_x,
     QDOT_OF_y,
     QDOT_OF_z,
-    QDOT_OF_ROWS, /* number of the names of rows */
+    QDOT_OF_ROWS, /* number of names of rows; names of temporaries follow */
     QDOT_OF_U1 = QDOT_OF_ROWS,
     QDOT_OF_U2,
     QDOT_OF_COUNT
@@ -28,8 +28,8 @@ typedef enum {
 
 typedef enum {
     QDOT_DO_END,
-    QDOT_DO_SUM,     /* r = sum_{j=from..k-below} a_j b_{k-j} */
-    QDOT_DO_SQUARED, /* as QDOT_DO_SUM with b = a: a sum of squares */
+    QDOT_DO_SUM,     /* r = sum_{j=from..k-below} a_j b_{k-j}, a convolution sum */
+    QDOT_DO_SQUARED, /* the same sum as for QDOT_DO_SUM with b = a: that of a square */
     QDOT_DO_ADD,
     QDOT_DO_SUB,
     QDOT_DO_NEG,
@@ -43,19 +43,19 @@ typedef enum {
     QDOT_DO_SIGNED
 } qdot_recurrence_verb;
 
-/* Operands by name; operands that a verb does not use are 0. */
+/* One operation of a recurrence, with operands by name; operands that it does not use are 0. */
 typedef struct {
     unsigned char verb, r, p, q, a, b, from, below;
     bool paired;
 } qdot_recurrence_operation;
 
-/* The operations of a recurrence, up to QDOT_DO_END; empty for LINK, RATE and recurrences of order 0 only. */
+/* The operations of a recurrence, ended by QDOT_DO_END; none for LINK, RATE and recurrences of order 0 only. */
 const qdot_recurrence_operation *qdot_recurrence_operations(int op);
 
-/* The first operation with that verb; NULL if none. */
+/* The first operation of a recurrence with the given verb; NULL if there is none. */
 const qdot_recurrence_operation *qdot_recurrence_find(int op, qdot_recurrence_verb verb);
 
-/* The row of a step that has this name in recurrence.def. */
+/* The row of a step that has the given name in recurrence.def. */
 static inline qdot_program_row
 qdot_program_step_row(const qdot_program_step *s, unsigned name)
 {

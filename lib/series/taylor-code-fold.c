@@ -2,15 +2,15 @@
 #include "series/taylor-generator.h"
 
 enum {
-    /* the most terms of a sum: more would delay each other longer than separate sums */
+    /* the most terms of a sum: with more, terms would wait for each other longer than in separate sums */
     most_terms = 12,
-    most_depth = 8 /* deepest nesting of folded steps */
+    most_depth = 8 /* deepest nesting of steps that are computed inside others */
 };
 
 typedef struct {
     uint32_t reader; /* the last step that reads the row */
     unsigned readers;
-    bool wanted;     /* some reader needs the row itself, not only as a term of a sum */
+    bool wanted;     /* whether some reader needs the row itself, not only as a term of a sum */
 } use;
 
 static bool
@@ -20,14 +20,14 @@ step_is_linear(qdot_recurrence op)
 }
 
 static bool
-is_product(qdot_recurrence op)
+step_is_product(qdot_recurrence op)
 {
     return op == QDOT_T_MUL || op == QDOT_T_MADD || op == QDOT_T_MSUB || op == QDOT_T_NMADD;
 }
 
-/* Whether a step only adds order k of its x, y or z, perhaps with a factor. */
+/* Whether a step uses its operand x, y or z only by adding its order k to a sum, perhaps with a factor. */
 static bool
-is_term(const qdot_taylor_step *s, int which)
+is_only_added(const qdot_taylor_step *s, int which)
 {
     switch (s->op) {
     case QDOT_T_NEG:
@@ -47,7 +47,7 @@ is_term(const qdot_taylor_step *s, int which)
 }
 
 static void
-find_uses(const qdot_generator *g, use *uses)
+find_readers(const qdot_generator *g, use *uses)
 {
     const qdot_taylor *t = g->t;
 
@@ -63,7 +63,7 @@ find_uses(const qdot_generator *g, use *uses)
             u = uses + qdot_code_row(g, rows[k]);
             u->reader = (uint32_t)i;
             u->readers++;
-            u->wanted = u->wanted || !is_term(s, k);
+            u->wanted = u->wanted || !is_only_added(s, k);
         }
     }
     for (size_t i = 0; i < t->outputs; i++)
@@ -78,22 +78,22 @@ find_uses(const qdot_generator *g, use *uses)
     }
 }
 
-/* The number of terms of a step before anything is folded into it. */
+/* The number of terms of a step's sum before other steps are folded into it. */
 static int
-own_terms(const qdot_generator *g, const qdot_taylor_step *s)
+count_own_terms(const qdot_generator *g, const qdot_taylor_step *s)
 {
     return step_is_linear(s->op) ? (s->op == QDOT_T_NEG || s->op == QDOT_T_SCALE ? 1 : 2)
                             : 2 * g->lag + 2;
 }
 
-/* Go forward through the steps, so that what is folded into a step is known when it is reached. */
+/* Choose the steps that are folded into others, going forward, so that what a step contains is known when it is reached. */
 static void
-folds_choose(qdot_generator *g, const use *uses, int *terms, int *depth)
+choose_folds(qdot_generator *g, const use *uses, int *terms, int *depth)
 {
     const qdot_taylor *t = g->t;
 
     for (size_t i = t->still; i < t->length; i++) {
-        terms[i] = own_terms(g, t->steps + i);
+        terms[i] = count_own_terms(g, t->steps + i);
         g->n_slots += qdot_recurrence_looks_back(t->steps[i].op) ? QDOT_CODE_FACTORS : 0;
     }
     for (size_t i = t->still; i < t->length; i++) {
@@ -103,7 +103,7 @@ folds_choose(qdot_generator *g, const use *uses, int *terms, int *depth)
         size_t into = u->reader;
 
         g->maker[row] = (uint32_t)i;
-        if (!step_is_linear(s->op) && !is_product(s->op))
+        if (!step_is_linear(s->op) && !step_is_product(s->op))
             continue;
         if (u->wanted || u->readers != 1 || into >= t->length
             || g->row_vector[row] != QDOT_CODE_NONE
@@ -125,15 +125,15 @@ qdot_code_fold(qdot_generator *g)
 
     g->fold_slots = QDOT_CODE_SLOTS + g->n_slots;
     if (uses && terms) {
-        find_uses(g, uses);
-        folds_choose(g, uses, terms, terms + length + 1);
+        find_readers(g, uses);
+        choose_folds(g, uses, terms, terms + length + 1);
     }
     qdot_free(terms);
     qdot_free(uses);
     return uses && terms ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The product a b, computed once, for all orders from the first that needs it; not inside a loop. */
+/* The product a b of two factors, computed once for all orders from the first that needs it; not inside a loop. */
 qdot_operand
 qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
 {
@@ -149,7 +149,7 @@ qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
             return qdot_code_work(g->fold_slots + i);
     }
     to = qdot_code_work(g->fold_slots + g->compositions.n);
-    if (g->k >= QDOT_CODE_ANY) /* in a loop over orders it would be valid for one order only */
+    if (g->k >= QDOT_CODE_ANY) /* no: in a loop over orders the product would be valid for one order only */
         g->m.status = qdot_fail(QDOT_EINVAL, "a factor is not known before a loop");
     if (qdot_vec_push(&g->compositions, new) != QDOT_OK) {
         g->m.status = QDOT_ENOMEM;

@@ -1,9 +1,9 @@
-/* taylor-code-order.c -- writes machine code for the recurrences: one order of a step. */
+/* taylor-code-order.c -- writes machine code for one order of a step's recurrence. */
 #include "series/recurrence-operations.h"
 #include "series/taylor-code-sum.h"
 
 static qdot_operand
-code_inverse(const qdot_generator *g)
+inverse_of_order(const qdot_generator *g)
 {
     return qdot_code_entry(QDOT_CODE_INVERSES, g->k);
 }
@@ -11,31 +11,31 @@ code_inverse(const qdot_generator *g)
 /* x_i times c of a step, x_i twice: factors that no order changes. Those of order 1 are there from
  * order 2 on. */
 static qdot_operand
-by_c(qdot_generator *g, const qdot_taylor_step *s, const double *x, int i)
+coefficient_times_c(qdot_generator *g, const qdot_taylor_step *s, const double *x, int i)
 {
     return qdot_code_composed(g, qdot_code_c(g, s), code_at(g, x, i));
 }
 
 static qdot_operand
-code_twice(qdot_generator *g, qdot_operand a)
+twice_operand(qdot_generator *g, qdot_operand a)
 {
     return qdot_code_composed(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2));
 }
 
-/* Write d_1/k, a factor of products that are divided by k > 1. */
+/* Write the code for d_1/k, a factor of products that are divided by the order k > 1. */
 static qdot_operand
-first_over_order(qdot_generator *g, const qdot_taylor_step *s)
+first_coefficient_over_order(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int reg = code_fresh_register(g);
 
     do_one(g, QDOT_ASM_LOAD, reg, 0, code_at(g, s->d, 1));
-    do_one(g, QDOT_ASM_MUL, reg, reg, code_inverse(g));
+    do_one(g, QDOT_ASM_MUL, reg, reg, inverse_of_order(g));
     return qdot_asm_in(reg);
 }
 
 /* --- recurrences from the table ----------------------------------------------------- */
 
-/* Add to v the sum of products number i of a step. */
+/* Add to the sum v the products of convolution number i of a step. */
 static void
 add_products(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
              int i, sum *v)
@@ -45,9 +45,9 @@ add_products(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence
     add_past(g, v, false, NULL, s, i);
     if (o->verb == QDOT_DO_SQUARED) {
         if (g->lag > 1 && g->k > 1)
-            late(g, v, false, g->k == 2 ? code_at(g, a, 1) : code_twice(g, code_at(g, a, 1)), a);
+            late(g, v, false, g->k == 2 ? code_at(g, a, 1) : twice_operand(g, code_at(g, a, 1)), a);
         if (o->from == 0)
-            sum_add_scaled(g, v, false, code_twice(g, code_at(g, a, 0)), a, g->k);
+            sum_add_scaled(g, v, false, twice_operand(g, code_at(g, a, 0)), a, g->k);
         return;
     }
     lately(g, v, false, code_at(g, a, 1), b, code_at(g, b, 1), a);
@@ -58,16 +58,16 @@ add_products(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence
 }
 
 static void
-negate(sum *v)
+negate_sum(sum *v)
 {
     v->v.negative = !v->v.negative;
     for (int i = 0; i < v->n; i++)
         v->terms[i].minus = !v->terms[i].minus;
 }
 
-/* Append the terms of `other` to the sum v. */
+/* Append the terms of another sum to the sum v. */
 static void
-sum_append(qdot_generator *g, sum *v, const sum *other)
+append_terms(qdot_generator *g, sum *v, const sum *other)
 {
     if (v->v.reg < 0)
         v->v = other->v;
@@ -77,9 +77,9 @@ sum_append(qdot_generator *g, sum *v, const sum *other)
         v->terms[v->n++] = other->terms[i];
 }
 
-/* The factor of a term, multiplied by c. If the term is a row at order k, its factor depends on the order. */
+/* The factor of a term of a sum, multiplied by c; for a coefficient of order k the product is made at each order. */
 static qdot_operand
-factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
+factor_times_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
 {
     const qdot_operand c = qdot_code_c(g, s), order = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
     int reg;
@@ -95,19 +95,19 @@ factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
     return qdot_code_work(QDOT_CODE_MOMENT);
 }
 
-/* Multiply the sum v, which consists only of terms, by c. */
+/* Multiply all terms of the sum v, which has no value in a register yet, by c. */
 static void
-times_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
+multiply_sum_by_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
 {
     for (int i = 0; i < v->n; i++) {
-        v->terms[i].factor = factor_by_c(g, s, v->terms + i);
+        v->terms[i].factor = factor_times_c(g, s, v->terms + i);
         v->terms[i].plain = false;
     }
 }
 
-/* If d is the row of j x_j for a row x (j the order), the row x; otherwise NULL. */
+/* The row x if d is the row of j x_j (x multiplied by the order j); otherwise NULL. */
 static const double *
-argument_of_slope(const qdot_taylor_step *s)
+row_before_scaling_by_order(const qdot_taylor_step *s)
 {
     const qdot_recurrence_operation *o = qdot_recurrence_find(s->op, QDOT_DO_ORDERS);
 
@@ -117,9 +117,9 @@ argument_of_slope(const qdot_taylor_step *s)
 /* v / k: of d_k = k x_k that is x_k, and the factor d_1 is divided, so that what is known last does
  * not wait for a division of the whole. */
 static void
-per_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
+divide_sum_by_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
 {
-    const double *x = argument_of_slope(s);
+    const double *x = row_before_scaling_by_order(s);
     const uint32_t d = x ? qdot_code_row(g, s->d) : QDOT_CODE_NONE;
     sum early = {.v = v->v}, rest = {.v = {.reg = -1}};
 
@@ -130,7 +130,7 @@ per_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
             t.row = qdot_code_row(g, x);
         else if (x && !t.plain && t.factor.offset == code_at(g, s->d, 1).offset
                  && t.factor.reg == code_at(g, s->d, 1).reg)
-            t.factor = first_over_order(g, s);
+            t.factor = first_coefficient_over_order(g, s);
         else {
             early.terms[early.n++] = t;
             continue;
@@ -139,18 +139,18 @@ per_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
     }
     if (early.n == 1 && early.v.reg < 0 && early.terms->plain) {
         early.terms->plain = false;
-        early.terms->factor = code_inverse(g);
+        early.terms->factor = inverse_of_order(g);
     } else {
-        scale_sum(g, &early, code_inverse(g));
+        scale_sum(g, &early, inverse_of_order(g));
     }
-    sum_append(g, &early, &rest);
+    append_terms(g, &early, &rest);
     *v = early;
 }
 
 /* Whether U1 and U2 are divided in the end. They are times c from the beginning: so all factors
  * that no order changes are known at order 1. */
 static bool
-step_divides(const qdot_taylor_step *s)
+step_divides_at_end(const qdot_taylor_step *s)
 {
     return qdot_recurrence_find(s->op, QDOT_DO_OVER) ||
            qdot_recurrence_find(s->op, QDOT_DO_OVER_TWICE);
@@ -159,8 +159,8 @@ step_divides(const qdot_taylor_step *s)
 /* Add to v coefficient k of a row, times a factor (NULL: none), or U1 or U2, which is then used up,
  * with a sign. */
 static void
-sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
-                    bool minus, unsigned name, sum *u)
+add_coefficient_to_sum(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
+                       bool minus, unsigned name, sum *u)
 {
     sum *other;
 
@@ -170,18 +170,18 @@ sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_ope
     }
     other = u + (name - QDOT_OF_U1);
     if (minus)
-        negate(other);
-    sum_append(g, v, other);
+        negate_sum(other);
+    append_terms(g, v, other);
     *other = (sum){.v = {.reg = -1}};
 }
 
-/* The sum computed by one operation of a recurrence; `sums` counts the sums of the step. */
+/* Form the sum that one operation of a recurrence computes; `sums` counts the convolutions of the step. */
 static sum
 operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
                  int *sums, sum *u)
 {
     const qdot_operand c = qdot_code_c(g, s);
-    const qdot_operand *const factor = o->r >= QDOT_OF_U1 && step_divides(s) ? &c : NULL;
+    const qdot_operand *const factor = o->r >= QDOT_OF_U1 && step_divides_at_end(s) ? &c : NULL;
     sum v = {.v = {.reg = -1}};
 
     switch (o->verb) {
@@ -194,29 +194,29 @@ operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurr
         else
             add_products(g, s, o, (*sums)++, &v);
         if (factor)
-            times_c(g, s, &v);
+            multiply_sum_by_c(g, s, &v);
         return v;
-    default: sum_add_coefficient(g, s, factor, &v, false, o->p, u);
+    default: add_coefficient_to_sum(g, s, factor, &v, false, o->p, u);
     }
     switch (o->verb) {
-    case QDOT_DO_ADD: sum_add_coefficient(g, s, factor, &v, false, o->q, u); break;
-    case QDOT_DO_SUB: sum_add_coefficient(g, s, factor, &v, true, o->q, u); break;
-    case QDOT_DO_NEG: negate(&v); break;
+    case QDOT_DO_ADD: add_coefficient_to_sum(g, s, factor, &v, false, o->q, u); break;
+    case QDOT_DO_SUB: add_coefficient_to_sum(g, s, factor, &v, true, o->q, u); break;
+    case QDOT_DO_NEG: negate_sum(&v); break;
     case QDOT_DO_SIGNED:
         if (s->sign < 0)
-            negate(&v);
+            negate_sum(&v);
         break;
-    case QDOT_DO_PER_ORDER: per_order(g, s, &v); break;
+    case QDOT_DO_PER_ORDER: divide_sum_by_order(g, s, &v); break;
     case QDOT_DO_OVER:
-    case QDOT_DO_OVER_TWICE: break; /* done already */
+    case QDOT_DO_OVER_TWICE: break; /* nothing to do: all factors were multiplied by c from the beginning */
     default: g->m.status = qdot_fail(QDOT_EINVAL, "a recurrence has no code");
     }
     return v;
 }
 
-/* Write the recurrence of a step as its row of recurrence.def states it. */
+/* Write the code of a step's recurrence, operation by operation, as recurrence.def lists them. */
 static void
-tabled(qdot_generator *g, const qdot_taylor_step *s)
+write_recurrence(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum u[] = {{.v = {.reg = -1}}, {.v = {.reg = -1}}};
     int sums = 0;
@@ -234,9 +234,9 @@ tabled(qdot_generator *g, const qdot_taylor_step *s)
 
 /* --- recurrences with code of their own --------------------------------------------- */
 
-/* Write a step that is a plain sum or product. */
+/* Write the code of a step that is a plain sum or product. */
 static void
-write_direct(qdot_generator *g, const qdot_taylor_step *s)
+write_plain_step(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum sum = {.v = {.reg = -1}};
 
@@ -244,9 +244,9 @@ write_direct(qdot_generator *g, const qdot_taylor_step *s)
     finish_sum(g, &sum, s->to);
 }
 
-/* Write the product of k and coefficient k of x. */
+/* Write the code for k x_k, the coefficient of order k times the order. */
 static void
-write_weighted(qdot_generator *g, const double *x, const double *to)
+write_order_times_coefficient(qdot_generator *g, const double *x, const double *to)
 {
     sum d = {.v = {.reg = -1}};
 
@@ -254,17 +254,17 @@ write_weighted(qdot_generator *g, const double *x, const double *to)
     finish_sum(g, &d, to);
 }
 
-/* Write coefficient k of a power: ((r + 1)/k sum d p - sum x p)/x_0. */
+/* Write the code for coefficient k of a power: ((r + 1)/k sum d p - sum x p)/x_0. */
 static void
 write_power(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const qdot_operand c = qdot_code_c(g, s), r = by_c(g, s, s->z, 0);
+    const qdot_operand c = qdot_code_c(g, s), r = coefficient_times_c(g, s, s->z, 0);
     sum sum = past(g, s, 0), other = past(g, s, 1);
     int slopes;
 
-    write_weighted(g, s->x, s->d);
+    write_order_times_coefficient(g, s->x, s->d);
     lately(g, &sum, false, code_at(g, s->d, 1), s->to, code_at(g, s->to, 1), s->d);
-    scale_sum(g, &sum, code_inverse(g));
+    scale_sum(g, &sum, inverse_of_order(g));
     slopes = sum.v.reg;
     scale_sum(g, &sum, r);
     if (slopes >= 0)
@@ -272,13 +272,13 @@ write_power(qdot_generator *g, const qdot_taylor_step *s)
     if (other.v.reg >= 0)
         value_add_product(g, &sum.v, true, c, other.v.reg);
     if (g->lag > 1 && g->k > 1)
-        lately(g, &sum, true, by_c(g, s, s->x, 1), s->to, by_c(g, s, s->to, 1), s->x);
+        lately(g, &sum, true, coefficient_times_c(g, s, s->x, 1), s->to, coefficient_times_c(g, s, s->to, 1), s->x);
     sum_add_scaled(g, &sum, false, qdot_code_composed(g, r, code_at(g, s->to, 0)), s->x, g->k);
     finish_sum(g, &sum, s->to);
 }
 
 static void
-integral(qdot_generator *g, const qdot_taylor_step *s)
+write_integral(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum once = {.v = {.reg = -1}}, twice = once;
 
@@ -297,13 +297,13 @@ void
 qdot_code_order(qdot_generator *g, const qdot_taylor_step *s)
 {
     switch (s->op) {
-    case QDOT_T_LINK: integral(g, s); break;
+    case QDOT_T_LINK: write_integral(g, s); break;
     case QDOT_T_POW: write_power(g, s); break;
-    case QDOT_T_SQUARE: tabled(g, s); break;
+    case QDOT_T_SQUARE: write_recurrence(g, s); break;
     default:
         if (s->op <= QDOT_T_NMADD)
-            write_direct(g, s);
+            write_plain_step(g, s);
         else
-            tabled(g, s);
+            write_recurrence(g, s);
     }
 }

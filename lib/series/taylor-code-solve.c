@@ -2,20 +2,20 @@
  * for unknowns. */
 #include "series/taylor-code-sum.h"
 
-/* The location of entry (i, j) of L, or later of M_0^-1. */
+/* Where entry (i, j) of the Cholesky factor L of a block is stored (later: of the inverse M_0^-1). */
 static qdot_operand
-code_factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
+place_of_factor_entry(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
     return qdot_code_work(g->block_slots[block] + i * g->t->blocks[block].n + j);
 }
 
 static qdot_operand
-inverse_at(const qdot_generator *g, size_t block, size_t i, size_t j)
+place_of_inverse_entry(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
-    return code_factor_at(g, block, g->t->blocks[block].n + i, j);
+    return place_of_factor_entry(g, block, g->t->blocks[block].n + i, j);
 }
 
-/* Make room for `more` terms: if there is none, add the present ones into a register first. */
+/* Make room for `more` terms of a sum: if there is none, add up the present ones in a register first. */
 static void
 sum_make_room(qdot_generator *g, sum *s, int more)
 {
@@ -28,7 +28,7 @@ sum_make_room(qdot_generator *g, sum *s, int more)
 /* Terms of products M a of row i that the vectors do not have: `late`, those with order k of
  * M, which are known after the others. */
 static void
-add_couplings(qdot_generator *g, const qdot_taylor_block *b, size_t i, bool late, sum *s)
+add_products_with_unknowns(qdot_generator *g, const qdot_taylor_block *b, size_t i, bool late, sum *s)
 {
     for (size_t c = 0; c < b->n_couplings; c++) {
         const qdot_taylor_coupling *m = b->couplings + c;
@@ -44,13 +44,13 @@ add_couplings(qdot_generator *g, const qdot_taylor_block *b, size_t i, bool late
 }
 
 static void
-right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
+write_right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
 {
     sum s = {.v = {.reg = -1}};
 
     add_past_of(g, &s, true, NULL, g->unknown_sums[qdot_code_row(g, b->r[i])]);
-    add_couplings(g, b, i, false, &s);
-    add_couplings(g, b, i, true, &s);
+    add_products_with_unknowns(g, b, i, false, &s);
+    add_products_with_unknowns(g, b, i, true, &s);
     sum_make_room(g, &s, 1);
     sum_add_row(g, &s, false, b->f[i]);
     finish_sum(g, &s, b->r[i]);
@@ -59,16 +59,16 @@ right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
 /* The sum over entry i of the diagonal: the rounding of its inverse would be that of every
  * order. */
 static void
-sum_divide_by_diagonal(qdot_generator *g, size_t block, size_t i, sum *s)
+divide_by_diagonal(qdot_generator *g, size_t block, size_t i, sum *s)
 {
     s->v = total(g, s);
     s->n = 0;
-    scale_by(g, QDOT_ASM_DIV, &s->v, code_factor_at(g, block, i, i));
+    scale_by(g, QDOT_ASM_DIV, &s->v, place_of_factor_entry(g, block, i, i));
 }
 
-/* Write the solution by the Cholesky factor: r becomes L^-1 r, then a = L^-T r. */
+/* Write the code that solves for a block of unknowns by the Cholesky factor: r becomes L^-1 r, then a = L^-T r. */
 static void
-by_factor(qdot_generator *g, size_t block)
+write_solution_by_factor(qdot_generator *g, size_t block)
 {
     const qdot_taylor_block *b = g->t->blocks + block;
 
@@ -78,9 +78,9 @@ by_factor(qdot_generator *g, size_t block)
         sum_add_row(g, &s, false, b->r[i]);
         for (size_t j = 0; j < i; j++) {
             sum_make_room(g, &s, 1);
-            sum_add_scaled(g, &s, true, code_factor_at(g, block, i, j), b->r[j], g->k);
+            sum_add_scaled(g, &s, true, place_of_factor_entry(g, block, i, j), b->r[j], g->k);
         }
-        sum_divide_by_diagonal(g, block, i, &s);
+        divide_by_diagonal(g, block, i, &s);
         finish_sum(g, &s, b->r[i]);
     }
     for (size_t i = b->n; i-- > 0;) {
@@ -89,15 +89,15 @@ by_factor(qdot_generator *g, size_t block)
         sum_add_row(g, &s, false, b->r[i]);
         for (size_t j = i + 1; j < b->n; j++) {
             sum_make_room(g, &s, 1);
-            sum_add_scaled(g, &s, true, code_factor_at(g, block, j, i), b->a[j], g->k);
+            sum_add_scaled(g, &s, true, place_of_factor_entry(g, block, j, i), b->a[j], g->k);
         }
-        sum_divide_by_diagonal(g, block, i, &s);
+        divide_by_diagonal(g, block, i, &s);
         finish_sum(g, &s, b->a[i]);
     }
 }
 
 static void
-by_inverse(qdot_generator *g, size_t block)
+write_solution_by_inverse(qdot_generator *g, size_t block)
 {
     const qdot_taylor_block *b = g->t->blocks + block;
 
@@ -106,7 +106,7 @@ by_inverse(qdot_generator *g, size_t block)
 
         for (size_t j = 0; j < b->n; j++) {
             sum_make_room(g, &s, 1);
-            sum_add_scaled(g, &s, false, inverse_at(g, block, i, j), b->r[j], g->k);
+            sum_add_scaled(g, &s, false, place_of_inverse_entry(g, block, i, j), b->r[j], g->k);
         }
         finish_sum(g, &s, b->a[i]);
     }
@@ -118,9 +118,9 @@ qdot_code_solve(qdot_generator *g, size_t block)
     const qdot_taylor_block *b = g->t->blocks + block;
 
     for (size_t i = 0; i < b->n; i++)
-        right_hand_side(g, b, i);
+        write_right_hand_side(g, b, i);
     if (g->k <= b->solved)
-        by_factor(g, block);
+        write_solution_by_factor(g, block);
     else
-        by_inverse(g, block);
+        write_solution_by_inverse(g, block);
 }

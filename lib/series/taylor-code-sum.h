@@ -13,7 +13,7 @@
 enum {
     QDOT_CODE_TERMS = 24,
     latency = 4,
-    latency_of_vectors = 12, /* cycles from the newest coefficient to the next sum of a vector */
+    latency_of_vectors = 12, /* cycles from a newest coefficient to the next sum of which its vector becomes a part */
     latency_of_division = 14
 };
 
@@ -43,7 +43,7 @@ code_hold(qdot_generator *g, int reg, uint32_t row, int k)
     g->where[4 * row + (uint32_t)(k & 3)] = (unsigned char)reg;
 }
 
-/* The register that holds coefficient k of a variable row; it is loaded if no register does. */
+/* The register that holds coefficient k of a row that varies; the coefficient is loaded if no register holds it. */
 static inline int
 code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 {
@@ -60,20 +60,20 @@ code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 
 /* --- adding terms of sums ----------------------------------------------------------- */
 
-/* A number in a register, or its negative. */
+/* A number in a register, or the negative of it. */
 typedef struct {
-    int reg; /* the register; -1: the number is 0 */
+    int reg; /* the register that holds the number; -1: the number is 0 */
     bool own, negative;
     int ready;
 } value;
 
-/* A term: +- factor times coefficient k of a row, or times a sum; `plain`: without factor. */
+/* A term of a sum: +- factor times coefficient k of a row, or times an earlier sum; `plain`: without factor. */
 typedef struct {
     bool minus, plain;
     qdot_operand factor;
-    uint32_t row; /* row of the coefficient; QDOT_CODE_NONE: the term is a sum */
+    uint32_t row; /* row of the coefficient; QDOT_CODE_NONE: the term is an earlier sum */
     int k;
-    uint32_t past; /* index of that sum */
+    uint32_t past; /* index of the earlier sum, if the term is one */
 } term;
 
 typedef struct {
@@ -136,7 +136,7 @@ value_add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, 
     v->own = true;
 }
 
-/* The time at which the coefficients read by sum n, and by sums linked to it, become known. */
+/* The time (in cycles) at which the coefficients that sum n, and the sums continuing it, read become known. */
 static inline int
 past_ready(qdot_generator *g, uint32_t n)
 {
@@ -160,7 +160,7 @@ term_ready(qdot_generator *g, const term *t)
                                     : past_ready(g, t->past);
 }
 
-/* Sort terms by the time at which they become known, so that the latest is added last. */
+/* Sort the terms of a sum by the time at which they become known, so that the latest is added last. */
 static inline void
 sum_sort_terms(qdot_generator *g, sum *s, int *when)
 {
@@ -177,7 +177,7 @@ sum_sort_terms(qdot_generator *g, sum *s, int *when)
         when[j] = now_ready;
     }
     if (s->n > 1 && s->v.reg < 0 && s->terms[1].plain && !s->terms[0].plain) {
-        const term first = s->terms[0]; /* a plain term first, so that the product is added to it by one instruction */
+        const term first = s->terms[0]; /* put a plain term first, so that the product is added to it by one instruction */
         const int first_ready = when[0];
 
         s->terms[0] = s->terms[1];
@@ -187,7 +187,7 @@ sum_sort_terms(qdot_generator *g, sum *s, int *when)
     }
 }
 
-/* The register that holds sum n. */
+/* The register that holds the first number of sum n, which is loaded if necessary. */
 static inline int
 past_register(qdot_generator *g, uint32_t n)
 {
@@ -199,7 +199,7 @@ past_register(qdot_generator *g, uint32_t n)
     return reg;
 }
 
-/* The value of a sum that consists of one negative term. */
+/* Write the value of a sum that consists of one negative product. */
 static inline value
 less(qdot_generator *g, const term *t, int when)
 {
@@ -210,14 +210,14 @@ less(qdot_generator *g, const term *t, int when)
     return (value){.reg = reg, .own = true, .ready = when + latency};
 }
 
-/* The time at which a term is known once it is added to a sum that is known at `before`. */
+/* The time at which a sum is known if a term known at `when` is added to a sum known at `before`. */
 static inline int
 time_behind(int before, int when)
 {
     return (before > when ? before : when) + latency;
 }
 
-/* Whether terms that become known together are added faster in two partial sums than in one. */
+/* Whether terms known at the times `when` are added faster in two partial sums than in one. */
 static inline bool
 in_two(int first, const int *when, int n)
 {
@@ -278,7 +278,7 @@ total(qdot_generator *g, sum *s)
     return v[0];
 }
 
-/* Multiply or divide the value v by `factor`. */
+/* Multiply or divide the value v by `factor`, depending on the operation `name`. */
 static inline void
 scale_by(qdot_generator *g, qdot_asm_operation name, value *v, qdot_operand factor)
 {
@@ -299,7 +299,7 @@ value_scale(qdot_generator *g, value *v, qdot_operand factor)
     scale_by(g, QDOT_ASM_MUL, v, factor);
 }
 
-/* Add the terms of a sum, and multiply by a factor. */
+/* Add up the terms of a sum, and multiply by a factor. */
 static inline void
 scale_sum(qdot_generator *g, sum *s, qdot_operand factor)
 {
@@ -308,7 +308,7 @@ scale_sum(qdot_generator *g, sum *s, qdot_operand factor)
     value_scale(g, &s->v, factor);
 }
 
-/* Store v as coefficient k of a row. */
+/* Store the value v as coefficient k of a row. */
 static inline void
 value_finish(qdot_generator *g, value v, const double *to, int k)
 {
@@ -335,7 +335,7 @@ finish_sum(qdot_generator *g, sum *s, const double *to)
 
 /* --- products of lower orders ------------------------------------------------------- */
 
-/* Add the term +- sum number n (of products with orders from `lag` on), times a factor; NULL: none. */
+/* Add to s the term +- sum number n (of products of orders from `lag` on), times a factor; NULL: without factor. */
 static inline void
 add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_operand *factor, uint32_t n)
 {
@@ -348,7 +348,7 @@ add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_operand *factor, u
     s->terms[s->n++] = t;
 }
 
-/* Sum product i of a step except the terms with orders below `lag`. */
+/* Add convolution number i of a step to the sum, except the products with an order below `lag`. */
 static inline void
 add_past(qdot_generator *g, sum *sum, bool minus, const qdot_operand *factor,
          const qdot_taylor_step *s, int i)
@@ -368,7 +368,7 @@ past(qdot_generator *g, const qdot_taylor_step *s, int i)
     return sum;
 }
 
-/* Add the products of orders 1 and k - 1 that vectors do not contain: x_1 times y. */
+/* Add the products of orders 1 and k - 1, which the vectors of sums do not contain: x_1 times y_{k-1}. */
 static inline void
 late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
 {
@@ -376,7 +376,7 @@ late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
         sum_add_scaled(g, s, minus, x1, y, g->k - 1);
 }
 
-/* Add the two such products x_1 times y and y_1 times x; x_1 and y_1 by location, perhaps with a factor. */
+/* Add both products of orders 1 and k - 1, x_1 y_{k-1} and y_1 x_{k-1}, with x_1 and y_1 as operands. */
 static inline void
 lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
        qdot_operand y1, const double *x)
@@ -393,7 +393,7 @@ lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
 static inline void add_terms(qdot_generator *g, sum *sum, bool minus,
                              const qdot_operand *scale, const qdot_taylor_step *s);
 
-/* Add the term +- coefficient k of a row times a factor (NULL: none), or the sum folded into that row. */
+/* Add the term +- coefficient k of a row times a factor (NULL: none); for a folded row the terms of its sum. */
 static inline void
 add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_operand *scale,
            const double *x)

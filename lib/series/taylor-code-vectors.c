@@ -2,7 +2,7 @@
 #include "series/taylor-generator.h"
 
 enum {
-    /* with more vectors than this most are kept in memory */
+    /* if the sums need more vectors than this, most of them are kept in memory */
     many_vectors = 40,
     temporary = 0,
     spare = 1,
@@ -10,7 +10,7 @@ enum {
     own_spreads = 2
 };
 
-/* Parts of adding an order: before the row vectors contain it, and after. */
+/* The two parts of adding an order to sums: before the vectors of the rows contain this order, and after. */
 typedef enum { BEFORE, AFTER } part;
 
 /* The coefficients of a row, from order `lag` on, are its vector as they stand: by AVX2, whose
@@ -25,29 +25,29 @@ qdot_code_rows_as_they_stand(const qdot_generator *g)
 }
 
 static qdot_operand
-block_at(const qdot_generator *g, const qdot_code_vector *v, int b)
+operand_of_vector_part(const qdot_generator *g, const qdot_code_vector *v, int b)
 {
     return v->reg[b] >= 0 ? qdot_asm_in(v->reg[b])
                           : qdot_code_work(v->at + (size_t)(g->lanes * b));
 }
 
-/* Insert coefficient m of a row into its vector, beside the lower ones. */
+/* Insert coefficient m of a row into its vector, beside the coefficients of lower orders. */
 static void
-vector_insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
+insert_coefficient(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
 {
     const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
     if (v->reg[b] < 0)
-        do_all(g, QDOT_ASM_LOAD, reg, 0, block_at(g, v, b));
+        do_all(g, QDOT_ASM_LOAD, reg, 0, operand_of_vector_part(g, v, b));
     qdot_asm_insert(&g->m, reg, qdot_code_coefficient(g, row, m));
     if (v->reg[b] < 0)
-        do_all(g, QDOT_ASM_STORE, reg, 0, block_at(g, v, b));
+        do_all(g, QDOT_ASM_STORE, reg, 0, operand_of_vector_part(g, v, b));
 }
 
 /* None holds anything. Narrow vectors wait for what is loaded: while they are at work the registers
  * of single numbers, none of which is held by then, are for this, too. */
 static void
-begin_spreads(qdot_generator *g)
+forget_spread_coefficients(qdot_generator *g)
 {
     g->spreads = own_spreads;
     if (qdot_code_is_narrow(g->lanes))
@@ -56,9 +56,9 @@ begin_spreads(qdot_generator *g)
         g->spread[i] = QDOT_CODE_NONE;
 }
 
-/* The register that has coefficient m of a row in every lane. */
+/* The register that holds coefficient m of a row in every lane. */
 static int
-vector_spread(qdot_generator *g, uint32_t row, int m)
+spread_coefficient(qdot_generator *g, uint32_t row, int m)
 {
     int i = 0, reg;
 
@@ -75,10 +75,10 @@ vector_spread(qdot_generator *g, uint32_t row, int m)
     return reg;
 }
 
-/* Add coefficient m of a row, times block b of another row, to a register in these lanes. */
+/* Add coefficient m of a row times part b of another row's vector to a register, in the given lanes. */
 static void
-vector_add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
-                    qdot_asm_lane_set lanes)
+add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
+             qdot_asm_lane_set lanes)
 {
     const qdot_code_vector *v = &g->rows.at[g->row_vector[other]];
 
@@ -88,33 +88,33 @@ vector_add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t oth
         one.spread = true;
         do_all(g, QDOT_ASM_MADD, to, v->reg[b], one);
     } else {
-        const int one = vector_spread(g, row, m);
+        const int one = spread_coefficient(g, row, m);
 
         qdot_asm_add_product(&g->m, to, one,
                              g->as_they_stand
                                  ? qdot_code_coefficient(g, other, g->lag + g->lanes * b)
-                                 : block_at(g, v, b),
+                                 : operand_of_vector_part(g, v, b),
                              lanes, spare);
     }
 }
 
-/* Shift block b of a sum of `blocks` blocks by one order, into `to`. */
+/* Shift part b of a sum, of `blocks` vectors, by one order, into register `to`. */
 static void
-move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
+shift_by_one_order(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
 {
     const bool last = b + 1 == blocks;
-    const qdot_operand high = last ? (qdot_operand){0} : block_at(g, v, b + 1);
+    const qdot_operand high = last ? (qdot_operand){0} : operand_of_vector_part(g, v, b + 1);
 
     if (g->reread)
         do_all(g, QDOT_ASM_LOAD, to, 0,
                qdot_code_work(v->at + (size_t)(g->lanes * b + 1)));
     else
-        qdot_asm_slide(&g->m, to, block_at(g, v, b), last ? NULL : &high, spare);
+        qdot_asm_slide(&g->m, to, operand_of_vector_part(g, v, b), last ? NULL : &high, spare);
 }
 
-/* Whether the row vectors contain order m before anything is added to block b of a sum. */
+/* Whether the rows' vectors contain order m before anything is added to part b of a sum. */
 static bool
-all_after(const qdot_generator *g, const qdot_code_vector *v, int b)
+adds_only_after_insertion(const qdot_generator *g, const qdot_code_vector *v, int b)
 {
     return v->reg[b] < 0 || g->as_they_stand;
 }
@@ -123,7 +123,7 @@ all_after(const qdot_generator *g, const qdot_code_vector *v, int b)
  * multiplied last; where the other row has not got order m yet that is no part of the first
  * product. */
 static void
-add_order(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, int m, part now)
+add_order_to_sum(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, int m, part now)
 {
     const qdot_code_vector *v = &s->v;
     const bool x_last = *qdot_code_ready(g, s->x, m) >= *qdot_code_ready(g, s->y, m);
@@ -131,48 +131,48 @@ add_order(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, i
 
     for (int b = 0; b < p->blocks; b++) {
         const int to = v->reg[b] >= 0 ? v->reg[b] : temporary;
-        const bool entered = b == p->inserted, whole = !entered || all_after(g, v, b);
+        const bool entered = b == p->inserted, whole = !entered || adds_only_after_insertion(g, v, b);
 
         if (whole && now == (entered ? BEFORE : AFTER))
             continue;
         if (!s->further && (whole || now == BEFORE))
-            move_on(g, v, b, p->blocks, to);
+            shift_by_one_order(g, v, b, p->blocks, to);
         else if (v->reg[b] < 0)
-            do_all(g, QDOT_ASM_LOAD, to, 0, block_at(g, v, b));
+            do_all(g, QDOT_ASM_LOAD, to, 0, operand_of_vector_part(g, v, b));
         if (whole || now == BEFORE)
-            vector_add_multiple(g, to, other, m, last, b,
-                                entered && whole ? QDOT_ASM_OLDER_LANES : QDOT_ASM_ALL_LANES);
+            add_multiple(g, to, other, m, last, b,
+                         entered && whole ? QDOT_ASM_OLDER_LANES : QDOT_ASM_ALL_LANES);
         if (whole || now == AFTER)
-            vector_add_multiple(g, to, last, m, other, b,
-                                entered && g->as_they_stand ? QDOT_ASM_KNOWN_LANES
+            add_multiple(g, to, last, m, other, b,
+                         entered && g->as_they_stand ? QDOT_ASM_KNOWN_LANES
                                                  : QDOT_ASM_ALL_LANES);
         if (v->reg[b] < 0)
-            do_all(g, QDOT_ASM_STORE, to, 0, block_at(g, v, b));
+            do_all(g, QDOT_ASM_STORE, to, 0, operand_of_vector_part(g, v, b));
     }
 }
 
 void
 qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m)
 {
-    begin_spreads(g);
+    forget_spread_coefficients(g);
     for (size_t i = 0; i < g->sums.n; i++)
-        add_order(g, p, g->sums.at + i, m, BEFORE);
+        add_order_to_sum(g, p, g->sums.at + i, m, BEFORE);
     for (size_t i = 0; p->inserted >= 0 && !g->as_they_stand && i < g->rows.n; i++)
-        vector_insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
+        insert_coefficient(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
     for (size_t i = 0; p->inserted >= 0 && i < g->sums.n; i++)
-        add_order(g, p, g->sums.at + i, m, AFTER);
+        add_order_to_sum(g, p, g->sums.at + i, m, AFTER);
 }
 
-/* Set a vector to 0. */
+/* Write code that sets a vector to 0. */
 static void
-vector_clear(qdot_generator *g, const qdot_code_vector *v)
+clear_vector(qdot_generator *g, const qdot_code_vector *v)
 {
     for (int b = 0; b < g->blocks; b++) {
         const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
         qdot_asm_clear(&g->m, reg);
         if (v->reg[b] < 0)
-            do_all(g, QDOT_ASM_STORE, reg, 0, block_at(g, v, b));
+            do_all(g, QDOT_ASM_STORE, reg, 0, operand_of_vector_part(g, v, b));
     }
 }
 
@@ -181,9 +181,9 @@ qdot_code_begin_vectors(qdot_generator *g)
 {
     for (size_t i = 0; i < g->sums.n; i++)
         if (!g->sums.at[i].further)
-            vector_clear(g, &g->sums.at[i].v);
+            clear_vector(g, &g->sums.at[i].v);
     for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++)
-        vector_clear(g, g->rows.at + i);
+        clear_vector(g, g->rows.at + i);
     qdot_asm_begin_lanes(&g->m);
 }
 

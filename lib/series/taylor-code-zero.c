@@ -16,7 +16,7 @@ is(qdot_generator *g, int reg, const double *to, int k)
     value_finish(g, (value){.reg = reg, .own = true}, to, k);
 }
 
-/* Write x op y to a row. */
+/* Write the code for a row's order 0: x op y. */
 static void
 write_operation(qdot_generator *g, qdot_asm_operation name, int x, qdot_operand y,
                 const double *to)
@@ -28,16 +28,16 @@ write_operation(qdot_generator *g, qdot_asm_operation name, int x, qdot_operand 
 }
 
 static void
-simple_of_rows(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
+write_operation_on_rows(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
 {
     const int x = zero(g, s->x);
 
     write_operation(g, name, x, qdot_asm_in(zero(g, s->y)), s->to);
 }
 
-/* Store x y + z, x y - z or z - x y, as `name` says; it is formed in a copy of z, which the instruction overwrites. */
+/* Write the code for x y + z, x y - z or z - x y, as `name` says, formed in a copy of z, which is overwritten. */
 static void
-with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
+write_product_with_summand(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
 {
     const int x = zero(g, s->x), y = zero(g, s->y), z = zero(g, s->z), reg = code_fresh_register(g);
 
@@ -46,9 +46,9 @@ with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name
     is(g, reg, s->to, 0);
 }
 
-/* Store a/b, by which later orders multiply instead of dividing. */
+/* Write code that stores a/b as the step's factor c, by which later orders multiply instead of dividing. */
 static void
-keep_inverse(qdot_generator *g, const qdot_taylor_step *s, qdot_operand a, int b)
+store_inverse(qdot_generator *g, const qdot_taylor_step *s, qdot_operand a, int b)
 {
     const int reg = code_fresh_register(g);
 
@@ -58,10 +58,10 @@ keep_inverse(qdot_generator *g, const qdot_taylor_step *s, qdot_operand a, int b
 }
 
 static void
-quotient(qdot_generator *g, const qdot_taylor_step *s)
+write_quotient(qdot_generator *g, const qdot_taylor_step *s)
 {
-    simple_of_rows(g, s, QDOT_ASM_DIV);
-    keep_inverse(g, s, qdot_code_work(QDOT_CODE_ORDERS + 1), zero(g, s->y));
+    write_operation_on_rows(g, s, QDOT_ASM_DIV);
+    store_inverse(g, s, qdot_code_work(QDOT_CODE_ORDERS + 1), zero(g, s->y));
 }
 
 static void
@@ -70,11 +70,11 @@ write_root(qdot_generator *g, const qdot_taylor_step *s)
     const int x = zero(g, s->x);
 
     write_operation(g, QDOT_ASM_ROOT, x, qdot_asm_in(x), s->to);
-    keep_inverse(g, s, qdot_code_work(QDOT_CODE_INVERSES + 2), zero(g, s->to));
+    store_inverse(g, s, qdot_code_work(QDOT_CODE_INVERSES + 2), zero(g, s->to));
 }
 
 static void
-waves(double x, double *sine, double *cosine)
+compute_sine_and_cosine(double x, double *sine, double *cosine)
 {
     sincos(x, sine, cosine);
 }
@@ -87,16 +87,16 @@ write_call(qdot_generator *g, void (*function)(void))
 }
 
 static void
-sine_and_cosine(qdot_generator *g, const qdot_taylor_step *s)
+write_sine_and_cosine(qdot_generator *g, const qdot_taylor_step *s)
 {
     do_one(g, QDOT_ASM_LOAD, 0, 0, code_at(g, s->x, 0));
     qdot_asm_set(&g->m, QDOT_ASM_CONSTANTS, QDOT_ASM_ROWS, code_at(g, s->second, 0).offset);
     qdot_asm_set(&g->m, QDOT_ASM_ROWS, QDOT_ASM_ROWS, code_at(g, s->to, 0).offset);
-    write_call(g, (void (*)(void))waves);
+    write_call(g, (void (*)(void))compute_sine_and_cosine);
 }
 
 static void
-any_other(qdot_generator *g, const qdot_taylor_step *s)
+write_call_of_step(qdot_generator *g, const qdot_taylor_step *s)
 {
     qdot_asm_set(&g->m, QDOT_ASM_ROWS, QDOT_ASM_CONSTANTS,
                  (int32_t)((size_t)(s - g->t->steps) * sizeof *s));
@@ -104,28 +104,28 @@ any_other(qdot_generator *g, const qdot_taylor_step *s)
 }
 
 static void
-write_step_value(qdot_generator *g, const qdot_taylor_step *s)
+write_step_order_zero(qdot_generator *g, const qdot_taylor_step *s)
 {
     switch (s->zero) {
     case QDOT_OP_NEG:
         write_operation(g, QDOT_ASM_MUL, zero(g, s->x), qdot_code_work(QDOT_CODE_INVERSES), s->to);
         break;
-    case QDOT_OP_ADD: simple_of_rows(g, s, QDOT_ASM_ADD); break;
-    case QDOT_OP_SUB: simple_of_rows(g, s, QDOT_ASM_SUB); break;
-    case QDOT_OP_MUL: simple_of_rows(g, s, QDOT_ASM_MUL); break;
-    case QDOT_OP_DIV: quotient(g, s); break;
-    case QDOT_OP_MADD: with_third(g, s, QDOT_ASM_MADD); break;
-    case QDOT_OP_MSUB: with_third(g, s, QDOT_ASM_MSUB); break;
-    case QDOT_OP_NMADD: with_third(g, s, QDOT_ASM_NMADD); break;
+    case QDOT_OP_ADD: write_operation_on_rows(g, s, QDOT_ASM_ADD); break;
+    case QDOT_OP_SUB: write_operation_on_rows(g, s, QDOT_ASM_SUB); break;
+    case QDOT_OP_MUL: write_operation_on_rows(g, s, QDOT_ASM_MUL); break;
+    case QDOT_OP_DIV: write_quotient(g, s); break;
+    case QDOT_OP_MADD: write_product_with_summand(g, s, QDOT_ASM_MADD); break;
+    case QDOT_OP_MSUB: write_product_with_summand(g, s, QDOT_ASM_MSUB); break;
+    case QDOT_OP_NMADD: write_product_with_summand(g, s, QDOT_ASM_NMADD); break;
     case QDOT_OP_SQRT: write_root(g, s); break;
-    case QDOT_OP_SINCOS: sine_and_cosine(g, s); break;
-    default: any_other(g, s);
+    case QDOT_OP_SINCOS: write_sine_and_cosine(g, s); break;
+    default: write_call_of_step(g, s);
     }
 }
 
-/* Write the coefficients that follow from order 0 by integration (links). */
+/* Write code for the coefficients that follow from order 0 of a row by integration (a link). */
 static void
-link_zero(qdot_generator *g, const qdot_taylor_step *s)
+write_integral_of_order_zero(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int x = zero(g, s->x), y = s->second ? zero(g, s->to) : 0;
     int reg = code_fresh_register(g);
@@ -150,9 +150,9 @@ qdot_code_zero(qdot_generator *g)
     qdot_code_forget(g);
     qdot_asm_frame(&g->m);
     for (size_t i = 0; i < t->length; i++)
-        write_step_value(g, t->steps + i);
+        write_step_order_zero(g, t->steps + i);
     for (size_t i = 0; i < t->n_links && t->n_blocks == 0; i++)
-        link_zero(g, t->steps + t->length + i);
+        write_integral_of_order_zero(g, t->steps + t->length + i);
     qdot_asm_unframe(&g->m);
     qdot_asm_return(&g->m);
 }

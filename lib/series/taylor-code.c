@@ -10,7 +10,7 @@
 #include "series/taylor-text.h"
 
 enum {
-    /* longer code would not be in the cache when needed: the kernels are */
+    /* in bytes; longer code would not be in the cache when needed, so that other functions are used */
     most_bytes = 1 << 18,
     /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
      * way through the vectors is the longer one. With more it takes as long as its
@@ -26,42 +26,42 @@ typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work)
 
 struct qdot_taylor_code {
     qdot_taylor_text *text;
-    double *allocated, *work; /* work space as allocated; the same block from an aligned address on */
+    double *allocated, *work; /* work space as allocated; the same memory from an aligned address on */
     int to;
     double unit;
-    /* low parts of the factors of a link, for the unit of time 1 */
+    /* [order] low parts of the factors by which integrals multiply, for the unit of time 1 */
     double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1];
 };
 
 static int
-least(int a, int b)
+minimum(int a, int b)
 {
     return a < b ? a : b;
 }
 
 static int
-most(int a, int b)
+maximum(int a, int b)
 {
     return a > b ? a : b;
 }
 
 static qdot_taylor_loops
-loops_of(const qdot_generator *g)
+loop_layout(const qdot_generator *g)
 {
     return (qdot_taylor_loops){g->lanes, g->lag, g->as_they_stand};
 }
 
 static int
-blocks_of(const qdot_taylor_loops *l, int n)
+vectors_of_numbers(const qdot_taylor_loops *l, int n)
 {
     return (n + l->lanes - 1) / l->lanes;
 }
 
-/* The most vectors of a sum, in an expansion to order n. */
+/* The largest number of vectors of a sum in an expansion to order n. */
 static int
-most_blocks(const qdot_taylor_loops *l, int n)
+most_vectors_of_sum(const qdot_taylor_loops *l, int n)
 {
-    return blocks_of(l, most(n / 2 + 1 - l->lag, 1));
+    return vectors_of_numbers(l, maximum(n / 2 + 1 - l->lag, 1));
 }
 
 /* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
@@ -69,17 +69,17 @@ most_blocks(const qdot_taylor_loops *l, int n)
  * on like that to the end: loops with fewer of them would take longer to be fetched, each for the
  * few orders that it is for, than the vectors that they save. */
 static qdot_code_phase
-phase_of(const qdot_taylor_loops *l, int n, int m)
+phase_of_order(const qdot_taylor_loops *l, int n, int m)
 {
-    const int all = most_blocks(l, n);
+    const int all = most_vectors_of_sum(l, n);
     int blocks;
 
     if (qdot_code_is_narrow(l->lanes))
-        m = least(m, n / 2);
+        m = minimum(m, n / 2);
     if (m <= n / 2)
-        return (qdot_code_phase){.blocks = blocks_of(l, m + 1 - l->lag),
+        return (qdot_code_phase){.blocks = vectors_of_numbers(l, m + 1 - l->lag),
                                  .inserted = (m - l->lag) / l->lanes};
-    blocks = least(all, blocks_of(l, n - m + 2 - l->lag));
+    blocks = minimum(all, vectors_of_numbers(l, n - m + 2 - l->lag));
     return (qdot_code_phase){.blocks = blocks,
                              .inserted = l->as_they_stand && blocks == all ? blocks - 1 : -1};
 }
@@ -90,14 +90,14 @@ is_same_phase(const qdot_code_phase *a, const qdot_code_phase *b)
     return a->blocks == b->blocks && a->inserted == b->inserted;
 }
 
-/* Find the loops of an expansion to order n, at most QDOT_CODE_PHASES. */
+/* Find the phases (ranges of orders that share a loop) of an expansion to order n; at most QDOT_CODE_PHASES. */
 static int
 find_phases(const qdot_taylor_loops *l, int n, qdot_code_phase *phases)
 {
     int count = 0;
 
     for (int m = l->lag; m <= n - l->lag; m++) {
-        const qdot_code_phase p = phase_of(l, n, m);
+        const qdot_code_phase p = phase_of_order(l, n, m);
 
         if (count == 0 || !is_same_phase(&p, phases + count - 1))
             phases[count++] = p;
@@ -126,7 +126,7 @@ is_same_code(const qdot_taylor_loops *l, int n, int other)
 /* --- which rows and sums the code needs --------------------------------------------- */
 
 static void
-find_moving(qdot_generator *g)
+find_varying_rows(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
@@ -143,7 +143,7 @@ find_moving(qdot_generator *g)
 }
 
 static void
-find_moving_unknowns(qdot_generator *g)
+find_varying_unknowns(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
@@ -157,7 +157,7 @@ find_moving_unknowns(qdot_generator *g)
 _Static_assert((int)QDOT_CODE_EXACT >= (int)QDOT_TAYLOR_EXACT, "the first loop is exact");
 
 static qdot_code_vector
-in_memory(void)
+vector_in_memory(void)
 {
     qdot_code_vector v = {.at = 0};
 
@@ -166,28 +166,28 @@ in_memory(void)
 }
 
 static qdot_status
-vector_for(qdot_generator *g, uint32_t row)
+make_vector_of_row(qdot_generator *g, uint32_t row)
 {
     if (g->row_vector[row] != QDOT_CODE_NONE)
         return QDOT_OK;
     g->row_vector[row] = (uint32_t)g->rows.n;
     QDOT_TRY(qdot_vec_push(&g->row_of, row));
-    return qdot_vec_push(&g->rows, in_memory());
+    return qdot_vec_push(&g->rows, vector_in_memory());
 }
 
 static qdot_status
 add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
 {
-    const qdot_code_sum sum = {x, y, further, in_memory()};
+    const qdot_code_sum sum = {x, y, further, vector_in_memory()};
 
-    QDOT_TRY(vector_for(g, x));
-    QDOT_TRY(vector_for(g, y));
+    QDOT_TRY(make_vector_of_row(g, x));
+    QDOT_TRY(make_vector_of_row(g, y));
     return qdot_vec_push(&g->sums, sum);
 }
 
-/* Find the sums of step i from its recurrence. */
+/* Find the convolution sums of step i from its recurrence. */
 static qdot_status
-find_sums_of(qdot_generator *g, size_t i)
+find_sums_of_step(qdot_generator *g, size_t i)
 {
     const qdot_taylor_step *s = g->t->steps + i;
     uint32_t *sum = g->step_sums + 3 * i;
@@ -210,18 +210,18 @@ find_sums_of(qdot_generator *g, size_t i)
 }
 
 static qdot_status
-find_sums(qdot_generator *g)
+find_all_sums(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
     for (size_t i = t->still; i < t->length; i++)
-        QDOT_TRY(find_sums_of(g, i));
+        QDOT_TRY(find_sums_of_step(g, i));
     return QDOT_OK;
 }
 
-/* Make one sum of all couplings of an unknown. */
+/* Make one convolution sum of all products by which an unknown is coupled to others. */
 static qdot_status
-find_unknown_sums(qdot_generator *g)
+find_sums_of_unknowns(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
@@ -256,17 +256,17 @@ choose_layout(qdot_generator *g)
     g->lag = few && !narrow ? 2 : 1;
     g->reread = narrow && !few;
     g->first_scalar = qdot_asm_first_free(&g->m);
-    g->behind_scalars = least(g->first_scalar + (narrow && few ? few_scalars : scalars),
-                              qdot_asm_registers(&g->m));
+    g->behind_scalars = minimum(g->first_scalar + (narrow && few ? few_scalars : scalars),
+                                qdot_asm_registers(&g->m));
     g->as_they_stand = qdot_code_rows_as_they_stand(g);
-    loops = loops_of(g);
-    g->blocks = most_blocks(&loops, g->n);
+    loops = loop_layout(g);
+    g->blocks = most_vectors_of_sum(&loops, g->n);
 }
 
 /* Registers from the last one down, first for what every order needs; places in memory for
  * all. Doubles of work space. */
 static size_t
-give_places(qdot_generator *g)
+assign_registers_and_memory(qdot_generator *g)
 {
     const int lowest = g->behind_scalars;
     size_t at = QDOT_CODE_SLOTS + (g->n_slots + 7) / 8 * 8;
@@ -285,7 +285,7 @@ give_places(qdot_generator *g)
             continue;
         }
         g->sums.at[i].v.at = at;
-        at += (size_t)(g->lanes * g->blocks + QDOT_CODE_LANES); /* zeros after the last number */
+        at += (size_t)(g->lanes * g->blocks + QDOT_CODE_LANES); /* zeros follow the last number */
     }
     for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++) {
         g->rows.at[i].at = at;
@@ -296,9 +296,9 @@ give_places(qdot_generator *g)
 
 /* --- writing the code --------------------------------------------------------------- */
 
-/* Write one order of all recurrences; their vectors must be up to date. */
+/* Write the code for one order of all recurrences; their vectors must contain the orders before. */
 static void
-emit_order(qdot_generator *g)
+write_order(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
@@ -318,9 +318,9 @@ qdot_code_forget(qdot_generator *g)
         g->held[i] = QDOT_CODE_NONE;
 }
 
-/* Shift the times at which coefficients are known by `orders` orders. */
+/* Shift the table of times at which coefficients become known by `orders` orders. */
 static void
-look_back(qdot_generator *g, int orders)
+shift_ready_times(qdot_generator *g, int orders)
 {
     for (size_t row = 0; row < g->t->rows; row++) {
         int *ready = g->ready + 4 * row, old[4];
@@ -332,29 +332,29 @@ look_back(qdot_generator *g, int orders)
 }
 
 static void
-emit_body(qdot_generator *g, const qdot_code_phase *p)
+write_loop_body(qdot_generator *g, const qdot_code_phase *p)
 {
     qdot_code_add_order(g, p, g->k - g->lag);
-    emit_order(g);
+    write_order(g);
 }
 
 /* Orders k = m + lag for the m of a phase. What waits for what is known from an order to the
  * next: it is written twice, and the second stays. */
 static void
-emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
+write_phase(qdot_generator *g, const qdot_code_phase *p, int number)
 {
     size_t from;
 
     qdot_code_begin_phase(g, p);
-    look_back(g, number > 0 ? 1 : 2 * g->lag);
+    shift_ready_times(g, number > 0 ? 1 : 2 * g->lag);
     g->k = QDOT_CODE_ANY;
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted >= 0 &&
                p->inserted * g->lanes < QDOT_CODE_LANES;
     for (int i = 0; i < 2; i++) {
         from = g->m.bytes.n;
         qdot_code_forget(g);
-        emit_body(g, p);
-        look_back(g, 1);
+        write_loop_body(g, p);
+        shift_ready_times(g, 1);
         g->m.bytes.n = from;
     }
     qdot_code_forget(g);
@@ -363,7 +363,7 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
         qdot_asm_return_if_none(&g->m);
         from = g->m.bytes.n;
     }
-    emit_body(g, p);
+    write_loop_body(g, p);
     qdot_asm_set(&g->m, QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS_NOW, 8);
     qdot_asm_set(&g->m, QDOT_ASM_WORK_NOW, QDOT_ASM_WORK_NOW, 8);
     qdot_code_next_lane(g, p);
@@ -371,27 +371,27 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
 }
 
 static void
-emit_all(qdot_generator *g)
+write_all_code(qdot_generator *g)
 {
     const int singly = 2 * g->lag - 1;
-    const qdot_taylor_loops loops = loops_of(g);
+    const qdot_taylor_loops loops = loop_layout(g);
     qdot_code_phase phases[QDOT_CODE_PHASES];
     int count;
 
     qdot_code_forget(g);
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
     qdot_code_begin_vectors(g);
-    for (g->k = 1; g->k <= least(g->n, singly); g->k++)
-        emit_order(g);
+    for (g->k = 1; g->k <= minimum(g->n, singly); g->k++)
+        write_order(g);
     qdot_asm_set(&g->m, QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS, 8 * (singly + 1));
     qdot_asm_set(&g->m, QDOT_ASM_WORK_NOW, QDOT_ASM_WORK, 8 * (singly + 1));
     count = find_phases(&loops, g->n, phases);
     for (int i = 0; i < count && g->m.bytes.n <= most_bytes; i++)
-        emit_phase(g, phases + i, i);
+        write_phase(g, phases + i, i);
     qdot_asm_return(&g->m);
 }
 
-/* The error of the double 1/n: the exact value minus the double. */
+/* The rounding error of the double 1/n: the exact value minus the double. */
 static double
 rounding_of_inverse(int n)
 {
@@ -399,7 +399,7 @@ rounding_of_inverse(int n)
 }
 
 static qdot_status
-make_work(qdot_taylor_code *c)
+allocate_work_space(qdot_taylor_code *c)
 {
     qdot_code_phase phases[QDOT_CODE_PHASES];
     const int count = find_phases(&c->text->loops, c->to, phases);
@@ -427,9 +427,9 @@ make_work(qdot_taylor_code *c)
     return QDOT_OK;
 }
 
-/* Whether the rows that links (integrals) write all belong to the program itself. */
+/* Whether all rows that integrals of the system (links) write belong to the program itself. */
 static bool
-reaches_all(const qdot_taylor *t)
+links_stay_in_program(const qdot_taylor *t)
 {
     const double *end = t->coefficients + t->rows * t->stride;
 
@@ -443,7 +443,7 @@ reaches_all(const qdot_taylor *t)
 }
 
 static qdot_status
-generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
+generate_code(qdot_generator *g, qdot_taylor_text *text, const char **why)
 {
     const size_t rows = g->t->rows, length = g->t->length;
 
@@ -463,18 +463,18 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     memset(g->maker, 0xff, rows * sizeof *g->maker);
     memset(g->unknown_sums, 0xff, rows * sizeof *g->unknown_sums);
     memset(g->step_sums, 0xff, 3 * length * sizeof *g->step_sums);
-    find_moving(g);
-    find_moving_unknowns(g);
-    QDOT_TRY(find_sums(g));
-    QDOT_TRY(find_unknown_sums(g));
+    find_varying_rows(g);
+    find_varying_unknowns(g);
+    QDOT_TRY(find_all_sums(g));
+    QDOT_TRY(find_sums_of_unknowns(g));
     choose_layout(g);
     QDOT_TRY(qdot_code_fold(g));
-    text->doubles = give_places(g);
+    text->doubles = assign_registers_and_memory(g);
     QDOT_TRY(qdot_grow(&g->m.bytes.at, &g->m.bytes.capacity, 16384, 1));
-    emit_all(g);
+    write_all_code(g);
     text->begin = g->m.bytes.n;
     qdot_code_zero(g);
-    text->loops = loops_of(g);
+    text->loops = loop_layout(g);
     text->from = text->to = g->n;
     text->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
     while (text->from > 1 && (g->m.kind < 2 || is_same_code(&text->loops, g->n, text->from - 1)))
@@ -490,10 +490,10 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 }
 
 static qdot_status
-code_write_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char **why)
+write_code_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char **why)
 {
     qdot_generator g = {.m = {.kind = qdot_asm_kind()}, .t = t, .n = n};
-    qdot_status status = generate(&g, text, why);
+    qdot_status status = generate_code(&g, text, why);
 
     text->blocks = g.block_slots;
     qdot_free(g.moving);
@@ -515,8 +515,8 @@ code_write_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char 
 /* One that is kept, or (but not if `kept`) is written now. A run and its companions want the same at
  * once: one writes, the others wait for it. */
 static qdot_status
-find_text(const qdot_taylor *t, qdot_taylor_orders orders, bool kept, qdot_taylor_text **text,
-          const char **why)
+find_or_write_text(const qdot_taylor *t, qdot_taylor_orders orders, bool kept, qdot_taylor_text **text,
+                   const char **why)
 {
     static pthread_mutex_t writing = PTHREAD_MUTEX_INITIALIZER;
     qdot_status status;
@@ -525,7 +525,7 @@ find_text(const qdot_taylor *t, qdot_taylor_orders orders, bool kept, qdot_taylo
         pthread_mutex_lock(&writing);
     status = qdot_taylor_text_take(t, orders, text);
     if (status == QDOT_OK && !(*text)->memory && !kept) {
-        status = code_write_text(t, orders.most, *text, why);
+        status = write_code_text(t, orders.most, *text, why);
         if (status == QDOT_OK && !*why)
             qdot_taylor_text_keep(*text);
     }
@@ -548,7 +548,7 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, int highest, bool kept,
         *why = "machine code is for x86-64";
         return QDOT_OK;
     }
-    if (!reaches_all(t)) {
+    if (!links_stay_in_program(t)) {
         *why = "what is linked is found elsewhere";
         return QDOT_OK;
     }
@@ -557,17 +557,17 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, int highest, bool kept,
         return QDOT_ENOMEM;
     c->to = to;
     if (qdot_asm_kind() < 2)
-        orders.most = least(most(to, highest), QDOT_SERIES_MOST);
-    status = find_text(t, orders, kept, &c->text, why);
-    if (status == QDOT_OK && *why && orders.most > to) { /* the code is too long for the higher orders */
+        orders.most = minimum(maximum(to, highest), QDOT_SERIES_MOST);
+    status = find_or_write_text(t, orders, kept, &c->text, why);
+    if (status == QDOT_OK && *why && orders.most > to) { /* too long a code for orders up to `most`: try `to` */
         qdot_taylor_text_give(c->text);
         c->text = NULL;
         *why = NULL;
         orders.most = to;
-        status = find_text(t, orders, kept, &c->text, why);
+        status = find_or_write_text(t, orders, kept, &c->text, why);
     }
     if (status == QDOT_OK && c->text->memory)
-        status = make_work(c);
+        status = allocate_work_space(c);
     if (status != QDOT_OK || !c->text->memory) {
         qdot_taylor_code_free(c);
         return status;

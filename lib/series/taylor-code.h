@@ -48,17 +48,17 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_code_new(const qdot_taylor *t, int to, i
                                                  const char **why);
 void qdot_taylor_code_free(qdot_taylor_code *code);
 
-/* Set the unit of time by which integrals (links) multiply; call before the orders are run. */
+/* Set the unit of time for integrals (links); call this before the orders are computed. */
 void qdot_taylor_code_unit(qdot_taylor_code *code, double unit);
 
 /* Order 0 of the program it was made of and, if nothing is solved for, what is linked to it, by
  * the unit that is there. */
 void qdot_taylor_code_begin(const qdot_taylor_code *code, qdot_taylor *t);
-/* Compute all orders above 0; order 0 and its links must be known. */
+/* Compute all orders above 0; order 0 and the integrals that follow from it must be known. */
 void qdot_taylor_code_run(const qdot_taylor_code *code, qdot_taylor *t);
 
 int qdot_taylor_code_orders(const qdot_taylor_code *code);
-/* The size of the code in bytes. */
+/* The size of the machine code in bytes. */
 size_t qdot_taylor_code_size(const qdot_taylor_code *code);
 
 #endif

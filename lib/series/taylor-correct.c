@@ -1,23 +1,23 @@
-/* taylor-correct.c -- updates rows when the newest coefficients of inputs become known. */
+/* taylor-correct.c -- updates rows of coefficients when the newest coefficients of inputs become known. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "series/taylor-steps.h"
 #include "series/taylor.h"
 
-/* The change of row `to`: a note[x] + b note[y] + c note[z], with factors from order 0. */
+/* How row `to` changes: by a note[x] + b note[y] + c note[z], where a, b, c follow from coefficients of order 0. */
 struct qdot_taylor_change {
     double *row;
     uint32_t to, x, y, z;
     double a, b, c;
     const qdot_taylor_step *step;
-    bool second; /* it changes the second of the two rows that the step writes */
-    bool rate;   /* the step is a RATE: its factor is c times the order */
-    bool varies; /* a, b or c depend on order 0 of rows that vary in time */
+    bool second; /* the row changed is the second of the two rows that the step writes */
+    bool rate;   /* the step is a time derivative (RATE): its factor is c times the order */
+    bool varies; /* a, b or c depend on order 0 of rows that vary in time, so that they change from step to step */
     int lead;
 };
 
-/* A row that contains j x_j: its change is k times that of x, and no other row depends on it. */
+/* A row that contains j x_j: at order k it changes by k times the change of x. No other row depends on it. */
 struct qdot_taylor_scaled_change {
     double *row;
     uint32_t x;
@@ -26,11 +26,11 @@ struct qdot_taylor_scaled_change {
 
 struct qdot_taylor_changes {
     double *note; /* [rows] the change of the newest coefficient of each row */
-    struct qdot_taylor_change *changes; /* [n_changes] in the order of the steps */
+    struct qdot_taylor_change *changes; /* [n_changes] the changes of rows in the order of the steps */
     struct qdot_taylor_scaled_change *scaled;
     size_t n_changes, n_scaled;
-    bool stale; /* order 0 has changed: the factors a, b, c must be computed again */
-    bool begun; /* factors that are constant in time have been computed */
+    bool stale; /* the coefficients of order 0 have changed: the factors a, b, c must be computed again */
+    bool begun; /* the factors that are constant in time have been computed */
     bool changes_zero; /* some factor depends on order 0 of rows that vary in time */
 };
 
@@ -56,7 +56,7 @@ qdot_taylor_changes_stale(qdot_taylor *t, int k)
 /* --- making the list of changes ----------------------------------------------------- */
 
 static void
-add_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
+append_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
 {
     struct qdot_taylor_changes *c = t->changes;
     double *row = second ? s->second : s->to;
@@ -75,7 +75,7 @@ add_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
 }
 
 static void
-add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double *x)
+append_scaled_change(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double *x)
 {
     struct qdot_taylor_changes *c = t->changes;
 
@@ -83,27 +83,27 @@ add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double 
         (struct qdot_taylor_scaled_change){row, qdot_taylor_row(t, x), s->lead};
 }
 
-/* List how a step changes its rows, the second result after the first. */
+/* List how a step changes the rows that it writes, the second result after the first. */
 static void
 list(qdot_taylor *t, const qdot_taylor_step *s)
 {
-    add_change(t, s, false);
+    append_change(t, s, false);
     switch (s->op) {
     case QDOT_T_SINCOS:
     case QDOT_T_SINHCOSH:
-    case QDOT_T_TANH: add_change(t, s, true); break;
+    case QDOT_T_TANH: append_change(t, s, true); break;
     case QDOT_T_ATAN2:
-        add_scaled(t, s, s->second, s->x);
-        add_scaled(t, s, s->third, s->y);
+        append_scaled_change(t, s, s->second, s->x);
+        append_scaled_change(t, s, s->third, s->y);
         break;
     }
     if (s->d)
-        add_scaled(t, s, s->d,
-                   s->op == QDOT_T_RATIO || s->op == QDOT_T_ATAN2 ? s->to : s->x);
+        append_scaled_change(t, s, s->d,
+                             s->op == QDOT_T_RATIO || s->op == QDOT_T_ATAN2 ? s->to : s->x);
 }
 
 static qdot_status
-make_changes(qdot_taylor *t)
+list_all_changes(qdot_taylor *t)
 {
     struct qdot_taylor_changes *c = qdot_calloc(1, sizeof *c);
 
@@ -120,7 +120,7 @@ make_changes(qdot_taylor *t)
 qdot_status
 qdot_taylor_follow_motion(qdot_taylor *t)
 {
-    QDOT_TRY(make_changes(t));
+    QDOT_TRY(list_all_changes(t));
     for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
         if (s->kept) {
             list(t, s);
@@ -131,13 +131,13 @@ qdot_taylor_follow_motion(qdot_taylor *t)
 
 /* --- evaluating the changes --------------------------------------------------------- */
 
-/* Derivatives of a value by x, y and z of its step; the fourth is 0. */
+/* Derivatives of the value of a step by its operands x, y and z; the fourth number is 0. */
 typedef double slopes __attribute__((vector_size(32)));
 
 /* Derivatives of a step's row by its operands, at order 0: what is linear in coefficients of order
  * k holds at order 1. */
 static void
-differentiate(struct qdot_taylor_change *change)
+compute_factors(struct qdot_taylor_change *change)
 {
     const qdot_taylor_step *i = change->step;
     const slopes NEWEST_x = {1, 0, 0, 0}, NEWEST_y = {0, 1, 0, 0}, NEWEST_z = {0, 0, 1, 0};
@@ -173,7 +173,7 @@ qdot_taylor_follow(qdot_taylor *t, int k)
     if (all->stale) {
         for (size_t i = 0; i < all->n_changes; i++)
             if (all->changes[i].varies || !all->begun)
-                differentiate(all->changes + i);
+                compute_factors(all->changes + i);
         all->stale = false;
         all->begun = true;
     }

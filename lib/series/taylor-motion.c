@@ -1,4 +1,4 @@
-/* taylor-motion.c -- computes the stages of a motion; updates rows when its unknowns are found. */
+/* taylor-motion.c -- expands the solution of a motion stage by stage; updates rows when its unknowns are found. */
 #include "series/taylor-motion.h"
 
 #include "series/taylor-products.h"
@@ -6,9 +6,9 @@
 
 /* --- building the program ------------------------------------------------------------ */
 
-/* Remove the steps that compute explicit equations E; their products with K are summed separately. */
+/* Remove the steps that compute the explicit equations E; products with the matrix K are then summed separately. */
 static qdot_status
-motion_split_off_written(qdot_taylor *t, int most, int solved)
+remove_steps_of_equations(qdot_taylor *t, int most, int solved)
 {
     const size_t length = t->length - t->motion->written;
 
@@ -24,9 +24,9 @@ motion_split_off_written(qdot_taylor *t, int most, int solved)
     return qdot_taylor_products_new(t, most + 1, &t->products);
 }
 
-/* Make the integrals of the unknowns links, if nothing else depends on the newest unknowns. */
+/* Let integrals of unknowns be computed as links, if no step reads the newest coefficients of unknowns. */
 static qdot_status
-link_unknowns(qdot_taylor *t)
+make_integrals_links(qdot_taylor *t)
 {
     const qdot_motion *m = t->motion;
 
@@ -62,13 +62,13 @@ qdot_taylor_of_motion(const qdot_motion *motion, bool shaken, int most, int solv
                                 apart ? motion->solved.n : 0,
                                 is_explicit ? 0 : motion->program.length, shaken);
     if (status == QDOT_OK && apart)
-        status = motion_split_off_written(t, most, solved);
+        status = remove_steps_of_equations(t, most, solved);
     if (status == QDOT_OK)
         status = qdot_taylor_find_unknowns(t, is_explicit);
     if (status == QDOT_OK && apart && !is_explicit)
         status = qdot_taylor_shorten(t);
     if (status == QDOT_OK)
-        status = is_explicit ? link_unknowns(t) : qdot_taylor_follow_motion(t);
+        status = is_explicit ? make_integrals_links(t) : qdot_taylor_follow_motion(t);
     if (status == QDOT_OK && !is_explicit)
         status = qdot_taylor_find_newest(t);
     if (status != QDOT_OK) {
@@ -118,16 +118,16 @@ is_explicit(const qdot_taylor *t)
     return !t->changes;
 }
 
-/* The factor between order k of an integral and order k - 1 of the integrand. */
+/* The factor from order k - 1 of an integrand to order k of its integral. */
 static double
-integral_part(const qdot_taylor *t, int k)
+factor_of_integration(const qdot_taylor *t, int k)
 {
     return t->unit / k;
 }
 
-/* Integrate the unknowns whose derivatives have a row of coefficients, once coefficient k is known. */
+/* Integrate unknowns that are given by rows of the program, once coefficient k of these is known. */
 static void
-integrate_given(const qdot_taylor *t, int k)
+integrate_given_unknowns(const qdot_taylor *t, int k)
 {
     const qdot_motion *m = t->motion;
 
@@ -138,9 +138,9 @@ integrate_given(const qdot_taylor *t, int k)
 
         if (u->value == QDOT_NO_ROW || !once)
             continue;
-        once[k + 1] = integral_part(t, k + 1) * qdot_taylor_place(t, u->value)[k];
+        once[k + 1] = factor_of_integration(t, k + 1) * qdot_taylor_place(t, u->value)[k];
         if (twice)
-            twice[k + 2] = integral_part(t, k + 2) * once[k + 1];
+            twice[k + 2] = factor_of_integration(t, k + 2) * once[k + 1];
     }
 }
 
@@ -157,7 +157,7 @@ qdot_taylor_stage(qdot_taylor *t, int k)
         t->newest[i].row[k + t->newest[i].lead] = 0;
     qdot_taylor_order_leading(t, k);
     if (k >= 0 && m->unknowns.n > m->solved.n)
-        integrate_given(t, k);
+        integrate_given_unknowns(t, k);
 }
 
 void

@@ -19,7 +19,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_of_motion(const qdot_motion *motion, boo
                                                   int most, int solved, qdot_taylor **taylor);
 void qdot_taylor_set_unit(qdot_taylor *taylor, double unit);
 const double *qdot_taylor_series(const qdot_taylor *taylor, qdot_program_row row);
-/* The coefficients of a row that is an entry of K, up to the factor *sign. */
+/* The coefficients of the row that is an entry of the matrix K, up to the factor *sign (1 or -1). */
 const double *qdot_taylor_entry(const qdot_taylor *taylor, qdot_program_row row, double *sign);
 
 /* Stage k with u_k = 0, as qdot_lanes_stage; by [solved] = -E_k then; u_k becomes `by`, as

@@ -14,14 +14,14 @@ qdot_taylor_may_hide(const qdot_taylor *t)
 }
 
 static double
-step_divisor_nearness(const qdot_taylor_step *step, int p, double s)
+safe_step_for_divisor(const qdot_taylor_step *step, int p, double s)
 {
     const char which = qdot_recurrence_divisor(step->op);
     const double *b = which == 'x' ? step->x : which == 'y' ? step->y : step->z;
 
     if (!qdot_near_may_fall(p, b, s))
         return s;
-    /* the poles of a quotient at which the numerator vanishes, too, do not count */
+    /* do not count poles of a quotient at which the numerator is 0, too */
     if (step->op == QDOT_T_DIV && !qdot_near_diverges(p, step->to, s))
         return s;
     return qdot_near_divisor(p, b, step->op == QDOT_T_SQRT, s);
@@ -38,7 +38,7 @@ qdot_taylor_near(const qdot_taylor *t, int p, double s, double least)
             s = qdot_near_taken(s, qdot_near_argument(p, step->x, times, s),
                                 QDOT_NEAR_FINER * least);
         else if (qdot_recurrence_divisor(step->op))
-            s = qdot_near_taken(s, step_divisor_nearness(step, p, s), least);
+            s = qdot_near_taken(s, safe_step_for_divisor(step, p, s), least);
     }
     return s;
 }

@@ -1,4 +1,4 @@
-/* taylor-order.c -- evaluates the recurrences order by order. */
+/* taylor-order.c -- evaluates the recurrences for Taylor coefficients order by order. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 /* A hash without visible pattern (the finalizer of MurmurHash3). */
 static uint64_t
-mix(uint64_t x)
+mix_bits(uint64_t x)
 {
     x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
     x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
@@ -22,7 +22,7 @@ qdot_taylor_chance(double time, size_t i)
     uint64_t bits;
 
     memcpy(&bits, &time, sizeof bits);
-    return (double)(mix(bits + (i + 1) * UINT64_C(0x9e3779b97f4a7c15)) >> 11) * 0x1p-53;
+    return (double)(mix_bits(bits + (i + 1) * UINT64_C(0x9e3779b97f4a7c15)) >> 11) * 0x1p-53;
 }
 
 void
@@ -85,15 +85,15 @@ qdot_taylor_find_functions(qdot_taylor *t)
 }
 
 static void
-order_zero(const qdot_taylor *t)
+compute_order_zero(const qdot_taylor *t)
 {
     for (size_t i = 0; i < t->length; i++)
         qdot_taylor_value(t->steps + i);
 }
 
-/* Compute order k of the first n steps, except constant ones, by the functions for that order. */
+/* Compute order k of the first n steps, except those with constant rows, by the functions for that order. */
 static inline void
-taylor_order(const qdot_taylor *t, size_t n, qdot_taylor_function *const *function)
+compute_order(const qdot_taylor *t, size_t n, qdot_taylor_function *const *function)
 {
     const qdot_series_kernels *kernels = t->kernels;
     qdot_taylor_step *s = t->steps + t->still, *const end = t->steps + n;
@@ -108,13 +108,13 @@ void
 qdot_taylor_order(qdot_taylor *t, int k)
 {
     if (k > 0) {
-        taylor_order(t, t->length, t->functions[k]);
+        compute_order(t, t->length, t->functions[k]);
         return;
     }
     if (t->code && t->n_blocks > 0)
         qdot_taylor_code_begin(t->code, t);
     else
-        order_zero(t);
+        compute_order_zero(t);
     qdot_taylor_changes_stale(t, 0);
 }
 
@@ -179,7 +179,7 @@ qdot_taylor_begin(qdot_taylor *t, double unit)
         qdot_taylor_code_begin(t->code, t);
         return;
     }
-    order_zero(t);
+    compute_order_zero(t);
     qdot_taylor_begin_links(t, unit);
 }
 
@@ -194,5 +194,5 @@ qdot_taylor_extend(qdot_taylor *t, int from, int to)
         return;
     }
     for (int k = from; k <= to; k++)
-        taylor_order(t, n, function[k]);
+        compute_order(t, n, function[k]);
 }

@@ -1,21 +1,21 @@
-/* taylor-products.c -- lists the products of K and unknowns, and sums them. */
+/* taylor-products.c -- lists the products of entries of K with unknowns, and sums them in vectors. */
 #include "series/taylor-products.h"
 
 #include "base/memory.h"
 
 enum { lanes = 8 };
 
-/* A product sum that is subtracted: sum number `of`, times a sign, from component `to` of x. */
+/* One part of a result: from component `to` of x subtract sum number `of`, times a sign. */
 typedef struct {
     size_t to, of;
     double sign;
 } part;
 
 struct qdot_taylor_products {
-    size_t n, members;          /* number of sums; the same rounded up to full vectors */
+    size_t n, members;          /* number of convolution sums; this number rounded up to full vectors */
     const double **entry, **by; /* [n] the rows of the two factors of each product */
     double *entries, *unknowns; /* [orders x members] coefficients of both factors, order by order */
-    double *sums;               /* [members] the sums of one order */
+    double *sums;               /* [members] the values of all sums at one order */
     part *parts;
     size_t n_parts;
 };
@@ -23,7 +23,7 @@ struct qdot_taylor_products {
 /* --- making the list of products ----------------------------------------------------- */
 
 static void
-products_add(qdot_taylor_products *p, const double *positive, size_t to, const qdot_taylor_coupling *c)
+append_coupling(qdot_taylor_products *p, const double *positive, size_t to, const qdot_taylor_coupling *c)
 {
     const double *entry = positive ? positive : c->M;
     size_t j = 0;
@@ -36,9 +36,9 @@ products_add(qdot_taylor_products *p, const double *positive, size_t to, const q
     p->parts[p->n_parts++] = (part){to, j, positive ? -1 : 1};
 }
 
-/* Add the products M a of all blocks. */
+/* List the products M a, of a matrix with unknowns, of all blocks. */
 static void
-products_add_all(qdot_taylor_products *p, const qdot_taylor *t)
+add_all_products(qdot_taylor_products *p, const qdot_taylor *t)
 {
     size_t first = 0;
 
@@ -48,14 +48,14 @@ products_add_all(qdot_taylor_products *p, const qdot_taylor *t)
         for (size_t i = 0; i < block->n_couplings; i++) {
             const qdot_taylor_coupling *c = block->couplings + i;
 
-            products_add(p, t->negated[qdot_taylor_row(t, c->M)], first + c->i, c);
+            append_coupling(p, t->negated[qdot_taylor_row(t, c->M)], first + c->i, c);
         }
         first += block->n;
     }
 }
 
 static qdot_status
-products_make(qdot_taylor_products *p, const qdot_taylor *t, int most)
+make_products(qdot_taylor_products *p, const qdot_taylor *t, int most)
 {
     size_t count = 1;
 
@@ -66,7 +66,7 @@ products_make(qdot_taylor_products *p, const qdot_taylor *t, int most)
     p->parts = qdot_calloc(count, sizeof *p->parts);
     if (!p->entry || !p->by || !p->parts)
         return QDOT_ENOMEM;
-    products_add_all(p, t);
+    add_all_products(p, t);
     p->members = (p->n + lanes - 1) / lanes * lanes;
     p->entries = qdot_calloc((size_t)most * p->members + 1, sizeof *p->entries);
     p->unknowns = qdot_calloc((size_t)most * p->members + 1, sizeof *p->unknowns);
@@ -80,7 +80,7 @@ qdot_taylor_products_new(const qdot_taylor *t, int most, qdot_taylor_products **
     qdot_taylor_products *p = qdot_calloc(1, sizeof *p);
 
     *products = p;
-    return p ? products_make(p, t, most) : QDOT_ENOMEM;
+    return p ? make_products(p, t, most) : QDOT_ENOMEM;
 }
 
 size_t

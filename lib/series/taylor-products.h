@@ -17,7 +17,7 @@ typedef struct qdot_taylor_products qdot_taylor_products;
  * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_products_new(const qdot_taylor *t, int most,
                                                      qdot_taylor_products **products);
-/* The number of sums of products. */
+/* The number of convolution sums of products. */
 size_t qdot_taylor_products_count(const qdot_taylor_products *p);
 void qdot_taylor_products_free(qdot_taylor_products *p);
 

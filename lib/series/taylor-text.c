@@ -1,4 +1,4 @@
-/* taylor-text.c -- keeps generated code: keys of programs, executable memory, a small cache. */
+/* taylor-text.c -- keeps generated machine code: keys of programs, executable memory, a small cache. */
 #include "series/taylor-text.h"
 
 #include <stdatomic.h>
@@ -10,7 +10,7 @@
 #if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
 #define CAN_RUN
 #include <sys/mman.h>
-#ifdef MAP_POPULATE /* maps all pages at once instead of one fault for each page */
+#ifdef MAP_POPULATE /* map all pages at once instead of by one page fault for each */
 #define POPULATED MAP_POPULATE
 #else
 #define POPULATED 0
@@ -25,7 +25,7 @@ enum {
     most_kept = 1 << 16 /* largest code kept, in bytes: longer code is rare and takes long to run */
 };
 
-/* The cache; it holds a reference to each text, and a text taken out is invisible to other threads. */
+/* The cache. It holds a reference to each text; while a thread has taken a text out, others do not see it. */
 static _Atomic(qdot_taylor_text *) shelf[kept];
 static atomic_uint next_place;
 
@@ -34,7 +34,7 @@ static atomic_uint next_place;
 enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
 static uint32_t
-text_row(const qdot_taylor *t, const double *x)
+index_of_row(const qdot_taylor *t, const double *x)
 {
     return x ? qdot_taylor_row(t, x) : UINT32_MAX;
 }
@@ -51,44 +51,44 @@ length_of_key(const qdot_taylor *t)
 }
 
 static uint32_t *
-put_step(const qdot_taylor *t, const qdot_taylor_step *s, uint32_t *to)
+append_step_to_key(const qdot_taylor *t, const qdot_taylor_step *s, uint32_t *to)
 {
     const uint32_t words[OF_STEP] = {s->op,
                                      s->zero,
                                      (uint32_t)s->sign,
-                                     text_row(t, s->to),
-                                     text_row(t, s->second),
-                                     text_row(t, s->third),
-                                     text_row(t, s->d),
-                                     text_row(t, s->x),
-                                     text_row(t, s->y),
-                                     text_row(t, s->z)};
+                                     index_of_row(t, s->to),
+                                     index_of_row(t, s->second),
+                                     index_of_row(t, s->third),
+                                     index_of_row(t, s->d),
+                                     index_of_row(t, s->x),
+                                     index_of_row(t, s->y),
+                                     index_of_row(t, s->z)};
 
     memcpy(to, words, sizeof words);
     return to + OF_STEP;
 }
 
 static uint32_t *
-put_block(const qdot_taylor *t, const qdot_taylor_block *b, uint32_t *to)
+append_block_to_key(const qdot_taylor *t, const qdot_taylor_block *b, uint32_t *to)
 {
     *to++ = (uint32_t)b->n;
     *to++ = (uint32_t)b->solved;
     *to++ = (uint32_t)b->n_couplings;
     for (size_t i = 0; i < b->n; i++) {
-        *to++ = text_row(t, b->f[i]);
-        *to++ = text_row(t, b->a[i]);
-        *to++ = text_row(t, b->r[i]);
+        *to++ = index_of_row(t, b->f[i]);
+        *to++ = index_of_row(t, b->a[i]);
+        *to++ = index_of_row(t, b->r[i]);
     }
     for (size_t c = 0; c < b->n_couplings; c++) {
         *to++ = b->couplings[c].i;
-        *to++ = text_row(t, b->couplings[c].M);
-        *to++ = text_row(t, b->couplings[c].a);
+        *to++ = index_of_row(t, b->couplings[c].M);
+        *to++ = index_of_row(t, b->couplings[c].a);
     }
     return to;
 }
 
 static void
-put_all(const qdot_taylor *t, uint32_t *to)
+write_key(const qdot_taylor *t, uint32_t *to)
 {
     const uint32_t words[OF_ALL] = {
         (uint32_t)t->rows,     (uint32_t)t->stride,  (uint32_t)t->moving,
@@ -98,11 +98,11 @@ put_all(const qdot_taylor *t, uint32_t *to)
     memcpy(to, words, sizeof words);
     to += OF_ALL;
     for (size_t i = 0; i < t->outputs; i++)
-        *to++ = text_row(t, t->output[i]);
+        *to++ = index_of_row(t, t->output[i]);
     for (size_t i = 0; i < t->length + t->n_links; i++)
-        to = put_step(t, t->steps + i, to);
+        to = append_step_to_key(t, t->steps + i, to);
     for (size_t k = 0; k < t->n_blocks; k++)
-        to = put_block(t, t->blocks + k, to);
+        to = append_block_to_key(t, t->blocks + k, to);
 }
 
 /* --- the cache of generated code ---------------------------------------------------- */
@@ -121,9 +121,9 @@ qdot_taylor_text_give(qdot_taylor_text *text)
     qdot_free(text);
 }
 
-/* The cached code for this key that serves these orders, with a further reference; NULL if none. */
+/* The cached machine code for this key that serves these orders, with a further reference; NULL if there is none. */
 static qdot_taylor_text *
-shelf_find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
+find_in_cache(const uint32_t *key, size_t length, qdot_taylor_orders orders)
 {
     for (size_t i = 0; i < kept; i++) {
         qdot_taylor_text *text = atomic_exchange(shelf + i, NULL), *none = NULL;
@@ -137,7 +137,7 @@ shelf_find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
         if (found)
             atomic_fetch_add(&text->users, 1);
         if (!atomic_compare_exchange_strong(shelf + i, &none, text))
-            qdot_taylor_text_give(text); /* another thread has stored the same code meanwhile */
+            qdot_taylor_text_give(text); /* another thread has stored the same code in the meantime: drop this one */
         if (found)
             return text;
     }
@@ -160,8 +160,8 @@ qdot_taylor_text_take(const qdot_taylor *t, qdot_taylor_orders orders, qdot_tayl
         qdot_taylor_text_give(empty);
         return QDOT_ENOMEM;
     }
-    put_all(t, empty->key);
-    *text = shelf_find(empty->key, length, orders);
+    write_key(t, empty->key);
+    *text = find_in_cache(empty->key, length, orders);
     if (*text)
         qdot_taylor_text_give(empty);
     else

@@ -17,7 +17,7 @@
 
 #include "series/taylor-steps.h"
 
-/* How the orders of an expansion are divided among loops (taylor-code.c). */
+/* How the orders of an expansion are divided among the loops of machine code (taylor-code.c). */
 typedef struct {
     int lanes, lag;
     bool as_they_stand;
@@ -29,16 +29,16 @@ typedef struct {
 } qdot_taylor_orders;
 
 typedef struct {
-    uint32_t *key; /* [length] the words that identify the program */
+    uint32_t *key; /* [length] the words that identify the program for which the code was generated */
     size_t length;
     void *memory;
-    size_t size, used; /* bytes of the memory block, of the code in it */
+    size_t size, used; /* bytes of the memory block; bytes of the code in it */
     size_t begin;      /* offset of the function that computes order 0 */
     qdot_taylor_loops loops;
-    int from, to; /* lowest and highest order of the expansions that the code can make */
-    bool exact;   /* at low orders links use factors in two doubles */
+    int from, to; /* lowest and highest order of the expansions that this code can make */
+    bool exact;   /* at low orders integrals use factors in two doubles */
     size_t doubles;    /* number of doubles of work space that the code needs */
-    uint32_t *blocks;  /* [blocks] where the matrices of each block are in the work space */
+    uint32_t *blocks;  /* [blocks] index in the work space at which the matrices of each block begin */
     atomic_uint users;
 } qdot_taylor_text;
 
@@ -50,11 +50,11 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t,
 /* Fill an empty one. Memory is written or run, never both. False: the system does not let it
  * be run. */
 bool qdot_taylor_text_fill(qdot_taylor_text *text, const unsigned char *code, size_t n);
-/* Put completed code into the cache. */
+/* Put a completed text (generated machine code) into the cache. */
 void qdot_taylor_text_keep(qdot_taylor_text *text);
-/* The address of the first instruction of a text. */
+/* The address of the first instruction of a text (generated machine code). */
 const unsigned char *qdot_taylor_text_first(const qdot_taylor_text *text);
-/* Return a text that was taken. NULL is ignored. */
+/* Give back a text (generated machine code) that was taken. NULL is ignored. */
 void qdot_taylor_text_give(qdot_taylor_text *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* taylor-unknowns.c -- unknowns of a motion: their couplings, and what their equations read. */
+/* taylor-unknowns.c -- unknowns of a motion: how they are coupled, and what their equations read. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -6,9 +6,9 @@
 #include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 
-/* Add an empty block for n unknowns with up to `count` couplings. */
+/* Add an empty block for n coupled unknowns with up to `count` products (couplings) between them. */
 static qdot_status
-taylor_add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block **block)
+add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block **block)
 {
     size_t capacity = t->n_blocks;
     qdot_taylor_block *b;
@@ -26,7 +26,7 @@ taylor_add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor
     return QDOT_OK;
 }
 
-/* Count the products of a variable entry (i, j) of K with unknown j, in explicit rows. */
+/* Count the products of a variable entry (i, j) of the matrix K with unknown j, for each explicit equation. */
 static void
 count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t is_explicit, size_t *rows)
 {
@@ -37,8 +37,8 @@ count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t is_expli
 }
 
 static void
-block_add_coupling(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t is_explicit,
-                   size_t *next)
+add_coupling(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t is_explicit,
+             size_t *next)
 {
     const qdot_motion *m = t->motion;
     const double *M = qdot_taylor_place(t, e->at);
@@ -54,12 +54,12 @@ block_add_coupling(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry
 /* Entries of a motion are those of its first block, then of the next: *entry is where those of
  * block k begin, then where they end. rows [solved + 1] is scratch. */
 static qdot_status
-taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
+make_solved_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
 {
     const qdot_motion *m = t->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
     const size_t n = end - first, from = *entry;
-    /* unknowns with explicit equations */
+    /* number of the block's unknowns whose equations are explicit */
     const size_t is_explicit = m->right.n > first ? m->right.n - first : 0;
     size_t count = 0;
     qdot_taylor_block *b;
@@ -72,13 +72,13 @@ taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *
         e.j -= first;
         count_coupling(m, &e, is_explicit, rows);
     }
-    for (size_t i = 0; i < n; i++) { /* turn counts into starting positions */
+    for (size_t i = 0; i < n; i++) { /* replace counts by starting positions */
         const size_t of_row = rows[i];
 
         rows[i] = count;
         count += of_row;
     }
-    QDOT_TRY(taylor_add_block(t, n, count, solved, &b));
+    QDOT_TRY(add_block(t, n, count, solved, &b));
     b->n_couplings = count;
     for (size_t i = 0; i < n; i++) {
         b->f[i] = i < is_explicit ? qdot_taylor_place(t, m->right.at[first + i]) : NULL;
@@ -90,7 +90,7 @@ taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *
 
         e.i -= first;
         e.j -= first;
-        block_add_coupling(t, b, &e, is_explicit, rows);
+        add_coupling(t, b, &e, is_explicit, rows);
     }
     return QDOT_OK;
 }
@@ -103,7 +103,7 @@ qdot_taylor_solve_motion(qdot_taylor *t, int solved)
     qdot_status status = rows ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k + 1 < m->blocks.n && status == QDOT_OK; k++)
-        status = taylor_solve_block(t, k, solved, &entry, rows);
+        status = make_solved_block(t, k, solved, &entry, rows);
     qdot_free(rows);
     return status;
 }
@@ -133,7 +133,7 @@ qdot_taylor_find_unknowns(qdot_taylor *t, bool linked)
     return QDOT_OK;
 }
 
-/* Count the operands that read each row. */
+/* Count, for each row, the operands of steps that read it. */
 static void
 count_reads(const qdot_taylor *t, uint32_t *reads)
 {
@@ -160,9 +160,9 @@ resolve_rates(qdot_taylor *t, uint32_t *reads)
         }
 }
 
-/* Remove steps whose rows nothing reads. reads [rows] */
+/* Remove steps whose rows nothing reads, by the counts reads [rows]. */
 static void
-drop_unread(qdot_taylor *t, const uint32_t *reads)
+remove_unread_steps(qdot_taylor *t, const uint32_t *reads)
 {
     size_t n = 0, still = 0;
 
@@ -200,7 +200,7 @@ qdot_taylor_shorten(qdot_taylor *t)
     }
     for (size_t i = 0; i < m->program.outputs.n; i++)
         reads[m->program.outputs.at[i]]++;
-    drop_unread(t, reads);
+    remove_unread_steps(t, reads);
     qdot_free(reads);
     t->convolutions = (double)qdot_taylor_products_count(t->products);
     for (size_t i = t->still; i < t->length; i++)
@@ -208,9 +208,9 @@ qdot_taylor_shorten(qdot_taylor *t)
     return QDOT_OK;
 }
 
-/* Find read [rows]: whether steps read a row at its newest order. */
+/* Find for each row whether steps read it at its newest order: read [rows]. */
 static void
-find_read(const qdot_taylor *t, bool *read)
+find_rows_read_at_newest(const qdot_taylor *t, bool *read)
 {
     for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++) {
         read[qdot_taylor_row(t, s->x)] |= (s->newest & QDOT_X_NEWEST) != 0;
@@ -220,7 +220,7 @@ find_read(const qdot_taylor *t, bool *read)
 }
 
 static void
-add_newest(qdot_taylor *t, const bool *read, double *row, int lead)
+append_newest_row(qdot_taylor *t, const bool *read, double *row, int lead)
 {
     if (row && read[qdot_taylor_row(t, row)])
         t->newest[t->n_newest++] = (struct qdot_taylor_newest){
@@ -238,11 +238,11 @@ qdot_taylor_find_newest(qdot_taylor *t)
         qdot_free(read);
         return QDOT_ENOMEM;
     }
-    find_read(t, read);
+    find_rows_read_at_newest(t, read);
     for (size_t i = 0; i < n; i++) {
-        add_newest(t, read, t->unknowns[i].row, 0);
-        add_newest(t, read, t->unknowns[i].once, 1);
-        add_newest(t, read, t->unknowns[i].twice, 2);
+        append_newest_row(t, read, t->unknowns[i].row, 0);
+        append_newest_row(t, read, t->unknowns[i].once, 1);
+        append_newest_row(t, read, t->unknowns[i].twice, 2);
     }
     qdot_free(read);
     return QDOT_OK;

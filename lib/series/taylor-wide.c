@@ -1,4 +1,4 @@
-/* taylor-wide.c -- groups equal steps into vectors, and chooses their kernels. */
+/* taylor-wide.c -- groups equal steps of a program into vectors, and chooses functions for them. */
 #include "series/taylor-wide.h"
 
 #include <math.h>
@@ -8,12 +8,12 @@
 #include "num/kinds.h"
 #include "series/taylor-steps.h"
 
-/* The average number of steps per group from which vectors are worthwhile. */
+/* The average number of steps per group from which computing them as vectors is worthwhile. */
 static const double least_alike = 2.5;
 
 #define NO_LANE SIZE_MAX
 
-/* Pseudo-operations: copy operands side by side; the same for rows that have only order 0. */
+/* Pseudo-operations that copy operands side by side; COPIED_ONCE: for rows that have only order 0. */
 enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
 
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
     size_t *from;
 } group;
 
-/* Functions for coefficients that are stored by order, then by lane. */
+/* Functions for coefficients stored by order, and for each order by lane, compiled for a kind of processor. */
 typedef struct {
     void (*order)(const qdot_taylor_wide *w, int k);
     void (*correct)(const qdot_taylor_wide *w, int k, const double *newest,
@@ -36,16 +36,16 @@ typedef struct {
 
 struct qdot_taylor_wide {
     const kernels *kernels;
-    size_t n;         /* number of inputs that are corrected */
-    size_t corrected; /* number of lanes that hold these inputs */
+    size_t n;         /* number of inputs whose newest coefficients are corrected */
+    size_t corrected; /* number of lanes that hold the corrected inputs */
     size_t inputs;    /* number of lanes of all inputs, rounded up to full vectors */
     size_t width, rows, stride;
     int orders;
-    const double *coefficients; /* the coefficients of the program, read for rows that are numbers */
+    const double *coefficients; /* the coefficients of the program, read only for rows that are constant numbers */
     size_t *lane;               /* [rows] the lane of each row */
-    size_t *input;              /* [inputs] the input that each lane holds; NO_LANE: none */
-    size_t constant;            /* the first lane that is constant in time */
-    size_t changing;            /* index after the last of them */
+    size_t *input;              /* [inputs] the index of the input that each lane holds; NO_LANE: none */
+    size_t constant;            /* the first lane whose row is constant in time */
+    size_t changing;            /* index after the last lane whose row is constant in time */
     qdot_vec(group) groups;
     double *allocated, *X, *N; /* memory; X [orders x width] coefficients; N [width] newest coefficients */
     double convolutions;
@@ -91,7 +91,7 @@ QDOT_KIND_END
 #undef LANES
 
 static const kernels *
-kernels_here(void)
+available_kernels(void)
 {
 #ifdef QDOT_X86_KINDS
     if (qdot_kind_is_here(2))
@@ -104,11 +104,11 @@ kernels_here(void)
 
 /* --- making groups of steps ---------------------------------------------------------- */
 
-/* A step, and the keys by which it is grouped. */
+/* A step of the program, and the keys by which it is grouped with others. */
 typedef struct {
     const qdot_taylor_step *step;
-    size_t level, x, y, z; /* depth of the step in the program; lanes of x, y, z */
-    size_t first;          /* of x, y, z the first that varies in time */
+    size_t level, x, y, z; /* depth of the step in the program; lanes of its operands x, y, z */
+    size_t first;          /* the first of the operands x, y, z that varies in time */
 } member;
 
 typedef struct {
@@ -122,7 +122,7 @@ typedef struct {
 } builder;
 
 static size_t
-wide_row_of(const qdot_taylor_wide *w, const double *row)
+index_of_row_in_program(const qdot_taylor_wide *w, const double *row)
 {
     return (size_t)(row - w->coefficients) / w->stride;
 }
@@ -134,7 +134,7 @@ full(size_t n)
 }
 
 static size_t
-take_lanes(qdot_taylor_wide *w, size_t n)
+reserve_lanes(qdot_taylor_wide *w, size_t n)
 {
     const size_t at = w->width;
 
@@ -142,7 +142,7 @@ take_lanes(qdot_taylor_wide *w, size_t n)
     return at;
 }
 
-/* Whether a lane has coefficients of orders above 0. */
+/* Whether the row in a lane has coefficients of orders above 0. */
 static bool
 lane_changes(const qdot_taylor_wide *w, size_t lane)
 {
@@ -168,7 +168,7 @@ qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, s
         if (lane_changes(w, g.from[i]))
             g.op = COPIED;
     }
-    *at = g.to = take_lanes(w, count);
+    *at = g.to = reserve_lanes(w, count);
     if (qdot_vec_push(&w->groups, g) != QDOT_OK) {
         qdot_free(g.from);
         return QDOT_ENOMEM;
@@ -176,9 +176,9 @@ qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, s
     return QDOT_OK;
 }
 
-/* Assign the lanes of level 0: inputs first, then rows that are constant. */
+/* Assign the lanes of level 0: first the inputs, then rows that are constant in time. */
 static void
-first_lanes(builder *b)
+assign_first_lanes(builder *b)
 {
     qdot_taylor_wide *w = b->w;
     const qdot_taylor *t = b->t;
@@ -193,20 +193,20 @@ first_lanes(builder *b)
         w->input[l] = NO_LANE;
     for (size_t r = 0; r < w->n; r++)
         w->input[w->lane[r]] = r;
-    at = take_lanes(w, t->inputs - w->n);
+    at = reserve_lanes(w, t->inputs - w->n);
     for (size_t r = w->n; r < t->inputs; r++)
         w->lane[r] = at++;
-    w->constant = take_lanes(w, 1);
+    w->constant = reserve_lanes(w, 1);
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
 
-        w->lane[wide_row_of(w, s->to)] = 0; /* marks the row; its lane is assigned below */
+        w->lane[index_of_row_in_program(w, s->to)] = 0; /* only marks the row as computed here; its lane is assigned below */
         if (s->second)
-            w->lane[wide_row_of(w, s->second)] = 0;
+            w->lane[index_of_row_in_program(w, s->second)] = 0;
         if (s->third)
-            w->lane[wide_row_of(w, s->third)] = 0;
+            w->lane[index_of_row_in_program(w, s->third)] = 0;
         if (s->d)
-            w->lane[wide_row_of(w, s->d)] = 0;
+            w->lane[index_of_row_in_program(w, s->d)] = 0;
     }
     at = w->width;
     for (size_t r = t->inputs; r < w->rows; r++)
@@ -215,30 +215,30 @@ first_lanes(builder *b)
     w->width = w->changing = full(at);
 }
 
-/* List the steps that are not constant, with their levels. */
+/* List the steps whose rows are not constant, with their levels (depths in the program). */
 static void
-find_members(builder *b)
+list_steps(builder *b)
 {
     const qdot_taylor *t = b->t;
 
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
-        const size_t x = b->level[wide_row_of(b->w, s->x)], y = b->level[wide_row_of(b->w, s->y)];
-        const size_t z = b->level[wide_row_of(b->w, s->z)];
+        const size_t x = b->level[index_of_row_in_program(b->w, s->x)], y = b->level[index_of_row_in_program(b->w, s->y)];
+        const size_t z = b->level[index_of_row_in_program(b->w, s->z)];
         size_t level = (x > y ? x : y) > z ? (x > y ? x : y) : z;
 
         b->members[b->n_members++] = (member){.step = s, .level = ++level};
-        b->level[wide_row_of(b->w, s->to)] = level;
+        b->level[index_of_row_in_program(b->w, s->to)] = level;
         if (s->second)
-            b->level[wide_row_of(b->w, s->second)] = level;
+            b->level[index_of_row_in_program(b->w, s->second)] = level;
         if (s->third)
-            b->level[wide_row_of(b->w, s->third)] = level;
+            b->level[index_of_row_in_program(b->w, s->third)] = level;
         b->deepest = level > b->deepest ? level : b->deepest;
     }
 }
 
 static int
-by_operands(const void *left, const void *right)
+compare_by_operands(const void *left, const void *right)
 {
     const member *a = left, *b = right;
 
@@ -252,14 +252,14 @@ by_operands(const void *left, const void *right)
 }
 
 static qdot_status
-align(builder *b, const member *m, size_t n, size_t offset, size_t *at)
+align_operand(builder *b, const member *m, size_t n, size_t offset, size_t *at)
 {
     for (size_t i = 0; i < n; i++)
         memcpy(b->lanes + i, (const char *)(m + i) + offset, sizeof *b->lanes);
     return qdot_taylor_wide_align(b->w, n, b->lanes, at);
 }
 
-/* Add a group of n steps. */
+/* Add a group of n equal steps, which are computed together as vectors. */
 static qdot_status
 add_group(builder *b, member *m, size_t n)
 {
@@ -268,34 +268,34 @@ add_group(builder *b, member *m, size_t n)
     const double vectors = (double)(g.lanes / QDOT_WIDE_LANES);
 
     for (size_t i = 0; i < n; i++) {
-        m[i].x = w->lane[wide_row_of(w, m[i].step->x)];
-        m[i].y = w->lane[wide_row_of(w, m[i].step->y)];
-        m[i].z = w->lane[wide_row_of(w, m[i].step->z)];
+        m[i].x = w->lane[index_of_row_in_program(w, m[i].step->x)];
+        m[i].y = w->lane[index_of_row_in_program(w, m[i].step->y)];
+        m[i].z = w->lane[index_of_row_in_program(w, m[i].step->z)];
         m[i].first = lane_changes(w, m[i].x) ? m[i].x : lane_changes(w, m[i].y) ? m[i].y : m[i].z;
     }
-    qsort(m, n, sizeof *m, by_operands);
-    QDOT_TRY(align(b, m, n, offsetof(member, x), &g.x));
-    QDOT_TRY(align(b, m, n, offsetof(member, y), &g.y));
-    QDOT_TRY(align(b, m, n, offsetof(member, z), &g.z));
-    g.to = take_lanes(w, n);
-    g.second = m->step->second ? take_lanes(w, n) : g.to;
-    g.third = m->step->third ? take_lanes(w, n) : g.to;
-    g.d = m->step->d ? take_lanes(w, n) : g.to;
+    qsort(m, n, sizeof *m, compare_by_operands);
+    QDOT_TRY(align_operand(b, m, n, offsetof(member, x), &g.x));
+    QDOT_TRY(align_operand(b, m, n, offsetof(member, y), &g.y));
+    QDOT_TRY(align_operand(b, m, n, offsetof(member, z), &g.z));
+    g.to = reserve_lanes(w, n);
+    g.second = m->step->second ? reserve_lanes(w, n) : g.to;
+    g.third = m->step->third ? reserve_lanes(w, n) : g.to;
+    g.d = m->step->d ? reserve_lanes(w, n) : g.to;
     for (size_t i = 0; i < n; i++) {
-        w->lane[wide_row_of(w, m[i].step->to)] = g.to + i;
+        w->lane[index_of_row_in_program(w, m[i].step->to)] = g.to + i;
         if (m->step->second)
-            w->lane[wide_row_of(w, m[i].step->second)] = g.second + i;
+            w->lane[index_of_row_in_program(w, m[i].step->second)] = g.second + i;
         if (m->step->third)
-            w->lane[wide_row_of(w, m[i].step->third)] = g.third + i;
+            w->lane[index_of_row_in_program(w, m[i].step->third)] = g.third + i;
         if (m->step->d)
-            w->lane[wide_row_of(w, m[i].step->d)] = g.d + i;
+            w->lane[index_of_row_in_program(w, m[i].step->d)] = g.d + i;
     }
     w->convolutions += ceil(qdot_recurrence_cost(g.op)) * vectors; /* here a square costs as much as a product */
     return qdot_vec_push(&w->groups, g);
 }
 
 static qdot_status
-add_groups(builder *b)
+add_all_groups(builder *b)
 {
     member *now = qdot_calloc(b->n_members + 1, sizeof *now);
     qdot_status status = now ? QDOT_OK : QDOT_ENOMEM;
@@ -319,7 +319,7 @@ add_groups(builder *b)
 }
 
 static qdot_status
-wide_build(builder *b, bool *built)
+build_groups(builder *b, bool *built)
 {
     const size_t rows = b->w->rows;
 
@@ -330,9 +330,9 @@ wide_build(builder *b, bool *built)
     b->w->input = qdot_calloc(full(b->w->corrected) + 1, sizeof *b->w->input);
     if (!b->level || !b->lanes || !b->members || !b->w->lane || !b->w->input)
         return QDOT_ENOMEM;
-    first_lanes(b);
-    find_members(b);
-    QDOT_TRY(add_groups(b));
+    assign_first_lanes(b);
+    list_steps(b);
+    QDOT_TRY(add_all_groups(b));
     *built = (double)b->n_members >= least_alike * (double)b->w->groups.n;
     return QDOT_OK;
 }
@@ -349,14 +349,14 @@ qdot_taylor_wide_new(const qdot_taylor *t, size_t n, const size_t *lane, size_t 
     *wide = NULL;
     if (!w)
         return QDOT_ENOMEM;
-    w->kernels = kernels_here();
+    w->kernels = available_kernels();
     w->n = n;
     w->corrected = lane ? lanes : n;
     w->rows = t->rows;
     w->stride = t->stride;
     w->orders = (int)t->stride;
     w->coefficients = t->coefficients;
-    status = wide_build(&b, &built);
+    status = build_groups(&b, &built);
     qdot_free(b.level);
     qdot_free(b.lanes);
     qdot_free(b.members);
@@ -399,7 +399,7 @@ qdot_taylor_wide_at(const qdot_taylor_wide *w, int k)
 size_t
 qdot_taylor_wide_lane(const qdot_taylor_wide *w, const double *row)
 {
-    return w->lane[wide_row_of(w, row)];
+    return w->lane[index_of_row_in_program(w, row)];
 }
 
 qdot_status
@@ -443,7 +443,7 @@ qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
 void
 qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest, double divisor)
 {
-    if (w->corrected < w->inputs) { /* lanes after those of the corrected inputs stay 0 */
+    if (w->corrected < w->inputs) { /* the lanes after those of the corrected inputs stay 0 */
         memcpy(w->N, newest, w->corrected * sizeof *newest);
         memset(w->N + w->corrected, 0, (w->inputs - w->corrected) * sizeof *newest);
         newest = w->N;

@@ -21,7 +21,7 @@ typedef struct qdot_taylor_wide qdot_taylor_wide;
 
 enum { QDOT_WIDE_LANES = 8 };
 
-/* For eight lanes: the sum over j = 0 ... n - 1 of x[j x_stride] y[-j y_stride]. */
+/* The rows of eight lanes in the sum over j = 0 ... n - 1 of x[j x_stride] y[-j y_stride]. */
 typedef struct {
     const double *x, *y;
 } qdot_wide_pair;
@@ -34,17 +34,17 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_wide_new(const qdot_taylor *t, size_t n,
                                                  qdot_taylor_wide **wide);
 void qdot_taylor_wide_free(qdot_taylor_wide *wide);
 
-/* The number of lanes of an order, an odd multiple of eight; the address of order k. */
+/* The number of lanes, the same for every order, an odd multiple of eight; the next function: address of order k. */
 size_t qdot_taylor_wide_width(const qdot_taylor_wide *wide);
 double *qdot_taylor_wide_at(const qdot_taylor_wide *wide, int k);
-/* The lane of a row of the program. */
+/* The index of the lane in which the coefficients of a row of the program are stored. */
 size_t qdot_taylor_wide_lane(const qdot_taylor_wide *wide, const double *row);
 /* Where the rows of `count` lanes lie side by side from order to order, from a multiple of
  * eight on: as they do, or copied; SIZE_MAX as a lane: 0. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_align(qdot_taylor_wide *wide, size_t count,
                                                    const size_t *lanes, size_t *at);
 
-/* Allocate the arrays, after everything has been aligned. Errors: QDOT_ENOMEM. */
+/* Allocate the arrays, once all operands have been placed side by side. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_settle(qdot_taylor_wide *wide);
 
 /* Order 0, from the program's. Order k > 0 with coefficients k of the first n inputs at 0;
@@ -65,11 +65,11 @@ typedef struct {
     size_t n, x_stride, y_stride;
 } qdot_wide_sum;
 
-/* Set out [8] to scale times (from [8] minus the sum); from NULL: 0. */
+/* Set out [8] to scale times (from [8] minus the sum of products); from NULL counts as 0. */
 void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, const qdot_wide_sum *sum,
                            double scale, const double *from, double *out);
 
-/* The number of vector operations for convolutions at one order; _groups: the number of groups. */
+/* The number of vector operations in convolution sums at one order; qdot_taylor_wide_groups: number of groups. */
 double qdot_taylor_wide_convolutions(const qdot_taylor_wide *wide);
 size_t qdot_taylor_wide_groups(const qdot_taylor_wide *wide);
 

@@ -1,4 +1,4 @@
-/* taylor.c -- a series program in doubles: allocates its rows, and links integrals to their integrands. */
+/* taylor.c -- a program for Taylor series in doubles: allocates its rows, and makes inputs integrals of rows. */
 #include "series/taylor.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ taylor_allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, s
 /* Write constants to their rows: rounded to nearest, or for a shaken copy to the other side. Note those that are
  * rounded at random. */
 static void
-taylor_set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
+set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
 {
     for (size_t r = 0; r < t->spare; r++) {
         const qdot_program_row_info *row = p->rows.at + r;
@@ -70,7 +70,7 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
                    size_t more, bool shaken)
 {
     QDOT_TRY(taylor_allocate(t, p, most, spare, more));
-    taylor_set_constants(t, p, shaken);
+    set_constants(t, p, shaken);
     for (size_t i = 0; i < p->steps.n; i++) {
         const qdot_program_step *s = p->steps.at + i;
 
@@ -100,7 +100,7 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
 }
 
 static qdot_status
-check_order(int most)
+check_highest_order(int most)
 {
     return most < 0 || most > QDOT_SERIES_MOST
                ? qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most)
@@ -115,7 +115,7 @@ qdot_taylor_of_program(const qdot_program *program, bool shaken, int most,
     qdot_status status;
 
     *taylor = NULL;
-    QDOT_TRY(check_order(most));
+    QDOT_TRY(check_highest_order(most));
     t = qdot_calloc(1, sizeof *t);
     status = t ? qdot_taylor_settle(t, program, most, 0, 0, shaken) : QDOT_ENOMEM;
     if (status != QDOT_OK) {

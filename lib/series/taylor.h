@@ -16,7 +16,7 @@
 
 #include "series/program.h"
 
-/* The program with its coefficients, one for each thread. */
+/* The program for Taylor series with its coefficients; each thread needs its own. */
 typedef struct qdot_taylor qdot_taylor;
 
 /* For orders 0 ... most (at most QDOT_SERIES_MOST) of a program, which is read, not kept;
@@ -31,9 +31,9 @@ void qdot_taylor_free(qdot_taylor *taylor);
 double *qdot_taylor_input(qdot_taylor *taylor, size_t i);
 size_t qdot_taylor_stride(const qdot_taylor *taylor);
 
-/* Coefficients by order of output i. */
+/* The Taylor coefficients of output i, by order. */
 const double *qdot_taylor_output(const qdot_taylor *taylor, size_t i);
-/* Whether output i is constant for any values of the variable inputs. */
+/* Whether output i is constant in time for any values of the inputs that vary. */
 bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
 
 /* Constants that are no doubles, for a stretch of time that begins at t: each becomes
@@ -61,7 +61,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size
  * followed by what is linked to it in the order in which it was; `to` below the program's
  * highest but one. */
 void qdot_taylor_begin(qdot_taylor *taylor, double unit);
-/* Compute integrals as _begin does, and nothing else; order 0 of all rows, also of unknowns, must be known. */
+/* Compute only the integrals that qdot_taylor_begin computes; order 0 of all rows must be known. */
 void qdot_taylor_begin_links(qdot_taylor *taylor, double unit);
 void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 
@@ -74,16 +74,16 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to, int
 /* Take such code if it is kept from an earlier run, without writing any. This is tried
  * once, and not if there is other code. False: nothing has changed. */
 bool qdot_taylor_take_kept(qdot_taylor *taylor, int to, int most);
-/* Evaluate everything by the kernels again, without generated code. */
+/* From now on evaluate all orders by compiled functions again, without generated machine code. */
 void qdot_taylor_drop_code(qdot_taylor *taylor);
-/* Evaluate all by the kernels, and write no code from now on, for the reason `why`, borrowed. */
+/* Evaluate all orders by compiled functions and generate no code from now on, for the (borrowed) reason `why`. */
 void qdot_taylor_refuse_code(qdot_taylor *taylor, const char *why);
-/* Whether orders 1 ... `to` are computed by machine code. */
+/* Whether generated machine code computes orders 1 ... `to`. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
-/* Whether machine code is possible on this processor; the name of what that needs. */
+/* Whether machine code can be generated on this processor; the next function names what that needs. */
 bool qdot_taylor_may_be_code(void);
 const char *qdot_taylor_code_kind(void);
-/* The length of the code; 0 if there is none, and *why says why, NULL if none was requested. */
+/* The length of the machine code; 0 if there is none, and *why is the reason, NULL if none was requested. */
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 
 /* The longest step, at most s (INFINITY: any), of the expansion that is there to order p which
@@ -92,7 +92,7 @@ size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 double qdot_taylor_near(const qdot_taylor *taylor, int p, double s, double least);
 bool qdot_taylor_may_hide(const qdot_taylor *taylor);
 
-/* The number of convolutions that an order costs (a square counts half); _instructions: of instructions. */
+/* The number of convolution sums that an order costs (a square counts half); _instructions: of instructions. */
 double qdot_taylor_convolutions(const qdot_taylor *taylor);
 size_t qdot_taylor_length(const qdot_taylor *taylor);
 

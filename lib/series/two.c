@@ -1,4 +1,4 @@
-/* two.c -- evaluates a series program in sums of two doubles. */
+/* two.c -- evaluates a program for Taylor series in numbers that are sums of two doubles. */
 #include "series/two.h"
 
 #include <stdint.h>
@@ -8,13 +8,13 @@
 
 struct qdot_tape_two {
     const qdot_program *program;
-    const qdot_motion *motion; /* the motion that it computes; NULL: the tape whose program is */
+    const qdot_motion *motion; /* the motion that is computed; NULL: the tape from which the program was made */
     qdot_program own;
     double unit;
-    qdot_two inverse[QDOT_TWO_MOST + 3]; /* the numbers 1/k, k the index */
+    qdot_two inverse[QDOT_TWO_MOST + 3]; /* table of the numbers 1/k by index k */
     size_t stride;
-    qdot_two *numbers; /* [rows x stride] coefficients, rows of inputs first */
-    double *note;      /* [rows] the change of the newest coefficient of each row */
+    qdot_two *numbers; /* [rows x stride] coefficients of all rows, those of inputs first */
+    double *note;      /* [rows] the change of the newest coefficient of each row, recorded for later */
     const qdot_two_functions *functions;
     const qdot_two_kernels *kernels;
     void (*order)(const qdot_tape_two *t, const qdot_program_step *i, int k);
@@ -48,7 +48,7 @@ two_whole_part(qdot_two a)
     return hi == a.hi ? qdot_two_of(hi, floor(a.lo)) : (qdot_two){hi, 0};
 }
 
-/* The value tanh(a); *slope = 1 - tanh(a)^2. */
+/* The hyperbolic tangent tanh(a); *slope: its derivative 1 - tanh(a)^2. */
 static qdot_two
 hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
 {
@@ -58,7 +58,7 @@ hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
     return d;
 }
 
-/* The value log(1 + e^a). */
+/* The softplus function log(1 + e^a). */
 static qdot_two
 two_softplus(const qdot_two_functions *f, qdot_two a)
 {
@@ -70,7 +70,7 @@ two_softplus(const qdot_two_functions *f, qdot_two a)
 }
 
 static void
-two_value(const qdot_tape_two *t, const qdot_program_step *i)
+evaluate_order_zero(const qdot_tape_two *t, const qdot_program_step *i)
 {
     const qdot_two_functions *f = t->functions;
     const qdot_two a = two_place(t, i->x)[0], b = two_place(t, i->y)[0], c = two_place(t, i->z)[0];
@@ -117,21 +117,21 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
         if (k + i->lead > 0)
             t->order(t, i, k + i->lead);
         else if (k + i->lead == 0 || i->still)
-            two_value(t, i);
+            evaluate_order_zero(t, i);
 }
 
 /* --- unknowns: accelerations and multipliers ----------------------------------------- */
 
-/* Compute coefficient k + 1 of a row from order k of its derivative. */
+/* Compute coefficient k + 1 of a row from coefficient k of its time derivative. */
 static qdot_two
 integral(const qdot_tape_two *t, qdot_two rate, int k)
 {
     return t->kernels->mul(rate, qdot_two_scale(t->inverse[k + 1], t->unit));
 }
 
-/* Store order k of an unknown, and the coefficients of its integrals that follow from it. */
+/* Store coefficient k of an unknown, and the coefficients of its integrals that follow from it. */
 static void
-two_put_unknown(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
+store_unknown(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
 {
     qdot_two once;
 
@@ -150,19 +150,19 @@ qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
     const qdot_motion *m = t->motion;
 
     for (size_t i = 0; i < m->solved.n && k >= 0; i++)
-        two_put_unknown(t, m->unknowns.at + m->solved.at[i], (qdot_two){guess[i], 0}, k);
+        store_unknown(t, m->unknowns.at + m->solved.at[i], (qdot_two){guess[i], 0}, k);
     qdot_tape_two_order(t, k);
     for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
 
         if (u->value != QDOT_NO_ROW)
-            two_put_unknown(t, u, two_place(t, u->value)[k], k);
+            store_unknown(t, u, two_place(t, u->value)[k], k);
     }
 }
 
-/* Add the recorded change of a series to its coefficient of the given order. */
+/* Add the change recorded for a row to its coefficient of the given order. */
 static void
-two_apply_note(qdot_tape_two *t, qdot_program_row row, int order)
+apply_recorded_change(qdot_tape_two *t, qdot_program_row row, int order)
 {
     if (row != QDOT_NO_ROW && (size_t)order < t->stride)
         two_place(t, row)[order] = qdot_two_add_double(two_place(t, row)[order], t->note[row]);
@@ -177,14 +177,14 @@ change_unknown(qdot_tape_two *t, const qdot_motion_unknown *u, double d, int k)
         t->note[u->once] = d *= t->unit / (k + 1);
     if (u->twice != QDOT_NO_ROW)
         t->note[u->twice] = d * t->unit / (k + 2);
-    two_apply_note(t, u->row, k);
-    two_apply_note(t, u->once, k + 1);
-    two_apply_note(t, u->twice, k + 2);
+    apply_recorded_change(t, u->row, k);
+    apply_recorded_change(t, u->once, k + 1);
+    apply_recorded_change(t, u->twice, k + 2);
 }
 
-/* Compute the changes of a step's rows from those of its operands. */
+/* Find the changes of the rows that a step writes from the changes of its operands. */
 static void
-note_step(const qdot_tape_two *t, const qdot_program_step *i, int k)
+record_changes_of_step(const qdot_tape_two *t, const qdot_program_step *i, int k)
 {
     double *note = t->note, U1, U2;
     const double note_x = i->newest & QDOT_X_NEWEST ? note[i->x] : 0;
@@ -217,18 +217,18 @@ qdot_tape_two_change(qdot_tape_two *t, int k, const double *by)
         change_unknown(t, t->motion->unknowns.at + t->motion->solved.at[u], by[u], k);
     for (; i->op != QDOT_T_END; i++)
         if (i->newest) {
-            note_step(t, i, k + i->lead);
-            two_apply_note(t, i->to, k + i->lead);
-            two_apply_note(t, i->second, k + i->lead);
-            two_apply_note(t, i->third, k + i->lead);
-            two_apply_note(t, i->d, k + i->lead);
+            record_changes_of_step(t, i, k + i->lead);
+            apply_recorded_change(t, i->to, k + i->lead);
+            apply_recorded_change(t, i->second, k + i->lead);
+            apply_recorded_change(t, i->third, k + i->lead);
+            apply_recorded_change(t, i->d, k + i->lead);
         }
 }
 
 /* --- making a program in two doubles ------------------------------------------------- */
 
 static void
-two_set_constants(qdot_tape_two *t)
+set_constants(qdot_tape_two *t)
 {
     for (qdot_program_row r = 0; r < t->program->rows.n; r++) {
         const qdot_program_row_info *row = t->program->rows.at + r;
@@ -243,7 +243,7 @@ two_set_constants(qdot_tape_two *t)
 
 /* Allocate the rows of a program that exists already. */
 static qdot_status
-two_make_rows(qdot_tape_two *t, int most)
+allocate_coefficients(qdot_tape_two *t, int most)
 {
     t->stride = (size_t)most + 1;
     t->functions = qdot_two_functions_get();
@@ -259,13 +259,13 @@ two_make_rows(qdot_tape_two *t, int most)
     t->note = qdot_calloc(t->program->rows.n + 1, sizeof *t->note);
     if (!t->numbers || !t->note)
         return QDOT_ENOMEM;
-    two_set_constants(t);
+    set_constants(t);
     return QDOT_OK;
 }
 
 static qdot_status
-make_new(const qdot_tape *tape, const qdot_motion *motion, int most, size_t moving,
-         qdot_tape_two **two)
+make_two_program(const qdot_tape *tape, const qdot_motion *motion, int most, size_t moving,
+                 qdot_tape_two **two)
 {
     qdot_tape_two *t = qdot_calloc(1, sizeof *t);
     qdot_status status = QDOT_OK;
@@ -279,7 +279,7 @@ make_new(const qdot_tape *tape, const qdot_motion *motion, int most, size_t movi
     if (!motion)
         status = qdot_program_init(tape, moving, most == 0, &t->own);
     if (status == QDOT_OK)
-        status = two_make_rows(t, most);
+        status = allocate_coefficients(t, most);
     if (status != QDOT_OK) {
         qdot_tape_two_free(t);
         return status;
@@ -291,13 +291,13 @@ make_new(const qdot_tape *tape, const qdot_motion *motion, int most, size_t movi
 qdot_status
 qdot_tape_two_new(const qdot_tape *tape, int most, size_t moving, qdot_tape_two **two)
 {
-    return make_new(tape, NULL, most, moving, two);
+    return make_two_program(tape, NULL, most, moving, two);
 }
 
 qdot_status
 qdot_tape_two_of_motion(const qdot_motion *motion, qdot_tape_two **two)
 {
-    return make_new(NULL, motion, QDOT_TWO_MOST + 1, 0, two);
+    return make_two_program(NULL, motion, QDOT_TWO_MOST + 1, 0, two);
 }
 
 double
@@ -309,9 +309,9 @@ qdot_tape_two_rounding(const qdot_tape_two *t)
     return 0x1p-98;
 }
 
-/* The side of a switching step; 0: on the border between two sides. */
+/* On which side of its switch a step is, as in abs or a comparison; 0: on the border between two sides. */
 static int64_t
-switch_side_of(const qdot_tape_two *t, const qdot_program_step *i)
+side_of_switch(const qdot_tape_two *t, const qdot_program_step *i)
 {
     const qdot_two a = two_place(t, i->x)[0], b = two_place(t, i->y)[0];
     qdot_two u;
@@ -343,11 +343,11 @@ qdot_tape_two_sides(const qdot_tape_two *t)
     uint64_t sides = 1;
 
     for (const qdot_program_step *i = t->program->steps.at; i->op != QDOT_T_END; i++) {
-        const int64_t side = switch_side_of(t, i);
+        const int64_t side = side_of_switch(t, i);
 
         if (side == 0)
             return 0;
-        sides = (sides ^ (uint64_t)side) * 0x100000001b3u; /* the FNV-1a hash (Fowler, Noll, Vo) */
+        sides = (sides ^ (uint64_t)side) * 0x100000001b3u; /* combine the sides by the FNV-1a hash (Fowler, Noll, Vo) */
     }
     return sides | 1;
 }

@@ -26,10 +26,10 @@ void qdot_tape_two_free(qdot_tape_two *t);
 qdot_two *qdot_tape_two_input(qdot_tape_two *t, size_t i);
 size_t qdot_tape_two_stride(const qdot_tape_two *t);
 
-/* Coefficients by order of output i. */
+/* The Taylor coefficients of output i, by order. */
 const qdot_two *qdot_tape_two_output(const qdot_tape_two *t, size_t i);
 
-/* The relative error of an operation; larger if the program has functions (num/two.h). */
+/* The relative rounding error of an operation; larger if the program has functions such as sine (num/two.h). */
 double qdot_tape_two_rounding(const qdot_tape_two *t);
 
 /* On which sides what switches was at order 0 last: abs and sign by their argument, min, max and comparisons by the
@@ -42,7 +42,7 @@ void qdot_tape_two_order(qdot_tape_two *t, int k);
 
 /* --- motions: systems with accelerations as unknowns --------------------------------- */
 
-/* The highest order of accelerations in two doubles. */
+/* The highest order of accelerations that is computed in two doubles. */
 enum { QDOT_TWO_MOST = 12 };
 
 /* Of a motion, borrowed: orders 0 ... QDOT_TWO_MOST + 1 of its rows. The unit of time, a power of

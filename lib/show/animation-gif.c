@@ -15,7 +15,7 @@ typedef struct {
     const qdot_animation *a;
     double right[3], up[3];
     double lo[2], hi[2];
-    double size; /* size of the scene, which determines the width of springs */
+    double size; /* size of the scene, by which the width of springs is chosen */
 } view;
 
 typedef struct {
@@ -54,7 +54,7 @@ set_initial_view(view *w)
 }
 
 static place
-view_project(const view *w, const double r[3])
+project_point(const view *w, const double r[3])
 {
     place p = {0, 0};
 
@@ -68,7 +68,7 @@ view_project(const view *w, const double r[3])
 }
 
 static void
-position(const qdot_animation *a, size_t point, size_t frame, double r[3])
+point_position(const qdot_animation *a, size_t point, size_t frame, double r[3])
 {
     for (unsigned d = 0; d < 3; d++)
         r[d] = d < a->dimension ? a->values[a->points.at[point].at[d] * a->frames + frame]
@@ -76,16 +76,16 @@ position(const qdot_animation *a, size_t point, size_t frame, double r[3])
 }
 
 static place
-where(const view *w, size_t point, size_t frame)
+place_in_view(const view *w, size_t point, size_t frame)
 {
     double r[3];
 
-    position(w->a, point, frame, r);
-    return view_project(w, r);
+    point_position(w->a, point, frame, r);
+    return project_point(w, r);
 }
 
 static void
-see(view *w, place p, double more)
+extend_view(view *w, place p, double more)
 {
     if (!isfinite(p.x) || !isfinite(p.y))
         return;
@@ -106,13 +106,13 @@ fit_view(view *w)
     w->hi[0] = w->hi[1] = -INFINITY;
     for (size_t i = 0; i < a->points.n; i++)
         for (size_t k = 0; k < a->frames; k++)
-            see(w, where(w, i, k), 0);
+            extend_view(w, place_in_view(w, i, k), 0);
     for (size_t i = 0; i < a->bodies.n; i++)
         for (size_t k = 0; k < a->frames; k++) {
             const double *h = a->bodies.at[i].half;
 
-            see(w, where(w, a->bodies.at[i].point, k),
-                sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]));
+            extend_view(w, place_in_view(w, a->bodies.at[i].point, k),
+                        sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]));
         }
     if (!(w->hi[0] >= w->lo[0]))
         return qdot_fail(QDOT_EDOMAIN, "no place of the picture is finite");
@@ -120,10 +120,10 @@ fit_view(view *w)
     height = w->hi[1] - w->lo[1];
     w->size = fmax(width, height);
     w->size = w->size > 0 ? w->size : 1;
-    see(w, (place){w->lo[0], w->lo[1]},
-        0.07 * w->size + fmax(0, 0.15 * w->size - width / 2));
-    see(w, (place){w->hi[0], w->hi[1]},
-        0.07 * w->size + fmax(0, 0.15 * w->size - height / 2));
+    extend_view(w, (place){w->lo[0], w->lo[1]},
+                0.07 * w->size + fmax(0, 0.15 * w->size - width / 2));
+    extend_view(w, (place){w->hi[0], w->hi[1]},
+                0.07 * w->size + fmax(0, 0.15 * w->size - height / 2));
     return QDOT_OK;
 }
 
@@ -140,7 +140,7 @@ add_place(qdot_text *out, place p)
     qdot_text_char(out, '\n');
 }
 
-/* The point at the fraction `along` of the way from a to b, shifted sideways by `aside`. */
+/* The point at the fraction `along` of the way from a to b, shifted sideways by the distance `aside`. */
 static place
 point_beside(place a, place b, double along, double aside)
 {
@@ -199,15 +199,15 @@ add_damper(const view *w, place a, place b, double aside, qdot_text *out)
 }
 
 static bool
-same_ends(const qdot_animation_link *a, const qdot_animation_link *b)
+have_same_ends(const qdot_animation_link *a, const qdot_animation_link *b)
 {
     return (a->ends[0] == b->ends[0] && a->ends[1] == b->ends[1]) ||
            (a->ends[0] == b->ends[1] && a->ends[1] == b->ends[0]);
 }
 
-/* Draw links of one kind; several links between the same ends are drawn side by side. */
+/* Draw springs, dampers or rods (one kind); those between the same two points are drawn side by side. */
 static void
-add_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
+draw_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
 {
     const qdot_animation *a = w->a;
 
@@ -220,12 +220,12 @@ add_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
             continue;
         for (size_t j = 0; j < a->links.n && kind != QDOT_ANIMATION_ROD; j++)
             if (a->links.at[j].kind != QDOT_ANIMATION_ROD &&
-                same_ends(link, &a->links.at[j])) {
+                have_same_ends(link, &a->links.at[j])) {
                 all++;
                 before += j < i;
             }
-        from = where(w, link->ends[link->ends[0] > link->ends[1]], frame);
-        to = where(w, link->ends[link->ends[0] <= link->ends[1]], frame);
+        from = place_in_view(w, link->ends[link->ends[0] > link->ends[1]], frame);
+        to = place_in_view(w, link->ends[link->ends[0] <= link->ends[1]], frame);
         before = all > 0 ? (before - (all - 1) / 2) * 0.055 * w->size : 0;
         if (kind == QDOT_ANIMATION_SPRING) {
             add_spring(w, from, to, before, out);
@@ -239,30 +239,30 @@ add_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
     }
 }
 
-/* Draw the closed line c + cos u + sin v, where the angle runs once round. */
+/* Draw the closed line c + u cos(phi) + v sin(phi) for a full turn of phi. */
 static void
-add_round(const view *w, const double c[3], const double u[3], const double v[3],
-          qdot_text *out)
+draw_ellipse(const view *w, const double c[3], const double u[3], const double v[3],
+             qdot_text *out)
 {
     for (int k = 0; k <= 40; k++) {
         double r[3], at = 2 * M_PI * k / 40;
 
         for (int d = 0; d < 3; d++)
             r[d] = c[d] + cos(at) * u[d] + sin(at) * v[d];
-        add_place(out, view_project(w, r));
+        add_place(out, project_point(w, r));
     }
     qdot_text_char(out, '\n');
 }
 
 static void
-add_flat(const view *w, const qdot_animation_body *b, const double r[3],
-         const double c[2], qdot_text *out)
+draw_rectangle(const view *w, const qdot_animation_body *b, const double r[3],
+               const double c[2], qdot_text *out)
 {
     const double x[3] = {c[0] * b->half[0], c[1] * b->half[0], 0};
     const double y[3] = {-c[1] * b->half[0], c[0] * b->half[0], 0};
 
     if (b->disc) {
-        add_round(w, r, x, y, out);
+        draw_ellipse(w, r, x, y, out);
         add_place(out, (place){r[0], r[1]});
         add_place(out, (place){r[0] + x[0], r[1] + x[1]});
     } else {
@@ -281,7 +281,7 @@ add_flat(const view *w, const qdot_animation_body *b, const double r[3],
 }
 
 static void
-gif_add_bodies(const view *w, size_t frame, qdot_text *out)
+draw_bodies(const view *w, size_t frame, qdot_text *out)
 {
     const qdot_animation *a = w->a;
 
@@ -289,16 +289,16 @@ gif_add_bodies(const view *w, size_t frame, qdot_text *out)
         const qdot_animation_body *b = &a->bodies.at[i];
         double r[3], m[6] = {0}, own[3][3], axis[3][3];
 
-        position(a, b->point, frame, r);
+        point_position(a, b->point, frame, r);
         for (unsigned k = 0; k < (a->dimension == 3 ? 6 : 2); k++)
             m[k] = a->values[b->axes[k] * a->frames + frame];
         for (size_t k = 0; k < b->n_arms; k++) {
-            add_place(out, view_project(w, r));
-            add_place(out, where(w, b->arms[k], frame));
+            add_place(out, project_point(w, r));
+            add_place(out, place_in_view(w, b->arms[k], frame));
             qdot_text_char(out, '\n');
         }
         if (a->dimension < 3) {
-            add_flat(w, b, r, m, out);
+            draw_rectangle(w, b, r, m, out);
             continue;
         }
         memcpy(own, m, sizeof m);
@@ -309,12 +309,12 @@ gif_add_bodies(const view *w, size_t frame, qdot_text *out)
                                            b->principal[3 * k + 1] * own[1][d] +
                                            b->principal[3 * k + 2] * own[2][d]);
         for (int k = 0; k < 3; k++)
-            add_round(w, r, axis[k], axis[(k + 1) % 3], out);
+            draw_ellipse(w, r, axis[k], axis[(k + 1) % 3], out);
     }
 }
 
 static void
-add_trail(const view *w, size_t point, size_t frame, qdot_text *out)
+draw_trail(const view *w, size_t point, size_t frame, qdot_text *out)
 {
     const qdot_animation *a = w->a;
     double back = a->trail / fabs(a->t1 - a->t0) * (double)(a->frames - 1);
@@ -322,16 +322,16 @@ add_trail(const view *w, size_t point, size_t frame, qdot_text *out)
     size_t step = (frame - from) / TRAIL_POINTS + 1;
 
     for (size_t k = from; k < frame; k += step)
-        add_place(out, where(w, point, k));
-    add_place(out, where(w, point, frame));
+        add_place(out, place_in_view(w, point, k));
+    add_place(out, place_in_view(w, point, frame));
     qdot_text_char(out, '\n');
 }
 
 static void
-add_dots(const view *w, size_t frame, qdot_text *out)
+draw_points(const view *w, size_t frame, qdot_text *out)
 {
     for (size_t i = 0; i < w->a->particles.n; i++) {
-        place p = where(w, w->a->particles.at[i].point, frame);
+        place p = place_in_view(w, w->a->particles.at[i].point, frame);
 
         if (!isfinite(p.x) || !isfinite(p.y))
             continue;
@@ -346,7 +346,7 @@ add_dots(const view *w, size_t frame, qdot_text *out)
 
 /* --- the script for gnuplot --------------------------------------------------------- */
 
-/* How gnuplot draws the layers, one after the other. */
+/* The styles in which gnuplot draws the layers of a frame, one after the other. */
 static const char *const layers[] = {
     "using 1:2 with lines linecolor rgb '#9cc4e4' linewidth 1.2",
     "using 1:2 with lines linecolor rgb '#4a525b' linewidth 3",
@@ -358,27 +358,27 @@ static const char *const layers[] = {
 enum { LAYERS = sizeof layers / sizeof *layers };
 
 static void
-add_layer(const view *w, int layer, size_t frame, qdot_text *out)
+add_layer_of_frame(const view *w, int layer, size_t frame, qdot_text *out)
 {
     const qdot_animation *a = w->a;
 
     switch (layer) {
     case 0:
         for (size_t i = 0; i < a->particles.n; i++)
-            add_trail(w, a->particles.at[i].point, frame, out);
+            draw_trail(w, a->particles.at[i].point, frame, out);
         for (size_t i = 0; i < a->bodies.n; i++)
-            add_trail(w, a->bodies.at[i].point, frame, out);
+            draw_trail(w, a->bodies.at[i].point, frame, out);
         break;
-    case 1: add_links(w, QDOT_ANIMATION_ROD, frame, out); break;
-    case 2: add_links(w, QDOT_ANIMATION_SPRING, frame, out); break;
-    case 3: add_links(w, QDOT_ANIMATION_DAMPER, frame, out); break;
-    case 4: gif_add_bodies(w, frame, out); break;
-    default: add_dots(w, frame, out);
+    case 1: draw_links(w, QDOT_ANIMATION_ROD, frame, out); break;
+    case 2: draw_links(w, QDOT_ANIMATION_SPRING, frame, out); break;
+    case 3: draw_links(w, QDOT_ANIMATION_DAMPER, frame, out); break;
+    case 4: draw_bodies(w, frame, out); break;
+    default: draw_points(w, frame, out);
     }
 }
 
 static void
-add_picture(const view *w, size_t frame, qdot_text *script)
+add_frame(const view *w, size_t frame, qdot_text *script)
 {
     const qdot_animation *a = w->a;
     bool first = true;
@@ -388,7 +388,7 @@ add_picture(const view *w, size_t frame, qdot_text *script)
 
         qdot_text_format(script, "$l%d << END\n", i);
         before = script->n;
-        add_layer(w, i, frame, script);
+        add_layer_of_frame(w, i, frame, script);
         if (script->n == before)
             qdot_text_add(script, "NaN NaN NaN\n");
         qdot_text_add(script, "END\n");
@@ -405,7 +405,7 @@ add_picture(const view *w, size_t frame, qdot_text *script)
 }
 
 static void
-add_range(qdot_text *script, char axis, double lo, double hi)
+add_axis_range(qdot_text *script, char axis, double lo, double hi)
 {
     qdot_text_format(script, "set %crange [", axis);
     qdot_text_double(script, lo, 8);
@@ -415,7 +415,7 @@ add_range(qdot_text *script, char axis, double lo, double hi)
 }
 
 static void
-add_look(const view *w, double delay, qdot_text *script)
+add_settings(const view *w, double delay, qdot_text *script)
 {
     double width = w->hi[0] - w->lo[0], height = w->hi[1] - w->lo[1];
     int x = (int)(PIXELS * fmin(1, width / height)),
@@ -430,8 +430,8 @@ add_look(const view *w, double delay, qdot_text *script)
         "set encoding utf8\nset datafile missing 'NaN'\nunset border\nunset tics\n"
         "unset key\nset size ratio -1\nset margins 0,0,0,0\n",
         (int)fmax(2, round(delay)), x < 200 ? 200 : x, y < 200 ? 200 : y);
-    add_range(script, 'x', w->lo[0], w->hi[0]);
-    add_range(script, 'y', w->lo[1], w->hi[1]);
+    add_axis_range(script, 'x', w->lo[0], w->hi[0]);
+    add_axis_range(script, 'y', w->lo[1], w->hi[1]);
 }
 
 qdot_status
@@ -448,12 +448,12 @@ qdot_animation_gif(const qdot_animation *a, const char *path)
         return QDOT_OK;
     set_initial_view(&w);
     QDOT_TRY(fit_view(&w));
-    add_look(&w, 100 * seconds / (pictures - 1), &script);
+    add_settings(&w, 100 * seconds / (pictures - 1), &script);
     status = QDOT_OK;
     for (size_t k = 0; k < (size_t)pictures && status == QDOT_OK; k++) {
-        add_picture(&w,
-                    (size_t)round((double)(a->frames - 1) * (double)k / (pictures - 1)),
-                    &script);
+        add_frame(&w,
+                  (size_t)round((double)(a->frames - 1) * (double)k / (pictures - 1)),
+                  &script);
         status = qdot_interrupt_check();
     }
     if (status == QDOT_OK)

@@ -18,13 +18,13 @@
 enum { QDOT_ANIMATION_ARMS = 8 };
 
 typedef struct {
-    size_t at[3]; /* indices of the columns with x, y and, in space, z */
+    size_t at[3]; /* indices of the columns that hold x, y and, in space, z of a point */
 } qdot_animation_point;
 
 typedef struct {
     const char *name;
     size_t point;
-    double size; /* diameter of its dot; 1 for the heaviest particle */
+    double size; /* diameter of the dot that shows a particle; 1 for the heaviest particle */
 } qdot_animation_particle;
 
 typedef enum {
@@ -42,10 +42,10 @@ typedef struct {
  * is fastened to it, a rectangle with its length that way; in space an ellipsoid. */
 typedef struct {
     const char *name;
-    size_t point; /* index of the point at its centre */
+    size_t point; /* index of the point at the centre of the body */
     size_t axes
         [6];   /* columns of the rotation's first column (plane) or first two columns (space) */
-    bool disc; /* in the plane: a disc of radius half[0] */
+    bool disc; /* in the plane: the body is drawn as a disc of radius half[0] */
     double half[3];      /* half the side lengths; in space half axes of the ellipsoid */
     double turn[2];      /* rectangle: direction of its long side in the body frame */
     double principal[9]; /* in space: unit vectors of the principal axes in the body frame */
@@ -54,8 +54,8 @@ typedef struct {
 } qdot_animation_body;
 
 typedef struct {
-    char *name, *rate; /* names of coordinate and velocity; owned */
-    size_t q, v;       /* indices of the columns of coordinate and velocity */
+    char *name, *rate; /* names of the coordinate and of its velocity; owned */
+    size_t q, v;       /* indices of the columns of the coordinate and of its velocity */
 } qdot_animation_state;
 
 typedef struct {
@@ -65,13 +65,13 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    char *text; /* text of the fact; owned */
+    char *text; /* text of a fact that is shown below the picture; owned */
 } qdot_animation_fact;
 
 typedef struct {
-    char *title;        /* title, owned; NULL: none */
+    char *title;        /* title of the page, owned; NULL: none */
     unsigned dimension; /* dimension of space, 2 or 3 */
-    double up[3];       /* upward direction of the picture in space, a unit vector */
+    double up[3];       /* the direction in space that is upward in the picture, a unit vector */
     double t0, t1;      /* times of the first and last frame */
     size_t frames;      /* number of frames, at least 2 */
     double speed;       /* units of t shown in one second */
@@ -89,7 +89,7 @@ typedef struct {
 
 void qdot_animation_clear(qdot_animation *a);
 
-/* Append the whole page. Errors: QDOT_ENOMEM. */
+/* Append the whole web page to `out`. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_animation_page(const qdot_animation *a, qdot_text *out);
 
 /* As an animated GIF through gnuplot: at most 400 pictures, 25 a second where that is enough; a scene
@@ -103,7 +103,7 @@ void qdot_animation_head(qdot_text *out);
 void qdot_animation_section(const qdot_animation *a, qdot_text *out);
 void qdot_animation_foot(qdot_text *out);
 
-/* Append `text` to a page, with & < > " as entities. */
+/* Append `text` to a page, with the characters & < > " written as entities. */
 void qdot_animation_escape(qdot_text *out, const char *text);
 
 #endif

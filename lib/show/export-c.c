@@ -1,4 +1,4 @@
-/* export-c.c -- exports to C: functions of a motion, and a small driver to try them. */
+/* export-c.c -- exports a scene to C: functions of a motion, and a small main program to try them. */
 #include "show/export-language.h"
 
 static const char system_text[] = {

@@ -11,9 +11,9 @@
 #include "base/memory.h"
 #include "show/export-language.h"
 
-enum { LONGEST = 44 }; /* longest expression in characters that is written inside another one */
+enum { LONGEST = 44 }; /* in characters: longer expressions are not written inside other ones */
 
-/* The precedence of an expression's text. */
+/* How strongly the outermost operation of an expression's text binds. */
 enum { SUM, PRODUCT, WHOLE };
 
 typedef struct {
@@ -22,7 +22,7 @@ typedef struct {
     uint32_t uses;
     char *text;
     uint8_t binds;
-    bool second, truth; /* the cosine of a SINCOS; a truth value */
+    bool second, truth; /* the cosine of an operation SINCOS; the value is true or false */
 } value;
 
 typedef struct {
@@ -38,23 +38,23 @@ typedef struct {
 /* --- values of the tape ----------------------------------------------------------------- */
 
 static int
-operation_operands(uint32_t op)
+count_operands(uint32_t op)
 {
     if (op == QDOT_OP_COUNT)
         return 0;
     if (op == QDOT_OP_ERF || op == QDOT_OP_ERFC || op == QDOT_OP_SOFTPLUS)
-        return 1; /* the second operand of the tape is only for the derivative */
+        return 1; /* only one: the second operand on the tape serves the derivative */
     return qdot_operations[op].operands;
 }
 
 static bool
-is_truth(uint32_t op)
+gives_truth_value(uint32_t op)
 {
     return op >= QDOT_OP_LT && op <= QDOT_OP_NOT;
 }
 
 static qdot_status
-read_tape(writer *w)
+read_values_from_tape(writer *w)
 {
     const qdot_tape *t = w->tape;
     size_t loaded = t->inputs + t->constants;
@@ -73,9 +73,9 @@ read_tape(writer *w)
     for (size_t i = 0; i < t->length; i++) {
         const qdot_instruction *x = t->code + i;
         const uint32_t args[3] = {x->x, x->y, x->z};
-        value v = {.op = x->op, .truth = is_truth(x->op)};
+        value v = {.op = x->op, .truth = gives_truth_value(x->op)};
 
-        for (int k = 0; k < operation_operands(x->op); k++)
+        for (int k = 0; k < count_operands(x->op); k++)
             v.args[k] = at[args[k]];
         at[x->to] = (uint32_t)w->n;
         w->values[w->n++] = v;
@@ -91,7 +91,7 @@ read_tape(writer *w)
     return QDOT_OK;
 }
 
-/* The value of output i if it is constant; else NaN. */
+/* The value of output i if it is a constant; else NaN. */
 static double
 constant_output(const writer *w, size_t i)
 {
@@ -102,13 +102,13 @@ constant_output(const writer *w, size_t i)
 }
 
 static void
-count_uses(writer *w)
+count_uses_of_values(writer *w)
 {
     for (size_t i = 0; i < w->tape->outputs; i++)
         w->values[w->outputs[i]].uses++;
     for (size_t v = w->n; v-- > 0;)
         if (w->values[v].uses > 0)
-            for (int k = 0; k < operation_operands(w->values[v].op); k++)
+            for (int k = 0; k < count_operands(w->values[v].op); k++)
                 w->values[w->values[v].args[k]].uses++;
 }
 
@@ -135,10 +135,10 @@ add_operand(const writer *w, uint32_t v, int least, qdot_text *out)
     qdot_text_add(out, bracket ? ")" : "");
 }
 
-/* Write `left SIGN right`; operands are evaluated in the order of the tape. */
+/* Write `left SIGN right`; both operands are evaluated in the order of the tape. */
 static void
-infix(const writer *w, uint32_t left, int least, const char *sign, uint32_t right, int right_least,
-      qdot_text *out)
+write_infix(const writer *w, uint32_t left, int least, const char *sign, uint32_t right, int right_least,
+            qdot_text *out)
 {
     add_operand(w, left, least, out);
     qdot_text_add(out, sign);
@@ -146,7 +146,7 @@ infix(const writer *w, uint32_t left, int least, const char *sign, uint32_t righ
 }
 
 static int
-arithmetic(const writer *w, const value *v, qdot_text *out)
+write_arithmetic(const writer *w, const value *v, qdot_text *out)
 {
     const uint32_t a = v->args[0], b = v->args[1], c = v->args[2];
 
@@ -156,37 +156,37 @@ arithmetic(const writer *w, const value *v, qdot_text *out)
         add_operand(w, a, PRODUCT, out);
         return SUM;
     case QDOT_OP_ADD:
-        /* brackets around a negative constant: x + (-1.0) */
+        /* put brackets around a negative constant: x + (-1.0) */
         if (w->values[b].op == QDOT_OP_COUNT && *w->values[b].text == '-') {
             add_operand(w, a, SUM, out);
             qdot_text_format(out, " - %s", w->values[b].text + 1);
         } else {
-            infix(w, a, SUM, " + ", b, PRODUCT, out);
+            write_infix(w, a, SUM, " + ", b, PRODUCT, out);
         }
         return SUM;
-    case QDOT_OP_SUB: infix(w, a, SUM, " - ", b, PRODUCT, out); return SUM;
-    case QDOT_OP_MUL: infix(w, a, PRODUCT, "*", b, WHOLE, out); return PRODUCT;
-    case QDOT_OP_DIV: infix(w, a, PRODUCT, "/", b, WHOLE, out); return PRODUCT;
+    case QDOT_OP_SUB: write_infix(w, a, SUM, " - ", b, PRODUCT, out); return SUM;
+    case QDOT_OP_MUL: write_infix(w, a, PRODUCT, "*", b, WHOLE, out); return PRODUCT;
+    case QDOT_OP_DIV: write_infix(w, a, PRODUCT, "/", b, WHOLE, out); return PRODUCT;
     case QDOT_OP_MADD:
-        infix(w, a, PRODUCT, "*", b, WHOLE, out);
+        write_infix(w, a, PRODUCT, "*", b, WHOLE, out);
         qdot_text_add(out, " + ");
         add_operand(w, c, PRODUCT, out);
         return SUM;
     case QDOT_OP_MSUB:
-        infix(w, a, PRODUCT, "*", b, WHOLE, out);
+        write_infix(w, a, PRODUCT, "*", b, WHOLE, out);
         qdot_text_add(out, " - ");
         add_operand(w, c, PRODUCT, out);
         return SUM;
-    default: /* the operation NMADD */
+    default: /* the remaining operation: NMADD */
         add_operand(w, c, SUM, out);
         qdot_text_add(out, " - ");
-        infix(w, a, PRODUCT, "*", b, WHOLE, out);
+        write_infix(w, a, PRODUCT, "*", b, WHOLE, out);
         return SUM;
     }
 }
 
 static const char *
-operation_form(const writer *w, const value *v)
+format_of_operation(const writer *w, const value *v)
 {
     uint32_t op = v->op == QDOT_OP_SINCOS ? v->second ? QDOT_OP_COS : QDOT_OP_SIN : v->op;
 
@@ -196,10 +196,10 @@ operation_form(const writer *w, const value *v)
 static int
 write_value(const writer *w, const value *v, qdot_text *out)
 {
-    const char *text = operation_form(w, v);
+    const char *text = format_of_operation(w, v);
 
     if (text == NULL)
-        return arithmetic(w, v, out);
+        return write_arithmetic(w, v, out);
     for (; *text != '\0'; text++)
         if ((*text == '&' || *text == '#') && text[1] >= 'a' && text[1] <= 'c') {
             add_operand(w, v->args[text[1] - 'a'], *text == '#' ? WHOLE : SUM, out);
@@ -210,9 +210,9 @@ write_value(const writer *w, const value *v, qdot_text *out)
     return WHOLE;
 }
 
-/* Whether the operation's text uses an operand twice, so that the operand must be a variable. */
+/* Whether the text of an operation uses an operand twice, so that the operand must be a variable. */
 static bool
-repeats(const char *text, char operand_name)
+uses_operand_twice(const char *text, char operand_name)
 {
     int n = 0;
 
@@ -223,7 +223,7 @@ repeats(const char *text, char operand_name)
 
 /* --- writing statements ----------------------------------------------------------------- */
 
-/* Append a text by a printf format of our own tables. */
+/* Append a text by a printf format taken from our own tables. */
 static void
 add_formatted(qdot_text *out, const char *format, const char *text)
 {
@@ -235,13 +235,13 @@ add_formatted(qdot_text *out, const char *format, const char *text)
 }
 
 static void
-declare(writer *w, const char *word, bool truth, const char *text)
+declare_variable(writer *w, const char *word, bool truth, const char *text)
 {
     qdot_text line = {0};
 
     add_formatted(&line, truth ? w->frame->language->truth : w->frame->language->number, word);
     if (line.failed) {
-        w->out->failed = true; /* the format could not hold the text */
+        w->out->failed = true; /* the format is too long for the text */
     } else {
         qdot_text_add(w->out, w->frame->indent);
         add_formatted(w->out, qdot_text_str(&line), text);
@@ -250,16 +250,16 @@ declare(writer *w, const char *word, bool truth, const char *text)
     qdot_text_clear(&line);
 }
 
-/* Keep the text as that of the value; or assign the text to a variable and keep the variable's name. */
+/* Store the text of a value; or assign it to a variable and store the variable's name as the text. */
 static qdot_status
-value_keep_text(writer *w, value *v, qdot_text *text, int binds, bool name)
+store_text_of_value(writer *w, value *v, qdot_text *text, int binds, bool name)
 {
     char word[40];
 
     QDOT_TRY(qdot_text_status(text));
     if (name || (v->uses > 1 && v->op != QDOT_OP_COUNT) || text->n > LONGEST) {
         snprintf(word, sizeof word, "%s%zu", w->frame->temporary, ++w->named);
-        declare(w, word, v->truth, qdot_text_str(text));
+        declare_variable(w, word, v->truth, qdot_text_str(text));
         v->text = qdot_strdup(word);
         v->binds = WHOLE;
     } else {
@@ -270,7 +270,7 @@ value_keep_text(writer *w, value *v, qdot_text *text, int binds, bool name)
 }
 
 static qdot_status
-write_loaded(writer *w)
+write_inputs(writer *w)
 {
     const qdot_tape *t = w->tape;
 
@@ -282,7 +282,7 @@ write_loaded(writer *w)
             continue;
         if (i < t->inputs) {
             if (w->frame->sources[i] != NULL)
-                declare(w, w->frame->words[i], false, w->frame->sources[i]);
+                declare_variable(w, w->frame->words[i], false, w->frame->sources[i]);
             qdot_text_add(&text, w->frame->words[i]);
             v->binds = WHOLE;
         } else {
@@ -300,15 +300,15 @@ write_loaded(writer *w)
     return QDOT_OK;
 }
 
-/* Mark the values that must be variables because an operation uses them twice. */
+/* Mark the values that must become variables because an operation uses them twice. */
 static void
-mark_repeated(const writer *w, bool *must)
+mark_values_used_twice(const writer *w, bool *must)
 {
     for (size_t i = 0; i < w->n; i++) {
         const value *v = &w->values[i];
 
-        for (int k = 0; v->uses > 0 && k < operation_operands(v->op); k++)
-            if (repeats(operation_form(w, v), (char)('a' + k)))
+        for (int k = 0; v->uses > 0 && k < count_operands(v->op); k++)
+            if (uses_operand_twice(format_of_operation(w, v), (char)('a' + k)))
                 must[v->args[k]] = true;
     }
 }
@@ -317,10 +317,10 @@ static qdot_status
 write_values(writer *w)
 {
     bool *must = qdot_calloc(w->n + 1, sizeof *must);
-    qdot_status status = must == NULL ? QDOT_ENOMEM : write_loaded(w);
+    qdot_status status = must == NULL ? QDOT_ENOMEM : write_inputs(w);
 
     if (must != NULL)
-        mark_repeated(w, must);
+        mark_values_used_twice(w, must);
     for (size_t i = w->tape->inputs + w->tape->constants; i < w->n && status == QDOT_OK; i++) {
         value *v = &w->values[i];
         qdot_text text = {0};
@@ -329,7 +329,7 @@ write_values(writer *w)
         if (v->uses == 0)
             continue;
         binds = write_value(w, v, &text);
-        status = value_keep_text(w, v, &text, binds, must[i]);
+        status = store_text_of_value(w, v, &text, binds, must[i]);
         qdot_text_clear(&text);
     }
     qdot_free(must);
@@ -338,9 +338,9 @@ write_values(writer *w)
 
 /* --- writing outputs -------------------------------------------------------------------- */
 
-/* Write an assignment by one of our format tables, with array, indices and value in this order. */
+/* Write an assignment to element k of an output by a format from our tables, with array, indices and value. */
 static void
-set_element(writer *w, const qdot_export_block *b, size_t k, const char *text)
+write_element(writer *w, const qdot_export_block *b, size_t k, const char *text)
 {
     const qdot_export_language *s = w->frame->language;
     qdot_text line = {0};
@@ -363,32 +363,32 @@ set_element(writer *w, const qdot_export_block *b, size_t k, const char *text)
 }
 
 static void
-set_target(writer *w, const char *target, const char *text)
+write_assignment(writer *w, const char *target, const char *text)
 {
     qdot_text_add(w->out, w->frame->indent);
     add_formatted(w->out, target, text);
     qdot_text_char(w->out, '\n');
 }
 
-/* Write the outputs; elements that are 0 keep their initial value. */
+/* Write the assignments of the outputs; elements that are 0 keep their initial value. */
 static void
 write_outputs(writer *w, const qdot_export_function *f)
 {
     size_t at = 0;
 
     for (size_t i = 0; w->frame->targets != NULL && i < w->tape->outputs; i++)
-        set_target(w, w->frame->targets[i], w->values[w->outputs[i]].text);
+        write_assignment(w, w->frame->targets[i], w->values[w->outputs[i]].text);
     for (size_t b = 0; w->frame->targets == NULL && b < f->blocks; b++) {
         const qdot_export_block *block = &f->block[b];
         size_t size = block->rows * (block->columns == 0 ? 1 : block->columns);
 
         if (block->array == NULL) {
-            set_target(w, w->frame->language->result, w->values[w->outputs[at++]].text);
+            write_assignment(w, w->frame->language->result, w->values[w->outputs[at++]].text);
             continue;
         }
         for (size_t k = 0; k < size; k++, at++)
             if (constant_output(w, at) != 0)
-                set_element(w, block, k, w->values[w->outputs[at]].text);
+                write_element(w, block, k, w->values[w->outputs[at]].text);
     }
 }
 
@@ -397,10 +397,10 @@ qdot_export_code(const qdot_export_frame *frame, const qdot_export_function *fun
                  qdot_text *out)
 {
     writer w = {.frame = frame, .tape = function->tape, .out = out};
-    qdot_status status = read_tape(&w);
+    qdot_status status = read_values_from_tape(&w);
 
     if (status == QDOT_OK) {
-        count_uses(&w);
+        count_uses_of_values(&w);
         status = write_values(&w);
     }
     if (status == QDOT_OK)

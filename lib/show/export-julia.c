@@ -1,11 +1,11 @@
-/* export-julia.c -- exports to Julia: a module of functions for OrdinaryDiffEq. */
+/* export-julia.c -- exports a scene to Julia: a module of functions for OrdinaryDiffEq. */
 #include "show/export-language.h"
 
 static const char system_text[] = {
 #include "show/export-julia.inc"
 };
 
-/* Julia functions that are nan where they have no real value; they precede the exported function. */
+/* Functions in Julia that give nan where they have no real value; written before the exported function. */
 #define REAL_FUNCTIONS \
     "?g \n" \
     "?g # nan where there is no real value, as in a branch that is not taken.\n" \

@@ -18,13 +18,13 @@
 
 struct qdot_export_language {
     const char *comment; /* characters that begin a comment line */
-    bool exact_name;     /* the file name must be a valid name in the language */
+    bool exact_name;     /* the file name must be a valid name in the programming language */
     const char *reserved; /* words that cannot be names beside those in `operation`, a blank before and after each */
-    const char *nan;     /* expression for a missing value */
+    const char *nan;     /* the language's expression for a missing value */
 
-    /* printf: a named number, a named truth value (name, value). */
+    /* printf formats that define a named number and a named truth value, from name and value */
     const char *number, *truth;
-    /* printf formats: element %zu of y, q'', lambda, the sides; a parameter by its name */
+    /* printf formats: element %zu of y, q'', lambda, the sides of a condition; a parameter by its name */
     const char *state, *acceleration, *multiplier, *parameter, *side;
     /* printf: an element of an array (array, index), (array, row, column); entry NULL: rows are one
      * behind the other. */
@@ -34,22 +34,22 @@ struct qdot_export_language {
     const char *result; /* printf format that returns a function's single number */
     const char *separator; /* separates the elements of a list in brackets */
 
-    /* printf: a declared parameter (name, value, plain name). */
+    /* printf format of a declared parameter, from name, value and plain name */
     const char *declared;
-    /* printf: an argument of an expression (name), with a value (name, value). */
+    /* printf formats of an argument of an expression (name), and of one with a value (name, value) */
     const char *argument, *argument_value, *no_argument;
     /* printf format: a statement that refuses a parameter without a value (name, plain name) */
     const char *check;
     /* the beginning and end of a matrix row; the end of a line that is continued */
     const char *row_begin, *row_end, *line_end;
-    /* texts before (printf: index) and after the statements of an event that changes something */
+    /* texts before (printf format with an index) and after the statements of an event that changes something */
     const char *effect_begin, *effect_end;
 
     /* Operations as text that stands for itself within others (export-languages.def).
      * NULL: + - * / and what is made of them. */
     const char *operation[QDOT_OP_COUNT];
 
-    /* templates: for a motion (in two parts; motion NULL: in one), for an expression, for several */
+    /* templates of files: for a motion (in two parts; motion NULL: in one), for an expression, for several expressions */
     const char *system, *motion, *value, *values;
 };
 
@@ -64,12 +64,12 @@ typedef struct {
     const char *const *targets;
 } qdot_export_frame;
 
-/* Write the source text of a file. Errors: QDOT_EINVAL (a constant is not finite), QDOT_ENOMEM. */
+/* Write the source text of a file in the language. Errors: QDOT_EINVAL (a constant is not finite), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_export_code(const qdot_export_frame *frame,
                                              const qdot_export_function *function,
                                              qdot_text *out);
 
-/* Append the shortest decimal with a point that reads back as x. */
+/* Append the shortest decimal number with a decimal point that reads back as x. */
 void qdot_export_number(double x, qdot_text *out);
 
 #endif

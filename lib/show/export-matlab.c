@@ -5,7 +5,7 @@ static const char system_text[] = {
 #include "show/export-matlab.inc"
 };
 
-/* Definitions that follow a function with if(...). */
+/* The definitions of nested conditions, which follow a function with if(...). */
 #define CHOOSE \
     "?h \n" \
     "?h function x = pick(condition, a, b)\n" \

@@ -9,7 +9,7 @@
 typedef qdot_export_writer writer;
 
 static bool
-ends_statements(const qdot_export_language *s)
+has_statement_terminator(const qdot_export_language *s)
 {
     return strchr(s->number, ';') != NULL;
 }
@@ -39,9 +39,9 @@ declare_parameters(writer *w, const char *indent)
     return QDOT_OK;
 }
 
-/* Write a statement for each parameter that refuses it if it has no value. */
+/* Write, for each parameter, a statement of the exported file that fails if the parameter has no value. */
 static qdot_status
-write_checks(writer *w, const char *indent)
+write_parameter_checks(writer *w, const char *indent)
 {
     for (size_t i = 0; i < w->system->k; i++) {
         qdot_text_add(w->out, indent);
@@ -53,9 +53,9 @@ write_checks(writer *w, const char *indent)
     return QDOT_OK;
 }
 
-/* Write the assignments of event k, one `target = %s` for each target. */
+/* Write the assignments of event k, one for each of its targets (a coordinate, velocity or parameter). */
 static qdot_status
-event_effect(writer *w, size_t k, const char *indent)
+write_event_assignments(writer *w, size_t k, const char *indent)
 {
     const qdot_export_event *e = &w->system->event[k];
     const size_t n = w->system->n, own = qdot_export_first_parameter(w->system);
@@ -76,7 +76,7 @@ event_effect(writer *w, size_t k, const char *indent)
         qdot_text line = {0};
 
         qdot_text_format(&line, "%s = %%s%s", w->sources[to < 2 * n ? 1 + to : own + to - 2 * n],
-                         ends_statements(w->language) ? ";" : "");
+                         has_statement_terminator(w->language) ? ";" : "");
         status = qdot_text_status(&line);
         targets[i] = line.at;
     }
@@ -94,9 +94,9 @@ event_effect(writer *w, size_t k, const char *indent)
 }
 #pragma GCC diagnostic pop
 
-/* Write the members of a struct, "double a, b;". */
+/* Write the members of a struct in C: "double a, b;". */
 static qdot_status
-write_fields(writer *w, const char *indent)
+write_struct_members(writer *w, const char *indent)
 {
     const size_t at = qdot_export_first_parameter(w->system);
 
@@ -106,17 +106,17 @@ write_fields(writer *w, const char *indent)
 }
 
 static qdot_status
-effects(writer *w, const char *indent)
+write_all_event_effects(writer *w, const char *indent)
 {
     for (size_t k = 0; k < w->system->n_events; k++)
-        QDOT_TRY(event_effect(w, k, indent));
+        QDOT_TRY(write_event_assignments(w, k, indent));
     return QDOT_OK;
 }
 
 /* --- lists in the exported file ------------------------------------------------------------- */
 
 static void
-separate(const writer *w, size_t i)
+write_separator(const writer *w, size_t i)
 {
     qdot_text_add(w->out, i > 0 ? w->language->separator : "");
 }
@@ -126,30 +126,30 @@ static qdot_status
 write_names(writer *w, size_t n, const qdot_export_name *list)
 {
     for (size_t i = 0; i < n; i++) {
-        separate(w, i);
+        write_separator(w, i);
         qdot_text_format(w->out, "\"%s\"", list[i].name);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-write_start(writer *w)
+write_start_state(writer *w)
 {
     for (size_t i = 0; i < 2 * w->system->n; i++) {
-        separate(w, i);
+        write_separator(w, i);
         qdot_export_write_number(w, w->system->start[i]);
     }
     return QDOT_OK;
 }
 
-/* Write a list about the events; `what`: the first letter of names, ways, stops, effects. */
+/* Write a list about the events; `what` is the first letter of what is listed: names, ways, stops, effects. */
 static qdot_status
-events(writer *w, char what)
+write_event_list(writer *w, char what)
 {
     for (size_t i = 0; i < w->system->n_events; i++) {
         const qdot_export_event *e = &w->system->event[i];
 
-        separate(w, i);
+        write_separator(w, i);
         if (what == 'n')
             qdot_text_format(w->out, "\"%s\"", e->name);
         else
@@ -160,14 +160,14 @@ events(writer *w, char what)
     return QDOT_OK;
 }
 
-/* Write a list about the surfaces; `what`: the first letter of names, steps, moves. */
+/* Write a list about the switching surfaces; `what` is the first letter of what is listed: names, steps, moves. */
 static qdot_status
-surfaces(writer *w, char what)
+write_surface_list(writer *w, char what)
 {
     for (size_t i = 0; i < w->system->s; i++) {
         const qdot_export_surface *s = &w->system->surface[i];
 
-        separate(w, i);
+        write_separator(w, i);
         if (what == 'n')
             qdot_text_format(w->out, "\"%s %s\"",
                              "the equations do not say how the motion goes on where", s->text);
@@ -178,10 +178,10 @@ surfaces(writer *w, char what)
 }
 
 static qdot_status
-orders(writer *w)
+write_constraint_orders(writer *w)
 {
     for (size_t i = 0; i < w->system->m; i++) {
-        separate(w, i);
+        write_separator(w, i);
         qdot_text_format(w->out, "%d", w->system->orders[i]);
     }
     return QDOT_OK;
@@ -191,9 +191,9 @@ orders(writer *w)
 
 enum { A_LINE = 4, ROWS = 16, TERMS = 12 };
 
-/* Write numbers, four in a line. */
+/* Write the numbers x [n] as text, four in a line. */
 static void
-numbers(writer *w, size_t n, const double *x, const char *indent)
+write_numbers(writer *w, size_t n, const double *x, const char *indent)
 {
     for (size_t i = 0; i < n; i++) {
         if (i % A_LINE == 0 && i > 0)
@@ -204,29 +204,29 @@ numbers(writer *w, size_t n, const double *x, const char *indent)
 }
 
 static qdot_status
-matrix(writer *w, size_t rows, size_t columns, const double *x, const char *indent)
+write_matrix(writer *w, size_t rows, size_t columns, const double *x, const char *indent)
 {
     for (size_t i = 0; i < rows; i++) {
         qdot_text_format(w->out, "%s%s", indent, w->language->row_begin);
-        numbers(w, columns, x + i * columns, indent);
+        write_numbers(w, columns, x + i * columns, indent);
         qdot_text_format(w->out, "%s\n", w->language->row_end);
     }
     return QDOT_OK;
 }
 
-/* Write one row, without the beginning and end of a matrix row. */
+/* Write one row of numbers, without the brackets of a matrix row. */
 static qdot_status
-list(writer *w, size_t n, const double *x, const char *indent)
+write_number_row(writer *w, size_t n, const double *x, const char *indent)
 {
     qdot_text_add(w->out, indent);
-    numbers(w, n, x, indent);
+    write_numbers(w, n, x, indent);
     qdot_text_format(w->out, "%s\n", w->language->line_end);
     return QDOT_OK;
 }
 
-/* Write a matrix that marks with 1 which elements of the state each event sets. */
+/* Write a matrix that marks with 1 which components of the state each event sets. */
 static qdot_status
-sets(writer *w, const char *indent)
+write_event_target_matrix(writer *w, const char *indent)
 {
     const size_t width = 2 * w->system->n;
     double *x = qdot_calloc(w->system->n_events * width + 1, sizeof *x);
@@ -237,14 +237,14 @@ sets(writer *w, const char *indent)
             if (w->system->event[i].targets[k] < width)
                 x[i * width + w->system->event[i].targets[k]] = 1;
     if (status == QDOT_OK)
-        status = matrix(w, w->system->n_events, width, x, indent);
+        status = write_matrix(w, w->system->n_events, width, x, indent);
     qdot_free(x);
     return status;
 }
 
-/* Write the coefficients of the method (ode/dop853.def) that the template's word requests. */
+/* Write the Runge-Kutta coefficients (ode/dop853.def) that a word of the template asks for. */
 static qdot_status
-method(writer *w, const char *word, const char *indent)
+write_method_coefficients(writer *w, const char *word, const char *indent)
 {
     double nodes[ROWS] = {0}, stages[ROWS][ROWS] = {{0}}, fifth[TERMS] = {0}, third[TERMS] = {0};
     double curve[4][ROWS] = {{0}};
@@ -259,11 +259,11 @@ method(writer *w, const char *word, const char *indent)
 #define THIRD(terms) to = third; terms
 #define DENSE(p, terms) to = curve[(p) - 3]; terms
 #include "ode/dop853.def"
-    return strcmp(word, "nodes") == 0    ? list(w, ROWS, nodes, indent)
-           : strcmp(word, "stages") == 0 ? matrix(w, ROWS, ROWS, stages[0], indent)
-           : strcmp(word, "fifth") == 0  ? list(w, TERMS, fifth, indent)
-           : strcmp(word, "third") == 0  ? list(w, TERMS, third, indent)
-                                         : matrix(w, 4, ROWS, curve[0], indent);
+    return strcmp(word, "nodes") == 0    ? write_number_row(w, ROWS, nodes, indent)
+           : strcmp(word, "stages") == 0 ? write_matrix(w, ROWS, ROWS, stages[0], indent)
+           : strcmp(word, "fifth") == 0  ? write_number_row(w, TERMS, fifth, indent)
+           : strcmp(word, "third") == 0  ? write_number_row(w, TERMS, third, indent)
+                                         : write_matrix(w, 4, ROWS, curve[0], indent);
 }
 
 /* --- words of the template ------------------------------------------------------------------ */
@@ -311,21 +311,21 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
         return QDOT_OK;
     }
     if (word_is_in_list(word, " nodes stages fifth third curve "))
-        return method(w, word, indent);
+        return write_method_coefficients(w, word, indent);
     if (strncmp(word, "event ", 6) == 0)
-        return events(w, word[6]);
+        return write_event_list(w, word[6]);
     if (strncmp(word, "surface ", 8) == 0)
-        return surfaces(w, word[8]);
-    return strcmp(word, "fields") == 0        ? write_fields(w, indent)
+        return write_surface_list(w, word[8]);
+    return strcmp(word, "fields") == 0        ? write_struct_members(w, indent)
            : strcmp(word, "parameters") == 0  ? declare_parameters(w, indent)
-           : strcmp(word, "checks") == 0      ? write_checks(w, indent)
-           : strcmp(word, "start") == 0       ? write_start(w)
+           : strcmp(word, "checks") == 0      ? write_parameter_checks(w, indent)
+           : strcmp(word, "start") == 0       ? write_start_state(w)
            : strcmp(word, "coordinates") == 0 ? write_names(w, x->n, x->q)
            : strcmp(word, "multipliers") == 0 ? write_names(w, x->m, x->lambda)
-           : strcmp(word, "orders") == 0      ? orders(w)
-           : strcmp(word, "sets") == 0        ? sets(w, indent)
+           : strcmp(word, "orders") == 0      ? write_constraint_orders(w)
+           : strcmp(word, "sets") == 0        ? write_event_target_matrix(w, indent)
            : strcmp(word, "effects") == 0
-               ? effects(w, indent)
+               ? write_all_event_effects(w, indent)
                : qdot_fail(QDOT_EINVAL, "the template has an unknown word: %.40s", word);
 }
 
@@ -341,7 +341,7 @@ qdot_export_tape_uses(const qdot_tape *tape, qdot_op first, qdot_op last)
 }
 
 static bool
-any_uses(const qdot_export_system *x, qdot_op first, qdot_op last)
+any_tape_uses(const qdot_export_system *x, qdot_op first, qdot_op last)
 {
     const qdot_tape *const tapes[] = {x->equations.tape, x->slopes.tape, x->energy.tape,
                                       x->positions.tape, x->events.tape, x->switches.tape};
@@ -355,9 +355,9 @@ any_uses(const qdot_export_system *x, qdot_op first, qdot_op last)
     return false;
 }
 
-/* Whether a tape takes accelerations or multipliers as inputs. */
+/* Whether a tape takes accelerations or Lagrange multipliers as inputs. */
 static bool
-reads_motion(const qdot_export_system *x, const qdot_tape *tape)
+tape_reads_accelerations(const qdot_export_system *x, const qdot_tape *tape)
 {
     const size_t from = 1 + 2 * x->n, to = qdot_export_first_parameter(x);
 
@@ -375,10 +375,10 @@ reads_motion(const qdot_export_system *x, const qdot_tape *tape)
 }
 
 static bool
-some_effect(const qdot_export_system *x, bool that_reads)
+has_event_effect(const qdot_export_system *x, bool that_reads)
 {
     for (size_t i = 0; i < x->n_events; i++)
-        if (x->event[i].effect != NULL && (!that_reads || reads_motion(x, x->event[i].effect)))
+        if (x->event[i].effect != NULL && (!that_reads || tape_reads_accelerations(x, x->event[i].effect)))
             return true;
     return false;
 }
@@ -387,13 +387,13 @@ bool
 qdot_export_motion_has(const qdot_export_system *x, char what)
 {
     switch (what) {
-    case 'a': return reads_motion(x, x->events.tape);
-    case 'b': return some_effect(x, true);
+    case 'a': return tape_reads_accelerations(x, x->events.tape);
+    case 'b': return has_event_effect(x, true);
     case 'c': return x->m > 0;
-    case 'd': return some_effect(x, false);
+    case 'd': return has_event_effect(x, false);
     case 'e': return x->n_events > 0;
-    case 'f': return any_uses(x, QDOT_OP_ERF, QDOT_OP_ERFC);
-    case 'h': return any_uses(x, QDOT_OP_SELECT, QDOT_OP_SELECT);
+    case 'f': return any_tape_uses(x, QDOT_OP_ERF, QDOT_OP_ERFC);
+    case 'h': return any_tape_uses(x, QDOT_OP_SELECT, QDOT_OP_SELECT);
     case 'j': return x->slopes.tape != NULL;
     case 'k': return x->k > 0;
     case 'l': return x->s > 0 && x->switches.block[1].rows > 0;
@@ -401,7 +401,7 @@ qdot_export_motion_has(const qdot_export_system *x, char what)
     case 's': return x->s > 0;
     case 'w': return x->n_events + x->s > 0;
     default:
-        return any_uses(x, QDOT_OP_SQRT, QDOT_OP_POW) || any_uses(x, QDOT_OP_ASIN, QDOT_OP_ACOS) ||
-               any_uses(x, QDOT_OP_ACOSH, QDOT_OP_ATANH) || any_uses(x, QDOT_OP_LOG, QDOT_OP_LOG);
+        return any_tape_uses(x, QDOT_OP_SQRT, QDOT_OP_POW) || any_tape_uses(x, QDOT_OP_ASIN, QDOT_OP_ACOS) ||
+               any_tape_uses(x, QDOT_OP_ACOSH, QDOT_OP_ATANH) || any_tape_uses(x, QDOT_OP_LOG, QDOT_OP_LOG);
     }
 }

@@ -17,13 +17,13 @@ typedef struct qdot_export_language qdot_export_language;
 #define LANGUAGE(word, title, ending, language) extern const qdot_export_language qdot_export_##language;
 #include "show/export-languages.def"
 
-/* A name of the scene and, of a parameter, its value (NaN: none). */
+/* A name of the scene, and if it is a parameter, its value (NaN: none). */
 typedef struct {
     const char *name; /* the plain name: "theta[1]" */
     double value;
 } qdot_export_name;
 
-/* Consecutive outputs of a tape as an array. */
+/* Consecutive outputs of a tape that the exported file returns as one array. */
 typedef struct {
     const char *array; /* name of the array, as "M"; NULL: a single number, the function's value */
     size_t rows, columns; /* size of the array; columns 0: a vector */
@@ -38,19 +38,19 @@ typedef struct {
 /* A surface at which the equations switch. */
 typedef struct {
     const char *text; /* equation of the surface: "x' = 0" */
-    bool steps;       /* the side is floor(u), otherwise the sign of u */
-    bool moves;       /* u does not depend on time alone */
+    bool steps;       /* the motion's mode is given by floor(u), otherwise by the sign of u (u = 0: the surface) */
+    bool moves;       /* u depends on coordinates or velocities, not on time alone */
 } qdot_export_surface;
 
 /* What an event does: its targets are y [0 ... 2n - 1], then parameters [2n ...]; one output of the
  * tape for each. */
 typedef struct {
     const char *name;
-    int way; /* 1: rising, -1: falling, 0: either */
+    int way; /* direction in which left - right of the event passes 0; 1: rising, -1: falling, 0: either */
     bool stop;
     size_t n_targets;
     const size_t *targets;
-    const qdot_tape *effect; /* new values of the targets; NULL: no targets */
+    const qdot_tape *effect; /* new values of what the event sets; NULL: it sets nothing */
 } qdot_export_event;
 
 typedef struct {
@@ -67,8 +67,8 @@ typedef struct {
     qdot_export_function positions; /* f [m] of constraints without derivatives, df/dt and f of those
                                        on velocities [m], else 0 */
     qdot_export_function events;    /* left - right of each event */
-    qdot_export_function switches; /* u [s] of the surfaces; level: switching terms of T - V [0 or 1] */
-    const int *orders; /* [m] time derivatives of each constraint until q'' occurs: 2, 1 or 0 */
+    qdot_export_function switches; /* u [s] of the switching surfaces; `level`: the terms of T - V that switch [0 or 1] */
+    const int *orders; /* [m] how often each constraint is differentiated by time until q'' occurs: 2, 1 or 0 */
     const qdot_export_surface *surface;
     size_t n_events;
     const qdot_export_event *event;

@@ -14,13 +14,13 @@ typedef struct {
     const qdot_export_expression *value; /* the expression to be exported; NULL: a motion is */
     size_t inputs;
     char **words;   /* [inputs] names of the inputs in the language */
-    char **sources; /* [inputs] expressions from which they are read; NULL: arguments */
+    char **sources; /* [inputs] expressions from which the inputs are read; NULL: they are arguments of the function */
     char *name;     /* name of the function or the group of functions */
     char temporary[16];
     qdot_text *out;
 } qdot_export_writer;
 
-/* Where the parameters begin among the inputs of a motion. */
+/* The index of the first parameter among the inputs of a motion's tape. */
 static inline size_t
 qdot_export_first_parameter(const qdot_export_system *x)
 {
@@ -34,12 +34,12 @@ QDOT_MUST_CHECK qdot_status qdot_export_write_code(qdot_export_writer *w,
 /* Write a number; NaN in the syntax of the language. */
 void qdot_export_write_number(const qdot_export_writer *w, double x);
 
-/* Write what replaces a word of a motion's template. */
+/* Write the text that replaces a word of a motion's template. */
 QDOT_MUST_CHECK qdot_status qdot_export_motion_word(qdot_export_writer *w, const char *word,
                                                     const char *indent);
 /* Whether a motion has what a letter of a template's line requires (export-language.h). */
 bool qdot_export_motion_has(const qdot_export_system *x, char what);
-/* Whether a tape (NULL: no) contains one of the operations first ... last. */
+/* Whether a tape (may be NULL) contains one of the operations from first to last. */
 bool qdot_export_tape_uses(const qdot_tape *tape, qdot_op first, qdot_op last);
 
 #endif

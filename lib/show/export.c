@@ -19,9 +19,9 @@ is_part_of_name(char c)
     return isalnum((unsigned char)c) || c == '_';
 }
 
-/* Append a name as a word of letters, digits and _: theta[1]'' becomes theta_1_ddot. */
+/* Append a name as an identifier of letters, digits and _: theta[1]'' becomes theta_1_ddot. */
 static void
-as_word(const char *name, qdot_text *out)
+append_identifier(const char *name, qdot_text *out)
 {
     size_t primes = 0;
 
@@ -75,14 +75,14 @@ word_is_taken(const writer *w, size_t n, const char *word)
     return is_reserved(w->language, word);
 }
 
-/* Name input i after its symbol, with _ appended while that name is taken. */
+/* Name input i of the exported function after its symbol, with _ appended until the name is new. */
 static qdot_status
-add_word(writer *w, size_t i, const char *name)
+name_input(writer *w, size_t i, const char *name)
 {
     qdot_text word = {0};
     qdot_status status;
 
-    as_word(name, &word);
+    append_identifier(name, &word);
     while (word_is_taken(w, i, qdot_text_str(&word)) && !word.failed)
         qdot_text_char(&word, '_');
     status = qdot_text_status(&word);
@@ -95,8 +95,8 @@ add_word(writer *w, size_t i, const char *name)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
 static qdot_status
-add_element(writer *w, size_t i, const char *name, const char *primes, const char *format,
-            size_t k)
+name_array_element(writer *w, size_t i, const char *name, const char *primes, const char *format,
+                   size_t k)
 {
     qdot_text text = {0};
     qdot_status status;
@@ -104,7 +104,7 @@ add_element(writer *w, size_t i, const char *name, const char *primes, const cha
     qdot_text_format(&text, "%s%s", name, primes);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
-        status = add_word(w, i, text.at);
+        status = name_input(w, i, text.at);
     qdot_text_truncate(&text, 0);
     qdot_text_format(&text, format, k + w->language->first);
     if (status == QDOT_OK)
@@ -116,12 +116,12 @@ add_element(writer *w, size_t i, const char *name, const char *primes, const cha
 }
 
 static qdot_status
-export_add_parameter(writer *w, size_t i, const char *name)
+name_parameter(writer *w, size_t i, const char *name)
 {
     qdot_text text = {0};
     qdot_status status;
 
-    QDOT_TRY(add_word(w, i, name));
+    QDOT_TRY(name_input(w, i, name));
     qdot_text_format(&text, w->language->parameter, w->words[i]);
     status = qdot_text_status(&text);
     if (status == QDOT_OK && (w->sources[i] = qdot_strdup(text.at)) == NULL)
@@ -131,9 +131,9 @@ export_add_parameter(writer *w, size_t i, const char *name)
 }
 #pragma GCC diagnostic pop
 
-/* Name the inputs of a system: t, q, q', q'', lambda, parameters, sides. */
+/* Name the inputs of an exported motion: t, q, q', q'', lambda, parameters, sides of surfaces. */
 static qdot_status
-name_system(writer *w)
+name_motion_inputs(writer *w)
 {
     const qdot_export_system *x = w->system;
     const size_t n = x->n;
@@ -141,32 +141,32 @@ name_system(writer *w)
     if ((w->words[0] = qdot_strdup("t")) == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_element(w, 1 + i, x->q[i].name, "", w->language->state, i));
+        QDOT_TRY(name_array_element(w, 1 + i, x->q[i].name, "", w->language->state, i));
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_element(w, 1 + n + i, x->q[i].name, "'", w->language->state, n + i));
+        QDOT_TRY(name_array_element(w, 1 + n + i, x->q[i].name, "'", w->language->state, n + i));
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_element(w, 1 + 2 * n + i, x->q[i].name, "''", w->language->acceleration, i));
+        QDOT_TRY(name_array_element(w, 1 + 2 * n + i, x->q[i].name, "''", w->language->acceleration, i));
     for (size_t i = 0; i < x->m; i++)
-        QDOT_TRY(add_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->language->multiplier, i));
+        QDOT_TRY(name_array_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->language->multiplier, i));
     for (size_t i = 0; i < x->k; i++)
-        QDOT_TRY(export_add_parameter(w, qdot_export_first_parameter(x) + i, x->parameters[i].name));
+        QDOT_TRY(name_parameter(w, qdot_export_first_parameter(x) + i, x->parameters[i].name));
     for (size_t i = 0; i < x->s; i++)
-        QDOT_TRY(add_element(w, qdot_export_first_parameter(x) + x->k + i, "side", "",
-                             w->language->side, i));
+        QDOT_TRY(name_array_element(w, qdot_export_first_parameter(x) + x->k + i, "side", "",
+                                    w->language->side, i));
     return QDOT_OK;
 }
 
 static qdot_status
-name_value(writer *w)
+name_expression_inputs(writer *w)
 {
     for (size_t i = 0; i < w->value->k; i++)
-        QDOT_TRY(add_word(w, i, w->value->arguments[i].name));
+        QDOT_TRY(name_input(w, i, w->value->arguments[i].name));
     return QDOT_OK;
 }
 
-/* Choose the prefix of intermediate variables, such that prefix and digit are no name of the scene. */
+/* Choose the prefix of intermediate variables, such that prefix and digit are not a name of the scene. */
 static void
-choose_temporary(writer *w)
+choose_temporary_prefix(writer *w)
 {
     static const char *const tries[] = {"w", "u", "z", "w_", "temporary_"};
 
@@ -183,9 +183,9 @@ choose_temporary(writer *w)
     }
 }
 
-/* Choose the name of the functions, from that of the file. */
+/* Choose the name of the exported functions from the name of the file. */
 static qdot_status
-choose_name(writer *w, const char *file)
+choose_function_name(writer *w, const char *file)
 {
     qdot_text name = {0};
     bool changed = isdigit((unsigned char)*file) || *file == '_' || *file == '\0';
@@ -198,7 +198,7 @@ choose_name(writer *w, const char *file)
         qdot_text_char(&name, fits ? *c : '_');
         changed |= !fits;
     }
-    /* in C, the names of a motion only begin with this name */
+    /* in C, the names of a motion's functions only begin with the name chosen from the file */
     if ((w->system == NULL || w->language != &qdot_export_c) &&
         is_reserved(w->language, qdot_text_str(&name))) {
         qdot_text_char(&name, '_');
@@ -244,7 +244,7 @@ qdot_export_write_number(const writer *w, double x)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
 static qdot_status
-write_arguments(writer *w, bool more)
+write_function_arguments(writer *w, bool more)
 {
     if (w->value->k == 0 && !more)
         qdot_text_add(w->out, w->language->no_argument);
@@ -272,7 +272,7 @@ write_arguments(writer *w, bool more)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
 static void
-shape(writer *w)
+write_result_shape(writer *w)
 {
     const qdot_export_block *b = &w->value->value.block[0];
 
@@ -283,9 +283,9 @@ shape(writer *w)
 }
 #pragma GCC diagnostic pop
 
-/* Write the lines of the scene as comments. */
+/* Write the lines of the scene as comments of the exported file. */
 static qdot_status
-comments(writer *w, const char *text)
+write_scene_comments(writer *w, const char *text)
 {
     while (*text != '\0') {
         size_t n = strcspn(text, "\n");
@@ -299,9 +299,9 @@ comments(writer *w, const char *text)
     return QDOT_OK;
 }
 
-/* Write a template word common to both kinds of files; *known: it is one. */
+/* Write what replaces a word that motions and expressions share; *known: it is such a word. */
 static qdot_status
-common_word(writer *w, const char *word, const char *indent, bool *known)
+write_common_word(writer *w, const char *word, const char *indent, bool *known)
 {
     *known = true;
     if (strcmp(word, "name") == 0)
@@ -309,13 +309,13 @@ common_word(writer *w, const char *word, const char *indent, bool *known)
     else if (strcmp(word, "file") == 0)
         qdot_text_add(w->out, w->system != NULL ? w->system->file : w->value->file);
     else if (strcmp(word, "origin") == 0)
-        return comments(w, w->system != NULL ? w->system->origin : w->value->origin);
+        return write_scene_comments(w, w->system != NULL ? w->system->origin : w->value->origin);
     else if (w->system == NULL && strncmp(word, "arguments", 9) == 0)
-        return write_arguments(w, word[9] == ',');
+        return write_function_arguments(w, word[9] == ',');
     else if (w->system == NULL && strcmp(word, "code") == 0)
         return qdot_export_write_code(w, &w->value->value, indent, NULL);
     else if (w->system == NULL && strcmp(word, "shape") == 0)
-        shape(w);
+        write_result_shape(w);
     else if (w->system == NULL && strcmp(word, "size") == 0)
         qdot_text_format(w->out, "%zu", qdot_tape_outputs(w->value->value.tape));
     else
@@ -324,7 +324,7 @@ common_word(writer *w, const char *word, const char *indent, bool *known)
 }
 
 static bool
-export_has(const writer *w, char what)
+has_template_feature(const writer *w, char what)
 {
     const qdot_tape *tape = w->system == NULL ? w->value->value.tape : NULL;
 
@@ -343,9 +343,9 @@ export_has(const writer *w, char what)
 
 /* --- templates of the languages ----------------------------------------------------------- */
 
-/* Write one line of the template; a word alone on its line becomes lines of its own, with the line's indent. */
+/* Write one line of the template; a word alone on its line is replaced by lines that have the same indent. */
 static qdot_status
-export_write_line(writer *w, const char *line, size_t n)
+write_template_line(writer *w, const char *line, size_t n)
 {
     const char *const end = line + n;
     char word[32], indent[32];
@@ -367,7 +367,7 @@ export_write_line(writer *w, const char *line, size_t n)
         }
         qdot_text_add_n(w->out, line, (size_t)(at - line));
         snprintf(word, sizeof word, "%.*s", (int)(close - at - 1), at + 1);
-        QDOT_TRY(common_word(w, word, indent, &known));
+        QDOT_TRY(write_common_word(w, word, indent, &known));
         if (!known)
             QDOT_TRY(qdot_export_motion_word(w, word, indent));
         line = close + 1;
@@ -377,7 +377,7 @@ export_write_line(writer *w, const char *line, size_t n)
 }
 
 static qdot_status
-write_template(writer *w, const char *text)
+write_template_text(writer *w, const char *text)
 {
     while (*text != '\0') {
         size_t n = strcspn(text, "\n");
@@ -386,32 +386,32 @@ write_template(writer *w, const char *text)
 
         text += n + 1;
         while ((line[0] == '?' || line[0] == '!') && line[2] == ' ') {
-            wanted &= export_has(w, line[1]) == (line[0] == '?');
+            wanted &= has_template_feature(w, line[1]) == (line[0] == '?');
             line += 3;
             n -= 3;
         }
         if (wanted)
-            QDOT_TRY(export_write_line(w, line, n));
+            QDOT_TRY(write_template_line(w, line, n));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-export_write_file(writer *w, const char *file, const char *text)
+write_exported_file(writer *w, const char *file, const char *text)
 {
-    qdot_status status = choose_name(w, file);
+    qdot_status status = choose_function_name(w, file);
 
     w->words = qdot_calloc(w->inputs + 1, sizeof *w->words);
     w->sources = qdot_calloc(w->inputs + 1, sizeof *w->sources);
     if (w->words == NULL || w->sources == NULL)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = w->system != NULL ? name_system(w) : name_value(w);
+        status = w->system != NULL ? name_motion_inputs(w) : name_expression_inputs(w);
     if (status == QDOT_OK) {
-        choose_temporary(w);
-        status = write_template(w, text);
+        choose_temporary_prefix(w);
+        status = write_template_text(w, text);
         if (status == QDOT_OK && w->system != NULL && w->language->motion != NULL)
-            status = write_template(w, w->language->motion);
+            status = write_template_text(w, w->language->motion);
     }
     for (size_t i = 0; w->words != NULL && w->sources != NULL && i < w->inputs; i++) {
         qdot_free(w->words[i]);
@@ -432,7 +432,7 @@ qdot_export_system_write(const qdot_export_system *system, const qdot_export_lan
                 .inputs = qdot_export_first_parameter(system) + system->k + system->s,
                 .out = out};
 
-    return export_write_file(&w, system->file, w.language->system);
+    return write_exported_file(&w, system->file, w.language->system);
 }
 
 qdot_status
@@ -441,6 +441,6 @@ qdot_export_expression_write(const qdot_export_expression *e, const qdot_export_
 {
     writer w = {.language = language, .value = e, .inputs = e->k, .out = out};
 
-    return export_write_file(&w, e->file,
-                             e->value.block[0].array == NULL ? w.language->value : w.language->values);
+    return write_exported_file(&w, e->file,
+                               e->value.block[0].array == NULL ? w.language->value : w.language->values);
 }

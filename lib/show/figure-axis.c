@@ -16,7 +16,7 @@ enum { EXACT = 17, TIC = 12, MOST_TICS = 40 };
 /* A tic distance, 1, 2 or 5 times a power of ten, that divides `span` into about `steps`; 0 if
  * there is none. */
 static double
-nice_step(double span, double steps)
+rounded_tic_step(double span, double steps)
 {
     const double ten = pow(10, floor(log10(span / steps))), times = span / steps / ten;
 
@@ -27,7 +27,7 @@ nice_step(double span, double steps)
                                       : 10 * ten;
 }
 
-/* The distances of tics on an axis of angles, as parts of pi: those at which one reads an angle. */
+/* Tic steps of an axis of angles, as fractions of pi: those with which angles are easy to read. */
 static const struct {
     int times, over;
 } angles[] = {{1, 12}, {1, 6}, {1, 4}, {1, 2}, {1, 1}, {2, 1}, {4, 1}, {10, 1}, {20, 1}, {50, 1}, {100, 1}};
@@ -35,7 +35,7 @@ static const struct {
 /* Set the tic distance of an axis of angles, the nearest to `steps` in the span; false: the span is too small, or so
  * large that turns are not counted any more. */
 static bool
-set_angle_step(qdot_figure_axis *a, double steps)
+choose_angle_step(qdot_figure_axis *a, double steps)
 {
     const double wanted = (a->most - a->least) / steps;
     enum { ANGLES = sizeof angles / sizeof *angles };
@@ -101,7 +101,7 @@ add_signed(qdot_text *out, const char *number)
 
 /* --- offset and power ----------------------------------------------------------------- */
 
-/* Choose the offset: the middle, rounded to the power of ten above the span, so that it has few digits. */
+/* Choose the offset subtracted from an axis's numbers: their middle, rounded to few digits. */
 static void
 choose_offset(qdot_figure_axis *a)
 {
@@ -154,9 +154,9 @@ qdot_figure_axis_of(double least, double most, qdot_figure_tics tics, double ste
 
     if (a.log || !isfinite(most - least) || !(most > least))
         return a;
-    if (tics == QDOT_TICS_PI && set_angle_step(&a, steps))
+    if (tics == QDOT_TICS_PI && choose_angle_step(&a, steps))
         return a;
-    if (nice_step(most - least, steps) < 2e-5 * largest && (least > 0) == (most > 0)) {
+    if (rounded_tic_step(most - least, steps) < 2e-5 * largest && (least > 0) == (most > 0)) {
         choose_offset(&a);
         a.least -= a.offset;
         a.most -= a.offset;
@@ -164,20 +164,20 @@ qdot_figure_axis_of(double least, double most, qdot_figure_tics tics, double ste
     a.power = power != NULL ? *power : qdot_figure_power(a.least, a.most);
     a.least /= pow(10, a.power);
     a.most /= pow(10, a.power);
-    a.step = nice_step(a.most - a.least, steps);
+    a.step = rounded_tic_step(a.most - a.least, steps);
     return a;
 }
 
 /* --- tics of an axis ------------------------------------------------------------------ */
 
 static double
-first_tic(const qdot_figure_axis *a)
+first_tic_index(const qdot_figure_axis *a)
 {
     return ceil(a->least / a->step - 1e-9);
 }
 
 static double
-last_tic(const qdot_figure_axis *a)
+last_tic_index(const qdot_figure_axis *a)
 {
     return floor(a->most / a->step + 1e-9);
 }
@@ -185,17 +185,17 @@ last_tic(const qdot_figure_axis *a)
 int
 qdot_figure_count_tics(const qdot_figure_axis *a)
 {
-    return a->step > 0 ? (int)fmin(last_tic(a) - first_tic(a) + 1, MOST_TICS) : 0;
+    return a->step > 0 ? (int)fmin(last_tic_index(a) - first_tic_index(a) + 1, MOST_TICS) : 0;
 }
 
-/* Tics that are being listed. */
+/* The list of an axis's tics while it is being filled. */
 typedef struct {
     qdot_figure_tic *at;
     size_t n;
 } tics;
 
 static void
-put_tic(tics *t, double at, qdot_text *label, size_t letters, bool minor)
+append_tic(tics *t, double at, qdot_text *label, size_t letters, bool minor)
 {
     qdot_figure_tic *tic = &t->at[t->n];
 
@@ -211,7 +211,7 @@ static void
 list_linear_tics(const qdot_figure_axis *a, tics *t)
 {
     const int decimals = (int)fmax(0, -floor(log10(a->step) + 1e-9));
-    const double first = first_tic(a), last = last_tic(a);
+    const double first = first_tic_index(a), last = last_tic_index(a);
     qdot_text label = {0};
 
     for (double k = first; k <= last && k < first + MOST_TICS; k++) {
@@ -221,12 +221,12 @@ list_linear_tics(const qdot_figure_axis *a, tics *t)
         print_number(number, sizeof number, "%.*f", decimals, k == 0 ? 0 : k * a->step);
         if (a->over == 0 || !qdot_figure_add_pi(&label, k * a->step))
             add_signed(&label, number);
-        put_tic(t, k == 0 ? 0 : k * a->step, &label, qdot_utf8_columns(qdot_text_str(&label), label.n), false);
+        append_tic(t, k == 0 ? 0 : k * a->step, &label, qdot_utf8_columns(qdot_text_str(&label), label.n), false);
     }
     qdot_text_clear(&label);
 }
 
-/* Append a power of ten, times 2 or 5; plain: as 0.1, 1, 20, otherwise as 10^k. Returns its letters. */
+/* Append 10^power times 1, 2 or 5 as 0.1, 1, 20 if `plain`, otherwise as 10^k. Returns the number of letters. */
 static size_t
 add_power_of_ten(qdot_text *label, int times, int power, bool plain)
 {
@@ -247,7 +247,7 @@ add_power_of_ten(qdot_text *label, int times, int power, bool plain)
  * a short axis 2 and 5 times them too, on a very short one all, or those that are apart if they are
  * no plain numbers. */
 static bool
-is_large(int times, int k, double decades, bool plain)
+is_numbered_log_tic(int times, int k, double decades, bool plain)
 {
     const int stride = (int)ceil(decades / 8);
 
@@ -268,7 +268,7 @@ list_log_tics(const qdot_figure_axis *a, tics *t)
     for (int k = (int)floor(low); k <= (int)ceil(high); k++)
         for (int times = 1; times < (decades > 8 ? 2 : 10); times++) {
             const double at = times * pow(10, k);
-            const bool large = is_large(times, k, decades, plain);
+            const bool large = is_numbered_log_tic(times, k, decades, plain);
             size_t letters = 0;
 
             if (at < a->least * (1 - 1e-12) || at > a->most * (1 + 1e-12))
@@ -276,22 +276,22 @@ list_log_tics(const qdot_figure_axis *a, tics *t)
             qdot_text_truncate(&label, 0);
             if (large)
                 letters = add_power_of_ten(&label, times, k, plain);
-            put_tic(t, at, &label, letters, !large);
+            append_tic(t, at, &label, letters, !large);
         }
     qdot_text_clear(&label);
 }
 
-/* Mark a logarithmic axis of less than a factor of two like a linear one. */
+/* Choose tics like those of a linear axis for a logarithmic one that spans less than a factor of two. */
 static void
 list_short_log_tics(const qdot_figure_axis *a, tics *t)
 {
-    const double step = nice_step(a->most - a->least, 5);
+    const double step = rounded_tic_step(a->most - a->least, 5);
     qdot_text label = {0};
 
     for (double k = ceil(a->least / step); k <= floor(a->most / step) && step > 0; k++) {
         qdot_text_truncate(&label, 0);
         qdot_text_double(&label, k * step, 4);
-        put_tic(t, k * step, &label, label.n, false);
+        append_tic(t, k * step, &label, label.n, false);
     }
     qdot_text_clear(&label);
 }
@@ -351,10 +351,10 @@ qdot_figure_moved_label(char name, const qdot_figure_label *label, bool *compoun
     return own ? *label : (qdot_figure_label){letters[name - 'x'], false};
 }
 
-/* Append the label with the offset and the power of ten of its axis. */
+/* Append the label of an axis together with the offset and the power of ten of its numbers. */
 static void
-add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
-          const qdot_figure_label *label)
+add_scaled_label(qdot_text *markup, char name, const qdot_figure_axis *a,
+                 const qdot_figure_label *label)
 {
     const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
     bool compound;
@@ -371,7 +371,7 @@ add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
         qdot_text_format(markup, " / 10^{%s%d}", a->power < 0 ? "−" : "", abs(a->power));
 }
 
-/* Append the label in quotes, with gnuplot's keyword for how to read it. */
+/* Append the label in quotes, with gnuplot's keyword for reading it as markup or as plain text. */
 static void
 axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
                const qdot_figure_label *label)
@@ -382,7 +382,7 @@ axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
         qdot_figure_add_label(script, label);
         return;
     }
-    add_moved(&markup, name, a, label);
+    add_scaled_label(&markup, name, a, label);
     qdot_figure_add_quoted(script, qdot_text_str(&markup));
     qdot_text_add(script, " enhanced");
     script->failed = script->failed || markup.failed;
@@ -393,7 +393,7 @@ void
 qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *a,
                            const qdot_figure_label *label)
 {
-    const bool above = name == 'y' && a->offset_text[0] != '\0'; /* the text of the offset is long */
+    const bool above = name == 'y' && a->offset_text[0] != '\0'; /* above the axis: the label is long */
 
     if (name == 'y')
         qdot_text_add(script, "unset label 1\n");
@@ -411,7 +411,7 @@ void
 qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
                            const qdot_figure_label *label, size_t width)
 {
-    /* positions of the axis labels: the middle of the two front edges and the upper end of the left one */
+    /* positions of the axis labels: the middle of the two front edges of the box, the upper end of the left one */
     const double at[3][3] = {
         {(axes[0].least + axes[0].most) / 2, axes[1].least, axes[2].least},
         {axes[0].most, (axes[1].least + axes[1].most) / 2, axes[2].least},
@@ -420,13 +420,13 @@ qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axe
     qdot_text_format(script, "set label %d ", k + 2);
     axis_add_label(script, "xyz"[k], &axes[k], label);
     qdot_text_add(script, " at first ");
-    for (int i = 0; i < 3; i++) { /* coordinates to a thousandth of the axis */
+    for (int i = 0; i < 3; i++) { /* coordinates with a precision of a thousandth of the axis */
         const double part = pow(10, floor(log10(axes[i].most - axes[i].least)) - 3);
 
         qdot_text_add(script, i > 0 ? ", first " : "");
         qdot_text_double(script, part * round(at[k][i] / part), 6);
     }
-    if (k == 1) /* after the numbers of the axis */
+    if (k == 1) /* place the label after the numbers of the axis */
         qdot_text_format(script, " offset %.1f,-1.7 left\n", 2.4 + 0.8 * (double)width);
     else
         qdot_text_add(script, k == 0 ? " offset -3,-2.6 right\n" : " offset 0,1.2 center\n");

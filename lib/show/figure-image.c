@@ -41,7 +41,7 @@ static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static const qdot_figure_kind *
-figure_kind_of(const char *path)
+find_image_kind(const char *path)
 {
     const char *slash = strrchr(path, '/'), *dot;
 
@@ -55,11 +55,11 @@ figure_kind_of(const char *path)
 bool
 qdot_figure_is_file(const char *path)
 {
-    return figure_kind_of(path) != NULL;
+    return find_image_kind(path) != NULL;
 }
 
 static void
-add_terminal(const qdot_figure_drawing *d)
+add_terminal_command(const qdot_figure_drawing *d)
 {
     qdot_text *s = d->script;
 
@@ -83,23 +83,23 @@ add_terminal(const qdot_figure_drawing *d)
 
 /* --- writing image, script and data ------------------------------------------------- */
 
-/* Append the path with another ending. */
+/* Append the path with its file-name ending replaced by another one. */
 static void
-add_sibling(qdot_text *out, const char *path, const char *ending)
+add_path_with_ending(qdot_text *out, const char *path, const char *ending)
 {
     qdot_text_add_n(out, path, (size_t)(strrchr(path, '.') - path));
     qdot_text_add(out, ending);
 }
 
 static const char *
-base_of(const char *path)
+file_name_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
 
     return slash != NULL ? slash + 1 : path;
 }
 
-/* The first line of files left by `keep`; other files of these names are not overwritten. */
+/* The first line of files that `keep` leaves; files of the same names without it are never overwritten. */
 static const char mark[] = "# left by qdot's keep\n";
 
 /* Append a file name such that gnuplot does not take it for a pipe or an option (`|program`,
@@ -110,9 +110,9 @@ add_file_name(qdot_text *out, const char *name)
     qdot_text_format(out, "%s%s", strchr("|<>-+ ", name[0]) != NULL ? "./" : "", name);
 }
 
-/* Check that NAME.gp and NAME.dat are not files of the user. */
+/* Check that NAME.gp and NAME.dat do not exist yet as files that the user wrote. */
 static qdot_status
-check_siblings(const char *path)
+check_kept_files(const char *path)
 {
     static const char *const endings[] = {".gp", ".dat"};
     qdot_status status = QDOT_OK;
@@ -120,7 +120,7 @@ check_siblings(const char *path)
     for (size_t i = 0; i < sizeof endings / sizeof *endings && status == QDOT_OK; i++) {
         qdot_text name = {0};
 
-        add_sibling(&name, path, endings[i]);
+        add_path_with_ending(&name, path, endings[i]);
         status = qdot_text_status(&name);
         if (status == QDOT_OK && !qdot_sink_is_free(name.at, mark)) {
             qdot_fail(QDOT_EIO, "`%.200s` exists, and was not written by `keep`", name.at);
@@ -133,18 +133,18 @@ check_siblings(const char *path)
 
 /* Write NAME.gp and NAME.dat beside NAME.svg; `gnuplot NAME.gp` in their folder draws the figure. */
 static qdot_status
-leave_script(const qdot_figure_drawing *like, const char *path)
+write_kept_script(const qdot_figure_drawing *like, const char *path)
 {
     qdot_text script = {0}, data = {0}, script_path = {0}, data_path = {0}, image_name = {0},
               data_name = {0};
     qdot_figure_drawing d = *like;
     qdot_status status;
 
-    add_sibling(&script_path, path, ".gp");
-    add_sibling(&data_path, path, ".dat");
+    add_path_with_ending(&script_path, path, ".gp");
+    add_path_with_ending(&data_path, path, ".dat");
     status = qdot_text_status(&data_path);
-    add_file_name(&image_name, base_of(path));
-    add_file_name(&data_name, base_of(data_path.at != NULL ? data_path.at : ""));
+    add_file_name(&image_name, file_name_of(path));
+    add_file_name(&data_name, file_name_of(data_path.at != NULL ? data_path.at : ""));
     qdot_text_add(&data, mark);
     qdot_text_add(&script, mark);
     if (status == QDOT_OK)
@@ -152,7 +152,7 @@ leave_script(const qdot_figure_drawing *like, const char *path)
     if (status == QDOT_OK) {
         d.script = &script;
         d.data = qdot_text_str(&data_name);
-        add_terminal(&d);
+        add_terminal_command(&d);
         qdot_text_add(&script, "set output ");
         qdot_figure_add_quoted(&script, qdot_text_str(&image_name));
         qdot_text_char(&script, '\n');
@@ -175,7 +175,7 @@ leave_script(const qdot_figure_drawing *like, const char *path)
     return status;
 }
 
-/* A file for LaTeX, which has script and data in it. */
+/* Write a figure as a file for LaTeX, with script and data in the same file. */
 static qdot_status
 write_tikz(const qdot_figure *figure, const qdot_figure_kind *kind, const char *path)
 {
@@ -195,9 +195,9 @@ write_tikz(const qdot_figure *figure, const qdot_figure_kind *kind, const char *
     return status;
 }
 
-/* Fail if a list of names or colours of the curves, n long, is longer than there are curves. */
+/* Fail if a list of n names or colours is longer than the number of curves. */
 static qdot_status
-check_list(const char *list, size_t n, size_t curves)
+check_list_length(const char *list, size_t n, size_t curves)
 {
     return n <= curves ? QDOT_OK : qdot_fail(QDOT_EINVAL, "%s names %zu curves, but there %s %zu", list, n,
                                              curves == 1 ? "is" : "are", curves);
@@ -215,11 +215,11 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     for (size_t i = 0; i < figure->n; i++) {
         if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
-        QDOT_TRY(check_list("the legend", figure->panels[i].n_legend, figure->panels[i].n));
-        QDOT_TRY(check_list("`colour`", figure->panels[i].n_colours, figure->panels[i].n));
+        QDOT_TRY(check_list_length("the legend", figure->panels[i].n_legend, figure->panels[i].n));
+        QDOT_TRY(check_list_length("`colour`", figure->panels[i].n_colours, figure->panels[i].n));
     }
     if (path != NULL) {
-        d.kind = figure_kind_of(path);
+        d.kind = find_image_kind(path);
         if (d.kind == NULL) {
             qdot_fail(QDOT_EINVAL, "`%.200s` does not say which kind of figure to write", path);
             return qdot_hint("end its name in .svg, .png, .pdf, .eps or .tikz");
@@ -228,16 +228,16 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     if (path != NULL && d.kind->before == NULL)
         return write_tikz(figure, d.kind, path);
     if (path != NULL && figure->keep)
-        QDOT_TRY(check_siblings(path));
+        QDOT_TRY(check_kept_files(path));
     QDOT_TRY(qdot_figure_size(figure, &d.width, &d.height, &d.points));
-    add_terminal(&d);
+    add_terminal_command(&d);
     status = qdot_figure_add_script(&d);
     if (status == QDOT_OK)
         status = path != NULL ? qdot_gnuplot_run(&script, d.kind->end, &image) : qdot_gnuplot_run(&script, NULL, NULL);
     if (status == QDOT_OK && path != NULL)
         status = qdot_sink_write(path, image.at, image.n);
     if (status == QDOT_OK && path != NULL && figure->keep)
-        status = leave_script(&d, path);
+        status = write_kept_script(&d, path);
     qdot_text_clear(&script);
     qdot_text_clear(&image);
     return status;

@@ -10,7 +10,7 @@
 
 /* Whether gnuplot takes the text in single quotes literally. */
 static bool
-is_simple(const char *text)
+is_quotable_text(const char *text)
 {
     for (const char *c = text; *c != '\0';) {
         size_t n = qdot_utf8_length(c);
@@ -30,7 +30,7 @@ void
 qdot_figure_add_quoted(qdot_text *script, const char *text)
 {
     text = text != NULL ? text : "";
-    if (is_simple(text)) {
+    if (is_quotable_text(text)) {
         qdot_text_format(script, "'%s'", text);
         return;
     }
@@ -56,7 +56,7 @@ qdot_figure_add_quoted(qdot_text *script, const char *text)
 typedef enum { IN_LINE, IN_GNUPLOT, IN_LATEX } language;
 
 static qdot_status
-add_written(qdot_text *out, const qdot_formula *f, qdot_formula_id id, language to)
+add_formula_in_language(qdot_text *out, const qdot_formula *f, qdot_formula_id id, language to)
 {
     switch (to) {
     case IN_LINE: return qdot_formula_write_line(f, id, QDOT_NOTATION_LINE, out);
@@ -65,9 +65,9 @@ add_written(qdot_text *out, const qdot_formula *f, qdot_formula_id id, language 
     }
 }
 
-/* Append a text: a formula as it was typed, or the letters as they stand. */
+/* Append a text: if it is a formula, typeset, otherwise letter by letter. */
 static void
-add_typed(qdot_text *out, const char *typed, bool formula, language to)
+add_typed_text(qdot_text *out, const char *typed, bool formula, language to)
 {
     qdot_formula f = {0};
     const qdot_formula_id all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
@@ -79,7 +79,7 @@ add_typed(qdot_text *out, const char *typed, bool formula, language to)
         qdot_formula_add_text(&f, all, QDOT_TEXT_LABEL, typed, strlen(typed));
     status = qdot_formula_status(&f);
     if (status == QDOT_OK)
-        status = add_written(out, &f, all, to);
+        status = add_formula_in_language(out, &f, all, to);
     out->failed = out->failed || status != QDOT_OK;
     qdot_formula_clear(&f);
 }
@@ -87,7 +87,7 @@ add_typed(qdot_text *out, const char *typed, bool formula, language to)
 void
 qdot_figure_add_line(qdot_text *out, const char *formula)
 {
-    add_typed(out, formula, true, IN_LINE);
+    add_typed_text(out, formula, true, IN_LINE);
 }
 
 /* --- writing labels ----------------------------------------------------------------- */
@@ -95,10 +95,10 @@ qdot_figure_add_line(qdot_text *out, const char *formula)
 void
 qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
 {
-    add_typed(out, label->text != NULL ? label->text : "", label->formula, IN_GNUPLOT);
+    add_typed_text(out, label->text != NULL ? label->text : "", label->formula, IN_GNUPLOT);
 }
 
-/* Append the letter of a literal text as LaTeX shows it, in any encoding of its fonts. Returns its bytes. */
+/* Append one letter as LaTeX shows it in any font encoding; returns the bytes that were read. */
 static size_t
 add_latex_letter(qdot_text *out, const char *at)
 {
@@ -130,7 +130,7 @@ qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label)
 
     if (label->formula && *text != '\0') {
         qdot_text_char(out, '$');
-        add_typed(out, text, true, IN_LATEX);
+        add_typed_text(out, text, true, IN_LATEX);
         qdot_text_char(out, '$');
         return;
     }

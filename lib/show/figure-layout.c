@@ -5,7 +5,7 @@
 #include "base/interrupt.h"
 #include "show/figure-parts.h"
 
-/* Sizes in cm; the usual figure is 14 cm wide, legible in a column of 8.6 cm. */
+/* Sizes in cm; the usual figure is 14 cm wide: legible when reduced to a column of 8.6 cm. */
 static const double usual_width = 14, usual_height = 8.75, panel_height = 5.2,
                     left_room = 1.8, right_room = 0.5, high_room = 0.9, low_room = 1.3;
 
@@ -31,11 +31,11 @@ qdot_figure_is_space(const qdot_panel *panel)
 typedef struct {
     double least[3], most[3];
     size_t points;
-    bool course; /* x is monotone along every curve */
+    bool course; /* x is monotonic along every curve, as in a graph of a function */
 } extent;
 
 static void
-extent_widen(extent *e, int axis, double value)
+widen_extent(extent *e, int axis, double value)
 {
     e->least[axis] = e->points == 0 ? value : fmin(e->least[axis], value);
     e->most[axis] = e->points == 0 ? value : fmax(e->most[axis], value);
@@ -50,9 +50,9 @@ range_contains(const qdot_figure_range *range, double value)
 /* Points beyond the range of one axis say nothing of the other; but a course is shown over all of its
  * abscissa. */
 static qdot_status
-panel_measure(const qdot_panel *panel, extent *e)
+measure_panel(const qdot_panel *panel, extent *e)
 {
-    double from = INFINITY, to = -INFINITY; /* range of x over the points at which y is finite */
+    double from = INFINITY, to = -INFINITY; /* least and greatest x of the points at which y is finite */
 
     *e = (extent){.course = true};
     if (panel->map != NULL) {
@@ -75,10 +75,10 @@ panel_measure(const qdot_panel *panel, extent *e)
             to = fmax(to, c->x[k]);
             if (!range_contains(&panel->range[1], c->y[k]) || (!panel->log[1] && !range_contains(&c->shown, c->y[k])))
                 continue;
-            extent_widen(e, 0, c->x[k]);
-            extent_widen(e, 1, c->y[k]);
+            widen_extent(e, 0, c->x[k]);
+            widen_extent(e, 1, c->y[k]);
             if (c->z != NULL)
-                extent_widen(e, 2, c->z[k]);
+                widen_extent(e, 2, c->z[k]);
             e->points++;
         }
         e->course = e->course && (up || down);
@@ -122,7 +122,7 @@ widen_range(double *least, double *most, bool log, double part)
 /* Paths have one scale: an axis along which little moves is as wide as a part of the widest, so that
  * it has room for its tics. */
 static void
-even_out(qdot_figure_view *view, const bool *fixed, int axes)
+limit_aspect_ratio(qdot_figure_view *view, const bool *fixed, int axes)
 {
     const double part = axes == 2 ? 1.0 / 4 : 1.0 / 10;
     double span = 0;
@@ -150,7 +150,7 @@ qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zo
                  high = sin(QDOT_FIGURE_TILT * degree);
     const double part = 4.0 / 7, margins = 6.7, above = 6;
     const double name = (double)qdot_figure_label_width(&room->panel->axis[1]);
-    const double beside = 12 + 1.1 * fmax(name - 2, 0); /* space for a label beside the box, on both sides */
+    const double beside = 12 + 1.1 * fmax(name - 2, 0); /* space for an axis label at both the left and the right of the box */
     const double letter = room->points / 28.35;
     const double longest = fmax(side[0], side[1]);
     const double wide = (c * side[0] + s * side[1]) / longest;
@@ -170,13 +170,13 @@ qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zo
 /* --- panels with a common horizontal axis --------------------------------------------- */
 
 static bool
-same_text(const char *a, const char *b)
+is_same_text(const char *a, const char *b)
 {
     return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
 }
 
 static bool
-same_range(const qdot_figure_range *a, const qdot_figure_range *b)
+is_same_range(const qdot_figure_range *a, const qdot_figure_range *b)
 {
     return a->set == b->set && (!a->set || (a->least == b->least && a->most == b->most));
 }
@@ -188,17 +188,17 @@ qdot_figure_is_shared(const qdot_figure *figure, size_t i)
 
     return i + 1 < figure->n && !p->equal && !q->equal && !qdot_figure_is_space(p) &&
            !qdot_figure_is_space(q) && p->log[0] == q->log[0] && p->pi[0] == q->pi[0] &&
-           same_text(p->axis[0].text, q->axis[0].text) &&
-           same_range(&p->range[0], &q->range[0]);
+           is_same_text(p->axis[0].text, q->axis[0].text) &&
+           is_same_range(&p->range[0], &q->range[0]);
 }
 
-/* Measure panel i; its horizontal axis covers all panels that share it. */
+/* Find the extent of panel i; its horizontal axis covers all panels that share it. */
 static qdot_status
-measure_shared(const qdot_figure *figure, size_t i, extent *e)
+measure_panel_with_shared_axis(const qdot_figure *figure, size_t i, extent *e)
 {
     size_t first = i, last = i;
 
-    QDOT_TRY(panel_measure(&figure->panels[i], e));
+    QDOT_TRY(measure_panel(&figure->panels[i], e));
     while (first > 0 && qdot_figure_is_shared(figure, first - 1))
         first--;
     while (qdot_figure_is_shared(figure, last))
@@ -208,7 +208,7 @@ measure_shared(const qdot_figure *figure, size_t i, extent *e)
 
         if (k == i)
             continue;
-        QDOT_TRY(panel_measure(&figure->panels[k], &other));
+        QDOT_TRY(measure_panel(&figure->panels[k], &other));
         e->least[0] = fmin(e->least[0], other.least[0]);
         e->most[0] = fmax(e->most[0], other.most[0]);
         e->course = e->course && other.course;
@@ -219,7 +219,7 @@ measure_shared(const qdot_figure *figure, size_t i, extent *e)
 /* --- sizes of a figure ---------------------------------------------------------------- */
 
 static qdot_status
-view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
+find_view_without_lengths(const qdot_figure *figure, size_t i, qdot_figure_view *view)
 {
     const qdot_panel *panel = &figure->panels[i];
     const int axes = qdot_figure_is_space(panel) ? 3 : 2;
@@ -232,7 +232,7 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
         if (fixed[k] && panel->log[k] && !(panel->range[k].least > 0))
             return qdot_fail(QDOT_EINVAL, "a logarithmic axis begins above 0, not at %.6g",
                              panel->range[k].least);
-    QDOT_TRY(measure_shared(figure, i, &e));
+    QDOT_TRY(measure_panel_with_shared_axis(figure, i, &e));
     for (int k = 0; k < axes; k++) {
         view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];
         view->most[k] = fixed[k] ? panel->range[k].most : e.most[k];
@@ -240,15 +240,15 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
             widen_range(&view->least[k], &view->most[k], view->log[k], 0.04);
     }
     if (panel->equal)
-        even_out(view, fixed, axes);
+        limit_aspect_ratio(view, fixed, axes);
     return QDOT_OK;
 }
 
 /* How high a figure of one panel of paths is: as their shape asks for, with a line for a title and
  * one for a key. */
 static double
-height_of_paths(const qdot_panel *panel, const qdot_figure_view *view, double width,
-                double points)
+height_of_equal_scale_panel(const qdot_panel *panel, const qdot_figure_view *view, double width,
+                            double points)
 {
     const double line = 1.4 * points / 28.35;
     const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
@@ -278,8 +278,8 @@ qdot_figure_size(const qdot_figure *figure, double *width, double *height, doubl
     } else if (first->equal) {
         qdot_figure_view view;
 
-        QDOT_TRY(view_without_length(figure, 0, &view));
-        *height = height_of_paths(first, &view, *width, *points);
+        QDOT_TRY(find_view_without_lengths(figure, 0, &view));
+        *height = height_of_equal_scale_panel(first, &view, *width, *points);
     }
     return QDOT_OK;
 }
@@ -290,7 +290,7 @@ qdot_figure_get_view(const qdot_figure *figure, size_t i, qdot_figure_view *view
     const qdot_panel *panel = &figure->panels[i];
     double width, height, points, scale = INFINITY;
 
-    QDOT_TRY(view_without_length(figure, i, view));
+    QDOT_TRY(find_view_without_lengths(figure, i, view));
     QDOT_TRY(qdot_figure_size(figure, &width, &height, &points));
     view->length[0] = fmax(width - left_room - right_room, width / 2);
     view->length[1] = fmax(height / (double)figure->n - high_room - low_room,

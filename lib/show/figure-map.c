@@ -19,9 +19,9 @@ qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i)
                  : map->least[axis];
 }
 
-/* Half the width of a cell of the grid. */
+/* Half the width of a cell of the grid, along an axis. */
 static double
-map_half_cell(const qdot_figure_map *map, int axis)
+half_cell_width(const qdot_figure_map *map, int axis)
 {
     return map->n[axis] > 1
                ? (map->most[axis] - map->least[axis]) / (2 * ((double)map->n[axis] - 1))
@@ -31,8 +31,8 @@ map_half_cell(const qdot_figure_map *map, int axis)
 void
 qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most)
 {
-    *least = map->least[axis] - map_half_cell(map, axis);
-    *most = map->most[axis] + map_half_cell(map, axis);
+    *least = map->least[axis] - half_cell_width(map, axis);
+    *most = map->most[axis] + half_cell_width(map, axis);
 }
 
 qdot_status
@@ -95,7 +95,7 @@ qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script)
     qdot_text_char(script, '\n');
 }
 
-/* Thresholds of an ordered dither, in sixteenths. */
+/* Brightness thresholds of an ordered dither for 4 x 4 points, in sixteenths. */
 static const int thresholds[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
 
 bool

@@ -11,7 +11,7 @@ typedef struct {
     char offset_text[64]; /* text of the offset in gnuplot's markup; "": none */
     int power;
     bool log;
-    int times, over; /* step = times pi / over; over 0: a decimal number */
+    int times, over; /* tic step is times * pi / over; over 0: the step is a decimal number */
 } qdot_figure_axis;
 
 /* What the tics of an axis are: decimal numbers, powers of ten, multiples of pi. */
@@ -27,9 +27,9 @@ void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
 /* Append the label as text of a LaTeX document, a formula between dollars. */
 void qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label);
-/* Append a formula that was typed as a line for the eye, for a sketch. */
+/* Append a typed formula as one line of plain text, for a sketch made of characters. */
 void qdot_figure_add_line(qdot_text *out, const char *formula);
-/* What curve k is called in the key. */
+/* The label of curve k in the legend. */
 qdot_figure_label qdot_figure_curve_label(const qdot_panel *panel, size_t k);
 /* The approximate width of the label in characters. */
 size_t qdot_figure_label_width(const qdot_figure_label *label);
@@ -38,13 +38,13 @@ size_t qdot_figure_label_width(const qdot_figure_label *label);
 
 /* The power of ten by which the numbers of an axis are divided; 0 if they are short anyway. */
 int qdot_figure_power(double least, double most);
-/* An axis that shows least..most with about `steps` tics. power NULL: choose the power of ten. */
+/* An axis from least to most with about `steps` tics; power NULL: the power of ten is chosen. */
 qdot_figure_axis qdot_figure_axis_of(double least, double most, qdot_figure_tics tics, double steps, const int *power);
-/* Append x, -x/2 ... as -3π/4; false, and nothing appended, if x is no multiple of pi/12. */
+/* Append the angle x as a multiple of pi, as -3π/4; false (nothing appended) if it is no multiple of pi/12. */
 bool qdot_figure_add_pi(qdot_text *out, double x);
 /* The number of tics of a linear axis; 0: gnuplot chooses them, or it is logarithmic. */
 int qdot_figure_count_tics(const qdot_figure_axis *axis);
-/* A tic: a large one with its number in gnuplot's markup, of so many letters, or a small one without. */
+/* A tic of an axis: a large one with a number of `letters` characters of markup, or a small one without. */
 typedef struct {
     double at;
     char label[48];
@@ -52,9 +52,9 @@ typedef struct {
     bool minor;
 } qdot_figure_tic;
 enum { QDOT_FIGURE_TICS = 640 };
-/* Find the tics of an axis, tics [QDOT_FIGURE_TICS], from the least on; returns their number. 0: gnuplot chooses them. */
+/* Find the tics of an axis in ascending order, at most QDOT_FIGURE_TICS; returns their number (0: gnuplot chooses). */
 size_t qdot_figure_find_tics(const qdot_figure_axis *axis, qdot_figure_tic *tics);
-/* Append `set xrange` and `set xtics`; bare: tics without numbers. *width: characters of the widest. */
+/* Append `set xrange` and `set xtics`; bare: without numbers. *width: characters of the widest number. */
 void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
                           bool bare, size_t *width);
 /* What is written before the offset and power of ten of an axis: its label, or its letter if it has none; *compound: it
@@ -67,7 +67,7 @@ void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_
  * widest number there. */
 void qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
                                 const qdot_figure_label *label, size_t width);
-/* Append the expression of a column for gnuplot's `using`. */
+/* Append a data column, shifted and scaled for its axis, as an expression for gnuplot's `using`. */
 void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *axis);
 
 /* --- sizes and views ---------------------------------------------------------------- */
@@ -76,9 +76,9 @@ void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axi
 bool qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t k);
 /* Whether the panel shows paths in space. */
 bool qdot_figure_is_space(const qdot_panel *panel);
-/* Whether panel i has the abscissa of panel i + 1. */
+/* Whether panel i has the same horizontal axis as panel i + 1, below it. */
 bool qdot_figure_is_shared(const qdot_figure *figure, size_t i);
-/* The view of a path in space, in degrees for gnuplot's `set view`. */
+/* The angles of view of a path in space, in degrees, for gnuplot's `set view`. */
 enum { QDOT_FIGURE_TILT = 62, QDOT_FIGURE_TURN = 32 };
 /* The box of a path in space with the sides side[3] in a panel of width and height, in cm, with
  * letters of a size in points: *zoom is what `set view` has to scale it by so that it fills the panel,
@@ -95,27 +95,27 @@ QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *
 
 /* --- the looks of curves (figure-style.c) --------------------------------------------- */
 
-/* How a curve is drawn: a line through its points, a dot at each, or a mark of its own. */
+/* How a curve is drawn: as a line through its points, as dots, or with the curve's own kind of mark. */
 typedef struct {
     bool line, dots, marks;
-    size_t look;        /* its place in the lists of dashes and marks */
+    size_t look;        /* index of the curve's style in the lists of dashes and marks */
     const char *colour; /* #rrggbb */
-    const char *dash;   /* dashes of the line, "1" or "(on,off,...)"; NULL: as the medium draws it */
+    const char *dash;   /* dashes of the line, "1" (solid) or "(on,off,...)"; NULL: the medium's usual line */
 } qdot_figure_style;
 qdot_figure_style qdot_figure_style_of(const qdot_panel *panel, size_t k);
-/* The colour of curve k in the terminal: the number of the control sequence. */
+/* The colour of curve k in a terminal, as the number of its control sequence. */
 const char *qdot_figure_terminal_colour(const qdot_panel *panel, size_t k);
 
 /* --- maps in colours (figure-map.c) -------------------------------------------------- */
 
-/* The coordinate of column or row i; the range that the cells cover along an axis. */
+/* The coordinate along an axis of the map's column or row i. */
 double qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i);
 void qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most);
-/* Append the grid as lines "x y value". Errors: QDOT_EINTR, QDOT_ENOMEM. */
+/* Append the values of a map over its grid as lines "x y value". Errors: QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out);
-/* Append palette, range and scale of the colours. */
+/* Append the map's colour palette, its range of values, and the colour scale. */
 void qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script);
-/* Find the smallest and the largest number, ends [2]; 0 if there is none. */
+/* Find the smallest and the largest value of a map into ends [2]; 0 if it has none. */
 void qdot_figure_map_ends(const qdot_figure_map *map, double *ends);
 /* Whether dot (i, j) of a sketch, at these parts [2] of the axes, is black: the more often the
  * greater the number is between the ends. */
@@ -124,14 +124,14 @@ bool qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const d
 
 /* --- the whole script --------------------------------------------------------------- */
 
-/* An image format; one without a terminal is written without gnuplot. */
+/* An image format; one without a gnuplot terminal is written by qdot itself. */
 typedef struct {
     const char *ending;
     double dots;  /* dots (units) per cm */
     double line;  /* line width in units of the format */
     double point; /* units per point of font size */
     double lead;  /* line height in units of font size */
-    const char *before, *behind; /* text before the terminal's name, and after a length */
+    const char *before, *behind; /* text before the size in gnuplot's terminal command, and after each length */
     const char *end;             /* last bytes of a complete image, apart from blanks */
 } qdot_figure_kind;
 
@@ -149,9 +149,9 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes);
 /* Write the figure as a tikzpicture of pgfplots (figure-tikz.c). Errors: as qdot_figure_add_script. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_tikz(const qdot_figure_drawing *d);
-/* Write the script after `set terminal`. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
+/* Write the gnuplot script from after `set terminal` on. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_script(const qdot_figure_drawing *d);
-/* Write all curves as gnuplot's indices: separated by two blank lines, with their names as comments. */
+/* Write all curves as data sets for gnuplot, separated by two blank lines, with names as comments. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_data(const qdot_figure *figure, qdot_text *out);
 
 #endif

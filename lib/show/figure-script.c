@@ -20,12 +20,12 @@ static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3, 15, 14};
 
 enum {
     MARKS = sizeof marks / sizeof *marks,
-    MANY_MARKS = 24 /* largest number of marks on a curve */
+    MANY_MARKS = 24 /* largest number of marks drawn on a curve with a line */
 };
 
 /* --- writing the data --------------------------------------------------------------- */
 
-/* Write the points of a curve, one per line, with a blank line at interruptions. */
+/* Write the points of a curve, one per line, with a blank line where the curve is interrupted. */
 static qdot_status
 curve_add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
 {
@@ -52,9 +52,9 @@ curve_add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curv
     return qdot_text_status(out);
 }
 
-/* Write all curves as data blocks $p<panel>c<curve>. */
+/* Write all curves as gnuplot data blocks, named $p<panel>c<curve>. */
 static qdot_status
-figure_add_data(const qdot_figure_drawing *d)
+add_data_blocks(const qdot_figure_drawing *d)
 {
     for (size_t i = 0; i < d->figure->n; i++) {
         if (d->figure->panels[i].map != NULL) {
@@ -72,9 +72,9 @@ figure_add_data(const qdot_figure_drawing *d)
     return QDOT_OK;
 }
 
-/* Append the head of one index (data set) of gnuplot's data. */
+/* Append the first lines of a data set: blank lines after the previous one, and a label as comment. */
 static void
-begin_index(qdot_text *out, bool first, const char *label)
+begin_data_set(qdot_text *out, bool first, const char *label)
 {
     qdot_text_add(out, first ? "# " : "\n\n# ");
     for (; label != NULL && *label != '\0'; label++)
@@ -82,7 +82,7 @@ begin_index(qdot_text *out, bool first, const char *label)
     qdot_text_char(out, '\n');
 }
 
-/* Write all curves and maps as gnuplot's indices: separated by two blank lines, with names as comments. */
+/* Write all curves and maps as data sets for gnuplot, separated by two blank lines, with names as comments. */
 qdot_status
 qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
 {
@@ -90,11 +90,11 @@ qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
         const qdot_panel *panel = &figure->panels[i];
 
         if (panel->map != NULL) {
-            begin_index(out, i == 0, panel->map->label.text);
+            begin_data_set(out, i == 0, panel->map->label.text);
             QDOT_TRY(qdot_figure_map_add_data(panel->map, out));
         }
         for (size_t k = 0; k < panel->n; k++) {
-            begin_index(out, i + k == 0, panel->curves[k].label.text);
+            begin_data_set(out, i + k == 0, panel->curves[k].label.text);
             QDOT_TRY(curve_add_points(out, panel, &panel->curves[k]));
         }
     }
@@ -103,7 +103,7 @@ qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
 
 /* --- drawing one panel -------------------------------------------------------------- */
 
-/* The number of letters of the widest number along an axis. */
+/* The number of characters of the widest number along an axis. */
 static size_t
 widest_number(const qdot_figure_axis *a)
 {
@@ -118,12 +118,12 @@ widest_number(const qdot_figure_axis *a)
 /* Between two tics of axis k, in cm, so that their numbers do not touch: more beside each other than one
  * above the other. */
 static double
-room_of_tic(const qdot_figure_drawing *d, const qdot_figure_view *v, int k,
-            const qdot_figure_axis *a)
+space_for_tic(const qdot_figure_drawing *d, const qdot_figure_view *v, int k,
+              const qdot_figure_axis *a)
 {
     const double letter = d->points / 28.35;
 
-    if (v->length[2] > 0) /* along the edges of a box in space */
+    if (v->length[2] > 0) /* the axes lie along the edges of a box, drawn in perspective */
         return (k == 2 ? 1.8 : 2.2) * letter;
     return (k == 1 ? 1.4 : 0.6 + 0.64 * (double)widest_number(a)) * letter;
 }
@@ -139,10 +139,10 @@ choose_axis(const qdot_figure_drawing *d, const qdot_figure_view *v, int k, doub
     qdot_figure_axis a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
 
     while (a.step > 0 && qdot_figure_count_tics(&a) < 3 &&
-           length > (steps + 1) * room_of_tic(d, v, k, &a))
+           length > (steps + 1) * space_for_tic(d, v, k, &a))
         a = qdot_figure_axis_of(v->least[k], v->most[k], tics, ++steps, power);
     while (a.step > 0 && steps > 1 &&
-           length * a.step < room_of_tic(d, v, k, &a) * (a.most - a.least)) {
+           length * a.step < space_for_tic(d, v, k, &a) * (a.most - a.least)) {
         steps = fmax(steps - 1, 1);
         a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
     }
@@ -156,7 +156,7 @@ qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis
     const qdot_panel *panel = &d->figure->panels[i];
     const bool space = qdot_figure_is_space(panel);
     qdot_figure_view v;
-    double of_path; /* tic spacing common to both axes of a path */
+    double of_path; /* distance of tics in cm, common to both axes of a panel with equal scales */
     int power = 0;
 
     QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
@@ -176,9 +176,9 @@ qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis
     return QDOT_OK;
 }
 
-/* The width of a key's entry in characters. */
+/* The width of the widest entry of the legend (with its line sample) in characters. */
 static size_t
-key_width(const qdot_panel *panel)
+legend_entry_width(const qdot_panel *panel)
 {
     size_t most = 0;
 
@@ -191,46 +191,46 @@ key_width(const qdot_panel *panel)
     return most + 7;
 }
 
-/* The number of rows of a key above the axes; 0: no key. */
+/* The number of rows of the legend above the axes; 0: it has none there. */
 static size_t
-key_rows(const qdot_figure_drawing *d, const qdot_panel *panel)
+legend_row_count(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
     const double letter = 0.5 * d->points / 28.35;
-    const double columns = floor((d->width - 2.5) / letter / (double)key_width(panel));
+    const double columns = floor((d->width - 2.5) / letter / (double)legend_entry_width(panel));
 
     return panel->n < 2 ? 0 : (size_t)ceil((double)panel->n / fmax(columns, 1));
 }
 
-/* Whether the key is beside the axes: it is long with short entries, and there is only one panel. */
+/* Whether the legend stands beside the axes: many short entries, and only one panel in the figure. */
 static bool
-has_key_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
+has_legend_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
-    return d->figure->n == 1 && key_rows(d, panel) > 2 &&
-           0.5 * d->points / 28.35 * (double)key_width(panel) < 0.3 * d->width;
+    return d->figure->n == 1 && legend_row_count(d, panel) > 2 &&
+           0.5 * d->points / 28.35 * (double)legend_entry_width(panel) < 0.3 * d->width;
 }
 
-/* The line distance of a key beside the axes, in lines: less than one if it has many rows. */
+/* The line spacing of a legend beside the axes, relative to the usual one: below 1 if it has many rows. */
 static double
-spacing_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
+legend_line_spacing(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
-    const double line = 1.5 * d->points / 28.35, around = 3.6; /* gnuplot's line height and margin in cm */
+    const double line = 1.5 * d->points / 28.35, around = 3.6; /* gnuplot's line height and the legend's margins in cm */
 
     return fmax(0.5, fmin(1, (d->height - around) / (line * (double)panel->n)));
 }
 
-/* Write the key; high: the height of the axes in cm, if they were placed. */
+/* Write the legend; `high` is the height of the axes in cm if it was fixed. */
 static void
-add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
+add_legend(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
 {
-    const size_t rows = key_rows(d, panel);
+    const size_t rows = legend_row_count(d, panel);
 
     if (rows == 0)
         qdot_text_add(d->script, "unset key\n");
-    else if (has_key_beside(d, panel))
+    else if (has_legend_beside(d, panel))
         qdot_text_format(d->script,
                          "set key at graph 1.02, graph 1 left top vertical maxrows %zu Left reverse "
                          "samplen 2.5 spacing %.2f\n",
-                         panel->n, spacing_beside(d, panel));
+                         panel->n, legend_line_spacing(d, panel));
     else if (qdot_figure_is_space(panel))
         qdot_text_add(d->script, "set key inside right top vertical Left reverse samplen 2.5\n");
     else {
@@ -242,7 +242,7 @@ add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
     }
 }
 
-/* Write the title, which is above the key. */
+/* Write the panel's title, which stands above the legend. */
 static void
 add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -266,16 +266,16 @@ add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
         qdot_figure_add_quoted(s, qdot_text_str(&both));
         qdot_text_add(s, ".\"}\" enhanced");
     }
-    if (!has_key_beside(d, panel) && !qdot_figure_is_space(panel))
-        qdot_text_format(s, " offset 0,%.1f", 1.1 * (double)key_rows(d, panel));
+    if (!has_legend_beside(d, panel) && !qdot_figure_is_space(panel))
+        qdot_text_format(s, " offset 0,%.1f", 1.1 * (double)legend_row_count(d, panel));
     qdot_text_char(s, '\n');
     s->failed = s->failed || both.failed;
     qdot_text_clear(&both);
 }
 
 static void
-add_space_view(const qdot_figure_drawing *d, const qdot_panel *panel,
-               const qdot_figure_axis *axes)
+add_view_of_space(const qdot_figure_drawing *d, const qdot_panel *panel,
+                  const qdot_figure_axis *axes)
 {
     const qdot_figure_room room = {d->width, d->height / (double)d->figure->n, d->points,
                                    panel};
@@ -308,9 +308,9 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
             !axes[k].log && axes[k].over == 0 && axes[k].offset_text[0] == '\0' && axes[k].power == 0;
 
         qdot_figure_add_axis(d->script, name, &axes[k], k == 0 && shared, &width);
-        if (d->kind == NULL && plain && !(k == 0 && shared)) /* a window can be zoomed, so tics must adapt */
+        if (d->kind == NULL && plain && !(k == 0 && shared)) /* a window can be zoomed, so gnuplot has to choose the tics */
             qdot_text_format(d->script, "set %ctics autofreq\n", name);
-        if (n == 3) /* gnuplot's own labels are misplaced if the sides of a box differ */
+        if (n == 3) /* write the labels of three axes as free text: gnuplot misplaces its own if the box has unequal sides */
             qdot_figure_add_edge_label(d->script, k, axes, &panel->axis[k], width);
         else
             qdot_figure_add_axis_label(d->script, name, &axes[k],
@@ -318,12 +318,12 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                                                         : &panel->axis[k]);
     }
     if (n == 3)
-        add_space_view(d, panel, axes);
+        add_view_of_space(d, panel, axes);
 }
 
-/* Write the data source of a curve and its columns; floor: the projection of a path in space onto the floor. */
+/* Write where gnuplot finds a curve's data columns; floor: a space curve projected onto the xy plane. */
 static void
-add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_axis *axes, bool floor)
+add_data_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_axis *axes, bool floor)
 {
     const qdot_panel *panel = &d->figure->panels[i];
     size_t index = k;
@@ -352,9 +352,9 @@ add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_a
     qdot_text_char(d->script, ')');
 }
 
-/* The size of separate marks: smaller if there are more than FEW, so that all can be seen. */
+/* The size of separate marks: smaller if there are more than FEW, so that every mark can be seen. */
 static double
-point_size(size_t rows)
+mark_size(size_t rows)
 {
     enum { FEW = 600 };
 
@@ -370,14 +370,14 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
     if (panel->map != NULL) {
         qdot_figure_map_add_colours(panel->map, d->script);
         qdot_text_add(d->script, "plot ");
-        add_source(d, i, 0, axes, false);
+        add_data_source(d, i, 0, axes, false);
         qdot_text_add(d->script, ":3 with image notitle\n"
                                  "unset colorbox\nset datafile missing 'NaN'\n");
         return;
     }
     qdot_text_add(d->script, space ? "splot " : "plot ");
     for (size_t k = 0; space && k < panel->n; k++) {
-        add_source(d, i, k, axes, true);
+        add_data_source(d, i, k, axes, true);
         qdot_text_add(d->script,
                       " with lines linewidth 1 linecolor rgb '#d0d0d0' notitle, ");
     }
@@ -385,16 +385,16 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         const qdot_figure_style style = qdot_figure_style_of(panel, k);
 
         qdot_text_add(d->script, k == 0 ? "" : ", ");
-        add_source(d, i, k, axes, false);
+        add_data_source(d, i, k, axes, false);
         if (style.dots)
             qdot_text_format(d->script, " with %spoints pointtype 7 pointsize %.3g", style.line ? "lines" : "",
-                             point_size(panel->curves[k].rows));
+                             mark_size(panel->curves[k].rows));
         else if (style.marks)
             qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8", style.line ? "lines" : "",
                              marks[style.look % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
-        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* so that many marks do not hide each other */
+        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* few enough to tell them apart */
             qdot_text_format(d->script, " pointinterval %zu",
                              panel->curves[k].rows / (MANY_MARKS / 2));
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", style.colour);
@@ -411,31 +411,31 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
 /* --- placing several panels ----------------------------------------------------------- */
 
 static void
-add_at(qdot_text *s, const char *what, double at)
+set_margin_position(qdot_text *s, const char *what, double at)
 {
     qdot_text_format(s, "set %smargin at screen ", what);
     qdot_text_double(s, at, 6);
     qdot_text_char(s, '\n');
 }
 
-/* Find the room above and below the axes of panel i, in cm. */
+/* Find the space needed above and below the axes of panel i, in cm. */
 static void
-rooms(const qdot_figure_drawing *d, size_t i, double *above, double *below)
+space_above_and_below(const qdot_figure_drawing *d, size_t i, double *above, double *below)
 {
     const qdot_panel *panel = &d->figure->panels[i];
     const double line = (d->kind != NULL ? d->kind->lead : 1.4) * d->points / 28.35;
     const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
 
     *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) +
-                     (has_key_beside(d, panel) ? 0 : (double)key_rows(d, panel)));
-    if (key_rows(d, panel) == 0 && panel->axis[1].text != NULL) /* space for a power of ten above the axis, as 10^3 */
+                     (has_legend_beside(d, panel) ? 0 : (double)legend_row_count(d, panel)));
+    if (legend_row_count(d, panel) == 0 && panel->axis[1].text != NULL) /* space for a power of ten above it */
         *above += line * 0.8;
     *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
 }
 
-/* Whether a label contains a superscript, which the edge of the figure would cut. */
+/* Whether a label contains a superscript, which would be cut off at the edge of the figure. */
 static bool
-has_power(const qdot_figure_label *label)
+has_superscript(const qdot_figure_label *label)
 {
     qdot_text markup = {0};
     bool found;
@@ -446,18 +446,18 @@ has_power(const qdot_figure_label *label)
     return found;
 }
 
-/* The number of letters right of the axes: half of the last number, or a key, or the scale of colours. */
+/* The space right of the axes in characters: for half of the last number, the legend or the colour scale. */
 static double
-letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
+space_right_of_axes(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
     if (panel->map != NULL)
         return 11;
-    return has_key_beside(d, panel) ? 1 + 0.62 * (double)key_width(panel) : 1;
+    return has_legend_beside(d, panel) ? 1 + 0.62 * (double)legend_entry_width(panel) : 1;
 }
 
-/* Find the space left of the axes in characters: numbers, tics, a label; the same for all panels. */
+/* Find the space left of the axes in characters, for numbers, tics and label; the same for all panels. */
 static qdot_status
-letters_left(const qdot_figure_drawing *d, double *letters)
+space_left_of_axes(const qdot_figure_drawing *d, double *letters)
 {
     *letters = 0;
     for (size_t i = 0; i < d->figure->n; i++) {
@@ -465,31 +465,31 @@ letters_left(const qdot_figure_drawing *d, double *letters)
 
         QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
         *letters = fmax(*letters, 3.2 + 0.72 * (double)widest_number(&axes[1]) +
-                                      (has_power(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
+                                      (has_superscript(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
     }
     return QDOT_OK;
 }
 
-/* Place panel i: the axes of all panels have the same height, left and right ends. */
+/* Set the margins of panel i: the axes of all panels have the same height and the same horizontal ends. */
 static qdot_status
-panel_place(const qdot_figure_drawing *d, size_t i, double *high)
+place_panel(const qdot_figure_drawing *d, size_t i, double *high)
 {
     const qdot_figure *f = d->figure;
     double free = d->height, top = d->height, above, below, left;
     const double letter = d->points / 28.35;
 
     for (size_t k = 0; k < f->n; k++) {
-        rooms(d, k, &above, &below);
+        space_above_and_below(d, k, &above, &below);
         free -= above + below;
     }
     *high = free = fmax(free / (double)f->n, 0.1);
     for (size_t k = 0; k <= i; k++) {
-        rooms(d, k, &above, &below);
+        space_above_and_below(d, k, &above, &below);
         top -= above + (k > 0 ? free : 0);
         if (k < i)
             top -= below;
     }
-    if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot scales a box in space to its place by itself */
+    if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot scales a three-dimensional box to its place by itself */
         qdot_text_add(d->script, "unset xlabel\nunset ylabel\nunset label 1\nunset margins\nset origin 0,");
         qdot_text_double(d->script, (top - free - below) / d->height, 6);
         qdot_text_add(d->script, "\nset size 1,");
@@ -497,11 +497,11 @@ panel_place(const qdot_figure_drawing *d, size_t i, double *high)
         qdot_text_char(d->script, '\n');
         return QDOT_OK;
     }
-    QDOT_TRY(letters_left(d, &left));
-    add_at(d->script, "l", fmin(left * letter / d->width, 0.4));
-    add_at(d->script, "r", 1 - letters_right(d, &f->panels[i]) * letter / d->width);
-    add_at(d->script, "t", top / d->height);
-    add_at(d->script, "b", (top - free) / d->height);
+    QDOT_TRY(space_left_of_axes(d, &left));
+    set_margin_position(d->script, "l", fmin(left * letter / d->width, 0.4));
+    set_margin_position(d->script, "r", 1 - space_right_of_axes(d, &f->panels[i]) * letter / d->width);
+    set_margin_position(d->script, "t", top / d->height);
+    set_margin_position(d->script, "b", (top - free) / d->height);
     return QDOT_OK;
 }
 
@@ -514,10 +514,10 @@ add_panel(const qdot_figure_drawing *d, size_t i)
 
     QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
     if (d->figure->n > 1 || !qdot_figure_is_space(panel))
-        QDOT_TRY(panel_place(d, i, &high));
+        QDOT_TRY(place_panel(d, i, &high));
     add_title(d, panel);
     add_axes(d, i, axes);
-    add_key(d, panel, high);
+    add_legend(d, panel, high);
     if (!qdot_figure_is_space(panel))
         qdot_text_format(d->script, "set size %s\n", panel->equal ? "ratio -1" : "noratio");
     add_curves(d, i, axes);
@@ -533,7 +533,7 @@ qdot_figure_add_script(const qdot_figure_drawing *d)
 {
     qdot_text_add(d->script, look);
     if (d->data == NULL)
-        QDOT_TRY(figure_add_data(d));
+        QDOT_TRY(add_data_blocks(d));
     qdot_text_add(d->script, d->figure->n > 1 ? "set multiplot\n" : "");
     for (size_t i = 0; i < d->figure->n; i++)
         QDOT_TRY(add_panel(d, i));

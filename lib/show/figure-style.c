@@ -12,7 +12,7 @@ static const struct {
                {"#332288", NULL, "32"},     {"#882255", NULL, "35"},     {"#6b8e23", NULL, "36"},
                {"#44aa99", NULL, "33"},     {"#aa4499", NULL, "39"}};
 
-/* Line patterns: several curves of a panel must differ in black and white, too. */
+/* Dash patterns: several curves of a panel must be distinguishable in black and white, too. */
 static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
 
 enum { COLOURS = sizeof colours / sizeof *colours, DASHES = sizeof dashes / sizeof *dashes };
@@ -24,7 +24,7 @@ qdot_figure_colour_name(size_t i)
 }
 
 static bool
-is_chosen(const qdot_panel *panel, size_t colour)
+is_chosen_colour(const qdot_panel *panel, size_t colour)
 {
     for (size_t k = 0; k < panel->n_colours; k++)
         if (panel->colours[k] == colour)
@@ -32,9 +32,9 @@ is_chosen(const qdot_panel *panel, size_t colour)
     return false;
 }
 
-/* The index in `colours` of the colour of curve k: the one chosen for it, or the next one that was chosen for no curve. */
+/* The index in `colours` of curve k's colour: the chosen one, or the next that no curve has been given. */
 static size_t
-colour_of(const qdot_panel *panel, size_t k)
+index_of_colour(const qdot_panel *panel, size_t k)
 {
     const size_t look = panel->curves[k].look;
     size_t left = k - panel->n_colours;
@@ -42,7 +42,7 @@ colour_of(const qdot_panel *panel, size_t k)
     if (k < panel->n_colours)
         return panel->colours[k];
     for (size_t i = 0; i < COLOURS && panel->n_colours > 0 && look == 0; i++)
-        if (!is_chosen(panel, i) && left-- == 0)
+        if (!is_chosen_colour(panel, i) && left-- == 0)
             return i;
     return (look > 0 ? look - 1 : k) % COLOURS;
 }
@@ -50,7 +50,7 @@ colour_of(const qdot_panel *panel, size_t k)
 const char *
 qdot_figure_terminal_colour(const qdot_panel *panel, size_t k)
 {
-    return colours[colour_of(panel, k)].terminal;
+    return colours[index_of_colour(panel, k)].terminal;
 }
 
 qdot_figure_style
@@ -59,7 +59,7 @@ qdot_figure_style_of(const qdot_panel *panel, size_t k)
     const qdot_curve *curve = &panel->curves[k];
     const bool alone = curve->rows == 1 || curve->points;
     const size_t look = curve->look > 0 ? curve->look - 1 : k;
-    qdot_figure_style s = {.look = look, .colour = colours[colour_of(panel, k)].rgb, .dash = NULL};
+    qdot_figure_style s = {.look = look, .colour = colours[index_of_colour(panel, k)].rgb, .dash = NULL};
 
     s.line = !alone && (!panel->points || panel->lines);
     s.dots = !alone && panel->points;

@@ -21,7 +21,7 @@ enum { MARKS = sizeof marks / sizeof *marks };
 
 /* --- texts -------------------------------------------------------------------------------- */
 
-/* A tic's number, 2·10^{−5} or π/2, which has few signs that LaTeX spells otherwise. */
+/* Append a tic's number for LaTeX; UTF-8 signs as in 2·10^{−5} or π/2 become LaTeX commands. */
 static void
 tikz_add_number(qdot_text *out, const char *number)
 {
@@ -43,9 +43,9 @@ tikz_add_number(qdot_text *out, const char *number)
     }
 }
 
-/* The label of an axis with its offset and its power of ten: (E - 9.81) / 10^{-12}. */
+/* Append the label of an axis with the offset and the power of ten of its numbers: (E - 9.81) / 10^{-12}. */
 static void
-add_axis_label(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label)
+tikz_add_axis_label(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label)
 {
     const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
     bool compound = false;
@@ -77,9 +77,9 @@ add_option(qdot_text *s, const char *name, double value, const char *unit)
     qdot_text_format(s, "%s,\n", unit);
 }
 
-/* The list of large (or small) tics of an axis; labels: their numbers. */
+/* Append the list of positions of an axis's large (or small) tics; labels: append their numbers. */
 static void
-list_tics(qdot_text *s, const qdot_figure_tic *tics, size_t n, bool minor, bool labels)
+add_tic_list(qdot_text *s, const qdot_figure_tic *tics, size_t n, bool minor, bool labels)
 {
     bool some = false;
 
@@ -100,9 +100,9 @@ list_tics(qdot_text *s, const qdot_figure_tic *tics, size_t n, bool minor, bool 
     qdot_text_char(s, '}');
 }
 
-/* Range, tics and label of axis k; bare: without numbers and label, as panels below have them. */
+/* Append range, tics and label of axis k; bare: without numbers and label, which the panel below has. */
 static void
-add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label, bool bare)
+tikz_add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label, bool bare)
 {
     char option[] = "xmin";
     qdot_figure_tic tics[QDOT_FIGURE_TICS];
@@ -117,28 +117,28 @@ add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_l
         qdot_text_format(s, "  %cmode=log,\n", name);
     if (n > 0) {
         qdot_text_format(s, "  %ctick=", name);
-        list_tics(s, tics, n, false, false);
+        add_tic_list(s, tics, n, false, false);
         qdot_text_format(s, ", %cticklabels=", name);
         if (bare)
             qdot_text_add(s, "{}");
         else
-            list_tics(s, tics, n, false, true);
+            add_tic_list(s, tics, n, false, true);
         qdot_text_add(s, ",\n");
         if (a->log) {
             qdot_text_format(s, "  minor %ctick=", name);
-            list_tics(s, tics, n, true, false);
+            add_tic_list(s, tics, n, true, false);
             qdot_text_add(s, ",\n");
         }
     }
     if (bare || ((label->text == NULL || label->text[0] == '\0') && a->power == 0 && a->offset_text[0] == '\0'))
         return;
     qdot_text_format(s, "  %clabel=", name);
-    add_axis_label(s, name, a, label);
+    tikz_add_axis_label(s, name, a, label);
     qdot_text_add(s, ",\n");
 }
 
 static void
-add_map(qdot_text *s, const qdot_figure_map *map)
+tikz_add_map_options(qdot_text *s, const qdot_figure_map *map)
 {
     double ends[2];
 
@@ -155,7 +155,7 @@ add_map(qdot_text *s, const qdot_figure_map *map)
     }
 }
 
-/* The title, with the note under it, above the key if that stands above the axes. */
+/* Append the panel's title with the note below it, above the legend if that stands above the axes. */
 static void
 tikz_add_title(qdot_text *s, const qdot_panel *panel)
 {
@@ -176,7 +176,7 @@ tikz_add_title(qdot_text *s, const qdot_panel *panel)
 }
 
 static void
-tikz_add_key(qdot_text *s, const qdot_panel *panel)
+tikz_add_legend(qdot_text *s, const qdot_panel *panel)
 {
     if (panel->n < 2)
         return;
@@ -188,9 +188,9 @@ tikz_add_key(qdot_text *s, const qdot_panel *panel)
 
 /* --- curves ------------------------------------------------------------------------------- */
 
-/* The value of a point as its axis shows it; far beyond the axis, as near a pole, not more than TeX can calculate with. */
+/* The value of a point in units of its axis, limited far beyond the axis (near a pole) for TeX's arithmetic. */
 static double
-shown(const qdot_figure_axis *a, double value)
+value_on_axis(const qdot_figure_axis *a, double value)
 {
     const double v = (value - a->offset) / pow(10, a->power), far = 20 * (a->most - a->least);
 
@@ -198,7 +198,7 @@ shown(const qdot_figure_axis *a, double value)
 }
 
 static void
-add_colour(qdot_text *s, const char *colour)
+tikz_add_colour(qdot_text *s, const char *colour)
 {
     unsigned rgb = 0;
 
@@ -207,9 +207,9 @@ add_colour(qdot_text *s, const char *colour)
     qdot_text_format(s, "color={rgb,255:red,%u; green,%u; blue,%u}", rgb >> 16, rgb >> 8 & 255, rgb & 255);
 }
 
-/* A pattern of dashes and gaps, (12,5), of which gnuplot's unit is about half a point. */
+/* Append a dash pattern like (12,5), whose unit in gnuplot is about half a point. */
 static void
-add_dashes(qdot_text *s, const char *c)
+tikz_add_dashes(qdot_text *s, const char *c)
 {
     bool on = true;
     int n = 0;
@@ -229,12 +229,12 @@ add_dashes(qdot_text *s, const char *c)
 }
 
 static void
-add_style(qdot_text *s, const qdot_panel *panel, size_t k)
+tikz_add_curve_style(qdot_text *s, const qdot_panel *panel, size_t k)
 {
     const qdot_figure_style style = qdot_figure_style_of(panel, k);
     const size_t rows = panel->curves[k].rows;
 
-    add_colour(s, style.colour);
+    tikz_add_colour(s, style.colour);
     qdot_text_format(s, ", line width=0.8pt%s", (style.dots || style.marks) && !style.line ? ", only marks" : "");
     if (style.dots)
         qdot_text_add(s, ", mark=*, mark size=0.6pt");
@@ -245,33 +245,33 @@ add_style(qdot_text *s, const qdot_panel *panel, size_t k)
     if (panel->marks && rows > MANY_MARKS)
         qdot_text_format(s, ", mark repeat=%zu", rows / (MANY_MARKS / 2));
     if (style.dash != NULL)
-        add_dashes(s, style.dash);
+        tikz_add_dashes(s, style.dash);
 }
 
-/* How the points of a curve are chosen that are written: TeX's memory holds some 10,000. */
+/* Selection of the points of a curve that are written, as TeX's memory holds only some 10,000. */
 typedef struct {
     const qdot_panel *panel;
     const qdot_curve *curve;
     const qdot_figure_axis *axes;
-    size_t bin;  /* 1: all points; 0: those without which the line would be another one; more: see is_end_of_bin */
-    double near; /* of bin 0: how far from the line, in parts of the axes, a point that is left out may be */
+    size_t bin;  /* 1: write all points; 0: omit points that lie on a straight line; > 1: see is_extremum_of_bin */
+    double near; /* if bin = 0: largest distance of an omitted point from the drawn line, as a fraction of the axes */
 } choice;
 
-/* Parts of an axis: on one of 10 cm 0.05 mm, and 0.2 mm, which is still less than the width of a line. */
+/* Largest distances of omitted points from the line, as fractions of an axis: 0.05 and 0.2 mm on 10 cm. */
 static const double finest = 5e-4, coarsest = 2e-3;
 
-/* The position of point k along an axis, 0 at its beginning and 1 at its end. */
+/* The position of point k of the curve along an axis: 0 at the axis's beginning and 1 at its end. */
 static double
-place(const choice *c, int axis, size_t k)
+position_on_axis(const choice *c, int axis, size_t k)
 {
     const qdot_figure_axis *a = &c->axes[axis];
     const double *values = axis == 0 ? c->curve->x : axis == 1 ? c->curve->y : c->curve->z;
-    const double x = shown(a, values[k]);
+    const double x = value_on_axis(a, values[k]);
 
     return a->log ? log(x / a->least) / log(a->most / a->least) : (x - a->least) / (a->most - a->least);
 }
 
-/* Whether all points between two are shown and so near to the line that joins these that one does not see them. */
+/* Whether all points between points `from` and `to` lie so near to the chord that they can be omitted. */
 static bool
 is_straight(const choice *c, size_t from, size_t to)
 {
@@ -279,8 +279,8 @@ is_straight(const choice *c, size_t from, size_t to)
     double start[3], along[3], length = 0;
 
     for (int i = 0; i < axes; i++) {
-        start[i] = place(c, i, from);
-        along[i] = place(c, i, to) - start[i];
+        start[i] = position_on_axis(c, i, from);
+        along[i] = position_on_axis(c, i, to) - start[i];
         length += along[i] * along[i];
     }
     for (size_t k = from + 1; k <= to; k++) {
@@ -289,19 +289,19 @@ is_straight(const choice *c, size_t from, size_t to)
         if (!qdot_figure_shows(c->panel, c->curve, k))
             return false;
         for (int i = 0; i < axes; i++)
-            part += (place(c, i, k) - start[i]) * along[i];
+            part += (position_on_axis(c, i, k) - start[i]) * along[i];
         part = length > 0 ? fmin(fmax(part / length, 0), 1) : 0;
         for (int i = 0; i < axes; i++)
-            apart += pow(place(c, i, k) - start[i] - part * along[i], 2);
+            apart += pow(position_on_axis(c, i, k) - start[i] - part * along[i], 2);
         if (!(apart <= c->near * c->near))
             return false;
     }
     return true;
 }
 
-/* Whether point k is that with the least or the greatest ordinate of those that share its bin. */
+/* Whether point k has the least or greatest y among the c->bin consecutive points of its group. */
 static bool
-is_end_of_bin(const choice *c, size_t k)
+is_extremum_of_bin(const choice *c, size_t k)
 {
     const qdot_curve *curve = c->curve;
     const size_t from = k - k % c->bin, to = from + c->bin < curve->rows ? from + c->bin : curve->rows;
@@ -316,7 +316,7 @@ is_end_of_bin(const choice *c, size_t k)
     return k == least || k == most || k + 1 == curve->rows;
 }
 
-/* The point that is written after point k; points that are not shown are passed one by one. */
+/* The index of the next point to be written after point k; points that cannot be drawn are stepped through singly. */
 static size_t
 next_point(const choice *c, size_t k)
 {
@@ -324,7 +324,7 @@ next_point(const choice *c, size_t k)
     size_t next = k + 1;
 
     if (c->bin > 1)
-        while (next < c->curve->rows && !is_end_of_bin(c, next))
+        while (next < c->curve->rows && !is_extremum_of_bin(c, next))
             next++;
     if (c->bin == 0 && qdot_figure_shows(c->panel, c->curve, k))
         while (next + 1 < c->curve->rows && next - k < MOST_BETWEEN && is_straight(c, k, next + 1))
@@ -332,9 +332,9 @@ next_point(const choice *c, size_t k)
     return next;
 }
 
-/* Whether the abscissa of a curve in the plane goes one way, so that a bin is a strip narrower than a line. */
+/* Whether x is monotonic along a plane curve, so that a group of consecutive points is a narrow vertical strip. */
 static bool
-is_graph(const qdot_curve *curve)
+is_monotonic_in_x(const qdot_curve *curve)
 {
     bool up = true, down = true;
 
@@ -345,7 +345,7 @@ is_graph(const qdot_curve *curve)
     return curve->z == NULL && (up || down);
 }
 
-/* Count the points that are written, at most one more than `most`. */
+/* Count the points to be written; stop counting at most + 1. */
 static qdot_status
 count_points(const choice *c, size_t most, size_t *n)
 {
@@ -362,7 +362,7 @@ static qdot_status
 choose_points(choice *c)
 {
     const qdot_panel *panel = c->panel;
-    const bool graph = is_graph(c->curve);
+    const bool graph = is_monotonic_in_x(c->curve);
     const size_t curves = panel->n < LEAST_CURVES && graph ? LEAST_CURVES : panel->n, most = MOST_POINTS / curves;
     size_t n;
 
@@ -380,7 +380,7 @@ choose_points(choice *c)
     return QDOT_OK;
 }
 
-/* The points of a curve, with nan where the line is interrupted. */
+/* Append the points of a curve, with nan where the line is interrupted. */
 static qdot_status
 tikz_add_points(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, const qdot_figure_axis *axes)
 {
@@ -402,7 +402,7 @@ tikz_add_points(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, 
         qdot_text_add(s, n++ % IN_A_LINE == 0 ? "\n    (" : " (");
         for (int i = 0; i < (curve->z != NULL ? 3 : 2); i++) {
             qdot_text_add(s, i > 0 ? "," : "");
-            qdot_text_double(s, shown(&axes[i], point[i]), DIGITS);
+            qdot_text_double(s, value_on_axis(&axes[i], point[i]), DIGITS);
         }
         qdot_text_char(s, ')');
         open = true;
@@ -418,7 +418,7 @@ tikz_add_curves(qdot_text *s, const qdot_panel *panel, const qdot_figure_axis *a
         const qdot_figure_label label = qdot_figure_curve_label(panel, k);
 
         qdot_text_format(s, "  \\addplot%s[", qdot_figure_is_space(panel) ? "3" : "");
-        add_style(s, panel, k);
+        tikz_add_curve_style(s, panel, k);
         qdot_text_add(s, "] coordinates {");
         QDOT_TRY(tikz_add_points(s, panel, curve, axes));
         qdot_text_add(s, "\n  };\n");
@@ -432,7 +432,7 @@ tikz_add_curves(qdot_text *s, const qdot_panel *panel, const qdot_figure_axis *a
 }
 
 static qdot_status
-add_cells(qdot_text *s, const qdot_figure_map *map, const qdot_figure_axis *axes)
+tikz_add_map_cells(qdot_text *s, const qdot_figure_map *map, const qdot_figure_axis *axes)
 {
     qdot_text_format(s, "  \\addplot[matrix plot*, mesh/cols=%zu, point meta=explicit] coordinates {", map->n[0]);
     for (size_t j = 0; j < map->n[1]; j++) {
@@ -441,9 +441,9 @@ add_cells(qdot_text *s, const qdot_figure_map *map, const qdot_figure_axis *axes
             const double v = map->value[j * map->n[0] + i];
 
             qdot_text_add(s, i % IN_A_LINE == 0 ? "\n    (" : " (");
-            qdot_text_double(s, shown(&axes[0], qdot_figure_map_place(map, 0, i)), DIGITS);
+            qdot_text_double(s, value_on_axis(&axes[0], qdot_figure_map_place(map, 0, i)), DIGITS);
             qdot_text_char(s, ',');
-            qdot_text_double(s, shown(&axes[1], qdot_figure_map_place(map, 1, j)), DIGITS);
+            qdot_text_double(s, value_on_axis(&axes[1], qdot_figure_map_place(map, 1, j)), DIGITS);
             qdot_text_add(s, ") [");
             if (isfinite(v))
                 qdot_text_double(s, v, DIGITS);
@@ -459,9 +459,9 @@ add_cells(qdot_text *s, const qdot_figure_map *map, const qdot_figure_axis *axes
 
 /* --- panels ------------------------------------------------------------------------------- */
 
-/* The axes of a panel in centimetres, their upper left corner `top` below that of the figure. */
+/* Append the axes of a panel, sizes in cm, their upper left corner `top` below that of the figure. */
 static qdot_status
-add_panel(const qdot_figure_drawing *d, size_t i, double top)
+tikz_add_panel(const qdot_figure_drawing *d, size_t i, double top)
 {
     const qdot_panel *panel = &d->figure->panels[i];
     const bool space = qdot_figure_is_space(panel), shared = qdot_figure_is_shared(d->figure, i);
@@ -488,12 +488,12 @@ add_panel(const qdot_figure_drawing *d, size_t i, double top)
     qdot_text_add(s, "  unbounded coords=jump, xticklabel style={text height=1.5ex},\n");
     tikz_add_title(s, panel);
     for (int k = 0; k < (space ? 3 : 2); k++)
-        add_axis(s, "xyz"[k], &axes[k], &panel->axis[k], k == 0 && shared);
+        tikz_add_axis(s, "xyz"[k], &axes[k], &panel->axis[k], k == 0 && shared);
     if (panel->map != NULL)
-        add_map(s, panel->map);
-    tikz_add_key(s, panel);
+        tikz_add_map_options(s, panel->map);
+    tikz_add_legend(s, panel);
     qdot_text_add(s, "]\n");
-    QDOT_TRY(panel->map != NULL ? add_cells(s, panel->map, axes) : tikz_add_curves(s, panel, axes));
+    QDOT_TRY(panel->map != NULL ? tikz_add_map_cells(s, panel->map, axes) : tikz_add_curves(s, panel, axes));
     qdot_text_add(s, "\\end{axis}\n");
     return qdot_text_status(s);
 }
@@ -504,7 +504,7 @@ qdot_figure_add_tikz(const qdot_figure_drawing *d)
     qdot_text_add(d->script, head);
     qdot_text_add(d->script, "\\begin{tikzpicture}\n");
     for (size_t i = 0; i < d->figure->n; i++)
-        QDOT_TRY(add_panel(d, i, d->height / (double)d->figure->n * (double)i));
+        QDOT_TRY(tikz_add_panel(d, i, d->height / (double)d->figure->n * (double)i));
     qdot_text_add(d->script, "\\end{tikzpicture}\n");
     return qdot_text_status(d->script);
 }

@@ -31,9 +31,9 @@ typedef struct {
     qdot_figure_label label;  /* name in the legend; a single curve has no legend */
     size_t rows;
     const double *x, *y, *z;  /* [rows] borrowed; z NULL: in the plane */
-    size_t look;              /* 1 + the place in the lists of colours, dashes and marks; 0: its own place */
-    bool points;              /* marks that are not joined */
-    qdot_figure_range shown;  /* of a curve that runs to infinity the ordinates that the axis is chosen by */
+    size_t look;              /* 1 + index in the lists of colours, dashes and marks; 0: the curve's own index in the panel */
+    bool points;              /* draw separate marks, not joined by a line */
+    qdot_figure_range shown;  /* if y grows to infinity: the range of y from which the axis is chosen */
 } qdot_curve;
 
 /* Numbers over a grid, drawn as colours. */
@@ -46,7 +46,7 @@ typedef struct {
 
 enum { QDOT_FIGURE_LEGEND = 16 };
 
-/* One pair of axes; three of them if the first curve is in space. */
+/* A panel: one pair of axes; three axes if the first curve is a path in space. */
 typedef struct {
     qdot_figure_label title, axis[3]; /* title; labels of the axes x, y, z */
     const char *note;           /* text below the title; NULL: none */
@@ -58,10 +58,10 @@ typedef struct {
     bool equal;                 /* same scale on all axes, as for paths */
     bool marks;                 /* draw a mark at every point, besides the line */
     bool points;                /* draw points without a line */
-    bool lines;                 /* join these points */
+    bool lines;                 /* with `points`: also join the points by lines */
     const char *legend[QDOT_FIGURE_LEGEND]; /* names of the first curves in the legend, instead of their labels */
     size_t n_legend;
-    size_t colours[QDOT_FIGURE_LEGEND]; /* colours of the first curves, by their place in the list of names */
+    size_t colours[QDOT_FIGURE_LEGEND]; /* colours of the first curves, by index in the list of colour names */
     size_t n_colours;
     const qdot_figure_map *map; /* a map, drawn instead of curves; NULL: curves */
 } qdot_panel;
@@ -73,7 +73,7 @@ typedef struct {
     bool keep; /* keep the files NAME.gp (script) and NAME.dat (data) */
 } qdot_figure;
 
-/* The names of the colours that can be chosen, from i = 0 on; NULL behind the last. */
+/* The name of colour i that the user can choose; NULL for i beyond the last one. */
 const char *qdot_figure_colour_name(size_t i);
 
 /* What the axes of a panel show before anything is drawn: of x, y, z the least and the greatest
@@ -93,7 +93,7 @@ bool qdot_figure_is_file(const char *path);
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);
 
-/* Find the view of panel i, from its ranges and its curves. Errors: QDOT_EDOMAIN. */
+/* Find the ranges and axis lengths of panel i from its settings and curves. Errors: QDOT_EDOMAIN. */
 QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size_t i,
                                                  qdot_figure_view *view);
 

@@ -1,4 +1,4 @@
-/* formula-page.c -- writes lines of answers as blocks of aligned equations and paragraphs. */
+/* formula-page.c -- writes answers as aligned equations and paragraphs, in LaTeX or HTML. */
 #include "show/formula-page.h"
 
 #include <ctype.h>
@@ -22,7 +22,7 @@ is_latex(const page *p)
 }
 
 static void
-page_keep(page *p, qdot_status status)
+page_record_failure(page *p, qdot_status status)
 {
     if (p->status == QDOT_OK)
         p->status = status;
@@ -30,9 +30,9 @@ page_keep(page *p, qdot_status status)
 
 /* --- widths of texts -------------------------------------------------------------------- */
 
-/* The width of a LaTeX word: letters of functions count, marks above a letter do not. */
+/* The approximate width of a LaTeX command: a function's name counts its letters, an accent nothing. */
 static size_t
-word_width(const char *word, size_t n)
+latex_command_width(const char *word, size_t n)
 {
     static const char *const bare[] = {"left", "right",  "dot",          "ddot", "frac",
                                        "sqrt", "mathrm", "operatorname", "text"};
@@ -60,7 +60,7 @@ latex_width(const char *at, size_t n)
 
             while (i + k < n && isalpha((unsigned char)at[i + k]))
                 k++;
-            width += word_width(at + i + 1, k - 1);
+            width += latex_command_width(at + i + 1, k - 1);
             i += k - 1;
         } else if (strchr("{}^_ ", at[i]) == NULL && (at[i] & 0xc0) != 0x80) {
             width++;
@@ -69,16 +69,16 @@ latex_width(const char *at, size_t n)
     return width;
 }
 
-/* Whether a node is a text given in LaTeX: the name of an answer, or latex(...). */
+/* Whether a node of a formula is a text typed in LaTeX: the name of an answer, or latex(...). */
 static bool
-is_typed(const qdot_formula_node *node)
+is_typed_latex(const qdot_formula_node *node)
 {
     return node->kind == QDOT_FORMULA_TEXT && node->what == QDOT_TEXT_WORDS;
 }
 
 /* --- the parts of a formula --------------------------------------------------------------- */
 
-/* Write the parts of a formula one after another, and record the widths before each. */
+/* Write the parts of a formula one after another, and record the total width before each part. */
 static qdot_status
 page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
@@ -104,7 +104,7 @@ page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
         qdot_text_add(&p->written, label ? p->end : "");
         QDOT_TRY(qdot_text_status(&p->written));
         QDOT_TRY(qdot_formula_width(f, p->parts.part.at[i], &letters));
-        width += is_latex(p) && is_typed(node) ? latex_width(p->written.at + from, p->written.n - from) : letters;
+        width += is_latex(p) && is_typed_latex(node) ? latex_width(p->written.at + from, p->written.n - from) : letters;
     }
     return qdot_vec_push(&p->cuts,
                          ((qdot_page_cut){p->written.n, width, QDOT_DUTY_NONE}));
@@ -112,13 +112,13 @@ page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
 
 /* The width of the parts [from, to) of the formula. */
 static size_t
-width_of(const page *p, size_t from, size_t to)
+width_of_parts(const page *p, size_t from, size_t to)
 {
     return p->cuts.at[to].width - p->cuts.at[from].width;
 }
 
 static void
-page_add_parts(page *p, size_t from, size_t to)
+page_copy_parts(page *p, size_t from, size_t to)
 {
     qdot_text_add_n(&p->out, p->written.at + p->cuts.at[from].at,
                     p->cuts.at[to].at - p->cuts.at[from].at);
@@ -126,7 +126,7 @@ page_add_parts(page *p, size_t from, size_t to)
 
 /* --- rows of a block -------------------------------------------------------------------- */
 
-/* A row: the parts left of the aligned sign, the sign, and the parts after it; sign: none if no cut has one. */
+/* A row of an aligned equation: the parts left of the sign (= or +), the sign, and the parts right of it. */
 typedef struct {
     size_t left, left_end, sign, right, right_end;
     bool indented;
@@ -137,7 +137,7 @@ static const size_t none = SIZE_MAX;
 /* The line of a heading goes on into the equations below it: a paragraph that ends there would be
  * followed by an empty line. */
 static void
-join_heading(page *p)
+join_heading_to_block(page *p)
 {
     static const char end[] = "}\\par\n";
 
@@ -151,7 +151,7 @@ static void
 latex_row(page *p, const row *r)
 {
     if (!p->block)
-        join_heading(p);
+        join_heading_to_block(p);
     qdot_text_add(&p->out, p->told    ? ""
                            : p->block ? " \\\\\n    "
                                       : "\\begin{align*}\n    ");
@@ -160,7 +160,7 @@ latex_row(page *p, const row *r)
         qdot_text_format(&p->out, "%% %s\n    ", qdot_text_str(&p->label));
         qdot_text_truncate(&p->label, 0);
     }
-    page_add_parts(p, r->left, r->left_end);
+    page_copy_parts(p, r->left, r->left_end);
     qdot_text_add(&p->out, r->left < r->left_end ? " &" : "&");
     if (r->indented)
         qdot_text_add(&p->out, " \\quad {}");
@@ -171,10 +171,10 @@ latex_row(page *p, const row *r)
         qdot_text_add_n(&p->out, p->written.at + at + trimmed, n - trimmed);
     }
     qdot_text_add(&p->out, r->sign == none ? " " : "");
-    page_add_parts(p, r->right, r->right_end);
+    page_copy_parts(p, r->right, r->right_end);
 }
 
-/* Write a row in MathML; a sign that begins a cell must still be spaced as one between terms. */
+/* Write a row in MathML; a sign at the start of a table cell must still be spaced like a binary sign. */
 static void
 mathml_row(page *p, const row *r)
 {
@@ -184,7 +184,7 @@ mathml_row(page *p, const row *r)
         qdot_text_add(&p->out, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" "
                                "display=\"block\"><mtable displaystyle=\"true\">\n");
     qdot_text_add(&p->out, "<mtr><mtd class=\"left\">");
-    page_add_parts(p, r->left, r->left_end);
+    page_copy_parts(p, r->left, r->left_end);
     qdot_text_add(&p->out, "</mtd><mtd class=\"right\">");
     if (r->indented)
         qdot_text_add(&p->out, "<mspace width=\"2em\"/>");
@@ -195,7 +195,7 @@ mathml_row(page *p, const row *r)
         qdot_text_add(&p->out, "<mo form=\"infix\"");
         qdot_text_add_n(&p->out, p->written.at + at, end - at);
     }
-    page_add_parts(p, r->right, r->right_end);
+    page_copy_parts(p, r->right, r->right_end);
     qdot_text_add(&p->out, "</mtd></mtr>\n");
 }
 
@@ -210,7 +210,7 @@ page_add_row(page *p, const row *r)
 }
 
 static void
-end_block(page *p)
+end_equation_block(page *p)
 {
     if (p->block)
         qdot_text_add(&p->out, is_latex(p) ? "\n\\end{align*}\n" : "</mtable></math>\n");
@@ -220,18 +220,18 @@ end_block(page *p)
 /* Parts [from, to) behind r's sign, in lines that fit, divided before signs between terms. The first line has the left
  * side and the sign of r. */
 static void
-add_lines(page *p, size_t from, size_t to, row r)
+add_formula_rows(page *p, size_t from, size_t to, row r)
 {
-    size_t taken = width_of(p, r.left, r.left_end);
+    size_t taken = width_of_parts(p, r.left, r.left_end);
 
     for (size_t k = from;;) {
         size_t best = none;
 
-        if (taken + width_of(p, from, to) > LINE)
+        if (taken + width_of_parts(p, from, to) > LINE)
             for (; k < to; k++) {
                 if (p->cuts.at[k].duty != QDOT_DUTY_TERMS || k <= from)
                     continue;
-                if (best != none && taken + width_of(p, from, k) > LINE)
+                if (best != none && taken + width_of_parts(p, from, k) > LINE)
                     break;
                 best = k;
             }
@@ -247,7 +247,7 @@ add_lines(page *p, size_t from, size_t to, row r)
     }
 }
 
-/* Write the name before a colon: a comment before the next row; in HTML above the block. */
+/* Write an answer's name that precedes a colon: in LaTeX later, as a comment; in HTML above the equations. */
 static void
 add_label(page *p, size_t to)
 {
@@ -256,15 +256,15 @@ add_label(page *p, size_t to)
         qdot_text_add_n(&p->label, p->written.at, p->cuts.at[to].at);
         return;
     }
-    end_block(p);
+    end_equation_block(p);
     qdot_text_add(&p->out, "<p class=\"label\">" QDOT_FORMULA_MATH);
-    page_add_parts(p, 0, to);
+    page_copy_parts(p, 0, to);
     qdot_text_add(&p->out, QDOT_FORMULA_MATH_END "</p>\n");
 }
 
-/* The first part from k on that has one of the two duties; the end if there is none. */
+/* The index of the first part from k on that has either role (`one` or `other`); the end if none. */
 static size_t
-find_duty(const page *p, size_t k, qdot_formula_duty one, qdot_formula_duty other)
+find_part_by_role(const page *p, size_t k, qdot_formula_duty one, qdot_formula_duty other)
 {
     while (k + 1 < p->cuts.n && p->cuts.at[k].duty != one && p->cuts.at[k].duty != other)
         k++;
@@ -274,31 +274,31 @@ find_duty(const page *p, size_t k, qdot_formula_duty one, qdot_formula_duty othe
 /* Add one formula as rows of the block: aligned at its relation; with a left side that is too wide, all of it from the
  * alignment on. */
 static qdot_status
-add_formula(page *p, const qdot_formula *f, qdot_formula_id formula)
+page_add_formula(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
     row r = {.sign = none};
     size_t from = 0, end, relation;
 
     QDOT_TRY(page_write_parts(p, f, formula));
     end = p->cuts.n - 1;
-    relation = find_duty(p, 0, QDOT_DUTY_COLON, QDOT_DUTY_RELATION);
+    relation = find_part_by_role(p, 0, QDOT_DUTY_COLON, QDOT_DUTY_RELATION);
     if (p->cuts.at[relation].duty == QDOT_DUTY_COLON) {
         add_label(p, relation);
         from = relation + 1;
-        relation = find_duty(p, from, QDOT_DUTY_RELATION, QDOT_DUTY_RELATION);
+        relation = find_part_by_role(p, from, QDOT_DUTY_RELATION, QDOT_DUTY_RELATION);
     }
     if (relation == end) {
-        add_lines(p, from, end, r);
+        add_formula_rows(p, from, end, r);
         return QDOT_OK;
     }
-    if (width_of(p, from, relation) > LINE / 2) {
-        add_lines(p, from, relation, r);
+    if (width_of_parts(p, from, relation) > LINE / 2) {
+        add_formula_rows(p, from, relation, r);
     } else {
         r.left = from;
         r.left_end = relation;
     }
     r.sign = relation;
-    add_lines(p, relation + 1, end, r);
+    add_formula_rows(p, relation + 1, end, r);
     return QDOT_OK;
 }
 
@@ -336,7 +336,7 @@ latex_escape(const char *text, size_t length, qdot_text *out)
 }
 
 static void
-escape(page *p, const char *text, size_t n)
+escape_text(page *p, const char *text, size_t n)
 {
     if (is_latex(p))
         latex_escape(text, n, &p->out);
@@ -347,8 +347,8 @@ escape(page *p, const char *text, size_t n)
 /* The texts that a line begins with, before its first formula: in p->written. *formula: that formula, 0: none; *last:
  * nothing stands behind it. */
 static qdot_status
-read_lead(page *p, const qdot_formula *f, qdot_formula_id line, qdot_formula_id *formula,
-          bool *last)
+read_text_before_formula(page *p, const qdot_formula *f, qdot_formula_id line, qdot_formula_id *formula,
+                         bool *last)
 {
     qdot_formula_id c = 0;
 
@@ -368,9 +368,9 @@ read_lead(page *p, const qdot_formula *f, qdot_formula_id line, qdot_formula_id 
     return qdot_text_status(&p->written);
 }
 
-/* Append a formula inside a text. */
+/* Append a formula inline within a text. */
 static qdot_status
-add_within(page *p, const qdot_formula *f, qdot_formula_id formula)
+add_inline_formula(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
     qdot_text_add(&p->out, is_latex(p) ? "\\(" : QDOT_FORMULA_MATH);
     QDOT_TRY(is_latex(p) ? qdot_formula_write_latex(f, formula, &p->out)
@@ -387,7 +387,7 @@ page_add_text(page *p, const qdot_formula *f, qdot_formula_id line, const char *
     size_t blanks = strspn(lead, " ");
     qdot_formula_id c = 0;
 
-    end_block(p);
+    end_equation_block(p);
     qdot_text_add(&p->out,
                   latex   ? title ? "\\par\\medskip\\noindent\\textbf{" : "\\noindent "
                   : title ? "<h2>"
@@ -396,10 +396,10 @@ page_add_text(page *p, const qdot_formula *f, qdot_formula_id line, const char *
         const qdot_formula_node *node = qdot_formula_at(f, c);
 
         if (node->kind != QDOT_FORMULA_TEXT) {
-            QDOT_TRY(add_within(p, f, c));
+            QDOT_TRY(add_inline_formula(p, f, c));
             blanks = 0;
         } else if (blanks < node->n) {
-            escape(p, f->text.at + node->child + blanks, node->n - blanks);
+            escape_text(p, f->text.at + node->child + blanks, node->n - blanks);
             blanks = 0;
         } else {
             blanks -= node->n;
@@ -411,7 +411,7 @@ page_add_text(page *p, const qdot_formula *f, qdot_formula_id line, const char *
     return QDOT_OK;
 }
 
-/* Append the words before a colon and one formula, `    kinetic energy of bob: `. */
+/* Append the words before a colon that is followed by one formula, as in `kinetic energy of bob: `. */
 static void
 add_words(page *p, const char *words, size_t n)
 {
@@ -420,10 +420,10 @@ add_words(page *p, const char *words, size_t n)
     if (latex && open) {
         qdot_text_add(&p->out, " \\\\\n    \\intertext{");
     } else {
-        end_block(p);
+        end_equation_block(p);
         qdot_text_add(&p->out, latex ? "\\noindent " : "<p class=\"label\">");
     }
-    escape(p, words, n);
+    escape_text(p, words, n);
     qdot_text_add(&p->out, latex ? open ? "}\n    " : "\n" : "</p>\n");
     p->told = latex && open;
 }
@@ -438,19 +438,19 @@ page_add_line(page *p, const qdot_formula *f, qdot_formula_id line)
 
     if (p->kind == QDOT_PAGE_REPORT)
         return qdot_page_line(&p->out, f, line);
-    QDOT_TRY(read_lead(p, f, line, &formula, &last));
+    QDOT_TRY(read_text_before_formula(p, f, line, &formula, &last));
     lead = qdot_text_str(&p->written);
     n = p->written.n;
     blanks = strspn(lead, " ");
     if (last && blanks == n)
-        return add_formula(p, f, formula);
+        return page_add_formula(p, f, formula);
     if (last && blanks > 0 && qdot_ends_in(lead, ": ")) {
         add_words(p, lead + blanks, n - blanks - 1);
-        return add_formula(p, f, formula);
+        return page_add_formula(p, f, formula);
     }
     if (formula != 0 || blanks < n)
         return page_add_text(p, f, line, lead, formula != 0);
-    end_block(p);
+    end_equation_block(p);
     return QDOT_OK;
 }
 
@@ -460,7 +460,7 @@ void
 qdot_formula_page_line(qdot_formula_page *p, const qdot_formula *f, qdot_formula_id line)
 {
     if (p->status == QDOT_OK)
-        page_keep(p, page_add_line(p, f, line));
+        page_record_failure(p, page_add_line(p, f, line));
 }
 
 void
@@ -476,7 +476,7 @@ qdot_formula_page_text(qdot_formula_page *p, const char *lines, size_t n)
         qdot_formula_empty(&f);
         line = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
         qdot_formula_add_text(&f, line, QDOT_TEXT_WORDS, lines, (size_t)(stop - lines));
-        page_keep(p, qdot_formula_status(&f));
+        page_record_failure(p, qdot_formula_status(&f));
         qdot_formula_page_line(p, &f, line);
         lines = stop + 1;
     }
@@ -486,8 +486,8 @@ qdot_formula_page_text(qdot_formula_page *p, const char *lines, size_t n)
 qdot_status
 qdot_formula_page_end(qdot_formula_page *p, qdot_text *out)
 {
-    end_block(p);
-    page_keep(p, qdot_text_status(&p->out));
+    end_equation_block(p);
+    page_record_failure(p, qdot_text_status(&p->out));
     if (p->status == QDOT_OK)
         qdot_text_add_n(out, qdot_text_str(&p->out), p->out.n);
     return p->status == QDOT_OK ? qdot_text_status(out) : p->status;

@@ -18,7 +18,7 @@
 
 typedef enum { QDOT_PAGE_LATEX, QDOT_PAGE_MATHML, QDOT_PAGE_REPORT } qdot_page_kind;
 
-/* A part of a formula: where it begins, the width before it, and its duty in the row. */
+/* A part of a formula: its byte position, the width of the text before it, and its role in the row. */
 typedef struct {
     size_t at, width;
     qdot_formula_duty duty;
@@ -31,24 +31,24 @@ typedef struct qdot_formula_page {
     qdot_text out;
     qdot_status status; /* the first failure, after which nothing is written */
     bool block;         /* a block of equations is open */
-    bool told;          /* its last row has been ended by words */
-    qdot_text label;    /* name of the next row in LaTeX */
-    qdot_text written;  /* scratch: LaTeX of the present formula and its parts */
+    bool told;          /* the last row of the open block has been ended by the words after it */
+    qdot_text label;    /* the answer's name that is written before the next row in LaTeX */
+    qdot_text written;  /* scratch: LaTeX text of the formula being written and its parts */
     qdot_formula_parts parts;
-    qdot_vec(qdot_page_cut) cuts; /* position of each part in `written`; last the end */
+    qdot_vec(qdot_page_cut) cuts; /* position of each part in `written`; the last entry is the end of the text */
 } qdot_formula_page;
 
 void qdot_formula_page_clear(qdot_formula_page *page);
 
 /* Append a line whose formulas are in the notation QDOT_NOTATION_DRAWN. */
 void qdot_formula_page_line(qdot_formula_page *page, const qdot_formula *f, qdot_formula_id line);
-/* Append lines without formulas. */
+/* Append lines of plain text, without formulas. */
 void qdot_formula_page_text(qdot_formula_page *page, const char *lines, size_t n);
 
-/* Append the contents of the page to `out`: a fragment, the body of a page. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Append the contents of the page to `out`, without head or body tags. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_formula_page_end(qdot_formula_page *page, qdot_text *out);
 
-/* As qdot_formula_page_end, but a whole HTML page: head with the title, style, body. */
+/* Like qdot_formula_page_end, but write a whole HTML page: head with title and style, then body. */
 QDOT_MUST_CHECK qdot_status qdot_formula_page_html(qdot_formula_page *page, const char *title, qdot_text *out);
 
 #endif

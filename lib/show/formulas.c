@@ -1,4 +1,4 @@
-/* formulas.c -- the script for pages with MathML, for browsers without a mathematical font. */
+/* formulas.c -- the script of pages with MathML that helps browsers without a mathematical font. */
 #include "show/formulas.h"
 
 static const char program[] = {

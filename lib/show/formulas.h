@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 
-/* Append the script (lib/show/formulas.js); it comes after the formulas. */
+/* Append the script lib/show/formulas.js to a page; it must come after the formulas. */
 void qdot_formulas_foot(qdot_text *out);
 
 #endif

@@ -16,19 +16,19 @@ extern char **environ;
 
 enum { IN, OUT, SAID, FDS };
 
-/* The child's standard streams, on file descriptors above 0, 1 and 2, so that none overwrites another. */
+/* The child process's standard streams; the descriptors are above 2, so dup2 overwrites none of them. */
 typedef struct {
     int fd[FDS];
     int from; /* our end of the pipe from the child's output; -1: none */
 } plumbing;
 
 static qdot_status
-broken(const char *what)
+fail_with_errno(const char *what)
 {
     return qdot_fail(QDOT_EIO, "cannot %s: %s", what, strerror(errno));
 }
 
-/* Move `fd` above the three standard ones, closed on exec; -1 stays -1. */
+/* Move a file descriptor above 2 (the standard ones), closed on exec; -1 stays -1. */
 static int
 move_descriptor_up(int fd)
 {
@@ -41,9 +41,9 @@ move_descriptor_up(int fd)
     return moved;
 }
 
-/* Open a temporary file without a name that contains `text`, at its beginning; -1 on failure. */
+/* Open an unnamed temporary file that contains `text`, positioned at its start; -1 on failure. */
 static int
-nameless(const char *text, size_t length)
+open_temporary_file(const char *text, size_t length)
 {
     FILE *file = tmpfile();
     int fd = -1;
@@ -58,7 +58,7 @@ nameless(const char *text, size_t length)
 }
 
 static void
-unplumb(plumbing *p)
+close_streams(plumbing *p)
 {
     for (int i = 0; i < FDS; i++)
         if (p->fd[i] >= 0)
@@ -68,31 +68,31 @@ unplumb(plumbing *p)
 }
 
 static qdot_status
-plumb(plumbing *p, const qdot_text *script, bool wants_output)
+open_streams(plumbing *p, const qdot_text *script, bool wants_output)
 {
     *p = (plumbing){{-1, -1, -1}, -1};
-    p->fd[IN] = nameless(qdot_text_str(script), script->n);
-    p->fd[SAID] = nameless("", 0);
+    p->fd[IN] = open_temporary_file(qdot_text_str(script), script->n);
+    p->fd[SAID] = open_temporary_file("", 0);
     if (p->fd[IN] < 0 || p->fd[SAID] < 0)
-        return broken("write a temporary file");
+        return fail_with_errno("write a temporary file");
     if (wants_output) {
         int ends[2];
 
         if (pipe(ends) != 0)
-            return broken("open a pipe");
+            return fail_with_errno("open a pipe");
         p->from = move_descriptor_up(ends[0]);
         p->fd[OUT] = move_descriptor_up(ends[1]);
     } else {
         p->fd[OUT] = move_descriptor_up(open("/dev/null", O_WRONLY));
     }
     if (p->fd[OUT] < 0 || (wants_output && p->from < 0))
-        return broken("open a pipe");
+        return fail_with_errno("open a pipe");
     return QDOT_OK;
 }
 
 static int
-spawn_with(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
-           posix_spawnattr_t *attributes)
+spawn_gnuplot(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
+              posix_spawnattr_t *attributes)
 {
     char name[] = "gnuplot", defaults[] = "-d", persist[] = "-persist";
     char *image[] = {name, defaults, NULL}, *window[] = {name, defaults, persist, NULL};
@@ -120,14 +120,14 @@ spawn_with(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
 }
 
 static qdot_status
-gnuplot_missing(void)
+fail_gnuplot_missing(void)
 {
     qdot_fail(QDOT_EIO, "figures are drawn by gnuplot, which is not installed");
     return qdot_hint("apt install gnuplot-nox");
 }
 
 static qdot_status
-gnuplot_start(pid_t *child, const plumbing *p)
+start_gnuplot(pid_t *child, const plumbing *p)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -136,7 +136,7 @@ gnuplot_start(pid_t *child, const plumbing *p)
     if (failed == 0) {
         failed = posix_spawnattr_init(&attributes);
         if (failed == 0) {
-            failed = spawn_with(child, p, &actions, &attributes);
+            failed = spawn_gnuplot(child, p, &actions, &attributes);
             posix_spawnattr_destroy(&attributes);
         }
         posix_spawn_file_actions_destroy(&actions);
@@ -144,14 +144,14 @@ gnuplot_start(pid_t *child, const plumbing *p)
     if (failed == 0)
         return QDOT_OK;
     if (failed == ENOENT)
-        return gnuplot_missing();
+        return fail_gnuplot_missing();
     errno = failed;
-    return broken("start gnuplot");
+    return fail_with_errno("start gnuplot");
 }
 
-/* Append everything read from `fd` until its end. */
+/* Append everything read from `fd`, until the end of the file or pipe. */
 static qdot_status
-drain(int fd, qdot_text *out)
+read_to_end(int fd, qdot_text *out)
 {
     char block[1 << 14];
 
@@ -163,14 +163,14 @@ drain(int fd, qdot_text *out)
         if (n > 0)
             qdot_text_add_n(out, block, (size_t)n);
         else if (errno != EINTR)
-            return broken("read from gnuplot");
+            return fail_with_errno("read from gnuplot");
         QDOT_TRY(qdot_interrupt_check());
     }
 }
 
-/* Wait for gnuplot; returns the raw status, 0 if someone else has reaped the child. */
+/* Wait for gnuplot to end; returns its wait status, 0 if another part of the program has waited for it. */
 static int
-gnuplot_finish(pid_t child, bool stop)
+wait_for_gnuplot(pid_t child, bool stop)
 {
     int status = 0;
 
@@ -186,13 +186,13 @@ gnuplot_finish(pid_t child, bool stop)
  * failure. Its errors read `line 12: what`, after an echo of the line and a caret. Some systems
  * tell of a program that is not there only by how the child ended. */
 static qdot_status
-fail_by_stderr(int said, int ended)
+fail_with_gnuplot_message(int said, int ended)
 {
     qdot_text all = {0};
     const char *line = "it printed no reason", *found = NULL;
     qdot_status status;
 
-    if (lseek(said, 0, SEEK_SET) == 0 && drain(said, &all) == QDOT_OK && all.n > 0) {
+    if (lseek(said, 0, SEEK_SET) == 0 && read_to_end(said, &all) == QDOT_OK && all.n > 0) {
         char *next = all.at;
 
         while (next != NULL) {
@@ -214,16 +214,16 @@ fail_by_stderr(int said, int ended)
             line = found;
     }
     if (found == NULL && WIFEXITED(ended) && WEXITSTATUS(ended) == 127)
-        status = gnuplot_missing();
+        status = fail_gnuplot_missing();
     else
         status = qdot_fail(QDOT_EIO, "gnuplot failed: %.300s", line);
     qdot_text_clear(&all);
     return status;
 }
 
-/* Check that the image is complete: gnuplot may have been killed behind a wrapper that hides it. */
+/* Check that an image has its last bytes: a wrapper script may hide that gnuplot was killed. */
 static qdot_status
-check_whole(const char *image, size_t n, const char *end)
+check_image_is_complete(const char *image, size_t n, const char *end)
 {
     const size_t length = strlen(end), all = n;
 
@@ -244,26 +244,26 @@ qdot_gnuplot_run(const qdot_text *script, const char *end, qdot_text *image)
     qdot_status status;
 
     QDOT_TRY(qdot_text_status(script));
-    status = plumb(&p, script, image != NULL);
+    status = open_streams(&p, script, image != NULL);
     if (status == QDOT_OK)
-        status = gnuplot_start(&child, &p);
+        status = start_gnuplot(&child, &p);
     if (status != QDOT_OK) {
         qdot_error first = *qdot_last_error();
 
-        unplumb(&p);
+        close_streams(&p);
         return qdot_fail_again(&first);
     }
     close(p.fd[OUT]);
     p.fd[OUT] = -1;
     if (image != NULL)
-        status = drain(p.from, image);
-    ended = gnuplot_finish(child, status != QDOT_OK);
+        status = read_to_end(p.from, image);
+    ended = wait_for_gnuplot(child, status != QDOT_OK);
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK && (ended != 0 || (image != NULL && image->n == before)))
-        status = fail_by_stderr(p.fd[SAID], ended);
+        status = fail_with_gnuplot_message(p.fd[SAID], ended);
     if (status == QDOT_OK && image != NULL)
-        status = check_whole(image->at + before, image->n - before, end);
-    unplumb(&p);
+        status = check_image_is_complete(image->at + before, image->n - before, end);
+    close_streams(&p);
     return status;
 }

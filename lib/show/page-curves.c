@@ -6,10 +6,10 @@
 
 #include "show/animation.h"
 
-/* Sizes in units in which the picture has the width WIDE. */
+/* Sizes of a picture's parts, in units in which the picture is WIDE wide. */
 enum {
     WIDE = 640,
-    LOW = 170, /* height of a curve of one quantity over time */
+    LOW = 170, /* height of a plot of one quantity over time */
     TALL = 330,
     LEFT = 64,
     RIGHT = 18,
@@ -20,20 +20,20 @@ enum {
     LOOKS = 8, /* number of different colours, dashes and marks */
 };
 
-/* The ranges of the axes and where they are drawn; y upwards. */
+/* The ranges of the axes, and where they are drawn in the picture; y points upwards. */
 typedef struct {
     double x0, x1, y0, y1;
     int bottom;
 } frame;
 
 static double
-across(const frame *f, double x)
+to_picture_x(const frame *f, double x)
 {
     return LEFT + (x - f->x0) / (f->x1 - f->x0) * (WIDE - LEFT - RIGHT);
 }
 
 static double
-down(const frame *f, double y)
+to_picture_y(const frame *f, double y)
 {
     return f->bottom - (y - f->y0) / (f->y1 - f->y0) * (f->bottom - TOP);
 }
@@ -58,26 +58,26 @@ svg_end(qdot_text *out, const char *caption, const char *behind)
     qdot_text_format(out, "%s</figcaption>\n</figure>\n", behind);
 }
 
-/* Write a grid line at x, and begin its number. */
+/* Write a vertical grid line at x, and begin the text of its number. */
 static void
-grid_x(qdot_text *out, const frame *f, double x)
+begin_vertical_grid_line(qdot_text *out, const frame *f, double x)
 {
     qdot_text_format(out,
                      "<path class=\"grid\" d=\"M%.1f %d V%d\"/><text x=\"%.1f\" y=\"%d\" "
                      "text-anchor=\"middle\">",
-                     across(f, x), TOP, f->bottom, across(f, x), f->bottom + 17);
+                     to_picture_x(f, x), TOP, f->bottom, to_picture_x(f, x), f->bottom + 17);
 }
 
 static void
-grid_y(qdot_text *out, const frame *f, double y)
+begin_horizontal_grid_line(qdot_text *out, const frame *f, double y)
 {
     qdot_text_format(out,
                      "<path class=\"grid\" d=\"M%d %.1f H%d\"/><text x=\"%d\" y=\"%.1f\" "
                      "text-anchor=\"end\">",
-                     LEFT, down(f, y), WIDE - RIGHT, LEFT - 6, down(f, y) + 4);
+                     LEFT, to_picture_y(f, y), WIDE - RIGHT, LEFT - 6, to_picture_y(f, y) + 4);
 }
 
-/* Draw mark i at (x, y): five shapes, then the same ones hollow. */
+/* Draw mark number i at (x, y): five filled shapes, then the same ones hollow. */
 static void
 add_mark(qdot_text *out, size_t i, double x, double y)
 {
@@ -90,15 +90,15 @@ add_mark(qdot_text *out, size_t i, double x, double y)
                      i / kinds % 2 == 1 ? " hollow" : "", x, y, shapes[i % kinds]);
 }
 
-/* The position of entry i of n in the key. */
+/* The horizontal position of entry i of n in the legend. */
 static double
-key_at(size_t i, size_t n)
+legend_position(size_t i, size_t n)
 {
     return LEFT + (double)i * (WIDE - LEFT - RIGHT) / (double)n;
 }
 
 static void
-add_key(qdot_text *out, double x, double y, const char *label)
+svg_add_legend_text(qdot_text *out, double x, double y, const char *label)
 {
     qdot_text_format(out, "<text x=\"%.1f\" y=\"%.1f\">", x, y + 4);
     qdot_animation_escape(out, label);
@@ -107,9 +107,9 @@ add_key(qdot_text *out, double x, double y, const char *label)
 
 /* --- curves against time ------------------------------------------------------------ */
 
-/* A distance of grid lines: 1, 2 or 5 times a power of ten that divides the span into at most `most` steps. */
+/* A grid spacing, 1, 2 or 5 times a power of ten, that divides `span` into at most `most` intervals. */
 static double
-nice_step(double span, double most)
+grid_spacing(double span, double most)
 {
     double ten = pow(10, floor(log10(span / most)));
 
@@ -135,19 +135,19 @@ static void
 add_axes(qdot_text *out, const frame *f)
 {
     const double lo = fmin(f->x0, f->x1), hi = fmax(f->x0, f->x1);
-    const double dx = nice_step(hi - lo, 8), dy = nice_step(f->y1 - f->y0, 5);
+    const double dx = grid_spacing(hi - lo, 8), dy = grid_spacing(f->y1 - f->y0, 5);
 
     for (double k = ceil(lo / dx - 1e-9); k * dx <= hi + 1e-9 * dx; k++) {
-        grid_x(out, f, k * dx);
+        begin_vertical_grid_line(out, f, k * dx);
         svg_add_number(out, k * dx, dx);
     }
     for (double k = ceil(f->y0 / dy - 1e-9); k * dy <= f->y1 + 1e-9 * dy; k++) {
-        grid_y(out, f, k * dy);
+        begin_horizontal_grid_line(out, f, k * dy);
         svg_add_number(out, k * dy, dy);
     }
 }
 
-/* Find the ranges of the curves, widened a little; false if there is nothing to draw. */
+/* Find the ranges of the curves, widened slightly; false if there is nothing to draw. */
 static bool
 find_ranges(size_t n, const qdot_page_course *list, frame *f)
 {
@@ -179,7 +179,7 @@ find_ranges(size_t n, const qdot_page_course *list, frame *f)
 }
 
 static void
-add_course(qdot_text *out, const frame *f, const qdot_page_course *c)
+svg_add_curve(qdot_text *out, const frame *f, const qdot_page_course *c)
 {
     const size_t step = c->n / POINTS + 1;
     bool open = false;
@@ -190,8 +190,8 @@ add_course(qdot_text *out, const frame *f, const qdot_page_course *c)
         double t = c->t0 + (c->t1 - c->t0) * (double)k / (double)(c->n - 1);
 
         if (isfinite(c->y[k]))
-            qdot_text_format(out, "%s%.1f %.1f", open ? "L" : "M", across(f, t),
-                             down(f, c->y[k]));
+            qdot_text_format(out, "%s%.1f %.1f", open ? "L" : "M", to_picture_x(f, t),
+                             to_picture_y(f, c->y[k]));
         open = isfinite(c->y[k]);
     }
     qdot_text_add(out, "\"/>");
@@ -209,14 +209,14 @@ qdot_page_courses(qdot_text *out, const char *name, size_t n,
     svg_begin(out, n > 1 ? LOW + KEY : LOW, name, " against t");
     add_axes(out, &f);
     if (n == 1)
-        add_course(out, &f, &list[0]);
+        svg_add_curve(out, &f, &list[0]);
     for (size_t i = 0; n > 1 && i < n; i++) {
-        double x = key_at(i, n);
+        double x = legend_position(i, n);
 
         qdot_text_format(out, "<g class=\"dashed k%zu\">", i % LOOKS);
-        add_course(out, &f, &list[i]);
+        svg_add_curve(out, &f, &list[i]);
         qdot_text_format(out, "<path class=\"curve\" d=\"M%.1f %.1fh26\"/>", x, key);
-        add_key(out, x + 32, key, list[i].label);
+        svg_add_legend_text(out, x + 32, key, list[i].label);
         qdot_text_add(out, "</g>\n");
     }
     svg_end(out, name, " against t");
@@ -225,12 +225,12 @@ qdot_page_courses(qdot_text *out, const char *name, size_t n,
 /* --- figures with logarithmic axes -------------------------------------------------- */
 
 static bool
-is_shown(double x, double y)
+fits_log_axes(double x, double y)
 {
     return x > 0 && y > 0 && isfinite(x) && isfinite(y);
 }
 
-/* Find powers of ten that enclose the positive values; false if there are none. */
+/* Find the powers of ten that enclose the positive values; false if there are none. */
 static bool
 find_decades(size_t n, const qdot_page_points *list, frame *f)
 {
@@ -239,7 +239,7 @@ find_decades(size_t n, const qdot_page_points *list, frame *f)
         for (size_t k = 0; k < list[i].n; k++) {
             double x = list[i].x[k], y = list[i].y[k];
 
-            if (!is_shown(x, y))
+            if (!fits_log_axes(x, y))
                 continue;
             f->x0 = fmin(f->x0, floor(log10(x)));
             f->x1 = fmax(f->x1, ceil(log10(x)));
@@ -259,17 +259,17 @@ svg_add_power(qdot_text *out, double exponent)
 }
 
 static void
-add_decades(qdot_text *out, const frame *f, const char *x, const char *y)
+svg_add_log_axes(qdot_text *out, const frame *f, const char *x, const char *y)
 {
     const double dx = ceil((f->x1 - f->x0) / 7), dy = ceil((f->y1 - f->y0) / 8);
     const double middle = (f->bottom + TOP) / 2.0;
 
     for (double k = f->x0; k <= f->x1; k += dx) {
-        grid_x(out, f, k);
+        begin_vertical_grid_line(out, f, k);
         svg_add_power(out, k);
     }
     for (double k = f->y0; k <= f->y1; k += dy) {
-        grid_y(out, f, k);
+        begin_horizontal_grid_line(out, f, k);
         svg_add_power(out, k);
     }
     qdot_text_format(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">",
@@ -286,22 +286,22 @@ add_decades(qdot_text *out, const frame *f, const char *x, const char *y)
 static void
 svg_add_points(qdot_text *out, const frame *f, const qdot_page_points *p, size_t i, size_t n)
 {
-    const double key = key_at(i, n);
+    const double key = legend_position(i, n);
     bool open = false;
 
     qdot_text_format(out, "<g class=\"k%zu\"><path class=\"marked\" d=\"", i % LOOKS);
     for (size_t k = 0; k < p->n; k++)
-        if (is_shown(p->x[k], p->y[k])) {
+        if (fits_log_axes(p->x[k], p->y[k])) {
             qdot_text_format(out, "%s%.1f %.1f", open ? "L" : "M",
-                             across(f, log10(p->x[k])), down(f, log10(p->y[k])));
+                             to_picture_x(f, log10(p->x[k])), to_picture_y(f, log10(p->y[k])));
             open = true;
         }
     qdot_text_add(out, "\"/>");
     for (size_t k = 0; k < p->n; k++)
-        if (is_shown(p->x[k], p->y[k]))
-            add_mark(out, i, across(f, log10(p->x[k])), down(f, log10(p->y[k])));
+        if (fits_log_axes(p->x[k], p->y[k]))
+            add_mark(out, i, to_picture_x(f, log10(p->x[k])), to_picture_y(f, log10(p->y[k])));
     add_mark(out, i, key, TALL - 8);
-    add_key(out, key + 8, TALL - 8, p->label);
+    svg_add_legend_text(out, key + 8, TALL - 8, p->label);
     qdot_text_add(out, "</g>\n");
 }
 
@@ -314,7 +314,7 @@ qdot_page_log_log(qdot_text *out, const char *caption, const char *x, const char
     if (!find_decades(n, list, &f))
         return;
     svg_begin(out, TALL, caption, "");
-    add_decades(out, &f, x, y);
+    svg_add_log_axes(out, &f, x, y);
     for (size_t i = 0; i < n; i++)
         svg_add_points(out, &f, &list[i], i, n);
     svg_end(out, caption, "");

@@ -42,7 +42,7 @@ qdot_page_end(qdot_text *out)
 /* --- writing lines ------------------------------------------------------------------- */
 
 static void
-escape_n(qdot_text *out, const char *text, size_t n)
+escape_html(qdot_text *out, const char *text, size_t n)
 {
     char one[2] = {0};
 
@@ -52,9 +52,9 @@ escape_n(qdot_text *out, const char *text, size_t n)
     }
 }
 
-/* Whether a line may be broken before this sign, which is not the first of its formula. */
+/* Whether a formula may be broken into two lines before this sign (=, + or -). */
 static bool
-is_break(const qdot_formula_node *node)
+is_line_break(const qdot_formula_node *node)
 {
     return node->kind == QDOT_FORMULA_SIGN &&
            (node->what == QDOT_SIGN_EQUALS || node->what == QDOT_SIGN_PLUS ||
@@ -62,20 +62,20 @@ is_break(const qdot_formula_node *node)
 }
 
 static qdot_status
-write_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_parts *parts)
+write_mathml_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_parts *parts)
 {
     static const char tag[] = "<mo>";
 
     qdot_text_add(out, "<math>");
     for (size_t i = 0; i < parts->part.n; i++) {
-        const bool apart = i > 0 && is_break(qdot_formula_at(f, parts->part.at[i]));
+        const bool apart = i > 0 && is_line_break(qdot_formula_at(f, parts->part.at[i]));
         qdot_text sign = {0};
 
         if (!apart) {
             QDOT_TRY(qdot_formula_write_page(f, parts->part.at[i], qdot_formula_before_part(parts, i), out));
             continue;
         }
-        /* the blank is the space before the sign */
+        /* keep the space before a sign at which the formula is broken */
         qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
         if (qdot_formula_write_page(f, parts->part.at[i], (qdot_formula_before){0}, &sign) == QDOT_OK)
             qdot_text_add(out, qdot_text_str(&sign) + strlen(tag));
@@ -87,13 +87,13 @@ write_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_parts *par
 }
 
 static qdot_status
-add_formula(qdot_text *out, const qdot_formula *f, qdot_formula_id formula)
+page_write_formula(qdot_text *out, const qdot_formula *f, qdot_formula_id formula)
 {
     qdot_formula_parts parts = {0};
     qdot_status status = qdot_formula_find_parts(f, formula, &parts);
 
     if (status == QDOT_OK)
-        status = write_parts(out, f, &parts);
+        status = write_mathml_parts(out, f, &parts);
     qdot_formula_parts_clear(&parts);
     return status;
 }
@@ -107,9 +107,9 @@ qdot_page_is_heading(const char *text, bool more)
            (text[digits + 2] != '\0' || more);
 }
 
-/* Read the texts before the first formula of a line; *more: there is a formula. */
+/* Read the texts before the first formula of a line; *more: whether there is a formula. */
 static void
-read_lead(const qdot_formula *f, qdot_formula_id line, qdot_text *lead, bool *more)
+read_leading_texts(const qdot_formula *f, qdot_formula_id line, qdot_text *lead, bool *more)
 {
     *more = false;
     for (qdot_formula_id c = 0; !*more && (c = qdot_formula_child(f, line, c)) != 0;) {
@@ -129,7 +129,7 @@ qdot_page_line(qdot_text *out, const qdot_formula *f, qdot_formula_id line)
     size_t blanks;
     const char *tag, *text;
 
-    read_lead(f, line, &lead, &more);
+    read_leading_texts(f, line, &lead, &more);
     text = qdot_text_str(&lead);
     blanks = strspn(text, " ");
     if (text[blanks] == '\0' && !more) {
@@ -149,9 +149,9 @@ qdot_page_line(qdot_text *out, const qdot_formula *f, qdot_formula_id line)
             node->kind == QDOT_FORMULA_TEXT && blanks < node->n ? blanks : node->n;
 
         if (node->kind != QDOT_FORMULA_TEXT)
-            QDOT_TRY(add_formula(out, f, c));
+            QDOT_TRY(page_write_formula(out, f, c));
         else
-            escape_n(out, f->text.at + node->child + skipped, node->n - skipped);
+            escape_html(out, f->text.at + node->child + skipped, node->n - skipped);
         blanks -=
             node->kind == QDOT_FORMULA_TEXT ? skipped < blanks ? skipped : blanks : 0;
     }

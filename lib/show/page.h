@@ -17,7 +17,7 @@ void qdot_page_end(qdot_text *out);
  * brackets, so that a browser may break its line there. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_page_line(qdot_text *out, const qdot_formula *f, qdot_formula_id line);
 
-/* Whether a line that begins with this text is `12. Title`; more: something follows the text. */
+/* Whether a line's first text begins like the heading `12. Title`; more: something follows this text. */
 bool qdot_page_is_heading(const char *text, bool more);
 
 /* Append text unchanged in a monospaced font. */

@@ -25,7 +25,7 @@ extern char **environ;
 enum { SECONDS = 60, A_SECOND = 20 };
 
 static int
-remove_one(const char *path, const struct stat *info, int kind, struct FTW *place)
+remove_folder_entry(const char *path, const struct stat *info, int kind, struct FTW *place)
 {
     (void)info;
     (void)kind;
@@ -48,9 +48,9 @@ make_folder(qdot_text *folder)
                      strerror(errno));
 }
 
-/* Start the first browser found, without output, with the usual handling of SIGINT. */
+/* Start the first browser found, its output discarded, with the default handling of SIGINT. */
 static qdot_status
-browser_start(char *const arguments[], pid_t *child)
+start_browser(char *const arguments[], pid_t *child)
 {
     static const char *const names[] = {"chromium", "chromium-browser", "google-chrome",
                                         "chrome"};
@@ -80,9 +80,9 @@ browser_start(char *const arguments[], pid_t *child)
     return qdot_fail(QDOT_EIO, "cannot start Chromium: %s", strerror(failed));
 }
 
-/* Wait for the browser, up to a minute or Ctrl-C. */
+/* Wait for the browser to end, at most a minute or until Ctrl-C. */
 static qdot_status
-wait_for(pid_t child)
+wait_for_browser(pid_t child)
 {
     const struct timespec nap = {0, 1000000000L / A_SECOND};
     int status = 0;
@@ -110,9 +110,9 @@ wait_for(pid_t child)
     return qdot_fail(QDOT_EIO, "Chromium did not print the report within %d s", SECONDS);
 }
 
-/* Copy the file that the browser wrote to the path of the report. */
+/* Copy the PDF file that the browser wrote to the path where the report is wanted. */
 static qdot_status
-report_copy(const char *from, const char *path)
+copy_report(const char *from, const char *path)
 {
     FILE *file = fopen(from, "rbe");
     qdot_text bytes = {0};
@@ -131,7 +131,7 @@ report_copy(const char *from, const char *path)
 }
 
 static qdot_status
-print_in(const char *folder, const char *path)
+print_page_in_folder(const char *folder, const char *path)
 {
     qdot_text profile = {0}, output = {0}, page = {0};
     char options[][48] = {"chromium",
@@ -147,7 +147,7 @@ print_in(const char *folder, const char *path)
                           "--no-sandbox"};
     enum { OPTIONS = sizeof options / sizeof *options };
     char *arguments[OPTIONS + 4];
-    size_t n = OPTIONS - (geteuid() != 0); /* leave out the last option, no sandbox, unless run by root */
+    size_t n = OPTIONS - (geteuid() != 0); /* leave out the last option (no sandbox) unless run by root */
     qdot_status status;
     pid_t child;
 
@@ -162,11 +162,11 @@ print_in(const char *folder, const char *path)
     arguments[n++] = page.at;
     arguments[n] = NULL;
     if (status == QDOT_OK)
-        status = browser_start(arguments, &child);
+        status = start_browser(arguments, &child);
     if (status == QDOT_OK)
-        status = wait_for(child);
+        status = wait_for_browser(child);
     if (status == QDOT_OK)
-        status = report_copy(strchr(output.at, '=') + 1, path);
+        status = copy_report(strchr(output.at, '=') + 1, path);
     qdot_text_clear(&profile);
     qdot_text_clear(&output);
     qdot_text_clear(&page);
@@ -192,9 +192,9 @@ qdot_pdf_print(const char *page, size_t length, const char *path)
     if (status == QDOT_OK)
         status = qdot_sink_write(file.at, page, length);
     if (status == QDOT_OK)
-        status = print_in(folder.at, path);
+        status = print_page_in_folder(folder.at, path);
     first = *qdot_last_error();
-    (void)nftw(folder.at, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+    (void)nftw(folder.at, remove_folder_entry, 16, FTW_DEPTH | FTW_PHYS);
     qdot_text_clear(&folder);
     qdot_text_clear(&file);
     return status == QDOT_OK ? QDOT_OK : qdot_fail_again(&first);

@@ -6,25 +6,25 @@
 
 #include "base/memory.h"
 
-/* CLOSER: how often the surroundings of the greatest value are halved; a square root's pole grows by 2^20 then. */
+/* CLOSER: how often the interval around a greatest value is halved: 1/sqrt(x) grows by 2^20 meanwhile. */
 enum { CLOSER = 40 };
 
 static const double part = 0.05, far_beyond = 3, much_greater = 1e4;
 
-/* A value and the length of the parameter for which it stands. */
+/* A value of y, and its weight: the length of the parameter interval that it stands for. */
 typedef struct {
     double y, weight;
 } weighed;
 
 static int
-by_value(const void *a, const void *b)
+compare_values(const void *a, const void *b)
 {
     const double x = ((const weighed *)a)->y, y = ((const weighed *)b)->y;
 
     return (x > y) - (x < y);
 }
 
-/* Find the values below and above which a part of the curve lies; false: it has no finite value. */
+/* Find quantiles of y, low and high, beyond which only a small part of the curve lies; *some: y is finite somewhere. */
 static qdot_status
 find_quantiles(const qdot_trace *p, double *low, double *high, bool *some)
 {
@@ -40,7 +40,7 @@ find_quantiles(const qdot_trace *p, double *low, double *high, bool *some)
         if (isfinite(p->at[1][k]))
             all[n++] = (weighed){p->at[1][k], fabs(p->s[after] - p->s[before])};
     }
-    qsort(all, n, sizeof *all, by_value);
+    qsort(all, n, sizeof *all, compare_values);
     for (size_t k = 0; k < n; k++)
         sum += all[k].weight;
     *some = n > 0 && sum > 0;
@@ -55,9 +55,9 @@ find_quantiles(const qdot_trace *p, double *low, double *high, bool *some)
     return QDOT_OK;
 }
 
-/* The point with the greatest ordinate (sign 1) or the least (-1). */
+/* The index of the point with the greatest y (sign 1) or the least (sign -1). */
 static size_t
-find_end(const qdot_trace *p, double sign)
+find_extremum(const qdot_trace *p, double sign)
 {
     size_t best = p->n;
 
@@ -67,9 +67,9 @@ find_end(const qdot_trace *p, double sign)
     return best;
 }
 
-/* Whether the ordinate, times sign, exceeds its value at point k by a large factor if the curve is sampled ever closer there. */
+/* Whether sign * y grows by a large factor beyond its value at point k as the curve is sampled ever closer there. */
 static qdot_status
-is_growing(const qdot_trace_source *source, const qdot_trace *p, size_t k, double sign, bool *is)
+is_diverging(const qdot_trace_source *source, const qdot_trace *p, size_t k, double sign, bool *is)
 {
     double a = p->s[k > 0 ? k - 1 : k], m = p->s[k], b = p->s[k + 1 < p->n ? k + 1 : k];
     double top = sign * p->at[1][k];
@@ -112,10 +112,10 @@ qdot_pole_find(const qdot_trace_source *source, const qdot_trace *p, qdot_figure
         return QDOT_OK;
     for (int i = 0; i < 2 && !shown->set; i++) {
         const double sign = i == 0 ? 1 : -1, beyond = far_beyond * (high - low);
-        const size_t k = find_end(p, sign);
+        const size_t k = find_extremum(p, sign);
 
         if (sign * p->at[1][k] > (i == 0 ? high : -low) + beyond)
-            QDOT_TRY(is_growing(source, p, k, sign, &shown->set));
+            QDOT_TRY(is_diverging(source, p, k, sign, &shown->set));
     }
     shown->least = low - (high - low) / 2;
     shown->most = high + (high - low) / 2;

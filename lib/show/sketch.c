@@ -13,19 +13,19 @@ typedef struct {
     size_t columns, rows;
     unsigned char *cells; /* [rows x columns] braille dots: the character is U+2800 + cell */
     unsigned char *looks; /* [rows x columns] 1 + the curve drawn there last, up to CURVES; 0: none */
-    size_t look;          /* the present curve */
-    bool solid;           /* draw without gaps, as curves differ by marks */
-    long last[2], along;  /* the last dot of a curve, and the number of dots before it */
+    size_t look;          /* index of the curve being drawn */
+    bool solid;           /* draw lines without gaps, as the curves differ by their marks */
+    long last[2], along;  /* the last dot drawn of a curve, and the number of dots before it */
 } grid;
 
-/* Curves differ in dashes; in ASCII in their marks; on a terminal with colours in these. */
+/* Curves are told apart by dashes, in ASCII by marks, on a terminal with colours by colours. */
 enum { LOOKS = 4, DASHES = 8, CURVES = 252 };
 static const char marks[LOOKS + 1] = "*+ox";
 static const char dashes[LOOKS][DASHES + 1] = {"********", "*****   ", "*   *   ", "***** * "};
 
-/* Set dot (x, y), with y counted from above, unless it falls into a gap of the curve's pattern. */
+/* Set the dot at (x, y), y counted from the top, unless it falls into a gap of the curve's dash pattern. */
 static void
-grid_put(grid *g, double x, double y)
+set_dot(grid *g, double x, double y)
 {
     static const unsigned char bits[DOWN][ACROSS] = {
         {0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
@@ -42,9 +42,9 @@ grid_put(grid *g, double x, double y)
     g->looks[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] = (unsigned char)(g->look % CURVES + 1);
 }
 
-/* Place a point of a curve; a path in space is seen from the front, the right and above. */
+/* Find the place of a point on the grid; a path in space is seen from the front, the right and above. */
 static void
-grid_place(const qdot_figure_view *v, const qdot_curve *c, size_t k, const grid *g, double *at)
+find_grid_position(const qdot_figure_view *v, const qdot_curve *c, size_t k, const grid *g, double *at)
 {
     double part[3] = {0, 0, 0};
     const double x[3] = {c->x[k], c->y[k], c->z != NULL ? c->z[k] : 0};
@@ -69,7 +69,7 @@ draw_line(grid *g, const double *a, const double *b)
     const double most = (double)(ACROSS * g->columns + DOWN * g->rows);
 
     for (double k = 0; k <= n && n < 8 * most; k++)
-        grid_put(g, a[0] + (b[0] - a[0]) * k / n, a[1] + (b[1] - a[1]) * k / n);
+        set_dot(g, a[0] + (b[0] - a[0]) * k / n, a[1] + (b[1] - a[1]) * k / n);
 }
 
 static void
@@ -85,16 +85,16 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, size_t c
             open = false;
             continue;
         }
-        grid_place(v, c, k, g, here);
+        find_grid_position(v, c, k, g, here);
         if (open)
             draw_line(g, last, here);
-        grid_put(g, here[0], here[1]);
+        set_dot(g, here[0], here[1]);
         memcpy(last, here, sizeof last);
         open = line;
     }
 }
 
-/* Draw a map in halftones; in ASCII a whole character is black or not. */
+/* Draw a map in halftones; in ASCII a character cell is wholly black or blank. */
 static void
 draw_map(grid *g, const qdot_figure_map *map, bool ascii)
 {
@@ -110,7 +110,7 @@ draw_map(grid *g, const qdot_figure_map *map, bool ascii)
                                     1 - ((double)y + 0.5) / (double)down};
 
             if (qdot_figure_map_dot(map, ends, part, ascii ? x / ACROSS : x, ascii ? y / DOWN : y))
-                grid_put(g, (double)i, (double)j);
+                set_dot(g, (double)i, (double)j);
         }
 }
 
@@ -126,7 +126,7 @@ sketch_add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
     qdot_text_char(out, (char)(0x80 + (dots & 0x3F)));
 }
 
-/* A row of the grid without the blanks at its end; panel: of curves that have colours, else NULL. */
+/* Write a row of the grid, without blanks at its end; panel: whose curves have colours (else NULL). */
 static void
 sketch_add_row(const grid *g, size_t row, bool ascii, const qdot_panel *panel, qdot_text *out)
 {
@@ -145,7 +145,7 @@ sketch_add_row(const grid *g, size_t row, bool ascii, const qdot_panel *panel, q
 }
 
 static void
-add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
+sketch_add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
 {
     if (label->formula && !ascii)
         qdot_figure_add_line(out, label->text);
@@ -153,9 +153,9 @@ add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
         qdot_text_add(out, label->text != NULL ? label->text : "");
 }
 
-/* Write the key, which shows the pattern of each curve, or its colour. */
+/* Write the legend, which shows the dash pattern or the colour of each curve. */
 static void
-write_key(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *out)
+sketch_write_legend(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *out)
 {
     static const char *const lines[LOOKS] = {"⠒⠒⠒⠒⠒⠒⠒", "⠒⠒⠂ ⠒⠒⠂", "⠂ ⠂ ⠂ ⠂", "⠒⠒⠂⠂⠒⠒⠂"};
 
@@ -172,14 +172,14 @@ write_key(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *
             qdot_text_add(out, lines[how->colours ? 0 : k % LOOKS]);
         qdot_text_add(out, how->colours ? "\033[39m " : " ");
         label = qdot_figure_curve_label(panel, k);
-        add_label(out, &label, how->ascii);
+        sketch_add_label(out, &label, how->ascii);
     }
     qdot_text_char(out, '\n');
 }
 
-/* The ends of an axis with four digits, or as many as they need to differ if each has that room. */
+/* Write the ends of an axis with four digits, or with as many as make them differ if there is room. */
 static void
-write_ends(double least, double most, size_t room, char text[2][END_TEXT])
+write_axis_ends(double least, double most, size_t room, char text[2][END_TEXT])
 {
     int digits = 4;
 
@@ -193,26 +193,26 @@ write_ends(double least, double most, size_t room, char text[2][END_TEXT])
     }
 }
 
-/* A row of numbers and labels at the left of the axis. */
+/* Write a number or label at the left of the axis, padded to the width of the margin. */
 static void
-write_margin(size_t margin, const char *text, qdot_text *out)
+write_left_margin(size_t margin, const char *text, qdot_text *out)
 {
     const size_t n = qdot_utf8_columns(text, strlen(text));
 
     qdot_text_format(out, "%*s%s ", (int)(n < margin ? margin - 1 - n : 0), "", text);
 }
 
-/* Write what a map shows, and its numbers where it is light and where it is dense. */
+/* Write what a map shows: its label, and the values at which it is light and dense. */
 static void
-write_scale(const qdot_figure_map *map, bool ascii, qdot_text *out)
+write_map_scale(const qdot_figure_map *map, bool ascii, qdot_text *out)
 {
     char text[2][END_TEXT];
     double ends[2];
 
     qdot_figure_map_ends(map, ends);
-    write_ends(ends[0], ends[1], END_TEXT, text);
+    write_axis_ends(ends[0], ends[1], END_TEXT, text);
     qdot_text_format(out, "%*s", MARGIN, "");
-    add_label(out, &map->label, ascii);
+    sketch_add_label(out, &map->label, ascii);
     qdot_text_format(out, ": %s %s, %s %s\n", ascii ? "blank" : "⠁", text[0], ascii ? "*" : "⣿", text[1]);
 }
 
@@ -228,15 +228,15 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
     qdot_text label = {0};
     long free;
 
-    write_ends(v->least[1], v->most[1], margin - 1, ends);
+    write_axis_ends(v->least[1], v->most[1], margin - 1, ends);
     if (named)
-        add_label(&label, &panel->axis[1], how->ascii);
+        sketch_add_label(&label, &panel->axis[1], how->ascii);
     if (qdot_utf8_columns(qdot_text_str(&label), label.n) >= margin)
         qdot_text_truncate(&label, 0);
     for (size_t r = 0; r < g->rows; r++) {
         const char *text = r == 0 ? ends[1] : r + 1 == g->rows ? ends[0] : r == g->rows / 2 ? qdot_text_str(&label) : "";
 
-        write_margin(margin, space ? "" : text, out);
+        write_left_margin(margin, space ? "" : text, out);
         qdot_text_add(out, how->ascii ? "|" : "│");
         sketch_add_row(g, r, how->ascii, coloured ? panel : NULL, out);
         qdot_text_char(out, '\n');
@@ -244,11 +244,11 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
     qdot_text_truncate(&label, 0);
     if (space)
         return;
-    write_ends(v->least[0], v->most[0], g->columns / 2 - 2, ends);
-    add_label(&label, &panel->axis[0], how->ascii);
+    write_axis_ends(v->least[0], v->most[0], g->columns / 2 - 2, ends);
+    sketch_add_label(&label, &panel->axis[0], how->ascii);
     free = (long)g->columns - (long)strlen(ends[0]) - (long)strlen(ends[1]);
     if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
-        qdot_text_truncate(&label, 0); /* no room: the numbers are more important than the label */
+        qdot_text_truncate(&label, 0); /* without room for both, leave out the label: the numbers are more important */
     free = (long)fmax((double)free - (double)qdot_utf8_columns(qdot_text_str(&label), label.n), 0);
     qdot_text_format(out, "%*s%s%*s%s%*s%s\n", (int)margin + 1, "", ends[0], (int)(free / 2 + 1), "",
                      qdot_text_str(&label), (int)(free - free / 2), "", ends[1]);
@@ -256,14 +256,14 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
     qdot_text_clear(&label);
 }
 
-/* The columns left of the vertical axis: as many as its ends need, if the curve keeps most of them. */
+/* The number of columns left of the vertical axis: as many as the numbers need, if the plot keeps most columns. */
 static size_t
-margin_of(const qdot_panel *panel, const qdot_figure_view *v, size_t columns)
+margin_width(const qdot_panel *panel, const qdot_figure_view *v, size_t columns)
 {
     char ends[2][END_TEXT];
     size_t n = MARGIN;
 
-    write_ends(v->least[1], v->most[1], columns / 2 - 2, ends);
+    write_axis_ends(v->least[1], v->most[1], columns / 2 - 2, ends);
     for (int k = 0; k < 2 && panel->axis[2].text == NULL; k++)
         n = strlen(ends[k]) + 1 > n ? strlen(ends[k]) + 1 : n;
     return n;
@@ -278,7 +278,7 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, const qdot_figure_sketch
     grid g = {.rows = how->rows > 5 ? how->rows - 2 : 3, .solid = how->ascii || how->colours};
 
     QDOT_TRY(qdot_figure_get_view(figure, i, &view));
-    margin = margin_of(panel, &view, how->columns);
+    margin = margin_width(panel, &view, how->columns);
     g.columns = how->columns > margin + 19 ? how->columns - margin - 3 : 16;
     g.cells = qdot_calloc(g.columns * g.rows, 2);
     if (g.cells == NULL)
@@ -293,9 +293,9 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, const qdot_figure_sketch
         draw_curve(&g, panel, &view, k);
     }
     if (panel->n > 1 || (figure->n > 1 && panel->map == NULL))
-        write_key(panel, how, out);
+        sketch_write_legend(panel, how, out);
     if (panel->map != NULL)
-        write_scale(panel->map, how->ascii, out);
+        write_map_scale(panel->map, how->ascii, out);
     sketch_write(&g, panel, &view, how, margin, out);
     qdot_free(g.cells);
     return qdot_text_status(out);

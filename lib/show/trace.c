@@ -1,4 +1,4 @@
-/* trace.c -- samples a curve, with more points where it bends. */
+/* trace.c -- samples a curve, with more points where it bends sharply. */
 #include "show/trace.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { ROUNDS = 14 };
 
-static const double bend = 0.06, shortest = 0.02; /* largest bend between chords in radians; shortest chord in cm */
+static const double bend = 0.06, shortest = 0.02; /* largest angle between chords in radians; shortest chord in cm */
 
 void
 qdot_trace_clear(qdot_trace *p)
@@ -20,7 +20,7 @@ qdot_trace_clear(qdot_trace *p)
     *p = (qdot_trace){0};
 }
 
-/* Allocate n points without values. */
+/* Allocate a traced curve with n points without values. */
 static qdot_status
 trace_reserve(qdot_trace *p, size_t axes, size_t n)
 {
@@ -63,7 +63,7 @@ qdot_trace_begin(const qdot_trace_source *source, size_t n, const double *s,
 
 /* --- the curve as it is drawn --------------------------------------------------------- */
 
-/* A point in cm; side: -1 or 1 for each axis whose range it exceeds. */
+/* A point of the curve in cm on the figure; side: -1 or 1 for each axis whose range it exceeds. */
 typedef struct {
     double at[3];
     int side[3];
@@ -71,7 +71,7 @@ typedef struct {
 } place;
 
 static place
-seen(const qdot_figure_view *v, const qdot_trace *p, size_t axes, size_t k)
+place_of_point(const qdot_figure_view *v, const qdot_trace *p, size_t axes, size_t k)
 {
     place one = {.shown = true};
 
@@ -100,9 +100,9 @@ segment_is_outside(const place *a, const place *b)
     return false;
 }
 
-/* Whether the segment jumps from above the view to below it, or back. */
+/* Whether a segment of the curve jumps from above the visible range to below it, or back. */
 static bool
-is_across(const place *a, const place *b)
+jumps_across_view(const place *a, const place *b)
 {
     return a->shown && b->shown && a->side[1] * b->side[1] < 0;
 }
@@ -113,9 +113,9 @@ segment_length(const place *a, const place *b)
     return hypot(hypot(b->at[0] - a->at[0], b->at[1] - a->at[1]), b->at[2] - a->at[2]);
 }
 
-/* The angle at b between a-b and b-c. */
+/* The angle between the segments a-b and b-c. */
 static double
-segment_turn(const place *a, const place *b, const place *c)
+angle_between_segments(const place *a, const place *b, const place *c)
 {
     double u[3], w[3], dot = 0, cross = 0;
 
@@ -132,7 +132,7 @@ segment_turn(const place *a, const place *b, const place *c)
     return atan2(cross, dot);
 }
 
-/* Mark the segments, k from point k to k + 1, that are to be halved; returns their number. */
+/* Mark the segments (k: from point k to k + 1) that have to be halved; returns their number. */
 static size_t
 mark_to_halve(const place *places, size_t n, bool jumps, bool *halve)
 {
@@ -142,11 +142,11 @@ mark_to_halve(const place *places, size_t n, bool jumps, bool *halve)
     for (size_t k = 0; k + 1 < n; k++) {
         const place *a = &places[k], *b = a + 1, *c = a + 2;
 
-        if (a->shown != b->shown || (jumps && is_across(a, b)))
+        if (a->shown != b->shown || (jumps && jumps_across_view(a, b)))
             halve[k] = true;
         if (k + 2 >= n || !a->shown || !b->shown || !c->shown)
             continue;
-        if (!(segment_turn(a, b, c) > bend))
+        if (!(angle_between_segments(a, b, c) > bend))
             continue;
         halve[k] = halve[k] || (segment_length(a, b) > shortest && !segment_is_outside(a, b));
         halve[k + 1] = segment_length(b, c) > shortest && !segment_is_outside(b, c);
@@ -158,9 +158,9 @@ mark_to_halve(const place *places, size_t n, bool jumps, bool *halve)
 
 /* --- adding points where a curve bends ------------------------------------------------ */
 
-/* Insert the points of `more` after each segment that was halved. */
+/* Insert the points of `more`, each into the segment (marked in `halve`) that it halves. */
 static qdot_status
-trace_merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halve)
+insert_points(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halve)
 {
     qdot_trace all;
     size_t at = 0, next = 0;
@@ -183,10 +183,10 @@ trace_merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halv
     return QDOT_OK;
 }
 
-/* Halve the segments that need it, once; *done: none needed it. */
+/* Halve once the segments that bend too much or are too long; *done: no segment had to be halved. */
 static qdot_status
-halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
-           qdot_trace *p, bool *done)
+halve_segments(const qdot_trace_source *source, const qdot_figure_view *view,
+               qdot_trace *p, bool *done)
 {
     place *places = qdot_calloc(p->n, sizeof *places);
     bool *halve = qdot_calloc(p->n, sizeof *halve);
@@ -197,7 +197,7 @@ halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
 
     *done = true;
     for (size_t k = 0; k < p->n && status == QDOT_OK; k++)
-        places[k] = seen(view, p, source->axes, k);
+        places[k] = place_of_point(view, p, source->axes, k);
     if (status == QDOT_OK && mark_to_halve(places, p->n, source->jumps, halve) > 0) {
         for (size_t k = 0; k + 1 < p->n; k++) {
             const double middle = p->s[k] + (p->s[k + 1] - p->s[k]) / 2;
@@ -211,7 +211,7 @@ halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
         if (n > 0)
             status = qdot_trace_begin(source, n, s, &more);
         if (status == QDOT_OK && n > 0)
-            status = trace_merge(p, &more, source->axes, halve);
+            status = insert_points(p, &more, source->axes, halve);
     }
     qdot_trace_clear(&more);
     qdot_free(places);
@@ -220,14 +220,14 @@ halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
     return status;
 }
 
-/* Interrupt the curve at segments that still jump from above the view to below it: these are poles. */
+/* Interrupt the curve where a segment jumps across the whole visible range, as at a pole. */
 static void
 break_jumps(const qdot_figure_view *view, qdot_trace *p, size_t axes)
 {
     for (size_t k = 0; k + 1 < p->n; k++) {
-        const place a = seen(view, p, axes, k), b = seen(view, p, axes, k + 1);
+        const place a = place_of_point(view, p, axes, k), b = place_of_point(view, p, axes, k + 1);
 
-        if (is_across(&a, &b))
+        if (jumps_across_view(&a, &b))
             p->at[1][k] = NAN;
     }
 }
@@ -240,7 +240,7 @@ qdot_trace_refine(const qdot_trace_source *source, const qdot_figure_view *view,
 
     for (int round = 0; round < ROUNDS && !done; round++) {
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(halve_once(source, view, p, &done));
+        QDOT_TRY(halve_segments(source, view, p, &done));
     }
     if (source->jumps)
         break_jumps(view, p, source->axes);

@@ -23,7 +23,7 @@ typedef struct {
 /* The points of the curve, in the order of s; all arrays [n], owned. */
 typedef struct {
     size_t n;
-    double *s, *at[3]; /* [n] parameter, coordinates; at[2] NULL in the plane */
+    double *s, *at[3]; /* [n] parameter of the curve, and coordinates; at[2] is NULL for a plane curve */
 } qdot_trace;
 
 enum { QDOT_TRACE_MOST = 20001 };
@@ -31,7 +31,7 @@ enum { QDOT_TRACE_MOST = 20001 };
 /* Begin with the points at the parameter values s [n], which are copied. */
 QDOT_MUST_CHECK qdot_status qdot_trace_begin(const qdot_trace_source *source, size_t n,
                                               const double *s, qdot_trace *points);
-/* Add points wherever the figure's view needs more. */
+/* Add points to a sampled curve wherever the figure needs more to show it smooth. */
 QDOT_MUST_CHECK qdot_status qdot_trace_refine(const qdot_trace_source *source,
                                                const qdot_figure_view *view,
                                                qdot_trace *points);

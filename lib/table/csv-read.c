@@ -14,7 +14,7 @@
 
 enum { FILE_LIMIT = 1 << 28, SHOWN = 40 };
 
-/* A part of a line of the file. */
+/* A part of a line of the file: from one address to another. */
 typedef struct {
     const char *at, *end;
 } piece;
@@ -22,8 +22,8 @@ typedef struct {
 typedef struct {
     const char *name;
     piece line; /* the present line, without line end and comment */
-    size_t number; /* number of the line, from 1 */
-    char separator; /* ',', ';' or ' ' (blanks and tabs); 0: not known yet */
+    size_t number; /* number of the present line, from 1 */
+    char separator; /* ',', ';' or ' ' (blanks and tabs) between cells; 0: not known yet */
     qdot_vec(double) values;
     qdot_vec(qdot_csv_place) places;
     size_t columns, rows;
@@ -45,7 +45,7 @@ qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format,
 }
 
 static qdot_csv_place
-csv_place_of(const reader *r, const char *at)
+place_in_file(const reader *r, const char *at)
 {
     return (qdot_csv_place){r->number,
                             1 + qdot_utf8_columns(r->line.at, (size_t)(at - r->line.at))};
@@ -60,7 +60,7 @@ is_blank(char c)
 }
 
 static void
-piece_strip(piece *p)
+strip_blanks(piece *p)
 {
     while (p->at < p->end && is_blank(*p->at))
         p->at++;
@@ -68,7 +68,7 @@ piece_strip(piece *p)
         p->end--;
 }
 
-/* Take the next cell of the line at *at, and move past its separator; false if there is none. */
+/* Take the next cell of the line, which begins at *at, and move past its separator; false if there is none. */
 static bool
 next_cell(const reader *r, const char **at, piece *cell)
 {
@@ -91,19 +91,19 @@ next_cell(const reader *r, const char **at, piece *cell)
     }
     cell->end = c;
     *at = c + 1;
-    piece_strip(cell);
+    strip_blanks(cell);
     if (cell->end - cell->at > 1 && (*cell->at == '"' || *cell->at == '\'')
         && cell->end[-1] == *cell->at) {
         cell->at++;
         cell->end--;
-        piece_strip(cell);
+        strip_blanks(cell);
     }
     return true;
 }
 
 /* Whether a cell is a decimal number such as 1, -.5 or 2.5e-3. */
 static bool
-piece_is_number(piece p)
+is_decimal_number(piece p)
 {
     const char *c = p.at;
     size_t digits = 0;
@@ -129,7 +129,7 @@ piece_is_number(piece p)
 
 /* Whether a cell contains a word for a missing number, such as nan or n/a. */
 static bool
-is_no_number(piece p)
+is_missing_number(piece p)
 {
     static const char *const words[] = {"nan", "inf", "-inf", "+inf", "na", "n/a", "null", "none", "-"};
 
@@ -141,9 +141,9 @@ is_no_number(piece p)
 }
 
 static qdot_status
-say_cell(const reader *r, piece cell)
+fail_at_cell(const reader *r, piece cell)
 {
-    const qdot_csv_place place = csv_place_of(r, cell.at);
+    const qdot_csv_place place = place_in_file(r, cell.at);
     const int shown = cell.end - cell.at > SHOWN ? SHOWN : (int)(cell.end - cell.at);
     piece before = {cell.at, memchr(cell.at, ',', (size_t)(cell.end - cell.at))};
     piece behind = {before.end ? before.end + 1 : cell.end, cell.end};
@@ -153,11 +153,11 @@ say_cell(const reader *r, piece cell)
         return qdot_hint("take the row out: each has a number in every column");
     }
     (void)qdot_csv_fail(r->name, &place, "`%.*s` is not a number", shown, cell.at);
-    if (before.end && piece_is_number(before) && piece_is_number(behind) &&
+    if (before.end && is_decimal_number(before) && is_decimal_number(behind) &&
         !memchr(cell.at, '.', (size_t)(cell.end - cell.at)))
         return qdot_hint("numbers have a decimal point: %.*s.%.*s", (int)(before.end - before.at),
                          before.at, (int)(behind.end - behind.at), behind.at);
-    if (is_no_number(cell))
+    if (is_missing_number(cell))
         return qdot_hint("take the row out: each has a number in every column");
     return qdot_hint("`#` begins a comment; the names of columns are above the first row");
 }
@@ -171,8 +171,8 @@ read_cell(const reader *r, piece cell, double *x)
     char *own = n < sizeof buffer ? buffer : NULL, *allocated = NULL;
     qdot_csv_place place;
 
-    if (!piece_is_number(cell))
-        return say_cell(r, cell);
+    if (!is_decimal_number(cell))
+        return fail_at_cell(r, cell);
     if (own == NULL)
         own = allocated = qdot_malloc(n + 1);
     if (own == NULL)
@@ -183,7 +183,7 @@ read_cell(const reader *r, piece cell, double *x)
     qdot_free(allocated);
     if (isfinite(*x))
         return QDOT_OK;
-    place = csv_place_of(r, cell.at);
+    place = place_in_file(r, cell.at);
     return qdot_csv_fail(r->name, &place, "`%.*s` is too large for a double",
                          n > SHOWN ? SHOWN : (int)n, cell.at);
 }
@@ -211,13 +211,13 @@ has_number(reader *r)
 
     r->separator = find_separator(r->line);
     while (!found && next_cell(r, &at, &cell))
-        found = piece_is_number(cell);
+        found = is_decimal_number(cell);
     return found;
 }
 
-/* Read the names of the columns from the first line of words before the first row. */
+/* Read the names of the columns from a line of words before the first row of numbers. */
 static qdot_status
-read_names(reader *r)
+read_column_names(reader *r)
 {
     const char *at = r->line.at;
     piece cell;
@@ -225,7 +225,7 @@ read_names(reader *r)
     if (r->csv->names.n > 0)
         return QDOT_OK;
     while (next_cell(r, &at, &cell)) {
-        qdot_csv_name name = {qdot_strndup(cell.at, (size_t)(cell.end - cell.at)), csv_place_of(r, cell.at)};
+        qdot_csv_name name = {qdot_strndup(cell.at, (size_t)(cell.end - cell.at)), place_in_file(r, cell.at)};
 
         if (name.word == NULL || qdot_vec_push(&r->csv->names, name) != QDOT_OK) {
             qdot_free(name.word);
@@ -249,20 +249,20 @@ read_row(reader *r)
             && (r->rows == 0 || n == r->columns))
             break; /* a separator at the end of the line is ignored */
         if (r->rows > 0 && n == r->columns) {
-            const qdot_csv_place place = csv_place_of(r, cell.at);
+            const qdot_csv_place place = place_in_file(r, cell.at);
 
             return qdot_csv_fail(r->name, &place, "the row has more than the %zu numbers of the first",
                                  r->columns);
         }
         QDOT_TRY(read_cell(r, cell, &x));
         QDOT_TRY(qdot_vec_push(&r->values, x));
-        QDOT_TRY(qdot_vec_push(&r->places, csv_place_of(r, cell.at)));
+        QDOT_TRY(qdot_vec_push(&r->places, place_in_file(r, cell.at)));
         n++;
     }
     if (r->rows == 0)
         r->columns = n;
     if (n < r->columns) {
-        const qdot_csv_place place = csv_place_of(r, r->line.end);
+        const qdot_csv_place place = place_in_file(r, r->line.end);
 
         return qdot_csv_fail(r->name, &place, "the row has %zu number%s, the first has %zu", n,
                              n == 1 ? "" : "s", r->columns);
@@ -277,7 +277,7 @@ read_line(reader *r, piece line)
     r->line = line;
     for (const char *c = line.at; c < line.end; c++) {
         if (*c == '\0') {
-            const qdot_csv_place place = csv_place_of(r, c);
+            const qdot_csv_place place = place_in_file(r, c);
 
             return qdot_csv_fail(r->name, &place, "a byte 0: this is no text file");
         }
@@ -286,13 +286,13 @@ read_line(reader *r, piece line)
             break;
         }
     }
-    piece_strip(&line);
+    strip_blanks(&line);
     line = r->line;
-    piece_strip(&line);
-    r->line.end = line.end; /* only the end is cut: columns in messages count from the start of the line */
+    strip_blanks(&line);
+    r->line.end = line.end; /* cut only the end: columns in messages count from the line's start */
     if (line.at >= line.end)
         return QDOT_OK;
-    return r->rows == 0 && !has_number(r) ? read_names(r) : read_row(r);
+    return r->rows == 0 && !has_number(r) ? read_column_names(r) : read_row(r);
 }
 
 static qdot_status

@@ -21,7 +21,7 @@ typedef struct {
     size_t line, column; /* position of a number in the file */
 } qdot_csv_place;
 
-/* A word of the first line that consists of words, such as a column's name. */
+/* A word in the first line of words of the file, such as a column's name. */
 typedef struct {
     char *word;
     qdot_csv_place place;
@@ -37,7 +37,7 @@ typedef struct {
 /* Read the file. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;
  * QDOT_EINVAL: what stands in it is no table of numbers; QDOT_ELIMIT: it is larger than 256 MB. */
 QDOT_MUST_CHECK qdot_status qdot_csv_read(const char *path, qdot_csv *csv);
-/* Read CSV from a text [length], which errors call `name`. */
+/* Read CSV from a text [length]; error messages call it `name`. */
 QDOT_MUST_CHECK qdot_status qdot_csv_read_text(const char *name, const char *text,
                                                size_t length, qdot_csv *csv);
 void qdot_csv_clear(qdot_csv *csv);

@@ -40,7 +40,7 @@ csv_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
         qdot_text_double(out, cell.value, c->exact > 0 ? c->exact : EXACT);
 }
 
-/* Append a row, or the names of the columns for row == rows. */
+/* Append a row of the table; row == rows: append the names of the columns. */
 static void
 csv_add_row(const qdot_table *t, size_t row, qdot_text *out)
 {

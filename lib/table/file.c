@@ -7,9 +7,9 @@
 
 enum { CHUNK = 1 << 16 };
 
-/* Write the collected text if it has at least `least` bytes. */
+/* Write the text collected so far to the file, if it has at least `least` bytes. */
 static qdot_status
-file_pass_on(qdot_sink *sink, qdot_text *text, size_t least)
+write_collected_text(qdot_sink *sink, qdot_text *text, size_t least)
 {
     if (text->n < least)
         return qdot_text_status(text);
@@ -21,28 +21,28 @@ file_pass_on(qdot_sink *sink, qdot_text *text, size_t least)
 }
 
 static qdot_status
-file_add_all(const qdot_table *t, const qdot_table_format *format, qdot_sink *sink, qdot_text *text)
+write_all_rows(const qdot_table *t, const qdot_table_format *format, qdot_sink *sink, qdot_text *text)
 {
     if (format->head != NULL)
         format->head(t, text);
     for (size_t k = 0; k < t->rows; k++) {
         format->row(t, k, text);
-        QDOT_TRY(file_pass_on(sink, text, CHUNK));
+        QDOT_TRY(write_collected_text(sink, text, CHUNK));
     }
     if (format->foot != NULL)
         format->foot(t, text);
-    return file_pass_on(sink, text, 0);
+    return write_collected_text(sink, text, 0);
 }
 
 static qdot_status
-file_write(const qdot_table *t, const qdot_table_format *format, const char *path)
+write_table(const qdot_table *t, const qdot_table_format *format, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
     qdot_status status;
 
     QDOT_TRY(qdot_sink_open(&sink, path));
-    status = file_add_all(t, format, &sink, &text);
+    status = write_all_rows(t, format, &sink, &text);
     qdot_text_clear(&text);
     if (status == QDOT_OK)
         return qdot_sink_close(&sink);
@@ -57,7 +57,7 @@ qdot_table_file(const qdot_table *t, unsigned where, const qdot_table_format *fo
     qdot_status status = qdot_table_select(t, where, &shown);
 
     if (status == QDOT_OK)
-        status = file_write(&shown, format, path);
+        status = write_table(&shown, format, path);
     qdot_free(shown.columns);
     return status;
 }

@@ -1,4 +1,4 @@
-/* file.h -- writes a table to a file in pieces. Internal to table/. */
+/* file.h -- writes a table to a file in pieces, in any format. Internal to table/. */
 #ifndef QDOT_TABLE_FILE_H
 #define QDOT_TABLE_FILE_H
 

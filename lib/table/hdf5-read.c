@@ -24,7 +24,7 @@ typedef struct {
 } file;
 
 static qdot_status
-strange(const file *f)
+fail_unknown_format(const file *f)
 {
     return qdot_fail(QDOT_EINVAL, "%.200s is no file of rows that qdot has written", f->path);
 }
@@ -39,9 +39,9 @@ read_little_endian(const unsigned char *at, int bytes)
     return x;
 }
 
-/* Read a regular file (a pipe would block, a device may never end); Ctrl-C is tested between blocks. */
+/* Read a regular file (a pipe would block, a device may not end); Ctrl-C is tested between blocks. */
 static qdot_status
-hdf5_load(const char *path, qdot_text *out)
+read_regular_file(const char *path, qdot_text *out)
 {
     enum { BLOCK = 1 << 24 };
     qdot_status status = QDOT_OK;
@@ -70,9 +70,9 @@ hdf5_load(const char *path, qdot_text *out)
 
 /* --- messages of an HDF5 object ------------------------------------------------------- */
 
-/* An iterator over the messages of an HDF5 object header. */
+/* Goes through the messages of an HDF5 object header, one by one. */
 typedef struct {
-    const unsigned char *at, *end; /* the next message, and the end of all */
+    const unsigned char *at, *end; /* start of the next message, and end of all messages */
     int type;
     const unsigned char *body;
     size_t size;
@@ -84,17 +84,17 @@ open_object(const file *f, uint64_t address, messages *m)
     uint64_t n;
 
     if (address > f->n || f->n - address < 10 || memcmp(f->at + address, "OHDR\2\2", 6) != 0)
-        return strange(f);
+        return fail_unknown_format(f);
     n = read_little_endian(f->at + address + 6, 4);
     if (n > f->n - address - 10)
-        return strange(f);
+        return fail_unknown_format(f);
     *m = (messages){.at = f->at + address + 10};
     m->end = m->at + n;
     return QDOT_OK;
 }
 
 static bool
-messages_next(messages *m)
+next_message(messages *m)
 {
     if (m->end - m->at < HEAD)
         return false;
@@ -109,7 +109,7 @@ messages_next(messages *m)
 
 /* --- reading columns ------------------------------------------------------------------ */
 
-/* Read the data set at `address` as the next column. */
+/* Read the HDF5 data set at `address` as the next column. */
 static qdot_status
 read_column(const file *f, uint64_t address, const unsigned char *name, size_t length,
             qdot_hdf5_columns *out)
@@ -125,7 +125,7 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
     c.label[length] = '\0';
     QDOT_TRY(qdot_vec_push(&out->at, c));
     QDOT_TRY(open_object(f, address, &m));
-    while (messages_next(&m)) {
+    while (next_message(&m)) {
         if (m.type == DATASPACE && m.size == 12)
             rows = read_little_endian(m.body + 4, 8);
         if (m.type == DATATYPE && m.size >= 8) {
@@ -137,7 +137,7 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
     }
     if (size == 0 || (out->at.n > 1 && rows != out->rows) || (!texts && size != 8)
         || (rows > 0 && (where > f->n || rows > (f->n - where) / size)))
-        return strange(f);
+        return fail_unknown_format(f);
     out->rows = (size_t)rows;
     c.size = texts ? (size_t)size : 0;
     c.bytes = qdot_malloc((size_t)(rows * size) + 1);
@@ -148,13 +148,13 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
     out->at.at[out->at.n - 1] = c;
     for (uint64_t i = 0; texts && i < rows; i++) /* every text must end with NUL within its field */
         if (c.bytes[(i + 1) * size - 1] != '\0')
-            return strange(f);
+            return fail_unknown_format(f);
     return QDOT_OK;
 }
 
-/* Read a message that links a column, or is a text attribute. */
+/* Read a message of a header if it links to a column or is the requested text attribute. */
 static qdot_status
-take_message(const file *f, const messages *m, qdot_hdf5_columns *out)
+read_message(const file *f, const messages *m, qdot_hdf5_columns *out)
 {
     const unsigned char *b = m->body;
     size_t name, type;
@@ -162,7 +162,7 @@ take_message(const file *f, const messages *m, qdot_hdf5_columns *out)
     if (m->type == LINK && m->size > 13) {
         name = (size_t)read_little_endian(b + 3, 2);
         if (m->size != 13 + name)
-            return strange(f);
+            return fail_unknown_format(f);
         if (name == strlen("parameters") && memcmp(b + 5, "parameters", name) == 0)
             return QDOT_OK;
         return read_column(f, read_little_endian(b + 5 + name, 8), b + 5, name, out);
@@ -172,7 +172,7 @@ take_message(const file *f, const messages *m, qdot_hdf5_columns *out)
     name = (size_t)read_little_endian(b + 2, 2);
     type = (size_t)read_little_endian(b + 4, 2);
     if (name == 0 || 9 + name + type + 4 > m->size || b[9 + name - 1] != '\0')
-        return strange(f);
+        return fail_unknown_format(f);
     if (strcmp((const char *)b + 9, out->fact) == 0 && m->body[m->size - 1] == '\0')
         qdot_text_add(&out->text, (const char *)b + 9 + name + type + 4);
     return qdot_text_status(&out->text);
@@ -182,7 +182,7 @@ qdot_status
 qdot_hdf5_read(const char *path, const char *fact, qdot_hdf5_columns *out)
 {
     qdot_text bytes = {0};
-    qdot_status status = hdf5_load(path, &bytes);
+    qdot_status status = read_regular_file(path, &bytes);
     const file f = {path, (const unsigned char *)bytes.at, bytes.n};
     messages m = {0};
 
@@ -190,11 +190,11 @@ qdot_hdf5_read(const char *path, const char *fact, qdot_hdf5_columns *out)
     if (status == QDOT_OK
         && (f.n < SUPERBLOCK || memcmp(f.at, "\211HDF\r\n\032\n\2\10\10", 11) != 0
             || read_little_endian(f.at + 28, 8) > f.n))
-        status = strange(&f);
+        status = fail_unknown_format(&f);
     if (status == QDOT_OK)
         status = open_object(&f, read_little_endian(f.at + 36, 8), &m);
-    while (status == QDOT_OK && messages_next(&m))
-        status = take_message(&f, &m, out);
+    while (status == QDOT_OK && next_message(&m))
+        status = read_message(&f, &m, out);
     qdot_text_clear(&bytes);
     return status;
 }

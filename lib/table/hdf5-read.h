@@ -11,13 +11,13 @@
 typedef struct {
     char *label;
     size_t size; /* bytes of a text including its NUL; 0: the column has numbers */
-    char *bytes; /* [rows x size], or of numbers [rows x 8], least byte first */
+    char *bytes; /* [rows x size] texts, or [rows x 8] numbers, least significant byte first */
 } qdot_hdf5_column;
 
 typedef struct {
     qdot_vec(qdot_hdf5_column) at;
     size_t rows;
-    const char *fact; /* name of a text attribute of the root group to be read */
+    const char *fact; /* name of the text attribute of the root group that is to be read */
     qdot_text text;   /* the text of that attribute; empty: it does not exist */
 } qdot_hdf5_columns;
 

@@ -34,19 +34,19 @@ enum {
 /* --- writing bytes ---------------------------------------------------------------------- */
 
 static void
-bytes(qdot_text *out, uint64_t x, int n)
+append_integer(qdot_text *out, uint64_t x, int n)
 {
     for (int i = 0; i < n; i++)
         qdot_text_char(out, (char)(x >> 8 * i & 0xff));
 }
 
 static void
-real(qdot_text *out, double x)
+append_double(qdot_text *out, double x)
 {
     uint64_t bits;
 
     memcpy(&bits, &x, sizeof bits);
-    bytes(out, bits, 8);
+    append_integer(out, bits, 8);
 }
 
 static uint32_t
@@ -56,7 +56,7 @@ rotate_left(uint32_t x, int k)
 }
 
 static uint32_t
-word(const unsigned char *key, size_t n)
+read_word(const unsigned char *key, size_t n)
 {
     uint32_t x = 0;
 
@@ -65,7 +65,7 @@ word(const unsigned char *key, size_t n)
     return x;
 }
 
-/* The checksum of n bytes by lookup3 (Jenkins), with the initial value 0. */
+/* The lookup3 checksum (Jenkins) of n bytes, with the initial value 0. */
 static uint32_t
 checksum(const char *text, size_t n)
 {
@@ -73,9 +73,9 @@ checksum(const char *text, size_t n)
     uint32_t a = 0xdeadbeef + (uint32_t)n, b = a, c = a;
 
     for (; n > 12; n -= 12, key += 12) {
-        a += word(key, 4);
-        b += word(key + 4, 4);
-        c += word(key + 8, 4);
+        a += read_word(key, 4);
+        b += read_word(key + 4, 4);
+        c += read_word(key + 8, 4);
         a -= c, a ^= rotate_left(c, 4), c += b;
         b -= a, b ^= rotate_left(a, 6), a += c;
         c -= b, c ^= rotate_left(b, 8), b += a;
@@ -85,9 +85,9 @@ checksum(const char *text, size_t n)
     }
     if (n == 0)
         return c;
-    a += word(key, n);
-    b += n > 4 ? word(key + 4, n - 4) : 0;
-    c += n > 8 ? word(key + 8, n - 8) : 0;
+    a += read_word(key, n);
+    b += n > 4 ? read_word(key + 4, n - 4) : 0;
+    c += n > 8 ? read_word(key + 8, n - 8) : 0;
     c ^= b, c -= rotate_left(b, 14);
     a ^= c, a -= rotate_left(c, 11);
     b ^= a, b -= rotate_left(a, 25);
@@ -101,41 +101,41 @@ checksum(const char *text, size_t n)
 /* --- messages of an HDF5 object --------------------------------------------------------- */
 
 static void
-message(qdot_text *header, int type, size_t size)
+begin_message(qdot_text *header, int type, size_t size)
 {
-    bytes(header, (uint64_t)type, 1);
-    bytes(header, size, 2);
-    bytes(header, 0, 1);
+    append_integer(header, (uint64_t)type, 1);
+    append_integer(header, size, 2);
+    append_integer(header, 0, 1);
 }
 
-/* Append the type of a double of IEEE 754, least byte first: 20 bytes. */
+/* Append the HDF5 type of IEEE 754 doubles, least significant byte first: 20 bytes. */
 static void
-real_type(qdot_text *out)
+append_double_type(qdot_text *out)
 {
-    bytes(out, 0x11, 1);
-    bytes(out, 0x003f20, 3);
-    bytes(out, 8, 4);
-    bytes(out, 0, 2);
-    bytes(out, 64, 2);
-    bytes(out, 52, 1);
-    bytes(out, 11, 1);
-    bytes(out, 0, 1);
-    bytes(out, 52, 1);
-    bytes(out, 1023, 4);
+    append_integer(out, 0x11, 1);
+    append_integer(out, 0x003f20, 3);
+    append_integer(out, 8, 4);
+    append_integer(out, 0, 2);
+    append_integer(out, 64, 2);
+    append_integer(out, 52, 1);
+    append_integer(out, 11, 1);
+    append_integer(out, 0, 1);
+    append_integer(out, 52, 1);
+    append_integer(out, 1023, 4);
 }
 
-/* Append the type of a UTF-8 text of `size` bytes, including its NUL: 8 bytes. */
+/* Append the HDF5 type of a UTF-8 text of `size` bytes, including its NUL: 8 bytes. */
 static void
-text_type(qdot_text *out, size_t size)
+append_text_type(qdot_text *out, size_t size)
 {
-    bytes(out, 0x13, 1);
-    bytes(out, 0x10, 3);
-    bytes(out, size, 4);
+    append_integer(out, 0x13, 1);
+    append_integer(out, 0x10, 3);
+    append_integer(out, size, 4);
 }
 
-/* Append one fact as an attribute. */
+/* Append a fact about the table as an HDF5 attribute. */
 static void
-attribute(qdot_text *header, const qdot_table_fact *fact)
+append_attribute(qdot_text *header, const qdot_table_fact *fact)
 {
     size_t name = strlen(fact->name) + 1, length = fact->text == NULL ? 0 : strlen(fact->text);
     bool number = fact->text == NULL;
@@ -143,54 +143,54 @@ attribute(qdot_text *header, const qdot_table_fact *fact)
 
     length = length > MOST_TEXT ? MOST_TEXT : length;
     size = number ? 8 : length + 1;
-    message(header, ATTRIBUTE, 9 + name + type + 4 + size);
-    bytes(header, 3, 1);
-    bytes(header, 0, 1);
-    bytes(header, name, 2);
-    bytes(header, type, 2);
-    bytes(header, 4, 2);
-    bytes(header, 1, 1);
+    begin_message(header, ATTRIBUTE, 9 + name + type + 4 + size);
+    append_integer(header, 3, 1);
+    append_integer(header, 0, 1);
+    append_integer(header, name, 2);
+    append_integer(header, type, 2);
+    append_integer(header, 4, 2);
+    append_integer(header, 1, 1);
     qdot_text_add_n(header, fact->name, name);
     if (number)
-        real_type(header);
+        append_double_type(header);
     else
-        text_type(header, size);
-    bytes(header, 2, 4); /* dataspace message, version 2, scalar */
+        append_text_type(header, size);
+    append_integer(header, 2, 4); /* dataspace message, version 2, scalar */
     if (number) {
-        real(header, fact->number);
+        append_double(header, fact->number);
     } else {
         qdot_text_add_n(header, fact->text, length);
-        bytes(header, 0, 1);
+        append_integer(header, 0, 1);
     }
 }
 
 static void
-link_to(qdot_text *header, const char *name, uint64_t address)
+append_link(qdot_text *header, const char *name, uint64_t address)
 {
     size_t n = strlen(name);
 
-    message(header, LINK, 13 + n);
-    bytes(header, 1, 1);
-    bytes(header, 0x11, 1); /* link flags: hard link, character set stated, name length in 2 bytes */
-    bytes(header, 1, 1);
-    bytes(header, n, 2);
+    begin_message(header, LINK, 13 + n);
+    append_integer(header, 1, 1);
+    append_integer(header, 0x11, 1); /* link flags: hard link, character set stated, name length in 2 bytes */
+    append_integer(header, 1, 1);
+    append_integer(header, n, 2);
     qdot_text_add_n(header, name, n);
-    bytes(header, address, 8);
+    append_integer(header, address, 8);
 }
 
 static void
-group(qdot_text *header)
+append_group_messages(qdot_text *header)
 {
-    message(header, LINK_INFO, 18);
-    bytes(header, 0, 2);
-    bytes(header, NOWHERE, 8);
-    bytes(header, NOWHERE, 8);
-    message(header, GROUP_INFO, 2);
-    bytes(header, 0, 2);
+    begin_message(header, LINK_INFO, 18);
+    append_integer(header, 0, 2);
+    append_integer(header, NOWHERE, 8);
+    append_integer(header, NOWHERE, 8);
+    begin_message(header, GROUP_INFO, 2);
+    append_integer(header, 0, 2);
 }
 
 static bool
-has_texts(const qdot_table *t, size_t j)
+is_text_column(const qdot_table *t, size_t j)
 {
     return t->columns[j].kind == QDOT_CELL_TEXT;
 }
@@ -203,13 +203,13 @@ entry_text(const qdot_table *t, size_t j, size_t i)
     return text != NULL ? text : "";
 }
 
-/* The number of bytes of one entry of a column: a double, or the longest text and its NUL. */
+/* The number of bytes of an entry of a column: of a double, or of the longest text and its NUL. */
 static size_t
 entry_size(const qdot_table *t, size_t j)
 {
     size_t size = 1;
 
-    if (!has_texts(t, j))
+    if (!is_text_column(t, j))
         return sizeof(double);
     for (size_t i = 0; i < t->rows; i++) {
         const size_t n = strlen(entry_text(t, j, i)) + 1;
@@ -220,40 +220,40 @@ entry_size(const qdot_table *t, size_t j)
 }
 
 static void
-data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
+append_data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
 {
     const size_t rows = t->rows, size = entry_size(t, j);
-    const bool texts = has_texts(t, j);
+    const bool texts = is_text_column(t, j);
 
-    message(header, DATASPACE, 12);
-    bytes(header, 0x01000102, 4); /* dataspace message: version 2, one dimension, fixed size */
-    bytes(header, rows, 8);
-    message(header, DATATYPE, texts ? 8 : 20);
+    begin_message(header, DATASPACE, 12);
+    append_integer(header, 0x01000102, 4); /* dataspace message: version 2, one dimension, fixed size */
+    append_integer(header, rows, 8);
+    begin_message(header, DATATYPE, texts ? 8 : 20);
     if (texts)
-        text_type(header, size);
+        append_text_type(header, size);
     else
-        real_type(header);
-    message(header, FILL, 2);
-    bytes(header, 0x0a03, 2);
-    message(header, LAYOUT, 18);
-    bytes(header, 0x0103, 2); /* layout message: version 3, contiguous */
-    bytes(header, rows > 0 ? address : NOWHERE, 8);
-    bytes(header, rows * size, 8);
+        append_double_type(header);
+    begin_message(header, FILL, 2);
+    append_integer(header, 0x0a03, 2);
+    begin_message(header, LAYOUT, 18);
+    append_integer(header, 0x0103, 2); /* layout message: version 3, contiguous */
+    append_integer(header, rows > 0 ? address : NOWHERE, 8);
+    append_integer(header, rows * size, 8);
 }
 
-/* Append the messages, preceded by an object header. */
+/* Append an HDF5 object header and the messages in it. */
 static void
-object(qdot_text *out, const qdot_text *messages)
+append_object(qdot_text *out, const qdot_text *messages)
 {
     size_t from = out->n;
 
     qdot_text_add(out, "OHDR");
-    bytes(out, 2, 1);
-    bytes(out, 2, 1); /* header flags: size in 4 bytes, no time stamps */
-    bytes(out, messages->n, 4);
+    append_integer(out, 2, 1);
+    append_integer(out, 2, 1); /* header flags: size in 4 bytes, no time stamps */
+    append_integer(out, messages->n, 4);
     qdot_text_add_n(out, qdot_text_str(messages), messages->n);
     if (!out->failed)
-        bytes(out, checksum(out->at + from, out->n - from), 4);
+        append_integer(out, checksum(out->at + from, out->n - from), 4);
 }
 
 enum { OBJECT = 14 }; /* bytes of an object header besides its messages */
@@ -263,7 +263,7 @@ enum { OBJECT = 14 }; /* bytes of an object header besides its messages */
 /* Append a column's name: its label without forbidden characters, with the column's number if it
  * was used before. */
 static void
-column_name(const qdot_table *t, size_t j, qdot_text *out)
+append_column_name(const qdot_table *t, size_t j, qdot_text *out)
 {
     const char *label = t->columns[j].name;
 
@@ -279,26 +279,26 @@ column_name(const qdot_table *t, size_t j, qdot_text *out)
         }
 }
 
-/* The addresses of headers and numbers in the file. */
+/* The addresses of object headers and of numbers in the HDF5 file. */
 typedef struct {
     /* addresses: parameters, first column's header, first column's numbers, end of file */
     uint64_t parameters, headers, numbers, end;
     const uint64_t *columns; /* addresses of the columns' headers; NULL: not known yet */
 } places;
 
-/* Append the messages of the root: facts, links to the parameters and to the columns. */
+/* Append the messages of the root group: facts, links to the parameters and to the columns. */
 static void
-hdf5_add_root(const qdot_table *t, const places *at, qdot_text *messages)
+append_root_messages(const qdot_table *t, const places *at, qdot_text *messages)
 {
     qdot_text name = {0};
 
-    group(messages);
+    append_group_messages(messages);
     for (size_t i = 0; i < t->n_facts; i++)
-        attribute(messages, &t->facts[i]);
-    link_to(messages, "parameters", at->parameters);
+        append_attribute(messages, &t->facts[i]);
+    append_link(messages, "parameters", at->parameters);
     for (size_t j = 0; j < t->n; j++) {
-        column_name(t, j, &name);
-        link_to(messages, qdot_text_str(&name), at->columns != NULL ? at->columns[j] : 0);
+        append_column_name(t, j, &name);
+        append_link(messages, qdot_text_str(&name), at->columns != NULL ? at->columns[j] : 0);
         qdot_text_truncate(&name, 0);
     }
     messages->failed |= name.failed;
@@ -306,22 +306,22 @@ hdf5_add_root(const qdot_table *t, const places *at, qdot_text *messages)
 }
 
 static void
-superblock(uint64_t end, qdot_text *out)
+append_superblock(uint64_t end, qdot_text *out)
 {
     qdot_text_add_n(out, "\211HDF\r\n\032\n", 8);
-    bytes(out, 0x080802, 4); /* superblock version 2, addresses and lengths of 8 bytes */
-    bytes(out, 0, 8);
-    bytes(out, NOWHERE, 8);
-    bytes(out, end, 8);
-    bytes(out, SUPERBLOCK, 8);
+    append_integer(out, 0x080802, 4); /* superblock version 2, addresses and lengths of 8 bytes */
+    append_integer(out, 0, 8);
+    append_integer(out, NOWHERE, 8);
+    append_integer(out, end, 8);
+    append_integer(out, SUPERBLOCK, 8);
     if (!out->failed)
-        bytes(out, checksum(out->at, out->n), 4);
+        append_integer(out, checksum(out->at, out->n), 4);
 }
 
 /* The header of each column in turn: where it is, and the numbers that it has; out: NULL: only
  * find where. */
 static bool
-column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
+append_column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
 {
     qdot_text messages = {0};
     uint64_t header = at->headers, numbers = at->numbers;
@@ -329,9 +329,9 @@ column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
 
     for (size_t j = 0; j < t->n; j++) {
         qdot_text_truncate(&messages, 0);
-        data_set(&messages, t, j, numbers);
+        append_data_set(&messages, t, j, numbers);
         if (out != NULL)
-            object(out, &messages);
+            append_object(out, &messages);
         where[j] = header;
         header += OBJECT + messages.n;
         numbers += t->rows * entry_size(t, j);
@@ -342,9 +342,9 @@ column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
     return failed;
 }
 
-/* Append all headers; their sizes do not depend on the addresses in them. */
+/* Append all object headers; their sizes do not depend on the addresses that they contain. */
 static qdot_status
-headers(const qdot_table *t, qdot_text *out)
+append_headers(const qdot_table *t, qdot_text *out)
 {
     qdot_text messages = {0}, parameters = {0};
     places at = {0};
@@ -353,23 +353,23 @@ headers(const qdot_table *t, qdot_text *out)
 
     if (columns == NULL)
         return QDOT_ENOMEM;
-    group(&parameters);
+    append_group_messages(&parameters);
     for (size_t i = 0; i < t->n_parameters; i++)
-        attribute(&parameters, &t->parameters[i]);
-    hdf5_add_root(t, &at, &messages);
+        append_attribute(&parameters, &t->parameters[i]);
+    append_root_messages(t, &at, &messages);
     at.parameters = SUPERBLOCK + OBJECT + messages.n;
     at.headers = at.parameters + OBJECT + parameters.n;
-    failed |= column_headers(t, &at, columns, NULL);
+    failed |= append_column_headers(t, &at, columns, NULL);
     at.numbers = at.end;
-    failed |= column_headers(t, &at, columns, NULL);
+    failed |= append_column_headers(t, &at, columns, NULL);
     at.columns = columns;
     qdot_text_truncate(&messages, 0);
-    superblock(at.end, out);
-    hdf5_add_root(t, &at, &messages);
-    object(out, &messages);
-    object(out, &parameters);
+    append_superblock(at.end, out);
+    append_root_messages(t, &at, &messages);
+    append_object(out, &messages);
+    append_object(out, &parameters);
     failed |= messages.failed || parameters.failed;
-    failed |= column_headers(t, &at, columns, out);
+    failed |= append_column_headers(t, &at, columns, out);
     out->failed |= failed;
     qdot_text_clear(&messages);
     qdot_text_clear(&parameters);
@@ -377,15 +377,15 @@ headers(const qdot_table *t, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* Append one entry; a text is filled up with NULs. */
+/* Append one entry of a column; a text is padded with NULs. */
 static void
-put_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *out)
+append_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *out)
 {
     const char *text;
     size_t n;
 
-    if (!has_texts(t, j)) {
-        real(out, qdot_table_at(t, i, j).value);
+    if (!is_text_column(t, j)) {
+        append_double(out, qdot_table_at(t, i, j).value);
         return;
     }
     text = entry_text(t, j, i);
@@ -396,7 +396,7 @@ put_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *out)
 }
 
 static qdot_status
-put_numbers(const qdot_table *t, qdot_sink *sink, qdot_text *text)
+write_entries(const qdot_table *t, qdot_sink *sink, qdot_text *text)
 {
     enum { CHUNK = 8192 };
 
@@ -404,7 +404,7 @@ put_numbers(const qdot_table *t, qdot_sink *sink, qdot_text *text)
         const size_t size = entry_size(t, j);
 
         for (size_t i = 0; i < t->rows; i++) {
-            put_entry(t, j, i, size, text);
+            append_entry(t, j, i, size, text);
             if (i % CHUNK != CHUNK - 1 && i + 1 < t->rows)
                 continue;
             QDOT_TRY(qdot_text_status(text));
@@ -417,11 +417,11 @@ put_numbers(const qdot_table *t, qdot_sink *sink, qdot_text *text)
 }
 
 static qdot_status
-write_columns(const qdot_table *t, const char *path)
+write_file_of_columns(const qdot_table *t, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
-    qdot_status status = headers(t, &text);
+    qdot_status status = append_headers(t, &text);
 
     if (status == QDOT_OK)
         status = qdot_sink_open(&sink, path);
@@ -429,7 +429,7 @@ write_columns(const qdot_table *t, const char *path)
         status = qdot_sink_put(&sink, text.at, text.n);
         qdot_text_truncate(&text, 0);
         if (status == QDOT_OK)
-            status = put_numbers(t, &sink, &text);
+            status = write_entries(t, &sink, &text);
         if (status == QDOT_OK)
             status = qdot_sink_close(&sink);
         else
@@ -446,7 +446,7 @@ qdot_table_hdf5(const qdot_table *t, const char *path)
     qdot_status status = qdot_table_select(t, QDOT_IN_FILES, &shown);
 
     if (status == QDOT_OK)
-        status = write_columns(&shown, path);
+        status = write_file_of_columns(&shown, path);
     qdot_free(shown.columns);
     return status;
 }

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "table/file.h"
 
-/* The number of digits of numbers on a page of their own. */
+/* The number of digits of numbers in a table on an HTML page of its own. */
 enum { PAGE_DIGITS = 12 };
 
 static void
@@ -15,9 +15,9 @@ html_add_text(const char *text, qdot_text *out)
     qdot_text_html(out, text, strlen(text), false);
 }
 
-/* The differences between a table within a page and a page of its own. */
+/* What differs between a table within an HTML page and a table on a page of its own. */
 typedef struct {
-    bool names; /* the names of columns are shown, not their heads */
+    bool names; /* show the names of columns, not their headings */
     int digits;
     const char *none;
 } html_style;

@@ -31,7 +31,7 @@ json_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
 }
 
 static bool
-json_is_value(const qdot_table *t, size_t column)
+json_is_in_values(const qdot_table *t, size_t column)
 {
     return qdot_table_shows(t, column, QDOT_IN_ANSWERS) && t->columns[column].field == NULL;
 }
@@ -44,7 +44,7 @@ json_add_values(const qdot_table *t, size_t row, qdot_text *out)
     bool measured = false;
 
     for (size_t j = 0; j < t->n; j++) {
-        if (!json_is_value(t, j))
+        if (!json_is_in_values(t, j))
             continue;
         qdot_text_add(out, before);
         json_add_cell(t, row, j, out);
@@ -54,7 +54,7 @@ json_add_values(const qdot_table *t, size_t row, qdot_text *out)
     qdot_text_char(out, ']');
     before = ",\"errors\":[";
     for (size_t j = 0; j < t->n && measured; j++) {
-        if (!json_is_value(t, j))
+        if (!json_is_in_values(t, j))
             continue;
         qdot_text_add(out, before);
         qdot_number_text_json(out, qdot_table_at(t, row, j).error);
@@ -72,7 +72,7 @@ qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out)
     qdot_text_json(out, t->name != NULL ? t->name : name);
     qdot_text_add(out, ",\"columns\":[");
     for (size_t j = 0; j < t->n; j++) {
-        if (!json_is_value(t, j))
+        if (!json_is_in_values(t, j))
             continue;
         qdot_text_add(out, before);
         qdot_text_json(out, t->columns[j].name);

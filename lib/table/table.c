@@ -21,7 +21,7 @@ qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns)
     return QDOT_OK;
 }
 
-/* Make room for more cells, and tell the columns where their cells are. */
+/* Allocate memory for more cells, and update the columns' pointers to their cells. */
 static void
 table_enlarge(qdot_table *t)
 {
@@ -50,7 +50,7 @@ table_enlarge(qdot_table *t)
 }
 
 static void
-table_add(qdot_table *t, double value, double error, char *text)
+table_append_cell(qdot_table *t, double value, double error, char *text)
 {
     if (t->own.n == t->own.room && !t->own.failed)
         table_enlarge(t);
@@ -67,7 +67,7 @@ table_add(qdot_table *t, double value, double error, char *text)
 void
 qdot_table_add_number(qdot_table *t, double value, double error)
 {
-    table_add(t, value, error, NULL);
+    table_append_cell(t, value, error, NULL);
 }
 
 void
@@ -76,7 +76,7 @@ qdot_table_add_text(qdot_table *t, const char *text)
     char *copy = text != NULL ? qdot_strdup(text) : NULL;
 
     t->own.failed = t->own.failed || (text != NULL && copy == NULL);
-    table_add(t, NAN, NAN, copy);
+    table_append_cell(t, NAN, NAN, copy);
 }
 
 void

@@ -22,19 +22,19 @@ typedef enum {
     QDOT_CELL_FLAG /* a number that means 1 yes, 0 no, NaN undecided */
 } qdot_cell_kind;
 
-/* The form in which a number is shown to people; data files have all digits of a double. */
+/* The format in which a number is shown to a human reader; data files have all digits of a double. */
 typedef enum {
     QDOT_NUMBER_GENERAL,         /* `digits` significant digits */
     QDOT_NUMBER_FIXED,           /* `digits` digits after the decimal point */
     QDOT_NUMBER_SCIENTIFIC,      /* as 1.5e-07, with `digits` digits after the decimal point */
     QDOT_NUMBER_SCIENTIFIC_OR_0, /* as QDOT_NUMBER_SCIENTIFIC, but zero is written 0 */
-    QDOT_NUMBER_MEASURED, /* the digits that are certain by the error; if none is, the cell is empty */
+    QDOT_NUMBER_MEASURED, /* only the digits that are certain according to the error; if none is certain, the cell is empty */
     QDOT_NUMBER_BOUND            /* one significant digit, rounded up */
 } qdot_number_form;
 
-/* The kinds of output in which a column appears. */
+/* The kinds of output in which a column of a table appears, as bits. */
 enum {
-    QDOT_IN_TERMINAL = 1, /* answers for people */
+    QDOT_IN_TERMINAL = 1, /* answers in the terminal, for a human reader */
     QDOT_IN_ANSWERS = 2,  /* answers as rows of JSON */
     QDOT_IN_TXT = 4,
     QDOT_IN_CSV = 8,
@@ -44,29 +44,29 @@ enum {
 
 typedef struct {
     const char *name; /* name of the column, UTF-8 */
-    const char *head; /* head of the column for people; NULL: the name */
+    const char *head; /* heading of the column for a human reader; NULL: the name */
     unsigned in;      /* bits QDOT_IN_...: where the column appears; 0: everywhere */
     qdot_cell_kind kind;
 
-    /* The format used for people. */
+    /* The number format used for a human reader. */
     qdot_number_form form;
     int digits;
     bool left;           /* aligned left; otherwise right */
-    unsigned gap, width; /* blanks before the column (not before the first); least width */
+    unsigned gap, width; /* number of blanks before the column (not before the first); least width */
 
-    /* The format used for programs. */
+    /* The number format used for programs. */
     int exact;         /* significant digits in CSV; 0: as many as a double has */
     bool blank;        /* in CSV a missing number is an empty cell; otherwise "nan" */
     bool measured;     /* rows of JSON include the errors of this column */
     const char *field; /* in rows of JSON: the field's name; NULL: an entry of `values` */
 
     /* The cells of the column: */
-    const double *values, *errors; /* row k: index k stride; errors NULL: none, else 0: exact, NaN: unknown */
-    size_t stride;                 /* distance of two rows in the arrays; 0: 1 */
+    const double *values, *errors; /* row k: index k * stride; errors NULL: none; error 0: exact, NaN: unknown */
+    size_t stride;                 /* distance of two rows in the arrays `values` and `errors`; 0 means 1 */
     char *const *texts;            /* of row k: [k text_stride], NULL: there is none. Of numbers: their digits, where a
                                       double has too few */
-    size_t text_stride;            /* distance of two rows in `texts`; 0: 1 */
-    const char *present, *absent; /* written instead of any text, of no text; NULL: the text itself, nothing */
+    size_t text_stride;            /* distance of two rows in `texts`; 0 means 1 */
+    const char *present, *absent; /* written for a cell with text, and for one without; NULL: the text, nothing */
 } qdot_table_column;
 
 /* A fact about the whole table: a text or a number with its name. */
@@ -76,7 +76,7 @@ typedef struct {
 } qdot_table_fact;
 
 typedef struct {
-    const char *name;  /* key of the rows in JSON; NULL: none */
+    const char *name;  /* key of the rows in the JSON file; NULL: none */
     const char *title; /* title of an HTML page */
     size_t n, rows;
     qdot_table_column *columns; /* [n] the columns */
@@ -84,11 +84,11 @@ typedef struct {
     size_t n_facts, n_parameters;
     const qdot_table_fact *facts, *parameters;
     struct {
-        size_t n, room; /* used and allocated cells */
+        size_t n, room; /* number of cells that are used; number that are allocated */
         double *values, *errors;
         char **texts;
         bool failed;
-    } own; /* cells owned by the table; all 0: the columns borrow their arrays */
+    } own; /* cells that the table itself owns; all 0: the columns borrow their arrays */
 } qdot_table;
 
 /* --- tables that own their rows --------------------------------------------------------- */
@@ -97,11 +97,11 @@ typedef struct {
  * table in any case. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns);
 void qdot_table_add_number(qdot_table *t, double value, double error);
-/* Add a cell with a copy of the text; NULL: none. */
+/* Append a cell with a copy of the text; text NULL: a cell without text. */
 void qdot_table_add_text(qdot_table *t, const char *text);
-/* Add a cell with the contents of `text`, which is then cleared. */
+/* Append a cell with the contents of `text`, which is then cleared. */
 void qdot_table_add_written(qdot_table *t, qdot_text *text);
-/* The status of the table: QDOT_ENOMEM if a cell could not be added. */
+/* The status of the table: QDOT_ENOMEM if some cell could not be appended. */
 QDOT_MUST_CHECK qdot_status qdot_table_status(const qdot_table *t);
 void qdot_table_clear(qdot_table *t);
 
@@ -124,9 +124,9 @@ qdot_table_shows(const qdot_table *t, size_t column, unsigned where)
  * QDOT_EINVAL: it has no column; QDOT_ENOMEM, also if cells could not be added. */
 QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_table *t, unsigned where, qdot_table *out);
 
-/* The heading of a column for people. */
+/* The heading of a column, for a human reader. */
 const char *qdot_table_head(const qdot_table *t, size_t column);
-/* Append a cell for people, `none` if it has no number; digits: of all numbers, 0: as its column says. */
+/* Append a cell as text for reading, `none` if it has no number; digits 0: as many as the column states. */
 void qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* text.c -- writes a table as aligned text. */
+/* text.c -- writes a table as text in aligned columns. */
 #include "table/text.h"
 
 #include <string.h>
@@ -7,13 +7,13 @@
 #include "base/memory.h"
 #include "base/utf8.h"
 
-/* The number of rows between two tests of the interrupt flag. */
+/* The number of table rows written between two tests of the interrupt flag (Ctrl-C). */
 enum { OFTEN = 1024 };
 
 typedef struct {
     const qdot_table *t;
     const qdot_table_text_options *options;
-    size_t *width; /* [columns] width of the cells, without the blanks before */
+    size_t *width; /* [columns] width of the cells, not counting the blanks before them */
     qdot_text cell;
 } text_writer;
 
@@ -42,7 +42,7 @@ text_write_cell(text_writer *w, size_t row, size_t column)
 }
 
 static qdot_status
-text_measure(text_writer *w)
+text_measure_widths(text_writer *w)
 {
     for (size_t j = 0; j < w->t->n; j++) {
         w->width[j] = w->t->columns[j].width;
@@ -82,7 +82,7 @@ static qdot_status
 text_write(const qdot_table *t, const qdot_table_text_options *options, qdot_text *out)
 {
     text_writer w = {.t = t, .options = options, .width = qdot_calloc(t->n + 1, sizeof *w.width)};
-    qdot_status status = w.width != NULL ? text_measure(&w) : QDOT_ENOMEM;
+    qdot_status status = w.width != NULL ? text_measure_widths(&w) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         text_add_row(&w, t->rows, out);

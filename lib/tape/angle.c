@@ -11,22 +11,22 @@
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 
-/* The costs: in operations for numbers; in products of series for one order of a series. */
+/* Costs of sines and of addition formulas: operations for numbers; products of series per order of a series. */
 static const struct {
     long call, addition;
 } number = {20, 6}, of_series = {2, 4};
 
-/* A base angle, unit * term; with term nil a constant, whose sine and cosine cost nothing. */
+/* A base angle, unit * term, from which other angles are composed; term nil: a constant, at no cost. */
 typedef struct {
     qdot_expr term, unit;
     qdot_expr constant;
-    bool split;    /* has too many different multiples: each multiple is a base angle of its own */
-    uint32_t uses; /* the number of composed arguments that contain this base angle */
+    bool split;    /* the term has too many different multiples: each multiple is a base angle of its own */
+    uint32_t uses; /* the number of composed arguments (sums of base angles) that contain this base angle */
     bool made;
     qdot_value sine, cosine;
 } base;
 
-/* The angle multiple * base. The first multiple, 1, is the base itself. */
+/* An integer multiple of a base angle: multiple * base. The first, with multiple 1, is the base itself. */
 typedef struct {
     uint32_t base, multiple;
     uint32_t uses;
@@ -34,7 +34,7 @@ typedef struct {
     qdot_value sine, cosine;
 } multiple;
 
-/* The sum of two angles: that of `parent` (NONE: 0) and +- a multiple. */
+/* A sum of two angles: that of the sum `parent` (NONE: 0), plus or minus a multiple of a base angle. */
 typedef struct {
     uint32_t parent, multiple;
     bool minus;
@@ -46,22 +46,22 @@ typedef struct {
 /* One summand of the argument of a sine or cosine. */
 typedef struct {
     qdot_expr term, coefficient; /* the summand is coefficient * term */
-    qdot_expr source, of_source; /* a node of the expression equal to of_source * term */
+    qdot_expr source, of_source; /* a node of the expression whose value is of_source * term */
     qdot_expr constant;          /* the summand if term is nil */
     uint32_t base, multiple;
     bool minus;
 } part;
 
 typedef struct {
-    size_t first, n; /* index of its first summand; number of summands */
-    bool minus;      /* the argument is minus the sum of its summands */
+    size_t first, n; /* index of the argument's first summand; number of its summands */
+    bool minus;      /* the argument is minus the sum of the summands */
     bool composed;
     uint32_t sum;
 } argument;
 
 struct qdot_angles {
     qdot_pool *pool;
-    long call, addition; /* costs of a call and of an addition formula */
+    long call, addition; /* costs of calling a sine and cosine, and of an addition formula */
     qdot_vec(part) parts;
     qdot_vec(argument) arguments;
     qdot_vec(base) bases;
@@ -91,7 +91,7 @@ qdot_angles_free(qdot_angles *a)
 }
 
 static bool
-is_trigonometric(const qdot_node *node)
+is_sine_or_cosine(const qdot_node *node)
 {
     return node->kind == QDOT_FUN
            && (node->op == QDOT_SIN || node->op == QDOT_COS || node->op == QDOT_TAN
@@ -100,9 +100,9 @@ is_trigonometric(const qdot_node *node)
 
 /* --- reading the arguments ---------------------------------------------------------- */
 
-/* Split a term into its rational factor and the remaining factors. */
+/* Split a term into its rational coefficient and the product of its other factors. */
 static qdot_expr
-term_strip_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
+split_off_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
 {
     *coefficient = QDOT_ONE;
     if (qdot_expr_kind(pool, e) == QDOT_PROD) {
@@ -113,9 +113,9 @@ term_strip_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
     return e;
 }
 
-/* Read the summands of factor * e. If factor is one, `e` is a node of the walk. */
+/* Read the summands of factor * e; if factor is 1, `e` is a node of the expression. */
 static qdot_status
-read_sum(qdot_angles *a, qdot_expr e, qdot_expr factor, qdot_expr *constant)
+read_summands(qdot_angles *a, qdot_expr e, qdot_expr factor, qdot_expr *constant)
 {
     qdot_pool *pool = a->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -141,20 +141,20 @@ read_argument(qdot_angles *a, qdot_expr e)
 {
     qdot_pool *pool = a->pool;
     argument arg = {.first = a->parts.n};
-    qdot_expr c, constant = QDOT_ZERO, term = term_strip_coefficient(pool, e, &c);
+    qdot_expr c, constant = QDOT_ZERO, term = split_off_coefficient(pool, e, &c);
 
     if (qdot_keymap_get(&a->by_expr, e, 0, 0, 0) != NONE)
         return QDOT_OK;
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
     if (qdot_expr_kind(pool, term) == QDOT_SUM)
-        QDOT_TRY(read_sum(a, term, c, &constant));
+        QDOT_TRY(read_summands(a, term, c, &constant));
     else
         QDOT_TRY(qdot_vec_push(&a->parts, ((part){.term = term, .coefficient = c,
                                                   .source = e, .of_source = c})));
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
-    /* If the first summand is negative, use minus the sum. */
+    /* if the first summand is negative, use minus the sum of the opposite summands */
     if (a->parts.n > arg.first)
         arg.minus = qdot_expr_is_negative(pool, a->parts.at[arg.first].coefficient);
     for (size_t i = arg.first; i < a->parts.n; i++) {
@@ -174,7 +174,7 @@ read_argument(qdot_angles *a, qdot_expr e)
 /* --- bases, multiples, sums --------------------------------------------------------- */
 
 static qdot_expr
-magnitude(qdot_pool *pool, qdot_expr number)
+absolute_number(qdot_pool *pool, qdot_expr number)
 {
     return qdot_expr_is_negative(pool, number) ? qdot_neg(pool, number) : number;
 }
@@ -195,9 +195,9 @@ common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
     return e;
 }
 
-/* The number x as a multiple of the unit; 0 if it is not a small integer. */
+/* The number `coefficient` as an integer multiple of the unit; 0 if it is not a small integer multiple. */
 static long
-units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
+multiple_of_unit(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 {
     long k = 0;
 
@@ -208,8 +208,8 @@ units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 }
 
 static qdot_status
-find_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh,
-          uint32_t *found)
+find_or_add_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh,
+                 uint32_t *found)
 {
     *found = qdot_keymap_get(&a->by_term, term, key, 0, 0);
     if (*found != NONE)
@@ -219,9 +219,9 @@ find_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh,
     return qdot_keymap_set(&a->by_term, term, key, 0, 0, *found);
 }
 
-/* Find the base angle of every summand; the units are known once all summands are read. */
+/* Find the base angle of every summand, after all summands have been read and the units are known. */
 static qdot_status
-find_bases(qdot_angles *a)
+find_base_angles(qdot_angles *a)
 {
     qdot_pool *pool = a->pool;
 
@@ -231,11 +231,11 @@ find_bases(qdot_angles *a)
 
         p->multiple = 1;
         if (p->term == QDOT_NIL) {
-            QDOT_TRY(find_base(a, QDOT_NIL, p->constant, &fresh, &p->base));
+            QDOT_TRY(find_or_add_base(a, QDOT_NIL, p->constant, &fresh, &p->base));
             continue;
         }
-        fresh.unit = p->coefficient = magnitude(pool, p->coefficient);
-        QDOT_TRY(find_base(a, p->term, 0, &fresh, &p->base));
+        fresh.unit = p->coefficient = absolute_number(pool, p->coefficient);
+        QDOT_TRY(find_or_add_base(a, p->term, 0, &fresh, &p->base));
         a->bases.at[p->base].unit =
             common_unit(pool, a->bases.at[p->base].unit, p->coefficient);
     }
@@ -243,7 +243,7 @@ find_bases(qdot_angles *a)
         part *p = a->parts.at + i;
 
         if (p->term != QDOT_NIL
-            && units(pool, p->coefficient, a->bases.at[p->base].unit) == 0)
+            && multiple_of_unit(pool, p->coefficient, a->bases.at[p->base].unit) == 0)
             a->bases.at[p->base].split = true;
     }
     for (size_t i = 0; i < a->parts.n; i++) {
@@ -253,16 +253,16 @@ find_bases(qdot_angles *a)
         if (p->term == QDOT_NIL)
             continue;
         if (a->bases.at[p->base].split)
-            QDOT_TRY(find_base(a, p->term, p->coefficient, &fresh, &p->base));
+            QDOT_TRY(find_or_add_base(a, p->term, p->coefficient, &fresh, &p->base));
         else
             p->multiple =
-                (uint32_t)units(pool, p->coefficient, a->bases.at[p->base].unit);
+                (uint32_t)multiple_of_unit(pool, p->coefficient, a->bases.at[p->base].unit);
     }
     return qdot_pool_check(pool);
 }
 
 static qdot_status
-find_sums(qdot_angles *a)
+find_or_add_sums(qdot_angles *a)
 {
     for (size_t i = 0; i < a->arguments.n; i++) {
         argument *arg = a->arguments.at + i;
@@ -295,12 +295,12 @@ find_sums(qdot_angles *a)
 
 /* --- which arguments to compose ----------------------------------------------------- */
 
-/* Compose the argument from base angles, or give it a sine and cosine of its own; returns the added cost. */
+/* Choose whether an argument is composed from base angles, or has its own sine call; returns the added cost. */
 static long
-argument_set_composed(qdot_angles *a, argument *arg, bool composed)
+choose_composition(qdot_angles *a, argument *arg, bool composed)
 {
     long change = composed ? -a->call : a->call;
-    const uint32_t before = composed ? 0 : 1; /* number of uses from which a base on its own pays */
+    const uint32_t before = composed ? 0 : 1; /* number of uses above which a separate sine and cosine of the base angle pay */
 
     if (arg->composed == composed)
         return 0;
@@ -322,9 +322,9 @@ argument_set_composed(qdot_angles *a, argument *arg, bool composed)
     return change;
 }
 
-/* Whether the argument is a base angle itself. */
+/* Whether the argument of a sine or cosine is a base angle itself. */
 static bool
-is_base(const qdot_angles *a, const argument *arg)
+is_base_angle(const qdot_angles *a, const argument *arg)
 {
     const part *p = a->parts.at + arg->first;
 
@@ -332,7 +332,7 @@ is_base(const qdot_angles *a, const argument *arg)
 }
 
 static bool
-holds_base(const qdot_angles *a, const argument *arg, uint32_t b)
+contains_base(const qdot_angles *a, const argument *arg, uint32_t b)
 {
     for (size_t k = 0; k < arg->n; k++)
         if (a->parts.at[arg->first + k].base == b)
@@ -343,7 +343,7 @@ holds_base(const qdot_angles *a, const argument *arg, uint32_t b)
 /* Give all composed arguments that contain base b (NONE: all) their own calls if that is cheaper;
  * returns whether it was. */
 static bool
-try_without(qdot_angles *a, uint32_t b, bool *changed)
+is_cheaper_without_base(qdot_angles *a, uint32_t b, bool *changed)
 {
     size_t n = 0;
     long change = 0;
@@ -352,9 +352,9 @@ try_without(qdot_angles *a, uint32_t b, bool *changed)
         argument *arg = a->arguments.at + i;
 
         changed[i] =
-            arg->composed && !is_base(a, arg) && (b == NONE || holds_base(a, arg, b));
+            arg->composed && !is_base_angle(a, arg) && (b == NONE || contains_base(a, arg, b));
         if (changed[i]) {
-            change += argument_set_composed(a, arg, false);
+            change += choose_composition(a, arg, false);
             n++;
         }
     }
@@ -362,33 +362,33 @@ try_without(qdot_angles *a, uint32_t b, bool *changed)
         return n > 0;
     for (size_t i = 0; i < a->arguments.n; i++)
         if (changed[i])
-            argument_set_composed(a, a->arguments.at + i, true);
+            choose_composition(a, a->arguments.at + i, true);
     return false;
 }
 
 static qdot_status
-angles_choose_composed(qdot_angles *a)
+choose_compositions(qdot_angles *a)
 {
     bool *changed = qdot_malloc(a->arguments.n * sizeof *changed), again = true;
 
     if (!changed)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < a->arguments.n; i++)
-        argument_set_composed(a, a->arguments.at + i, true);
-    try_without(a, NONE, changed);
+        choose_composition(a, a->arguments.at + i, true);
+    is_cheaper_without_base(a, NONE, changed);
     for (int round = 0; again && round < 8; round++) {
         again = false;
         for (uint32_t b = 0; b < a->bases.n; b++)
-            again |= a->bases.at[b].term != QDOT_NIL && try_without(a, b, changed);
+            again |= a->bases.at[b].term != QDOT_NIL && is_cheaper_without_base(a, b, changed);
         for (size_t i = 0; i < a->arguments.n; i++) {
             argument *arg = a->arguments.at + i;
 
-            if (!arg->composed || is_base(a, arg))
+            if (!arg->composed || is_base_angle(a, arg))
                 continue;
-            if (argument_set_composed(a, arg, false) < 0)
+            if (choose_composition(a, arg, false) < 0)
                 again = true;
             else
-                argument_set_composed(a, arg, true);
+                choose_composition(a, arg, true);
         }
     }
     qdot_free(changed);
@@ -411,15 +411,15 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, bool series,
     for (size_t i = 0; i < walk->n && status == QDOT_OK; i++) {
         qdot_expr e = walk->at[i];
 
-        if (is_trigonometric(qdot_expr_node(pool, e)) && !qdot_constant_is(pool, e))
+        if (is_sine_or_cosine(qdot_expr_node(pool, e)) && !qdot_constant_is(pool, e))
             status = read_argument(a, qdot_expr_arg(pool, e, 0));
     }
     if (status == QDOT_OK)
-        status = find_bases(a);
+        status = find_base_angles(a);
     if (status == QDOT_OK)
-        status = find_sums(a);
+        status = find_or_add_sums(a);
     if (status == QDOT_OK)
-        status = angles_choose_composed(a);
+        status = choose_compositions(a);
     if (status != QDOT_OK) {
         qdot_angles_free(a);
         a = NULL;
@@ -430,10 +430,10 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, bool series,
 
 /* --- writing code for angles -------------------------------------------------------- */
 
-/* Compute sine and cosine (s, c) of A + B, or of A - B. */
+/* Write code for the sine and cosine (s, c) of the sum A + B, or of the difference A - B. */
 static void
-add_angles(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_value cb,
-           bool minus)
+write_addition_formula(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_value cb,
+                       bool minus)
 {
     qdot_value sc = qdot_code_op(code, QDOT_OP_MUL, *s, cb, 0);
     qdot_value cs = qdot_code_op(code, QDOT_OP_MUL, *c, sb, 0);
@@ -444,9 +444,9 @@ add_angles(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_va
     *c = qdot_code_op(code, minus ? QDOT_OP_ADD : QDOT_OP_SUB, cc, ss, 0);
 }
 
-/* Compute the base angle unit * term from the value of `source`, a node of the expression. */
+/* Write code for the base angle unit * term, from the value of `source`, a node of the expression. */
 static void
-make_base(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
+write_base_angle(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
 {
     base *b = a->bases.at + p->base;
     qdot_value x;
@@ -470,9 +470,9 @@ make_base(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
     qdot_code_sincos(code, x, &b->sine, &b->cosine);
 }
 
-/* Compute sine and cosine of an integer multiple of a base angle, by doubling and adding. */
+/* Write code for sine and cosine of an integer multiple of a base angle, by doubling and adding angles. */
 static void
-make_multiple(qdot_angles *a, qdot_code *code, uint32_t m)
+write_multiple_angle(qdot_angles *a, qdot_code *code, uint32_t m)
 {
     multiple *to = a->multiples.at + m;
     const base *b = a->bases.at + to->base;
@@ -494,13 +494,13 @@ make_multiple(qdot_angles *a, qdot_code *code, uint32_t m)
         to->sine = qdot_code_op(code, QDOT_OP_ADD, sc, sc, 0);
         to->cosine = qdot_code_op(code, QDOT_OP_MUL, minus, plus, 0);
         if (to->multiple & bit)
-            add_angles(code, &to->sine, &to->cosine, b->sine, b->cosine, false);
+            write_addition_formula(code, &to->sine, &to->cosine, b->sine, b->cosine, false);
     }
 }
 
 static void
-compose(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const argument *arg,
-        qdot_value *sine, qdot_value *cosine)
+write_composed_angle(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const argument *arg,
+                     qdot_value *sine, qdot_value *cosine)
 {
     /* The sums from the outermost in; those not made yet are then made outward. Parts
      * and sums correspond: part k belongs to the sum k steps above the innermost. */
@@ -515,14 +515,14 @@ compose(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const argument *
             sum = a->sums.at[sum].parent;
         at = a->sums.at + sum;
         if (!at->made) {
-            make_base(a, walk, code, a->parts.at + arg->first + k);
-            make_multiple(a, code, at->multiple);
+            write_base_angle(a, walk, code, a->parts.at + arg->first + k);
+            write_multiple_angle(a, code, at->multiple);
             m = a->multiples.at + at->multiple;
             if (at->parent == NONE) {
                 s = m->sine;
                 c = m->cosine;
             } else
-                add_angles(code, &s, &c, m->sine, m->cosine, at->minus);
+                write_addition_formula(code, &s, &c, m->sine, m->cosine, at->minus);
             at->made = true;
             at->sine = s;
             at->cosine = c;
@@ -541,7 +541,7 @@ qdot_angles_pair(qdot_angles *a, const qdot_walk *walk, qdot_code *code, qdot_ex
     const argument *arg = a->arguments.at + qdot_keymap_get(&a->by_expr, e, 0, 0, 0);
 
     if (arg->composed)
-        compose(a, walk, code, arg, sine, cosine);
+        write_composed_angle(a, walk, code, arg, sine, cosine);
     else
         qdot_code_sincos(code, (qdot_value)qdot_walk_get(walk, e), sine, cosine);
 }

@@ -1,4 +1,4 @@
-/* code.c -- writes a tape: reuses equal values, collects constants, computes powers by products. */
+/* code.c -- writes the code of a tape: reuses equal values, collects constants, computes powers by products. */
 #include "tape/code.h"
 
 #include <string.h>
@@ -31,7 +31,7 @@ code_append(qdot_code *code, qdot_op op, qdot_value a, qdot_value b, qdot_value 
 /* chain[n]: a factor f, x^n = (x^f)^(n/f), or 0, x^n = x^(n-1) x, whichever takes the
  * fewest multiplications. Knuth, TAOCP 2, 4.6.3: the factor method. */
 static void
-power_chain(unsigned char chain[QDOT_CODE_MOST_POWER + 1])
+find_power_products(unsigned char chain[QDOT_CODE_MOST_POWER + 1])
 {
     unsigned char cost[QDOT_CODE_MOST_POWER + 1] = {0};
 
@@ -52,7 +52,7 @@ qdot_code_init(qdot_code *code, qdot_pool *pool, size_t inputs)
     memset(code, 0, sizeof *code);
     code->pool = pool;
     code->inputs = inputs;
-    power_chain(code->chain);
+    find_power_products(code->chain);
     for (size_t i = 0; i < inputs; i++)
         code_append(code, QDOT_OP_INPUT, (qdot_value)i, 0, 0);
 }
@@ -134,8 +134,8 @@ qdot_code_power(qdot_code *code, qdot_value a, long n)
 {
     const unsigned char *chain = code->chain;
     struct {
-        int power;        /* raise to this power; 0: none */
-        qdot_value times; /* the factor to multiply by */
+        int power;        /* the value is raised to this power; 0: none */
+        qdot_value times; /* the factor by which the result is multiplied */
     } todo[2 * QDOT_CODE_MOST_POWER];
     int depth = 0;
 

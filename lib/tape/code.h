@@ -13,7 +13,7 @@
 #include "tape/instruction.h"
 #include "tape/keymap.h"
 
-/* Powers above this exponent are computed by pow(). */
+/* Integer powers with a larger exponent are computed by pow(). */
 #define QDOT_CODE_MOST_POWER 64
 
 typedef uint32_t qdot_value; /* index of a value in qdot_code.values */
@@ -27,7 +27,7 @@ typedef struct {
  * 0: ask once, at the end. */
 typedef struct {
     size_t inputs;
-    qdot_vec(qdot_code_value) values; /* the inputs first, then one value for each operation */
+    qdot_vec(qdot_code_value) values; /* the values: first the inputs, then one value for each operation */
     qdot_vec(double) constants;
     qdot_vec(signed char) sides; /* sign of (exact constant - its double), see constant.h */
     qdot_vec(double) lows;       /* exact constant - its double, rounded */
@@ -47,16 +47,16 @@ void qdot_code_clear(qdot_code *code);
  * a, b and on b, a are one value. */
 qdot_value qdot_code_op(qdot_code *code, qdot_op op, qdot_value a, qdot_value b,
                         qdot_value c);
-/* A constant expression, evaluated exactly and rounded once. */
+/* The value of a constant expression, evaluated exactly and rounded only once. */
 qdot_value qdot_code_constant(qdot_code *code, qdot_expr e);
-/* Compute sine and cosine of a value. */
+/* Write code for both sine and cosine of a value. */
 void qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine,
                       qdot_value *cosine);
 /* a^n, n != 0, by the fewest multiplications a factor method finds; inverse powers by
  * 1/a. */
 qdot_value qdot_code_power(qdot_code *code, qdot_value a, long n);
 
-/* Make the tape of the code with these outputs [m]. */
+/* Make the finished tape from the code, with these values as outputs [m]. */
 QDOT_MUST_CHECK qdot_status qdot_code_finish(qdot_code *code, size_t m,
                                              const qdot_value *outputs,
                                              struct qdot_tape **tape);

@@ -1,4 +1,4 @@
-/* derivative.c -- computes the columns of a Jacobian, a group of directions at a time. */
+/* derivative.c -- computes the columns of a tape's Jacobian, several directions at the same time. */
 #include "tape/derivative.h"
 
 #include <math.h>

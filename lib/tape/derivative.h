@@ -16,7 +16,7 @@
 
 #include "tape/tape.h"
 
-/* The number of doubles needed as work space. */
+/* The number of doubles that the derivatives of a tape need as work space. */
 size_t qdot_derivative_work(const qdot_tape *tape);
 
 /* out [m] = outputs at in [n], and J [m x columns] row-major, the derivatives of the

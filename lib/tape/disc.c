@@ -1,4 +1,4 @@
-/* disc.c -- evaluates a tape over complex discs: values at the centres, and a radius for each. */
+/* disc.c -- evaluates a tape over complex discs: each value is a centre and a radius of possible errors. */
 #include "tape/disc.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@
 
 /* --- bounds of single operations ----------------------------------------------------- */
 
-/* The product x y, with 0 times infinity = 0. */
+/* The product x y of two radii, with 0 times infinity defined as 0. */
 static double
 radius_times(double x, double y)
 {
@@ -23,7 +23,7 @@ of_product(double a, double ra, double b, double rb)
     return radius_times(fabs(a), rb) + radius_times(fabs(b), ra) + radius_times(ra, rb);
 }
 
-/* Bound the quotient with d = a/b and deviations u, v: (a + u)/(b + v) - d = (u - d v)/(b + v). */
+/* Radius of a quotient with centre d = a/b and deviations u, v: (a + u)/(b + v) - d = (u - d v)/(b + v). */
 static double
 of_quotient(double d, double ra, double b, double rb)
 {
@@ -64,7 +64,7 @@ of_softplus(double a, double r)
     return r * fmin(small, r <= M_PI_2 ? 1 : 1 / sin(r));
 }
 
-/* Bound for erf: its slope 2 e^(-z^2)/sqrt(pi) is largest where x^2 - y^2 is smallest. */
+/* Radius of erf: its derivative 2 e^(-z^2)/sqrt(pi) is largest, at z = x + i y, where x^2 - y^2 is smallest. */
 static double
 of_normal(double a, double r)
 {
@@ -74,7 +74,7 @@ of_normal(double a, double r)
     return fmin(r * M_2_SQRTPI * exp(-least), x > 2 * r ? 2 : INFINITY);
 }
 
-/* Bound for atan2(y, x), the imaginary part of log(x + i y): half the difference of two logarithms. */
+/* Radius of atan2(y, x), the imaginary part of log(x + i y): half the difference of two logarithms. */
 static double
 of_angle(double y, double ry, double x, double rx)
 {
@@ -123,14 +123,14 @@ qdot_disc_work(const qdot_tape *tape)
     return 4 * tape->places;
 }
 
-/* Add the rounding error to a radius, unless the radius is 0. */
+/* Add the rounding error of the result d to its radius, unless the radius is 0. */
 static double
 radius_add_rounding(double d, double rd)
 {
     return isnan(d) ? NAN : rd != 0 ? rd + DBL_EPSILON * fabs(d) : 0;
 }
 
-/* Compute the centre and the radius of the result of an instruction. */
+/* Compute the centre and the radius of the disc that results from an instruction. */
 static void
 disc_execute(const qdot_instruction *i, double *work, double *radius)
 {
@@ -153,7 +153,7 @@ disc_execute(const qdot_instruction *i, double *work, double *radius)
 #include "tape/operation.def"
 #undef X
     }
-    if (ra != 0 || rb != 0 || rc != 0) /* if all radii are 0, the result is a number without radius */
+    if (ra != 0 || rb != 0 || rc != 0) /* if all radii are 0, the result is a plain number without radius */
         switch (i->op) {
 #define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, ...) \
     case QDOT_OP_##ID: disc; break;
@@ -169,7 +169,7 @@ disc_execute(const qdot_instruction *i, double *work, double *radius)
     }
 }
 
-/* Load centres c and radii r of the inputs; r NULL: all 0. */
+/* Set the discs of the inputs to centres c and radii r; r NULL: all radii are 0. */
 static void
 disc_load(const qdot_tape *tape, const double *c, const double *r, double *work)
 {
@@ -202,7 +202,7 @@ qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *
     }
 }
 
-/* Find the inputs that are read before their slots are reused. */
+/* Find the inputs that the tape reads before their memory is reused. */
 qdot_status
 qdot_disc_reads(const qdot_tape *tape, bool *used)
 {
@@ -232,7 +232,7 @@ qdot_disc_reads(const qdot_tape *tape, bool *used)
 }
 
 static bool
-falls_off(uint32_t op, qdot_disc_hiding by)
+may_become_negligible(uint32_t op, qdot_disc_hiding by)
 {
     return op == QDOT_OP_EXP || op == QDOT_OP_TANH || op == QDOT_OP_SINH ||
            op == QDOT_OP_COSH || op == QDOT_OP_POW ||
@@ -243,18 +243,18 @@ bool
 qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
 {
     for (size_t k = 0; k < tape->length; k++)
-        if (falls_off(tape->code[k].op, by))
+        if (may_become_negligible(tape->code[k].op, by))
             return true;
     return false;
 }
 
-/* For arguments larger than this, tanh is 1 in double precision. */
+/* For arguments larger than this, tanh is exactly 1 in double precision. */
 static const double saturated = 20;
 
 /* How far the argument of an operation that falls off, or its logarithm, may go where its value
  * changes. */
 static double
-reach_of(const qdot_instruction *i, const double *value, const double *radius)
+relative_reach(const qdot_instruction *i, const double *value, const double *radius)
 {
     const double a = fabs(value[i->x]), ra = radius[i->x];
 
@@ -282,7 +282,7 @@ qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double *c, co
     for (size_t k = 0; k < tape->length; k++) {
         const qdot_instruction *i = tape->code + k;
 
-        if (falls_off(i->op, by) && !(reach_of(i, work, radius) <= most)) {
+        if (may_become_negligible(i->op, by) && !(relative_reach(i, work, radius) <= most)) {
             *last = k;
             found++;
         }
@@ -308,7 +308,7 @@ disc_sum(disc a, disc b)
 }
 
 static disc
-negative(disc a)
+negate_disc(disc a)
 {
     return (disc){-a.c, a.r};
 }
@@ -322,7 +322,7 @@ disc_is_zero(disc a)
 /* The multiple of f in the result of an operation, from those B in its operands, whose values are x;
  * false if it is none. */
 static bool
-multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
+find_multiple_in_result(uint32_t op, const disc *B, const disc *x, disc *of)
 {
     const bool a = !disc_is_zero(B[0]), b = !disc_is_zero(B[1]), c = !disc_is_zero(B[2]);
     const disc ab = a ? disc_product(B[0], x[1]) : b ? disc_product(B[1], x[0]) : (disc){0};
@@ -331,13 +331,13 @@ multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
     if (!a && !b && !c)
         return true;
     switch (op) {
-    case QDOT_OP_NEG: *of = negative(B[0]); return true;
+    case QDOT_OP_NEG: *of = negate_disc(B[0]); return true;
     case QDOT_OP_ADD: *of = disc_sum(B[0], B[1]); return true;
-    case QDOT_OP_SUB: *of = disc_sum(B[0], negative(B[1])); return true;
+    case QDOT_OP_SUB: *of = disc_sum(B[0], negate_disc(B[1])); return true;
     case QDOT_OP_MUL: *of = ab; return !(a && b);
     case QDOT_OP_MADD: *of = disc_sum(ab, B[2]); return !(a && b);
-    case QDOT_OP_MSUB: *of = disc_sum(ab, negative(B[2])); return !(a && b);
-    case QDOT_OP_NMADD: *of = disc_sum(B[2], negative(ab)); return !(a && b);
+    case QDOT_OP_MSUB: *of = disc_sum(ab, negate_disc(B[2])); return !(a && b);
+    case QDOT_OP_NMADD: *of = disc_sum(B[2], negate_disc(ab)); return !(a && b);
     case QDOT_OP_DIV:
         of->c = B[0].c / x[1].c;
         of->r = of_quotient(of->c, B[0].r, x[1].c, x[1].r);
@@ -346,7 +346,7 @@ multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
     }
 }
 
-/* B counts as far from 0 if its magnitude varies over the disc by less than a factor of 5. */
+/* The disc B is far from 0 if its magnitudes differ by less than a factor of 5. */
 static const double far = 1.5;
 
 bool
@@ -369,7 +369,7 @@ qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const doubl
             x[l] = (disc){work[from[l]], radius[from[l]]};
             multiples[l] = (disc){B[from[l]], RB[from[l]]};
         }
-        if (j != k && !multiple_of(i->op, multiples, x, &of))
+        if (j != k && !find_multiple_in_result(i->op, multiples, x, &of))
             return false;
         disc_execute(i, work, radius);
         B[i->to] = of.c;

@@ -22,17 +22,17 @@
 
 #include "tape/tape.h"
 
-/* The number of doubles needed as work space. */
+/* The number of doubles that evaluation over discs needs as work space. */
 size_t qdot_disc_work(const qdot_tape *tape);
 
-/* Find centres C and radii R [outputs] for discs c, r [inputs]; work [qdot_disc_work]. Never fails. */
+/* Evaluate output discs (centres C, radii R) for input discs (c, r); work [qdot_disc_work]. Never fails. */
 void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *C,
                     double *R, double *work);
 
 /* Find which inputs the tape reads: used [inputs]; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
-/* Kinds of operations through which a function that is large elsewhere may be negligible at a point. */
+/* Kinds of operations by which a function that is large elsewhere can be negligible at one point. */
 typedef enum {
     QDOT_HIDES_EXPONENTIALS, /* exponentials that are negligible at the start with all their derivatives */
     QDOT_HIDES_QUOTIENTS /* also quotients that are negligible at the start, as 1/x^2 at large x */
@@ -54,7 +54,7 @@ size_t qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double
 bool qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
                         double *most, double *work);
 
-/* Evaluate the argument of instruction k at the inputs x, and its result. Work as above. */
+/* Evaluate the argument of instruction k at the inputs x, and *result; work [qdot_disc_work]. */
 double qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *result,
                           double *work);
 

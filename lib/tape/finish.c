@@ -9,8 +9,8 @@ typedef struct {
     qdot_code *code;
     size_t m;
     const qdot_value *outputs;
-    uint32_t *uses;  /* [values.n] number of readers of each value, outputs included */
-    uint32_t *last;  /* [values.n] the last value that reads it; an output stays alive */
+    uint32_t *uses;  /* [values.n] number of operations that read each value; outputs count as read */
+    uint32_t *last;  /* [values.n] the last value that is computed from this one; an output is kept to the end */
     uint32_t *place; /* [values.n] place of each value in the work space */
     uint32_t *constant; /* [values.n] for a constant: its index among the constants that are used */
 } finish;
@@ -23,7 +23,7 @@ code_value_at(finish *f, qdot_value v)
 
 /* The number of operands of a value: how many of a, b, c it has. */
 static int
-value_operands(const qdot_code_value *v)
+count_operands(const qdot_code_value *v)
 {
     if (v->op == QDOT_OP_INPUT || v->op == QDOT_OP_CONSTANT)
         return 0;
@@ -31,16 +31,16 @@ value_operands(const qdot_code_value *v)
 }
 
 static void
-add_uses(finish *f, qdot_value v, uint32_t change)
+change_operand_uses(finish *f, qdot_value v, uint32_t change)
 {
     const qdot_code_value *x = code_value_at(f, v);
     const qdot_value args[3] = {x->a, x->b, x->c};
 
-    for (int i = 0; i < value_operands(x); i++)
+    for (int i = 0; i < count_operands(x); i++)
         f->uses[args[i]] += change;
 }
 
-/* Count the uses of each value, from the outputs down; unused values get none. */
+/* Count how often each value is used, from the outputs down; unused values get 0. */
 static void
 count_uses(finish *f)
 {
@@ -51,12 +51,12 @@ count_uses(finish *f)
         f->uses[f->outputs[i]]++;
     for (size_t v = n; v-- > 0;)
         if (f->uses[v] > 0)
-            add_uses(f, (qdot_value)v, 1);
+            change_operand_uses(f, (qdot_value)v, 1);
 }
 
-/* If only one of a sine and cosine is used, compute only that one. */
+/* Where only one of a sine and a cosine is used, compute only that one. */
 static void
-split_pairs(finish *f)
+replace_unused_sincos(finish *f)
 {
     for (size_t v = 0; v < f->code->values.n; v++) {
         qdot_code_value *x = code_value_at(f, (qdot_value)v);
@@ -79,15 +79,15 @@ split_pairs(finish *f)
     }
 }
 
-/* The product that computes `v`, if `v` is read only once. */
+/* The product that computes the value `v`, if only one operation reads `v`; else NULL. */
 static const qdot_code_value *
-lone_product(finish *f, qdot_value v)
+product_used_once(finish *f, qdot_value v)
 {
     return f->uses[v] == 1 && code_value_at(f, v)->op == QDOT_OP_MUL ? code_value_at(f, v) : NULL;
 }
 
 static void
-fuse(finish *f)
+fuse_products_into_sums(finish *f)
 {
     for (size_t v = 0; v < f->code->values.n; v++) {
         qdot_code_value *x = code_value_at(f, (qdot_value)v);
@@ -96,11 +96,11 @@ fuse(finish *f)
         if (f->uses[v] == 0)
             continue;
         if (x->op == QDOT_OP_ADD || x->op == QDOT_OP_SUB) {
-            if ((p = lone_product(f, x->b))) {
+            if ((p = product_used_once(f, x->b))) {
                 f->uses[x->b] = 0;
                 x->op = x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_NMADD;
                 *x = (qdot_code_value){x->op, p->a, p->b, x->a};
-            } else if ((p = lone_product(f, x->a))) {
+            } else if ((p = product_used_once(f, x->a))) {
                 f->uses[x->a] = 0;
                 x->op = x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_MSUB;
                 *x = (qdot_code_value){x->op, p->a, p->b, x->b};
@@ -109,9 +109,9 @@ fuse(finish *f)
     }
 }
 
-/* Find last[v], the last use, for all live values. */
+/* Find last[v], the last use of v, for all values v that are used. */
 static void
-find_last(finish *f)
+find_last_uses(finish *f)
 {
     for (size_t v = 0; v < f->code->values.n; v++) {
         const qdot_code_value *x = code_value_at(f, (qdot_value)v);
@@ -119,7 +119,7 @@ find_last(finish *f)
 
         f->last[v] = (uint32_t)v;
         if (f->uses[v] > 0)
-            for (int i = 0; i < value_operands(x); i++)
+            for (int i = 0; i < count_operands(x); i++)
                 f->last[args[i]] = (uint32_t)v;
     }
     for (size_t i = 0; i < f->m; i++)
@@ -127,20 +127,20 @@ find_last(finish *f)
 }
 
 typedef struct {
-    uint32_t *free; /* places whose values are no longer needed */
+    uint32_t *free; /* places in the work space whose values are no longer needed */
     size_t n_free;
-    uint32_t next; /* the first place that was never used */
+    uint32_t next; /* the first place of the work space that was never used */
 } places;
 
 static uint32_t
-take_place(places *p)
+allocate_place(places *p)
 {
     return p->n_free ? p->free[--p->n_free] : p->next++;
 }
 
-/* Whether this value is computed by an instruction of its own. */
+/* Whether a value is computed by an instruction of its own. */
 static bool
-is_computed(finish *f, size_t v)
+has_own_instruction(finish *f, size_t v)
 {
     qdot_op op = code_value_at(f, (qdot_value)v)->op;
 
@@ -148,7 +148,7 @@ is_computed(finish *f, size_t v)
 }
 
 static void
-pack(finish *f, qdot_tape *tape, places *p)
+assign_places(finish *f, qdot_tape *tape, places *p)
 {
     qdot_instruction *out = tape->code;
     size_t n = f->code->values.n;
@@ -159,11 +159,11 @@ pack(finish *f, qdot_tape *tape, places *p)
         qdot_instruction i = {.op = x->op};
         uint32_t *const arg_places[3] = {&i.x, &i.y, &i.z};
 
-        if (!is_computed(f, v))
+        if (!has_own_instruction(f, v))
             continue;
-        for (int k = 0; k < value_operands(x); k++)
+        for (int k = 0; k < count_operands(x); k++)
             *arg_places[k] = f->place[args[k]];
-        for (int k = 0; k < value_operands(x); k++) {
+        for (int k = 0; k < count_operands(x); k++) {
             qdot_value a = args[k];
             bool again = (k > 0 && args[0] == a) || (k > 1 && args[1] == a);
 
@@ -171,9 +171,9 @@ pack(finish *f, qdot_tape *tape, places *p)
                 && f->place[a] >= tape->inputs + tape->constants)
                 p->free[p->n_free++] = f->place[a];
         }
-        f->place[v] = i.to = take_place(p);
+        f->place[v] = i.to = allocate_place(p);
         if (x->op == QDOT_OP_SINCOS)
-            f->place[v + 1] = i.y = take_place(p);
+            f->place[v + 1] = i.y = allocate_place(p);
         *out++ = i;
         tape->operations += (size_t)qdot_operations[x->op].operations;
         tape->calls += (size_t)qdot_operations[x->op].calls;
@@ -182,7 +182,7 @@ pack(finish *f, qdot_tape *tape, places *p)
 }
 
 static qdot_status
-tape_build(finish *f, qdot_tape *tape)
+build_tape(finish *f, qdot_tape *tape)
 {
     size_t n = f->code->values.n, computed = 0;
     places p = {0};
@@ -194,7 +194,7 @@ tape_build(finish *f, qdot_tape *tape)
 
         if (x->op == QDOT_OP_CONSTANT && f->uses[v] > 0)
             f->constant[v] = (uint32_t)tape->constants++;
-        computed += is_computed(f, v);
+        computed += has_own_instruction(f, v);
     }
     tape->constant = qdot_malloc(tape->constants * sizeof *tape->constant);
     tape->side = qdot_malloc(tape->constants * sizeof *tape->side);
@@ -222,7 +222,7 @@ tape_build(finish *f, qdot_tape *tape)
         }
     }
     p.next = (uint32_t)(tape->inputs + tape->constants);
-    pack(f, tape, &p);
+    assign_places(f, tape, &p);
     tape->places = p.next;
     for (size_t i = 0; i < f->m; i++)
         tape->output[i] = f->place[f->outputs[i]];
@@ -249,12 +249,12 @@ qdot_code_finish(qdot_code *code, size_t m, const qdot_value *outputs, qdot_tape
         f.place = f.last + n;
         f.constant = f.place + n;
         count_uses(&f);
-        split_pairs(&f);
+        replace_unused_sincos(&f);
         count_uses(&f);
-        fuse(&f);
+        fuse_products_into_sums(&f);
         count_uses(&f);
-        find_last(&f);
-        status = tape_build(&f, *tape);
+        find_last_uses(&f);
+        status = build_tape(&f, *tape);
     }
     qdot_free(f.uses);
     if (status != QDOT_OK) {

@@ -12,10 +12,10 @@ typedef enum {
 #include "tape/operation.def"
 #undef X
     QDOT_OP_COUNT,
-    /* Fields used only while a tape is being written: */
+    /* Operations that exist only while a tape is being written: */
     QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: index of the input */
     QDOT_OP_CONSTANT,              /* a: index of the constant */
-    QDOT_OP_SECOND /* a: the SINCOS instruction whose second result, the cosine, this is */
+    QDOT_OP_SECOND /* a: the SINCOS instruction of which this is the second result, the cosine */
 } qdot_op;
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
 
 extern const qdot_operation qdot_operations[QDOT_OP_COUNT];
 
-/* An instruction of the finished tape, with slots as operands. For SINCOS y is the second result. */
+/* An instruction of the finished tape; operands are places in the work space. For SINCOS y is the cosine's. */
 typedef struct {
     uint32_t op, to, x, y, z;
 } qdot_instruction;
@@ -35,7 +35,7 @@ struct qdot_tape {
     double *constant;       /* [constants] the constants as doubles */
     signed char *side;      /* [constants] sign of the exact value less the double; of a factor 1, by
                                how many doubles rounding moves what it multiplies (rounding.h) */
-    double *low;            /* [constants] exact constant - its double; 0 in a shaken tape */
+    double *low;            /* [constants] exact constant - its double; 0 in a tape with perturbed constants */
     qdot_expr *exact;       /* [constants] exact constants as expressions, for any precision */
     uint32_t *output;       /* [outputs] place of each output in the work space */
     qdot_instruction *code; /* [length] the instructions */

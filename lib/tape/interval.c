@@ -1,4 +1,4 @@
-/* interval.c -- evaluates a tape over intervals. */
+/* interval.c -- evaluates a tape over intervals: each value is a pair of bounds. */
 #include "tape/interval.h"
 
 #include <math.h>
@@ -40,10 +40,10 @@ qdot_interval_work(const qdot_tape *tape)
     return tape->places;
 }
 
-/* Apply the operation to numbers, as the tape does. */
+/* Apply an operation of the tape to numbers; the results are intervals of length 0. */
 static void
-on_points(const qdot_instruction *i, double a, double b, double c, qdot_interval *to,
-          qdot_interval *second)
+apply_to_numbers(const qdot_instruction *i, double a, double b, double c, qdot_interval *to,
+                 qdot_interval *second)
 {
     double d = 0, e = 0;
 
@@ -74,7 +74,7 @@ interval_execute(const qdot_instruction *i, qdot_interval *work)
 
     if (qdot_interval_is_point(a) && qdot_interval_is_point(b) &&
         qdot_interval_is_point(c))
-        on_points(i, a.lo, b.lo, c.lo, &d, &e);
+        apply_to_numbers(i, a.lo, b.lo, c.lo, &d, &e);
     else
         switch (i->op) {
 #define X(ID, name, operands_of, operations, calls, statement, slopes, interval, ...)    \

@@ -20,7 +20,7 @@
 #include "num/interval.h"
 #include "tape/tape.h"
 
-/* The number of intervals needed as work space. */
+/* The number of intervals that the evaluation of a tape over intervals needs as work space. */
 size_t qdot_interval_work(const qdot_tape *tape);
 
 /* Evaluate outputs out [outputs] for intervals in [inputs]; work [qdot_interval_work]. Never fails. */

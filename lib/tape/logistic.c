@@ -19,7 +19,7 @@ is_exp_or_hyperbolic(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-has_sign(const qdot_pool *pool, qdot_expr e, int sign)
+has_sign_flags(const qdot_pool *pool, qdot_expr e, int sign)
 {
     return (qdot_expr_node(pool, e)->sign & sign) == sign;
 }
@@ -58,15 +58,15 @@ read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
     return x->v != QDOT_ZERO && x->c != QDOT_NIL;
 }
 
-/* A factor (c (e^v + ratio e^w))^-n, with d = w - v, times e^(b (d + log ratio)). */
+/* A factor (c (e^v + ratio e^w))^-n e^(b (d + log ratio)), where d = w - v. */
 typedef struct {
     qdot_expr c, v, w, ratio, d;
     qdot_expr n, b;
 } denominator;
 
-/* Read a sum c_1 e^v + c_2 e^w with c_1 c_2 > 0; a negative c_2 is factored out only if n is an integer. */
+/* Read e as a sum c_1 e^v + c_2 e^w with c_1 c_2 > 0; -1 is factored out only if n is an integer. */
 static bool
-read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
+read_sum_of_exponentials(qdot_pool *pool, qdot_expr e, denominator *x)
 {
     exponential terms[2];
     size_t count = 0;
@@ -96,12 +96,12 @@ read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
                        .v = terms[0].v,
                        .w = terms[1].v,
                        .ratio = qdot_div(pool, terms[1].c, terms[0].c)};
-    return x->ratio != QDOT_NIL && has_sign(pool, x->ratio, QDOT_POS);
+    return x->ratio != QDOT_NIL && has_sign_flags(pool, x->ratio, QDOT_POS);
 }
 
 /* The quotient a/b if it is a rational number; else nil. */
 static qdot_expr
-quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
+rational_quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     qdot_expr term, q;
 
@@ -119,9 +119,9 @@ quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_expand(pool, qdot_sub(pool, a, qdot_mul(pool, q, b))) == QDOT_ZERO ? q : QDOT_NIL;
 }
 
-/* The exponent b, increased by the part of r with which it stays within -n/2 ... n/2. */
+/* The exponent b + r, limited to the range -n/2 ... n/2 in which the factor stays finite. */
 static qdot_expr
-exponent_within(qdot_pool *pool, const denominator *x, qdot_expr r)
+limited_exponent(qdot_pool *pool, const denominator *x, qdot_expr r)
 {
     const qdot_expr half = qdot_mul(pool, QDOT_HALF, x->n), b = qdot_add(pool, x->b, r);
 
@@ -130,21 +130,21 @@ exponent_within(qdot_pool *pool, const denominator *x, qdot_expr r)
     return qdot_expr_is_negative(pool, qdot_add(pool, half, b)) ? qdot_neg(pool, half) : b;
 }
 
-/* Move as much as possible of e^*left into the denominator. */
+/* Move as much as possible of the factor e^*left into the denominator x. */
 static void
-absorb(qdot_pool *pool, denominator *x, qdot_expr *left)
+move_exponential_into(qdot_pool *pool, denominator *x, qdot_expr *left)
 {
-    const qdot_expr r = quotient(pool, *left, x->d);
+    const qdot_expr r = rational_quotient(pool, *left, x->d);
     qdot_expr b;
 
     if (r == QDOT_NIL || r == QDOT_ZERO)
         return;
-    b = exponent_within(pool, x, r);
+    b = limited_exponent(pool, x, r);
     *left = qdot_sub(pool, *left, qdot_mul(pool, qdot_sub(pool, b, x->b), x->d));
     x->b = b;
 }
 
-/* The function log(1 + e^d) as one value. */
+/* The function log(1 + e^d) (softplus) as a single function of d. */
 static qdot_expr
 softplus_of(qdot_pool *pool, qdot_expr d)
 {
@@ -155,7 +155,7 @@ softplus_of(qdot_pool *pool, qdot_expr d)
 
 /* The exponent -(n/2 - b) l(d) - (n/2 + b) l(-d), where l(d) = log(1 + e^d) and d includes log(ratio). */
 static qdot_expr
-exponent_of(qdot_pool *pool, const denominator *x)
+exponent_of_denominator(qdot_pool *pool, const denominator *x)
 {
     const qdot_expr half = qdot_mul(pool, QDOT_HALF, x->n);
     const qdot_expr d = qdot_add(pool, x->d, qdot_fun1(pool, QDOT_LOG, x->ratio));
@@ -176,7 +176,7 @@ typedef struct {
     qdot_expr rest; /* product of the factors that are not rewritten */
     qdot_expr left; /* product of the exponentials is e^left */
     qdot_expr sum;  /* a sum of exponentials in the denominator; nil: none */
-    qdot_expr from; /* the factor from which these parts were taken */
+    qdot_expr from; /* the factor of the product from which these parts were read */
     denominator under[MOST];
     size_t n;
 } quotients;
@@ -187,17 +187,17 @@ is_negative_number(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_NUM && qdot_expr_is_negative(pool, e);
 }
 
-/* Whether b^p has the form (c_1 e^v + c_2 e^w)^-n; if so, record it. */
+/* Whether b^p has the form (c_1 e^v + c_2 e^w)^-n; if so, record it as a denominator. */
 static bool
-take_denominator(quotients *q, qdot_expr b, qdot_expr p)
+record_denominator(quotients *q, qdot_expr b, qdot_expr p)
 {
     qdot_pool *pool = q->pool;
     denominator *x = &q->under[q->n];
     qdot_expr own;
     long whole;
 
-    if (q->n == MOST || !is_negative_number(pool, p) || !read_sum(pool, b, x) ||
-        !(has_sign(pool, x->c, QDOT_POS) || qdot_expr_to_int(pool, p, &whole)))
+    if (q->n == MOST || !is_negative_number(pool, p) || !read_sum_of_exponentials(pool, b, x) ||
+        !(has_sign_flags(pool, x->c, QDOT_POS) || qdot_expr_to_int(pool, p, &whole)))
         return false;
     x->n = qdot_neg(pool, p);
     x->b = QDOT_ZERO;
@@ -207,15 +207,15 @@ take_denominator(quotients *q, qdot_expr b, qdot_expr p)
     own = qdot_expand(pool, own);
     if (own == QDOT_NIL)
         return true;
-    absorb(pool, x, &own);
+    move_exponential_into(pool, x, &own);
     q->left = qdot_add(pool, q->left, own);
     q->n++;
     return true;
 }
 
-/* Replace cosh(u)^p sinh(u)^r with p + r <= 0, one exponent negative, by tanh(u)^r cosh(u)^(p + r). */
+/* Replace cosh(u)^p sinh(u)^r, with p + r <= 0 and one negative exponent, by tanh(u)^r cosh(u)^(p + r). */
 static qdot_expr
-with_tangents(qdot_pool *pool, qdot_expr e)
+replace_by_tanh(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr f = e;
 
@@ -240,7 +240,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
     return f;
 }
 
-static qdot_expr form_of(qdot_pool *pool, qdot_expr e, void *user);
+static qdot_expr rewrite_product(qdot_pool *pool, qdot_expr e, void *user);
 
 /* A term c cosh(u)^a sinh(u)^b with a, b >= 0; u nil: the constant c. */
 typedef struct {
@@ -248,9 +248,9 @@ typedef struct {
     long a, b;
 } cosines;
 
-/* Whether base^exponent is a power k > 0 of cosh(u) or sinh(u), u as before; then k is added to t. */
+/* Whether base^exponent is a power k > 0 of cosh(u) or sinh(u) with the u of t; then k is added to t. */
 static bool
-take_cosine(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
+add_hyperbolic_power(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
 {
     const bool cosine = qdot_expr_is_function(pool, base, QDOT_COSH);
     long k;
@@ -264,27 +264,27 @@ take_cosine(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
 }
 
 static bool
-read_cosines(qdot_pool *pool, qdot_expr x, cosines *t)
+read_hyperbolic_term(qdot_pool *pool, qdot_expr x, cosines *t)
 {
     *t = (cosines){.c = x, .u = QDOT_NIL};
     if (qdot_constant_is(pool, x))
         return true;
     t->c = QDOT_ONE;
     if (qdot_expr_kind(pool, x) != QDOT_PROD)
-        return take_cosine(pool, x, QDOT_ONE, t);
+        return add_hyperbolic_power(pool, x, QDOT_ONE, t);
     t->c = qdot_expr_arg(pool, x, 0);
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, x, i), k = qdot_expr_arg(pool, x, i + 1);
 
         if (qdot_constant_is(pool, base) && qdot_constant_is(pool, k))
             t->c = qdot_mul(pool, t->c, qdot_pow(pool, base, k));
-        else if (!take_cosine(pool, base, k, t))
+        else if (!add_hyperbolic_power(pool, base, k, t))
             return false;
     }
     return t->c != QDOT_NIL;
 }
 
-/* A sum written as large * scaled with large > 0, where `scaled` stays finite. */
+/* A sum written as the product large * scaled, where large > 0 and `scaled` does not overflow. */
 typedef struct {
     qdot_expr large, scaled;
 } factored;
@@ -292,7 +292,7 @@ typedef struct {
 /* Write a polynomial of cosh(u) and sinh(u) as cosh(u)^N times terms in tanh(u) and 1/cosh(u);
  * whether it is one. */
 static bool
-over_cosine(qdot_pool *pool, qdot_expr e, factored *f)
+factor_out_cosh(qdot_pool *pool, qdot_expr e, factored *f)
 {
     const uint32_t n = qdot_expr_count(pool, e);
     qdot_expr u = QDOT_NIL, cosine, tangent;
@@ -300,7 +300,7 @@ over_cosine(qdot_pool *pool, qdot_expr e, factored *f)
     cosines t;
 
     for (uint32_t i = 1; i + 1 < n; i += 2) {
-        if (!read_cosines(pool, qdot_expr_arg(pool, e, i), &t) ||
+        if (!read_hyperbolic_term(pool, qdot_expr_arg(pool, e, i), &t) ||
             (t.u != QDOT_NIL && u != QDOT_NIL && t.u != u))
             return false;
         u = t.u != QDOT_NIL ? t.u : u;
@@ -312,19 +312,19 @@ over_cosine(qdot_pool *pool, qdot_expr e, factored *f)
     tangent = qdot_fun1(pool, QDOT_TANH, u);
     f->large = qdot_pow_int(pool, cosine, N);
     f->scaled = qdot_mul(pool, qdot_expr_arg(pool, e, 0),
-                         form_of(pool, qdot_pow_int(pool, cosine, -N), NULL));
+                         rewrite_product(pool, qdot_pow_int(pool, cosine, -N), NULL));
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr term;
 
-        (void)read_cosines(pool, qdot_expr_arg(pool, e, i), &t);
-        term = form_of(pool, qdot_mul(pool, t.c, qdot_pow_int(pool, cosine, t.a + t.b - N)), NULL);
+        (void)read_hyperbolic_term(pool, qdot_expr_arg(pool, e, i), &t);
+        term = rewrite_product(pool, qdot_mul(pool, t.c, qdot_pow_int(pool, cosine, t.a + t.b - N)), NULL);
         term = qdot_mul(pool, term, qdot_pow_int(pool, tangent, t.b));
         f->scaled = qdot_add(pool, f->scaled, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), term));
     }
     return f->scaled != QDOT_NIL;
 }
 
-/* Read term i of a sum (0: its constant) as an exponential. */
+/* Read term number i of a sum (0: its constant) as an exponential. */
 static bool
 read_term(qdot_pool *pool, qdot_expr e, uint32_t i, exponential *x)
 {
@@ -338,7 +338,7 @@ read_term(qdot_pool *pool, qdot_expr e, uint32_t i, exponential *x)
 /* sum c_i e^(k_i u), k_i rational, as (e^(k u) + e^(K u)) (the terms over that), k and K the least and the
  * largest; whether it is one. */
 static bool
-over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
+factor_out_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 {
     const uint32_t n = (qdot_expr_count(pool, e) + 1) / 2;
     qdot_expr u = QDOT_NIL, low = QDOT_NIL, high = QDOT_NIL, pair;
@@ -350,7 +350,7 @@ over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
         if (!read_term(pool, e, i, &x))
             return false;
         u = u == QDOT_NIL && x.v != QDOT_ZERO ? x.v : u;
-        k = x.v == QDOT_ZERO ? QDOT_ZERO : quotient(pool, x.v, u);
+        k = x.v == QDOT_ZERO ? QDOT_ZERO : rational_quotient(pool, x.v, u);
         if (k == QDOT_NIL)
             return false;
         if (low == QDOT_NIL || qdot_expr_is_negative(pool, qdot_sub(pool, k, low)))
@@ -369,24 +369,24 @@ over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 
         (void)read_term(pool, e, i, &x);
         term = qdot_mul(pool, x.c, qdot_fun1(pool, QDOT_EXP, x.v));
-        f->scaled = qdot_add(pool, f->scaled, form_of(pool, qdot_div(pool, term, pair), NULL));
+        f->scaled = qdot_add(pool, f->scaled, rewrite_product(pool, qdot_div(pool, term, pair), NULL));
     }
     return f->scaled != QDOT_NIL;
 }
 
-/* Factor e if it is a sum of exponentials, but not of two with the same sign (read_sum). */
+/* Factor out exponentials if e is a sum of them, except two of the same sign (read_sum_of_exponentials). */
 static bool
 factor_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 {
     denominator x;
 
-    return qdot_expr_kind(pool, e) == QDOT_SUM && !read_sum(pool, e, &x) &&
-           (over_cosine(pool, e, f) || over_exponentials(pool, e, f));
+    return qdot_expr_kind(pool, e) == QDOT_SUM && !read_sum_of_exponentials(pool, e, &x) &&
+           (factor_out_cosh(pool, e, f) || factor_out_exponentials(pool, e, f));
 }
 
-/* Replace negative powers of such sums by those of their factors. */
+/* Replace negative powers of sums of exponentials by negative powers of their factors. */
 static qdot_expr
-with_factors(qdot_pool *pool, qdot_expr e)
+factor_negative_powers(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr f = e;
 
@@ -403,9 +403,9 @@ with_factors(qdot_pool *pool, qdot_expr e)
     return f;
 }
 
-/* The sum b; for cosh(u) or sinh(u) the sum (e^u +- e^-u)/2; nil for other expressions. */
+/* The sum b itself; for cosh(u), sinh(u) the sum (e^u +- e^-u)/2; nil for other expressions. */
 static qdot_expr
-as_sum(qdot_pool *pool, qdot_expr b)
+write_as_sum(qdot_pool *pool, qdot_expr b)
 {
     qdot_expr up, down;
 
@@ -420,9 +420,9 @@ as_sum(qdot_pool *pool, qdot_expr b)
     return qdot_add(pool, qdot_mul(pool, QDOT_HALF, up), qdot_mul(pool, QDOT_HALF, down));
 }
 
-/* Sort the factors of e into denominators, exponentials and the rest. */
+/* Sort the factors of e into denominators, exponentials and remaining factors. */
 static void
-quotients_sort(quotients *q, qdot_expr e)
+sort_factors(quotients *q, qdot_expr e)
 {
     qdot_pool *pool = q->pool;
 
@@ -431,11 +431,11 @@ quotients_sort(quotients *q, qdot_expr e)
         const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
         qdot_expr sum;
 
-        if (take_denominator(q, b, p))
+        if (record_denominator(q, b, p))
             continue;
         if (qdot_expr_is_function(pool, b, QDOT_EXP) && p == QDOT_ONE)
             q->left = qdot_add(pool, q->left, qdot_expr_arg(pool, b, 0));
-        else if (q->sum == QDOT_NIL && p == QDOT_ONE && (sum = as_sum(pool, b)) != QDOT_NIL) {
+        else if (q->sum == QDOT_NIL && p == QDOT_ONE && (sum = write_as_sum(pool, b)) != QDOT_NIL) {
             q->sum = sum;
             q->from = b;
         } else
@@ -443,21 +443,21 @@ quotients_sort(quotients *q, qdot_expr e)
     }
 }
 
-/* Divide a sum with exponentials by the denominators, term by term. */
+/* Divide a sum that contains exponentials by the denominators, term by term. */
 static qdot_expr
-distribute(quotients *q, qdot_expr e)
+divide_terms(quotients *q, qdot_expr e)
 {
     qdot_pool *pool = q->pool;
     const qdot_expr under = qdot_div(pool, e, q->from);
     qdot_expr sum = QDOT_ZERO, constant = qdot_expr_arg(pool, q->sum, 0);
 
     if (constant != QDOT_ZERO)
-        sum = form_of(pool, qdot_mul(pool, constant, under), NULL);
+        sum = rewrite_product(pool, qdot_mul(pool, constant, under), NULL);
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, q->sum); i += 2) {
         qdot_expr term =
             qdot_mul(pool, qdot_expr_arg(pool, q->sum, i), qdot_expr_arg(pool, q->sum, i + 1));
 
-        term = form_of(pool, qdot_mul(pool, term, under), NULL);
+        term = rewrite_product(pool, qdot_mul(pool, term, under), NULL);
         if (term == QDOT_NIL || sum == QDOT_NIL)
             return QDOT_NIL;
         sum = qdot_add(pool, sum, term);
@@ -467,7 +467,7 @@ distribute(quotients *q, qdot_expr e)
 
 /* Whether a term of a sum grows exponentially: e^v, cosh, sinh, or a product with one. */
 static bool
-grows(const qdot_pool *pool, qdot_expr sum)
+grows_exponentially(const qdot_pool *pool, qdot_expr sum)
 {
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, sum); i += 2) {
         const qdot_expr x = qdot_expr_arg(pool, sum, i);
@@ -486,9 +486,9 @@ grows(const qdot_pool *pool, qdot_expr sum)
     return false;
 }
 
-/* Rewrite a product with sums of exponentials in a form that does not overflow. */
+/* Rewrite a product with sums of exponentials such that it does not overflow. */
 static qdot_expr
-form_of(qdot_pool *pool, qdot_expr e, void *user)
+rewrite_product(qdot_pool *pool, qdot_expr e, void *user)
 {
     quotients q = {.pool = pool, .left = QDOT_ZERO, .sum = QDOT_NIL};
     qdot_expr exponent;
@@ -496,27 +496,27 @@ form_of(qdot_pool *pool, qdot_expr e, void *user)
     (void)user;
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
         return e;
-    e = with_factors(pool, e);
+    e = factor_negative_powers(pool, e);
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
         return e;
-    e = with_tangents(pool, e);
+    e = replace_by_tanh(pool, e);
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
         return e;
-    quotients_sort(&q, e);
+    sort_factors(&q, e);
     if (q.n == 0)
         return e;
-    if (q.sum != QDOT_NIL && grows(pool, q.sum))
-        return distribute(&q, e);
+    if (q.sum != QDOT_NIL && grows_exponentially(pool, q.sum))
+        return divide_terms(&q, e);
     if (q.sum != QDOT_NIL)
         q.rest = qdot_mul(pool, q.rest, q.sum);
     for (size_t i = 0; i < q.n; i++)
-        absorb(pool, &q.under[i], &q.left);
+        move_exponential_into(pool, &q.under[i], &q.left);
     exponent = q.left;
     for (size_t i = 0; i < q.n; i++) {
         const denominator *x = &q.under[i];
         const qdot_expr by = qdot_add(pool, x->b, qdot_mul(pool, QDOT_HALF, x->n));
 
-        exponent = qdot_add(pool, exponent, exponent_of(pool, x));
+        exponent = qdot_add(pool, exponent, exponent_of_denominator(pool, x));
         q.rest = qdot_mul(pool, q.rest, qdot_pow(pool, x->ratio, qdot_neg(pool, by)));
     }
     return qdot_mul(pool, q.rest, qdot_fun1(pool, QDOT_EXP, exponent));
@@ -524,7 +524,7 @@ form_of(qdot_pool *pool, qdot_expr e, void *user)
 
 /* Rewrite log(c_1 e^v + c_2 e^w) with c_1 and c_2 > 0. */
 static qdot_expr
-logarithm_of_sum(qdot_pool *pool, const denominator *x)
+rewrite_logarithm_of_sum(qdot_pool *pool, const denominator *x)
 {
     const qdot_expr d = qdot_expand(pool, qdot_sub(pool, x->w, x->v)),
                     at = qdot_add(pool, d, qdot_fun1(pool, QDOT_LOG, x->ratio));
@@ -542,21 +542,21 @@ logarithm_of_sum(qdot_pool *pool, const denominator *x)
     return qdot_add(pool, c, qdot_mul(pool, QDOT_HALF, qdot_expand(pool, sum)));
 }
 
-/* Rewrite the logarithm of cosh(u)^N, or of a sum of two exponentials. */
+/* Rewrite the logarithm of cosh(u)^N or of a sum of two exponentials such that it does not overflow. */
 static qdot_expr
-logarithm_of(qdot_pool *pool, qdot_expr large)
+rewrite_logarithm_of_factor(qdot_pool *pool, qdot_expr large)
 {
     const bool power = qdot_expr_kind(pool, large) == QDOT_PROD;
     const qdot_expr base = power ? qdot_expr_arg(pool, large, 1) : large,
                     N = power ? qdot_expr_arg(pool, large, 2) : QDOT_ONE;
     denominator x;
 
-    return read_sum(pool, base, &x) ? qdot_mul(pool, N, logarithm_of_sum(pool, &x)) : QDOT_NIL;
+    return read_sum_of_exponentials(pool, base, &x) ? qdot_mul(pool, N, rewrite_logarithm_of_sum(pool, &x)) : QDOT_NIL;
 }
 
-/* Rewrite log(S) for sums that grow exponentially, and for cosh(u). */
+/* Rewrite log(S), for sums S that grow exponentially and for cosh(u), such that it does not overflow. */
 static qdot_expr
-logarithm(qdot_pool *pool, qdot_expr e, void *user)
+rewrite_logarithm(qdot_pool *pool, qdot_expr e, void *user)
 {
     const bool is_log = qdot_expr_is_function(pool, e, QDOT_LOG);
     const qdot_expr S = is_log ? qdot_expr_arg(pool, e, 0) : e;
@@ -566,11 +566,11 @@ logarithm(qdot_pool *pool, qdot_expr e, void *user)
     (void)user;
     if (!is_log || qdot_logistic_argument(pool, e) != QDOT_NIL)
         return e;
-    if (read_sum(pool, S, &x))
-        return has_sign(pool, x.c, QDOT_POS) ? logarithm_of_sum(pool, &x) : e;
+    if (read_sum_of_exponentials(pool, S, &x))
+        return has_sign_flags(pool, x.c, QDOT_POS) ? rewrite_logarithm_of_sum(pool, &x) : e;
     if (!factor_exponentials(pool, S, &f))
         return e;
-    return qdot_add(pool, logarithm_of(pool, f.large), qdot_fun1(pool, QDOT_LOG, f.scaled));
+    return qdot_add(pool, rewrite_logarithm_of_factor(pool, f.large), qdot_fun1(pool, QDOT_LOG, f.scaled));
 }
 
 bool
@@ -586,8 +586,8 @@ qdot_logistic_occurs(const qdot_walk *w)
 qdot_expr
 qdot_logistic_form(qdot_pool *pool, qdot_expr e)
 {
-    e = qdot_walk_replace(pool, e, QDOT_PROD, form_of, NULL);
-    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, logarithm, NULL);
+    e = qdot_walk_replace(pool, e, QDOT_PROD, rewrite_product, NULL);
+    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, rewrite_logarithm, NULL);
 }
 
 qdot_expr

@@ -26,10 +26,10 @@
 
 #include "expr/walk.h"
 
-/* Whether the nodes of a walk contain quotients or logarithms of exponentials. */
+/* Whether some node of an expression is a quotient or a logarithm of exponentials. */
 bool qdot_logistic_occurs(const qdot_walk *w);
 
-/* e with its quotients rewritten in the finite form. Nil: a failure of the pool. */
+/* The expression e, its quotients rewritten so that they do not overflow. Nil: a failure of the pool. */
 qdot_expr qdot_logistic_form(qdot_pool *pool, qdot_expr e);
 
 /* The argument d if e has the form log(1 + e^d); otherwise nil. */

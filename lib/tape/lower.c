@@ -1,4 +1,4 @@
-/* lower.c -- translates the expression graph to code of a tape: sums, products, functions, node by node. */
+/* lower.c -- compiles the expression graph to the code of a tape: sums, products, functions, node by node. */
 #include <string.h>
 
 #include "expr/build.h"
@@ -25,12 +25,12 @@ typedef struct {
     uint32_t first, last;
 } group;
 
-/* Data of a node, stored by the node's index in the walk. */
+/* Data about a node of the expression, stored by the node's index in the walk. */
 typedef struct {
     qdot_value bare;    /* value of the node without its constant factor */
     qdot_expr factor;   /* constant factor: node = factor * bare */
-    uint32_t negatives; /* number of products that contain the node to a negative power */
-    bool root;          /* one of these powers is half an odd number, as in 1/sqrt(x) */
+    uint32_t negatives; /* number of products that contain the node with a negative exponent */
+    bool root;          /* one of these exponents is half an odd number, as in 1/sqrt(x) */
 } known;
 
 typedef struct {
@@ -41,28 +41,28 @@ typedef struct {
     bool series; /* Taylor series will be computed with this tape */
     qdot_angles *angles;
 
-    /* Work space of the function lower_sum: */
+    /* Work space of the function compile_sum: */
     qdot_vec(term) terms;
     qdot_vec(group) groups;
     qdot_keymap by_magnitude;
 } lowering;
 
 static qdot_value
-op(lowering *l, qdot_op id, qdot_value a, qdot_value b)
+write_operation(lowering *l, qdot_op id, qdot_value a, qdot_value b)
 {
     return qdot_code_op(&l->code, id, a, b, 0);
 }
 
 static qdot_value
-node_value_of(lowering *l, qdot_expr e)
+value_of_node(lowering *l, qdot_expr e)
 {
     return qdot_constant_is(l->pool, e) ? qdot_code_constant(&l->code, e)
                                         : (qdot_value)qdot_walk_get(&l->walk, e);
 }
 
-/* Remove the sign of a value and store it in *minus. */
+/* Remove the sign from a value, and store in *minus whether it was negative. */
 static qdot_value
-without_sign(lowering *l, qdot_value v, bool *minus)
+remove_sign(lowering *l, qdot_value v, bool *minus)
 {
     if (l->code.status == QDOT_OK && l->code.values.at[v].op == QDOT_OP_NEG) {
         *minus = !*minus;
@@ -73,16 +73,16 @@ without_sign(lowering *l, qdot_value v, bool *minus)
 
 /* --- lowering sums ------------------------------------------------------------------ */
 
-/* Add coefficient * v to the group of terms with the same |coefficient|. */
+/* Add coefficient * v to the group of terms that have the same |coefficient|. */
 static qdot_status
-groups_add_term(lowering *l, qdot_expr coefficient, qdot_value v)
+add_term_to_group(lowering *l, qdot_expr coefficient, qdot_value v)
 {
     bool minus = qdot_expr_is_negative(l->pool, coefficient);
     qdot_expr magnitude = minus ? qdot_neg(l->pool, coefficient) : coefficient;
     uint32_t g = qdot_keymap_get(&l->by_magnitude, magnitude, 0, 0, 0);
     uint32_t n = (uint32_t)l->terms.n;
 
-    v = without_sign(l, v, &minus);
+    v = remove_sign(l, v, &minus);
     QDOT_TRY(qdot_vec_push(&l->terms, ((term){v, minus, UINT32_MAX})));
     if (g != QDOT_KEYMAP_NONE) {
         l->terms.at[l->groups.at[g].last].next = n;
@@ -94,25 +94,25 @@ groups_add_term(lowering *l, qdot_expr coefficient, qdot_value v)
     return qdot_keymap_set(&l->by_magnitude, magnitude, 0, 0, 0, g);
 }
 
-/* A running sum, which begins with a positive term if there is one. */
+/* A sum while its code is being written; it begins with a positive term if there is one. */
 typedef struct {
     bool begun;
     qdot_value value;
 } total;
 
 static void
-total_add(lowering *l, total *t, qdot_value v, bool minus)
+add_to_total(lowering *l, total *t, qdot_value v, bool minus)
 {
     if (!t->begun)
-        *t = (total){true, minus ? op(l, QDOT_OP_NEG, v, 0) : v};
+        *t = (total){true, minus ? write_operation(l, QDOT_OP_NEG, v, 0) : v};
     else
-        t->value = op(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, t->value, v);
+        t->value = write_operation(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, t->value, v);
 }
 
 /* The sum of a group's terms, the first positive one in front; all negative: *minus
  * and the sum of their opposites. */
 static qdot_value
-group_sum(lowering *l, const group *g, bool *minus)
+sum_of_group(lowering *l, const group *g, bool *minus)
 {
     uint32_t lead = g->first;
     total t = {0};
@@ -122,15 +122,15 @@ group_sum(lowering *l, const group *g, bool *minus)
     *minus = lead == UINT32_MAX;
     if (*minus)
         lead = g->first;
-    total_add(l, &t, l->terms.at[lead].value, false);
+    add_to_total(l, &t, l->terms.at[lead].value, false);
     for (uint32_t i = g->first; i != UINT32_MAX; i = l->terms.at[i].next)
         if (i != lead)
-            total_add(l, &t, l->terms.at[i].value, l->terms.at[i].minus != *minus);
+            add_to_total(l, &t, l->terms.at[i].value, l->terms.at[i].minus != *minus);
     return t.value;
 }
 
 static qdot_status
-lower_sum(lowering *l, qdot_expr e, known *k)
+compile_sum(lowering *l, qdot_expr e, known *k)
 {
     qdot_pool *pool = l->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -151,7 +151,7 @@ lower_sum(lowering *l, qdot_expr e, known *k)
         if (qdot_constant_is(pool, x))
             constant = qdot_add(pool, constant, qdot_mul(pool, c, x));
         else
-            QDOT_TRY(groups_add_term(l, qdot_mul(pool, c, kt->factor), kt->bare));
+            QDOT_TRY(add_term_to_group(l, qdot_mul(pool, c, kt->factor), kt->bare));
     }
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
@@ -162,25 +162,25 @@ lower_sum(lowering *l, qdot_expr e, known *k)
         const group *g = l->groups.at + i;
         struct addend *a = addends + count++;
 
-        a->value = group_sum(l, g, &a->minus);
+        a->value = sum_of_group(l, g, &a->minus);
         if (g->magnitude != QDOT_ONE)
-            a->value = op(l, QDOT_OP_MUL, a->value,
-                          qdot_code_constant(&l->code, g->magnitude));
+            a->value = write_operation(l, QDOT_OP_MUL, a->value,
+                                       qdot_code_constant(&l->code, g->magnitude));
     }
     if (constant != QDOT_ZERO)
         addends[count++] = (struct addend){qdot_code_constant(&l->code, constant), false};
     while (lead < count && addends[lead].minus)
         lead++;
     k->factor = QDOT_ONE;
-    if (lead == count) { /* all terms are negative: minus the sum of their opposites */
+    if (lead == count) { /* all terms are negative: write minus the sum of their opposites */
         for (size_t i = 0; i < count; i++)
-            total_add(l, &t, addends[i].value, false);
+            add_to_total(l, &t, addends[i].value, false);
         k->factor = QDOT_MINUS_ONE;
     } else {
-        total_add(l, &t, addends[lead].value, false);
+        add_to_total(l, &t, addends[lead].value, false);
         for (size_t i = 0; i < count; i++)
             if (i != lead)
-                total_add(l, &t, addends[i].value, addends[i].minus);
+                add_to_total(l, &t, addends[i].value, addends[i].minus);
     }
     k->bare = t.value;
     qdot_free(addends);
@@ -195,14 +195,14 @@ typedef struct {
 } product;
 
 static void
-product_times(lowering *l, product *p, qdot_value v)
+multiply_product(lowering *l, product *p, qdot_value v)
 {
-    *p = (product){true, p->some ? op(l, QDOT_OP_MUL, p->value, v) : v};
+    *p = (product){true, p->some ? write_operation(l, QDOT_OP_MUL, p->value, v) : v};
 }
 
-/* Twice a rational exponent if that is an integer of moderate size; otherwise 0. */
+/* Twice a rational exponent, if that is a moderately large integer; otherwise 0. */
 static long
-exponent_twice(const qdot_pool *pool, qdot_expr exponent)
+twice_exponent(const qdot_pool *pool, qdot_expr exponent)
 {
     const fmpq *x = qdot_expr_rational(pool, exponent);
 
@@ -211,24 +211,24 @@ exponent_twice(const qdot_pool *pool, qdot_expr exponent)
     return x->den == 1 ? 2 * x->num : x->num;
 }
 
-/* Multiply numerator or denominator by v^(half/2). */
+/* Multiply the numerator (over) or the denominator (under) by v^(half/2). */
 static void
-times_power(lowering *l, product *over, product *under, const known *k, qdot_value v,
-            long half)
+multiply_by_power(lowering *l, product *over, product *under, const known *k, qdot_value v,
+                  long half)
 {
     bool shared = k->negatives > 1;
     qdot_value root;
 
     if (half % 2 == 0 && !(half < 0 && shared && k->root)) {
         if (half > 0 || shared)
-            product_times(l, over, qdot_code_power(&l->code, v, half / 2));
+            multiply_product(l, over, qdot_code_power(&l->code, v, half / 2));
         else
-            product_times(l, under, qdot_code_power(&l->code, v, -half / 2));
+            multiply_product(l, under, qdot_code_power(&l->code, v, -half / 2));
         return;
     }
-    root = op(l, QDOT_OP_SQRT, v, 0);
+    root = write_operation(l, QDOT_OP_SQRT, v, 0);
     if (half < 0 && shared) {
-        product_times(l, over, qdot_code_power(&l->code, root, half));
+        multiply_product(l, over, qdot_code_power(&l->code, root, half));
         return;
     }
     if (half < 0) {
@@ -236,12 +236,12 @@ times_power(lowering *l, product *over, product *under, const known *k, qdot_val
         half = -half;
     }
     if (half > 1)
-        product_times(l, over, qdot_code_power(&l->code, v, half / 2));
-    product_times(l, over, root);
+        multiply_product(l, over, qdot_code_power(&l->code, v, half / 2));
+    multiply_product(l, over, root);
 }
 
 static qdot_status
-lower_product(lowering *l, qdot_expr e, known *k)
+compile_product(lowering *l, qdot_expr e, known *k)
 {
     qdot_pool *pool = l->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -252,35 +252,35 @@ lower_product(lowering *l, qdot_expr e, known *k)
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
         bool constant = qdot_constant_is(pool, b);
-        long half = exponent_twice(pool, p);
+        long half = twice_exponent(pool, p);
 
         if (constant && qdot_constant_is(pool, p))
             factor = qdot_mul(pool, factor, qdot_pow(pool, b, p));
         else if (half != 0) {
             const known *kb = l->known + qdot_walk_index(&l->walk, b);
-            qdot_value v = node_value_of(l, b);
+            qdot_value v = value_of_node(l, b);
             bool odd = false;
 
             if (half % 2 == 0)
-                v = without_sign(l, v, &odd);
+                v = remove_sign(l, v, &odd);
             if (odd && (half / 2) % 2 != 0)
                 minus = !minus;
-            times_power(l, &over, &under, kb, v, half);
+            multiply_by_power(l, &over, &under, kb, v, half);
         } else
-            product_times(l, &over, op(l, QDOT_OP_POW, node_value_of(l, b), node_value_of(l, p)));
+            multiply_product(l, &over, write_operation(l, QDOT_OP_POW, value_of_node(l, b), value_of_node(l, p)));
     }
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
     if (under.some && !over.some)
-        product_times(l, &over, qdot_code_constant(&l->code, QDOT_ONE));
-    k->bare = under.some ? op(l, QDOT_OP_DIV, over.value, under.value) : over.value;
+        multiply_product(l, &over, qdot_code_constant(&l->code, QDOT_ONE));
+    k->bare = under.some ? write_operation(l, QDOT_OP_DIV, over.value, under.value) : over.value;
     k->factor = minus ? qdot_neg(pool, factor) : factor;
     return QDOT_OK;
 }
 
-/* Count in how many products each base occurs with a negative power. */
+/* Count for each base in how many products it occurs with a negative exponent. */
 static void
-count_negatives(lowering *l)
+count_negative_powers(lowering *l)
 {
     for (size_t i = 0; i < l->walk.n; i++) {
         qdot_expr e = l->walk.at[i];
@@ -289,7 +289,7 @@ count_negatives(lowering *l)
         if (qdot_expr_kind(l->pool, e) != QDOT_PROD)
             continue;
         for (uint32_t k = 1; k + 1 < n; k += 2) {
-            long half = exponent_twice(l->pool, qdot_expr_arg(l->pool, e, k + 1));
+            long half = twice_exponent(l->pool, qdot_expr_arg(l->pool, e, k + 1));
             known *b = l->known + qdot_walk_index(&l->walk, qdot_expr_arg(l->pool, e, k));
 
             if (half < 0) {
@@ -302,7 +302,7 @@ count_negatives(lowering *l)
 
 /* --- lowering functions and relations ----------------------------------------------- */
 
-/* The operation of each function that is a single operation; NEG, which no function is, means none. */
+/* For each function that is a single operation: that operation; NEG stands for none. */
 #define QDOT_OP_NONE QDOT_OP_NEG
 
 static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
@@ -311,20 +311,20 @@ static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
 #undef X
 };
 
-/* Write the operation for all operands of e, one after the other: ((a op b) op c) ... */
+/* Write the operation for all operands of e, from left to right: ((a op b) op c) ... */
 static qdot_value
-fold(lowering *l, qdot_op id, qdot_expr e)
+write_left_to_right(lowering *l, qdot_op id, qdot_expr e)
 {
-    qdot_value v = node_value_of(l, qdot_expr_arg(l->pool, e, 0));
+    qdot_value v = value_of_node(l, qdot_expr_arg(l->pool, e, 0));
 
     for (uint32_t i = 1; i < qdot_expr_count(l->pool, e); i++)
-        v = op(l, id, v, node_value_of(l, qdot_expr_arg(l->pool, e, i)));
+        v = write_operation(l, id, v, value_of_node(l, qdot_expr_arg(l->pool, e, i)));
     return v;
 }
 
-/* Lower the argument of `hold`: its value includes the constant factor, so readers only apply a sign. */
+/* Compile the argument of `hold`: its value includes the constant factor, so readers apply only a sign. */
 static void
-lower_hold(lowering *l, qdot_expr x, known *k)
+compile_hold(lowering *l, qdot_expr x, known *k)
 {
     const known *inner = l->known + qdot_walk_index(&l->walk, x);
     bool minus = qdot_expr_is_negative(l->pool, inner->factor);
@@ -332,27 +332,27 @@ lower_hold(lowering *l, qdot_expr x, known *k)
 
     k->bare = inner->bare;
     if (magnitude != QDOT_ONE)
-        k->bare = op(l, QDOT_OP_MUL, k->bare, qdot_code_constant(&l->code, magnitude));
+        k->bare = write_operation(l, QDOT_OP_MUL, k->bare, qdot_code_constant(&l->code, magnitude));
     k->factor = minus ? QDOT_MINUS_ONE : QDOT_ONE;
 }
 
-/* erf and erfc also compute their slope, from which their series are made. */
+/* Write erf or erfc with its derivative, from which their Taylor series are made. */
 static qdot_value
-error_function(lowering *l, qdot_fun_id f, qdot_value x)
+write_error_function(lowering *l, qdot_fun_id f, qdot_value x)
 {
     qdot_expr over =
         qdot_mul(l->pool, qdot_expr_int(l->pool, f == QDOT_ERF ? 2 : -2),
                  qdot_pow(l->pool, QDOT_PI, qdot_expr_ratio(l->pool, -1, 2)));
-    qdot_value square = op(l, QDOT_OP_MUL, x, x);
-    qdot_value e = op(l, QDOT_OP_EXP, op(l, QDOT_OP_NEG, square, 0), 0);
+    qdot_value square = write_operation(l, QDOT_OP_MUL, x, x);
+    qdot_value e = write_operation(l, QDOT_OP_EXP, write_operation(l, QDOT_OP_NEG, square, 0), 0);
 
-    return op(l, f == QDOT_ERF ? QDOT_OP_ERF : QDOT_OP_ERFC, x,
-              op(l, QDOT_OP_MUL, e, qdot_code_constant(&l->code, over)));
+    return write_operation(l, f == QDOT_ERF ? QDOT_OP_ERF : QDOT_OP_ERFC, x,
+                           write_operation(l, QDOT_OP_MUL, e, qdot_code_constant(&l->code, over)));
 }
 
-/* log(1 + e^d) also reads its slope (1 + tanh(d/2))/2; log(1 + e^-d) has the same tanh. */
+/* Write log(1 + e^d) with its derivative (1 + tanh(d/2))/2; log(1 + e^-d) shares the same tanh. */
 static qdot_value
-lower_softplus(lowering *l, qdot_expr d)
+write_softplus(lowering *l, qdot_expr d)
 {
     const known *k = l->known + qdot_walk_index(&l->walk, d);
     const bool minus = qdot_expr_is_negative(l->pool, k->factor);
@@ -360,42 +360,42 @@ lower_softplus(lowering *l, qdot_expr d)
     qdot_value x = k->bare, one_half = qdot_code_constant(&l->code, QDOT_HALF), y;
 
     if (half != QDOT_ONE)
-        x = op(l, QDOT_OP_MUL, x, qdot_code_constant(&l->code, half));
-    y = op(l, QDOT_OP_MUL, op(l, QDOT_OP_TANH, x, 0), one_half);
-    y = op(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, one_half, y);
-    return op(l, QDOT_OP_SOFTPLUS, node_value_of(l, d), y);
+        x = write_operation(l, QDOT_OP_MUL, x, qdot_code_constant(&l->code, half));
+    y = write_operation(l, QDOT_OP_MUL, write_operation(l, QDOT_OP_TANH, x, 0), one_half);
+    y = write_operation(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, one_half, y);
+    return write_operation(l, QDOT_OP_SOFTPLUS, value_of_node(l, d), y);
 }
 
 static qdot_status
-lower_function(lowering *l, qdot_expr e, known *k)
+compile_function(lowering *l, qdot_expr e, known *k)
 {
     qdot_fun_id f = (qdot_fun_id)qdot_expr_node(l->pool, e)->op;
     qdot_expr x = qdot_expr_arg(l->pool, e, 0), d;
     qdot_value s, c;
 
     if (f == QDOT_HOLD) {
-        lower_hold(l, x, k);
+        compile_hold(l, x, k);
         return QDOT_OK;
     }
     d = qdot_logistic_argument(l->pool, e);
     if (d != QDOT_NIL && !qdot_constant_is(l->pool, d)) {
-        k->bare = lower_softplus(l, d);
+        k->bare = write_softplus(l, d);
         return QDOT_OK;
     }
     if (direct[f] == QDOT_OP_SELECT) {
-        k->bare = qdot_code_op(&l->code, QDOT_OP_SELECT, node_value_of(l, x),
-                               node_value_of(l, qdot_expr_arg(l->pool, e, 1)),
-                               node_value_of(l, qdot_expr_arg(l->pool, e, 2)));
+        k->bare = qdot_code_op(&l->code, QDOT_OP_SELECT, value_of_node(l, x),
+                               value_of_node(l, qdot_expr_arg(l->pool, e, 1)),
+                               value_of_node(l, qdot_expr_arg(l->pool, e, 2)));
         return QDOT_OK;
     }
     if (direct[f] != QDOT_OP_NONE) {
         k->bare = qdot_operations[direct[f]].operands == 1
-                      ? op(l, direct[f], node_value_of(l, x), 0)
-                      : fold(l, direct[f], e);
+                      ? write_operation(l, direct[f], value_of_node(l, x), 0)
+                      : write_left_to_right(l, direct[f], e);
         return QDOT_OK;
     }
     if (f == QDOT_ERF || f == QDOT_ERFC) {
-        k->bare = error_function(l, f, node_value_of(l, x));
+        k->bare = write_error_function(l, f, value_of_node(l, x));
         return QDOT_OK;
     }
     switch ((int)f) {
@@ -414,15 +414,15 @@ lower_function(lowering *l, qdot_expr e, known *k)
     if (f == QDOT_SIN || f == QDOT_COS)
         k->bare = f == QDOT_SIN ? s : c;
     else if (f == QDOT_TAN || f == QDOT_COT)
-        k->bare = op(l, QDOT_OP_DIV, f == QDOT_TAN ? s : c, f == QDOT_TAN ? c : s);
+        k->bare = write_operation(l, QDOT_OP_DIV, f == QDOT_TAN ? s : c, f == QDOT_TAN ? c : s);
     else
-        k->bare = op(l, QDOT_OP_DIV, qdot_code_constant(&l->code, QDOT_ONE),
-                     f == QDOT_SEC ? c : s);
+        k->bare = write_operation(l, QDOT_OP_DIV, qdot_code_constant(&l->code, QDOT_ONE),
+                                  f == QDOT_SEC ? c : s);
     return QDOT_OK;
 }
 
 static qdot_status
-lower_node(lowering *l, size_t i)
+compile_node(lowering *l, size_t i)
 {
     static const qdot_op relations[] = {
         [QDOT_EQ] = QDOT_OP_EQ, [QDOT_LT] = QDOT_OP_LT, [QDOT_LE] = QDOT_OP_LE};
@@ -437,21 +437,21 @@ lower_node(lowering *l, size_t i)
     case QDOT_NUM:
         return QDOT_OK;
     case QDOT_SYM:
-    case QDOT_UFUN: /* cannot occur: refused at the start */
+    case QDOT_UFUN: /* user functions cannot occur here: they were refused at the start */
         return qdot_constant_unset(l->pool, e);
     case QDOT_SUM:
-        return lower_sum(l, e, k);
+        return compile_sum(l, e, k);
     case QDOT_PROD:
-        return lower_product(l, e, k);
+        return compile_product(l, e, k);
     case QDOT_FUN:
-        return lower_function(l, e, k);
+        return compile_function(l, e, k);
     case QDOT_REL:
-        k->bare = fold(l, relations[node->op], e);
+        k->bare = write_left_to_right(l, relations[node->op], e);
         return QDOT_OK;
     case QDOT_LOGIC:
         k->bare = node->op == QDOT_NOT
-                      ? op(l, QDOT_OP_NOT, node_value_of(l, qdot_expr_arg(l->pool, e, 0)), 0)
-                      : fold(l, logics[node->op], e);
+                      ? write_operation(l, QDOT_OP_NOT, value_of_node(l, qdot_expr_arg(l->pool, e, 0)), 0)
+                      : write_left_to_right(l, logics[node->op], e);
         return QDOT_OK;
     case QDOT_VEC:
     case QDOT_MAT:
@@ -461,7 +461,7 @@ lower_node(lowering *l, size_t i)
     return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
 }
 
-/* The value of a node multiplied by its constant factor. */
+/* The value of a node including its constant factor. */
 static qdot_value
 value_with_factor(lowering *l, const known *k)
 {
@@ -470,13 +470,13 @@ value_with_factor(lowering *l, const known *k)
     qdot_value v = k->bare;
 
     if (magnitude != QDOT_ONE)
-        return op(l, QDOT_OP_MUL, v, qdot_code_constant(&l->code, k->factor));
-    return minus ? op(l, QDOT_OP_NEG, v, 0) : v;
+        return write_operation(l, QDOT_OP_MUL, v, qdot_code_constant(&l->code, k->factor));
+    return minus ? write_operation(l, QDOT_OP_NEG, v, 0) : v;
 }
 
-/* Refuse symbols and functions that are no inputs; the message lists all of them. */
+/* Refuse symbols and functions that are not inputs of the tape; the message lists all of them. */
 static qdot_status
-refuse_unset(lowering *l)
+refuse_unknown_symbols(lowering *l)
 {
     qdot_vec(qdot_expr) unset = {0};
     qdot_status status = QDOT_OK;
@@ -496,9 +496,9 @@ refuse_unset(lowering *l)
 }
 
 static qdot_status
-lower_nodes(lowering *l, size_t n, const qdot_expr *inputs)
+compile_nodes(lowering *l, size_t n, const qdot_expr *inputs)
 {
-    count_negatives(l);
+    count_negative_powers(l);
     for (size_t i = 0; i < n; i++) {
         size_t at = qdot_walk_index(&l->walk, inputs[i]);
 
@@ -508,13 +508,13 @@ lower_nodes(lowering *l, size_t n, const qdot_expr *inputs)
             qdot_walk_set(&l->walk, inputs[i], (1ull << 32) | i);
         }
     }
-    QDOT_TRY(refuse_unset(l));
+    QDOT_TRY(refuse_unknown_symbols(l));
     for (size_t i = 0; i < l->walk.n; i++) {
         qdot_expr e = l->walk.at[i];
 
         if (qdot_walk_get(&l->walk, e) >> 32 || qdot_constant_is(l->pool, e))
             continue;
-        QDOT_TRY(lower_node(l, i));
+        QDOT_TRY(compile_node(l, i));
         qdot_walk_set(&l->walk, e, value_with_factor(l, l->known + i));
         QDOT_TRY(l->code.status);
     }
@@ -522,8 +522,8 @@ lower_nodes(lowering *l, size_t n, const qdot_expr *inputs)
 }
 
 static qdot_status
-lower_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr *outputs,
-              qdot_tape **tape)
+compile_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr *outputs,
+                qdot_tape **tape)
 {
     qdot_value *results = qdot_malloc(m * sizeof *results);
     qdot_status status = results ? QDOT_OK : QDOT_ENOMEM;
@@ -534,19 +534,19 @@ lower_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qd
     if (status == QDOT_OK)
         status = qdot_angles_new(l->pool, &l->walk, l->series, &l->angles);
     if (status == QDOT_OK)
-        status = lower_nodes(l, n, inputs);
+        status = compile_nodes(l, n, inputs);
     if (status == QDOT_OK) {
         for (size_t i = 0; i < m; i++)
-            results[i] = node_value_of(l, outputs[i]);
+            results[i] = value_of_node(l, outputs[i]);
         status = qdot_code_finish(&l->code, m, results, tape);
     }
     qdot_free(results);
     return status;
 }
 
-/* Rewrite the outputs [m] with quotients of exponentials in a finite form, owned, and a new walk of them. */
+/* Rewrite the outputs [m] so that quotients of exponentials do not overflow (owned); walk the new outputs. */
 static qdot_status
-with_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **finite)
+rewrite_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **finite)
 {
     qdot_expr all = qdot_logistic_form(l->pool, qdot_list(l->pool, (uint32_t)m, outputs));
 
@@ -560,8 +560,8 @@ with_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **fini
 }
 
 static qdot_status
-tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t m,
-         const qdot_expr *outputs, qdot_tape **tape)
+make_tape(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t m,
+          const qdot_expr *outputs, qdot_tape **tape)
 {
     lowering l = {.pool = pool, .series = series};
     qdot_expr *finite = NULL;
@@ -577,7 +577,7 @@ tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t
             return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
     QDOT_TRY(qdot_walk_begin_by_height(pool, m, outputs, &l.walk));
     if (qdot_logistic_occurs(&l.walk)) {
-        status = with_quotients(&l, m, outputs, &finite);
+        status = rewrite_quotients(&l, m, outputs, &finite);
         if (status != QDOT_OK) {
             qdot_free(finite);
             return status;
@@ -585,7 +585,7 @@ tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t
         outputs = finite;
     }
     qdot_code_init(&l.code, pool, n);
-    status = lower_outputs(&l, n, inputs, m, outputs, tape);
+    status = compile_outputs(&l, n, inputs, m, outputs, tape);
     qdot_free(finite);
     qdot_code_clear(&l.code);
     qdot_angles_free(l.angles);
@@ -601,12 +601,12 @@ qdot_status
 qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
               const qdot_expr *outputs, qdot_tape **tape)
 {
-    return tape_new(pool, false, n, inputs, m, outputs, tape);
+    return make_tape(pool, false, n, inputs, m, outputs, tape);
 }
 
 qdot_status
 qdot_tape_new_for_series(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
                          const qdot_expr *outputs, qdot_tape **tape)
 {
-    return tape_new(pool, true, n, inputs, m, outputs, tape);
+    return make_tape(pool, true, n, inputs, m, outputs, tape);
 }

@@ -1,4 +1,4 @@
-/* rounding.c -- estimates rounding errors of a tape, and finds factors near 1 that make them visible. */
+/* rounding.c -- estimates rounding errors of a tape; finds factors near 1 that make hidden errors visible. */
 #include "tape/rounding.h"
 
 #include <float.h>
@@ -29,7 +29,7 @@ adds_product(uint32_t op)
 }
 
 static void
-instruction_look(const qdot_instruction *i, const double *work, results *r)
+find_values_and_derivatives(const qdot_instruction *i, const double *work, results *r)
 {
     const double none = 0, a = work[i->x];
     double b = 0, c = 0, d = 0, e = 0;
@@ -63,7 +63,7 @@ instruction_look(const qdot_instruction *i, const double *work, results *r)
 /* How many units an operation's own rounding may be; of functions that C libraries have to two units or
  * so, 2. */
 static double
-own(uint32_t op)
+own_rounding_error(uint32_t op)
 {
     switch (op) {
     case QDOT_OP_NEG:
@@ -90,20 +90,20 @@ own(uint32_t op)
 }
 
 static uint32_t
-operand_place(const qdot_instruction *i, int operand)
+place_of_operand(const qdot_instruction *i, int operand)
 {
     return operand == 0 ? i->x : operand == 1 ? i->y : i->z;
 }
 
-/* The product slope * by; 0 if `by` is 0, even for an infinite slope. */
+/* The product of a derivative and a change `by`; 0 if `by` is 0, even for an infinite derivative. */
 static double
-slope_times(double slope, double by)
+effect_of_change(double slope, double by)
 {
     return by == 0 ? 0 : slope * by;
 }
 
 static bool
-adds_only(uint32_t op)
+is_addition(uint32_t op)
 {
     return op == QDOT_OP_ADD || op == QDOT_OP_SUB;
 }
@@ -111,15 +111,15 @@ adds_only(uint32_t op)
 /* What a result loses, or the product within it, where it is below the least normal double. A sum of two doubles is
  * exact there, and a zero of an operand that is 0 is one. */
 static double
-underflow_of(const qdot_instruction *i, const results *r, int result, const double *work)
+loss_by_underflow(const qdot_instruction *i, const results *r, int result, const double *work)
 {
     const double small = adds_product(i->op) ? r->product : r->value[result];
     const int factors = adds_product(i->op) ? 2 : qdot_operations[i->op].operands;
 
-    if (!(fabs(small) < DBL_MIN) || adds_only(i->op) || own(i->op) == 0)
+    if (!(fabs(small) < DBL_MIN) || is_addition(i->op) || own_rounding_error(i->op) == 0)
         return 0;
     for (int k = 0; k < factors; k++)
-        if (work[operand_place(i, k)] == 0)
+        if (work[place_of_operand(i, k)] == 0)
             return 0;
     return DBL_TRUE_MIN;
 }
@@ -127,18 +127,18 @@ underflow_of(const qdot_instruction *i, const results *r, int result, const doub
 /* The error of a result that is rounded by so much of it and has lost so much, from those of the operands: the root of
  * the sum of squares, which might underflow. */
 static double
-result_error(const qdot_instruction *i, const results *r, int result, double rounding, double lost,
-             const double *errors)
+error_of_result(const qdot_instruction *i, const results *r, int result, double rounding, double lost,
+                const double *errors)
 {
     enum { OWN, PRODUCT, LOST, FROM_OPERANDS };
     const int operands = qdot_operations[i->op].operands;
     double by[FROM_OPERANDS + OPERANDS] = {0}, most = 0, square = 0;
 
-    by[OWN] = own(i->op) * rounding * r->value[result];
+    by[OWN] = own_rounding_error(i->op) * rounding * r->value[result];
     by[PRODUCT] = rounding * r->product;
     by[LOST] = lost;
     for (int k = 0; k < operands; k++)
-        by[FROM_OPERANDS + k] = slope_times(r->slope[result][k], errors[operand_place(i, k)]);
+        by[FROM_OPERANDS + k] = effect_of_change(r->slope[result][k], errors[place_of_operand(i, k)]);
     for (int k = 0; k < FROM_OPERANDS + operands; k++) {
         if (isnan(by[k]))
             return by[k];
@@ -160,9 +160,9 @@ rounding_load(const qdot_tape *tape, const double *in, double *work)
         memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
 }
 
-/* Evaluate all results and their rounding errors, stored after the values in work. */
+/* Evaluate all results of a tape, and their rounding errors, which are stored after the values in `work`. */
 static void
-rounding_carry_out(const qdot_tape *tape, double rounding, double *work)
+evaluate_with_errors(const qdot_tape *tape, double rounding, double *work)
 {
     double *errors = work + tape->places;
     results r = {0};
@@ -170,9 +170,9 @@ rounding_carry_out(const qdot_tape *tape, double rounding, double *work)
     for (const qdot_instruction *i = tape->code; i < tape->code + tape->length; i++) {
         double e[2];
 
-        instruction_look(i, work, &r);
+        find_values_and_derivatives(i, work, &r);
         for (int k = 0; k < 2; k++)
-            e[k] = result_error(i, &r, k, rounding, underflow_of(i, &r, k, work), errors);
+            e[k] = error_of_result(i, &r, k, rounding, loss_by_underflow(i, &r, k, work), errors);
         work[i->to] = r.value[0];
         errors[i->to] = e[0];
         if (i->op == QDOT_OP_SINCOS) {
@@ -194,7 +194,7 @@ qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_i
         memcpy(errors, of_in, tape->inputs * sizeof *errors);
     for (size_t k = 0; k < tape->constants; k++)
         errors[tape->inputs + k] = fabs(tape->low[k]);
-    rounding_carry_out(tape, unit, work);
+    evaluate_with_errors(tape, unit, work);
     for (size_t k = 0; k < tape->outputs; k++) {
         const double e = errors[tape->output[k]];
 
@@ -209,7 +209,7 @@ qdot_rounding_underflows(const qdot_tape *tape, const double *in, double *bounds
 
     rounding_load(tape, in, work);
     memset(errors, 0, tape->places * sizeof *errors);
-    rounding_carry_out(tape, 0, work);
+    evaluate_with_errors(tape, 0, work);
     for (size_t k = 0; k < tape->outputs; k++)
         bounds[k] = errors[tape->output[k]];
 }
@@ -221,7 +221,7 @@ qdot_rounding_underflows(const qdot_tape *tape, const double *in, double *bounds
  * of it. */
 static const double hidden = 8, hidden_still = 1.5, counts = 0.125;
 
-/* The test states: all inputs small, all large, then some of them small. SMALL, LARGE: powers of 2. */
+/* States for tests: all inputs small, all large, then some of them small. SMALL, LARGE: powers of 2. */
 enum { SMALL = -20, LARGE = 10, STATES = 8 };
 
 /* What is shown: two directions in which the inputs are moved, and what constants and factors
@@ -233,12 +233,12 @@ enum { FARTHEST = 64 };
 
 typedef struct {
     const qdot_tape *tape;
-    double *work, *errors, *shown[SHOWN]; /* [places] values; errors; magnification of rounding errors in the outputs */
-    signed char *sides; /* [length x OPERANDS] direction of the factor near 1 on an operand; 0: none */
+    double *work, *errors, *shown[SHOWN]; /* [places] values; their errors; changes of results by perturbations */
+    signed char *sides; /* [length x OPERANDS] sign of (factor - 1) on an operand; 0: no factor */
     size_t count;
 } marking;
 
-/* Pseudo-random bits for input i in row k. */
+/* Pseudo-random bits for input i in test state k. */
 static uint32_t
 pseudo_random_bits(size_t i, size_t k)
 {
@@ -274,7 +274,7 @@ marking_begin(marking *m, size_t state)
 /* From here on operand x is off by a factor: by so many doubles above 1, or below it, where they lie
  * twice as near to each other. */
 static void
-marking_shift_operand(marking *m, uint32_t x, signed char side)
+apply_factor_to_operand(marking *m, uint32_t x, signed char side)
 {
     m->shown[FACTORS][x] += (side > 0 ? 2 : 1) * side * unit * m->work[x];
     m->errors[x] = unit * fabs(m->work[x]);
@@ -283,43 +283,43 @@ marking_shift_operand(marking *m, uint32_t x, signed char side)
 /* Give factors to the operands of instruction `at` that make its error, all of which move the result
  * to one side. */
 static void
-mark(marking *m, size_t at, const double *slope, double error, double shown)
+choose_factors(marking *m, size_t at, const double *slope, double error, double shown)
 {
     const qdot_instruction *i = m->tape->code + at;
     int up = (shown > 0) - (shown < 0);
 
     for (int k = 0; k < qdot_operations[i->op].operands; k++) {
-        const uint32_t x = operand_place(i, k);
+        const uint32_t x = place_of_operand(i, k);
         const double units = m->errors[x] / (unit * fabs(m->work[x]));
         signed char *side = m->sides + OPERANDS * at + k;
         const int way = slope[k] * m->work[x] > 0 ? 1 : -1;
 
-        if (m->errors[x] == 0 || fabs(slope_times(slope[k], m->errors[x])) < counts * error || !isfinite(units))
+        if (m->errors[x] == 0 || fabs(effect_of_change(slope[k], m->errors[x])) < counts * error || !isfinite(units))
             continue;
-        if (up == 0) /* round down, since the factor may be nearer to 1 */
+        if (up == 0) /* round down, as the factor may be nearer to 1 */
             up = -way;
         m->count += *side == 0;
         if (*side ? *side > 0 : up == way)
             *side = (signed char)fmax(*side, fmin(FARTHEST, ceil(units / 2)));
         else
             *side = (signed char)fmin(*side, -fmin(FARTHEST, ceil(units)));
-        marking_shift_operand(m, x, *side);
+        apply_factor_to_operand(m, x, *side);
     }
 }
 
-/* Find how the result of an instruction changes with the marked errors, from the slopes of its operands. */
+/* Find how a result changes with the perturbations of its operands, by the instruction's derivatives. */
 static void
-marking_show_result(const marking *m, const qdot_instruction *i, const double *slope, double *by)
+find_change_of_result(const marking *m, const qdot_instruction *i, const double *slope, double *by)
 {
     for (int k = 0; k < SHOWN; k++) {
         by[k] = 0;
         for (int o = 0; o < qdot_operations[i->op].operands; o++)
-            by[k] += slope_times(slope[o], m->shown[k][operand_place(i, o)]);
+            by[k] += effect_of_change(slope[o], m->shown[k][place_of_operand(i, o)]);
     }
 }
 
 static bool
-is_hidden(double error, double value, const double *by)
+is_error_hidden(double error, double value, const double *by)
 {
     double most = unit * fabs(value);
 
@@ -328,9 +328,9 @@ is_hidden(double error, double value, const double *by)
     return isfinite(error) && error > fmax(hidden * most, hidden_still * fabs(by[FACTORS]));
 }
 
-/* Carry out instruction `at`, with its factors, and choose further ones if it needs them. */
+/* Carry out instruction `at` with its factors near 1, and choose further factors if errors stay hidden. */
 static void
-marking_carry_out(marking *m, size_t at)
+carry_out_instruction(marking *m, size_t at)
 {
     const qdot_instruction *i = m->tape->code + at;
     double error[2], by[2][SHOWN];
@@ -338,19 +338,19 @@ marking_carry_out(marking *m, size_t at)
 
     for (int k = 0; k < OPERANDS; k++)
         if (m->sides[OPERANDS * at + k])
-            marking_shift_operand(m, operand_place(i, k), m->sides[OPERANDS * at + k]);
-    instruction_look(i, m->work, &r);
+            apply_factor_to_operand(m, place_of_operand(i, k), m->sides[OPERANDS * at + k]);
+    find_values_and_derivatives(i, m->work, &r);
     for (int k = 0; k < 2; k++) {
         const double *slope = r.slope[k];
 
-        marking_show_result(m, i, slope, by[k]);
-        error[k] = result_error(i, &r, k, unit, 0, m->errors);
-        if (is_hidden(error[k], r.value[k], by[k]))
-            mark(m, at, slope, error[k], by[k][FACTORS]);
+        find_change_of_result(m, i, slope, by[k]);
+        error[k] = error_of_result(i, &r, k, unit, 0, m->errors);
+        if (is_error_hidden(error[k], r.value[k], by[k]))
+            choose_factors(m, at, slope, error[k], by[k][FACTORS]);
     }
     for (int k = 0; k < 2; k++) {
-        marking_show_result(m, i, r.slope[k], by[k]);
-        error[k] = result_error(i, &r, k, unit, 0, m->errors);
+        find_change_of_result(m, i, r.slope[k], by[k]);
+        error[k] = error_of_result(i, &r, k, unit, 0, m->errors);
     }
     for (int k = 0; k < (i->op == QDOT_OP_SINCOS ? 2 : 1); k++) {
         const uint32_t to = k ? i->y : i->to;
@@ -364,9 +364,9 @@ marking_carry_out(marking *m, size_t at)
 
 /* --- inserting factors near 1 -------------------------------------------------------- */
 
-/* Make room for `more` constants after those of the tape. */
+/* Allocate memory for `more` constants after those of the tape. */
 static qdot_status
-factors_make_room(qdot_tape *t, size_t more)
+allocate_constants(qdot_tape *t, size_t more)
 {
     const size_t n = t->constants + more;
     double *constant = qdot_realloc(t->constant, n * sizeof *constant), *low;
@@ -384,16 +384,16 @@ factors_make_room(qdot_tape *t, size_t more)
     return constant && side && low && exact ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The number of slot `place` once `more` constants have been inserted before it. */
+/* The index of work-space place `place` after `more` constants have been inserted before it. */
 static uint32_t
-moved_on(const qdot_tape *t, uint32_t place, size_t more)
+shifted_place(const qdot_tape *t, uint32_t place, size_t more)
 {
     return place < t->inputs + t->constants ? place : place + (uint32_t)more;
 }
 
-/* Find the constant 1 + side ulps among those from `first` on; it is added if missing. */
+/* Find the constant 1 + side ulps among the constants from `first` on; add it if it is missing. */
 static uint32_t
-factor_constant(qdot_tape *t, size_t first, size_t *made, signed char side)
+find_or_add_factor(qdot_tape *t, size_t first, size_t *made, signed char side)
 {
     size_t k = first;
 
@@ -409,9 +409,9 @@ factor_constant(qdot_tape *t, size_t first, size_t *made, signed char side)
     return (uint32_t)(t->inputs + k);
 }
 
-/* Insert the factors into the code; their constants, at most `most`, follow those of the tape. */
+/* Insert the factors near 1 into the tape's code; their constants, at most `most`, follow the tape's own. */
 static qdot_status
-put_factors(qdot_tape *t, const marking *m)
+insert_factors(qdot_tape *t, const marking *m)
 {
     const size_t constants = t->constants;
     size_t most = 0, made = 0;
@@ -423,7 +423,7 @@ put_factors(qdot_tape *t, const marking *m)
             sides[m->sides[k] + FARTHEST] = true;
             most++;
         }
-    if (!code || factors_make_room(t, most) != QDOT_OK) {
+    if (!code || allocate_constants(t, most) != QDOT_OK) {
         qdot_free(code);
         return QDOT_ENOMEM;
     }
@@ -432,20 +432,20 @@ put_factors(qdot_tape *t, const marking *m)
 
         for (int k = 0; k < OPERANDS; k++) {
             const signed char side = m->sides[OPERANDS * at + k];
-            const uint32_t x = moved_on(t, operand_place(&i, k), most);
+            const uint32_t x = shifted_place(t, place_of_operand(&i, k), most);
 
             if (side)
                 *to++ = (qdot_instruction){.op = QDOT_OP_MUL, .to = x, .x = x,
-                                           .y = factor_constant(t, constants, &made, side)};
+                                           .y = find_or_add_factor(t, constants, &made, side)};
         }
-        i.to = moved_on(t, i.to, most);
-        i.x = moved_on(t, i.x, most);
-        i.y = moved_on(t, i.y, most);
-        i.z = moved_on(t, i.z, most);
+        i.to = shifted_place(t, i.to, most);
+        i.x = shifted_place(t, i.x, most);
+        i.y = shifted_place(t, i.y, most);
+        i.z = shifted_place(t, i.z, most);
         *to++ = i;
     }
     for (size_t k = 0; k < t->outputs; k++)
-        t->output[k] = moved_on(t, t->output[k], most);
+        t->output[k] = shifted_place(t, t->output[k], most);
     qdot_free(t->code);
     t->code = code;
     t->length += m->count;
@@ -470,10 +470,10 @@ qdot_rounding_show(qdot_tape *tape)
         for (size_t state = 0; state < STATES; state++) {
             marking_begin(&m, state);
             for (size_t at = 0; at < tape->length; at++)
-                marking_carry_out(&m, at);
+                carry_out_instruction(&m, at);
         }
         if (m.count > 0)
-            status = put_factors(tape, &m);
+            status = insert_factors(tape, &m);
     }
     qdot_free(room);
     qdot_free(m.sides);

@@ -11,10 +11,10 @@
 
 #include "tape/tape.h"
 
-/* Make a copy, owned by the caller. Errors: QDOT_ENOMEM. */
+/* Copy a tape, its constants replaced by neighbouring doubles; owned by the caller. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken);
 
-/* The double that lies |side| ulps from x, in the direction of the sign of side; x itself for side 0. */
+/* The double that lies |side| ulps from x, above x if side > 0, below if side < 0. */
 double qdot_shake_double(double x, int side);
 
 #endif

@@ -31,10 +31,10 @@ size_t qdot_tape_inputs(const qdot_tape *tape);
 size_t qdot_tape_outputs(const qdot_tape *tape);
 size_t qdot_tape_work(const qdot_tape *tape);       /* number of doubles of work space needed */
 size_t qdot_tape_operations(const qdot_tape *tape); /* number of operations of one evaluation */
-/* The number of calls of elementary functions (sincos counts once). */
+/* The number of calls of elementary functions in one evaluation (a sine with its cosine counts once). */
 size_t qdot_tape_calls(const qdot_tape *tape);
 
-/* Evaluate outputs out [m] at in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
+/* Evaluate outputs out [m] at inputs in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
 void qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work);
 
 #endif

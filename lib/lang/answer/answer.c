@@ -1,4 +1,4 @@
-/* answer.c -- every kind of answer, as text and as JSON. */
+/* answer.c -- writes every kind of answer of the program, as text and as JSON. */
 #include "lang/answer/answer.h"
 
 #include <inttypes.h>
@@ -27,14 +27,14 @@
 
 /* The terminal code of a colour; "" if answers are shown without colours. */
 static const char *
-colour_code(const qdot_session *session, const char *code)
+get_colour_code(const qdot_session *session, const char *code)
 {
     return qdot_write_colours(session) ? code : "";
 }
 
 /* End a JSON object: write it if `status` is QDOT_OK; free its text in any case. */
 static qdot_status
-end_object(qdot_session *session, qdot_status status, qdot_text *line)
+finish_json_object(qdot_session *session, qdot_status status, qdot_text *line)
 {
     if (status == QDOT_OK)
         status = qdot_write_object(session, session->output->out, line);
@@ -46,7 +46,7 @@ end_object(qdot_session *session, qdot_status status, qdot_text *line)
 
 /* Whether e is a logical combination of relations, or a vector of equations. */
 static bool
-holds_relations(const qdot_pool *pool, qdot_expr e)
+contains_relations(const qdot_pool *pool, qdot_expr e)
 {
     qdot_kind kind = qdot_expr_kind(pool, e);
 
@@ -57,7 +57,7 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
 
 /* Whether two texts differ only in spaces, as A[1, 2] and A[1,2]. */
 static bool
-same_but_spaces(const char *a, const char *b)
+differ_only_in_spaces(const char *a, const char *b)
 {
     for (;; a++, b++) {
         a += strspn(a, " ");
@@ -70,7 +70,7 @@ same_but_spaces(const char *a, const char *b)
 /* Whether a value prints exactly as its name, so that `name = value` says nothing. A value with
  * more operations than the name has characters does not. */
 static qdot_status
-says_the_same(qdot_session *session, const char *name, qdot_expr value, bool *same)
+prints_as_its_name(qdot_session *session, const char *name, qdot_expr value, bool *same)
 {
     qdot_text plain = {0};
     qdot_status status;
@@ -81,24 +81,24 @@ says_the_same(qdot_session *session, const char *name, qdot_expr value, bool *sa
     status = qdot_expression_print(session, value, QDOT_PLAIN, &plain);
     if (status == QDOT_OK)
         status = qdot_text_status(&plain);
-    *same = status == QDOT_OK && same_but_spaces(name, qdot_text_str(&plain));
+    *same = status == QDOT_OK && differ_only_in_spaces(name, qdot_text_str(&plain));
     qdot_text_clear(&plain);
     return status;
 }
 
 static qdot_status
-expr_text(qdot_session *session, const char *name, qdot_expr value)
+answer_expression_as_text(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_sheet s = qdot_sheet_begin(session);
     const bool relation = qdot_value_kind_is_equation(session->pool, value) ||
-                          holds_relations(session->pool, value);
+                          contains_relations(session->pool, value);
     bool bare = name == NULL || strlen(name) > 200 ||
                 (relation && strpbrk(name, "=<>") != NULL);
     qdot_status status = QDOT_OK;
 
     s.operations = qdot_expr_size(session->pool, value);
     if (!bare)
-        status = says_the_same(session, name, value, &bare);
+        status = prints_as_its_name(session, name, value, &bare);
     qdot_sheet_open(&s);
     if (status == QDOT_OK && !bare) {
         status = qdot_sheet_name(&s, name, QDOT_FORMULA_LABEL);
@@ -111,7 +111,7 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
 }
 
 static qdot_status
-expr_json(qdot_session *session, const char *name, qdot_expr value)
+answer_expression_as_json(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_text line = {0}, part = {0};
     qdot_status status;
@@ -127,7 +127,7 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
                      qdot_expr_size(session->pool, value));
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
-    return end_object(session, status, &line);
+    return finish_json_object(session, status, &line);
 }
 
 qdot_status
@@ -140,12 +140,12 @@ qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
         if (session->output->page == NULL || session->output->style != QDOT_LATEX)
             return qdot_answer_text(session, name, words);
         s = qdot_sheet_begin(session);
-        qdot_sheet_open(&s); /* the text that latex(...) gives */
+        qdot_sheet_open(&s); /* a formula node to hold the LaTeX text, which latex(...) returned */
         qdot_formula_add_latex(&s.formula, s.at, words, strlen(words));
         return qdot_sheet_end(&s, name, QDOT_OK);
     }
-    return session->output->json ? expr_json(session, name, value)
-                         : expr_text(session, name, value);
+    return session->output->json ? answer_expression_as_json(session, name, value)
+                         : answer_expression_as_text(session, name, value);
 }
 
 qdot_status
@@ -157,7 +157,7 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
     qdot_sheet s;
 
     if (session->output->json)
-        return expr_json(session, name, value);
+        return answer_expression_as_json(session, name, value);
     s = qdot_sheet_begin(session);
     qdot_sheet_open(&s);
     all = s.at;
@@ -170,7 +170,7 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
     return qdot_sheet_end(&s, "", status);
 }
 
-/* Append the text as a part of the formula, and clear it. */
+/* Append the text to the formula as a node with this role, and free it. */
 static void
 add_part(qdot_sheet *s, qdot_formula_role role, qdot_text *text)
 {
@@ -181,7 +181,7 @@ add_part(qdot_sheet *s, qdot_formula_role role, qdot_text *text)
 
 /* Append a number with its error, such as 1.25 ± 3e-13. */
 static void
-add_measured(qdot_sheet *s, double value, double error)
+append_number_with_error(qdot_sheet *s, double value, double error)
 {
     qdot_text number = {0};
 
@@ -199,7 +199,7 @@ add_measured(qdot_sheet *s, double value, double error)
 
 /* Begin a formula with `name = `. */
 static qdot_status
-open_named(qdot_sheet *s, const char *name)
+begin_named_formula(qdot_sheet *s, const char *name)
 {
     qdot_status status;
 
@@ -210,16 +210,16 @@ open_named(qdot_sheet *s, const char *name)
 }
 
 static qdot_status
-numbers_text(qdot_session *session, const char *name, size_t n, const double *values,
-             const double *errors)
+answer_numbers_as_text(qdot_session *session, const char *name, size_t n, const double *values,
+                       const double *errors)
 {
     qdot_sheet s = qdot_sheet_begin(session);
-    const qdot_status status = open_named(&s, name);
+    const qdot_status status = begin_named_formula(&s, name);
 
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
             qdot_sheet_sign(&s, QDOT_SIGN_COMMA);
-        add_measured(&s, values[i], errors[i]);
+        append_number_with_error(&s, values[i], errors[i]);
     }
     return qdot_sheet_end(&s, "", status);
 }
@@ -227,8 +227,8 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
 /* Write {"kind":"number"}, or {"kind":"numbers"} if there are several; values and errors are JSON,
  * with commas. */
 static qdot_status
-numbers_json(qdot_session *session, const char *name, bool several,
-             const qdot_text *values, const qdot_text *errors)
+answer_numbers_as_json(qdot_session *session, const char *name, bool several,
+                       const qdot_text *values, const qdot_text *errors)
 {
     qdot_text line = {0};
 
@@ -244,19 +244,19 @@ numbers_json(qdot_session *session, const char *name, bool several,
 }
 
 static qdot_status
-numbers(qdot_session *session, const char *name, bool several, size_t n,
-        const double *values, const double *errors)
+answer_numbers(qdot_session *session, const char *name, bool several, size_t n,
+               const double *values, const double *errors)
 {
     qdot_text list[2] = {{0}};
     qdot_status status;
 
     if (!session->output->json)
-        return numbers_text(session, name, n, values, errors);
+        return answer_numbers_as_text(session, name, n, values, errors);
     for (size_t i = 0; i < 2 * n; i++) {
         qdot_text_add(&list[i % 2], i > 1 ? "," : "");
         qdot_number_text_json(&list[i % 2], i % 2 == 0 ? values[i / 2] : errors[i / 2]);
     }
-    status = numbers_json(session, name, several, &list[0], &list[1]);
+    status = answer_numbers_as_json(session, name, several, &list[0], &list[1]);
     qdot_text_clear(&list[0]);
     qdot_text_clear(&list[1]);
     return status;
@@ -265,14 +265,14 @@ numbers(qdot_session *session, const char *name, bool several, size_t n,
 qdot_status
 qdot_answer_number(qdot_session *session, const char *name, double value, double error)
 {
-    return numbers(session, name, false, 1, &value, &error);
+    return answer_numbers(session, name, false, 1, &value, &error);
 }
 
 qdot_status
 qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
                     const double *values, const double *errors)
 {
-    return numbers(session, name, true, n, values, errors);
+    return answer_numbers(session, name, true, n, values, errors);
 }
 
 qdot_status
@@ -283,9 +283,9 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     qdot_sheet s;
 
     if (session->output->json)
-        return numbers_json(session, name, several, values, errors);
+        return answer_numbers_as_json(session, name, several, values, errors);
     s = qdot_sheet_begin(session);
-    status = open_named(&s, name);
+    status = begin_named_formula(&s, name);
     qdot_sheet_words(&s, qdot_text_str(values));
     return qdot_sheet_end(&s, "", status);
 }
@@ -300,7 +300,7 @@ static const char *const verdict_colours[] = {
 
 /* Append ` at x = 1, y = 2: left = 3, right = 4`, a point at which the two sides differ. */
 static qdot_status
-check_add_place(qdot_sheet *s, const qdot_decision *decision)
+append_counterexample(qdot_sheet *s, const qdot_decision *decision)
 {
     const qdot_pool *pool = s->session->pool;
     const uint32_t n = decision->at == QDOT_NIL ? 0 : qdot_expr_count(pool, decision->at);
@@ -323,15 +323,15 @@ check_add_place(qdot_sheet *s, const qdot_decision *decision)
 }
 
 static qdot_status
-check_text(qdot_session *session, const qdot_decision *decision)
+answer_check_as_text(qdot_session *session, const qdot_decision *decision)
 {
     qdot_sheet s = qdot_sheet_begin_words(session);
     qdot_status status = QDOT_OK;
 
-    qdot_sheet_format(&s, "%s%s%s", colour_code(session, verdict_colours[decision->verdict]),
-                      verdicts[decision->verdict], colour_code(session, QDOT_COLOUR_END));
+    qdot_sheet_format(&s, "%s%s%s", get_colour_code(session, verdict_colours[decision->verdict]),
+                      verdicts[decision->verdict], get_colour_code(session, QDOT_COLOUR_END));
     if (decision->verdict == QDOT_REFUTED)
-        status = check_add_place(&s, decision);
+        status = append_counterexample(&s, decision);
     else if (decision->verdict == QDOT_UNDECIDED && decision->points > 0 && decision->digits > 0)
         qdot_sheet_format(&s, ": equal at %d random points to %d digits, but not proved", decision->points,
                           decision->digits);
@@ -344,7 +344,7 @@ check_text(qdot_session *session, const qdot_decision *decision)
 
 /* Append {"x":1.5,...} for a LIST of equations symbol = number. */
 static qdot_status
-point_json(qdot_session *session, qdot_expr at, qdot_text *line)
+append_point_as_json(qdot_session *session, qdot_expr at, qdot_text *line)
 {
     qdot_pool *pool = session->pool;
     uint32_t n = at == QDOT_NIL ? 0 : qdot_expr_count(pool, at);
@@ -390,8 +390,8 @@ print_side(qdot_session *session, qdot_expr side, qdot_text *out)
 }
 
 static qdot_status
-check_json(qdot_session *session, qdot_expr left, qdot_expr right,
-           const qdot_decision *decision)
+answer_check_as_json(qdot_session *session, qdot_expr left, qdot_expr right,
+                     const qdot_decision *decision)
 {
     qdot_text line = {0}, part = {0};
     qdot_status status;
@@ -409,7 +409,7 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     if (decision->verdict == QDOT_REFUTED) {
         qdot_text_add(&line, ",\"at\":");
         if (status == QDOT_OK)
-            status = point_json(session, decision->at, &line);
+            status = append_point_as_json(session, decision->at, &line);
         qdot_text_add(&line, ",\"values\":[");
         qdot_number_text_json(&line, decision->left);
         qdot_text_char(&line, ',');
@@ -421,7 +421,7 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_text_add(&line, "}\n");
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
-    return end_object(session, status, &line);
+    return finish_json_object(session, status, &line);
 }
 
 qdot_status
@@ -429,8 +429,8 @@ qdot_answer_check(qdot_session *session, qdot_expr left, qdot_expr right,
                   const qdot_decision *decision)
 {
     session->outcome->verdicts[decision->verdict]++;
-    return session->output->json ? check_json(session, left, right, decision)
-                         : check_text(session, decision);
+    return session->output->json ? answer_check_as_json(session, left, right, decision)
+                         : answer_check_as_text(session, decision);
 }
 
 /* --- texts, files, notices, errors -------------------------------------------------- */
@@ -463,7 +463,7 @@ qdot_answer_in_file(qdot_session *session, const char *path, const qdot_text *te
 enum { NOTICE = 4096 };
 
 static qdot_status
-put_notice(qdot_session *session, const char *message)
+write_notice(qdot_session *session, const char *message)
 {
     FILE *const file = session->output->console != NULL ? session->output->console : session->output->out;
     qdot_text line = {0};
@@ -472,8 +472,8 @@ put_notice(qdot_session *session, const char *message)
         qdot_write_field(&line, "{\"kind\":\"notice\",\"message\":", message);
         qdot_text_add(&line, "}\n");
     } else {
-        qdot_text_format(&line, "%snotice:%s %s\n", colour_code(session, QDOT_YELLOW),
-                         colour_code(session, QDOT_COLOUR_END), message);
+        qdot_text_format(&line, "%snotice:%s %s\n", get_colour_code(session, QDOT_YELLOW),
+                         get_colour_code(session, QDOT_COLOUR_END), message);
         return qdot_write(session, file, &line);
     }
     return qdot_write_object(session, file, &line);
@@ -488,7 +488,7 @@ qdot_answer_notice(qdot_session *session, const char *format, ...)
     va_start(ap, format);
     vsnprintf(message, sizeof message, format, ap);
     va_end(ap);
-    return put_notice(session, message);
+    return write_notice(session, message);
 }
 
 qdot_status
@@ -514,9 +514,9 @@ qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *te
     return status;
 }
 
-/* Give the notice, unless it is in the list, which it enters. */
+/* Give the notice and add it to the list `told`, unless it is in the list already. */
 static qdot_status
-notice_unless_told(qdot_session *session, qdot_text_list *told, const char *message)
+give_notice_once(qdot_session *session, qdot_text_list *told, const char *message)
 {
     char *copy;
 
@@ -530,7 +530,7 @@ notice_unless_told(qdot_session *session, qdot_text_list *told, const char *mess
         qdot_free(copy);
         return QDOT_ENOMEM;
     }
-    return put_notice(session, message);
+    return write_notice(session, message);
 }
 
 qdot_status
@@ -542,7 +542,7 @@ qdot_answer_notice_once(qdot_session *session, const char *format, ...)
     va_start(ap, format);
     vsnprintf(message, sizeof message, format, ap);
     va_end(ap);
-    return notice_unless_told(session, session->told, message);
+    return give_notice_once(session, session->told, message);
 }
 
 qdot_status
@@ -554,12 +554,12 @@ qdot_answer_condition(qdot_session *session, const char *format, ...)
     va_start(ap, format);
     vsnprintf(message, sizeof message, format, ap);
     va_end(ap);
-    return notice_unless_told(session, &session->evaluation->told, message);
+    return give_notice_once(session, &session->evaluation->told, message);
 }
 
 static void
-error_json(qdot_session *session, const qdot_source *source, size_t at,
-           const qdot_error *error)
+write_error_as_json(qdot_session *session, const qdot_source *source, size_t at,
+                    const qdot_error *error)
 {
     qdot_text line = {0};
     uint32_t number = 0, column = 0;
@@ -605,6 +605,6 @@ qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
     if (qdot_write(session, session->output->err, &text) != QDOT_OK)
         fprintf(session->output->err, "error: %s\n", error.message); /* out of memory: print at least the message */
     if (session->output->json)
-        error_json(session, source, at, &error);
+        write_error_as_json(session, source, at, &error);
     (void)qdot_fail_again(&error);
 }

@@ -58,7 +58,7 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char
                                                ...) QDOT_PRINTF(2, 3);
 /* Give a notice in whose format %s stands for e, printed as plain text. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e);
-/* Give the text as a notice if `status` is QDOT_OK, and clear it. Returns `status`, or the first failure after it. */
+/* If `status` is QDOT_OK give the text as a notice; free it. Returns `status`, or the first failure after it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text);
 /* Give a notice, unless this session has already given it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,

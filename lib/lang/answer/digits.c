@@ -1,4 +1,4 @@
-/* digits.c -- prints results of runs with `digits`: as many digits as are known. */
+/* digits.c -- prints numbers of runs that were made with the option `digits`: as many digits as are known. */
 #include "lang/answer/digits.h"
 
 #include <math.h>
@@ -39,7 +39,7 @@ qdot_digits_of(qdot_session *session, qdot_expr e)
 
 /* The number of digits of x that its error leaves meaningful. */
 static int
-meaningful_digits(mpfr_srcptr x, int digits, double error)
+count_meaningful_digits(mpfr_srcptr x, int digits, double error)
 {
     double known, mantissa;
     long power;
@@ -84,7 +84,7 @@ write_number(const char *d, long exponent, qdot_text *out)
 
 /* Drop trailing zeros after the decimal point of an exact number. */
 static void
-drop_zeros(char *d, long exponent)
+drop_trailing_zeros(char *d, long exponent)
 {
     size_t sign = *d == '-', n = strlen(d), least = sign + 1;
 
@@ -104,20 +104,20 @@ write_real(mpfr_srcptr x, int digits, double error, bool shortly, qdot_text *out
         qdot_text_char(out, '0');
         return QDOT_OK;
     }
-    d = mpfr_get_str(NULL, &exponent, 10, (size_t)meaningful_digits(x, digits, error), x,
+    d = mpfr_get_str(NULL, &exponent, 10, (size_t)count_meaningful_digits(x, digits, error), x,
                      MPFR_RNDN);
     if (d == NULL)
         return QDOT_ENOMEM;
     if (shortly)
-        drop_zeros(d, (long)exponent);
+        drop_trailing_zeros(d, (long)exponent);
     write_number(d, (long)exponent, out);
     mpfr_free_str(d);
     return QDOT_OK;
 }
 
-/* Whether e contains results of runs, and all of them were made without a given number of digits. */
+/* Whether e contains results of runs, and all of these runs were made without the option `digits`. */
 static bool
-is_plain(qdot_session *session, qdot_expr e)
+is_from_double_runs(qdot_session *session, qdot_expr e)
 {
     bool any = false;
 
@@ -135,7 +135,7 @@ is_plain(qdot_session *session, qdot_expr e)
 
 /* Evaluate e with many digits; results of runs enter as the exact rationals that they are. */
 static qdot_status
-digits_value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
+evaluate_to_mpfr(qdot_session *session, qdot_expr e, mpfr_ptr x)
 {
     e = qdot_measured_as_rationals(session, qdot_session_bind(session, e));
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -152,9 +152,9 @@ qdot_digits_number(qdot_session *session, qdot_expr e, int digits, double *error
 
     mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
     mpfr_init2(printed, mpfr_get_prec(x));
-    status = digits_value_of(session, e, x);
+    status = evaluate_to_mpfr(session, e, x);
     if (status == QDOT_OK)
-        status = write_real(x, digits, *error, *error == 0 && is_plain(session, e), out);
+        status = write_real(x, digits, *error, *error == 0 && is_from_double_runs(session, e), out);
     if (status == QDOT_OK)
         status = qdot_text_status(out);
     if (status == QDOT_OK) {
@@ -184,7 +184,7 @@ qdot_digits_difference(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_status status;
 
     mpfr_init2(x, 64);
-    status = digits_value_of(session, qdot_sub(session->pool, left, right), x);
+    status = evaluate_to_mpfr(session, qdot_sub(session->pool, left, right), x);
     *difference = mpfr_get_d(x, MPFR_RNDN);
     mpfr_clear(x);
     return status;
@@ -193,15 +193,15 @@ qdot_digits_difference(qdot_session *session, qdot_expr left, qdot_expr right,
 /* --- printing answers with `digits` -------------------------------------------------- */
 
 static qdot_status
-add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
-           qdot_text *errors)
+append_member_with_error(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
+                         qdot_text *errors)
 {
     double x, error;
     const char *quote;
 
     QDOT_TRY(qdot_session_number(session, e, &x, &error));
     if (session->output->json) {
-        quote = is_plain(session, e) ? "" : "\"";
+        quote = is_from_double_runs(session, e) ? "" : "\"";
         qdot_text_add(values, values->n > 0 ? "," : "");
         qdot_text_add(values, quote);
         QDOT_TRY(qdot_digits_number(session, e, digits, &error, values));
@@ -230,8 +230,8 @@ qdot_digits_answer(qdot_session *session, const char *name, qdot_expr e, int dig
     qdot_status status = QDOT_OK;
 
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
-        status = add_member(session, several ? qdot_expr_arg(session->pool, e, i) : e,
-                            digits, &values, &errors);
+        status = append_member_with_error(session, several ? qdot_expr_arg(session->pool, e, i) : e,
+                                          digits, &values, &errors);
     if (status == QDOT_OK)
         status = qdot_answer_numerals(session, name, several, &values, &errors);
     qdot_text_clear(&values);

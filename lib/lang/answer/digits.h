@@ -17,7 +17,7 @@ int qdot_digits_of(qdot_session *session, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_digits_text(qdot_session *session, qdot_expr e,
                                              int digits, double error, qdot_text *out);
 
-/* As qdot_digits_text, for an expression; *error is raised to the error of the printed digits. */
+/* As qdot_digits_text, for an expression; *error is raised at least to the error of the printed digits. */
 QDOT_MUST_CHECK qdot_status qdot_digits_number(qdot_session *session, qdot_expr e, int digits, double *error,
                                                qdot_text *out);
 

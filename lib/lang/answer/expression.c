@@ -1,4 +1,4 @@
-/* expression.c -- values of a session as formulas and as text. */
+/* expression.c -- prints the values of a session, expressions, as formulas and as text. */
 #include "lang/answer/expression.h"
 
 #include <inttypes.h>

@@ -9,11 +9,11 @@
 
 #define QDOT_EXPRESSION_OPERATIONS 10000000u /* largest number of operations in an expression that is printed */
 
-/* Append e as a child of the parent. QDOT_ELIMIT, before any work: more than QDOT_EXPRESSION_OPERATIONS. */
+/* Append e as a child of a formula node. QDOT_ELIMIT if it has more than QDOT_EXPRESSION_OPERATIONS. */
 QDOT_MUST_CHECK qdot_status qdot_expression_add(qdot_session *session, qdot_expr e, qdot_notation_kind notation,
                                                 qdot_formula *f, qdot_formula_id parent);
 
-/* Append e as text in that style. Errors: as above. */
+/* Append e as text in that style. Errors: as for qdot_expression_add. */
 QDOT_MUST_CHECK qdot_status qdot_expression_print(qdot_session *session, qdot_expr e, qdot_style style,
                                                   qdot_text *out);
 

@@ -34,16 +34,16 @@ static const struct {
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
 static bool
-is_at(const char *at, const char *word)
+text_begins_with(const char *at, const char *word)
 {
     return strncmp(at, word, strlen(word)) == 0;
 }
 
 static const spelling *
-spelling_find(const spelling *table, size_t count, const char *at)
+find_spelling(const spelling *table, size_t count, const char *at)
 {
     for (size_t i = 0; i < count; i++)
-        if (is_at(at, table[i].plain))
+        if (text_begins_with(at, table[i].plain))
             return &table[i];
     return NULL;
 }
@@ -55,21 +55,21 @@ add_name(const writer *w, qdot_formula_id parent, const char *name)
 }
 
 static void
-notation_add_number(const writer *w, qdot_formula_id parent, const char *number)
+add_number(const writer *w, qdot_formula_id parent, const char *number)
 {
     qdot_formula_add_text(w->f, parent, QDOT_TEXT_NUMBER, number, strlen(number));
 }
 
 static void
-notation_add_half(const writer *w, qdot_formula_id parent)
+add_one_half(const writer *w, qdot_formula_id parent)
 {
     if (w->notation != QDOT_NOTATION_DRAWN) {
-        notation_add_number(w, parent, "½");
+        add_number(w, parent, "½");
         return;
     }
     parent = qdot_formula_add(w->f, parent, QDOT_FORMULA_FRACTION, 0, QDOT_FORMULA_SMALL);
-    notation_add_number(w, parent, "1");
-    notation_add_number(w, parent, "2");
+    add_number(w, parent, "1");
+    add_number(w, parent, "2");
 }
 
 /* Append a letter with `dots` dots above it (a time derivative). */
@@ -90,25 +90,25 @@ add_letter(const writer *w, qdot_formula_id parent, char letter, size_t dots)
 
 /* Append one letter or word of the notation; returns the text after it. */
 static const char *
-add_base(const writer *w, qdot_formula_id parent, const char *at)
+add_letter_or_word(const writer *w, qdot_formula_id parent, const char *at)
 {
-    const spelling *word = spelling_find(words, COUNT(words), at);
+    const spelling *word = find_spelling(words, COUNT(words), at);
     size_t primes;
 
     if (word != NULL) {
         qdot_formula_add_sign(w->f, parent, word->sign);
         return at + strlen(word->plain);
     }
-    if (is_at(at, "1/2")) {
-        notation_add_half(w, parent);
+    if (text_begins_with(at, "1/2")) {
+        add_one_half(w, parent);
         return at + 3;
     }
     if (*at == '0') {
-        notation_add_number(w, parent, "0");
+        add_number(w, parent, "0");
         return at + 1;
     }
     for (size_t i = 0; i < COUNT(greek); i++)
-        if (is_at(at, greek[i].plain)) {
+        if (text_begins_with(at, greek[i].plain)) {
             add_name(w, parent, greek[i].letter);
             qdot_formula_add_sign(w->f, parent, QDOT_SIGN_BLANK);
             return at + strlen(greek[i].plain);
@@ -120,12 +120,12 @@ add_base(const writer *w, qdot_formula_id parent, const char *at)
 
 /* Append a letter or word, with `^2` as a superscript if it follows. */
 static const char *
-add_atom(const writer *w, qdot_formula_id parent, const char *at)
+add_letter_with_power(const writer *w, qdot_formula_id parent, const char *at)
 {
     const qdot_formula_id base = qdot_formula_new(w->f, QDOT_FORMULA_SPAN, 0, 0);
 
-    at = add_base(w, base, at);
-    if (!is_at(at, "^2")) {
+    at = add_letter_or_word(w, base, at);
+    if (!text_begins_with(at, "^2")) {
         qdot_formula_append(w->f, parent, base);
         return at;
     }
@@ -133,13 +133,13 @@ add_atom(const writer *w, qdot_formula_id parent, const char *at)
         qdot_formula_add(w->f, parent, QDOT_FORMULA_POWER, 0,
                          w->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_RAISED : 0);
     qdot_formula_append(w->f, parent, base);
-    notation_add_number(w, parent, "2");
+    add_number(w, parent, "2");
     return at + 2;
 }
 
 /* Begin the numerator or denominator of a derivative with d (whole: a total derivative) or the partial sign. */
 static qdot_formula_id
-add_side(const writer *w, qdot_formula_id fraction, bool whole)
+begin_derivative_side(const writer *w, qdot_formula_id fraction, bool whole)
 {
     const qdot_formula_id row = qdot_formula_add(w->f, fraction, QDOT_FORMULA_ROW, 0, 0);
 
@@ -154,24 +154,24 @@ add_side(const writer *w, qdot_formula_id fraction, bool whole)
 
 /* Append a derivative dV/dq or dT/dq', with partial signs, or d/dt; returns the text after it. */
 static const char *
-add_slope(const writer *w, qdot_formula_id parent, const char *at)
+add_derivative(const writer *w, qdot_formula_id parent, const char *at)
 {
     const qdot_formula_id fraction =
         qdot_formula_add(w->f, parent, QDOT_FORMULA_FRACTION, 0, 0);
     const bool whole = at[1] == '/';
-    const qdot_formula_id up = add_side(w, fraction, whole);
+    const qdot_formula_id up = begin_derivative_side(w, fraction, whole);
 
     if (!whole)
-        (void)add_base(w, up, at + 1);
-    return add_base(w, add_side(w, fraction, whole), at + (whole ? 3 : 4));
+        (void)add_letter_or_word(w, up, at + 1);
+    return add_letter_or_word(w, begin_derivative_side(w, fraction, whole), at + (whole ? 3 : 4));
 }
 
 /* Whether a derivative `dX/dY` or `d/dt` begins at this place of the text. */
 static bool
-is_slope(const char *at)
+is_derivative(const char *at)
 {
-    return at[0] == 'd' && (is_at(at + 1, "/d") ||
-                            (isalpha((unsigned char)at[1]) && is_at(at + 2, "/d")));
+    return at[0] == 'd' && (text_begins_with(at + 1, "/d") ||
+                            (isalpha((unsigned char)at[1]) && text_begins_with(at + 2, "/d")));
 }
 
 void
@@ -186,7 +186,7 @@ qdot_notation_add(qdot_formula *f, qdot_formula_id parent, const char *formula,
         return;
     }
     while (*formula != '\0') {
-        const spelling *sign = spelling_find(signs, COUNT(signs), formula);
+        const spelling *sign = find_spelling(signs, COUNT(signs), formula);
 
         if (*formula == '(') {
             parent = qdot_formula_add(f, all, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND,
@@ -199,8 +199,8 @@ qdot_notation_add(qdot_formula *f, qdot_formula_id parent, const char *formula,
             qdot_formula_add_sign(f, parent, sign->sign);
             formula += strlen(sign->plain);
         } else {
-            formula = is_slope(formula) ? add_slope(&w, parent, formula)
-                                        : add_atom(&w, parent, formula);
+            formula = is_derivative(formula) ? add_derivative(&w, parent, formula)
+                                        : add_letter_with_power(&w, parent, formula);
         }
     }
 }

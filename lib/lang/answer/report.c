@@ -1,4 +1,4 @@
-/* report.c -- prints the report of a run for people, and as JSON. */
+/* report.c -- prints the report of a run, as text or as JSON. */
 #include "lang/answer/report.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "ode/scale.h"
 
 static const char *
-status_word(qdot_run_status status)
+word_for_run_status(qdot_run_status status)
 {
     static const char *const words[] = {[QDOT_RUN_DONE] = "done",
                                         [QDOT_RUN_STOPPED] = "stopped",
@@ -22,10 +22,10 @@ status_word(qdot_run_status status)
     return words[status];
 }
 
-/* Number i of the end state with `digits`, in quotes for JSON; its error is absolute. */
+/* Append number i of the end state with as many digits as are known, in quotes for JSON; error: its absolute error. */
 static qdot_status
-exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double error,
-             qdot_text *number)
+append_exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double error,
+                    qdot_text *number)
 {
     qdot_status status;
 
@@ -36,13 +36,13 @@ exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double e
 }
 
 static void
-double_number(qdot_session *session, double value, double error, double size,
-              qdot_text *number)
+append_double_with_error(qdot_session *session, double value, double error, double size,
+                         qdot_text *number)
 {
     if (session->output->json)
         qdot_number_text_json(number, value);
     else if (!isfinite(value))
-        qdot_text_add(number, "unknown"); /* a multiplier of a constraint whose gradient vanishes */
+        qdot_text_add(number, "unknown"); /* undetermined: the multiplier of a constraint whose gradient vanishes */
     else
         qdot_number_text(number, value,
                          isfinite(error) ? fmax(error, 2e-16) * size : NAN);
@@ -54,12 +54,12 @@ typedef struct {
     double value, error; /* value and its error, relative to `size` */
     double size;         /* max(scale, |value|) */
     size_t exact;        /* the index of its exact value in report->exact */
-    bool first;          /* begins a new line */
+    bool first;          /* the number begins a new line of text */
 } end_number;
 
-/* Number k: q_0, q_0', q_1 ..., then the parameters, then the multipliers. */
+/* Number k of the end state, which lists q_0, q_0', q_1 ..., then the parameters, then the multipliers. */
 static end_number
-number_at(qdot_session *session, const qdot_run_report *r, size_t k)
+get_end_number(qdot_session *session, const qdot_run_report *r, size_t k)
 {
     const size_t n = r->n - r->n_states;
     const bool velocity = k < 2 * n && k % 2 != 0;
@@ -80,15 +80,15 @@ number_at(qdot_session *session, const qdot_run_report *r, size_t k)
 
 /* Call `each` for every number of the end state. */
 static qdot_status
-each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
-           void (*each)(qdot_text *line, size_t k, bool first, const char *name,
-                        const char *number),
-           qdot_text *line)
+for_each_end_number(qdot_session *session, const qdot_run_report *report, qdot_style style,
+                    void (*each)(qdot_text *line, size_t k, bool first, const char *name,
+                                 const char *number),
+                    qdot_text *line)
 {
     const size_t numbers = 2 * report->n - report->n_states + report->m;
 
     for (size_t k = 0; k < numbers; k++) {
-        const end_number x = number_at(session, report, k);
+        const end_number x = get_end_number(session, report, k);
         const bool exact = report->exact != NULL && report->exact[x.exact] != QDOT_NIL;
         qdot_text name = {0}, number = {0};
         qdot_status status = qdot_pool_check(session->pool);
@@ -96,9 +96,9 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
         if (status == QDOT_OK)
             status = qdot_print(session->pool, x.symbol, style, &name);
         if (status == QDOT_OK && exact)
-            status = exact_number(session, report, x.exact, x.error * x.size, &number);
+            status = append_exact_number(session, report, x.exact, x.error * x.size, &number);
         else if (status == QDOT_OK)
-            double_number(session, x.value, x.error, x.size, &number);
+            append_double_with_error(session, x.value, x.error, x.size, &number);
         if (status == QDOT_OK)
             each(line, k, x.first, qdot_text_str(&name), qdot_text_str(&number));
         qdot_text_clear(&name);
@@ -109,7 +109,7 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
 }
 
 static void
-state_json(qdot_text *line, size_t k, bool first, const char *name, const char *number)
+append_end_number_as_json(qdot_text *line, size_t k, bool first, const char *name, const char *number)
 {
     (void)first;
     if (k > 0)
@@ -120,7 +120,7 @@ state_json(qdot_text *line, size_t k, bool first, const char *name, const char *
 }
 
 static void
-state_text(qdot_text *line, size_t k, bool first, const char *name, const char *number)
+append_end_number_as_text(qdot_text *line, size_t k, bool first, const char *name, const char *number)
 {
     (void)k;
     qdot_text_add(line, first ? "\n    " : ", ");
@@ -130,15 +130,15 @@ state_text(qdot_text *line, size_t k, bool first, const char *name, const char *
 }
 
 static void
-field(qdot_text *line, const char *name, double value)
+append_json_number(qdot_text *line, const char *name, double value)
 {
     qdot_text_format(line, ",\"%s\":", name);
     qdot_number_text_json(line, value);
 }
 
-/* Write the drift of each quantity that should be constant, by name. */
+/* Write, for each quantity that should be constant, its name and its drift. */
 static void
-drifts_json(qdot_text *line, const qdot_run_report *r)
+append_drifts_as_json(qdot_text *line, const qdot_run_report *r)
 {
     qdot_text_add(line, ",\"drifts\":{");
     for (size_t i = 0; i < r->n_drifts; i++) {
@@ -150,9 +150,9 @@ drifts_json(qdot_text *line, const qdot_run_report *r)
     qdot_text_char(line, '}');
 }
 
-/* Write the groups of coordinates that were integrated separately. */
+/* Write which groups of coordinates, independent of each other, were integrated separately. */
 static void
-parts_json(qdot_text *line, const qdot_run_report *r)
+append_groups_as_json(qdot_text *line, const qdot_run_report *r)
 {
     qdot_text_add(line, ",\"parts\":[");
     for (size_t i = 0; i < r->n_parts; i++) {
@@ -164,9 +164,9 @@ parts_json(qdot_text *line, const qdot_run_report *r)
     qdot_text_char(line, ']');
 }
 
-/* Write how the constraints were kept, and whether the multipliers in "state" are unique. */
+/* Write how the constraints were satisfied, and whether the multipliers in "state" are unique. */
 static qdot_status
-constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+append_constraints_as_json(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
     static const char *const treatments[] = {[QDOT_RUN_PROJECT] = "project",
                                              [QDOT_RUN_BAUMGARTE] = "baumgarte",
@@ -177,7 +177,7 @@ constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *lin
                      "\"treatment\":\"%s\",\"projections\":%zu",
                      r->m, r->independent,
                      r->digits > 0 ? "digits" : treatments[r->treatment], r->projections);
-    field(line, "velocity_drift", r->velocity_drift);
+    append_json_number(line, "velocity_drift", r->velocity_drift);
     qdot_text_add(line, ",\"errors\":{");
     for (size_t k = 0; k < r->m; k++) {
         qdot_text name = {0};
@@ -195,8 +195,8 @@ constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *lin
 }
 
 static qdot_status
-run_json(qdot_session *session, const char *name, const qdot_run_report *r,
-         qdot_text *line)
+write_run_as_json(qdot_session *session, const char *name, const qdot_run_report *r,
+                  qdot_text *line)
 {
     qdot_text_add(line, "{\"kind\":\"run\",\"name\":");
     qdot_text_json(line, name);
@@ -207,31 +207,31 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     qdot_text_char(line, ',');
     qdot_number_text_json(line, r->t1);
     qdot_text_char(line, ']');
-    field(line, "tol", r->tol);
+    append_json_number(line, "tol", r->tol);
     qdot_text_format(line,
                      ",\"steps\":%zu,\"rejected\":%zu,\"evals\":%zu,\"jacobians\":%zu,"
                      "\"factorizations\":%zu",
                      r->steps, r->rejected, r->evals, r->jacobians, r->factorizations);
-    field(line, "cpu", r->cpu);
-    field(line, "cpu_total", r->cpu_total);
-    field(line, "error", r->error);
+    append_json_number(line, "cpu", r->cpu);
+    append_json_number(line, "cpu_total", r->cpu_total);
+    append_json_number(line, "error", r->error);
     if (r->scales)
-        field(line, "scaled_error", r->scaled_error);
-    field(line, "horizon", r->horizon);
-    field(line, "energy_drift", r->energy_drift);
-    drifts_json(line, r);
-    field(line, "constraint_drift", r->m > 0 ? r->constraint_drift : NAN);
+        append_json_number(line, "scaled_error", r->scaled_error);
+    append_json_number(line, "horizon", r->horizon);
+    append_json_number(line, "energy_drift", r->energy_drift);
+    append_drifts_as_json(line, r);
+    append_json_number(line, "constraint_drift", r->m > 0 ? r->constraint_drift : NAN);
     qdot_text_add(line, ",\"state\":{");
-    QDOT_TRY(each_state(session, r, QDOT_PLAIN, state_json, line));
-    qdot_text_format(line, "},\"status\":\"%s\",\"reason\":", status_word(r->status));
+    QDOT_TRY(for_each_end_number(session, r, QDOT_PLAIN, append_end_number_as_json, line));
+    qdot_text_format(line, "},\"status\":\"%s\",\"reason\":", word_for_run_status(r->status));
     if (r->reason != NULL)
         qdot_text_json(line, r->reason);
     else
         qdot_text_add(line, "null");
     if (r->n_parts > 0)
-        parts_json(line, r);
+        append_groups_as_json(line, r);
     if (r->m > 0)
-        QDOT_TRY(constraints_json(session, r, line));
+        QDOT_TRY(append_constraints_as_json(session, r, line));
     qdot_text_add(line, "}\n");
     return QDOT_OK;
 }
@@ -250,9 +250,9 @@ add_seconds(qdot_text *line, double s)
     qdot_text_add(line, s < 1 ? " ms" : " s");
 }
 
-/* Write how far the state drifted off the constraints, and how it was kept on them. */
+/* Write how far the state drifted off the constraints, and the method that kept it on them. */
 static void
-constraints_text(qdot_text *line, const qdot_run_report *r)
+append_constraints_as_text(qdot_text *line, const qdot_run_report *r)
 {
     static const char *const done[] = {
         [QDOT_RUN_PROJECT] = "projected after",
@@ -287,12 +287,12 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
 /* A quantity counts as conserved if its drift is below this. */
 static const double drifts_little = 1e-3;
 
-/* For a tolerance above this, a smaller one would give correct digits for a longer time: a hint says so. */
+/* Only for a tolerance above this a hint says that a smaller one would give correct digits for longer. */
 static const double of_method = 1e-11;
 
-/* Write which quantities are still known after the time from which on the state is not. */
+/* Write which quantities are still accurate after the time from which on the state is not. */
 static void
-beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+append_quantities_still_known(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
     bool some = false;
 
@@ -323,11 +323,11 @@ beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 
 /* Write the end state, or the time since which it is dominated by error. */
 static qdot_status
-end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+append_end_state_as_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
     if (isnan(r->horizon)) {
         qdot_text_add(line, "\n  end state:");
-        QDOT_TRY(each_state(session, r, session->output->style, state_text, line));
+        QDOT_TRY(for_each_end_number(session, r, session->output->style, append_end_number_as_text, line));
     } else {
         qdot_text_add(line, "\n  horizon: t = ");
         qdot_number_text(line, r->horizon, 0.005 * fabs(r->horizon));
@@ -335,15 +335,15 @@ end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
                                 ? "; no digit of the state beyond it is right under this tol"
                                 : ", where doubles are exhausted: no digit of the state "
                                   "beyond it is right; `digits 6` goes further");
-        beyond_text(session, r, line);
+        append_quantities_still_known(session, r, line);
     }
     qdot_text_char(line, '\n');
     return QDOT_OK;
 }
 
 static qdot_status
-run_text(qdot_session *session, const char *name, const qdot_run_report *r,
-         qdot_text *line)
+write_run_as_text(qdot_session *session, const char *name, const qdot_run_report *r,
+                  qdot_text *line)
 {
     qdot_text_format(line, "%s: t = ", name);
     qdot_number_text(line, r->t0, 0);
@@ -357,7 +357,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         qdot_text_add(line, "tol ");
         qdot_number_text(line, r->tol, 0);
     }
-    qdot_text_format(line, ", %s", status_word(r->status));
+    qdot_text_format(line, ", %s", word_for_run_status(r->status));
     if (r->reason != NULL)
         qdot_text_format(line, ": %s", r->reason);
     qdot_text_add(line, "\n  ");
@@ -398,7 +398,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     if (r->n_drifts == 0)
         qdot_text_add(line, r->interrupted ? "\n  drift: not measured"
                                            : "\n  drift: no conserved quantity is known");
-    constraints_text(line, r);
+    append_constraints_as_text(line, r);
     qdot_text_add(line, "\n  error of the end state: ");
     if (isfinite(r->scaled_error)) {
         qdot_text_add(line, "at most ");
@@ -408,15 +408,15 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     } else {
         qdot_text_add(line, "unknown");
     }
-    return end_text(session, r, line);
+    return append_end_state_as_text(session, r, line);
 }
 
 qdot_status
 qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *report)
 {
     qdot_text line = {0};
-    qdot_status status = session->output->json ? run_json(session, name, report, &line)
-                                       : run_text(session, name, report, &line);
+    qdot_status status = session->output->json ? write_run_as_json(session, name, report, &line)
+                                       : write_run_as_text(session, name, report, &line);
 
     if (status == QDOT_OK)
         return session->output->json ? qdot_write_object(session, session->output->out, &line)

@@ -14,7 +14,7 @@ enum { FEW = 5 };
 
 /* Append the parameter values of row k: "omega = 0.5, theta = 1". */
 static void
-name_row(const qdot_row_table *table, size_t k, qdot_text *text)
+append_row_parameters(const qdot_row_table *table, size_t k, qdot_text *text)
 {
     for (size_t i = 0; i < table->n_swept; i++) {
         const double x = table->values[k * table->n + i];
@@ -27,14 +27,14 @@ name_row(const qdot_row_table *table, size_t k, qdot_text *text)
 }
 
 static void
-say_failed(const qdot_row_table *table, qdot_text *text)
+append_failed_rows(const qdot_row_table *table, qdot_text *text)
 {
     size_t failed = 0;
 
     for (size_t k = 0; table->note == NULL && k < table->rows; k++) {
         if (table->reasons[k] == NULL || ++failed > FEW)
             continue;
-        name_row(table, k, text);
+        append_row_parameters(table, k, text);
         qdot_text_format(text, ": %s\n", table->reasons[k]);
     }
     if (failed > FEW)
@@ -67,7 +67,7 @@ qdot_row_answer(qdot_session *session, const qdot_row_table *table)
     } else if (status == QDOT_OK) {
         status = qdot_answer_add_table(&x.table, &text);
         if (status == QDOT_OK)
-            say_failed(table, &text);
+            append_failed_rows(table, &text);
         status = qdot_answer_written(session, table->name, status, &text);
     }
     qdot_row_columns_free(&x);

@@ -1,4 +1,4 @@
-/* sheet.c -- answers that contain formulas, for a terminal, as plain text, for a page. */
+/* sheet.c -- answers that contain formulas: for a terminal, as plain text, or for an HTML page. */
 #include "lang/answer/sheet.h"
 
 #include <inttypes.h>
@@ -21,7 +21,7 @@
 /* --- beginning an answer ------------------------------------------------------------------ */
 
 static void
-begin_line(qdot_sheet *s)
+begin_next_line(qdot_sheet *s)
 {
     s->at = s->line = qdot_formula_add(&s->formula, s->lines, QDOT_FORMULA_SPAN, 0, 0);
 }
@@ -35,7 +35,7 @@ sheet_begin(qdot_session *session, qdot_sheet_form form, qdot_style style)
     s.notation =
         form == QDOT_SHEET_DRAWN ? QDOT_NOTATION_DRAWN : qdot_print_notation(style);
     s.lines = qdot_formula_new(&s.formula, QDOT_FORMULA_SPAN, 0, 0);
-    begin_line(&s);
+    begin_next_line(&s);
     return s;
 }
 
@@ -87,7 +87,7 @@ qdot_sheet_clear(qdot_sheet *s)
 
 /* Append text to the line; on a terminal a line may break after each word. */
 static void
-sheet_add_words(qdot_sheet *s, const char *text, size_t n)
+add_words_to_sheet(qdot_sheet *s, const char *text, size_t n)
 {
     while (n > 0) {
         size_t word = n;
@@ -109,10 +109,10 @@ qdot_sheet_words(qdot_sheet *s, const char *text)
     for (;;) {
         const size_t n = strcspn(text, "\n");
 
-        sheet_add_words(s, text, n);
+        add_words_to_sheet(s, text, n);
         if (text[n] == '\0')
             return;
-        begin_line(s);
+        begin_next_line(s);
         text += n + 1;
     }
 }
@@ -138,9 +138,9 @@ qdot_sheet_format(qdot_sheet *s, const char *format, ...)
     qdot_free(many);
 }
 
-/* Append the text and clear it. */
+/* Append a text to the present line of the answer, and free the text. */
 static void
-sheet_add_text(qdot_sheet *s, qdot_text *text)
+add_text_to_sheet(qdot_sheet *s, qdot_text *text)
 {
     qdot_sheet_words(s, qdot_text_str(text));
     s->formula.failed = s->formula.failed || text->failed;
@@ -153,7 +153,7 @@ qdot_sheet_double(qdot_sheet *s, double x, int digits)
     qdot_text number = {0};
 
     qdot_text_double(&number, x, digits);
-    sheet_add_text(s, &number);
+    add_text_to_sheet(s, &number);
 }
 
 void
@@ -162,7 +162,7 @@ qdot_sheet_known(qdot_sheet *s, double x, double error)
     qdot_text number = {0};
 
     qdot_number_text_known(&number, x, error);
-    sheet_add_text(s, &number);
+    add_text_to_sheet(s, &number);
 }
 
 void
@@ -198,7 +198,7 @@ add_name_by_words(qdot_sheet *s, const char *name, unsigned flags)
     const qdot_status status = qdot_typed_name_print(s->session, name, s->style, &text);
 
     if (status == QDOT_OK)
-        sheet_add_words(s, qdot_text_str(&text), text.n);
+        add_words_to_sheet(s, qdot_text_str(&text), text.n);
     for (size_t i = from; i < s->formula.nodes.n; i++)
         s->formula.nodes.at[i].flags |= (uint8_t)flags;
     qdot_text_clear(&text);
@@ -286,9 +286,9 @@ write_lines(const qdot_sheet *s, bool colours, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* Whether `line` is the empty line after the last line break. */
+/* Whether `line` is an empty last line, which only follows the last line break. */
 static bool
-is_last_end(const qdot_sheet *s, qdot_formula_id line)
+is_empty_last_line(const qdot_sheet *s, qdot_formula_id line)
 {
     return line == s->line && qdot_sheet_at_begin(s);
 }
@@ -305,7 +305,7 @@ has_formula(const qdot_formula *f, qdot_formula_id line)
 }
 
 static qdot_status
-lay_out(const qdot_sheet *s, qdot_text *out, qdot_layout_size *size)
+lay_out_lines(const qdot_sheet *s, qdot_text *out, qdot_layout_size *size)
 {
     const bool colours = qdot_write_colours(s->session);
     const qdot_layout_request request = {.width = s->columns,
@@ -318,7 +318,7 @@ lay_out(const qdot_sheet *s, qdot_text *out, qdot_layout_size *size)
     for (qdot_formula_id line = 0; (line = qdot_formula_child(f, s->lines, line)) != 0;) {
         const size_t from = out->n;
 
-        if (is_last_end(s, line))
+        if (is_empty_last_line(s, line))
             break;
         if (has_formula(f, line)) {
             QDOT_TRY(qdot_layout_part(f, line, &request, out, size));
@@ -340,7 +340,7 @@ lay_out(const qdot_sheet *s, qdot_text *out, qdot_layout_size *size)
 /* If the text is higher than the terminal: keep its first half, with a note how long it is and how
  * to see all. */
 static void
-sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
+shorten_to_terminal(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 {
     const size_t shown = s->rows / 2;
     qdot_text last = {0};
@@ -364,20 +364,20 @@ sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 /* --- finishing an answer --------------------------------------------------------------- */
 
 static qdot_status
-sheet_draw(const qdot_sheet *s, const char *name)
+print_sheet(const qdot_sheet *s, const char *name)
 {
     qdot_layout_size size = {0};
     qdot_text drawn = {0};
-    const qdot_status status = lay_out(s, &drawn, &size);
+    const qdot_status status = lay_out_lines(s, &drawn, &size);
 
     if (status == QDOT_OK)
-        sheet_cut(s, &size, &drawn);
+        shorten_to_terminal(s, &size, &drawn);
     return qdot_answer_drawn(s->session, name, status, &drawn);
 }
 
-/* The page block for equations of the present statement; it is made if missing. */
+/* Find the block of an HTML page for the equations of the present statement; make it if it is missing. */
 static qdot_formula_page *
-find_block(qdot_session *session)
+find_or_make_page_block(qdot_session *session)
 {
     if (session->output->block == NULL) {
         session->output->block = qdot_calloc(1, sizeof *session->output->block);
@@ -392,16 +392,16 @@ find_block(qdot_session *session)
 }
 
 static qdot_status
-sheet_add_to_page(const qdot_sheet *s)
+add_sheet_to_page(const qdot_sheet *s)
 {
-    qdot_formula_page *page = s->page != NULL ? s->page : find_block(s->session);
+    qdot_formula_page *page = s->page != NULL ? s->page : find_or_make_page_block(s->session);
 
     if (page == NULL)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_formula_status(&s->formula));
     for (qdot_formula_id line = 0;
          (line = qdot_formula_child(&s->formula, s->lines, line)) != 0;)
-        if (!is_last_end(s, line))
+        if (!is_empty_last_line(s, line))
             qdot_formula_page_line(page, &s->formula, line);
     return page->status;
 }
@@ -421,9 +421,9 @@ qdot_sheet_end(qdot_sheet *s, const char *name, qdot_status status)
     qdot_text lines = {0};
 
     if (status == QDOT_OK && s->form == QDOT_SHEET_PAGE)
-        status = sheet_add_to_page(s);
+        status = add_sheet_to_page(s);
     else if (status == QDOT_OK && s->form == QDOT_SHEET_DRAWN)
-        status = sheet_draw(s, name);
+        status = print_sheet(s, name);
     else if (status == QDOT_OK)
         status = (s->broken ? qdot_answer_written : qdot_answer_drawn)(
             s->session, name, write_lines(s, qdot_write_colours(s->session), &lines),

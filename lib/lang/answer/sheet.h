@@ -20,7 +20,7 @@
 #include "lang/session/parts.h"
 
 typedef enum {
-    QDOT_SHEET_LINES, /* as lines of text */
+    QDOT_SHEET_LINES, /* the answer is written as lines of text */
     QDOT_SHEET_DRAWN, /* drawn in two dimensions on a terminal */
     QDOT_SHEET_PAGE   /* as a part of an HTML page */
 } qdot_sheet_form;
@@ -30,11 +30,11 @@ typedef struct {
     qdot_sheet_form form;
     qdot_style style; /* style of formulas that are written as text */
     qdot_notation_kind notation;
-    struct qdot_formula_page *page; /* the page to which its lines belong; NULL: equations of the present statement */
+    struct qdot_formula_page *page; /* the page to which the answer's lines belong; NULL: equations of the present statement */
     qdot_formula formula;
     qdot_formula_id lines, line, at; /* formula nodes: parent of all lines; present line; where parts are appended */
     size_t columns, rows;            /* size of the terminal */
-    bool broken;                     /* lines of text are broken at the width of a terminal */
+    bool broken;                     /* whether lines of text are broken at the width of the terminal */
     bool whole; /* never shorten the answer if it is higher than the terminal */
     uint64_t operations;             /* operations of its single formula, shown where it is cut; 0: not shown */
 } qdot_sheet;
@@ -46,17 +46,17 @@ qdot_sheet qdot_sheet_begin_words(qdot_session *session);
 /* Begin a sheet that becomes a text of this style (qdot_sheet_text), without marks around formulas. */
 qdot_sheet qdot_sheet_begin_text(qdot_session *session, qdot_style style);
 
-/* Append text; \n ends a line. */
+/* Append text to the answer; \n ends a line. */
 void qdot_sheet_words(qdot_sheet *sheet, const char *text);
 void qdot_sheet_format(qdot_sheet *sheet, const char *format, ...) QDOT_PRINTF(2, 3);
 
-/* Append a number to `digits` digits. */
+/* Append a number to the answer, to `digits` digits. */
 void qdot_sheet_double(qdot_sheet *sheet, double x, int digits);
 
-/* Append a number with the digits that its error leaves. */
+/* Append a number with only the digits that its error leaves meaningful. */
 void qdot_sheet_known(qdot_sheet *sheet, double x, double error);
 
-/* Begin and end a formula. */
+/* _open: begin a formula in the answer; _close: end it. */
 void qdot_sheet_open(qdot_sheet *sheet);
 void qdot_sheet_close(qdot_sheet *sheet);
 
@@ -66,20 +66,20 @@ void qdot_sheet_sign(qdot_sheet *sheet, qdot_formula_sign sign);
 QDOT_MUST_CHECK qdot_status qdot_sheet_expr(qdot_sheet *sheet, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_sheet_name(qdot_sheet *sheet, const char *name, unsigned flags);
 
-/* Append e as a formula. */
+/* Append e to the answer as a formula. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_formula(qdot_sheet *sheet, qdot_expr e);
 
-/* Whether the present line is empty; whether the whole sheet is. */
+/* _at_begin: whether the present line is empty; _is_empty: whether the whole sheet is. */
 bool qdot_sheet_at_begin(const qdot_sheet *sheet);
 bool qdot_sheet_is_empty(const qdot_sheet *sheet);
 
-/* Print the lines if status is QDOT_OK (with --json as the text `name`), and clear the sheet. */
+/* Print the answer if status is QDOT_OK (with --json as the text `name`), and free it. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_sheet *sheet, const char *name, qdot_status status);
 
-/* As qdot_sheet_end, but append the lines to a text. */
+/* As qdot_sheet_end, but append the answer to a text. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_text(qdot_sheet *sheet, qdot_status status, qdot_text *out);
 
-/* Clear the sheet without giving an answer. */
+/* Free the answer without printing it. */
 void qdot_sheet_clear(qdot_sheet *sheet);
 
 /* Write, or discard, the equations of the present statement that were collected for one block. */

@@ -1,4 +1,4 @@
-/* table-answer.c -- tables as answers. */
+/* table-answer.c -- gives tables as answers, as text or JSON. */
 #include "lang/answer/table-answer.h"
 
 #include "base/wrap.h"

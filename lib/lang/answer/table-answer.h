@@ -14,7 +14,7 @@ QDOT_MUST_CHECK qdot_status qdot_answer_columns(qdot_session *session, const cha
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row);
 QDOT_MUST_CHECK qdot_status qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t);
 
-/* Append a table as people read it, with marks at which a terminal may break it (base/wrap.h). */
+/* Append a table in readable columns, with marks at which a terminal may break it (base/wrap.h). */
 QDOT_MUST_CHECK qdot_status qdot_answer_add_table(const qdot_table *t, qdot_text *out);
 
 /* Answer {"kind":"row"} for each row in JSON; as text, the table under that name. */

@@ -29,7 +29,7 @@ is_letter(char c)
 }
 
 static const char *
-by_style(const writer *w, const char *unicode, const char *latex)
+choose_by_style(const writer *w, const char *unicode, const char *latex)
 {
     return w->style == QDOT_UNICODE ? unicode : latex;
 }
@@ -37,7 +37,7 @@ by_style(const writer *w, const char *unicode, const char *latex)
 /* What books call a value of the language in LaTeX: its letter where that is not declared, so that M is not both a mass
  * and the mass matrix. NULL: nothing else. */
 static const char *
-symbol_of(const writer *w, const char *word)
+latex_symbol_of_quantity(const writer *w, const char *word)
 {
     static const struct {
         const char *word, *symbol;
@@ -64,9 +64,9 @@ add_upright(qdot_text *out, const char *word, bool called)
     qdot_text_add(out, called && several ? "}}" : "}");
 }
 
-/* Append a word that the script does not declare: a function or constant of the language. */
+/* Append a word that the user has not declared: a function or constant of the language. */
 static void
-plain_word(writer *w, const char *word, bool called)
+append_undeclared_word(writer *w, const char *word, bool called)
 {
     static const char *const known[] = {"sin", "cos",  "tan",  "sec",  "csc",
                                         "cot", "sinh", "cosh", "tanh", "exp",
@@ -75,7 +75,7 @@ plain_word(writer *w, const char *word, bool called)
         const char *word, *sign;
     } joining[] = {{"and", "\\wedge"}, {"or", "\\vee"}, {"not", "\\neg"}};
 
-    const char *symbol = w->style == QDOT_LATEX ? symbol_of(w, word) : NULL;
+    const char *symbol = w->style == QDOT_LATEX ? latex_symbol_of_quantity(w, word) : NULL;
 
     if (w->style == QDOT_UNICODE || strlen(word) == 1 || symbol != NULL) {
         qdot_text_add(w->out, symbol != NULL ? symbol : word);
@@ -96,7 +96,7 @@ plain_word(writer *w, const char *word, bool called)
 
 /* The length of an index `[1,2]` at this place of the text; 0 if there is none. */
 static size_t
-index_length(const char *at)
+length_of_index(const char *at)
 {
     size_t n = *at == '[' ? 1 + strspn(at + 1, "0123456789, ") : 0;
 
@@ -105,11 +105,11 @@ index_length(const char *at)
 
 /* The declared name that begins with `word` at w->at, including an index such as x[1]. */
 static const qdot_name *
-declared_name(const writer *w, const char *word, size_t *index)
+find_declared_name(const writer *w, const char *word, size_t *index)
 {
     qdot_text spelled = {0};
     const qdot_name *name = NULL;
-    size_t n = index_length(w->at);
+    size_t n = length_of_index(w->at);
 
     *index = 0;
     if (n > 0) {
@@ -143,10 +143,10 @@ word(writer *w)
     if (text == NULL)
         return QDOT_ENOMEM;
     w->at += n;
-    name = declared_name(w, text, &index);
+    name = find_declared_name(w, text, &index);
     primes = strspn(w->at + index, "'");
     if (name == NULL && text[0] == 'd') { /* a derivative as dT/dtheta' */
-        const qdot_name *q = declared_name(w, text + 1, &index);
+        const qdot_name *q = find_declared_name(w, text + 1, &index);
 
         if (q != NULL && q->kind == QDOT_NAME_COORD) {
             qdot_text_char(w->out, 'd');
@@ -155,7 +155,7 @@ word(writer *w)
         }
     }
     if (name == NULL) {
-        plain_word(w, text, *w->at == '(');
+        append_undeclared_word(w, text, *w->at == '(');
     } else if (name->kind == QDOT_NAME_COORD) {
         qdot_expr jet = qdot_symbol_jet(pool, name->value, (uint32_t)primes);
 
@@ -172,7 +172,7 @@ word(writer *w)
 
 /* Write `[`; after a word or a bracket it begins an index, which LaTeX sets as a subscript. */
 static void
-bracket(writer *w)
+write_opening_bracket(writer *w)
 {
     bool index =
         w->at > w->start && (is_letter(w->at[-1]) || isdigit((unsigned char)w->at[-1]) ||
@@ -191,7 +191,7 @@ bracket(writer *w)
 }
 
 static void
-end_bracket(writer *w)
+write_closing_bracket(writer *w)
 {
     char closing = w->depth > 0 ? w->closing[--w->depth] : *w->at;
 
@@ -203,7 +203,7 @@ end_bracket(writer *w)
 
 /* Write ^2 as ² or ^{2}; other exponents keep the sign ^. */
 static void
-formula_power(writer *w)
+write_power(writer *w)
 {
     static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴",
                                               "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -220,17 +220,17 @@ formula_power(writer *w)
         qdot_text_char(w->out, '^');
         return;
     }
-    qdot_text_add(w->out, by_style(w, "", "^{"));
+    qdot_text_add(w->out, choose_by_style(w, "", "^{"));
     for (; n > 0; n--, w->at++)
         if (w->style == QDOT_UNICODE)
             qdot_text_add(w->out, superscript[*w->at - '0']);
         else
             qdot_text_char(w->out, *w->at);
-    qdot_text_add(w->out, by_style(w, "", "}"));
+    qdot_text_add(w->out, choose_by_style(w, "", "}"));
 }
 
 static qdot_status
-next(writer *w)
+write_next_token(writer *w)
 {
     static const struct {
         const char *plain, *unicode, *latex;
@@ -240,19 +240,19 @@ next(writer *w)
     if (is_letter(*w->at))
         return word(w);
     if (*w->at == '^') {
-        formula_power(w);
+        write_power(w);
         return QDOT_OK;
     }
     if (*w->at == '(' || *w->at == '[') {
-        bracket(w);
+        write_opening_bracket(w);
         return QDOT_OK;
     }
     if (*w->at == ')' || *w->at == ']') {
-        end_bracket(w);
+        write_closing_bracket(w);
         return QDOT_OK;
     }
     if (*w->at == '*' && strchr("0123456789.", w->at[1]) != NULL) {
-        qdot_text_add(w->out, by_style(w, "·", " \\cdot "));
+        qdot_text_add(w->out, choose_by_style(w, "·", " \\cdot "));
         w->at++;
         return QDOT_OK;
     }
@@ -260,7 +260,7 @@ next(writer *w)
         size_t n = strlen(words[i].plain);
 
         if (strncmp(w->at, words[i].plain, n) == 0) {
-            qdot_text_add(w->out, by_style(w, words[i].unicode, words[i].latex));
+            qdot_text_add(w->out, choose_by_style(w, words[i].unicode, words[i].latex));
             w->at += n;
             return QDOT_OK;
         }
@@ -284,7 +284,7 @@ qdot_typed_name_print(qdot_session *session, const char *name, qdot_style style,
         return qdot_text_status(out);
     }
     while (*w.at != '\0' && status == QDOT_OK)
-        status = next(&w);
+        status = write_next_token(&w);
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }
 

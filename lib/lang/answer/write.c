@@ -10,7 +10,7 @@
 #include "lang/session/typed.h"
 #include "show/formula-page.h"
 
-/* Write a finished text to the stream, or add it to the page that collects answers; then clear it. */
+/* Write a finished text to the stream, or add it to the page that collects answers; then free it. */
 static qdot_status
 write_out(const qdot_session *session, FILE *file, qdot_text *text)
 {
@@ -62,7 +62,7 @@ qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
 qdot_status
 qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
 {
-    /* false if the answer goes to a file by `to FILE` */
+    /* whether the object is an answer shown directly, not one that goes to a file by `to FILE` */
     const bool answer = session->output->console == NULL || file == session->output->console;
 
     if (qdot_text_status(object) == QDOT_OK && answer && session->typed->under_way) {
@@ -122,9 +122,9 @@ qdot_answer_text(qdot_session *session, const char *name, const char *text)
     return write_answer(session, name, text, false);
 }
 
-/* Write a text if `status` is QDOT_OK; clear it in any case. Returns the first failure. */
+/* Write a text if `status` is QDOT_OK; free it in any case. Returns the first failure. */
 static qdot_status
-write_end(qdot_session *session, const char *name, qdot_status status, qdot_text *text, bool drawn)
+write_and_clear_text(qdot_session *session, const char *name, qdot_status status, qdot_text *text, bool drawn)
 {
     if (status == QDOT_OK)
         status = qdot_text_status(text);
@@ -138,11 +138,11 @@ qdot_status
 qdot_answer_written(qdot_session *session, const char *name, qdot_status status,
                     qdot_text *text)
 {
-    return write_end(session, name, status, text, false);
+    return write_and_clear_text(session, name, status, text, false);
 }
 
 qdot_status
 qdot_answer_drawn(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
 {
-    return write_end(session, name, status, text, true);
+    return write_and_clear_text(session, name, status, text, true);
 }

@@ -26,7 +26,7 @@ FILE *qdot_write_stream(const qdot_session *session);
 bool qdot_write_colours(const qdot_session *session);
 #define QDOT_NAME_COLOUR QDOT_CYAN /* colour of names and labels */
 
-/* Append `before`, then the text as a JSON string. */
+/* Append the text `before` to a line of JSON, then `text` as a JSON string. */
 void qdot_write_field(qdot_text *line, const char *before, const char *text);
 
 /* Answer {"kind":"text"}: the text unchanged, with a newline added if it has none at its end. */

@@ -13,7 +13,7 @@
 #include "lang/session/measured.h"
 #include "lang/syntax/record.h"
 
-static qdot_status abbreviate_print(qdot_record *r);
+static qdot_status carry_out_abbreviate(qdot_record *r);
 
 QDOT_STATEMENT(abbreviate) = {
     .word = "abbreviate",
@@ -22,7 +22,7 @@ QDOT_STATEMENT(abbreviate) = {
     .summary = "the value with names for the parts that it repeats: first the parts, D1 = ..., then what "
                "they stand in; the names are not declared",
     .example = "abbreviate eom",
-    .handler = abbreviate_print,
+    .handler = carry_out_abbreviate,
 };
 
 typedef struct {
@@ -31,7 +31,7 @@ typedef struct {
 } names_in_use;
 
 static bool
-is_taken(const char *name, void *user)
+is_name_in_use(const char *name, void *user)
 {
     const names_in_use *n = user;
     const qdot_pool *pool = n->session->pool;
@@ -45,7 +45,7 @@ is_taken(const char *name, void *user)
     return qdot_cursor_knows(n->session, name);
 }
 
-/* Print the abbreviated parts, then the value in terms of them. */
+/* Print the repeated parts, each with its name, then the value in terms of these names. */
 static qdot_status
 abbreviate_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {
@@ -54,7 +54,7 @@ abbreviate_answer(qdot_session *session, const char *name, qdot_expr value, qdot
     qdot_status status;
 
     QDOT_TRY(qdot_pool_check(session->pool));
-    status = qdot_abbreviate(session->pool, value, is_taken, &taken, &a);
+    status = qdot_abbreviate(session->pool, value, is_name_in_use, &taken, &a);
     for (size_t i = 0; i < a.parts.n && status == QDOT_OK; i++) {
         const qdot_expr symbol = a.symbols.at[i];
 
@@ -68,7 +68,7 @@ abbreviate_answer(qdot_session *session, const char *name, qdot_expr value, qdot
 }
 
 static qdot_status
-abbreviate_print(qdot_record *r)
+carry_out_abbreviate(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *expression = qdot_record_hole(r, NULL, "EXPR");

@@ -30,7 +30,7 @@
 
 /* Answer a value that contains results of runs: a number, or a list of numbers. */
 static qdot_status
-answer_measured(qdot_session *session, const char *name, qdot_expr value)
+answer_run_results(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_vec(double) values = {0}, errors = {0};
     bool several = !qdot_expr_is_scalar(session->pool, value);
@@ -61,8 +61,8 @@ answer_measured(qdot_session *session, const char *name, qdot_expr value)
 /* Append the name of list member i: "eom[theta1]" if it belongs to a coordinate, otherwise (nil)
  * "solve(...)[1]". */
 static void
-member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i,
-            qdot_text *out)
+append_member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i,
+                   qdot_text *out)
 {
     qdot_text_add(out, name);
     if (coordinate != QDOT_NIL)
@@ -74,7 +74,7 @@ member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint3
 /* What member i goes by: a coordinate of the scene for a quantity, of `over` (a LIST, or nil) for others
  * (with --json by its number); nil: by its number. */
 static qdot_expr
-coordinate_of(const qdot_session *session, bool quantity, qdot_expr over, uint32_t n, uint32_t i)
+coordinate_of_member(const qdot_session *session, bool quantity, qdot_expr over, uint32_t n, uint32_t i)
 {
     if (quantity)
         return session->scene->coordinates.at[i];
@@ -92,7 +92,7 @@ is_one_equilibrium(const char *name)
 
 /* Answer the equations of a list in one line: `equilibria[1]: x = 0, y = 0`. */
 static qdot_status
-answer_joined(qdot_session *session, const char *name, qdot_expr list)
+answer_equations_in_one_line(qdot_session *session, const char *name, qdot_expr list)
 {
     qdot_sheet sheet = qdot_sheet_begin(session);
     qdot_status status = QDOT_OK;
@@ -116,13 +116,13 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
     if (n == 0 || (session->output->json && is_one_equilibrium(name)))
         return qdot_answer_expr(session, name, list);
     if (is_one_equilibrium(name))
-        return answer_joined(session, name, list);
+        return answer_equations_in_one_line(session, name, list);
     for (uint32_t i = 0; i < n; i++) {
         qdot_expr one = qdot_expr_arg(session->pool, list, i);
         qdot_text member = {0};
         qdot_status status;
 
-        member_name(session, name, coordinate_of(session, by_coordinate, over, n, i), i, &member);
+        append_member_name(session, name, coordinate_of_member(session, by_coordinate, over, n, i), i, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK && by_coordinate && row->symbol != NULL) {
             qdot_expr q = session->scene->coordinates.at[i];
@@ -140,7 +140,7 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
 
 /* Whether a list contains results of runs and also members that are no such numbers, as sqrt(2). */
 static bool
-is_mixed(qdot_session *session, qdot_expr value)
+mixes_results_and_expressions(qdot_session *session, qdot_expr value)
 {
     bool mixed = false;
 
@@ -159,7 +159,7 @@ is_mixed(qdot_session *session, qdot_expr value)
 
 /* Answer each member of a list with results of runs separately: a number with its error, or an expression. */
 static qdot_status
-answer_mixed(qdot_session *session, const char *name, qdot_expr list)
+answer_members_separately(qdot_session *session, const char *name, qdot_expr list)
 {
     qdot_status status = QDOT_OK;
 
@@ -167,11 +167,11 @@ answer_mixed(qdot_session *session, const char *name, qdot_expr list)
         qdot_expr one = qdot_expr_arg(session->pool, list, i);
         qdot_text member = {0};
 
-        member_name(session, name, QDOT_NIL, i, &member);
+        append_member_name(session, name, QDOT_NIL, i, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK)
             status = qdot_measured_occurs(session, one)
-                         ? answer_measured(session, qdot_text_str(&member), one)
+                         ? answer_run_results(session, qdot_text_str(&member), one)
                          : qdot_answer_expr(session, qdot_text_str(&member), one);
         qdot_text_clear(&member);
     }
@@ -229,7 +229,7 @@ answer_point(qdot_session *session, const char *name, qdot_expr equations)
     return status;
 }
 
-/* Answer each of several points under its number. */
+/* Answer each of several points (solutions) under its number: solve(...)[1], ... */
 static qdot_status
 answer_points(qdot_session *session, const char *name, qdot_expr list)
 {
@@ -238,7 +238,7 @@ answer_points(qdot_session *session, const char *name, qdot_expr list)
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
         qdot_text member = {0};
 
-        member_name(session, name, QDOT_NIL, i, &member);
+        append_member_name(session, name, QDOT_NIL, i, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK)
             status = answer_point(session, qdot_text_str(&member),
@@ -255,10 +255,10 @@ qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_e
         return answer_point(session, name, value);
     if (qdot_measured_occurs(session, value) && is_points(session->pool, value))
         return answer_points(session, name, value);
-    if (qdot_measured_occurs(session, value) && is_mixed(session, value))
-        return answer_mixed(session, name, value);
+    if (qdot_measured_occurs(session, value) && mixes_results_and_expressions(session, value))
+        return answer_members_separately(session, name, value);
     if (qdot_measured_occurs(session, value))
-        return answer_measured(session, name, value);
+        return answer_run_results(session, name, value);
     if (qdot_components_are(session, name, value, over))
         return qdot_components_answer(session, name, value, over);
     if (qdot_expr_kind(session->pool, value) == QDOT_LIST)

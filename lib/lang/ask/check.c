@@ -66,14 +66,14 @@ decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, compariso
     return a == left && b == right ? QDOT_OK : qdot_decide_equal(pool, a, b, known, decision);
 }
 
-/* Whether e is a quoted text, or a verdict of stability(...): it is equal only to itself. */
+/* Whether e is a quoted text or a verdict of stability(...): such a value is equal only to itself. */
 static bool
-is_word(qdot_pool *pool, qdot_expr e)
+is_text_value(qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_class(pool, e, QDOT_WORDS) || qdot_equilibria_is_word(pool, e);
 }
 
-/* Decide whether two equations are equal: one residual is the other times a factor without zeros. */
+/* Decide whether two equations are equivalent: left - right of one is that of the other times a factor without zeros. */
 static qdot_status
 decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
                  const qdot_facts *known, qdot_decision *decision)
@@ -109,13 +109,13 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
 }
 
 static const char *
-kind_word(const qdot_pool *pool, qdot_expr e)
+kind_in_words(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_scalar(pool, e) ? "a scalar" : qdot_value_kind_words(pool, e);
 }
 
 static qdot_status
-mismatch(const qdot_pool *pool, qdot_expr left, qdot_expr right)
+report_unequal_shapes(const qdot_pool *pool, qdot_expr left, qdot_expr right)
 {
     uint32_t m = qdot_expr_count(pool, left), n = qdot_expr_count(pool, right);
 
@@ -123,15 +123,15 @@ mismatch(const qdot_pool *pool, qdot_expr left, qdot_expr right)
         return qdot_fail(QDOT_ETYPE, "the sides have %u and %u components", m, n);
     if (qdot_expr_kind(pool, left) == qdot_expr_kind(pool, right))
         return qdot_fail(QDOT_ETYPE, "the sides are matrices of different shapes");
-    return qdot_fail(QDOT_ETYPE, "%s is not compared with %s", kind_word(pool, left),
-                     kind_word(pool, right));
+    return qdot_fail(QDOT_ETYPE, "%s is not compared with %s", kind_in_words(pool, left),
+                     kind_in_words(pool, right));
 }
 
 /* The verdict of all components is the worst of theirs: the first refutation, else the
  * last undecided, else proved. Members of lists may be vectors: an explicit stack. */
 static qdot_status
-decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
-       const qdot_facts *known, qdot_decision *decision)
+decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+                     const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     qdot_vec(qdot_expr) todo = {0};
@@ -145,7 +145,7 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
         qdot_kind kind = qdot_expr_kind(pool, a);
         qdot_decision one = {.left = NAN, .right = NAN};
 
-        if (how == EQUAL && is_word(pool, a) && is_word(pool, b)) {
+        if (how == EQUAL && is_text_value(pool, a) && is_text_value(pool, b)) {
             one.verdict = a == b ? QDOT_PROVED : QDOT_REFUTED;
         } else if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
             status = decide_scalars(session, a, b, how, known, &one);
@@ -153,10 +153,10 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                    qdot_expr_count(pool, a) != qdot_expr_count(pool, b) ||
                    (kind == QDOT_MAT &&
                     qdot_expr_node(pool, a)->op != qdot_expr_node(pool, b)->op)) {
-            status = mismatch(pool, a, b);
+            status = report_unequal_shapes(pool, a, b);
         } else if (how != EQUAL) {
             status =
-                qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_word(pool, a));
+                qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_in_words(pool, a));
         } else if (kind == QDOT_REL) {
             status = decide_equations(session, a, b, known, &one);
         } else {
@@ -174,7 +174,7 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
     return status;
 }
 
-/* Compare numbers of runs: |a - b| <= tol max(1, |b|), or a < b. */
+/* Compare numbers of runs: |a - b| <= tol max(1, |b|) for equality, or a < b. */
 static qdot_status
 compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                 double tol, qdot_decision *decision)
@@ -197,7 +197,7 @@ compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparis
     return qdot_answer_notice(session, "refuted by numbers whose error is unknown");
 }
 
-/* Compare component by component within a tolerance; the first refuted one decides. */
+/* Compare two values component by component within a tolerance; the first refuted component decides. */
 static qdot_status
 decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
               double tol, qdot_decision *decision)
@@ -209,7 +209,7 @@ decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison
     if (qdot_expr_is_scalar(pool, left) || qdot_expr_is_scalar(pool, right))
         return compare_numbers(session, left, right, how, tol, decision);
     if (n != qdot_expr_count(pool, right) || qdot_expr_kind(pool, left) == QDOT_REL)
-        return mismatch(pool, left, right);
+        return report_unequal_shapes(pool, left, right);
     for (uint32_t i = 0; i < n && decision->verdict == QDOT_PROVED; i++)
         QDOT_TRY(compare_numbers(session, qdot_expr_arg(pool, left, i),
                                  qdot_expr_arg(pool, right, i), how, tol, decision));
@@ -224,12 +224,12 @@ typedef struct {
     qdot_expr left, right;
     comparison how;
     double tol;
-    qdot_passed passed; /* subexpressions that were evaluated while the sides were read */
+    qdot_passed passed; /* subexpressions that were evaluated while the sides of the claim were read */
 } question;
 
 /* Split a relation such as `check (a = b)`, or a name that stands for one, into its two sides. */
 static qdot_status
-take_apart(qdot_record *r, const qdot_filled *part, question *q)
+split_relation(qdot_record *r, const qdot_filled *part, question *q)
 {
     qdot_pool *pool = r->cursor.session->pool;
     qdot_expr e = q->left;
@@ -256,7 +256,7 @@ read_comparison(qdot_record *r, const qdot_filled *part, question *q)
 
     QDOT_TRY(qdot_record_side(r, part, 0, &q->left));
     if (part->n == 1)
-        return take_apart(r, part, q);
+        return split_relation(r, part, q);
     q->turned = relation[0] == '>';
     q->how = relation[0] == '=' ? EQUAL : relation[1] == '=' ? LESS_EQUAL : LESS;
     return qdot_record_side(r, part, 1, &q->right);
@@ -289,7 +289,7 @@ read_question(qdot_record *r, question *q, qdot_assumed *f)
 
 /* In `check eom == (x'' = -x)`: replace a list of one member by that member if the other side is no list. */
 static void
-unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
+unwrap_single_members(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
 {
     qdot_expr *sides[] = {left, right};
 
@@ -300,7 +300,7 @@ unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
             *sides[i] = qdot_expr_arg(pool, *sides[i], 0);
 }
 
-/* Exchange the values found for the two sides of the claim. */
+/* Exchange the values found for the left and right side of the claim. */
 static void
 exchange_sides(qdot_decision *decision)
 {
@@ -310,9 +310,9 @@ exchange_sides(qdot_decision *decision)
     decision->right = left;
 }
 
-/* The LIST of subexpressions that must be defined, with the replacements of `when` applied; nil on failure. */
+/* The LIST of subexpressions that must be defined, with the replacements after `when` made; nil on failure. */
 static qdot_expr
-passed_list(qdot_session *session, const qdot_assumed *f, const question *q)
+list_defined_subexpressions(qdot_session *session, const qdot_assumed *f, const question *q)
 {
     qdot_expr list =
         qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
@@ -322,7 +322,7 @@ passed_list(qdot_session *session, const qdot_assumed *f, const question *q)
 
 /* If nothing was refuted: give a notice if the conditions contradict each other. */
 static qdot_status
-look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
+report_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
 {
     qdot_pool *pool = session->pool;
     qdot_vec(qdot_expr) conditions = {0};
@@ -356,20 +356,20 @@ look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_
     return status;
 }
 
-/* All known facts, in the form that qdot_decide_... takes. */
+/* All facts known for the decision of the claim, in the form that the functions qdot_decide_... take. */
 static qdot_facts
-all_known(qdot_session *session, const qdot_assumed *f, const question *q)
+collect_known_facts(qdot_session *session, const qdot_assumed *f, const question *q)
 {
     /* a given function of time leaves its second derivative free, so accelerations count as known */
     return (qdot_facts){f->relations.n, f->relations.at,
                         f->conditions.n, f->conditions.at,
                         f->motion && !f->stated ? 2 : 0,
-                        q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q), false};
+                        q->passed.spoiled ? QDOT_NIL : list_defined_subexpressions(session, f, q), false};
 }
 
-/* If momenta meet velocities, on either side or in the assumptions, write all in velocities. */
+/* If momenta and velocities both occur, on either side of the claim or in its assumptions, write all in velocities. */
 static qdot_status
-meet_velocities(qdot_session *session, question *q, qdot_assumed *f)
+replace_momenta_by_velocities(qdot_session *session, question *q, qdot_assumed *f)
 {
     const qdot_expr sides[] = {q->left, q->right};
     qdot_vec(qdot_expr) list = {0};
@@ -400,7 +400,7 @@ meet_velocities(qdot_session *session, question *q, qdot_assumed *f)
 /* Whether both sides contain multipliers and are equal for all values of them, as a reaction and
  * its components. */
 static qdot_status
-is_formal(qdot_session *session, const question *q, const qdot_assumed *f, bool *is)
+holds_for_all_multipliers(qdot_session *session, const question *q, const qdot_assumed *f, bool *is)
 {
     qdot_pool *pool = session->pool;
     qdot_decision decision;
@@ -410,10 +410,10 @@ is_formal(qdot_session *session, const question *q, const qdot_assumed *f, bool 
           (qdot_expr_node(pool, q->right)->holds & QDOT_HAS_MULTIPLIER);
     if (!*is)
         return QDOT_OK;
-    known = all_known(session, f, q);
+    known = collect_known_facts(session, f, q);
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(decide(session, qdot_assumed_replace(session, f, q->left),
-                    qdot_assumed_replace(session, f, q->right), q->how, &known, &decision));
+    QDOT_TRY(decide_by_components(session, qdot_assumed_replace(session, f, q->left),
+                                  qdot_assumed_replace(session, f, q->right), q->how, &known, &decision));
     *is = decision.verdict == QDOT_PROVED;
     return QDOT_OK;
 }
@@ -421,7 +421,7 @@ is_formal(qdot_session *session, const question *q, const qdot_assumed *f, bool 
 /* A multiplier among values is what the equations make of it; beside accelerations, in an equation or in
  * numbers of a run it stays itself. */
 static qdot_status
-meet_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
+replace_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
 {
     bool formal;
     const qdot_pool *pool = session->pool;
@@ -432,7 +432,7 @@ meet_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
         qdot_expr_kind(pool, q->left) == QDOT_REL || qdot_expr_kind(pool, q->right) == QDOT_REL ||
         qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right))
         return QDOT_OK;
-    QDOT_TRY(is_formal(session, q, f, &formal));
+    QDOT_TRY(holds_for_all_multipliers(session, q, f, &formal));
     if (formal)
         return QDOT_OK;
     QDOT_TRY(qdot_answer_notice(session, "multipliers have their values from the equations: checked `when eom`"));
@@ -440,7 +440,7 @@ meet_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
 }
 
 static qdot_status
-answer(qdot_cursor *c, question *q, qdot_assumed *f)
+answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
 {
     qdot_session *session = c->session;
     qdot_pool *pool = session->pool;
@@ -449,9 +449,9 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
     qdot_facts known;
     bool measured;
 
-    unwrap(pool, &q->left, &q->right);
-    QDOT_TRY(meet_multipliers(session, q, f));
-    QDOT_TRY(meet_velocities(session, q, f));
+    unwrap_single_members(pool, &q->left, &q->right);
+    QDOT_TRY(replace_multipliers(session, q, f));
+    QDOT_TRY(replace_momenta_by_velocities(session, q, f));
     measured =
         qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
     if (measured && q->how == EQUAL && !q->within) {
@@ -468,18 +468,18 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
         left = qdot_assumed_replace(session, f, q->left);
         right = qdot_assumed_replace(session, f, q->right);
         QDOT_TRY(qdot_pool_check(pool));
-        known = all_known(session, f, q);
+        known = collect_known_facts(session, f, q);
         QDOT_TRY(qdot_pool_check(pool));
         if (q->turned) {
-            QDOT_TRY(decide(session, right, left, q->how, &known, &decision));
+            QDOT_TRY(decide_by_components(session, right, left, q->how, &known, &decision));
             exchange_sides(&decision);
         } else {
-            QDOT_TRY(decide(session, left, right, q->how, &known, &decision));
+            QDOT_TRY(decide_by_components(session, left, right, q->how, &known, &decision));
         }
     }
     if (!q->within && !measured &&
         (decision.verdict == QDOT_PROVED || decision.points == 0 || f->from.n > 0))
-        QDOT_TRY(look_for_contradiction(session, f, &known));
+        QDOT_TRY(report_contradiction(session, f, &known));
     if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
         session->outcome->refuted = true;
     return qdot_answer_check(session, q->left, q->right, &decision);
@@ -489,7 +489,7 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
  * Where multipliers are left, which the state tells, or a coordinate has no mass, only a proof
  * counts. */
 static qdot_status
-answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
+decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
 {
     qdot_pool *pool = session->pool;
     qdot_decision decision;
@@ -507,7 +507,7 @@ answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
     f->motion = true;
     for (size_t i = 0; i < session->scene->constraints.n; i++)
         QDOT_TRY(qdot_assumed_constraint(session, f, i, false));
-    known = all_known(session, f, q);
+    known = collect_known_facts(session, f, q);
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(decide_scalars(session, rate, QDOT_ZERO, EQUAL, &known, &decision));
     *done = decision.verdict == QDOT_PROVED ||
@@ -516,7 +516,7 @@ answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
     if (!*done)
         return QDOT_OK;
     if (decision.verdict == QDOT_PROVED)
-        QDOT_TRY(look_for_contradiction(session, f, &known));
+        QDOT_TRY(report_contradiction(session, f, &known));
     if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
         session->outcome->refuted = true;
     return qdot_answer_check(session, rate, QDOT_ZERO, &decision);
@@ -536,7 +536,7 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
     if (!jumps) {
-        QDOT_TRY(answer_by_rate(session, q, f, &done));
+        QDOT_TRY(decide_conserved_by_rate(session, q, f, &done));
         if (done)
             return QDOT_OK;
     }
@@ -553,7 +553,7 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
         return qdot_answer_check(session, q->left, q->right, &decision);
     }
     QDOT_TRY(status);
-    return answer(c, q, f);
+    return answer_comparison(c, q, f);
 }
 
 static qdot_status
@@ -576,7 +576,7 @@ answer_claim(qdot_record *r)
         status = qdot_constraints_check_integrable(r, qdot_record_hole(r, NULL, "LABEL"), q.not);
     } else if (status == QDOT_OK) {
         c->error_at = r->start->start;
-        status = q.conserved ? answer_conserved(c, &q, &f) : answer(c, &q, &f);
+        status = q.conserved ? answer_conserved(c, &q, &f) : answer_comparison(c, &q, &f);
     }
     qdot_free(q.passed.value.at);
     qdot_free(q.passed.root.at);

@@ -1,4 +1,4 @@
-/* components.c -- tensors answered by their components, named by coordinates. */
+/* components.c -- answers a tensor by listing its components, with coordinates as indices. */
 #include "lang/ask/components.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@
 
 enum { MOST_RANK = 4 };
 
-/* The letter and the index positions that books use for a tensor function. */
+/* The letter and the positions of the indices that textbooks use for a tensor-valued function. */
 typedef struct {
     const char *call, *letter;
     uint32_t upper; /* number of upper indices, 0 or 1 */
@@ -24,7 +24,7 @@ static const letter letters[] = {{"christoffel(", "Γ", 1}, {"riemann(", "R", 1}
 typedef struct {
     qdot_session *session;
     const char *name;
-    const letter *letter; /* letter and indices as in books; NULL: use the name */
+    const letter *letter; /* letter and index positions as in textbooks; NULL: use the name */
     bool linear;          /* write indices in brackets, on one line */
     qdot_expr value, over;
     uint32_t rank, n;
@@ -40,7 +40,7 @@ typedef struct {
 } place;
 
 static uint32_t
-rank_of(const qdot_pool *pool, qdot_expr value)
+tensor_rank(const qdot_pool *pool, qdot_expr value)
 {
     uint32_t rank = 2;
 
@@ -53,7 +53,7 @@ rank_of(const qdot_pool *pool, qdot_expr value)
 }
 
 static const letter *
-letter_of(const char *name)
+textbook_letter(const char *name)
 {
     for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
         if (strncmp(name, letters[i].call, strlen(letters[i].call)) == 0 &&
@@ -66,8 +66,8 @@ bool
 qdot_components_are(const qdot_session *session, const char *name, qdot_expr value,
                     qdot_expr over)
 {
-    const uint32_t rank = over == QDOT_NIL ? 0 : rank_of(session->pool, value);
-    const letter *l = letter_of(name);
+    const uint32_t rank = over == QDOT_NIL ? 0 : tensor_rank(session->pool, value);
+    const letter *l = textbook_letter(name);
 
     if (rank > MOST_RANK || session->output->json)
         return false;
@@ -78,7 +78,7 @@ qdot_components_are(const qdot_session *session, const char *name, qdot_expr val
 
 /* The component of the tensor at the given indices, counted from 0. */
 static qdot_expr
-component(const tensor *t, const uint32_t *at)
+get_component(const tensor *t, const uint32_t *at)
 {
     qdot_expr e = t->value;
 
@@ -90,7 +90,7 @@ component(const tensor *t, const uint32_t *at)
 
 /* Advance to the next set of indices; false after the last one. */
 static bool
-indices_step(const tensor *t, uint32_t *at)
+advance_indices(const tensor *t, uint32_t *at)
 {
     for (uint32_t k = t->rank; k-- > 0;) {
         if (++at[k] < t->n)
@@ -101,7 +101,7 @@ indices_step(const tensor *t, uint32_t *at)
 }
 
 static int
-mirror_of(const tensor *t)
+find_index_symmetry(const tensor *t)
 {
     uint32_t at[MOST_RANK] = {0}, turned[MOST_RANK];
     bool same = true, opposite = true;
@@ -110,11 +110,11 @@ mirror_of(const tensor *t)
         memcpy(turned, at, sizeof at);
         turned[t->rank - 1] = at[t->rank - 2];
         turned[t->rank - 2] = at[t->rank - 1];
-        const qdot_expr a = component(t, at), b = component(t, turned);
+        const qdot_expr a = get_component(t, at), b = get_component(t, turned);
 
         same = same && a == b;
         opposite = opposite && a == qdot_neg(t->session->pool, b);
-    } while (indices_step(t, at));
+    } while (advance_indices(t, at));
     return same ? 1 : opposite ? -1 : 0;
 }
 
@@ -128,9 +128,9 @@ print_index(const tensor *t, const place *p, qdot_style style, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Append the name in one line: Γ[r; θ, θ]. */
+/* Append the name of a component in one line: Γ[r; θ, θ]. */
 static qdot_status
-add_linear(tensor *t, const place *indices)
+add_flat_name(tensor *t, const place *indices)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -169,7 +169,7 @@ add_indices(tensor *t, qdot_formula_id parent, const place *indices, uint32_t fr
 
 /* Append the tensor's letter with its upper and lower indices. */
 static qdot_status
-add_raised(tensor *t, const place *indices)
+add_raised_name(tensor *t, const place *indices)
 {
     const uint32_t upper = t->letter->upper;
     const qdot_formula_id node = qdot_formula_add(&t->sheet.formula, t->sheet.at,
@@ -183,7 +183,7 @@ add_raised(tensor *t, const place *indices)
 
 /* Append the name as typed, with the indices: christoffel(R)[r, theta, theta]. */
 static qdot_status
-add_typed(tensor *t, const place *indices)
+add_typed_name(tensor *t, const place *indices)
 {
     qdot_text typed = {0};
     qdot_status status = QDOT_OK;
@@ -204,9 +204,9 @@ add_typed(tensor *t, const place *indices)
 
 /* Append the name of a component, in the form chosen for this tensor. */
 static qdot_status
-component_add_name(tensor *t, const place *indices)
+append_component_name(tensor *t, const place *indices)
 {
-    return t->letter == NULL ? add_typed(t, indices) : t->linear ? add_linear(t, indices) : add_raised(t, indices);
+    return t->letter == NULL ? add_typed_name(t, indices) : t->linear ? add_flat_name(t, indices) : add_raised_name(t, indices);
 }
 
 static qdot_status
@@ -217,7 +217,7 @@ add_component(tensor *t, const uint32_t *at, qdot_expr value)
     for (uint32_t k = 0; k < t->rank; k++)
         indices[k].coordinate = qdot_expr_arg(t->session->pool, t->over, at[k]);
     qdot_sheet_open(&t->sheet);
-    QDOT_TRY(component_add_name(t, indices));
+    QDOT_TRY(append_component_name(t, indices));
     qdot_sheet_sign(&t->sheet, QDOT_SIGN_EQUALS);
     QDOT_TRY(qdot_sheet_expr(&t->sheet, value));
     qdot_sheet_close(&t->sheet);
@@ -225,9 +225,9 @@ add_component(tensor *t, const uint32_t *at, qdot_expr value)
     return QDOT_OK;
 }
 
-/* Append the symmetry `Γ[i; k, j] = Γ[i; j, k]`, with letters for the indices. */
+/* Append the symmetry of a tensor, `Γ[i; k, j] = Γ[i; j, k]`, with letters for the indices. */
 static qdot_status
-add_mirror(tensor *t)
+append_symmetry(tensor *t)
 {
     const char *const words = "ijkl";
 
@@ -241,15 +241,15 @@ add_mirror(tensor *t)
             qdot_sheet_sign(&t->sheet, QDOT_SIGN_EQUALS);
         if (side == 1 && t->mirror < 0)
             qdot_sheet_sign(&t->sheet, QDOT_SIGN_NEGATIVE);
-        QDOT_TRY(component_add_name(t, indices));
+        QDOT_TRY(append_component_name(t, indices));
     }
     qdot_sheet_close(&t->sheet);
     return QDOT_OK;
 }
 
-/* Add a line about the components that are not listed: zeros, and equal ones by symmetry. */
+/* Add a line about the components that are not listed: zeros, and those equal to others by symmetry. */
 static qdot_status
-add_rest(tensor *t, bool none)
+append_omitted_components(tensor *t, bool none)
 {
     qdot_sheet *s = &t->sheet;
     const bool comment = t->session->output->style == QDOT_PLAIN || t->session->output->flat;
@@ -267,19 +267,19 @@ add_rest(tensor *t, bool none)
     if (t->mirror != 0 && t->letter == NULL)
         qdot_sheet_format(s, "%s in the last two indices", t->mirror > 0 ? "symmetric" : "antisymmetric");
     else if (t->mirror != 0)
-        QDOT_TRY(add_mirror(t));
+        QDOT_TRY(append_symmetry(t));
     qdot_sheet_format(s, "%s%s\n", t->mirror != 0 && t->zeros ? "; " : "", t->zeros ? "all others are 0" : "");
     return QDOT_OK;
 }
 
 static qdot_status
-add_all(tensor *t)
+append_all_components(tensor *t)
 {
     uint32_t at[MOST_RANK] = {0};
     bool none = true;
 
     do {
-        const qdot_expr value = component(t, at);
+        const qdot_expr value = get_component(t, at);
 
         if (t->mirror != 0 && at[t->rank - 2] > at[t->rank - 1])
             continue;
@@ -289,9 +289,9 @@ add_all(tensor *t)
         }
         none = false;
         QDOT_TRY(add_component(t, at, value));
-    } while (indices_step(t, at));
+    } while (advance_indices(t, at));
     QDOT_TRY(qdot_pool_check(t->session->pool));
-    return add_rest(t, none);
+    return append_omitted_components(t, none);
 }
 
 qdot_status
@@ -302,17 +302,17 @@ qdot_components_answer(qdot_session *session, const char *name, qdot_expr value,
     qdot_status status;
     tensor t = {.session = session,
                 .name = name,
-                .letter = typed ? NULL : letter_of(name),
+                .letter = typed ? NULL : textbook_letter(name),
                 .sheet = qdot_sheet_begin(session),
                 .linear = session->output->style == QDOT_UNICODE,
                 .value = value,
                 .over = over,
-                .rank = rank_of(session->pool, value),
+                .rank = tensor_rank(session->pool, value),
                 .n = qdot_expr_count(session->pool, over)};
 
-    t.mirror = mirror_of(&t);
+    t.mirror = find_index_symmetry(&t);
     status = qdot_pool_check(session->pool);
     if (status == QDOT_OK)
-        status = add_all(&t);
+        status = append_all_components(&t);
     return qdot_sheet_end(&t.sheet, name, status);
 }

@@ -7,7 +7,7 @@
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 
-static qdot_status cyclic_list(qdot_record *r);
+static qdot_status carry_out_cyclic(qdot_record *r);
 
 QDOT_STATEMENT(cyclic) = {
     .word = "cyclic",
@@ -16,7 +16,7 @@ QDOT_STATEMENT(cyclic) = {
     .summary = "the coordinates absent from L, each with its momentum",
     .example = "cyclic",
     .alone = true,
-    .handler = cyclic_list,
+    .handler = carry_out_cyclic,
 };
 
 /* Print `theta: p[theta] = ... is conserved`, or the momentum with its rate. */
@@ -63,7 +63,7 @@ answer_cyclic(qdot_session *session, const qdot_cyclic *one)
 }
 
 static qdot_status
-cyclic_list(qdot_record *r)
+carry_out_cyclic(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_status status = QDOT_OK;

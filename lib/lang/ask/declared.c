@@ -12,7 +12,7 @@
 
 /* The value that `set` or `param` gave a symbol; nil if it has none. */
 static qdot_expr
-set_value(const qdot_session *session, qdot_expr symbol)
+value_given_by_set(const qdot_session *session, qdot_expr symbol)
 {
     for (size_t i = 0; i < session->values->set_symbols.n; i++)
         if (session->values->set_symbols.at[i] == symbol)
@@ -43,7 +43,7 @@ qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out
     case QDOT_NAME_COORD:
         qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
         QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
-        value = set_value(session, name->value);
+        value = value_given_by_set(session, name->value);
         if (value == QDOT_NIL)
             return QDOT_OK;
         qdot_text_add(out, " = ");

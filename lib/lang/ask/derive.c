@@ -33,31 +33,31 @@ typedef struct {
     int step;
 } derivation;
 
-/* Whether formulas with words are written in one line rather than with raised and lowered parts. */
+/* Whether symbols are written in one line, v[bob]^2, rather than with raised and lowered parts. */
 static bool
-derivation_is_linear(const derivation *d)
+is_written_in_one_line(const derivation *d)
 {
     return d->sheet.form == QDOT_SHEET_DRAWN || d->sheet.notation != QDOT_NOTATION_DRAWN;
 }
 
 /* The notation in which the formulas within a line are written. */
 static qdot_notation_kind
-line_notation(const derivation *d)
+notation_within_line(const derivation *d)
 {
     return d->sheet.notation == QDOT_NOTATION_SCRIPT ? QDOT_NOTATION_SCRIPT : QDOT_NOTATION_LINE;
 }
 
-/* Begin a step: `3. Title: formula`; the formula is read by qdot_notation_add, NULL if there is none. */
+/* Begin a step of the derivation: `3. Title: formula`, the formula in the notation of qdot_notation_add; NULL: none. */
 static void
-heading(derivation *d, const char *title, const char *formula)
+begin_step(derivation *d, const char *title, const char *formula)
 {
     qdot_sheet *s = &d->sheet;
     qdot_text line = {0};
 
     qdot_sheet_format(s, "%s%d. %s%s", d->step > 0 ? "\n" : "", d->step + 1, title, formula != NULL ? ": " : "");
     d->step++;
-    if (formula != NULL && derivation_is_linear(d)) {
-        qdot_notation_print(formula, line_notation(d), &line);
+    if (formula != NULL && is_written_in_one_line(d)) {
+        qdot_notation_print(formula, notation_within_line(d), &line);
         qdot_sheet_words(s, qdot_text_str(&line));
     } else if (formula != NULL) {
         qdot_sheet_open(s);
@@ -72,7 +72,7 @@ heading(derivation *d, const char *title, const char *formula)
 /* What a line is of, before its formula: `    potential energy of gravity on bob: `; the last two
  * may be NULL. */
 static void
-derivation_label(derivation *d, const char *what, const char *of, const char *joined, const char *name)
+write_line_label(derivation *d, const char *what, const char *of, const char *joined, const char *name)
 {
     qdot_sheet_format(&d->sheet, "    %s%s%s%s%s: ", what, of != NULL ? " of " : "", of != NULL ? of : "",
                       name != NULL ? joined : "", name != NULL ? name : "");
@@ -89,7 +89,7 @@ write_equal_to(derivation *d, qdot_expr value)
     return QDOT_OK;
 }
 
-/* A textbook symbol with the thing it belongs to: r[bob], drawn as r with a subscript. */
+/* A textbook symbol with the particle, body or coordinate it belongs to: r[bob], drawn as r with a subscript. */
 typedef struct {
     const char *letter;   /* the symbol as qdot_notation_add reads it */
     const char *of;       /* subscript: a label or coordinate name; NULL: none */
@@ -99,13 +99,13 @@ typedef struct {
 
 /* Add a symbol, squared or not, in one line of text: letter, index in brackets, square. */
 static qdot_status
-add_linear(derivation *d, const symbol *x)
+append_symbol_in_line(derivation *d, const symbol *x)
 {
-    const bool script = line_notation(d) == QDOT_NOTATION_SCRIPT;
+    const bool script = notation_within_line(d) == QDOT_NOTATION_SCRIPT;
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
-    qdot_notation_print(x->letter, line_notation(d), &text);
+    qdot_notation_print(x->letter, notation_within_line(d), &text);
     if (x->of != NULL) {
         qdot_text_char(&text, '[');
         if (x->coordinate != QDOT_NIL)
@@ -124,7 +124,7 @@ add_linear(derivation *d, const symbol *x)
 
 /* Add a symbol, squared or not, to a drawn formula: index below, square above. */
 static qdot_status
-add_drawn(derivation *d, const symbol *x)
+append_drawn_symbol(derivation *d, const symbol *x)
 {
     qdot_formula *f = &d->sheet.formula;
     const qdot_formula_id outer = d->sheet.at,
@@ -152,7 +152,7 @@ add_drawn(derivation *d, const symbol *x)
 
 /* Indent the line if it is still empty. */
 static void
-indent(derivation *d)
+indent_empty_line(derivation *d)
 {
     if (qdot_sheet_at_begin(&d->sheet))
         qdot_sheet_words(&d->sheet, "    ");
@@ -163,21 +163,21 @@ static qdot_status
 write_equation_line(derivation *d, symbol x, qdot_expr value)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    indent(d);
+    indent_empty_line(d);
     qdot_sheet_open(&d->sheet);
-    QDOT_TRY(derivation_is_linear(d) ? add_linear(d, &x) : add_drawn(d, &x));
+    QDOT_TRY(is_written_in_one_line(d) ? append_symbol_in_line(d, &x) : append_drawn_symbol(d, &x));
     return write_equal_to(d, value);
 }
 
 static symbol
-bare(const char *letter)
+make_symbol(const char *letter)
 {
     return (symbol){.letter = letter};
 }
 
-/* Append d/dt dF/dq' (total), dF/dq', or (not `fast`) dF/dq, = value; drawn as a fraction where possible. */
+/* Append `dF/dq' = value`, with d/dt before it (total), or `dF/dq = value` (not `fast`); if possible as fractions. */
 static qdot_status
-slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
+write_derivative_of_function(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
 {
     qdot_session *s = d->session;
     qdot_sheet *sheet = &d->sheet;
@@ -212,13 +212,13 @@ static qdot_status
 write_relation(derivation *d, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    indent(d);
+    indent_empty_line(d);
     QDOT_TRY(qdot_sheet_formula(&d->sheet, e));
     qdot_sheet_words(&d->sheet, "\n");
     return QDOT_OK;
 }
 
-/* Simplify e for printing, unless it is longer than a page. */
+/* Simplify e for printing, unless e is longer than a page. */
 static qdot_expr
 simplify_for_page(derivation *d, qdot_expr e)
 {
@@ -230,7 +230,7 @@ simplify_for_page(derivation *d, qdot_expr e)
     return qdot_common_out(d->session->pool, qdot_simplify(d->session->pool, e, &facts));
 }
 
-/* Append the angular velocity omega of a body, in space also in its own axes, in which the inertia is given. */
+/* Append the angular velocity omega of a body; in space also along the body's own axes, as for its inertia. */
 static qdot_status
 write_angular_velocity(derivation *d, const qdot_body *b)
 {
@@ -242,30 +242,30 @@ write_angular_velocity(derivation *d, const qdot_body *b)
         return write_equation_line(d, omega, w);
     QDOT_TRY(write_equation_line(d, omega, w));
     w = qdot_value_mul(s->pool, qdot_transpose(s->pool, b->rotation), w);
-    derivation_label(d, "along the axes of the body", NULL, NULL, NULL);
+    write_line_label(d, "along the axes of the body", NULL, NULL, NULL);
     return write_equation_line(d, omega, simplify_for_page(d, w));
 }
 
 /* Write the angle by which a body in the plane is turned, unless it is constant. */
 static qdot_status
-derivation_turning(derivation *d, const qdot_body *b)
+write_turning_angle(derivation *d, const qdot_body *b)
 {
     if (b->angle == QDOT_NIL || qdot_expr_kind(d->session->pool, b->angle) == QDOT_NUM)
         return QDOT_OK;
-    derivation_label(d, "angle", b->name, NULL, NULL);
+    write_line_label(d, "angle", b->name, NULL, NULL);
     QDOT_TRY(qdot_sheet_formula(&d->sheet, b->angle));
     qdot_sheet_words(&d->sheet, "\n");
     return QDOT_OK;
 }
 
-/* List what the steps below may assume. */
+/* List the assumptions of the steps that follow. */
 static qdot_status
-assumptions(derivation *d)
+write_assumptions(derivation *d)
 {
     const qdot_scene *s = d->session->scene;
 
     if (s->assumed.n > 0)
-        heading(d, "Assumed", NULL);
+        begin_step(d, "Assumed", NULL);
     for (size_t i = 0; i < s->assumed.n; i++)
         QDOT_TRY(write_relation(d, s->assumed.at[i].relation));
     return QDOT_OK;
@@ -273,15 +273,15 @@ assumptions(derivation *d)
 
 /* Write position r, velocity v = sum dr/dq q' + dr/dt, and v^2 of everything that has mass. */
 static qdot_status
-kinematics(derivation *d)
+write_kinematics(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     size_t n = s->particles.n + s->bodies.n;
 
     for (int step = 0; step < 3; step++) {
-        heading(d, step == 0 ? "Positions" : step == 1 ? "Velocities" : "Squares of speeds",
-                step == 0   ? "r(q, t)"
-                : step == 1 ? "v = sum dr/dq q' + dr/dt"
+        begin_step(d, step == 0 ? "Positions" : step == 1 ? "Velocities" : "Squares of speeds",
+                   step == 0   ? "r(q, t)"
+                   : step == 1 ? "v = sum dr/dq q' + dr/dt"
                             : "v^2 = v.v");
         for (size_t i = 0; i < n; i++) {
             bool particle = i < s->particles.n;
@@ -295,7 +295,7 @@ kinematics(derivation *d)
                                          : step == 1 ? simplify_for_page(d, qdot_ddt(s->pool, r))
                                                      : qdot_mech_speed2(s, r)));
             if (step == 0 && !particle)
-                QDOT_TRY(derivation_turning(d, b));
+                QDOT_TRY(write_turning_angle(d, b));
             if (step == 1 && !particle)
                 QDOT_TRY(write_angular_velocity(d, b));
         }
@@ -303,9 +303,9 @@ kinematics(derivation *d)
     return QDOT_OK;
 }
 
-/* Write the contribution of each particle and body to T, then T. */
+/* Write the contribution of each particle and body to T, then T itself. */
 static qdot_status
-kinetic(derivation *d)
+write_kinetic_energy(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     const size_t n = s->particles.n + s->bodies.n;
@@ -314,70 +314,70 @@ kinetic(derivation *d)
 
     for (size_t i = 0; i < s->bodies.n; i++)
         *(s->bodies.at[i].angle != QDOT_NIL ? &plane : &space) = true;
-    heading(d, "Kinetic energy",
-            plane && space ? "T = 1/2 sum m v^2 + 1/2 sum omega.I omega (I omega^2)"
-            : space        ? "T = 1/2 sum m v^2 + 1/2 sum omega.I omega"
-            : plane        ? "T = 1/2 sum m v^2 + 1/2 sum I omega^2"
+    begin_step(d, "Kinetic energy",
+               plane && space ? "T = 1/2 sum m v^2 + 1/2 sum omega.I omega (I omega^2)"
+               : space        ? "T = 1/2 sum m v^2 + 1/2 sum omega.I omega"
+               : plane        ? "T = 1/2 sum m v^2 + 1/2 sum I omega^2"
                            : "T = 1/2 sum m v^2");
     for (size_t k = 0; n > 1 && qdot_mech_kinetic_part(s, k, &part); k++) {
         const symbol T = {.letter = "T", .of = part.name};
 
-        derivation_label(d, part.kind, part.name, NULL, NULL);
+        write_line_label(d, part.kind, part.name, NULL, NULL);
         QDOT_TRY(write_equation_line(d, T, part.value));
     }
     if (n > 1)
-        derivation_label(d, "together", NULL, NULL, NULL);
-    QDOT_TRY(write_equation_line(d, bare("T"), qdot_mech_kinetic(s)));
+        write_line_label(d, "together", NULL, NULL, NULL);
+    QDOT_TRY(write_equation_line(d, make_symbol("T"), qdot_mech_kinetic(s)));
     if (s->coordinates.n == 1)
         return QDOT_OK;
-    derivation_label(d, "mass matrix", NULL, NULL, NULL);
-    return write_equation_line(d, bare("M"), qdot_mech_mass_matrix(s));
+    write_line_label(d, "mass matrix", NULL, NULL, NULL);
+    return write_equation_line(d, make_symbol("M"), qdot_mech_mass_matrix(s));
 }
 
-/* Write the contribution of each field, potential and spring to V, then V. */
+/* Write the contribution of each field, potential and spring to V, then V itself. */
 static qdot_status
-potential(derivation *d)
+write_potential_energy(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     qdot_energy_part part;
     bool several = qdot_mech_potential_part(s, 1, &part);
 
-    heading(d, "Potential energy",
-            s->gravities.n > 0 && s->potentials.n + s->springs.n == 0 ? "V = -sum m g.r" : NULL);
+    begin_step(d, "Potential energy",
+               s->gravities.n > 0 && s->potentials.n + s->springs.n == 0 ? "V = -sum m g.r" : NULL);
     for (size_t k = 0; several && qdot_mech_potential_part(s, k, &part); k++) {
         char number[24];
 
         snprintf(number, sizeof number, "%zu", k + 1);
         if (strcmp(part.kind, "potential") == 0)
-            derivation_label(d, part.name != NULL ? "potential energy" : "potential energy as declared",
+            write_line_label(d, part.name != NULL ? "potential energy" : "potential energy as declared",
                              part.name, NULL, NULL);
         else
-            derivation_label(d, "potential energy", part.kind,
+            write_line_label(d, "potential energy", part.kind,
                              strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
         QDOT_TRY(write_equation_line(d, (symbol){.letter = "V", .of = number}, part.value));
     }
     if (several)
-        derivation_label(d, "together", NULL, NULL, NULL);
-    return write_equation_line(d, bare("V"), qdot_mech_potential(s));
+        write_line_label(d, "together", NULL, NULL, NULL);
+    return write_equation_line(d, make_symbol("V"), qdot_mech_potential(s));
 }
 
 static qdot_status
-energies(derivation *d)
+write_energies(derivation *d)
 {
     qdot_scene *s = d->session->scene;
 
     if (s->lagrangian != QDOT_NIL) {
-        heading(d, "Lagrangian, as stated", NULL);
-        return write_equation_line(d, bare("L"), qdot_mech_lagrangian(s));
+        begin_step(d, "Lagrangian, as stated", NULL);
+        return write_equation_line(d, make_symbol("L"), qdot_mech_lagrangian(s));
     }
-    QDOT_TRY(kinetic(d));
-    QDOT_TRY(potential(d));
-    heading(d, "Lagrangian", "L = T - V");
-    return write_equation_line(d, bare("L"), qdot_mech_lagrangian(s));
+    QDOT_TRY(write_kinetic_energy(d));
+    QDOT_TRY(write_potential_energy(d));
+    begin_step(d, "Lagrangian", "L = T - V");
+    return write_equation_line(d, make_symbol("L"), qdot_mech_lagrangian(s));
 }
 
 static symbol
-of_coordinate(const derivation *d, const char *letter, qdot_expr q)
+make_coordinate_symbol(const derivation *d, const char *letter, qdot_expr q)
 {
     return (symbol){.letter = letter,
                     .of = qdot_expr_symbol(d->session->pool, q)->name,
@@ -386,7 +386,7 @@ of_coordinate(const derivation *d, const char *letter, qdot_expr q)
 
 /* Write p = dL/dq', then the left side of the equations, with F = T, or F = L if a Lagrangian is stated. */
 static qdot_status
-left_sides(derivation *d)
+write_left_sides(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     qdot_pool *pool = s->pool;
@@ -394,29 +394,29 @@ left_sides(derivation *d)
     qdot_expr F = stated ? qdot_mech_lagrangian(s) : qdot_mech_kinetic(s);
     char letter = stated ? 'L' : 'T';
 
-    heading(d, "Momenta", "p = dL/dq'");
+    begin_step(d, "Momenta", "p = dL/dq'");
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
 
-        QDOT_TRY(write_equation_line(d, of_coordinate(d, "p", q), qdot_mech_momentum(s, q)));
+        QDOT_TRY(write_equation_line(d, make_coordinate_symbol(d, "p", q), qdot_mech_momentum(s, q)));
     }
-    heading(d, stated ? "Derivatives of L" : "Derivatives of T", NULL);
+    begin_step(d, stated ? "Derivatives of L" : "Derivatives of T", NULL);
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
         qdot_expr slope = qdot_diff(pool, F, qdot_symbol_jet(pool, q, 1));
 
         slope = simplify_for_page(d, slope);
         if (slope != QDOT_NIL && slope != qdot_mech_momentum(s, q))
-            QDOT_TRY(slope_is(d, letter, false, true, i, slope));
-        QDOT_TRY(slope_is(d, letter, true, true, i, simplify_for_page(d, qdot_ddt(pool, slope))));
-        QDOT_TRY(slope_is(d, letter, false, false, i, simplify_for_page(d, qdot_diff(pool, F, q))));
+            QDOT_TRY(write_derivative_of_function(d, letter, false, true, i, slope));
+        QDOT_TRY(write_derivative_of_function(d, letter, true, true, i, simplify_for_page(d, qdot_ddt(pool, slope))));
+        QDOT_TRY(write_derivative_of_function(d, letter, false, false, i, simplify_for_page(d, qdot_diff(pool, F, q))));
     }
     return QDOT_OK;
 }
 
 /* The reaction term "sum lambda df/dq", in the form for the kinds of constraints in the scene. */
 static const char *
-reaction(const qdot_scene *s)
+reaction_term(const qdot_scene *s)
 {
     static const char *const words[] = {[QDOT_HOLONOMIC] = " + sum lambda df/dq",
                                         [QDOT_VELOCITY] = " + sum lambda df/dq'",
@@ -430,14 +430,14 @@ reaction(const qdot_scene *s)
 }
 
 static bool
-holds_velocity(const qdot_scene *s, qdot_expr e)
+contains_velocity(const qdot_scene *s, qdot_expr e)
 {
     return (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
 /* Whether a force acts on a material point that may move within its body. */
 static bool
-on_material(const qdot_scene *s)
+acts_on_material_point(const qdot_scene *s)
 {
     for (size_t i = 0; i < s->forces.n; i++)
         if (s->forces.at[i].material)
@@ -446,7 +446,7 @@ on_material(const qdot_scene *s)
 }
 
 static bool
-no_forces(qdot_scene *s)
+has_no_forces(qdot_scene *s)
 {
     for (size_t i = 0; i < s->coordinates.n; i++)
         if (qdot_mech_force(s, s->coordinates.at[i]) != QDOT_ZERO)
@@ -454,9 +454,9 @@ no_forces(qdot_scene *s)
     return true;
 }
 
-/* Write f' = 0 and f'' = 0, as far as they follow from this kind of constraint. */
+/* Write f' = 0 and f'' = 0, as far as they follow from a constraint of this kind, f(q, t) = 0 or f(q, q', t) = 0. */
 static qdot_status
-rates(derivation *d, const qdot_constraint *c)
+write_constraint_derivatives(derivation *d, const qdot_constraint *c)
 {
     enum { LINE = 60 };
     qdot_pool *pool = d->session->pool;
@@ -468,7 +468,7 @@ rates(derivation *d, const qdot_constraint *c)
         f = qdot_ddt(pool, f);
         if (f == QDOT_NIL || qdot_expr_size(pool, f) > LINE)
             break;
-        derivation_label(d, once ? "differentiated" : "differentiated twice", NULL, NULL, NULL);
+        write_line_label(d, once ? "differentiated" : "differentiated twice", NULL, NULL, NULL);
         QDOT_TRY(write_relation(d, qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
     }
     return qdot_pool_check(pool);
@@ -484,7 +484,7 @@ is_generalized_force(const derivation *d, const qdot_force_source *source)
 
 /* Write the work of each force and torque in a virtual displacement delta q. */
 static qdot_status
-virtual_work(derivation *d)
+write_virtual_work(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     qdot_force_source source;
@@ -494,8 +494,8 @@ virtual_work(derivation *d)
         sources += is_generalized_force(d, &source);
     if (sources < 2)
         return QDOT_OK;
-    heading(d, "Virtual work of what acts",
-            on_material(s) ? "deltaW = sum F.dv/dq' deltaq" : "deltaW = sum F.dr/dq deltaq");
+    begin_step(d, "Virtual work of what acts",
+               acts_on_material_point(s) ? "deltaW = sum F.dv/dq' deltaq" : "deltaW = sum F.dr/dq deltaq");
     for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++) {
         const bool on = source.name != NULL && (strcmp(source.kind, "force") == 0 ||
                                                 strcmp(source.kind, "torque") == 0);
@@ -510,15 +510,15 @@ virtual_work(derivation *d)
                          qdot_mul(s->pool, qdot_mech_source_force(s, &source, q),
                                   qdot_symbol_of(s->pool, QDOT_DELTA, q)));
         }
-        derivation_label(d, "virtual work", source.kind, on ? " on " : " ", source.name);
-        QDOT_TRY(write_equation_line(d, bare("deltaW"), W));
+        write_line_label(d, "virtual work", source.kind, on ? " on " : " ", source.name);
+        QDOT_TRY(write_equation_line(d, make_symbol("deltaW"), W));
     }
     return QDOT_OK;
 }
 
 /* Begin the step of generalized forces: "sum F.dr/dq - dV/dq - dD/dq'", with the terms that occur. */
 static qdot_status
-forces_heading(derivation *d)
+begin_forces_step(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     const bool stated = s->lagrangian != QDOT_NIL;
@@ -530,9 +530,9 @@ forces_heading(derivation *d)
     QDOT_TRY(qdot_pool_check(s->pool));
     qdot_text_format(&formula, "Q = %s%s%s",
                      !forces          ? ""
-                     : on_material(s) ? "sum F.dv/dq'"
+                     : acts_on_material_point(s) ? "sum F.dv/dq'"
                                       : "sum F.dr/dq",
-                     holds_velocity(s, V) ? forces ? " + d/dt dV/dq' - dV/dq"
+                     contains_velocity(s, V) ? forces ? " + d/dt dV/dq' - dV/dq"
                                                    : "d/dt dV/dq' - dV/dq"
                      : stated             ? ""
                      : forces             ? " - dV/dq"
@@ -542,8 +542,8 @@ forces_heading(derivation *d)
                                             : "-dD/dq'");
     status = qdot_text_status(&formula);
     if (status == QDOT_OK)
-        heading(d, stated ? "Generalized forces beside L" : "Generalized forces",
-                qdot_text_str(&formula));
+        begin_step(d, stated ? "Generalized forces beside L" : "Generalized forces",
+                   qdot_text_str(&formula));
     qdot_text_clear(&formula);
     return status;
 }
@@ -557,37 +557,37 @@ has_forces(const qdot_scene *s)
 }
 
 static qdot_status
-right_sides(derivation *d)
+write_right_sides(derivation *d)
 {
     qdot_scene *s = d->session->scene;
 
     if (has_forces(s)) {
-        QDOT_TRY(virtual_work(d));
-        QDOT_TRY(forces_heading(d));
-        if (no_forces(s))
+        QDOT_TRY(write_virtual_work(d));
+        QDOT_TRY(begin_forces_step(d));
+        if (has_no_forces(s))
             qdot_sheet_words(&d->sheet, "    none\n");
-        for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++) {
+        for (size_t i = 0; i < s->coordinates.n && !has_no_forces(s); i++) {
             qdot_expr q = s->coordinates.at[i];
 
-            QDOT_TRY(write_equation_line(d, of_coordinate(d, "Q", q), qdot_mech_force(s, q)));
+            QDOT_TRY(write_equation_line(d, make_coordinate_symbol(d, "Q", q), qdot_mech_force(s, q)));
         }
     }
     if (s->constraints.n == 0)
         return QDOT_OK;
-    heading(d, "Constraints", "f = left - right = 0");
+    begin_step(d, "Constraints", "f = left - right = 0");
     for (size_t i = 0; i < s->constraints.n; i++) {
         const qdot_constraint *c = &s->constraints.at[i];
 
         if (c->label != NULL)
-            derivation_label(d, "constraint", NULL, " ", c->name);
+            write_line_label(d, "constraint", NULL, " ", c->name);
         QDOT_TRY(write_relation(d, qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
-        QDOT_TRY(rates(d, c));
+        QDOT_TRY(write_constraint_derivatives(d, c));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-equations(derivation *d)
+write_equations_of_motion(derivation *d)
 {
     qdot_scene *s = d->session->scene;
     const bool stated = s->lagrangian != QDOT_NIL, right = has_forces(s);
@@ -597,11 +597,11 @@ equations(derivation *d)
     qdot_text_format(&formula, "d/dt d%c/dq' - d%c/dq = %s%s", stated ? 'L' : 'T',
                      stated ? 'L' : 'T', right ? "Q" : "",
                      s->constraints.n == 0 ? right ? "" : "0"
-                     : right               ? reaction(s)
-                                           : reaction(s) + 3);
+                     : right               ? reaction_term(s)
+                                           : reaction_term(s) + 3);
     status = qdot_text_status(&formula);
     if (status == QDOT_OK)
-        heading(d, "Lagrange's equations", qdot_text_str(&formula));
+        begin_step(d, "Lagrange's equations", qdot_text_str(&formula));
     qdot_text_clear(&formula);
     QDOT_TRY(status);
     for (size_t i = 0; i < s->coordinates.n; i++)
@@ -618,7 +618,7 @@ equations(derivation *d)
 
 /* Write the momenta that are constant because L does not contain their coordinates. */
 static qdot_status
-conserved_momenta(derivation *d)
+write_conserved_momenta(derivation *d)
 {
     qdot_cyclic *list;
     size_t n, kept = 0;
@@ -629,9 +629,9 @@ conserved_momenta(derivation *d)
         if (list[i].rate == QDOT_NIL)
             list[kept++] = list[i];
     if (kept > 0)
-        heading(d, "Momenta of cyclic coordinates are conserved", "dL/dq = 0");
+        begin_step(d, "Momenta of cyclic coordinates are conserved", "dL/dq = 0");
     for (size_t i = 0; i < kept && status == QDOT_OK; i++)
-        status = write_equation_line(d, of_coordinate(d, "p", list[i].coordinate), list[i].momentum);
+        status = write_equation_line(d, make_coordinate_symbol(d, "p", list[i].coordinate), list[i].momentum);
     qdot_free(list);
     return status;
 }
@@ -650,18 +650,18 @@ derive_print(qdot_record *r)
     }
     d.sheet = qdot_sheet_begin(session);
     d.sheet.whole = true;
-    status = assumptions(&d);
+    status = write_assumptions(&d);
     if (status == QDOT_OK && session->scene->lagrangian == QDOT_NIL)
-        status = kinematics(&d);
+        status = write_kinematics(&d);
     if (status == QDOT_OK)
-        status = energies(&d);
+        status = write_energies(&d);
     if (status == QDOT_OK)
-        status = left_sides(&d);
+        status = write_left_sides(&d);
     if (status == QDOT_OK)
-        status = right_sides(&d);
+        status = write_right_sides(&d);
     if (status == QDOT_OK)
-        status = equations(&d);
+        status = write_equations_of_motion(&d);
     if (status == QDOT_OK)
-        status = conserved_momenta(&d);
+        status = write_conserved_momenta(&d);
     return qdot_sheet_end(&d.sheet, "derive", status);
 }

@@ -5,7 +5,7 @@
 #include "lang/session/history.h"
 #include "lang/syntax/record.h"
 
-static qdot_status dof_print(qdot_record *r);
+static qdot_status carry_out_dof(qdot_record *r);
 
 QDOT_STATEMENT(dof) = {
     .word = "dof",
@@ -14,11 +14,11 @@ QDOT_STATEMENT(dof) = {
     .summary = "coordinates, independent constraints, degrees of freedom",
     .example = "dof",
     .alone = true,
-    .handler = dof_print,
+    .handler = carry_out_dof,
 };
 
 static qdot_status
-dof_print(qdot_record *r)
+carry_out_dof(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_expr value;

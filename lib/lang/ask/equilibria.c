@@ -19,7 +19,7 @@
 #include "lang/syntax/record.h"
 #include "normal/solve/conditions.h"
 
-static qdot_status equilibria_list(qdot_record *r);
+static qdot_status carry_out_equilibria(qdot_record *r);
 
 QDOT_STATEMENT(equilibria) = {
     .word = "equilibria",
@@ -28,12 +28,12 @@ QDOT_STATEMENT(equilibria) = {
     .summary = "the equilibria of the scene, with their stability",
     .example = "equilibria",
     .alone = true,
-    .handler = equilibria_list,
+    .handler = carry_out_equilibria,
 };
 
-/* Combine a > b and a + b > 0 to a > |b| for positive a (>= if both have it); else nil. */
+/* Combine a > b and a + b > 0 into a > |b| for positive a (with >= if both relations are >=); else nil. */
 static qdot_expr
-as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
+combine_to_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
 {
     qdot_expr sum, b;
     qdot_rel_op op;
@@ -54,9 +54,9 @@ as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
     return qdot_rel(pool, op, qdot_fun1(pool, QDOT_ABS, b), sum);
 }
 
-/* The sign of a bound, < or <=; reversed if `turned`. */
+/* The relation sign of a bound, < or <=; `turned`: > or >=, for exchanged sides. */
 static qdot_formula_sign
-bound_sign(const qdot_pool *pool, qdot_expr relation, bool turned)
+relation_sign_of_bound(const qdot_pool *pool, qdot_expr relation, bool turned)
 {
     const bool or_equal = qdot_expr_node(pool, relation)->op == QDOT_LE;
 
@@ -64,7 +64,7 @@ bound_sign(const qdot_pool *pool, qdot_expr relation, bool turned)
 }
 
 static bool
-is_bound(const qdot_pool *pool, qdot_expr relation)
+is_inequality(const qdot_pool *pool, qdot_expr relation)
 {
     return qdot_expr_kind(pool, relation) == QDOT_REL && qdot_expr_node(pool, relation)->op != QDOT_EQ;
 }
@@ -78,19 +78,19 @@ is_coordinate(const qdot_pool *pool, qdot_expr e)
 /* Print lo < u < hi for lo < u and u < hi (other nil: only one of them), u a coordinate; false if
  * it is no such range. */
 static bool
-print_interval(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qdot_status *status)
+print_coordinate_range(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qdot_status *status)
 {
     qdot_pool *pool = sheet->session->pool;
     qdot_expr left, right;
 
     *both = false;
-    if (!is_bound(pool, one))
+    if (!is_inequality(pool, one))
         return false;
     left = qdot_expr_arg(pool, one, 0);
     right = qdot_expr_arg(pool, one, 1);
     if (is_coordinate(pool, right) == is_coordinate(pool, left))
         return false;
-    *both = is_coordinate(pool, right) && other != QDOT_NIL && is_bound(pool, other) &&
+    *both = is_coordinate(pool, right) && other != QDOT_NIL && is_inequality(pool, other) &&
             qdot_expr_arg(pool, other, 0) == right &&
             !is_coordinate(pool, qdot_expr_arg(pool, other, 1));
     if (!*both && is_coordinate(pool, right)) /* a lower bound: u > lo */
@@ -98,12 +98,12 @@ print_interval(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qd
     qdot_sheet_open(sheet);
     *status = qdot_sheet_expr(sheet, left);
     if (*both && *status == QDOT_OK) {
-        qdot_sheet_sign(sheet, bound_sign(pool, one, false));
+        qdot_sheet_sign(sheet, relation_sign_of_bound(pool, one, false));
         *status = qdot_sheet_expr(sheet, right);
         one = other;
         right = qdot_expr_arg(pool, one, 1);
     }
-    qdot_sheet_sign(sheet, bound_sign(pool, one, false));
+    qdot_sheet_sign(sheet, relation_sign_of_bound(pool, one, false));
     if (*status == QDOT_OK)
         *status = qdot_sheet_expr(sheet, right);
     qdot_sheet_close(sheet);
@@ -124,13 +124,13 @@ print_conditions(qdot_sheet *sheet, qdot_expr list)
         bool both;
 
         qdot_sheet_words(sheet, i == 0 ? "" : " and ");
-        if (print_interval(sheet, one, next, &both, &status)) {
+        if (print_coordinate_range(sheet, one, next, &both, &status)) {
             QDOT_TRY(status);
             i += both;
             continue;
         }
         if (next != QDOT_NIL) {
-            qdot_expr magnitude = as_magnitude(pool, one, next);
+            qdot_expr magnitude = combine_to_magnitude(pool, one, next);
 
             i += magnitude != QDOT_NIL;
             one = magnitude != QDOT_NIL ? magnitude : one;
@@ -145,14 +145,14 @@ print_conditions(qdot_sheet *sheet, qdot_expr list)
             qdot_sheet_close(sheet);
             continue;
         }
-        if (!is_bound(pool, one) ||
+        if (!is_inequality(pool, one) ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
             QDOT_TRY(qdot_sheet_formula(sheet, one));
             continue;
         }
         qdot_sheet_open(sheet);
         QDOT_TRY(qdot_sheet_expr(sheet, qdot_expr_arg(pool, one, 1)));
-        qdot_sheet_sign(sheet, bound_sign(pool, one, true));
+        qdot_sheet_sign(sheet, relation_sign_of_bound(pool, one, true));
         QDOT_TRY(qdot_sheet_expr(sheet, qdot_expr_arg(pool, one, 0)));
         qdot_sheet_close(sheet);
     }
@@ -208,7 +208,7 @@ print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
 
 /* Answer one equilibrium as `equilibria[1]: theta = 0, stable when ...`; in JSON the equations, then a text. */
 static qdot_status
-answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
+answer_one_equilibrium(qdot_session *session, size_t i, const qdot_equilibrium *e)
 {
     char name[40];
     qdot_status status = QDOT_OK;
@@ -230,15 +230,15 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         qdot_sheet_words(&sheet, ", ");
     }
     if (n == 0 && e->range == QDOT_NIL && !session->output->json)
-        qdot_sheet_words(&sheet, "everywhere, "); /* every position is one, under the conditions that follow */
+        qdot_sheet_words(&sheet, "everywhere, "); /* everywhere: each position is an equilibrium, if the conditions hold */
     if (status == QDOT_OK)
         status = print_stability(&sheet, e);
     return qdot_sheet_end(&sheet, name, status);
 }
 
-/* Give a notice of special parameter values: `where a = 0 the places are others`. */
+/* Give a notice of parameter values that are special: `where a = 0 the places are others`. */
 static qdot_status
-answer_special(qdot_session *session, qdot_expr special, const char *words)
+give_notice_of_special_values(qdot_session *session, qdot_expr special, const char *words)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -254,17 +254,17 @@ answer_special(qdot_session *session, qdot_expr special, const char *words)
 
 /* Give a notice that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
-answer_rest(qdot_session *session, const qdot_equilibria *all)
+give_notice_of_incompleteness(qdot_session *session, const qdot_equilibria *all)
 {
     qdot_text text = {0};
 
     if (all->undefined != QDOT_NIL)
-        QDOT_TRY(answer_special(session, all->undefined, " the energy or a force has no value"));
+        QDOT_TRY(give_notice_of_special_values(session, all->undefined, " the energy or a force has no value"));
     if (all->special != QDOT_NIL)
-        QDOT_TRY(answer_special(session, all->special,
-                                all->n > 0 ? " the places are others" : " there may be equilibria"));
+        QDOT_TRY(give_notice_of_special_values(session, all->special,
+                                               all->n > 0 ? " the places are others" : " there may be equilibria"));
     if (all->meeting != QDOT_NIL)
-        QDOT_TRY(answer_special(session, all->meeting, " kinks meet: the places may be others"));
+        QDOT_TRY(give_notice_of_special_values(session, all->meeting, " kinks meet: the places may be others"));
     if (all->recurs)
         QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
                                              "domain each recurs after every whole turn"));
@@ -301,7 +301,7 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
 }
 
 static qdot_status
-equilibria_list(qdot_record *r)
+carry_out_equilibria(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_equilibria all;
@@ -314,9 +314,9 @@ equilibria_list(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_vec_push(&session->history->values, value);
     for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
-        status = answer_one(session, i, &all.at[i]);
+        status = answer_one_equilibrium(session, i, &all.at[i]);
     if (status == QDOT_OK)
-        status = answer_rest(session, &all);
+        status = give_notice_of_incompleteness(session, &all);
     qdot_equilibria_clear(&all);
     return status;
 }

@@ -7,7 +7,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/things.h"
 
-static qdot_status forces_print(qdot_record *r);
+static qdot_status carry_out_forces(qdot_record *r);
 
 QDOT_STATEMENT(forces) = {
     .word = "forces",
@@ -16,12 +16,12 @@ QDOT_STATEMENT(forces) = {
     .summary = "the generalized forces, part by part",
     .example = "forces",
     .alone = true,
-    .handler = forces_print,
+    .handler = carry_out_forces,
 };
 
-/* Print a line `theta, spring s1: part` for each coordinate and source. */
+/* Print a line such as `theta, spring s1: FORCE` for each coordinate and each source of force. */
 static qdot_status
-forces_print_sources(qdot_sheet *sheet)
+print_forces_by_source(qdot_sheet *sheet)
 {
     qdot_session *session = sheet->session;
     qdot_scene *s = session->scene;
@@ -47,7 +47,7 @@ forces_print_sources(qdot_sheet *sheet)
 }
 
 static qdot_status
-forces_print(qdot_record *r)
+carry_out_forces(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_expr forces;
@@ -61,5 +61,5 @@ forces_print(qdot_record *r)
                                              session->scene->coordinates.at)));
     QDOT_TRY(qdot_ask_list(session, "forces", forces, QDOT_NIL));
     sheet = qdot_sheet_begin(session);
-    return qdot_sheet_end(&sheet, "forces", forces_print_sources(&sheet));
+    return qdot_sheet_end(&sheet, "forces", print_forces_by_source(&sheet));
 }

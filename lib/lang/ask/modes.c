@@ -13,7 +13,7 @@
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
-static qdot_status modes_print(qdot_record *r);
+static qdot_status carry_out_modes(qdot_record *r);
 
 QDOT_STATEMENT(modes) = {
     .word = "modes",
@@ -22,12 +22,12 @@ QDOT_STATEMENT(modes) = {
     .summary = "normal modes about an equilibrium: frequencies and amplitudes",
     .example = "modes at equilibria[2]",
     .alone = true,
-    .handler = modes_print,
+    .handler = carry_out_modes,
 };
 
-/* Print an exact value, or a number; in JSON without an error. */
+/* Print an exact value as an expression, or a number found numerically; in JSON without an error. */
 static qdot_status
-modes_answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
+answer_frequency_or_amplitude(qdot_session *session, bool numeric, const char *name, qdot_expr value)
 {
     qdot_text line = {0};
     double x;
@@ -51,13 +51,13 @@ answer_modes(qdot_session *session, const qdot_modes *modes)
         char name[400];
 
         snprintf(name, sizeof name, "modes[%zu]", k + 1);
-        QDOT_TRY(modes_answer_part(session, modes->numeric, name, modes->frequency[k]));
+        QDOT_TRY(answer_frequency_or_amplitude(session, modes->numeric, name, modes->frequency[k]));
         for (size_t i = 0; i < n; i++) {
             snprintf(
                 name, sizeof name, "modes[%zu, %.300s]", k + 1,
                 qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
             QDOT_TRY(
-                modes_answer_part(session, modes->numeric, name, modes->amplitude[k * n + i]));
+                answer_frequency_or_amplitude(session, modes->numeric, name, modes->amplitude[k * n + i]));
         }
     }
     return QDOT_OK;
@@ -65,7 +65,7 @@ answer_modes(qdot_session *session, const qdot_modes *modes)
 
 /* Read the equations after `at` that give the equilibrium, as a LIST. */
 static qdot_status
-modes_read_place(qdot_record *r, const qdot_filled *place, qdot_expr *at)
+read_equilibrium(qdot_record *r, const qdot_filled *place, qdot_expr *at)
 {
     qdot_pool *pool = r->cursor.session->pool;
     bool equations;
@@ -85,7 +85,7 @@ modes_read_place(qdot_record *r, const qdot_filled *place, qdot_expr *at)
 }
 
 static qdot_status
-modes_print(qdot_record *r)
+carry_out_modes(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *place = qdot_record_hole(r, "at", NULL);
@@ -94,7 +94,7 @@ modes_print(qdot_record *r)
     qdot_status status;
 
     if (place != NULL)
-        QDOT_TRY(modes_read_place(r, place, &at));
+        QDOT_TRY(read_equilibrium(r, place, &at));
     r->cursor.error_at = r->start[-1].start; /* errors point at the word `modes` */
     QDOT_TRY(qdot_equilibria_modes_at(session, at, &modes));
     value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);

@@ -24,7 +24,7 @@ QDOT_STATEMENT(print) = {
 
 /* Whether e is a list of texts, which are printed on separate lines. */
 static bool
-is_texts(const qdot_pool *pool, qdot_expr e)
+is_list_of_texts(const qdot_pool *pool, qdot_expr e)
 {
     bool list = qdot_expr_kind(pool, e) == QDOT_LIST;
     uint32_t n = list ? qdot_expr_count(pool, e) : 0;
@@ -35,7 +35,7 @@ is_texts(const qdot_pool *pool, qdot_expr e)
 }
 
 static void
-add_texts(qdot_sheet *sheet, qdot_expr list)
+append_texts(qdot_sheet *sheet, qdot_expr list)
 {
     const qdot_pool *pool = sheet->session->pool;
 
@@ -45,9 +45,9 @@ add_texts(qdot_sheet *sheet, qdot_expr list)
     }
 }
 
-/* Append a number of a run with `digits`. */
+/* Append a number of a run that was made with the option `digits`, to its known digits. */
 static qdot_status
-add_digits(qdot_sheet *sheet, qdot_expr member, int digits, double error)
+append_known_digits(qdot_sheet *sheet, qdot_expr member, int digits, double error)
 {
     qdot_text number = {0};
     qdot_status status = qdot_digits_text(sheet->session, member, digits, error, &number);
@@ -62,7 +62,7 @@ add_digits(qdot_sheet *sheet, qdot_expr member, int digits, double error)
 
 /* Print one argument: a quoted text unchanged, results of runs as numbers. */
 static qdot_status
-print_one(qdot_record *r, const qdot_filled *one, qdot_sheet *sheet)
+print_argument(qdot_record *r, const qdot_filled *one, qdot_sheet *sheet)
 {
     qdot_session *session = r->cursor.session;
     qdot_expr value;
@@ -74,8 +74,8 @@ print_one(qdot_record *r, const qdot_filled *one, qdot_sheet *sheet)
         return QDOT_OK;
     }
     QDOT_TRY(qdot_record_value(r, one, &value));
-    if (is_texts(session->pool, value)) {
-        add_texts(sheet, value);
+    if (is_list_of_texts(session->pool, value)) {
+        append_texts(sheet, value);
         return QDOT_OK;
     }
     if (!qdot_measured_occurs(session, value))
@@ -93,7 +93,7 @@ print_one(qdot_record *r, const qdot_filled *one, qdot_sheet *sheet)
         QDOT_TRY(qdot_session_number(session, member, &x, &error));
         qdot_sheet_words(sheet, i > 0 ? ", " : "");
         if (digits > 0)
-            QDOT_TRY(add_digits(sheet, member, digits, error));
+            QDOT_TRY(append_known_digits(sheet, member, digits, error));
         else
             qdot_sheet_known(sheet, x, error);
         if (scalar)
@@ -111,7 +111,7 @@ print_line(qdot_record *r)
         if (r->parts.at[i].node->kind != QDOT_USAGE_HOLE)
             continue;
         qdot_sheet_words(&sheet, qdot_sheet_is_empty(&sheet) ? "" : " ");
-        status = print_one(r, &r->parts.at[i], &sheet);
+        status = print_argument(r, &r->parts.at[i], &sheet);
     }
     return qdot_sheet_end(&sheet, "print", status);
 }

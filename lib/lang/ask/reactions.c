@@ -8,7 +8,7 @@
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
-static qdot_status reactions_print(qdot_record *r);
+static qdot_status carry_out_reactions(qdot_record *r);
 
 QDOT_STATEMENT(reactions) = {
     .word = "reactions",
@@ -17,11 +17,11 @@ QDOT_STATEMENT(reactions) = {
     .summary = "the constraints' forces on each particle and body, by their multipliers",
     .example = "reactions",
     .alone = true,
-    .handler = reactions_print,
+    .handler = carry_out_reactions,
 };
 
 static bool
-reaction_is_zero(const qdot_pool *pool, qdot_expr e)
+is_zero_reaction(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 0; qdot_expr_kind(pool, e) == QDOT_VEC; i++) {
         if (i == qdot_expr_count(pool, e))
@@ -33,7 +33,7 @@ reaction_is_zero(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_status
-reaction_print(qdot_sheet *sheet, const qdot_reaction *r)
+print_reaction(qdot_sheet *sheet, const qdot_reaction *r)
 {
     qdot_pool *pool = sheet->session->pool;
 
@@ -41,10 +41,10 @@ reaction_print(qdot_sheet *sheet, const qdot_reaction *r)
         QDOT_TRY(qdot_sheet_formula(sheet, r->coordinate));
     else
         qdot_sheet_words(sheet, r->name);
-    if (r->name == NULL || r->torque == QDOT_NIL || !reaction_is_zero(pool, r->force)) {
+    if (r->name == NULL || r->torque == QDOT_NIL || !is_zero_reaction(pool, r->force)) {
         qdot_sheet_words(sheet, r->name == NULL ? ": generalized reaction " : ": force ");
         QDOT_TRY(qdot_sheet_formula(sheet, r->force));
-        if (r->torque == QDOT_NIL || reaction_is_zero(pool, r->torque))
+        if (r->torque == QDOT_NIL || is_zero_reaction(pool, r->torque))
             return QDOT_OK;
         qdot_sheet_words(sheet, " at its centre, torque ");
     } else {
@@ -54,7 +54,7 @@ reaction_print(qdot_sheet *sheet, const qdot_reaction *r)
 }
 
 static qdot_status
-reactions_print(qdot_record *r)
+carry_out_reactions(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_reaction *list = NULL;
@@ -76,7 +76,7 @@ reactions_print(qdot_record *r)
     sheet = qdot_sheet_begin(session);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_sheet_words(&sheet, i > 0 ? "\n" : "");
-        status = reaction_print(&sheet, &list[i]);
+        status = print_reaction(&sheet, &list[i]);
     }
     if (n == 0)
         qdot_sheet_words(&sheet, "the constraints act on nothing");

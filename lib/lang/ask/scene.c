@@ -4,7 +4,7 @@
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
 
-static qdot_status scene_print(qdot_record *r);
+static qdot_status carry_out_scene(qdot_record *r);
 
 QDOT_STATEMENT(scene) = {
     .word = "scene",
@@ -14,11 +14,11 @@ QDOT_STATEMENT(scene) = {
                "definitions, values, start and events",
     .example = "scene to \"x.lag\"",
     .alone = true,
-    .handler = scene_print,
+    .handler = carry_out_scene,
 };
 
 static qdot_status
-scene_print(qdot_record *r)
+carry_out_scene(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *file = qdot_record_hole(r, "to", NULL);

@@ -9,7 +9,7 @@
 #include "lang/syntax/record.h"
 #include "lang/syntax/statement.h"
 
-static qdot_status show_name(qdot_record *r);
+static qdot_status show_meaning_of_name(qdot_record *r);
 
 QDOT_STATEMENT(show) = {
     .word = "show",
@@ -17,12 +17,12 @@ QDOT_STATEMENT(show) = {
     .usage = "show NAME",
     .summary = "what a name means and where it was declared",
     .example = "show m",
-    .handler = show_name,
+    .handler = show_meaning_of_name,
 };
 
 /* Print the line of the scene that declares a label. */
 static qdot_status
-show_label(qdot_session *session, const char *label, qdot_text *out)
+show_declaration_of_label(qdot_session *session, const char *label, qdot_text *out)
 {
     qdot_text scene = {0};
     qdot_status status = qdot_scene_print(session->scene, &scene);
@@ -44,7 +44,7 @@ show_label(qdot_session *session, const char *label, qdot_text *out)
 
 /* Print the `run` statement by which the run of this name was made; false if there is no such run. */
 static bool
-show_run(const qdot_session *session, const char *name, qdot_text *out)
+show_statement_of_run(const qdot_session *session, const char *name, qdot_text *out)
 {
     for (size_t i = 0; i < session->runs->n; i++)
         if (strcmp(session->runs->at[i].name, name) == 0) {
@@ -55,7 +55,7 @@ show_run(const qdot_session *session, const char *name, qdot_text *out)
 }
 
 static qdot_status
-show_name(qdot_record *r)
+show_meaning_of_name(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_text text = {0};
@@ -75,8 +75,8 @@ show_name(qdot_record *r)
         if (status == QDOT_OK && known->file != NULL)
             qdot_text_format(&text, "    # %s:%u", known->file, known->line);
     } else if (qdot_scene_has_label(session->scene, name)) {
-        status = show_label(session, name, &text);
-    } else if (show_run(session, name, &text)) {
+        status = show_declaration_of_label(session, name, &text);
+    } else if (show_statement_of_run(session, name, &text)) {
         status = qdot_text_status(&text);
     } else if (quantity != NULL) {
         qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);

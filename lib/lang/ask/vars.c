@@ -3,7 +3,7 @@
 #include "lang/ask/declared.h"
 #include "lang/syntax/record.h"
 
-static qdot_status vars_list(qdot_record *r);
+static qdot_status carry_out_vars(qdot_record *r);
 
 QDOT_STATEMENT(vars) = {
     .word = "vars",
@@ -12,11 +12,11 @@ QDOT_STATEMENT(vars) = {
     .summary = "every declared name",
     .example = "vars",
     .alone = true,
-    .handler = vars_list,
+    .handler = carry_out_vars,
 };
 
 static qdot_status
-vars_list(qdot_record *r)
+carry_out_vars(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_text text = {0};

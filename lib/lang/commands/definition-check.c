@@ -24,7 +24,7 @@ typedef qdot_assignment assignment;
 /* --- the right side --------------------------------------------------------------------- */
 
 static uint32_t
-held_by(const qdot_session *s, const char *name)
+dynamic_symbols_of_name(const qdot_session *s, const char *name)
 {
     const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
                             QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER;
@@ -47,10 +47,10 @@ held_by(const qdot_session *s, const char *name)
 }
 
 static void
-read_right(assignment *a)
+read_right_side(assignment *a)
 {
     for (qdot_mention m = qdot_definition_right(&a->as); qdot_mention_next(&m);)
-        a->moves |= strcmp(m.name, "%") != 0 && held_by(a->session, m.name) != 0;
+        a->moves |= strcmp(m.name, "%") != 0 && dynamic_symbols_of_name(a->session, m.name) != 0;
     qdot_token_text_written(a->session, a->as.equals + 1, a->as.behind, &a->right);
     if (a->as.loop) {
         qdot_text_add(&a->loop, " ");
@@ -63,7 +63,7 @@ read_right(assignment *a)
 /* The declared name on the left side: of NAME[...] the member, or any member of the family where the index
  * has yet to be evaluated. A member of numbers that is not declared, x[0] before x[1] ... x[n], is none. */
 static const qdot_name *
-declared(const assignment *a)
+find_declared_name(const assignment *a)
 {
     const qdot_session *s = a->session;
     const char *name = a->as.name->text;
@@ -86,7 +86,7 @@ declared(const assignment *a)
 }
 
 static bool
-is_run(const qdot_session *s, const char *name)
+is_run_name(const qdot_session *s, const char *name)
 {
     for (size_t i = 0; i < s->runs->n; i++)
         if (strcmp(s->runs->at[i].name, name) == 0)
@@ -125,7 +125,7 @@ add_free_name(const qdot_session *s, const char *name, qdot_text *out)
         if (qdot_names_find(s->names, qdot_text_str(&text)) == NULL &&
             !qdot_names_is_family(s->names, qdot_text_str(&text)) &&
             !qdot_scene_has_label(s->scene, qdot_text_str(&text)) &&
-            !is_run(s, qdot_text_str(&text)) && !is_differential(s, qdot_text_str(&text)))
+            !is_run_name(s, qdot_text_str(&text)) && !is_differential(s, qdot_text_str(&text)))
             break;
     }
     qdot_text_add(out, qdot_text_str(&text));
@@ -134,18 +134,18 @@ add_free_name(const qdot_session *s, const char *name, qdot_text *out)
 
 /* --- suggested lines -------------------------------------------------------------------- */
 
-/* Suggest NAME1 = RIGHT, with the same indices and arguments. */
+/* Suggest the definition NAME1 = RIGHT with an unused name NAME1 and the same indices and arguments. */
 static void
-write_renamed(assignment *a)
+suggest_other_name(assignment *a)
 {
     add_free_name(a->session, a->as.name->text, &a->line);
     qdot_token_text_written(a->session, a->as.name + 1, a->as.equals, &a->line);
     qdot_text_format(&a->line, " = %s", qdot_text_str(&a->right));
 }
 
-/* Suggest WORD LEFT = RIGHT as one line. */
+/* Suggest the line `WORD LEFT = RIGHT`, such as `set m = 3`, for the definition LEFT = RIGHT. */
 static void
-write_equation(assignment *a, const char *word)
+suggest_statement_line(assignment *a, const char *word)
 {
     qdot_text_format(&a->line, "%s ", word);
     qdot_token_text_written(a->session, a->as.name, a->as.equals, &a->line);
@@ -155,7 +155,7 @@ write_equation(assignment *a, const char *word)
 /* `check LEFT == RIGHT`; an equation on the right in brackets. Of an equation of motion, beside what is
  * none, the residual. */
 static void
-write_check(assignment *a)
+suggest_check(assignment *a)
 {
     const bool equation = a->as.equation || strcmp(a->as.name->text, "eom") != 0;
 
@@ -168,7 +168,7 @@ write_check(assignment *a)
 /* Fail at the name; %s in the message stands for the name, a second %s for the coordinate in dNAME
  * or deltaNAME. */
 static qdot_status
-tell(assignment *a, const char *message, const char *name)
+refuse_with_suggestion(assignment *a, const char *message, const char *name)
 {
     a->c->error_at = a->as.name->start;
     QDOT_TRY(qdot_text_status(&a->line));
@@ -179,7 +179,7 @@ tell(assignment *a, const char *message, const char *name)
 /* --- definitions of coordinates --------------------------------------------------------- */
 
 static bool
-is_furnished(const qdot_scene *s)
+has_equations_of_motion(const qdot_scene *s)
 {
     return s->particles.n + s->bodies.n > 0 || s->lagrangian != QDOT_NIL;
 }
@@ -187,55 +187,55 @@ is_furnished(const qdot_scene *s)
 /* q'' = E: suggest to compare it with the equation of motion, or if there are no masses a scene
  * with that equation. */
 static qdot_status
-tell_acceleration(assignment *a)
+refuse_acceleration(assignment *a)
 {
     const qdot_token *prime = a->as.equals - 2;
     qdot_text q = {0};
     qdot_status status;
 
     qdot_token_text_written(a->session, a->as.name, prime, &q);
-    if (is_furnished(a->session->scene) || a->as.accelerations || a->loop.n > 0) {
+    if (has_equations_of_motion(a->session->scene) || a->as.accelerations || a->loop.n > 0) {
         qdot_text_format(&a->line, "check eom[%s] == (%s'' = %s)", qdot_text_str(&q),
                          qdot_text_str(&q), qdot_text_str(&a->right));
-        status = tell(a, "equations of motion follow from the scene: `%.100s''` is not assigned",
-                      qdot_text_str(&q));
+        status = refuse_with_suggestion(a, "equations of motion follow from the scene: `%.100s''` is not assigned",
+                                        qdot_text_str(&q));
     } else {
         qdot_text_format(&a->line, "lagrangian %s'^2/2; force %s on %s", qdot_text_str(&q),
                          qdot_text_str(&a->right), qdot_text_str(&q));
-        status = tell(a, "equations of motion follow from a scene, which has nothing yet that moves: "
+        status = refuse_with_suggestion(a, "equations of motion follow from a scene, which has nothing yet that moves: "
                          "`%.100s''` is not assigned", qdot_text_str(&q));
     }
     qdot_text_clear(&q);
     return status;
 }
 
-/* q = E or q' = E: suggest `start`; if E depends on coordinates or time, suggest `constraint`. */
+/* Refuse q = E or q' = E for a coordinate q: suggest `start`, or `constraint` if E depends on coordinates or time. */
 static qdot_status
-tell_coordinate(assignment *a)
+refuse_coordinate(assignment *a)
 {
-    const qdot_name *known = declared(a);
+    const qdot_name *known = find_declared_name(a);
     const size_t primes = a->as.primes;
 
-    if (a->as.chained) { /* a = b = c: the right side is an equation */
+    if (a->as.chained) { /* for a = b = c: the right side is itself an equation */
         qdot_text_add(&a->line, "(");
         qdot_token_text_written(a->session, a->as.name, a->as.behind, &a->line);
         qdot_text_char(&a->line, ')');
-        return tell(a, "`%.200s` is a coordinate: an equation as a value is written in brackets",
-                    known->name);
+        return refuse_with_suggestion(a, "`%.200s` is a coordinate: an equation as a value is written in brackets",
+                                      known->name);
     }
     if (primes == 2)
-        return tell_acceleration(a);
-    if (a->as.call || /* theta(t) = 2*t, or theta[1] = 2 without a family theta */
+        return refuse_acceleration(a);
+    if (a->as.call || /* as in theta(t) = 2*t, or in theta[1] = 2 without a family theta */
         (a->as.member && strcmp(known->name, a->as.name->text) == 0 && primes == 0))
         qdot_text_format(&a->line, "%s %s = %s", a->moves ? "constraint" : "start", known->name,
                          qdot_text_str(&a->right));
     else
-        write_equation(a, a->moves ? "constraint" : "start");
+        suggest_statement_line(a, a->moves ? "constraint" : "start");
     if (a->moves)
-        return tell(a, "`%.200s` is a coordinate; an equation for it is a constraint",
-                    known->name);
+        return refuse_with_suggestion(a, "`%.200s` is a coordinate; an equation for it is a constraint",
+                                      known->name);
     if (primes > 0 || known->file == NULL)
-        return tell(a, "`%.200s` is a coordinate: its motion follows from a start", known->name);
+        return refuse_with_suggestion(a, "`%.200s` is a coordinate: its motion follows from a start", known->name);
     a->c->error_at = a->as.name->start;
     QDOT_TRY(qdot_text_status(&a->line));
     (void)qdot_fail(QDOT_ENAME, "`%.200s` was declared as a coordinate at %s:%u", known->name,
@@ -245,9 +245,9 @@ tell_coordinate(assignment *a)
 
 /* --- words of statements ---------------------------------------------------------------- */
 
-/* potential = E in a scene with a stated Lagrangian L: suggest the Lagrangian L - (E). */
+/* Refuse potential = E in a scene with a stated Lagrangian L: suggest the Lagrangian L - (E). */
 static qdot_status
-tell_beside_lagrangian(assignment *a, const char *word)
+refuse_beside_lagrangian(assignment *a, const char *word)
 {
     const qdot_scene *scene = a->session->scene;
     const bool potential = strcmp(word, "potential") == 0;
@@ -265,7 +265,7 @@ tell_beside_lagrangian(assignment *a, const char *word)
 }
 
 static qdot_status
-tell_word(assignment *a, const qdot_statement *row)
+refuse_statement_word(assignment *a, const qdot_statement *row)
 {
     const qdot_scene *s = a->session->scene;
 
@@ -278,17 +278,17 @@ tell_word(assignment *a, const qdot_statement *row)
     }
     if (s->lagrangian != QDOT_NIL && qdot_definition_is_of_name(&a->as) &&
         (strcmp(row->word, "potential") == 0 || strcmp(row->word, "gravity") == 0))
-        return tell_beside_lagrangian(a, row->word);
+        return refuse_beside_lagrangian(a, row->word);
     if (!qdot_definition_statement(a, row))
-        write_renamed(a);
-    return tell(a, "`%s` is a word of the language: it is no name to define", row->word);
+        suggest_other_name(a);
+    return refuse_with_suggestion(a, "`%s` is a word of the language: it is no name to define", row->word);
 }
 
 /* --- reserved words, labels ------------------------------------------------------------- */
 
-/* lambda = 3: suggest a parameter of that name; dtheta = 3: suggest a velocity. */
+/* Refuse lambda = 3 by suggesting a parameter of that name, and dtheta = 3 by suggesting a velocity. */
 static qdot_status
-tell_reserved(assignment *a, const char *why)
+refuse_reserved_name(assignment *a, const char *why)
 {
     const char *name = a->as.name->text;
     bool family = strcmp(name, "lambda") == 0 || strcmp(name, "delta") == 0;
@@ -297,16 +297,16 @@ tell_reserved(assignment *a, const char *why)
     if (!a->moves && qdot_definition_is_of_name(&a->as) && qdot_hints_derivative(a->session, name, false, &meant))
         qdot_text_format(&a->line, "start %s' = %s", meant.base, qdot_text_str(&a->right));
     else if (family && !a->moves && a->loop.n == 0 && a->as.components == 1)
-        write_equation(a, "param");
+        suggest_statement_line(a, "param");
     else
-        write_renamed(a);
-    return tell(a, why, name);
+        suggest_other_name(a);
+    return refuse_with_suggestion(a, why, name);
 }
 
 /* `bob = (1, 2)`, `bob' = (1, 2)` of a particle at (x, y): where it starts, or how fast. False: it is placed
  * otherwise. */
 static bool
-write_placed(assignment *a, qdot_expr at, bool velocity)
+suggest_start_values(assignment *a, qdot_expr at, bool velocity)
 {
     const qdot_pool *pool = a->session->pool;
     const bool one = qdot_expr_is_scalar(pool, at);
@@ -327,7 +327,7 @@ write_placed(assignment *a, qdot_expr at, bool velocity)
 
 /* The position of the particle or body of that name; nil if there is none. */
 static qdot_expr
-position_of(const qdot_scene *s, const char *label)
+position_of_label(const qdot_scene *s, const char *label)
 {
     const qdot_particle *particle = qdot_scene_find_particle(s, label);
     const qdot_body *body = qdot_scene_find_body(s, label);
@@ -336,45 +336,45 @@ position_of(const qdot_scene *s, const char *label)
 }
 
 static qdot_status
-tell_label(assignment *a, const char *label)
+refuse_label(assignment *a, const char *label)
 {
     const qdot_scene *s = a->session->scene;
-    const qdot_expr at = position_of(s, label);
+    const qdot_expr at = position_of_label(s, label);
 
-    if (at != QDOT_NIL && write_placed(a, at, false))
-        return tell(a, "`%.200s` is placed by the coordinates of its position", label);
-    write_renamed(a);
-    return tell(a,
-                qdot_scene_find_particle(s, label) != NULL ? "`%.200s` is a particle of the scene"
-                : at != QDOT_NIL ? "`%.200s` is a body of the scene"
-                : is_run(a->session, label)
+    if (at != QDOT_NIL && suggest_start_values(a, at, false))
+        return refuse_with_suggestion(a, "`%.200s` is placed by the coordinates of its position", label);
+    suggest_other_name(a);
+    return refuse_with_suggestion(a,
+                                  qdot_scene_find_particle(s, label) != NULL ? "`%.200s` is a particle of the scene"
+                                  : at != QDOT_NIL ? "`%.200s` is a body of the scene"
+                                  : is_run_name(a->session, label)
                     ? "`%.200s` is a run"
                     : "`%.200s` is a label of the scene",
-                label);
+                                  label);
 }
 
-/* bob' = (1, 2) for a particle whose position depends on coordinates: suggest start values of these. */
+/* Refuse bob' = (1, 2) for a particle whose position depends on coordinates: suggest their start values. */
 static qdot_status
-tell_velocity(assignment *a)
+refuse_velocity_of_particle(assignment *a)
 {
-    const qdot_expr at = position_of(a->session->scene, a->as.name->text);
+    const qdot_expr at = position_of_label(a->session->scene, a->as.name->text);
 
-    read_right(a);
-    return at != QDOT_NIL && write_placed(a, at, true)
-               ? tell(a, "`%.200s'` follows from the coordinates of its position", a->as.name->text)
+    read_right_side(a);
+    return at != QDOT_NIL && suggest_start_values(a, at, true)
+               ? refuse_with_suggestion(a, "`%.200s'` follows from the coordinates of its position", a->as.name->text)
                : QDOT_OK;
 }
 
-/* The label of a scene's thing that the left side names, or a family of labels; NULL if there is none. */
+/* The label of a particle, body, spring or run that the left side names, or a family of labels; NULL: none. */
 static const char *
-label_of(const assignment *a)
+label_on_left_side(const assignment *a)
 {
     const qdot_session *s = a->session;
     const char *name = a->as.name->text;
     const size_t length = strlen(name);
 
     if (qdot_definition_is_of_name(&a->as) || a->as.call)
-        return qdot_scene_has_label(s->scene, name) || is_run(s, name) ? name : NULL;
+        return qdot_scene_has_label(s->scene, name) || is_run_name(s, name) ? name : NULL;
     if (!a->as.member)
         return NULL;
     for (size_t i = 0; i < s->scene->particles.n; i++)
@@ -392,7 +392,7 @@ label_of(const assignment *a)
 
 /* Whether the left side is a member of a built-in quantity: eom[theta] = ..., p[x] = 3, conserved[1] = ... */
 static bool
-is_member_of_value(const assignment *a)
+is_member_of_quantity(const assignment *a)
 {
     static const char *const lists[] = {"conserved", "ds2", "speed2"};
     const qdot_quantity *row = qdot_quantity_find(a->as.name->text);
@@ -406,26 +406,26 @@ is_member_of_value(const assignment *a)
 }
 
 static qdot_status
-tell_member(assignment *a)
+refuse_member(assignment *a)
 {
     const qdot_name *q = qdot_definition_coordinate(a->session);
 
     if (strcmp(a->as.name->text, "p") == 0 && !a->moves) {
-        write_equation(a, "set"); /* a value for the momentum in H or R */
+        suggest_statement_line(a, "set"); /* suggest `set`, for the value of a momentum in H or R */
     } else {
-        /* first a Lagrangian, as there are no equations of motion yet */
-        if (!is_furnished(a->session->scene) && q != NULL)
+        /* suggest a Lagrangian first, as there are no equations of motion yet */
+        if (!has_equations_of_motion(a->session->scene) && q != NULL)
             qdot_text_format(&a->line, "lagrangian %s'^2/2; ", q->name);
-        write_check(a);
+        suggest_check(a);
     }
-    return tell(a, "`%s[ ]` is a value of the language: it follows from the scene", a->as.name->text);
+    return refuse_with_suggestion(a, "`%s[ ]` is a value of the language: it follows from the scene", a->as.name->text);
 }
 
 /* --- checking a definition ---------------------------------------------------------------- */
 
 /* The reason why a reserved word cannot be defined; NULL if it can. */
 static const char *
-why_reserved(const qdot_session *s, const char *name)
+reason_for_reserved(const qdot_session *s, const char *name)
 {
     static const char *const words[][2] = {
         {"pi", "`%s` is reserved: it is the number 3.14159..."},
@@ -451,24 +451,24 @@ why_reserved(const qdot_session *s, const char *name)
 
 /* Whether the line is in the syntax of another system, as x = symbols('x'); other hints exist for these. */
 static bool
-is_foreign(const assignment *a)
+is_syntax_of_other_system(const assignment *a)
 {
     const char *applied = qdot_definition_applied(&a->as);
 
-    /* a range of another system: x = 0:0.1:1 */
+    /* a range in another system's syntax: x = 0:0.1:1 */
     return a->as.colon || a->as.range || (applied != NULL && !qdot_cursor_knows(a->session, applied));
 }
 
-/* m = 3 for a parameter is a value: suggest `set`; m = x or m(t) = t is not: suggest another name. */
+/* Refuse m = ... for a parameter m: suggest `set` for a value, m = 3; another name for m = x or m(t) = t. */
 static qdot_status
-tell_parameter(assignment *a, const qdot_name *known)
+refuse_parameter(assignment *a, const qdot_name *known)
 {
     if (a->moves || a->as.chained)
-        write_renamed(a);
+        suggest_other_name(a);
     else if (a->as.call)
         qdot_text_format(&a->line, "set %s = %s", known->name, qdot_text_str(&a->right));
     else
-        write_equation(a, "set");
+        suggest_statement_line(a, "set");
     a->c->error_at = a->as.name->start;
     QDOT_TRY(qdot_text_status(&a->line));
     (void)(known->file != NULL
@@ -483,30 +483,30 @@ check_definition(assignment *a)
 {
     const qdot_session *s = a->session;
     const char *name = a->as.name->text, *label, *why;
-    const qdot_name *known = declared(a);
+    const qdot_name *known = find_declared_name(a);
     const qdot_statement *row = qdot_statement_find(name);
 
-    if (known != NULL && known->kind == QDOT_NAME_PARAM && !is_member_of_value(a))
-        return is_foreign(a) ? QDOT_OK : tell_parameter(a, known);
+    if (known != NULL && known->kind == QDOT_NAME_PARAM && !is_member_of_quantity(a))
+        return is_syntax_of_other_system(a) ? QDOT_OK : refuse_parameter(a, known);
     if (known != NULL) /* a plain name p that is also used as p[x] */
-        return known->name[0] == 'p' && known->name[1] == '\0' && is_member_of_value(a)
-                   ? tell_member(a)
+        return known->name[0] == 'p' && known->name[1] == '\0' && is_member_of_quantity(a)
+                   ? refuse_member(a)
                    : QDOT_OK;
     if (row != NULL)
-        return tell_word(a, row);
-    if (is_member_of_value(a))
-        return tell_member(a);
-    why = why_reserved(s, name);
+        return refuse_statement_word(a, row);
+    if (is_member_of_quantity(a))
+        return refuse_member(a);
+    why = reason_for_reserved(s, name);
     if (why != NULL)
-        return tell_reserved(a, why);
-    label = label_of(a);
-    return label != NULL ? tell_label(a, label) : QDOT_OK;
+        return refuse_reserved_name(a, why);
+    label = label_on_left_side(a);
+    return label != NULL ? refuse_label(a, label) : QDOT_OK;
 }
 
 /* f(x) = E of a function of the user's, with declared names as its arguments, is an equation; it looks like a definition
  * where these are the arguments it was defined with. */
 static qdot_status
-check_applied(const assignment *a, const qdot_name *known)
+check_applied_function(const assignment *a, const qdot_name *known)
 {
     const qdot_pool *pool = a->session->pool;
     const uint32_t n = qdot_expr_count(pool, known->formals);
@@ -543,7 +543,7 @@ check_function(assignment *a)
         taken = taken == NULL && !qdot_statement_is_free_argument(a->session, argument->text) ? argument : taken;
     }
     if (known != NULL)
-        return known->kind == QDOT_NAME_FUNCTION ? check_applied(a, known) : QDOT_OK;
+        return known->kind == QDOT_NAME_FUNCTION ? check_applied_function(a, known) : QDOT_OK;
     if (builtin == NULL && taken != NULL && !qdot_cursor_knows(a->session, a->as.name->text)) {
         a->c->error_at = taken->start;
         (void)qdot_fail(QDOT_ENAME, "`%.100s` is a word of the language: an argument has a name of its own", taken->text);
@@ -551,9 +551,9 @@ check_function(assignment *a)
     }
     if (builtin == NULL || !unknown)
         return QDOT_OK;
-    read_right(a);
-    write_renamed(a);
-    return tell(a, "`%s` is a function of the language: it is not defined anew", a->as.name->text);
+    read_right_side(a);
+    suggest_other_name(a);
+    return refuse_with_suggestion(a, "`%s` is a function of the language: it is not defined anew", a->as.name->text);
 }
 
 static qdot_status
@@ -561,19 +561,19 @@ check_statement(assignment *a)
 {
     const qdot_definition *as = &a->as;
     const qdot_form form = qdot_statement_form(a->session, as->name);
-    const qdot_name *known = declared(a);
+    const qdot_name *known = find_declared_name(a);
     const bool defines = form == QDOT_FORM_DEFINITION;
 
     if (known != NULL && known->kind == QDOT_NAME_COORD && as->primes < 3 && !(as->member && as->apart) &&
         (defines || (form == QDOT_FORM_VALUE && !as->call))) {
-        read_right(a);
-        return is_foreign(a) ? QDOT_OK : tell_coordinate(a);
+        read_right_side(a);
+        return is_syntax_of_other_system(a) ? QDOT_OK : refuse_coordinate(a);
     }
     if (form == QDOT_FORM_VALUE)
-        return known == NULL && as->equals == as->name + 2 && as->primes == 1 ? tell_velocity(a) : check_function(a);
+        return known == NULL && as->equals == as->name + 2 && as->primes == 1 ? refuse_velocity_of_particle(a) : check_function(a);
     if (!defines)
         return QDOT_OK;
-    read_right(a);
+    read_right_side(a);
     return check_definition(a);
 }
 

@@ -12,7 +12,7 @@
 typedef struct {
     qdot_cursor *c;
     qdot_session *session;
-    qdot_definition as; /* LEFT = RIGHT [for ...], taken apart */
+    qdot_definition as; /* the definition LEFT = RIGHT [for ...], split into its parts */
     qdot_text right, loop; /* the right side as text; the loop " for k = 1..3", or "" */
     qdot_text line;        /* the line that the user probably meant */
     bool moves;            /* the right side contains coordinates, positions or the time */

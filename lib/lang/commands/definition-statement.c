@@ -22,12 +22,12 @@ qdot_definition_coordinate(const qdot_session *s)
 
 /* Suggest the line WORD RIGHT BEHIND, where RIGHT is the right side of the definition. */
 static void
-write_statement(assignment *a, const char *word, const char *behind)
+suggest_statement(assignment *a, const char *word, const char *behind)
 {
     qdot_text_format(&a->line, "%s %s%s", word, qdot_text_str(&a->right), behind);
 }
 
-/* The number of dimensions of the scene; 0: nothing is placed yet. */
+/* The number of dimensions of the scene; 0: nothing has been placed in it yet. */
 static uint32_t
 count_dimensions(const qdot_session *s)
 {
@@ -44,7 +44,7 @@ count_dimensions(const qdot_session *s)
 /* Suggest gravity (0, -g) with the last n components of the right side, preceded by zeros if there
  * are fewer. */
 static void
-write_components(assignment *a, uint32_t n)
+suggest_gravity_vector(assignment *a, uint32_t n)
 {
     const size_t said = a->as.components;
 
@@ -61,17 +61,17 @@ write_components(assignment *a, uint32_t n)
 /* gravity = g: along the last axis, downwards; gravity = (0, -g) with as many components as the scene has. False: it is
  * no field. */
 static bool
-write_gravity(assignment *a)
+suggest_gravity(assignment *a)
 {
     const uint32_t n = count_dimensions(a->session);
     const char *right = qdot_text_str(&a->right);
-    const bool down = *right == '-'; /* the user already points gravity downwards */
+    const bool down = *right == '-'; /* the user's vector already points gravity downwards */
     const bool whole = a->as.sum && !down;
 
     if (a->as.components > 1 && n > 0 && n <= 3 && a->as.components != n)
-        write_components(a, n);
+        suggest_gravity_vector(a, n);
     else if (a->as.components > 1 || n == 1)
-        write_statement(a, "gravity", "");
+        suggest_statement(a, "gravity", "");
     else
         qdot_text_format(&a->line, "gravity (0, %s%s%s%s%s)", n == 3 ? "0, " : "", down ? "" : "-",
                          whole ? "(" : "", right, whole ? ")" : "");
@@ -81,7 +81,7 @@ write_gravity(assignment *a)
 /* Whether the right side is a vector though it is not written as one: it holds the position or the velocity of a thing,
  * or a name of a vector, outside the arguments of functions. */
 static bool
-holds_vector(const assignment *a)
+right_side_is_vector(const assignment *a)
 {
     const qdot_session *s = a->session;
     const qdot_token *at = NULL;
@@ -101,16 +101,16 @@ holds_vector(const assignment *a)
 /* force = F: a vector on the first thing that has as many dimensions, a number on a coordinate. False:
  * there is none. */
 static bool
-write_force(assignment *a, const char *word)
+suggest_force(assignment *a, const char *word)
 {
     const qdot_scene *s = a->session->scene;
     const qdot_name *q = qdot_definition_coordinate(a->session);
     const char *on = q != NULL ? q->name : NULL;
-    const bool vector = a->as.components > 1 || holds_vector(a);
+    const bool vector = a->as.components > 1 || right_side_is_vector(a);
     qdot_text behind = {0};
 
     if (a->as.on)
-        return write_statement(a, word, ""), true;
+        return suggest_statement(a, word, ""), true;
     if (vector)
         on = strcmp(word, "force") != 0 ? NULL
              : s->particles.n > 0       ? s->particles.at[0].name
@@ -119,14 +119,14 @@ write_force(assignment *a, const char *word)
     if (on == NULL)
         return false;
     qdot_text_format(&behind, " on %s", on);
-    write_statement(a, word, qdot_text_str(&behind));
+    suggest_statement(a, word, qdot_text_str(&behind));
     qdot_text_clear(&behind);
     return true;
 }
 
-/* spring = k: suggest a spring between the first particle and the origin. False: there is no particle. */
+/* For `spring = k`: suggest a spring between the first particle and the origin. False: there is no particle. */
 static bool
-write_link(assignment *a, const char *word)
+suggest_spring_or_damper(assignment *a, const char *word)
 {
     static const char *const origin[] = {"", "0", "(0, 0)", "(0, 0, 0)"};
     const qdot_scene *s = a->session->scene;
@@ -140,11 +140,11 @@ write_link(assignment *a, const char *word)
     return true;
 }
 
-/* constraint = A = B: suggest that equation; constraint = E: suggest E = 0. */
+/* For `constraint = A = B` suggest a constraint with that equation; for `constraint = E`, with E = 0. */
 static void
-write_constraint(assignment *a)
+suggest_constraint(assignment *a)
 {
-    write_statement(a, "constraint", a->as.comparison ? "" : " = 0");
+    suggest_statement(a, "constraint", a->as.comparison ? "" : " = 0");
 }
 
 /* What stands behind these words may be written behind an equation sign by mistake; false: it is a
@@ -160,7 +160,7 @@ qdot_definition_statement(assignment *a, const qdot_statement *row)
     const char *right = qdot_definition_word(&a->as);
     bool stated = s->lagrangian != QDOT_NIL;
 
-    /* with arguments, as in gravity(x) = ..., it is a function */
+    /* with arguments, as in gravity(x) = ..., the name is that of a function */
     if (!qdot_statement_is_built(row) || !qdot_definition_is_of_name(&a->as))
         return false;
     if ((stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0)) ||
@@ -169,19 +169,19 @@ qdot_definition_statement(assignment *a, const qdot_statement *row)
         return false;
     for (size_t i = 0; i < sizeof terms / sizeof *terms; i++)
         if (strcmp(word, terms[i]) == 0 && a->as.components == 1)
-            return write_statement(a, word, ""), true;
+            return suggest_statement(a, word, ""), true;
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
         if (strcmp(word, options[i][0]) == 0 && right != NULL && qdot_has_word(options[i][1], right))
-            return write_statement(a, word, ""), true;
+            return suggest_statement(a, word, ""), true;
     if (strcmp(word, "gravity") == 0)
-        return !a->as.primed && write_gravity(a);
+        return !a->as.primed && suggest_gravity(a);
     if (strcmp(word, "constraint") == 0 && a->moves && a->as.components == 1)
-        return write_constraint(a), true;
+        return suggest_constraint(a), true;
     if (strcmp(word, "force") == 0 || strcmp(word, "torque") == 0)
-        return write_force(a, word);
+        return suggest_force(a, word);
     if (strcmp(word, "spring") == 0 || strcmp(word, "damper") == 0)
-        return write_link(a, word);
-    if (!row->alone && (a->as.range || a->as.text)) /* run = 0..5, include = "x.lag" */
-        return write_statement(a, word, ""), true;
+        return suggest_spring_or_damper(a, word);
+    if (!row->alone && (a->as.range || a->as.text)) /* the statement was meant: run = 0..5, include = "x.lag" */
+        return suggest_statement(a, word, ""), true;
     return false;
 }

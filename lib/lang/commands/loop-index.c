@@ -19,7 +19,7 @@
 /* --- where a declared symbol occurs ------------------------------------------------------- */
 
 static bool
-is_in_any(const qdot_session *s, size_t n, const qdot_expr *list, qdot_expr symbol)
+occurs_in_any(const qdot_session *s, size_t n, const qdot_expr *list, qdot_expr symbol)
 {
     for (size_t i = 0; i < n; i++)
         if (qdot_expr_contains(s->pool, list[i], symbol))
@@ -29,24 +29,24 @@ is_in_any(const qdot_session *s, size_t n, const qdot_expr *list, qdot_expr symb
 
 /* Whether a declaration, a parameter value or a start value contains the symbol. */
 static bool
-is_in_scene(const qdot_session *s, qdot_expr symbol)
+occurs_in_scene(const qdot_session *s, qdot_expr symbol)
 {
     for (size_t i = 0; i < s->scene->events.n; i++) {
         const qdot_event *event = &s->scene->events.at[i];
 
-        if (is_in_any(s, event->values.n, event->values.at, symbol) ||
-            is_in_any(s, event->targets.n, event->targets.at, symbol) ||
+        if (occurs_in_any(s, event->values.n, event->values.at, symbol) ||
+            occurs_in_any(s, event->targets.n, event->targets.at, symbol) ||
             qdot_expr_contains(s->pool, event->left, symbol) ||
             qdot_expr_contains(s->pool, event->right, symbol))
             return true;
     }
-    return is_in_any(s, s->values->set_values.n, s->values->set_values.at, symbol) ||
-           is_in_any(s, s->values->start_values.n, s->values->start_values.at, symbol) ||
+    return occurs_in_any(s, s->values->set_values.n, s->values->set_values.at, symbol) ||
+           occurs_in_any(s, s->values->start_values.n, s->values->start_values.at, symbol) ||
            qdot_scene_contains(s->scene, symbol);
 }
 
 static bool
-is_in_domains(const qdot_session *s, qdot_expr symbol)
+occurs_in_domains(const qdot_session *s, qdot_expr symbol)
 {
     for (size_t i = 0; i < s->scene->coordinates.n; i++) {
         const qdot_symbol *q = qdot_expr_symbol(s->pool, s->scene->coordinates.at[i]);
@@ -64,7 +64,7 @@ qdot_loop_index_is_read(const qdot_session *s, qdot_expr symbol)
     const char *name = qdot_expr_symbol(s->pool, symbol)->name;
     const qdot_name *known;
 
-    if (!qdot_expr_is_class(s->pool, symbol, QDOT_PARAM) || is_in_scene(s, symbol) || is_in_domains(s, symbol))
+    if (!qdot_expr_is_class(s->pool, symbol, QDOT_PARAM) || occurs_in_scene(s, symbol) || occurs_in_domains(s, symbol))
         return true;
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++) {
         if (known->kind == QDOT_NAME_VALUE && known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol))
@@ -77,7 +77,7 @@ qdot_loop_index_is_read(const qdot_session *s, qdot_expr symbol)
 
 /* Whether a name other than the index is defined by an expression that contains this symbol. */
 static bool
-stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
+definition_contains_symbol(const qdot_session *s, const char *name, qdot_expr symbol)
 {
     const qdot_name *known = qdot_names_find(s->names, name);
     const size_t length = strlen(name);
@@ -91,7 +91,7 @@ stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
             known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol))
             return true;
     return (qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name)) &&
-           is_in_scene(s, symbol);
+           occurs_in_scene(s, symbol);
 }
 
 /* Whether the statement depends on the declared symbol by more than its text: it asks of the scene or makes runs. */
@@ -105,15 +105,15 @@ depends_on_scene(const qdot_session *s, const qdot_statement *row, qdot_expr sym
         return false;
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++)
         if (strcmp(row->word, runs[i]) == 0)
-            return qdot_expr_is_class(s->pool, symbol, QDOT_COORD) || is_in_scene(s, symbol);
-    return row->alone && qdot_statement_asks(row) && is_in_scene(s, symbol);
+            return qdot_expr_is_class(s->pool, symbol, QDOT_COORD) || occurs_in_scene(s, symbol);
+    return row->alone && qdot_statement_asks(row) && occurs_in_scene(s, symbol);
 }
 
 /* --- the `for` clause --------------------------------------------------------------------- */
 
 /* The declared parameter or coordinate of that name; NULL if there is none. */
 static const qdot_name *
-declared(const qdot_session *s, const char *name)
+find_declared_symbol(const qdot_session *s, const char *name)
 {
     const qdot_name *known = qdot_names_find(s->names, name);
 
@@ -122,11 +122,11 @@ declared(const qdot_session *s, const char *name)
                : NULL;
 }
 
-/* Whether the name occurs in the tokens [from, to), or what is declared by it in what these stand for. */
+/* Whether the name occurs in the tokens [from, to), or anything declared with it occurs in what these stand for. */
 static bool
-is_used(const qdot_session *s, const char *name, const qdot_token *from, const qdot_token *to)
+is_index_used(const qdot_session *s, const char *name, const qdot_token *from, const qdot_token *to)
 {
-    const qdot_name *known = declared(s, name);
+    const qdot_name *known = find_declared_symbol(s, name);
 
     if (qdot_mention_is_in(from, to, name))
         return true;
@@ -135,15 +135,15 @@ is_used(const qdot_session *s, const char *name, const qdot_token *from, const q
             return true;
         if (m.row != NULL && qdot_statement_declares(m.row))
             continue;
-        if (strcmp(m.name, "%") == 0 || stands_for(s, m.name, known->value))
+        if (strcmp(m.name, "%") == 0 || definition_contains_symbol(s, m.name, known->value))
             return true;
     }
     return false;
 }
 
-/* Whether NAME = VALUE of `with` begins at the part. */
+/* Whether a pair NAME = VALUE of the option `with` begins at this part of the statement. */
 static bool
-begins_value(const qdot_filled *part)
+begins_value_of_with(const qdot_filled *part)
 {
     return part->name != NULL && strcmp(part->node->before, "with") == 0;
 }
@@ -151,7 +151,7 @@ begins_value(const qdot_filled *part)
 /* Append the limits and options of a run, `with` without a value of this name; `end`: the token that is its end, NULL:
  * as it was. */
 static void
-add_run_without(const qdot_record *run, const char *name, const qdot_token *end, qdot_text *out)
+append_run_without_value(const qdot_record *run, const char *name, const qdot_token *end, qdot_text *out)
 {
     qdot_session *s = run->cursor.session;
     const qdot_filled *part = &run->parts.at[1], *last = run->parts.at + run->parts.n;
@@ -160,7 +160,7 @@ add_run_without(const qdot_record *run, const char *name, const qdot_token *end,
     for (; part < last; part++) {
         if (qdot_filled_is(part, "with")) {
             before = " with ";
-        } else if (begins_value(part)) {
+        } else if (begins_value_of_with(part)) {
             if (strcmp(part->name->text, name) != 0 || part->to != part->name + 1) {
                 qdot_text_add(out, before);
                 qdot_token_text(s, part->from, part[2].to, out);
@@ -187,7 +187,7 @@ add_run_without(const qdot_record *run, const char *name, const qdot_token *end,
 /* Append the limits and options of the run, without a value of this name, with an end not before what the tokens
  * [from, to) read. */
 static qdot_status
-add_run_of_pass(qdot_session *s, const qdot_named_run *latest, const char *name, const qdot_token *from, const qdot_token *to,
+append_run_of_pass(qdot_session *s, const qdot_named_run *latest, const char *name, const qdot_token *from, const qdot_token *to,
         qdot_text *out)
 {
     const qdot_run_report *report = qdot_run_get_report(latest->run);
@@ -204,32 +204,32 @@ add_run_of_pass(qdot_session *s, const qdot_named_run *latest, const char *name,
         status = qdot_match_operands(&c, qdot_statement_find("run"), &run);
     }
     if (status == QDOT_OK)
-        add_run_without(&run, name, end, out);
+        append_run_without_value(&run, name, end, out);
     qdot_record_free(&run);
     qdot_source_free(source);
     return status;
 }
 
-/* Fail: the index that the part names occurs in none of the tokens [from, to). */
+/* Fail because the loop index that the part names occurs in none of the tokens [from, to). */
 static qdot_status
-fail_unused(qdot_record *r, const qdot_filled *clause, const qdot_filled *behind, const qdot_filled *index,
-            const qdot_token *from, const qdot_token *to)
+refuse_unused_index(qdot_record *r, const qdot_filled *clause, const qdot_filled *behind, const qdot_filled *index,
+                    const qdot_token *from, const qdot_token *to)
 {
     qdot_session *s = r->cursor.session;
     const char *name = index->from->text;
-    const qdot_name *known = declared(s, name);
+    const qdot_name *known = find_declared_symbol(s, name);
     const qdot_named_run *latest = s->runs->n > 0 ? &s->runs->at[s->runs->n - 1] : NULL;
     qdot_text text = {0};
     qdot_status status;
 
     qdot_record_blame(r, index);
     if (latest == NULL || known == NULL ||
-        (!qdot_expr_is_class(s->pool, known->value, QDOT_COORD) && !is_in_scene(s, known->value))) {
+        (!qdot_expr_is_class(s->pool, known->value, QDOT_COORD) && !occurs_in_scene(s, known->value))) {
         (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", name);
         return qdot_hint("as in print %s^2 for %s = 1..3", name, name);
     }
     qdot_text_add(&text, "{ run");
-    status = add_run_of_pass(s, latest, name, from, to, &text);
+    status = append_run_of_pass(s, latest, name, from, to, &text);
     if (status != QDOT_OK) {
         qdot_text_clear(&text);
         return status;
@@ -258,9 +258,9 @@ qdot_loop_index_check(qdot_record *r, const qdot_filled *clause, const qdot_fill
     for (const qdot_filled *index = clause; index < end; index += 4) { /* NAME, `=`, A..B and a comma */
         const char *name = index->from->text;
 
-        if (!is_used(s, name, from, to) && !is_used(s, name, index[2].from, end[-1].to) &&
-            !(block && declared(s, name) == NULL))
-            return fail_unused(r, clause, end, index, from, to);
+        if (!is_index_used(s, name, from, to) && !is_index_used(s, name, index[2].from, end[-1].to) &&
+            !(block && find_declared_symbol(s, name) == NULL))
+            return refuse_unused_index(r, clause, end, index, from, to);
     }
     return QDOT_OK;
 }

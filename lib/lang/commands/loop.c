@@ -11,14 +11,14 @@
 #include "lang/session/names.h"
 #include "lang/syntax/loop-clause.h"
 
-/* Properties that a loop value must not have if it is to be assigned to a parameter or coordinate. */
+/* Symbols that a value must not contain if a loop is to assign it to a parameter or coordinate. */
 static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
                                QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER |
                                QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
 /* Bind the loop index to its present value. */
 static qdot_status
-loop_bind(qdot_loop *loop, qdot_loop_index *index)
+bind_index(qdot_loop *loop, qdot_loop_index *index)
 {
     qdot_session *session = loop->session;
     const qdot_name *known = qdot_names_find(session->names, index->name);
@@ -40,7 +40,7 @@ loop_bind(qdot_loop *loop, qdot_loop_index *index)
 }
 
 static void
-unbind(qdot_loop *loop, qdot_loop_index *index)
+unbind_index(qdot_loop *loop, qdot_loop_index *index)
 {
     qdot_names_pop(loop->session->names);
     if (index->held)
@@ -49,15 +49,15 @@ unbind(qdot_loop *loop, qdot_loop_index *index)
 }
 
 static void
-drop_index(qdot_loop_index *index)
+free_index(qdot_loop_index *index)
 {
     qdot_free(index->name);
     qdot_free(index->values.at);
 }
 
-/* The values of a list [1, 2, 5] for the index. */
+/* Evaluate the values of a loop index given as a list, [1, 2, 5]. */
 static qdot_status
-read_list(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
+evaluate_list_of_values(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
 {
     qdot_pool *pool = loop->session->pool;
     qdot_expr list;
@@ -75,7 +75,7 @@ read_list(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
     return QDOT_OK;
 }
 
-/* The ends of a range a..b for the index. */
+/* Evaluate the two ends of a loop index given as a range a..b. */
 static qdot_status
 read_range(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
 {
@@ -96,53 +96,53 @@ read_range(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
     return QDOT_OK;
 }
 
-/* Evaluate the values of the index whose name the part is; *empty: it has none. */
+/* Evaluate the values of the loop index whose name this part is; *empty: there are none. */
 static qdot_status
 read_index(qdot_loop *loop, const qdot_filled *name, qdot_loop_index *index, bool *empty)
 {
-    const qdot_filled *values = name + 2; /* behind `=` */
+    const qdot_filled *values = name + 2; /* the values stand after `=` */
 
     index->name = qdot_strdup(name->from->text);
     if (index->name == NULL)
         return QDOT_ENOMEM;
     index->behind = values + 1;
-    QDOT_TRY(qdot_loop_clause_is_list(values) ? read_list(loop, values, index) : read_range(loop, values, index));
+    QDOT_TRY(qdot_loop_clause_is_list(values) ? evaluate_list_of_values(loop, values, index) : read_range(loop, values, index));
     *empty = index->listed ? index->values.n == 0 : index->at > index->last;
     return QDOT_OK;
 }
 
-/* Advance the innermost loop index that has a value left. */
+/* Advance the innermost loop index that has a value left; *more: there is one. */
 static qdot_status
-advance(qdot_loop *loop, bool *more)
+advance_indices(qdot_loop *loop, bool *more)
 {
     *more = false;
     while (loop->indices.n > 0) {
         qdot_loop_index *index = &loop->indices.at[loop->indices.n - 1];
 
-        unbind(loop, index);
+        unbind_index(loop, index);
         if (index->listed ? index->next + 1 < index->values.n : index->at < index->last) {
             qdot_status status;
 
             index->next++;
             index->at++;
-            status = loop_bind(loop, index);
+            status = bind_index(loop, index);
             if (status == QDOT_OK) {
                 *more = true;
                 return QDOT_OK;
             }
-            drop_index(index);
+            free_index(index);
             loop->indices.n--;
             return status;
         }
-        drop_index(index);
+        free_index(index);
         loop->indices.n--;
     }
     return QDOT_OK;
 }
 
-/* Bind the remaining indices to their first values. */
+/* Bind the loop indices not yet bound to their first values. */
 static qdot_status
-descend(qdot_loop *loop, bool *more)
+bind_remaining_indices(qdot_loop *loop, bool *more)
 {
     for (*more = true;;) {
         const qdot_filled *name = loop->clause;
@@ -157,24 +157,24 @@ descend(qdot_loop *loop, bool *more)
         if (status == QDOT_OK)
             status = read_index(loop, name + (loop->indices.n > 0), &index, &empty); /* behind a comma */
         if (status == QDOT_OK && !empty)
-            status = loop_bind(loop, &index);
+            status = bind_index(loop, &index);
         if (status == QDOT_OK && !empty) {
             status = qdot_vec_push(&loop->indices, index);
             if (status == QDOT_OK)
                 continue;
-            unbind(loop, &index);
+            unbind_index(loop, &index);
         }
-        drop_index(&index);
+        free_index(&index);
         QDOT_TRY(status);
-        QDOT_TRY(advance(loop, more)); /* empty range: go to the next value of the outer index */
+        QDOT_TRY(advance_indices(loop, more)); /* empty range: go to the next value of the outer index */
         if (!*more)
             return QDOT_OK;
     }
 }
 
-/* After a failure end the loop; otherwise the record has its place for errors again. */
+/* After a failure end the loop; otherwise errors are again shown where the record says. */
 static qdot_status
-pass(qdot_loop *loop, qdot_status status, size_t place)
+end_loop_on_failure(qdot_loop *loop, qdot_status status, size_t place)
 {
     if (status != QDOT_OK)
         qdot_loop_end(loop);
@@ -193,7 +193,7 @@ qdot_loop_begin(qdot_loop *loop, qdot_record *record, const qdot_filled *clause,
     if (session->evaluation->loops++ == 0)
         session->evaluation->partial_sums.n = 0;
     *loop = (qdot_loop){.session = session, .record = record, .clause = clause, .end = end, .open = true};
-    return pass(loop, descend(loop, more), place);
+    return end_loop_on_failure(loop, bind_remaining_indices(loop, more), place);
 }
 
 qdot_status
@@ -204,18 +204,18 @@ qdot_loop_next(qdot_loop *loop, bool *more)
 
     loop->record->cursor.error_at = loop->clause->from->start;
     if (status == QDOT_OK)
-        status = advance(loop, more);
+        status = advance_indices(loop, more);
     if (status == QDOT_OK && *more)
-        status = descend(loop, more);
-    return pass(loop, status, place);
+        status = bind_remaining_indices(loop, more);
+    return end_loop_on_failure(loop, status, place);
 }
 
 void
 qdot_loop_end(qdot_loop *loop)
 {
     while (loop->indices.n > 0) {
-        unbind(loop, &loop->indices.at[loop->indices.n - 1]);
-        drop_index(&loop->indices.at[--loop->indices.n]);
+        unbind_index(loop, &loop->indices.at[loop->indices.n - 1]);
+        free_index(&loop->indices.at[--loop->indices.n]);
     }
     qdot_free(loop->indices.at);
     loop->indices.at = NULL;

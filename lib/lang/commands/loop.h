@@ -6,18 +6,18 @@
 
 typedef struct {
     char *name;
-    const qdot_filled *behind; /* the part after the index's values */
-    bool listed;               /* the index runs over a list; otherwise over at..last */
+    const qdot_filled *behind; /* the part of the statement after the values of the index */
+    bool listed;               /* the index runs over the values of a list; otherwise over the integers at..last */
     long at, last;
     qdot_vec(qdot_expr) values;
     size_t next;
-    bool held; /* the index is a declared parameter or coordinate, set for each pass */
+    bool held; /* the index is a declared parameter or coordinate, whose value is set for each pass of the loop */
 } qdot_loop_index;
 
 typedef struct {
     qdot_session *session;
-    qdot_record *record;            /* holds the clause; error_at of its cursor is the place of a failure */
-    const qdot_filled *clause, *end; /* the parts clause ... end - 1 after the word `for` */
+    qdot_record *record;            /* holds the `for` clause; error_at of its cursor is the place of a failure */
+    const qdot_filled *clause, *end; /* the parts clause ... end - 1 of the record, after the word `for` */
     qdot_vec(
         qdot_loop_index) indices; /* outermost first; each name is bound in session->names */
     bool open; /* counted in session->loops */

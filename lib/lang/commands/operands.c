@@ -1,4 +1,4 @@
-/* operands.c -- expressions along runs, for tables and curves. */
+/* operands.c -- reads the expressions to be evaluated along runs, for tables and curves. */
 #include "lang/commands/operands.h"
 
 #include "expr/node.h"
@@ -23,7 +23,7 @@ qdot_operands_free(qdot_operands *list)
 
 /* Find the run to which an operand refers: the only one named in it, or the first of several. */
 static qdot_status
-resolve_members(qdot_operand *o, const char **run, qdot_expr *e)
+find_run_of_operand(qdot_operand *o, const char **run, qdot_expr *e)
 {
     if (!qdot_expr_is_scalar(o->session->pool, *e))
         return QDOT_OK;
@@ -48,7 +48,7 @@ qdot_operand_find(qdot_record *r, const qdot_filled *part, size_t k, qdot_operan
     QDOT_TRY(qdot_compiled_member(c, program, &e, &run));
     c->error_at = program->from->start;
     o->session = c->session;
-    QDOT_TRY(resolve_members(o, &run, &e));
+    QDOT_TRY(find_run_of_operand(o, &run, &e));
     if (run != NULL)
         QDOT_TRY(qdot_runs_read(c->session, run, &named));
     o->run = named != NULL ? named->run : NULL;

@@ -4,7 +4,7 @@
 #include "lang/commands/set.h"
 #include "lang/session/scales.h"
 
-static qdot_status scale_set(qdot_record *r);
+static qdot_status carry_out_scale(qdot_record *r);
 
 QDOT_STATEMENT(scale) = {
     .word = "scale",
@@ -13,12 +13,12 @@ QDOT_STATEMENT(scale) = {
     .summary = "the typical size of a coordinate: tol and errors are relative to max(scale, |value|); "
                "a scale of t sets those of velocities; without, a run finds scales below 1e-3",
     .example = "scale x = 1e-10, t = 1e-16",
-    .handler = scale_set,
+    .handler = carry_out_scale,
 };
 
 /* Read a pair such as q = 0.1, q' = 1 or t = 2 at `part`: the symbol, and its value. */
 static qdot_status
-scale_read_one(qdot_record *r, const qdot_filled *part, qdot_pairs *list)
+read_scale(qdot_record *r, const qdot_filled *part, qdot_pairs *list)
 {
     qdot_session *session = r->cursor.session;
     qdot_expr symbol = QDOT_T, value = QDOT_NIL;
@@ -37,7 +37,7 @@ scale_read_one(qdot_record *r, const qdot_filled *part, qdot_pairs *list)
 }
 
 static qdot_status
-scale_set(qdot_record *r)
+carry_out_scale(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_status status = QDOT_OK;
@@ -45,7 +45,7 @@ scale_set(qdot_record *r)
 
     for (size_t i = 1; i < r->parts.n && status == QDOT_OK; i++)
         if (qdot_filled_is(&r->parts.at[i], "Q") || qdot_filled_is(&r->parts.at[i], "t"))
-            status = scale_read_one(r, &r->parts.at[i], &list);
+            status = read_scale(r, &r->parts.at[i], &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         status = qdot_scales_set(session, list.symbols.at[i], list.values.at[i]);
     qdot_pairs_free(&list);

@@ -43,9 +43,9 @@ qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part)
     return qdot_filled_is_member(part, "p") && !qdot_names_is_family(session->names, "p");
 }
 
-/* Find the parameter of that name; `start` is where an error is shown. */
+/* Find the parameter of that name; `start` is the token at which an error is shown. */
 static qdot_status
-parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_expr *symbol)
+find_parameter(qdot_cursor *c, const qdot_token *start, const char *name, qdot_expr *symbol)
 {
     const qdot_name *known = qdot_names_find(c->session->names, name);
 
@@ -62,7 +62,7 @@ parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_exp
                                            : qdot_hint("%s = ... names it anew", name);
 }
 
-/* Find the momentum symbol p[q] that the part names. */
+/* Find the momentum symbol p[q] that a part of the statement names. */
 static qdot_status
 find_momentum(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
 {
@@ -90,7 +90,7 @@ qdot_set_find_parameter(qdot_record *r, const qdot_filled *part, qdot_expr *symb
         QDOT_TRY(find_momentum(r, part, symbol));
     } else {
         QDOT_TRY(qdot_record_name(r, part, &name));
-        QDOT_TRY(parameter_of(&r->cursor, part->from, name, symbol));
+        QDOT_TRY(find_parameter(&r->cursor, part->from, name, symbol));
     }
     return qdot_record_no_prime(r, part, "`=`");
 }
@@ -102,7 +102,7 @@ static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
 /* A value that depended on the motion behind the back of its arguments would be missing
  * from every derivative. */
 static qdot_status
-check_body(qdot_pool *pool, qdot_expr formals, qdot_expr body)
+check_function_value(qdot_pool *pool, qdot_expr formals, qdot_expr body)
 {
     uint32_t own = 0;
 
@@ -119,8 +119,8 @@ check_body(qdot_pool *pool, qdot_expr formals, qdot_expr body)
 /* Express a function's body in the declared arguments: x(s, t) as the symbol, s, t in place of the
  * names used. */
 static qdot_status
-in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr *symbol,
-                      qdot_expr *body)
+rename_function_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr *symbol,
+                          qdot_expr *body)
 {
     uint32_t n = qdot_ufun_get(pool, id)->arity;
     qdot_expr *from = qdot_calloc(2 * (size_t)n, sizeof *from), *to;
@@ -138,7 +138,7 @@ in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr
     return qdot_pool_check(pool);
 }
 
-/* Read F(u, v) = BODY for a declared function. */
+/* Read F(u, v) = BODY, the value of a declared function F. */
 static qdot_status
 set_read_function(qdot_record *r, const qdot_filled *part, qdot_expr *symbol, qdot_expr *body)
 {
@@ -163,9 +163,9 @@ set_read_function(qdot_record *r, const qdot_filled *part, qdot_expr *symbol, qd
     qdot_formals_leave(session, &f);
     QDOT_TRY(status);
     qdot_record_blame(r, part);
-    QDOT_TRY(check_body(session->pool, f.list, *body));
-    /* the value was given in the arguments of the declaration */
-    return in_declared_arguments(session->pool, known->ufun, f.list, symbol, body);
+    QDOT_TRY(check_function_value(session->pool, f.list, *body));
+    /* express the value, given in the function's arguments of this statement, in those of its declaration */
+    return rename_function_arguments(session->pool, known->ufun, f.list, symbol, body);
 }
 
 qdot_status
@@ -249,7 +249,7 @@ set_values(qdot_record *r)
 /* --- coordinates and velocities ---------------------------------------------------- */
 
 static qdot_status
-check_jet(qdot_cursor *c, const qdot_token *start, qdot_expr jet)
+check_is_position_or_velocity(qdot_cursor *c, const qdot_token *start, qdot_expr jet)
 {
     if (qdot_expr_symbol(c->session->pool, jet)->order <= 1)
         return QDOT_OK;
@@ -261,10 +261,10 @@ qdot_status
 qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
 {
     QDOT_TRY(qdot_record_coordinate(r, name, jet));
-    return check_jet(&r->cursor, name->from, *jet);
+    return check_is_position_or_velocity(&r->cursor, name->from, *jet);
 }
 
-/* Fail: no run uses the value of p[q]. */
+/* Fail, because a run does not use a value given for the momentum p[q]. */
 static qdot_status
 refuse_momentum(qdot_record *r, const qdot_filled *part)
 {

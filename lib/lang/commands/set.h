@@ -11,9 +11,9 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_f
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *value);
-/* Whether the part p[NAME] is a momentum: `p` is no name of the script. */
+/* Whether the part p[NAME] is a momentum, because the script does not declare `p` itself. */
 bool qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part);
-/* Find what a run can be given: a parameter, q or q'. QDOT_EINVAL for p[NAME], which runs do not use. */
+/* Find a symbol for which a run can take a value: a parameter, q or q'. QDOT_EINVAL for a momentum p[NAME]. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
 /* Whether `symbol`, whose name the part is, stands elsewhere in the statement, or something in the scene depends on it;
  * QDOT_EINVAL where neither is so. */
@@ -22,7 +22,7 @@ QDOT_MUST_CHECK qdot_status qdot_set_need_read(qdot_record *r, const qdot_filled
 /* Numbers of runs in a value become rationals; what they make it is off by is kept, for who writes it
  * down (lang/declare/session-file). */
 QDOT_MUST_CHECK qdot_status qdot_set_keep_measured(qdot_session *session, qdot_expr *value);
-/* Fail with QDOT_ENAME: there is no `what` of this name; with a hint at the one that was probably meant. */
+/* Fail with QDOT_ENAME because there is no `what` of this name; the hint is the name probably meant. */
 QDOT_MUST_CHECK qdot_status qdot_set_unknown(const qdot_session *session,
                                              const char *what, const char *name);
 

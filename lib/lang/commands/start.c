@@ -11,7 +11,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/values.h"
 
-static qdot_status start_set(qdot_record *r);
+static qdot_status carry_out_start(qdot_record *r);
 
 QDOT_STATEMENT(start) = {
     .word = "start",
@@ -20,12 +20,12 @@ QDOT_STATEMENT(start) = {
     .summary = "the initial state; changes only what it names; what constraints determine of the rest "
                "is solved for, unless `exactly`",
     .example = "start theta = 2, theta' = 0",
-    .handler = start_set,
+    .handler = carry_out_start,
 };
 
-/* Give a notice if a run in which events set parameters is continued: the next run has the old values. */
+/* Give a notice if the run that is continued has events that set parameters: the next run has the old values. */
 static qdot_status
-tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
+give_notice_of_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
 {
     for (size_t i = report->n - report->n_states; i < report->n; i++) {
         const char *parameter =
@@ -47,9 +47,9 @@ tell_parameters(qdot_session *session, const char *name, const qdot_run_report *
     return QDOT_OK;
 }
 
-/* Store the difference between the run's end and its companions', as the error of runs that start there. */
+/* Store the difference between the end of a run and of its companion runs, as the error of runs that start there. */
 static qdot_status
-keep_errors(qdot_session *session, const qdot_named_run *named)
+store_start_errors(qdot_session *session, const qdot_named_run *named)
 {
     const qdot_run_report *report = qdot_run_get_report(named->run);
     double *apart = qdot_calloc(4 * report->n + 1, sizeof *apart);
@@ -76,7 +76,7 @@ keep_errors(qdot_session *session, const qdot_named_run *named)
 }
 
 static qdot_status
-start_from_run(qdot_record *r, const char *name)
+start_at_end_of_run(qdot_record *r, const char *name)
 {
     qdot_session *session = r->cursor.session;
     const qdot_run_report *report;
@@ -101,13 +101,13 @@ start_from_run(qdot_record *r, const char *name)
         QDOT_TRY(qdot_session_start(session, v, v0));
     }
     session->values->start_exactly = qdot_record_word(r, "exactly") != NULL;
-    QDOT_TRY(keep_errors(session, run));
-    return tell_parameters(session, run->name, report);
+    QDOT_TRY(store_start_errors(session, run));
+    return give_notice_of_parameters(session, run->name, report);
 }
 
 /* Read the pairs Q = VALUE, Q' = VALUE, ... into the list, where Q is a coordinate. */
 static qdot_status
-start_read(qdot_record *r, qdot_pairs *list)
+read_start_values(qdot_record *r, qdot_pairs *list)
 {
     for (size_t i = 1; i < r->parts.n; i++) {
         const qdot_filled *part = &r->parts.at[i];
@@ -122,20 +122,20 @@ start_read(qdot_record *r, qdot_pairs *list)
     return QDOT_OK;
 }
 
-/* Carry out `start NAME`; NAME need not be a run but may be q' or q[1]. */
+/* Carry out `start NAME` if NAME is a run; it may also be q' or q[1], to be refused. */
 static qdot_status
-start_from(qdot_record *r, const qdot_filled *part)
+carry_out_start_name(qdot_record *r, const qdot_filled *part)
 {
     qdot_expr jet;
 
     if (part->to == part->from + 1)
-        return start_from_run(r, part->from->text);
+        return start_at_end_of_run(r, part->from->text);
     QDOT_TRY(qdot_set_find_jet(r, part, &jet));
     return qdot_record_expected(r, part->to, "`=`");
 }
 
 static qdot_status
-start_set(qdot_record *r)
+carry_out_start(qdot_record *r)
 {
     const qdot_filled *run = qdot_record_hole(r, NULL, "RUN");
     qdot_session *session = r->cursor.session;
@@ -143,8 +143,8 @@ start_set(qdot_record *r)
     qdot_status status;
 
     if (run != NULL)
-        return start_from(r, run);
-    status = start_read(r, &list);
+        return carry_out_start_name(r, run);
+    status = read_start_values(r, &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
         if (!qdot_expr_is_coordinate(session->pool, list.symbols.at[i]))
             continue;

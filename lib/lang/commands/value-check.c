@@ -37,9 +37,9 @@ qdot_value_check_rest(qdot_session *session, const char *spring, qdot_expr rest)
     return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
 }
 
-/* Fail with a message such as "b > a is assumed, and 1 > 2 does not hold". */
+/* Fail with a message such as "b > a is assumed, and 1 > 2 does not hold", which states values that violate an assumption. */
 static qdot_status
-assumed_otherwise(qdot_session *session, const qdot_assumption *said, const qdot_expr *side)
+report_violated_assumption(qdot_session *session, const qdot_assumption *said, const qdot_expr *side)
 {
     static const char *const signs[2][2] = {{"<=", "<"}, {">=", ">"}};
     qdot_pool *pool = session->pool;
@@ -96,7 +96,7 @@ qdot_value_check_assumption(qdot_session *session, const qdot_assumption *said)
         QDOT_TRY(qdot_decide_equal(pool, side[0], side[1], NULL, &seen));
     else if (!(holds & moving) && (op == QDOT_LT || op == QDOT_LE))
         QDOT_TRY(qdot_decide_less(pool, side[0], side[1], op == QDOT_LT, NULL, &seen));
-    return seen.verdict == QDOT_REFUTED ? assumed_otherwise(session, said, side) : QDOT_OK;
+    return seen.verdict == QDOT_REFUTED ? report_violated_assumption(session, said, side) : QDOT_OK;
 }
 
 qdot_status
@@ -111,7 +111,7 @@ qdot_value_check_assumed(qdot_session *session)
 
 /* The place of the last given value whose symbol occurs in e; if none does, of the first value. */
 static const qdot_token *
-find_culprit(qdot_session *session, const qdot_pairs *values, qdot_expr e)
+find_violating_value(qdot_session *session, const qdot_pairs *values, qdot_expr e)
 {
     for (size_t i = values->symbols.n; i-- > 0;)
         if (qdot_expr_contains(session->pool, e, values->symbols.at[i]))
@@ -119,9 +119,9 @@ find_culprit(qdot_session *session, const qdot_pairs *values, qdot_expr e)
     return values->places.at[0];
 }
 
-/* Whether e contains several parameters. */
+/* Whether e contains more than one parameter. */
 static bool
-is_shared(qdot_session *session, qdot_expr e)
+has_several_parameters(qdot_session *session, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, e, false);
@@ -133,7 +133,7 @@ is_shared(qdot_session *session, qdot_expr e)
 }
 
 static qdot_status
-check_all(qdot_cursor *c, const qdot_pairs *values)
+check_all_values(qdot_cursor *c, const qdot_pairs *values)
 {
     qdot_session *session = c->session;
     const qdot_scene *scene = session->scene;
@@ -143,16 +143,16 @@ check_all(qdot_cursor *c, const qdot_pairs *values)
 
         if (!(qdot_expr_node(session->pool, spring->rest)->holds & unknown))
             continue;
-        c->error_at = find_culprit(session, values, spring->rest)->start;
+        c->error_at = find_violating_value(session, values, spring->rest)->start;
         QDOT_TRY(qdot_value_check_rest(session, spring->name, spring->rest));
     }
     for (size_t i = 0; i < scene->assumed.n; i++) {
         const qdot_assumption *said = &scene->assumed.at[i];
         qdot_status status;
 
-        c->error_at = find_culprit(session, values, said->relation)->start;
+        c->error_at = find_violating_value(session, values, said->relation)->start;
         status = qdot_value_check_assumption(session, said);
-        if (status == QDOT_EINVAL && values->symbols.n == 1 && is_shared(session, said->relation))
+        if (status == QDOT_EINVAL && values->symbols.n == 1 && has_several_parameters(session, said->relation))
             status = qdot_hint("set values that depend on each other in one statement: a = 2, b = 3");
         QDOT_TRY(status);
     }
@@ -174,7 +174,7 @@ qdot_value_check(qdot_cursor *c, const qdot_pairs *values)
             qdot_session_set(session, values->symbols.at[i], values->values.at[i],
                              &status);
     if (status == QDOT_OK)
-        status = check_all(c, values);
+        status = check_all_values(c, values);
     qdot_trial_end(&trial);
     return status;
 }

@@ -21,7 +21,7 @@ QDOT_MUST_CHECK qdot_status qdot_value_check_assumption(qdot_session *session,
  * c->error_at is then the place of the value that is to blame. */
 QDOT_MUST_CHECK qdot_status qdot_value_check(qdot_cursor *c, const qdot_pairs *values);
 
-/* Check every assumption with the values given by `set`, before a run. */
+/* Check, before a run, that the values given by `set` satisfy every assumption. */
 QDOT_MUST_CHECK qdot_status qdot_value_check_assumed(qdot_session *session);
 
 #endif

@@ -1,4 +1,4 @@
-/* warnings.c -- notices for statements that are allowed but often mistaken. */
+/* warnings.c -- gives notices for statements that are allowed but often mistaken. */
 #include "lang/commands/warnings.h"
 
 #include <string.h>
@@ -36,14 +36,14 @@ static const struct {
 
 /* Whether the scene has masses or a Lagrangian, so that it has equations of motion. */
 static bool
-is_furnished(const qdot_scene *s)
+has_equations_of_motion(const qdot_scene *s)
 {
     return s->particles.n > 0 || s->bodies.n > 0 || s->lagrangian != QDOT_NIL;
 }
 
-/* Append the suggested statement: "; `potential k*x^2` does" */
+/* Append the statement suggested instead: "; `potential k*x^2` does" */
 static void
-add_statement(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, size_t row, qdot_text *text)
+append_suggestion(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, size_t row, qdot_text *text)
 {
     const qdot_scene *s = c->session->scene;
     const char *word = names[row].statement;
@@ -54,7 +54,7 @@ add_statement(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, 
                             "`lagrangian L`");
         return;
     }
-    if ((strcmp(word, "lagrangian") == 0 && is_furnished(s)) ||
+    if ((strcmp(word, "lagrangian") == 0 && has_equations_of_motion(s)) ||
         (stated && strcmp(word, "potential") == 0)) {
         qdot_text_add(text, ": these follow from what is declared");
         return;
@@ -68,14 +68,14 @@ add_statement(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, 
 }
 
 static qdot_status
-warning_tell(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, size_t row, const char *hidden)
+give_warning(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, size_t row, const char *hidden)
 {
     qdot_text text = {0};
     qdot_status status;
 
     qdot_text_format(&text, "`%s` names %s and enters no equation of motion", entry->name,
                      entry->kind == QDOT_NAME_FUNCTION ? "a function" : "an expression");
-    add_statement(c, d, entry, row, &text);
+    append_suggestion(c, d, entry, row, &text);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(c->session, "%.600s%s", qdot_text_str(&text), hidden);
@@ -85,7 +85,7 @@ warning_tell(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, s
 
 /* Whether a name, not an argument of the function, stands for something that contains the symbol. */
 static bool
-stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
+definition_contains_symbol(const qdot_session *s, const char *name, qdot_expr symbol)
 {
     const qdot_name *known = qdot_names_find(s->names, name);
 
@@ -95,9 +95,9 @@ stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
            qdot_scene_contains(s->scene, symbol);
 }
 
-/* Whether the text of the function takes expressions apart by a symbol: diff(V, x). */
+/* Whether the body of a function uses a symbol as a variable of calculus, as in diff(V, x). */
 static bool
-takes_apart(const qdot_name *f)
+uses_symbol_as_variable(const qdot_name *f)
 {
     static const char *const words[] = {"diff", "subs", "integral", "limit", "series", "solve"};
 
@@ -107,12 +107,12 @@ takes_apart(const qdot_name *f)
     return false;
 }
 
-/* Notice for f(x) = V where V contains a declared x by another name: f(3) still depends on that x. */
+/* Give a notice for f(x) = V if V contains a declared x under another name: f(3) still depends on that x. */
 static qdot_status
-tell_arguments(qdot_session *session, const qdot_name *f)
+warn_of_argument(qdot_session *session, const qdot_name *f)
 {
     const qdot_pool *pool = session->pool;
-    const uint32_t n = takes_apart(f) ? 0 : qdot_expr_count(pool, f->formals);
+    const uint32_t n = uses_symbol_as_variable(f) ? 0 : qdot_expr_count(pool, f->formals);
 
     for (uint32_t i = 0; i < n; i++) {
         const char *formal = qdot_expr_symbol(pool, qdot_expr_arg(pool, f->formals, i))->name;
@@ -121,7 +121,7 @@ tell_arguments(qdot_session *session, const qdot_name *f)
         if (declared == NULL || (declared->kind != QDOT_NAME_COORD && declared->kind != QDOT_NAME_PARAM))
             continue;
         for (qdot_mention m = qdot_mention_in(f->body->from, f->body->to); qdot_mention_next(&m);)
-            if (qdot_function_mentions(pool, f, m.name) && stands_for(session, m.name, declared->value))
+            if (qdot_function_mentions(pool, f, m.name) && definition_contains_symbol(session, m.name, declared->value))
                 return qdot_answer_notice(session,
                                           "the %s in `%.100s` is the declared one, not the argument of %.100s; "
                                           "`subs(%.100s, %s = ...)` has another in its place",
@@ -143,9 +143,9 @@ qdot_warnings_anew(qdot_session *session, const qdot_name *entry)
                               function ? "function" : "value", function ? "value" : "function", old->file, old->line);
 }
 
-/* Whether the name of the definition occurs anywhere else in the text. */
+/* Whether the name being defined occurs anywhere else in the text. */
 static bool
-name_is_used(const qdot_cursor *c, const qdot_definition *d)
+is_name_used_elsewhere(const qdot_cursor *c, const qdot_definition *d)
 {
     const qdot_token *first = c->source->tokens.at;
 
@@ -155,7 +155,7 @@ name_is_used(const qdot_cursor *c, const qdot_definition *d)
 
 /* The first declared member x[k] of a family x. */
 static const char *
-first_member(const qdot_session *s, const char *family)
+find_first_member(const qdot_session *s, const char *family)
 {
     const size_t n = strlen(family);
     const qdot_name *name;
@@ -166,9 +166,9 @@ first_member(const qdot_session *s, const char *family)
     return family;
 }
 
-/* thetadot = 2 where theta is a coordinate and thetadot is not used: suggest `start theta' = 2`. */
+/* Give a notice for thetadot = 2 with a coordinate theta and no use of thetadot: suggest `start theta' = 2`. */
 static qdot_status
-tell_velocity(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry)
+warn_of_velocity_name(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry)
 {
     qdot_session *session = c->session;
     qdot_derivative_name meant;
@@ -179,9 +179,9 @@ tell_velocity(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry)
     if (entry->kind != QDOT_NAME_VALUE || !qdot_expr_is_scalar(session->pool, entry->value) ||
         (qdot_expr_node(session->pool, entry->value)->holds & (motion | QDOT_HAS_TIME)) ||
         !(qdot_hints_derivative(session, name, true, &meant) || qdot_hints_derivative(session, name, false, &meant)) ||
-        strcmp(meant.primes, "'") != 0 || name_is_used(c, d))
+        strcmp(meant.primes, "'") != 0 || is_name_used_elsewhere(c, d))
         return QDOT_OK;
-    qdot_text_add(&line, meant.family && qdot_definition_is_of_name(d) ? first_member(session, meant.base) : meant.base);
+    qdot_text_add(&line, meant.family && qdot_definition_is_of_name(d) ? find_first_member(session, meant.base) : meant.base);
     qdot_token_text(session, d->name + 1, d->equals, &line);
     qdot_text_add(&line, "' = ");
     qdot_token_text(session, d->equals + 1, c->at, &line);
@@ -203,7 +203,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_definition *d, const qdot_na
     char words[120] = "";
 
     if (d != NULL)
-        QDOT_TRY(function ? tell_arguments(session, entry) : tell_velocity(c, d, entry));
+        QDOT_TRY(function ? warn_of_argument(session, entry) : warn_of_velocity_name(c, d, entry));
     if (hidden != NULL && hidden->least > 0) /* only name[...] is predefined, not the plain name */
         hidden = NULL;
     longer = hidden != NULL ? qdot_short_names_long(hidden) : NULL;
@@ -215,8 +215,8 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_definition *d, const qdot_na
         if (strcmp(names[i].name, entry->name) == 0 &&
             (function || entry->kind == QDOT_NAME_VALUE) &&
             (function || (qdot_expr_node(session->pool, entry->value)->holds & motion)) &&
-            (names[i].statement != NULL || !is_furnished(session->scene)))
-            return warning_tell(c, d, entry, i, words);
+            (names[i].statement != NULL || !has_equations_of_motion(session->scene)))
+            return give_warning(c, d, entry, i, words);
     if (hidden == NULL && (qdot_builtin_find(entry->name) == NULL ||
                            (!function && entry->kind != QDOT_NAME_UFUN)))
         return QDOT_OK;

@@ -1,4 +1,4 @@
-/* warnings.h -- notices for statements that are allowed but often mistakes. */
+/* warnings.h -- gives notices for statements that are allowed but often mistakes. */
 #ifndef QDOT_LANG_WARNINGS_H
 #define QDOT_LANG_WARNINGS_H
 
@@ -11,9 +11,9 @@
  * value is reached now. definition: the statement, which ends at c->at; NULL: a statement with a word declares the name. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_definition(qdot_cursor *c, const qdot_definition *definition,
                                                      const qdot_name *entry);
-/* Notice before a value is redefined as a function, or a function as a value. */
+/* Give a notice before a value is redefined as a function, or a function as a value. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_anew(qdot_session *session, const qdot_name *entry);
-/* Notice after a potential, spring, force ... was added that is identical to an earlier one. */
+/* Give a notice after adding a potential, spring, force ... that is identical to an earlier one. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_twice(qdot_session *session,
                                                 qdot_scene_kind kind);
 /* A force at a place that moves within a body. body: it was written point(body, ...); NULL. The
@@ -22,10 +22,10 @@ QDOT_MUST_CHECK qdot_status qdot_warnings_place(qdot_cursor *c, qdot_expr place,
                                                 const char *body,
                                                 const qdot_token *action,
                                                 const qdot_token *at);
-/* Notice for a run without any `start`. */
+/* Give a notice for a run without any `start` statement. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_start(qdot_session *session);
 
-/* Notice for a particle or body whose mass depends on time: what its equations assume. */
+/* Give a notice of what the equations assume about a particle or body whose mass depends on time. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_mass(qdot_session *session, const char *name, qdot_expr mass);
 
 #endif

@@ -10,7 +10,7 @@
 #include "mech/scene/scene.h"
 #include "normal/inequality/contradiction.h"
 
-static qdot_status assume_relations(qdot_record *r);
+static qdot_status carry_out_assume(qdot_record *r);
 
 QDOT_STATEMENT(assume) = {
     .word = "assume",
@@ -18,7 +18,7 @@ QDOT_STATEMENT(assume) = {
     .usage = "assume RELATION, ...",
     .summary = "relations that the engine may use",
     .example = "assume diff(x(s), s)^2 + diff(y(s), s)^2 = 1",
-    .handler = assume_relations,
+    .handler = carry_out_assume,
 };
 
 typedef qdot_vec(qdot_assumption) assumptions;
@@ -26,7 +26,7 @@ typedef qdot_vec(qdot_expr) exprs;
 
 /* Read one assumption; `0 < a < c` counts as two. */
 static qdot_status
-read_assumption(qdot_record *r, const qdot_filled *part, assumptions *said)
+read_assumption_relation(qdot_record *r, const qdot_filled *part, assumptions *said)
 {
     const qdot_pool *pool = r->cursor.session->pool;
     const bool greater = qdot_filled_holds_sign(part, '>');
@@ -46,7 +46,7 @@ read_assumption(qdot_record *r, const qdot_filled *part, assumptions *said)
     return QDOT_OK;
 }
 
-/* Copy the facts of the scene and the new assumptions into arrays. */
+/* Copy the facts of the scene and the new assumptions into the arrays relations, conditions. */
 static qdot_status
 gather_facts(qdot_session *session, const assumptions *said, exprs *relations, exprs *conditions)
 {
@@ -109,14 +109,14 @@ add_assumptions(qdot_session *session, const assumptions *said)
 }
 
 static qdot_status
-assume_relations(qdot_record *r)
+carry_out_assume(qdot_record *r)
 {
     assumptions said = {0};
     qdot_status status = QDOT_OK;
 
     for (const qdot_filled *part = qdot_record_hole(r, NULL, "RELATION"); part != NULL && status == QDOT_OK;
          part = qdot_record_next(r, part, "RELATION"))
-        status = read_assumption(r, part, &said);
+        status = read_assumption_relation(r, part, &said);
     if (status == QDOT_OK) {
         r->cursor.error_at = r->start->start;
         status = add_assumptions(r->cursor.session, &said);

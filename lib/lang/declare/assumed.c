@@ -41,7 +41,7 @@ qdot_assumed_replace(qdot_session *session, const qdot_assumed *f, qdot_expr e)
                           : qdot_subs(session->pool, e, f->from.n, f->from.at, f->to.at);
 }
 
-/* Add a replacement symbol = expression, applied at once to the replacements before it. */
+/* Add a replacement symbol = expression, and make it in the values of all earlier replacements. */
 static qdot_status
 add_replacement(qdot_session *session, qdot_assumed *f, qdot_expr symbol, qdot_expr value)
 {

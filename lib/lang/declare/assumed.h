@@ -7,8 +7,8 @@
 
 typedef struct {
     qdot_vec(qdot_expr) relations, conditions; /* expressions that are 0; inequalities (REL) */
-    qdot_vec(qdot_expr) from, to; /* replacements applied before everything else */
-    bool motion, stated; /* `eom` was assumed; an equation other than a constraint was assumed */
+    qdot_vec(qdot_expr) from, to; /* replacements (from by to) made in every expression first */
+    bool motion, stated; /* motion: `eom` was assumed; stated: an equation other than a constraint was assumed */
 } qdot_assumed;
 
 /* Add the facts of the scene to an empty set of facts. QDOT_ENOMEM. */
@@ -19,14 +19,14 @@ QDOT_MUST_CHECK qdot_status qdot_assumed_add(qdot_record *r, const qdot_filled *
 /* `eom`: replace accelerations and multipliers by their solution, and add the constraints on q
  * and q'. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assumed *f);
-/* Add constraint i and its time derivatives, with or without the one that contains accelerations. */
+/* Add the equation of constraint i and its time derivatives; the one that contains accelerations only if wanted. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_constraint(qdot_session *session, qdot_assumed *f,
                                                     size_t i, bool accelerations);
 /* Write every momentum in the facts as dL/dq'; an equation of a momentum becomes a relation of velocities. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f);
-/* Insert the present values of loop indices. */
+/* Replace loop indices in the facts by their present values. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_hold(qdot_session *session, qdot_assumed *f);
-/* The expression e with all replacements applied. */
+/* The expression e after all replacements of the facts. */
 qdot_expr qdot_assumed_replace(qdot_session *session, const qdot_assumed *f, qdot_expr e);
 
 #endif

@@ -3,7 +3,7 @@
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
 
-static qdot_status body_declare(qdot_record *r);
+static qdot_status declare_body(qdot_record *r);
 
 QDOT_STATEMENT(body) = {
     .word = "body",
@@ -13,12 +13,12 @@ QDOT_STATEMENT(body) = {
     .form = "body NAME mass M inertia I at R angle THETA; in space `euler(...)` or `rotation M`",
     .summary = "a rigid body, planar (angle) or spatial (euler, rotation); R is its centre of mass",
     .example = "body plate mass m inertia I at (x, y) angle theta",
-    .handler = body_declare,
+    .handler = declare_body,
 };
 
 /* Read euler(phi, theta, psi) or `rotation MATRIX` into *rotation. */
 static qdot_status
-body_read_rotation(qdot_record *r, qdot_expr *rotation)
+read_rotation(qdot_record *r, qdot_expr *rotation)
 {
     const qdot_filled *euler = qdot_record_hole(r, "euler", NULL);
     const qdot_filled *matrix = qdot_record_hole(r, "rotation", NULL);
@@ -42,7 +42,7 @@ body_read_rotation(qdot_record *r, qdot_expr *rotation)
 }
 
 static qdot_status
-body_read(qdot_record *r, qdot_body *body, qdot_expr *about)
+read_rigid_body(qdot_record *r, qdot_body *body, qdot_expr *about)
 {
     const qdot_filled *pivot = qdot_record_hole(r, "about", NULL);
     const qdot_filled *angle = qdot_record_hole(r, "angle", NULL);
@@ -54,11 +54,11 @@ body_read(qdot_record *r, qdot_body *body, qdot_expr *about)
     QDOT_TRY(qdot_record_point(r, qdot_record_hole(r, "at", NULL), &body->position));
     if (angle != NULL)
         QDOT_TRY(qdot_record_scalar(r, angle, &body->angle));
-    return body_read_rotation(r, &body->rotation);
+    return read_rotation(r, &body->rotation);
 }
 
 static qdot_status
-body_declare(qdot_record *r)
+declare_body(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_body body = {0};
@@ -66,7 +66,7 @@ body_declare(qdot_record *r)
     const char *name;
 
     QDOT_TRY(qdot_record_name(r, qdot_record_hole(r, NULL, "NAME"), &name));
-    QDOT_TRY(body_read(r, &body, &about));
+    QDOT_TRY(read_rigid_body(r, &body, &about));
     r->cursor.error_at = r->start->start;
     if (body.angle != QDOT_NIL && body.rotation != QDOT_NIL)
         return qdot_fail(QDOT_EINVAL,

@@ -1,11 +1,11 @@
-/* constraint.c -- `constraint`: A = B, also of velocities and accelerations. */
+/* constraint.c -- the statement `constraint`: requires A = B, for positions, velocities or accelerations. */
 #include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/objects.h"
 #include "lang/session/member.h"
 
-static qdot_status constraint_declare(qdot_record *r);
+static qdot_status declare_constraint(qdot_record *r);
 
 QDOT_STATEMENT(constraint) = {
     .word = "constraint",
@@ -14,12 +14,12 @@ QDOT_STATEMENT(constraint) = {
     .summary = "a constraint; its kind is the highest derivative it holds; lambda[NAME] is its "
                "multiplier",
     .example = "constraint rod: x^2 + y^2 = L^2",
-    .handler = constraint_declare,
+    .handler = declare_constraint,
 };
 
-/* Notice: a component that reads 0 = 0 is no constraint; `kept` is the number of the others. */
+/* Give a notice that a component 0 = 0 is no constraint; `kept` is the number of the other components. */
 static qdot_status
-constraint_tell_dropped(qdot_session *session, const char *label, qdot_expr left, size_t kept)
+give_notice_of_dropped(qdot_session *session, const char *label, qdot_expr left, size_t kept)
 {
     size_t given = qdot_expr_kind(session->pool, left) == QDOT_VEC
                        ? qdot_expr_count(session->pool, left)
@@ -37,9 +37,9 @@ constraint_tell_dropped(qdot_session *session, const char *label, qdot_expr left
                               label != NULL ? label : "");
 }
 
-/* Notice if all constraints from index `before` on were declared earlier; returns whether that is so. */
+/* Give a notice if all constraints from index `before` on were declared before; returns whether they were. */
 static bool
-constraint_tell_same(qdot_session *session, size_t before, qdot_status *status)
+give_notice_of_repeated(qdot_session *session, size_t before, qdot_status *status)
 {
     const qdot_scene *scene = session->scene;
 
@@ -59,7 +59,7 @@ constraint_tell_same(qdot_session *session, size_t before, qdot_status *status)
 }
 
 static qdot_status
-constraint_declare(qdot_record *r)
+declare_constraint(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *equation = qdot_record_hole(r, NULL, "A");
@@ -75,8 +75,8 @@ constraint_declare(qdot_record *r)
     QDOT_TRY(qdot_member_refuse(session, right));
     before = session->scene->constraints.n;
     QDOT_TRY(qdot_scene_constraint(session->scene, label, left, right));
-    QDOT_TRY(constraint_tell_dropped(session, label, left, session->scene->constraints.n - before));
-    if (constraint_tell_same(session, before, &status))
+    QDOT_TRY(give_notice_of_dropped(session, label, left, session->scene->constraints.n - before));
+    if (give_notice_of_repeated(session, before, &status))
         return status;
     return qdot_constraints_tell_disguise(session, before);
 }

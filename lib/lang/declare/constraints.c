@@ -63,7 +63,7 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
 
 /* --- integrable constraints --------------------------------------------------------- */
 
-/* Print `x - R*theta = const`. */
+/* Print the integral of a velocity constraint: `x - R*theta = const`. */
 static qdot_status
 print_integral(qdot_sheet *sheet, qdot_expr integral)
 {
@@ -73,7 +73,7 @@ print_integral(qdot_sheet *sheet, qdot_expr integral)
 }
 
 static qdot_status
-print_refuted(qdot_sheet *sheet, const qdot_integrability *i)
+print_why_not_integrable(qdot_sheet *sheet, const qdot_integrability *i)
 {
     const qdot_pool *pool = sheet->session->pool;
     qdot_expr at = i->decision.at;
@@ -98,7 +98,7 @@ print_refuted(qdot_sheet *sheet, const qdot_integrability *i)
 }
 
 static qdot_status
-answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
+answer_integrability_as_text(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
 {
     static const char *const verdicts[] = {[QDOT_PROVED] = "proved",
                                            [QDOT_REFUTED] = "refuted",
@@ -117,7 +117,7 @@ answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrab
         qdot_sheet_format(&sheet, " is integrable%s%s", i->alone ? "" : " beside the other constraints",
                           i->integral == QDOT_NIL ? "; its integral was not found" : ": ");
     if (status == QDOT_OK && i->decision.verdict == QDOT_REFUTED)
-        status = print_refuted(&sheet, i);
+        status = print_why_not_integrable(&sheet, i);
     if (status == QDOT_OK && i->decision.verdict == QDOT_PROVED && i->integral != QDOT_NIL)
         status = print_integral(&sheet, i->integral);
     return qdot_sheet_end(&sheet, "check", status);
@@ -126,7 +126,7 @@ answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrab
 /* As JSON the sides are mu f and dF/dt where an integral proves it, else the worst
  * component of dw and 0. */
 static qdot_status
-constraint_answer_json(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
+answer_integrability_as_json(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
 {
     qdot_pool *pool = session->pool;
     bool shown = i->integral != QDOT_NIL && i->factor != QDOT_NIL;
@@ -163,8 +163,8 @@ qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name, bool 
         QDOT_TRY(qdot_pool_check(session->pool));
         if (i.decision.verdict == (not? QDOT_PROVED : QDOT_REFUTED))
             session->outcome->refuted = true;
-        QDOT_TRY(session->output->json ? constraint_answer_json(session, &scene->constraints.at[k], &i)
-                               : answer_text(session, &scene->constraints.at[k], &i));
+        QDOT_TRY(session->output->json ? answer_integrability_as_json(session, &scene->constraints.at[k], &i)
+                               : answer_integrability_as_text(session, &scene->constraints.at[k], &i));
     }
     if (found)
         return QDOT_OK;
@@ -177,7 +177,7 @@ qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name, bool 
 
 /* --- notices at the declaration of a constraint ------------------------------------- */
 
-/* Larger constraints are tested by `check integrable` only. */
+/* Constraints with more operations are tested only by `check integrable`. */
 enum { MOST_OPERATIONS = 400 };
 
 qdot_status

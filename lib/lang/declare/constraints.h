@@ -14,11 +14,11 @@
 QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name,
                                                               bool not);
 
-/* Append a line naming the redundant constraints, and one if nothing can move. */
+/* Append a line that names the redundant constraints, and one if the system cannot move at all. */
 void qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
                                       qdot_text *out);
 
-/* Notice for each velocity constraint from index `before` on that is integrable by itself. */
+/* Give a notice for each velocity constraint from index `before` on that is integrable by itself. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_tell_disguise(qdot_session *session,
                                                            size_t before);
 

@@ -4,7 +4,7 @@
 #include "base/interrupt.h"
 #include "lang/declare/new-names.h"
 
-static qdot_status coord_declare(qdot_record *r);
+static qdot_status declare_coordinates(qdot_record *r);
 
 QDOT_STATEMENT(coord) = {
     .word = "coord",
@@ -12,13 +12,13 @@ QDOT_STATEMENT(coord) = {
     .usage = "coord NAME, LO < NAME < HI, ...",
     .summary = "declare generalized coordinates, each with its own domain",
     .example = "coord r > 0, 0 < theta < pi, phi",
-    .handler = coord_declare,
+    .handler = declare_coordinates,
 };
 
 /* That every name of a coord statement is free is seen first: a scene keeps its
  * coordinates. */
 static qdot_status
-coord_check(qdot_cursor *c, const qdot_new_names *list)
+check_coordinates(qdot_cursor *c, const qdot_new_names *list)
 {
     for (size_t i = 0; i < list->n; i++) {
         const qdot_new_name *x = &list->at[i];
@@ -37,13 +37,13 @@ coord_check(qdot_cursor *c, const qdot_new_names *list)
 }
 
 static qdot_status
-coord_declare(qdot_record *r)
+declare_coordinates(qdot_record *r)
 {
     qdot_new_names list = {0};
     qdot_status status = qdot_new_names_read(r, false, &list);
 
     if (status == QDOT_OK)
-        status = coord_check(&r->cursor, &list);
+        status = check_coordinates(&r->cursor, &list);
     if (status == QDOT_OK)
         status = qdot_new_names_declare(&r->cursor, QDOT_NAME_COORD, &list);
     qdot_free(list.at);

@@ -1,9 +1,9 @@
-/* damper.c -- the statement `damper`: a force -C d' between two points at the distance d. */
+/* damper.c -- the statement `damper`: a force -C d' between two points whose distance is d. */
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 #include "mech/scene/scene.h"
 
-static qdot_status damper_declare(qdot_record *r);
+static qdot_status declare_damper(qdot_record *r);
 
 QDOT_STATEMENT(damper) = {
     .word = "damper",
@@ -12,11 +12,11 @@ QDOT_STATEMENT(damper) = {
     .form = "damper NAME between A, B coefficient C",
     .summary = "pulls with -C d' along the line from A to B",
     .example = "damper d1 between bob, (0, 0) coefficient c",
-    .handler = damper_declare,
+    .handler = declare_damper,
 };
 
 static qdot_status
-damper_declare(qdot_record *r)
+declare_damper(qdot_record *r)
 {
     qdot_scene *scene = r->cursor.session->scene;
     qdot_link link = {0};

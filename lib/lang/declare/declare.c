@@ -1,4 +1,4 @@
-/* declare.c -- the definition NAME = EXPR. */
+/* declare.c -- carries out the definition NAME = EXPR, or of a function. */
 #include "lang/declare/declare.h"
 
 #include <string.h>
@@ -38,9 +38,9 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, const qdot_definition
 
 /* --- NAME = EXPR -------------------------------------------------------------------- */
 
-/* If the unknown name in a definition is the one being defined, say so in the error. */
+/* If the unknown name in a definition is the one that is being defined, add a hint about that to the error. */
 static qdot_status
-tell_circle(const qdot_cursor *c, const qdot_definition *d, qdot_status status)
+hint_at_self_reference(const qdot_cursor *c, const qdot_definition *d, qdot_status status)
 {
     const char *name = d->name->text;
     bool family;
@@ -75,7 +75,7 @@ define_function(qdot_cursor *c, const qdot_definition *d)
 /* The text of the right side. If it reads a run in a loop, with the values of the indices, since it may
  * be written down (lang/declare/session-file). */
 static qdot_status
-keep_text(qdot_cursor *c, const qdot_token *right, qdot_expr value, qdot_function_body **body)
+store_definition_text(qdot_cursor *c, const qdot_token *right, qdot_expr value, qdot_function_body **body)
 {
     qdot_source *source = NULL;
     qdot_text text = {0};
@@ -117,7 +117,7 @@ qdot_declare_definition(qdot_cursor *c)
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
     c->at = d.equals + 1;
-    QDOT_TRY(tell_circle(c, &d, qdot_read_named(c, &entry.value, &entry.over)));
+    QDOT_TRY(hint_at_self_reference(c, &d, qdot_read_named(c, &entry.value, &entry.over)));
     QDOT_TRY(qdot_cursor_expect_end(c));
     old = qdot_names_find(c->session->names, name);
     c->error_at = start->start;
@@ -130,7 +130,7 @@ qdot_declare_definition(qdot_cursor *c)
                                : "start %s = ... gives its initial value",
                          name);
     }
-    QDOT_TRY(keep_text(c, d.equals + 1, entry.value, &entry.body));
+    QDOT_TRY(store_definition_text(c, d.equals + 1, entry.value, &entry.body));
     status = qdot_declare_name(c, start, &d, &entry);
     qdot_function_body_release(entry.body);
     return status;

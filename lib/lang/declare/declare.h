@@ -1,4 +1,4 @@
-/* declare.h -- helpers of the statements that declare names and give them values. */
+/* declare.h -- helper functions for statements that declare names and give them values. */
 #ifndef QDOT_LANG_DECLARE_H
 #define QDOT_LANG_DECLARE_H
 
@@ -13,7 +13,7 @@ QDOT_MUST_CHECK qdot_status qdot_declare_name(qdot_cursor *c, const qdot_token *
 /* Carry out the definition at the cursor: NAME = EXPR, NAME[K] = EXPR, NAME(X) = EXPR. */
 QDOT_MUST_CHECK qdot_status qdot_declare_definition(qdot_cursor *c);
 
-/* After NAME is declared, an earlier `function x(NAME)` becomes a function of that symbol. */
+/* After a symbol NAME is declared: let an earlier `function x(NAME)` become a function of that symbol. */
 QDOT_MUST_CHECK qdot_status qdot_declare_meet_functions(qdot_session *session,
                                                         const char *name,
                                                         qdot_expr symbol);

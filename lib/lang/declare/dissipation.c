@@ -2,7 +2,7 @@
 #include "lang/declare/objects.h"
 
 static qdot_status
-dissipation_declare(qdot_record *r)
+declare_dissipation(qdot_record *r)
 {
     return qdot_object_term(r, qdot_record_hole(r, NULL, "D"), QDOT_DISSIPATION);
 }
@@ -13,5 +13,5 @@ QDOT_STATEMENT(dissipation) = {
     .usage = "dissipation [NAME:] D",
     .summary = "a term of the Rayleigh function: Q has -dD/dq'",
     .example = "dissipation c*theta'^2/2",
-    .handler = dissipation_declare,
+    .handler = declare_dissipation,
 };

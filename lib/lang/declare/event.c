@@ -2,7 +2,7 @@
 #include "lang/commands/set.h"
 #include "lang/session/measured.h"
 
-static qdot_status event_declare(qdot_record *r);
+static qdot_status declare_event(qdot_record *r);
 
 QDOT_STATEMENT(event) = {
     .word = "event",
@@ -11,12 +11,12 @@ QDOT_STATEMENT(event) = {
     .summary = "a moment of a run: it is noted, ends the run, or changes coordinates, velocities and, for "
                "the rest of the run, parameters",
     .example = "event cross: theta = 0 rising stop",
-    .handler = event_declare,
+    .handler = declare_event,
 };
 
 /* Find what `then` sets: a coordinate, a velocity or a parameter. */
 static qdot_status
-event_find_target(qdot_record *r, const qdot_filled *part, qdot_expr *target)
+find_target_of_event(qdot_record *r, const qdot_filled *part, qdot_expr *target)
 {
     const qdot_session *session = r->cursor.session;
     const qdot_name *known;
@@ -39,7 +39,7 @@ event_find_target(qdot_record *r, const qdot_filled *part, qdot_expr *target)
 
 /* Read `Q = VALUE, Q' = VALUE, PARAMETER = VALUE` after `then`. */
 static qdot_status
-event_add_changes(qdot_record *r, qdot_event *event)
+add_changes_of_event(qdot_record *r, qdot_event *event)
 {
     qdot_session *session = r->cursor.session;
 
@@ -47,7 +47,7 @@ event_add_changes(qdot_record *r, qdot_event *event)
          part = qdot_record_next(r, part, "NAME")) {
         qdot_expr target, value;
 
-        QDOT_TRY(event_find_target(r, part, &target));
+        QDOT_TRY(find_target_of_event(r, part, &target));
         QDOT_TRY(qdot_record_scalar(r, qdot_record_next(r, part, "VALUE"), &value));
         value = qdot_measured_as_rationals(session, value);
         QDOT_TRY(qdot_pool_check(session->pool));
@@ -58,7 +58,7 @@ event_add_changes(qdot_record *r, qdot_event *event)
 }
 
 static qdot_status
-event_read(qdot_record *r, qdot_event *event)
+read_event(qdot_record *r, qdot_event *event)
 {
     qdot_session *session = r->cursor.session;
     const char *name;
@@ -71,14 +71,14 @@ event_read(qdot_record *r, qdot_event *event)
     QDOT_TRY(qdot_pool_check(session->pool));
     event->way = (qdot_record_word(r, "rising") != NULL) - (qdot_record_word(r, "falling") != NULL);
     event->stop = qdot_record_word(r, "stop") != NULL;
-    return event_add_changes(r, event);
+    return add_changes_of_event(r, event);
 }
 
 static qdot_status
-event_declare(qdot_record *r)
+declare_event(qdot_record *r)
 {
     qdot_event event = {0};
-    qdot_status status = event_read(r, &event);
+    qdot_status status = read_event(r, &event);
 
     if (status == QDOT_OK) {
         r->cursor.error_at = r->start->start;

@@ -10,11 +10,11 @@ typedef struct {
     qdot_vec(qdot_expr) heads, bodies;
 } qdot_given_functions;
 
-/* Fill *f, which was zeroed; the caller clears it, after a failure too. */
+/* Fill *f, which must be zero before; the caller clears it, also after a failure. */
 QDOT_MUST_CHECK qdot_status qdot_given_functions_find(qdot_session *session, qdot_given_functions *f);
 void qdot_given_functions_clear(qdot_given_functions *f);
 
-/* e with these functions replaced by their values; parameters stay. Nil: the pool keeps the failure. */
+/* The expression e with these functions replaced by their values; parameters stay. Nil: the pool keeps the failure. */
 qdot_expr qdot_export_bound(qdot_session *session, qdot_expr e);
 /* The number that `set` gave a parameter; NaN if none. */
 QDOT_MUST_CHECK qdot_status qdot_export_value_of(qdot_session *session, qdot_expr parameter,

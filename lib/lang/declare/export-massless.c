@@ -14,7 +14,7 @@
 #include "sim/model/massless-jump.h"
 
 static qdot_expr
-jet(const qdot_scene *s, size_t i, uint32_t order)
+derivative_of_coordinate(const qdot_scene *s, size_t i, uint32_t order)
 {
     return qdot_symbol_jet(s->pool, s->coordinates.at[i], order);
 }
@@ -27,17 +27,17 @@ is_massless(const qdot_scene *s, const qdot_expr *M, size_t i)
             return false;
     for (size_t k = 0; k < s->constraints.n; k++)
         for (uint32_t order = 0; order < 3; order++)
-            if (qdot_expr_contains(s->pool, s->constraints.at[k].f, jet(s, i, order)))
+            if (qdot_expr_contains(s->pool, s->constraints.at[k].f, derivative_of_coordinate(s, i, order)))
                 return false;
     return true;
 }
 
-/* Whether f holds no velocity of a coordinate without mass. */
+/* Whether f contains no velocity of a coordinate without mass. */
 static bool
-is_of_positions(const qdot_scene *s, const bool *massless, qdot_expr f)
+has_no_massless_velocity(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
     for (size_t j = 0; j < s->coordinates.n; j++)
-        if (massless[j] && qdot_expr_contains(s->pool, f, jet(s, j, 1)))
+        if (massless[j] && qdot_expr_contains(s->pool, f, derivative_of_coordinate(s, j, 1)))
             return false;
     return true;
 }
@@ -47,7 +47,7 @@ is_of_positions(const qdot_scene *s, const bool *massless, qdot_expr f)
 static qdot_status
 check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
 {
-    const bool of_positions = is_of_positions(s, massless, f);
+    const bool of_positions = has_no_massless_velocity(s, massless, f);
     bool jumps = false;
     qdot_walk walk;
 
@@ -69,19 +69,19 @@ check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
     return qdot_hint("a small mass, or `save` of a run");
 }
 
-/* The time derivative of the equation f_i that contains accelerations. */
+/* The time derivative of an equation f = 0 that contains accelerations: the first, or the second if f has no velocities. */
 static qdot_expr
-rate_of(const qdot_scene *s, const bool *massless, qdot_expr f)
+accelerated_rate(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
     const qdot_expr rate = qdot_ddt(s->pool, f);
 
-    return is_of_positions(s, massless, f) ? qdot_ddt(s->pool, rate) : rate;
+    return has_no_massless_velocity(s, massless, f) ? qdot_ddt(s->pool, rate) : rate;
 }
 
-/* Split `rate`, linear in the accelerations, into a row of M and f: rate = M q'' - f. zeros [n]: all 0. */
+/* Split the equation `rate` = 0, linear in q'', into a row of M and f: rate = M q'' - f. zeros [n]: all 0. */
 static void
-put_rate(const qdot_scene *s, const qdot_expr *accelerations, const qdot_expr *zeros, qdot_expr rate, qdot_expr *M,
-         qdot_expr *f)
+split_equation(const qdot_scene *s, const qdot_expr *accelerations, const qdot_expr *zeros, qdot_expr rate, qdot_expr *M,
+               qdot_expr *f)
 {
     const size_t n = s->coordinates.n;
 
@@ -106,7 +106,7 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
         f[i] = qdot_expr_arg(scene->pool, forcing, (uint32_t)i);
         massless[i] = is_massless(scene, M, i);
         *any = *any || massless[i];
-        accelerations[i] = jet(scene, i, 2);
+        accelerations[i] = derivative_of_coordinate(scene, i, 2);
         accelerations[n + i] = QDOT_ZERO;
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
@@ -114,7 +114,7 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
             status = check_jumps(scene, massless, i, f[i]);
             if (status != QDOT_OK)
                 break;
-            put_rate(scene, accelerations, accelerations + n, rate_of(scene, massless, f[i]), M + i * n, f + i);
+            split_equation(scene, accelerations, accelerations + n, accelerated_rate(scene, massless, f[i]), M + i * n, f + i);
             status = qdot_pool_check(scene->pool);
         }
     qdot_free(massless);
@@ -124,9 +124,9 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
 
 /* --- events of a scene with massless coordinates ------------------------------------------ */
 
-/* Set targets and values of `own`: the parameters that the event sets, and those q, q' that change. */
+/* Set the targets and new values of the event `own`: the parameters that the event sets, and the q, q' that change. */
 static qdot_status
-put_changed(const qdot_scene *s, const qdot_event *event, const qdot_expr *after, qdot_event *own)
+set_changed_targets(const qdot_scene *s, const qdot_event *event, const qdot_expr *after, qdot_event *own)
 {
     const size_t n = s->coordinates.n;
 
@@ -136,8 +136,8 @@ put_changed(const qdot_scene *s, const qdot_event *event, const qdot_expr *after
             QDOT_TRY(qdot_vec_push(&own->values, event->values.at[k]));
         }
     for (size_t i = 0; i < 2 * n; i++)
-        if (after[i] != jet(s, i % n, i >= n)) {
-            QDOT_TRY(qdot_vec_push(&own->targets, jet(s, i % n, i >= n)));
+        if (after[i] != derivative_of_coordinate(s, i % n, i >= n)) {
+            QDOT_TRY(qdot_vec_push(&own->targets, derivative_of_coordinate(s, i % n, i >= n)));
             QDOT_TRY(qdot_vec_push(&own->values, after[i]));
         }
     return QDOT_OK;
@@ -157,7 +157,7 @@ find_rows(qdot_scene *s, qdot_massless_rows *rows, qdot_expr *G, size_t *coordin
     for (size_t i = 0; i < n; i++)
         if (massless[i]) {
             G[rows->w] = qdot_expr_arg(s->pool, forcing, (uint32_t)i);
-            of_positions[rows->w] = is_of_positions(s, massless, G[rows->w]);
+            of_positions[rows->w] = has_no_massless_velocity(s, massless, G[rows->w]);
             coordinate[rows->w++] = i;
         }
     return QDOT_OK;
@@ -178,7 +178,7 @@ qdot_export_event_with_massless(qdot_scene *scene, const qdot_event *event, qdot
     if (status == QDOT_OK)
         status = qdot_massless_jump(scene, event, &rows, room + n);
     if (status == QDOT_OK)
-        status = put_changed(scene, event, room + n, own);
+        status = set_changed_targets(scene, event, room + n, own);
     qdot_free(room);
     qdot_free(coordinate);
     qdot_free(flags);

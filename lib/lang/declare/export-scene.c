@@ -1,4 +1,5 @@
-/* export-scene.c -- expressions of a motion, lowered to tapes with common inputs. */
+/* export-scene.c -- describes the motion of a scene for export: its equations as tapes (lists of operations) with common
+ * inputs. */
 #include "lang/declare/export-scene.h"
 
 #include <math.h>
@@ -29,7 +30,7 @@ enum {
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
 
-/* A scene while it is being exported. */
+/* The data collected while a scene is exported. */
 typedef struct {
     qdot_session *session;
     qdot_scene *scene;
@@ -37,10 +38,10 @@ typedef struct {
     expressions inputs, parameters;
     qdot_switches switches;
     qdot_given_functions given; /* undefined functions to which the user has given a value */
-    expressions held; /* [m] left - right of each constraint, for the present sides of switches */
+    expressions held; /* [m] constraints as left - right, on the present sides of switches */
     expressions equations, slopes, energy, positions, events, u;
     qdot_vec(qdot_event) acts; /* the events with the quantities that they set and the new values */
-    qdot_vec(expressions) effects; /* the new values as exported expressions */
+    qdot_vec(expressions) effects; /* these new values as exported expressions */
     qdot_vec(int) orders;
     qdot_vec(qdot_export_surface) surface;
     qdot_vec(char *) texts; /* texts of the switching surfaces and of the ends of domains */
@@ -54,16 +55,16 @@ typedef struct {
 /* --- expressions to be exported --------------------------------------------------------- */
 
 static qdot_status
-exprs_push(description *d, expressions *to, qdot_expr e)
+append_bound_expression(description *d, expressions *to, qdot_expr e)
 {
     e = qdot_export_bound(d->session, e);
     QDOT_TRY(qdot_pool_check(d->session->pool));
     return qdot_vec_push(to, e);
 }
 
-/* Append e with all switches replaced by symbols for their sides. */
+/* Append the expression e with each switch, such as sign(u), replaced by a symbol for its present side. */
 static qdot_status
-push_frozen(description *d, expressions *to, qdot_expr e)
+append_without_switches(description *d, expressions *to, qdot_expr e)
 {
     qdot_expr frozen;
 
@@ -73,9 +74,9 @@ push_frozen(description *d, expressions *to, qdot_expr e)
     return qdot_vec_push(to, frozen);
 }
 
-/* Keep text for as long as the description lives. On failure it is cleared. */
+/* Store a text until the description is cleared. On failure the text is cleared. */
 static qdot_status
-keep_text(description *d, qdot_text *text)
+store_text(description *d, qdot_text *text)
 {
     qdot_status status = qdot_text_status(text);
 
@@ -87,20 +88,20 @@ keep_text(description *d, qdot_text *text)
 }
 
 static const char *
-symbol_name(const qdot_session *s, qdot_expr symbol)
+get_symbol_name(const qdot_session *s, qdot_expr symbol)
 {
     return qdot_expr_symbol(s->pool, symbol)->name;
 }
 
 static qdot_expr
-jet(const description *d, size_t i, unsigned order)
+derivative_of_coordinate(const description *d, size_t i, unsigned order)
 {
     return qdot_symbol_jet(d->session->pool, d->scene->coordinates.at[i], order);
 }
 
-/* Export u of each switching surface, then the switching terms of T - V. */
+/* Export u for each switching surface u = 0, then the terms of T - V that switch there. */
 static qdot_status
-description_switches(description *d)
+export_switches(description *d)
 {
     const qdot_run_request request = {
         .n_values = d->given.heads.n,
@@ -118,18 +119,18 @@ description_switches(description *d)
         if (holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
             return qdot_fail(QDOT_EINVAL, "the equations switch by an acceleration or a multiplier, "
                                           "which cannot be exported");
-        QDOT_TRY(push_frozen(d, &d->u, from->u));
+        QDOT_TRY(append_without_switches(d, &d->u, from->u));
         QDOT_TRY(qdot_print(pool, from->u, QDOT_PLAIN, &text));
         qdot_text_truncate(&text, text.n < LONGEST ? text.n : LONGEST);
         qdot_text_add(&text, from->steps ? " is an integer" : " = 0");
-        QDOT_TRY(keep_text(d, &text));
+        QDOT_TRY(store_text(d, &text));
         QDOT_TRY(qdot_vec_push(
             &d->surface,
             ((qdot_export_surface){text.at, from->steps,
                                    (holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)) != 0})));
     }
     if (d->switches.level != QDOT_NIL)
-        QDOT_TRY(push_frozen(d, &d->u, d->switches.level));
+        QDOT_TRY(append_without_switches(d, &d->u, d->switches.level));
     d->x.surface = d->surface.at;
     d->x.switches.blocks = 2;
     d->x.switches.block[0] = (qdot_export_block){"u", d->x.s, 0};
@@ -137,16 +138,16 @@ description_switches(description *d)
     return QDOT_OK;
 }
 
-/* Export the constraint functions, which must be 0, and how many time derivatives each needs to contain q''. */
+/* Export the constraint functions, which must be 0, and how often each is differentiated until it contains q''. */
 static qdot_status
-constraints(description *d)
+export_constraints(description *d)
 {
     static const int orders[] = {
         [QDOT_HOLONOMIC] = 2, [QDOT_VELOCITY] = 1, [QDOT_ACCELERATION] = 0};
     qdot_dof dof;
 
     for (size_t k = 0; k < d->x.m; k++) {
-        QDOT_TRY(push_frozen(d, &d->held, d->scene->constraints.at[k].f));
+        QDOT_TRY(append_without_switches(d, &d->held, d->scene->constraints.at[k].f));
         QDOT_TRY(qdot_vec_push(&d->orders, orders[d->scene->constraints.at[k].kind]));
     }
     d->x.orders = d->orders.at;
@@ -163,9 +164,9 @@ constraints(description *d)
     return QDOT_OK;
 }
 
-/* Constraint k, differentiated until it is linear in q''. */
+/* Constraint k = 0, differentiated in time until it is linear in q''. */
 static qdot_expr
-accelerated(const description *d, size_t k)
+constraint_on_accelerations(const description *d, size_t k)
 {
     qdot_expr f = d->held.at[k];
 
@@ -174,44 +175,44 @@ accelerated(const description *d, size_t k)
     return f;
 }
 
-/* Export M and f; massless coordinates have differentiated rows (export-massless.h). */
+/* Export M and f of the equations M q'' = f; equations of massless coordinates are differentiated (export-massless.h). */
 static qdot_status
-motion(description *d)
+export_mass_matrix_and_forces(description *d)
 {
     const size_t n = d->x.n;
     qdot_expr *rows = qdot_calloc(n * n + n + 1, sizeof *rows);
     qdot_status status = rows != NULL ? qdot_export_massless(d->scene, rows, rows + n * n, &d->massless) : QDOT_ENOMEM;
 
     for (size_t i = 0; i < n * n + n && status == QDOT_OK; i++)
-        status = push_frozen(d, &d->equations, rows[i]);
+        status = append_without_switches(d, &d->equations, rows[i]);
     qdot_free(rows);
     return status;
 }
 
-/* Export M, f, then A and gamma, row by row. */
+/* Export M and f of the equations of motion, then A and gamma of the constraints A q'' = gamma, row by row. */
 static qdot_status
-equations(description *d)
+export_equations(description *d)
 {
     const size_t n = d->x.n, m = d->x.m;
     qdot_pool *pool = d->session->pool;
     expressions at_rest = {0};
     qdot_status status;
 
-    QDOT_TRY(motion(d));
+    QDOT_TRY(export_mass_matrix_and_forces(d));
     for (size_t k = 0; k < m; k++) {
-        qdot_expr linear = accelerated(d, k);
+        qdot_expr linear = constraint_on_accelerations(d, k);
 
         QDOT_TRY(qdot_pool_check(pool));
         for (size_t i = 0; i < n; i++)
-            QDOT_TRY(exprs_push(d, &d->equations, qdot_diff(pool, linear, jet(d, i, 2))));
+            QDOT_TRY(append_bound_expression(d, &d->equations, qdot_diff(pool, linear, derivative_of_coordinate(d, i, 2))));
     }
     status = QDOT_OK;
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&at_rest, i < n ? jet(d, i, 2) : QDOT_ZERO);
+        status = qdot_vec_push(&at_rest, i < n ? derivative_of_coordinate(d, i, 2) : QDOT_ZERO);
     for (size_t k = 0; k < m && status == QDOT_OK; k++) {
-        qdot_expr rest = qdot_subs(pool, accelerated(d, k), n, at_rest.at, at_rest.at + n);
+        qdot_expr rest = qdot_subs(pool, constraint_on_accelerations(d, k), n, at_rest.at, at_rest.at + n);
 
-        status = exprs_push(d, &d->equations, qdot_neg(pool, rest));
+        status = append_bound_expression(d, &d->equations, qdot_neg(pool, rest));
     }
     qdot_free(at_rest.at);
     d->x.equations.blocks = m > 0 ? 4 : 2;
@@ -222,9 +223,9 @@ equations(description *d)
     return status;
 }
 
-/* The left side of the equations of motion: f + A^T lambda - M q'' in row i < n, otherwise gamma - A q''. */
+/* Row i of the equations of motion: f + A^T lambda - M q'' for i < n, else gamma - A q'' of a constraint. */
 static qdot_expr
-residual(const description *d, size_t i)
+equation_residual(const description *d, size_t i)
 {
     const size_t n = d->x.n, m = d->x.m;
     const qdot_expr *M = d->equations.at, *f = M + n * n, *A = f + n, *gamma = A + m * n;
@@ -234,7 +235,7 @@ residual(const description *d, size_t i)
     for (size_t j = 0; j < n; j++) {
         qdot_expr factor = i < n ? M[i * n + j] : A[(i - n) * n + j];
 
-        sum = qdot_sub(pool, sum, qdot_mul(pool, factor, jet(d, j, 2)));
+        sum = qdot_sub(pool, sum, qdot_mul(pool, factor, derivative_of_coordinate(d, j, 2)));
     }
     for (size_t k = 0; k < m && i < n; k++)
         sum = qdot_add(pool, sum, qdot_mul(pool, A[k * n + i],
@@ -243,7 +244,7 @@ residual(const description *d, size_t i)
 }
 
 static qdot_status
-slopes(description *d)
+export_jacobian(description *d)
 {
     const size_t n = d->x.n, rows = n + d->x.m;
 
@@ -252,12 +253,12 @@ slopes(description *d)
                                   "no Jacobian is written for more than %d coordinates",
                                   MOST_SLOPES);
     for (size_t i = 0; i < rows; i++) {
-        qdot_expr r = residual(d, i);
+        qdot_expr r = equation_residual(d, i);
 
         QDOT_TRY(qdot_pool_check(d->session->pool));
         for (size_t j = 0; j < 2 * n; j++)
-            QDOT_TRY(exprs_push(d, &d->slopes,
-                                qdot_diff(d->session->pool, r, jet(d, j % n, j >= n))));
+            QDOT_TRY(append_bound_expression(d, &d->slopes,
+                                             qdot_diff(d->session->pool, r, derivative_of_coordinate(d, j % n, j >= n))));
     }
     d->x.slopes.blocks = 1;
     d->x.slopes.block[0] = (qdot_export_block){"R", rows, 2 * n};
@@ -265,16 +266,16 @@ slopes(description *d)
 }
 
 static qdot_status
-energy(description *d)
+export_energy(description *d)
 {
     d->x.energy.blocks = 1;
     d->x.energy.block[0] = (qdot_export_block){NULL, 0, 0};
-    return exprs_push(d, &d->energy, qdot_mech_numeric_energy(d->scene));
+    return append_bound_expression(d, &d->energy, qdot_mech_numeric_energy(d->scene));
 }
 
-/* Export f of position constraints, then the level of velocities: df/dt of these, f of velocity constraints. */
+/* Export f of each position constraint f = 0, then for all constraints what must vanish on velocities, df/dt or f. */
 static qdot_status
-positions(description *d)
+export_constraint_levels(description *d)
 {
     const size_t m = d->x.m;
     bool some = false;
@@ -285,8 +286,8 @@ positions(description *d)
         for (size_t k = 0; k < m; k++) {
             qdot_expr f = d->orders.at[k] < order ? QDOT_ZERO : d->held.at[k];
 
-            QDOT_TRY(exprs_push(d, &d->positions,
-                                d->orders.at[k] > order ? qdot_ddt(d->session->pool, f) : f));
+            QDOT_TRY(append_bound_expression(d, &d->positions,
+                                             d->orders.at[k] > order ? qdot_ddt(d->session->pool, f) : f));
         }
     d->x.positions.blocks = 2;
     d->x.positions.block[0] = (qdot_export_block){"f", m, 0};
@@ -296,20 +297,20 @@ positions(description *d)
 
 /* Export the end of a coordinate's domain as an event that stops the run. */
 static qdot_status
-add_end(description *d, const char *name, qdot_expr distance)
+export_domain_end(description *d, const char *name, qdot_expr distance)
 {
     qdot_text text = {0};
 
-    QDOT_TRY(exprs_push(d, &d->events, distance));
+    QDOT_TRY(append_bound_expression(d, &d->events, distance));
     qdot_text_format(&text, "%s leaves its domain", name);
-    QDOT_TRY(keep_text(d, &text));
+    QDOT_TRY(store_text(d, &text));
     return qdot_vec_push(&d->event,
                          ((qdot_export_event){
                              .name = text.at, .way = d->x.t1 < d->x.t0 ? 1 : -1, .stop = true}));
 }
 
 static qdot_status
-ends_of_domains(description *d)
+export_domain_ends(description *d)
 {
     qdot_pool *pool = d->session->pool;
 
@@ -317,15 +318,15 @@ ends_of_domains(description *d)
         const qdot_symbol q = *qdot_expr_symbol(pool, d->scene->coordinates.at[i]);
 
         if (q.lo != QDOT_NIL)
-            QDOT_TRY(add_end(d, q.name, qdot_sub(pool, jet(d, i, 0), q.lo)));
+            QDOT_TRY(export_domain_end(d, q.name, qdot_sub(pool, derivative_of_coordinate(d, i, 0), q.lo)));
         if (q.hi != QDOT_NIL)
-            QDOT_TRY(add_end(d, q.name, qdot_sub(pool, q.hi, jet(d, i, 0))));
+            QDOT_TRY(export_domain_end(d, q.name, qdot_sub(pool, q.hi, derivative_of_coordinate(d, i, 0))));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-events(description *d)
+export_events(description *d)
 {
     const qdot_scene *s = d->scene;
 
@@ -333,12 +334,12 @@ events(description *d)
         const qdot_event *e = &s->events.at[i];
         expressions effect = {0};
         qdot_event act = {0};
-        qdot_status status = exprs_push(d, &d->events, qdot_sub(s->pool, e->left, e->right));
+        qdot_status status = append_bound_expression(d, &d->events, qdot_sub(s->pool, e->left, e->right));
 
         if (status == QDOT_OK && e->targets.n > 0)
             status = qdot_export_event_with_massless(d->scene, e, &act);
         for (size_t k = 0; k < act.values.n && status == QDOT_OK; k++)
-            status = exprs_push(d, &effect, act.values.at[k]);
+            status = append_bound_expression(d, &effect, act.values.at[k]);
         if (status == QDOT_OK)
             status = qdot_vec_push(&d->acts, act);
         if (status != QDOT_OK) {
@@ -367,10 +368,10 @@ add_parameter(description *d, qdot_expr symbol)
             return QDOT_OK;
     QDOT_TRY(qdot_export_value_of(d->session, symbol, &value));
     QDOT_TRY(qdot_vec_push(&d->parameters, symbol));
-    return qdot_vec_push(&d->values, ((qdot_export_name){symbol_name(d->session, symbol), value}));
+    return qdot_vec_push(&d->values, ((qdot_export_name){get_symbol_name(d->session, symbol), value}));
 }
 
-/* Find the parameters in these expressions. */
+/* Find the parameters that occur in the expressions of the list. */
 static qdot_status
 find_parameters(description *d, const expressions *list)
 {
@@ -389,7 +390,7 @@ find_parameters(description *d, const expressions *list)
 }
 
 static qdot_status
-all_parameters(description *d)
+find_all_parameters(description *d)
 {
     const qdot_scene *s = d->scene;
 
@@ -409,14 +410,14 @@ all_parameters(description *d)
     return QDOT_OK;
 }
 
-/* List all inputs: t, q, q', q'', lambda, parameters, sides. */
+/* List all inputs of the tapes: t, q, q', q'', lambda, parameters, sides of switching surfaces. */
 static qdot_status
-all_inputs(description *d)
+list_all_inputs(description *d)
 {
     QDOT_TRY(qdot_vec_push(&d->inputs, QDOT_T));
     for (unsigned order = 0; order < 3; order++)
         for (size_t i = 0; i < d->x.n; i++)
-            QDOT_TRY(qdot_vec_push(&d->inputs, jet(d, i, order)));
+            QDOT_TRY(qdot_vec_push(&d->inputs, derivative_of_coordinate(d, i, order)));
     for (size_t k = 0; k < d->x.m; k++)
         QDOT_TRY(qdot_vec_push(&d->inputs, d->scene->constraints.at[k].multiplier));
     for (size_t i = 0; i < d->parameters.n; i++)
@@ -427,23 +428,23 @@ all_inputs(description *d)
 }
 
 static qdot_status
-all_names(description *d)
+list_all_names(description *d)
 {
     for (size_t i = 0; i < d->x.n; i++)
         QDOT_TRY(qdot_vec_push(
-            &d->q, ((qdot_export_name){symbol_name(d->session, d->scene->coordinates.at[i]), NAN})));
+            &d->q, ((qdot_export_name){get_symbol_name(d->session, d->scene->coordinates.at[i]), NAN})));
     for (size_t k = 0; k < d->x.m; k++)
         QDOT_TRY(qdot_vec_push(
             &d->lambda,
-            ((qdot_export_name){symbol_name(d->session, d->scene->constraints.at[k].multiplier), NAN})));
+            ((qdot_export_name){get_symbol_name(d->session, d->scene->constraints.at[k].multiplier), NAN})));
     d->x.q = d->q.at;
     d->x.lambda = d->lambda.at;
     return QDOT_OK;
 }
 
-/* Whether the run has the coordinates of this scene. */
+/* Whether the run was made for the coordinates of the exported scene. */
 static bool
-is_of_scene(const description *d, const qdot_run_report *r)
+run_has_scene_coordinates(const description *d, const qdot_run_report *r)
 {
     if (r->n - r->n_states != d->x.n)
         return false;
@@ -454,14 +455,14 @@ is_of_scene(const description *d, const qdot_run_report *r)
 }
 
 static qdot_status
-start_of_run(description *d, qdot_run *run)
+use_start_of_run(description *d, qdot_run *run)
 {
     const qdot_run_report *r = qdot_run_get_report(run);
     expressions y = {0};
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < 2 * d->x.n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&y, jet(d, i % d->x.n, i >= d->x.n));
+        status = qdot_vec_push(&y, derivative_of_coordinate(d, i % d->x.n, i >= d->x.n));
     if (status == QDOT_OK)
         status = qdot_run_values(run, y.n, y.at, 1, &r->t0, d->start.at, NULL);
     qdot_free(y.at);
@@ -474,13 +475,13 @@ start_of_run(description *d, qdot_run *run)
     }
     d->x.t0 = r->t0;
     d->x.t1 = qdot_run_requested_end(run);
-    d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* the exported method has a lower order */
+    d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* since the exported method has a lower order */
     return status;
 }
 
 /* Find the number given by `start`; 0 if there is none, NaN if it has no numerical value yet. */
 static qdot_status
-start_value(qdot_session *s, qdot_expr symbol, double *value)
+find_start_value(qdot_session *s, qdot_expr symbol, double *value)
 {
     *value = 0;
     for (size_t i = 0; i < s->values->start_symbols.n; i++)
@@ -495,7 +496,7 @@ start_value(qdot_session *s, qdot_expr symbol, double *value)
 }
 
 static qdot_status
-starts(description *d)
+find_start_values(description *d)
 {
     qdot_session *s = d->session;
 
@@ -505,8 +506,8 @@ starts(description *d)
     if (s->runs->n > 0) {
         qdot_run *run = s->runs->at[s->runs->n - 1].run;
 
-        if (is_of_scene(d, qdot_run_get_report(run)))
-            return start_of_run(d, run);
+        if (run_has_scene_coordinates(d, qdot_run_get_report(run)))
+            return use_start_of_run(d, run);
     }
     if (d->massless) {
         (void)qdot_fail(QDOT_EINVAL, "the start of a coordinate without mass follows from its equation: it is taken from a run");
@@ -515,14 +516,14 @@ starts(description *d)
     d->x.t1 = 10;
     d->x.tol = LEAST_TOL;
     for (size_t i = 0; i < 2 * d->x.n; i++)
-        QDOT_TRY(start_value(s, jet(d, i % d->x.n, i >= d->x.n), &d->start.at[i]));
+        QDOT_TRY(find_start_value(s, derivative_of_coordinate(d, i % d->x.n, i >= d->x.n), &d->start.at[i]));
     return QDOT_OK;
 }
 
 /* --- lowering to tapes -------------------------------------------------------------------- */
 
 static qdot_status
-description_lower(const description *d, const expressions *e, const qdot_tape **tape)
+lower_to_tape(const description *d, const expressions *e, const qdot_tape **tape)
 {
     qdot_tape *made;
 
@@ -536,12 +537,12 @@ description_lower(const description *d, const expressions *e, const qdot_tape **
     return QDOT_OK;
 }
 
-/* The index of the element of y, or of the parameter, that an event sets. */
+/* The index of what an event sets: an element of the state y, or a parameter. */
 static size_t
-index_of_target(const description *d, qdot_expr symbol)
+index_of_event_target(const description *d, qdot_expr symbol)
 {
     for (size_t i = 0; i < 2 * d->x.n; i++)
-        if (jet(d, i % d->x.n, i >= d->x.n) == symbol)
+        if (derivative_of_coordinate(d, i % d->x.n, i >= d->x.n) == symbol)
             return i;
     for (size_t i = 0; i < d->parameters.n; i++)
         if (d->parameters.at[i] == symbol)
@@ -550,14 +551,14 @@ index_of_target(const description *d, qdot_expr symbol)
 }
 
 static qdot_status
-lower_events(description *d)
+lower_events_to_tapes(description *d)
 {
     const qdot_scene *s = d->scene;
     size_t next = 0;
 
     for (size_t i = 0; i < d->acts.n; i++)
         for (size_t k = 0; k < d->acts.at[i].targets.n; k++)
-            QDOT_TRY(qdot_vec_push(&d->targets, index_of_target(d, d->acts.at[i].targets.at[k])));
+            QDOT_TRY(qdot_vec_push(&d->targets, index_of_event_target(d, d->acts.at[i].targets.at[k])));
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *from = &s->events.at[i];
         qdot_export_event e = {.name = from->name,
@@ -568,30 +569,30 @@ lower_events(description *d)
 
         next += e.n_targets;
         QDOT_TRY(qdot_vec_push(&d->event, e));
-        QDOT_TRY(description_lower(d, &d->effects.at[i], &d->event.at[i].effect));
+        QDOT_TRY(lower_to_tape(d, &d->effects.at[i], &d->event.at[i].effect));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-lower_all(description *d)
+lower_all_to_tapes(description *d)
 {
-    QDOT_TRY(description_lower(d, &d->equations, &d->x.equations.tape));
-    QDOT_TRY(description_lower(d, &d->slopes, &d->x.slopes.tape));
-    QDOT_TRY(description_lower(d, &d->energy, &d->x.energy.tape));
-    QDOT_TRY(description_lower(d, &d->positions, &d->x.positions.tape));
-    QDOT_TRY(description_lower(d, &d->u, &d->x.switches.tape));
-    QDOT_TRY(lower_events(d));
-    QDOT_TRY(ends_of_domains(d));
+    QDOT_TRY(lower_to_tape(d, &d->equations, &d->x.equations.tape));
+    QDOT_TRY(lower_to_tape(d, &d->slopes, &d->x.slopes.tape));
+    QDOT_TRY(lower_to_tape(d, &d->energy, &d->x.energy.tape));
+    QDOT_TRY(lower_to_tape(d, &d->positions, &d->x.positions.tape));
+    QDOT_TRY(lower_to_tape(d, &d->u, &d->x.switches.tape));
+    QDOT_TRY(lower_events_to_tapes(d));
+    QDOT_TRY(export_domain_ends(d));
     d->x.event = d->event.at;
     d->x.n_events = d->event.n;
     d->x.events.blocks = 1;
     d->x.events.block[0] = (qdot_export_block){"occurs", d->event.n, 0};
-    return description_lower(d, &d->events, &d->x.events.tape);
+    return lower_to_tape(d, &d->events, &d->x.events.tape);
 }
 
 static void
-description_clear(description *d)
+free_description(description *d)
 {
     expressions *const lists[] = {&d->inputs, &d->parameters, &d->equations, &d->slopes,
                                   &d->energy, &d->positions, &d->events, &d->u, &d->held};
@@ -629,22 +630,22 @@ description_clear(description *d)
 }
 
 static qdot_status
-describe(description *d)
+describe_scene(description *d)
 {
     QDOT_TRY(qdot_given_functions_find(d->session, &d->given));
-    QDOT_TRY(description_switches(d));
-    QDOT_TRY(constraints(d));
-    QDOT_TRY(equations(d));
-    QDOT_TRY(slopes(d));
-    QDOT_TRY(energy(d));
-    QDOT_TRY(positions(d));
-    QDOT_TRY(events(d));
-    QDOT_TRY(all_parameters(d));
-    QDOT_TRY(all_inputs(d));
-    QDOT_TRY(all_names(d));
-    QDOT_TRY(starts(d));
+    QDOT_TRY(export_switches(d));
+    QDOT_TRY(export_constraints(d));
+    QDOT_TRY(export_equations(d));
+    QDOT_TRY(export_jacobian(d));
+    QDOT_TRY(export_energy(d));
+    QDOT_TRY(export_constraint_levels(d));
+    QDOT_TRY(export_events(d));
+    QDOT_TRY(find_all_parameters(d));
+    QDOT_TRY(list_all_inputs(d));
+    QDOT_TRY(list_all_names(d));
+    QDOT_TRY(find_start_values(d));
     d->x.parameters = d->values.at;
-    return lower_all(d);
+    return lower_all_to_tapes(d);
 }
 
 qdot_status
@@ -667,11 +668,11 @@ qdot_export_scene(qdot_session *session, const char *file, const qdot_export_lan
     if (status == QDOT_OK)
         status = qdot_text_status(&origin);
     if (status == QDOT_OK)
-        status = describe(&d);
+        status = describe_scene(&d);
     d.x.origin = qdot_text_str(&origin);
     if (status == QDOT_OK)
         status = qdot_export_system_write(&d.x, language, out);
-    description_clear(&d);
+    free_description(&d);
     qdot_text_clear(&origin);
     return status;
 }

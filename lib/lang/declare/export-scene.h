@@ -12,7 +12,7 @@
 QDOT_MUST_CHECK qdot_status qdot_export_scene(qdot_session *session, const char *file,
                                               const qdot_export_language *language, qdot_text *out);
 
-/* Append e as a function of its symbols; an equation as left - right. name: as it was typed. */
+/* Append e as a function of its symbols; an equation as left minus right side. name: e as it was typed. */
 QDOT_MUST_CHECK qdot_status qdot_export_value(qdot_session *session, const char *name, qdot_expr e,
                                               const char *file, const qdot_export_language *language,
                                               qdot_text *out);

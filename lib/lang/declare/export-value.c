@@ -1,4 +1,4 @@
-/* export-value.c -- exports an expression: lowers it to a tape with its symbols as inputs. */
+/* export-value.c -- exports an expression: converts it to a tape (list of operations) with its symbols as inputs. */
 #include <math.h>
 
 #include "expr/build.h"
@@ -15,7 +15,7 @@ typedef qdot_vec(qdot_export_name) names;
 
 /* Append the scalar components of e; for an equation its left side minus its right side. */
 static qdot_status
-scalars(qdot_session *s, qdot_expr e, expressions *to)
+append_scalar_components(qdot_session *s, qdot_expr e, expressions *to)
 {
     qdot_pool *pool = s->pool;
     qdot_kind kind = qdot_expr_kind(pool, e);
@@ -30,7 +30,7 @@ scalars(qdot_session *s, qdot_expr e, expressions *to)
     return qdot_vec_push(to, e);
 }
 
-/* Find the symbols in `list`, first those without a value. */
+/* Find the symbols in the expressions of `list`; those without a value come first. */
 static qdot_status
 find_arguments(qdot_session *s, const expressions *list, expressions *inputs, names *to)
 {
@@ -55,7 +55,7 @@ find_arguments(qdot_session *s, const expressions *list, expressions *inputs, na
 }
 
 static qdot_export_block
-shape_of(const qdot_pool *pool, qdot_expr e)
+shape_of_value(const qdot_pool *pool, qdot_expr e)
 {
     qdot_kind kind = qdot_expr_kind(pool, e);
     size_t n = qdot_expr_count(pool, e);
@@ -82,12 +82,12 @@ qdot_export_value(qdot_session *session, const char *name, qdot_expr e, const ch
     e = qdot_measured_as_rationals(session, e);
     QDOT_TRY(qdot_pool_check(pool));
     x.value.blocks = 1;
-    x.value.block[0] = shape_of(pool, e);
+    x.value.block[0] = shape_of_value(pool, e);
     if (x.value.block[0].array == NULL)
-        status = scalars(session, e, &outputs);
+        status = append_scalar_components(session, e, &outputs);
     for (uint32_t i = 0;
          x.value.block[0].array != NULL && i < qdot_expr_count(pool, e) && status == QDOT_OK; i++)
-        status = scalars(session, qdot_expr_arg(pool, e, i), &outputs);
+        status = append_scalar_components(session, qdot_expr_arg(pool, e, i), &outputs);
     if (status == QDOT_OK && outputs.n == 0)
         status = qdot_fail(QDOT_EINVAL, "an empty list: there is nothing to export");
     if (status == QDOT_OK)

@@ -4,7 +4,7 @@
 #include "lang/declare/objects.h"
 #include "mech/scene/scene.h"
 
-static qdot_status force_declare(qdot_record *r);
+static qdot_status declare_force(qdot_record *r);
 
 QDOT_STATEMENT(force) = {
     .word = "force",
@@ -13,12 +13,12 @@ QDOT_STATEMENT(force) = {
     .summary = "an applied force; it enters through virtual work; `at material`: on what is there of the "
                "body, as friction at a contact",
     .example = "force (0, -m*g) on bob",
-    .handler = force_declare,
+    .handler = declare_force,
 };
 
 /* Read the point of `at POINT`, on which the force acts. */
 static qdot_status
-force_at(qdot_record *r, const qdot_filled *action, qdot_force *force)
+read_point_of_force(qdot_record *r, const qdot_filled *action, qdot_force *force)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *place = qdot_record_hole(r, "at", NULL);
@@ -40,7 +40,7 @@ force_at(qdot_record *r, const qdot_filled *action, qdot_force *force)
 
 /* Read `on NAME`, which acts at the centre, or `on BODY at material POINT`. */
 static qdot_status
-force_on(qdot_record *r, qdot_force *force)
+read_target_of_force(qdot_record *r, qdot_force *force)
 {
     qdot_scene *scene = r->cursor.session->scene;
     const qdot_filled *place = qdot_record_hole(r, "material", NULL);
@@ -59,9 +59,9 @@ force_on(qdot_record *r, qdot_force *force)
     return qdot_warnings_twice(r->cursor.session, QDOT_FORCE);
 }
 
-/* Add the force to the scene as a generalized force along a coordinate. */
+/* Add the force to the scene as a generalized force on a coordinate. */
 static qdot_status
-force_along(qdot_record *r, const qdot_force *force, bool vector, qdot_expr coordinate)
+add_generalized_force(qdot_record *r, const qdot_force *force, bool vector, qdot_expr coordinate)
 {
     const qdot_torque torque = {.name = force->name,
                                 .torque = force->force,
@@ -80,7 +80,7 @@ force_along(qdot_record *r, const qdot_force *force, bool vector, qdot_expr coor
 }
 
 static qdot_status
-force_declare(qdot_record *r)
+declare_force(qdot_record *r)
 {
     const qdot_filled *action = qdot_record_hole(r, NULL, "F"), *on = qdot_record_hole(r, "on", NULL);
     qdot_force force = {0};
@@ -92,9 +92,9 @@ force_declare(qdot_record *r)
     force.name = (char *)label;
     QDOT_TRY(qdot_record_point(r, action, &force.force));
     if (on == NULL)
-        return force_at(r, action, &force);
+        return read_point_of_force(r, action, &force);
     vector = qdot_expr_kind(r->cursor.session->pool, force.force) == QDOT_VEC;
     QDOT_TRY(qdot_object_target(r, on, vector, &coordinate, &target));
     force.on = (char *)target;
-    return target != NULL ? force_on(r, &force) : force_along(r, &force, vector, coordinate);
+    return target != NULL ? read_target_of_force(r, &force) : add_generalized_force(r, &force, vector, coordinate);
 }

@@ -3,7 +3,7 @@
 #include "lang/declare/objects.h"
 #include "mech/scene/scene.h"
 
-static qdot_status gravity_declare(qdot_record *r);
+static qdot_status declare_gravity(qdot_record *r);
 
 QDOT_STATEMENT(gravity) = {
     .word = "gravity",
@@ -12,12 +12,12 @@ QDOT_STATEMENT(gravity) = {
     .summary = "a uniform field that acts on every particle and body; a second statement replaces "
                "the first, fields with labels add up",
     .example = "gravity (0, -g)",
-    .handler = gravity_declare,
+    .handler = declare_gravity,
 };
 
-/* Print the field without label that existed before one is added; nothing if there is none. */
+/* Print the gravity field without a label, if there is one, to which another field is added. */
 static qdot_status
-gravity_print_plain(const qdot_scene *scene, qdot_text *out)
+print_unlabelled_gravity(const qdot_scene *scene, qdot_text *out)
 {
     for (size_t i = 0; i < scene->gravities.n; i++)
         if (scene->gravities.at[i].name == NULL)
@@ -26,7 +26,7 @@ gravity_print_plain(const qdot_scene *scene, qdot_text *out)
 }
 
 static qdot_status
-gravity_declare(qdot_record *r)
+declare_gravity(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_text before = {0};
@@ -38,7 +38,7 @@ gravity_declare(qdot_record *r)
     QDOT_TRY(qdot_record_point(r, qdot_record_hole(r, NULL, "VECTOR"), &field));
     r->cursor.error_at = r->start->start;
     if (label == NULL)
-        status = gravity_print_plain(session->scene, &before);
+        status = print_unlabelled_gravity(session->scene, &before);
     if (status == QDOT_OK)
         status = qdot_scene_term(session->scene, QDOT_GRAVITY, label, field);
     if (status == QDOT_OK && before.n > 0)

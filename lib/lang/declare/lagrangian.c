@@ -2,7 +2,7 @@
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
 
-static qdot_status lagrangian_declare(qdot_record *r);
+static qdot_status declare_lagrangian(qdot_record *r);
 
 QDOT_STATEMENT(lagrangian) = {
     .word = "lagrangian",
@@ -10,11 +10,11 @@ QDOT_STATEMENT(lagrangian) = {
     .usage = "lagrangian L",
     .summary = "state the Lagrangian itself, in place of particles and bodies",
     .example = "lagrangian m*x'^2/2 - k*x^2/2",
-    .handler = lagrangian_declare,
+    .handler = declare_lagrangian,
 };
 
 static qdot_status
-lagrangian_declare(qdot_record *r)
+declare_lagrangian(qdot_record *r)
 {
     qdot_expr L;
 

@@ -18,7 +18,7 @@
 
 /* Store the bound: x < b sets the upper end of the domain, x > b the lower one. */
 static qdot_status
-new_name_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
+store_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
 {
     const qdot_pool *pool = c->session->pool;
 
@@ -35,11 +35,11 @@ new_name_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
     return QDOT_OK;
 }
 
-/* Read the name at `part` and the value that follows it. */
+/* Read a name to be declared, at `part`, and the value that may follow it. */
 static qdot_status
-new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
+read_new_name(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
 {
-    const qdot_filled *value = part + 2; /* the part after `=` */
+    const qdot_filled *value = part + 2; /* the value is the part after `=` */
     qdot_session *session = r->cursor.session;
     qdot_bound bound;
     qdot_status status;
@@ -50,7 +50,7 @@ new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
     for (size_t k = 0; more; k++) {
         QDOT_TRY(qdot_record_bound(r, part, k, &bound, &more));
         if (more)
-            QDOT_TRY(new_name_bound(&r->cursor, x, &bound));
+            QDOT_TRY(store_bound(&r->cursor, x, &bound));
     }
     if (value >= r->parts.at + r->parts.n || !qdot_filled_is(value, "VALUE"))
         return QDOT_OK;
@@ -60,9 +60,9 @@ new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
     return status == QDOT_OK ? qdot_set_keep_measured(session, &x->value) : status;
 }
 
-/* Apply a sign also to the bare names before it: `param m, L > 0`. */
+/* Apply the sign after the last name of a list also to the bare names before it: `param m, L > 0`. */
 static void
-new_names_spread(qdot_new_names *list)
+apply_sign_to_bare_names(qdot_new_names *list)
 {
     const qdot_new_name *last = &list->at[list->n - 1];
 
@@ -81,9 +81,9 @@ new_names_spread(qdot_new_names *list)
     }
 }
 
-/* Make a parameter visible to the rest of its list: `param a = 2, b = a^2`. */
+/* Make a parameter known while the rest of its list is read: `param a = 2, b = a^2`. */
 static qdot_status
-new_name_show(qdot_session *session, const qdot_new_name *x, size_t *shown)
+make_name_known(qdot_session *session, const qdot_new_name *x, size_t *shown)
 {
     qdot_expr symbol;
 
@@ -109,15 +109,15 @@ qdot_new_names_read(qdot_record *r, bool params, qdot_new_names *list)
 
         if (part->node->kind != QDOT_USAGE_HOLE || part->name == NULL)
             continue;
-        status = new_name_read(r, part, &x);
+        status = read_new_name(r, part, &x);
         if (status == QDOT_OK)
             status = qdot_vec_push(list, x);
         if (status == QDOT_OK && params)
-            new_names_spread(list);
+            apply_sign_to_bare_names(list);
         if (status == QDOT_OK)
             r->cursor.error_at = x.start->start;
         if (status == QDOT_OK && params)
-            status = new_name_show(session, &x, &shown);
+            status = make_name_known(session, &x, &shown);
     }
     while (shown-- > 0)
         qdot_names_pop(session->names);
@@ -127,7 +127,7 @@ qdot_new_names_read(qdot_record *r, bool params, qdot_new_names *list)
 /* --- declaring the names ------------------------------------------------------------ */
 
 static bool
-new_name_same_domain(const qdot_symbol *s, const qdot_new_name *x)
+has_same_domain(const qdot_symbol *s, const qdot_new_name *x)
 {
     return s->lo == x->lo && s->hi == x->hi &&
            (x->lo == QDOT_NIL || s->lo_open == x->lo_open) &&
@@ -136,7 +136,7 @@ new_name_same_domain(const qdot_symbol *s, const qdot_new_name *x)
 
 /* Declare one name; *fresh: it was not declared before. */
 static qdot_status
-new_name_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bool *fresh)
+declare_new_name(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bool *fresh)
 {
     qdot_session *session = c->session;
     const qdot_name *old = qdot_names_find(session->names, x->name);
@@ -148,7 +148,7 @@ new_name_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bo
     entry.value = qdot_symbol_get(session->pool, class, x->name);
     QDOT_TRY(qdot_pool_check(session->pool));
     if (old != NULL && old->kind == QDOT_NAME_PARAM && kind == QDOT_NAME_PARAM) {
-        if (x->own && !new_name_same_domain(qdot_expr_symbol(session->pool, old->value), x))
+        if (x->own && !has_same_domain(qdot_expr_symbol(session->pool, old->value), x))
             return qdot_fail(QDOT_ENAME, "`%s` was declared with another domain at %s:%u",
                              x->name, old->file, old->line);
     } else {
@@ -176,7 +176,7 @@ qdot_new_names_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_names
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++) {
         bool is_fresh;
 
-        status = new_name_declare(c, kind, &list->at[i], &is_fresh);
+        status = declare_new_name(c, kind, &list->at[i], &is_fresh);
         if (is_fresh && qdot_vec_push(&fresh, list->at[i].name) != QDOT_OK)
             status = QDOT_ENOMEM;
     }

@@ -12,7 +12,7 @@ typedef struct {
     const qdot_token *start;
     qdot_expr lo, hi; /* nil: not declared */
     bool lo_open, hi_open;
-    bool own;        /* the domain was declared for this name, or spread back to it */
+    bool own;        /* the domain was declared for this name, or taken over from a later name of the list */
     qdot_expr value; /* nil: not declared */
 } qdot_new_name;
 

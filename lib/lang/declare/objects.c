@@ -1,4 +1,4 @@
-/* objects.c -- readers of operands that statements about particles, bodies, springs ... share. */
+/* objects.c -- reads operands that several statements share, about particles, bodies, springs ... */
 #include "lang/declare/objects.h"
 
 #include "lang/commands/warnings.h"

@@ -4,7 +4,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/values.h"
 
-static qdot_status param_declare(qdot_record *r);
+static qdot_status declare_parameters(qdot_record *r);
 
 QDOT_STATEMENT(param) = {
     .word = "param",
@@ -12,12 +12,12 @@ QDOT_STATEMENT(param) = {
     .usage = "param NAME [> 0] [= VALUE], ...",
     .summary = "declare parameters; a sign spreads back over the bare names before it",
     .example = "param m, L > 0, g = 9.81",
-    .handler = param_declare,
+    .handler = declare_parameters,
 };
 
 /* Check the new values of parameters that have been declared before. */
 static qdot_status
-param_check_values(qdot_cursor *c, const qdot_new_names *list)
+check_new_values(qdot_cursor *c, const qdot_new_names *list)
 {
     qdot_pairs values = {0};
     qdot_status status = QDOT_OK;
@@ -37,7 +37,7 @@ param_check_values(qdot_cursor *c, const qdot_new_names *list)
 
 /* Declare parameters with their values; if a value is outside its domain undo all. */
 static qdot_status
-param_declare_list(qdot_cursor *c, const qdot_new_names *list)
+declare_parameter_list(qdot_cursor *c, const qdot_new_names *list)
 {
     qdot_session *session = c->session;
     qdot_status status = QDOT_OK;
@@ -63,7 +63,7 @@ param_declare_list(qdot_cursor *c, const qdot_new_names *list)
             return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its own domain",
                              x->name, number);
     }
-    QDOT_TRY(param_check_values(c, list));
+    QDOT_TRY(check_new_values(c, list));
     QDOT_TRY(qdot_new_names_declare(c, QDOT_NAME_PARAM, list));
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         if (list->at[i].value != QDOT_NIL)
@@ -74,13 +74,13 @@ param_declare_list(qdot_cursor *c, const qdot_new_names *list)
 }
 
 static qdot_status
-param_declare(qdot_record *r)
+declare_parameters(qdot_record *r)
 {
     qdot_new_names list = {0};
     qdot_status status = qdot_new_names_read(r, true, &list);
 
     if (status == QDOT_OK)
-        status = param_declare_list(&r->cursor, &list);
+        status = declare_parameter_list(&r->cursor, &list);
     qdot_free(list.at);
     return status;
 }

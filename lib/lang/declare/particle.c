@@ -3,7 +3,7 @@
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
 
-static qdot_status particle_declare(qdot_record *r);
+static qdot_status declare_particle(qdot_record *r);
 
 QDOT_STATEMENT(particle) = {
     .word = "particle",
@@ -11,11 +11,11 @@ QDOT_STATEMENT(particle) = {
     .usage = "particle NAME mass M at R",
     .summary = "a mass point at r(q, t), in 1, 2 or 3 dimensions",
     .example = "particle bob mass m at (x, y)",
-    .handler = particle_declare,
+    .handler = declare_particle,
 };
 
 static qdot_status
-particle_declare(qdot_record *r)
+declare_particle(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *place = qdot_record_hole(r, "at", "R");

@@ -2,7 +2,7 @@
 #include "lang/declare/objects.h"
 
 static qdot_status
-potential_declare(qdot_record *r)
+declare_potential(qdot_record *r)
 {
     return qdot_object_term(r, qdot_record_hole(r, NULL, "V"), QDOT_POTENTIAL);
 }
@@ -13,5 +13,5 @@ QDOT_STATEMENT(potential) = {
     .usage = "potential [NAME:] V",
     .summary = "a term of the potential energy",
     .example = "potential k*r^2/2",
-    .handler = potential_declare,
+    .handler = declare_potential,
 };

@@ -6,7 +6,7 @@
 #include "lang/session/labels.h"
 #include "lang/syntax/record.h"
 
-static qdot_status remove_carry_out(qdot_record *r);
+static qdot_status carry_out_remove(qdot_record *r);
 
 QDOT_STATEMENT(remove) = {
     .word = "remove",
@@ -15,12 +15,12 @@ QDOT_STATEMENT(remove) = {
     .summary = "take a thing out of the scene again: by its label; the only one of its kind (gravity, "
                "potential, spring, damper, dissipation, force, torque), or the K-th",
     .example = "remove d1",
-    .handler = remove_carry_out,
+    .handler = carry_out_remove,
 };
 
-/* Give a notice of the things that were removed because they acted on a removed thing. */
+/* Give a notice of the things removed in addition, because they acted on a removed thing. */
 static qdot_status
-tell_removed(qdot_session *session, const char *label)
+give_notice_of_removed(qdot_session *session, const char *label)
 {
     const qdot_scene *scene = session->scene;
     qdot_text list = {0};
@@ -38,7 +38,7 @@ tell_removed(qdot_session *session, const char *label)
     return status;
 }
 
-/* Kinds of things that need no label, with their words. */
+/* Kinds of things that may be removed without a label, with the words for them. */
 static const struct {
     const char *word, *singular, *plural;
     qdot_scene_kind kind;
@@ -88,7 +88,7 @@ refuse_ambiguous(const qdot_scene *scene, size_t row)
 
 /* Remove the only thing of a kind (`remove potential`), or one by its number (`remove potential 2`). */
 static qdot_status
-remove_kind(qdot_record *r, const qdot_filled *number, size_t row)
+remove_thing_of_kind(qdot_record *r, const qdot_filled *number, size_t row)
 {
     qdot_scene *scene = r->cursor.session->scene;
     size_t n = qdot_scene_count(scene, kinds[row].kind);
@@ -104,9 +104,9 @@ remove_kind(qdot_record *r, const qdot_filled *number, size_t row)
     return qdot_scene_remove_at(scene, kinds[row].kind, (size_t)k - 1);
 }
 
-/* Fail: nothing has this label; the nearest of the labels and kinds is the hint. */
+/* Fail because nothing has this label; the hint is the most similar label or kind. */
 static qdot_status
-nothing_is_labelled(const qdot_scene *scene, const char *label)
+report_unknown_label(const qdot_scene *scene, const char *label)
 {
     qdot_words words = {0};
     const char *nearest;
@@ -126,7 +126,7 @@ nothing_is_labelled(const qdot_scene *scene, const char *label)
 }
 
 static qdot_status
-remove_carry_out(qdot_record *r)
+carry_out_remove(qdot_record *r)
 {
     qdot_scene *scene = r->cursor.session->scene;
     const qdot_filled *number = qdot_record_hole(r, NULL, "K");
@@ -136,12 +136,12 @@ remove_carry_out(qdot_record *r)
     for (size_t i = 0; i < KINDS; i++)
         if (strcmp(kinds[i].word, label) == 0 &&
             (number != NULL || !qdot_scene_has_label(scene, label)))
-            return remove_kind(r, number, i);
+            return remove_thing_of_kind(r, number, i);
     if (number != NULL)
         return qdot_record_expected(r, number->from, "the end of the statement");
     r->cursor.error_at = r->start->start;
     if (!qdot_scene_has_label(scene, label))
-        return nothing_is_labelled(scene, label);
+        return report_unknown_label(scene, label);
     QDOT_TRY(qdot_scene_remove(scene, label));
-    return tell_removed(r->cursor.session, label);
+    return give_notice_of_removed(r->cursor.session, label);
 }

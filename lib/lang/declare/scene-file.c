@@ -1,4 +1,4 @@
-/* scene-file.c -- writes all declarations as the statements that make them. */
+/* scene-file.c -- writes all declarations of a scene as the statements that make them again. */
 #include "lang/declare/scene-file.h"
 
 #include <stdio.h>
@@ -30,7 +30,7 @@ qdot_scene_file_is(const char *path)
 }
 
 static qdot_status
-scene_file_put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
+append_text_and_expression(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 {
     qdot_text_add(out, before);
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
@@ -41,13 +41,13 @@ scene_file_put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 /* Write `param m > 0`, `function x(s, t)`, `coord theta` in order of declaration, which is also
  * that of terms. */
 static qdot_status
-put_symbols(qdot_session *s, qdot_text *out)
+append_declarations(qdot_session *s, qdot_text *out)
 {
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
         if (name->kind == QDOT_NAME_UFUN) {
-            QDOT_TRY(scene_file_put(s, "function ", name->value, out));
+            QDOT_TRY(append_text_and_expression(s, "function ", name->value, out));
         } else if (name->kind == QDOT_NAME_PARAM || name->kind == QDOT_NAME_COORD) {
             qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
             QDOT_TRY(qdot_scene_print_domain(s->scene, name->value, out));
@@ -59,9 +59,9 @@ put_symbols(qdot_session *s, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Parse the text as the right side of a definition, in which momenta stay. */
+/* Parse a text as the right side of a definition, in which momenta are kept as momenta. */
 static qdot_status
-definition_source(const qdot_text *text, qdot_source **source)
+parse_definition_text(const qdot_text *text, qdot_source **source)
 {
     qdot_text line = {0};
     qdot_status status;
@@ -75,9 +75,9 @@ definition_source(const qdot_text *text, qdot_source **source)
     return status;
 }
 
-/* Whether the text evaluates to exactly this value, indexed by the same coordinates. */
+/* Whether a definition's text evaluates to exactly this value, indexed by the same coordinates. */
 static qdot_status
-reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
+evaluates_to_value(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
 {
     qdot_source *source = NULL;
     qdot_expr read = QDOT_NIL, its_over = QDOT_NIL;
@@ -85,7 +85,7 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
 
     *is = false;
     QDOT_TRY(qdot_text_status(text));
-    status = definition_source(text, &source);
+    status = parse_definition_text(text, &source);
     if (status == QDOT_OK) {
         qdot_cursor c = {.session = s, .source = source, .at = source->tokens.at + 2};
 
@@ -94,44 +94,44 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
               its_over == over;
     }
     qdot_source_free(source);
-    (void)!qdot_pool_check(s->pool); /* a text that cannot be evaluated here is no error */
+    (void)!qdot_pool_check(s->pool); /* clear the failure: that a text cannot be evaluated here is no error */
     return qdot_grave(status);
 }
 
-/* Whether the text means the same at any later time: it does not contain `%`. */
+/* Whether a definition's text means the same at any later time: it does not contain `%`, the latest value. */
 static bool
-is_lasting(const qdot_function_body *body)
+has_lasting_meaning(const qdot_function_body *body)
 {
     return !qdot_mention_is_in(body->from, body->to, "%");
 }
 
 enum { VALUE, SAID, FORMS };
 
-/* Write the right side in one of several forms; nothing if it does not have that form. */
+/* Write the right side of a definition in the form number `form`; write nothing if it does not have that form. */
 static qdot_status
-put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot_text *out)
+append_definition_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot_text *out)
 {
     if (form == SAID) {
-        if (name->body != NULL && is_lasting(name->body))
+        if (name->body != NULL && has_lasting_meaning(name->body))
             qdot_token_text(s, name->body->from, name->body->to, out);
         return QDOT_OK;
     }
     return qdot_print(s->pool, value, QDOT_PLAIN, out);
 }
 
-/* Write the first form that evaluates to the value again; *is: there is one. */
+/* Write a definition in the first form that evaluates to its value again; *is: there is one. */
 static qdot_status
-put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr over,
-          qdot_text *out, bool *is)
+append_first_valid_form(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr over,
+                        qdot_text *out, bool *is)
 {
     qdot_status status = QDOT_OK;
 
     for (int form = 0; form < FORMS && status == QDOT_OK && !*is; form++) {
         qdot_text right = {0};
 
-        status = put_form(s, name, value, form, &right);
+        status = append_definition_form(s, name, value, form, &right);
         if (status == QDOT_OK && right.n > 0)
-            status = reads_back(s, &right, value, over, is);
+            status = evaluates_to_value(s, &right, value, over, is);
         if (status == QDOT_OK && *is)
             qdot_text_format(out, "%s = %s\n", name->name, qdot_text_str(&right));
         qdot_text_clear(&right);
@@ -140,16 +140,16 @@ put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr ove
 }
 
 static qdot_status
-put_definition(qdot_session *s, const qdot_name *name, qdot_text *lost, qdot_text *out)
+append_definition(qdot_session *s, const qdot_name *name, qdot_text *lost, qdot_text *out)
 {
     const qdot_expr value = name->value;
     bool is = false;
 
     if (qdot_measured_occurs(s, value))
         return QDOT_OK; /* its value comes from a run: written by lang/declare/session-file */
-    QDOT_TRY(put_first(s, name, value, name->over, out, &is));
-    if (!is && name->over != QDOT_NIL) /* try again with entries indexed by numbers */
-        QDOT_TRY(put_first(s, name, value, QDOT_NIL, out, &is));
+    QDOT_TRY(append_first_valid_form(s, name, value, name->over, out, &is));
+    if (!is && name->over != QDOT_NIL) /* try again with a value whose entries are indexed by numbers */
+        QDOT_TRY(append_first_valid_form(s, name, value, QDOT_NIL, out, &is));
     if (is)
         return QDOT_OK;
     qdot_text_format(lost, "# %s: no statement gives this value\n", name->name);
@@ -158,7 +158,7 @@ put_definition(qdot_session *s, const qdot_name *name, qdot_text *lost, qdot_tex
 }
 
 static qdot_status
-put_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
+append_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
 {
     const qdot_name *name;
 
@@ -167,7 +167,7 @@ put_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
             QDOT_TRY(qdot_function_print(s, name, out));
             qdot_text_char(out, '\n');
         } else if (name->kind == QDOT_NAME_VALUE) {
-            QDOT_TRY(put_definition(s, name, lost, out));
+            QDOT_TRY(append_definition(s, name, lost, out));
         }
     }
     return QDOT_OK;
@@ -177,13 +177,13 @@ put_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
 
 /* Write the line `WORD SYMBOL = VALUE`, ended by `last`. */
 static qdot_status
-put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, const char *last, bool remarks,
-          qdot_text *out)
+append_value_line(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, const char *last, bool remarks,
+                  qdot_text *out)
 {
     const size_t from = out->n;
 
-    QDOT_TRY(scene_file_put(s, word, symbol, out));
-    QDOT_TRY(scene_file_put(s, " = ", value, out));
+    QDOT_TRY(append_text_and_expression(s, word, symbol, out));
+    QDOT_TRY(append_text_and_expression(s, " = ", value, out));
     qdot_text_add(out, last);
     if (remarks)
         qdot_session_remarks_end_line(s, value, s->runs->n, from, out);
@@ -193,17 +193,17 @@ put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, 
 }
 
 static qdot_status
-put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols,
-           const qdot_expr *values, bool remarks, qdot_text *out)
+append_value_lines(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols,
+                   const qdot_expr *values, bool remarks, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(put_value(s, word, symbols[i], values[i], "", remarks, out));
+        QDOT_TRY(append_value_line(s, word, symbols[i], values[i], "", remarks, out));
     return QDOT_OK;
 }
 
-/* Write `start` in the order of the coordinates; `start RUN` lists another order. */
+/* Write `start` lines in the order of the coordinates, as `start RUN` stores the values in another order. */
 static qdot_status
-put_start(qdot_session *s, bool remarks, qdot_text *out)
+append_start_lines(qdot_session *s, bool remarks, qdot_text *out)
 {
     size_t left = s->values->start_symbols.n;
 
@@ -212,8 +212,8 @@ put_start(qdot_session *s, bool remarks, qdot_text *out)
 
         for (size_t k = 0; k < s->values->start_symbols.n; k++)
             if (s->values->start_symbols.at[k] == jet)
-                QDOT_TRY(put_value(s, "start ", jet, s->values->start_values.at[k],
-                                   --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
+                QDOT_TRY(append_value_line(s, "start ", jet, s->values->start_values.at[k],
+                                           --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
     }
     return QDOT_OK;
 }
@@ -221,7 +221,7 @@ put_start(qdot_session *s, bool remarks, qdot_text *out)
 /* --- settings of the session ---------------------------------------------------------- */
 
 static void
-put_settings(const qdot_session *s, qdot_text *out)
+append_settings(const qdot_session *s, qdot_text *out)
 {
     static const char *const styles[] = {[QDOT_PLAIN] = "plain",
                                          [QDOT_UNICODE] = "unicode",
@@ -238,17 +238,17 @@ static const char history_header[] = "# statements typed in qdot\n";
 /* --- writing the file ----------------------------------------------------------------- */
 
 static qdot_status
-put_all(qdot_session *s, bool session, qdot_text *lost, qdot_text *out)
+append_all_statements(qdot_session *s, bool session, qdot_text *lost, qdot_text *out)
 {
     qdot_text_add(out, qdot_session_file_header);
-    QDOT_TRY(put_symbols(s, out));
+    QDOT_TRY(append_declarations(s, out));
     QDOT_TRY(qdot_scene_print_things(s->scene, out));
-    QDOT_TRY(put_definitions(s, lost, out));
-    QDOT_TRY(put_values(s, "set ", s->values->set_symbols.n, s->values->set_symbols.at, s->values->set_values.at, session, out));
-    QDOT_TRY(put_start(s, session, out));
-    QDOT_TRY(put_values(s, "scale ", s->values->scale_symbols.n, s->values->scale_symbols.at, s->values->scale_values.at, session, out));
+    QDOT_TRY(append_definitions(s, lost, out));
+    QDOT_TRY(append_value_lines(s, "set ", s->values->set_symbols.n, s->values->set_symbols.at, s->values->set_values.at, session, out));
+    QDOT_TRY(append_start_lines(s, session, out));
+    QDOT_TRY(append_value_lines(s, "scale ", s->values->scale_symbols.n, s->values->scale_symbols.at, s->values->scale_values.at, session, out));
     if (session)
-        put_settings(s, out);
+        append_settings(s, out);
     return qdot_session_file_runs(s, session, lost, out);
 }
 
@@ -264,7 +264,7 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
         out->failed = out->failed || s->typed->all.failed;
         return qdot_text_status(out);
     }
-    status = put_all(s, what == QDOT_FILE_SESSION, &lost, out);
+    status = append_all_statements(s, what == QDOT_FILE_SESSION, &lost, out);
 
     if (status == QDOT_OK)
         qdot_session_remarks_lost(s, &lost, out);
@@ -274,7 +274,7 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 
 /* Refuse to overwrite a regular file that does not begin with the header of a scene or session file. */
 static qdot_status
-may_overwrite(const char *path, const char *header)
+check_may_overwrite(const char *path, const char *header)
 {
     const size_t length = strlen(header);
     char begin[64] = "";
@@ -311,7 +311,7 @@ qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file wh
     status = qdot_scene_file_text(c->session, what, &text);
     c->error_at = name->start;
     if (status == QDOT_OK)
-        status = may_overwrite(path, what == QDOT_FILE_HISTORY ? history_header : qdot_session_file_header);
+        status = check_may_overwrite(path, what == QDOT_FILE_HISTORY ? history_header : qdot_session_file_header);
     if (status == QDOT_OK)
         status = qdot_answer_in_file(c->session, path, &text);
     qdot_text_clear(&text);

@@ -26,8 +26,8 @@ bool qdot_scene_file_is(const char *path);
 
 typedef enum {
     QDOT_FILE_SCENE,   /* the scene, parameter values, start and definitions */
-    QDOT_FILE_SESSION, /* also style, runs, and names that contain results of runs */
-    QDOT_FILE_HISTORY  /* the statements that were typed and succeeded */
+    QDOT_FILE_SESSION, /* also the style, the runs, and names defined by results of runs */
+    QDOT_FILE_HISTORY  /* the statements that were typed and were successful */
 } qdot_scene_file;
 
 /* Append the contents of a scene or session file. */

@@ -20,18 +20,18 @@
 #include "lang/session/values.h"
 #include "lang/syntax/mention.h"
 
-/* The start that the lines written so far would give when they are read. */
+/* The start values that the lines written so far would set when the file is read. */
 typedef struct {
     qdot_session *s;
     qdot_text *out, *lost;
     qdot_vec(qdot_expr) symbols, values;
     bool exactly;
-    bool runs; /* runs are written, too */
+    bool runs; /* whether the runs are written, too */
     size_t all; /* the number of runs, including those of an earlier scene, which come last */
 } writer;
 
 static qdot_status
-put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
+append_expression(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 {
     qdot_text_add(out, before);
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
@@ -42,7 +42,7 @@ put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 /* The value of q or q' in the start written so far; nil if none, or if it is the end of a run
  * without its error. */
 static qdot_expr
-start_value_so_far(const writer *w, qdot_expr jet)
+get_written_start_value(const writer *w, qdot_expr jet)
 {
     for (size_t i = 0; i < w->symbols.n; i++)
         if (w->symbols.at[i] == jet && w->values.at[i] != QDOT_NIL)
@@ -51,7 +51,7 @@ start_value_so_far(const writer *w, qdot_expr jet)
 }
 
 static bool
-is_written(const writer *w, qdot_expr jet)
+is_start_written(const writer *w, qdot_expr jet)
 {
     for (size_t i = 0; i < w->symbols.n; i++)
         if (w->symbols.at[i] == jet)
@@ -59,11 +59,11 @@ is_written(const writer *w, qdot_expr jet)
     return false;
 }
 
-/* How a run's start differs from the one written so far. */
+/* How the start of a run differs from the start that the lines written so far set. */
 typedef enum { SAME, VALUES, NAMES } difference;
 
 static difference
-conditions_compare(const writer *w, const qdot_conditions *c)
+compare_start_conditions(const writer *w, const qdot_conditions *c)
 {
     difference d = c->exactly == w->exactly ? SAME : NAMES;
 
@@ -73,9 +73,9 @@ conditions_compare(const writer *w, const qdot_conditions *c)
                 qdot_symbol_jet(w->s->pool, w->s->scene->coordinates.at[i], (unsigned)order);
             const qdot_expr value = order == 0 ? c->q0.at[i] : c->v0.at[i];
             const bool named = order == 0 ? c->q_named.at[i] : c->v_named.at[i];
-            const qdot_expr there = start_value_so_far(w, jet);
+            const qdot_expr there = get_written_start_value(w, jet);
 
-            if (named != is_written(w, jet) || (named && there == QDOT_NIL))
+            if (named != is_start_written(w, jet) || (named && there == QDOT_NIL))
                 return NAMES;
             if (named && there != value && d == SAME)
                 d = VALUES;
@@ -83,9 +83,9 @@ conditions_compare(const writer *w, const qdot_conditions *c)
     return d;
 }
 
-/* Record the conditions of a run as the start written so far. */
+/* Record the start values of a run as those set by the lines written so far. */
 static qdot_status
-keep_start(writer *w, const qdot_conditions *c)
+record_written_start(writer *w, const qdot_conditions *c)
 {
     w->symbols.n = w->values.n = 0;
     w->exactly = c->exactly;
@@ -103,7 +103,7 @@ keep_start(writer *w, const qdot_conditions *c)
 /* Whether the conditions begin where run k ended: all of it; or, of a start that is wholly said, some numbers that nobody
  * types, which carry the error of that end; `anew`: only what is not written yet counts. */
 static bool
-goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
+starts_at_end_of_run(const writer *w, const qdot_conditions *c, size_t k, bool anew)
 {
     qdot_session *s = w->s;
     const qdot_run_report *report = qdot_run_get_report(s->runs->at[k].run);
@@ -121,24 +121,24 @@ goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
             return false;
         all = all && alike;
         some = some || (alike && qdot_session_file_is_long(s, value)
-                        && !(anew && start_value_so_far(w, qdot_symbol_jet(s->pool, q, i % 2)) == value));
+                        && !(anew && get_written_start_value(w, qdot_symbol_jet(s->pool, q, i % 2)) == value));
     }
     return all || some;
 }
 
-/* Write statements that give the start of these conditions, before a run, after `before` other runs. */
+/* Write the statements that set the start values of a run, when `before` other runs were written before it. */
 static qdot_status
-session_put_start(writer *w, const qdot_conditions *c, size_t before)
+write_start_statements(writer *w, const qdot_conditions *c, size_t before)
 {
     const qdot_run_report *end = NULL;
     size_t last = SIZE_MAX;
 
     for (size_t k = before; k-- > 0 && !end;)
-        if (goes_on(w, c, k, false)) {
+        if (starts_at_end_of_run(w, c, k, false)) {
             end = qdot_run_get_report(w->s->runs->at[k].run);
             qdot_text_format(w->out, "start %s", w->s->runs->at[k].name);
         }
-    QDOT_TRY(keep_start(w, c));
+    QDOT_TRY(record_written_start(w, c));
     if (!end)
         qdot_text_add(w->out, "reset start");
     for (size_t i = 0; i < w->symbols.n; i++)
@@ -150,8 +150,8 @@ session_put_start(writer *w, const qdot_conditions *c, size_t before)
 
         if (end && w->values.at[i] == qdot_expr_of_double(w->s->pool, (i % 2 == 0 ? end->q : end->v)[i / 2]))
             continue;
-        QDOT_TRY(put(w->s, "start ", w->symbols.at[i], w->out));
-        QDOT_TRY(put(w->s, " = ", w->values.at[i], w->out));
+        QDOT_TRY(append_expression(w->s, "start ", w->symbols.at[i], w->out));
+        QDOT_TRY(append_expression(w->s, " = ", w->values.at[i], w->out));
         qdot_text_add(w->out, w->exactly && i == last ? " exactly" : "");
         qdot_session_remarks_end_line(w->s, w->values.at[i], w->all, from, w->out);
     }
@@ -162,7 +162,7 @@ session_put_start(writer *w, const qdot_conditions *c, size_t before)
 
 /* Append the options of a run's text, such as " tol 1e-9 method radau", without `with`. */
 static void
-put_options(const char *text, qdot_text *out)
+append_run_options(const char *text, qdot_text *out)
 {
     static const char *const kept[] = {"tol", "digits", "method", "constraints"};
     bool keeps = false;
@@ -188,7 +188,7 @@ put_options(const char *text, qdot_text *out)
 /* The values that differ from those of the file, and are put in force for the while: those without
  * parameters first, which others may follow from. */
 static qdot_status
-put_with(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
+append_with_option(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
 {
     qdot_session *s = w->s;
     const char *before = " with ";
@@ -206,8 +206,8 @@ put_with(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
                 (now != QDOT_NIL && qdot_session_bind(s, now) == c->values.at[i]) ||
                 (follows == 0 && now != QDOT_NIL && qdot_expr_kind(s->pool, now) != QDOT_NUM))
                 continue;
-            QDOT_TRY(put(s, before, symbol, out));
-            QDOT_TRY(put(s, " = ", c->values.at[i], out));
+            QDOT_TRY(append_expression(s, before, symbol, out));
+            QDOT_TRY(append_expression(s, " = ", c->values.at[i], out));
             before = ", ";
             qdot_session_set(s, symbol, c->values.at[i], &status);
             QDOT_TRY(status);
@@ -215,12 +215,12 @@ put_with(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
     for (size_t i = 0; i < 2 * c->q0.n && start; i++) {
         const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
         const qdot_expr value = i % 2 == 0 ? c->q0.at[i / 2] : c->v0.at[i / 2];
-        const qdot_expr there = start_value_so_far(w, jet);
+        const qdot_expr there = get_written_start_value(w, jet);
 
         if (there == QDOT_NIL || there == value)
             continue;
-        QDOT_TRY(put(s, before, jet, out));
-        QDOT_TRY(put(s, " = ", value, out));
+        QDOT_TRY(append_expression(s, before, jet, out));
+        QDOT_TRY(append_expression(s, " = ", value, out));
         before = ", ";
     }
     return QDOT_OK;
@@ -246,7 +246,7 @@ is_repeatable(const qdot_session *s, const qdot_named_run *run)
 }
 
 static qdot_status
-put_run(writer *w, size_t k)
+write_run_statement(writer *w, size_t k)
 {
     qdot_session *s = w->s;
     const qdot_named_run *run = &s->runs->at[k];
@@ -255,21 +255,21 @@ put_run(writer *w, size_t k)
     qdot_status status;
     difference start;
 
-    start = conditions_compare(w, c);
+    start = compare_start_conditions(w, c);
     if (start == NAMES)
-        QDOT_TRY(session_put_start(w, c, k));
+        QDOT_TRY(write_start_statements(w, c, k));
     else if (start == VALUES)
         for (size_t i = k; i-- > 0;)
-            if (goes_on(w, c, i, true)) {
-                QDOT_TRY(session_put_start(w, c, k));
+            if (starts_at_end_of_run(w, c, i, true)) {
+                QDOT_TRY(write_start_statements(w, c, k));
                 start = SAME;
                 break;
             }
-    QDOT_TRY(put(s, "run ", c->t0, w->out));
-    QDOT_TRY(put(s, "..", c->t1, w->out));
-    put_options(run->text, w->out);
+    QDOT_TRY(append_expression(s, "run ", c->t0, w->out));
+    QDOT_TRY(append_expression(s, "..", c->t1, w->out));
+    append_run_options(run->text, w->out);
     QDOT_TRY(qdot_trial_begin(&trial, s));
-    status = put_with(w, c, start == VALUES, w->out);
+    status = append_with_option(w, c, start == VALUES, w->out);
     qdot_trial_end(&trial);
     qdot_text_format(w->out, " as %s\n", run->name);
     return status;
@@ -279,7 +279,7 @@ put_run(writer *w, size_t k)
 
 /* Move run k to the end of the list, as the latest run, or back to its place. */
 static void
-make_latest(qdot_session *s, size_t k)
+move_run_to_end(qdot_session *s, size_t k)
 {
     const qdot_named_run run = s->runs->at[k];
 
@@ -288,7 +288,7 @@ make_latest(qdot_session *s, size_t k)
 }
 
 static void
-put_back(qdot_session *s, size_t k)
+move_run_back(qdot_session *s, size_t k)
 {
     const qdot_named_run run = s->runs->at[s->runs->n - 1];
 
@@ -296,41 +296,41 @@ put_back(qdot_session *s, size_t k)
     s->runs->at[k] = run;
 }
 
-/* Whether the text with which the name was defined gives its numbers again if run k is the latest. */
+/* Whether the text that defined the name gives the same numbers again if run k is the latest run. */
 static qdot_status
-reads_numbers(qdot_session *s, const qdot_name *name, size_t k, bool *is)
+text_gives_same_numbers(qdot_session *s, const qdot_name *name, size_t k, bool *is)
 {
     qdot_cursor c = {.session = s, .source = name->body->source, .at = name->body->from};
     qdot_expr read = QDOT_NIL, over;
     qdot_status status;
 
-    make_latest(s, k);
+    move_run_to_end(s, k);
     status = qdot_read_named(&c, &read, &over);
-    put_back(s, k);
+    move_run_back(s, k);
     *is = status == QDOT_OK && c.at == name->body->to && qdot_measured_occurs(s, read) &&
           qdot_measured_as_rationals(s, read) == qdot_measured_as_rationals(s, name->value);
     (void)!qdot_pool_check(s->pool);
     return qdot_grave(status);
 }
 
-/* Find the latest run, from number `first` on, after which the name's text gives its value; runs.n if none. */
+/* Find the latest run, from index `first` on, after which the text of the name gives its value; runs.n: none. */
 static qdot_status
-find_run(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
+find_run_for_name(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
 {
     bool is = false;
 
     for (*k = s->runs->n; *k > first && name->body != NULL && !is;) {
         --*k;
-        QDOT_TRY(reads_numbers(s, name, *k, &is));
+        QDOT_TRY(text_gives_same_numbers(s, name, *k, &is));
     }
     if (!is)
         *k = s->runs->n;
     return QDOT_OK;
 }
 
-/* Write `# B: a number of a run, 0.54 +- 3e-13` as a comment; nothing for a scene without runs. */
+/* Write a comment such as `# B: a number of a run, 0.54 +- 3e-13`; write nothing for a scene without runs. */
 static qdot_status
-put_lost(writer *w, const qdot_name *name)
+write_lost_name_as_comment(writer *w, const qdot_name *name)
 {
     qdot_session *s = w->s;
     qdot_text *out = w->lost;
@@ -364,9 +364,9 @@ typedef struct {
 
 typedef qdot_vec(placed) placements;
 
-/* The earliest run after which all names are written that the text of `name` mentions. */
+/* The earliest run after which all names to which the text of `name` refers have been written. */
 static size_t
-earliest_run_needed(const placements *list, const qdot_name *name)
+find_earliest_run_needed(const placements *list, const qdot_name *name)
 {
     size_t first = 0;
 
@@ -377,7 +377,7 @@ earliest_run_needed(const placements *list, const qdot_name *name)
 }
 
 static qdot_status
-place_names(qdot_session *s, bool runs, placements *list)
+find_runs_for_names(qdot_session *s, bool runs, placements *list)
 {
     const qdot_name *name;
 
@@ -387,14 +387,14 @@ place_names(qdot_session *s, bool runs, placements *list)
         if (name->kind != QDOT_NAME_VALUE || !qdot_measured_occurs(s, name->value))
             continue;
         if (runs)
-            QDOT_TRY(find_run(s, name, earliest_run_needed(list, name), &one.behind));
+            QDOT_TRY(find_run_for_name(s, name, find_earliest_run_needed(list, name), &one.behind));
         QDOT_TRY(qdot_vec_push(list, one));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-put_names(writer *w, const placements *list, size_t behind)
+write_names_after_run(writer *w, const placements *list, size_t behind)
 {
     for (size_t i = 0; i < list->n; i++) {
         const qdot_name *name = list->at[i].name;
@@ -402,7 +402,7 @@ put_names(writer *w, const placements *list, size_t behind)
         if (list->at[i].behind != behind)
             continue;
         if (behind == w->s->runs->n) {
-            QDOT_TRY(put_lost(w, name));
+            QDOT_TRY(write_lost_name_as_comment(w, name));
             continue;
         }
         qdot_text_format(w->out, "%s = ", name->name);
@@ -442,7 +442,7 @@ qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c)
 /* Forget starts written as the end of a run without its error: a run that began there with the
  * error needs them again. */
 static void
-forget_ends(writer *w)
+forget_starts_at_run_ends(writer *w)
 {
     for (size_t i = 0; i < w->values.n; i++)
         for (size_t k = 0; k < w->s->runs->n && w->values.at[i] != QDOT_NIL
@@ -457,29 +457,29 @@ forget_ends(writer *w)
 }
 
 static qdot_status
-session_put_all(writer *w, const placements *list)
+write_runs_and_names(writer *w, const placements *list)
 {
     qdot_session *s = w->s;
     qdot_conditions start = {0};
     qdot_status status = qdot_session_file_present_start(s, &start);
 
     if (status == QDOT_OK)
-        status = keep_start(w, &start);
-    forget_ends(w);
+        status = record_written_start(w, &start);
+    forget_starts_at_run_ends(w);
     for (size_t k = 0; k < s->runs->n && status == QDOT_OK; k++) {
-        status = put_run(w, k);
+        status = write_run_statement(w, k);
         if (status == QDOT_OK)
-            status = put_names(w, list, k);
+            status = write_names_after_run(w, list, k);
     }
-    if (status == QDOT_OK && conditions_compare(w, &start) != SAME)
-        status = session_put_start(w, &start, s->runs->n);
+    if (status == QDOT_OK && compare_start_conditions(w, &start) != SAME)
+        status = write_start_statements(w, &start, s->runs->n);
     qdot_conditions_clear(&start);
     return status;
 }
 
 /* Move the runs that can be repeated to the front, in their order; returns their number. */
 static size_t
-sort_out(qdot_session *s, const qdot_named_run *all)
+move_repeatable_runs_first(qdot_session *s, const qdot_named_run *all)
 {
     const size_t n = s->runs->n;
     size_t kept = 0, lost = 0;
@@ -496,7 +496,7 @@ sort_out(qdot_session *s, const qdot_named_run *all)
 
 /* Write the runs that cannot be repeated as comments. */
 static qdot_status
-put_lost_runs(qdot_session *s, size_t n, const qdot_named_run *runs, qdot_text *lost)
+write_lost_runs_as_comments(qdot_session *s, size_t n, const qdot_named_run *runs, qdot_text *lost)
 {
     for (size_t k = 0; k < n; k++) {
         qdot_text_format(lost, "# run %s as %s: of an earlier scene\n", runs[k].text, runs[k].name);
@@ -508,16 +508,16 @@ put_lost_runs(qdot_session *s, size_t n, const qdot_named_run *runs, qdot_text *
 
 /* Write the runs and names of the session, considering only the runs in the list. */
 static qdot_status
-put_runs_and_names(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot_text *out)
+write_session_runs(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot_text *out)
 {
     writer w = {.s = s, .out = out, .lost = lost, .runs = runs, .all = all};
     placements list = {0};
-    qdot_status status = place_names(s, runs, &list);
+    qdot_status status = find_runs_for_names(s, runs, &list);
 
     if (status == QDOT_OK && runs)
-        status = session_put_all(&w, &list);
+        status = write_runs_and_names(&w, &list);
     if (status == QDOT_OK)
-        status = put_names(&w, &list, s->runs->n);
+        status = write_names_after_run(&w, &list, s->runs->n);
     qdot_free(w.symbols.at);
     qdot_free(w.values.at);
     qdot_free(list.at);
@@ -535,10 +535,10 @@ qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *o
         return QDOT_ENOMEM;
     if (n > 0)
         memcpy(all, s->runs->at, n * sizeof *all);
-    s->runs->n = sort_out(s, all);
-    status = put_runs_and_names(s, runs, n, lost, out);
+    s->runs->n = move_repeatable_runs_first(s, all);
+    status = write_session_runs(s, runs, n, lost, out);
     if (status == QDOT_OK && runs)
-        status = put_lost_runs(s, n - s->runs->n, s->runs->at + s->runs->n, lost);
+        status = write_lost_runs_as_comments(s, n - s->runs->n, s->runs->at + s->runs->n, lost);
     s->runs->n = n;
     if (n > 0)
         memcpy(s->runs->at, all, n * sizeof *all);

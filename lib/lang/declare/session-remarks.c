@@ -28,7 +28,7 @@ qdot_session_file_is_long(const qdot_session *s, qdot_expr value)
 }
 
 static void
-put_error(double error, qdot_text *out)
+append_error(double error, qdot_text *out)
 {
     if (error == error)
         qdot_number_text_bound(out, error);
@@ -38,7 +38,7 @@ put_error(double error, qdot_text *out)
 
 /* Write a comment after the value if it is a long number from a run, with its error. */
 static void
-put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
+append_comment_with_error(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
 {
     if (!qdot_session_file_is_long(s, value))
         return;
@@ -49,7 +49,7 @@ put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
             (m->digits > 0 || value != qdot_expr_of_double(s->pool, m->value)))
             continue;
         qdot_text_add(out, " # a number of a run, its error ");
-        put_error(m->error, out);
+        append_error(m->error, out);
         return;
     }
     for (size_t k = 0; k < runs; k++) {
@@ -60,7 +60,7 @@ put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
                 value != qdot_expr_of_double(s->pool, report->v[i]))
                 continue;
             qdot_text_format(out, " # from the end of %s, its error ", s->runs->at[k].name);
-            put_error(report->error, out);
+            append_error(report->error, out);
             return;
         }
     }
@@ -72,7 +72,7 @@ qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t run
     const size_t end = out->n;
     qdot_text line = {0};
 
-    put_known(s, value, runs, out);
+    append_comment_with_error(s, value, runs, out);
     if (out->n == end) {
         qdot_text_format(&line, "%s # ", qdot_text_str(out) + from);
         for (size_t i = 0; i < s->remarks->n && out->n == end && line.n > 0; i++)
@@ -86,7 +86,7 @@ qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t run
 /* --- comments kept from files that were read --------------------------------------------- */
 
 static bool
-is_kept(const qdot_session *s, const char *line)
+is_remembered_comment(const qdot_session *s, const char *line)
 {
     for (size_t i = 0; i < s->remarks->n; i++)
         if (strcmp(s->remarks->at[i], line) == 0)
@@ -114,7 +114,7 @@ qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length)
             return QDOT_ENOMEM;
         memcpy(copy, line, (size_t)(next - line));
         copy[next - line] = '\0';
-        if (is_kept(s, copy) || qdot_vec_push(s->remarks, copy) != QDOT_OK)
+        if (is_remembered_comment(s, copy) || qdot_vec_push(s->remarks, copy) != QDOT_OK)
             qdot_free(copy);
     }
     return QDOT_OK;
@@ -122,7 +122,7 @@ qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length)
 
 /* Whether a comment "# NAME: ..." or "# run ... as NAME: ..." concerns a name or run that exists again. */
 static bool
-is_found(const qdot_session *s, const char *line)
+comment_concerns_existing(const qdot_session *s, const char *line)
 {
     const char *colon = strstr(line, ": "), *from = line + 2;
     char name[128];
@@ -148,7 +148,7 @@ void
 qdot_session_remarks_lost(const qdot_session *s, const qdot_text *more, qdot_text *out)
 {
     for (size_t i = 0; i < s->remarks->n; i++)
-        if (s->remarks->at[i][0] == '#' && !is_found(s, s->remarks->at[i]))
+        if (s->remarks->at[i][0] == '#' && !comment_concerns_existing(s, s->remarks->at[i]))
             qdot_text_format(out, "%s\n", s->remarks->at[i]);
     qdot_text_add(out, qdot_text_str(more));
 }

@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_session_remarks_keep(qdot_session *s, const cha
  * was read from a run, or the end of one of the first `runs`, or with the one that was kept of the same line. */
 void qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t runs, size_t from, qdot_text *out);
 
-/* Append remembered comment lines about names and runs that are still missing; then `more`. */
+/* Append the remembered comment lines about names and runs that are still missing; then the text `more`. */
 void qdot_session_remarks_lost(const qdot_session *s, const qdot_text *more, qdot_text *out);
 
 #endif

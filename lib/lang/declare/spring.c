@@ -4,7 +4,7 @@
 #include "lang/declare/objects.h"
 #include "mech/scene/scene.h"
 
-static qdot_status spring_declare(qdot_record *r);
+static qdot_status declare_spring(qdot_record *r);
 
 QDOT_STATEMENT(spring) = {
     .word = "spring",
@@ -13,11 +13,11 @@ QDOT_STATEMENT(spring) = {
     .form = "spring NAME between A, B stiffness K rest L",
     .summary = "V = K/2 (d - L)^2, d the distance of A and B (particles, points, vectors)",
     .example = "spring s1 between bob, (0, 0) stiffness k rest L0",
-    .handler = spring_declare,
+    .handler = declare_spring,
 };
 
 static qdot_status
-spring_declare(qdot_record *r)
+declare_spring(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *rest = qdot_record_hole(r, "rest", NULL);

@@ -4,7 +4,7 @@
 #include "lang/declare/objects.h"
 #include "mech/scene/scene.h"
 
-static qdot_status torque_declare(qdot_record *r);
+static qdot_status declare_torque(qdot_record *r);
 
 QDOT_STATEMENT(torque) = {
     .word = "torque",
@@ -12,11 +12,11 @@ QDOT_STATEMENT(torque) = {
     .usage = "torque [NAME:] TAU on COORDINATE | on BODY",
     .summary = "a generalized force on a coordinate, or a torque on a body through its spin",
     .example = "torque tau on theta",
-    .handler = torque_declare,
+    .handler = declare_torque,
 };
 
 static qdot_status
-torque_declare(qdot_record *r)
+declare_torque(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *target = qdot_record_hole(r, "on", NULL);

@@ -28,7 +28,7 @@ QDOT_STATEMENT(function) = {
 /* The symbol that an argument in `function x(s, t)` means: a declared one, the time,
  * else a symbol of its own. */
 static qdot_expr
-argument_symbol(qdot_session *session, const char *name)
+symbol_of_argument(qdot_session *session, const char *name)
 {
     const qdot_name *known = qdot_names_find(session->names, name);
 
@@ -40,8 +40,8 @@ argument_symbol(qdot_session *session, const char *name)
 }
 
 static qdot_status
-declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
-             const qdot_token *const *names)
+declare_undefined_function(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
+                           const qdot_token *const *names)
 {
     qdot_pool *pool = c->session->pool;
     qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN};
@@ -49,7 +49,7 @@ declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&formals, argument_symbol(c->session, names[i]->text));
+        status = qdot_vec_push(&formals, symbol_of_argument(c->session, names[i]->text));
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
@@ -65,9 +65,9 @@ declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n
     return status;
 }
 
-/* Declare the function of a part such as NAME(u, v), and return its name. */
+/* Declare the undefined function in a part of the statement such as NAME(u, v), and return its name. */
 static qdot_status
-declare_call(qdot_record *r, const qdot_filled *part, const char **name)
+declare_function_of_part(qdot_record *r, const qdot_filled *part, const char **name)
 {
     qdot_formals f;
     qdot_status status;
@@ -75,7 +75,7 @@ declare_call(qdot_record *r, const qdot_filled *part, const char **name)
     QDOT_TRY(qdot_record_name(r, part, name));
     status = qdot_record_formals(r, part, &f);
     if (status == QDOT_OK)
-        status = declare_ufun(&r->cursor, part->from, *name, f.n, f.names);
+        status = declare_undefined_function(&r->cursor, part->from, *name, f.n, f.names);
     qdot_formals_leave(r->cursor.session, &f);
     return status;
 }
@@ -91,7 +91,7 @@ declare_functions(qdot_record *r)
          part = qdot_record_next(r, part, hole)) {
         const char *name;
 
-        status = declare_call(r, part, &name);
+        status = declare_function_of_part(r, part, &name);
         if (status == QDOT_OK)
             status = qdot_vec_push(&done, name);
     }
@@ -107,7 +107,7 @@ declare_functions(qdot_record *r)
 /* formals with the symbol of its own for NAME replaced by `symbol`; the same LIST if
  * there is none. */
 static qdot_expr
-rename_formal(qdot_pool *pool, qdot_expr formals, const char *name, qdot_expr symbol)
+declared_argument_list(qdot_pool *pool, qdot_expr formals, const char *name, qdot_expr symbol)
 {
     qdot_expr own = qdot_symbol_get(pool, QDOT_FORMAL, name);
 
@@ -117,7 +117,7 @@ rename_formal(qdot_pool *pool, qdot_expr formals, const char *name, qdot_expr sy
 /* `own`, the symbol that stood for the argument, by the declared one, in every value named, asked
  * or set and in the scene. */
 static qdot_status
-replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
+replace_argument_symbol(qdot_session *session, qdot_expr own, qdot_expr symbol)
 {
     qdot_pool *pool = session->pool;
     const qdot_name *one;
@@ -154,13 +154,13 @@ qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr s
     for (size_t i = 0;
          status == QDOT_OK && (one = qdot_names_at(session->names, i)) != NULL; i++)
         if (one->kind == QDOT_NAME_UFUN &&
-            rename_formal(session->pool, one->formals, name, symbol) != one->formals)
+            declared_argument_list(session->pool, one->formals, name, symbol) != one->formals)
             status = qdot_vec_push(&met, one->name);
     if (status == QDOT_OK)
         status = qdot_pool_check(session->pool);
     for (size_t i = 0; i < met.n && status == QDOT_OK; i++) {
         const qdot_name *entry = qdot_names_find(session->names, met.at[i]);
-        qdot_expr formals = rename_formal(session->pool, entry->formals, name, symbol);
+        qdot_expr formals = declared_argument_list(session->pool, entry->formals, name, symbol);
 
         status = qdot_pool_check(session->pool);
         if (status == QDOT_OK)
@@ -169,7 +169,7 @@ qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr s
             status = qdot_names_update(session->names, met.at[i], entry->value, formals);
     }
     if (status == QDOT_OK && met.n > 0)
-        status = replace_argument(
+        status = replace_argument_symbol(
             session, qdot_symbol_get(session->pool, QDOT_FORMAL, name), symbol);
     qdot_free(met.at);
     return status;

@@ -9,7 +9,7 @@
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
-static qdot_status animate_write(qdot_record *r);
+static qdot_status carry_out_animate(qdot_record *r);
 
 QDOT_STATEMENT(animate) = {
     .word = "animate",
@@ -18,12 +18,12 @@ QDOT_STATEMENT(animate) = {
     .summary = "an animation of a run: particles, bodies, rods, springs, dampers, with a phase portrait "
                "and the energies beside it",
     .example = "animate to \"double.html\"",
-    .handler = animate_write,
+    .handler = carry_out_animate,
 };
 
-/* Read a finite number; *t is NaN if the option is missing. */
+/* Read the finite number of an option; *t is NaN if the option is missing. */
 static qdot_status
-time_find(qdot_record *r, const qdot_filled *part, double *t)
+read_time(qdot_record *r, const qdot_filled *part, double *t)
 {
     *t = NAN;
     if (part == NULL)
@@ -35,11 +35,11 @@ time_find(qdot_record *r, const qdot_filled *part, double *t)
     return qdot_fail(QDOT_EDOMAIN, "`%s` needs a finite number", part->node->before);
 }
 
-/* Read a number that is not negative, or positive unless `zero`. */
+/* Read a number that must be positive, or with `zero` not negative. */
 static qdot_status
-length_find(qdot_record *r, const qdot_filled *part, bool zero, double *value)
+read_length(qdot_record *r, const qdot_filled *part, bool zero, double *value)
 {
-    QDOT_TRY(time_find(r, part, value));
+    QDOT_TRY(read_time(r, part, value));
     if (part == NULL || *value > 0 || (zero && *value == 0))
         return QDOT_OK;
     qdot_record_blame(r, part);
@@ -48,16 +48,16 @@ length_find(qdot_record *r, const qdot_filled *part, bool zero, double *value)
 }
 
 static qdot_status
-options_find(qdot_record *r, qdot_animated_options *drawn)
+read_options(qdot_record *r, qdot_animated_options *drawn)
 {
     const qdot_filled *title = qdot_record_hole(r, "title", NULL);
 
     if (title != NULL)
         drawn->title = qdot_record_text(title);
-    QDOT_TRY(time_find(r, qdot_record_hole(r, "from", "A"), &drawn->from));
-    QDOT_TRY(time_find(r, qdot_record_hole(r, "to", "B"), &drawn->to));
-    QDOT_TRY(length_find(r, qdot_record_hole(r, "trail", "T"), true, &drawn->trail));
-    return length_find(r, qdot_record_hole(r, "speed", "S"), false, &drawn->speed);
+    QDOT_TRY(read_time(r, qdot_record_hole(r, "from", "A"), &drawn->from));
+    QDOT_TRY(read_time(r, qdot_record_hole(r, "to", "B"), &drawn->to));
+    QDOT_TRY(read_length(r, qdot_record_hole(r, "trail", "T"), true, &drawn->trail));
+    return read_length(r, qdot_record_hole(r, "speed", "S"), false, &drawn->speed);
 }
 
 static qdot_status
@@ -78,7 +78,7 @@ write_picture(qdot_session *session, const qdot_animation *a, const char *path)
 }
 
 static qdot_status
-animate_write(qdot_record *r)
+carry_out_animate(qdot_record *r)
 {
     const qdot_filled *name = qdot_record_hole(r, "animate", "RUN");
     const char *path = qdot_record_text(qdot_record_hole(r, "to", "\"FILE.html\"")), *of = NULL;
@@ -90,7 +90,7 @@ animate_write(qdot_record *r)
 
     if (name != NULL)
         QDOT_TRY(qdot_record_name(r, name, &of));
-    QDOT_TRY(options_find(r, &drawn));
+    QDOT_TRY(read_options(r, &drawn));
     r->cursor.error_at = r->start->start;
     if (!qdot_ends_in(path, ".html") && !qdot_ends_in(path, ".gif")) {
         (void)qdot_fail(QDOT_EINVAL,

@@ -12,7 +12,7 @@
 enum { MOST_VALUES = 24 };
 
 static qdot_status
-fact_add(qdot_animation *a, const char *name, qdot_text *text)
+add_fact(qdot_animation *a, const char *name, qdot_text *text)
 {
     qdot_animation_fact fact = {name, text->at};
     qdot_status status = qdot_text_status(text);
@@ -27,7 +27,7 @@ fact_add(qdot_animation *a, const char *name, qdot_text *text)
 
 /* Append the values of all parameters that the drawn things and the equations contain: m = 1, g = 9.81. */
 static qdot_status
-add_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
+add_parameter_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
 {
     qdot_pool *pool = session->pool;
     const qdot_run_report *r = qdot_run_get_report(run->run);
@@ -60,7 +60,7 @@ add_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
     }
     if (shown > MOST_VALUES)
         qdot_text_format(&text, " and %zu more", shown - MOST_VALUES);
-    return fact_add(a, "with", &text);
+    return add_fact(a, "with", &text);
 }
 
 static void
@@ -88,17 +88,17 @@ qdot_animated_facts(qdot_session *session, const qdot_named_run *run, qdot_anima
     qdot_text text = {0};
 
     qdot_text_format(&text, "run %s as %s", run->text, run->name);
-    QDOT_TRY(fact_add(a, "run", &text));
-    QDOT_TRY(add_values(session, run, a));
+    QDOT_TRY(add_fact(a, "run", &text));
+    QDOT_TRY(add_parameter_values(session, run, a));
     qdot_text_format(&text, "%s, tol ", r->method);
     qdot_number_text(&text, r->tol, 0);
     qdot_text_format(&text, ", %zu step%s", r->steps, r->steps == 1 ? "" : "s");
-    QDOT_TRY(fact_add(a, "method", &text));
+    QDOT_TRY(add_fact(a, "method", &text));
     if (r->status != QDOT_RUN_DONE) {
         qdot_text_format(
             &text, "%s%s%s", r->status == QDOT_RUN_FAILED ? "failed" : "stopped",
             r->reason != NULL ? ": " : "", r->reason != NULL ? r->reason : "");
-        QDOT_TRY(fact_add(a, "ended", &text));
+        QDOT_TRY(add_fact(a, "ended", &text));
     }
     if (isfinite(r->error)) {
         qdot_text_add(&text, "at most ");
@@ -108,20 +108,20 @@ qdot_animated_facts(qdot_session *session, const qdot_named_run *run, qdot_anima
         qdot_text_format(&text, "unknown%s%s", r->doubt != NULL ? ": " : "",
                          r->doubt != NULL ? r->doubt : "");
     }
-    QDOT_TRY(fact_add(a, "error of the end state", &text));
+    QDOT_TRY(add_fact(a, "error of the end state", &text));
     if (isfinite(r->horizon)) {
         qdot_text_add(&text, "t = ");
         qdot_number_text(&text, r->horizon, 0.005 * fabs(r->horizon));
         qdot_text_add(&text, "; beyond it no digit of the state is right");
-        QDOT_TRY(fact_add(a, "horizon", &text));
+        QDOT_TRY(add_fact(a, "horizon", &text));
     }
     add_drifts(session, r, &text);
-    QDOT_TRY(fact_add(a, "drift", &text));
+    QDOT_TRY(add_fact(a, "drift", &text));
     if (r->m > 0 && isfinite(r->constraint_drift)) {
         qdot_text_add(&text, "error ");
         qdot_number_text_bound(&text, r->constraint_drift);
-        QDOT_TRY(fact_add(a, "constraints", &text));
+        QDOT_TRY(add_fact(a, "constraints", &text));
     }
     qdot_text_format(&text, "qdot %s", PACKAGE_VERSION);
-    return fact_add(a, "drawn by", &text);
+    return add_fact(a, "drawn by", &text);
 }

@@ -31,19 +31,19 @@ typedef struct {
     qdot_rods rods;
     bool upright; /* one-dimensional motion is drawn vertically, because there is gravity */
     qdot_vec(qdot_expr) columns; /* expressions that are stored for each frame */
-    qdot_vec(qdot_expr) places;  /* positions of the points, expanded */
+    qdot_vec(qdot_expr) places;  /* positions of the points as expressions, multiplied out */
     qdot_vec(qdot_expr) once;    /* expressions needed at the first frame only */
-    double *first;               /* their values at the first frame */
+    double *first;               /* the values of `once` at the first frame */
 } builder;
 
 static uint32_t
-dimension(const qdot_pool *pool, qdot_expr r)
+dimension_of_position(const qdot_pool *pool, qdot_expr r)
 {
     return qdot_expr_kind(pool, r) == QDOT_VEC ? qdot_expr_count(pool, r) : 1;
 }
 
 static qdot_expr
-component(const qdot_pool *pool, qdot_expr r, uint32_t d)
+component_of_position(const qdot_pool *pool, qdot_expr r, uint32_t d)
 {
     return qdot_expr_kind(pool, r) == QDOT_VEC ? qdot_expr_arg(pool, r, d) : r;
 }
@@ -51,7 +51,7 @@ component(const qdot_pool *pool, qdot_expr r, uint32_t d)
 /* --- columns and points ------------------------------------------------------------- */
 
 static qdot_status
-column(builder *b, qdot_expr e, size_t *at)
+find_or_add_column(builder *b, qdot_expr e, size_t *at)
 {
     QDOT_TRY(qdot_pool_check(b->scene->pool));
     for (size_t i = 0; i < b->columns.n; i++)
@@ -64,10 +64,10 @@ column(builder *b, qdot_expr e, size_t *at)
 }
 
 static qdot_status
-point(builder *b, qdot_expr r, size_t *at)
+find_or_add_point(builder *b, qdot_expr r, size_t *at)
 {
     qdot_pool *pool = b->scene->pool;
-    uint32_t n = dimension(pool, r);
+    uint32_t n = dimension_of_position(pool, r);
     qdot_animation_point p = {{0}};
 
     r = qdot_expand(pool, r);
@@ -81,7 +81,7 @@ point(builder *b, qdot_expr r, size_t *at)
         bool given = n > 1 ? d < n : d == (b->upright ? 1 : 0);
 
         QDOT_TRY(
-            column(b, given ? component(pool, r, n > 1 ? d : 0) : QDOT_ZERO, &p.at[d]));
+            find_or_add_column(b, given ? component_of_position(pool, r, n > 1 ? d : 0) : QDOT_ZERO, &p.at[d]));
     }
     *at = b->a->points.n;
     QDOT_TRY(qdot_vec_push(&b->places, r));
@@ -89,7 +89,7 @@ point(builder *b, qdot_expr r, size_t *at)
 }
 
 static qdot_status
-wanted_once(builder *b, qdot_expr e)
+request_first_value(builder *b, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(b->scene->pool));
     return qdot_vec_push(&b->once, e);
@@ -104,39 +104,39 @@ add_particles(builder *b)
         const qdot_particle *p = &b->scene->particles.at[i];
         qdot_animation_particle one = {.name = p->name};
 
-        QDOT_TRY(point(b, p->position, &one.point));
-        QDOT_TRY(wanted_once(b, p->mass));
+        QDOT_TRY(find_or_add_point(b, p->position, &one.point));
+        QDOT_TRY(request_first_value(b, p->mass));
         QDOT_TRY(qdot_vec_push(&b->a->particles, one));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-add_link(builder *b, qdot_animation_kind kind, const qdot_expr ends[2])
+add_spring_or_rod(builder *b, qdot_animation_kind kind, const qdot_expr ends[2])
 {
     qdot_animation_link link = {.kind = kind};
 
-    QDOT_TRY(point(b, ends[0], &link.ends[0]));
-    QDOT_TRY(point(b, ends[1], &link.ends[1]));
+    QDOT_TRY(find_or_add_point(b, ends[0], &link.ends[0]));
+    QDOT_TRY(find_or_add_point(b, ends[1], &link.ends[1]));
     return qdot_vec_push(&b->a->links, link);
 }
 
 static qdot_status
-add_links(builder *b)
+add_springs_and_rods(builder *b)
 {
     const qdot_scene *s = b->scene;
     qdot_status status = qdot_mech_rods(b->scene, &b->rods);
 
     for (size_t i = 0; i < b->rods.n && status == QDOT_OK; i++)
-        status = add_link(b, QDOT_ANIMATION_ROD, b->rods.at[i].ends);
+        status = add_spring_or_rod(b, QDOT_ANIMATION_ROD, b->rods.at[i].ends);
     for (size_t i = 0; i < s->springs.n && status == QDOT_OK; i++)
-        status = add_link(b, QDOT_ANIMATION_SPRING, s->springs.at[i].at);
+        status = add_spring_or_rod(b, QDOT_ANIMATION_SPRING, s->springs.at[i].at);
     for (size_t i = 0; i < s->dampers.n && status == QDOT_OK; i++)
-        status = add_link(b, QDOT_ANIMATION_DAMPER, s->dampers.at[i].at);
+        status = add_spring_or_rod(b, QDOT_ANIMATION_DAMPER, s->dampers.at[i].at);
     return status;
 }
 
-/* Add the arms of body i as points; in the plane, also the constant positions of these in the body's frame. */
+/* Add the arms by which body i is drawn, as points; in the plane also their positions in the body's frame. */
 static qdot_status
 add_arms(builder *b, size_t i, qdot_animation_body *one)
 {
@@ -150,9 +150,9 @@ add_arms(builder *b, size_t i, qdot_animation_body *one)
             qdot_value_mul(s->pool, qdot_transpose(s->pool, body->rotation),
                            qdot_value_sub(s->pool, arms.at[k], body->position));
 
-        status = point(b, arms.at[k], &one->arms[one->n_arms++]);
+        status = find_or_add_point(b, arms.at[k], &one->arms[one->n_arms++]);
         for (uint32_t d = 0; d < 2 && status == QDOT_OK && body->angle != QDOT_NIL; d++)
-            status = wanted_once(b, component(s->pool, own, d));
+            status = request_first_value(b, component_of_position(s->pool, own, d));
     }
     qdot_free(arms.at);
     return status;
@@ -166,18 +166,18 @@ add_bodies(builder *b)
     for (size_t i = 0; i < b->scene->bodies.n; i++) {
         const qdot_body *body = &b->scene->bodies.at[i];
         qdot_animation_body one = {.name = body->name};
-        uint32_t n = dimension(pool, body->position);
+        uint32_t n = dimension_of_position(pool, body->position);
 
-        QDOT_TRY(point(b, body->position, &one.point));
+        QDOT_TRY(find_or_add_point(b, body->position, &one.point));
         for (uint32_t k = 0; k < (n == 3 ? 6 : 2); k++)
-            QDOT_TRY(column(b, qdot_expr_arg(pool, body->rotation, k % n * n + k / n),
-                            &one.axes[k]));
-        QDOT_TRY(wanted_once(b, body->mass));
+            QDOT_TRY(find_or_add_column(b, qdot_expr_arg(pool, body->rotation, k % n * n + k / n),
+                                        &one.axes[k]));
+        QDOT_TRY(request_first_value(b, body->mass));
         if (n == 3)
             for (uint32_t k = 0; k < 9; k++)
-                QDOT_TRY(wanted_once(b, qdot_expr_arg(pool, body->inertia, k)));
+                QDOT_TRY(request_first_value(b, qdot_expr_arg(pool, body->inertia, k)));
         else
-            QDOT_TRY(wanted_once(b, body->inertia));
+            QDOT_TRY(request_first_value(b, body->inertia));
         QDOT_TRY(add_arms(b, i, &one));
         QDOT_TRY(qdot_vec_push(&b->a->bodies, one));
     }
@@ -186,7 +186,7 @@ add_bodies(builder *b)
 
 /* Choose the upward direction of the picture in space: against gravity, otherwise z. */
 static qdot_status
-want_gravity(builder *b)
+request_gravity(builder *b)
 {
     qdot_expr g = QDOT_NIL;
 
@@ -196,14 +196,14 @@ want_gravity(builder *b)
                 : qdot_value_add(b->scene->pool, g, b->scene->gravities.at[i].e);
     for (uint32_t d = 0; d < 3; d++)
         QDOT_TRY(
-            wanted_once(b, g == QDOT_NIL ? QDOT_ZERO : component(b->scene->pool, g, d)));
+            request_first_value(b, g == QDOT_NIL ? QDOT_ZERO : component_of_position(b->scene->pool, g, d)));
     return QDOT_OK;
 }
 
 /* --- choices that depend on the values at the first frame --------------------------- */
 
 static void
-use_masses(builder *b, const double **x)
+scale_particles_by_mass(builder *b, const double **x)
 {
     double most = 0;
 
@@ -218,7 +218,7 @@ use_masses(builder *b, const double **x)
 }
 
 static void
-use_bodies(builder *b, const double **x)
+set_body_shapes(builder *b, const double **x)
 {
     for (size_t i = 0; i < b->a->bodies.n; i++) {
         qdot_animation_body *one = &b->a->bodies.at[i];
@@ -238,7 +238,7 @@ use_bodies(builder *b, const double **x)
 }
 
 static void
-use_gravity(builder *b, const double *x)
+set_upward_direction(builder *b, const double *x)
 {
     double size = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 
@@ -249,7 +249,7 @@ use_gravity(builder *b, const double *x)
 /* --- phase portraits and energies --------------------------------------------------- */
 
 static qdot_status
-add_states(builder *b)
+add_phase_portraits(builder *b)
 {
     qdot_pool *pool = b->scene->pool;
 
@@ -258,8 +258,8 @@ add_states(builder *b)
         qdot_text name = {0}, rate = {0};
         qdot_animation_state one = {0};
 
-        QDOT_TRY(column(b, q, &one.q));
-        QDOT_TRY(column(b, v, &one.v));
+        QDOT_TRY(find_or_add_column(b, q, &one.q));
+        QDOT_TRY(find_or_add_column(b, v, &one.v));
         if (qdot_print(pool, q, QDOT_UNICODE, &name) != QDOT_OK ||
             qdot_print(pool, v, QDOT_UNICODE, &rate) != QDOT_OK ||
             qdot_text_status(&name) != QDOT_OK || qdot_text_status(&rate) != QDOT_OK ||
@@ -274,9 +274,9 @@ add_states(builder *b)
     return QDOT_OK;
 }
 
-/* The scalar product v.v; of a number its square. */
+/* The scalar product v.v of a vector, or the square of a number. */
 static qdot_expr
-square(qdot_pool *pool, qdot_expr v)
+norm_squared(qdot_pool *pool, qdot_expr v)
 {
     return v != QDOT_NIL && qdot_expr_kind(pool, v) == QDOT_VEC ? qdot_dot(pool, v, v)
                                                                 : qdot_mul(pool, v, v);
@@ -284,7 +284,7 @@ square(qdot_pool *pool, qdot_expr v)
 
 /* The kinetic energy T, not simplified, as only numbers are needed. */
 static qdot_expr
-kinetic(qdot_scene *s)
+kinetic_energy(qdot_scene *s)
 {
     qdot_pool *pool = s->pool;
     qdot_expr twice = QDOT_ZERO;
@@ -298,7 +298,7 @@ kinetic(qdot_scene *s)
 
         twice = qdot_add(pool, twice,
                          qdot_mul(pool, particle ? s->particles.at[i].mass : b->mass,
-                                  square(pool, v)));
+                                  norm_squared(pool, v)));
         if (particle)
             continue;
         w = qdot_scene_spin(s, b->name);
@@ -315,10 +315,10 @@ kinetic(qdot_scene *s)
 }
 
 static qdot_status
-add_parts(builder *b)
+add_energy_parts(builder *b)
 {
     qdot_scene *s = b->scene;
-    qdot_expr T = kinetic(s), V = qdot_mech_potential(s);
+    qdot_expr T = kinetic_energy(s), V = qdot_mech_potential(s);
     qdot_animation_energy list[3] = {{"T", 0}, {"V", 0}, {"T + V", 0}};
     bool magnetic;
 
@@ -326,11 +326,11 @@ add_parts(builder *b)
     magnetic = (qdot_expr_node(s->pool, V)->holds & QDOT_HAS_VELOCITY) != 0;
     if (magnetic)
         list[2].name = "h";
-    QDOT_TRY(column(b, T, &list[0].column));
+    QDOT_TRY(find_or_add_column(b, T, &list[0].column));
     if (!magnetic)
-        QDOT_TRY(column(b, V, &list[1].column));
-    QDOT_TRY(column(b, magnetic ? qdot_mech_numeric_energy(s) : qdot_add(s->pool, T, V),
-                    &list[2].column));
+        QDOT_TRY(find_or_add_column(b, V, &list[1].column));
+    QDOT_TRY(find_or_add_column(b, magnetic ? qdot_mech_numeric_energy(s) : qdot_add(s->pool, T, V),
+                                &list[2].column));
     for (int i = 0; i < 3; i++)
         if (i != 1 || !magnetic)
             QDOT_TRY(qdot_vec_push(&b->a->energies, list[i]));
@@ -346,14 +346,14 @@ add_energies(builder *b)
     qdot_animation_energy h = {"h", 0};
 
     if (s->lagrangian == QDOT_NIL)
-        return add_parts(b);
-    QDOT_TRY(column(b, qdot_mech_numeric_energy(s), &h.column));
+        return add_energy_parts(b);
+    QDOT_TRY(find_or_add_column(b, qdot_mech_numeric_energy(s), &h.column));
     return qdot_vec_push(&b->a->energies, h);
 }
 /* --- times of the frames ------------------------------------------------------------ */
 
 static qdot_status
-set_span(builder *b, const qdot_animated_options *o)
+set_time_span(builder *b, const qdot_animated_options *o)
 {
     const qdot_run_report *r = qdot_run_get_report(b->run);
     const double lo = fmin(r->t0, r->t1), hi = fmax(r->t0, r->t1);
@@ -372,7 +372,7 @@ set_span(builder *b, const qdot_animated_options *o)
 
 /* The largest number at most x that is 1, 2 or 5 times a power of ten. */
 static double
-round_down(double x)
+round_down_to_1_2_5(double x)
 {
     double ten = pow(10, floor(log10(x)));
 
@@ -380,7 +380,7 @@ round_down(double x)
 }
 
 static qdot_status
-set_frames(builder *b, const qdot_animated_options *o)
+choose_frames(builder *b, const qdot_animated_options *o)
 {
     const qdot_run_report *r = qdot_run_get_report(b->run);
     const double span = fabs(b->a->t1 - b->a->t0);
@@ -389,7 +389,7 @@ set_frames(builder *b, const qdot_animated_options *o)
 
     b->a->speed = !isnan(o->speed)          ? o->speed
                   : span >= 4 && span <= 60 ? 1
-                                            : round_down(span / 20 * (1 + 1e-9));
+                                            : round_down_to_1_2_5(span / 20 * (1 + 1e-9));
     b->a->trail = isnan(o->trail) ? fmin(span, 4 * b->a->speed) : o->trail;
     frames = fmax(A_SECOND * span / fmin(1, b->a->speed), 4 * steps);
     most = fmin(MOST, fmax(FEWEST, (double)MOST_NUMBERS / (double)(b->columns.n + 1)));
@@ -404,7 +404,7 @@ set_frames(builder *b, const qdot_animated_options *o)
 }
 
 static qdot_status
-frames_read_values(builder *b)
+evaluate_frames(builder *b)
 {
     const size_t m = b->columns.n, n = b->a->frames;
     double *times = qdot_calloc(n, sizeof *times);
@@ -454,49 +454,49 @@ check_scene(builder *b, bool bare)
                                      : qdot_hint("particle bob mass m at (x, y)");
 }
 
-/* Add everything that is drawn to the picture. */
+/* Add everything that the animation shows. */
 static qdot_status
-add_things(builder *b)
+add_all_things(builder *b)
 {
     const qdot_scene *s = b->scene;
     qdot_expr r =
         s->particles.n > 0 ? s->particles.at[0].position : s->bodies.at[0].position;
 
-    b->a->dimension = dimension(s->pool, r) == 3 ? 3 : 2;
+    b->a->dimension = dimension_of_position(s->pool, r) == 3 ? 3 : 2;
     b->upright = s->gravities.n > 0;
     QDOT_TRY(add_particles(b));
-    QDOT_TRY(add_links(b));
+    QDOT_TRY(add_springs_and_rods(b));
     QDOT_TRY(add_bodies(b));
-    return b->a->dimension == 3 ? want_gravity(b) : QDOT_OK;
+    return b->a->dimension == 3 ? request_gravity(b) : QDOT_OK;
 }
 
-/* Use the values at the first time, in the order of add_things. */
+/* Use the values at the first frame, in the order in which add_all_things asked for them. */
 static void
-use_first(builder *b)
+use_first_values(builder *b)
 {
     const double *x = b->first;
 
-    use_masses(b, &x);
-    use_bodies(b, &x);
+    scale_particles_by_mass(b, &x);
+    set_body_shapes(b, &x);
     if (b->a->dimension == 3)
-        use_gravity(b, x);
+        set_upward_direction(b, x);
 }
 
 static qdot_status
-build(builder *b, const qdot_animated_options *o)
+build_animation(builder *b, const qdot_animated_options *o)
 {
     QDOT_TRY(check_scene(b, o->bare));
-    QDOT_TRY(set_span(b, o));
+    QDOT_TRY(set_time_span(b, o));
     b->a->dimension = 2;
     if (o->title != NULL && (b->a->title = qdot_strdup(o->title)) == NULL)
         return QDOT_ENOMEM;
     if (!o->bare)
-        QDOT_TRY(add_things(b));
-    QDOT_TRY(add_states(b));
+        QDOT_TRY(add_all_things(b));
+    QDOT_TRY(add_phase_portraits(b));
     QDOT_TRY(add_energies(b));
-    QDOT_TRY(set_frames(b, o));
-    QDOT_TRY(frames_read_values(b));
-    use_first(b);
+    QDOT_TRY(choose_frames(b, o));
+    QDOT_TRY(evaluate_frames(b));
+    use_first_values(b);
     return QDOT_OK;
 }
 
@@ -508,7 +508,7 @@ qdot_animated_make(qdot_session *session, const qdot_named_run *run,
     qdot_status status;
 
     *a = (qdot_animation){0};
-    status = build(&b, options);
+    status = build_animation(&b, options);
     if (status == QDOT_OK)
         status = qdot_animated_facts(session, run, a);
     qdot_free(b.rods.at);

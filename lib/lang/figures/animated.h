@@ -1,4 +1,4 @@
-/* animated.h -- a run of the scene as a moving picture. */
+/* animated.h -- makes a moving picture of a run. */
 #ifndef QDOT_LANG_ANIMATED_H
 #define QDOT_LANG_ANIMATED_H
 
@@ -6,15 +6,15 @@
 #include "lang/session/runs.h"
 #include "show/animation.h"
 
-/* Which part of a run is drawn, and how. */
+/* The choice of which part of a run an animation shows, and how. */
 typedef struct {
     double from, to;   /* first and last time; NaN: the whole run */
     const char *title; /* title of the animation, borrowed; NULL: none */
     double
-        trail; /* length of trails in units of t; NaN: four seconds of the animation */
+        trail; /* length of the trails behind moving points, in units of t; NaN: that of four seconds of the animation */
     double speed; /* units of t in a second; NaN: 1, or what makes the picture last about
                           20 s where that would be shorter than 4 s or longer than 60 s */
-    bool bare;         /* no picture, only states and energies */
+    bool bare;         /* draw no picture of the motion, only phase portraits and energies */
 } qdot_animated_options;
 
 /* Particles, bodies, rods (mech/study/rods.h), springs and dampers of the scene along the run,
@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_animated_make(qdot_session *session,
                                                const qdot_animated_options *options,
                                                qdot_animation *a);
 
-/* Add only the lines of text about the run. */
+/* Add to the animation only the lines of text about the run, without a picture. */
 QDOT_MUST_CHECK qdot_status qdot_animated_facts(qdot_session *session,
                                                 const qdot_named_run *run,
                                                 qdot_animation *a);

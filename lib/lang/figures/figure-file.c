@@ -16,9 +16,9 @@ enum { SKETCH_COLUMNS = 100, SKETCH_ROWS = 16, MOST_FILES = 1000000 };
 
 /* --- numbered file names -------------------------------------------------------------- */
 
-/* Append the path without number and ending: "dir/NAME" for the script dir/NAME.lag, else "qdot". */
+/* Append the path of a figure without number and ending: "dir/NAME" for the script dir/NAME.lag, else "qdot". */
 static void
-add_stem(const qdot_session *session, qdot_text *path)
+append_path_stem(const qdot_session *session, qdot_text *path)
 {
     const char *script =
         session->including->n > 0 ? session->including->at[session->including->n - 1] : "-";
@@ -34,11 +34,11 @@ add_stem(const qdot_session *session, qdot_text *path)
 
 /* Choose the first of STEM-1.svg, STEM-2.svg ... that does not exist. */
 static qdot_status
-default_path(const qdot_session *session, qdot_text *path)
+choose_default_path(const qdot_session *session, qdot_text *path)
 {
     size_t stem;
 
-    add_stem(session, path);
+    append_path_stem(session, path);
     stem = path->n;
     for (size_t k = 1; k < MOST_FILES; k++) {
         qdot_text_truncate(path, stem);
@@ -60,7 +60,7 @@ has_terminal(const qdot_session *session)
 
 /* Sketch every panel in characters, as wide as the terminal. */
 static qdot_status
-sketch(qdot_session *session, const qdot_figure *figure)
+sketch_in_characters(qdot_session *session, const qdot_figure *figure)
 {
     size_t columns = 80, rows = 24;
     qdot_text text = {0};
@@ -83,7 +83,7 @@ sketch(qdot_session *session, const qdot_figure *figure)
 /* --- a window, or a file -------------------------------------------------------------- */
 
 static bool
-environment_is_set(const char *variable)
+is_environment_variable_set(const char *variable)
 {
     const char *value = getenv(variable);
 
@@ -91,14 +91,14 @@ environment_is_set(const char *variable)
 }
 
 static bool
-expects_window(const qdot_session *session)
+should_open_window(const qdot_session *session)
 {
-    return has_terminal(session) && (environment_is_set("DISPLAY") || environment_is_set("WAYLAND_DISPLAY"));
+    return has_terminal(session) && (is_environment_variable_set("DISPLAY") || is_environment_variable_set("WAYLAND_DISPLAY"));
 }
 
 /* Show the figure in a window; *open: a window was opened. If that is impossible, give a notice. */
 static qdot_status
-try_window(qdot_session *session, const qdot_figure *figure, bool *open)
+try_to_open_window(qdot_session *session, const qdot_figure *figure, bool *open)
 {
     qdot_status status = qdot_figure_write(figure, NULL);
 
@@ -116,16 +116,16 @@ qdot_figure_file_show(qdot_session *session, const qdot_figure *figure, const ch
     qdot_status status = QDOT_OK;
     bool open = false;
 
-    if (path == NULL && !figure->keep && expects_window(session))
-        QDOT_TRY(try_window(session, figure, &open));
+    if (path == NULL && !figure->keep && should_open_window(session))
+        QDOT_TRY(try_to_open_window(session, figure, &open));
     if (open)
         return QDOT_OK;
     if (path == NULL && has_terminal(session))
-        QDOT_TRY(sketch(session, figure));
+        QDOT_TRY(sketch_in_characters(session, figure));
     if (path != NULL)
         qdot_text_add(&own, path);
     else
-        status = default_path(session, &own);
+        status = choose_default_path(session, &own);
     if (status == QDOT_OK)
         status = qdot_text_status(&own);
     if (status == QDOT_OK)

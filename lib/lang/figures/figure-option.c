@@ -1,4 +1,4 @@
-/* figure-option.c -- options of a figure. */
+/* figure-option.c -- reads the options of a figure. */
 #include "lang/figures/figure-option.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 static const double least_size = 3, most_size = 100; /* smallest and largest size of a figure in cm */
 
 static qdot_status
-range_find(qdot_record *r, const qdot_filled *place, double least, double most, qdot_figure_range *range)
+read_axis_range(qdot_record *r, const qdot_filled *place, double least, double most, qdot_figure_range *range)
 {
     if (!isfinite(least) || !isfinite(most) || !(least < most)) {
         qdot_record_blame(r, place);
@@ -20,20 +20,20 @@ range_find(qdot_record *r, const qdot_filled *place, double least, double most, 
     return QDOT_OK;
 }
 
-/* Take the range `A to B` of the horizontal axis from the parts of a statement. */
+/* Read the range `A to B` of the horizontal axis from the parts of the statement. */
 static qdot_status
-abscissa_find(qdot_record *r, const qdot_filled *a, qdot_panel_choice *p)
+read_abscissa_range(qdot_record *r, const qdot_filled *a, qdot_panel_choice *p)
 {
     double least, most;
 
     QDOT_TRY(qdot_record_number(r, a, &least));
     QDOT_TRY(qdot_record_number(r, qdot_record_next(r, a, "B"), &most));
-    return range_find(r, a, least, most, &p->range[0]);
+    return read_axis_range(r, a, least, most, &p->range[0]);
 }
 
-/* Take the range A..B of the vertical axis from a statement's parts. */
+/* Read the range A..B of the vertical axis from the parts of the statement. */
 static qdot_status
-ordinate_find(qdot_record *r, const qdot_filled *range, qdot_panel_choice *p)
+read_ordinate_range(qdot_record *r, const qdot_filled *range, qdot_panel_choice *p)
 {
     double least, most;
     qdot_expr from, to;
@@ -41,11 +41,11 @@ ordinate_find(qdot_record *r, const qdot_filled *range, qdot_panel_choice *p)
     QDOT_TRY(qdot_record_range(r, range, &from, &to));
     QDOT_TRY(qdot_session_number(r->cursor.session, from, &least, NULL));
     QDOT_TRY(qdot_session_number(r->cursor.session, to, &most, NULL));
-    return range_find(r, range, least, most, &p->range[1]);
+    return read_axis_range(r, range, least, most, &p->range[1]);
 }
 
 static qdot_status
-length_find(qdot_record *r, const qdot_filled *part, double *length)
+read_length(qdot_record *r, const qdot_filled *part, double *length)
 {
     QDOT_TRY(qdot_record_number(r, part, length));
     if (*length >= least_size && *length <= most_size)
@@ -55,9 +55,9 @@ length_find(qdot_record *r, const qdot_filled *part, double *length)
                      least_size, most_size, *length);
 }
 
-/* X, ...: at most `most` texts. */
+/* Read a list of texts X, ..., of which there may be at most `most`. */
 static qdot_status
-texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **texts, size_t *n)
+read_texts(qdot_record *r, const qdot_filled *first, size_t most, const char **texts, size_t *n)
 {
     const qdot_filled *end = r->parts.at + r->parts.n;
 
@@ -74,7 +74,7 @@ texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **t
     return QDOT_OK;
 }
 
-/* Fail: the word is no name of a colour; the hint lists those there are. */
+/* Fail because the word is no name of a colour; the hint lists the names of colours. */
 static qdot_status
 refuse_colour(qdot_record *r, const qdot_filled *part)
 {
@@ -91,7 +91,7 @@ refuse_colour(qdot_record *r, const qdot_filled *part)
 
 /* Read the colours of the curves, in their order, after the word `colour`. */
 static qdot_status
-colours_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
+read_colours(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
 {
     const qdot_filled *end = r->parts.at + r->parts.n;
 
@@ -116,7 +116,7 @@ colours_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
 
 /* Read the texts of all axes, after `labels`, or of one axis, after `xlabel` or `ylabel`. */
 static qdot_status
-labels_find(qdot_record *r, const qdot_filled *word, qdot_panel_choice *p)
+read_labels(qdot_record *r, const qdot_filled *word, qdot_panel_choice *p)
 {
     const bool x = qdot_filled_is(word, "xlabel"), y = qdot_filled_is(word, "ylabel");
 
@@ -125,42 +125,42 @@ labels_find(qdot_record *r, const qdot_filled *word, qdot_panel_choice *p)
         return qdot_fail(QDOT_EINVAL, "`labels` names the axes: no `xlabel` or `ylabel` beside it");
     }
     if (!x && !y)
-        return texts_find(r, word + 1, 3, p->labels, &p->n_labels);
+        return read_texts(r, word + 1, 3, p->labels, &p->n_labels);
     p->labels[y] = qdot_record_text(word + 1);
     return QDOT_OK;
 }
 
 /* Whether an earlier panel has already given this option of the whole figure. */
 static bool
-is_given(const qdot_figure_choice *f, const qdot_filled *word)
+is_already_given(const qdot_figure_choice *f, const qdot_filled *word)
 {
     return (qdot_filled_is(word, "size") && f->width > 0) || (qdot_filled_is(word, "keep") && f->keep) ||
            (qdot_filled_is(word, "to") && f->path != NULL && qdot_filled_is_text(word + 1));
 }
 
-/* Take one option: `word` is its word, the next part its value. */
+/* Read one option of a figure: `word` is its keyword, the next part of the statement its value. */
 static qdot_status
-one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_panel_choice *p)
+read_option(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_panel_choice *p)
 {
     const qdot_filled *hole = word + 1;
 
-    if (is_given(f, word)) {
+    if (is_already_given(f, word)) {
         qdot_record_blame(r, word);
         return qdot_fail(QDOT_EINVAL, "`%s` is given twice", word->from->text);
     }
     if (qdot_filled_is(word, "from"))
-        return abscissa_find(r, hole, p);
+        return read_abscissa_range(r, hole, p);
     if (qdot_filled_is(word, "range"))
-        return ordinate_find(r, hole, p);
+        return read_ordinate_range(r, hole, p);
     if (qdot_filled_is(word, "labels") || qdot_filled_is(word, "xlabel") || qdot_filled_is(word, "ylabel"))
-        return labels_find(r, word, p);
+        return read_labels(r, word, p);
     if (qdot_filled_is(word, "legend"))
-        return texts_find(r, hole, QDOT_FIGURE_LEGEND, p->legend, &p->n_legend);
+        return read_texts(r, hole, QDOT_FIGURE_LEGEND, p->legend, &p->n_legend);
     if (qdot_filled_is(word, "colour"))
-        return colours_find(r, hole, p);
+        return read_colours(r, hole, p);
     if (qdot_filled_is(word, "size")) {
-        QDOT_TRY(length_find(r, hole, &f->width));
-        return length_find(r, qdot_record_next(r, hole, "H"), &f->height);
+        QDOT_TRY(read_length(r, hole, &f->width));
+        return read_length(r, qdot_record_next(r, hole, "H"), &f->height);
     }
     if (qdot_filled_is(word, "log")) {
         p->logs = true;
@@ -168,7 +168,7 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         p->log[1] = !qdot_filled_is(hole, "x");
     } else if (qdot_filled_is(word, "ticks")) {
         p->ticks = word;
-        hole = word + 2; /* behind `pi` */
+        hole = word + 2; /* the part of the statement after the word `pi` */
         if (hole < r->parts.at + r->parts.n) {
             p->pi[0] = qdot_filled_is(hole, "x") || qdot_filled_is(hole, "xy");
             p->pi[1] = qdot_filled_is(hole, "y") || qdot_filled_is(hole, "xy");
@@ -195,13 +195,13 @@ qdot_figure_option_find(qdot_record *r, const qdot_filled *from, const qdot_fill
 {
     for (const qdot_filled *part = from; part < to; part++)
         if (part->node->kind == QDOT_USAGE_WORD)
-            QDOT_TRY(one_find(r, part, figure, panel));
+            QDOT_TRY(read_option(r, part, figure, panel));
     return QDOT_OK;
 }
 
-/* Whether the abscissa is the time: then it is the ordinate that shows an angle. */
+/* Whether the abscissa is the time, so that angles are on the ordinate. */
 static bool
-is_over_time(const qdot_panel *panel)
+abscissa_is_time(const qdot_panel *panel)
 {
     return panel->axis[0].formula && panel->axis[0].text != NULL && strcmp(panel->axis[0].text, "t") == 0;
 }
@@ -232,7 +232,7 @@ qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
     for (int k = 0; k < 2; k++) {
         panel->range[k] = choice->range[k];
         panel->log[k] = choice->logs ? choice->log[k] : panel->log[k];
-        panel->pi[k] = choice->ticks != NULL && (choice->pi[k] || (!choice->pi[1 - k] && k == is_over_time(panel)));
+        panel->pi[k] = choice->ticks != NULL && (choice->pi[k] || (!choice->pi[1 - k] && k == abscissa_is_time(panel)));
     }
     for (int k = 0; k < 2; k++)
         if (panel->pi[k] && panel->log[k])

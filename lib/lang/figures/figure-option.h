@@ -5,7 +5,7 @@
 #include "lang/syntax/record.h"
 #include "show/figure.h"
 
-/* Options of the whole figure: to "FILE", size W, H, keep. */
+/* Options of the whole figure: to "FILE", size W, H, keep (the window). */
 typedef struct {
     const char *path; /* NULL: not given */
     double width, height;
@@ -23,12 +23,12 @@ typedef struct {
     size_t n_labels, n_legend, colours[QDOT_FIGURE_LEGEND], n_colours;
 } qdot_panel_choice;
 
-/* The options as they occur in the usages of statements. */
+/* The options of a figure as text, for the usage texts of statements. */
 #define QDOT_FIGURE_USAGE                                                                 \
     "[from A to B] [range A..B] [log x|y|xy] [ticks pi [x|y|xy]] [equal] [points] [lines] "                                   \
     "[colour COLOUR, ...] [title \"TEXT\"] [labels \"X\", ...] "                                                            \
     "[xlabel \"X\"] [ylabel \"Y\"] [legend \"NAME\", ...] [size W, H] [keep] [to \"FILE\"]"
-/* Those among the parts [from, to) of a statement; of the figure each once, whichever panel says it. Errors: QDOT_EINVAL. */
+/* Read the options among parts [from, to) of a statement; an option of the whole figure only once. QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,
                                                     const qdot_filled *to, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);

@@ -10,7 +10,7 @@
 enum { FULL, DASHED, DOTTED, KINDS, MOST_PANELS = 6, MOST_TYPES = 8 };
 
 static bool
-is_mark(const qdot_row_table *t, size_t k)
+is_bifurcation(const qdot_row_table *t, size_t k)
 {
     return !isnan(t->values[k * t->n + t->n - 1]);
 }
@@ -18,9 +18,9 @@ is_mark(const qdot_row_table *t, size_t k)
 /* The line style between rows k and k + 1 of one branch; at a bifurcation stability is undecided,
  * so the other row counts. */
 static int
-line_kind(const qdot_row_table *t, size_t k)
+line_style_of_row(const qdot_row_table *t, size_t k)
 {
-    const double stable = t->values[(is_mark(t, k) ? k + 1 : k) * t->n + t->n - 2];
+    const double stable = t->values[(is_bifurcation(t, k) ? k + 1 : k) * t->n + t->n - 2];
 
     return isnan(stable) ? DOTTED : stable > 0 ? FULL : DASHED;
 }
@@ -34,14 +34,14 @@ add_point(qdot_curve *c, double *x, double *y, double px, double py)
 
 /* Collect the segments of one line style, with gaps between them; column i gives the ordinate. */
 static void
-fill_kind(const qdot_row_table *t, size_t i, int kind, qdot_curve *c, double *x, double *y)
+fill_curve_of_style(const qdot_row_table *t, size_t i, int kind, qdot_curve *c, double *x, double *y)
 {
     bool open = false;
 
     for (size_t k = 0; k + 1 < t->rows; k++) {
         const double *row = t->values + k * t->n;
 
-        if (row[0] != row[t->n] || line_kind(t, k) != kind) {
+        if (row[0] != row[t->n] || line_style_of_row(t, k) != kind) {
             if (open)
                 add_point(c, x, y, NAN, NAN);
             open = false;
@@ -54,7 +54,7 @@ fill_kind(const qdot_row_table *t, size_t i, int kind, qdot_curve *c, double *x,
     }
 }
 
-/* The types of the bifurcations, each once. */
+/* Find the types of the bifurcations, such as a fold, each once. */
 static size_t
 find_types(const qdot_row_table *marks, const char **types)
 {
@@ -72,12 +72,12 @@ find_types(const qdot_row_table *marks, const char **types)
 }
 
 static void
-fill_marks(const qdot_row_table *t, size_t i, const char *type, qdot_curve *c, double *x, double *y)
+fill_curve_of_marks(const qdot_row_table *t, size_t i, const char *type, qdot_curve *c, double *x, double *y)
 {
     for (size_t k = 0; k < t->rows; k++) {
         const double *row = t->values + k * t->n;
 
-        if (!is_mark(t, k) || strcmp(t->marks->reasons[(size_t)row[t->n - 1] - 1], type) != 0)
+        if (!is_bifurcation(t, k) || strcmp(t->marks->reasons[(size_t)row[t->n - 1] - 1], type) != 0)
             continue;
         add_point(c, x, y, row[1], row[i]);
     }
@@ -98,9 +98,9 @@ fill_panel(const qdot_row_table *t, size_t i, qdot_panel *p, qdot_curve *curves,
         *c = (qdot_curve){.label = {k < KINDS ? names[k] : types[k - KINDS], false},
                           .x = x, .y = y, .look = k + 1, .points = k >= KINDS};
         if (k < KINDS)
-            fill_kind(t, i, (int)k, c, x, y);
+            fill_curve_of_style(t, i, (int)k, c, x, y);
         else
-            fill_marks(t, i, types[k - KINDS], c, x, y);
+            fill_curve_of_marks(t, i, types[k - KINDS], c, x, y);
         p->n += c->rows > 0;
     }
 }
@@ -109,7 +109,7 @@ qdot_status
 qdot_plot_branches_draw(const qdot_row_table *t, qdot_branch_drawing *d)
 {
     const size_t per = KINDS + MOST_TYPES, room = 2 * per * (3 * t->rows + 1);
-    const size_t all = t->drawn; /* columns after branch and parameter */
+    const size_t all = t->drawn; /* number of columns drawn, those after branch number and parameter */
 
     d->n = all < MOST_PANELS ? all : MOST_PANELS;
     d->panels = qdot_calloc(d->n + 1, sizeof *d->panels);

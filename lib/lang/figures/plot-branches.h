@@ -9,7 +9,7 @@
 #include "lang/session/row-table.h"
 #include "show/figure.h"
 
-/* Panels with the arrays that they use; freed in any case. */
+/* The panels of a figure of branches, with the arrays that they use; freed in any case. */
 typedef struct {
     qdot_panel *panels;  /* [n] the panels */
     qdot_curve *curves;

@@ -12,11 +12,11 @@
 #include "lang/session/session.h"
 #include "table/csv-read.h"
 
-/* A column as the statement calls it. */
+/* A column of a data file, as the statement `plot` names it. */
 typedef struct {
     const qdot_filled *part;
     char *label;
-    size_t at; /* its place in the file */
+    size_t at; /* the index of the column in the file */
     bool skipped;
 } data_column;
 
@@ -30,7 +30,7 @@ typedef struct {
 static const char data_hole[] = "\"DATA\"";
 
 static bool
-is_data(const qdot_filled *part)
+is_data_file(const qdot_filled *part)
 {
     return part->node->kind == QDOT_USAGE_HOLE && qdot_filled_is(part, data_hole);
 }
@@ -40,7 +40,7 @@ qdot_plot_data_find(const qdot_plot_said *said)
 {
     const qdot_filled *part = said->from;
 
-    while (part < said->to && !is_data(part))
+    while (part < said->to && !is_data_file(part))
         part++;
     return part;
 }
@@ -64,14 +64,14 @@ add_column(data_file *d, const qdot_filled *part)
     return status;
 }
 
-/* Collect the columns up to the next file or the options; *next: the part behind them. */
+/* Collect the column parts of the statement up to the next file or the options; *next: the part after them. */
 static qdot_status
-columns_collect(const qdot_plot_said *said, data_file *d, const qdot_filled **next)
+collect_columns(const qdot_plot_said *said, data_file *d, const qdot_filled **next)
 {
     const qdot_filled *part = d->file + 1;
     size_t drawn = 0;
 
-    for (; part < said->to && part->node->kind != QDOT_USAGE_WORD && !is_data(part); part++)
+    for (; part < said->to && part->node->kind != QDOT_USAGE_WORD && !is_data_file(part); part++)
         if (part->node->kind == QDOT_USAGE_HOLE)
             QDOT_TRY(add_column(d, part));
     *next = part;
@@ -91,7 +91,7 @@ columns_collect(const qdot_plot_said *said, data_file *d, const qdot_filled **ne
 
 /* The index of the column with this name in the file; csv->columns if there is none. */
 static size_t
-column_called(const qdot_csv *csv, const char *label)
+find_column_by_name(const qdot_csv *csv, const char *label)
 {
     size_t i = 0;
 
@@ -100,9 +100,9 @@ column_called(const qdot_csv *csv, const char *label)
     return i;
 }
 
-/* Whether the file names its columns by names that the statement or the session has. */
+/* Whether the data file names its columns, by names that the statement uses or the session knows. */
 static bool
-is_named(const data_file *d)
+has_named_columns(const data_file *d)
 {
     const qdot_names *names = d->record->cursor.session->names;
 
@@ -112,14 +112,14 @@ is_named(const data_file *d)
         if (qdot_names_find(names, d->csv.names.at[i].word) != NULL || strcmp(d->csv.names.at[i].word, "t") == 0)
             return true;
     for (size_t i = 0; i < d->columns.n; i++)
-        if (column_called(&d->csv, d->columns.at[i].label) < d->csv.columns)
+        if (find_column_by_name(&d->csv, d->columns.at[i].label) < d->csv.columns)
             return true;
     return false;
 }
 
-/* Add the names of the columns of the file to the present error, as its hint. */
+/* Add a hint to the present error: the names of the columns of the file. */
 static qdot_status
-hint_columns(const qdot_csv *csv)
+add_hint_of_columns(const qdot_csv *csv)
 {
     qdot_text list = {0};
     const qdot_status status = qdot_last_error()->status;
@@ -133,34 +133,34 @@ hint_columns(const qdot_csv *csv)
     return status;
 }
 
-/* Find the place of each column: by name or by order. */
+/* Find the index of each column in the data file, by its name or by order. */
 static qdot_status
-columns_place(data_file *d)
+find_column_indices(data_file *d)
 {
-    const bool named = is_named(d);
+    const bool named = has_named_columns(d);
     const size_t n = d->columns.n, most = d->csv.columns;
 
     if (!named && n != most) {
         qdot_record_blame(d->record, d->columns.at[n > most ? most : n - 1].part);
         (void)qdot_fail(QDOT_EINVAL, "`%.200s` has %zu column%s, %zu are named", qdot_record_text(d->file), most,
                         most == 1 ? "" : "s", n);
-        return hint_columns(&d->csv);
+        return add_hint_of_columns(&d->csv);
     }
     for (size_t i = 0; i < n; i++) {
         data_column *column = &d->columns.at[i];
 
-        column->at = named ? column_called(&d->csv, column->label) : i;
+        column->at = named ? find_column_by_name(&d->csv, column->label) : i;
         if (column->at < most || column->skipped)
             continue;
         qdot_record_blame(d->record, column->part);
         (void)qdot_fail(QDOT_ENAME, "`%.200s` has no column `%.40s`", qdot_record_text(d->file), column->label);
-        return hint_columns(&d->csv);
+        return add_hint_of_columns(&d->csv);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-data_read(data_file *d)
+read_data_file(data_file *d)
 {
     qdot_text path = {0};
     qdot_status status;
@@ -176,14 +176,14 @@ data_read(data_file *d)
 
 /* --- the curves -------------------------------------------------------------------------- */
 
-/* The two columns of a curve. */
+/* The two columns of a curve: abscissa and ordinate. */
 typedef struct {
     const qdot_csv *csv;
     size_t at[2];
 } pair;
 
 static qdot_status
-pair_values(void *user, size_t n, const double *s, double *values)
+read_curve_values(void *user, size_t n, const double *s, double *values)
 {
     const pair *p = user;
 
@@ -193,12 +193,12 @@ pair_values(void *user, size_t n, const double *s, double *values)
     return QDOT_OK;
 }
 
-/* The points of a column over the first one. */
+/* Make the points of a curve: a column of the file over its first column. */
 static qdot_status
-column_trace(const data_file *d, const data_column *column, qdot_trace *points)
+make_trace_of_column(const data_file *d, const data_column *column, qdot_trace *points)
 {
     pair p = {&d->csv, {d->columns.at[0].at, column->at}};
-    const qdot_trace_source source = {.axes = 2, .values = pair_values, .user = &p};
+    const qdot_trace_source source = {.axes = 2, .values = read_curve_values, .user = &p};
     double *rows = qdot_calloc(d->csv.rows + 1, sizeof *rows);
     qdot_status status;
 
@@ -214,7 +214,7 @@ column_trace(const data_file *d, const data_column *column, qdot_trace *points)
 /* What a column is called in the key: by its file where curves of the scene or of other files stand beside it, and by
  * its name too where the file has several. */
 static void
-name_column(const data_file *d, const data_column *column, bool beside, qdot_text *label)
+append_column_label(const data_file *d, const data_column *column, bool beside, qdot_text *label)
 {
     const char *path = qdot_record_text(d->file), *slash = strrchr(path, '/');
     size_t drawn = 0;
@@ -228,7 +228,7 @@ name_column(const data_file *d, const data_column *column, bool beside, qdot_tex
 }
 
 static qdot_status
-curves_add(const data_file *d, bool beside, qdot_plot_panel *p)
+add_curves_of_file(const data_file *d, bool beside, qdot_plot_panel *p)
 {
     for (size_t i = 1; i < d->columns.n; i++) {
         const data_column *column = &d->columns.at[i];
@@ -238,7 +238,7 @@ curves_add(const data_file *d, bool beside, qdot_plot_panel *p)
 
         if (column->skipped)
             continue;
-        name_column(d, column, beside, &label);
+        append_column_label(d, column, beside, &label);
         status = qdot_text_status(&label);
         if (status == QDOT_OK)
             status = qdot_plot_curve_add(p, qdot_text_str(&label), column->label, &curve);
@@ -246,14 +246,14 @@ curves_add(const data_file *d, bool beside, qdot_plot_panel *p)
         QDOT_TRY(status);
         curve->data = true;
         curve->literal = beside;
-        QDOT_TRY(column_trace(d, column, &curve->points));
+        QDOT_TRY(make_trace_of_column(d, column, &curve->points));
     }
     return QDOT_OK;
 }
 
-/* The abscissa of a panel of data alone is called as their first column. */
+/* Label the abscissa of a panel, if it shows only data, by the name of their first column. */
 static qdot_status
-name_abscissa(const data_file *d, qdot_plot_panel *p)
+label_abscissa(const data_file *d, qdot_plot_panel *p)
 {
     if (p->curves.n > 0 || p->variable != NULL)
         return QDOT_OK;
@@ -262,7 +262,7 @@ name_abscissa(const data_file *d, qdot_plot_panel *p)
 }
 
 static void
-data_clear(data_file *d)
+free_data_file(data_file *d)
 {
     for (size_t i = 0; i < d->columns.n; i++)
         qdot_free(d->columns.at[i].label);
@@ -281,20 +281,20 @@ qdot_plot_data_add(const qdot_plot_said *said, qdot_plot_panel *p)
         qdot_record_blame(said->record, part);
         return qdot_fail(QDOT_ETYPE, "a path in space has no data beside it: a file has two columns for a curve");
     }
-    while (status == QDOT_OK && part < said->to && is_data(part)) {
+    while (status == QDOT_OK && part < said->to && is_data_file(part)) {
         data_file d = {.record = said->record, .file = part};
 
-        status = columns_collect(said, &d, &part);
-        beside = beside || (part < said->to && is_data(part));
+        status = collect_columns(said, &d, &part);
+        beside = beside || (part < said->to && is_data_file(part));
         if (status == QDOT_OK)
-            status = data_read(&d);
+            status = read_data_file(&d);
         if (status == QDOT_OK)
-            status = columns_place(&d);
+            status = find_column_indices(&d);
         if (status == QDOT_OK)
-            status = name_abscissa(&d, p);
+            status = label_abscissa(&d, p);
         if (status == QDOT_OK)
-            status = curves_add(&d, beside, p);
-        data_clear(&d);
+            status = add_curves_of_file(&d, beside, p);
+        free_data_file(&d);
     }
     return status;
 }

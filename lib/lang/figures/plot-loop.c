@@ -1,4 +1,4 @@
-/* plot-loop.c -- the `for` of a panel: a curve of each expression for each pass. */
+/* plot-loop.c -- the `for` loop of a panel of `plot`: for each pass of the loop, a curve of each expression. */
 #include "lang/figures/plot-loop.h"
 
 #include "expr/print-name.h"
@@ -27,9 +27,9 @@ qdot_plot_indices(qdot_session *session, const qdot_loop *loop, qdot_text *label
     return QDOT_OK;
 }
 
-/* The part behind the clause that begins with the word `first`. */
+/* The part of the statement after the `for` clause that begins with the word `first`. */
 static const qdot_filled *
-clause_end(const qdot_plot_said *said, const qdot_filled *first)
+end_of_for_clause(const qdot_plot_said *said, const qdot_filled *first)
 {
     const qdot_filled *behind = first + 1;
 
@@ -42,7 +42,7 @@ qdot_status
 qdot_plot_loop_carry_out(const qdot_plot_said *said, const qdot_token *from, qdot_plot_pass pass, void *user)
 {
     const qdot_filled *word = qdot_plot_find_word(said, "for");
-    const qdot_filled *end = clause_end(said, word);
+    const qdot_filled *end = end_of_for_clause(said, word);
     qdot_status status;
     qdot_loop loop;
     bool more;

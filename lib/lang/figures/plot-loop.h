@@ -15,7 +15,7 @@ typedef struct {
     const qdot_filled *from, *to;
 } qdot_plot_said;
 
-/* The word `word` among the parts of the panel; NULL if it does not occur. */
+/* The part of this panel that is the word `word`; NULL if it does not occur. */
 const qdot_filled *qdot_plot_find_word(const qdot_plot_said *said, const char *word);
 
 /* Append the present values of the loop indices as text: ", l = 1". */

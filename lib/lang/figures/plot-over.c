@@ -1,4 +1,4 @@
-/* plot-over.c -- curves of an expression over a variable; no run is needed. */
+/* plot-over.c -- curves of an expression over a variable, `plot E vs x = A..B`; no run is needed. */
 #include <string.h>
 
 #include "expr/calculus.h"
@@ -13,12 +13,12 @@ enum { FIRST_POINTS = 401 };
 
 typedef struct {
     const char *name;
-    qdot_expr symbol; /* symbol of that name, or a new one */
+    qdot_expr symbol; /* the variable's symbol: that of a declared name, or a new one */
     double from, to;
 } variable;
 
 static qdot_status
-over_values(void *user, size_t n, const double *s, double *values)
+evaluate_curve(void *user, size_t n, const double *s, double *values)
 {
     const qdot_plot_curve *curve = user;
 
@@ -28,9 +28,9 @@ over_values(void *user, size_t n, const double *s, double *values)
     return QDOT_OK;
 }
 
-/* Compute the first points of one curve. */
+/* Compute the first points of one curve, evenly spaced before they are refined. */
 static qdot_status
-fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curve *one)
+compute_first_points(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curve *one)
 {
     qdot_pool *pool = session->pool;
     qdot_expr x = qdot_symbol_get(pool, QDOT_FORMAL, "vs#x");
@@ -49,13 +49,13 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
                                      : v->from + (v->to - v->from) * (double)k /
                                                      (double)(FIRST_POINTS - 1);
     one->source = (qdot_trace_source){
-        .axes = 2, .values = over_values, .user = one, .jumps = true};
+        .axes = 2, .values = evaluate_curve, .user = one, .jumps = true};
     return qdot_trace_begin(&one->source, FIRST_POINTS, s, &one->points);
 }
 
-/* Make the curve of one expression over the variable. */
+/* Make the curve of one expression over the variable of `vs NAME = A..B`. */
 static qdot_status
-curve_over(qdot_record *r, const qdot_filled *part, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
+make_curve(qdot_record *r, const qdot_filled *part, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
 {
     const qdot_compiled *program = &r->compiled.at[part->first];
     qdot_session *session = r->cursor.session;
@@ -76,7 +76,7 @@ curve_over(qdot_record *r, const qdot_filled *part, const variable *v, const qdo
     if (status == QDOT_OK)
         status = qdot_plot_curve_add(p, qdot_text_str(&label), qdot_text_str(&axis), &curve);
     if (status == QDOT_OK)
-        status = fill_curve(session, v, e, curve);
+        status = compute_first_points(session, v, e, curve);
     qdot_text_clear(&axis);
     qdot_text_clear(&label);
     return status;
@@ -89,20 +89,20 @@ typedef struct {
 
 /* Make the curves of this pass of the loop: each expression is evaluated with the present index values. */
 static qdot_status
-curves_over(const qdot_plot_said *said, const qdot_loop *loop, void *user)
+make_curves(const qdot_plot_said *said, const qdot_loop *loop, void *user)
 {
     const qdot_filled *end = qdot_plot_data_find(said);
     const repeated *x = user;
 
     for (const qdot_filled *part = said->from; part < end && !qdot_filled_is(part, "vs"); part++)
         if (part->node->kind == QDOT_USAGE_HOLE)
-            QDOT_TRY(curve_over(said->record, part, x->v, loop, x->panel));
+            QDOT_TRY(make_curve(said->record, part, x->v, loop, x->panel));
     return QDOT_OK;
 }
 
-/* Read the variable of `vs NAME = A..B`. */
+/* Read the variable and its range in `vs NAME = A..B`. */
 static qdot_status
-find_variable(qdot_record *r, const qdot_filled *name, variable *v)
+read_variable(qdot_record *r, const qdot_filled *name, variable *v)
 {
     qdot_session *session = r->cursor.session;
     const qdot_name *known;
@@ -118,9 +118,9 @@ find_variable(qdot_record *r, const qdot_filled *name, variable *v)
     return qdot_session_number(session, to, &v->to, NULL);
 }
 
-/* Take the options of a figure with axes in the plane. */
+/* Read the options of a panel whose axes are in the plane. */
 static qdot_status
-find_options(const qdot_plot_said *said, const qdot_filled *name, qdot_plot_panel *p, qdot_figure_choice *figure)
+read_options(const qdot_plot_said *said, const qdot_filled *name, qdot_plot_panel *p, qdot_figure_choice *figure)
 {
     QDOT_TRY(qdot_figure_option_find(said->record, said->from, said->to, figure, &p->choice));
     if (p->choice.n_labels < 3)
@@ -139,8 +139,8 @@ qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *p, qdot_figure_choic
     qdot_status status;
     bool bound;
 
-    QDOT_TRY(find_variable(said->record, name, &v));
-    QDOT_TRY(find_options(said, name, p, figure));
+    QDOT_TRY(read_variable(said->record, name, &v));
+    QDOT_TRY(read_options(said, name, p, figure));
     p->variable = qdot_strdup(v.name);
     if (p->variable == NULL)
         return QDOT_ENOMEM;
@@ -148,8 +148,8 @@ qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *p, qdot_figure_choic
     if (bound)
         QDOT_TRY(qdot_names_push(names, v.name, v.symbol));
     status = qdot_plot_find_word(said, "for") != NULL
-                 ? qdot_plot_loop_carry_out(said, said->from->from, curves_over, &x)
-                 : curves_over(said, NULL, &x);
+                 ? qdot_plot_loop_carry_out(said, said->from->from, make_curves, &x)
+                 : make_curves(said, NULL, &x);
     if (bound)
         qdot_names_pop(names);
     return status == QDOT_OK && p->curves.n == 0 ? qdot_fail(QDOT_EINVAL, "there is no curve to plot") : status;

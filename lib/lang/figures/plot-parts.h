@@ -14,17 +14,17 @@
 typedef struct {
     char *label, *axis; /* name in the legend; label of the y axis */
     const qdot_operand *y;
-    qdot_operand x;  /* abscissa; strings and columns borrowed; session NULL: the abscissa is t */
+    qdot_operand x;  /* operand of the abscissa; strings and columns borrowed; session NULL: the abscissa is t */
     size_t component; /* for a vector y: index of its component */
     bool drift;      /* draw y minus its value at `begin` */
-    bool data;       /* points of a file */
-    bool literal;    /* the label is no formula */
+    bool data;       /* the points are those of a data file */
+    bool literal;    /* the label is plain text, not a formula */
     double begin;
     qdot_tape *tape; /* for a curve over a variable: y as a tape; owned */
     double *work;
     qdot_trace_source source;
     qdot_trace points;
-    qdot_figure_range shown; /* if it has a pole */
+    qdot_figure_range shown; /* the range of the ordinate that is shown if the curve has a pole */
 } qdot_plot_curve;
 
 /* An item between commas: an operand; its abscissa, counted from 1 in `versus`, 0: t; the pass of a
@@ -39,13 +39,13 @@ typedef struct {
     qdot_vec(qdot_plot_item) items; /* further curves besides `operands` */
     qdot_vec(qdot_plot_curve *) curves; /* the curves, each owned */
     qdot_vec(char *) passes;        /* text of each pass of a loop, as ", l = 1"; owned */
-    qdot_vec(qdot_named_run) made;  /* the run of each pass; one use of each is held */
+    qdot_vec(qdot_named_run) made;  /* the run of each pass of a loop; one use of each is held */
     char *variable;                 /* name of the abscissa of `vs NAME = A..B`; NULL: none */
     qdot_panel_choice choice;
 } qdot_plot_panel;
 
 void qdot_plot_panel_clear(qdot_plot_panel *panel);
-/* Add a curve without points. */
+/* Add a curve to the panel, as yet without points. */
 QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
                                                 const char *axis, qdot_plot_curve **added);
 
@@ -56,7 +56,7 @@ QDOT_MUST_CHECK qdot_status qdot_plot_run(const qdot_plot_said *said, const qdot
 QDOT_MUST_CHECK qdot_status qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *panel,
                                            qdot_figure_choice *figure);
 
-/* The first file of data of a panel; said->to: there is none. What stands behind it up to the options are columns. */
+/* The first data file of a panel; said->to: none. The parts between it and the next file or option are columns. */
 const qdot_filled *qdot_plot_data_find(const qdot_plot_said *said);
 /* Read the files and add their columns as curves. Errors: as of qdot_csv_read; QDOT_ENAME, QDOT_EINVAL at a column. */
 QDOT_MUST_CHECK qdot_status qdot_plot_data_add(const qdot_plot_said *said, qdot_plot_panel *panel);

@@ -1,4 +1,4 @@
-/* plot-rows.c -- draws the rows of a sweep as curves or maps. */
+/* plot-rows.c -- draws the rows of a sweep (runs with different parameter values) as curves or maps. */
 #include "lang/figures/plot-rows.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ enum { FINE = 400, MOST_PANELS = 12 };
 /* The table that the statement names; without a name the branches of the latest `continue`. NULL:
  * there is none. */
 static const qdot_row_table *
-rows_find(const qdot_record *r)
+find_row_table(const qdot_record *r)
 {
     const qdot_filled *name = qdot_record_hole(r, NULL, "ROWS");
 
@@ -31,7 +31,7 @@ qdot_plot_rows_is(const qdot_record *r)
 /* The column that is the abscissa: what was swept; of points with several numbers the first of these,
  * so that they are a cloud, or a section. */
 static size_t
-abscissa(const qdot_row_table *t)
+abscissa_column(const qdot_row_table *t)
 {
     return t->scattered && t->n - t->n_swept > 1 ? t->n_swept : 0;
 }
@@ -39,9 +39,9 @@ abscissa(const qdot_row_table *t)
 /* Make the curves of all columns; x and y [columns x rows] are filled with rows that have numbers;
  * returns the number of curves. */
 static size_t
-curves_fill(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
+fill_curves(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
 {
-    const size_t first = abscissa(t);
+    const size_t first = abscissa_column(t);
     size_t n = 0;
 
     for (size_t i = first < t->n_swept ? t->n_swept : first + 1; i < t->n; i++, n++) {
@@ -60,9 +60,9 @@ curves_fill(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
     return n;
 }
 
-/* Whether the swept parameter is monotonic from row to row, so that points can be joined. */
+/* Whether the swept parameter is monotonic from row to row, so that points can be joined by lines. */
 static bool
-is_ordered(const qdot_row_table *t)
+rows_are_monotonic(const qdot_row_table *t)
 {
     bool up = true, down = true;
 
@@ -80,13 +80,13 @@ is_ordered(const qdot_row_table *t)
 /* The values of one of the last two names; `shown` places even between their ends, and which value stands at each: that
  * nearest to it, so that a cell of an uneven axis ends halfway to the next. */
 typedef struct {
-    size_t column, stride, n; /* column in the table; distance of two values in rows; number of values */
+    size_t column, stride, n; /* index of the table's column; rows between two successive values; number of values */
     size_t shown;
     double least, most;
-    size_t *of; /* [shown] index of the value at each place */
+    size_t *of; /* [shown] index of the value drawn at each grid place of the axis */
 } axis;
 
-/* Panels with the arrays that they use; n of each. */
+/* The panels of a figure with the arrays that they use, of length n. */
 typedef struct {
     qdot_panel *panels;
     qdot_curve *curves;
@@ -99,33 +99,33 @@ typedef struct {
 } drawing;
 
 static double
-axis_value_at(const qdot_row_table *t, const axis *a, size_t i)
+get_axis_value(const qdot_row_table *t, const axis *a, size_t i)
 {
     return t->values[i * a->stride * t->n + a->column];
 }
 
 static bool
-is_even(const qdot_row_table *t, const axis *a)
+has_even_steps(const qdot_row_table *t, const axis *a)
 {
     for (size_t i = 0; i < a->n && a->n > 1; i++) {
         const double even = a->least + (a->most - a->least) * (double)i / ((double)a->n - 1);
 
-        if (!(fabs(axis_value_at(t, a, i) - even) <= 1e-9 * fabs(a->most - a->least)))
+        if (!(fabs(get_axis_value(t, a, i) - even) <= 1e-9 * fabs(a->most - a->least)))
             return false;
     }
     return true;
 }
 
-/* Find the ends of an axis from values in any order; if they descend so does the axis. */
+/* Find the ends of an axis from values in any order; the axis descends if the values do. */
 static void
-find_ends(const qdot_row_table *t, axis *a)
+find_axis_ends(const qdot_row_table *t, axis *a)
 {
-    const double first = axis_value_at(t, a, 0), last = axis_value_at(t, a, a->n - 1);
+    const double first = get_axis_value(t, a, 0), last = get_axis_value(t, a, a->n - 1);
 
     a->least = a->most = first;
     for (size_t i = 1; i < a->n; i++) {
-        a->least = fmin(a->least, axis_value_at(t, a, i));
-        a->most = fmax(a->most, axis_value_at(t, a, i));
+        a->least = fmin(a->least, get_axis_value(t, a, i));
+        a->most = fmax(a->most, get_axis_value(t, a, i));
     }
     if (first > last) {
         const double least = a->least;
@@ -136,12 +136,12 @@ find_ends(const qdot_row_table *t, axis *a)
 }
 
 static qdot_status
-place_values(const qdot_row_table *t, axis *a)
+place_values_on_axis(const qdot_row_table *t, axis *a)
 {
     bool even;
 
-    find_ends(t, a);
-    even = is_even(t, a);
+    find_axis_ends(t, a);
+    even = has_even_steps(t, a);
     a->shown = even ? a->n : FINE;
     a->of = qdot_calloc(a->shown, sizeof *a->of);
     if (a->of == NULL)
@@ -151,15 +151,15 @@ place_values(const qdot_row_table *t, axis *a)
 
         a->of[k] = even ? k : 0;
         for (size_t i = 1; i < a->n && !even; i++)
-            if (fabs(axis_value_at(t, a, i) - x) < fabs(axis_value_at(t, a, a->of[k]) - x))
+            if (fabs(get_axis_value(t, a, i) - x) < fabs(get_axis_value(t, a, a->of[k]) - x))
                 a->of[k] = i;
     }
     return QDOT_OK;
 }
 
-/* Whether rows i and j have the same values of the first `count` names. */
+/* Whether rows i and j have the same values of the first `count` swept parameters. */
 static bool
-rows_are_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
+have_rows_same_values(const qdot_row_table *t, size_t i, size_t j, size_t count)
 {
     for (size_t k = 0; k < count; k++)
         if (t->values[i * t->n + k] != t->values[j * t->n + k])
@@ -167,7 +167,7 @@ rows_are_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
     return true;
 }
 
-/* Find the last two swept names as axes, and the number of rows for each set of values of the other names. */
+/* Find the last two swept parameters as axes, and the number of rows for each set of values of the others. */
 static qdot_status
 find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
 {
@@ -175,19 +175,19 @@ find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
     size_t fast = 1;
 
     *rows = 1;
-    while (*rows < t->rows && rows_are_same(t, *rows, 0, outer))
+    while (*rows < t->rows && have_rows_same_values(t, *rows, 0, outer))
         ++*rows;
-    while (fast < *rows && rows_are_same(t, fast, 0, outer + 1))
+    while (fast < *rows && have_rows_same_values(t, fast, 0, outer + 1))
         fast++;
     if (*rows % fast != 0 || t->rows % *rows != 0)
         return qdot_fail(QDOT_EINVAL, "%s has no rectangle of rows: it is interrupted, or a value occurs twice", t->name);
     axes[0] = (axis){.column = outer, .stride = fast, .n = *rows / fast};
     axes[1] = (axis){.column = outer + 1, .stride = 1, .n = fast};
-    QDOT_TRY(place_values(t, &axes[0]));
-    return place_values(t, &axes[1]);
+    QDOT_TRY(place_values_on_axis(t, &axes[0]));
+    return place_values_on_axis(t, &axes[1]);
 }
 
-/* Write a title such as "k = 1, m = 2": the values of the names before the last two. */
+/* Write a title such as "k = 1, m = 2": the values of the swept parameters before the last two. */
 static qdot_status
 write_title(const qdot_row_table *t, size_t row, qdot_text *out)
 {
@@ -196,7 +196,7 @@ write_title(const qdot_row_table *t, size_t row, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* Make a map of quantity j from the rows that begin at `row`. */
+/* Make a map (a picture of values over two parameters) of quantity j from the rows that begin at `row`. */
 static void
 fill_map(const qdot_row_table *t, const axis *axes, size_t row, size_t j, qdot_figure_map *m, double *v)
 {
@@ -211,7 +211,7 @@ fill_map(const qdot_row_table *t, const axis *axes, size_t row, size_t j, qdot_f
                                         t->n_swept + j];
 }
 
-/* Draw a panel for each quantity, and for each set of values of the names before the last two. */
+/* Draw a map for each quantity, and for each set of values of the swept parameters before the last two. */
 static qdot_status
 draw_maps(const qdot_row_table *t, drawing *d)
 {
@@ -249,7 +249,7 @@ draw_maps(const qdot_row_table *t, drawing *d)
 /* --- drawing the figure --------------------------------------------------------------- */
 
 static qdot_status
-rows_draw(const qdot_row_table *t, drawing *d)
+draw_rows(const qdot_row_table *t, drawing *d)
 {
     if (t->marks != NULL)
         return qdot_plot_branches_draw(t, &d->branches);
@@ -261,17 +261,17 @@ rows_draw(const qdot_row_table *t, drawing *d)
     if (!d->panels || !d->curves || !d->numbers)
         return QDOT_ENOMEM;
     d->n = 1;
-    d->panels[0] = (qdot_panel){.axis = {{t->labels[abscissa(t)], true}, {"", false}},
+    d->panels[0] = (qdot_panel){.axis = {{t->labels[abscissa_column(t)], true}, {"", false}},
                                 .curves = d->curves,
-                                .points = t->scattered || t->measured || !is_ordered(t)};
-    d->panels[0].n = curves_fill(t, d->curves, d->numbers, d->numbers + t->n * t->rows);
+                                .points = t->scattered || t->measured || !rows_are_monotonic(t)};
+    d->panels[0].n = fill_curves(t, d->curves, d->numbers, d->numbers + t->n * t->rows);
     if (d->panels[0].n == 1)
         d->panels[0].axis[1] = d->curves[0].label;
     return QDOT_OK;
 }
 
 static void
-drawing_clear(drawing *d)
+free_drawing(drawing *d)
 {
     qdot_plot_branches_free(&d->branches);
     for (size_t k = 0; k < d->n && d->titles != NULL; k++)
@@ -285,9 +285,9 @@ drawing_clear(drawing *d)
     qdot_free(d->numbers);
 }
 
-/* Refuse what a figure of a table cannot have: a loop, several panels. */
+/* Refuse what the figure of a table of rows cannot have: a loop, several panels. */
 static qdot_status
-check_alone(qdot_record *r)
+check_is_single_panel(qdot_record *r)
 {
     for (const qdot_filled *part = r->parts.at; part < r->parts.at + r->parts.n; part++)
         if (qdot_filled_is(part, "for") || qdot_filled_is(part, "|")) {
@@ -300,7 +300,7 @@ check_alone(qdot_record *r)
 qdot_status
 qdot_plot_rows(qdot_record *r)
 {
-    const qdot_row_table *t = rows_find(r);
+    const qdot_row_table *t = find_row_table(r);
     qdot_figure_choice choice = {0};
     qdot_panel_choice of_panel = {0};
     drawing d = {0};
@@ -312,9 +312,9 @@ qdot_plot_rows(qdot_record *r)
         r->cursor.error_at = r->start->start;
         return qdot_fail(QDOT_ESYNTAX, "expected an expression before `%s`", r->start->text);
     }
-    QDOT_TRY(check_alone(r));
+    QDOT_TRY(check_is_single_panel(r));
     QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, &choice, &of_panel));
-    status = rows_draw(t, &d);
+    status = draw_rows(t, &d);
     if (status == QDOT_OK) {
         qdot_panel *const panels = t->marks != NULL ? d.branches.panels : d.panels;
         const qdot_figure figure = {.panels = panels,
@@ -330,6 +330,6 @@ qdot_plot_rows(qdot_record *r)
         else
             status = qdot_figure_file_show(r->cursor.session, &figure, choice.path);
     }
-    drawing_clear(&d);
+    free_drawing(&d);
     return status;
 }

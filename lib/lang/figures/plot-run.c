@@ -1,4 +1,4 @@
-/* plot-run.c -- draws curves along runs: against t, against each other, as paths, as drifts. */
+/* plot-run.c -- draws curves along runs: over t, over each other, as paths of points, as drifts. */
 #include <math.h>
 #include <string.h>
 
@@ -8,13 +8,13 @@
 
 enum { LEAST_POINTS = 201, PARTS_OF_STEP = 8, MOST_AT_FIRST = 10001 };
 
-/* A drift of 0 has no logarithm: it is drawn at the rounding error. */
+/* a drift of 0 has no logarithm: on a logarithmic axis it is drawn as this, the rounding error */
 static const double drift_floor = 0x1p-54;
 
 /* --- reading expressions ------------------------------------------------------------ */
 
 static qdot_status
-push_item(qdot_plot_panel *p, bool drift)
+add_item(qdot_plot_panel *p, bool drift)
 {
     while (p->items.n < p->operands.n)
         QDOT_TRY(qdot_vec_push(&p->items,
@@ -25,7 +25,7 @@ push_item(qdot_plot_panel *p, bool drift)
 /* Add expression k of the part as an operand; in a loop its label is the typed text, since index
  * values follow all labels. */
 static qdot_status
-operand_add(qdot_record *r, const qdot_filled *part, size_t k, qdot_plot_panel *p, qdot_operands *list)
+add_operand(qdot_record *r, const qdot_filled *part, size_t k, qdot_plot_panel *p, qdot_operands *list)
 {
     const qdot_compiled *program = &r->compiled.at[part->first + k];
     qdot_text written = {0};
@@ -60,8 +60,8 @@ read_item(qdot_record *r, const qdot_filled *part, qdot_plot_panel *p)
     const bool drift = part->n > 1;
 
     for (size_t k = drift; k < part->n; k++) {
-        QDOT_TRY(operand_add(r, part, k, p, &p->operands));
-        QDOT_TRY(push_item(p, drift));
+        QDOT_TRY(add_operand(r, part, k, p, &p->operands));
+        QDOT_TRY(add_item(p, drift));
     }
     return QDOT_OK;
 }
@@ -82,7 +82,7 @@ read_items(const qdot_plot_said *said, qdot_plot_panel *p)
             QDOT_TRY(read_item(said->record, part, p));
             continue;
         }
-        QDOT_TRY(operand_add(said->record, part, 0, p, &p->versus));
+        QDOT_TRY(add_operand(said->record, part, 0, p, &p->versus));
         while (first < p->items.n)
             p->items.at[first++].versus = p->versus.n;
     }
@@ -96,9 +96,9 @@ typedef struct {
     qdot_plot_panel *panel;
 } repeated;
 
-/* Keep the latest run, made with the present index values, and assign it to operands that name no run. */
+/* Hold the run just made with the present index values, and assign it to operands that name no run. */
 static qdot_status
-keep_run(qdot_session *session, qdot_plot_panel *p, qdot_operands *list, size_t first)
+hold_latest_run(qdot_session *session, qdot_plot_panel *p, qdot_operands *list, size_t first)
 {
     qdot_named_run *latest;
 
@@ -148,9 +148,9 @@ read_pass(const qdot_plot_said *said, const qdot_loop *loop, void *user)
     if (status == QDOT_OK)
         status = read_items(said, p);
     if (status == QDOT_OK)
-        status = keep_run(c->session, p, &p->operands, first);
+        status = hold_latest_run(c->session, p, &p->operands, first);
     if (status == QDOT_OK)
-        status = keep_run(c->session, p, &p->versus, first_versus);
+        status = hold_latest_run(c->session, p, &p->versus, first_versus);
     r->runs->drop(r->runs->user);
     return status;
 }
@@ -166,9 +166,9 @@ read_loop(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_plot_pane
     return p->operands.n > 0 ? QDOT_OK : qdot_fail(QDOT_EINVAL, "there is no curve to plot");
 }
 
-/* Refuse curves that cannot share axes. */
+/* Refuse curves that cannot share axes: paths in space beside curves over t, for example. */
 static qdot_status
-check_kinds(const qdot_plot_panel *p)
+check_curves_share_axes(const qdot_plot_panel *p)
 {
     size_t paths = 0, space = 0, against = 0;
 
@@ -210,7 +210,7 @@ check_kinds(const qdot_plot_panel *p)
 /* --- computing points --------------------------------------------------------------- */
 
 static qdot_status
-path_values(void *user, size_t n, const double *s, double *values)
+evaluate_path(void *user, size_t n, const double *s, double *values)
 {
     const qdot_plot_curve *curve = user;
 
@@ -218,7 +218,7 @@ path_values(void *user, size_t n, const double *s, double *values)
 }
 
 static qdot_status
-curve_values(void *user, size_t n, const double *s, double *values)
+evaluate_curve(void *user, size_t n, const double *s, double *values)
 {
     const qdot_plot_curve *curve = user;
     const size_t m = curve->y->columns.n;
@@ -240,9 +240,9 @@ curve_values(void *user, size_t n, const double *s, double *values)
     return status;
 }
 
-/* Narrow low..high to the times of an operand's runs. */
+/* Narrow the time range low..high to the times that the runs of an operand cover. */
 static qdot_status
-times_narrow(const qdot_operand *o, double *low, double *high)
+narrow_to_run_times(const qdot_operand *o, double *low, double *high)
 {
     const qdot_run_report *r = qdot_run_get_report(o->run);
 
@@ -254,7 +254,7 @@ times_narrow(const qdot_operand *o, double *low, double *high)
 /* Choose the times of the first points: each step divided evenly, or, if there are many steps,
  * evenly spaced. */
 static qdot_status
-first_times(const qdot_plot_curve *curve, double low, double high, double **times, size_t *n)
+choose_first_times(const qdot_plot_curve *curve, double low, double high, double **times, size_t *n)
 {
     size_t steps, parts, at = 0, most;
     const double *ends = qdot_run_times(curve->y->run, &steps);
@@ -292,7 +292,7 @@ first_times(const qdot_plot_curve *curve, double low, double high, double **time
 /* A logarithmic axis of times from 0 on begins at a power of ten, some way before the second time, and not
  * wherever steps happen to be halved to. */
 static void
-leave_zero(double *times, size_t n)
+move_off_zero(double *times, size_t n)
 {
     enum { powers_before = 3 };
 
@@ -302,16 +302,16 @@ leave_zero(double *times, size_t n)
 
 /* Compute the first points of a curve along its run. */
 static qdot_status
-curve_begin(qdot_plot_panel *p, qdot_plot_curve *curve)
+compute_first_points(qdot_plot_panel *p, qdot_plot_curve *curve)
 {
     double low = -INFINITY, high = INFINITY, *times = NULL;
     const qdot_figure_range *r = &p->choice.range[0];
     size_t n = 0;
     qdot_status status;
 
-    QDOT_TRY(times_narrow(curve->y, &low, &high));
+    QDOT_TRY(narrow_to_run_times(curve->y, &low, &high));
     if (curve->x.session != NULL)
-        QDOT_TRY(times_narrow(&curve->x, &low, &high));
+        QDOT_TRY(narrow_to_run_times(&curve->x, &low, &high));
     if (low > high)
         return qdot_fail(QDOT_EINVAL, "the runs have no time in common");
     if (curve->drift) {
@@ -321,7 +321,7 @@ curve_begin(qdot_plot_panel *p, qdot_plot_curve *curve)
 
         whole.drift = false;
         whole.x.session = NULL;
-        QDOT_TRY(curve_values(&whole, 1, &t0, at));
+        QDOT_TRY(evaluate_curve(&whole, 1, &t0, at));
         curve->begin = at[1];
     }
     if (r->set && !curve->y->vector && curve->x.session == NULL) {
@@ -331,9 +331,9 @@ curve_begin(qdot_plot_panel *p, qdot_plot_curve *curve)
         low = fmax(low, r->least);
         high = fmin(high, r->most);
     }
-    status = first_times(curve, low, high, &times, &n);
+    status = choose_first_times(curve, low, high, &times, &n);
     if (status == QDOT_OK && p->choice.log[0] && !curve->y->vector && curve->x.session == NULL)
-        leave_zero(times, n);
+        move_off_zero(times, n);
     if (status == QDOT_OK)
         status = qdot_trace_begin(&curve->source, n, times, &curve->points);
     qdot_free(times);
@@ -358,7 +358,7 @@ write_labels(const qdot_plot_panel *p, size_t i, qdot_text *label, qdot_text *ax
 }
 
 static qdot_status
-curves_of(qdot_plot_panel *p, size_t i)
+make_curves_of_item(qdot_plot_panel *p, size_t i)
 {
     const qdot_operand *o = &p->operands.at[i];
     const size_t versus = p->items.at[i].versus, m = o->vector ? 1 : o->columns.n;
@@ -379,9 +379,9 @@ curves_of(qdot_plot_panel *p, size_t i)
             curve->x.run = curve->x.run != NULL ? curve->x.run : o->run;
         }
         curve->source = (qdot_trace_source){.axes = o->vector ? o->columns.n : 2,
-                                             .values = o->vector ? path_values : curve_values,
+                                             .values = o->vector ? evaluate_path : evaluate_curve,
                                              .user = curve};
-        status = curve_begin(p, curve);
+        status = compute_first_points(p, curve);
     }
     qdot_text_clear(&label);
     qdot_text_clear(&axis);
@@ -397,9 +397,9 @@ qdot_plot_run(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_plot_
     QDOT_TRY(qdot_plot_find_word(said, "for") != NULL ? read_loop(said, runs, p) : read_items(said, p));
     QDOT_TRY(qdot_figure_option_find(r, said->from, said->to, figure, &p->choice));
     r->cursor.error_at = said->from->from->start;
-    QDOT_TRY(check_kinds(p));
+    QDOT_TRY(check_curves_share_axes(p));
     QDOT_TRY(qdot_operands_find_runs(r->cursor.session, &p->operands));
     for (size_t i = 0; i < p->operands.n; i++)
-        QDOT_TRY(curves_of(p, i));
+        QDOT_TRY(make_curves_of_item(p, i));
     return QDOT_OK;
 }

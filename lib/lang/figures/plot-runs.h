@@ -5,10 +5,10 @@
 
 #include "base/status.h"
 
-/* How the latest run is repeated with the parameter values of a loop. */
+/* How the latest run is repeated, with the parameter values of a loop, for a plot. */
 typedef struct {
     qdot_status (*begin)(void *user); /* called before the loop: checks that the run can be repeated */
-    qdot_status (*make)(void *user);  /* makes a run, which is the latest one until it is dropped */
+    qdot_status (*make)(void *user);  /* makes a run, which is the latest run of the session until it is dropped */
     void (*drop)(void *user);
     void *user;
 } qdot_plot_runs;

@@ -1,4 +1,4 @@
-/* plot.c -- panels of curves as a figure. */
+/* plot.c -- makes a figure from panels of curves. */
 #include <string.h>
 
 #include "lang/figures/figure-file.h"
@@ -82,9 +82,9 @@ free_frame(frame *f)
     qdot_free(f->curves);
 }
 
-/* Join the different labels of an axis; if they are long the axis gets none. */
+/* Join the different labels of an axis; an axis whose labels are too long gets none. */
 static void
-join_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
+join_axis_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
 {
     for (size_t i = 0; i < p->curves.n; i++) {
         bool known = false;
@@ -110,7 +110,7 @@ join_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
         qdot_text_truncate(x, 0);
 }
 
-/* Label the axes; a path has the axes x, y, z, and its label is the title. */
+/* Label the axes of a panel; a path has the axes x, y, z, and its label becomes the title. */
 static void
 label_panel(const qdot_plot_panel *p, qdot_text *labels, qdot_panel *panel)
 {
@@ -123,13 +123,13 @@ label_panel(const qdot_plot_panel *p, qdot_text *labels, qdot_panel *panel)
             panel->title = panel->curves[0].label;
         return;
     }
-    join_labels(p, &labels[0], &labels[1]);
+    join_axis_labels(p, &labels[0], &labels[1]);
     for (int k = 0; k < 2; k++)
         panel->axis[k] = (qdot_figure_label){qdot_text_str(&labels[k]), true};
 }
 
 static bool
-all_drift(const qdot_plot_panel *p)
+shows_drifts_only(const qdot_plot_panel *p)
 {
     bool all = p->items.n > 0;
 
@@ -139,7 +139,7 @@ all_drift(const qdot_plot_panel *p)
 }
 
 static void
-point_at(const qdot_plot_curve *from, const qdot_panel_choice *choice, qdot_curve *to)
+copy_curve_for_figure(const qdot_plot_curve *from, const qdot_panel_choice *choice, qdot_curve *to)
 {
     *to = (qdot_curve){.label = {from->label, !from->literal},
                        .rows = from->points.n,
@@ -150,7 +150,7 @@ point_at(const qdot_plot_curve *from, const qdot_panel_choice *choice, qdot_curv
                        .shown = from->shown};
 }
 
-/* Look for poles of the curves of a panel whose ordinate is chosen by them. */
+/* Look for poles of the curves of a panel whose vertical range was not given. */
 static qdot_status
 find_poles(qdot_plot_panel *p)
 {
@@ -189,10 +189,10 @@ build_figure(qdot_record *r, const panels *all, frame *f)
 
         *panel = (qdot_panel){.curves = f->curves + next, .n = p->curves.n};
         for (size_t k = 0; k < panel->n; k++)
-            point_at(p->curves.at[k], &p->choice, &f->curves[next + k]);
+            copy_curve_for_figure(p->curves.at[k], &p->choice, &f->curves[next + k]);
         next += panel->n;
         panel->equal = p->operands.n > 0 && p->operands.at[0].vector;
-        panel->log[1] = all_drift(p);
+        panel->log[1] = shows_drifts_only(p);
         label_panel(p, f->labels + 2 * i, panel);
         if (qdot_figure_option_apply(&p->choice, panel) != QDOT_OK) {
             qdot_record_blame(r, p->choice.ticks);
@@ -204,9 +204,9 @@ build_figure(qdot_record *r, const panels *all, frame *f)
     return QDOT_OK;
 }
 
-/* Add points where curves bend, at the scale at which each panel shows them. */
+/* Add points where curves bend, for the scale at which each panel shows them. */
 static qdot_status
-panels_refine(panels *all, const qdot_figure *figure, frame *f)
+refine_curves(panels *all, const qdot_figure *figure, frame *f)
 {
     size_t next = 0;
 
@@ -221,15 +221,15 @@ panels_refine(panels *all, const qdot_figure *figure, frame *f)
             if (curve->data)
                 continue;
             QDOT_TRY(qdot_trace_refine(&curve->source, &view, &curve->points));
-            point_at(curve, &p->choice, &f->curves[next]);
+            copy_curve_for_figure(curve, &p->choice, &f->curves[next]);
         }
     }
     return QDOT_OK;
 }
 
-/* Notice if logarithmic axes leave out points; not for values of 0, with which a drift begins. */
+/* Give a notice if logarithmic axes leave out points, except for values of 0 with which a drift begins. */
 static qdot_status
-tell_left_out(qdot_session *session, const qdot_figure *figure)
+give_notice_of_left_out(qdot_session *session, const qdot_figure *figure)
 {
     for (size_t i = 0; i < figure->n; i++) {
         const qdot_panel *p = &figure->panels[i];
@@ -299,9 +299,9 @@ qdot_plot_figure(qdot_record *r, const qdot_plot_runs *runs)
                                     .height = choice.height,
                                     .keep = choice.keep};
 
-        status = panels_refine(&all, &figure, &f);
+        status = refine_curves(&all, &figure, &f);
         if (status == QDOT_OK)
-            status = tell_left_out(r->cursor.session, &figure);
+            status = give_notice_of_left_out(r->cursor.session, &figure);
         if (status == QDOT_OK)
             status = qdot_figure_file_show(r->cursor.session, &figure, choice.path);
     }

@@ -1,4 +1,4 @@
-/* plot.h -- the figure of `plot`. */
+/* plot.h -- draws the figure of the statement `plot`. */
 #ifndef QDOT_LANG_PLOT_H
 #define QDOT_LANG_PLOT_H
 

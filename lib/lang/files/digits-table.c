@@ -1,4 +1,4 @@
-/* digits-table.c -- tables of runs with `digits`, with many digits in each cell. */
+/* digits-table.c -- tables of runs that were made with the option `digits`, with many digits in each cell. */
 #include "lang/files/digits-table.h"
 
 #include "base/interrupt.h"
@@ -8,7 +8,7 @@
 #include "lang/runs/data-file.h"
 #include "lang/session/bind.h"
 
-/* TIMES: the number of columns of time, one for people and one for files. */
+/* TIMES: the number of columns of time, one to be read and one for files. */
 enum { TIMES = 2 };
 
 typedef struct {
@@ -34,7 +34,7 @@ qdot_digits_table_of(const qdot_operands *list)
 
 /* Append the names of the components of all operands. */
 static qdot_status
-name_components(digits_table *d, const qdot_operands *list)
+append_component_names(digits_table *d, const qdot_operands *list)
 {
     size_t n = 0;
 
@@ -56,12 +56,12 @@ name_components(digits_table *d, const qdot_operands *list)
 }
 
 static qdot_status
-digits_table_begin(digits_table *d, const qdot_operands *list)
+begin_digits_table(digits_table *d, const qdot_operands *list)
 {
     qdot_table_column *columns;
     qdot_status status;
 
-    QDOT_TRY(name_components(d, list));
+    QDOT_TRY(append_component_names(d, list));
     columns = qdot_calloc(TIMES + d->n, sizeof *columns);
     if (columns == NULL)
         return QDOT_ENOMEM;
@@ -76,7 +76,7 @@ digits_table_begin(digits_table *d, const qdot_operands *list)
 }
 
 static void
-digits_table_clear(digits_table *d)
+free_digits_table(digits_table *d)
 {
     qdot_table_clear(&d->table);
     for (size_t j = 0; j < d->n; j++)
@@ -84,14 +84,14 @@ digits_table_clear(digits_table *d)
     qdot_free(d->names);
 }
 
-/* The time of a row, or the point of the run just before or after an event. */
+/* Where a row of the table is evaluated: a time, or the point of the run just before or after an event. */
 typedef struct {
     qdot_expr time;
     bool beside;
     size_t point;
 } place;
 
-/* Add the values of one operand at that time. */
+/* Add to a row the values of one operand at the time `at`. */
 static qdot_status
 add_values(qdot_session *session, qdot_table *t, const qdot_operand *o, const place *at, int digits)
 {
@@ -126,7 +126,7 @@ add_row(qdot_session *session, qdot_table *t, const qdot_operands *list, const p
     if (status == QDOT_OK) {
         qdot_number_text(&text, x, 0);
         qdot_table_add_written(t, &text);
-        qdot_table_add_number(t, x + 0.0, 0); /* adding 0.0 turns -0 into 0 */
+        qdot_table_add_number(t, x + 0.0, 0); /* adding 0.0 changes -0 into 0 */
     }
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         status = add_values(session, t, &list->at[i], at, digits);
@@ -139,7 +139,7 @@ qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_run *ru
 {
     const int digits = qdot_digits_table_of(list);
     digits_table d = {0};
-    qdot_status status = digits_table_begin(&d, list);
+    qdot_status status = begin_digits_table(&d, list);
 
     for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
         const place at = {times[k], beside != NULL && beside[k], k};
@@ -153,6 +153,6 @@ qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_run *ru
     if (status == QDOT_OK)
         status = path != NULL ? qdot_data_file_write(session, run, &d.table, path)
                               : qdot_answer_table(session, "table", &d.table);
-    digits_table_clear(&d);
+    free_digits_table(&d);
     return status;
 }

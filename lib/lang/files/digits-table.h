@@ -7,7 +7,7 @@
 
 #include "lang/commands/operands.h"
 
-/* The smallest number of digits of the operands' runs if all of them have `digits`; else 0. */
+/* The smallest number of `digits` with which the operands' runs were made; 0 if one was made without that option. */
 int qdot_digits_table_of(const qdot_operands *list);
 
 /* A table at exact times [rows], nil: the end of the run; beside [rows], NULL: none: the row is that point of

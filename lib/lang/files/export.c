@@ -1,4 +1,4 @@
-/* export.c -- the statement `export LANGUAGE WHAT to "FILE"`. */
+/* export.c -- the statement `export LANGUAGE WHAT to "FILE"`: writes the motion as a program in another language. */
 #include <string.h>
 
 #include "lang/answer/answer.h"
@@ -8,7 +8,7 @@
 #include "lang/language/token-text.h"
 #include "lang/syntax/record.h"
 
-static qdot_status export_write(qdot_record *r);
+static qdot_status carry_out_export(qdot_record *r);
 
 QDOT_STATEMENT(export) = {
     .word = "export",
@@ -20,7 +20,7 @@ QDOT_STATEMENT(export) = {
     .summary = "the equations of motion as functions to call (M, f, accelerations, Jacobian, constraints, "
                "events), or an expression as a function of its symbols",
     .example = "export c eom to \"eom.c\"",
-    .handler = export_write,
+    .handler = carry_out_export,
 };
 
 static const struct language {
@@ -32,7 +32,7 @@ static const struct language {
     {"latex", ".tex", NULL},
 };
 
-/* The exported object: the equations of motion, or an expression with its text. */
+/* What is exported: the equations of motion, or an expression with its text. */
 typedef struct {
     bool motion;
     qdot_expr value;
@@ -40,7 +40,7 @@ typedef struct {
 } operand;
 
 static qdot_status
-read_operand(qdot_record *r, const struct language *l, operand *o)
+read_exported_object(qdot_record *r, const struct language *l, operand *o)
 {
     const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
     qdot_session *session = r->cursor.session;
@@ -58,7 +58,7 @@ read_operand(qdot_record *r, const struct language *l, operand *o)
 /* Read the file name, whose ending must be that of the language. *name: the name without folder and
  * ending, in `storage`. */
 static qdot_status
-read_file(qdot_record *r, const struct language *l, const char **path, qdot_text *name)
+read_file_name(qdot_record *r, const struct language *l, const char **path, qdot_text *name)
 {
     const qdot_filled *file = qdot_record_hole(r, "to", NULL);
     const char *base;
@@ -78,7 +78,7 @@ read_file(qdot_record *r, const struct language *l, const char **path, qdot_text
     return qdot_text_status(name);
 }
 
-/* Write LaTeX, as `EXPR to "x.tex"` does. */
+/* Write an operand as a LaTeX file, as the statement `EXPR to "x.tex"` does. */
 static qdot_status
 write_latex(qdot_session *session, const operand *o, const char *path)
 {
@@ -90,7 +90,7 @@ write_latex(qdot_session *session, const operand *o, const char *path)
 }
 
 static qdot_status
-export_write(qdot_record *r)
+carry_out_export(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const struct language *l = languages;
@@ -101,9 +101,9 @@ export_write(qdot_record *r)
 
     while (qdot_record_word(r, l->word) == NULL)
         l++;
-    status = read_operand(r, l, &o);
+    status = read_exported_object(r, l, &o);
     if (status == QDOT_OK)
-        status = read_file(r, l, &path, &name);
+        status = read_file_name(r, l, &path, &name);
     if (status == QDOT_OK)
         qdot_record_blame(r, qdot_record_hole(r, NULL, "EXPR"));
     if (status == QDOT_OK && l->source == NULL) {

@@ -1,4 +1,4 @@
-/* grid.c -- numbers along runs as columns. */
+/* grid.c -- evaluates expressions along runs into a grid, a column of numbers for each. */
 #include "lang/files/grid.h"
 
 #include <string.h>
@@ -20,7 +20,7 @@ qdot_grid_free(qdot_grid *g)
 }
 
 static qdot_status
-new_grid(qdot_grid *g, size_t n, size_t rows)
+allocate_grid(qdot_grid *g, size_t n, size_t rows)
 {
     g->table.n = n;
     g->table.rows = rows;
@@ -59,7 +59,7 @@ qdot_grid_fill(qdot_grid *g, const qdot_operands *list, size_t rows, const doubl
 
     for (size_t i = 0; i < list->n; i++)
         n += list->at[i].columns.n;
-    QDOT_TRY(new_grid(g, n, rows));
+    QDOT_TRY(allocate_grid(g, n, rows));
     memcpy(g->values, times, rows * sizeof *times);
     QDOT_TRY(label_column(g, 0, "t", 0, 1));
     for (size_t i = 0; i < list->n; i++) {

@@ -1,4 +1,4 @@
-/* grid.h -- numbers along runs as columns, of `table` and `save`. */
+/* grid.h -- a grid of numbers along runs, a column for each expression, for the statements `table` and `save`. */
 #ifndef QDOT_LANG_GRID_H
 #define QDOT_LANG_GRID_H
 
@@ -11,7 +11,7 @@ typedef struct {
     char **labels;
 } qdot_grid;
 
-/* Evaluate t and every column of the operands at these times [rows]; free the grid in any case. */
+/* Evaluate t and every operand at these times [rows] into the grid's columns; free the grid in any case. */
 QDOT_MUST_CHECK qdot_status qdot_grid_fill(qdot_grid *g, const qdot_operands *list, size_t rows,
                                            const double *times);
 void qdot_grid_free(qdot_grid *g);

@@ -19,7 +19,7 @@
 struct qdot_redirect_type {
     const char *ending;
     enum { AS_PRINTED, JSON, PAGE } kind;
-    qdot_style style; /* style of formulas on a page */
+    qdot_style style; /* style in which formulas on the page are written */
 };
 
 static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PLAIN},
@@ -30,7 +30,7 @@ static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PL
 bool
 qdot_redirect_answers(const qdot_statement *row)
 {
-    /* words of other groups; a statement not listed parses `to` itself, or has no answer */
+    /* words of statements that parse `to` themselves, or have no answer, though their group is redirected */
     static const char *const words[] = {"run",  "plan", "events", "help",
                                         "show", "vars", "print"};
 
@@ -51,9 +51,9 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first, const qdo
     return to;
 }
 
-/* Fail if formulas cannot be written to a file of this ending, as that of a figure or table. */
+/* Fail if formulas cannot be written to a file with this ending, such as that of a figure or table. */
 static qdot_status
-redirect_refuse(const char *path, const char *ending)
+refuse_file_ending(const char *path, const char *ending)
 {
     static const char *const data[] = {".csv", ".h5"};
     qdot_spelling nearest;
@@ -110,10 +110,10 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
         }
         return QDOT_OK;
     }
-    return redirect_refuse(path, ending);
+    return refuse_file_ending(path, ending);
 }
 
-/* Make a page of the collected answers. */
+/* Make a page of the answers that were collected for a file. */
 static qdot_status
 make_page(qdot_redirect *r, qdot_text *page)
 {

@@ -17,9 +17,9 @@
 typedef struct {
     qdot_session *session;
     const char *path; /* name of the file; borrowed */
-    FILE *file, *out, *console; /* stream that collects the answers; the session's earlier `out` and `console` */
+    FILE *file, *out, *console; /* stream that collects answers; the session's `out`, `console` to be restored */
     bool json;
-    qdot_style style; /* the session's earlier style */
+    qdot_style style; /* the session's style, to be restored at the end */
     const struct qdot_redirect_type *type;
     qdot_formula_page page;
     char *text;
@@ -34,7 +34,7 @@ bool qdot_redirect_answers(const qdot_statement *row);
  * row NULL: an expression. */
 const qdot_token *qdot_redirect_find(const qdot_statement *row, const qdot_token *first, const qdot_token *to);
 
-/* Collect answers from now on. QDOT_EINVAL: a file with this ending cannot hold them. */
+/* Collect the answers of the session from now on. QDOT_EINVAL: a file with this ending cannot hold them. */
 QDOT_MUST_CHECK qdot_status qdot_redirect_begin(qdot_redirect *r, qdot_session *session,
                                                 const char *path);
 

@@ -31,7 +31,7 @@ QDOT_MUST_CHECK qdot_status qdot_report_answer_of(const qdot_cursor *c,
                                                   const qdot_statement *statement,
                                                   qdot_text *text);
 
-/* Append a line of words; append `Not found: ` with the cause of the last failure. QDOT_ENOMEM. */
+/* _line: append a line of words; the other: `Not found: ` and the cause of the last failure. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_report_line(qdot_text *page, const char *words);
 QDOT_MUST_CHECK qdot_status qdot_report_not_found(qdot_text *page);
 

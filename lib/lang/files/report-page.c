@@ -15,7 +15,7 @@
 #include "show/page.h"
 #include "show/pdf.h"
 
-static qdot_status report_write(qdot_record *r);
+static qdot_status carry_out_report(qdot_record *r);
 
 QDOT_STATEMENT(report) = {
     .word = "report",
@@ -25,7 +25,7 @@ QDOT_STATEMENT(report) = {
                "error, curves, moving picture, script; several runs are compared",
     .example = "report to \"x.html\"",
     .form = "report to \"x.html\"",
-    .handler = report_write,
+    .handler = carry_out_report,
 };
 
 enum { LONGEST = 4000000 };
@@ -35,7 +35,7 @@ typedef struct {
     qdot_session *session;
     size_t n; /* number of runs on the page; 0: no run was made */
     const qdot_named_run *runs[QDOT_REPORT_RUNS];
-    bool work; /* include a table of work and precision */
+    bool work; /* include a work-precision table for the methods */
     qdot_text page;
 } page;
 
@@ -90,7 +90,7 @@ add_conserved(page *p)
     return qdot_report_answer_end(s, &k, status, &p->page);
 }
 
-/* Add the script as it was read; at the prompt, statements with the same effect. */
+/* Add the script as it was read; for statements typed at the prompt, statements with the same effect. */
 static qdot_status
 add_script(page *p)
 {
@@ -130,9 +130,9 @@ write_sections(page *p)
 
 /* --- the statement `report` --------------------------------------------------------- */
 
-/* Fail if more runs are named than one page can compare. */
+/* Fail if the statement `report` names more runs than one page can compare. */
 static qdot_status
-check_number(qdot_record *r)
+check_number_of_runs(qdot_record *r)
 {
     size_t n = 0;
 
@@ -145,11 +145,11 @@ check_number(qdot_record *r)
     return QDOT_OK;
 }
 
-/* Find the runs that are named, otherwise the latest one; it is no failure if there is none. */
+/* Find the runs named in the statement, otherwise the latest run; it is no failure if there is none. */
 static qdot_status
 find_runs(qdot_record *r, page *p)
 {
-    QDOT_TRY(check_number(r));
+    QDOT_TRY(check_number_of_runs(r));
     for (const qdot_filled *part = qdot_record_hole(r, NULL, "RUN"); part != NULL;
          part = qdot_record_next(r, part, "RUN")) {
         qdot_named_run *run;
@@ -207,7 +207,7 @@ make_page(page *p, const char *given)
 }
 
 static qdot_status
-report_write(qdot_record *r)
+carry_out_report(qdot_record *r)
 {
     const qdot_filled *title = qdot_record_hole(r, "title", NULL);
     const char *path = qdot_record_text(qdot_record_hole(r, "to", NULL));

@@ -21,9 +21,9 @@ typedef struct {
     qdot_text *page;
 } sections;
 
-/* Add the name of the run, if there are several. */
+/* Add the name of run i to the page, if the page has several runs. */
 static void
-add_name(const sections *s, size_t i)
+add_run_name(const sections *s, size_t i)
 {
     if (s->n == 1)
         return;
@@ -32,7 +32,7 @@ add_name(const sections *s, size_t i)
     qdot_text_add(s->page, "</h3>\n");
 }
 
-/* Add the facts of a run, as below an animation, and how it ended. */
+/* Add the facts of a run, the lines otherwise shown below an animation, and how the run ended. */
 static qdot_status
 add_run(const sections *s, size_t i)
 {
@@ -41,7 +41,7 @@ add_run(const sections *s, size_t i)
     qdot_report_answer k;
     qdot_status status;
 
-    add_name(s, i);
+    add_run_name(s, i);
     qdot_text_add(s->page, "<dl class=\"run\">\n");
     for (size_t f = 0; f < a->facts.n; f++) {
         qdot_text_add(s->page, "<dt>");
@@ -68,13 +68,13 @@ add_run(const sections *s, size_t i)
 static const double shown = 0.0005;
 
 static void
-table_add_finite(qdot_table *t, double x)
+add_finite_number(qdot_table *t, double x)
 {
     qdot_table_add_number(t, isfinite(x) ? x : NAN, shown * fabs(x));
 }
 
 static qdot_status
-run_add_table(const sections *s)
+add_table_of_runs(const sections *s)
 {
     static const char *const ends[] = {[QDOT_RUN_DONE] = "done",
                                        [QDOT_RUN_STOPPED] = "stopped",
@@ -98,13 +98,13 @@ run_add_table(const sections *s)
 
         qdot_table_add_text(&t, s->runs[i]->name);
         qdot_table_add_text(&t, r->method);
-        table_add_finite(&t, r->tol);
-        table_add_finite(&t, r->t1);
+        add_finite_number(&t, r->tol);
+        add_finite_number(&t, r->t1);
         qdot_table_add_number(&t, (double)r->steps, 0);
         qdot_table_add_number(&t, (double)r->evals, 0);
-        table_add_finite(&t, r->cpu);
-        table_add_finite(&t, r->error);
-        table_add_finite(&t, r->energy_drift);
+        add_finite_number(&t, r->cpu);
+        add_finite_number(&t, r->error);
+        add_finite_number(&t, r->energy_drift);
         qdot_table_add_text(&t, ends[r->status]);
     }
     qdot_text_add(s->page, "<h3>Side by side</h3>\n");
@@ -117,7 +117,7 @@ run_add_table(const sections *s)
 /* --- curves and pictures ---------------------------------------------------------------- */
 
 static void
-add_curves(const sections *s)
+add_figure_of_curves(const sections *s)
 {
     const qdot_animation *first = &s->pictures[0];
     const size_t all = s->session->scene->coordinates.n;
@@ -140,13 +140,13 @@ add_curves(const sections *s)
 }
 
 static void
-add_pictures(const sections *s)
+add_animations(const sections *s)
 {
     qdot_report_heading(s->page, s->n > 1 ? "Moving pictures" : "Moving picture");
     for (size_t i = 0; i < s->n; i++) {
         qdot_animation *a = &s->pictures[i];
 
-        add_name(s, i);
+        add_run_name(s, i);
         for (size_t f = 0; f < a->facts.n; f++)
             qdot_free(a->facts.at[f].text);
         a->facts.n = 0; /* the facts are already printed above the animation */
@@ -172,10 +172,10 @@ qdot_report_runs(qdot_session *session, size_t n, const qdot_named_run *const *r
         status = add_run(&s, i);
     if (status == QDOT_OK) {
         if (n > 1)
-            status = run_add_table(&s);
-        add_curves(&s);
+            status = add_table_of_runs(&s);
+        add_figure_of_curves(&s);
         if (!bare)
-            add_pictures(&s);
+            add_animations(&s);
     }
     for (size_t i = 0; i < n; i++)
         qdot_animation_clear(&pictures[i]);

@@ -1,4 +1,4 @@
-/* report-work.c -- work and precision on the page of a report: a figure and a table. */
+/* report-work.c -- adds a work-precision study of a run to the page of a report: a figure and a table. */
 #include "lang/files/report-work.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 static const double shown = 0.005;
 
 static qdot_status
-work_add_table(const qdot_workprecision *w, qdot_text *page)
+add_work_table(const qdot_workprecision *w, qdot_text *page)
 {
     static const qdot_table_column columns[] = {
         {.name = "method", .kind = QDOT_CELL_TEXT},
@@ -45,7 +45,7 @@ work_add_table(const qdot_workprecision *w, qdot_text *page)
 }
 
 static void
-add_words(const qdot_workprecision *w, qdot_text *page)
+add_explanation(const qdot_workprecision *w, qdot_text *page)
 {
     qdot_text_add(page, "<p>Errors against a reference whose own error is ");
     qdot_number_text_bound(page, w->ref_err);
@@ -58,7 +58,7 @@ add_words(const qdot_workprecision *w, qdot_text *page)
     qdot_text_add(page, "</p>\n");
 }
 
-/* Add a figure with one curve for each method, whose rows follow one another. */
+/* Add a figure of the work-precision study with one curve for each method, whose rows follow one another. */
 static qdot_status
 add_figure(const qdot_workprecision *w, qdot_text *page)
 {
@@ -84,9 +84,9 @@ add_figure(const qdot_workprecision *w, qdot_text *page)
     return status;
 }
 
-/* Take the conditions of a run; if it failed or was interrupted, up to the time that it reached. */
+/* Copy the conditions of a run; if it failed or was interrupted, only up to the time that it reached. */
 static qdot_status
-take_conditions(qdot_session *session, const qdot_named_run *run, qdot_conditions *c)
+copy_conditions_of_run(qdot_session *session, const qdot_named_run *run, qdot_conditions *c)
 {
     const qdot_run_report *r = qdot_run_get_report(run->run);
     const qdot_run_request request = qdot_conditions_request(run->conditions);
@@ -98,7 +98,7 @@ take_conditions(qdot_session *session, const qdot_named_run *run, qdot_condition
     return qdot_pool_check(session->pool);
 }
 
-/* Find the study under these conditions, which it takes over; *known: it was made before. Borrowed. */
+/* Find or make the work-precision study for these conditions, and take them over; *known: it was made before. */
 static qdot_status
 find_study(qdot_session *session, qdot_conditions *c, bool *known,
            const qdot_workprecision **study)
@@ -124,12 +124,12 @@ find_study(qdot_session *session, qdot_conditions *c, bool *known,
 }
 
 static qdot_status
-add_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_text *page)
+add_work_precision_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_text *page)
 {
     qdot_conditions c = {0};
     const qdot_workprecision *study = NULL;
     bool known = false;
-    qdot_status status = take_conditions(session, run, &c);
+    qdot_status status = copy_conditions_of_run(session, run, &c);
 
     if (status == QDOT_OK)
         status = find_study(session, &c, &known, &study);
@@ -141,17 +141,17 @@ add_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_tex
         qdot_text_add(page, "</h3>\n");
     }
     QDOT_TRY(add_figure(study, page));
-    QDOT_TRY(work_add_table(study, page));
-    add_words(study, page);
+    QDOT_TRY(add_work_table(study, page));
+    add_explanation(study, page);
     if (known)
         qdot_text_add(page, "<p>Measured earlier in this session, with the same values, start "
                             "and limits.</p>\n");
     return QDOT_OK;
 }
 
-/* Whether an earlier run of the list has the same conditions as run i. */
+/* Whether an earlier run of the list has the same conditions as run i, so that its study is on the page already. */
 static bool
-conditions_are_told(size_t i, const qdot_named_run *const *runs)
+has_conditions_of_earlier(size_t i, const qdot_named_run *const *runs)
 {
     for (size_t k = 0; k < i; k++)
         if (qdot_conditions_same(runs[k]->conditions, runs[i]->conditions))
@@ -167,9 +167,9 @@ qdot_report_work(qdot_session *session, size_t n, const qdot_named_run *const *r
 
     qdot_report_heading(page, "Error against computing time");
     for (size_t i = 1; i < n; i++)
-        differ = differ || !conditions_are_told(i, runs);
+        differ = differ || !has_conditions_of_earlier(i, runs);
     for (size_t i = 0; i < n; i++)
-        if (!conditions_are_told(i, runs))
-            QDOT_TRY(add_study(session, runs[i], differ, page));
+        if (!has_conditions_of_earlier(i, runs))
+            QDOT_TRY(add_work_precision_study(session, runs[i], differ, page));
     return QDOT_OK;
 }

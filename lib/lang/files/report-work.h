@@ -1,4 +1,4 @@
-/* report-work.h -- work and precision on the page of a report. */
+/* report-work.h -- adds the work-precision study of a run to the page of a report. */
 #ifndef QDOT_LANG_REPORT_WORK_H
 #define QDOT_LANG_REPORT_WORK_H
 

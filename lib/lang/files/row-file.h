@@ -11,7 +11,7 @@
 #include "lang/session/row-tables.h"
 #include "lang/syntax/record.h"
 
-/* Print the table, or write it to the file behind `to`. */
+/* Print the table of rows, or write it to the file named after `to`. */
 QDOT_MUST_CHECK qdot_status qdot_row_file_answer(qdot_record *r, const qdot_row_table *table);
 
 #endif

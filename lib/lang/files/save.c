@@ -9,7 +9,7 @@
 #include "lang/files/row-file.h"
 #include "lang/session/measured.h"
 
-static qdot_status save_write(qdot_record *r);
+static qdot_status carry_out_save(qdot_record *r);
 
 QDOT_STATEMENT(save) = {
     .word = "save",
@@ -19,11 +19,11 @@ QDOT_STATEMENT(save) = {
     .summary = "a run whole: t, q, q', multipliers; a table of rows; the scene with the style and the runs, as statements that "
                "make them anew; or all statements that were typed and succeeded",
     .example = "save a to \"run.csv\"",
-    .handler = save_write,
+    .handler = carry_out_save,
 };
 
 static qdot_status
-push_symbol(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operands *list)
+append_symbol_operand(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operands *list)
 {
     qdot_operand o = {.run = run};
     qdot_status status = qdot_pool_check(session->pool);
@@ -41,7 +41,7 @@ push_symbol(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operand
 
 /* Append every coordinate, velocity and multiplier of the run as an operand. */
 static qdot_status
-whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
+append_whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
 {
     const qdot_run_report *report = qdot_run_get_report(run);
 
@@ -49,20 +49,20 @@ whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
         for (size_t i = 0; i < report->n - (order > 0 ? report->n_states : 0); i++) {
             qdot_expr jet = qdot_symbol_jet(session->pool, report->coordinates[i], order);
 
-            QDOT_TRY(push_symbol(session, run, jet, list));
+            QDOT_TRY(append_symbol_operand(session, run, jet, list));
         }
     for (size_t k = 0; k < report->m; k++)
-        QDOT_TRY(push_symbol(session, run, report->multipliers[k], list));
+        QDOT_TRY(append_symbol_operand(session, run, report->multipliers[k], list));
     return QDOT_OK;
 }
 
-/* Save the steps of a run with `digits`; the last row is the end of the run. */
+/* Save the steps of a run made with the option `digits`; the last row is the end of the run. */
 static qdot_status
-exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
-           const double *times, const char *path)
+save_with_known_digits(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
+                       const double *times, const char *path)
 {
     qdot_expr *at = qdot_calloc(rows + 1, sizeof *at);
-    bool *beside = qdot_calloc(rows + 1, sizeof *beside); /* row k is just before or after an event */
+    bool *beside = qdot_calloc(rows + 1, sizeof *beside); /* whether row k is the point just before or after an event */
     qdot_status status = at != NULL && beside != NULL ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
@@ -92,7 +92,7 @@ fill_before_events(qdot_run *run, const qdot_operands *list, qdot_grid *g)
     return QDOT_OK;
 }
 
-/* Write a run to the file behind `to`: t, q, q' and multipliers at each step. */
+/* Write a run to the file named after `to`: t, q, q' and multipliers at each step. */
 static qdot_status
 save_run(qdot_record *r, qdot_run *run, const char *path)
 {
@@ -101,10 +101,10 @@ save_run(qdot_record *r, qdot_run *run, const char *path)
     qdot_grid g = {0};
     size_t rows;
     const double *times = qdot_run_times(run, &rows);
-    qdot_status status = whole_state(session, run, &list);
+    qdot_status status = append_whole_state(session, run, &list);
 
     if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
-        status = exact_save(session, &list, run, rows, times, path);
+        status = save_with_known_digits(session, &list, run, rows, times, path);
         qdot_operands_free(&list);
         return status;
     }
@@ -122,7 +122,7 @@ save_run(qdot_record *r, qdot_run *run, const char *path)
 /* Whether `name`, `session` or `history`, means statements and not a run: the file is one of scenes, or
  * no run is called that. */
 static bool
-means_statements(const qdot_record *r, const char *name, const qdot_filled *file)
+saves_statements(const qdot_record *r, const char *name, const qdot_filled *file)
 {
     qdot_named_run *run;
 
@@ -131,7 +131,7 @@ means_statements(const qdot_record *r, const char *name, const qdot_filled *file
 }
 
 static qdot_status
-save_write(qdot_record *r)
+carry_out_save(qdot_record *r)
 {
     const qdot_filled *rows = qdot_record_hole(r, "save", "ROWS"), *of = qdot_record_hole(r, "save", "RUN"),
                       *file = qdot_record_hole(r, "to", NULL);
@@ -142,7 +142,7 @@ save_write(qdot_record *r)
         return qdot_row_file_answer(r, qdot_row_tables_find(r->cursor.session, rows->from->text));
     if (of != NULL)
         QDOT_TRY(qdot_record_name(r, of, &name));
-    if (means_statements(r, name, file))
+    if (saves_statements(r, name, file))
         return qdot_scene_file_write(&r->cursor, file->from,
                                      name[0] == 's' ? QDOT_FILE_SESSION : QDOT_FILE_HISTORY);
     qdot_record_blame(r, file);

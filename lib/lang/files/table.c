@@ -14,7 +14,7 @@
 #include "lang/session/member.h"
 #include "lang/session/output.h"
 
-static qdot_status table_answer(qdot_record *r);
+static qdot_status answer_table_statement(qdot_record *r);
 
 QDOT_STATEMENT(table) = {
     .word = "table",
@@ -22,14 +22,14 @@ QDOT_STATEMENT(table) = {
     .usage = "table EXPR, ... every DT [to \"FILE.csv|.json|.txt|.html|.h5\"] | table ROWS [to \"FILE.csv\"]",
     .summary = "a table along the latest run, or of the rows of a sweep, a section, branches",
     .example = "table theta, theta', energy every 0.1",
-    .handler = table_answer,
+    .handler = answer_table_statement,
 };
 
 /* Numbers of operand o, whose columns [m x rows] these are, that have no digit because they are beyond
  * the horizon of its run become NaN. *some: whether there are any. */
 static qdot_status
-blank_unknown(const qdot_operand *o, size_t rows, const double *times, double *columns,
-              bool *some)
+blank_unknown_values(const qdot_operand *o, size_t rows, const double *times, double *columns,
+                     bool *some)
 {
     const qdot_run_report *r = qdot_run_get_report(o->run);
     const size_t m = o->columns.n;
@@ -58,7 +58,7 @@ blank_unknown(const qdot_operand *o, size_t rows, const double *times, double *c
     return status;
 }
 
-/* Blank the unknown values of all operands, with a notice. */
+/* Blank the values of all operands that are not known, and give a notice of that. */
 static qdot_status
 blank_all_unknown(qdot_session *session, qdot_grid *g, const qdot_operands *list, const double *times)
 {
@@ -66,7 +66,7 @@ blank_all_unknown(qdot_session *session, qdot_grid *g, const qdot_operands *list
     bool some = false;
 
     for (size_t i = 0; i < list->n; i++) {
-        QDOT_TRY(blank_unknown(&list->at[i], g->table.rows, times, g->values + next * g->table.rows, &some));
+        QDOT_TRY(blank_unknown_values(&list->at[i], g->table.rows, times, g->values + next * g->table.rows, &some));
         next += list->at[i].columns.n;
     }
     return some ? qdot_answer_notice(session, "- marks numbers beyond the horizon of their run, "
@@ -74,9 +74,9 @@ blank_all_unknown(qdot_session *session, qdot_grid *g, const qdot_operands *list
                 : QDOT_OK;
 }
 
-/* The run to which all operands belong; NULL if there are several. */
+/* The only run to which all operands belong; NULL if there are several. */
 static qdot_run *
-only_run(const qdot_operands *list)
+find_only_run(const qdot_operands *list)
 {
     for (size_t i = 0; i < list->n; i++)
         if (list->at[i].run != list->at[0].run || list->at[i].mixed)
@@ -84,9 +84,9 @@ only_run(const qdot_operands *list)
     return list->at[0].run;
 }
 
-/* Find the time span that all the runs cover, in the direction of the first run. */
+/* Find the time range common to all the runs, in the direction of the first run. */
 static qdot_status
-common_span(const qdot_operands *list, double *from, double *to)
+find_common_time_range(const qdot_operands *list, double *from, double *to)
 {
     const qdot_run_report *first = qdot_run_get_report(list->at[0].run);
     double low = -INFINITY, high = INFINITY;
@@ -107,15 +107,15 @@ common_span(const qdot_operands *list, double *from, double *to)
     return QDOT_OK;
 }
 
-/* Make the times t0, t0 + step, ... up to t1; they decrease if the runs go back in time. */
+/* Make the list of times t0, t0 + step, ... up to t1; it decreases if the runs go back in time. */
 static qdot_status
-ladder(const qdot_operands *list, double step, double **times, size_t *n)
+make_evenly_spaced_times(const qdot_operands *list, double step, double **times, size_t *n)
 {
     double from = 0, to = 0, span, count;
 
     if (!(step > 0))
         return qdot_fail(QDOT_EINVAL, "a table needs a step above 0");
-    QDOT_TRY(common_span(list, &from, &to));
+    QDOT_TRY(find_common_time_range(list, &from, &to));
     span = to - from;
     count = floor(fabs(span) / step * (1 + 1e-12)) + 1;
     if (count > 1e7)
@@ -134,7 +134,7 @@ ladder(const qdot_operands *list, double step, double **times, size_t *n)
 
 /* Read the step after `every`, and the path after `to`; NULL if there is no file. */
 static qdot_status
-table_find_options(qdot_record *r, qdot_expr *step, const char **path)
+read_table_options(qdot_record *r, qdot_expr *step, const char **path)
 {
     const qdot_filled *file = qdot_record_hole(r, "to", NULL);
 
@@ -146,10 +146,10 @@ table_find_options(qdot_record *r, qdot_expr *step, const char **path)
     return qdot_data_file_check(*path);
 }
 
-/* Make a table of runs with `digits`; its times are exact, counted from the first one. */
+/* Make a table of runs made with the option `digits`; its times are exact, counted from the first one. */
 static qdot_status
-exact_table(qdot_session *session, const qdot_operands *list, const double *times,
-            qdot_expr step, size_t rows, const char *path)
+make_table_with_digits(qdot_session *session, const qdot_operands *list, const double *times,
+                       qdot_expr step, size_t rows, const char *path)
 {
     qdot_pool *pool = session->pool;
     const qdot_expr from = qdot_measured_rational(pool, times[0]);
@@ -164,14 +164,14 @@ exact_table(qdot_session *session, const qdot_operands *list, const double *time
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK)
-        status = qdot_digits_table(session, list, only_run(list), rows, at, NULL, path);
+        status = qdot_digits_table(session, list, find_only_run(list), rows, at, NULL, path);
     qdot_free(at);
     return status;
 }
 
 /* Answer or write a table of values along runs. */
 static qdot_status
-table_along(qdot_record *r)
+answer_table_along_runs(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_operands list = {0};
@@ -183,7 +183,7 @@ table_along(qdot_record *r)
     qdot_status status = qdot_operands_find(r, qdot_record_hole(r, "table", "EXPR"), &list);
 
     if (status == QDOT_OK)
-        status = table_find_options(r, &exact_step, &path);
+        status = read_table_options(r, &exact_step, &path);
     if (status == QDOT_OK)
         status = qdot_session_number(session, exact_step, &step, NULL);
     if (status == QDOT_OK) {
@@ -191,9 +191,9 @@ table_along(qdot_record *r)
         status = qdot_operands_find_runs(session, &list);
     }
     if (status == QDOT_OK)
-        status = ladder(&list, step, &times, &rows);
+        status = make_evenly_spaced_times(&list, step, &times, &rows);
     if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
-        status = exact_table(session, &list, times, exact_step, rows, path);
+        status = make_table_with_digits(session, &list, times, exact_step, rows, path);
         qdot_free(times);
         qdot_operands_free(&list);
         return status;
@@ -203,7 +203,7 @@ table_along(qdot_record *r)
     if (status == QDOT_OK && path == NULL && !session->output->json)
         status = blank_all_unknown(session, &g, &list, times);
     if (status == QDOT_OK)
-        status = qdot_grid_write(session, &g, only_run(&list), path);
+        status = qdot_grid_write(session, &g, find_only_run(&list), path);
     qdot_grid_free(&g);
     qdot_free(times);
     qdot_operands_free(&list);
@@ -211,10 +211,10 @@ table_along(qdot_record *r)
 }
 
 static qdot_status
-table_answer(qdot_record *r)
+answer_table_statement(qdot_record *r)
 {
     const qdot_filled *rows = qdot_record_hole(r, "table", "ROWS");
 
-    return rows == NULL ? table_along(r)
+    return rows == NULL ? answer_table_along_runs(r)
                         : qdot_row_file_answer(r, qdot_row_tables_find(r->cursor.session, rows->from->text));
 }

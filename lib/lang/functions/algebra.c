@@ -1,4 +1,4 @@
-/* algebra.c -- functions that differentiate, take sides, substitute, factor; eigenvalues. */
+/* algebra.c -- functions that differentiate, take the sides of equations, substitute and factor; eigenvalues. */
 #include "lang/functions/algebra.h"
 
 #include "base/memory.h"
@@ -23,7 +23,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
-enum { READ_SIZE = 300 }; /* largest number of operations that a reader can take in */
+enum { READ_SIZE = 300 }; /* largest number of operations in an expression that a human reader can take in */
 
 qdot_status
 qdot_algebra_give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
@@ -37,9 +37,9 @@ qdot_algebra_give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
 
 /* --- derivatives: diff, ddt ---------------------------------------------------------- */
 
-/* Whether e depends on time only through coordinates: no explicit t, nothing else that moves. */
+/* Whether e depends on time only through coordinates: it contains no explicit t, nor anything else that moves. */
 static bool
-is_carried(const qdot_pool *pool, qdot_expr e)
+depends_on_time_by_coordinates(const qdot_pool *pool, qdot_expr e)
 {
     uint32_t holds = qdot_expr_node(pool, e)->holds;
 
@@ -52,13 +52,13 @@ is_carried(const qdot_pool *pool, qdot_expr e)
 
 /* Give a notice for diff(e, t) = 0 where e contains t only through coordinates: ddt was probably meant. */
 static qdot_status
-tell_partial(qdot_session *session, qdot_expr e)
+give_notice_of_partial_derivative(qdot_session *session, qdot_expr e)
 {
     enum { LONGEST = 60 };
     qdot_text text = {0};
     qdot_status status;
 
-    if (!is_carried(session->pool, e))
+    if (!depends_on_time_by_coordinates(session->pool, e))
         return QDOT_OK;
     status = qdot_print(session->pool, e, QDOT_PLAIN, &text);
     if (status == QDOT_OK)
@@ -98,7 +98,7 @@ qdot_call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
         return qdot_fail(QDOT_EDOMAIN, "a derivative is taken 0, 1, 2 ... times, not %ld",
                          times);
     if (args[1] == QDOT_T && times > 0)
-        QDOT_TRY(tell_partial(s, e));
+        QDOT_TRY(give_notice_of_partial_derivative(s, e));
     e = qdot_momenta_for(s, e, args[1]);
     if (times > 0)
         e = qdot_kinks_cancel(s->pool, e);
@@ -121,7 +121,7 @@ qdot_call_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 typedef enum { LEFT, RIGHT, DIFFERENCE } side;
 
 static qdot_expr
-equation_side(qdot_pool *pool, qdot_expr equation, side which)
+get_equation_side(qdot_pool *pool, qdot_expr equation, side which)
 {
     qdot_expr left = qdot_expr_arg(pool, equation, 0);
     qdot_expr right = qdot_expr_arg(pool, equation, 1);
@@ -140,7 +140,7 @@ find_equation_sides(qdot_session *s, const char *name, qdot_expr e, side which, 
     bool sound = kind == QDOT_LIST || kind == QDOT_VEC;
 
     if (qdot_value_kind_is_equation(pool, e))
-        return qdot_value_kind_give(s->pool, equation_side(pool, e, which), value);
+        return qdot_value_kind_give(s->pool, get_equation_side(pool, e, which), value);
     for (uint32_t i = 0; sound && i < n; i++)
         if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i))) {
             odd = qdot_expr_arg(pool, e, i);
@@ -153,7 +153,7 @@ find_equation_sides(qdot_session *s, const char *name, qdot_expr e, side which, 
     if (members == NULL)
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < n; i++)
-        members[i] = equation_side(pool, qdot_expr_arg(pool, e, i), which);
+        members[i] = get_equation_side(pool, qdot_expr_arg(pool, e, i), which);
     e = kind == QDOT_LIST ? qdot_list(pool, n, members) : qdot_vector(pool, n, members);
     qdot_free(members);
     return qdot_value_kind_give(s->pool, e, value);
@@ -264,9 +264,9 @@ qdot_call_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
 }
 
-/* Find all roots of det(M - x 1), repeated by multiplicity. */
+/* Find all roots x of det(M - x 1), the eigenvalues of M, repeated by multiplicity. */
 static qdot_status
-roots_of(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *value)
+find_roots_of_determinant(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *value)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s->scene);
@@ -322,5 +322,5 @@ qdot_call_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args,
     det = qdot_det(pool, qdot_matrix(pool, size, size, entries));
     qdot_free(entries);
     QDOT_TRY(qdot_value_kind_check(pool, det));
-    return roots_of(s, det, x, size, value);
+    return find_roots_of_determinant(s, det, x, size, value);
 }

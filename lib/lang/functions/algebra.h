@@ -5,11 +5,11 @@
 #include "base/memory.h"
 #include "lang/session/parts.h"
 
-/* *value = result in the shortest form found, unless it is too large to be read. */
+/* Set *value to `result` in the shortest form found, unless it is too large to be read. */
 QDOT_MUST_CHECK qdot_status qdot_algebra_give_short(qdot_session *s, qdot_expr result,
                                                     qdot_expr *value);
 
-/* Replacements x = a, y = b; the caller frees the arrays. */
+/* A list of replacements x = a, y = b; the caller frees its arrays. */
 typedef struct {
     qdot_vec(qdot_expr) from, to;
 } qdot_replacements;

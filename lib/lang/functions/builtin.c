@@ -22,7 +22,7 @@
 /* --- calls of elementary functions -------------------------------------------------- */
 
 static qdot_expr
-elementary_of(qdot_pool *pool, qdot_expr scalar, void *user)
+apply_to_scalar(qdot_pool *pool, qdot_expr scalar, void *user)
 {
     return qdot_fun1(pool, *(const qdot_fun_id *)user, scalar);
 }
@@ -40,7 +40,7 @@ apply_elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *a
 
     if (n == 1 && id != QDOT_MIN && id != QDOT_MAX)
         return qdot_value_kind_give(
-            s->pool, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
+            s->pool, qdot_value_map(s->pool, args[0], apply_to_scalar, &id), value);
     if (n == 1 && qdot_expr_is_scalar(s->pool, args[0]) &&
         ((qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)) ||
          qdot_member_any(s, args[0])))
@@ -76,7 +76,7 @@ apply_elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *a
 #undef X
 
 static qdot_expr
-sqrt_of(qdot_pool *pool, qdot_expr scalar, void *user)
+square_root_of_scalar(qdot_pool *pool, qdot_expr scalar, void *user)
 {
     (void)user;
     return qdot_sqrt(pool, scalar);
@@ -86,7 +86,7 @@ static qdot_status
 call_sqrt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
-    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], sqrt_of, NULL),
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], square_root_of_scalar, NULL),
                                 value);
 }
 
@@ -164,7 +164,7 @@ qdot_call_sum(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 
 /* The coordinates by which the entries of a function of the position R, its last argument, are indexed. */
 static qdot_expr
-over_place(qdot_session *s, uint32_t n, const qdot_expr *args)
+coordinates_of_last_argument(qdot_session *s, uint32_t n, const qdot_expr *args)
 {
     return qdot_mech_metric_coordinates(s->scene, args[n - 1]);
 }

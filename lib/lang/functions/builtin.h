@@ -17,12 +17,12 @@ typedef struct {
 } qdot_builtin;
 enum {
     QDOT_BUILTIN_UNBUILT = 1, /* the name is reserved, but this version does not have the function */
-    QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label, given as its carrier symbol */
+    QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label, given as the symbol that stands for it */
     QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, as in value(a.theta, 20) */
-    QDOT_BUILTIN_FORM = 8,    /* arguments are not evaluated first: sum, if */
+    QDOT_BUILTIN_FORM = 8,    /* arguments are not evaluated before the call, as for sum and if */
     QDOT_BUILTIN_SHORT = 16,  /* a name declared by the user takes precedence */
     QDOT_BUILTIN_RANGE = 32, /* the last argument may be a range a..b: it counts as two arguments */
-    QDOT_BUILTIN_PASSED = 64 /* while arguments are read, session->passed records what must be defined */
+    QDOT_BUILTIN_PASSED = 64 /* while the arguments are read, session->passed records what must be defined */
 };
 
 /* The functions of builtin.def, with args [n]: qdot_call_diff, ... */

@@ -1,4 +1,4 @@
-/* entry.c -- an indexed entry of a value; the name of a family member. */
+/* entry.c -- finds an entry of a value by its indices, and writes the name of a family member. */
 #include "lang/functions/entry.h"
 
 #include "expr/node.h"
@@ -25,7 +25,7 @@ qdot_entry_name(qdot_session *session, const char *name, uint32_t n,
 
 /* Find an index as a number from 1: an integer, or a coordinate if entries are indexed by coordinates. */
 static qdot_status
-position(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
+index_as_number(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
 {
     if (qdot_expr_is_coordinate(s->pool, index)) {
         for (uint32_t k = 0; over != QDOT_NIL && k < qdot_expr_count(s->pool, over); k++)
@@ -57,14 +57,14 @@ qdot_entry_of(qdot_session *session, qdot_expr e, qdot_expr over, uint32_t n,
                 qdot_fail(QDOT_ETYPE, "an entry of a matrix has two indices");
                 return qdot_hint("write M[1, 2]");
             }
-            QDOT_TRY(position(session, over, index[k], &i));
-            QDOT_TRY(position(session, over, index[k + 1], &j));
+            QDOT_TRY(index_as_number(session, over, index[k], &i));
+            QDOT_TRY(index_as_number(session, over, index[k + 1], &j));
             *value = qdot_entry2(pool, *value, i, j);
             k += 2;
             break;
         case QDOT_VEC:
         case QDOT_LIST:
-            QDOT_TRY(position(session, over, index[k], &i));
+            QDOT_TRY(index_as_number(session, over, index[k], &i));
             *value = qdot_entry(pool, *value, i);
             k++;
             break;

@@ -1,4 +1,4 @@
-/* entry.h -- an indexed entry of a value; the name of a family member. */
+/* entry.h -- finds an entry of a value by its indices, and writes the name of a family member. */
 #ifndef QDOT_LANG_ENTRY_H
 #define QDOT_LANG_ENTRY_H
 
@@ -10,7 +10,7 @@
 QDOT_MUST_CHECK qdot_status qdot_entry_of(qdot_session *session, qdot_expr e,
                                           qdot_expr over, uint32_t n,
                                           const qdot_expr *index, qdot_expr *value);
-/* Append "name[1,2]" for index values that must be integers; for n = 0 "name". */
+/* Append the name "name[1,2]" for index values, which must be integers; without indices just "name". */
 QDOT_MUST_CHECK qdot_status qdot_entry_name(qdot_session *session, const char *name,
                                             uint32_t n, const qdot_expr *index,
                                             qdot_text *member);

@@ -1,4 +1,4 @@
-/* equilibria.c -- equilibria and modes of a scene; numerical ones use the session's parameter values. */
+/* equilibria.c -- finds equilibria and modes of a scene; numerical ones with the session's parameter values. */
 #include "lang/functions/equilibria.h"
 
 #include "expr/build.h"
@@ -17,13 +17,13 @@
 #include "normal/solve/solve.h"
 
 static qdot_expr
-bind(void *session, qdot_expr e)
+insert_session_values(void *session, qdot_expr e)
 {
     return qdot_session_bind(session, e);
 }
 
 static qdot_status
-need_coordinates(const qdot_session *session)
+require_coordinates(const qdot_session *session)
 {
     if (session->scene->coordinates.n > 0)
         return QDOT_OK;
@@ -35,8 +35,8 @@ qdot_status
 qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
 {
     *out = (qdot_equilibria){0};
-    QDOT_TRY(need_coordinates(session));
-    return qdot_equilibrium_find(session->scene, bind, session, out);
+    QDOT_TRY(require_coordinates(session));
+    return qdot_equilibrium_find(session->scene, insert_session_values, session, out);
 }
 
 qdot_expr
@@ -47,9 +47,9 @@ qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e)
                                                      qdot_expr_args(pool, e->range));
 }
 
-/* A LIST of the equations in `list`, without the inequalities that describe a band. */
+/* Select the equations from `list`, leaving out the inequalities that describe a range of equilibria. */
 static qdot_expr
-equations_of(qdot_pool *pool, qdot_expr list)
+select_equations(qdot_pool *pool, qdot_expr list)
 {
     qdot_expr equations = qdot_list(pool, 0, NULL);
 
@@ -78,7 +78,7 @@ qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_exp
 
 /* The conditions for the equilibrium, with the session's values inserted. */
 static qdot_expr
-exists_now(qdot_session *session, qdot_expr exists)
+existence_with_values(qdot_session *session, qdot_expr exists)
 {
     qdot_expr bound = qdot_session_bind(session, exists);
 
@@ -94,7 +94,7 @@ qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e)
 
     if (e->exists == QDOT_NIL)
         return QDOT_OK;
-    now = exists_now(session, e->exists);
+    now = existence_with_values(session, e->exists);
     QDOT_TRY(qdot_pool_check(session->pool));
     if (now == QDOT_NIL) /* the condition holds */
         return QDOT_OK;
@@ -135,7 +135,7 @@ qdot_equilibria_is_word(qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-as_value(qdot_pool *pool, const qdot_equilibrium *e)
+equilibrium_as_value(qdot_pool *pool, const qdot_equilibrium *e)
 {
     qdot_expr word = qdot_equilibria_word(pool, e->stability), when[3];
 
@@ -164,7 +164,7 @@ qdot_equilibria_stability(qdot_session *session, qdot_expr equations, qdot_expr 
         status = qdot_hint("stability(equilibria[1])");
     }
     if (status == QDOT_OK) {
-        *value = as_value(session->pool, &all.at[at]);
+        *value = equilibrium_as_value(session->pool, &all.at[at]);
         status = qdot_pool_check(session->pool);
     }
     qdot_equilibria_clear(&all);
@@ -173,7 +173,7 @@ qdot_equilibria_stability(qdot_session *session, qdot_expr equations, qdot_expr 
 
 /* Whether the solution was found numerically: a value has 15 decimal digits. */
 static bool
-is_numeric(qdot_session *session, qdot_expr equations)
+is_found_numerically(qdot_session *session, qdot_expr equations)
 {
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, equations); i++) {
         qdot_expr one = qdot_expr_arg(session->pool, equations, i);
@@ -189,7 +189,7 @@ is_numeric(qdot_session *session, qdot_expr equations)
 /* --- normal modes -------------------------------------------------------------------------- */
 
 static qdot_status
-none_to_swing_about(const qdot_equilibria *all)
+report_no_equilibrium(const qdot_equilibria *all)
 {
     if (all->n == 0)
         return qdot_fail(QDOT_EINVAL, all->complete ? "the scene has no equilibrium"
@@ -200,9 +200,9 @@ none_to_swing_about(const qdot_equilibria *all)
 
 /* Append ", WORD CONDITIONS" unless the session's values satisfy these; *never if they contradict them. */
 static qdot_status
-print_place_conditions(qdot_session *session, const char *word, qdot_expr conditions, qdot_text *text, bool *never)
+print_existence_conditions(qdot_session *session, const char *word, qdot_expr conditions, qdot_text *text, bool *never)
 {
-    qdot_expr now = conditions == QDOT_NIL ? QDOT_NIL : exists_now(session, conditions);
+    qdot_expr now = conditions == QDOT_NIL ? QDOT_NIL : existence_with_values(session, conditions);
 
     QDOT_TRY(qdot_pool_check(session->pool));
     *never = *never || now == QDOT_FALSE;
@@ -213,30 +213,30 @@ print_place_conditions(qdot_session *session, const char *word, qdot_expr condit
 static qdot_status
 print_instability(qdot_session *session, qdot_expr conditions, qdot_text *text)
 {
-    const qdot_expr now = conditions == QDOT_NIL ? QDOT_FALSE : exists_now(session, conditions);
+    const qdot_expr now = conditions == QDOT_NIL ? QDOT_FALSE : existence_with_values(session, conditions);
 
     QDOT_TRY(qdot_pool_check(session->pool));
     return now == QDOT_FALSE ? QDOT_OK
                              : qdot_solve_print_conditions(session->pool, ", unstable when ", conditions, text);
 }
 
-/* Notice `modes about x = 0, stable when a < 0`, if the equilibrium or its stability has conditions. */
+/* Give the notice `modes about x = 0, stable when a < 0`, if the equilibrium or its stability has conditions. */
 static qdot_status
-modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
+give_notice_of_equilibrium(qdot_session *session, const qdot_equilibrium *e)
 {
     qdot_pool *pool = session->pool;
     qdot_text text = {0}, place = {0};
     bool never = false, first = true;
-    qdot_status status = print_place_conditions(session, ", exists when ", e->exists, &text, &never);
+    qdot_status status = print_existence_conditions(session, ", exists when ", e->exists, &text, &never);
 
     if (status == QDOT_OK)
         status = e->stability == QDOT_UNSTABLE
                      ? print_instability(session, e->stable_when, &text)
-                     : print_place_conditions(session, ", stable when ", e->stable_when, &text, &never);
+                     : print_existence_conditions(session, ", stable when ", e->stable_when, &text, &never);
     for (uint32_t i = 0; i < qdot_expr_count(pool, e->equations) && status == QDOT_OK; i++) {
         qdot_expr one = qdot_expr_arg(pool, e->equations, i);
 
-        /* the entry is a multiplier, not a coordinate */
+        /* this equation is for a constraint's multiplier, not for a coordinate */
         if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_COORD))
             continue;
         qdot_text_add(&place, first ? "modes about " : ", ");
@@ -254,9 +254,9 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     return status;
 }
 
-/* Notice for each mode whose squared frequency is not proved positive. */
+/* Give a notice for each mode of oscillation whose squared frequency is not proved positive. */
 static qdot_status
-modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
+give_notice_of_unproved_modes(qdot_session *session, const qdot_modes *modes)
 {
     const qdot_facts facts = qdot_scene_facts(session->scene);
     qdot_status status = QDOT_OK;
@@ -275,17 +275,17 @@ modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
 
 /* Find the first equilibrium that is not unstable. */
 static qdot_status
-modes_find_place(qdot_session *session, qdot_equilibrium *place)
+find_first_not_unstable(qdot_session *session, qdot_equilibrium *place)
 {
     qdot_equilibria all;
     size_t at = 0;
     qdot_status status;
 
-    QDOT_TRY(need_coordinates(session));
-    QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &all));
+    QDOT_TRY(require_coordinates(session));
+    QDOT_TRY(qdot_equilibrium_first(session->scene, insert_session_values, session, &all));
     while (at < all.n && qdot_equilibrium_is_unstable(&all.at[at]))
         at++;
-    status = at < all.n ? QDOT_OK : none_to_swing_about(&all);
+    status = at < all.n ? QDOT_OK : report_no_equilibrium(&all);
     if (status == QDOT_OK)
         *place = all.at[at];
     qdot_equilibria_clear(&all);
@@ -294,7 +294,7 @@ modes_find_place(qdot_session *session, qdot_equilibrium *place)
 
 /* Judge the stability of an equilibrium given by its equations; it exists where their values are defined. */
 static qdot_status
-modes_judge_place(qdot_session *session, qdot_equilibrium *place)
+judge_stability(qdot_session *session, qdot_equilibrium *place)
 {
     const qdot_facts facts = qdot_scene_facts(session->scene);
 
@@ -302,7 +302,7 @@ modes_judge_place(qdot_session *session, qdot_equilibrium *place)
     place->exists = qdot_conditions_at(session->pool, place->exists, 0, NULL, NULL, &facts);
     place->exists = place->exists == QDOT_FALSE ? QDOT_NIL : qdot_conditions_generic(session->pool, place->exists);
     QDOT_TRY(qdot_pool_check(session->pool));
-    return qdot_equilibrium_judge(session->scene, bind, session, place);
+    return qdot_equilibrium_judge(session->scene, insert_session_values, session, place);
 }
 
 qdot_status
@@ -312,18 +312,18 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
     qdot_status status = QDOT_OK;
 
     if (equations == QDOT_NIL)
-        QDOT_TRY(modes_find_place(session, &place));
-    place.equations = qdot_solve_one_member(session->pool, equations_of(session->pool, place.equations));
+        QDOT_TRY(find_first_not_unstable(session, &place));
+    place.equations = qdot_solve_one_member(session->pool, select_equations(session->pool, place.equations));
     QDOT_TRY(qdot_pool_check(session->pool));
-    place.numeric = is_numeric(session, place.equations);
-    QDOT_TRY(qdot_modes_about(session->scene, place.equations, place.numeric, bind, session, modes));
+    place.numeric = is_found_numerically(session, place.equations);
+    QDOT_TRY(qdot_modes_about(session->scene, place.equations, place.numeric, insert_session_values, session, modes));
     if (!modes->numeric && equations != QDOT_NIL)
-        status = modes_judge_place(session, &place);
+        status = judge_stability(session, &place);
     if (!modes->numeric && status == QDOT_OK)
-        status = modes_notice_place(session, &place);
+        status = give_notice_of_equilibrium(session, &place);
     if (!modes->numeric && status == QDOT_OK && place.stability != QDOT_STABLE &&
         place.stability != QDOT_STABLE_TO_FIRST_ORDER)
-        status = modes_notice_unknown(session, modes);
+        status = give_notice_of_unproved_modes(session, modes);
     if (status == QDOT_OK && modes->unordered)
         status = qdot_answer_notice(session, "the declared signs do not decide the order of the modes: it is that at one "
                                              "choice of the parameters");

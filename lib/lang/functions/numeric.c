@@ -23,7 +23,7 @@ enum { MOST_DIGITS = 100000, DIGITS = 16 };
 typedef struct {
     qdot_session *session;
     int digits;
-    bool plain; /* no number of digits was given */
+    bool plain; /* the call gave no number of digits */
     qdot_status status;
 } order;
 
@@ -38,7 +38,7 @@ evaluate_number(qdot_session *session, qdot_expr e, const order *o, qdot_measure
 
 /* Round a value computed from numbers with errors to the requested number of digits. */
 static qdot_status
-shortened(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
+round_to_digits(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 {
     qdot_expr exact = qdot_measured_as_rationals(session, e);
     double error;
@@ -52,9 +52,9 @@ shortened(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 
 /* --- the function `numeric` ---------------------------------------------------------- */
 
-/* Whether e is a number, or a vector or list of numbers only, without nested lists or equations. */
+/* Whether e is a number, or a vector or list that contains numbers only, no nested lists or equations. */
 static bool
-is_flat(const qdot_pool *pool, qdot_expr e)
+has_only_numbers(const qdot_pool *pool, qdot_expr e)
 {
     qdot_kind kind = qdot_expr_kind(pool, e);
     bool flat = kind == QDOT_VEC || kind == QDOT_LIST;
@@ -65,7 +65,7 @@ is_flat(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-numbered(qdot_pool *pool, qdot_expr e, void *user)
+number_of_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     order *o = user;
     qdot_measured m = {0};
@@ -73,7 +73,7 @@ numbered(qdot_pool *pool, qdot_expr e, void *user)
     (void)pool;
     if (o->status != QDOT_OK || (o->plain && qdot_measured_occurs(o->session, e)))
         return e;
-    o->status = qdot_measured_occurs(o->session, e) ? shortened(o->session, e, o, &m)
+    o->status = qdot_measured_occurs(o->session, e) ? round_to_digits(o->session, e, o, &m)
                                                     : evaluate_number(o->session, e, o, &m);
     return o->status == QDOT_OK ? qdot_measured_add(o->session, m) : e;
 }
@@ -97,12 +97,12 @@ qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot
         return qdot_fail(QDOT_ETYPE, "numeric takes numbers, not a text");
     exact = qdot_measured_as_rationals(session, e);
     QDOT_TRY(qdot_value_kind_check(pool, exact));
-    if (exact == e && !(qdot_constant_is(pool, e) && is_flat(pool, e)))
+    if (exact == e && !(qdot_constant_is(pool, e) && has_only_numbers(pool, e)))
         return qdot_decimals_beside_symbols(pool, e, (int)digits, value);
-    if (!qdot_constant_is(pool, exact) || !is_flat(pool, e))
+    if (!qdot_constant_is(pool, exact) || !has_only_numbers(pool, e))
         return qdot_fail(QDOT_ETYPE, "the expression contains a result of a run and a symbol without value");
     o.digits = (int)digits;
-    *value = qdot_value_map(pool, e, numbered, &o);
+    *value = qdot_value_map(pool, e, number_of_scalar, &o);
     QDOT_TRY(o.status);
     return qdot_value_kind_check(pool, *value);
 }

@@ -20,7 +20,7 @@
 /* --- checks before a quantity is evaluated ------------------------------------------ */
 
 static qdot_status
-need_motion(const qdot_session *s)
+require_equations_of_motion(const qdot_session *s)
 {
     const qdot_scene *scene = s->scene;
 
@@ -31,9 +31,9 @@ need_motion(const qdot_session *s)
 }
 
 static qdot_status
-need_coordinates(const qdot_session *s)
+require_coordinates(const qdot_session *s)
 {
-    QDOT_TRY(need_motion(s));
+    QDOT_TRY(require_equations_of_motion(s));
     if (s->scene->coordinates.n > 0)
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
@@ -42,9 +42,9 @@ need_coordinates(const qdot_session *s)
 
 /* Check the index of name[theta]: it must be a coordinate. */
 static qdot_status
-coordinate(qdot_session *s, const char *name, qdot_expr index)
+check_coordinate_index(qdot_session *s, const char *name, qdot_expr index)
 {
-    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(require_coordinates(s));
     if (qdot_expr_is_coordinate(s->pool, index))
         return QDOT_OK;
     return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
@@ -67,13 +67,13 @@ cyclic_routhian(qdot_scene *s)
         QDOT_TRY(need(s));                                                               \
         return qdot_value_kind_give(s->pool, call(s->scene), value);                     \
     }
-OF_SCENE(T, need_motion, qdot_mech_kinetic)
-OF_SCENE(L, need_motion, qdot_mech_lagrangian)
-OF_SCENE(energy, need_motion, qdot_mech_energy)
-OF_SCENE(hamiltonian, need_coordinates, qdot_hamilton_hamiltonian)
-OF_SCENE(routhian, need_coordinates, cyclic_routhian)
-OF_SCENE(virtual_work, need_coordinates, qdot_mech_virtual_work)
-OF_SCENE(conserved, need_coordinates, qdot_noether_conserved)
+OF_SCENE(T, require_equations_of_motion, qdot_mech_kinetic)
+OF_SCENE(L, require_equations_of_motion, qdot_mech_lagrangian)
+OF_SCENE(energy, require_equations_of_motion, qdot_mech_energy)
+OF_SCENE(hamiltonian, require_coordinates, qdot_hamilton_hamiltonian)
+OF_SCENE(routhian, require_coordinates, cyclic_routhian)
+OF_SCENE(virtual_work, require_coordinates, qdot_mech_virtual_work)
+OF_SCENE(conserved, require_coordinates, qdot_noether_conserved)
 #undef OF_SCENE
 
 static qdot_status
@@ -81,14 +81,14 @@ get_V(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
     (void)n, (void)index;
     if (s->scene->potentials.n == 0 && s->scene->springs.n == 0)
-        QDOT_TRY(need_motion(s));
+        QDOT_TRY(require_equations_of_motion(s));
     return qdot_value_kind_give(s->pool, qdot_mech_potential(s->scene), value);
 }
 
 /* --- geometry: one value for each particle (for each body if there are no particles) --- */
 
 static qdot_status
-each_position(qdot_session *s, qdot_expr (*of)(qdot_scene *, qdot_expr), qdot_expr *value)
+apply_to_each_position(qdot_session *s, qdot_expr (*of)(qdot_scene *, qdot_expr), qdot_expr *value)
 {
     qdot_scene *scene = s->scene;
     bool bodies = scene->particles.n == 0;
@@ -115,7 +115,7 @@ each_position(qdot_session *s, qdot_expr (*of)(qdot_scene *, qdot_expr), qdot_ex
                                   qdot_expr *value)                                      \
     {                                                                                    \
         (void)n, (void)index;                                                            \
-        return each_position(s, qdot_mech_##word, value);                                \
+        return apply_to_each_position(s, qdot_mech_##word, value);                                \
     }
 OF_POSITION(ds2)
 OF_POSITION(speed2)
@@ -126,12 +126,12 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
 {
     qdot_expr M, coordinates;
 
-    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(require_coordinates(s));
     QDOT_TRY(qdot_value_kind_give(s->pool, qdot_mech_mass_matrix(s->scene), &M));
     if (n == 0)
         return qdot_value_kind_give(s->pool, M, value);
     for (uint32_t i = 0; i < n; i++)
-        QDOT_TRY(coordinate(s, "mass_matrix", index[i]));
+        QDOT_TRY(check_coordinate_index(s, "mass_matrix", index[i]));
     coordinates =
         qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
     QDOT_TRY(qdot_value_kind_check(s->pool, coordinates));
@@ -145,10 +145,10 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
                                   qdot_expr *value)                                      \
     {                                                                                    \
-        QDOT_TRY(need_coordinates(s));                                                   \
+        QDOT_TRY(require_coordinates(s));                                                   \
         if (n == 0)                                                                      \
             return qdot_value_kind_give(s->pool, all(s->scene), value);                  \
-        QDOT_TRY(coordinate(s, #word, index[0]));                                        \
+        QDOT_TRY(check_coordinate_index(s, #word, index[0]));                                        \
         return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
 BY_COORDINATE(momenta, qdot_mech_momenta, qdot_mech_momentum)
@@ -161,7 +161,7 @@ BY_COORDINATE(forces, qdot_mech_forces, qdot_mech_force)
                                   qdot_expr *value)                                      \
     {                                                                                    \
         (void)n;                                                                         \
-        QDOT_TRY(coordinate(s, #word, index[0]));                                        \
+        QDOT_TRY(check_coordinate_index(s, #word, index[0]));                                        \
         return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
 OF_COORDINATE(p, qdot_mech_momentum)
@@ -183,7 +183,7 @@ get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 /* Nothing is called `name`, "rod, 2": the constraint before the comma, if there is one, has
  * fewer components. */
 static qdot_status
-no_component(qdot_session *s, const char *name)
+report_no_component(qdot_session *s, const char *name)
 {
     const size_t length = strcspn(name, ",");
     size_t components = 0;
@@ -238,7 +238,7 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
                            name.at);
         qdot_hint("write lambda[%.80s, 1]", name.at);
     } else if (status == QDOT_OK) {
-        status = no_component(s, name.at);
+        status = report_no_component(s, name.at);
     }
     qdot_text_clear(&name);
     return status;
@@ -255,7 +255,7 @@ get_cyclic(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
     size_t count = 0;
 
     (void)n, (void)index;
-    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(require_coordinates(s));
     QDOT_TRY(qdot_mech_cyclic(s->scene, &list, &count));
     equations = qdot_malloc(count * sizeof *equations);
     if (equations == NULL) {
@@ -293,7 +293,7 @@ get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *v
     qdot_status status;
     long k = 0;
 
-    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(require_coordinates(s));
     QDOT_TRY(qdot_equilibria_find(s, &all));
     status = qdot_equilibria_list(s, &all, value);
     if (status == QDOT_OK && n > 0)
@@ -328,11 +328,11 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     qdot_status status = QDOT_OK;
     long k = 1;
 
-    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(require_coordinates(s));
     if (n > 0)
         QDOT_TRY(qdot_session_integer(s, index[0], &k));
     if (n == 2)
-        QDOT_TRY(coordinate(s, "modes[k, q]: q", index[1]));
+        QDOT_TRY(check_coordinate_index(s, "modes[k, q]: q", index[1]));
     QDOT_TRY(qdot_equilibria_modes_at(s, QDOT_NIL, &modes));
     if (n > 0 && (k < 1 || (size_t)k > modes.n))
         status = qdot_fail(QDOT_EDOMAIN, "there are %zu modes, counted from 1", modes.n);
@@ -353,7 +353,7 @@ static qdot_status
 get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
     (void)n, (void)index;
-    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(require_coordinates(s));
     if (s->scene->constraints.n > 0)
         return qdot_value_kind_give(s->pool, qdot_mech_reaction_list(s->scene), value);
     qdot_fail(QDOT_EINVAL, "the scene has no constraints");
@@ -363,19 +363,19 @@ get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
 /* --- names of list members ---------------------------------------------------------- */
 
 static qdot_expr
-momentum_symbol(qdot_pool *pool, qdot_expr q)
+make_momentum_symbol(qdot_pool *pool, qdot_expr q)
 {
     return qdot_symbol_of(pool, QDOT_MOMENTUM, q);
 }
 
 static qdot_expr
-accel_symbol(qdot_pool *pool, qdot_expr q)
+make_acceleration_symbol(qdot_pool *pool, qdot_expr q)
 {
     return qdot_symbol_jet(pool, q, 2);
 }
 
 static qdot_expr
-force_symbol(qdot_pool *pool, qdot_expr q)
+make_force_symbol(qdot_pool *pool, qdot_expr q)
 {
     qdot_text name = {0};
     qdot_expr symbol;
@@ -410,11 +410,11 @@ static const qdot_quantity rows[] = {
     {"mass_matrix", 0, 2, get_mass_matrix, "mass_matrix or mass_matrix[q1, q2]",
      "mass matrix M(q, t)", "mass_matrix", true, NULL},
     {"momenta", 0, 1, get_momenta, "momenta or momenta[theta]",
-     "generalized momenta dL/dq'", "momenta", true, momentum_symbol},
+     "generalized momenta dL/dq'", "momenta", true, make_momentum_symbol},
     {"p", 1, 1, get_p, "p[theta]", "generalized momentum dL/dtheta'", "p[theta]", false,
      NULL},
     {"forces", 0, 1, get_forces, "forces", "generalized forces, with their parts",
-     "forces", true, force_symbol},
+     "forces", true, make_force_symbol},
     {"Q", 1, 1, get_Q, "Q[theta]", "generalized force: all that is applied", "Q[theta]",
      false, NULL},
     {"virtual_work", 0, 0, get_virtual_work, "virtual_work",
@@ -424,7 +424,7 @@ static const qdot_quantity rows[] = {
     {"eom", 0, 1, get_eom, "eom or eom[theta]", "Lagrange's equations", "eom", true,
      NULL},
     {"accel", 0, 1, get_accel, "accel or accel[theta]", "accelerations, solved for",
-     "accel[theta]", true, accel_symbol},
+     "accel[theta]", true, make_acceleration_symbol},
     {"lambda", 1, 2, get_lambda, "lambda[rod] or lambda[pin, 1]",
      "multiplier of a constraint", "lambda[rod]", false, NULL},
     {"cyclic", 0, 0, get_cyclic, "cyclic",

@@ -12,7 +12,7 @@ typedef struct {
     qdot_status (*get)(qdot_session *session, uint32_t n, const qdot_expr *index,
                        qdot_expr *value);
     const char *usage, *summary, *example;
-    bool over_coordinates; /* a list or matrix whose entries can also be indexed by coordinates */
+    bool over_coordinates; /* the value is a list or matrix whose entries can also be indexed by coordinates */
     /* what a member of the list is called where the whole is asked, `p[theta] = ...`: a
      * symbol by its coordinate; NULL: `eom[theta]` */
     qdot_expr (*symbol)(qdot_pool *pool, qdot_expr coordinate);

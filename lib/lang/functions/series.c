@@ -14,7 +14,7 @@
 
 /* Read equations x = a as symbols and expansion points. */
 static qdot_status
-series_read_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_replacements *r)
+read_expansion_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_replacements *r)
 {
     for (uint32_t i = 0; i < n; i++)
         QDOT_TRY(qdot_algebra_gather(s, "series", args[i], r));
@@ -25,12 +25,12 @@ series_read_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_repla
 }
 
 static qdot_status
-series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long most,
-          qdot_expr *value)
+expand_in_series(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long most,
+                 qdot_expr *value)
 {
     const qdot_facts facts = qdot_scene_facts(s->scene);
     qdot_replacements r = {0};
-    qdot_status status = series_read_point(s, n, args, &r);
+    qdot_status status = read_expansion_point(s, n, args, &r);
 
     for (size_t i = 0; i < r.from.n && status == QDOT_OK; i++)
         e = qdot_momenta_for(s, e, r.from.at[i]);
@@ -60,8 +60,8 @@ qdot_call_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *
     if (members == NULL)
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < count && status == QDOT_OK; i++)
-        status = series_of(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], n - 2,
-                           args + 1, most, &members[i]);
+        status = expand_in_series(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], n - 2,
+                                  args + 1, most, &members[i]);
     if (status == QDOT_OK)
         *value = list ? qdot_list(s->pool, count, members) : members[0];
     if (status == QDOT_OK)

@@ -1,4 +1,4 @@
-/* short-names.c -- gives hints where a declaration uses L, T or V, which are quantities of the scene. */
+/* short-names.c -- gives hints when a declaration uses L, T or V, which are the scene's Lagrangian and energies. */
 #include "lang/functions/short-names.h"
 
 #include <string.h>
@@ -19,7 +19,7 @@ qdot_short_names_long(const qdot_quantity *row)
 }
 
 static qdot_status
-hint(const qdot_quantity *row)
+hint_at_declaration(const qdot_quantity *row)
 {
     return qdot_hint("`%s` is the language's %s; `param %s` before it declares your own",
                      row->name, qdot_short_names_long(row), row->name);
@@ -33,7 +33,7 @@ qdot_short_names_note(qdot_session *session, const qdot_quantity *row, qdot_stat
     if (status == QDOT_OK)
         session->evaluation->taken = row->name;
     else if (session->evaluation->declares)
-        return hint(row);
+        return hint_at_declaration(row);
     return status;
 }
 
@@ -43,14 +43,14 @@ qdot_short_names_forget(qdot_session *session)
     session->evaluation->taken = NULL;
 }
 
-/* If a declaration failed after a short name was read as a quantity, explain that in the hint. */
+/* If a declaration failed after a name such as L was read as a scene's quantity, explain that in the hint. */
 static qdot_status
 explain_short_name(const qdot_session *session, qdot_status status)
 {
     if (session->evaluation->taken == NULL || qdot_last_error()->status != status ||
         qdot_last_error()->hint[0] != '\0')
         return status;
-    return hint(qdot_quantity_find(session->evaluation->taken));
+    return hint_at_declaration(qdot_quantity_find(session->evaluation->taken));
 }
 
 qdot_status

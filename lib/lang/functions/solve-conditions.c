@@ -1,4 +1,4 @@
-/* solve-conditions.c -- conditions of solutions and special values of parameters in words. */
+/* solve-conditions.c -- puts the conditions of solutions, and special values of parameters, into words. */
 #include "lang/functions/solve-conditions.h"
 
 #include "base/text.h"
@@ -56,9 +56,9 @@ qdot_solve_notice_conditions(qdot_session *session, qdot_expr solution, qdot_exp
     return status;
 }
 
-/* The relation u != 0 if the given relation is 0 < |u|; otherwise the given one. */
+/* The relation u != 0 if the given relation is 0 < |u|, which means the same; otherwise the given relation. */
 static qdot_expr
-relation_value(qdot_pool *pool, qdot_expr relation)
+condition_as_relation(qdot_pool *pool, qdot_expr relation)
 {
     qdot_expr u = qdot_conditions_nonzero(pool, relation), equal;
 
@@ -83,16 +83,16 @@ qdot_solve_root_value(qdot_pool *pool, qdot_expr x, const qdot_root *root, qdot_
         return qdot_fail(QDOT_ELIMIT, "the solutions fulfil more than %d conditions",
                          QDOT_CONDITIONS_MOST);
     for (uint32_t i = 0; i < n; i++)
-        all[i] = relation_value(pool, qdot_expr_arg(pool, root->condition, i));
+        all[i] = condition_as_relation(pool, qdot_expr_arg(pool, root->condition, i));
     *value = n == 1 ? all[0] : qdot_logic(pool, QDOT_AND, n, all);
     return qdot_pool_check(pool);
 }
 
 /* --- special values of parameters --------------------------------------------------------------------- */
 
-/* Notice `for a = 0 and b = 1: x = V when C, x = W`, the solutions at special parameter values. */
+/* Give the notice `for a = 0 and b = 1: x = V when C, x = W`: the solutions at special parameter values. */
 static qdot_status
-notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
+give_notice_of_special(qdot_session *session, qdot_expr x, const qdot_special *special)
 {
     qdot_pool *pool = session->pool;
     const qdot_solutions *set = &special->set;
@@ -160,7 +160,7 @@ qdot_status
 qdot_solve_notice_specials(qdot_session *session, qdot_expr x, const qdot_specials *specials)
 {
     for (size_t i = 0; i < specials->at.n; i++)
-        QDOT_TRY(notice_special(session, x, &specials->at.at[i]));
+        QDOT_TRY(give_notice_of_special(session, x, &specials->at.at[i]));
     for (size_t i = 0; i < specials->open.n; i++)
         QDOT_TRY(qdot_solve_notice_open(session, qdot_list(session->pool, 1, &specials->open.at[i])));
     return QDOT_OK;

@@ -17,7 +17,7 @@
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qdot_expr x,
                                                        const qdot_specials *specials);
 
-/* Notice `where a = 0 the solutions may be others`, for a LIST of equations that hold there. */
+/* Give the notice `where a = 0 the solutions may be others`, for a LIST of equations of special parameter values. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_expr where);
 
 /* Notice that F [n] may have other zeros x [m] where the base of a power is not positive: if `single`, of a power with x[0]
@@ -25,10 +25,10 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_e
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_powers(qdot_session *session, size_t n, const qdot_expr *F, size_t m,
                                                      const qdot_expr *x, bool single, const qdot_facts *facts);
 
-/* Notice `WORDS C and D` for conditions that concern all solutions; nothing if nil. */
+/* Give the notice `WORDS C and D` for conditions that concern all solutions; nothing if they are nil. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
 
-/* Give a root as a value, without its conditions; relations that say which x are roots, where the root is x itself. */
+/* Give a root as a value, without its conditions; if every x with certain relations is a root, give the relations. */
 QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_pool *pool, qdot_expr x, const qdot_root *root, qdot_expr *value);
 
 /* Print conditions joined by ` and `, the first one after `word`. */
@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_print_conditions(qdot_pool *pool, const c
                                                         qdot_expr conditions,
                                                         qdot_text *text);
 
-/* Notice `SOLUTION exists when C and D`, if the solution has conditions. */
+/* Give the notice `SOLUTION exists when C and D`, if the solution has conditions. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_conditions(qdot_session *session,
                                                          qdot_expr solution,
                                                          qdot_expr conditions);

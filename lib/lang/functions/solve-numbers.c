@@ -34,14 +34,14 @@ typedef struct {
     qdot_session *session;
     size_t n;
     qdot_expr name[MOST], x[MOST]; /* [n] unknowns as written; the symbols that replace them */
-    qdot_expr f[MOST], F[MOST]; /* [n] left - right; the same with numbers from runs as exact rationals */
+    qdot_expr f[MOST], F[MOST]; /* [n] left - right side of each equation; the same with numbers from runs as exact rationals */
     bool measured;              /* the equations contain numbers of runs */
 } question;
 
 /* --- equations, unknowns and values ------------------------------------------------------------------ */
 
 static qdot_status
-question_add_unknown(question *q, qdot_expr x)
+add_unknown_of_equation(question *q, qdot_expr x)
 {
     char name[40];
 
@@ -59,9 +59,9 @@ question_add_unknown(question *q, qdot_expr x)
     return qdot_pool_check(q->session->pool);
 }
 
-/* Fail if e contains a symbol without value that is not one of the unknowns. */
+/* Fail if e contains a symbol that has no value and is not one of the unknowns. */
 static qdot_status
-need_values(const question *q, qdot_expr e)
+require_values(const question *q, qdot_expr e)
 {
     qdot_pool *pool = q->session->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, e, true);
@@ -100,19 +100,19 @@ set_equation(question *q, size_t i, qdot_expr e)
     q->F[i] = qdot_measured_as_rationals(q->session, e);
     QDOT_TRY(qdot_value_kind_check(pool, q->F[i]));
     q->measured |= q->F[i] != e;
-    return need_values(q, q->F[i]);
+    return require_values(q, q->F[i]);
 }
 
-/* Find the exact constant that e becomes with the session's values. */
+/* Find the exact constant that e becomes when the session's parameter values are inserted. */
 static qdot_status
-constant_of(const question *q, qdot_expr e, qdot_expr *value)
+evaluate_to_constant(const question *q, qdot_expr e, qdot_expr *value)
 {
     qdot_expr bound = qdot_session_bind(q->session, e);
 
     QDOT_TRY(qdot_value_kind_check(q->session->pool, bound));
     *value = qdot_measured_as_rationals(q->session, bound);
     QDOT_TRY(qdot_value_kind_check(q->session->pool, *value));
-    QDOT_TRY(need_values(q, *value));
+    QDOT_TRY(require_values(q, *value));
     if (!qdot_expr_is_scalar(q->session->pool, *value))
         return qdot_fail(QDOT_ETYPE, "a number is needed, not %s",
                          qdot_value_kind_words(q->session->pool, *value));
@@ -123,7 +123,7 @@ constant_of(const question *q, qdot_expr e, qdot_expr *value)
 
 /* Find the error of the zero z caused by errors of run results in the equations: |f'^-1| df, into error [n]. */
 static qdot_status
-add_errors(const question *q, const double *z, double *error)
+find_propagated_errors(const question *q, const double *z, double *error)
 {
     qdot_pool *pool = q->session->pool;
     double J[MOST * MOST], df[MOST];
@@ -161,9 +161,9 @@ add_errors(const question *q, const double *z, double *error)
     return QDOT_OK;
 }
 
-/* Whether z [n] are numbers of few digits that satisfy the equations exactly. */
+/* Whether z [n] are numbers of few digits that satisfy the equations exactly; *exact: they do. */
 static qdot_status
-is_exact(const question *q, const double *z, bool *exact)
+is_exact_zero(const question *q, const double *z, bool *exact)
 {
     qdot_pool *pool = q->session->pool;
     qdot_expr at[MOST];
@@ -180,18 +180,18 @@ is_exact(const question *q, const double *z, bool *exact)
 
 /* Find the k-th zero as numbers with errors. */
 static qdot_status
-numbers_of(const question *q, const qdot_zeros *z, size_t k, qdot_expr *numbers)
+zero_as_numbers(const question *q, const qdot_zeros *z, size_t k, qdot_expr *numbers)
 {
     double error[MOST];
     bool exact;
 
-    QDOT_TRY(is_exact(q, z->at + k * q->n, &exact));
+    QDOT_TRY(is_exact_zero(q, z->at + k * q->n, &exact));
     for (size_t j = 0; j < q->n; j++) {
         error[j] = exact ? 0 : z->radius[k * q->n + j];
         if (!exact) /* show as many digits as are certain */
             error[j] += fabs(z->at[k * q->n + j]) * 1e-17;
     }
-    QDOT_TRY(add_errors(q, z->at + k * q->n, error));
+    QDOT_TRY(find_propagated_errors(q, z->at + k * q->n, error));
     for (size_t j = 0; j < q->n; j++) {
         double at = z->at[k * q->n + j];
         qdot_measured m = {
@@ -208,7 +208,7 @@ numbers_of(const question *q, const qdot_zeros *z, size_t k, qdot_expr *numbers)
 /* --- what is not proved --------------------------------------------------------------------------------- */
 
 static qdot_status
-tell_doubts(const question *q, const qdot_zeros *z)
+give_notice_of_doubts(const question *q, const qdot_zeros *z)
 {
     const char *name = qdot_expr_symbol(q->session->pool, q->name[0])->name;
 
@@ -256,8 +256,8 @@ tell_doubts(const question *q, const qdot_zeros *z)
 /* Whether the zero z fulfils a < b or a <= b: 1 yes, 0 no, -1 not decided. What depends on what has no value is not
  * asked. */
 static qdot_status
-zero_fulfils(const question *q, qdot_expr relation, const double *z, const double *radius,
-             int *yes)
+zero_satisfies(const question *q, qdot_expr relation, const double *z, const double *radius,
+               int *yes)
 {
     qdot_pool *pool = q->session->pool;
     bool open = qdot_expr_node(pool, relation)->op == QDOT_LT, exact = false;
@@ -291,7 +291,7 @@ zero_fulfils(const question *q, qdot_expr relation, const double *z, const doubl
     qdot_enclosure_free(bounds);
     if (*yes >= 0)
         return QDOT_OK;
-    QDOT_TRY(is_exact(q, z, &exact));
+    QDOT_TRY(is_exact_zero(q, z, &exact));
     for (size_t j = 0; j < q->n; j++)
         at[j] = qdot_expr_of_double(pool, z[j]);
     if (exact && qdot_is_zero(pool, qdot_subs(pool, gap, q->n, q->x, at), NULL))
@@ -299,9 +299,9 @@ zero_fulfils(const question *q, qdot_expr relation, const double *z, const doubl
     return qdot_pool_check(pool);
 }
 
-/* Remove zeros at which the equation as typed is undefined. */
+/* Remove those zeros at which the equation, as it was typed, is undefined. */
 static qdot_status
-keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
+remove_undefined_zeros(const question *q, qdot_expr domain, qdot_zeros *zeros)
 {
     uint32_t n = domain == QDOT_NIL || domain == QDOT_FALSE
                      ? 0
@@ -314,8 +314,8 @@ keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
         int yes = 1, one;
 
         for (uint32_t i = 0; i < n && yes != 0; i++) {
-            QDOT_TRY(zero_fulfils(q, qdot_expr_arg(q->session->pool, domain, i),
-                                  zeros->at + k * q->n, zeros->radius + k * q->n, &one));
+            QDOT_TRY(zero_satisfies(q, qdot_expr_arg(q->session->pool, domain, i),
+                                    zeros->at + k * q->n, zeros->radius + k * q->n, &one));
             yes = one < yes ? one : yes;
         }
         if (yes < 0)
@@ -338,17 +338,17 @@ keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
 
 /* --- over a range ----------------------------------------------------------------------------------------- */
 
-/* Evaluate a constant as a double. */
+/* Evaluate a constant expression as a double. */
 static qdot_status
-double_of(const question *q, qdot_expr e, double *x)
+evaluate_to_double(const question *q, qdot_expr e, double *x)
 {
     return qdot_session_number(q->session, e, x, NULL);
 }
 
-/* Find one end of the range, or of the declared domain of x if that is narrower. */
+/* Find one end of the range of x, or of the declared domain of x if that is narrower. */
 static qdot_status
-narrow_end(const question *q, qdot_expr declared, bool open, bool upper, qdot_expr *end,
-           bool *end_open)
+find_end_of_range(const question *q, qdot_expr declared, bool open, bool upper, qdot_expr *end,
+                  bool *end_open)
 {
     qdot_expr e;
     double x, y;
@@ -356,10 +356,10 @@ narrow_end(const question *q, qdot_expr declared, bool open, bool upper, qdot_ex
     *end_open = false;
     if (declared == QDOT_NIL)
         return QDOT_OK;
-    if (constant_of(q, declared, &e) != QDOT_OK) /* the end depends on a symbol without value */
+    if (evaluate_to_constant(q, declared, &e) != QDOT_OK) /* the end of the domain depends on a symbol without a value */
         return QDOT_OK;
-    QDOT_TRY(double_of(q, e, &x));
-    QDOT_TRY(double_of(q, *end, &y));
+    QDOT_TRY(evaluate_to_double(q, e, &x));
+    QDOT_TRY(evaluate_to_double(q, *end, &y));
     if (upper ? x <= y : x >= y) {
         *end = e;
         *end_open = open;
@@ -377,25 +377,25 @@ find_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range,
     if (status == QDOT_EDOMAIN)
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     if (status == QDOT_OK)
-        status = keep_defined(q, domain, zeros);
+        status = remove_undefined_zeros(q, domain, zeros);
     return status;
 }
 
 /* Evaluate an exact solution as a number with its error. */
 static qdot_status
-number_of_root(const question *q, qdot_expr root, qdot_expr *number)
+root_as_number(const question *q, qdot_expr root, qdot_expr *number)
 {
     double at, radius;
     bool simple = true;
     qdot_zeros one = {.n = 1, .at = &at, .radius = &radius, .simple = &simple, .count = 1};
 
     QDOT_TRY(qdot_session_number(q->session, root, &at, &radius));
-    return numbers_of(q, &one, 0, number);
+    return zero_as_numbers(q, &one, 0, number);
 }
 
-/* Write a range of x with conditions in the internal symbol, converted to relations in the unknown's name. */
+/* Write a range of solutions, in terms of a symbol used internally, as relations of the unknown itself. */
 static qdot_status
-value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
+range_as_relations(const question *q, const qdot_root *range, qdot_expr *value)
 {
     qdot_root named = *range;
 
@@ -406,9 +406,9 @@ value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
     return qdot_solve_root_value(q->session->pool, q->name[0], &named, value);
 }
 
-/* The conditions of the domain in terms of the internal symbol, with the session's values inserted. */
+/* The conditions of the domain in terms of the symbol used for x, with the session's values inserted. */
 static qdot_expr
-bound_domain(const question *q, qdot_expr domain)
+domain_with_values(const question *q, qdot_expr domain)
 {
     qdot_pool *pool = q->session->pool;
 
@@ -421,7 +421,7 @@ bound_domain(const question *q, qdot_expr domain)
 /* Add to the list the ranges of x on which the equation holds, and note them in range->held. *rest: other zeros must be
  * searched for, outside these ranges; else they are in the list too. */
 static qdot_status
-add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_expr *list, bool *rest)
+add_ranges_of_solutions(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_expr *list, bool *rest)
 {
     qdot_pool *pool = q->session->pool;
     const qdot_window window = {
@@ -430,7 +430,7 @@ add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_ex
     qdot_status status;
     bool points = true;
 
-    domain = bound_domain(q, domain);
+    domain = domain_with_values(q, domain);
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve_ranges(pool, q->F[0], q->x[0], domain, &window, &found);
     for (size_t i = 0; i < found.root.n; i++) {
@@ -450,7 +450,7 @@ add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_ex
             continue;
         if (is_range && root->condition != QDOT_NIL)
             range->held = qdot_list_appended(pool, range->held, 1, &root->condition);
-        status = is_range ? value_of_range(q, root, &value) : number_of_root(q, root->value, &value);
+        status = is_range ? range_as_relations(q, root, &value) : root_as_number(q, root->value, &value);
         if (status == QDOT_OK)
             *list = qdot_list_appended(pool, *list, 1, &value);
     }
@@ -458,7 +458,7 @@ add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_ex
     return status == QDOT_OK ? qdot_value_kind_check(pool, *list) : status;
 }
 
-/* Append the numerical zeros in the range to the list; notices say what is not proved. */
+/* Append the zeros found numerically in the range to the list; notices tell what is not proved. */
 static qdot_status
 add_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range, qdot_expr *list)
 {
@@ -468,12 +468,12 @@ add_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range, qdot_exp
     for (size_t k = 0; k < zeros.count && status == QDOT_OK; k++) {
         qdot_expr number;
 
-        status = numbers_of(q, &zeros, k, &number);
+        status = zero_as_numbers(q, &zeros, k, &number);
         if (status == QDOT_OK)
             *list = qdot_list_appended(q->session->pool, *list, 1, &number);
     }
     if (status == QDOT_OK)
-        status = tell_doubts(q, &zeros);
+        status = give_notice_of_doubts(q, &zeros);
     qdot_zeros_clear(&zeros);
     return status;
 }
@@ -489,18 +489,18 @@ qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_ex
     bool rest;
     double a, b;
 
-    QDOT_TRY(question_add_unknown(&q, x));
+    QDOT_TRY(add_unknown_of_equation(&q, x));
     QDOT_TRY(set_equation(&q, 0, equation));
-    QDOT_TRY(constant_of(&q, ends[0], &lo));
-    QDOT_TRY(constant_of(&q, ends[1], &hi));
-    QDOT_TRY(double_of(&q, lo, &a));
-    QDOT_TRY(double_of(&q, hi, &b));
+    QDOT_TRY(evaluate_to_constant(&q, ends[0], &lo));
+    QDOT_TRY(evaluate_to_constant(&q, ends[1], &hi));
+    QDOT_TRY(evaluate_to_double(&q, lo, &a));
+    QDOT_TRY(evaluate_to_double(&q, hi, &b));
     symbol = qdot_expr_symbol(session->pool, x);
     range.lo = a <= b ? lo : hi;
     range.hi = a <= b ? hi : lo;
-    QDOT_TRY(narrow_end(&q, symbol->lo, symbol->lo_open, false, &range.lo, &range.lo_open));
-    QDOT_TRY(narrow_end(&q, symbol->hi, symbol->hi_open, true, &range.hi, &range.hi_open));
-    QDOT_TRY(add_ranges(&q, domain, &range, &list, &rest));
+    QDOT_TRY(find_end_of_range(&q, symbol->lo, symbol->lo_open, false, &range.lo, &range.lo_open));
+    QDOT_TRY(find_end_of_range(&q, symbol->hi, symbol->hi_open, true, &range.hi, &range.hi_open));
+    QDOT_TRY(add_ranges_of_solutions(&q, domain, &range, &list, &rest));
     if (rest)
         QDOT_TRY(add_zeros(&q, domain, &range, &list));
     return qdot_value_kind_give(session->pool, list, value);
@@ -510,7 +510,7 @@ qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_ex
 
 /* Find one end of the search window as a constant; *known: it is constant, or the window has no such end. */
 static qdot_status
-bind_end(const question *q, qdot_expr end, qdot_expr *constant, bool *known)
+evaluate_window_end(const question *q, qdot_expr end, qdot_expr *constant, bool *known)
 {
     *constant = QDOT_NIL;
     if (end == QDOT_NIL)
@@ -534,14 +534,14 @@ qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domai
     qdot_status status;
 
     *known = true;
-    QDOT_TRY(question_add_unknown(&q, x));
+    QDOT_TRY(add_unknown_of_equation(&q, x));
     status = set_equation(&q, 0, f);
     *known = status != QDOT_EUNSET;
     if (!*known)
         return QDOT_OK;
     QDOT_TRY(status);
-    QDOT_TRY(bind_end(&q, window->lo, &range.lo, known));
-    QDOT_TRY(bind_end(&q, window->hi, &range.hi, known));
+    QDOT_TRY(evaluate_window_end(&q, window->lo, &range.lo, known));
+    QDOT_TRY(evaluate_window_end(&q, window->hi, &range.hi, known));
     if (!*known)
         return QDOT_OK;
     status = find_zeros(&q, domain, &range, &zeros);
@@ -550,19 +550,19 @@ qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domai
     for (size_t k = 0; k < zeros.count && *known && status == QDOT_OK; k++) {
         qdot_solve_zero one = {.at = zeros.at[k], .radius = zeros.radius[k]};
 
-        status = numbers_of(&q, &zeros, k, &one.value);
+        status = zero_as_numbers(&q, &zeros, k, &one.value);
         if (status == QDOT_OK)
             status = qdot_vec_push(out, one);
     }
     if (status == QDOT_OK && *known)
-        status = tell_doubts(&q, &zeros);
+        status = give_notice_of_doubts(&q, &zeros);
     qdot_zeros_clear(&zeros);
     return status;
 }
 
 /* Make the zeros a LIST of LISTs u = number, and an array of numbers. */
 static qdot_status
-list_points(const question *q, const qdot_zeros *zeros, qdot_expr *list, double *at)
+list_zeros(const question *q, const qdot_zeros *zeros, qdot_expr *list, double *at)
 {
     qdot_pool *pool = q->session->pool;
 
@@ -570,7 +570,7 @@ list_points(const question *q, const qdot_zeros *zeros, qdot_expr *list, double 
     for (size_t k = 0; k < zeros->count; k++) {
         qdot_expr number[MOST], one;
 
-        QDOT_TRY(numbers_of(q, zeros, k, number));
+        QDOT_TRY(zero_as_numbers(q, zeros, k, number));
         for (size_t j = 0; j < q->n; j++) {
             at[k * q->n + j] = zeros->at[k * q->n + j];
             at[(zeros->count + k) * q->n + j] = zeros->radius[k * q->n + j];
@@ -595,7 +595,7 @@ qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_e
     *known = true;
     *at = NULL;
     for (size_t j = 0; j < n; j++)
-        QDOT_TRY(question_add_unknown(&q, u[j]));
+        QDOT_TRY(add_unknown_of_equation(&q, u[j]));
     for (size_t i = 0; i < n && *known; i++) {
         status = set_equation(&q, i, f[i]);
         *known = status != QDOT_EUNSET;
@@ -606,23 +606,23 @@ qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_e
         range[j] = (qdot_zeros_range){.lo_open = window[j].lo_open,
                                       .hi_open = window[j].hi_open,
                                       .turn = window[j].turn};
-        QDOT_TRY(bind_end(&q, window[j].lo, &range[j].lo, known));
-        QDOT_TRY(bind_end(&q, window[j].hi, &range[j].hi, known));
+        QDOT_TRY(evaluate_window_end(&q, window[j].lo, &range[j].lo, known));
+        QDOT_TRY(evaluate_window_end(&q, window[j].hi, &range[j].hi, known));
     }
     if (!*known)
         return QDOT_OK;
     status = qdot_zeros_find(session->pool, n, q.F, q.x, range, 0, &zeros);
     *known = status == QDOT_OK && zeros.complete;
-    if (status == QDOT_EDOMAIN) /* an equation is satisfied everywhere */
+    if (status == QDOT_EDOMAIN) /* an equation is satisfied everywhere, so its zeros are not isolated */
         status = QDOT_OK;
     if (status == QDOT_OK && *known)
-        status = keep_defined(&q, domain, &zeros);
+        status = remove_undefined_zeros(&q, domain, &zeros);
     *at = qdot_malloc((2 * zeros.count * n + 1) * sizeof **at);
     if (status == QDOT_OK && *at == NULL)
         status = QDOT_ENOMEM;
     *count = zeros.count;
     if (status == QDOT_OK && *known)
-        status = list_points(&q, &zeros, list, *at);
+        status = list_zeros(&q, &zeros, list, *at);
     qdot_zeros_clear(&zeros);
     return status;
 }
@@ -640,14 +640,14 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
     qdot_status status;
 
     for (uint32_t j = 0; j < n; j++)
-        QDOT_TRY(question_add_unknown(&q, qdot_expr_arg(session->pool, unknowns[j], 0)));
+        QDOT_TRY(add_unknown_of_equation(&q, qdot_expr_arg(session->pool, unknowns[j], 0)));
     for (uint32_t i = 0; i < n; i++)
         QDOT_TRY(set_equation(&q, i, equations[i]));
     for (uint32_t j = 0; j < n; j++) {
         qdot_expr e;
 
-        QDOT_TRY(constant_of(&q, qdot_expr_arg(session->pool, unknowns[j], 1), &e));
-        QDOT_TRY(double_of(&q, e, &guess[j]));
+        QDOT_TRY(evaluate_to_constant(&q, qdot_expr_arg(session->pool, unknowns[j], 1), &e));
+        QDOT_TRY(evaluate_to_double(&q, e, &guess[j]));
     }
     for (uint32_t j = 0; j < n; j++) {
         const qdot_window declared = qdot_solve_window(session->pool, q.name[j], false);
@@ -657,7 +657,7 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
     }
     QDOT_TRY(qdot_zeros_near(session->pool, q.n, q.F, q.x, guess, &zeros));
     if (zeros.count > 0) {
-        status = keep_defined(&q, domain, &zeros);
+        status = remove_undefined_zeros(&q, domain, &zeros);
         if (status == QDOT_OK && zeros.count == 0) {
             (void)qdot_fail(QDOT_EFAILED,
                             "the zero that is reached lies outside the declared domain, or where "
@@ -665,7 +665,7 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
             status = qdot_hint("another guess");
         }
         if (status == QDOT_OK)
-            status = numbers_of(&q, &zeros, 0, numbers);
+            status = zero_as_numbers(&q, &zeros, 0, numbers);
     } else {
         (void)qdot_fail(
             QDOT_EFAILED,
@@ -682,7 +682,7 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
             session->pool,
             list ? qdot_list(session->pool, (uint32_t)q.n, numbers) : numbers[0], value);
     if (status == QDOT_OK)
-        status = tell_doubts(&q, &zeros);
+        status = give_notice_of_doubts(&q, &zeros);
     qdot_zeros_clear(&zeros);
     return status;
 }

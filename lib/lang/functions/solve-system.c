@@ -1,4 +1,4 @@
-/* solve-system.c -- several equations in several unknowns: the set of solutions, with notices. */
+/* solve-system.c -- solves several equations in several unknowns: finds the set of solutions, and gives notices. */
 #include "lang/functions/solve-system.h"
 
 #include <math.h>
@@ -77,7 +77,7 @@ enum { MOST_SPECIALS = 6 };
 /* Add to the conditions of each solution that its values are defined, at special values of parameters too; leave out
  * those that follow from others. */
 static qdot_status
-add_definedness(const question *q, qdot_simultaneous *set)
+add_domain_conditions(const question *q, qdot_simultaneous *set)
 {
     size_t kept = 0;
 
@@ -99,10 +99,10 @@ add_definedness(const question *q, qdot_simultaneous *set)
     return QDOT_OK;
 }
 
-/* Whether solution k at special parameter values is the limit of a generic solution. */
+/* Whether solution k at special parameter values is the limit of a solution for general values. */
 static bool
-is_generic_solution(const question *q, const qdot_simultaneous *generic, qdot_expr where,
-                    const qdot_simultaneous *there, size_t k)
+is_limit_of_general_solution(const question *q, const qdot_simultaneous *generic, qdot_expr where,
+                             const qdot_simultaneous *there, size_t k)
 {
     qdot_expr from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
     size_t n = qdot_special_sides(q->pool, where, from, to);
@@ -124,17 +124,17 @@ is_generic_solution(const question *q, const qdot_simultaneous *generic, qdot_ex
     return false;
 }
 
-/* Notice `for a = 0: [x = 1, y = 2], [x = 2, y = 1]`, if a solution there is not among the generic ones. */
+/* Give the notice `for a = 0: [x = 1, y = 2], ...`, if a solution there is not among those for general values. */
 static qdot_status
-notice_special(const question *q, qdot_expr where, const qdot_simultaneous *there,
-               const qdot_simultaneous *generic)
+give_notice_of_special(const question *q, qdot_expr where, const qdot_simultaneous *there,
+                       const qdot_simultaneous *generic)
 {
     qdot_text text = {0};
     bool other = !there->complete;
     qdot_status status;
 
     for (size_t k = 0; k < there->found.n && !other; k++)
-        other = !is_generic_solution(q, generic, where, there, k);
+        other = !is_limit_of_general_solution(q, generic, where, there, k);
     QDOT_TRY(qdot_pool_check(q->pool));
     if (!other)
         return QDOT_OK;
@@ -155,7 +155,7 @@ notice_special(const question *q, qdot_expr where, const qdot_simultaneous *ther
 
 static qdot_status solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where, size_t *told);
 
-/* Solve at parameter values at which a divisor of the generic solution vanishes. */
+/* Solve at parameter values at which a divisor in the general solution vanishes. */
 static qdot_status
 solve_special(const question *q, qdot_expr where, const qdot_simultaneous *generic, size_t *told)
 {
@@ -167,7 +167,7 @@ solve_special(const question *q, qdot_expr where, const qdot_simultaneous *gener
     for (size_t i = 0; i < q->n; i++)
         f[i] = qdot_subs(q->pool, q->f[i], n, from, to);
     status = qdot_pool_check(q->pool);
-    if (status == QDOT_EDOMAIN) /* the equations are undefined there */
+    if (status == QDOT_EDOMAIN) /* the equations are undefined at these parameter values */
         return QDOT_OK;
     QDOT_TRY(status);
     domain = qdot_conditions_at(q->pool, q->domain, n, from, to, &q->facts);
@@ -176,9 +176,9 @@ solve_special(const question *q, qdot_expr where, const qdot_simultaneous *gener
         return QDOT_OK;
     status = qdot_simultaneous_all(q->pool, q->n, f, q->u, domain, &q->facts, &there);
     if (status == QDOT_OK)
-        status = add_definedness(q, &there);
+        status = add_domain_conditions(q, &there);
     if (status == QDOT_OK)
-        status = notice_special(q, where, &there, generic);
+        status = give_notice_of_special(q, where, &there, generic);
     if (status == QDOT_OK && there.complete)
         status = solve_specials(q, &there, where, told);
     qdot_simultaneous_clear(&there);
@@ -208,7 +208,7 @@ solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where,
 /* Notice `y may have any value of its domain in [x = y]`, for an unknown absent from the solution
  * and its conditions. */
 static qdot_status
-notice_free(const question *q, const qdot_simultaneous_solution *one)
+give_notice_of_free_unknowns(const question *q, const qdot_simultaneous_solution *one)
 {
     qdot_expr values = one->values;
     qdot_text text = {0};
@@ -239,7 +239,7 @@ notice_free(const question *q, const qdot_simultaneous_solution *one)
 }
 
 static qdot_status
-notice_turns(const question *q)
+give_notice_of_periodicity(const question *q)
 {
     return qdot_answer_condition(q->session, "these are the solutions of one turn: within the declared domains each "
                                              "recurs after every whole turn");
@@ -259,19 +259,19 @@ answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value
             status = qdot_fail(QDOT_EDOMAIN, "the equations hold for all values%s",
                                one->conditions == QDOT_NIL ? "" : " at which they are defined");
         if (status == QDOT_OK)
-            status = notice_free(q, one);
+            status = give_notice_of_free_unknowns(q, one);
         if (status == QDOT_OK)
             status = qdot_solve_notice_conditions(q->session, one->values, one->conditions);
         *value = qdot_list_appended(q->pool, *value, 1, &one->values);
     }
     if (status == QDOT_OK && set->recurs && set->found.n > 0)
-        status = notice_turns(q);
+        status = give_notice_of_periodicity(q);
     return status == QDOT_OK ? qdot_pool_check(q->pool) : status;
 }
 
-/* The exact solution that agrees with a numerical zero within its error; nil if none does. */
+/* The exact solution that agrees with a numerical zero within its error; nil if there is none. */
 static qdot_expr
-exact_at(const question *q, const qdot_simultaneous *set, const double *at, const double *radius)
+exact_solution_near(const question *q, const qdot_simultaneous *set, const double *at, const double *radius)
 {
     for (size_t k = 0; k < set->found.n; k++) {
         qdot_expr values = set->found.at[k].values;
@@ -290,9 +290,9 @@ exact_at(const question *q, const qdot_simultaneous *set, const double *at, cons
     return QDOT_NIL;
 }
 
-/* Solve numerically, if all zeros are proved to be found; else *known is false. */
+/* Solve numerically, if it is proved that all zeros are found; else set *known to false. */
 static qdot_status
-answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *value, bool *known)
+solve_numerically(const question *q, const qdot_simultaneous *set, qdot_expr *value, bool *known)
 {
     qdot_pool *pool = q->pool;
     qdot_expr list = QDOT_NIL, all = qdot_list(pool, (uint32_t)q->n, q->f), domain = q->domain;
@@ -312,7 +312,7 @@ answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *va
     status = qdot_solve_box(q->session, q->n, q->f, q->u, domain, window, &list, &at, &count, known);
     *value = qdot_list(pool, 0, NULL);
     for (uint32_t k = 0; status == QDOT_OK && *known && k < qdot_expr_count(pool, list); k++) {
-        qdot_expr one = exact_at(q, set, at + k * q->n, at + (count + k) * q->n);
+        qdot_expr one = exact_solution_near(q, set, at + k * q->n, at + (count + k) * q->n);
 
         exact += one != QDOT_NIL;
         one = one != QDOT_NIL ? one : qdot_expr_arg(pool, list, k);
@@ -323,7 +323,7 @@ answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *va
         status = qdot_answer_notice(q->session, "no formula gives %s: found in numbers, proved to be all",
                                     count == exact + 1 ? "this solution" : "these solutions");
     if (status == QDOT_OK && *known && recurs && count > 0)
-        status = notice_turns(q);
+        status = give_notice_of_periodicity(q);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
@@ -351,11 +351,11 @@ qdot_solve_system(qdot_session *session, qdot_expr equations, qdot_expr unknowns
     if (status == QDOT_OK)
         status = qdot_simultaneous_all(q.pool, q.n, q.f, q.u, q.domain, &q.facts, &set);
     if (status == QDOT_OK)
-        status = add_definedness(&q, &set);
+        status = add_domain_conditions(&q, &set);
     if (status == QDOT_OK && set.complete)
         status = answer_exactly(&q, &set, value);
     else if (status == QDOT_OK)
-        status = answer_in_numbers(&q, &set, value, &known);
+        status = solve_numerically(&q, &set, value, &known);
     if (status == QDOT_OK && known)
         status = qdot_solve_notice_powers(session, q.n, q.f, q.n, q.u, false, &q.facts);
     if (status == QDOT_OK && !known) {

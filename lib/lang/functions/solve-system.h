@@ -17,7 +17,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_system(qdot_session *session, qdot_expr e
                                               qdot_expr unknowns, qdot_expr domain,
                                               qdot_expr *value);
 
-/* Solve from a guess, a LIST of equations u = number; gives a LIST of numbers. */
+/* Solve several equations numerically from a guess, a LIST of equations u = number; gives a LIST of numbers. */
 QDOT_MUST_CHECK qdot_status qdot_solve_system_near(qdot_session *session,
                                                    qdot_expr equations,
                                                    qdot_expr guesses, qdot_expr domain,

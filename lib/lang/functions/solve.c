@@ -36,9 +36,9 @@
 #include "normal/solve/assumptions.h"
 #include "normal/solve/solve.h"
 
-/* Conditions under which everything in the typed equation that contains x is defined (x nil: everything). */
+/* Conditions for everything that contains x in the equation, as typed, to be defined (x nil: for everything). */
 static qdot_expr
-domain_as_written(qdot_session *session, qdot_expr x)
+domain_of_typed_equation(qdot_session *session, qdot_expr x)
 {
     qdot_pool *pool = session->pool;
     const qdot_passed *p = session->evaluation->passed;
@@ -54,7 +54,7 @@ domain_as_written(qdot_session *session, qdot_expr x)
 /* Conditions under which the functions among these values [n] are defined, apart from those of
  * their arguments. */
 static qdot_expr
-domain_of_functions(qdot_pool *pool, size_t n, const qdot_expr *value)
+function_domain_conditions(qdot_pool *pool, size_t n, const qdot_expr *value)
 {
     qdot_expr set = QDOT_NIL;
 
@@ -67,18 +67,18 @@ domain_of_functions(qdot_pool *pool, size_t n, const qdot_expr *value)
 /* What the equation that was written asks of all that is in it: of roots what was written, not of the parts that they were
  * taken into. */
 static qdot_status
-read_written(qdot_session *session, qdot_written *w)
+find_conditions_as_written(qdot_session *session, qdot_written *w)
 {
     qdot_pool *pool = session->pool;
     const qdot_passed *p = session->evaluation->passed;
     qdot_written of_roots = {QDOT_NIL, QDOT_NIL};
-    qdot_expr all = domain_as_written(session, QDOT_NIL), asked;
+    qdot_expr all = domain_of_typed_equation(session, QDOT_NIL), asked;
 
     *w = (qdot_written){all, QDOT_NIL};
     QDOT_TRY(qdot_pool_check(pool));
     if (all == QDOT_NIL)
         return QDOT_OK;
-    asked = domain_of_functions(pool, p->value.n, p->value.at);
+    asked = function_domain_conditions(pool, p->value.n, p->value.at);
     for (size_t i = 0; i + 1 < p->root.n; i += 2)
         QDOT_TRY(qdot_written_add(pool, p->root.at[i], p->root.at[i + 1], &of_roots, &asked));
     w->apart = qdot_conditions_less(pool, of_roots.apart, asked);
@@ -88,13 +88,13 @@ read_written(qdot_session *session, qdot_written *w)
 
 /* --- an equation in one unknown ---------------------------------------------------------------------- */
 
-/* A list of solutions in the making. */
+/* A list of solutions that is being put together. */
 typedef struct {
     qdot_vec(qdot_solve_zero) at;
-    bool constant; /* all entries are numbers, and stay in order */
+    bool constant; /* all entries are numbers, and are kept in ascending order */
 } solve_list;
 
-/* Insert a number into the sorted list, unless the same root is listed as a formula. */
+/* Insert a number into the sorted list, unless the same root is in the list as a formula. */
 static qdot_status
 solve_list_add(solve_list *l, qdot_solve_zero one)
 {
@@ -110,23 +110,23 @@ solve_list_add(solve_list *l, qdot_solve_zero one)
     return QDOT_OK;
 }
 
-/* Whether every x is a solution under a condition on parameters. */
+/* Whether the equation is satisfied by every x, under a condition on parameters. */
 static bool
-is_every_value(const qdot_pool *pool, qdot_expr x, const qdot_root *root)
+is_solved_by_every_value(const qdot_pool *pool, qdot_expr x, const qdot_root *root)
 {
     return root->value == x && root->condition != QDOT_NIL && !qdot_expr_contains(pool, root->condition, x);
 }
 
-/* Tell the conditions of the exact roots. */
+/* Give notices of the conditions of the exact roots. */
 static qdot_status
-notice_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found)
+give_notice_of_exact_roots(qdot_session *session, qdot_expr x, const qdot_solutions *found)
 {
     qdot_pool *pool = session->pool;
 
     for (size_t i = 0; i < found->root.n; i++) {
         const qdot_root *root = &found->root.at[i];
 
-        if (is_every_value(pool, x, root))
+        if (is_solved_by_every_value(pool, x, root))
             QDOT_TRY(qdot_solve_notice_all(session, "every value is a solution when ", root->condition));
         else if (root->value != x)
             QDOT_TRY(qdot_solve_notice_conditions(session, qdot_rel(pool, QDOT_EQ, x, root->value), root->condition));
@@ -134,10 +134,10 @@ notice_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found)
     return QDOT_OK;
 }
 
-/* Append the exact roots to the list. */
+/* Append the exact roots of an equation to the list of its solutions. */
 static qdot_status
-add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
-          solve_list *list)
+add_exact_roots(qdot_session *session, qdot_expr x, const qdot_solutions *found,
+                solve_list *list)
 {
     qdot_pool *pool = session->pool;
 
@@ -145,7 +145,7 @@ add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
         const qdot_root *root = &found->root.at[i];
         qdot_solve_zero one = {.value = root->value, .at = NAN};
 
-        if (is_every_value(pool, x, root))
+        if (is_solved_by_every_value(pool, x, root))
             continue;
         list->constant =
             list->constant && qdot_ball_double(pool, one.value, NULL, NULL, &one.at);
@@ -158,9 +158,9 @@ add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
     return QDOT_OK;
 }
 
-/* Whether e contains a symbol other than x that has no value. */
+/* Whether e contains a symbol other than x to which no value was given. */
 static bool
-holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
+contains_other_unknowns(qdot_session *session, qdot_expr e, qdot_expr x)
 {
     qdot_pool *pool = session->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, qdot_session_bind(session, e), true);
@@ -173,10 +173,10 @@ holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
     return others;
 }
 
-/* Find the roots of the factors that no formula solves numerically. *known: these are all. */
+/* Find numerically the roots of the factors of f that no formula solves. *known: these are all roots. */
 static qdot_status
-add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written,
-            const qdot_facts *facts, solve_list *list, bool *recurs, bool *known)
+add_numerical_roots(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written,
+                    const qdot_facts *facts, solve_list *list, bool *recurs, bool *known)
 {
     qdot_pool *pool = session->pool;
     qdot_expr factors, rest = QDOT_ONE;
@@ -188,10 +188,10 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written 
     size_t exact;
 
     QDOT_TRY(qdot_solve_unsolved(pool, f, x, facts, &factors, &whole));
-    whole = whole && !holds_others(session, f, x);
+    whole = whole && !contains_other_unknowns(session, f, x);
     for (uint32_t i = 0; i < qdot_expr_count(pool, factors) && !whole; i++)
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
-    if (rest == QDOT_ONE) /* each factor was solved exactly, so nothing remains for numbers */
+    if (rest == QDOT_ONE) /* each factor was solved exactly, so no zeros remain to be found numerically */
         rest = f;
     domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
     window = qdot_solve_tighten(pool, x, domain, qdot_solve_window(pool, x, false), facts);
@@ -199,7 +199,7 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written 
         window = qdot_window_turn(pool, window);
     QDOT_TRY(qdot_pool_check(pool));
     *recurs = *recurs || window.recurs;
-    if (!whole) /* a zero of the remaining factors may be a zero of a divisor */
+    if (!whole) /* a zero of the factors not yet solved may be a zero of a divisor, where f is undefined */
         domain =
             qdot_conditions_all(pool, domain, qdot_conditions_of_divisors(pool, f, x));
     QDOT_TRY(qdot_pool_check(pool));
@@ -221,8 +221,8 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written 
 /* Zeros were found in numbers: tell at which special values of parameters the solutions are others, and under which
  * conditions on parameters they exist. */
 static qdot_status
-notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
-                  const qdot_solutions *found)
+give_notice_of_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
+                          const qdot_solutions *found)
 {
     qdot_pool *pool = session->pool;
     qdot_expr set = qdot_conditions_at(pool, qdot_solve_conditions(pool, written->domain, f, x), 0, NULL, NULL, facts);
@@ -234,7 +234,7 @@ notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_wr
     status = qdot_solve_specials(pool, f, x, written, facts, found, &specials);
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
-    if (status == QDOT_OK && set != QDOT_FALSE) /* there are single ones at most */
+    if (status == QDOT_OK && set != QDOT_FALSE) /* conditions under which single solutions exist can be stated */
         status = qdot_solve_notice_all(session, "solutions exist when ", set);
     qdot_specials_clear(&specials);
     return status;
@@ -242,7 +242,7 @@ notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_wr
 
 /* Evaluate solve(a = b, x), or solve(e, x) for e = 0: the list of values of x. */
 static qdot_status
-one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *value)
+solve_for_one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
     const qdot_facts scene = qdot_scene_facts(session->scene);
@@ -262,7 +262,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (!qdot_expr_is_scalar(pool, f))
         return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
                          qdot_value_kind_words(pool, equation));
-    QDOT_TRY(read_written(session, &written));
+    QDOT_TRY(find_conditions_as_written(session, &written));
     status = qdot_assumptions_read(pool, &scene, qdot_list(pool, 1, &x), &assumed);
     assumed.facts.exact = true;
     f = qdot_assumptions_put(pool, &assumed, f);
@@ -274,7 +274,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
         status = qdot_written_take_apart(pool, &f, x, &written);
     if (status == QDOT_OK)
         status = qdot_solve_written(pool, f, x, &written, &assumed.facts, &found);
-    found.single = found.single && holds_others(session, f, x); /* without parameters numbers are searched */
+    found.single = found.single && contains_other_unknowns(session, f, x); /* without parameters numbers are searched */
     complete = found.complete || found.single;
     if (status == QDOT_OK)
         status = qdot_solve_parameters(pool, f, x, &written, &assumed.facts, &found);
@@ -283,13 +283,13 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
     if (status == QDOT_OK)
-        status = add_exact(session, x, &found, &list);
+        status = add_exact_roots(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
-        status = add_numbers(session, f, x, &written, &assumed.facts, &list, &found.recurs, &known);
+        status = add_numerical_roots(session, f, x, &written, &assumed.facts, &list, &found.recurs, &known);
     if (status == QDOT_OK && known)
-        status = notice_exact(session, x, &found);
+        status = give_notice_of_exact_roots(session, x, &found);
     if (status == QDOT_OK && !complete && known)
-        status = notice_parameters(session, f, x, &written, &assumed.facts, &found);
+        status = give_notice_of_parameters(session, f, x, &written, &assumed.facts, &found);
     if (status == QDOT_OK && known)
         status = qdot_solve_notice_powers(session, 1, &f, 1, &x, found.single, &assumed.facts);
     if (status == QDOT_OK && !known) {
@@ -338,16 +338,16 @@ qdot_call_solve(qdot_session *session, uint32_t n, const qdot_expr *args,
     }
     if (n == 2 && qdot_value_kind_are_equations(pool, args[1]))
         return qdot_solve_system_near(session, args[0], args[1],
-                                      domain_as_written(session, QDOT_NIL), value);
+                                      domain_of_typed_equation(session, QDOT_NIL), value);
     if (n == 2 && qdot_expr_kind(pool, args[1]) == QDOT_LIST)
         return qdot_solve_system(session, args[0], args[1],
-                                 domain_as_written(session, QDOT_NIL), value);
+                                 domain_of_typed_equation(session, QDOT_NIL), value);
     if (n == 2 && !qdot_value_kind_is_equation(pool, args[1]))
-        return one_unknown(session, args[0], args[1], value);
+        return solve_for_one_unknown(session, args[0], args[1], value);
     x = n == 4 ? args[1] : qdot_expr_arg(pool, args[1], 0);
     if (n == 4)
-        return qdot_solve_range(session, args[0], x, domain_as_written(session, x),
+        return qdot_solve_range(session, args[0], x, domain_of_typed_equation(session, x),
                                 args + 2, value);
-    return qdot_solve_near(session, 1, args, args + 1, domain_as_written(session, x),
+    return qdot_solve_near(session, 1, args, args + 1, domain_of_typed_equation(session, x),
                            false, value);
 }

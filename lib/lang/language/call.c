@@ -1,4 +1,4 @@
-/* call.c -- decides what name(...) means. */
+/* call.c -- decides what name(...) means in an expression: a function call, or a product. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@
 #include "lang/session/range.h"
 #include "mech/scene/scene.h"
 
-/* Functions that differentiate or solve: a value along a run would wrongly count as a constant there. */
+/* functions that differentiate or solve, to which a value along a run would wrongly look like a constant */
 static const char *const of_formulas[] = {
     "diff",  "ddt",        "solve",  "series", "integral",  "limit", "poisson",
     "ds2",   "speed2",     "metric", "christoffel", "gradient", "divergence", "curl",
@@ -23,7 +23,7 @@ static const char *const of_formulas[] = {
     "scale_factors"};
 
 static qdot_status
-refuse_members(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args)
+refuse_values_along_runs(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args)
 {
     qdot_status status = QDOT_OK;
 
@@ -53,7 +53,7 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
                       row->most, n);
         return qdot_hint("as in %s", row->usage);
     }
-    QDOT_TRY(refuse_members(s, row, n, args));
+    QDOT_TRY(refuse_values_along_runs(s, row, n, args));
     if (run != NULL && qdot_range_is_word(row->name))
         QDOT_TRY(qdot_range_value(s, run, row->name, n, args, NULL, value));
     else if (run != NULL)
@@ -74,7 +74,7 @@ qdot_resolve_over_range(qdot_session *session, const char *name, uint32_t n,
 {
     const qdot_builtin *row = qdot_builtin_find(name);
 
-    QDOT_TRY(refuse_members(session, row, n, args));
+    QDOT_TRY(refuse_values_along_runs(session, row, n, args));
     QDOT_TRY(row->call(session, n, args, value));
     return qdot_value_kind_check(session->pool, *value);
 }
@@ -96,7 +96,7 @@ call_function(qdot_session *s, const qdot_name *entry, const qdot_call *call,
 }
 
 static qdot_status
-not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
+report_not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
 {
     qdot_fail(QDOT_ESYNTAX, "`%.200s` is not a function", name);
     if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] == QDOT_T)
@@ -104,9 +104,9 @@ not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_
     return qdot_hint("a product is written %.80s*(...)", name);
 }
 
-/* Whether the name stands for something that is no function. */
+/* Whether the name stands for something that is not a function. */
 static bool
-is_value(const qdot_session *s, const qdot_name *entry, const char *name, const char *spelled)
+is_name_of_value(const qdot_session *s, const qdot_name *entry, const char *name, const char *spelled)
 {
     return entry != NULL || qdot_quantity_find(name) != NULL ||
            qdot_scene_has_label(s->scene, spelled) || strcmp(name, "pi") == 0 ||
@@ -129,7 +129,7 @@ qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
     status = qdot_entry_name(s, name, call->indices, call->values, &spelled);
     entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
     if (status == QDOT_OK && row != NULL && (row->flags & QDOT_BUILTIN_SHORT) &&
-        is_value(s, entry, name, spelled.at))
+        is_name_of_value(s, entry, name, spelled.at))
         row = NULL;
     if (status != QDOT_OK)
         ;
@@ -141,8 +141,8 @@ qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
         status = call_builtin(s, row, call->n, args, call->run, value, over);
     else if (row != NULL)
         status = qdot_resolve_no_prime(name, "takes no prime: write diff(...)");
-    else if (is_value(s, entry, name, spelled.at))
-        status = not_a_function(entry, spelled.at, call->n, args);
+    else if (is_name_of_value(s, entry, name, spelled.at))
+        status = report_not_a_function(entry, spelled.at, call->n, args);
     else
         status = qdot_hints_unknown_function(c, call->token);
     qdot_text_clear(&spelled);

@@ -13,12 +13,12 @@
 #include "lang/source/token.h"
 
 typedef struct {
-    const qdot_token *from, *to; /* the tokens from ... to - 1 of the expression */
-    bool is_period;              /* of a condition: the time T of `returns after T` */
+    const qdot_token *from, *to; /* the tokens from ... to - 1 are those of the expression */
+    bool is_period;              /* for a condition: the expression is the time T of `returns after T` */
     qdot_postfix_list code;
 } qdot_compiled;
 
-/* Parse at the cursor and step over the expression; free the program in any case. */
+/* Parse an expression at the cursor, and step over it; the caller frees the program in any case. */
 QDOT_MUST_CHECK qdot_status qdot_compiled_parse(qdot_cursor *c, qdot_parse_extent extent,
                                                qdot_compiled *program);
 void qdot_compiled_free(qdot_compiled *program);
@@ -27,14 +27,14 @@ void qdot_compiled_free(qdot_compiled *program);
 const char *qdot_compiled_next_name(const qdot_compiled *program, uint32_t *k);
 /* Whether the whole program is a list [a, b, ...], or a matrix. */
 bool qdot_compiled_is_list(const qdot_compiled *program);
-/* The name in NAME[K] and its number K, if the whole program is that; NULL: it is not. */
+/* If the whole program is NAME[K] with a number K: the name, and *k = K; else NULL. */
 const char *qdot_compiled_member_of(const qdot_compiled *program, long *k);
-/* Whether this code calls value, max, min, mean or drift, which read a run at intermediate times. */
+/* Whether this instruction calls value, max, min, mean or drift, which read a run at intermediate times. */
 bool qdot_postfix_reads_way(const qdot_postfix *code);
-/* Whether any code of the program does. */
+/* Whether any instruction of the program reads a run at intermediate times. */
 bool qdot_compiled_reads_way(const qdot_compiled *program);
 
-/* Evaluate a parsed expression, as the readers of the same names in read.h do. */
+/* Evaluate a parsed expression in the way of the function of the same name in read.h. */
 QDOT_MUST_CHECK qdot_status qdot_compiled_value(qdot_cursor *c, const qdot_compiled *program,
                                                qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_compiled_named(qdot_cursor *c, const qdot_compiled *program,

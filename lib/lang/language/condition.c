@@ -1,4 +1,4 @@
-/* condition.c -- equations and inequalities as values, and as conditions. */
+/* condition.c -- treats equations and inequalities as values and as conditions. */
 #include "lang/language/condition.h"
 
 #include "expr/build.h"
@@ -34,7 +34,7 @@ qdot_condition_is(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-condition_decide(qdot_pool *pool, qdot_expr node, void *user)
+decide_number_equation(qdot_pool *pool, qdot_expr node, void *user)
 {
     qdot_expr a, b;
 
@@ -53,5 +53,5 @@ condition_decide(qdot_pool *pool, qdot_expr node, void *user)
 qdot_expr
 qdot_condition_decide(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_map(pool, e, condition_decide, NULL);
+    return qdot_walk_map(pool, e, decide_number_equation, NULL);
 }

@@ -60,7 +60,7 @@ is_one_of(const qdot_token *t, const char *const *list)
 }
 
 static bool
-token_ends_operand(const qdot_token *t)
+may_end_operand(const qdot_token *t)
 {
     static const char *const closers[] = {")", "]", "'", NULL};
     static const char *const words[] = {"and", "or", "not", NULL};
@@ -71,7 +71,7 @@ token_ends_operand(const qdot_token *t)
 }
 
 static bool
-begins_operand(const qdot_token *t)
+token_begins_operand(const qdot_token *t)
 {
     return t->kind == QDOT_TOKEN_NUMBER || t->kind == QDOT_TOKEN_NAME ||
            (t->kind == QDOT_TOKEN_OPERATOR &&
@@ -89,7 +89,7 @@ qdot_cursor_knows(const qdot_session *s, const char *name)
 
 /* --- products as the screen shows them ------------------------------------------------ */
 
-/* Whether the name is declared, and no function. */
+/* Whether the name is declared as something that is not a function. */
 static bool
 is_declared_value(const qdot_session *s, const char *name)
 {
@@ -103,7 +103,7 @@ is_declared_value(const qdot_session *s, const char *name)
  * l₃; within brackets one that nobody knows, such as the index of a sum. A word of the language, as `tol` or `size`, is
  * none. */
 static bool
-is_factor(const qdot_session *s, const char *name, bool inside)
+may_be_factor(const qdot_session *s, const char *name, bool inside)
 {
     qdot_text member = {0};
     bool known = is_declared_value(s, name) || (inside && !qdot_cursor_knows(s, name)) || (name[0] == 'd' && is_declared_value(s, name + 1)) ||
@@ -118,21 +118,21 @@ is_factor(const qdot_session *s, const char *name, bool inside)
 bool
 qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside)
 {
-    if (!t->shown || t->glued || !token_ends_operand(t - 1) ||
-        (t[-1].kind == QDOT_TOKEN_NAME && !is_factor(s, t[-1].text, inside)))
+    if (!t->shown || t->glued || !may_end_operand(t - 1) ||
+        (t[-1].kind == QDOT_TOKEN_NAME && !may_be_factor(s, t[-1].text, inside)))
         return false;
     if (t->kind != QDOT_TOKEN_NAME)
-        return t->kind != QDOT_TOKEN_NUMBER && begins_operand(t);
-    return is_factor(s, t->text, inside) ||
+        return t->kind != QDOT_TOKEN_NUMBER && token_begins_operand(t);
+    return may_be_factor(s, t->text, inside) ||
            (qdot_cursor_knows(s, t->text) && t[1].glued &&
             (qdot_token_bracket(t + 1) > 0 || qdot_token_is(t + 1, "^")));
 }
 
 /* --- errors ------------------------------------------------------------------------- */
 
-/* A hint for the syntax of other systems at this place. */
+/* Give a hint if the syntax of another system, such as `**`, stands at this place. */
 static qdot_status
-hint_foreign(const qdot_token *t)
+hint_at_foreign_syntax(const qdot_token *t)
 {
     static const struct {
         const char *text, *hint;
@@ -157,13 +157,13 @@ hint_foreign(const qdot_token *t)
 /* The token with which the operand begins that ends with `last`: of brackets the opening one, with
  * the name before it. */
 static const qdot_token *
-operand_start(const qdot_cursor *c, const qdot_token *last)
+find_operand_start(const qdot_cursor *c, const qdot_token *last)
 {
     const qdot_token *t = last, *first = c->source->tokens.at;
     long depth = 0;
 
     while (t > first + 1 && t->kind == QDOT_TOKEN_NUMBER && qdot_token_is(t - 1, "^") && t->start == t[-1].start)
-        t -= 2; /* go back over an exponent written as a sign: x² */
+        t -= 2; /* skip an exponent that was written as a superscript: x² */
     while (t > first && qdot_token_is(t, "'"))
         t--;
     for (; t > first; t--) {
@@ -194,9 +194,9 @@ qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t)
     return t->start + t->length;
 }
 
-/* Report a product without `*` between `before` and the next token. */
+/* Report that `*` is missing between the token `before` and the next one. */
 static qdot_status
-missing_times(qdot_cursor *c, const qdot_token *before)
+report_missing_times(qdot_cursor *c, const qdot_token *before)
 {
     const qdot_token *t = c->at, *from;
     size_t to;
@@ -204,7 +204,7 @@ missing_times(qdot_cursor *c, const qdot_token *before)
 
     c->error_at = t->glued ? t->start : before->start + before->length;
     qdot_fail(QDOT_ESYNTAX, "a `*` is missing");
-    from = operand_start(c, before);
+    from = find_operand_start(c, before);
     to = qdot_cursor_operand_end(c, t);
     if (to - from->start > 100)
         return qdot_hint("a product is written with `*`");
@@ -221,7 +221,7 @@ qdot_cursor_is_call(const qdot_cursor *c, const qdot_token *t)
 
 /* Whether the word begins another part of a statement, as `on` in `force 2 on bob`, so that no `*` is missing before it. */
 static bool
-joins_parts(const qdot_cursor *c, const qdot_token *t)
+begins_next_part(const qdot_cursor *c, const qdot_token *t)
 {
     static const char *const words[] = {"on", "at", "from", "to", "between", "of", "with", "when", "then", "in", NULL};
 
@@ -229,7 +229,7 @@ joins_parts(const qdot_cursor *c, const qdot_token *t)
 }
 
 static qdot_status
-found(const char *what, const qdot_token *t)
+report_unexpected_token(const char *what, const qdot_token *t)
 {
     if (t->kind == QDOT_TOKEN_END)
         return qdot_fail(QDOT_ESYNTAX, "expected %s, found the end of the statement",
@@ -241,7 +241,7 @@ found(const char *what, const qdot_token *t)
 
 /* Give a hint at the nearest of the words that `what` lists in backquotes. */
 static qdot_status
-hint_word(const char *what, const char *name)
+hint_at_nearest_word(const char *what, const char *name)
 {
     enum { WORDS = 16, LENGTH = 24 };
     char words[WORDS][LENGTH];
@@ -275,17 +275,17 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
 
     c->error_at = t->start;
     if (qdot_cursor_is_word(c, "for") && t[1].kind == QDOT_TOKEN_NAME) {
-        found(what, t);
+        report_unexpected_token(what, t);
         return qdot_hint("one `for` ends a statement: for k = 1..3, j = 1..2");
     }
     if (qdot_cursor_is_word(c, "to") && t[1].kind == QDOT_TOKEN_END && before != NULL &&
-        token_ends_operand(before)) {
-        found(what, t);
+        may_end_operand(before)) {
+        report_unexpected_token(what, t);
         return qdot_hint("behind `to` stands the name of a file in quotes: to \"a.txt\"");
     }
     if (before == NULL || before->kind == QDOT_TOKEN_END) {
-        found(what, t);
-        return hint_foreign(t);
+        report_unexpected_token(what, t);
+        return hint_at_foreign_syntax(t);
     }
     if (t->kind == QDOT_TOKEN_END)
         c->error_at = before->start + before->length;
@@ -293,28 +293,28 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         qdot_fail(QDOT_ESYNTAX, "a decimal point needs a digit after it");
         return qdot_hint("write %.80s or %.80s.0", before->text, before->text);
     }
-    if (!token_ends_operand(before) || !begins_operand(t)) {
-        found(what, t);
-        return hint_foreign(t);
+    if (!may_end_operand(before) || !token_begins_operand(t)) {
+        report_unexpected_token(what, t);
+        return hint_at_foreign_syntax(t);
     }
     if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0 ||
         strncmp(what, "a text", 6) == 0)
-        return found(what, t); /* after an option word, not after an operand */
+        return report_unexpected_token(what, t); /* after an option word, such as `tol`, not after an operand */
     if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
         !qdot_cursor_knows(c->session, t->text)) {
-        found(what, t); /* within words, as in `2 tol`, a missing `*` is not meant */
-        return hint_word(what, t->text);
+        report_unexpected_token(what, t); /* among option words, as in `2 tol`, it is not a `*` that is missing */
+        return hint_at_nearest_word(what, t->text);
     }
-    if (joins_parts(c, t)) {
-        found(what, t);
-        return hint_foreign(t);
+    if (begins_next_part(c, t)) {
+        report_unexpected_token(what, t);
+        return hint_at_foreign_syntax(t);
     }
     if (t->glued || before->kind == QDOT_TOKEN_NUMBER || qdot_cursor_is_call(c, t) ||
         (!word && (t->kind != QDOT_TOKEN_NAME || qdot_cursor_knows(c->session, t->text))))
-        return missing_times(c, before);
-    found(what, t);
+        return report_missing_times(c, before);
+    report_unexpected_token(what, t);
     if (word)
-        return hint_word(what, t->text);
+        return hint_at_nearest_word(what, t->text);
     return what[0] == '`' ? QDOT_ESYNTAX : qdot_hint("a product is written with `*`");
 }
 

@@ -9,7 +9,7 @@ typedef struct {
     qdot_session *session;
     const qdot_source *source;
     const qdot_token
-        *at;         /* the next token; every statement ends with a token END */
+        *at;         /* the next token to be read; a statement ends with a token END */
     size_t error_at; /* position of the last error in bytes, set by every reader that fails */
 } qdot_cursor;
 
@@ -28,9 +28,9 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
 bool qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside);
 /* The byte after the operand that begins with `t`, including its brackets and primes. */
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
-/* Whether the name is known: declared, or of the language or the scene. */
+/* Whether the name is known: declared by the user, or a word of the language, or a label of the scene. */
 bool qdot_cursor_knows(const qdot_session *session, const char *name);
-/* Whether a known function with its argument begins with `t`, as `cos(`. */
+/* Whether the token t begins a call of a known function, as in `cos(`. */
 bool qdot_cursor_is_call(const qdot_cursor *c, const qdot_token *t);
 
 #endif

@@ -1,4 +1,4 @@
-/* evaluate.c -- evaluates postfix code in a loop, with stacks of its own. */
+/* evaluate.c -- evaluates an expression, translated to postfix code, in a loop with stacks of its own (no recursion). */
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -23,9 +23,9 @@
 
 /* --- sums and products -------------------------------------------------------------- */
 
-/* Prepare the right operand of `sign` on the stack: b of a - b is negated; b of a/b stays as it is. */
+/* Prepare the right operand of `sign`, on top of the stack: b of a - b is negated; b of a/b stays as it is. */
 static qdot_status
-term(qdot_machine *m, const qdot_token *sign)
+prepare_right_operand(qdot_machine *m, const qdot_token *sign)
 {
     qdot_slot *s = qdot_machine_top(m, 1);
 
@@ -40,9 +40,9 @@ term(qdot_machine *m, const qdot_token *sign)
     return QDOT_OK;
 }
 
-/* Add the top n values: scalars at once, others one by one so that an error points to its sign. */
+/* Add the top n values of the stack: all at once if scalars, else one by one, so that an error points to its sign. */
 static qdot_status
-sum(qdot_machine *m, size_t n)
+add_top_values(qdot_machine *m, size_t n)
 {
     const qdot_slot *s = qdot_machine_top(m, n);
     qdot_expr value;
@@ -60,9 +60,9 @@ sum(qdot_machine *m, size_t n)
 }
 
 static qdot_status
-product(qdot_machine *m, size_t n)
+multiply_top_values(qdot_machine *m, size_t n)
 {
-    enum { LONG = 16 }; /* number of factors from which they are multiplied in one step */
+    enum { LONG = 16 }; /* number of factors from which on they are multiplied in one step */
     const qdot_slot *s = qdot_machine_top(m, n);
     qdot_expr value;
     bool at_once;
@@ -92,7 +92,7 @@ product(qdot_machine *m, size_t n)
 /* --- and, or, not ------------------------------------------------------------------- */
 
 static qdot_status
-logic(qdot_machine *m, qdot_logic_op op, size_t n)
+combine_conditions(qdot_machine *m, qdot_logic_op op, size_t n)
 {
     static const char *const names[] = {"and", "or", "not"};
 
@@ -109,7 +109,7 @@ logic(qdot_machine *m, qdot_logic_op op, size_t n)
 /* The run that the top n values are meant along, no longer theirs; NULL where there are
  * several. */
 static const char *
-common_run(qdot_machine *m, size_t n)
+take_common_run(qdot_machine *m, size_t n)
 {
     const char *run = NULL;
 
@@ -127,7 +127,7 @@ common_run(qdot_machine *m, size_t n)
 
 /* Whether a function such as value(...) reads its arguments along a run. */
 static bool
-takes_run(const qdot_machine *m, const qdot_postfix *code)
+reads_arguments_along_run(const qdot_machine *m, const qdot_postfix *code)
 {
     const qdot_builtin *row = qdot_builtin_find(code->token->text);
 
@@ -135,9 +135,9 @@ takes_run(const qdot_machine *m, const qdot_postfix *code)
            !qdot_resolve_is_function(m->session, code->token->text);
 }
 
-/* The run `a` if this code is inside a.( ); NULL otherwise. */
+/* The run `a` if this instruction belongs to the parenthesis of a.( ... ); else NULL. */
 static const char *
-run_around(const qdot_machine *m, const qdot_postfix *code)
+run_before_parenthesis(const qdot_machine *m, const qdot_postfix *code)
 {
     const qdot_postfix *next = code + 1;
 
@@ -146,7 +146,7 @@ run_around(const qdot_machine *m, const qdot_postfix *code)
 }
 
 static qdot_status
-check_run(const qdot_machine *m, const char *name)
+check_run_exists(const qdot_machine *m, const char *name)
 {
     for (size_t i = 0; i < m->session->runs->n; i++)
         if (strcmp(m->session->runs->at[i].name, name) == 0)
@@ -155,13 +155,13 @@ check_run(const qdot_machine *m, const char *name)
     return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
 }
 
-/* Mark the top value as evaluated along a run; an error if it belongs to another run already. */
+/* Mark the value on top of the stack as one along a run; an error if it belongs to another run already. */
 static qdot_status
-put_along(qdot_machine *m, const char *run)
+mark_along_run(qdot_machine *m, const char *run)
 {
     qdot_slot *top = qdot_machine_top(m, 1);
 
-    QDOT_TRY(check_run(m, run));
+    QDOT_TRY(check_run_exists(m, run));
     if (top->run != NULL)
         return qdot_machine_along_two(top->run, run);
     top->run = run;
@@ -171,31 +171,31 @@ put_along(qdot_machine *m, const char *run)
 /* Find the run along which the top n values are read: the one they name, or `a` in a.value(x, 2),
  * a.max(x, 0..1). */
 static qdot_status
-run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **run)
+find_run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **run)
 {
-    const char *around = run_around(m, code);
+    const char *around = run_before_parenthesis(m, code);
 
-    *run = common_run(m, n);
+    *run = take_common_run(m, n);
     if (around == NULL)
         return QDOT_OK;
     if (*run != NULL)
         return qdot_machine_along_two(*run, around);
-    QDOT_TRY(check_run(m, around));
+    QDOT_TRY(check_run_exists(m, around));
     *run = around;
     m->belongs = true;
     return QDOT_OK;
 }
 
-/* Evaluate max(e, a..b); the ends of the range are the last arguments. */
+/* Evaluate a function of a range such as max(e, a..b); the two ends of the range are its last arguments. */
 static qdot_status
-range(qdot_machine *m, const qdot_postfix *code)
+evaluate_range_function(qdot_machine *m, const qdot_postfix *code)
 {
     const bool along = qdot_range_is_word(code->token->text);
     const char *run = NULL;
     qdot_expr value;
 
     if (along)
-        QDOT_TRY(run_to_read(m, code, code->n, &run));
+        QDOT_TRY(find_run_to_read(m, code, code->n, &run));
     QDOT_TRY(qdot_machine_take(m, code->n));
     if (along)
         QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
@@ -206,7 +206,7 @@ range(qdot_machine *m, const qdot_postfix *code)
     return qdot_machine_push(m, value);
 }
 
-/* Whether a call is a.max(x) with a moving x: the largest value along the run. */
+/* Whether a call is a.max(x) for a run a and an x that moves: the largest value along the run. */
 static bool
 is_extremum(qdot_machine *m, const qdot_postfix *code)
 {
@@ -217,30 +217,30 @@ is_extremum(qdot_machine *m, const qdot_postfix *code)
            !qdot_resolve_is_function(m->session, code->token->text);
 }
 
-/* Give the operand of the call the run that surrounds the call. */
+/* Give the argument of a call such as a.max(x) the run a that stands before the call. */
 static qdot_status
-extremum_along(qdot_machine *m, const qdot_postfix *code)
+put_run_on_argument(qdot_machine *m, const qdot_postfix *code)
 {
-    const char *around = run_around(m, code);
+    const char *around = run_before_parenthesis(m, code);
 
     if (around == NULL)
         return QDOT_OK;
-    QDOT_TRY(put_along(m, around));
+    QDOT_TRY(mark_along_run(m, around));
     m->belongs = true;
     return QDOT_OK;
 }
 
 static qdot_status
-call(qdot_machine *m, const qdot_postfix *code)
+evaluate_call(qdot_machine *m, const qdot_postfix *code)
 {
     size_t n = code->n + code->to;
     const char *run = NULL;
     qdot_expr value, first, over = QDOT_NIL;
 
-    if (takes_run(m, code))
-        QDOT_TRY(run_to_read(m, code, n, &run));
+    if (reads_arguments_along_run(m, code))
+        QDOT_TRY(find_run_to_read(m, code, n, &run));
     else if (is_extremum(m, code))
-        QDOT_TRY(extremum_along(m, code));
+        QDOT_TRY(put_run_on_argument(m, code));
     m->labels.n = 0;
     QDOT_TRY(qdot_grow(&m->labels.at, &m->labels.capacity, n, sizeof *m->labels.at));
     for (size_t i = n; i > 0; i--)
@@ -260,7 +260,7 @@ call(qdot_machine *m, const qdot_postfix *code)
 }
 
 static qdot_status
-entry(qdot_machine *m, const qdot_postfix *code)
+evaluate_entry(qdot_machine *m, const qdot_postfix *code)
 {
     qdot_expr over = qdot_machine_top(m, code->n + 1)->over, value;
 
@@ -270,9 +270,9 @@ entry(qdot_machine *m, const qdot_postfix *code)
     return qdot_machine_push(m, value);
 }
 
-/* Evaluate the times of an event, `cross[2]`, `cross`, a.cross[2], unless the name means something else. */
+/* Evaluate the times of an event in a run: `cross[2]`, `cross` or a.cross[2]; *found: the name means an event. */
 static qdot_status
-event(qdot_machine *m, const qdot_postfix *code, bool *found)
+evaluate_event_times(qdot_machine *m, const qdot_postfix *code, bool *found)
 {
     const qdot_postfix *next = code + 1;
     bool member = next < m->program->list.at + m->program->list.n &&
@@ -314,7 +314,7 @@ name(qdot_machine *m, const qdot_postfix *code)
     qdot_expr value, over;
     bool found;
 
-    QDOT_TRY(event(m, code, &found));
+    QDOT_TRY(evaluate_event_times(m, code, &found));
     if (found)
         return QDOT_OK;
     if (code->op == QDOT_POSTFIX_NAME) {
@@ -336,7 +336,7 @@ name(qdot_machine *m, const qdot_postfix *code)
 /* The label that `rod₁` means, rod_1 or rod[1], if nothing is called rod1; false: it is written otherwise, or there is
  * none. */
 static bool
-small_label(const qdot_scene *scene, const qdot_token *token, qdot_text *spelled)
+label_from_subscript(const qdot_scene *scene, const qdot_token *token, qdot_text *spelled)
 {
     if (token->length == strlen(token->text) || qdot_scene_has_label(scene, token->text))
         return false;
@@ -347,9 +347,9 @@ small_label(const qdot_scene *scene, const qdot_token *token, qdot_text *spelled
     return false;
 }
 
-/* Push a label as a symbol of that name; a loop index in it is replaced by its value. */
+/* Push a label (a name of a particle, body ...) as a symbol; a loop index in it is replaced by its value. */
 static qdot_status
-label(qdot_machine *m, const qdot_postfix *code)
+push_label(qdot_machine *m, const qdot_postfix *code)
 {
     const qdot_name *bound = qdot_names_find(m->session->names, code->token->text);
     qdot_text text = {0};
@@ -361,7 +361,7 @@ label(qdot_machine *m, const qdot_postfix *code)
     if (code->n == 0 && bound != NULL && bound->label != NULL)
         return qdot_machine_push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, bound->label));
     QDOT_TRY(qdot_machine_take(m, code->n));
-    status = code->n == 0 && small_label(m->session->scene, code->token, &text)
+    status = code->n == 0 && label_from_subscript(m->session->scene, code->token, &text)
                  ? qdot_text_status(&text)
                  : qdot_entry_name(m->session, code->token->text, code->n, m->args.at, &text);
     if (status == QDOT_OK)
@@ -372,7 +372,7 @@ label(qdot_machine *m, const qdot_postfix *code)
 }
 
 static qdot_status
-history(qdot_machine *m, uint32_t n)
+push_earlier_answer(qdot_machine *m, uint32_t n)
 {
     size_t count = m->session->history->values.n;
 
@@ -394,13 +394,13 @@ member(qdot_machine *m, const char *run)
         m->belongs = false;
         return QDOT_OK;
     }
-    return put_along(m, run);
+    return mark_along_run(m, run);
 }
 
 /* --- running a program -------------------------------------------------------------- */
 
 static qdot_status
-step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
+execute_instruction(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
     qdot_expr value;
 
@@ -409,14 +409,14 @@ step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
         return qdot_machine_push(m, qdot_lex_number(m->pool, code->token->text));
     case QDOT_POSTFIX_NAME:
     case QDOT_POSTFIX_INDEX_NAME: return name(m, code);
-    case QDOT_POSTFIX_LABEL: return label(m, code);
-    case QDOT_POSTFIX_HISTORY: return history(m, code->n);
-    case QDOT_POSTFIX_INDEX: return entry(m, code);
-    case QDOT_POSTFIX_CALL: return call(m, code);
-    case QDOT_POSTFIX_RANGE: return range(m, code);
-    case QDOT_POSTFIX_TERM: return term(m, code->token);
-    case QDOT_POSTFIX_SUM: return sum(m, code->n);
-    case QDOT_POSTFIX_PRODUCT: return product(m, code->n);
+    case QDOT_POSTFIX_LABEL: return push_label(m, code);
+    case QDOT_POSTFIX_HISTORY: return push_earlier_answer(m, code->n);
+    case QDOT_POSTFIX_INDEX: return evaluate_entry(m, code);
+    case QDOT_POSTFIX_CALL: return evaluate_call(m, code);
+    case QDOT_POSTFIX_RANGE: return evaluate_range_function(m, code);
+    case QDOT_POSTFIX_TERM: return prepare_right_operand(m, code->token);
+    case QDOT_POSTFIX_SUM: return add_top_values(m, code->n);
+    case QDOT_POSTFIX_PRODUCT: return multiply_top_values(m, code->n);
     case QDOT_POSTFIX_NEGATE:
         QDOT_TRY(qdot_machine_take(m, 1));
         return qdot_machine_push(m, qdot_value_neg(m->pool, m->args.at[0]));
@@ -436,9 +436,9 @@ step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
                                          m->args.at[1], &value));
         QDOT_TRY(qdot_machine_push(m, value));
         return qdot_machine_push(m, m->args.at[1]);
-    case QDOT_POSTFIX_AND: return logic(m, QDOT_AND, code->n);
-    case QDOT_POSTFIX_OR: return logic(m, QDOT_OR, code->n);
-    case QDOT_POSTFIX_NOT: return logic(m, QDOT_NOT, 1);
+    case QDOT_POSTFIX_AND: return combine_conditions(m, QDOT_AND, code->n);
+    case QDOT_POSTFIX_OR: return combine_conditions(m, QDOT_OR, code->n);
+    case QDOT_POSTFIX_NOT: return combine_conditions(m, QDOT_NOT, 1);
     case QDOT_POSTFIX_VECTOR:
         QDOT_TRY(qdot_machine_take(m, code->n));
         return qdot_machine_push(m, qdot_vector(m->pool, code->n, m->args.at));
@@ -463,7 +463,7 @@ step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 }
 
 static qdot_status
-run_program(qdot_machine *m, uint32_t first, uint32_t end)
+execute_program(qdot_machine *m, uint32_t first, uint32_t end)
 {
     for (uint32_t pc = first; pc < end;) {
         const qdot_postfix *code = &m->program->list.at[pc++];
@@ -471,7 +471,7 @@ run_program(qdot_machine *m, uint32_t first, uint32_t end)
         m->blame = code->token;
         if ((pc & 0x3FFF) == 0)
             QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(step(m, code, &pc));
+        QDOT_TRY(execute_instruction(m, code, &pc));
         if (m->frames.n > 0 && code->op >= QDOT_POSTFIX_NAME && code->op <= QDOT_POSTFIX_MEMBER)
             qdot_partial_sum_note(m, code);
     }
@@ -484,7 +484,7 @@ evaluate_codes(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first,
 {
     qdot_machine m = {
         .c = c, .session = c->session, .pool = c->session->pool, .program = program};
-    qdot_status status = run_program(&m, first, end);
+    qdot_status status = execute_program(&m, first, end);
 
     if (status == QDOT_OK) {
         if (over != NULL)

@@ -16,7 +16,7 @@
 typedef enum {
     QDOT_POSTFIX_NUMBER,     /* push the number written at `token` */
     QDOT_POSTFIX_NAME,       /* push the value of the name `token`, with `primes` */
-    QDOT_POSTFIX_LABEL,      /* pop n indices; push the label as a carrier symbol */
+    QDOT_POSTFIX_LABEL,      /* pop n indices; push the label as the symbol that stands for it */
     QDOT_POSTFIX_HISTORY,    /* push answer %n; n = 0: the latest */
     QDOT_POSTFIX_INDEX_NAME, /* pop n indices; push token[...] with `primes` */
     QDOT_POSTFIX_INDEX,      /* pop n indices and a value; push the value's entry */
@@ -33,24 +33,24 @@ typedef enum {
     QDOT_POSTFIX_OR,
     QDOT_POSTFIX_NOT,
     QDOT_POSTFIX_VECTOR,    /* pop n components; push a vector */
-    QDOT_POSTFIX_LIST,      /* pop n members; push a list */
+    QDOT_POSTFIX_LIST,      /* pop n members; push a list of them */
     QDOT_POSTFIX_MATRIX,    /* pop n entries; push a matrix with `to` columns */
-    QDOT_POSTFIX_MEMBER,    /* the top value refers to the run named `token` */
+    QDOT_POSTFIX_MEMBER,    /* the top value is taken along the run named `token`, as in a.x */
     QDOT_POSTFIX_JUMP,      /* continue at instruction `to` */
     QDOT_POSTFIX_SUM_BEGIN, /* pop limits a, b; begin a sum whose index is token n and whose body begins at `to` */
     QDOT_POSTFIX_SUM_NEXT,  /* pop the body's value; repeat the body or continue */
     QDOT_POSTFIX_IF_TEST,   /* the condition stays; if false push nil and continue at `to` */
     QDOT_POSTFIX_IF_ELSE, /* if the condition is true: pop both, push the value, continue at `to` */
     QDOT_POSTFIX_IF_END,    /* pop condition, a, b; push if(...) */
-    QDOT_POSTFIX_PASS_BEGIN, /* from here on session->passed records what must be defined */
-    QDOT_POSTFIX_PASS_END    /* until here session->passed records what must be defined */
+    QDOT_POSTFIX_PASS_BEGIN, /* until PASS_END, session->passed records what must be defined */
+    QDOT_POSTFIX_PASS_END    /* the end of what began with PASS_BEGIN */
 } qdot_postfix_kind;
 
 typedef struct {
     uint8_t op; /* the instruction, a qdot_postfix_kind */
     uint8_t primes;
     uint32_t n, to;
-    uint32_t last;           /* of CALL and RANGE: where the code of the last argument begins; 0: there is one only */
+    uint32_t last;           /* for CALL, RANGE: start of the code of the last of several arguments */
     const qdot_token *token; /* token at which an error points */
 } qdot_postfix;
 
@@ -58,7 +58,7 @@ typedef struct {
     qdot_vec(qdot_postfix) list;
 } qdot_postfix_list;
 
-/* How far an expression extends. */
+/* How far the expression to be parsed extends. */
 typedef enum {
     QDOT_PARSE_VALUE, /* a value, also with relations, `and`, `or` */
     QDOT_PARSE_SIDE   /* a value up to a relation, `and`, `or` */
@@ -79,17 +79,17 @@ QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_postfix_lis
 QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
                                                    const qdot_token **run);
 
-/* The same for the codes [first, end) alone, those of an operand. */
+/* As qdot_evaluate, for the instructions [first, end) only, those of one operand. */
 QDOT_MUST_CHECK qdot_status qdot_evaluate_part(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first,
                                                uint32_t end, qdot_expr *value);
 
 /* --- meaning of names and calls ----------------------------------------------------- */
 
-/* Evaluate a name with `primes` primes. *over: the coordinates by which its entries are indexed, or nil. */
+/* Evaluate a name followed by `primes` primes. *over: the coordinates by which its entries are indexed, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_name(qdot_cursor *c, const qdot_token *token,
                                               unsigned primes, qdot_expr *value,
                                               qdot_expr *over);
-/* Evaluate name[index ...] with `primes` primes. */
+/* Evaluate name[index ...] followed by `primes` primes. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_index(qdot_cursor *c, const qdot_token *token,
                                                unsigned primes, uint32_t n,
                                                const qdot_expr *index, qdot_expr *value);
@@ -105,11 +105,11 @@ typedef struct {
     const qdot_token *token;
     unsigned primes;
     uint32_t indices, n;       /* number of indices and of arguments */
-    const qdot_expr *values;   /* [indices + n] their values */
+    const qdot_expr *values;   /* [indices + n] values of the indices and arguments */
     const char *const *labels; /* [indices + n] labels of particles or bodies whose positions they are, else NULL */
-    const char *run;           /* name of the run to which the arguments refer; NULL: none */
+    const char *run;           /* name of the run along which the arguments are read; NULL: none */
 } qdot_call;
-/* Evaluate a call. *over: as for qdot_resolve_name. */
+/* Evaluate a function call. *over: the coordinates that index the value's entries, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_call *call,
                                               qdot_expr *value, qdot_expr *over);
 /* Evaluate solve(A = B, x, a..b) and similar functions of a range; its ends are the last arguments. */
@@ -121,7 +121,7 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_over_range(qdot_session *session, const
 QDOT_MUST_CHECK qdot_status qdot_resolve_label(qdot_session *session, const char *name,
                                                uint32_t n, const qdot_expr *index,
                                                const char **label);
-/* Whether a name is declared as a function of either kind. */
+/* Whether a name is declared as a function, either with a definition or as an undefined function. */
 bool qdot_resolve_is_function(const qdot_session *session, const char *name);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "lang/functions/builtin.h"
 
-/* Names that differ only in case (Sin, SIN) need no row. `ours` is NULL if there is nothing similar. */
+/* Names that differ only in case (Sin, SIN) need no row. `ours` is NULL if the language has nothing similar. */
 static const struct {
     const char *theirs, *ours;
 } words[] = {

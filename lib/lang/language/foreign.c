@@ -11,7 +11,7 @@ typedef enum { WHOLE, BEGIN, PART } extent;
 
 typedef struct {
     extent extent;
-    bool say; /* the hint is printed as it is, without "write" */
+    bool say; /* the hint is printed as it is, without the word "write" before it */
     const char *pattern, *message, *line;
 } form;
 
@@ -38,7 +38,7 @@ static const struct {
 /* Whether what matched holds the byte `at`, or ends where it is. A single word must be the error
  * itself, as an unknown name, unless it begins the statement. */
 static bool
-match_holds(const qdot_pattern_match *m, extent extent, size_t at)
+match_contains_position(const qdot_pattern_match *m, extent extent, size_t at)
 {
     if (extent == PART && m->to == m->from + 1)
         return at == m->from->start && strncmp(qdot_last_error()->message, "unknown ", 8) == 0;
@@ -48,23 +48,23 @@ match_holds(const qdot_pattern_match *m, extent extent, size_t at)
 
 /* Find where the pattern matches in the statement so that it contains the position of the error. */
 static bool
-form_find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
-          qdot_pattern_match *m)
+find_matching_pattern(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
+                      qdot_pattern_match *m)
 {
     if (f->extent != PART)
         return qdot_pattern_matches(c->session, f->pattern, from, to, f->extent == WHOLE,
                                     m) &&
-               (f->extent == WHOLE || match_holds(m, f->extent, c->error_at));
+               (f->extent == WHOLE || match_contains_position(m, f->extent, c->error_at));
     for (const qdot_token *k = from; k < to && k->start <= c->error_at; k++)
         if (qdot_pattern_matches(c->session, f->pattern, k, to, false, m) &&
-            match_holds(m, f->extent, c->error_at))
+            match_contains_position(m, f->extent, c->error_at))
             return true;
     return false;
 }
 
-/* A single unknown letter is often a typing error for a declared one: then that hint is kept. */
+/* Whether only a single unknown letter matched: it is often a mistyped declared letter, so the usual hint is kept. */
 static bool
-is_doubtful(const qdot_pattern_match *m)
+is_doubtful_match(const qdot_pattern_match *m)
 {
     return m->to == m->from + 1 && m->from->length == 1 &&
            strstr(qdot_last_error()->hint, "did you mean") != NULL;
@@ -72,7 +72,7 @@ is_doubtful(const qdot_pattern_match *m)
 
 /* Whether the suggested line is the same as the typed one. */
 static bool
-line_is_same(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text *line)
+is_suggestion_as_typed(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text *line)
 {
     const qdot_token *last = m->to - 1;
 
@@ -83,7 +83,7 @@ line_is_same(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text 
 /* Whether the error is an unknown name that the suggested line has too, so that it would fail as well: as an operand of a form
  * with an error of its own, or anywhere in a line of the same statement. */
 static bool
-keeps_unknown(const qdot_cursor *c, const form *f, const qdot_pattern_match *m, const char *line)
+suggestion_has_unknown_name(const qdot_cursor *c, const form *f, const qdot_pattern_match *m, const char *line)
 {
     const size_t n = strlen(m->from->text);
     bool operand = false;
@@ -100,9 +100,9 @@ keeps_unknown(const qdot_cursor *c, const form *f, const qdot_pattern_match *m, 
     return f->message != NULL ? operand : t > m->from && strncmp(line, m->from->text, n) == 0 && line[n] == ' ';
 }
 
-/* Replace the error by that of the pattern; false if it has no better line to suggest. */
+/* Replace the error by the message of the pattern; false if the pattern has no better line to suggest. */
 static bool
-form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
+report_by_pattern(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
 {
     const qdot_error error = *qdot_last_error();
     qdot_text message = {0}, line = {0};
@@ -116,7 +116,7 @@ form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
         qdot_text_add(&message, error.message);
     qdot_pattern_write(c, f->line, m, &line);
     fits = line.n < sizeof error.hint - 8 && !line.failed && !message.failed &&
-           !line_is_same(c, m, &line) && !keeps_unknown(c, f, m, qdot_text_str(&line));
+           !is_suggestion_as_typed(c, m, &line) && !suggestion_has_unknown_name(c, f, m, qdot_text_str(&line));
     if (fits) {
         (void)qdot_fail(error.status, "%s", qdot_text_str(&message));
         (void)qdot_hint("%s%s", f->say ? "" : "write ", qdot_text_str(&line));
@@ -130,7 +130,7 @@ form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
 
 /* Whether a matched name is really a word of the suggested line, as `between` in `spring between a, b`. */
 static bool
-holds_word(const form *f, const qdot_pattern_match *m)
+is_suggested_word(const form *f, const qdot_pattern_match *m)
 {
     for (size_t i = 0; i < m->n && !f->say; i++) {
         const qdot_token *name = m->held[i].from;
@@ -154,8 +154,8 @@ qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
     if (to - from > LONGEST)
         to = from + LONGEST;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (form_find(c, &forms[i], from, to, &m) && !is_doubtful(&m) && !holds_word(&forms[i], &m) &&
-            form_tell(c, &forms[i], &m))
+        if (find_matching_pattern(c, &forms[i], from, to, &m) && !is_doubtful_match(&m) && !is_suggested_word(&forms[i], &m) &&
+            report_by_pattern(c, &forms[i], &m))
             break;
     return status;
 }

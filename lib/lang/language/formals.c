@@ -52,7 +52,7 @@ qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)
 
 /* The symbol of an argument; an argument t is the time itself, because that name is reserved. */
 static qdot_expr
-formal_symbol(qdot_pool *pool, const qdot_token *name)
+symbol_of_argument(qdot_pool *pool, const qdot_token *name)
 {
     return strcmp(name->text, "t") == 0 ? QDOT_T
                                         : qdot_symbol_get(pool, QDOT_FORMAL, name->text);
@@ -66,7 +66,7 @@ qdot_formals_read(qdot_cursor *c, qdot_expr *formals, const qdot_token ***names,
     qdot_status status = qdot_formals_read_names(c, names, n);
 
     for (size_t i = 0; i < *n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&symbols, formal_symbol(c->session->pool, (*names)[i]));
+        status = qdot_vec_push(&symbols, symbol_of_argument(c->session->pool, (*names)[i]));
     if (status == QDOT_OK) {
         *formals = qdot_list(c->session->pool, (uint32_t)symbols.n, symbols.at);
         status = qdot_pool_check(c->session->pool);

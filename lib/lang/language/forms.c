@@ -14,9 +14,9 @@
 #include "lang/session/bind.h"
 #include "normal/calculus/closed-sum.h"
 
-/* Bind the index k to its next value, or finish the sum. */
+/* Bind the index k of a sum to its next value, or finish the sum. */
 static qdot_status
-sum_round(qdot_machine *m, uint32_t *pc, uint32_t body)
+begin_next_summand(qdot_machine *m, uint32_t *pc, uint32_t body)
 {
     qdot_sum_frame *f = &m->frames.at[m->frames.n - 1];
     qdot_expr value;
@@ -82,12 +82,12 @@ qdot_forms_sum(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
         return qdot_vec_push(&m->frames, f);
     }
     QDOT_TRY(qdot_vec_push(&m->frames, f));
-    return sum_round(m, pc, code->to);
+    return begin_next_summand(m, pc, code->to);
 }
 
-/* Sum by formula, now that the summand has been evaluated as a function of its index. */
+/* Add a sum by a formula, after the summand was evaluated as a function of the index. */
 static qdot_status
-sum_by_formula(qdot_machine *m, uint32_t *pc)
+finish_sum_by_formula(qdot_machine *m, uint32_t *pc)
 {
     qdot_sum_frame *f = &m->frames.at[m->frames.n - 1];
     qdot_expr value;
@@ -97,7 +97,7 @@ sum_by_formula(qdot_machine *m, uint32_t *pc)
         return qdot_fail(QDOT_EFAILED, "no formula is known");
     status = qdot_closed_sum(m->pool, m->args.at[0], f->symbol, f->k, f->last, &value);
     if (status != QDOT_OK && status != QDOT_EFAILED)
-        f->symbol = QDOT_NIL; /* evaluate by numbers no more: the formula's error is reported */
+        f->symbol = QDOT_NIL; /* after a failed formula do not try to add number by number: the formula's error is reported */
     QDOT_TRY(status);
     qdot_names_pop(m->session->names);
     *pc = f->resume;
@@ -124,11 +124,11 @@ qdot_forms_sum_next(qdot_machine *m, uint32_t *pc)
 
     QDOT_TRY(qdot_machine_take(m, 1));
     if (f->symbol != QDOT_NIL)
-        return sum_by_formula(m, pc);
+        return finish_sum_by_formula(m, pc);
     QDOT_TRY(qdot_vec_push(&m->terms, m->args.at[0]));
     qdot_names_pop(m->session->names);
     f->bound = false;
-    return sum_round(m, pc, body);
+    return begin_next_summand(m, pc, body);
 }
 
 qdot_status

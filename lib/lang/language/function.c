@@ -1,4 +1,4 @@
-/* function.c -- functions defined by the user: a text that each call evaluates anew. */
+/* function.c -- functions defined by the user, whose definition is evaluated anew, as text, at each call. */
 #include "lang/language/function.h"
 
 #include <string.h>
@@ -20,7 +20,7 @@
 #include "normal/prove/decide.h"
 
 static bool
-name_is_formal(const qdot_pool *pool, qdot_expr formals, const char *name)
+is_argument_name(const qdot_pool *pool, qdot_expr formals, const char *name)
 {
     for (uint32_t i = 0; i < qdot_expr_count(pool, formals); i++)
         if (strcmp(qdot_expr_symbol(pool, qdot_expr_arg(pool, formals, i))->name, name) == 0)
@@ -29,7 +29,7 @@ name_is_formal(const qdot_pool *pool, qdot_expr formals, const char *name)
 }
 
 static bool
-is_captured(const qdot_function_body *body, const char *name)
+is_captured_index(const qdot_function_body *body, const char *name)
 {
     for (size_t i = 0; i < body->captured.n; i++)
         if (strcmp(body->captured.at[i], name) == 0)
@@ -47,8 +47,8 @@ capture_loop_indices(qdot_session *s, qdot_function_body *body, qdot_expr formal
     for (const qdot_token *k = body->from; k < body->to && status == QDOT_OK; k++) {
         const qdot_name *bound;
 
-        if (k->kind != QDOT_TOKEN_NAME || name_is_formal(s->pool, formals, k->text) ||
-            is_captured(body, k->text))
+        if (k->kind != QDOT_TOKEN_NAME || is_argument_name(s->pool, formals, k->text) ||
+            is_captured_index(body, k->text))
             continue;
         bound = qdot_names_find(s->names, k->text);
         if (bound == NULL || bound->kind != QDOT_NAME_INDEX)
@@ -68,7 +68,7 @@ capture_loop_indices(qdot_session *s, qdot_function_body *body, qdot_expr formal
 /* Bind the names that the body may see; hide what is bound around the call. *outer: what
  * disclose() takes. args NULL: the formals stand for themselves. */
 static qdot_status
-enclose(qdot_session *s, const qdot_name *entry, const qdot_argument *args, size_t *outer)
+bind_names_of_body(qdot_session *s, const qdot_name *entry, const qdot_argument *args, size_t *outer)
 {
     const qdot_function_body *body = entry->body;
     qdot_status status = QDOT_OK;
@@ -99,7 +99,7 @@ read_body(qdot_cursor *c, qdot_name *entry)
     qdot_status status;
     size_t outer;
 
-    status = enclose(c->session, entry, NULL, &outer);
+    status = bind_names_of_body(c->session, entry, NULL, &outer);
     if (status == QDOT_OK)
         status = qdot_parse(c, QDOT_PARSE_VALUE, &program);
     qdot_names_disclose(c->session->names, outer);
@@ -129,9 +129,9 @@ qdot_function_read(qdot_cursor *c, qdot_name *entry)
 
 /* --- calling functions -------------------------------------------------------------- */
 
-/* Add to the error where in the function's body it occurred; for nested calls the innermost. */
+/* Add to the error the place in the function's definition where it occurred; for nested calls the innermost. */
 static qdot_status
-tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status status)
+add_place_to_error(qdot_session *s, const qdot_name *entry, size_t at, qdot_status status)
 {
     const qdot_error error = *qdot_last_error();
     uint32_t line, column;
@@ -147,7 +147,7 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
 
 /* Parse the body and evaluate it; its arguments are bound to their values. */
 static qdot_status
-function_evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
+evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
 {
     qdot_postfix_list program = {0};
     const char *run = NULL;
@@ -164,10 +164,10 @@ function_evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr
     return qdot_value_kind_check(c->session->pool, *value);
 }
 
-/* Evaluate the body with these arguments. */
+/* Evaluate the definition of a function for these arguments. */
 static qdot_status
-apply(qdot_session *s, const qdot_name *entry, const qdot_argument *args, qdot_expr *value,
-      qdot_expr *over)
+apply_function(qdot_session *s, const qdot_name *entry, const qdot_argument *args, qdot_expr *value,
+               qdot_expr *over)
 {
     qdot_cursor c = {.session = s,
                      .source = entry->body->source,
@@ -182,12 +182,12 @@ apply(qdot_session *s, const qdot_name *entry, const qdot_argument *args, qdot_e
                          "the recursion of `%.200s` does not end: %d calls within one another",
                          entry->name, QDOT_FUNCTION_DEPTH);
     s->evaluation->calls++;
-    status = enclose(s, entry, args, &outer);
+    status = bind_names_of_body(s, entry, args, &outer);
     if (status == QDOT_OK)
-        status = function_evaluate_body(&c, entry->body, value, over);
+        status = evaluate_body(&c, entry->body, value, over);
     qdot_names_disclose(s->names, outer);
     s->evaluation->calls--;
-    return status == QDOT_OK ? QDOT_OK : tell_place(s, entry, c.error_at, status);
+    return status == QDOT_OK ? QDOT_OK : add_place_to_error(s, entry, c.error_at, status);
 }
 
 /* --- member by member --------------------------------------------------------------- */
@@ -198,22 +198,22 @@ typedef struct {
     unsigned primes;
 } mapping;
 
-static qdot_status derivative_at(mapping *m, qdot_expr arg, qdot_expr *value);
+static qdot_status evaluate_derivative(mapping *m, qdot_expr arg, qdot_expr *value);
 
 static qdot_expr
-of_scalar(qdot_pool *pool, qdot_expr scalar, void *user)
+apply_to_scalar_component(qdot_pool *pool, qdot_expr scalar, void *user)
 {
     mapping *m = user;
     const qdot_argument arg = {.value = scalar};
     qdot_expr value, over;
-    qdot_status status = m->primes > 0 ? derivative_at(m, scalar, &value)
-                                       : apply(m->s, m->entry, &arg, &value, &over);
+    qdot_status status = m->primes > 0 ? evaluate_derivative(m, scalar, &value)
+                                       : apply_function(m->s, m->entry, &arg, &value, &over);
 
     return status == QDOT_OK ? value : qdot_pool_fail(pool);
 }
 
-static qdot_status apply_to(mapping *m, const qdot_argument *arg, qdot_expr *value,
-                            qdot_expr *over);
+static qdot_status apply_to_argument(mapping *m, const qdot_argument *arg, qdot_expr *value,
+                                     qdot_expr *over);
 
 static qdot_status
 apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
@@ -226,7 +226,7 @@ apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
         const qdot_argument arg = {.value = qdot_expr_arg(pool, list, i)};
 
-        status = apply_to(m, &arg, made + i, &over);
+        status = apply_to_argument(m, &arg, made + i, &over);
     }
     if (status == QDOT_OK) {
         *value = qdot_list(pool, n, made);
@@ -236,33 +236,33 @@ apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
     return status;
 }
 
-/* Apply the body to each member of a vector or list, as it failed for the whole (see the last error). */
+/* Apply the function to each member of a vector or list, after it failed for the vector as a whole. */
 static qdot_status
-apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
+apply_by_components(mapping *m, qdot_expr arg, qdot_expr *value)
 {
     const qdot_error error = *qdot_last_error();
     qdot_status status;
 
     if (m->s->evaluation->passed != NULL)
-        m->s->evaluation->passed->spoiled = true; /* parts evaluated here need not be defined in the result */
+        m->s->evaluation->passed->spoiled = true; /* in a call by components the parts need not be defined */
     if (qdot_expr_kind(m->s->pool, arg) == QDOT_LIST) {
         status = apply_to_members(m, arg, value);
     } else {
-        *value = qdot_value_map(m->s->pool, arg, of_scalar, m);
+        *value = qdot_value_map(m->s->pool, arg, apply_to_scalar_component, m);
         status = qdot_value_kind_check(m->s->pool, *value);
     }
     return status == QDOT_ETYPE ? qdot_fail_again(&error) : status;
 }
 
 static qdot_status
-apply_to(mapping *m, const qdot_argument *arg, qdot_expr *value, qdot_expr *over)
+apply_to_argument(mapping *m, const qdot_argument *arg, qdot_expr *value, qdot_expr *over)
 {
-    const qdot_status status = apply(m->s, m->entry, arg, value, over);
+    const qdot_status status = apply_function(m->s, m->entry, arg, value, over);
 
     if (status != QDOT_ETYPE || qdot_expr_is_scalar(m->s->pool, arg->value))
         return status;
     *over = QDOT_NIL;
-    return apply_inside(m, arg->value, value);
+    return apply_by_components(m, arg->value, value);
 }
 
 /* --- derivatives f'(a) -------------------------------------------------------------- */
@@ -271,17 +271,17 @@ apply_to(mapping *m, const qdot_argument *arg, qdot_expr *value, qdot_expr *over
  * differentiated: right where the value at a is that at the symbol with a put in. It is not of
  * f(u) = diff(u, x), which depends on what u is made of. */
 static qdot_status
-derivative_at(mapping *m, qdot_expr arg, qdot_expr *value)
+evaluate_derivative(mapping *m, qdot_expr arg, qdot_expr *value)
 {
     qdot_pool *pool = m->s->pool;
     const qdot_facts facts = qdot_scene_facts(m->s->scene);
-    /* a name with a blank cannot be declared */
+    /* the symbol of the argument has a blank in its name, so that no declared name equals it */
     const qdot_argument at = {.value = arg},
                         symbol = {.value = qdot_symbol_get(pool, QDOT_FORMAL, "an argument")};
     qdot_expr direct, body, put, over;
 
-    QDOT_TRY(apply(m->s, m->entry, &at, &direct, &over));
-    QDOT_TRY(apply(m->s, m->entry, &symbol, &body, &over));
+    QDOT_TRY(apply_function(m->s, m->entry, &at, &direct, &over));
+    QDOT_TRY(apply_function(m->s, m->entry, &symbol, &body, &over));
     put = qdot_subs(pool, body, 1, &symbol.value, &arg);
     QDOT_TRY(qdot_value_kind_check(pool, put));
     if (put != direct &&
@@ -313,11 +313,11 @@ qdot_function_call(qdot_session *s, const qdot_name *entry, unsigned primes, uin
         return qdot_resolve_no_prime(entry->name,
                                      "has several arguments: a prime does not say which");
     if (primes == 0)
-        return n == 1 ? apply_to(&m, args, value, over)
-                      : apply(s, entry, args, value, over);
+        return n == 1 ? apply_to_argument(&m, args, value, over)
+                      : apply_function(s, entry, args, value, over);
     if (s->evaluation->passed != NULL)
         s->evaluation->passed->spoiled = true;
-    *value = qdot_value_map(s->pool, args[0].value, of_scalar, &m);
+    *value = qdot_value_map(s->pool, args[0].value, apply_to_scalar_component, &m);
     return qdot_value_kind_check(s->pool, *value);
 }
 
@@ -336,7 +336,7 @@ qdot_function_print(qdot_session *s, const qdot_name *entry, qdot_text *out)
                          qdot_expr_symbol(s->pool, qdot_expr_arg(s->pool, entry->formals, i))
                              ->name);
     qdot_text_add(out, ") = ");
-    status = enclose(s, entry, NULL, &outer);
+    status = bind_names_of_body(s, entry, NULL, &outer);
     if (status == QDOT_OK)
         qdot_token_text(s, entry->body->from, entry->body->to, out);
     qdot_names_disclose(s->names, outer);
@@ -350,7 +350,7 @@ qdot_function_mentions(const qdot_pool *pool, const qdot_name *entry, const char
 
     for (const qdot_token *k = entry->body->from; k < entry->body->to; k++)
         if (k->kind == QDOT_TOKEN_NAME && strlen(k->text) == length &&
-            strncmp(k->text, name, length) == 0 && !name_is_formal(pool, entry->formals, k->text))
+            strncmp(k->text, name, length) == 0 && !is_argument_name(pool, entry->formals, k->text))
             return true;
     return false;
 }

@@ -15,14 +15,14 @@
 #include "lang/language/cursor.h"
 #include "lang/session/names.h"
 
-/* The deepest nesting of calls, over all functions. */
+/* The largest depth of nested function calls, counted over all functions. */
 enum { QDOT_FUNCTION_DEPTH = 500 };
 
 /* `NAME(names) = EXPR` at the cursor: a definition, not declared yet. The body is parsed for its
  * syntax alone. entry->body, the caller's to release in any case, may be NULL. */
 QDOT_MUST_CHECK qdot_status qdot_function_read(qdot_cursor *c, qdot_name *entry);
 
-/* An argument of a call. */
+/* An argument of a function call. */
 typedef struct {
     qdot_expr value;
     const char *label; /* label of the particle or body whose position the argument is; NULL: none */
@@ -37,11 +37,11 @@ QDOT_MUST_CHECK qdot_status qdot_function_call(qdot_session *session, const qdot
                                                const qdot_argument *args, qdot_expr *value,
                                                qdot_expr *over);
 
-/* Append "f(u, x) = diff(u, x) + 1". */
+/* Append the definition of a function as text: "f(u, x) = diff(u, x) + 1". */
 QDOT_MUST_CHECK qdot_status qdot_function_print(qdot_session *session, const qdot_name *entry,
                                                 qdot_text *out);
 
-/* Whether the body contains `name`, or the family of which it is a member, as a word that is no argument. */
+/* Whether the function's body contains `name` (or the family it is a member of), other than as an argument. */
 bool qdot_function_mentions(const qdot_pool *pool, const qdot_name *entry, const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-/* hints.c -- suggestions for mistyped input: the nearest name, or the form used here. */
+/* hints.c -- suggestions for mistyped input: the nearest name, or the notation of this language. */
 #include "lang/language/hints.h"
 
 #include <stdio.h>
@@ -40,7 +40,7 @@ qdot_hints_is_foreign(const qdot_session *session, const char *name)
 
 /* Copy the text inside the bracket that `open` begins; "..." if it is long. */
 static void
-bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t size)
+copy_bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t size)
 {
     const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1, *t = open;
     size_t from = open->start + open->length;
@@ -66,7 +66,7 @@ bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t si
  * ones first. */
 static const struct {
     const char *prefix, *ending, *primes;
-    bool sure; /* such a name is rarely anything else */
+    bool sure; /* such a name is almost always meant as a derivative */
 } derivatives[] = {{"", "_ddot", "''", true}, {"", "_dot", "'", true}, {"", "ddot", "''", true},
                    {"", "dot", "'", true},    {"d", "_dt", "'", true}, {"d", "dt", "'", true},
                    {"", "_prime", "'", true}, {"", "prime", "'", true}, {"v_", "", "'", false},
@@ -95,9 +95,9 @@ qdot_hints_derivative(const qdot_session *session, const char *name, bool sure, 
     return false;
 }
 
-/* Hint for thetadot, thetaddot, v_theta if theta is a coordinate: write it with primes. */
+/* Give a hint for thetadot, thetaddot, v_theta if theta is a coordinate: write the derivative with primes. */
 static bool
-hint_derivative(const qdot_cursor *c, const char *name, bool sure)
+hint_at_primes(const qdot_cursor *c, const char *name, bool sure)
 {
     qdot_derivative_name meant;
 
@@ -113,7 +113,7 @@ enum { LONGEST_NAME = 60, MOST_ARGUMENTS = 4, CLEAR = 5 /* letters */ };
 
 /* Give the hint `param NAME` or `coord NAME`; for a member x[3] with a loop over all members up to it. */
 static qdot_status
-hint_declaration(const qdot_token *token, const char *member, bool coordinate)
+hint_at_declaration(const qdot_token *token, const char *member, bool coordinate)
 {
     const char *name = token->text, *open = member != NULL ? strchr(member, '[') : NULL;
     const long k = open != NULL ? strtol(open + 1, NULL, 10) : 0;
@@ -150,9 +150,9 @@ count_arguments(const qdot_token *open)
     return 0;
 }
 
-/* Hint `function NAME(s, u)`, or a definition of the function. */
+/* Give the hint to declare `function NAME(s, u)`, or to define the function. */
 static qdot_status
-hint_function(const qdot_token *token)
+hint_at_function(const qdot_token *token)
 {
     static const char *const formals[MOST_ARGUMENTS] = {"s", "s, u", "s, u, v", "s, u, v, w"};
     static const char *const bodies[MOST_ARGUMENTS] = {"s^2", "s*u", "s*u*v", "s*u*v*w"};
@@ -177,11 +177,11 @@ hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, b
     if (qdot_token_is(token + 1, "[") && token[1].glued) {
         ours = qdot_foreign_word(name);
         if (ours != NULL) {
-            bracket_text(c, token + 1, text, sizeof text);
+            copy_bracket_text(c, token + 1, text, sizeof text);
             return qdot_hint("write %s(%s)", ours, text);
         }
     }
-    if (hint_derivative(c, name, true))
+    if (hint_at_primes(c, name, true))
         return QDOT_ENAME;
     if (strcmp(name, "e") == 0 && qdot_token_is(token + 1, "^"))
         return qdot_hint("the exponential function is exp(x)");
@@ -195,13 +195,13 @@ hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, b
     if (nearest != NULL && strlen(name) < CLEAR && qdot_builtin_find(nearest) != NULL &&
         qdot_names_find(c->session->names, nearest) == NULL)
         nearest = NULL; /* a short name is rarely a misspelt function */
-    if ((nearest == NULL || strstr(name, nearest) != NULL) && hint_derivative(c, name, false))
+    if ((nearest == NULL || strstr(name, nearest) != NULL) && hint_at_primes(c, name, false))
         return QDOT_ENAME;
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
     if (member == NULL && name[0] == 'd' && name[1] != '\0' && qdot_token_is(token + 1, "^"))
         return qdot_hint("`coord %s` declares %s and its differential %s", name + 1, name + 1, name);
-    return hint_declaration(token, member, coordinate);
+    return hint_at_declaration(token, member, coordinate);
 }
 
 qdot_status
@@ -229,7 +229,7 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
 
         if (row != NULL && n > 0 && (n < row->least || (row->most >= 0 && n > row->most)))
             return qdot_hint("as in %s", row->usage);
-        bracket_text(c, token + 1, text, sizeof text);
+        copy_bracket_text(c, token + 1, text, sizeof text);
         return qdot_hint("write %s(%s)", ours, text);
     }
     if (strcmp(name, "pow") == 0)
@@ -237,7 +237,7 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
     nearest = qdot_hints_nearest(c->session, name);
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
-    return hint_function(token);
+    return hint_at_function(token);
 }
 
 qdot_status
@@ -250,11 +250,11 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
     qdot_fail(QDOT_ESYNTAX, "`%s` is a function: its argument goes in ( )", name);
     if (qdot_token_is(next, "^") && next[1].kind != QDOT_TOKEN_END &&
         qdot_token_is(next + 2, "(")) {
-        bracket_text(c, next + 2, text, sizeof text);
+        copy_bracket_text(c, next + 2, text, sizeof text);
         return qdot_hint("write %s(%s)^%.40s", name, text, next[1].text);
     }
     if (qdot_token_is(next, "[")) {
-        bracket_text(c, next, text, sizeof text);
+        copy_bracket_text(c, next, text, sizeof text);
         return qdot_hint("write %s(%s)", name, text);
     }
     if (qdot_builtin_find(name)->least <= 1 &&
@@ -262,7 +262,7 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
          (next->kind == QDOT_TOKEN_NAME && qdot_cursor_knows(c->session, next->text)))) {
         const size_t to = qdot_cursor_operand_end(c, next);
 
-        if (to == next->start + next->length) /* a Greek letter stands for its spelled name: θ is theta */
+        if (to == next->start + next->length) /* no hint for a Greek letter, which stands for its spelled name: θ is theta */
             return qdot_hint("write %s(%.80s)", name, next->text);
         if (to - next->start <= 80)
             return qdot_hint("write %s(%.*s)", name, (int)(to - next->start), c->source->text + next->start);

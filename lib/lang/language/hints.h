@@ -9,7 +9,7 @@
 /* A name that looks like a derivative: its coordinate and its usual notation. */
 typedef struct {
     char base[64];      /* name of the coordinate: theta in thetadot, v_theta */
-    const char *primes; /* the usual notation of the derivative: ' or '' */
+    const char *primes; /* the usual notation of the derivative: one or two primes */
     bool family;        /* the coordinate is a member of a family, theta[k] */
 } qdot_derivative_name;
 
@@ -22,13 +22,13 @@ bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
  * system's, or a statement that declares it. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
 qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,
                                const char *member);
-/* As qdot_hints_unknown, where only a coordinate is allowed. */
+/* As qdot_hints_unknown, at a place where only a coordinate is allowed. */
 qdot_status qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member);
 /* As qdot_hints_unknown, for the name of a called function. */
 qdot_status qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token);
-/* Report a function's name without brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
+/* Report that a function's name is not followed by brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
 qdot_status qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token);
-/* The nearest of all known names; NULL if none is near. Valid until names change. */
+/* The most similar of all known names; NULL if none is similar. Valid until names change. */
 const char *qdot_hints_nearest(qdot_session *session, const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-/* machine.c -- the stack of an evaluation. */
+/* machine.c -- the stack machine that evaluates expressions. */
 #include "lang/language/machine.h"
 
 #include <string.h>
@@ -18,9 +18,9 @@ qdot_machine_push(qdot_machine *m, qdot_expr value)
     return qdot_vec_push(&m->stack, s);
 }
 
-/* Whether session->passed must record the value, as one that must be defined. */
+/* Whether the value must be recorded in session->passed, as one that must be defined. */
 static bool
-is_passed(const qdot_machine *m, qdot_expr value)
+must_be_recorded(const qdot_machine *m, qdot_expr value)
 {
     const qdot_passed *p = m->session->evaluation->passed;
 
@@ -31,13 +31,13 @@ is_passed(const qdot_machine *m, qdot_expr value)
 qdot_status
 qdot_machine_pass(qdot_machine *m, qdot_expr value)
 {
-    return is_passed(m, value) ? qdot_vec_push(&m->session->evaluation->passed->value, value) : QDOT_OK;
+    return must_be_recorded(m, value) ? qdot_vec_push(&m->session->evaluation->passed->value, value) : QDOT_OK;
 }
 
 qdot_status
 qdot_machine_pass_power(qdot_machine *m, qdot_expr base, qdot_expr exponent, qdot_expr value)
 {
-    if (!is_passed(m, value) || !qdot_expr_is_scalar(m->pool, base))
+    if (!must_be_recorded(m, value) || !qdot_expr_is_scalar(m->pool, base))
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&m->session->evaluation->passed->value, value));
     QDOT_TRY(qdot_vec_push(&m->session->evaluation->passed->root, base));
@@ -66,7 +66,7 @@ qdot_machine_pass_end(qdot_machine *m)
     m->session->evaluation->passed = frame->outer;
     m->passed = frame->below;
     if (frame->outer != NULL)
-        frame->outer->spoiled = true; /* the outer call takes its arguments apart, too */
+        frame->outer->spoiled = true; /* what the outer call does with its arguments is not known either */
     qdot_free(frame->passed.value.at);
     qdot_free(frame->passed.root.at);
     qdot_free(frame);

@@ -1,4 +1,4 @@
-/* partial-sum.c -- keeps the values of sums with a growing upper limit in loops, by their place in the text. */
+/* partial-sum.c -- stores the values of sums with a growing upper limit during a loop, by their place in the text. */
 #include "lang/language/partial-sum.h"
 
 #include <string.h>
@@ -36,9 +36,9 @@ qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum)
     return qdot_vec_push(&session->evaluation->partial_sums, sum);
 }
 
-/* Whether the value is a parameter or coordinate of that name, or a member of that family. */
+/* Whether the value is a parameter or coordinate with that name, or a member of the family with that name. */
 static bool
-is_called(const qdot_session *session, const char *name, qdot_expr value)
+has_name(const qdot_session *session, const char *name, qdot_expr value)
 {
     const qdot_symbol *symbol =
         value != QDOT_NIL && qdot_expr_kind(session->pool, value) == QDOT_SYM
@@ -53,7 +53,7 @@ is_called(const qdot_session *session, const char *name, qdot_expr value)
 /* Whether the value is the same whenever the instruction is carried out with the same operands in
  * this loop. */
 static bool
-is_lasting(const qdot_session *session, const qdot_postfix *code, qdot_expr value)
+is_same_in_next_pass(const qdot_session *session, const qdot_postfix *code, qdot_expr value)
 {
     const char *name = code->token->text;
     const qdot_name *known;
@@ -65,7 +65,7 @@ is_lasting(const qdot_session *session, const qdot_postfix *code, qdot_expr valu
         return known && (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD);
     case QDOT_POSTFIX_INDEX_NAME:
         return !qdot_names_find(session->names, name)
-               && qdot_names_is_family(session->names, name) && is_called(session, name, value);
+               && qdot_names_is_family(session->names, name) && has_name(session, name, value);
     case QDOT_POSTFIX_CALL:
         return !qdot_names_find(session->names, name) && code->to == 0 && code->primes == 0
                && (qdot_fun_find(name, &id) || strcmp(name, "sqrt") == 0);
@@ -84,11 +84,11 @@ qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code)
     const qdot_name *known;
     size_t i = m->frames.n;
 
-    if (is_lasting(m->session, code, qdot_machine_top(m, 1)->value))
+    if (is_same_in_next_pass(m->session, code, qdot_machine_top(m, 1)->value))
         return;
     known = code->op == QDOT_POSTFIX_NAME ? qdot_names_find(m->session->names, code->token->text)
                                        : NULL;
-    /* mark all inner sums, out to the sum whose index this is */
+    /* mark all sums inside the sum to which this index belongs */
     for (; i > 0 && !(known && known->kind == QDOT_NAME_INDEX
                       && strcmp(m->frames.at[i - 1].index, known->name) == 0);
          i--)

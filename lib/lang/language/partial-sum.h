@@ -15,7 +15,7 @@
 #include "lang/source/token.h"
 
 typedef struct qdot_partial_sum {
-    const qdot_token *place; /* the token of its index */
+    const qdot_token *place; /* the token of the sum's index, which identifies the sum */
     long first, last;
     qdot_expr value;
 } qdot_partial_sum;
@@ -24,7 +24,7 @@ typedef struct qdot_partial_sum {
  * until the next is kept. */
 const qdot_partial_sum *qdot_partial_sum_find(const qdot_session *session,
                                               const qdot_token *place, long first, long last);
-/* Store the sum for the next pass of a loop, in place of a shorter one; nothing outside of loops. QDOT_ENOMEM. */
+/* Store the sum for the next pass of a loop, in place of one with fewer terms; nothing outside of loops. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum);
 
 /* An instruction was carried out, its value on top: what the terms of the sums under way depend on

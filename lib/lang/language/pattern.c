@@ -33,7 +33,7 @@ static const char *const units[] = {
     "newton", "newtons", "joule", "gram", "kilogram"};
 
 static bool
-is_unit(const char *name)
+is_unit_of_measure(const char *name)
 {
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (strcmp(units[i], name) == 0)
@@ -44,13 +44,13 @@ is_unit(const char *name)
 /* The token behind the units at t, `m/s^2`; t itself if none are there. One name at least means
  * nothing else, and `letters` of them must stand there. */
 static const qdot_token *
-behind_units(const matcher *x, const qdot_token *t, size_t letters)
+token_after_units(const matcher *x, const qdot_token *t, size_t letters)
 {
     const qdot_token *k = t;
     bool unknown = false;
     size_t n = 0;
 
-    for (; k < x->to && k->kind == QDOT_TOKEN_NAME && is_unit(k->text); k++) {
+    for (; k < x->to && k->kind == QDOT_TOKEN_NAME && is_unit_of_measure(k->text); k++) {
         unknown = unknown || !qdot_cursor_knows(x->session, k->text);
         n += strlen(k->text);
         if (k + 1 < x->to && qdot_token_is(k + 1, "^"))
@@ -66,7 +66,7 @@ behind_units(const matcher *x, const qdot_token *t, size_t letters)
 /* The token behind the coordinate at t: theta, theta[2], with primes theta'; t itself if there is
  * none. */
 static const qdot_token *
-behind_coordinate(const matcher *x, const qdot_token *t, bool primes)
+token_after_coordinate(const matcher *x, const qdot_token *t, bool primes)
 {
     const qdot_name *name =
         t->kind == QDOT_TOKEN_NAME ? qdot_names_find(x->session->names, t->text) : NULL;
@@ -85,9 +85,9 @@ behind_coordinate(const matcher *x, const qdot_token *t, bool primes)
     return k;
 }
 
-/* The coordinate of a momentum written p_theta or ptheta; NULL if it is none. */
+/* The coordinate of a momentum that is written p_theta or ptheta; NULL if the name is none. */
 static const char *
-momentum_of(const qdot_session *s, const char *name)
+coordinate_of_momentum(const qdot_session *s, const char *name)
 {
     const qdot_name *found;
 
@@ -98,9 +98,9 @@ momentum_of(const qdot_session *s, const char *name)
     return found != NULL && found->kind == QDOT_NAME_COORD ? name : NULL;
 }
 
-/* Whether a token fits a placeholder of that kind. */
+/* Whether a token fits a placeholder of that kind in a pattern. */
 static bool
-is_kind(const matcher *x, char kind, const qdot_token *t)
+fits_placeholder(const matcher *x, char kind, const qdot_token *t)
 {
     const qdot_session *s = x->session;
     const qdot_name *name;
@@ -123,17 +123,17 @@ is_kind(const matcher *x, char kind, const qdot_token *t)
     case 'd':
         name = t->text[0] == 'd' ? qdot_names_find(s->names, t->text + 1) : NULL;
         return name != NULL && name->kind == QDOT_NAME_COORD;
-    case 'm': return name == NULL && momentum_of(s, t->text) != NULL;
+    case 'm': return name == NULL && coordinate_of_momentum(s, t->text) != NULL;
     case 'f': return name == NULL && qdot_foreign_word(t->text) != NULL;
-    default: /* the kinds v and i */
+    default: /* placeholders of the kinds v and i */
         row = name == NULL ? qdot_quantity_find(t->text) : NULL;
         return row != NULL && (kind == 'v') == (row->most == 0);
     }
 }
 
-/* Whether a token may occur in an expression outside brackets. */
+/* Whether a token may occur in an expression outside of brackets: a name, a number, an operator. */
 static bool
-is_inner(const qdot_token *t)
+may_be_in_expression(const qdot_token *t)
 {
     static const char *const outer[] = {",", ";", "=", "==", ":", ".."};
 
@@ -143,9 +143,9 @@ is_inner(const qdot_token *t)
     return t->kind != QDOT_TOKEN_STRING;
 }
 
-/* Whether an operator is missing between the token at k and the one before it. */
+/* Whether an operator is missing between the token at k and the token before it. */
 static bool
-is_gap(const qdot_token *k)
+is_operator_missing(const qdot_token *k)
 {
     static const char *const words[] = {"and", "or", "not"};
     bool ends = k[-1].kind == QDOT_TOKEN_NAME || k[-1].kind == QDOT_TOKEN_NUMBER ||
@@ -162,12 +162,12 @@ is_gap(const qdot_token *k)
 
 /* --- matching a pattern --------------------------------------------------------------- */
 
-static bool match(matcher *x, const char *pattern, const qdot_token *t);
+static bool match_pattern(matcher *x, const char *pattern, const qdot_token *t);
 
-/* Let the placeholder match [from, to), and try to match the rest after it. */
+/* Let the placeholder match the tokens [from, to), and try to match the rest of the pattern after them. */
 static bool
-placeholder_hold(matcher *x, char kind, const qdot_token *from, const qdot_token *to,
-                 const char *rest)
+match_placeholder_and_rest(matcher *x, char kind, const qdot_token *from, const qdot_token *to,
+                           const char *rest)
 {
     size_t n = x->m->n;
 
@@ -177,7 +177,7 @@ placeholder_hold(matcher *x, char kind, const qdot_token *from, const qdot_token
     x->m->held[n].from = from;
     x->m->held[n].to = to;
     x->m->n++;
-    if (match(x, rest, to))
+    if (match_pattern(x, rest, to))
         return true;
     x->m->n = n;
     return false;
@@ -186,53 +186,53 @@ placeholder_hold(matcher *x, char kind, const qdot_token *from, const qdot_token
 /* The shortest run of tokens that lets the rest match: $e, $., $+; the longest expression where
  * nothing has to follow. */
 static bool
-hold_run(matcher *x, char kind, const qdot_token *t, const char *rest)
+match_token_sequence(matcher *x, char kind, const qdot_token *t, const char *rest)
 {
     const bool longest = kind == 'e' && !x->whole && *rest == '\0';
     const qdot_token *last = t;
     long depth = 0;
 
-    if (kind == '.' && placeholder_hold(x, kind, t, t, rest))
+    if (kind == '.' && match_placeholder_and_rest(x, kind, t, t, rest))
         return true;
     for (const qdot_token *k = t; k < x->to; k++) {
         depth += qdot_token_bracket(k);
         if (kind == 'e' &&
-            (depth < 0 || (depth == 0 && (!is_inner(k) || (k > t && is_gap(k))))))
+            (depth < 0 || (depth == 0 && (!may_be_in_expression(k) || (k > t && is_operator_missing(k))))))
             break;
         if (depth != 0 && kind == 'e')
             continue;
         if (longest)
             last = k + 1;
-        else if (placeholder_hold(x, kind, t, k + 1, rest))
+        else if (match_placeholder_and_rest(x, kind, t, k + 1, rest))
             return true;
     }
-    return longest && last > t && placeholder_hold(x, kind, t, last, rest);
+    return longest && last > t && match_placeholder_and_rest(x, kind, t, last, rest);
 }
 
 static bool
-placeholder(matcher *x, char kind, const qdot_token *t, const char *rest)
+match_placeholder(matcher *x, char kind, const qdot_token *t, const char *rest)
 {
     const qdot_token *k = t;
 
     if (strchr("e.+", kind) != NULL)
-        return hold_run(x, kind, t, rest);
+        return match_token_sequence(x, kind, t, rest);
     if (t >= x->to)
         return false;
     switch (kind) {
-    case 'U': k = behind_units(x, t, 1); break;
-    case 'M': k = behind_units(x, t, 2); break;
-    case 'q': k = behind_coordinate(x, t, true); break;
-    case 'c': k = behind_coordinate(x, t, false); break;
+    case 'U': k = token_after_units(x, t, 1); break;
+    case 'M': k = token_after_units(x, t, 2); break;
+    case 'q': k = token_after_coordinate(x, t, true); break;
+    case 'c': k = token_after_coordinate(x, t, false); break;
     case 'w':
         while (k < x->to && k->kind == QDOT_TOKEN_NAME)
             k++;
         break;
-    default: k += is_kind(x, kind, t);
+    default: k += fits_placeholder(x, kind, t);
     }
-    return k > t && placeholder_hold(x, kind, t, k, rest);
+    return k > t && match_placeholder_and_rest(x, kind, t, k, rest);
 }
 
-/* Whether the token is written as the n letters at `text`. */
+/* Whether the token is written exactly as the n letters at `text`. */
 static bool
 is_literal(const qdot_token *t, const char *text, size_t n)
 {
@@ -260,7 +260,7 @@ is_one_of(const qdot_token *t, const char *text, size_t n)
 }
 
 static bool
-match(matcher *x, const char *pattern, const qdot_token *t)
+match_pattern(matcher *x, const char *pattern, const qdot_token *t)
 {
     const qdot_token *place = x->m->place;
     size_t n;
@@ -279,13 +279,13 @@ match(matcher *x, const char *pattern, const qdot_token *t)
     n = strcspn(pattern, " ");
     rest = pattern + n;
     if (*pattern == '$' && n > 1)
-        found = placeholder(x, pattern[1], t, rest);
+        found = match_placeholder(x, pattern[1], t, rest);
     else if (t >= x->to)
         found = false;
     else if (*pattern == '(' && n > 1)
-        found = is_one_of(t, pattern + 1, n - 2) && placeholder_hold(x, '(', t, t + 1, rest);
+        found = is_one_of(t, pattern + 1, n - 2) && match_placeholder_and_rest(x, '(', t, t + 1, rest);
     else
-        found = is_literal(t, pattern, n) && match(x, rest, t + 1);
+        found = is_literal(t, pattern, n) && match_pattern(x, rest, t + 1);
     if (!found)
         x->m->place = place;
     return found;
@@ -302,14 +302,14 @@ qdot_pattern_matches(const qdot_session *session, const char *pattern,
     *m = (qdot_pattern_match){.from = from, .to = from, .place = from};
     if (word && qdot_names_find(session->names, from->text) != NULL)
         return false;
-    return match(&x, pattern, from);
+    return match_pattern(&x, pattern, from);
 }
 
 /* --- suggested lines ------------------------------------------------------------------ */
 
 /* Whether the tokens contain + or - between operands, outside of brackets. */
 static bool
-is_sum(const qdot_token *from, const qdot_token *to)
+contains_sum(const qdot_token *from, const qdot_token *to)
 {
     long depth = 0;
 
@@ -322,8 +322,8 @@ is_sum(const qdot_token *from, const qdot_token *to)
 }
 
 static void
-add_held(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, bool stripped,
-         qdot_text *out)
+add_matched_text(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, bool stripped,
+                 qdot_text *out)
 {
     const qdot_token *from = m->held[i].from, *to = m->held[i].to;
     const char *text = c->source->text + from->start;
@@ -334,7 +334,7 @@ add_held(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, bool strip
         return;
     }
     if (m->held[i].kind == 'm') {
-        qdot_text_add(out, momentum_of(c->session, from->text));
+        qdot_text_add(out, coordinate_of_momentum(c->session, from->text));
         return;
     }
     if (m->held[i].kind == 'd') {
@@ -346,9 +346,9 @@ add_held(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, bool strip
     qdot_text_add_n(out, text, length);
 }
 
-/* Append a field such as (0, -9.81): along the last axis, with as many components as positions have. */
+/* Append a gravity field such as (0, -9.81), along the last axis of the scene's space. */
 static void
-add_field(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, qdot_text *out)
+add_field_vector(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, qdot_text *out)
 {
     const qdot_scene *s = c->session->scene;
     qdot_expr at = s->particles.n > 0 ? s->particles.at[0].position
@@ -361,16 +361,16 @@ add_field(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, qdot_text
 
     qdot_text_add(out, n == 1 ? "-" : n == 2 ? "(0, -" : "(0, 0, -");
     if (i < m->n)
-        add_held(c, m, i, false, out);
+        add_matched_text(c, m, i, false, out);
     else
         qdot_text_add(out,
                       qdot_names_find(c->session->names, "g") != NULL ? "g" : "9.81");
     qdot_text_add(out, n == 1 ? "" : ")");
 }
 
-/* The name of the first coordinate. */
+/* The name of the coordinate that was declared first. */
 static const char *
-first_coordinate(const qdot_session *s)
+find_first_coordinate(const qdot_session *s)
 {
     const qdot_name *name;
 
@@ -382,7 +382,7 @@ first_coordinate(const qdot_session *s)
 
 /* The first name of that kind among the matched tokens; NULL if there is none. */
 static const char *
-matched_name(const qdot_session *s, const qdot_pattern_match *m, qdot_name_kind kind)
+find_matched_name(const qdot_session *s, const qdot_pattern_match *m, qdot_name_kind kind)
 {
     for (const qdot_token *k = m->from; k < m->to; k++) {
         const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
@@ -395,7 +395,7 @@ matched_name(const qdot_session *s, const qdot_pattern_match *m, qdot_name_kind 
 
 /* A coordinate in the definition of a matched name; NULL if there is none. */
 static const char *
-coordinate_within(const qdot_session *s, const qdot_pattern_match *m)
+coordinate_in_definition(const qdot_session *s, const qdot_pattern_match *m)
 {
     for (const qdot_token *k = m->from; k < m->to; k++) {
         const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
@@ -411,15 +411,15 @@ coordinate_within(const qdot_session *s, const qdot_pattern_match *m)
 
 /* The unknown of a matched equation: a coordinate in it, else a parameter, else the first coordinate. */
 static const char *
-unknown_of(const qdot_session *s, const qdot_pattern_match *m)
+unknown_of_equation(const qdot_session *s, const qdot_pattern_match *m)
 {
-    const char *name = matched_name(s, m, QDOT_NAME_COORD);
+    const char *name = find_matched_name(s, m, QDOT_NAME_COORD);
 
     if (name == NULL)
-        name = coordinate_within(s, m);
+        name = coordinate_in_definition(s, m);
     if (name == NULL)
-        name = matched_name(s, m, QDOT_NAME_PARAM);
-    return name != NULL ? name : first_coordinate(s);
+        name = find_matched_name(s, m, QDOT_NAME_PARAM);
+    return name != NULL ? name : find_first_coordinate(s);
 }
 
 /* Append the text of the placeholder `$...` at `line`; returns the position after it. */
@@ -433,12 +433,12 @@ add_placeholder(const qdot_cursor *c, const char *line, const qdot_pattern_match
     const qdot_name *name;
 
     if (line[1] == 'q' || line[1] == 'x') {
-        qdot_text_add(out, line[1] == 'x' ? unknown_of(c->session, m) : first_coordinate(c->session));
+        qdot_text_add(out, line[1] == 'x' ? unknown_of_equation(c->session, m) : find_first_coordinate(c->session));
         return line + 2;
     }
     if (line[1] == 'g') {
         skip = line[2] >= '1' && line[2] <= '9';
-        add_field(c, m, skip ? (size_t)(line[2] - '1') : QDOT_PATTERN_HELD, out);
+        add_field_vector(c, m, skip ? (size_t)(line[2] - '1') : QDOT_PATTERN_HELD, out);
         return line + 2 + skip;
     }
     if (line[1] == 'r') {
@@ -449,13 +449,13 @@ add_placeholder(const qdot_cursor *c, const char *line, const qdot_pattern_match
     }
     if (i >= m->n)
         return line + 2 + skip + factor;
-    factor = factor && is_sum(m->held[i].from, m->held[i].to);
+    factor = factor && contains_sum(m->held[i].from, m->held[i].to);
     name = declared ? qdot_names_find(c->session->names, m->held[i].from->text) : NULL;
     if (declared)
         qdot_text_add(out,
                       name != NULL && name->kind == QDOT_NAME_PARAM ? "set " : "param ");
     qdot_text_add(out, factor ? "(" : "");
-    add_held(c, m, i, stripped, out);
+    add_matched_text(c, m, i, stripped, out);
     qdot_text_add(out, factor ? ")" : "");
     return line + 2 + skip + (line[1] == '(');
 }
@@ -469,7 +469,7 @@ qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_pattern_ma
             line = add_placeholder(c, line, m, out);
         else if (*line == ' ' &&
                  (line[1] == '\0' || (out->n > 0 && out->at[out->n - 1] == ' ')))
-            line++; /* skip a blank beside a placeholder that is empty */
+            line++; /* skip the blank beside a placeholder whose text is empty */
         else
             qdot_text_char(out, *line++);
     }

@@ -14,7 +14,7 @@ enum { QDOT_PATTERN_HELD = 9 };
 typedef struct {
     const qdot_token *from, *to; /* the matching tokens; `to` is after the last one */
     const qdot_token *place;     /* token at which the error points */
-    size_t n;                    /* number of placeholders */
+    size_t n;                    /* number of placeholders in the pattern */
     struct {
         char kind; /* letter of the placeholder; '(' if it matches several tokens */
         const qdot_token *from, *to;
@@ -27,7 +27,7 @@ bool qdot_pattern_matches(const qdot_session *session, const char *pattern,
                           const qdot_token *from, const qdot_token *to, bool whole,
                           qdot_pattern_match *m);
 
-/* Append a line with the matched texts, as they are in the source, for its placeholders. */
+/* Append a suggested line, with the matched source texts in place of its placeholders. */
 void qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_pattern_match *m,
                         qdot_text *out);
 

@@ -88,7 +88,7 @@ qdot_compiled_reads_way(const qdot_compiled *program)
     return false;
 }
 
-/* Whether an expression that is read may depend on the motion. */
+/* Whether an expression that is being read may depend on the motion, that is on coordinates or time. */
 typedef enum { NOTHING, MOTION } course;
 
 /* Evaluate; along a motion a coordinate that a loop sets is still a variable, as the loop only sets
@@ -99,7 +99,7 @@ evaluate_program(qdot_cursor *c, const qdot_compiled *program, course along, qdo
 {
     c->error_at = program->from->start;
     QDOT_TRY(qdot_evaluate(c, &program->code, value, over, run));
-    if (c->session->evaluation->declares) { /* in declarations momenta become velocities, and numbers are exact */
+    if (c->session->evaluation->declares) { /* in declarations momenta are replaced by velocities, and numbers are exact */
         *value = qdot_momenta_to_velocities(c->session, qdot_measured_as_rationals(c->session, *value));
         return qdot_value_kind_check(c->session->pool, *value);
     }
@@ -135,9 +135,9 @@ qdot_compiled_member(qdot_cursor *c, const qdot_compiled *program, qdot_expr *va
     return evaluate_program(c, program, MOTION, value, NULL, run);
 }
 
-/* Fail at the token `at`: the value is not of the kind that is wanted. */
+/* Fail at the token `at` because the value is not of the kind that is wanted. */
 static qdot_status
-wrong_kind(qdot_cursor *c, const qdot_token *at, const char *wanted, qdot_expr value)
+report_wrong_kind(qdot_cursor *c, const qdot_token *at, const char *wanted, qdot_expr value)
 {
     c->error_at = at->start;
     return qdot_fail(QDOT_ETYPE, "%s belongs here, not %s", wanted,
@@ -152,7 +152,7 @@ is_number(const qdot_pool *pool, qdot_expr value)
 
 /* Refuse a.x, a value along a run, where a number is needed. */
 static qdot_status
-refuse_member(qdot_cursor *c, const qdot_token *start, qdot_expr value)
+refuse_value_along_run(qdot_cursor *c, const qdot_token *start, qdot_expr value)
 {
     const qdot_status status = qdot_member_refuse(c->session, value);
 
@@ -166,8 +166,8 @@ qdot_compiled_scalar(qdot_cursor *c, const qdot_compiled *program, qdot_expr *va
 {
     QDOT_TRY(qdot_compiled_value(c, program, value));
     if (!is_number(c->session->pool, *value))
-        return wrong_kind(c, program->from, "a number", *value);
-    return refuse_member(c, program->from, *value);
+        return report_wrong_kind(c, program->from, "a number", *value);
+    return refuse_value_along_run(c, program->from, *value);
 }
 
 qdot_status
@@ -177,7 +177,7 @@ qdot_compiled_point(qdot_cursor *c, const qdot_compiled *program, qdot_expr *val
     const qdot_pool *pool = c->session->pool;
 
     QDOT_TRY(qdot_compiled_value(c, program, value));
-    QDOT_TRY(refuse_member(c, start, *value));
+    QDOT_TRY(refuse_value_along_run(c, start, *value));
     if (qdot_expr_kind(pool, *value) == QDOT_VEC) {
         if (qdot_expr_count(pool, *value) <= 3)
             return QDOT_OK;
@@ -186,7 +186,7 @@ qdot_compiled_point(qdot_cursor *c, const qdot_compiled *program, qdot_expr *val
                          qdot_expr_count(pool, *value));
     }
     if (!is_number(pool, *value))
-        return wrong_kind(c, start, "a place or a vector", *value);
+        return report_wrong_kind(c, start, "a place or a vector", *value);
     return QDOT_OK;
 }
 
@@ -215,7 +215,7 @@ qdot_compiled_integer(qdot_cursor *c, const qdot_compiled *program, long *value)
 typedef qdot_status (*compiled_reader)(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value);
 
 static qdot_status
-read_by(qdot_cursor *c, qdot_parse_extent extent, compiled_reader reader, qdot_expr *value)
+read_and_evaluate(qdot_cursor *c, qdot_parse_extent extent, compiled_reader reader, qdot_expr *value)
 {
     qdot_compiled program;
     qdot_status status = qdot_compiled_parse(c, extent, &program);
@@ -229,7 +229,7 @@ read_by(qdot_cursor *c, qdot_parse_extent extent, compiled_reader reader, qdot_e
 qdot_status
 qdot_read_value(qdot_cursor *c, qdot_expr *value)
 {
-    return read_by(c, QDOT_PARSE_VALUE, qdot_compiled_value, value);
+    return read_and_evaluate(c, QDOT_PARSE_VALUE, qdot_compiled_value, value);
 }
 
 qdot_status
@@ -247,12 +247,12 @@ qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
 qdot_status
 qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 {
-    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_scalar, value);
+    return read_and_evaluate(c, QDOT_PARSE_SIDE, qdot_compiled_scalar, value);
 }
 
 /* Read an index of a name and evaluate it with the values of parameters. */
 static qdot_status
-name_index_read(qdot_cursor *c, long *value)
+read_name_index(qdot_cursor *c, long *value)
 {
     qdot_compiled program;
     qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
@@ -274,7 +274,7 @@ read_indices(qdot_cursor *c, qdot_text *name)
     do {
         long k;
 
-        QDOT_TRY(name_index_read(c, &k));
+        QDOT_TRY(read_name_index(c, &k));
         qdot_text_format(name, "%c%ld", separator, k);
         separator = ',';
     } while (qdot_cursor_accept_op(c, ","));

@@ -23,7 +23,7 @@ QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
 /* A name to be declared or a label, with its indices evaluated: "theta[1]", "A[1,2]". The string is in
  * the source's arena. */
 QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);
-/* The derivative of that order of the coordinate of that name; `start` is where an error is shown. */
+/* Find the order-th time derivative of the coordinate of that name; `start` is where an error is shown. */
 QDOT_MUST_CHECK qdot_status qdot_read_jet_of(qdot_cursor *c, const qdot_token *start,
                                              const char *name, uint32_t order, qdot_expr *jet);
 

@@ -74,7 +74,7 @@ qdot_resolve_no_prime(const char *name, const char *why)
 }
 
 static qdot_status
-ddt_times(qdot_session *s, unsigned primes, qdot_expr *value)
+differentiate_in_time(qdot_session *s, unsigned primes, qdot_expr *value)
 {
     if (primes > 0) {
         QDOT_TRY(qdot_member_refuse(s, *value));
@@ -109,7 +109,7 @@ qdot_resolve_undefined(qdot_session *s, const qdot_name *entry, unsigned primes,
     return qdot_value_kind_check(s->pool, *value);
 }
 
-/* Evaluate a name that is declared or bound, with `primes` primes. */
+/* Evaluate a name that is declared or bound, followed by `primes` primes. */
 static qdot_status
 resolve_declared(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value)
 {
@@ -127,7 +127,7 @@ resolve_declared(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_
         return qdot_value_kind_check(s->pool, *value);
     }
     if (entry->kind == QDOT_NAME_VALUE || entry->kind == QDOT_NAME_ARGUMENT)
-        return ddt_times(s, primes, value);
+        return differentiate_in_time(s, primes, value);
     if (entry->kind == QDOT_NAME_UFUN) {
         const qdot_ufun *f = qdot_ufun_get(s->pool, entry->ufun);
         qdot_expr first = f->arity > 0 ? qdot_expr_arg(s->pool, f->formals, 0) : QDOT_NIL;
@@ -168,7 +168,7 @@ resolve_reserved(const char *name, unsigned primes, bool *found, qdot_expr *valu
 
 /* Evaluate a differential dtheta, dtheta[1] or dt, or a virtual displacement deltatheta, deltatheta[1]. */
 static qdot_status
-differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
+resolve_differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
 {
     static const struct {
         const char *prefix;
@@ -199,8 +199,8 @@ differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
 
 /* Evaluate the name of a particle or body: its position; with primes its velocity or acceleration. */
 static qdot_status
-labelled(qdot_session *s, const char *name, unsigned primes, bool *found,
-         qdot_expr *value)
+resolve_label(qdot_session *s, const char *name, unsigned primes, bool *found,
+              qdot_expr *value)
 {
     *found = qdot_scene_has_label(s->scene, name);
     if (!*found)
@@ -212,12 +212,12 @@ labelled(qdot_session *s, const char *name, unsigned primes, bool *found,
     }
     *value = qdot_scene_position(s->scene, name);
     QDOT_TRY(qdot_value_kind_check(s->pool, *value));
-    return ddt_times(s, primes, value);
+    return differentiate_in_time(s, primes, value);
 }
 
 static qdot_status
-quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
-         const qdot_expr *index, qdot_expr *value)
+evaluate_quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
+                  const qdot_expr *index, qdot_expr *value)
 {
     QDOT_TRY(qdot_short_names_note(s, row, row->get(s, n, index, value)));
     QDOT_TRY(qdot_value_kind_check(s->pool, *value));
@@ -229,7 +229,7 @@ quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
 
 /* Find the coordinates by which the entries of a quantity are indexed; nil: by numbers only. */
 static qdot_status
-coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
+index_coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
 {
     *over = QDOT_NIL;
     if (!row->over_coordinates)
@@ -242,7 +242,7 @@ coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
 /* The argument that an undefined function was declared with, where nothing else is called so:
  * function x(s), then diff(x(s), s). Nil if there is none. */
 static qdot_expr
-argument_of(const qdot_session *s, const char *name)
+bound_argument(const qdot_session *s, const char *name)
 {
     const qdot_name *one;
 
@@ -260,23 +260,23 @@ argument_of(const qdot_session *s, const char *name)
 
 /* Evaluate theta[2], bob[2] or dtheta[2], given the spelling of the member. */
 static qdot_status
-member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
-       qdot_expr *value)
+resolve_spelled_member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
+                       qdot_expr *value)
 {
     const qdot_name *entry = qdot_names_find(s->names, spelled);
 
     *found = entry != NULL;
     if (entry != NULL)
         return resolve_declared(s, entry, primes, value);
-    QDOT_TRY(labelled(s, spelled, primes, found, value));
+    QDOT_TRY(resolve_label(s, spelled, primes, found, value));
     if (*found)
         return QDOT_OK;
-    return differential(s, spelled, found, value);
+    return resolve_differential(s, spelled, found, value);
 }
 
-/* Whether a token is written with subscripts: x₁. */
+/* Whether a token is written with subscript characters, as x₁. */
 static bool
-is_small(const qdot_source *source, const qdot_token *token)
+has_subscripts(const qdot_source *source, const qdot_token *token)
 {
     const char *text = source->text + token->start;
 
@@ -289,7 +289,7 @@ is_small(const qdot_source *source, const qdot_token *token)
     return false;
 }
 
-/* Evaluate x₁: as x1; if that is not declared, as x[1] or x_1. */
+/* Evaluate a name such as x₁: as x1; if that is not declared, as x[1] or x_1. */
 static qdot_status
 resolve_subscript(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdot_expr *value)
 {
@@ -297,7 +297,7 @@ resolve_subscript(qdot_cursor *c, const qdot_token *token, unsigned primes, bool
     qdot_status status = QDOT_OK;
 
     *found = false;
-    if (!is_small(c->source, token))
+    if (!has_subscripts(c->source, token))
         return QDOT_OK;
     for (unsigned form = 0; status == QDOT_OK && !*found &&
                             qdot_subscript_means(token->text, form, &spelled); form++) {
@@ -305,9 +305,9 @@ resolve_subscript(qdot_cursor *c, const qdot_token *token, unsigned primes, bool
 
         status = qdot_text_status(&spelled);
         if (status == QDOT_OK)
-            status = member(c->session, name, primes, found, value);
+            status = resolve_spelled_member(c->session, name, primes, found, value);
         if (status == QDOT_OK && !*found && primes == 0) {
-            *value = argument_of(c->session, name);
+            *value = bound_argument(c->session, name);
             *found = *value != QDOT_NIL;
         }
     }
@@ -318,7 +318,7 @@ resolve_subscript(qdot_cursor *c, const qdot_token *token, unsigned primes, bool
 /* Whether the name is a coordinate that a loop holds at a value: in what is asked it is the coordinate,
  * and the value is put in at the end. */
 static bool
-is_held(const qdot_session *s, const char *name)
+is_held_by_loop(const qdot_session *s, const char *name)
 {
     for (size_t i = 0; i < s->evaluation->held.n && !s->evaluation->declares; i++) {
         const qdot_symbol *symbol = qdot_expr_symbol(s->pool, s->evaluation->held.at[i].symbol);
@@ -340,7 +340,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     bool found;
 
     *over = QDOT_NIL;
-    if (entry != NULL && entry->kind == QDOT_NAME_INDEX && is_held(s, name))
+    if (entry != NULL && entry->kind == QDOT_NAME_INDEX && is_held_by_loop(s, name))
         entry = qdot_names_declared(s->names, name);
     if (entry != NULL) {
         if (entry->kind == QDOT_NAME_VALUE) {
@@ -355,18 +355,18 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     QDOT_TRY(resolve_reserved(name, primes, &found, value));
     if (found)
         return QDOT_OK;
-    QDOT_TRY(differential(s, name, &found, value));
+    QDOT_TRY(resolve_differential(s, name, &found, value));
     if (found)
         return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
     row = qdot_quantity_find(name);
     if (row != NULL && row->least == 0) {
-        QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
-        return coordinates_of(s, row, over);
+        QDOT_TRY(evaluate_quantity(s, row, primes, 0, NULL, value));
+        return index_coordinates_of(s, row, over);
     }
-    QDOT_TRY(labelled(s, name, primes, &found, value));
+    QDOT_TRY(resolve_label(s, name, primes, &found, value));
     if (found)
         return QDOT_OK;
-    *value = argument_of(s, name);
+    *value = bound_argument(s, name);
     if (*value != QDOT_NIL)
         return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
     QDOT_TRY(resolve_subscript(c, token, primes, &found, value));
@@ -389,7 +389,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
 
 /* Whether all indices contain numbers and parameters only: no coordinates, no labels. */
 static bool
-all_integers(qdot_session *s, uint32_t n, const qdot_expr *index)
+are_integer_indices(qdot_session *s, uint32_t n, const qdot_expr *index)
 {
     const uint32_t constant = QDOT_HAS_PARAM | QDOT_HAS_FUN;
 
@@ -403,7 +403,7 @@ all_integers(qdot_session *s, uint32_t n, const qdot_expr *index)
 /* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), or a name, or a value
  * of before, in which momenta stand. */
 static bool
-is_canonical(const qdot_session *s, const qdot_token *t)
+is_independent_momentum(const qdot_session *s, const qdot_token *t)
 {
     const qdot_name *entry;
     qdot_expr e = QDOT_NIL;
@@ -423,7 +423,7 @@ is_canonical(const qdot_session *s, const qdot_token *t)
 /* Whether p at `token` is the variable of a call, diff(T, p[x]) or subs(T, p[x] = 0), in the statement that
  * begins at `first`. */
 static bool
-is_variable(const qdot_token *first, const qdot_token *token)
+is_variable_position(const qdot_token *first, const qdot_token *token)
 {
     static const char *const calls[] = {"diff", "subs", "solve", "series", "collect", "limit", "integral"};
     const qdot_token *k = token;
@@ -462,7 +462,7 @@ is_definition(const qdot_token *name)
 /* Whether the statement of `token` is written in momenta: then p[q] is the independent symbol. A
  * definition keeps it; so does what stands beside something canonical. */
 static bool
-beside_momenta(const qdot_cursor *c, const qdot_token *token)
+stands_beside_momenta(const qdot_cursor *c, const qdot_token *token)
 {
     const qdot_token *first = c->source->tokens.at, *begin;
     const qdot_token *last = first + c->source->tokens.n - 1;
@@ -472,14 +472,14 @@ beside_momenta(const qdot_cursor *c, const qdot_token *token)
     if (is_definition(token))
         return true;
     for (begin = token; token <= last && token->kind != QDOT_TOKEN_END; token++)
-        if (is_canonical(c->session, token) || is_variable(begin, token))
+        if (is_independent_momentum(c->session, token) || is_variable_position(begin, token))
             return true;
     return false;
 }
 
-/* Evaluate p[theta] as the independent variable of Hamilton's function. */
+/* Evaluate p[theta] as an independent variable of the Hamiltonian. */
 static qdot_status
-independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
+resolve_independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
 {
     if (!qdot_expr_is_coordinate(s->pool, q))
         return qdot_fail(QDOT_ETYPE, "p[ ] takes a coordinate");
@@ -490,22 +490,22 @@ independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
 /* eom[theta], mass_matrix[a, b]; eom[1] is the first of the list. equilibria[1] is asked of the quantity itself, which
  * tells the conditions of its members. */
 static qdot_status
-quantity_index(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
-               const qdot_expr *index, qdot_expr *value)
+evaluate_quantity_entry(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
+                        const qdot_expr *index, qdot_expr *value)
 {
     const bool by_number = row->most == 1 && !row->over_coordinates && n == 1;
 
-    if (row->least == 0 && (row->most == 0 || (all_integers(s, n, index) && !by_number))) {
-        QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
+    if (row->least == 0 && (row->most == 0 || (are_integer_indices(s, n, index) && !by_number))) {
+        QDOT_TRY(evaluate_quantity(s, row, primes, 0, NULL, value));
         return qdot_entry_of(s, *value, QDOT_NIL, n, index, value);
     }
     if ((int)n < row->least || (int)n > row->most)
         return qdot_fail(QDOT_ETYPE, "`%s[ ]` takes %d ind%s, not %u", row->name,
                          row->most, row->most == 1 ? "ex" : "ices", n);
-    return quantity(s, row, primes, n, index, value);
+    return evaluate_quantity(s, row, primes, n, index, value);
 }
 
-/* Whether any label is a member of the family `name`. */
+/* Whether a label of the scene is a member of the family `name`, as spring[2] of spring. */
 static bool
 is_label_family(const qdot_scene *scene, const char *name)
 {
@@ -541,7 +541,7 @@ may_be_family(const qdot_session *s, const char *name)
 }
 
 static qdot_status
-unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
+report_unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
 {
     const size_t length = strlen(token->text);
     const qdot_name *other;
@@ -560,7 +560,7 @@ unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
                      spelled);
 }
 
-/* Evaluate name[...] as a family member: theta[1], bob[1], dtheta[1]; *found. */
+/* Evaluate name[...] as a family member: theta[1], bob[1], dtheta[1]; *found: it is one. */
 static qdot_status
 resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_t n,
                const qdot_expr *index, bool *found, qdot_expr *value)
@@ -574,16 +574,16 @@ resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_
         return QDOT_OK;
     status = qdot_entry_name(s, token->text, n, index, &spelled);
     if (status == QDOT_OK)
-        status = member(s, spelled.at, primes, found, value);
+        status = resolve_spelled_member(s, spelled.at, primes, found, value);
     if (status == QDOT_OK && !*found && qdot_names_is_family(s->names, token->text))
-        status = unknown_member(c, token, spelled.at);
+        status = report_unknown_member(c, token, spelled.at);
     qdot_text_clear(&spelled);
     return status;
 }
 
-/* Fail with QDOT_ENAME: neither the member nor the family is known. */
+/* Fail with QDOT_ENAME: neither the family member nor the family has been declared. */
 static qdot_status
-unknown_index(qdot_cursor *c, const qdot_token *token, uint32_t n, const qdot_expr *index)
+report_unknown_index(qdot_cursor *c, const qdot_token *token, uint32_t n, const qdot_expr *index)
 {
     qdot_text spelled = {0};
     qdot_status status;
@@ -611,12 +611,12 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
 
     /* p[theta] is the momentum even if a plain p is declared */
     if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
-        (entry == NULL || !all_integers(s, n, index)) && beside_momenta(c, token))
-        return independent_momentum(s, index[0], value);
+        (entry == NULL || !are_integer_indices(s, n, index)) && stands_beside_momenta(c, token))
+        return resolve_independent_momentum(s, index[0], value);
     if (row != NULL && row->least > 0 && !(entry || is_label_family(s->scene, name)))
-        return quantity_index(s, row, primes, n, index, value);
-    if (row != NULL && row->least > 0 && !all_integers(s, n, index))
-        return quantity_index(s, row, primes, n, index, value);
+        return evaluate_quantity_entry(s, row, primes, n, index, value);
+    if (row != NULL && row->least > 0 && !are_integer_indices(s, n, index))
+        return evaluate_quantity_entry(s, row, primes, n, index, value);
     QDOT_TRY(resolve_member(c, token, primes, n, index, &found, value));
     if (found)
         return QDOT_OK;
@@ -626,13 +626,13 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
                 return qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT
                            ? qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name)
                            : qdot_hints_bare_function(c, token);
-            return unknown_index(c, token, n, index);
+            return report_unknown_index(c, token, n, index);
         }
         QDOT_TRY(qdot_resolve_name(c, token, 0, &whole, &over));
         if (qdot_expr_is_scalar(s->pool, whole))
             return qdot_fail(QDOT_ETYPE, "`%.200s` is a number: it has no entries", name);
         QDOT_TRY(qdot_entry_of(s, whole, over, n, index, value));
-        return ddt_times(s, primes, value);
+        return differentiate_in_time(s, primes, value);
     }
-    return quantity_index(s, row, primes, n, index, value);
+    return evaluate_quantity_entry(s, row, primes, n, index, value);
 }

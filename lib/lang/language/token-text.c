@@ -21,7 +21,7 @@ sign_follows_operand(const qdot_token *token)
 }
 
 static bool
-is_spaced(const qdot_token *token)
+is_spaced_sign(const qdot_token *token)
 {
     static const char *const spaced[] = {"+", "-", "=", "==", "<", ">", "<=", ">=", "!="};
 
@@ -31,18 +31,18 @@ is_spaced(const qdot_token *token)
     return false;
 }
 
-/* Whether the name is a coordinate that a loop sets to a value. */
+/* Whether the name is a coordinate to which a loop assigns a value at present. */
 static bool
-is_coordinate(const qdot_session *session, const char *name)
+is_coordinate_set_by_loop(const qdot_session *session, const char *name)
 {
     const qdot_name *known = qdot_names_declared(session->names, name);
 
     return known != NULL && known->kind == QDOT_NAME_COORD;
 }
 
-/* Append the value of a loop index instead of its name; false if the token is no index. */
+/* Append the value of a loop index in place of its name; false if the token is not a loop index. */
 static bool
-add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
+add_index_value(qdot_session *session, const qdot_token *token, qdot_text *out)
 {
     const qdot_name *name = token->kind == QDOT_TOKEN_NAME
                                 ? qdot_names_find(session->names, token->text)
@@ -50,7 +50,7 @@ add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
     qdot_text value = {0};
     bool printed, whole;
 
-    if (name == NULL || name->kind != QDOT_NAME_INDEX || is_coordinate(session, token->text))
+    if (name == NULL || name->kind != QDOT_NAME_INDEX || is_coordinate_set_by_loop(session, token->text))
         return false;
     printed = qdot_print(session->pool, name->value, QDOT_PLAIN, &value) == QDOT_OK;
     whole = strspn(qdot_text_str(&value), "0123456789") == value.n;
@@ -60,9 +60,9 @@ add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
     return printed;
 }
 
-/* Append x₁ as x[1] or x_1, whichever it stands for; false if neither. */
+/* Append x₁ as x[1] or x_1, whichever is declared; false if neither is. */
 static bool
-add_small(const qdot_session *session, const qdot_token *token, qdot_text *out)
+add_subscripted_name(const qdot_session *session, const qdot_token *token, qdot_text *out)
 {
     qdot_text spelled = {0};
     bool is = false;
@@ -110,7 +110,7 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
     int depth = 0, member = 0; /* bracket depth; depth of the brackets of an index x[1,2], or 0 */
 
     for (const qdot_token *k = from; k < to; k++) {
-        bool binary = k > from && sign_follows_operand(k - 1) && is_spaced(k);
+        bool binary = k > from && sign_follows_operand(k - 1) && is_spaced_sign(k);
         bool words = k > from && k->kind != QDOT_TOKEN_OPERATOR &&
                      (k[-1].kind != QDOT_TOKEN_OPERATOR || sign_follows_operand(k - 1));
         size_t used;
@@ -125,7 +125,7 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
             qdot_text_format(out, "\"%s\"", k->text);
         else if (add_sign(k, to, out, &used))
             k += used - 1;
-        else if (!(indices && add_index(session, k, out)) && !add_small(session, k, out))
+        else if (!(indices && add_index_value(session, k, out)) && !add_subscripted_name(session, k, out))
             qdot_text_add(out, k->text);
         if (qdot_token_is(k, "[") || qdot_token_is(k, "(")) {
             depth++;

@@ -10,7 +10,7 @@
  * of a loop under way is replaced by its value. */
 void qdot_token_text(qdot_session *session, const qdot_token *from,
                      const qdot_token *to, qdot_text *out);
-/* As qdot_token_text, but loop indices keep their names. */
+/* As qdot_token_text, but the names of loop indices are not replaced by their values. */
 void qdot_token_text_written(qdot_session *session, const qdot_token *from,
                              const qdot_token *to, qdot_text *out);
 

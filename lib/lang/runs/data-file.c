@@ -17,7 +17,7 @@ enum { TEXT_DIGITS = 12 };
 typedef enum { CSV, TEXT, JSON, HTML, HDF5, NONE } type;
 
 static type
-type_of(const char *path)
+file_type_of(const char *path)
 {
     static const char *const endings[] = {
         [CSV] = ".csv", [TEXT] = ".txt", [JSON] = ".json", [HTML] = ".html", [HDF5] = ".h5"};
@@ -32,7 +32,7 @@ type_of(const char *path)
 bool
 qdot_data_file_is(const char *path)
 {
-    return type_of(path) != NONE;
+    return file_type_of(path) != NONE;
 }
 
 qdot_status
@@ -50,19 +50,19 @@ qdot_data_file_check(const char *path)
 typedef qdot_vec(qdot_table_fact) facts;
 
 static qdot_status
-add_text(facts *to, const char *name, const char *text)
+add_text_fact(facts *to, const char *name, const char *text)
 {
     return text == NULL ? QDOT_OK : qdot_vec_push(to, ((qdot_table_fact){name, text, 0}));
 }
 
 static qdot_status
-add_number(facts *to, const char *name, double x)
+add_number_fact(facts *to, const char *name, double x)
 {
     return isnan(x) ? QDOT_OK : qdot_vec_push(to, ((qdot_table_fact){name, NULL, x}));
 }
 
 static qdot_status
-add_run(const qdot_session *session, const qdot_run *run, facts *to)
+add_run_facts(const qdot_session *session, const qdot_run *run, facts *to)
 {
     static const char *const ends[] = {
         [QDOT_RUN_DONE] = "done", [QDOT_RUN_STOPPED] = "stopped", [QDOT_RUN_FAILED] = "failed"};
@@ -70,24 +70,24 @@ add_run(const qdot_session *session, const qdot_run *run, facts *to)
 
     for (size_t i = 0; i < session->runs->n; i++)
         if (session->runs->at[i].run == run) {
-            QDOT_TRY(add_text(to, "run", session->runs->at[i].name));
-            QDOT_TRY(add_text(to, "statement", session->runs->at[i].text));
+            QDOT_TRY(add_text_fact(to, "run", session->runs->at[i].name));
+            QDOT_TRY(add_text_fact(to, "statement", session->runs->at[i].text));
         }
-    QDOT_TRY(add_text(to, "method", r->method));
-    QDOT_TRY(add_number(to, "tol", r->digits > 0 ? NAN : r->tol));
-    QDOT_TRY(add_number(to, "digits", r->digits > 0 ? r->digits : NAN));
-    QDOT_TRY(add_number(to, "t0", r->t0));
-    QDOT_TRY(add_number(to, "t1", r->t1));
-    QDOT_TRY(add_text(to, "status", ends[r->status]));
-    QDOT_TRY(add_text(to, "reason", r->reason));
-    QDOT_TRY(add_number(to, "error", r->error));
-    QDOT_TRY(add_number(to, "energy drift", r->energy_drift));
-    return add_number(to, "constraint drift", r->m > 0 ? r->constraint_drift : NAN);
+    QDOT_TRY(add_text_fact(to, "method", r->method));
+    QDOT_TRY(add_number_fact(to, "tol", r->digits > 0 ? NAN : r->tol));
+    QDOT_TRY(add_number_fact(to, "digits", r->digits > 0 ? r->digits : NAN));
+    QDOT_TRY(add_number_fact(to, "t0", r->t0));
+    QDOT_TRY(add_number_fact(to, "t1", r->t1));
+    QDOT_TRY(add_text_fact(to, "status", ends[r->status]));
+    QDOT_TRY(add_text_fact(to, "reason", r->reason));
+    QDOT_TRY(add_number_fact(to, "error", r->error));
+    QDOT_TRY(add_number_fact(to, "energy drift", r->energy_drift));
+    return add_number_fact(to, "constraint drift", r->m > 0 ? r->constraint_drift : NAN);
 }
 
 /* Add the values that the parameters had at the beginning of the run. */
 static qdot_status
-add_parameters(const qdot_session *session, qdot_run *run, facts *to)
+add_parameter_facts(const qdot_session *session, qdot_run *run, facts *to)
 {
     const double t0 = qdot_run_get_report(run)->t0;
     const qdot_name *name;
@@ -100,8 +100,8 @@ add_parameters(const qdot_session *session, qdot_run *run, facts *to)
             continue;
         status = qdot_run_values(run, 1, &name->value, 1, &t0, &x, NULL);
         QDOT_TRY(qdot_grave(status));
-        if (status == QDOT_OK) /* skipped if it has no value */
-            QDOT_TRY(add_number(to, name->name, x));
+        if (status == QDOT_OK) /* a parameter without a value is skipped */
+            QDOT_TRY(add_number_fact(to, name->name, x));
     }
     return QDOT_OK;
 }
@@ -112,15 +112,15 @@ static qdot_status
 write_facts(qdot_session *session, qdot_run *run, type type, qdot_table *table, const char *path)
 {
     facts known = {0}, parameters = {0};
-    qdot_status status = add_text(&known, "program", PACKAGE_STRING);
+    qdot_status status = add_text_fact(&known, "program", PACKAGE_STRING);
 
     if (status == QDOT_OK && run != NULL)
-        status = add_run(session, run, &known);
+        status = add_run_facts(session, run, &known);
     if (status == QDOT_OK && run != NULL)
-        status = add_parameters(session, run, &parameters);
+        status = add_parameter_facts(session, run, &parameters);
     table->n_facts = known.n;
     table->facts = known.at;
-    if (run != NULL) { /* without a run the parameters are the caller's */
+    if (run != NULL) { /* without a run the parameters are those that the caller added */
         table->n_parameters = parameters.n;
         table->parameters = parameters.at;
     }
@@ -134,7 +134,7 @@ write_facts(qdot_session *session, qdot_run *run, type type, qdot_table *table, 
 }
 
 static const char *
-title_of(const char *path)
+title_from_path(const char *path)
 {
     const char *base = strrchr(path, '/');
 
@@ -157,10 +157,10 @@ write_text(qdot_session *session, const qdot_table *table, const char *path)
 qdot_status
 qdot_data_file_write(qdot_session *session, qdot_run *run, qdot_table *table, const char *path)
 {
-    const type type = type_of(path);
+    const type type = file_type_of(path);
 
     QDOT_TRY(qdot_data_file_check(path));
-    table->title = title_of(path);
+    table->title = title_from_path(path);
     if (type == TEXT)
         return write_text(session, table, path);
     QDOT_TRY(type == CSV ? qdot_table_csv(table, path) : write_facts(session, run, type, table, path));

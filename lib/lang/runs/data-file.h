@@ -5,7 +5,7 @@
 #include "lang/session/runs.h"
 #include "table/table.h"
 
-/* Whether the ending is that of a file of numbers. */
+/* Whether the ending of the path is that of a file of numbers. */
 bool qdot_data_file_is(const char *path);
 /* Whether columns can be written to a file of that ending: QDOT_EINVAL names those that can. */
 QDOT_MUST_CHECK qdot_status qdot_data_file_check(const char *path);

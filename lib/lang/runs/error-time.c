@@ -12,10 +12,10 @@
 #include "show/figure.h"
 #include "table/text.h"
 
-/* An error of 0 has no logarithm: it is drawn at the rounding error. */
+/* an error of 0 has no logarithm: on a logarithmic axis it is drawn as this, far below rounding errors */
 static const double least_error = 0x1p-60;
 
-/* Make the curves from their points x, y [n each]; returns the number of curves. */
+/* Make the curves of the figure from their points x, y [n each]; returns the number of curves. */
 static size_t
 fill_curves(const qdot_error_time *of, double *x, double *y, qdot_curve *curves)
 {
@@ -94,7 +94,7 @@ qdot_error_time_tolerance(qdot_record *r, double *tol)
 }
 
 static qdot_status
-say_left_out(qdot_session *session, const qdot_methods_left_out *list)
+give_notice_of_methods_left_out(qdot_session *session, const qdot_methods_left_out *list)
 {
     for (size_t i = 0; i < list->n; i++)
         QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s", list->at[i].method,
@@ -102,7 +102,7 @@ say_left_out(qdot_session *session, const qdot_methods_left_out *list)
     return QDOT_OK;
 }
 
-/* Append the table and the words below it; mark: text before cells (table/text.h). */
+/* Append the table of errors and the words below it; mark: text before table cells (table/text.h). */
 static qdot_status
 write_table(const qdot_error_study *of, const char *mark, qdot_text *out)
 {
@@ -118,7 +118,7 @@ write_table(const qdot_error_study *of, const char *mark, qdot_text *out)
 }
 
 static qdot_status
-tell_table(qdot_session *session, const qdot_error_study *of)
+answer_table(qdot_session *session, const qdot_error_study *of)
 {
     qdot_text text = {0};
     qdot_status status;
@@ -130,7 +130,7 @@ tell_table(qdot_session *session, const qdot_error_study *of)
 }
 
 static qdot_status
-tell_file(qdot_session *session, const qdot_error_study *of, const char *path)
+write_file(qdot_session *session, const qdot_error_study *of, const char *path)
 {
     qdot_text text = {0};
     qdot_table t = {0};
@@ -151,7 +151,7 @@ tell_file(qdot_session *session, const qdot_error_study *of, const char *path)
 }
 
 static qdot_status
-tell_figure(qdot_session *session, const qdot_error_study *of)
+show_figure(qdot_session *session, const qdot_error_study *of)
 {
     qdot_error_point *points = qdot_calloc(of->most_points + 1, sizeof *points);
     qdot_text note = {0};
@@ -175,11 +175,11 @@ qdot_error_time_tell(qdot_session *session, const qdot_error_study *of)
 {
     const char *path = of->figure.figure->path;
 
-    QDOT_TRY(say_left_out(session, of->left_out));
+    QDOT_TRY(give_notice_of_methods_left_out(session, of->left_out));
     if (path != NULL && qdot_data_file_is(path))
-        return tell_file(session, of, path);
-    QDOT_TRY(tell_table(session, of));
+        return write_file(session, of, path);
+    QDOT_TRY(answer_table(session, of));
     if (of->interrupted && path == NULL)
         return QDOT_OK; /* no figure after an interruption, as the user does not want to wait */
-    return tell_figure(session, of);
+    return show_figure(session, of);
 }

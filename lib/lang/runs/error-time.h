@@ -17,14 +17,14 @@ typedef struct {
     const char *title;
     const char *abscissa, *ordinate; /* axis labels */
     const qdot_text *note;
-    const char *none; /* the message if no point can be drawn */
+    const char *none; /* the error message if no point can be drawn */
     size_t n;
     const qdot_error_point *points; /* [n] points; those without error or time are skipped */
     const qdot_figure_choice *figure;
     const qdot_panel_choice *panel;
 } qdot_error_time;
 
-/* Take the options of the statement; its file may be a figure or hold numbers. Errors: QDOT_EINVAL. */
+/* Read the options of the statement; its file may hold a figure or numbers. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
 /* Read the tolerance after `tol`, 1e-16 to 1; 0 if not given. */
@@ -36,7 +36,7 @@ typedef struct {
     const void *study; /* the result of the study, given to the functions below */
     const qdot_methods_left_out *left_out;
     bool interrupted;
-    qdot_status (*table)(const void *study, qdot_table *t); /* fills an empty table for people */
+    qdot_status (*table)(const void *study, qdot_table *t); /* fills an empty table with the rows to be shown */
     void (*words)(const void *study, qdot_text *out);       /* writes the text below the table */
     qdot_status (*data)(const void *study, qdot_table *t);  /* fill the table for a .csv file */
     qdot_status (*rows)(qdot_session *session, const void *study); /* writes the rows as JSON */
@@ -47,7 +47,7 @@ typedef struct {
 } qdot_error_study;
 QDOT_MUST_CHECK qdot_status qdot_error_time_tell(qdot_session *session, const qdot_error_study *of);
 
-/* Write the answer to its file, or show it. Errors: QDOT_EFAILED with `none`, those of the file. */
+/* Write the answer to the file named in the statement, or show it. QDOT_EFAILED: nothing can be drawn. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_show(qdot_session *session,
                                                  const qdot_error_time *of);
 

@@ -10,7 +10,7 @@
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
-static qdot_status events_list(qdot_record *r);
+static qdot_status carry_out_events(qdot_record *r);
 
 QDOT_STATEMENT(events) = {
     .word = "events",
@@ -19,12 +19,12 @@ QDOT_STATEMENT(events) = {
     .summary = "what occurred in the latest run, and when",
     .example = "events",
     .alone = true,
-    .handler = events_list,
+    .handler = carry_out_events,
 };
 
-/* Without a run: list the declared events. */
+/* If there is no run: list the declared events. */
 static qdot_status
-list_declared(qdot_session *session)
+list_declared_events(qdot_session *session)
 {
     qdot_text scene = {0}, text = {0};
     qdot_status status = qdot_scene_print(session->scene, &scene);
@@ -47,9 +47,9 @@ list_declared(qdot_session *session)
     return status;
 }
 
-/* For JSON: one object for each event with all its times. */
+/* List in JSON: one object for each event, with all its times. */
 static qdot_status
-list_numbers(qdot_session *session, const qdot_run_occurrence *list, size_t n)
+list_events_in_json(qdot_session *session, const qdot_run_occurrence *list, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         qdot_vec(double) times = {0}, errors = {0};
@@ -77,10 +77,10 @@ list_numbers(qdot_session *session, const qdot_run_occurrence *list, size_t n)
     return QDOT_OK;
 }
 
-/* List the times of events of a run with `digits`, as strings. */
+/* List the times of events of a run made with the option `digits`, as strings. */
 static qdot_status
-list_exact(qdot_session *session, const qdot_run *run, const qdot_run_occurrence *list,
-           size_t n)
+list_events_with_digits(qdot_session *session, const qdot_run *run, const qdot_run_occurrence *list,
+                        size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         qdot_expr all;
@@ -99,8 +99,8 @@ list_exact(qdot_session *session, const qdot_run *run, const qdot_run_occurrence
 
 /* Append a line such as "cross[2]  t = 3.1234 ± 2e-15  rising". */
 static qdot_status
-add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occurrence *o,
-         size_t k)
+append_event_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occurrence *o,
+                  size_t k)
 {
     double error = o->error;
 
@@ -122,9 +122,9 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
-/* Print "NAME  from t = A on its sides are equal within their errors: whether it occurs there is not known". */
+/* Print "NAME  from t = A on its sides are equal within their errors: ..." for an event of unknown occurrence. */
 static void
-faded_print(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
+print_unknown_span(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
 {
     if (faded->touched) {
         const double half = fabs(faded->to - faded->from) / 2;
@@ -144,14 +144,14 @@ faded_print(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
     qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known");
 }
 
-/* For JSON: a notice for each time span in which it is unknown whether an event occurs, faded [n]. */
+/* In JSON, give a notice for each time span in which it is unknown whether an event occurs; faded [n] lists them. */
 static qdot_status
-tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
+give_notice_of_unknown_spans(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         qdot_text text = {0};
 
-        faded_print(run, &faded[i], &text);
+        print_unknown_span(run, &faded[i], &text);
         QDOT_TRY(qdot_answer_notice_text(session, QDOT_OK, &text));
     }
     return QDOT_OK;
@@ -160,13 +160,13 @@ tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *fad
 /* Add a line for each stretch of time in which it is not known whether an event occurs, faded [n], and for each event
  * of which it is not known whether it occurs at the end of the run. */
 static qdot_status
-add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
+append_unknown_spans(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
 {
     const char *name = "";
     bool undecided;
 
     for (size_t k = 0; k < n; k++) {
-        faded_print(run, &faded[k], text);
+        print_unknown_span(run, &faded[k], text);
         qdot_text_char(text, '\n');
     }
     for (size_t k = 0; name; k++) {
@@ -184,14 +184,14 @@ add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
     return QDOT_OK;
 }
 
-/* How many occurrences of an event have been listed. */
+/* The number of occurrences of an event that have been listed so far. */
 typedef struct {
     const char *event;
     size_t n;
 } event_count;
 typedef qdot_vec(event_count) event_counts;
 
-/* Count one more occurrence of the event; *k: its number among those of the same event. */
+/* Count one more occurrence of the event; *k: its number among the occurrences of that event. */
 static qdot_status
 count_occurrence(event_counts *counts, const char *event, size_t *k)
 {
@@ -205,7 +205,7 @@ count_occurrence(event_counts *counts, const char *event, size_t *k)
 }
 
 static qdot_status
-events_list(qdot_record *r)
+carry_out_events(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_run_occurrence *list;
@@ -217,29 +217,29 @@ events_list(qdot_record *r)
     size_t n, n_faded;
 
     if (session->runs->n == 0)
-        return list_declared(session);
+        return list_declared_events(session);
     QDOT_TRY(qdot_runs_find(session, NULL, &run));
     QDOT_TRY(qdot_run_occurrences(run->run, &list, &n));
     QDOT_TRY(qdot_run_faded_events(run->run, &faded, &n_faded));
     if (session->output->json)
-        QDOT_TRY(tell_faded(session, run->run, faded, n_faded));
+        QDOT_TRY(give_notice_of_unknown_spans(session, run->run, faded, n_faded));
     if (session->output->json && n > 0)
         return qdot_run_get_report(run->run)->digits > 0
-                   ? list_exact(session, run->run, list, n)
-                   : list_numbers(session, list, n);
+                   ? list_events_with_digits(session, run->run, list, n)
+                   : list_events_in_json(session, list, n);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         size_t k;
 
         status = count_occurrence(&counts, list[i].event, &k);
         if (status == QDOT_OK)
             status =
-                add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
+                append_event_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
     }
     qdot_free(counts.at);
     if (n == 0)
         qdot_text_format(&text, n_faded > 0 ? "no event is known to have occurred in %s\n" : "no event occurred in %s\n",
                          run->name);
     if (status == QDOT_OK)
-        status = add_open(run->run, faded, n_faded, &text);
+        status = append_unknown_spans(run->run, faded, n_faded, &text);
     return qdot_answer_written(session, "events", status, &text);
 }

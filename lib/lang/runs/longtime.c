@@ -12,7 +12,7 @@
 #include "lang/syntax/record.h"
 #include "sim/study/longtime.h"
 
-static qdot_status longtime_measure(qdot_record *r);
+static qdot_status carry_out_longtime(qdot_record *r);
 
 QDOT_STATEMENT(longtime) = {
     .word = "longtime",
@@ -20,7 +20,7 @@ QDOT_STATEMENT(longtime) = {
     .usage = "longtime T0..T1 [tol E] [method NAME] " QDOT_FIGURE_USAGE,
     .summary = "energy error against time, with its growth, by every method that fits or by one",
     .example = "longtime 0..1e4",
-    .handler = longtime_measure,
+    .handler = carry_out_longtime,
 };
 
 typedef struct {
@@ -30,9 +30,9 @@ typedef struct {
 
 /* --- tables and words --------------------------------------------------------------- */
 
-/* Fill a table with the windows of methods k .. end - 1: the rms error in each. */
+/* Fill a table with the windows (parts of the time span) of methods k .. end - 1 and the rms error in each. */
 static qdot_status
-windows_fill(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
+fill_windows(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
 {
     static const qdot_table_column columns[] = {
         {.name = "method", .kind = QDOT_CELL_TEXT}, {.name = "tol", .exact = 1}, {.name = "t"}, {.name = "error"}};
@@ -49,14 +49,14 @@ windows_fill(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
 }
 
 static qdot_status
-windows(const void *study, qdot_table *t)
+fill_all_windows(const void *study, qdot_table *t)
 {
     const qdot_longtime *l = study;
 
-    return windows_fill(l, 0, l->n, t);
+    return fill_windows(l, 0, l->n, t);
 }
 
-/* Write the growth of the error as a power of t: "t^1.00 +- 0.02". */
+/* Write into a table how the error grows, as a power of t: "t^1.00 +- 0.02". */
 static void
 write_growth(const qdot_longtime_row *r, qdot_table *t)
 {
@@ -69,7 +69,7 @@ write_growth(const qdot_longtime_row *r, qdot_table *t)
     qdot_table_add_written(t, &text);
 }
 
-/* Fill a table with one row for each method. */
+/* Fill the summary table of `longtime`, with one row for each method. */
 static qdot_status
 fill_summary(const void *study, qdot_table *t)
 {
@@ -100,7 +100,7 @@ fill_summary(const void *study, qdot_table *t)
     return qdot_table_status(t);
 }
 
-/* Write which method and tolerance `auto` would use, and why. */
+/* Write which method and tolerance the method `auto` would use, and why. */
 static void
 write_choice_of_auto(const qdot_longtime *l, qdot_text *out)
 {
@@ -111,7 +111,7 @@ write_choice_of_auto(const qdot_longtime *l, qdot_text *out)
 }
 
 static void
-words(const void *study, qdot_text *out)
+write_remarks(const void *study, qdot_text *out)
 {
     const qdot_longtime *l = study;
 
@@ -124,13 +124,13 @@ words(const void *study, qdot_text *out)
     }
 }
 
-/* Answer the windows of a method as JSON rows, or the reason why it failed. */
+/* Answer the windows (parts of the time span) of a method as JSON rows, or the reason why the method failed. */
 static qdot_status
-windows_json(qdot_session *session, const qdot_longtime *l, size_t k)
+answer_windows_as_json(qdot_session *session, const qdot_longtime *l, size_t k)
 {
     const qdot_longtime_row *r = l->rows + k;
     qdot_table t = {0};
-    qdot_status status = windows_fill(l, k, k + 1, &t);
+    qdot_status status = fill_windows(l, k, k + 1, &t);
 
     if (status == QDOT_OK)
         status = qdot_answer_rows(session, "longtime", &t);
@@ -140,16 +140,16 @@ windows_json(qdot_session *session, const qdot_longtime *l, size_t k)
     return status;
 }
 
-/* Answer the windows of each method, and its growth as a number, as JSON rows. */
+/* Answer the windows (parts of the time span) of each method, and the growth of its error, as JSON rows. */
 static qdot_status
-rows_json(qdot_session *session, const void *study)
+answer_rows_as_json(qdot_session *session, const void *study)
 {
     const qdot_longtime *l = study;
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < l->n && status == QDOT_OK; k++) {
-        status = windows_json(session, l, k);
+        status = answer_windows_as_json(session, l, k);
         qdot_text_clear(&text);
         qdot_text_format(&text, "growth[%s]", l->rows[k].method);
         if (status == QDOT_OK)
@@ -166,7 +166,7 @@ rows_json(qdot_session *session, const void *study)
 }
 
 static size_t
-points_of(const void *study, qdot_error_point *points)
+make_points(const void *study, qdot_error_point *points)
 {
     const qdot_longtime *l = study;
     size_t n = 0;
@@ -178,23 +178,23 @@ points_of(const void *study, qdot_error_point *points)
 }
 
 static void
-longtime_note(const void *study, qdot_text *out)
+write_figure_note(const void *study, qdot_text *out)
 {
     (void)study;
     qdot_text_add(out, "root mean squares in windows of time");
 }
 
 static qdot_status
-longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
+answer_longtime(qdot_session *session, const qdot_longtime *l, const choices *chosen)
 {
     const qdot_error_study of = {.name = "longtime",
                                  .study = l,
                                  .left_out = &l->left_out,
                                  .interrupted = l->interrupted,
                                  .table = fill_summary,
-                                 .words = words,
-                                 .data = windows,
-                                 .rows = rows_json,
+                                 .words = write_remarks,
+                                 .data = fill_all_windows,
+                                 .rows = answer_rows_as_json,
                                  .figure = {.title = "error of the energy over long times",
                                             .abscissa = "time",
                                             .ordinate = "|E - E0| / max(1, |E0|)",
@@ -202,8 +202,8 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
                                             .figure = &chosen->figure,
                                             .panel = &chosen->panel},
                                  .most_points = l->n * QDOT_LONGTIME_WINDOWS,
-                                 .points = points_of,
-                                 .note = longtime_note};
+                                 .points = make_points,
+                                 .note = write_figure_note};
 
     return qdot_error_time_tell(session, &of);
 }
@@ -211,7 +211,7 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
 /* --- the statement `longtime` ------------------------------------------------------- */
 
 static qdot_status
-longtime_measure(qdot_record *r)
+carry_out_longtime(qdot_record *r)
 {
     const qdot_filled *method = qdot_record_hole(r, "method", "NAME");
     qdot_session *session = r->cursor.session;
@@ -232,7 +232,7 @@ longtime_measure(qdot_record *r)
     if (l.interrupted)
         qdot_interrupt_clear(); /* the interruption is handled here: report the rows measured so far */
     if (status == QDOT_OK)
-        status = longtime_tell(session, &l, &chosen);
+        status = answer_longtime(session, &l, &chosen);
     if (status == QDOT_OK && l.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu methods", l.n);
     status = qdot_request_explain(session, &order, status);

@@ -9,7 +9,7 @@
 #include "lang/syntax/match.h"
 #include "lang/syntax/statement.h"
 
-static qdot_status plot_draw(qdot_record *r);
+static qdot_status draw_plot(qdot_record *r);
 
 QDOT_STATEMENT(plot) = {
     .word = "plot",
@@ -20,7 +20,7 @@ QDOT_STATEMENT(plot) = {
     .summary = "a figure along the latest run, of an expression over a variable, of columns of a file, or of a table of rows; "
                "panels one below the other",
     .example = "plot theta' vs theta range -3..3 to \"fig.svg\"",
-    .handler = plot_draw,
+    .handler = draw_plot,
 };
 
 typedef struct {
@@ -29,12 +29,12 @@ typedef struct {
     qdot_source *source;  /* `text` split into tokens */
     qdot_record record;   /* `text` parsed as the options of `run` */
     qdot_run_options run; /* the options with the present parameter values */
-    qdot_trial trial;     /* of one pass */
+    qdot_trial trial;     /* the trial run that is made for the present pass of the loop */
 } again;
 
-/* Read the run statement, in which names are those of the scene, not loop indices. */
+/* Parse the text of the latest run's statement, in which names are those of the scene, not loop indices. */
 static qdot_status
-again_read_run(again *a)
+parse_run_statement(again *a)
 {
     const qdot_cursor c = {.session = a->session, .source = a->source, .at = a->source->tokens.at};
     const size_t outer = qdot_names_enclose(a->session->names);
@@ -44,9 +44,9 @@ again_read_run(again *a)
     return status;
 }
 
-/* Evaluate the options of the run statement with the present values. */
+/* Evaluate the options of the run statement with the present values of parameters. */
 static qdot_status
-again_find_run(again *a)
+evaluate_run_options(again *a)
 {
     const size_t outer = qdot_names_enclose(a->session->names);
     qdot_record *r = &a->record;
@@ -59,9 +59,9 @@ again_find_run(again *a)
     return status;
 }
 
-/* Whether the statement, carried out now, would make the existing run again. */
+/* Whether the statement of the latest run, carried out now, would make the same run again. */
 static qdot_status
-is_repeatable(again *a, const qdot_named_run *latest, bool *is)
+is_run_repeatable(again *a, const qdot_named_run *latest, bool *is)
 {
     qdot_request request = {0};
     qdot_conditions now = {0};
@@ -77,7 +77,7 @@ is_repeatable(again *a, const qdot_named_run *latest, bool *is)
 }
 
 static qdot_status
-again_begin(void *user)
+begin_repeating(void *user)
 {
     again *a = user;
     qdot_named_run *latest;
@@ -89,10 +89,10 @@ again_begin(void *user)
     if (a->text == NULL)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_source_new("a run", a->text, strlen(a->text), &a->source, &at));
-    if (again_read_run(a) == QDOT_OK && again_find_run(a) == QDOT_OK)
-        QDOT_TRY(is_repeatable(a, latest, &is));
+    if (parse_run_statement(a) == QDOT_OK && evaluate_run_options(a) == QDOT_OK)
+        QDOT_TRY(is_run_repeatable(a, latest, &is));
     else
-        QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* a name in the text is no longer declared */
+        QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* if it fails, a name in the text is no longer declared */
     if (is)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "the scene, its values or its start are no longer those of `%.200s`, so it cannot "
@@ -101,26 +101,26 @@ again_begin(void *user)
 }
 
 static qdot_status
-again_make(void *user)
+repeat_run(void *user)
 {
     again *a = user;
 
-    QDOT_TRY(again_find_run(a));
+    QDOT_TRY(evaluate_run_options(a));
     QDOT_TRY(qdot_trial_begin(&a->trial, a->session));
     return qdot_run_options_try(&a->trial, &a->run, a->run.from, a->run.to);
 }
 
 static void
-again_drop(void *user)
+drop_repeated_run(void *user)
 {
     qdot_trial_end(&((again *)user)->trial);
 }
 
 static qdot_status
-plot_draw(qdot_record *r)
+draw_plot(qdot_record *r)
 {
     again a = {.session = r->cursor.session};
-    const qdot_plot_runs runs = {again_begin, again_make, again_drop, &a};
+    const qdot_plot_runs runs = {begin_repeating, repeat_run, drop_repeated_run, &a};
     const qdot_status status = qdot_plot_figure(r, &runs);
 
     qdot_run_options_free(&a.run);

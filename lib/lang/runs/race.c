@@ -1,4 +1,4 @@
-/* race.c -- the statement `race`: a table, and a figure of error against time. */
+/* race.c -- the statement `race`, which compares methods: a table, and a figure of error against time. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -12,7 +12,7 @@
 #include "lang/syntax/record.h"
 #include "sim/study/race.h"
 
-static qdot_status race_hold(qdot_record *r);
+static qdot_status carry_out_race(qdot_record *r);
 
 QDOT_STATEMENT(race) = {
     .word = "race",
@@ -21,12 +21,12 @@ QDOT_STATEMENT(race) = {
     .summary = "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "
                "drifts and times at a ladder of tolerances, and their figure",
     .example = "race 0..20",
-    .handler = race_hold,
+    .handler = carry_out_race,
 };
 
-/* Fill a table: formulation, method, tolerance, error, drifts, CPU seconds. */
+/* Fill the table of a race, with columns formulation, method, tolerance, error, drifts, CPU seconds. */
 static qdot_status
-race_fill(const qdot_race *race, qdot_table *t)
+fill_race_table(const qdot_race *race, qdot_table *t)
 {
     static const qdot_table_column columns[] = {
         {.name = "formulation", .kind = QDOT_CELL_TEXT, .left = true, .width = 20},
@@ -79,7 +79,7 @@ print_race(const qdot_race *race, const qdot_table *t, qdot_text *out)
 }
 
 static qdot_status
-race_draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
+draw_race(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
           const qdot_panel_choice *of_panel)
 {
     qdot_error_point points[QDOT_RACE_FORMULATIONS * QDOT_RACE_TOLERANCES];
@@ -109,12 +109,12 @@ race_draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice
 }
 
 static qdot_status
-race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choice *figure,
+answer_race(qdot_session *session, const qdot_race *race, const qdot_figure_choice *figure,
             const qdot_panel_choice *panel)
 {
     qdot_text text = {0};
     qdot_table t = {0};
-    qdot_status status = race_fill(race, &t);
+    qdot_status status = fill_race_table(race, &t);
 
     if (status == QDOT_OK && race->notice != NULL)
         status = qdot_answer_notice(session, "%s", race->notice);
@@ -128,12 +128,12 @@ race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choi
     qdot_table_clear(&t);
     /* after an interruption draw the figure only if the user asked for a file */
     if (status == QDOT_OK && (!race->interrupted || figure->path != NULL))
-        status = race_draw(session, race, figure, panel);
+        status = draw_race(session, race, figure, panel);
     return status;
 }
 
 static qdot_status
-race_hold(qdot_record *r)
+carry_out_race(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_request order = {0};
@@ -155,7 +155,7 @@ race_hold(qdot_record *r)
         if (status == QDOT_OK) {
             if (race.interrupted)
                 qdot_interrupt_clear(); /* the interruption is handled here: report the rows measured so far */
-            status = race_answer(session, &race, &figure, &panel);
+            status = answer_race(session, &race, &figure, &panel);
             if (status == QDOT_OK && race.interrupted)
                 status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");
             qdot_race_clear(&race);

@@ -1,4 +1,4 @@
-/* request.c -- makes the request of a run from the present values and start. */
+/* request.c -- makes the request of a run from the session's present parameter values and start. */
 #include "lang/runs/request.h"
 
 #include "expr/calculus.h"
@@ -26,7 +26,7 @@ qdot_request_free(qdot_request *o)
 }
 
 static qdot_expr
-start_value(const qdot_session *session, qdot_expr jet, bool *named)
+get_start_value(const qdot_session *session, qdot_expr jet, bool *named)
 {
     for (size_t i = 0; i < session->values->start_symbols.n; i++)
         if (session->values->start_symbols.at[i] == jet) {
@@ -38,19 +38,19 @@ start_value(const qdot_session *session, qdot_expr jet, bool *named)
 }
 
 static qdot_status
-order_start(qdot_session *session, qdot_request *o)
+arrange_start_values(qdot_session *session, qdot_request *o)
 {
     const qdot_scene *scene = session->scene;
 
     for (size_t i = 0; i < scene->coordinates.n; i++) {
         qdot_expr q = scene->coordinates.at[i], v = qdot_symbol_jet(session->pool, q, 1);
         bool named, v_named;
-        qdot_expr q0 = qdot_session_bind(session, start_value(session, q, &named));
-        qdot_expr v0 = qdot_session_bind(session, start_value(session, v, &v_named));
+        qdot_expr q0 = qdot_session_bind(session, get_start_value(session, q, &named));
+        qdot_expr v0 = qdot_session_bind(session, get_start_value(session, v, &v_named));
         qdot_status status;
 
         QDOT_TRY(qdot_pool_check(session->pool));
-        /* values that constraints determine are checked after solving for them */
+        /* starting values that constraints determine are checked later, when the constraints are solved */
         status = named || scene->constraints.n == 0
                      ? qdot_session_in_domain(session, q, q0)
                      : QDOT_OK;
@@ -69,7 +69,7 @@ order_start(qdot_session *session, qdot_request *o)
 /* How far the companions of this run begin from its start: as far as those of the run of `start RUN` ended from its end, in
  * the values that are still those of that end. */
 static qdot_status
-put_errors(const qdot_session *session, qdot_request *o)
+set_start_errors(const qdot_session *session, qdot_request *o)
 {
     const size_t n = session->scene->coordinates.n;
     bool any = false;
@@ -109,7 +109,7 @@ is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
 
 /* Let values that depend on parameters set by events keep their symbols, so that they change with these. */
 static qdot_status
-follow_events(qdot_session *session, qdot_request *o)
+keep_event_parameters(qdot_session *session, qdot_request *o)
 {
     const size_t n = session->values->set_symbols.n;
     const qdot_expr *symbols = session->values->set_symbols.at;
@@ -135,7 +135,7 @@ follow_events(qdot_session *session, qdot_request *o)
     return qdot_pool_check(session->pool);
 }
 
-/* Set the session's present values and start. */
+/* Fill the request of a run with the session's present values of parameters and start. */
 qdot_status
 qdot_request_fill(qdot_session *session, qdot_request *o)
 {
@@ -153,10 +153,10 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
             QDOT_TRY(qdot_session_in_domain(session, symbol, value));
         QDOT_TRY(qdot_pairs_push(&o->values, NULL, symbol, value));
     }
-    QDOT_TRY(follow_events(session, o));
+    QDOT_TRY(keep_event_parameters(session, o));
     QDOT_TRY(qdot_value_check_assumed(session));
-    QDOT_TRY(order_start(session, o));
-    QDOT_TRY(put_errors(session, o));
+    QDOT_TRY(arrange_start_values(session, o));
+    QDOT_TRY(set_start_errors(session, o));
     QDOT_TRY(qdot_scales_of_run(session, &o->scales));
     o->request.n_values = o->values.symbols.n;
     o->request.symbols = o->values.symbols.at;
@@ -190,10 +190,10 @@ qdot_request_between(qdot_session *session, qdot_expr from, qdot_expr to, qdot_r
 
 /* --- why it failed -------------------------------------------------------------------- */
 
-/* Fail because a mass is negative: "the mass of p is negative: m - 2 = -1". */
+/* Fail because a mass is negative, with a message such as "the mass of p is negative: m - 2 = -1". */
 static qdot_status
-negative(qdot_session *session, const char *what, const char *name, qdot_expr e,
-         double value)
+report_negative_mass(qdot_session *session, const char *what, const char *name, qdot_expr e,
+                     double value)
 {
     qdot_text text = {0};
     qdot_status status = qdot_print(session->pool, e, QDOT_PLAIN, &text);
@@ -218,10 +218,10 @@ negative(qdot_session *session, const char *what, const char *name, qdot_expr e,
     return status;
 }
 
-/* QDOT_ESINGULAR if the mass, or a moment of inertia of the body, is negative with these values. */
+/* Fail with QDOT_ESINGULAR if the mass, or a moment of inertia of the body, is negative with these values. */
 static qdot_status
-refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
-                const char *name, qdot_expr e)
+check_not_negative(qdot_session *session, const qdot_request *o, const char *what,
+                   const char *name, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
     const bool scalar = qdot_expr_is_scalar(pool, e);
@@ -239,7 +239,7 @@ refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
             continue;
         QDOT_TRY(qdot_session_number(session, bound, &value, NULL));
         if (value < 0)
-            return negative(session, what, name, one, value);
+            return report_negative_mass(session, what, name, one, value);
     }
     return QDOT_OK;
 }
@@ -250,14 +250,14 @@ qdot_request_masses(qdot_session *session, const qdot_request *o)
     const qdot_scene *scene = session->scene;
 
     for (size_t i = 0; i < scene->particles.n; i++)
-        QDOT_TRY(refuse_negative(session, o, "mass", scene->particles.at[i].name,
-                                 scene->particles.at[i].mass));
+        QDOT_TRY(check_not_negative(session, o, "mass", scene->particles.at[i].name,
+                                    scene->particles.at[i].mass));
     for (size_t i = 0; i < scene->bodies.n; i++) {
         const qdot_body *body = &scene->bodies.at[i];
 
-        QDOT_TRY(refuse_negative(session, o, "mass", body->name, body->mass));
+        QDOT_TRY(check_not_negative(session, o, "mass", body->name, body->mass));
         QDOT_TRY(
-            refuse_negative(session, o, "moment of inertia", body->name, body->inertia));
+            check_not_negative(session, o, "moment of inertia", body->name, body->inertia));
     }
     return QDOT_OK;
 }

@@ -15,17 +15,17 @@ typedef struct {
     qdot_run_request request;
 } qdot_request;
 
-/* Set the values and the start of the request to those of the session. */
+/* Fill the request of a run with the session's values of parameters and its start. */
 QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
-/* Set the time limits, which must be constants of the session. */
+/* Set the time limits of the request, which must be constants with the session's values. */
 QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr from,
                                                 qdot_expr to, qdot_request *o);
-/* Set values, start and limits for a statement that integrates by itself; a notice if there was no `start`. */
+/* Set values, start and limits for a statement that integrates by itself; give a notice if there was no `start`. */
 QDOT_MUST_CHECK qdot_status qdot_request_between(qdot_session *session, qdot_expr from,
                                                  qdot_expr to, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
-/* QDOT_ESINGULAR if a mass or moment of inertia is negative with these values; the message says which. */
+/* Fail with QDOT_ESINGULAR if a mass or moment of inertia is negative with these values; the message says which. */
 QDOT_MUST_CHECK qdot_status qdot_request_masses(qdot_session *session, const qdot_request *o);
 /* The status of what was done with the request. Where the mass matrix was singular and a mass or
  * moment of inertia is negative, the error says so: which, and the value of its parameter. Tests:

@@ -1,4 +1,4 @@
-/* run-options.c -- the options of a run. */
+/* run-options.c -- reads the options of a run. */
 #include "lang/runs/run-options.h"
 
 #include <limits.h>
@@ -14,10 +14,10 @@
 #include "lang/session/held.h"
 #include "lang/session/values.h"
 
-/* Append the tokens [from, to) to the text of the options. */
+/* Append the tokens [from, to) to the text of the run's options. */
 static void
-add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
-         qdot_run_options *o)
+add_option_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
+                qdot_run_options *o)
 {
     if (from == to)
         return;
@@ -26,9 +26,9 @@ add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
     qdot_token_text(c->session, from, to, &o->text);
 }
 
-/* Append ` with l = 1`: the values that loops set at present. */
+/* Append ` with l = 1`: the values of parameters and coordinates that loops set at present. */
 static qdot_status
-add_held(qdot_cursor *c, qdot_run_options *o)
+add_values_set_by_loops(qdot_cursor *c, qdot_run_options *o)
 {
     qdot_session *session = c->session;
 
@@ -44,14 +44,14 @@ add_held(qdot_cursor *c, qdot_run_options *o)
     return session->evaluation->held.n > 0 ? qdot_value_check(c, &o->with) : QDOT_OK;
 }
 
-/* Take NAME = VALUE of `with`: a parameter, a coordinate or a velocity. */
+/* Read one pair NAME = VALUE of the option `with`: a parameter, a coordinate or a velocity. */
 static qdot_status
-with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
+read_with_pair(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
 {
     qdot_expr symbol, value;
 
     QDOT_TRY(qdot_set_find_symbol(r, part, &symbol));
-    /* of a run with a name its values can be read later: first.n */
+    /* if a run has a name, its value of any parameter can be read later, as first.n */
     if (qdot_record_word(r, "as") == NULL && !qdot_set_is_read(r, part, symbol))
         QDOT_TRY(qdot_answer_notice(r->cursor.session, "nothing in the run depends on %.100s",
                                     qdot_expr_symbol(r->cursor.session->pool, symbol)->name));
@@ -61,12 +61,12 @@ with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
     return qdot_pairs_push(with, part->from, symbol, value);
 }
 
-/* Take the values of the list NAME = VALUE, ... that begins with `first`. */
+/* Read the values of a list NAME = VALUE, ... that begins with the part `first`. */
 static qdot_status
-with_find(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_pairs *with)
+read_with_list(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_pairs *with)
 {
-    for (const qdot_filled *part = first; part < to; part += 4) { /* four parts for each: NAME, `=`, VALUE, `,` */
-        QDOT_TRY(with_find_one(r, part, with));
+    for (const qdot_filled *part = first; part < to; part += 4) { /* each pair has four parts: NAME, `=`, VALUE, `,` */
+        QDOT_TRY(read_with_pair(r, part, with));
         if (part + 3 >= to || !qdot_filled_is(part + 3, ","))
             break;
     }
@@ -74,7 +74,7 @@ with_find(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_
 }
 
 static qdot_status
-tolerance_find(qdot_record *r, const qdot_filled *part, qdot_run_options *o)
+read_tolerance(qdot_record *r, const qdot_filled *part, qdot_run_options *o)
 {
     QDOT_TRY(qdot_record_number(r, part, &o->tol));
     if (o->tol > 0 && o->tol < 1)
@@ -83,9 +83,9 @@ tolerance_find(qdot_record *r, const qdot_filled *part, qdot_run_options *o)
     return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
 }
 
-/* Take the treatment of drift off the constraints: project, baumgarte or none. */
+/* Read how drift off the constraints is treated: project, baumgarte or none. */
 static qdot_status
-treatment_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
+read_constraint_treatment(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
 {
     if (r->cursor.session->scene->constraints.n == 0) {
         qdot_record_blame(r, word);
@@ -99,7 +99,7 @@ treatment_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
 }
 
 static qdot_status
-digits_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
+read_digits(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
 {
     QDOT_TRY(qdot_record_integer(r, word + 1, &o->digits));
     qdot_record_blame(r, word);
@@ -109,18 +109,18 @@ digits_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
     return qdot_hint("digits 30");
 }
 
-/* Take the option whose word is this part; it ends before `to`. */
+/* Read the option whose word is this part of the statement; it ends before `to`. */
 static qdot_status
-option_find(qdot_record *r, const qdot_filled *word, const qdot_filled *to, qdot_run_options *o)
+read_option(qdot_record *r, const qdot_filled *word, const qdot_filled *to, qdot_run_options *o)
 {
     if (qdot_filled_is(word, "tol"))
-        return tolerance_find(r, word + 1, o);
+        return read_tolerance(r, word + 1, o);
     if (qdot_filled_is(word, "digits"))
-        return digits_find(r, word, o);
+        return read_digits(r, word, o);
     if (qdot_filled_is(word, "constraints"))
-        return treatment_find(r, word, o);
+        return read_constraint_treatment(r, word, o);
     if (qdot_filled_is(word, "with"))
-        return with_find(r, word + 1, to, &o->with);
+        return read_with_list(r, word + 1, to, &o->with);
     if (qdot_filled_is(word, "as"))
         return qdot_record_name(r, word + 1, &o->name);
     if (qdot_filled_is(word, "method")) {
@@ -141,15 +141,15 @@ qdot_run_options_find(qdot_record *r, const qdot_filled *from, const qdot_filled
     for (const qdot_filled *part = from; part < to; part++) {
         if (part->node->kind != QDOT_USAGE_WORD)
             continue;
-        QDOT_TRY(option_find(r, part, to, o));
+        QDOT_TRY(read_option(r, part, to, o));
         if (qdot_filled_is(part, "as")) {
-            add_text(&r->cursor, said->from, part->from, o);
+            add_option_text(&r->cursor, said->from, part->from, o);
             said = part + 2;
         }
     }
     if (said < to)
-        add_text(&r->cursor, said->from, to[-1].to, o);
-    return add_held(&r->cursor, o);
+        add_option_text(&r->cursor, said->from, to[-1].to, o);
+    return add_values_set_by_loops(&r->cursor, o);
 }
 
 bool

@@ -8,7 +8,7 @@
 #include "lang/syntax/record.h"
 #include "sim/model/request.h"
 
-/* The options as they occur in usages, except for a name. */
+/* The options of a run as text, for the usage texts of statements, except for the name of the run. */
 #define QDOT_RUN_USAGE "[tol E | digits N] " QDOT_RUN_USAGE_OTHERS
 #define QDOT_RUN_USAGE_OTHERS                                                            \
     "[method NAME] [with NAME = VALUE, ...] [constraints project|baumgarte|none]"
@@ -16,7 +16,7 @@
 typedef struct {
     qdot_expr from, to;
     double tol;
-    long digits; /* requested number of digits; 0: a run in doubles */
+    long digits; /* requested number of digits; 0: the run is computed in doubles */
     const char *method, *name;
     const qdot_token *method_at;
     qdot_run_treatment treatment;
@@ -28,16 +28,16 @@ typedef struct {
  * a name. From {.tol = 1e-12}; free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_find(qdot_record *r, const qdot_filled *from,
                                                   const qdot_filled *to, qdot_run_options *o);
-/* Whether `with` gives a start value. */
+/* Whether the option `with` gives a start value. */
 bool qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o);
-/* Set the values of `with`; the caller saves and restores the session's values. */
+/* Set the session's values to those of the option `with`; the caller saves and restores them. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_put(qdot_session *session, const qdot_run_options *o);
 /* The request of the present values, those of `with` in place of them, of these options, and of the
  * limits from..to, which may hold such values. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session, const qdot_run_options *o,
                                                   qdot_expr from, qdot_expr to,
                                                   qdot_request *request);
-/* Make that run for the trial, the latest one until its end. QDOT_EFAILED with the reason: the run failed. */
+/* Make a run with these options as a trial: it is the latest run until the trial ends. QDOT_EFAILED: it failed. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_try(qdot_trial *trial, const qdot_run_options *o, qdot_expr from,
                                                  qdot_expr to);
 void qdot_run_options_free(qdot_run_options *o);

@@ -1,4 +1,4 @@
-/* run.c -- the statement `run`. */
+/* run.c -- the statement `run`: integrates the equations of motion, and keeps and reports the run. */
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -10,7 +10,7 @@
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
-static qdot_status run_make(qdot_record *r);
+static qdot_status carry_out_run(qdot_record *r);
 
 QDOT_STATEMENT(run) = {
     .word = "run",
@@ -18,12 +18,12 @@ QDOT_STATEMENT(run) = {
     .usage = "run T0..T1 " QDOT_RUN_USAGE " [as NAME]",
     .summary = "integrate the equations of motion; reports steps, drift and error",
     .example = "run 0..20 tol 1e-12",
-    .handler = run_make,
+    .handler = carry_out_run,
 };
 
-/* Integrate, keep the run, and report how it went. */
+/* Integrate the equations of motion, keep the run in the session, and report how it went. */
 static qdot_status
-run_integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
+integrate_and_report(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
 {
     qdot_session *session = c->session;
     const qdot_run_report *report;
@@ -77,14 +77,14 @@ qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_optio
         status = qdot_run_options_fill(c->session, o, o->from, o->to, &request);
     }
     if (status == QDOT_OK)
-        status = qdot_request_explain(c->session, &request, run_integrate(c, o, &request));
+        status = qdot_request_explain(c->session, &request, integrate_and_report(c, o, &request));
     qdot_run_options_place(c, o->method_at, status);
     qdot_request_free(&request);
     return status;
 }
 
 static qdot_status
-run_make(qdot_record *r)
+carry_out_run(qdot_record *r)
 {
     qdot_run_options o = {.tol = 1e-12};
     qdot_status status = qdot_run_options_find(r, r->parts.at + 1, r->parts.at + r->parts.n, &o);

@@ -11,7 +11,7 @@
 #include "lang/syntax/record.h"
 #include "sim/study/workprecision.h"
 
-static qdot_status workprecision_measure(qdot_record *r);
+static qdot_status carry_out_workprecision(qdot_record *r);
 
 QDOT_STATEMENT(workprecision) = {
     .word = "workprecision",
@@ -19,7 +19,7 @@ QDOT_STATEMENT(workprecision) = {
     .usage = "workprecision T0..T1 " QDOT_FIGURE_USAGE,
     .summary = "error against time: every method over a ladder of tolerances",
     .example = "workprecision 0..20",
-    .handler = workprecision_measure,
+    .handler = carry_out_workprecision,
 };
 
 typedef struct {
@@ -52,7 +52,7 @@ enum { COLUMNS = sizeof columns / sizeof *columns, CONSTRAINT_ERR = 10 };
 
 /* Fill the table of results; the column of constraint errors only exists for scenes with constraints. */
 static qdot_status
-study_fill(const void *study, qdot_table *t)
+fill_study_table(const void *study, qdot_table *t)
 {
     const qdot_workprecision *w = study;
     qdot_table_column some[COLUMNS];
@@ -79,7 +79,7 @@ study_fill(const void *study, qdot_table *t)
 }
 
 static void
-words(const void *study, qdot_text *out)
+write_remarks(const void *study, qdot_text *out)
 {
     const qdot_workprecision *w = study;
 
@@ -91,10 +91,10 @@ words(const void *study, qdot_text *out)
 }
 
 static qdot_status
-rows_json(qdot_session *session, const void *study)
+answer_rows_as_json(qdot_session *session, const void *study)
 {
     qdot_table t = {0};
-    qdot_status status = study_fill(study, &t);
+    qdot_status status = fill_study_table(study, &t);
 
     if (status == QDOT_OK)
         status = qdot_answer_rows(session, "workprecision", &t);
@@ -105,7 +105,7 @@ rows_json(qdot_session *session, const void *study)
 /* --- figure of results --------------------------------------------------------------- */
 
 static size_t
-points_of(const void *study, qdot_error_point *points)
+make_points(const void *study, qdot_error_point *points)
 {
     const qdot_workprecision *w = study;
 
@@ -116,7 +116,7 @@ points_of(const void *study, qdot_error_point *points)
 }
 
 static void
-workprecision_note(const void *study, qdot_text *out)
+write_figure_note(const void *study, qdot_text *out)
 {
     const qdot_workprecision *w = study;
 
@@ -127,16 +127,16 @@ workprecision_note(const void *study, qdot_text *out)
 /* --- the statement `workprecision` --------------------------------------------------- */
 
 static qdot_status
-workprecision_tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
+answer_workprecision(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
 {
     const qdot_error_study of = {.name = "workprecision",
                                  .study = w,
                                  .left_out = &w->left_out,
                                  .interrupted = w->interrupted,
-                                 .table = study_fill,
-                                 .words = words,
-                                 .data = study_fill,
-                                 .rows = rows_json,
+                                 .table = fill_study_table,
+                                 .words = write_remarks,
+                                 .data = fill_study_table,
+                                 .rows = answer_rows_as_json,
                                  .figure = {.title = "work and precision",
                                             .abscissa = "CPU time in s",
                                             .ordinate = "error at the end",
@@ -144,15 +144,15 @@ workprecision_tell(qdot_session *session, const qdot_workprecision *w, const cho
                                             .figure = &chosen->figure,
                                             .panel = &chosen->panel},
                                  .most_points = w->n,
-                                 .points = points_of,
-                                 .note = workprecision_note};
+                                 .points = make_points,
+                                 .note = write_figure_note};
 
     return qdot_error_time_tell(session, &of);
 }
 
-/* Keep a complete study, for use in reports (lang/files/report-work.h). */
+/* Store a complete work-precision study, for use in reports (lang/files/report-work.h). */
 static qdot_status
-workprecision_keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
+store_study(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
 {
     qdot_conditions conditions = {0};
     qdot_status status = qdot_conditions_take(session->scene, request, &conditions);
@@ -164,7 +164,7 @@ workprecision_keep(qdot_session *session, const qdot_run_request *request, qdot_
 }
 
 static qdot_status
-workprecision_measure(qdot_record *r)
+carry_out_workprecision(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_request order = {0};
@@ -182,11 +182,11 @@ workprecision_measure(qdot_record *r)
     if (w.interrupted)
         qdot_interrupt_clear(); /* the interruption is handled here: report the rows measured so far */
     if (status == QDOT_OK)
-        status = workprecision_tell(session, &w, &chosen);
+        status = answer_workprecision(session, &w, &chosen);
     if (status == QDOT_OK && w.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
     if (status == QDOT_OK)
-        status = workprecision_keep(session, &order.request, &w);
+        status = store_study(session, &order.request, &w);
     status = qdot_request_explain(session, &order, status);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);

@@ -17,8 +17,8 @@
  * all have digits it becomes *value, of numbers that each have theirs; else it is measured in
  * doubles. */
 static qdot_status
-measure_members(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
-                qdot_measured *m, qdot_expr *value)
+evaluate_over_several_runs(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                           qdot_measured *m, qdot_expr *value)
 {
     double t, low;
     bool mixed;
@@ -35,7 +35,7 @@ measure_members(qdot_session *session, const char *run, qdot_expr e, qdot_expr t
 }
 
 static bool
-any_member(const qdot_session *session, const qdot_runs_columns *columns)
+any_refers_to_run(const qdot_session *session, const qdot_runs_columns *columns)
 {
     for (size_t i = 0; i < columns->n; i++)
         if (qdot_member_any(session, columns->at[i]))
@@ -43,10 +43,10 @@ any_member(const qdot_session *session, const qdot_runs_columns *columns)
     return false;
 }
 
-/* Record from which runs the numbers m come, for sensitivities (with momenta written as velocities). */
+/* Record from which runs the numbers m come, to compute sensitivities (momenta written as velocities). */
 static void
-note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
-             qdot_expr time, qdot_measured *m)
+record_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
+               qdot_expr time, qdot_measured *m)
 {
     for (uint32_t i = 0; i < n; i++) {
         const bool scalar = qdot_expr_is_scalar(session->pool, args[i]);
@@ -65,19 +65,19 @@ note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr
 /* Measure the columns at a time: as numbers m [columns], or for several runs as expressions values
  * [columns], not nil. */
 static qdot_status
-measure_columns(qdot_session *session, const char *run, const qdot_runs_columns *columns,
-                qdot_expr time, qdot_measured *m, qdot_expr *values)
+evaluate_columns_at(qdot_session *session, const char *run, const qdot_runs_columns *columns,
+                    qdot_expr time, qdot_measured *m, qdot_expr *values)
 {
-    if (!any_member(session, columns))
+    if (!any_refers_to_run(session, columns))
         return qdot_runs_measure(session, run, columns, time, m);
     for (size_t i = 0; i < columns->n; i++)
-        QDOT_TRY(measure_members(session, run, columns->at[i], time, m + i, values + i));
+        QDOT_TRY(evaluate_over_several_runs(session, run, columns->at[i], time, m + i, values + i));
     return QDOT_OK;
 }
 
-/* Evaluate e at time t, along the runs that it names, otherwise along `run`. */
+/* Evaluate e at time t, along the runs that e names, otherwise along `run`. */
 static qdot_status
-along_value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
+evaluate_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
 {
     qdot_named_run *named = NULL;
     double error;
@@ -94,7 +94,7 @@ along_value_at(qdot_session *session, const char *run, qdot_expr e, double t, do
 /* What the numbers of runs that stand in e are off by, as it makes e at t: sum |de/dm| error
  * of m, added to *error. */
 static qdot_status
-add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, double *error)
+add_propagated_error(qdot_session *session, const char *run, qdot_expr e, double t, double *error)
 {
     const size_t n = session->measured->n;
 
@@ -107,16 +107,16 @@ add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, 
             continue;
         d = qdot_measured_as_rationals(session, qdot_diff(session->pool, e, m.symbol));
         QDOT_TRY(qdot_pool_check(session->pool));
-        QDOT_TRY(along_value_at(session, run, d, t, &slope));
+        QDOT_TRY(evaluate_at(session, run, d, t, &slope));
         *error += slope == 0 ? 0 : fabs(slope) * m.error;
     }
     return QDOT_OK;
 }
 
-/* Add such errors for all components of args [n], in which the numbers m occur. */
+/* Add to the errors of all components of args [n] those due to errors of run results that occur in them. */
 static qdot_status
-add_errors_within(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
-                  qdot_expr time, qdot_measured *m)
+add_propagated_errors(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
+                      qdot_expr time, qdot_measured *m)
 {
     double t;
 
@@ -126,9 +126,9 @@ add_errors_within(qdot_session *session, const char *run, uint32_t n, const qdot
         const uint32_t parts = scalar ? 1 : qdot_expr_count(session->pool, args[i]);
 
         for (uint32_t k = 0; k < parts; k++, m++)
-            QDOT_TRY(add_error_within(session, run,
-                                      scalar ? args[i] : qdot_expr_arg(session->pool, args[i], k),
-                                      t, &m->error));
+            QDOT_TRY(add_propagated_error(session, run,
+                                          scalar ? args[i] : qdot_expr_arg(session->pool, args[i], k),
+                                          t, &m->error));
     }
     return QDOT_OK;
 }
@@ -158,11 +158,11 @@ qdot_along_value(qdot_session *session, const char *run, uint32_t n,
         status = measured == NULL || values == NULL ? QDOT_ENOMEM : QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = measure_columns(session, run, &columns, args[n - 1], measured, values);
+        status = evaluate_columns_at(session, run, &columns, args[n - 1], measured, values);
     if (status == QDOT_OK)
-        status = add_errors_within(session, run, n - 1, args, args[n - 1], measured);
-    if (status == QDOT_OK && !any_member(session, &columns))
-        note_origins(session, run, n - 1, args, args[n - 1], measured);
+        status = add_propagated_errors(session, run, n - 1, args, args[n - 1], measured);
+    if (status == QDOT_OK && !any_refers_to_run(session, &columns))
+        record_origins(session, run, n - 1, args, args[n - 1], measured);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&symbols, values[i] != QDOT_NIL
                                              ? values[i]

@@ -21,9 +21,9 @@
 
 /* --- values of parameters and functions --------------------------------------------- */
 
-/* Apply f(formals) = body to the arguments of an application, with the derivatives that it takes. */
+/* Insert the arguments of an application into the definition f(formals) = body, and take its derivatives. */
 static qdot_expr
-apply_function(qdot_pool *pool, qdot_expr application, qdot_expr head, qdot_expr body)
+insert_function_definition(qdot_pool *pool, qdot_expr application, qdot_expr head, qdot_expr body)
 {
     uint32_t n = qdot_expr_count(pool, application) / 2;
     qdot_vec(qdot_expr) formals = {0}, actual = {0};
@@ -51,7 +51,7 @@ apply_function(qdot_pool *pool, qdot_expr application, qdot_expr head, qdot_expr
 
 /* Replace every application of a defined function by its value. */
 static qdot_expr
-bind_functions(qdot_session *session, qdot_expr e)
+insert_functions(qdot_session *session, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, e, true);
@@ -71,8 +71,8 @@ bind_functions(qdot_session *session, qdot_expr e)
                 qdot_expr_node(pool, head)->op != qdot_expr_node(pool, atom)->op)
                 continue;
             if (qdot_vec_push(&from, atom) != QDOT_OK ||
-                qdot_vec_push(&to, apply_function(pool, atom, head,
-                                                  session->values->set_values.at[k])) != QDOT_OK)
+                qdot_vec_push(&to, insert_function_definition(pool, atom, head,
+                                                              session->values->set_values.at[k])) != QDOT_OK)
                 e = qdot_pool_fail(pool);
             break;
         }
@@ -101,7 +101,7 @@ qdot_session_bind(qdot_session *session, qdot_expr e)
         e = qdot_subs(pool, e, session->values->set_symbols.n, session->values->set_symbols.at,
                       session->values->set_values.at);
         if (e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & QDOT_HAS_UFUN))
-            e = bind_functions(session, e);
+            e = insert_functions(session, e);
         if (e == before || e == QDOT_NIL)
             return e;
         if (qdot_interrupt_check() != QDOT_OK)
@@ -142,17 +142,17 @@ find_measured(qdot_session *session, qdot_expr e, size_t *n, const qdot_measured
     return QDOT_OK;
 }
 
-/* Evaluate e with the results of runs as inputs: the value, and the error sum |de/dm| error(m). */
+/* Evaluate e with the results of runs as inputs m: its value, and its error, the sum of |de/dm| error(m). */
 static qdot_status
-measured_evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *const *list,
-                  double *value, double *error)
+evaluate_with_error(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *const *list,
+                    double *value, double *error)
 {
     qdot_pool *pool = session->pool;
     qdot_vec(qdot_expr) inputs = {0}, outputs = {0};
     qdot_vec(double) in = {0};
     qdot_tape *tape = NULL;
     double *out = NULL;
-    bool rounded = false; /* some of the numbers are doubles, not exact */
+    bool rounded = false; /* whether some of the results of runs are rounded doubles, not exact numbers */
     qdot_status status = qdot_vec_push(&outputs, e);
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -192,7 +192,7 @@ measured_evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measu
 
 /* Fail with QDOT_ETYPE: e is not a scalar. */
 static qdot_status
-not_a_number(qdot_session *session, qdot_expr e)
+report_not_scalar(qdot_session *session, qdot_expr e)
 {
     if (!qdot_expr_is_scalar(session->pool, e))
         return qdot_fail(QDOT_ETYPE, "%s stands where a number belongs",
@@ -210,11 +210,11 @@ qdot_session_number(qdot_session *session, qdot_expr e, double *value, double *e
 
     e = qdot_session_bind(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(not_a_number(session, e));
+    QDOT_TRY(report_not_scalar(session, e));
     QDOT_TRY(qdot_member_refuse(session, e));
     QDOT_TRY(find_measured(session, e, &n, &list));
     status = n == 0 ? qdot_constant_double(session->pool, e, value)
-                    : measured_evaluate(session, e, n, list, value, &own_error);
+                    : evaluate_with_error(session, e, n, list, value, &own_error);
     qdot_free(list);
     QDOT_TRY(status);
     if (isnan(*value))
@@ -248,7 +248,7 @@ qdot_session_integer(qdot_session *session, qdot_expr e, long *value)
 
     e = qdot_session_bind(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(not_a_number(session, e));
+    QDOT_TRY(report_not_scalar(session, e));
     if (qdot_expr_to_int(session->pool, e, value))
         return QDOT_OK;
     QDOT_TRY(qdot_print(session->pool, e, QDOT_PLAIN, &text));
@@ -270,7 +270,7 @@ qdot_session_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
 
     if ((s.lo == QDOT_NIL && s.hi == QDOT_NIL) ||
         qdot_session_number(session, value, &x, NULL) != QDOT_OK)
-        return QDOT_OK; /* the value is not a number yet */
+        return QDOT_OK; /* the expression has no number as its value yet */
     if (s.lo != QDOT_NIL && qdot_session_number(session, s.lo, &bound, NULL) == QDOT_OK &&
         (x < bound || (s.lo_open && x == bound)))
         return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",

@@ -1,4 +1,4 @@
-/* bind.h -- numbers of expressions, from the values of `set` and the numbers from runs. */
+/* bind.h -- evaluates expressions to numbers, with the values given by `set` and the numbers from runs. */
 #ifndef QDOT_LANG_BIND_H
 #define QDOT_LANG_BIND_H
 
@@ -14,7 +14,7 @@ QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr
 /* As qdot_session_number; *low is the exact value minus the double, 0 if e contains results of runs. */
 QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
                                                double *value, double *low);
-/* Evaluate e as an integer; QDOT_ETYPE names the value if it is none. */
+/* Evaluate e as an integer; QDOT_ETYPE, with the value in the message, if it is no integer. */
 QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
                                                  long *value);
 /* QDOT_EDOMAIN where the value is a number already and lies outside the symbol's

@@ -1,4 +1,4 @@
-/* conditions.c -- the conditions (scene, values, start, limits) of a run; the studies made under them. */
+/* conditions.c -- the conditions (scene, values, start, limits) under which a run is made, and the studies made under them. */
 #include "lang/session/conditions.h"
 
 #include <string.h>
@@ -65,12 +65,12 @@ qdot_conditions_request(const qdot_conditions *c)
 }
 
 static bool
-same_items(const void *a, size_t n, const void *b, size_t m, size_t size)
+have_same_items(const void *a, size_t n, const void *b, size_t m, size_t size)
 {
     return n == m && (n == 0 || memcmp(a, b, n * size) == 0);
 }
 
-#define SAME(list) same_items(a->list.at, a->list.n, b->list.at, b->list.n, sizeof *a->list.at)
+#define SAME(list) have_same_items(a->list.at, a->list.n, b->list.at, b->list.n, sizeof *a->list.at)
 
 bool
 qdot_conditions_same(const qdot_conditions *a, const qdot_conditions *b)

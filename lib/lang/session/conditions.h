@@ -7,7 +7,7 @@
 
 #include "sim/study/workprecision.h"
 
-/* The scene, parameter values, start and limits of a run; not how it was integrated. */
+/* The scene, parameter values, start and limits of a run; the method of integration is not part of them. */
 typedef struct {
     uint64_t version; /* version of the scene */
     qdot_vec(qdot_expr) symbols, values; /* parameters and their values */
@@ -15,19 +15,19 @@ typedef struct {
     qdot_vec(bool) q_named, v_named;
     bool exactly;
     qdot_expr t0, t1;
-    qdot_expr said[2]; /* the limits as they were written; nil: t0, t1 */
+    qdot_expr said[2]; /* the two time limits of the run as they were written; nil: t0, t1 */
 } qdot_conditions;
 
-/* Copy the conditions of a request to *conditions, which is {0}; clear it in any case. QDOT_ENOMEM. */
+/* Copy the conditions of a run request to *conditions, which must be {0}; clear it in any case. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_conditions_take(const qdot_scene *scene,
                                                  const qdot_run_request *request,
                                                  qdot_conditions *conditions);
 void qdot_conditions_clear(qdot_conditions *conditions);
 
-/* A request with these conditions: tol 1e-12, method auto. It borrows their arrays. */
+/* A run request with these conditions, tolerance 1e-12 and method auto; it borrows their arrays. */
 qdot_run_request qdot_conditions_request(const qdot_conditions *conditions);
 
-/* Whether both have the same version of the scene, and the same values, start and limits. */
+/* Whether two runs have the same version of the scene, and the same values, start and limits. */
 bool qdot_conditions_same(const qdot_conditions *a, const qdot_conditions *b);
 
 /* A work-precision study made under these conditions. */
@@ -40,7 +40,7 @@ typedef struct qdot_kept_studies {
     qdot_vec(qdot_kept_study);
 } qdot_kept_studies;
 
-/* The study made under these conditions, or NULL; borrowed. */
+/* The work-precision study made under these conditions, or NULL; borrowed. */
 const qdot_workprecision *qdot_studies_find(const qdot_kept_studies *studies,
                                             const qdot_conditions *conditions);
 

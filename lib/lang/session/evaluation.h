@@ -1,4 +1,4 @@
-/* evaluation.h -- the context in which a statement is read: loops, calls, the sides of a check. */
+/* evaluation.h -- the state while a statement is read: loops, calls, the sides of a check. */
 #ifndef QDOT_LANG_EVALUATION_H
 #define QDOT_LANG_EVALUATION_H
 
@@ -6,18 +6,18 @@
 #include "lang/session/parts.h"
 #include "lang/session/text-list.h"
 
-/* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
+/* Subexpressions of the two sides of a check: each must be defined wherever the sides are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
-    qdot_vec(qdot_expr) root; /* powers among them: base and exponent alternately */
-    bool spoiled; /* a function like subs, which takes its argument apart, was called: the list is not valid */
-    unsigned branches; /* depth of if(...) branches: parts inside need not be defined */
+    qdot_vec(qdot_expr) root; /* powers among these subexpressions: base and exponent alternately */
+    bool spoiled; /* a function like subs, which uses parts of its argument, was called: the list is not valid */
+    unsigned branches; /* depth of if(...) branches being evaluated: parts inside need not be defined */
 } qdot_passed;
 
 /* A parameter or coordinate with a value for the present pass of a loop (lang/session/held). */
 typedef struct {
     qdot_expr symbol, value;
-    qdot_expr before; /* its earlier value from `set` or `start`; nil: none */
+    qdot_expr before; /* its value by `set` or `start` before the loop; nil: none */
 } qdot_held;
 
 typedef struct qdot_evaluation {
@@ -26,11 +26,11 @@ typedef struct qdot_evaluation {
     const char *taken; /* short name of a value that was read (lang/functions/short-names); NULL: none */
     qdot_text_list told; /* notices that the present statement has given */
     unsigned calls;    /* depth of nested function calls */
-    bool placed;       /* the error message already names a place in a function's body */
+    bool placed;       /* the error message already names a place in a function's definition */
     qdot_vec(qdot_held) held; /* parameters and coordinates set by open loops, innermost last */
     size_t loops;      /* number of open loops, whose sources must be kept */
     qdot_vec(struct qdot_partial_sum) partial_sums; /* values of sums reused by the outermost loop (language/partial-sum) */
-    qdot_passed *passed; /* records subexpressions of a check's sides; NULL: no check */
+    qdot_passed *passed; /* records subexpressions of both sides of a check; NULL: no check is being read */
 } qdot_evaluation;
 
 #endif

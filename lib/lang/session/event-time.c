@@ -1,4 +1,4 @@
-/* event-time.c -- when the events of a run occurred. */
+/* event-time.c -- finds when the events of a run occurred. */
 #include "lang/session/event-time.h"
 
 #include <stdio.h>
@@ -29,7 +29,7 @@ qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o)
 /* Fail because occurrence k is not among the n known ones; say since when it is unknown whether the
  * event occurs. */
 static qdot_status
-fail_unknown_occurrence(const qdot_named_run *named, const char *name, long k, size_t n)
+report_unknown_occurrence(const qdot_named_run *named, const char *name, long k, size_t n)
 {
     const qdot_run_faded *list;
     size_t count;
@@ -85,7 +85,7 @@ qdot_event_time(qdot_session *session, const char *run, const char *name, long k
     if (status == QDOT_OK && k == 0) {
         *value = qdot_list(session->pool, (uint32_t)all.n, all.at);
     } else if (status == QDOT_OK && (k < 1 || (size_t)k > all.n)) {
-        status = fail_unknown_occurrence(named, name, k, all.n);
+        status = report_unknown_occurrence(named, name, k, all.n);
     } else if (status == QDOT_OK) {
         *value = all.at[k - 1];
     }

@@ -8,7 +8,7 @@
 /* Whether the scene, or that run (NULL: the latest), has an event of that name. */
 bool qdot_event_is(const qdot_session *session, const char *run, const char *name);
 
-/* The number of digits with which a time is known; 0 for a double. */
+/* The number of digits to which the time of an event is known; 0 for a double. */
 int qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o);
 
 /* Find the time of occurrence k of the event, counted from 1; for k = 0 a list of all. */

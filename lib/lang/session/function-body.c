@@ -1,4 +1,4 @@
-/* function-body.c -- tokens of a source, counted by their uses. */
+/* function-body.c -- the body of a defined function: tokens of a source text, with a count of its users. */
 #include "lang/session/function-body.h"
 
 #include "lang/source/source.h"

@@ -7,7 +7,7 @@
 
 typedef struct qdot_function_body {
     unsigned uses;
-    qdot_source *source;             /* the source text, which is kept as long as this */
+    qdot_source *source;             /* the source text, which is kept as long as the body */
     const qdot_token *from, *to;     /* the tokens from ... to - 1 of the body */
     qdot_vec(const char *) captured; /* names of the loop indices around the definition */
 } qdot_function_body;

@@ -1,4 +1,4 @@
-/* held.c -- parameters and coordinates that a loop sets for the time of one iteration. */
+/* held.c -- parameters and coordinates to which a loop assigns a value for one pass. */
 #include "lang/session/held.h"
 
 #include <string.h>
@@ -49,14 +49,14 @@ qdot_held_end(qdot_session *session)
     bool starts;
     size_t n, i;
 
-    if (session->evaluation->held.n == 0) /* a `reset` within the loop has removed it */
+    if (session->evaluation->held.n == 0) /* the loop's value was removed by a `reset` within the loop */
         return;
     held = session->evaluation->held.at[--session->evaluation->held.n];
     starts = qdot_expr_is_class(session->pool, held.symbol, QDOT_COORD);
     n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
     i = index_of_symbol(starts ? session->values->start_symbols.at : session->values->set_symbols.at, n,
                         held.symbol);
-    if (i == n) /* the statement has removed it, as `reset start` does */
+    if (i == n) /* the symbol's value was removed by the statement, as `reset start` does */
         return;
     if (held.before != QDOT_NIL) {
         *(starts ? &session->values->start_values.at[i] : &session->values->set_values.at[i]) = held.before;
@@ -111,7 +111,7 @@ qdot_held_check(qdot_session *session)
 /* --- the scene with the values set by loops ---------------------------------------------- */
 
 static qdot_expr
-put_in(qdot_expr e, void *user)
+insert_loop_values(qdot_expr e, void *user)
 {
     return qdot_held_parameters(user, e);
 }
@@ -120,7 +120,7 @@ qdot_status
 qdot_held_scene_begin(qdot_session *session, qdot_scene_saved *kept)
 {
     QDOT_TRY(qdot_scene_save(session->scene, kept));
-    return qdot_scene_map(session->scene, put_in, session);
+    return qdot_scene_map(session->scene, insert_loop_values, session);
 }
 
 void

@@ -12,7 +12,7 @@
 #include "lang/session/parts.h"
 #include "mech/scene/saved.h"
 
-/* Set a symbol to the value for one iteration; the value of `set` or `start` is saved. */
+/* Set a symbol to a value for one pass of a loop; its value by `set` or `start` is saved. */
 QDOT_MUST_CHECK qdot_status qdot_held_begin(qdot_session *session, qdot_expr symbol,
                                             qdot_expr value);
 /* Undo the most recent qdot_held_begin that is still in force. */
@@ -21,11 +21,11 @@ void qdot_held_end(qdot_session *session);
 /* e with the values that loops set at present, of parameters and coordinates. Nil: the pool keeps
  * the failure. */
 qdot_expr qdot_held_apply(qdot_session *session, qdot_expr e);
-/* e with the values of parameters that loops set at present. */
+/* The expression e with the values inserted of those parameters that loops set at present. */
 qdot_expr qdot_held_parameters(qdot_session *session, qdot_expr e);
 /* Whether a loop sets a coordinate at present. */
 bool qdot_held_coordinate(const qdot_session *session);
-/* QDOT_EDOMAIN if a value that a loop sets is outside the declared domain. */
+/* QDOT_EDOMAIN if the value that a loop assigns is outside the declared domain of its symbol. */
 QDOT_MUST_CHECK qdot_status qdot_held_check(qdot_session *session);
 
 /* Insert the loop values of parameters into the scene; kept is {0} before. Call _end in any case,

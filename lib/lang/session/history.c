@@ -1,4 +1,4 @@
-/* history.c -- an answer added to the history. */
+/* history.c -- adds an answer to the history of answers, which %1, %2 ... stand for. */
 #include "lang/session/history.h"
 
 qdot_status

@@ -1,4 +1,4 @@
-/* labels.c -- the labels of a scene's things with mass, springs, dampers and constraints. */
+/* labels.c -- the labels of particles, bodies, springs, dampers, constraints and so on in a scene. */
 #include "lang/session/labels.h"
 
 #include "base/spelling.h"
@@ -7,7 +7,7 @@
 enum { MOST_LISTED = 8 };
 
 static void
-words_add(qdot_words *list, const char *word)
+append_word(qdot_words *list, const char *word)
 {
     if (word != NULL)
         (void)qdot_vec_push(list, word); /* if memory runs out the hint lacks this word */
@@ -17,32 +17,32 @@ void
 qdot_labels_add(const qdot_scene *s, qdot_words *list)
 {
     for (size_t i = 0; i < s->particles.n; i++)
-        words_add(list, s->particles.at[i].name);
+        append_word(list, s->particles.at[i].name);
     for (size_t i = 0; i < s->bodies.n; i++)
-        words_add(list, s->bodies.at[i].name);
+        append_word(list, s->bodies.at[i].name);
     for (size_t i = 0; i < s->springs.n; i++)
-        words_add(list, s->springs.at[i].name);
+        append_word(list, s->springs.at[i].name);
     for (size_t i = 0; i < s->dampers.n; i++)
-        words_add(list, s->dampers.at[i].name);
+        append_word(list, s->dampers.at[i].name);
     for (size_t i = 0; i < s->constraints.n; i++)
-        words_add(list, s->constraints.at[i].label);
+        append_word(list, s->constraints.at[i].label);
 }
 
 void
 qdot_labels_add_applied(const qdot_scene *s, qdot_words *list)
 {
     for (size_t i = 0; i < s->gravities.n; i++)
-        words_add(list, s->gravities.at[i].name);
+        append_word(list, s->gravities.at[i].name);
     for (size_t i = 0; i < s->potentials.n; i++)
-        words_add(list, s->potentials.at[i].name);
+        append_word(list, s->potentials.at[i].name);
     for (size_t i = 0; i < s->dissipations.n; i++)
-        words_add(list, s->dissipations.at[i].name);
+        append_word(list, s->dissipations.at[i].name);
     for (size_t i = 0; i < s->forces.n; i++)
-        words_add(list, s->forces.at[i].name);
+        append_word(list, s->forces.at[i].name);
     for (size_t i = 0; i < s->torques.n; i++)
-        words_add(list, s->torques.at[i].name);
+        append_word(list, s->torques.at[i].name);
     for (size_t i = 0; i < s->events.n; i++)
-        words_add(list, s->events.at[i].name);
+        append_word(list, s->events.at[i].name);
 }
 
 qdot_status

@@ -21,7 +21,7 @@ qdot_measured_rational(qdot_pool *pool, double x)
     return qdot_expr_of_double(pool, x);
 }
 
-/* Write the number as formulas show it: with all requested digits, or as few as identify the double. */
+/* Write a number of a run as in formulas: with all requested digits, or as few as identify the double. */
 static void
 write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
 {
@@ -43,7 +43,7 @@ write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
     qdot_text_double(out, m->value + 0.0, qdot_double_digits(m->value, 15));
 }
 
-/* Add a symbol for a number; its name is the number, then # and a counter that is not printed. */
+/* Make a new symbol for a number of a run; its name is the number, then # and a counter that is not printed. */
 qdot_expr
 qdot_measured_add(qdot_session *session, qdot_measured m)
 {

@@ -10,8 +10,8 @@
 typedef struct {
     qdot_expr symbol;
     double value, error; /* value and its error; error NaN: unknown */
-    int digits;          /* > 0: from a run with `digits` */
-    qdot_expr exact; /* with digits: the exact rational; otherwise nil, or the value that `set` uses */
+    int digits;          /* digits of the number, if the run was made with the option `digits`; else 0 */
+    qdot_expr exact; /* if it has many digits: the exact rational; otherwise nil, or the exact value that `set` uses */
     bool plain;          /* no digits were requested: with --json it is a number, not a string */
     qdot_origin origin;
 } qdot_measured;
@@ -25,9 +25,9 @@ qdot_expr qdot_measured_new(qdot_session *session, double value, double error);
 qdot_expr qdot_measured_add(qdot_session *session, qdot_measured m);
 /* Whether e contains a number from a run. */
 bool qdot_measured_occurs(qdot_session *session, qdot_expr e);
-/* e with the results of runs in it replaced by exact rationals. */
+/* The expression e with the results of runs in it replaced by exact rationals. */
 qdot_expr qdot_measured_as_rationals(qdot_session *session, qdot_expr e);
-/* A double as the rational number that it is exactly. */
+/* A double as the rational number that it equals exactly. */
 qdot_expr qdot_measured_rational(qdot_pool *pool, double x);
 
 #endif

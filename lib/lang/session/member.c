@@ -24,9 +24,9 @@ qdot_member_find(const qdot_session *session, qdot_expr symbol)
     return NULL;
 }
 
-/* Make the symbol that represents the scalar e along the run. */
+/* Make the symbol that represents the scalar expression e along the run, as in a.x. */
 static qdot_expr
-member_symbol(qdot_session *session, const char *run, qdot_expr e)
+make_symbol_along_run(qdot_session *session, const char *run, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
     bool plain = qdot_expr_kind(pool, e) == QDOT_SYM && !qdot_symbol_is_number(pool, e);
@@ -60,12 +60,12 @@ typedef struct {
 } naming;
 
 static qdot_expr
-name_one(qdot_pool *pool, qdot_expr scalar, void *user)
+symbol_for_scalar(qdot_pool *pool, qdot_expr scalar, void *user)
 {
     const naming *n = user;
 
     (void)pool;
-    return member_symbol(n->session, n->run, scalar);
+    return make_symbol_along_run(n->session, n->run, scalar);
 }
 
 qdot_expr
@@ -77,8 +77,8 @@ qdot_member_of(qdot_session *session, const char *run, qdot_expr e)
     if (e == QDOT_NIL)
         return QDOT_NIL;
     return qdot_expr_is_scalar(session->pool, e)
-               ? member_symbol(session, run, e)
-               : qdot_value_map(session->pool, e, name_one, &n);
+               ? make_symbol_along_run(session, run, e)
+               : qdot_value_map(session->pool, e, symbol_for_scalar, &n);
 }
 
 bool
@@ -112,9 +112,9 @@ qdot_member_refuse(const qdot_session *session, qdot_expr e)
 
 /* --- values along a single run ------------------------------------------------------- */
 
-/* Whether e refers to one run only; *run its name, NULL if no run is named. */
+/* Whether e refers to one run only; *run: the name of that run, NULL if no run is named. */
 static bool
-along_one(const qdot_session *session, qdot_expr e, const char **run)
+is_along_one_run(const qdot_session *session, qdot_expr e, const char **run)
 {
     const char *only = NULL;
     bool one = true;
@@ -134,7 +134,7 @@ along_one(const qdot_session *session, qdot_expr e, const char **run)
 }
 
 static qdot_expr
-put_back(qdot_session *session, qdot_expr e)
+replace_symbols_by_values(qdot_session *session, qdot_expr e)
 {
     for (size_t i = session->members->n; i-- > 0 && e != QDOT_NIL;) {
         qdot_expr from = session->members->at[i].symbol, to = session->members->at[i].value;
@@ -152,11 +152,11 @@ qdot_member_resolve(qdot_session *session, const char **run, qdot_expr *e, bool 
     *mixed = false;
     if (!qdot_member_any(session, *e))
         return QDOT_OK;
-    if (!along_one(session, *e, &own) || (*run != NULL && strcmp(*run, own) != 0)) {
+    if (!is_along_one_run(session, *e, &own) || (*run != NULL && strcmp(*run, own) != 0)) {
         *mixed = true;
         return QDOT_OK;
     }
     *run = own;
-    *e = put_back(session, *e);
+    *e = replace_symbols_by_values(session, *e);
     return qdot_pool_check(session->pool);
 }

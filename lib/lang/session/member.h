@@ -1,4 +1,4 @@
-/* member.h -- `a.x` inside a larger expression: values along several runs at once. */
+/* member.h -- `a.x`, a value along run a, within a larger expression, which may combine several runs. */
 #ifndef QDOT_LANG_MEMBER_H
 #define QDOT_LANG_MEMBER_H
 
@@ -21,11 +21,11 @@ typedef struct qdot_member_list {
     (QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |        \
      QDOT_HAS_MULTIPLIER)
 
-/* e along a run as a symbol "a.x"; for a vector or list, one symbol for each member. */
+/* The symbol "a.x" for the expression x along the run a; for a vector or list, one symbol for each component. */
 qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
 /* The run and expression for which a symbol of `a.(expr)` stands; NULL if it is an ordinary symbol. */
 const qdot_member *qdot_member_find(const qdot_session *session, qdot_expr symbol);
-/* Whether e contains symbols for values along runs. */
+/* Whether e contains symbols for values along runs, such as a.x. */
 bool qdot_member_any(const qdot_session *session, qdot_expr e);
 /* Fail with QDOT_EINVAL if e contains symbols for values along runs, where these are not allowed. */
 QDOT_MUST_CHECK qdot_status qdot_member_refuse(const qdot_session *session, qdot_expr e);
@@ -37,9 +37,9 @@ QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const cha
 typedef struct {
     size_t n;
     const double *times, *lows; /* [n] times; exact times minus these, NULL: 0 */
-    double *values, *errors; /* [n] values and errors at these times; errors NULL: not requested */
+    double *values, *errors; /* [n] values and their errors at these times; errors NULL: not requested */
 } qdot_samples;
-/* Evaluate an expression of several runs; parts that name no run belong to `run` (NULL: the latest). */
+/* Evaluate an expression of several runs at times; parts that name no run belong to `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
                                                qdot_expr e, const qdot_samples *at);
 /* An expression of several runs at a time: *value has numbers of these runs in the place of its
@@ -47,7 +47,7 @@ QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char
 QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const char *run,
                                                 qdot_expr e, qdot_expr time,
                                                 qdot_expr *value);
-/* Restrict [from, to] to the times that all runs in e cover. */
+/* Restrict the time range [from, to] to the times that all runs in e cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);
 

@@ -1,4 +1,4 @@
-/* mixture.c -- an expression along several runs at once, evaluated at times. */
+/* mixture.c -- evaluates an expression that combines several runs, at given times. */
 #include "lang/session/mixture.h"
 
 #include <float.h>
@@ -14,12 +14,12 @@
 
 struct qdot_mixture {
     qdot_expr e;                       /* the expression, with parameter values inserted */
-    qdot_vec(qdot_run *) runs;         /* every run once */
-    qdot_vec(qdot_run_member) members; /* the values along runs; includes the latest run if a symbol names no run */
+    qdot_vec(qdot_run *) runs;         /* the runs in the expression, each once */
+    qdot_vec(qdot_run_member) members; /* values along runs (a.x ...); a symbol without a run: of the latest */
     qdot_vec(qdot_expr) symbols;       /* the symbols that stand for the members */
-    qdot_tape *tape;                   /* the tape that computes e from the symbols */
+    qdot_tape *tape;                   /* the tape (list of operations) that computes e from the symbols */
     size_t room;                 /* allocated length of values and errors */
-    double *values, *errors;     /* [symbols x times] values of the members and their errors */
+    double *values, *errors;     /* [symbols x times] values of the symbols and their errors */
     double *in;                  /* [symbols] inputs, then work space of the tape */
 };
 
@@ -40,7 +40,7 @@ qdot_mixture_free(qdot_mixture *x)
 
 /* Find the index of a run in the list; it is appended if new. */
 static qdot_status
-mixture_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
+find_or_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
 {
     for (*k = 0; *k < x->runs.n; ++*k)
         if (x->runs.at[*k] == run)
@@ -49,7 +49,7 @@ mixture_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
 }
 
 static qdot_status
-find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
+find_run_values(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
 {
     const qdot_expr atoms = qdot_expr_atoms(session->pool, e, false);
 
@@ -64,7 +64,7 @@ find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *
             !(qdot_expr_node(session->pool, atom)->holds & QDOT_MEMBER_MOTION))
             continue;
         QDOT_TRY(qdot_runs_read(session, m != NULL ? m->run : run, &named));
-        QDOT_TRY(mixture_add_run(x, named->run, &own.run));
+        QDOT_TRY(find_or_add_run(x, named->run, &own.run));
         QDOT_TRY(qdot_vec_push(&x->symbols, atom));
         QDOT_TRY(qdot_vec_push(&x->members, own));
     }
@@ -72,9 +72,9 @@ find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *
 }
 
 static qdot_status
-mixture_prepare(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
+prepare_mixture(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
 {
-    QDOT_TRY(find_symbols(session, run, e, x));
+    QDOT_TRY(find_run_values(session, run, e, x));
     x->e = e = qdot_session_bind(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_tape_new(session->pool, x->symbols.n, x->symbols.at, 1, &e, &x->tape));
@@ -86,7 +86,7 @@ qdot_status
 qdot_mixture_new(qdot_session *session, const char *run, qdot_expr e, qdot_mixture **out)
 {
     qdot_mixture *x = qdot_calloc(1, sizeof *x);
-    qdot_status status = x != NULL ? mixture_prepare(session, run, e, x) : QDOT_ENOMEM;
+    qdot_status status = x != NULL ? prepare_mixture(session, run, e, x) : QDOT_ENOMEM;
 
     if (status != QDOT_OK) {
         qdot_mixture_free(x);
@@ -97,7 +97,7 @@ qdot_mixture_new(qdot_session *session, const char *run, qdot_expr e, qdot_mixtu
 }
 
 static qdot_status
-mixture_make_room(qdot_mixture *x, size_t times)
+allocate_for_times(qdot_mixture *x, size_t times)
 {
     const size_t n = x->symbols.n * times + 1;
 
@@ -111,9 +111,9 @@ mixture_make_room(qdot_mixture *x, size_t times)
     return x->room > 0 ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Evaluate the value at time j and its error, by shifting each symbol by its own error. */
+/* Evaluate the expression at time j, and its error: the sum of its changes when each symbol is shifted by its error. */
 static void
-combine(const qdot_mixture *x, const qdot_samples *at, size_t j)
+evaluate_at_time(const qdot_mixture *x, const qdot_samples *at, size_t j)
 {
     const size_t k = at->n;
     double *in = x->in, *work = in + x->symbols.n, *value = at->values + j, sum, moved;
@@ -138,14 +138,14 @@ qdot_mixture_values(qdot_mixture *x, const qdot_samples *at)
 {
     const qdot_exact_times times = {at->n, at->times, at->lows};
 
-    QDOT_TRY(mixture_make_room(x, at->n));
+    QDOT_TRY(allocate_for_times(x, at->n));
     for (size_t i = 0; i < x->symbols.n; i++)
         QDOT_TRY(qdot_run_values_beyond(
             x->runs.at[x->members.at[i].run], 1, &x->members.at[i].value, &times,
             x->values + i * at->n,
             at->errors != NULL ? x->errors + i * at->n : NULL));
     for (size_t j = 0; j < at->n; j++)
-        combine(x, at, j);
+        evaluate_at_time(x, at, j);
     return QDOT_OK;
 }
 

@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_mixture_new(qdot_session *session, const char *
                                              qdot_expr e, qdot_mixture **out);
 void qdot_mixture_free(qdot_mixture *x);
 
-/* Evaluate the expression at these times. QDOT_EDOMAIN: a time lies outside one of the runs. */
+/* Evaluate an expression of several runs at these times. QDOT_EDOMAIN: a time lies outside one of the runs. */
 QDOT_MUST_CHECK qdot_status qdot_mixture_values(qdot_mixture *x, const qdot_samples *at);
 
 /* Its extremum, mean or drift over range [2] (NULL: all times that its runs have in common), and

@@ -12,7 +12,7 @@
 
 #include "lang/session/parts.h"
 
-/* e with dL/dq' for every momentum p[q]. Nil: the pool keeps the failure, also in the functions below. */
+/* The expression e with every momentum p[q] replaced by dL/dq'. Nil, here and below: the pool keeps the failure. */
 qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);
 
 /* e in the variables of `symbol`: in momenta for p[x]; in velocities if p[q] and q' of one coordinate q

@@ -8,10 +8,10 @@
 #include "base/spelling.h"
 
 typedef struct entry {
-    qdot_name name; /* the first member, so that a pointer to the name is one to its entry */
+    qdot_name name; /* must be the first member: a pointer to the name is also one to its entry */
     unsigned uses;
     uint32_t hash;
-    size_t order; /* its place when the names were last sorted */
+    size_t order; /* its position in the order of declaration when the names were last sorted */
     struct entry *next;
 } entry;
 
@@ -31,11 +31,11 @@ struct qdot_names {
     qdot_vec(entry *) order;
     qdot_vec(qdot_name) bound; /* temporary bindings, innermost last */
     size_t seen_from;          /* bindings before this index are hidden */
-    size_t settled;            /* entries of `order` that have not changed since */
+    size_t settled;            /* number of first entries of `order` not moved since it was sorted */
 };
 
 static uint32_t
-hash_of(const char *text, size_t length)
+hash_of_text(const char *text, size_t length)
 {
     uint32_t h = 2166136261u;
 
@@ -62,7 +62,7 @@ qdot_names_new(void)
 }
 
 static void
-entry_free(entry *e)
+free_entry(entry *e)
 {
     if (--e->uses > 0)
         return;
@@ -78,7 +78,7 @@ qdot_names_free(qdot_names *names)
     if (names == NULL)
         return;
     for (size_t i = 0; i < names->order.n; i++)
-        entry_free(names->order.at[i]);
+        free_entry(names->order.at[i]);
     while (names->bound.n > 0)
         qdot_names_pop(names);
     for (size_t i = 0; names->families != NULL && i < names->n_slots; i++)
@@ -101,7 +101,7 @@ qdot_names_free(qdot_names *names)
 static entry *
 find_declared(const qdot_names *names, const char *name)
 {
-    uint32_t hash = hash_of(name, strlen(name));
+    uint32_t hash = hash_of_text(name, strlen(name));
 
     for (entry *e = names->slots[hash & (names->n_slots - 1)]; e != NULL; e = e->next)
         if (e->hash == hash && strcmp(e->name.name, name) == 0)
@@ -112,7 +112,7 @@ find_declared(const qdot_names *names, const char *name)
 static family *
 find_family(const qdot_names *names, const char *name, size_t length)
 {
-    uint32_t hash = hash_of(name, length);
+    uint32_t hash = hash_of_text(name, length);
 
     for (family *f = names->families[hash & (names->n_slots - 1)]; f != NULL; f = f->next)
         if (f->hash == hash && strlen(f->name) == length &&
@@ -158,7 +158,7 @@ qdot_names_at(const qdot_names *names, size_t i)
 /* --- names that clash --------------------------------------------------------------- */
 
 static const char *
-kind_words(qdot_name_kind kind)
+kind_in_words(qdot_name_kind kind)
 {
     static const char *const words[] = {
         [QDOT_NAME_PARAM] = "a parameter",   [QDOT_NAME_COORD] = "a coordinate",
@@ -171,18 +171,18 @@ kind_words(qdot_name_kind kind)
 }
 
 static qdot_status
-fail_name_taken(const char *name, const qdot_name *before)
+report_name_taken(const char *name, const qdot_name *before)
 {
     if (before->file != NULL)
         return qdot_fail(QDOT_ENAME, "`%.200s` is already %s, declared at %.200s:%u",
-                         name, kind_words(before->kind), before->file, before->line);
+                         name, kind_in_words(before->kind), before->file, before->line);
     return qdot_fail(QDOT_ENAME, "`%.200s` is already %s", name,
-                     kind_words(before->kind));
+                     kind_in_words(before->kind));
 }
 
 /* Length of the family's name in "theta[1]"; 0 for a plain name. */
 static size_t
-family_length(const char *name)
+length_of_family_name(const char *name)
 {
     const char *bracket = strchr(name, '[');
 
@@ -194,7 +194,7 @@ check_reserved(const char *name)
 {
     static const char *const plain[] = {"pi", "t", "dt", "and", "or", "not"};
     static const char *const families[] = {"p", "Q", "lambda", "delta"};
-    size_t length = family_length(name);
+    size_t length = length_of_family_name(name);
 
     for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
         if (strcmp(name, plain[i]) == 0 ||
@@ -210,7 +210,7 @@ check_reserved(const char *name)
     return QDOT_OK;
 }
 
-/* Refuse dNAME if NAME is a coordinate: it is its differential. */
+/* Refuse a declaration of dNAME if NAME is a coordinate, since dNAME means its differential. */
 static qdot_status
 check_differential(const qdot_names *names, const qdot_name *entry)
 {
@@ -234,7 +234,7 @@ check_differential(const qdot_names *names, const qdot_name *entry)
     if (e == NULL)
         return QDOT_OK;
     other = &e->name;
-    fail_name_taken(differential, other);
+    report_name_taken(differential, other);
     return qdot_hint("`%.100s` would be the differential of the coordinate `%.100s`",
                      differential, entry->name);
 }
@@ -245,7 +245,7 @@ is_replaceable(qdot_name_kind kind)
     return kind == QDOT_NAME_VALUE || kind == QDOT_NAME_FUNCTION;
 }
 
-/* Whether the declaration `new` may replace `old`. */
+/* Whether the declaration `new` of a name may replace the declaration `old`. */
 static bool
 may_replace(const qdot_name *old, const qdot_name *new)
 {
@@ -263,7 +263,7 @@ may_replace(const qdot_name *old, const qdot_name *new)
 static qdot_status
 check_family(const qdot_names *names, const char *name)
 {
-    size_t length = family_length(name);
+    size_t length = length_of_family_name(name);
     const struct entry *plain;
     char base[256];
 
@@ -280,15 +280,15 @@ check_family(const qdot_names *names, const char *name)
     plain = find_declared(names, base);
     if (plain == NULL)
         return QDOT_OK;
-    fail_name_taken(base, &plain->name);
+    report_name_taken(base, &plain->name);
     return qdot_hint("a name is either plain or a family %.100s[k]", base);
 }
 
 /* --- adding and replacing names ----------------------------------------------------- */
 
-/* Double the slots if both tables are full; on failure they stay unchanged. */
+/* Double the number of hash slots if both tables are full; on failure they stay unchanged. */
 static qdot_status
-names_make_room(qdot_names *names)
+enlarge_hash_tables(qdot_names *names)
 {
     size_t wanted = 2 * names->n_slots;
     entry **slots;
@@ -327,7 +327,7 @@ names_make_room(qdot_names *names)
 static qdot_status
 count_member(qdot_names *names, const char *name)
 {
-    size_t length = family_length(name);
+    size_t length = length_of_family_name(name);
     family *f;
 
     if (length == 0)
@@ -342,7 +342,7 @@ count_member(qdot_names *names, const char *name)
             qdot_free(f);
             return QDOT_ENOMEM;
         }
-        f->hash = hash_of(name, length);
+        f->hash = hash_of_text(name, length);
         f->next = names->families[f->hash & (names->n_slots - 1)];
         names->families[f->hash & (names->n_slots - 1)] = f;
     }
@@ -350,7 +350,7 @@ count_member(qdot_names *names, const char *name)
     return QDOT_OK;
 }
 
-/* Replace the texts of *name by copies of its own. */
+/* Replace the texts in *name by copies that *name owns. */
 static qdot_status
 copy_texts(qdot_name *name)
 {
@@ -367,9 +367,9 @@ copy_texts(qdot_name *name)
     return QDOT_OK;
 }
 
-/* An entry with a copy of *name; NULL: no memory. */
+/* Make an entry of the hash table with a copy of *name; NULL if memory runs out. */
 static entry *
-entry_new(const qdot_name *name)
+make_entry(const qdot_name *name)
 {
     entry *e = qdot_calloc(1, sizeof *e);
 
@@ -382,12 +382,12 @@ entry_new(const qdot_name *name)
         return NULL;
     }
     e->name.body = qdot_function_body_keep(name->body);
-    e->hash = hash_of(name->name, strlen(name->name));
+    e->hash = hash_of_text(name->name, strlen(name->name));
     return e;
 }
 
 static void
-put_in_slot(qdot_names *names, entry *e)
+insert_into_hash_table(qdot_names *names, entry *e)
 {
     entry **slot = &names->slots[e->hash & (names->n_slots - 1)];
 
@@ -395,9 +395,9 @@ put_in_slot(qdot_names *names, entry *e)
     *slot = e;
 }
 
-/* The pointer to an entry in its hash slot. */
+/* The pointer in the hash table that points to an entry. */
 static entry **
-link_to(qdot_names *names, const entry *e)
+pointer_to_entry(qdot_names *names, const entry *e)
 {
     entry **link = &names->slots[e->hash & (names->n_slots - 1)];
 
@@ -406,9 +406,9 @@ link_to(qdot_names *names, const entry *e)
     return link;
 }
 
-/* The position of an entry in the order of declaration; entries only ever move towards the front. */
+/* The position of an entry in the order of declaration; positions only ever decrease. */
 static size_t
-name_place(const qdot_names *names, const entry *e)
+position_of_entry(const qdot_names *names, const entry *e)
 {
     size_t i = e->order < names->order.n ? e->order : names->order.n - 1;
 
@@ -418,42 +418,42 @@ name_place(const qdot_names *names, const entry *e)
 }
 
 static qdot_status
-insert(qdot_names *names, const qdot_name *name)
+insert_name(qdot_names *names, const qdot_name *name)
 {
     entry *e;
 
-    QDOT_TRY(names_make_room(names));
-    e = entry_new(name);
+    QDOT_TRY(enlarge_hash_tables(names));
+    e = make_entry(name);
     if (e == NULL)
         return QDOT_ENOMEM;
     e->order = names->order.n;
     if (qdot_vec_push(&names->order, e) != QDOT_OK) {
-        entry_free(e);
+        free_entry(e);
         return QDOT_ENOMEM;
     }
     if (count_member(names, name->name) != QDOT_OK) {
         names->order.n--;
-        entry_free(e);
+        free_entry(e);
         return QDOT_ENOMEM;
     }
-    put_in_slot(names, e);
+    insert_into_hash_table(names, e);
     return QDOT_OK;
 }
 
 /* Replace the entry `old`, which is released, by a new one. */
 static qdot_status
-name_replace(qdot_names *names, entry *old, const qdot_name *name)
+replace_entry(qdot_names *names, entry *old, const qdot_name *name)
 {
-    entry *e = entry_new(name);
+    entry *e = make_entry(name);
 
     if (e == NULL)
         return QDOT_ENOMEM;
-    e->order = name_place(names, old);
-    *link_to(names, old) = old->next;
-    put_in_slot(names, e);
+    e->order = position_of_entry(names, old);
+    *pointer_to_entry(names, old) = old->next;
+    insert_into_hash_table(names, e);
     names->order.at[e->order] = e;
     names->settled = e->order < names->settled ? e->order : names->settled;
-    entry_free(old);
+    free_entry(old);
     return QDOT_OK;
 }
 
@@ -465,13 +465,13 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
     QDOT_TRY(check_reserved(entry->name));
     old = find_declared(names, entry->name);
     if (old != NULL && !may_replace(&old->name, entry))
-        return fail_name_taken(entry->name, &old->name);
+        return report_name_taken(entry->name, &old->name);
     if (old == NULL) {
         QDOT_TRY(check_family(names, entry->name));
         QDOT_TRY(check_differential(names, entry));
-        return insert(names, entry);
+        return insert_name(names, entry);
     }
-    return name_replace(names, old, entry);
+    return replace_entry(names, old, entry);
 }
 
 qdot_status
@@ -485,26 +485,26 @@ qdot_names_update(qdot_names *names, const char *name, qdot_expr value, qdot_exp
     changed = e->name;
     changed.value = value;
     changed.formals = formals;
-    return name_replace(names, e, &changed);
+    return replace_entry(names, e, &changed);
 }
 
 void
 qdot_names_remove(qdot_names *names, const char *name)
 {
     entry *e = find_declared(names, name);
-    size_t length = family_length(name), i;
+    size_t length = length_of_family_name(name), i;
 
     if (e == NULL)
         return;
-    *link_to(names, e) = e->next;
+    *pointer_to_entry(names, e) = e->next;
     if (length > 0)
         find_family(names, name, length)->members--;
-    i = name_place(names, e);
+    i = position_of_entry(names, e);
     names->settled = i < names->settled ? i : names->settled;
     memmove(names->order.at + i, names->order.at + i + 1,
             (names->order.n - i - 1) * sizeof *names->order.at);
     names->order.n--;
-    entry_free(e);
+    free_entry(e);
 }
 
 /* --- saving and restoring all names ------------------------------------------------- */
@@ -519,7 +519,7 @@ qdot_names_keep(const qdot_name *declared)
 void
 qdot_names_release(const qdot_name *declared)
 {
-    entry_free((entry *)declared);
+    free_entry((entry *)declared);
 }
 
 size_t
@@ -540,7 +540,7 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
     for (size_t i = 0; i < n; i++)
         (void)qdot_names_keep(list[i]);
     for (size_t i = 0; i < names->order.n; i++)
-        entry_free(names->order.at[i]);
+        free_entry(names->order.at[i]);
     for (size_t i = 0; i < names->n_slots; i++) {
         names->slots[i] = NULL;
         for (family *f = names->families[i]; f != NULL; f = f->next)
@@ -548,11 +548,11 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
     }
     for (size_t i = 0; i < n; i++) {
         entry *e = (entry *)list[i];
-        size_t length = family_length(e->name.name);
+        size_t length = length_of_family_name(e->name.name);
 
         e->order = i;
         names->order.at[i] = e; /* the saved state has at least as many names */
-        put_in_slot(names, e);
+        insert_into_hash_table(names, e);
         if (length > 0)
             find_family(names, e->name.name, length)->members++;
     }
@@ -563,7 +563,7 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
 /* --- temporary bindings ------------------------------------------------------------- */
 
 static qdot_status
-bound_push(qdot_names *names, qdot_name bound)
+push_binding(qdot_names *names, qdot_name bound)
 {
     QDOT_TRY(copy_texts(&bound));
     if (qdot_vec_push(&names->bound, bound) != QDOT_OK) {
@@ -577,7 +577,7 @@ qdot_status
 qdot_names_push(qdot_names *names, const char *name, qdot_expr value)
 {
     QDOT_TRY(check_reserved(name));
-    return bound_push(names, (qdot_name){
+    return push_binding(names, (qdot_name){
                            .name = (char *)name, .kind = QDOT_NAME_INDEX, .value = value});
 }
 
@@ -585,9 +585,9 @@ qdot_status
 qdot_names_push_argument(qdot_names *names, const char *name, qdot_expr value,
                          const char *label)
 {
-    if (strcmp(name, "t") != 0) /* an argument named t means the time */
+    if (strcmp(name, "t") != 0) /* a function argument named t is allowed: it means the time */
         QDOT_TRY(check_reserved(name));
-    return bound_push(names, (qdot_name){.name = (char *)name,
+    return push_binding(names, (qdot_name){.name = (char *)name,
                                    .kind = QDOT_NAME_ARGUMENT,
                                    .value = value,
                                    .label = label});

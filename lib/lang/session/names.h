@@ -17,18 +17,18 @@ typedef enum {
     QDOT_NAME_FUNCTION, /* formals: a LIST of symbols; body: its text; value: a LIST of the
                          * values of body->captured */
     QDOT_NAME_INDEX,    /* a loop or sum index; value: its present number; hides outer names */
-    QDOT_NAME_ARGUMENT  /* an argument of a function; value: that of the call; hides outer names */
+    QDOT_NAME_ARGUMENT  /* a function argument; value: the one in the call; hides outer names */
 } qdot_name_kind;
 
 typedef struct {
     char *name;
     qdot_name_kind kind;
     qdot_expr value, formals;
-    qdot_expr over; /* for VALUE: a LIST of coordinates that index its entries; nil: none */
+    qdot_expr over; /* for VALUE: a LIST of coordinates by which its entries are indexed; nil: none */
     uint32_t ufun;
     qdot_function_body *body;   /* for FUNCTION and VALUE: the defining text */
     const char *label; /* for ARGUMENT: label of the particle or body whose position it is; NULL: none */
-    char *file; /* file in which the name was declared */
+    char *file; /* file in which the name was declared; owned */
     uint32_t line;
 } qdot_name;
 
@@ -53,7 +53,7 @@ QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_nam
 QDOT_MUST_CHECK qdot_status qdot_names_update(qdot_names *names, const char *name,
                                               qdot_expr value, qdot_expr formals);
 void qdot_names_remove(qdot_names *names, const char *name);
-/* Bind an index or formal argument, hiding outer meanings; pop: end the innermost binding. */
+/* _push: bind an index or formal argument, hiding outer meanings of its name; _pop: end the latest binding. */
 QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
                                             qdot_expr value);
 void qdot_names_pop(qdot_names *names);

@@ -21,7 +21,7 @@ typedef struct qdot_output {
     struct qdot_formula_page *page;  /* page that collects answers for a file; NULL: none */
     struct qdot_formula_page *block; /* page with the present statement's equations (lang/answer/sheet); NULL: none yet */
     bool json, timing;
-    FILE *console; /* stream of notices; NULL: as the answers */
+    FILE *console; /* the stream of notices; NULL: the same as that of answers */
     bool console_json;
     FILE *pages, *screen; /* `out` is `pages` while answers to the terminal `screen` are collected */
     unsigned colours;     /* bits qdot_colours: streams that show colours */

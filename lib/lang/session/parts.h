@@ -10,7 +10,7 @@
 #include "expr/id.h"
 
 typedef struct qdot_session {
-    /* Fields that `reset` clears. */
+    /* From here on: fields that the statement `reset` clears. */
     qdot_pool *pool;
     struct qdot_scene *scene;              /* the declared scene: mech/scene/things.h */
     struct qdot_names *names;              /* declared and defined names: names.h */
@@ -25,7 +25,7 @@ typedef struct qdot_session {
     struct qdot_text_list *told;           /* notices that are given only once: text-list.h */
     struct qdot_text_list *remarks;        /* lines with remarks of files of sessions that were read
                                               (lang/declare/session-remarks.h) */
-    /* Fields that `reset` keeps. */
+    /* From here on: fields that the statement `reset` keeps. */
     struct qdot_output *output;            /* streams and form of answers: output.h */
     struct qdot_outcome *outcome;          /* results of all statements so far: outcome.h */
     struct qdot_typed *typed;              /* the present statement and all before it: typed.h */

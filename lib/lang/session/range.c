@@ -37,8 +37,8 @@ qdot_range_is_of_way(const char *word)
 }
 
 static qdot_status
-measure_mixed(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
-              const double *range, qdot_expr *value)
+evaluate_over_several_runs(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
+                           const double *range, qdot_expr *value)
 {
     qdot_mixture *mixture;
     double x, error;
@@ -55,8 +55,8 @@ measure_mixed(qdot_session *session, const char *run, qdot_range_kind kind, qdot
 /* The value of one expression over a range, which was said so, a new symbol; plain: it holds no other numbers of
  * runs. */
 static qdot_status
-measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
-        const double *range, const qdot_expr *said, bool plain, qdot_expr *value)
+evaluate_over_one_run(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
+                      const double *range, const qdot_expr *said, bool plain, qdot_expr *value)
 {
     const qdot_run_report *report;
     qdot_named_run *named;
@@ -65,7 +65,7 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
 
     QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
     if (mixed)
-        return measure_mixed(session, run, kind, e, range, value);
+        return evaluate_over_several_runs(session, run, kind, e, range, value);
     QDOT_TRY(qdot_runs_read(session, run, &named));
     report = qdot_run_get_report(named->run);
     QDOT_TRY(qdot_run_range(named->run, kind, e, range != NULL ? range[0] : report->t0,
@@ -85,7 +85,7 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
     return qdot_pool_check(session->pool);
 }
 
-/* Numbers behind an expression are no expressions of their own: mean(E, 2, 11) means mean(E, 2..11). */
+/* Refuse range ends given as separate arguments: mean(E, 2, 11) means mean(E, 2..11), not three expressions. */
 static qdot_status
 refuse_ends_apart(qdot_session *session, const char *word, uint32_t n, const qdot_expr *args)
 {
@@ -135,8 +135,8 @@ qdot_range_value(qdot_session *session, const char *run, const char *word, uint3
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++) {
         qdot_expr one = QDOT_NIL;
 
-        status = measure(session, run, kind, columns.at[i], range != NULL ? ends : NULL,
-                         range, plain, &one);
+        status = evaluate_over_one_run(session, run, kind, columns.at[i], range != NULL ? ends : NULL,
+                                       range, plain, &one);
         if (status == QDOT_OK)
             status = qdot_vec_push(&results, one);
     }

@@ -19,7 +19,7 @@ qdot_row_columns_free(qdot_row_columns *x)
 }
 
 static qdot_status
-row_columns_allocate(const qdot_row_table *t, bool some, qdot_row_columns *x)
+allocate_columns(const qdot_row_table *t, bool some, qdot_row_columns *x)
 {
     x->n_labels = t->n - t->n_swept;
     x->labels = qdot_calloc(x->n_labels + 1, sizeof *x->labels);
@@ -36,7 +36,7 @@ row_columns_allocate(const qdot_row_table *t, bool some, qdot_row_columns *x)
 
 /* Select the finished rows, and add a column with their numbers. */
 static void
-row_columns_add_numbers(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
+add_row_numbers(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
 {
     for (size_t k = 0; k < t->rows; k++) {
         x->numbers[k] = (double)k;
@@ -49,7 +49,7 @@ row_columns_add_numbers(const qdot_row_table *t, const bool *done, qdot_row_colu
 }
 
 static qdot_status
-row_columns_add(const qdot_row_table *t, qdot_row_columns *x)
+add_value_columns(const qdot_row_table *t, qdot_row_columns *x)
 {
     for (size_t i = 0; i < t->n; i++)
         x->table.columns[x->table.n++] = (qdot_table_column){.name = t->labels[i],
@@ -73,7 +73,7 @@ row_columns_add(const qdot_row_table *t, qdot_row_columns *x)
 
 /* Add the column that says how each row ended and why; for a table with notes, the column of notes. */
 static void
-row_columns_add_reasons(const qdot_row_table *t, qdot_row_columns *x)
+add_column_of_reasons(const qdot_row_table *t, qdot_row_columns *x)
 {
     const bool failures = t->note == NULL;
 
@@ -97,14 +97,14 @@ row_columns_add_reasons(const qdot_row_table *t, qdot_row_columns *x)
 qdot_status
 qdot_row_columns_of(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
 {
-    QDOT_TRY(row_columns_allocate(t, done != NULL, x));
+    QDOT_TRY(allocate_columns(t, done != NULL, x));
     x->table.name = x->table.title = t->name;
     if (done != NULL)
-        row_columns_add_numbers(t, done, x);
+        add_row_numbers(t, done, x);
     else
         x->table.rows = t->rows;
-    QDOT_TRY(row_columns_add(t, x));
-    row_columns_add_reasons(t, x);
+    QDOT_TRY(add_value_columns(t, x));
+    add_column_of_reasons(t, x);
     for (size_t i = 0; i < t->n_parameters; i++)
         x->parameters[i] = (qdot_table_fact){t->parameters[i], NULL, t->parameter_values[i]};
     x->table.n_parameters = t->n_parameters;

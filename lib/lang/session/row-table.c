@@ -30,7 +30,7 @@ qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const
 }
 
 static qdot_status
-row_table_make_room(qdot_row_table *t, size_t room)
+allocate_rows(qdot_row_table *t, size_t room)
 {
     double *values = qdot_realloc(t->values, room * t->n * sizeof *values), *errors;
     char **reasons;
@@ -50,7 +50,7 @@ qdot_status
 qdot_row_table_add(qdot_row_table *t)
 {
     if (t->rows == t->room)
-        QDOT_TRY(row_table_make_room(t, t->room == 0 ? 16 : 2 * t->room));
+        QDOT_TRY(allocate_rows(t, t->room == 0 ? 16 : 2 * t->room));
     for (size_t i = t->rows * t->n; i < (t->rows + 1) * t->n; i++)
         t->values[i] = t->errors[i] = NAN;
     t->reasons[t->rows++] = NULL;
@@ -61,7 +61,7 @@ qdot_status
 qdot_row_table_add_all(qdot_row_table *t, size_t rows)
 {
     if (t->rows + rows > t->room)
-        QDOT_TRY(row_table_make_room(t, t->rows + rows));
+        QDOT_TRY(allocate_rows(t, t->rows + rows));
     for (size_t k = 0; k < rows; k++)
         QDOT_TRY(qdot_row_table_add(t));
     return QDOT_OK;

@@ -15,17 +15,17 @@
 
 typedef struct qdot_row_table {
     char *name;
-    size_t n, n_swept;       /* number of columns; how many, the first, were swept */
+    size_t n, n_swept;       /* number of columns; how many of them, the first ones, hold swept parameters */
     bool scattered;          /* rows are independent points: random draws or a Poincaré section */
     bool measured;           /* rows are measured data, drawn as points over the first column */
-    qdot_function_body *members; /* for a sweep: its text up to the colon, variables and run */
+    qdot_function_body *members; /* for a sweep: the text of its statement up to the colon, with variables and run */
     char **labels;           /* [n] labels of the columns */
     size_t n_parameters;     /* parameters that had the same value in all rows */
     char **parameters;       /* [n_parameters] names of these parameters */
     double *parameter_values; /* [n_parameters] values of these parameters */
     size_t rows, room;
     double *values, *errors; /* [rows x n] values (NaN: none) and their errors (NaN: unknown) */
-    char **reasons;          /* [rows] why a row failed; NULL: it did not */
+    char **reasons;          /* [rows] the reason why the run of a row failed; NULL: it did not fail */
     const char *note;        /* the texts in `reasons` are no failures, but this of the rows: "type"; or
                                 NULL */
     size_t drawn;            /* for branches: how many columns after the parameter are drawn */
@@ -37,11 +37,11 @@ typedef struct qdot_row_table {
 /* Make a table without rows; labels are copied. NULL: no memory. */
 qdot_row_table *qdot_row_table_new(const char *name, size_t n_swept, size_t n,
                                    const char *const *labels);
-/* Append one row of NaN. QDOT_ENOMEM. */
+/* Append one row filled with NaN. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add(qdot_row_table *table);
 /* Append `rows` rows, with no spare capacity. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add_all(qdot_row_table *table, size_t rows);
-/* The memory of one row in bytes. */
+/* The memory of one row of the table in bytes. */
 size_t qdot_row_table_row_bytes(const qdot_row_table *table);
 /* Drop one reference; the last one frees the table. NULL is allowed. */
 void qdot_row_table_release(qdot_row_table *table);

@@ -13,7 +13,7 @@
 
 /* The index of the table with the given name; the number of tables if there is none. */
 static size_t
-index_of(const qdot_session *session, const char *name)
+index_of_table(const qdot_session *session, const char *name)
 {
     size_t i = 0;
 
@@ -25,7 +25,7 @@ index_of(const qdot_session *session, const char *name)
 qdot_status
 qdot_row_tables_keep(qdot_session *session, qdot_row_table *table)
 {
-    const size_t old = index_of(session, table->name);
+    const size_t old = index_of_table(session, table->name);
     qdot_status status;
 
     if (old < session->tables->n) {
@@ -43,7 +43,7 @@ qdot_row_tables_keep(qdot_session *session, qdot_row_table *table)
 qdot_row_table *
 qdot_row_tables_find(const qdot_session *session, const char *name)
 {
-    const size_t i = index_of(session, name);
+    const size_t i = index_of_table(session, name);
 
     return i < session->tables->n ? session->tables->at[i] : NULL;
 }
@@ -59,7 +59,7 @@ qdot_row_tables_next_name(const qdot_session *session, char *name, size_t size)
 }
 
 static qdot_status
-note_parameter(qdot_row_table *t, const char *name, double value)
+record_parameter(qdot_row_table *t, const char *name, double value)
 {
     const size_t n = t->n_parameters + 1;
     char **names = qdot_realloc(t->parameters, n * sizeof *names);
@@ -78,9 +78,9 @@ note_parameter(qdot_row_table *t, const char *name, double value)
     return QDOT_OK;
 }
 
-/* Set symbols to themselves, so that values depending on them are recognised. */
+/* Set the symbols open [n] to themselves, so that values that depend on them can be recognised. */
 static void
-let_open(qdot_session *session, size_t n, const qdot_expr *open)
+set_to_themselves(qdot_session *session, size_t n, const qdot_expr *open)
 {
     for (size_t i = 0; i < session->values->set_symbols.n; i++)
         for (size_t k = 0; k < n; k++)
@@ -98,7 +98,7 @@ qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, si
     qdot_status status = QDOT_OK;
 
     QDOT_TRY(qdot_trial_begin(&trial, session));
-    let_open(session, n, open);
+    set_to_themselves(session, n, open);
     for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL && status == QDOT_OK; i++) {
         qdot_expr value;
         double x;
@@ -107,7 +107,7 @@ qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, si
             continue;
         value = qdot_session_bind(session, name->value);
         status = qdot_pool_check(session->pool);
-        if (qdot_grave(status) == QDOT_OK && status != QDOT_OK) { /* the parameter has no value */
+        if (qdot_grave(status) == QDOT_OK && status != QDOT_OK) { /* skip a parameter that has no value */
             status = QDOT_OK;
             continue;
         }
@@ -115,7 +115,7 @@ qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, si
             continue;
         status = qdot_session_number(session, value, &x, NULL);
         if (status == QDOT_OK)
-            status = note_parameter(table, name->name, x);
+            status = record_parameter(table, name->name, x);
         else
             status = qdot_grave(status);
     }

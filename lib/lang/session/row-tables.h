@@ -14,7 +14,7 @@ typedef struct qdot_row_table_list {
     qdot_vec(qdot_row_table *);
 } qdot_row_table_list;
 
-/* Keep a table, taking over its reference; an older one of that name is dropped. Takes it even on failure. */
+/* Store a table in the session, which takes over its reference, even on failure; an older table of that name is dropped. */
 QDOT_MUST_CHECK qdot_status qdot_row_tables_keep(qdot_session *session, qdot_row_table *table);
 /* The table with this name; NULL if there is none. */
 qdot_row_table *qdot_row_tables_find(const qdot_session *session, const char *name);

@@ -85,7 +85,7 @@ qdot_runs_next_name(const qdot_session *session, char *name, size_t size)
 }
 
 static qdot_status
-unknown_run(const qdot_session *session, const char *name)
+report_unknown_run(const qdot_session *session, const char *name)
 {
     qdot_words words = {0};
     qdot_status status;
@@ -113,13 +113,13 @@ qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
             *run = &session->runs->at[i];
             return QDOT_OK;
         }
-    return unknown_run(session, name);
+    return report_unknown_run(session, name);
 }
 
 /* The value that the run was made with: of a parameter, or of a coordinate at its start; nil: it is none
  * of the run's. */
 static qdot_expr
-made_with(const qdot_session *session, const qdot_conditions *c, qdot_expr symbol)
+value_in_run(const qdot_session *session, const qdot_conditions *c, qdot_expr symbol)
 {
     for (size_t i = 0; i < c->symbols.n; i++)
         if (c->symbols.at[i] == symbol)
@@ -130,9 +130,9 @@ made_with(const qdot_session *session, const qdot_conditions *c, qdot_expr symbo
     return QDOT_NIL;
 }
 
-/* Write a value as "l = 1". */
+/* Write a symbol and its value as "l = 1". */
 static qdot_status
-put_value(const qdot_session *session, qdot_expr symbol, qdot_expr value, qdot_text *text)
+append_assignment(const qdot_session *session, qdot_expr symbol, qdot_expr value, qdot_text *text)
 {
     qdot_text_format(text, "%s = ", qdot_expr_symbol(session->pool, symbol)->name);
     QDOT_TRY(qdot_print(session->pool, value, QDOT_PLAIN, text));
@@ -140,14 +140,14 @@ put_value(const qdot_session *session, qdot_expr symbol, qdot_expr value, qdot_t
 }
 
 static qdot_status
-fail_other_value(const qdot_session *session, const qdot_named_run *run, const qdot_held *held,
-                 qdot_expr value)
+report_other_loop_value(const qdot_session *session, const qdot_named_run *run, const qdot_held *held,
+                        qdot_expr value)
 {
     qdot_text own = {0}, loop = {0};
-    qdot_status status = put_value(session, held->symbol, value, &own);
+    qdot_status status = append_assignment(session, held->symbol, value, &own);
 
     if (status == QDOT_OK)
-        status = put_value(session, held->symbol, held->value, &loop);
+        status = append_assignment(session, held->symbol, held->value, &loop);
     if (status == QDOT_OK) {
         (void)qdot_fail(QDOT_EINVAL, "the run `%.200s` has %.100s, and this pass of the loop %.100s",
                         run->name, qdot_text_str(&own), qdot_text_str(&loop));
@@ -167,10 +167,10 @@ qdot_runs_read(qdot_session *session, const char *name, qdot_named_run **run)
     c = (*run)->conditions;
     for (size_t i = 0; c != NULL && i < session->evaluation->held.n; i++) {
         const qdot_held *held = &session->evaluation->held.at[i];
-        const qdot_expr value = made_with(session, c, held->symbol);
+        const qdot_expr value = value_in_run(session, c, held->symbol);
 
         if (value != QDOT_NIL && value != qdot_session_bind(session, held->value))
-            return fail_other_value(session, *run, held, value);
+            return report_other_loop_value(session, *run, held, value);
     }
     return qdot_pool_check(session->pool);
 }
@@ -198,10 +198,10 @@ qdot_runs_flatten(qdot_session *session, qdot_expr e, qdot_runs_columns *columns
     return QDOT_OK;
 }
 
-/* Evaluate columns at a time, with their errors: numbers m [columns]. */
+/* Evaluate columns at a time: each result is a number with its error, m [columns]. */
 static qdot_status
-columns_measure_at(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
-                   qdot_expr time, qdot_measured *m)
+evaluate_columns_at(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
+                    qdot_expr time, qdot_measured *m)
 {
     const size_t n = columns->n;
     double t, low, *values = qdot_calloc(2 * n, sizeof *values);
@@ -218,10 +218,10 @@ columns_measure_at(qdot_session *session, qdot_run *run, const qdot_runs_columns
     return status;
 }
 
-/* As columns_measure_at, for a run with `digits`, at an exact time. */
+/* As evaluate_columns_at, for a run made with the option `digits`, at an exact time. */
 static qdot_status
-measure_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
-                qdot_expr time, qdot_measured *m)
+evaluate_columns_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
+                         qdot_expr time, qdot_measured *m)
 {
     const size_t n = columns->n;
     const int digits = qdot_run_get_report(run)->digits;
@@ -251,8 +251,8 @@ qdot_runs_measure(qdot_session *session, const char *run,
 
     QDOT_TRY(qdot_runs_find(session, run, &named));
     return qdot_run_get_report(named->run)->digits > 0
-               ? measure_exactly(session, named->run, columns, time, m)
-               : columns_measure_at(session, named->run, columns, time, m);
+               ? evaluate_columns_exactly(session, named->run, columns, time, m)
+               : evaluate_columns_at(session, named->run, columns, time, m);
 }
 
 qdot_status

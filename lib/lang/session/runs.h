@@ -15,20 +15,20 @@ typedef struct {
     qdot_conditions *conditions; /* values under which the run was made; NULL: not recorded */
     unsigned *uses;
 } qdot_named_run;
-void qdot_named_run_release(qdot_named_run *run); /* give up one use; the last one frees the run */
+void qdot_named_run_release(qdot_named_run *run); /* count one use of the run less; the last one frees it */
 
 typedef struct qdot_run_list {
     qdot_vec(qdot_named_run);
 } qdot_run_list;
 
-/* Find the run of that name; the latest one for NULL. QDOT_ENAME if there is none. */
+/* Find the run with that name; for NULL the latest run. QDOT_ENAME if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_runs_find(qdot_session *session, const char *name,
                                            qdot_named_run **run);
 /* The same, for numbers along it: QDOT_EINVAL where a loop holds a parameter or a start at another value
  * than the run was made with. */
 QDOT_MUST_CHECK qdot_status qdot_runs_read(qdot_session *session, const char *name,
                                            qdot_named_run **run);
-/* Whether a run NAME[...] is kept. */
+/* Whether the session has a run with a name NAME[...]. */
 bool qdot_runs_is_family(const qdot_session *session, const char *name);
 /* Keep the run, made as `request` asked, under its name; an older one of that name goes. Takes
  * ownership of the run in any case. */
@@ -38,7 +38,7 @@ QDOT_MUST_CHECK qdot_status qdot_runs_keep(qdot_session *session, const char *na
 /* Find the first unused name among run1, run2, ..., counting from the number of runs. */
 void qdot_runs_next_name(const qdot_session *session, char *name, size_t size);
 
-/* Append the components of an expression (of a vector or list) to columns; *n: how many. */
+/* Append an expression, or the components of a vector or list, to columns; *n: how many were appended. */
 typedef qdot_vec(qdot_expr) qdot_runs_columns;
 QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e,
                                               qdot_runs_columns *columns);
@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e
 QDOT_MUST_CHECK qdot_status qdot_runs_measure(qdot_session *session, const char *run,
                                               const qdot_runs_columns *columns,
                                               qdot_expr time, qdot_measured *m);
-/* Evaluate one expression of a single run at a time, with the run's number of digits or in doubles. */
+/* Evaluate one expression at a time of a single run, to the run's number of digits, or in doubles. */
 QDOT_MUST_CHECK qdot_status qdot_runs_measure_one(qdot_session *session, const char *run,
                                                   qdot_expr e, qdot_expr time,
                                                   qdot_measured *m);

@@ -27,7 +27,7 @@ qdot_scales_set(qdot_session *session, qdot_expr symbol, qdot_expr value)
 
 /* Evaluate the scale of a symbol; QDOT_EINVAL if it is not positive. */
 static qdot_status
-number_of(qdot_session *session, qdot_expr symbol, qdot_expr value, double *number)
+evaluate_scale(qdot_session *session, qdot_expr symbol, qdot_expr value, double *number)
 {
     const qdot_symbol *s = qdot_expr_symbol(session->pool, symbol);
 
@@ -46,18 +46,18 @@ qdot_scales_check(qdot_session *session, qdot_expr symbol, qdot_expr value)
     double number;
 
     if (qdot_expr_kind(session->pool, qdot_session_bind(session, value)) != QDOT_NUM)
-        return qdot_pool_check(session->pool); /* its parameters have no values yet: checked later */
-    return number_of(session, symbol, value, &number);
+        return qdot_pool_check(session->pool); /* parameters in the scale have no values yet, so its sign is checked later */
+    return evaluate_scale(session, symbol, value, &number);
 }
 
 /* Find the scale that was given for a symbol; 0 if there is none. */
 static qdot_status
-scale_given(qdot_session *session, qdot_expr symbol, double *scale)
+find_given_scale(qdot_session *session, qdot_expr symbol, double *scale)
 {
     *scale = 0;
     for (size_t i = 0; i < session->values->scale_symbols.n; i++)
         if (session->values->scale_symbols.at[i] == symbol)
-            return number_of(session, symbol, session->values->scale_values.at[i], scale);
+            return evaluate_scale(session, symbol, session->values->scale_values.at[i], scale);
     return QDOT_OK;
 }
 
@@ -71,15 +71,15 @@ qdot_scales_of_run(qdot_session *session, double **scales)
     *scales = NULL;
     if (session->values->scale_symbols.n == 0)
         return QDOT_OK;
-    QDOT_TRY(scale_given(session, QDOT_T, &unit));
+    QDOT_TRY(find_given_scale(session, QDOT_T, &unit));
     of = qdot_calloc(2 * n + 1, sizeof *of);
     status = of ? QDOT_OK : QDOT_ENOMEM;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         const qdot_expr q = session->scene->coordinates.at[i];
 
-        status = scale_given(session, q, of + i);
+        status = find_given_scale(session, q, of + i);
         if (status == QDOT_OK)
-            status = scale_given(session, qdot_symbol_jet(session->pool, q, 1), of + n + i);
+            status = find_given_scale(session, qdot_symbol_jet(session->pool, q, 1), of + n + i);
         if (status == QDOT_OK && of[n + i] == 0 && unit > 0)
             of[n + i] = of[i] / unit;
     }

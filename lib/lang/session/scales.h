@@ -11,7 +11,7 @@
 QDOT_MUST_CHECK qdot_status qdot_scales_set(qdot_session *session, qdot_expr symbol,
                                             qdot_expr value);
 
-/* QDOT_EINVAL if the scale is not positive; parameters without a value are allowed. */
+/* QDOT_EINVAL if the scale is not positive; it may contain parameters that have no value yet. */
 QDOT_MUST_CHECK qdot_status qdot_scales_check(qdot_session *session, qdot_expr symbol,
                                               qdot_expr value);
 

@@ -74,7 +74,7 @@ qdot_session_new(FILE *out, FILE *err)
 }
 
 static void
-values_clear(qdot_values *values)
+free_values(qdot_values *values)
 {
     qdot_free(values->set_symbols.at);
     qdot_free(values->set_values.at);
@@ -100,7 +100,7 @@ qdot_session_free(qdot_session *session)
         qdot_row_table_release(session->tables->at[i]);
     qdot_free(session->tables->at);
     qdot_studies_clear(session->studies);
-    values_clear(session->values);
+    free_values(session->values);
     qdot_free(session->history->values.at);
     qdot_free(session->history->over.at);
     qdot_free(session->measured->at);

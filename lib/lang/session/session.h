@@ -13,7 +13,7 @@ void qdot_session_free(qdot_session *session);
 /* Append the path of a file that is read, `name` as the present script says it: "dir/other.lag" for
  * "other.lag" in "dir/this.lag". */
 void qdot_session_path(const qdot_session *session, const char *name, qdot_text *path);
-/* Exchange everything that `reset` forgets; settings such as style and files stay. */
+/* Exchange, between two sessions, everything that `reset` forgets; settings such as style and files stay. */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
 #endif

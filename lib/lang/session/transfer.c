@@ -1,4 +1,4 @@
-/* transfer.c -- copies expressions to another pool, node by node. */
+/* transfer.c -- copies expressions from one pool to another, node by node. */
 #include "lang/session/transfer.h"
 
 #include "base/memory.h"
@@ -10,7 +10,7 @@
 #include "expr/walk.h"
 
 static qdot_expr
-carry_symbol(const qdot_pool *from, qdot_pool *to, qdot_expr e)
+copy_symbol(const qdot_pool *from, qdot_pool *to, qdot_expr e)
 {
     qdot_symbol s = *qdot_expr_symbol(from, e);
     qdot_expr made, lo = QDOT_NIL, hi = QDOT_NIL;
@@ -30,7 +30,7 @@ carry_symbol(const qdot_pool *from, qdot_pool *to, qdot_expr e)
     made = qdot_symbol_get(to, s.class, s.name);
     if (made == QDOT_NIL || qdot_expr_symbol(to, made)->lo != QDOT_NIL ||
         qdot_expr_symbol(to, made)->hi != QDOT_NIL)
-        return made; /* the target pool has the symbol already */
+        return made; /* a symbol that the target pool already has */
     if (s.lo != QDOT_NIL)
         lo = qdot_transfer(from, to, s.lo);
     if (s.hi != QDOT_NIL)
@@ -41,7 +41,7 @@ carry_symbol(const qdot_pool *from, qdot_pool *to, qdot_expr e)
 }
 
 static qdot_expr
-carry_ufun(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *args)
+copy_undefined_function(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *args)
 {
     const qdot_ufun *f = qdot_ufun_get(from, qdot_expr_node(from, e)->op);
     uint32_t *orders = qdot_calloc(f->arity, sizeof *orders), id;
@@ -70,14 +70,14 @@ carry_ufun(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *a
 
 /* Copy one node whose children have been copied. */
 static qdot_expr
-carry_node(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *args)
+copy_node(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *args)
 {
     const qdot_node *node = qdot_expr_node(from, e);
     qdot_expr made;
 
     switch ((qdot_kind)node->kind) {
     case QDOT_NUM: return qdot_expr_fmpq(to, qdot_expr_rational(from, e));
-    case QDOT_SYM: return carry_symbol(from, to, e);
+    case QDOT_SYM: return copy_symbol(from, to, e);
     case QDOT_SUM:
         made = args[0];
         for (uint32_t i = 1; i + 1 < node->n; i += 2)
@@ -89,7 +89,7 @@ carry_node(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *a
             made = qdot_mul(to, made, qdot_pow(to, args[i], args[i + 1]));
         return made;
     case QDOT_FUN: return qdot_fun(to, (qdot_fun_id)node->op, node->n, args);
-    case QDOT_UFUN: return carry_ufun(from, to, e, args);
+    case QDOT_UFUN: return copy_undefined_function(from, to, e, args);
     case QDOT_REL: return qdot_rel(to, (qdot_rel_op)node->op, args[0], args[1]);
     case QDOT_LOGIC: return qdot_logic(to, (qdot_logic_op)node->op, node->n, args);
     case QDOT_VEC: return qdot_vector(to, node->n, args);
@@ -127,7 +127,7 @@ qdot_transfer(const qdot_pool *from, qdot_pool *to, qdot_expr e)
                 goto done;
             }
         }
-        made = carry_node(from, to, w.at[i], args.at);
+        made = copy_node(from, to, w.at[i], args.at);
         if (made == QDOT_NIL)
             break;
         qdot_walk_set(&w, w.at[i], made);

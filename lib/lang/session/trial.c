@@ -1,4 +1,4 @@
-/* trial.c -- other values and a run with them, for the sake of one answer. */
+/* trial.c -- a trial: sets other values temporarily, and makes a run with them, to compute one answer. */
 #include "lang/session/trial.h"
 
 #include <string.h>
@@ -35,16 +35,16 @@ qdot_trial_begin(qdot_trial *t, qdot_session *session)
 
 /* --- the run ------------------------------------------------------------------------------ */
 
-/* Whether the latest run of the session is that of a trial. */
+/* Whether the latest run of the session was made for a trial. */
 static bool
-trial_run_is_latest(const qdot_session *session)
+is_trial_run_latest(const qdot_session *session)
 {
     return session->runs->n > 0 && strcmp(session->runs->at[session->runs->n - 1].name, run_name) == 0;
 }
 
 /* Store the run in the session, which then owns it. */
 static qdot_status
-trial_keep_run(qdot_trial *t, const qdot_run_request *request, qdot_run *run)
+store_trial_run(qdot_trial *t, const qdot_run_request *request, qdot_run *run)
 {
     const qdot_run_report *report = qdot_run_get_report(run);
 
@@ -66,7 +66,7 @@ qdot_trial_run(qdot_trial *t, const qdot_run_request *request)
     if (status == QDOT_OK)
         status = qdot_pool_check(t->session->pool);
     if (run != NULL && status == QDOT_OK)
-        return trial_keep_run(t, request, run);
+        return store_trial_run(t, request, run);
     qdot_run_free(run);
     return status;
 }
@@ -82,11 +82,11 @@ qdot_trial_lend(qdot_trial *t, const qdot_run_request *request, qdot_run *run)
 }
 
 static void
-trial_drop_run(qdot_trial *t)
+drop_trial_run(qdot_trial *t)
 {
     qdot_run_list *runs = t->session->runs;
 
-    if (trial_run_is_latest(t->session)) {
+    if (is_trial_run_latest(t->session)) {
         if (t->lent)
             runs->at[runs->n - 1].run = NULL;
         qdot_named_run_release(&runs->at[--runs->n]);
@@ -102,7 +102,7 @@ qdot_trial_end(qdot_trial *t)
     if (t->session == NULL)
         return;
     if (t->run != NULL)
-        trial_drop_run(t);
+        drop_trial_run(t);
 #define X(list)                                                                          \
     qdot_free(t->session->values->list.at);                                              \
     memcpy(&t->session->values->list, &t->list, sizeof t->list);

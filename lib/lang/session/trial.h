@@ -21,24 +21,24 @@
 
 typedef struct {
     qdot_session *session; /* borrowed; NULL: the trial has not begun, or has ended */
-    qdot_run *run;         /* the latest run of the session, until the end; NULL: none is made */
-    qdot_expr end;         /* its last time, exact */
-    size_t measured;       /* how many numbers of runs there were before it */
-    bool lent;             /* the run belongs to somebody else */
-    qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values; /* the values before */
+    qdot_run *run;         /* the trial's run, the latest one of the session until the trial ends; NULL: none was made */
+    qdot_expr end;         /* the last time of the trial's run, exact */
+    size_t measured;       /* how many numbers of runs the session had before the trial */
+    bool lent;             /* the run belongs to somebody else, and is not freed with the trial */
+    qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values; /* saved values */
 } qdot_trial;
 
-/* Begin: note the values that `set` and `start` gave. QDOT_ENOMEM: there is nothing to end. */
+/* Begin a trial: save the values that `set` and `start` gave. QDOT_ENOMEM: there is no trial to be ended. */
 QDOT_MUST_CHECK qdot_status qdot_trial_begin(qdot_trial *t, qdot_session *session);
 /* Make the run that the request asks for: the latest one, under a name that nobody can write. QDOT_EFAILED
  * with its reason: the run failed. */
 QDOT_MUST_CHECK qdot_status qdot_trial_run(qdot_trial *t, const qdot_run_request *request);
-/* The same with a run that somebody else has made, and keeps. */
+/* As qdot_trial_run, with a run that the caller has made and keeps. */
 QDOT_MUST_CHECK qdot_status qdot_trial_lend(qdot_trial *t, const qdot_run_request *request, qdot_run *run);
-/* Give up the run and the numbers that were read of it, and put the values back. */
+/* End a trial: drop its run and the numbers read from it, and restore the saved values. */
 void qdot_trial_end(qdot_trial *t);
 
-/* Whether a failure does not depend on the values, so that other trials would fail, too. */
+/* Whether a failed trial fails for a reason independent of the values, so that other trials would fail, too. */
 bool qdot_trial_all_fail(qdot_status status);
 
 #endif

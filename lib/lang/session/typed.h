@@ -19,8 +19,8 @@ typedef struct qdot_typed {
     uint32_t line;  /* line where the statement begins, for JSON */
     bool under_way;
     bool told;      /* for JSON: the end of the statement must be reported */
-    bool refuted;   /* a check had been refuted before this statement */
-    qdot_text all;  /* the statements that succeeded, as typed */
+    bool refuted;   /* an earlier check had been refuted before this statement */
+    qdot_text all;  /* the text of all statements that succeeded, as typed */
 } qdot_typed;
 
 #endif

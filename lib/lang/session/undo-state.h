@@ -26,7 +26,7 @@ enum { /* numbered after the parts of the scene */
     QDOT_UNDO_PARTS
 };
 
-/* The parts of the state that are not arrays. */
+/* The parts of the session's state that are not arrays. */
 typedef struct {
     qdot_expr lagrangian, series, series_in;
     qdot_style style;
@@ -51,17 +51,17 @@ qdot_scene_part qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k);
 unsigned char *qdot_undo_items(const qdot_scene_part *part);
 qdot_undo_single qdot_undo_single_of(const qdot_session *s);
 
-/* Raise, or lower, the reference count of each item of a part by one. */
+/* Raise (more) or lower by one the reference count of each item of a part of the state. */
 void qdot_undo_count(int part, const unsigned char *at, size_t n, bool more);
 /* Copy one item of a part into *to, which the caller owns, with references of its own. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_copy(int part, const unsigned char *from, size_t n,
                                            size_t size, unsigned char **to);
-/* Make room for n items in a part. QDOT_ENOMEM. */
+/* Allocate memory for n items in a part of the state. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_make_room(qdot_scene_part *part, size_t n);
-/* Replace the items [at, at + gone) by `come` items of `in`; there must be room. */
+/* Replace the items [at, at + gone) of a part of the state by `come` items of `in`; there must be room. */
 void qdot_undo_splice(const qdot_scene_part *part, size_t at, size_t gone,
                       const unsigned char *in, size_t come);
-/* As qdot_undo_splice, in a copy of the state, which has references of its own. */
+/* As qdot_undo_splice, in a copy of the state, which counts its references separately. */
 void qdot_undo_splice_kept(qdot_undo_state *kept, int k, size_t size, size_t at,
                            size_t gone, const unsigned char *in, size_t come);
 void qdot_undo_clear(qdot_undo_state *state);

@@ -15,7 +15,7 @@
 enum { TEXT_LIMIT = 160 };
 static const size_t most_bytes = (size_t)256 << 20; /* largest memory for all records, in bytes */
 
-/* A change: the items [at, at + n[0]) of a part became [at, at + n[1]). */
+/* A change of one part of the state: its items [at, at + n[0]) became [at, at + n[1]). */
 typedef struct {
     int part;
     size_t at, n[2];
@@ -25,13 +25,13 @@ typedef struct {
 /* The changes made by one statement; in pairs, [0] is the state before it and [1] the state after it. */
 typedef struct {
     char *text;
-    bool joined; /* undone together with the previous record */
+    bool joined; /* this record is undone together with the one before it */
     uint64_t version[2]; /* version of the scene before and after */
     qdot_vec(change) changes;
     qdot_undo_single single[2];
-    size_t history[2];   /* numbers of answers before and after the statement */
-    size_t bytes;        /* approximate size of what only this record keeps */
-    qdot_session *other; /* for `reset`: the session on the other side of it */
+    size_t history[2];   /* numbers of answers in the history before and after the statement */
+    size_t bytes;        /* approximate memory of what is kept for this record only */
+    qdot_session *other; /* for `reset`: the session that was exchanged with the present one */
     qdot_undo_state *there;        /* for `reset`: the qdot_undo_state of that session */
 } record;
 
@@ -39,16 +39,16 @@ typedef qdot_vec(record) records;
 
 struct qdot_undo {
     qdot_undo_state now; /* state after the latest statement */
-    bool known;          /* `now` is up to date */
+    bool known;          /* whether `now` is up to date */
     records done, undone;
-    size_t floor;     /* number of records that the present text cannot undo */
+    size_t floor;     /* number of records made before the text that is being read, which that text cannot undo */
     bool moved;       /* the present statement is `undo` or `redo` */
     size_t under_way; /* number of nested statements in progress */
     size_t bytes;     /* total size of the records in `done` */
     uint64_t version; /* version of the scene after the previous statement */
 };
 
-/* Whether a part changes with every answer, as the history of answers does. */
+/* Whether a part of the state belongs to the history of answers, which every answer changes. */
 static bool
 is_answers(int k)
 {
@@ -56,7 +56,7 @@ is_answers(int k)
 }
 
 static bool
-same_single(const qdot_undo_single *a, const qdot_undo_single *b)
+have_equal_singles(const qdot_undo_single *a, const qdot_undo_single *b)
 {
     return a->lagrangian == b->lagrangian && a->style == b->style &&
            a->flat == b->flat &&
@@ -92,7 +92,7 @@ clear_records(records *list)
 
 /* Forget all records, so that nothing can be undone. */
 static void
-forget(qdot_undo *u)
+forget_all_records(qdot_undo *u)
 {
     clear_records(&u->done);
     clear_records(&u->undone);
@@ -103,11 +103,11 @@ forget(qdot_undo *u)
 }
 
 static void
-undo_free(qdot_undo *u)
+free_undo(qdot_undo *u)
 {
     if (u == NULL)
         return;
-    forget(u);
+    forget_all_records(u);
     qdot_free(u->done.at);
     qdot_free(u->undone.at);
     qdot_free(u);
@@ -131,7 +131,7 @@ list_names(qdot_session *s)
     return QDOT_OK;
 }
 
-/* Compare one part with its copy: store the difference in r and update the copy. */
+/* Compare one part of the session's state with its copy: store the difference in r and update the copy. */
 static qdot_status
 compare_part(qdot_session *s, int k, record *r)
 {
@@ -173,9 +173,9 @@ compare_part(qdot_session *s, int k, record *r)
     return QDOT_OK;
 }
 
-/* Bring the copy of the session up to date; r: the difference. */
+/* Bring the copy of the session's state up to date; r: the difference from before. */
 static qdot_status
-session_compare(qdot_session *s, record *r)
+update_copy_of_state(qdot_session *s, record *r)
 {
     qdot_undo_state *now = &s->undo->now;
 
@@ -190,14 +190,14 @@ session_compare(qdot_session *s, record *r)
     return QDOT_OK;
 }
 
-/* Whether the record holds nothing but answers. */
+/* Whether a record contains no change but new answers in the history. */
 static bool
-is_nothing(const record *r)
+has_only_answers(const record *r)
 {
     for (size_t i = 0; i < r->changes.n; i++)
         if (!is_answers(r->changes.at[i].part))
             return false;
-    return r->other == NULL && same_single(&r->single[0], &r->single[1]);
+    return r->other == NULL && have_equal_singles(&r->single[0], &r->single[1]);
 }
 
 /* --- while statements run ------------------------------------------------------------- */
@@ -219,11 +219,11 @@ qdot_undo_text_end(qdot_session *s, size_t outer)
         s->undo->floor = outer < s->undo->done.n ? outer : s->undo->done.n;
 }
 
-/* Forget all records; the error of the present statement remains the last one. */
+/* Forget all records; the error of the present statement is kept as the last error. */
 static void
-let_go(qdot_session *s, const qdot_error *error)
+forget_records_after_error(qdot_session *s, const qdot_error *error)
 {
-    forget(s->undo);
+    forget_all_records(s->undo);
     (void)qdot_fail_again(error);
 }
 
@@ -235,7 +235,7 @@ qdot_undo_begin(qdot_session *s)
 
     if (s->undo == NULL)
         s->undo = qdot_calloc(1, sizeof *s->undo);
-    s->undo_free = undo_free;
+    s->undo_free = free_undo;
     if (s->undo == NULL) {
         (void)qdot_fail_again(&error);
         return 0;
@@ -246,18 +246,18 @@ qdot_undo_begin(qdot_session *s)
     if (s->undo->known) {
         /* a style set from outside does not count as a change by the statement */
         s->undo->now.single = qdot_undo_single_of(s);
-    } else if (session_compare(s, &r) == QDOT_OK) {
+    } else if (update_copy_of_state(s, &r) == QDOT_OK) {
         s->undo->known = true;
     } else {
-        let_go(s, &error);
+        forget_records_after_error(s, &error);
     }
     clear_record(&r);
     return s->undo->done.n;
 }
 
-/* The source text in one line, with `;` between the lines of a block. */
+/* A statement's source text in one line, with `;` between the lines of a block. */
 static char *
-one_line(const char *text, size_t length)
+text_in_one_line(const char *text, size_t length)
 {
     qdot_text line = {0};
     int open = 0; /* number of open brackets within a line */
@@ -285,15 +285,15 @@ one_line(const char *text, size_t length)
     return copy;
 }
 
-/* Join the records since `begun` to one undo step, described by `text`. */
+/* Join the records made since index `begun` to one step of undo, described by `text`. */
 static qdot_status
-records_join(qdot_undo *u, size_t begun, const char *text, size_t length)
+join_records(qdot_undo *u, size_t begun, const char *text, size_t length)
 {
     char *line;
 
     if (u->done.n <= begun)
         return QDOT_OK;
-    line = one_line(text, length);
+    line = text_in_one_line(text, length);
     if (line == NULL)
         return QDOT_ENOMEM;
     qdot_free(u->done.at[begun].text);
@@ -304,7 +304,7 @@ records_join(qdot_undo *u, size_t begun, const char *text, size_t length)
 }
 
 static size_t
-bytes_of_runs(const unsigned char *at, size_t n)
+memory_of_runs(const unsigned char *at, size_t n)
 {
     size_t bytes = 0;
 
@@ -318,29 +318,29 @@ bytes_of_runs(const unsigned char *at, size_t n)
 }
 
 static size_t
-bytes_of(qdot_session *s, const record *r)
+bytes_of_record(qdot_session *s, const record *r)
 {
     size_t bytes = sizeof *r + TEXT_LIMIT;
 
     if (r->other != NULL)
         bytes += qdot_pool_bytes(r->other->pool) +
-                 bytes_of_runs(r->there->part[QDOT_UNDO_RUNS].at, r->there->part[QDOT_UNDO_RUNS].n);
+                 memory_of_runs(r->there->part[QDOT_UNDO_RUNS].at, r->there->part[QDOT_UNDO_RUNS].n);
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
 
         bytes += sizeof *c + (c->n[0] + c->n[1]) * qdot_undo_part(s, &s->undo->now, c->part).size;
         if (c->part == QDOT_UNDO_RUNS)
-            bytes += bytes_of_runs(c->items[0], c->n[0]);
+            bytes += memory_of_runs(c->items[0], c->n[0]);
     }
     return bytes;
 }
 
 static qdot_status
-record_push(qdot_session *s, record *r)
+push_record(qdot_session *s, record *r)
 {
     qdot_undo *u = s->undo;
 
-    r->bytes = bytes_of(s, r);
+    r->bytes = bytes_of_record(s, r);
     QDOT_TRY(qdot_vec_push(&u->done, *r));
     u->bytes += r->bytes;
     *r = (record){0};
@@ -350,7 +350,7 @@ record_push(qdot_session *s, record *r)
 
 /* Drop the oldest records until the rest fits into most_bytes. */
 static void
-trim(qdot_undo *u)
+drop_oldest_records(qdot_undo *u)
 {
     size_t gone = 0;
 
@@ -379,20 +379,20 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
         return;
     r.version[0] = u->version;
     r.version[1] = s->scene->version;
-    status = session_compare(s, &r);
-    /* declaring the same thing again changes the version of the scene but no array */
+    status = update_copy_of_state(s, &r);
+    /* the scene's version changes if the same thing is declared again, but no array does */
     if (status == QDOT_OK &&
-        (!is_nothing(&r) || (!u->moved && r.version[0] != r.version[1])))
-        status = record_push(s, &r);
+        (!has_only_answers(&r) || (!u->moved && r.version[0] != r.version[1])))
+        status = push_record(s, &r);
     u->version = s->scene->version;
     if (status == QDOT_OK && !u->moved)
-        status = records_join(u, begun, text, length);
+        status = join_records(u, begun, text, length);
     u->moved = false;
     clear_record(&r);
     if (status != QDOT_OK)
-        let_go(s, &error);
+        forget_records_after_error(s, &error);
     else if (u->under_way == 0)
-        trim(u);
+        drop_oldest_records(u);
 }
 
 void
@@ -410,25 +410,25 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
         u->now = (qdot_undo_state){0};
         u->known = false;
         r.single[0] = r.there->single;
-        status = session_compare(s, &rest);
+        status = update_copy_of_state(s, &rest);
         r.single[1] = u->now.single;
     }
     if (status == QDOT_OK) {
         u->known = true;
         u->version = s->scene->version;
-        status = record_push(s, &r);
+        status = push_record(s, &r);
     }
     clear_record(&rest);
     clear_record(&r);
     if (status != QDOT_OK && u != NULL)
-        let_go(s, &error);
+        forget_records_after_error(s, &error);
 }
 
 /* --- undo and redo -------------------------------------------------------------------- */
 
 /* Hide the symbols of names that are removed, and show those of names that return. */
 static void
-move_symbols(qdot_session *s, const change *c, int to)
+hide_or_show_symbols(qdot_session *s, const change *c, int to)
 {
     for (int step = 0; step < 2; step++) {
         int side = step == 0 ? !to : to;
@@ -449,9 +449,9 @@ move_symbols(qdot_session *s, const change *c, int to)
     }
 }
 
-/* Forget the answers beyond the first n. */
+/* Remove all answers after the first n from the history. */
 static void
-cut_history(qdot_session *s, size_t n)
+truncate_history(qdot_session *s, size_t n)
 {
     qdot_undo_array *kept = s->undo->now.part;
 
@@ -466,7 +466,7 @@ cut_history(qdot_session *s, size_t n)
 
 /* Exchange the session with the one before, or after, a `reset`. */
 static void
-reset_cross(qdot_session *s, record *r)
+exchange_sessions(qdot_session *s, record *r)
 {
     const qdot_undo_state here = s->undo->now;
 
@@ -476,9 +476,9 @@ reset_cross(qdot_session *s, record *r)
     s->undo->now.single = qdot_undo_single_of(s);
 }
 
-/* Make room in the session and in the copy for what the record inserts. */
+/* Allocate memory, in the session and in the copy, for the items that the record will insert. */
 static qdot_status
-record_prepare(qdot_session *s, const record *r, int to)
+allocate_for_record(qdot_session *s, const record *r, int to)
 {
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
@@ -494,16 +494,16 @@ record_prepare(qdot_session *s, const record *r, int to)
 
 /* Bring the session to the state before the statement of the record (to = 0), or after it (to = 1). */
 static qdot_status
-apply(qdot_session *s, record *r, int to)
+apply_record(qdot_session *s, record *r, int to)
 {
     qdot_undo *u = s->undo;
 
     if (r->other != NULL) {
-        reset_cross(s, r);
+        exchange_sessions(s, r);
         return QDOT_OK;
     }
-    QDOT_TRY(record_prepare(s, r, to));
-    cut_history(s, r->history[!to]);
+    QDOT_TRY(allocate_for_record(s, r, to));
+    truncate_history(s, r->history[!to]);
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
         const qdot_scene_part live = qdot_undo_part(s, &s->undo->now, c->part);
@@ -515,7 +515,7 @@ apply(qdot_session *s, record *r, int to)
         qdot_undo_splice(&live, c->at, c->n[!to], c->items[to], c->n[to]);
         qdot_undo_splice_kept(&u->now, c->part, live.size, c->at, c->n[!to], c->items[to], c->n[to]);
         if (c->part == QDOT_UNDO_NAMES) {
-            move_symbols(s, c, to);
+            hide_or_show_symbols(s, c, to);
             qdot_names_restore(s->names, u->now.names.n, u->now.names.at);
         }
     }
@@ -531,12 +531,12 @@ apply(qdot_session *s, record *r, int to)
     return QDOT_OK;
 }
 
-/* Apply the latest record of `from` and move it to the list `into`. */
+/* Undo or redo the latest record of the list `from` and move it to the list `into`. */
 static qdot_status
 apply_and_move(qdot_session *s, records *from, records *into, int to)
 {
     QDOT_TRY(qdot_grow(&into->at, &into->capacity, into->n + 1, sizeof *into->at));
-    QDOT_TRY(apply(s, &from->at[from->n - 1], to));
+    QDOT_TRY(apply_record(s, &from->at[from->n - 1], to));
     s->undo->bytes += to == 0 ? -from->at[from->n - 1].bytes : from->at[from->n - 1].bytes;
     into->at[into->n++] = from->at[--from->n];
     return QDOT_OK;

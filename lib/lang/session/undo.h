@@ -30,7 +30,7 @@ void qdot_undo_text_end(qdot_session *session, size_t outer);
 size_t qdot_undo_begin(qdot_session *session);
 void qdot_undo_end(qdot_session *session, size_t begun, const char *text, size_t length);
 
-/* How many statements can be taken back, or done again. */
+/* The number of statements that can be undone or, with `again`, redone. */
 size_t qdot_undo_statements(const qdot_session *session, bool again);
 /* Whether undo has reached the beginning of the script that is being included. */
 bool qdot_undo_is_at_floor(const qdot_session *session);
@@ -39,7 +39,7 @@ bool qdot_undo_is_at_floor(const qdot_session *session);
 QDOT_MUST_CHECK qdot_status qdot_undo_step(qdot_session *session, bool again,
                                            const char **text);
 
-/* Record a `reset`; `other` is the session before it, and is taken over. */
+/* Record a `reset`; `other` is the session's state before the reset, and is taken over. */
 void qdot_undo_reset(qdot_session *session, qdot_session *other);
 
 #endif

@@ -1,4 +1,4 @@
-/* values.c -- the values of `set`, `start` and `scale`. */
+/* values.c -- stores the values given by `set`, `start` and `scale`. */
 #include "lang/session/values.h"
 
 #include "expr/node.h"

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "lang/session/parts.h"
 
-/* A value of `start RUN`, and how far both companions of that run ended from it (qdot_run_end_apart). */
+/* A value set by `start RUN`, and how far that run's two companion runs ended from it (qdot_run_end_apart). */
 typedef struct {
     qdot_expr symbol, value;
     double apart[2];

@@ -1,4 +1,4 @@
-/* floquet.c -- the statement `floquet`: the multipliers of a periodic orbit. */
+/* floquet.c -- the statement `floquet`: the Floquet multipliers of a periodic orbit, which tell its stability. */
 #include "sim/study/floquet.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
-static qdot_status floquet_print(qdot_record *r);
+static qdot_status carry_out_floquet(qdot_record *r);
 
 QDOT_STATEMENT(floquet) = {
     .word = "floquet",
@@ -21,7 +21,7 @@ QDOT_STATEMENT(floquet) = {
     .summary = "the multipliers of a periodic orbit, the latest run that ends where it began, each with its error, and "
                "whether it is stable",
     .example = "floquet",
-    .handler = floquet_print,
+    .handler = carry_out_floquet,
 };
 
 /* Answer re + im*i with a common error; in JSON as [re, im]. */
@@ -58,7 +58,7 @@ answer_complex(qdot_session *session, const char *name, double re, double im,
 }
 
 static qdot_status
-floquet_tell(qdot_session *session, const char *run, const qdot_floquet *x)
+answer_multipliers(qdot_session *session, const char *run, const qdot_floquet *x)
 {
     static const char *const verdicts[] = {[QDOT_FLOQUET_STABLE] = "stable",
                                            [QDOT_FLOQUET_UNSTABLE] = "unstable",
@@ -89,7 +89,7 @@ floquet_tell(qdot_session *session, const char *run, const qdot_floquet *x)
 }
 
 static qdot_status
-floquet_print(qdot_record *r)
+carry_out_floquet(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *run = qdot_record_hole(r, NULL, "RUN");
@@ -110,7 +110,7 @@ floquet_print(qdot_record *r)
     request.treatment = qdot_run_get_report(orbit->run)->treatment;
     status = qdot_floquet_find(session->scene, orbit->run, &request, &x);
     if (status == QDOT_OK)
-        status = floquet_tell(session, orbit->name, &x);
+        status = answer_multipliers(session, orbit->name, &x);
     qdot_floquet_clear(&x);
     return status;
 }

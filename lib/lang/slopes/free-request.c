@@ -1,4 +1,4 @@
-/* free-request.c -- makes the request of a run whose values and start depend on unknowns. */
+/* free-request.c -- makes the request of a run whose parameter values and start depend on unknowns. */
 #include "lang/slopes/free-request.h"
 
 #include "expr/symbol.h"
@@ -7,10 +7,10 @@
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
 
-/* Set values and start of the request; parameters that are unknowns keep their symbols as values. */
+/* Set parameter values and start of the request; parameters that are unknowns keep their symbols as values. */
 static qdot_status
-request_fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
-             qdot_expr *values, qdot_expr *start, bool *named)
+fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
+                  qdot_expr *values, qdot_expr *start, bool *named)
 {
     const size_t n = session->scene->coordinates.n;
 
@@ -51,7 +51,7 @@ qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
         if (qdot_expr_is_class(session->pool, unknowns[i], QDOT_PARAM))
             qdot_session_set(session, unknowns[i], unknowns[i], &status);
     if (status == QDOT_OK)
-        status = request_fill(session, k, unknowns, had, values, start, named);
+        status = fill_free_request(session, k, unknowns, had, values, start, named);
     qdot_trial_end(&trial);
     *free = *had;
     free->values = values;

@@ -1,4 +1,4 @@
-/* lyapunov.c -- the statement `lyapunov [spectrum] T0..T1`: exponents, with a figure of their convergence. */
+/* lyapunov.c -- the statement `lyapunov [spectrum] T0..T1`: Lyapunov exponents, with a figure of their convergence. */
 #include <math.h>
 #include <stdio.h>
 
@@ -11,7 +11,7 @@
 #include "lang/syntax/record.h"
 #include "sim/study/exponents.h"
 
-static qdot_status lyapunov_find(qdot_record *r);
+static qdot_status carry_out_lyapunov(qdot_record *r);
 
 QDOT_STATEMENT(lyapunov) = {
     .word = "lyapunov",
@@ -20,10 +20,10 @@ QDOT_STATEMENT(lyapunov) = {
     .summary = "the largest Lyapunov exponent, or all of them, by the variational equations, with errors by blocks of "
                "time; `to` a figure or data: how they settled",
     .example = "lyapunov 0..1000",
-    .handler = lyapunov_find,
+    .handler = carry_out_lyapunov,
 };
 
-/* The default tolerance, as for a run. */
+/* the default tolerance, the same as for the statement `run` */
 static const double tol_default = 1e-12;
 
 typedef struct {
@@ -36,7 +36,7 @@ typedef struct {
 
 /* Write the name of exponent k: "lyapunov" if only the largest is computed, otherwise "lyapunov[k]". */
 static void
-exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
+write_exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
 {
     if (x->spectrum)
         snprintf(name, size, "lyapunov[%zu]", k + 1);
@@ -45,12 +45,12 @@ exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
 }
 
 static qdot_status
-exponents_answer(qdot_session *session, const qdot_exponents *x)
+answer_exponents(qdot_session *session, const qdot_exponents *x)
 {
     for (size_t k = 0; k < x->n; k++) {
         char name[40];
 
-        exponent_name(x, k, name, sizeof name);
+        write_exponent_name(x, k, name, sizeof name);
         QDOT_TRY(qdot_answer_number(session, name, x->value[k], x->error[k]));
     }
     return QDOT_OK;
@@ -58,7 +58,7 @@ exponents_answer(qdot_session *session, const qdot_exponents *x)
 
 /* Write a row for each time t: the estimates of the exponents from the run up to t. */
 static qdot_status
-write_course(qdot_session *session, const qdot_exponents *x, const char *path)
+write_convergence(qdot_session *session, const qdot_exponents *x, const char *path)
 {
     qdot_table_column *columns = qdot_calloc(x->n + 1, sizeof *columns);
     char(*names)[40] = qdot_calloc(x->n, sizeof *names);
@@ -68,7 +68,7 @@ write_course(qdot_session *session, const qdot_exponents *x, const char *path)
     if (status == QDOT_OK)
         columns[0] = (qdot_table_column){.name = "t", .values = x->t};
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
-        exponent_name(x, k, names[k], sizeof names[k]);
+        write_exponent_name(x, k, names[k], sizeof names[k]);
         columns[k + 1] = (qdot_table_column){
             .name = names[k], .gap = 2, .values = x->course + k, .stride = x->n};
     }
@@ -80,7 +80,7 @@ write_course(qdot_session *session, const qdot_exponents *x, const char *path)
 }
 
 static qdot_status
-figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
+make_figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 {
     qdot_error_point *points = qdot_calloc(x->n * x->windows + 1, sizeof *points);
     char(*names)[40] = qdot_calloc(x->n + 1, sizeof *names);
@@ -98,7 +98,7 @@ figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
     qdot_status status = points && names ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
-        exponent_name(x, k, names[k], sizeof names[k]);
+        write_exponent_name(x, k, names[k], sizeof names[k]);
         for (size_t w = 0; w < x->windows; w++)
             points[of.n++] =
                 (qdot_error_point){names[k], x->t[w], fabs(x->course[w * x->n + k])};
@@ -114,20 +114,20 @@ figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 
 /* Answer the exponents; write a figure or data to the named file, or show a figure at the prompt. */
 static qdot_status
-exponents_tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
+show_exponents(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 {
     const char *path = chosen->figure.path;
 
-    QDOT_TRY(exponents_answer(session, x));
+    QDOT_TRY(answer_exponents(session, x));
     if (path == NULL)
         return QDOT_OK;
-    return qdot_data_file_is(path) ? write_course(session, x, path) : figure(session, x, chosen);
+    return qdot_data_file_is(path) ? write_convergence(session, x, path) : make_figure(session, x, chosen);
 }
 
 /* --- the statement `lyapunov` ---------------------------------------------------------------- */
 
 static qdot_status
-lyapunov_find(qdot_record *r)
+carry_out_lyapunov(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_request order = {0};
@@ -148,7 +148,7 @@ lyapunov_find(qdot_record *r)
     if (x.interrupted)
         qdot_interrupt_clear(); /* the interruption has been handled: what is known so far is reported */
     if (status == QDOT_OK)
-        status = exponents_tell(session, &x, &chosen);
+        status = show_exponents(session, &x, &chosen);
     if (status == QDOT_OK && x.interrupted)
         status =
             qdot_fail(QDOT_EINTR, "interrupted: the exponents are those up to t = %.6g",

@@ -1,4 +1,5 @@
-/* sensitivity.c -- the statement `sensitivity EXPR of NAME, ...`. */
+/* sensitivity.c -- the statement `sensitivity EXPR of NAME, ...`: derivatives of results of runs by parameters and start
+ * values. */
 #include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
@@ -10,7 +11,7 @@
 #include "lang/slopes/slopes.h"
 #include "lang/syntax/record-times.h"
 
-static qdot_status sensitivity_tell(qdot_record *r);
+static qdot_status carry_out_sensitivity(qdot_record *r);
 
 QDOT_STATEMENT(sensitivity) = {
     .word = "sensitivity",
@@ -19,13 +20,13 @@ QDOT_STATEMENT(sensitivity) = {
     .summary = "derivatives of a number of a run by parameters and initial values (theta, theta'), each with its "
                "error, by the variational equations",
     .example = "sensitivity value(theta, 20) of m, L, theta",
-    .handler = sensitivity_tell,
+    .handler = carry_out_sensitivity,
 };
 
 /* --- computing the slopes -------------------------------------------------------------------- */
 
 static qdot_status
-slope_answer(qdot_session *session, const char *of, const char *by, qdot_expr slope)
+answer_sensitivity(qdot_session *session, const char *of, const char *by, qdot_expr slope)
 {
     const int digits = qdot_digits_of(session, slope);
     qdot_text name = {0};
@@ -45,9 +46,9 @@ slope_answer(qdot_session *session, const char *of, const char *by, qdot_expr sl
     return status;
 }
 
-/* Answer all sensitivities of e; all are computed before the first is printed. */
+/* Answer all sensitivities of the expression e; all are computed before the first one is printed. */
 static qdot_status
-tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
+answer_sensitivities(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
 {
     qdot_expr *slope = qdot_calloc(s->names.n + 1, sizeof *slope);
     qdot_status status = slope ? QDOT_OK : QDOT_ENOMEM;
@@ -55,14 +56,14 @@ tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
     for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++)
         status = qdot_slopes_of(s, e, first, k, slope + k);
     for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++)
-        status = slope_answer(s->session, of, s->names.at[k].label, slope[k]);
+        status = answer_sensitivity(s->session, of, s->names.at[k].label, slope[k]);
     qdot_free(slope);
     return status;
 }
 
-/* The run from which the numbers in e come, of the results from index `first` on; NULL: the latest run. */
+/* The run from which the results in e come, among the session's results from index `first` on; NULL: the latest. */
 static const char *
-run_of(const qdot_session *session, size_t first)
+find_run_of_results(const qdot_session *session, size_t first)
 {
     for (size_t i = first; i < session->measured->n; i++)
         if (session->measured->at[i].origin.run != NULL)
@@ -72,7 +73,7 @@ run_of(const qdot_session *session, size_t first)
 
 /* Compute the sensitivities, then print the answers. */
 static qdot_status
-sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
+compute_and_answer(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
 {
     const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
     qdot_session *session = r->cursor.session;
@@ -87,8 +88,8 @@ sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
     QDOT_TRY(qdot_slopes_at_end(session, &e));
     qdot_token_text(session, part->from, part->to, text);
     QDOT_TRY(qdot_text_status(text));
-    QDOT_TRY(qdot_slopes_make(slopes, run_of(session, first), e, first));
-    return tell_slopes(slopes, qdot_text_str(text), e, first);
+    QDOT_TRY(qdot_slopes_make(slopes, find_run_of_results(session, first), e, first));
+    return answer_sensitivities(slopes, qdot_text_str(text), e, first);
 }
 
 /* If the session has no run, make one with default options up to the latest time that the statement reads. */
@@ -100,7 +101,7 @@ make_run_if_none(qdot_record *r, qdot_trial *trial)
         trial->session->runs->n > 0 ? QDOT_NIL : qdot_record_farthest_time(r, r->start, QDOT_ZERO);
     qdot_status status;
 
-    if (end == QDOT_NIL) /* without a time there is no run to make: whatever needs one reports that */
+    if (end == QDOT_NIL) /* without a time in the statement no run can be made; an error is reported where one is needed */
         return QDOT_OK;
     status = qdot_run_options_try(trial, &bare, QDOT_ZERO, end);
     if (status != QDOT_OK)
@@ -109,7 +110,7 @@ make_run_if_none(qdot_record *r, qdot_trial *trial)
 }
 
 static qdot_status
-sensitivity_tell(qdot_record *r)
+carry_out_sensitivity(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_slopes slopes = {0};
@@ -120,7 +121,7 @@ sensitivity_tell(qdot_record *r)
     QDOT_TRY(qdot_trial_begin(&trial, session));
     status = make_run_if_none(r, &trial);
     if (status == QDOT_OK)
-        status = sensitivity_carry_out(r, &slopes, &text);
+        status = compute_and_answer(r, &slopes, &text);
     qdot_text_clear(&text);
     qdot_slopes_free(&slopes);
     qdot_trial_end(&trial);

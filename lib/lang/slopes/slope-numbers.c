@@ -1,4 +1,4 @@
-/* slope-numbers.c -- sensitivities of results of runs, and of expressions of them, by the chain rule. */
+/* slope-numbers.c -- sensitivities (derivatives) of results of runs, and of expressions of them, by the chain rule. */
 #include <float.h>
 #include <math.h>
 
@@ -52,9 +52,9 @@ qdot_slopes_at_end(qdot_session *session, qdot_expr *e)
 
 /* --- their slopes ------------------------------------------------------------------------------- */
 
-/* Evaluate an expression of the scene with slopes at a time, as a number. */
+/* Evaluate, at a time, an expression of the coordinates and their derivatives by parameters, as a number. */
 static qdot_status
-at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
+value_at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
 {
     qdot_measured m = {0};
 
@@ -70,27 +70,27 @@ at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
     return qdot_pool_check(s->session->pool);
 }
 
-/* The derivative in direction k of an expression e of the scene; results of runs in e are constants. */
+/* The derivative in direction k of e, an expression of coordinates; results of runs in e are constants. */
 static qdot_expr
-slope_along(const qdot_slopes *s, qdot_expr e, size_t k)
+derivative_in_direction(const qdot_slopes *s, qdot_expr e, size_t k)
 {
     return qdot_variation_of(&s->variation, qdot_measured_as_rationals(s->session, e), k);
 }
 
 /* Find the derivative of value(e, time), whose time may vary, too. */
 static qdot_status
-slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
-               qdot_expr *slope)
+differentiate_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
+                    qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
     qdot_expr time, rate, sum = QDOT_ZERO;
 
-    QDOT_TRY(at_time(s, slope_along(s, m->origin.e, k), m->origin.time, slope));
+    QDOT_TRY(value_at_time(s, derivative_in_direction(s, m->origin.e, k), m->origin.time, slope));
     QDOT_TRY(qdot_slopes_of(s, m->origin.time, first, k, &time));
     if (time != QDOT_ZERO) {
         rate = qdot_variation_rate(&s->variation,
                                    qdot_measured_as_rationals(s->session, m->origin.e));
-        QDOT_TRY(at_time(s, rate, m->origin.time, &rate));
+        QDOT_TRY(value_at_time(s, rate, m->origin.time, &rate));
         sum = qdot_mul(pool, rate, time);
     }
     for (size_t i = first;
@@ -103,7 +103,7 @@ slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
             continue;
         by = qdot_measured_as_rationals(s->session,
                                         qdot_diff(pool, m->origin.e, inner->symbol));
-        QDOT_TRY(at_time(s, by, m->origin.time, &by));
+        QDOT_TRY(value_at_time(s, by, m->origin.time, &by));
         QDOT_TRY(qdot_slopes_of(s, s->session->measured->at[i].symbol, first, k, &one));
         sum = qdot_add(pool, sum, qdot_mul(pool, by, one));
     }
@@ -114,7 +114,7 @@ slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
 /* The time at which the sensitivity of an event's time is evaluated: just before it if the event
  * changes the state. */
 static double
-read_at(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
+time_of_reading(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
 {
     const qdot_run_report *report = qdot_run_get_report(s->run);
     const double latest = fmax(fabs(report->t0), fabs(report->t1)),
@@ -126,21 +126,21 @@ read_at(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
 /* To the slope -Dg/(dg/dt) of an event's time, read with up = Dg and down = dg/dt at a time near the event, add its
  * derivative by t times `way`, the time from there to the event with its error. */
 static qdot_status
-add_way_to_event(qdot_slopes *s, qdot_expr rate_up, qdot_expr rate_down, qdot_expr time, qdot_expr way,
-                 qdot_expr up, qdot_expr down, qdot_expr *slope)
+add_change_of_event_time(qdot_slopes *s, qdot_expr rate_up, qdot_expr rate_down, qdot_expr time, qdot_expr way,
+                         qdot_expr up, qdot_expr down, qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
     qdot_expr by_up, by_down;
 
-    QDOT_TRY(at_time(s, rate_up, time, &by_up)); /* evaluated separately, since the quotient may be 0/0 at other times */
-    QDOT_TRY(at_time(s, rate_down, time, &by_down));
+    QDOT_TRY(value_at_time(s, rate_up, time, &by_up)); /* not as a quotient, which may be 0/0 at other times */
+    QDOT_TRY(value_at_time(s, rate_down, time, &by_down));
     by_down = qdot_div(pool, qdot_mul(pool, up, by_down), qdot_mul(pool, down, down));
     *slope = qdot_add(pool, *slope, qdot_mul(pool, way, qdot_sub(pool, by_down, qdot_div(pool, by_up, down))));
     return qdot_pool_check(pool);
 }
 
 static qdot_status
-slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
+differentiate_event_time(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
     const qdot_event *event = qdot_scene_find_event(s->session->scene, m->origin.event);
@@ -152,17 +152,17 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
     g = qdot_sub(pool, event->left, event->right);
     Dg = qdot_variation_of(&s->variation, g, k);
     dg = qdot_variation_rate(&s->variation, g);
-    time = m->digits > 0 ? m->exact : qdot_measured_rational(pool, read_at(s, m, event));
-    QDOT_TRY(at_time(s, Dg, time, &up));
-    QDOT_TRY(at_time(s, dg, time, &down));
+    time = m->digits > 0 ? m->exact : qdot_measured_rational(pool, time_of_reading(s, m, event));
+    QDOT_TRY(value_at_time(s, Dg, time, &up));
+    QDOT_TRY(value_at_time(s, dg, time, &down));
     *slope = qdot_neg(pool, qdot_div(pool, up, down));
-    way = qdot_measured_new(s->session, m->digits > 0 ? 0 : m->value - read_at(s, m, event), m->error);
-    return add_way_to_event(s, qdot_ddt(pool, Dg), qdot_ddt(pool, dg), time, way, up, down, slope);
+    way = qdot_measured_new(s->session, m->digits > 0 ? 0 : m->value - time_of_reading(s, m, event), m->error);
+    return add_change_of_event_time(s, qdot_ddt(pool, Dg), qdot_ddt(pool, dg), time, way, up, down, slope);
 }
 
-/* Find the derivative of the k-th end of a range, as typed, or as the limit of the run was given. */
+/* Find the derivative of one end of a range: as typed, or as the corresponding limit of the run was given. */
 static qdot_status
-slope_of_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size_t k, qdot_expr *slope)
+differentiate_range_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size_t k, qdot_expr *slope)
 {
     const qdot_expr said = m->origin.said[end] != QDOT_NIL ? m->origin.said[end] : s->conditions->said[end];
 
@@ -177,8 +177,8 @@ slope_of_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size
 /* The derivative of max or min: De at the extremum; if that is at an end of the range, also de/dt
  * times the shift of the end. */
 static qdot_status
-slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k,
-                  qdot_expr *slope)
+extremum_derivative(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k,
+                    qdot_expr *slope)
 {
     qdot_expr time;
     qdot_extremum x = {.run = run,
@@ -193,14 +193,14 @@ slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t 
     QDOT_TRY(qdot_pool_check(s->session->pool));
     QDOT_TRY(qdot_extremum_time(&x, &t));
     time = qdot_measured_rational(s->session->pool, t);
-    QDOT_TRY(at_time(s, slope_along(s, m->origin.e, k), time, slope));
+    QDOT_TRY(value_at_time(s, derivative_in_direction(s, m->origin.e, k), time, slope));
     for (int end = 0; end < 2; end++) {
         qdot_expr moves, rate;
 
         if (t != m->origin.ends[end])
             continue;
-        QDOT_TRY(slope_of_end(s, m, end, first, k, &moves));
-        QDOT_TRY(at_time(s, moves == QDOT_ZERO ? moves : x.rate, time, &rate));
+        QDOT_TRY(differentiate_range_end(s, m, end, first, k, &moves));
+        QDOT_TRY(value_at_time(s, moves == QDOT_ZERO ? moves : x.rate, time, &rate));
         *slope = qdot_add(s->session->pool, *slope, qdot_mul(s->session->pool, rate, moves));
     }
     return qdot_pool_check(s->session->pool);
@@ -208,11 +208,11 @@ slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t 
 
 /* Find the derivative of mean(e, a..b): mean(De) + ((e(b) - mean) db/ds - (e(a) - mean) da/ds)/(b - a). */
 static qdot_status
-slope_of_mean(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k, qdot_expr *slope)
+mean_derivative(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k, qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
     const double *ends = m->origin.ends;
-    const qdot_expr along = slope_along(s, m->origin.e, k),
+    const qdot_expr along = derivative_in_direction(s, m->origin.e, k),
                     e = qdot_variation_with_numbers(&s->variation, m->origin.e);
     double value, error;
 
@@ -222,10 +222,10 @@ slope_of_mean(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t firs
     for (int end = 0; end < 2; end++) {
         qdot_expr moves, there;
 
-        QDOT_TRY(slope_of_end(s, m, end, first, k, &moves));
+        QDOT_TRY(differentiate_range_end(s, m, end, first, k, &moves));
         if (moves == QDOT_ZERO)
             continue;
-        QDOT_TRY(at_time(s, e, qdot_measured_rational(pool, ends[end]), &there));
+        QDOT_TRY(value_at_time(s, e, qdot_measured_rational(pool, ends[end]), &there));
         there = qdot_mul(pool, qdot_sub(pool, there, m->symbol), moves);
         *slope = qdot_add(pool, *slope, qdot_div(pool, there, qdot_measured_rational(pool, ends[end] - ends[!end])));
     }
@@ -233,21 +233,21 @@ slope_of_mean(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t firs
 }
 
 static qdot_status
-slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k, qdot_expr *slope)
+differentiate_range_result(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k, qdot_expr *slope)
 {
     qdot_named_run *named;
 
     if (m->origin.range == QDOT_RANGE_DRIFT)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of drift");
     QDOT_TRY(qdot_runs_find(s->session, qdot_slopes_run, &named));
-    return (m->origin.range == QDOT_RANGE_MEAN ? slope_of_mean : slope_of_extremum)(s, m, named->run, first, k, slope);
+    return (m->origin.range == QDOT_RANGE_MEAN ? mean_derivative : extremum_derivative)(s, m, named->run, first, k, slope);
 }
 
-/* Find the derivative of the i-th number measured in direction k. */
+/* Find the derivative, in direction k, of the i-th result of a run. */
 static qdot_status
-slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
+differentiate_result(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
 {
-    const qdot_measured m = s->session->measured->at[i]; /* copied, since the list grows meanwhile */
+    const qdot_measured m = s->session->measured->at[i]; /* copied, since the list of results grows meanwhile */
     qdot_named_run *named;
 
     if (i < first || m.origin.kind == QDOT_ORIGIN_OTHER)
@@ -259,9 +259,9 @@ slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slo
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of several runs");
     }
     switch (m.origin.kind) {
-    case QDOT_ORIGIN_EVENT: return slope_of_event(s, &m, k, slope);
-    case QDOT_ORIGIN_RANGE: return slope_of_range(s, &m, first, k, slope);
-    default: return slope_of_value(s, &m, first, k, slope);
+    case QDOT_ORIGIN_EVENT: return differentiate_event_time(s, &m, k, slope);
+    case QDOT_ORIGIN_RANGE: return differentiate_range_result(s, &m, first, k, slope);
+    default: return differentiate_value(s, &m, first, k, slope);
     }
 }
 
@@ -283,7 +283,7 @@ qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *s
 
         if (!qdot_expr_contains(pool, e, symbol))
             continue;
-        QDOT_TRY(slope_of_number(s, i, first, k, &one));
+        QDOT_TRY(differentiate_result(s, i, first, k, &one));
         sum = qdot_add(pool, sum, qdot_mul(pool, qdot_diff(pool, e, symbol), one));
     }
     *slope = sum;

@@ -1,4 +1,4 @@
-/* slopes.c -- directions of derivatives, and the run with its variational equations. */
+/* slopes.c -- the directions of differentiation, and a run of the equations of motion with their variational equations. */
 #include "lang/slopes/slopes.h"
 
 #include <math.h>
@@ -95,8 +95,8 @@ qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
 /* What the session says of a symbol, where that follows the free parameter and is at its value what the
  * run had; else what the run had. */
 static qdot_expr
-free_value(qdot_session *session, const qdot_conditions *of, qdot_expr said, qdot_expr parameter,
-           qdot_expr had)
+value_with_free_parameter(qdot_session *session, const qdot_conditions *of, qdot_expr said, qdot_expr parameter,
+                          qdot_expr had)
 {
     qdot_pool *pool = session->pool;
     const qdot_expr now = qdot_session_bind(session, said);
@@ -111,7 +111,7 @@ free_value(qdot_session *session, const qdot_conditions *of, qdot_expr said, qdo
 /* All parameter values [of->symbols.n] as functions of p, number `own`, which is set to itself in
  * the session. */
 static qdot_status
-free_values(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_t own, qdot_expr *values)
+values_with_free_parameter(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_t own, qdot_expr *values)
 {
     for (size_t i = 0; i < of->symbols.n; i++) {
         const size_t at =
@@ -120,7 +120,7 @@ free_values(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_
         values[i] = i == own ? p
                     : at == session->values->set_symbols.n
                         ? of->values.at[i]
-                        : free_value(session, of, session->values->set_values.at[at], p, of->values.at[i]);
+                        : value_with_free_parameter(session, of, session->values->set_values.at[at], p, of->values.at[i]);
     }
     return qdot_pool_check(session->pool);
 }
@@ -139,14 +139,14 @@ qdot_slopes_free_values(qdot_session *session, const qdot_conditions *of, qdot_e
     QDOT_TRY(qdot_trial_begin(&trial, session));
     qdot_session_set(session, p, p, &status);
     if (status == QDOT_OK)
-        status = free_values(session, of, p, own, values);
+        status = values_with_free_parameter(session, of, p, own, values);
     qdot_trial_end(&trial);
     return status;
 }
 
 /* Let parameter k vary, and find how the start depends on it. */
 static qdot_status
-free_parameter(qdot_slopes *s, size_t k)
+let_parameter_vary(qdot_slopes *s, size_t k)
 {
     qdot_session *session = s->session;
     qdot_pool *pool = session->pool;
@@ -163,7 +163,7 @@ free_parameter(qdot_slopes *s, size_t k)
     QDOT_TRY(qdot_trial_begin(&trial, session));
     qdot_session_set(session, p, p, &status);
     if (status == QDOT_OK)
-        status = free_values(session, of, p, own, values);
+        status = values_with_free_parameter(session, of, p, own, values);
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
@@ -173,8 +173,8 @@ free_parameter(qdot_slopes *s, size_t k)
         if (at == session->values->start_symbols.n)
             continue;
         start[i] = qdot_diff(pool,
-                             free_value(session, of, session->values->start_values.at[at], p,
-                                        (i < n ? of->q0.at : of->v0.at)[i % n]),
+                             value_with_free_parameter(session, of, session->values->start_values.at[at], p,
+                                                       (i < n ? of->q0.at : of->v0.at)[i % n]),
                              p);
         start[i] = start[i] == QDOT_NIL ? start[i]
                                         : qdot_substitute(pool, start[i], of->symbols.n,
@@ -210,12 +210,12 @@ find_directions(qdot_slopes *s)
         s->by[k] = (qdot_variation_by){
             .name = s->names.at[k].label, .parameter = QDOT_NIL, .start = start};
         if (qdot_slopes_is_parameter(s, k))
-            QDOT_TRY(free_parameter(s, k));
+            QDOT_TRY(let_parameter_vary(s, k));
     }
     return qdot_pool_check(pool);
 }
 
-/* Find scales of the states from the run if their sizes differ much, and of the directions. */
+/* Find scales of the state from the run, if the sizes of its components differ much, and of the directions. */
 static qdot_status
 find_scales(qdot_slopes *s)
 {
@@ -246,7 +246,7 @@ find_scales(qdot_slopes *s)
     return status;
 }
 
-/* Find the start after its projection onto the constraints. */
+/* Find the start of the run after its projection onto the constraints. */
 static qdot_status
 find_start(qdot_slopes *s, const char *name)
 {
@@ -301,9 +301,9 @@ find_run(qdot_slopes *s, const char *name)
     return qdot_pool_check(s->session->pool);
 }
 
-/* The time up to which a number of the run needs it; nil: the whole run. */
+/* The time up to which the run is needed to differentiate one of its results; nil: the whole run. */
 static qdot_expr
-needed_time(qdot_slopes *s, const qdot_measured *m)
+find_time_needed(qdot_slopes *s, const qdot_measured *m)
 {
     qdot_pool *pool = s->session->pool;
 
@@ -327,7 +327,7 @@ typedef qdot_vec(size_t) indices;
 /* Of the numbers measured from the first-th on the values and those over ranges: what other numbers may stand in. Few
  * of many, where events without end are measured too. */
 static qdot_status
-find_values(const qdot_slopes *s, size_t first, indices *values)
+find_result_indices(const qdot_slopes *s, size_t first, indices *values)
 {
     for (size_t i = first; i < s->session->measured->n; i++)
         if (s->session->measured->at[i].origin.kind == QDOT_ORIGIN_VALUE ||
@@ -336,9 +336,9 @@ find_values(const qdot_slopes *s, size_t first, indices *values)
     return QDOT_OK;
 }
 
-/* Whether the symbol occurs in e, or in the expressions and times from which the listed values were read. */
+/* Whether the symbol occurs in e, or in the expressions and times from which the listed results were read. */
 static bool
-is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symbol)
+symbol_is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symbol)
 {
     const qdot_pool *pool = s->session->pool;
     bool used = qdot_expr_contains(pool, e, symbol);
@@ -357,7 +357,7 @@ is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symb
 /* How far from its start the run is needed for the numbers measured from index `first` on;
  * infinite: all of it. */
 static qdot_status
-find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, double *furthest)
+find_latest_needed_time(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, double *furthest)
 {
     const double t0 = qdot_run_get_report(s->run)->t0;
 
@@ -367,9 +367,9 @@ find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, 
         qdot_expr time;
         double t;
 
-        if (!is_used(s, e, values, m.symbol))
+        if (!symbol_is_used(s, e, values, m.symbol))
             continue;
-        time = needed_time(s, &m);
+        time = find_time_needed(s, &m);
         QDOT_TRY(qdot_pool_check(s->session->pool));
         if (time == QDOT_NIL) {
             *furthest = INFINITY;
@@ -384,16 +384,16 @@ find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, 
 /* Shorten the run with variational equations to the last time that the numbers measured from index
  * `first` on need. */
 static qdot_status
-shorten(qdot_slopes *s, qdot_expr e, size_t first)
+shorten_run(qdot_slopes *s, qdot_expr e, size_t first)
 {
     const qdot_run_report *report = qdot_run_get_report(s->run);
     const double whole = report->t1 - report->t0;
     indices values = {0};
     double furthest = 0, length;
-    qdot_status status = find_values(s, first, &values);
+    qdot_status status = find_result_indices(s, first, &values);
 
     if (status == QDOT_OK)
-        status = find_furthest(s, e, first, &values, &furthest);
+        status = find_latest_needed_time(s, e, first, &values, &furthest);
     qdot_free(values.at);
     QDOT_TRY(status);
     length = furthest + beyond * fabs(whole);
@@ -405,7 +405,7 @@ shorten(qdot_slopes *s, qdot_expr e, size_t first)
 
 /* Whether two values of a coordinate agree within their errors, so that both may come from the same motion. */
 static bool
-values_agree(const double *value, const double *error)
+agree_within_errors(const double *value, const double *error)
 {
     const double size = fmax(fabs(value[0]), fabs(value[1])), off = error[0] + error[1];
 
@@ -426,7 +426,7 @@ compare_ends(qdot_slopes *s, qdot_run *run)
 
         QDOT_TRY(qdot_run_values(s->run, 1, &q, 1, &t, value, error));
         QDOT_TRY(qdot_run_values(run, 1, &q, 1, &t, value + 1, error + 1));
-        if (!values_agree(value, error))
+        if (!agree_within_errors(value, error))
             return qdot_fail(QDOT_EFAILED,
                              "the run with slopes goes another way: %.80s = %.6g at t = "
                              "%.6g, not %.6g",
@@ -444,7 +444,7 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     qdot_status status;
 
     QDOT_TRY(find_run(s, name));
-    QDOT_TRY(shorten(s, e, first));
+    QDOT_TRY(shorten_run(s, e, first));
     QDOT_TRY(find_directions(s));
     QDOT_TRY(find_start(s, name));
     QDOT_TRY(find_scales(s));

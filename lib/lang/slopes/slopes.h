@@ -36,27 +36,27 @@ typedef struct {
     qdot_run_request request;
     qdot_variation_by *by;     /* [names] directions of differentiation */
     qdot_expr *values, *start; /* derivatives of parameter values [names x values] and of the start [names x 2n] */
-    qdot_expr *settled;        /* [2n] start of the run, on its constraints */
-    double *scales; /* [2n] scales for the request, if the run shows that 1 does not fit; else NULL */
+    qdot_expr *settled;        /* [2n] start of the run, with positions and velocities that satisfy its constraints */
+    double *scales; /* [2n] scales for the variational run, if the size of the state shows that 1 is unsuitable; else NULL */
     qdot_variation variation;
 } qdot_slopes;
 
-/* The temporary name under which the variational run is kept. */
+/* The temporary name under which the run with the variational equations is kept in the session. */
 extern const char qdot_slopes_run[];
 
-/* Find the parameter, q or q' that the part names; its label is freed by the caller. */
+/* Find the parameter, q or q' that this part of the statement names; the caller frees its label. */
 QDOT_MUST_CHECK qdot_status qdot_slope_name_find(qdot_record *r, const qdot_filled *part, qdot_slope_name *x);
 /* Append x, with its label, to the list if `read` is QDOT_OK, else free it. QDOT_EINVAL: it is
  * there already. */
 QDOT_MUST_CHECK qdot_status qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names,
                                                   const qdot_slope_name *x,
                                                   qdot_status read);
-/* Set exact values [n] of the names as `set` and `start` do; QDOT_EDOMAIN: one lies outside its domain. */
+/* Set exact values [n] for the names, as `set` and `start` do; QDOT_EDOMAIN: a value lies outside its domain. */
 QDOT_MUST_CHECK qdot_status qdot_slope_names_put(qdot_session *session, size_t n, const qdot_slope_name *names,
                                                  const qdot_expr *values);
 /* Whether the k-th name is a parameter, not a coordinate or a velocity. */
 bool qdot_slopes_is_parameter(const qdot_slopes *s, size_t k);
-/* Take the names after that word of the usage into slopes, which is {0}. Free them in any case. */
+/* Read the names after the word `before` into slopes, which must be {0}. Free them in any case. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s);
 /* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,
  * measured from the first-th on, need it. Errors: those of qdot_variation_make and of the run; QDOT_EFAILED
@@ -67,9 +67,9 @@ QDOT_MUST_CHECK qdot_status qdot_slopes_make(qdot_slopes *s, const char *run, qd
  * before the first-th nothing is known. QDOT_ENOTBUILT: of something in it there is no slope. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first,
                                            size_t k, qdot_expr *slope);
-/* Replace moving symbols in *e by their values at the end of the latest run. QDOT_EINVAL: an event stopped it. */
+/* Replace coordinates and velocities in *e by their values at the latest run's end. QDOT_EINVAL: an event stopped it. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_at_end(qdot_session *session, qdot_expr *e);
-/* Evaluate a moving expression e at a time, as a number of the latest run. */
+/* Evaluate an expression of coordinates and velocities at a time, as a number of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_at_time(qdot_session *session, qdot_expr e, qdot_expr time,
                                                 qdot_expr *number);
 void qdot_slopes_free(qdot_slopes *s);

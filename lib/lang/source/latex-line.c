@@ -1,4 +1,4 @@
-/* latex-line.c -- translates a line of LaTeX into our language, for a hint. */
+/* latex-line.c -- translates a line of LaTeX into the language of the program, for a hint. */
 #include "lang/source/latex-line.h"
 
 #include <ctype.h>
@@ -11,7 +11,7 @@ typedef struct {
     int depth;
 } reader;
 
-static void sequence(reader *r, char closer, qdot_text *out);
+static void translate_sequence(reader *r, char closer, qdot_text *out);
 
 static void
 skip_blanks(reader *r)
@@ -26,34 +26,34 @@ is_word_char(char c)
     return isalnum((unsigned char)c) || c == '.' || (c & 0x80) != 0;
 }
 
-/* Translate the argument at r: a group in braces, or a single letter, digit or command. */
+/* Translate a LaTeX argument: a group in braces, or a single letter, digit or command. */
 static void
-argument(reader *r, qdot_text *out)
+translate_argument(reader *r, qdot_text *out)
 {
     skip_blanks(r);
     if (r->at < r->to && *r->at == '{') {
         r->at++;
-        sequence(r, '}', out);
+        translate_sequence(r, '}', out);
     } else if (r->at < r->to && *r->at == '\\') {
         reader one = {r->at, r->at + 1, r->depth};
 
         while (one.to < r->to && isalpha((unsigned char)*one.to))
             one.to++;
         r->at = one.to;
-        sequence(&one, '\0', out);
+        translate_sequence(&one, '\0', out);
     } else if (r->at < r->to) {
         qdot_text_char(out, *r->at++);
     }
 }
 
-/* Translate the argument, in brackets unless it is a single name or number. */
+/* Translate a LaTeX argument, with brackets around it unless it is a single name or number. */
 static void
-add_factor(reader *r, qdot_text *out)
+translate_bracketed_argument(reader *r, qdot_text *out)
 {
     qdot_text text = {0};
     bool simple = true;
 
-    argument(r, &text);
+    translate_argument(r, &text);
     for (size_t i = 0; i < text.n; i++)
         simple = simple &&
                  (is_word_char(text.at[i]) || text.at[i] == '\'' || text.at[i] == '_');
@@ -61,9 +61,9 @@ add_factor(reader *r, qdot_text *out)
     qdot_text_clear(&text);
 }
 
-/* Translate the argument of a function without brackets, as in \sin\theta. */
+/* Translate a function and its argument that has no brackets, as in \sin\theta. */
 static void
-add_call(reader *r, const char *name, qdot_text *out)
+translate_function_call(reader *r, const char *name, qdot_text *out)
 {
     qdot_text text = {0};
 
@@ -75,16 +75,16 @@ add_call(reader *r, const char *name, qdot_text *out)
         return;
     if (r->at < r->to && *r->at == '^') { /* an exponent before the argument: \sin^2 x */
         r->at++;
-        argument(r, &text);
+        translate_argument(r, &text);
     }
     skip_blanks(r);
     if (r->at < r->to && *r->at == '(') {
         r->at++;
         qdot_text_char(out, '(');
-        sequence(r, ')', out);
+        translate_sequence(r, ')', out);
     } else {
         qdot_text_char(out, '(');
-        argument(r, out);
+        translate_argument(r, out);
     }
     qdot_text_char(out, ')');
     if (text.n > 0)
@@ -92,7 +92,7 @@ add_call(reader *r, const char *name, qdot_text *out)
     qdot_text_clear(&text);
 }
 
-/* Whether the n letters are one of the words, which are separated by blanks. */
+/* Whether the n letters at `name` are one of the words in `words`, which are separated by blanks. */
 static bool
 is_among(const char *name, size_t n, const char *words)
 {
@@ -104,7 +104,7 @@ is_among(const char *name, size_t n, const char *words)
 
 /* Translate the command at r, after its backslash. Returns whether it is an operand. */
 static bool
-command(reader *r, bool operand, qdot_text *out)
+translate_command(reader *r, bool operand, qdot_text *out)
 {
     const char *name = r->at;
     size_t n = 0;
@@ -126,20 +126,20 @@ command(reader *r, bool operand, qdot_text *out)
     qdot_text_add(out, operand ? "*" : "");
     if (strcmp(word, "frac") == 0 || strcmp(word, "dfrac") == 0 ||
         strcmp(word, "tfrac") == 0) {
-        add_factor(r, out);
+        translate_bracketed_argument(r, out);
         qdot_text_char(out, '/');
-        add_factor(r, out);
+        translate_bracketed_argument(r, out);
     } else if (strcmp(word, "dot") == 0 || strcmp(word, "ddot") == 0) {
-        add_factor(r, out);
+        translate_bracketed_argument(r, out);
         qdot_text_add(out, n == 3 ? "'" : "''");
     } else if (strcmp(word, "sqrt") == 0) {
         qdot_text_add(out, "sqrt(");
-        argument(r, out);
+        translate_argument(r, out);
         qdot_text_char(out, ')');
     } else if (is_among(name, n,
                         "sin cos tan sec csc cot sinh cosh tanh exp log ln arcsin arccos "
                         "arctan")) {
-        add_call(r, strcmp(word, "ln") == 0 ? "log" : word, out);
+        translate_function_call(r, strcmp(word, "ln") == 0 ? "log" : word, out);
     } else {
         qdot_text_add(out, strncmp(word, "var", 3) == 0 ? word + 3 : word);
     }
@@ -154,18 +154,18 @@ translate_sign(reader *r, bool operand, qdot_text *out)
 
     if (c == '^') {
         qdot_text_char(out, c);
-        add_factor(r, out);
+        translate_bracketed_argument(r, out);
         return true;
     }
     if (c == '_') {
         qdot_text_char(out, c);
-        argument(r, out);
+        translate_argument(r, out);
         return true;
     }
     if (c == '(' || c == '[' || c == '{') {
         qdot_text_add(out, operand ? "*" : "");
         qdot_text_char(out, c == '{' ? '(' : c);
-        sequence(r, c == '(' ? ')' : c == '[' ? ']' : '}', out);
+        translate_sequence(r, c == '(' ? ')' : c == '[' ? ']' : '}', out);
         qdot_text_char(out, c == '[' ? ']' : ')');
         return true;
     }
@@ -177,7 +177,7 @@ translate_sign(reader *r, bool operand, qdot_text *out)
 }
 
 static void
-sequence(reader *r, char closer, qdot_text *out)
+translate_sequence(reader *r, char closer, qdot_text *out)
 {
     bool operand = false;
 
@@ -186,7 +186,7 @@ sequence(reader *r, char closer, qdot_text *out)
     for (skip_blanks(r); r->at < r->to && *r->at != closer; skip_blanks(r)) {
         if (*r->at == '\\') {
             r->at++;
-            operand = command(r, operand, out);
+            operand = translate_command(r, operand, out);
         } else if (is_word_char(*r->at)) {
             qdot_text_add(out, operand ? "*" : "");
             while (r->at < r->to && is_word_char(*r->at))
@@ -206,5 +206,5 @@ qdot_latex_line(const char *from, const char *to, qdot_text *out)
     reader r = {from, to, 0};
 
     while (r.at < r.to)
-        sequence(&r, '\0', out);
+        translate_sequence(&r, '\0', out);
 }

@@ -1,4 +1,4 @@
-/* latex-line.h -- translates a line of LaTeX into our language, for a hint. */
+/* latex-line.h -- translates a line of LaTeX into the language of the program, for a hint. */
 #ifndef QDOT_LANG_LATEX_LINE_H
 #define QDOT_LANG_LATEX_LINE_H
 

@@ -57,7 +57,7 @@ static const struct {
     {"\xE2\x8B\x85", "*"},  /* dot operator */
     {"\xC3\x97", "*"},      /* times */
     {"\xE2\x80\xAF", "*"},  /* narrow no-break space: the product of style unicode */
-    {"\xE2\x88\x9A", "sqrt"}, /* square root of the operand after it */
+    {"\xE2\x88\x9A", "sqrt"}, /* square root sign √ before its operand */
     {"\xE2\x89\xA4", "<="}, /* less or equal */
     {"\xE2\x89\xA5", ">="}, /* greater or equal */
     {"\xE2\x89\xA0", "!="}, /* not equal */
@@ -81,7 +81,7 @@ char_is_digit(char c)
 }
 
 static qdot_status
-token_push(lexer *x, qdot_token_kind kind, const char *text, size_t start, size_t end)
+push_token(lexer *x, qdot_token_kind kind, const char *text, size_t start, size_t end)
 {
     qdot_token token = {.kind = (uint8_t)kind,
                         .glued = !x->blank && x->tokens.n > 0,
@@ -99,18 +99,18 @@ token_push(lexer *x, qdot_token_kind kind, const char *text, size_t start, size_
 }
 
 static const char *
-last_text(const lexer *x)
+text_of_last_token(const lexer *x)
 {
     return x->tokens.n == 0 ? "" : x->tokens.at[x->tokens.n - 1].text;
 }
 
 static bool
-last_is_kind(const lexer *x, qdot_token_kind kind)
+is_last_token_of_kind(const lexer *x, qdot_token_kind kind)
 {
     return x->tokens.n > 0 && x->tokens.at[x->tokens.n - 1].kind == kind;
 }
 
-/* Whether a sign or a number is written with characters beyond ASCII. */
+/* Whether a sign or a number in the source contains characters beyond ASCII, such as − or ½. */
 static bool
 is_beyond_ascii(const lexer *x, const qdot_token *t)
 {
@@ -122,24 +122,24 @@ is_beyond_ascii(const lexer *x, const qdot_token *t)
 
 /* Push the end of a statement; empty statements leave no token. */
 static qdot_status
-push_end(lexer *x, size_t start, size_t end)
+push_statement_end(lexer *x, size_t start, size_t end)
 {
     size_t first = x->tokens.n;
     bool shown = false;
 
-    if (x->tokens.n == 0 || last_is_kind(x, QDOT_TOKEN_END) ||
-        (last_is_kind(x, QDOT_TOKEN_OPERATOR) && strcmp(last_text(x), "{") == 0))
+    if (x->tokens.n == 0 || is_last_token_of_kind(x, QDOT_TOKEN_END) ||
+        (is_last_token_of_kind(x, QDOT_TOKEN_OPERATOR) && strcmp(text_of_last_token(x), "{") == 0))
         return QDOT_OK;
     for (; first > 0 && x->tokens.at[first - 1].kind != QDOT_TOKEN_END; first--)
         shown = shown || is_beyond_ascii(x, &x->tokens.at[first - 1]);
     for (; shown && first < x->tokens.n; first++)
         x->tokens.at[first].shown = true;
-    return token_push(x, QDOT_TOKEN_END, "", start, end);
+    return push_token(x, QDOT_TOKEN_END, "", start, end);
 }
 
-/* Whether a newline counts as a blank at this place, because a ( or [ is open. */
+/* Whether a newline counts as a blank here, because a ( or [ is open. */
 static bool
-in_bracket(const lexer *x)
+is_in_bracket(const lexer *x)
 {
     return x->open.n > 0 && x->tokens.at[x->open.at[x->open.n - 1]].text[0] != '{';
 }
@@ -164,7 +164,7 @@ close_bracket(lexer *x, const char *text)
 }
 
 static qdot_status
-lex_operator(lexer *x, bool *found)
+read_operator(lexer *x, bool *found)
 {
     const char *text = x->source->text + x->i;
 
@@ -179,9 +179,9 @@ lex_operator(lexer *x, bool *found)
         if (strchr(")]}", token[0]) != NULL) {
             QDOT_TRY(close_bracket(x, token));
             if (token[0] == '}')
-                QDOT_TRY(push_end(x, x->i, x->i));
+                QDOT_TRY(push_statement_end(x, x->i, x->i));
         }
-        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, token, x->i, x->i + length));
+        QDOT_TRY(push_token(x, QDOT_TOKEN_OPERATOR, token, x->i, x->i + length));
         if (strchr("([{", token[0]) != NULL) {
             if (x->open.n >= QDOT_LEX_BRACKETS)
                 return qdot_fail(QDOT_ELIMIT, "more than %u open brackets",
@@ -226,7 +226,7 @@ lex_number(lexer *x)
     copy = qdot_arena_strndup(x->source->arena, text + start, i - start);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    QDOT_TRY(token_push(x, QDOT_TOKEN_NUMBER, copy, start, i));
+    QDOT_TRY(push_token(x, QDOT_TOKEN_NUMBER, copy, start, i));
     x->i = i;
     return QDOT_OK;
 }
@@ -256,9 +256,9 @@ append_letter(lexer *x, qdot_text *name, bool first)
     return true;
 }
 
-/* The number of dots over the letter just read, which become primes. */
+/* The number of dots over the letter just read (time derivatives), which become primes. */
 static unsigned
-lex_dots(lexer *x)
+read_dots(lexer *x)
 {
     size_t length;
     uint32_t c = qdot_utf8_decode(x->source->text + x->i, &length);
@@ -273,7 +273,7 @@ static qdot_status
 push_primes(lexer *x, unsigned n, size_t start, size_t end)
 {
     for (unsigned i = 0; i < n; i++)
-        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "'", start, end));
+        QDOT_TRY(push_token(x, QDOT_TOKEN_OPERATOR, "'", start, end));
     return QDOT_OK;
 }
 
@@ -291,7 +291,7 @@ lex_name(lexer *x, qdot_text *name)
         qdot_text_char(name, *copy);
         x->i += (size_t)qdot_utf8_length(x->source->text + x->i);
     } else if (append_letter(x, name, true)) {
-        dots = lex_dots(x);
+        dots = read_dots(x);
     } else {
         return QDOT_OK;
     }
@@ -301,13 +301,13 @@ lex_name(lexer *x, qdot_text *name)
     copy = qdot_arena_strndup(x->source->arena, name->at, name->n);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    QDOT_TRY(token_push(x, QDOT_TOKEN_NAME, copy, start, x->i));
+    QDOT_TRY(push_token(x, QDOT_TOKEN_NAME, copy, start, x->i));
     return push_primes(x, dots, start, x->i);
 }
 
-/* The value of a superscript digit at `text`, -1 if none; *length its bytes. */
+/* The value of the superscript digit at `text`, -1 if there is none; *length: its bytes. */
 static int
-raised_digit(const char *text, size_t *length)
+superscript_digit_value(const char *text, size_t *length)
 {
     uint32_t c = qdot_utf8_decode(text, length);
 
@@ -315,16 +315,16 @@ raised_digit(const char *text, size_t *length)
 }
 
 static bool
-last_ends_operand(const lexer *x)
+ends_last_token_operand(const lexer *x)
 {
     return !x->blank && x->tokens.n > 0 &&
-           (last_is_kind(x, QDOT_TOKEN_NAME) || last_is_kind(x, QDOT_TOKEN_NUMBER) ||
-            (last_is_kind(x, QDOT_TOKEN_OPERATOR) && strchr(")]'", last_text(x)[0]) != NULL));
+           (is_last_token_of_kind(x, QDOT_TOKEN_NAME) || is_last_token_of_kind(x, QDOT_TOKEN_NUMBER) ||
+            (is_last_token_of_kind(x, QDOT_TOKEN_OPERATOR) && strchr(")]'", text_of_last_token(x)[0]) != NULL));
 }
 
 /* Lex superscripts after an operand: x⁻¹² as x^-12, x⁽⁴⁾ as x''''. */
 static qdot_status
-lex_raised(lexer *x, bool *found)
+read_superscripts(lexer *x, bool *found)
 {
     static const char minus[] = "⁻", open[] = "⁽", close[] = "⁾";
     const char *text = x->source->text;
@@ -337,10 +337,10 @@ lex_raised(lexer *x, bool *found)
     int digit;
 
     *found = false;
-    if (!last_ends_operand(x))
+    if (!ends_last_token_operand(x))
         return QDOT_OK;
     i += order ? sizeof open - 1 : negative ? sizeof minus - 1 : 0;
-    while ((digit = raised_digit(text + i, &length)) >= 0) {
+    while ((digit = superscript_digit_value(text + i, &length)) >= 0) {
         qdot_text_char(&digits, (char)('0' + digit));
         n = n < 1000 ? 10 * n + (unsigned long)digit : n;
         i += length;
@@ -359,14 +359,14 @@ lex_raised(lexer *x, bool *found)
         return push_primes(x, (unsigned)n, start, x->i);
     if (order)
         return qdot_fail(QDOT_ELIMIT, "a derivative of order %s", copy);
-    QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "^", start, x->i));
+    QDOT_TRY(push_token(x, QDOT_TOKEN_OPERATOR, "^", start, x->i));
     if (negative)
-        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "-", start, x->i));
-    return token_push(x, QDOT_TOKEN_NUMBER, copy, start, x->i);
+        QDOT_TRY(push_token(x, QDOT_TOKEN_OPERATOR, "-", start, x->i));
+    return push_token(x, QDOT_TOKEN_NUMBER, copy, start, x->i);
 }
 
 static qdot_status
-lex_fraction(lexer *x, bool *found)
+read_fraction_character(lexer *x, bool *found)
 {
     *found = false;
     for (size_t k = 0; k < sizeof fractions / sizeof *fractions && !*found; k++) {
@@ -376,7 +376,7 @@ lex_fraction(lexer *x, bool *found)
             continue;
         *found = true;
         x->i += length;
-        QDOT_TRY(token_push(x, QDOT_TOKEN_NUMBER, fractions[k].text, start, x->i));
+        QDOT_TRY(push_token(x, QDOT_TOKEN_NUMBER, fractions[k].text, start, x->i));
     }
     return QDOT_OK;
 }
@@ -391,7 +391,7 @@ qdot_lex_number(qdot_pool *pool, const char *text)
 
 /* Lex a quoted text "...", in which \" and \\ stand for the quote and the backslash. */
 static qdot_status
-lex_string(lexer *x, qdot_text *buffer)
+read_string(lexer *x, qdot_text *buffer)
 {
     const char *text = x->source->text;
     size_t i = x->i + 1;
@@ -413,7 +413,7 @@ lex_string(lexer *x, qdot_text *buffer)
     copy = qdot_arena_strndup(x->source->arena, qdot_text_str(buffer), buffer->n);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    QDOT_TRY(token_push(x, QDOT_TOKEN_STRING, copy, x->i, i + 1));
+    QDOT_TRY(push_token(x, QDOT_TOKEN_STRING, copy, x->i, i + 1));
     x->i = i + 1;
     return QDOT_OK;
 }
@@ -451,8 +451,8 @@ lex_blank(lexer *x, bool *found)
         }
         x->i = i < x->source->length ? i + 1 : i;
     } else if (c == '\n') {
-        if (!in_bracket(x))
-            QDOT_TRY(push_end(x, x->i, x->i + 1));
+        if (!is_in_bracket(x))
+            QDOT_TRY(push_statement_end(x, x->i, x->i + 1));
         x->i++;
     } else {
         *found = false;
@@ -462,9 +462,9 @@ lex_blank(lexer *x, bool *found)
     return QDOT_OK;
 }
 
-/* Read one token. */
+/* Read one token of the source. */
 static qdot_status
-lex_token(lexer *x, qdot_text *buffer)
+read_token(lexer *x, qdot_text *buffer)
 {
     const char *text = x->source->text;
     char c = text[x->i];
@@ -477,10 +477,10 @@ lex_token(lexer *x, qdot_text *buffer)
     if (char_is_digit(c) || (c == '.' && char_is_digit(text[x->i + 1])))
         return lex_number(x);
     if (c == '"')
-        return lex_string(x, buffer);
+        return read_string(x, buffer);
     if (c == ';') {
-        QDOT_TRY(in_bracket(x) ? token_push(x, QDOT_TOKEN_OPERATOR, ";", x->i, x->i + 1)
-                               : push_end(x, x->i, x->i + 1));
+        QDOT_TRY(is_in_bracket(x) ? push_token(x, QDOT_TOKEN_OPERATOR, ";", x->i, x->i + 1)
+                               : push_statement_end(x, x->i, x->i + 1));
         x->i++;
         return QDOT_OK;
     }
@@ -488,23 +488,23 @@ lex_token(lexer *x, qdot_text *buffer)
     if (x->i > start)
         return QDOT_OK;
     if (strncmp(text + x->i, "\xE2\x80\xB3", 3) == 0) { /* a double prime */
-        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
-        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
+        QDOT_TRY(push_token(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
+        QDOT_TRY(push_token(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
         x->i += 3;
         return QDOT_OK;
     }
-    QDOT_TRY(lex_operator(x, &found));
+    QDOT_TRY(read_operator(x, &found));
     if (!found)
-        QDOT_TRY(lex_fraction(x, &found));
+        QDOT_TRY(read_fraction_character(x, &found));
     if (!found)
-        QDOT_TRY(lex_raised(x, &found));
+        QDOT_TRY(read_superscripts(x, &found));
     return found ? QDOT_OK : qdot_refuse(x->source->text, x->i);
 }
 
 /* The length of the prompt that begins `text`: `qdot>`, `qdot 3>`, `...>`, `In [3]:`, `...:`;
  * 0: none. */
 static size_t
-prompt_length(const char *text)
+length_of_prompt(const char *text)
 {
     static const char digits[] = "0123456789";
     size_t n;
@@ -521,14 +521,14 @@ prompt_length(const char *text)
     return n > 4 && strncmp(text + n, "]:", 2) == 0 ? n + 2 : 0;
 }
 
-/* At the beginning of a line: step over prompts that were pasted with it. */
+/* Step over prompts at the beginning of a line, which were pasted with it from a terminal. */
 static void
 skip_prompts(lexer *x)
 {
     const char *text = x->source->text;
 
     for (;;) {
-        const size_t i = x->i + strspn(text + x->i, " \t"), n = prompt_length(text + i);
+        const size_t i = x->i + strspn(text + x->i, " \t"), n = length_of_prompt(text + i);
 
         if (n == 0 || (i + n < x->source->length && strchr(" \t\r\n", text[i + n]) == NULL))
             return;
@@ -537,7 +537,7 @@ skip_prompts(lexer *x)
 }
 
 static qdot_status
-lex_all(lexer *x, qdot_text *buffer)
+read_all_tokens(lexer *x, qdot_text *buffer)
 {
     if (strncmp(x->source->text, "\xEF\xBB\xBF", 3) == 0)
         x->i = 3;
@@ -547,7 +547,7 @@ lex_all(lexer *x, qdot_text *buffer)
 
         QDOT_TRY(lex_blank(x, &blank));
         if (!blank)
-            QDOT_TRY(lex_token(x, buffer));
+            QDOT_TRY(read_token(x, buffer));
         else if (x->source->text[x->i - 1] == '\n')
             skip_prompts(x);
     }
@@ -557,10 +557,10 @@ lex_all(lexer *x, qdot_text *buffer)
         x->i = opened->start;
         return qdot_refuse_open(x->source->text, x->i);
     }
-    QDOT_TRY(push_end(x, x->source->length, x->source->length));
-    /* in any case the last token is an END */
-    if (!last_is_kind(x, QDOT_TOKEN_END))
-        return token_push(x, QDOT_TOKEN_END, "", x->source->length, x->source->length);
+    QDOT_TRY(push_statement_end(x, x->source->length, x->source->length));
+    /* whatever the source, its last token is an END */
+    if (!is_last_token_of_kind(x, QDOT_TOKEN_END))
+        return push_token(x, QDOT_TOKEN_END, "", x->source->length, x->source->length);
     return QDOT_OK;
 }
 
@@ -569,7 +569,7 @@ qdot_lex(qdot_source *source, size_t *at)
 {
     lexer x = {.source = source};
     qdot_text buffer = {0};
-    qdot_status status = lex_all(&x, &buffer);
+    qdot_status status = read_all_tokens(&x, &buffer);
 
     *at = x.i;
     qdot_text_clear(&buffer);

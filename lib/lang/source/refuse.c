@@ -1,4 +1,4 @@
-/* refuse.c -- errors and hints for characters that the language does not have. */
+/* refuse.c -- refuses characters that the language does not have, with error messages and hints. */
 #include "lang/source/refuse.h"
 
 #include <stdint.h>
@@ -33,9 +33,9 @@ static const struct {
     {"`", "a text in double quotes: \"text\""},
 };
 
-/* Find the line that contains the byte: [*from, *to), without blanks at its ends. */
+/* Find the line that contains the byte `at`: it is [*from, *to), without blanks at its ends. */
 static void
-line_of(const char *text, size_t at, size_t *from, size_t *to)
+find_line_at(const char *text, size_t at, size_t *from, size_t *to)
 {
     *from = *to = at;
     while (*from > 0 && text[*from - 1] != '\n' && text[*from - 1] != ';')
@@ -47,9 +47,9 @@ line_of(const char *text, size_t at, size_t *from, size_t *to)
         --*to;
 }
 
-/* The length of [*from, to) without blanks at its ends. */
+/* Move *from past blanks; returns the length of [*from, to) without blanks at its end. */
 static int
-trimmed(const char *text, size_t *from, size_t to)
+trim_blanks(const char *text, size_t *from, size_t to)
 {
     while (*from < to && text[*from] == ' ')
         ++*from;
@@ -65,7 +65,7 @@ refuse_quotes(const char *text, size_t at)
     qdot_text line = {0};
     size_t from, to;
 
-    line_of(text, at, &from, &to);
+    find_line_at(text, at, &from, &to);
     for (size_t i = from; i < to; i++)
         if (strncmp(text + i, "“", 3) == 0 || strncmp(text + i, "”", 3) == 0) {
             qdot_text_char(&line, '"');
@@ -81,24 +81,24 @@ refuse_quotes(const char *text, size_t at)
 
 /* Whether the byte may be part of a name or of its primes. */
 static bool
-is_of_name(char c)
+may_be_in_name(char c)
 {
     return c != '\0' && (qdot_letters_latin((unsigned char)c) || (c & 0x80) != 0 ||
                          strchr("_'0123456789", c) != NULL);
 }
 
-/* The length in bytes of the name that begins at `at`. */
+/* The length in bytes of the name that begins at byte `at`. */
 static size_t
 name_length(const char *text, size_t at)
 {
     size_t n = 0;
 
-    while (is_of_name(text[at + n]) && strncmp(text + at + n, "∂", 3) != 0)
+    while (may_be_in_name(text[at + n]) && strncmp(text + at + n, "∂", 3) != 0)
         n++;
     return n;
 }
 
-/* Refuse ∂T/∂x, with a hint how to write a partial derivative. */
+/* Refuse ∂T/∂x, with a hint at the notation for a partial derivative. */
 static qdot_status
 refuse_partial(const char *text, size_t at)
 {
@@ -112,7 +112,7 @@ refuse_partial(const char *text, size_t at)
                      (int)name_length(text, by), text + by);
 }
 
-/* Refuse @: f = @(x) x^2 is meant as a function, theta@5 as a value at a time. */
+/* Refuse @: in f = @(x) x^2 a function was meant, in theta@5 a value at a time. */
 static qdot_status
 refuse_at(const char *text, size_t at)
 {
@@ -120,19 +120,19 @@ refuse_at(const char *text, size_t at)
     size_t from, to, name, body = close + 1;
     int n;
 
-    line_of(text, at, &from, &to);
+    find_line_at(text, at, &from, &to);
     qdot_fail(QDOT_ESYNTAX, "`@` has no meaning here");
     if (to - from > SHOWN)
         return QDOT_ESYNTAX;
     name = name_length(text, from);
     if (text[at + 1] == '(' && name > 0 && close < to) {
-        n = trimmed(text, &body, to);
+        n = trim_blanks(text, &body, to);
         return qdot_hint("write %.*s%.*s = %.*s", (int)name, text + from,
                          (int)(close - at), text + at + 1, n, text + body);
     }
-    for (name = at; name > 0 && is_of_name(text[name - 1]);)
+    for (name = at; name > 0 && may_be_in_name(text[name - 1]);)
         name--;
-    if (name == at) /* a function handle, or a macro like @variables x y */
+    if (name == at) /* it is a function handle, or a macro like @variables x y */
         return strncmp(text + at, "@param", 6) == 0
                    ? qdot_hint("parameters are declared by `param`, as in param m, g")
                : strncmp(text + at, "@var", 4) == 0
@@ -142,7 +142,7 @@ refuse_at(const char *text, size_t at)
                      (int)(to - at - 1), text + at + 1);
 }
 
-/* Refuse 30°, with the angle in radians as a hint. */
+/* Refuse 30°; the hint has the angle in radians. */
 static qdot_status
 refuse_degrees(const char *text, size_t at)
 {
@@ -162,7 +162,7 @@ refuse_question(const char *text, size_t at)
     const char *colon;
     int n[3];
 
-    line_of(text, at, &from, &to);
+    find_line_at(text, at, &from, &to);
     qdot_fail(QDOT_ESYNTAX, "`?` has no meaning here");
     if (from == at && to == at + 1)
         return qdot_hint("write help");
@@ -174,9 +174,9 @@ refuse_question(const char *text, size_t at)
     if (colon == NULL)
         return qdot_hint("`help` lists the statements; a choice is if(CONDITION, A, B)");
     other = (size_t)(colon - text) + 1;
-    n[0] = trimmed(text, &from, at);
-    n[1] = trimmed(text, &after, other - 1);
-    n[2] = trimmed(text, &other, to);
+    n[0] = trim_blanks(text, &from, at);
+    n[1] = trim_blanks(text, &after, other - 1);
+    n[2] = trim_blanks(text, &other, to);
     return qdot_hint("write if(%.*s, %.*s, %.*s)", n[0], text + from, n[1], text + after,
                      n[2], text + other);
 }
@@ -187,7 +187,7 @@ qdot_refuse_backslash(const char *text, size_t at)
     qdot_text line = {0};
     size_t from, to;
 
-    line_of(text, at, &from, &to);
+    find_line_at(text, at, &from, &to);
     qdot_fail(QDOT_ESYNTAX, "`\\` goes at the end of a line");
     qdot_latex_line(text + from, text + to, &line);
     if (line.n > 0 && line.n <= SHOWN)
@@ -206,8 +206,8 @@ qdot_refuse_open(const char *text, size_t open)
     char missing[8];
     size_t n = 0;
 
-    line_of(text, open, &from, &to);
-    for (size_t i = to; i-- > open && n + 1 < sizeof missing;) /* brackets that are still open at the end */
+    find_line_at(text, open, &from, &to);
+    for (size_t i = to; i-- > open && n + 1 < sizeof missing;) /* close the brackets that are still open at the end */
         if (strchr("([{", text[i]) != NULL) {
             size_t depth = 1;
 
@@ -229,7 +229,7 @@ qdot_refuse_close(const char *text, size_t close)
 {
     size_t from, to;
 
-    line_of(text, close, &from, &to);
+    find_line_at(text, close, &from, &to);
     qdot_fail(QDOT_ESYNTAX, "`%c` closes nothing", text[close]);
     if (to - from > SHOWN || close == from)
         return QDOT_ESYNTAX;
@@ -242,7 +242,7 @@ qdot_refuse_text(const char *text, size_t open)
 {
     size_t from, to;
 
-    line_of(text, open, &from, &to);
+    find_line_at(text, open, &from, &to);
     qdot_fail(QDOT_ESYNTAX, "the text has no closing quote");
     if (to - open > SHOWN)
         return QDOT_ESYNTAX;
@@ -305,7 +305,7 @@ qdot_refuse(const char *text, size_t at)
     if (c == '~') { /* in other languages a ~ b is an equation, and ~a means not a */
         size_t from, to, before;
 
-        line_of(text, at, &from, &to);
+        find_line_at(text, at, &from, &to);
         for (before = at; before > from && text[before - 1] == ' ';)
             before--;
         qdot_fail(QDOT_ESYNTAX, "`~` has no meaning here");

@@ -69,7 +69,7 @@ qdot_source_free(qdot_source *source)
 
 /* The first byte of the line that contains byte `at`; a byte-order mark belongs to no line. */
 static size_t
-line_start(const qdot_source *source, size_t at)
+find_start_of_line(const qdot_source *source, size_t at)
 {
     size_t start = at;
 
@@ -87,7 +87,7 @@ qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line, uint32_
 
     if (at > source->length)
         at = source->length;
-    start = line_start(source, at);
+    start = find_start_of_line(source, at);
     *line = source->lines_before + 1;
     for (const char *c = source->text; c < source->text + start;) {
         const char *end = memchr(c, '\n', (size_t)(source->text + start - c));
@@ -100,7 +100,7 @@ qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line, uint32_
     *column = 1 + (uint32_t)qdot_utf8_columns(source->text + start, at - start);
 }
 
-/* Step one character back, or forward, in UTF-8 text. */
+/* Step back by one UTF-8 character, but not before `start`; returns its position. */
 static size_t
 step_back(const char *text, size_t at, size_t start)
 {
@@ -111,7 +111,7 @@ step_back(const char *text, size_t at, size_t start)
 }
 
 static size_t
-step_on(const char *text, size_t at, size_t end)
+step_forward(const char *text, size_t at, size_t end)
 {
     do
         at++;
@@ -121,7 +121,7 @@ step_on(const char *text, size_t at, size_t end)
 
 /* Append bytes [from, to) as printable text: unprintable ones become `?`, a tab becomes a blank. */
 static void
-add_clean(qdot_text *out, const char *text, size_t from, size_t to)
+append_printable(qdot_text *out, const char *text, size_t from, size_t to)
 {
     while (from < to) {
         size_t length = qdot_utf8_length(text + from);
@@ -132,7 +132,7 @@ add_clean(qdot_text *out, const char *text, size_t from, size_t to)
             from++;
         } else if (length == 0 || c < 0x20 || c == 0x7F || from + length > to) {
             qdot_text_char(out, '?');
-            from = step_on(text, from, to);
+            from = step_forward(text, from, to);
         } else {
             qdot_text_add_n(out, text + from, length);
             from += length;
@@ -141,19 +141,19 @@ add_clean(qdot_text *out, const char *text, size_t from, size_t to)
 }
 
 static int
-columns_shown(size_t width)
+columns_of_line_shown(size_t width)
 {
     if (width == 0 || width >= SHOWN + BESIDE)
         return SHOWN;
     return width > LEAST_SHOWN + BESIDE ? (int)width - BESIDE : LEAST_SHOWN;
 }
 
-/* Append the line with a caret below, cut on both sides to the given width. */
+/* Append a source line with a caret below it, cut at both ends to the given width. */
 static void
-add_line(const qdot_source *source, size_t at, bool colours, size_t width, qdot_text *out)
+append_line_with_caret(const qdot_source *source, size_t at, bool colours, size_t width, qdot_text *out)
 {
-    const int shown = columns_shown(width);
-    size_t start = line_start(source, at), end = at, from = at, to = at;
+    const int shown = columns_of_line_shown(width);
+    size_t start = find_start_of_line(source, at), end = at, from = at, to = at;
     int columns = 0, before = 0;
 
     while (end < source->length && source->text[end] != '\n')
@@ -165,14 +165,14 @@ add_line(const qdot_source *source, size_t at, bool colours, size_t width, qdot_
         before++;
     }
     for (columns = before; to < end && columns < shown; columns++)
-        to = step_on(source->text, to, end);
+        to = step_forward(source->text, to, end);
     while (from > start && columns < shown) {
         from = step_back(source->text, from, start);
         before++;
         columns++;
     }
     qdot_text_add(out, from > start ? "  ..." : "  ");
-    add_clean(out, source->text, from, to);
+    append_printable(out, source->text, from, to);
     qdot_text_add(out, to < end ? "...\n" : "\n");
     qdot_text_format(out, "%*s%s^%s\n", before + (from > start ? 5 : 2), "",
                      colours ? QDOT_RED : "", colours ? QDOT_COLOUR_END : "");
@@ -192,7 +192,7 @@ qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error
                      colours ? QDOT_COLOUR_END : "");
     qdot_text_add(out, error->message);
     qdot_text_char(out, '\n');
-    add_line(source, at, colours, width, out);
+    append_line_with_caret(source, at, colours, width, out);
     if (error->hint[0] != '\0') {
         qdot_text_format(out, "  %shint:%s ", colours ? QDOT_CYAN : "",
                          colours ? QDOT_COLOUR_END : "");

@@ -17,10 +17,10 @@
 QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text,
                                             size_t length, qdot_source **source,
                                             size_t *at);
-qdot_source *qdot_source_keep(const qdot_source *source); /* count one more use */
-void qdot_source_free(qdot_source *source); /* give up one use; the last one frees it */
+qdot_source *qdot_source_keep(const qdot_source *source); /* count one more user of the source */
+void qdot_source_free(qdot_source *source); /* count one user less; the last one frees the source */
 
-/* Where a byte is: line and column from 1 (columns count characters), the line in the whole input. */
+/* Find where a byte is: line and column from 1 (columns count characters), and the line in the whole input. */
 void qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line,
                         uint32_t *column);
 /* "file:line:column: error: message", the line, the caret, "hint: ...". A very long line is cut

@@ -9,11 +9,11 @@
 #include "base/memory.h"
 
 typedef enum {
-    QDOT_TOKEN_END,     /* end of a statement: newline, `;`, or end of the source */
+    QDOT_TOKEN_END,     /* end of a statement: a newline, `;`, or the end of the source */
     QDOT_TOKEN_NUMBER,  /* a number as "9.81" */
     QDOT_TOKEN_NAME,    /* a name as "theta1", with Greek letters spelled out */
     QDOT_TOKEN_STRING,  /* the text of a string without its quotes */
-    QDOT_TOKEN_OPERATOR /* ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
+    QDOT_TOKEN_OPERATOR /* a sign: ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
 } qdot_token_kind;
 
 typedef struct qdot_token {
@@ -26,7 +26,7 @@ typedef struct qdot_token {
 } qdot_token;
 
 typedef struct qdot_source {
-    unsigned uses; /* number of uses; the last one frees it */
+    unsigned uses; /* number of users of this source; the last one frees it */
     char *name;
     char *text; /* NUL-terminated copy of the source text */
     size_t length;
@@ -41,7 +41,7 @@ qdot_token_is(const qdot_token *token, const char *op)
     return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, op) == 0;
 }
 
-/* 1 for an opening bracket, -1 for a closing one, 0 for other tokens. */
+/* The change of bracket depth by a token: 1 for an opening bracket, -1 for a closing one, else 0. */
 static inline int
 qdot_token_bracket(const qdot_token *token)
 {

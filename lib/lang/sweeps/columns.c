@@ -1,4 +1,4 @@
-/* columns.c -- the expressions that a sweep evaluates for each run. */
+/* columns.c -- the columns of a sweep's table: expressions that are evaluated for each run. */
 #include "lang/sweeps/columns.h"
 
 #include "expr/node.h"
@@ -59,9 +59,9 @@ is_set_by_events(const qdot_session *session, qdot_expr e)
     return false;
 }
 
-/* Evaluate a column: a number, or an expression at the end of the run. */
+/* Evaluate one column of a sweep for a run: a number, or an expression at the end of the run. */
 static qdot_status
-column_measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
+evaluate_column(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
 {
     const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION
                             | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
@@ -85,7 +85,7 @@ qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr 
     qdot_expr e;
 
     QDOT_TRY(qdot_columns_read(c, x, i, &e));
-    return column_measure(c->session, e, end, value, error);
+    return evaluate_column(c->session, e, end, value, error);
 }
 
 bool

@@ -14,20 +14,20 @@ typedef struct {
     qdot_vec(const qdot_compiled *) at; /* the expressions; owned by the record */
 } qdot_columns;
 
-/* Take every hole EXPR of the statement. x starts as {0}; free it in any case, before the record. */
+/* Find all column expressions of the statement. x starts as {0}; free it in any case, before the record. */
 QDOT_MUST_CHECK qdot_status qdot_columns_find(const qdot_record *r, qdot_columns *x);
 void qdot_columns_free(qdot_columns *x);
 
-/* Read column i as a scalar expression. */
+/* Read column i of the sweep's table as a scalar expression. */
 QDOT_MUST_CHECK qdot_status qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i,
                                               qdot_expr *e);
-/* Evaluate column i for the session's latest run, which ends at `end`, with its error. */
+/* Evaluate column i, with its error, for the session's latest run, which ends at `end`. */
 QDOT_MUST_CHECK qdot_status qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i,
                                                  qdot_expr end, double *value, double *error);
 /* Whether column i uses value, max, min, mean or drift, which read a run at intermediate times, but
  * none of its events. */
 bool qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t i);
-/* Make a table without rows, with these columns after the columns before [n]. */
+/* Make a table without rows: the columns `before` [n], then these columns. */
 QDOT_MUST_CHECK qdot_status qdot_columns_table(qdot_session *session, const qdot_columns *x,
                                                const char *name, size_t n,
                                                const char *const *before,

@@ -1,4 +1,4 @@
-/* members.c -- reads the parameters of a sweep, and makes its runs. */
+/* members.c -- reads the parameters that a sweep varies, and makes its runs (members). */
 #include "lang/sweeps/members.h"
 
 #include "lang/session/bind.h"
@@ -34,9 +34,9 @@ qdot_members_free(qdot_members *m)
 
 /* --- the run of one member -------------------------------------------------------------- */
 
-/* Set parameter number i to its value in member k. */
+/* Set the i-th swept parameter to its value in run (member) k of the sweep. */
 static qdot_status
-set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
+set_swept_parameter(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
 {
     const qdot_expr value = qdot_sweep_axes_value(session, &m->axes, k, i);
 
@@ -49,14 +49,14 @@ qdot_status
 qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double *swept)
 {
     for (size_t i = 0; i < m->axes.at.n; i++)
-        QDOT_TRY(set_value(session, m, k, i, &swept[i]));
-    return qdot_run_options_put(session, &m->run); /* also for the columns, which may contain these parameters */
+        QDOT_TRY(set_swept_parameter(session, m, k, i, &swept[i]));
+    return qdot_run_options_put(session, &m->run); /* the columns need these values, too, as they may contain the parameters */
 }
 
-/* Make the run of member k up to `to` and pass it to `use`. While `use` works it is the latest run of the session. */
+/* Make run (member) k of a sweep up to `to`, and call `use` on it; meanwhile it is the latest run of the session. */
 static qdot_status
-run_to(qdot_cursor *c, const qdot_members *m, size_t k, qdot_expr to, double *swept,
-       qdot_member_use use, void *user)
+make_member_run(qdot_cursor *c, const qdot_members *m, size_t k, qdot_expr to, double *swept,
+                qdot_member_use use, void *user)
 {
     qdot_trial trial;
     qdot_status status;
@@ -75,12 +75,12 @@ qdot_status
 qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
                  qdot_member_use use, void *user)
 {
-    return run_to(c, m, k, m->run.to, swept, use, user);
+    return make_member_run(c, m, k, m->run.to, swept, use, user);
 }
 
 qdot_status
 qdot_members_begin(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
                    qdot_member_use use, void *user)
 {
-    return run_to(c, m, k, m->run.from, swept, use, user);
+    return make_member_run(c, m, k, m->run.from, swept, use, user);
 }

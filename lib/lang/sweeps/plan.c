@@ -1,4 +1,4 @@
-/* plan.c -- the statement `plan`: how a run, or a sweep, would be made. */
+/* plan.c -- the statement `plan`: tells how a run, or a sweep of many runs, would be computed. */
 #include "lang/answer/answer.h"
 #include "lang/runs/request.h"
 #include "lang/runs/run-options.h"
@@ -6,7 +6,7 @@
 #include "lang/syntax/record.h"
 #include "sim/run/run.h"
 
-static qdot_status plan_tell(qdot_record *r);
+static qdot_status answer_plan(qdot_record *r);
 
 QDOT_STATEMENT(plan) = {
     .word = "plan",
@@ -16,11 +16,11 @@ QDOT_STATEMENT(plan) = {
     .summary = "how a run of this scene would be made, and why; or whether the runs of a sweep are made side by side or "
                "alone, and how long they take",
     .example = "plan",
-    .handler = plan_tell,
+    .handler = answer_plan,
 };
 
 static qdot_status
-plan_tell(qdot_record *r)
+answer_plan(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_run_options o = {.tol = 1e-12};

@@ -1,4 +1,4 @@
-/* poincare.c -- the statement `poincare`: the section of a run, or of the runs of a sweep. */
+/* poincare.c -- the statement `poincare`: the Poincaré section of a run, or of the runs of a sweep. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@
 #include "lang/syntax/statement.h"
 #include "sim/read/section.h"
 
-static qdot_status poincare_make(qdot_record *r);
+static qdot_status carry_out_poincare(qdot_record *r);
 
 QDOT_STATEMENT(poincare) = {
     .word = "poincare",
@@ -32,11 +32,11 @@ QDOT_STATEMENT(poincare) = {
                "for it, or in the runs of a sweep, made again; `plot poincare`, `table poincare`, `save poincare "
                "to` show it",
     .example = "poincare theta = 0 rising : theta2, theta2'",
-    .handler = poincare_make,
+    .handler = carry_out_poincare,
 };
 
 typedef struct {
-    qdot_expr g; /* left - right of the surface's equation */
+    qdot_expr g; /* left minus right side of the equation of the surface of section */
     int way;
     qdot_columns columns;
     const qdot_token *run_at; /* the word `run`; NULL: not given */
@@ -48,7 +48,7 @@ typedef struct {
     qdot_record swept;    /* the statement of that sweep */
     qdot_members members; /* the members of that sweep */
     qdot_row_table *table;
-    size_t beyond;    /* number of points after the horizon of their run */
+    size_t beyond;    /* number of points later than the time up to which their run is accurate */
     size_t failed;
     size_t n_lost; /* number of runs in which crossings are unknown after some time */
     double lost;   /* the latest such time */
@@ -57,7 +57,7 @@ typedef struct {
 /* --- the operands of the section -------------------------------------------------------- */
 
 static qdot_status
-surface_find(qdot_record *r, poincare *p)
+read_surface(qdot_record *r, poincare *p)
 {
     const qdot_filled *part = qdot_record_hole(r, "poincare", "A");
     qdot_session *session = r->cursor.session;
@@ -74,9 +74,9 @@ surface_find(qdot_record *r, poincare *p)
     return qdot_pool_check(session->pool);
 }
 
-/* Take `of NAME`, the sweep whose runs are used. */
+/* Read `of NAME`: the sweep whose runs are used. */
 static qdot_status
-sweep_find(qdot_record *r, const qdot_filled *part, poincare *p)
+read_sweep_name(qdot_record *r, const qdot_filled *part, poincare *p)
 {
     const char *name;
 
@@ -89,9 +89,9 @@ sweep_find(qdot_record *r, const qdot_filled *part, poincare *p)
     return qdot_hint("sweep omega = 0..5 step 0.1 run 0..20 : max(theta) as %s", name);
 }
 
-/* The end of the options of the run whose word is this part: the colon, a word of the section, or the end. */
+/* The end of the options of a run in the statement: the colon, a word of the section, or the statement's end. */
 static const qdot_filled *
-run_end(const qdot_record *r, const qdot_filled *run, bool behind)
+find_end_of_run_options(const qdot_record *r, const qdot_filled *run, bool behind)
 {
     const qdot_filled *part = run + 1, *end = r->parts.at + r->parts.n;
 
@@ -101,9 +101,9 @@ run_end(const qdot_record *r, const qdot_filled *run, bool behind)
     return part;
 }
 
-/* Find the run, or the sweep, of the section; it may be named before the colon or after the columns. */
+/* Find the run, or the sweep, of which the section is made; it is named before the colon or after the columns. */
 static qdot_status
-whose_find(qdot_record *r, poincare *p)
+find_run_or_sweep(qdot_record *r, poincare *p)
 {
     bool behind = false;
 
@@ -116,18 +116,18 @@ whose_find(qdot_record *r, poincare *p)
             return qdot_fail(QDOT_EINVAL, "`%s` is given twice", part->node->text);
         }
         if (qdot_filled_is(part, "of")) {
-            QDOT_TRY(sweep_find(r, part + 1, p));
+            QDOT_TRY(read_sweep_name(r, part + 1, p));
             continue;
         }
         p->run_at = part->from;
-        QDOT_TRY(qdot_run_options_find(r, part + 1, run_end(r, part, behind), &p->run));
+        QDOT_TRY(qdot_run_options_find(r, part + 1, find_end_of_run_options(r, part, behind), &p->run));
     }
     return QDOT_OK;
 }
 
-/* Take the time limits `from A to B`. */
+/* Read the time limits `from A to B` of the section. */
 static qdot_status
-limits_find(qdot_record *r, poincare *p)
+read_time_limits(qdot_record *r, poincare *p)
 {
     const qdot_filled *from = qdot_record_hole(r, "from", "A");
 
@@ -138,9 +138,9 @@ limits_find(qdot_record *r, poincare *p)
     return qdot_record_number(r, qdot_record_next(r, from, "B"), &p->limits[1]);
 }
 
-/* Take `as NAME` after the columns. */
+/* Read `as NAME`, the name of the section, after its columns. */
 static qdot_status
-name_find(qdot_record *r, poincare *p)
+read_section_name(qdot_record *r, poincare *p)
 {
     const qdot_filled *part = qdot_record_next(r, qdot_record_hole(r, NULL, "EXPR"), "NAME");
 
@@ -150,18 +150,18 @@ name_find(qdot_record *r, poincare *p)
 }
 
 static qdot_status
-poincare_find_all(qdot_record *r, poincare *p)
+read_all_options(qdot_record *r, poincare *p)
 {
-    QDOT_TRY(surface_find(r, p));
-    QDOT_TRY(whose_find(r, p));
+    QDOT_TRY(read_surface(r, p));
+    QDOT_TRY(find_run_or_sweep(r, p));
     QDOT_TRY(qdot_columns_find(r, &p->columns));
-    QDOT_TRY(limits_find(r, p));
-    return name_find(r, p);
+    QDOT_TRY(read_time_limits(r, p));
+    return read_section_name(r, p);
 }
 
 /* --- points of the section -------------------------------------------------------------- */
 
-/* Append a row for each point: the swept values [n_swept - 1], the time, the columns. */
+/* Append a row for each point of the section: the swept values [n_swept - 1], the time, the columns. */
 static qdot_status
 add_points(poincare *p, const qdot_run *run, const double *swept, const qdot_section *s)
 {
@@ -198,7 +198,7 @@ add_points(poincare *p, const qdot_run *run, const double *swept, const qdot_sec
     return QDOT_OK;
 }
 
-/* Find the section points of a run, the latest one; swept: its parameter values. */
+/* Find the section points of the latest run; swept: its values of the swept parameters. */
 static qdot_status
 find_points(qdot_cursor *c, poincare *p, qdot_run *run, const double *swept)
 {
@@ -259,7 +259,7 @@ typedef struct {
 } member;
 
 static qdot_status
-use_member(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
+add_points_of_member(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 {
     const member *m = user;
 
@@ -267,7 +267,7 @@ use_member(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
     return find_points(c, m->p, run, m->swept);
 }
 
-/* Append a row that says why a member has no points. */
+/* Append a row that says why a run (member) of the sweep has no points. */
 static qdot_status
 add_failure(poincare *p, const double *swept)
 {
@@ -280,9 +280,9 @@ add_failure(poincare *p, const double *swept)
     return t->reasons[t->rows - 1] != NULL ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Find the sections of all members; *interrupted: some are missing. */
+/* Find the section points of all runs (members) of the sweep; *interrupted: some are missing. */
 static qdot_status
-go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
+find_points_of_members(qdot_cursor *c, poincare *p, bool *interrupted)
 {
     const size_t start = c->error_at;
     double *swept = qdot_calloc(p->members.axes.at.n + 1, sizeof *swept);
@@ -290,7 +290,7 @@ go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
     qdot_status status = swept ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < p->members.axes.members && status == QDOT_OK; k++) {
-        status = qdot_members_run(c, &p->members, k, swept, use_member, &m);
+        status = qdot_members_run(c, &p->members, k, swept, add_points_of_member, &m);
         if (status == QDOT_EINTR && p->table->rows > 0) {
             qdot_interrupt_clear(); /* the interruption is handled here: keep the points found so far */
             *interrupted = true;
@@ -307,7 +307,7 @@ go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
 }
 
 static qdot_status
-find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
+make_section_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
 {
     qdot_function_body *body = qdot_function_body_keep(p->sweep->members);
     const qdot_cursor own = {.session = c->session, .source = body->source, .at = body->from};
@@ -318,7 +318,7 @@ find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
     if (status == QDOT_OK)
         status = make_table(c->session, p);
     if (status == QDOT_OK)
-        status = go_over_members(c, p, interrupted);
+        status = find_points_of_members(c, p, interrupted);
     qdot_function_body_release(body);
     return status;
 }
@@ -326,7 +326,7 @@ find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
 /* --- answers and the statement ---------------------------------------------------------- */
 
 static qdot_status
-poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
+answer_section(qdot_session *session, const poincare *p, const qdot_row_table *t)
 {
     qdot_text text = {0};
 
@@ -358,9 +358,9 @@ poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                : QDOT_OK;
 }
 
-/* Notice if the run does not cover the requested times. */
+/* Give a notice if the run does not cover the times requested for the section. */
 static qdot_status
-tell_limits(qdot_session *session, const poincare *p, const qdot_run *run)
+give_notice_of_time_limits(qdot_session *session, const poincare *p, const qdot_run *run)
 {
     const qdot_run_report *r = qdot_run_get_report(run);
     const double first = fmin(r->t0, r->t1), last = fmax(r->t0, r->t1);
@@ -372,29 +372,29 @@ tell_limits(qdot_session *session, const poincare *p, const qdot_run *run)
 }
 
 static qdot_status
-find_of_run(qdot_cursor *c, poincare *p)
+make_section_of_run(qdot_cursor *c, poincare *p)
 {
     qdot_named_run *run;
 
     if (p->run_at != NULL)
         QDOT_TRY(qdot_run_carry_out(c, p->run_at, &p->run));
     QDOT_TRY(qdot_runs_find(c->session, NULL, &run));
-    QDOT_TRY(tell_limits(c->session, p, run->run));
+    QDOT_TRY(give_notice_of_time_limits(c->session, p, run->run));
     QDOT_TRY(make_table(c->session, p));
     return find_points(c, p, run->run, NULL);
 }
 
 static qdot_status
-poincare_make(qdot_record *r)
+carry_out_poincare(qdot_record *r)
 {
     qdot_cursor *c = &r->cursor;
     poincare p = {.run.tol = 1e-12, .members.run.tol = 1e-12};
     bool interrupted = false;
-    qdot_status status = poincare_find_all(r, &p);
+    qdot_status status = read_all_options(r, &p);
 
     if (status == QDOT_OK) {
         c->error_at = r->start->start;
-        status = p.sweep != NULL ? find_of_sweep(c, &p, &interrupted) : find_of_run(c, &p);
+        status = p.sweep != NULL ? make_section_of_sweep(c, &p, &interrupted) : make_section_of_run(c, &p);
     }
     if (status == QDOT_OK) {
         qdot_row_table *table = p.table;
@@ -402,7 +402,7 @@ poincare_make(qdot_record *r)
         p.table = NULL; /* now owned by the session */
         status = qdot_row_tables_keep(c->session, table);
         if (status == QDOT_OK)
-            status = poincare_tell(c->session, &p, table);
+            status = answer_section(c->session, &p, table);
         if (status == QDOT_OK && interrupted)
             status = qdot_fail(QDOT_EINTR, "interrupted: %s has the points of the first runs alone",
                                table->name);

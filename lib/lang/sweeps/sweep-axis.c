@@ -34,9 +34,9 @@ qdot_sweep_axes_free(qdot_sweep_axes *axes)
     *axes = (qdot_sweep_axes){0};
 }
 
-/* Evaluate e as an exact constant of the session. */
+/* Evaluate e to an exact constant, with the session's values. */
 static qdot_status
-constant(qdot_session *session, qdot_expr e, qdot_expr *value, double *number)
+evaluate_to_constant(qdot_session *session, qdot_expr e, qdot_expr *value, double *number)
 {
     *value = qdot_session_bind(session, qdot_measured_as_rationals(session, e));
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -45,16 +45,16 @@ constant(qdot_session *session, qdot_expr e, qdot_expr *value, double *number)
                              : qdot_fail(QDOT_EINVAL, "a sweep runs over finite numbers");
 }
 
-/* Take `step H` after A..B. */
+/* Read `step H` after a range A..B of swept values. */
 static qdot_status
-step_find(qdot_record *r, const qdot_filled *part, double a, double b, qdot_sweep_axis *x)
+read_step(qdot_record *r, const qdot_filled *part, double a, double b, qdot_sweep_axis *x)
 {
     double h, count;
     qdot_expr e;
 
     QDOT_TRY(qdot_record_scalar(r, part, &e));
     qdot_record_blame(r, part);
-    QDOT_TRY(constant(r->cursor.session, e, &x->step, &h));
+    QDOT_TRY(evaluate_to_constant(r->cursor.session, e, &x->step, &h));
     if (!(h * (b - a) >= 0) || h == 0)
         return qdot_fail(QDOT_EINVAL, "a step of %.6g does not lead from %.6g to %.6g", h, a, b);
     count = floor((b - a) / h * (1 + 1e-12)) + 1;
@@ -64,9 +64,9 @@ step_find(qdot_record *r, const qdot_filled *part, double a, double b, qdot_swee
     return QDOT_OK;
 }
 
-/* Take `count N` after A..B. */
+/* Read `count N` after a range A..B of swept values. */
 static qdot_status
-count_find(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axis *x)
+read_count(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axis *x)
 {
     qdot_pool *pool = r->cursor.session->pool;
     long n;
@@ -83,13 +83,13 @@ count_find(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axi
     return qdot_pool_check(pool);
 }
 
-/* The words of the options found among the parts of an axis, [its values, to). */
+/* The words of the options found among the parts of an axis, which lie between its values and `to`. */
 typedef struct {
     const qdot_filled *step, *count, *seed;
 } axis_options;
 
 static axis_options
-find_options(const qdot_filled *values, const qdot_filled *to)
+find_axis_options(const qdot_filled *values, const qdot_filled *to)
 {
     axis_options o = {0};
 
@@ -101,7 +101,7 @@ find_options(const qdot_filled *values, const qdot_filled *to)
     return o;
 }
 
-/* Fail at an option that does not fit the axis; nothing if NULL. */
+/* Fail at the word of an option that does not fit the swept values; do nothing if `word` is NULL. */
 static qdot_status
 refuse_option(qdot_record *r, const qdot_filled *word)
 {
@@ -111,9 +111,9 @@ refuse_option(qdot_record *r, const qdot_filled *word)
     return qdot_fail(QDOT_ESYNTAX, "expected `,` or `run T0..T1`, found `%s`", word->from->text);
 }
 
-/* Fail for a single value where a range is needed; first report errors in the value itself. */
+/* Fail because a single value was given where a range is needed; first report errors in the value itself. */
 static qdot_status
-fail_single(qdot_record *r, const qdot_filled *part, const qdot_sweep_axis *x)
+refuse_single_value(qdot_record *r, const qdot_filled *part, const qdot_sweep_axis *x)
 {
     qdot_expr value;
 
@@ -124,17 +124,17 @@ fail_single(qdot_record *r, const qdot_filled *part, const qdot_sweep_axis *x)
 }
 
 static qdot_status
-ladder_find(qdot_record *r, const qdot_filled *range, const axis_options *o, qdot_sweep_axis *x)
+read_range_of_values(qdot_record *r, const qdot_filled *range, const axis_options *o, qdot_sweep_axis *x)
 {
     qdot_expr from, to;
     double a, b;
 
     if (range->n < 2)
-        return fail_single(r, range, x);
+        return refuse_single_value(r, range, x);
     QDOT_TRY(qdot_record_range(r, range, &from, &to));
     qdot_record_blame(r, range);
-    QDOT_TRY(constant(r->cursor.session, from, &x->from, &a));
-    QDOT_TRY(constant(r->cursor.session, to, &to, &b));
+    QDOT_TRY(evaluate_to_constant(r->cursor.session, from, &x->from, &a));
+    QDOT_TRY(evaluate_to_constant(r->cursor.session, to, &to, &b));
     x->kind = QDOT_AXIS_LADDER;
     if (o->step == NULL && o->count == NULL) {
         (void)qdot_record_expected(r, range->to, "`step` or `count`");
@@ -142,13 +142,13 @@ ladder_find(qdot_record *r, const qdot_filled *range, const axis_options *o, qdo
     }
     QDOT_TRY(refuse_option(r, o->seed));
     if (o->step == NULL)
-        return count_find(r, o->count + 1, to, x);
+        return read_count(r, o->count + 1, to, x);
     QDOT_TRY(refuse_option(r, o->count));
-    return step_find(r, o->step + 1, a, b, x);
+    return read_step(r, o->step + 1, a, b, x);
 }
 
 static qdot_status
-list_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x)
+read_list_of_values(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x)
 {
     qdot_session *session = r->cursor.session;
 
@@ -165,16 +165,16 @@ list_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_s
         qdot_expr value;
         double number;
 
-        QDOT_TRY(constant(session, e, &value, &number));
+        QDOT_TRY(evaluate_to_constant(session, e, &value, &number));
     }
     QDOT_TRY(refuse_option(r, o->step));
     QDOT_TRY(refuse_option(r, o->count));
     return refuse_option(r, o->seed);
 }
 
-/* Take normal(A, B) or uniform(A, B); *is: it is one of the two. */
+/* Read normal(A, B) or uniform(A, B), random values; *is: it is one of the two. */
 static qdot_status
-random_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x, bool *is)
+read_distribution(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x, bool *is)
 {
     double ends[2];
 
@@ -196,9 +196,9 @@ random_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot
     return refuse_option(r, o->step);
 }
 
-/* Take the name before `=` as the parameter, coordinate or velocity to vary. */
+/* Find the parameter, coordinate or velocity to vary by the name before `=`. */
 static qdot_status
-symbol_find(qdot_record *r, qdot_sweep_axis *x)
+find_swept_symbol(qdot_record *r, qdot_sweep_axis *x)
 {
     qdot_text text = {0};
 
@@ -213,24 +213,24 @@ symbol_find(qdot_record *r, qdot_sweep_axis *x)
     return QDOT_OK;
 }
 
-/* Take an axis, NAME = VALUES [options], whose name is this part. */
+/* Read an axis of a sweep, NAME = VALUES [options]; this part of the statement is its name. */
 static qdot_status
-axis_find(qdot_record *r, const qdot_filled *name, const qdot_filled *to, qdot_sweep_axis *x)
+read_axis(qdot_record *r, const qdot_filled *name, const qdot_filled *to, qdot_sweep_axis *x)
 {
     const qdot_filled *values = name + 2;
-    const axis_options o = find_options(values, to);
+    const axis_options o = find_axis_options(values, to);
     bool random;
 
     *x = (qdot_sweep_axis){.place = name};
-    QDOT_TRY(symbol_find(r, x));
+    QDOT_TRY(find_swept_symbol(r, x));
     if (qdot_compiled_is_list(&r->compiled.at[values->first]))
-        return list_find(r, values, &o, x);
-    QDOT_TRY(random_find(r, values, &o, x, &random));
-    return random ? QDOT_OK : ladder_find(r, values, &o, x);
+        return read_list_of_values(r, values, &o, x);
+    QDOT_TRY(read_distribution(r, values, &o, x, &random));
+    return random ? QDOT_OK : read_range_of_values(r, values, &o, x);
 }
 
 static qdot_status
-axes_draw_values(qdot_sweep_axes *axes)
+draw_random_values(qdot_sweep_axes *axes)
 {
     const size_t n = axes->at.n;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
@@ -254,12 +254,12 @@ axes_draw_values(qdot_sweep_axes *axes)
     return QDOT_OK;
 }
 
-/* Take `count N` and `seed K` of random axes, after the last of them. */
+/* Read `count N` and `seed K`, which stand after the last of the random axes of a sweep. */
 static qdot_status
-draws_find(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes)
+read_count_and_seed(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes)
 {
     const qdot_filled *last = axes->at.at[axes->at.n - 1].place + 2;
-    const axis_options o = find_options(last, to);
+    const axis_options o = find_axis_options(last, to);
     const qdot_token *start = last->to;
     long count = 0, seed = 0;
 
@@ -277,12 +277,12 @@ draws_find(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes)
         return qdot_fail(QDOT_EINVAL, "a seed is a whole number from 0 to %ld", most_seed);
     axes->members = (size_t)count;
     axes->seed = (unsigned long)seed;
-    return axes_draw_values(axes);
+    return draw_random_values(axes);
 }
 
-/* Check that `count` and `seed` come after all random axes. */
+/* Check that the options `count` and `seed` come after all random axes of the sweep. */
 static qdot_status
-draws_check(qdot_record *r, const qdot_sweep_axes *axes)
+check_count_and_seed(qdot_record *r, const qdot_sweep_axes *axes)
 {
     for (size_t i = 0; i + 1 < axes->at.n; i++) {
         const qdot_filled *behind = axes->at.at[i].place + 3;
@@ -294,9 +294,9 @@ draws_check(qdot_record *r, const qdot_sweep_axes *axes)
     return QDOT_OK;
 }
 
-/* Check that all axes are random or none is, and that their names differ; compute the number of members. */
+/* Check that all axes are random or none is, and that their names differ; compute the number of runs. */
 static qdot_status
-axes_check(qdot_record *r, qdot_sweep_axes *axes)
+check_axes(qdot_record *r, qdot_sweep_axes *axes)
 {
     double members = 1;
 
@@ -329,7 +329,7 @@ qdot_sweep_axes_find(qdot_record *r, const qdot_filled *from, const qdot_filled 
 
         if (part->node->kind != QDOT_USAGE_HOLE || !qdot_filled_is(part, "NAME"))
             continue;
-        status = axis_find(r, part, to, &x);
+        status = read_axis(r, part, to, &x);
         if (status == QDOT_OK)
             status = qdot_vec_push(&axes->at, x);
         if (status != QDOT_OK) {
@@ -338,11 +338,11 @@ qdot_sweep_axes_find(qdot_record *r, const qdot_filled *from, const qdot_filled 
         }
     }
     axes->random = axes->at.at[0].n == 0;
-    QDOT_TRY(axes_check(r, axes));
+    QDOT_TRY(check_axes(r, axes));
     if (!axes->random)
         return QDOT_OK;
-    QDOT_TRY(draws_check(r, axes));
-    return draws_find(r, to, axes);
+    QDOT_TRY(check_count_and_seed(r, axes));
+    return read_count_and_seed(r, to, axes);
 }
 
 qdot_expr

@@ -19,13 +19,13 @@
 typedef enum { QDOT_AXIS_LADDER, QDOT_AXIS_LIST, QDOT_AXIS_NORMAL, QDOT_AXIS_UNIFORM } qdot_axis_kind;
 
 typedef struct {
-    const qdot_filled *place; /* the name in the statement */
+    const qdot_filled *place; /* the name of the swept parameter in the statement */
     char *label;
     qdot_expr symbol; /* the symbol varied: a parameter, coordinate or velocity */
     qdot_axis_kind kind;
     size_t n;             /* number of values; 0: random values */
     qdot_expr from, step; /* for LADDER: first value and increment */
-    qdot_expr list;       /* for LIST: the values */
+    qdot_expr list;       /* for LIST: the values, as a LIST */
     double a, b;          /* NORMAL: mean and standard deviation; UNIFORM: the limits */
 } qdot_sweep_axis;
 
@@ -34,10 +34,10 @@ typedef struct {
     size_t members;
     bool random;
     unsigned long seed;
-    double *drawn; /* [members x axes] values of the random axes; NULL: none */
+    double *drawn; /* [members x axes] values of the random axes, for each run (member) of the sweep; NULL: none */
 } qdot_sweep_axes;
 
-/* The usage of the axes of a sweep. */
+/* The usage text of the axes of a sweep: its swept parameters and their values. */
 #define QDOT_SWEEP_AXES "NAME = A..B [step H] [count N] [seed K], ..."
 /* The axes among the parts [from, to), from {0}, with `count` and `seed`; draw what is random; free them in
  * any case. QDOT_ELIMIT: more than 10^7 members. */
@@ -45,7 +45,7 @@ QDOT_MUST_CHECK qdot_status qdot_sweep_axes_find(qdot_record *r, const qdot_fill
                                                  const qdot_filled *to, qdot_sweep_axes *axes);
 void qdot_sweep_axes_free(qdot_sweep_axes *axes);
 
-/* The exact value of axis i for a member. Nil: the pool failed. */
+/* The exact value of swept parameter i for a run (member) of the sweep. Nil: the pool failed. */
 qdot_expr qdot_sweep_axes_value(qdot_session *session, const qdot_sweep_axes *axes, size_t member,
                                 size_t i);
 

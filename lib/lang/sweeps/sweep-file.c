@@ -15,11 +15,11 @@ static const char fact[] = "sweep";
 
 /* --- checksum of the sweep ------------------------------------------------------------ */
 
-/* The hash FNV-1a of an empty text, with 64 bits (Fowler, Noll & Vo). */
+/* The hash value (64-bit FNV-1a) of an empty text, with which hashing begins. */
 static const uint64_t sum_of_nothing = 14695981039346656037u;
 
 static void
-add_bytes(uint64_t *sum, const void *bytes, size_t n)
+hash_bytes(uint64_t *sum, const void *bytes, size_t n)
 {
     const unsigned char *at = bytes;
 
@@ -28,7 +28,7 @@ add_bytes(uint64_t *sum, const void *bytes, size_t n)
 }
 
 static void
-add_number(uint64_t *sum, double x)
+hash_number(uint64_t *sum, double x)
 {
     uint64_t bits;
 
@@ -37,15 +37,15 @@ add_number(uint64_t *sum, double x)
     for (int k = 0; k < 64; k += 8) {
         const unsigned char byte = (unsigned char)(bits >> k);
 
-        add_bytes(sum, &byte, 1);
+        hash_bytes(sum, &byte, 1);
     }
 }
 
-/* Write the text of the sweep, with the checksum of it and of the rows. */
+/* Write the text of the sweep's statement, with a checksum of that text and of the rows. */
 static qdot_status
 write_signature(const char *said, uint64_t sum, qdot_text *out)
 {
-    add_bytes(&sum, said, strlen(said));
+    hash_bytes(&sum, said, strlen(said));
     qdot_text_format(out, "%s\nchecksum %016" PRIx64, said, sum);
     return qdot_text_status(out);
 }
@@ -53,7 +53,7 @@ write_signature(const char *said, uint64_t sum, qdot_text *out)
 /* --- writing the file ----------------------------------------------------------------- */
 
 static uint64_t
-sum_columns(const qdot_table *t)
+checksum_of_table(const qdot_table *t)
 {
     uint64_t sum = sum_of_nothing;
 
@@ -65,9 +65,9 @@ sum_columns(const qdot_table *t)
             if (!qdot_table_shows(t, j, QDOT_IN_FILES))
                 continue;
             if (t->columns[j].kind == QDOT_CELL_NUMBER)
-                add_number(&sum, cell.value);
+                hash_number(&sum, cell.value);
             else
-                add_bytes(&sum, text, strlen(text) + 1);
+                hash_bytes(&sum, text, strlen(text) + 1);
         }
     return sum;
 }
@@ -81,7 +81,7 @@ qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said
     qdot_status status = qdot_row_columns_of(t, done, &x);
 
     if (status == QDOT_OK)
-        status = write_signature(said, sum_columns(&x.table), &signed_text);
+        status = write_signature(said, checksum_of_table(&x.table), &signed_text);
     if (status == QDOT_OK) {
         const qdot_table_fact facts[] = {{"program", PACKAGE_STRING, 0},
                                          {fact, qdot_text_str(&signed_text), 0}};
@@ -99,7 +99,7 @@ qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said
 /* --- reading the file ----------------------------------------------------------------- */
 
 static qdot_status
-take_rows(const qdot_hdf5_columns *from, const char *path, qdot_row_table *t, bool *done)
+copy_rows_from_file(const qdot_hdf5_columns *from, const char *path, qdot_row_table *t, bool *done)
 {
     const qdot_hdf5_column *c = from->at.at;
     const qdot_hdf5_column *reasons = &c[1 + qdot_row_columns_count(t)];
@@ -130,7 +130,7 @@ take_rows(const qdot_hdf5_columns *from, const char *path, qdot_row_table *t, bo
 }
 
 static uint64_t
-sum_read(const qdot_hdf5_columns *from)
+checksum_of_file(const qdot_hdf5_columns *from)
 {
     const size_t n = from->at.n - 1;
     const qdot_hdf5_column *reasons = &from->at.at[n];
@@ -140,17 +140,17 @@ sum_read(const qdot_hdf5_columns *from)
         const char *reason = reasons->bytes + i * reasons->size;
 
         for (size_t j = 0; j < n; j++)
-            add_number(&sum, qdot_hdf5_number(&from->at.at[j], i));
-        add_bytes(&sum, reason, strlen(reason) + 1);
+            hash_number(&sum, qdot_hdf5_number(&from->at.at[j], i));
+        hash_bytes(&sum, reason, strlen(reason) + 1);
     }
     return sum;
 }
 
-/* Check that the file belongs to this sweep and that its rows are undamaged. */
+/* Check that the file belongs to this sweep (same text) and that its rows are undamaged (same checksum). */
 static qdot_status
-file_check(const qdot_hdf5_columns *from, const char *path, const char *said, const qdot_row_table *t)
+check_file(const qdot_hdf5_columns *from, const char *path, const char *said, const qdot_row_table *t)
 {
-    /* number of columns: row numbers, values, reasons */
+    /* number of columns in the file: one of row numbers, then values, and one of reasons for failures */
     const size_t n = 1 + qdot_row_columns_count(t) + 1, length = strlen(said);
     const char *text = qdot_text_str(&from->text);
     bool good = from->at.n == n && strncmp(text, said, length) == 0
@@ -164,7 +164,7 @@ file_check(const qdot_hdf5_columns *from, const char *path, const char *said, co
         (void)qdot_fail(QDOT_EINVAL, "%.200s holds the rows of another sweep, or of another scene", path);
         return qdot_hint("give another name, or remove the file");
     }
-    status = write_signature(said, sum_read(from), &signed_text);
+    status = write_signature(said, checksum_of_file(from), &signed_text);
     if (status == QDOT_OK && strcmp(text, signed_text.at) != 0) {
         (void)qdot_fail(QDOT_EINVAL, "%.200s is damaged: its rows are not those that were written", path);
         status = qdot_hint("remove the file; its rows are made anew");
@@ -183,9 +183,9 @@ qdot_sweep_file_take(const char *path, const char *said, qdot_row_table *t, bool
         return QDOT_OK;
     status = qdot_hdf5_read(path, fact, &from);
     if (status == QDOT_OK)
-        status = file_check(&from, path, said, t);
+        status = check_file(&from, path, said, t);
     if (status == QDOT_OK)
-        status = take_rows(&from, path, t, done);
+        status = copy_rows_from_file(&from, path, t, done);
     qdot_hdf5_columns_clear(&from);
     return status;
 }

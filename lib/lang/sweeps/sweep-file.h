@@ -15,7 +15,7 @@
 #include "base/status.h"
 #include "lang/session/row-table.h"
 
-/* Write the rows that are marked in done [t->rows]. Errors: those of writing. */
+/* Write those rows of the table to the file that are marked in done [t->rows]. Errors: those of writing. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_file_keep(const qdot_row_table *t, const bool *done,
                                                  const char *said, const char *path);
 /* Take the rows of the file into the table, and set done for them; without a file nothing is done.

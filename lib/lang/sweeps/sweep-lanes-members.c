@@ -17,10 +17,10 @@
 #include "sim/ensemble/path.h"
 #include "sim/model/substitute.h"
 
-/* A member with more steps than this is repeated as a single run, which may use a better method. */
+/* A run (member) of a sweep with more steps than this is repeated as a single run, which may use a better method. */
 enum { MOST_STEPS = 20000 };
 
-/* The number of members run at a time if all their steps are stored. */
+/* The number of runs (members) made at a time if all their steps are stored. */
 enum { KEPT_TOGETHER = 32 };
 
 /* Under this tolerance the method's error may be less than that of rounding. Then one companion does not
@@ -60,7 +60,7 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
 
 /* Whether column i is the time NAME[K] of an event of the scene; *k: its number K. */
 static const qdot_event *
-as_event(const qdot_sweep *s, size_t i, long *k)
+event_time_of_column(const qdot_sweep *s, size_t i, long *k)
 {
     const char *name = qdot_compiled_member_of(s->columns.at.at[i], k);
 
@@ -68,7 +68,7 @@ as_event(const qdot_sweep *s, size_t i, long *k)
 }
 
 static qdot_status
-take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_column *to)
+set_event_column(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_column *to)
 {
     qdot_pool *pool = x->s->c->session->pool;
     size_t i = 0;
@@ -87,16 +87,16 @@ take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_co
     return qdot_pool_check(pool);
 }
 
-/* Whether e depends only on quantities that lanes compute: no accelerations, multipliers or results of runs. */
+/* Whether e depends only on what the joint run computes: it has no accelerations, multipliers or results of runs. */
 static bool
-is_of_states(qdot_session *session, qdot_expr e)
+depends_on_states_only(qdot_session *session, qdot_expr e)
 {
     return !(qdot_expr_node(session->pool, e)->holds
              & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
            && !qdot_measured_occurs(session, e);
 }
 
-/* Read the columns as expressions e [columns]; `why` stays empty if runs in lanes can compute them all. */
+/* Read the columns as expressions e [columns]; `why` stays empty if runs in vector lanes can compute them all. */
 static qdot_status
 lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
 {
@@ -111,8 +111,8 @@ lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
         qdot_status status;
         long k;
 
-        if ((event = as_event(x->s, i, &k)) != NULL) {
-            QDOT_TRY(take_event(x, event, k, &x->columns[i]));
+        if ((event = event_time_of_column(x->s, i, &k)) != NULL) {
+            QDOT_TRY(set_event_column(x, event, k, &x->columns[i]));
             continue;
         }
         if (qdot_columns_read_way(x->s->c->session, &x->s->columns, i)) {
@@ -123,7 +123,7 @@ lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
         status = qdot_columns_read(&own, &x->s->columns, i, &e[x->outputs]);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             return status;
-        if (status != QDOT_OK || !is_of_states(x->s->c->session, e[x->outputs])) {
+        if (status != QDOT_OK || !depends_on_states_only(x->s->c->session, e[x->outputs])) {
             qdot_text_format(why, "%s reads more of a run than its states and the times of events",
                              x->s->table->labels[x->s->table->n_swept + i]);
             return qdot_text_status(why);
@@ -134,7 +134,7 @@ lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
 }
 
 static qdot_status
-lower_columns(qdot_sweep_lanes *x, qdot_expr *e)
+lower_columns_to_tape(qdot_sweep_lanes *x, qdot_expr *e)
 {
     const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
@@ -160,9 +160,9 @@ qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept, qdot_request *r
     return qdot_run_options_fill(session, &m->run, m->run.from, m->run.to, request);
 }
 
-/* Whether a swept parameter occurs in something other than the equations and the start. */
+/* Whether a swept parameter occurs elsewhere than in the equations and the start, for example in time limits. */
 static bool
-is_read_elsewhere(const qdot_sweep *s, qdot_expr symbol)
+is_used_outside_equations(const qdot_sweep *s, qdot_expr symbol)
 {
     const qdot_session *session = s->c->session;
     const qdot_pool *pool = session->pool;
@@ -185,7 +185,7 @@ is_read_elsewhere(const qdot_sweep *s, qdot_expr symbol)
 }
 
 static qdot_status
-find_varied(qdot_sweep_lanes *x, qdot_text *why)
+find_varied_parameters(qdot_sweep_lanes *x, qdot_text *why)
 {
     const qdot_sweep_axes *axes = &x->s->members.axes;
 
@@ -194,7 +194,7 @@ find_varied(qdot_sweep_lanes *x, qdot_text *why)
 
         if (qdot_expr_is_class(x->s->c->session->pool, symbol, QDOT_COORD))
             continue;
-        if (is_read_elsewhere(x->s, symbol)) {
+        if (is_used_outside_equations(x->s, symbol)) {
             qdot_text_format(why, "other values depend on %s", axes->at.at[i].label);
             return qdot_text_status(why);
         }
@@ -204,7 +204,7 @@ find_varied(qdot_sweep_lanes *x, qdot_text *why)
     return QDOT_OK;
 }
 
-/* Make the request of an ensemble from that of one member: without start and varied parameters. */
+/* Make the request of an ensemble (runs made together) from that of one run, without start and varied parameters. */
 static qdot_status
 make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
 {
@@ -243,7 +243,7 @@ make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
 /* Forget varied parameters that nothing but starts read: e [outputs], the columns at the end. What the
  * others read is known when they are read. */
 static bool
-drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
+drop_unused_parameters(qdot_sweep_lanes *x, const qdot_expr *e)
 {
     const qdot_pool *pool = x->s->c->session->pool;
     size_t n = 0;
@@ -267,9 +267,9 @@ drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
     return true;
 }
 
-/* Make the ensemble if the first member's run is suitable; otherwise `why` says why not. */
+/* Make the ensemble (runs made together in vector lanes) if the first run is suitable; otherwise `why` says why not. */
 static qdot_status
-lanes_prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
+prepare_ensemble(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
 {
     qdot_session *session = x->s->c->session;
     double *swept = qdot_calloc(x->s->members.axes.at.n + 1, sizeof *swept);
@@ -277,7 +277,7 @@ lanes_prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
     qdot_status status = swept && e ? qdot_sweep_lanes_request(x->s, 0, swept, request) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = find_varied(x, why);
+        status = find_varied_parameters(x, why);
     if (status == QDOT_OK && why->n == 0)
         status = lanes_read_columns(x, e, why);
     if (status == QDOT_OK && why->n == 0)
@@ -286,12 +286,12 @@ lanes_prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
         status = qdot_session_number(session, request->request.t1, &x->t1, NULL);
     if (status == QDOT_OK && why->n == 0)
         status = make_ensemble(x, request);
-    if (status == QDOT_OK && why->n == 0 && drop_unread(x, e)) {
+    if (status == QDOT_OK && why->n == 0 && drop_unused_parameters(x, e)) {
         qdot_ensemble_free(x->ensemble);
         status = make_ensemble(x, request);
     }
     if (status == QDOT_OK && why->n == 0)
-        status = lower_columns(x, e);
+        status = lower_columns_to_tape(x, e);
     if (status == QDOT_OK && why->n == 0) {
         const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
@@ -341,7 +341,7 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
     x->reasons = qdot_calloc(members + 1, sizeof *x->reasons);
     status = x->made && x->reasons ? qdot_trial_begin(&trial, s->c->session) : QDOT_ENOMEM;
     if (status == QDOT_OK) {
-        status = lanes_prepare(x, &request, why);
+        status = prepare_ensemble(x, &request, why);
         qdot_trial_end(&trial);
     }
     qdot_request_free(&request);
@@ -354,15 +354,15 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
         return qdot_text_status(why);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
-    qdot_text_add(why, qdot_last_error()->message); /* add the reason; a single run would report more */
-    if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* the failure is reported once */
+    qdot_text_add(why, qdot_last_error()->message); /* the reason; a single run would report more */
+    if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* clear the pool's failure, so that it is not reported again */
         return QDOT_ENOMEM;
     return qdot_text_status(why);
 }
 
-/* Evaluate the start y [2n] and the parameters of member k as numbers. */
+/* Evaluate the start y [2n] and the parameters of run (member) k of the sweep as numbers. */
 static qdot_status
-number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
+evaluate_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
 {
     qdot_session *session = x->s->c->session;
     double *swept = x->s->table->values + k * x->s->table->n;
@@ -386,7 +386,7 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
     return status;
 }
 
-/* Members as numbers, with the indices of their rows. */
+/* Starts and parameters of several runs (members) of a sweep as numbers, with the indices of their rows. */
 typedef struct {
     size_t n, *row;
     double *y, *parameters; /* starts [n x 2 coordinates]; varied parameters [n x varied] */
@@ -394,7 +394,7 @@ typedef struct {
 } members;
 
 static void
-members_clear(members *o)
+free_members(members *o)
 {
     qdot_free(o->row);
     qdot_free(o->y);
@@ -403,7 +403,7 @@ members_clear(members *o)
 }
 
 static qdot_status
-members_init(members *o, const qdot_sweep_lanes *x, size_t most)
+allocate_members(members *o, const qdot_sweep_lanes *x, size_t most)
 {
     *o = (members){.row = qdot_calloc(most + 1, sizeof *o->row),
                    .y = qdot_calloc(most * 2 * x->n + 1, sizeof *o->y),
@@ -412,7 +412,7 @@ members_init(members *o, const qdot_sweep_lanes *x, size_t most)
     return o->row && o->y && o->parameters && o->results ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Run the members with `companions` companions each; `again` collects those that need more. */
+/* Make the runs, each with this number of companion runs; `again` collects those that need more companions. */
 static qdot_status
 run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
 {
@@ -441,29 +441,29 @@ run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
     return status;
 }
 
-/* Run these members [count] together in lanes. */
+/* Make these runs [count] of the sweep together, side by side in the lanes of vector instructions. */
 static qdot_status
-run_together(qdot_sweep_lanes *x, const size_t *rows, size_t count)
+run_in_lanes(qdot_sweep_lanes *x, const size_t *rows, size_t count)
 {
     members first = {0}, again = {0};
-    qdot_status status = members_init(&first, x, count);
+    qdot_status status = allocate_members(&first, x, count);
 
     if (status == QDOT_OK)
-        status = members_init(&again, x, count);
+        status = allocate_members(&again, x, count);
     for (size_t k = 0; k < count && status == QDOT_OK; k++) {
-        status = number_member(x, rows[k], first.y + first.n * 2 * x->n,
-                               first.parameters + first.n * x->varied.n);
+        status = evaluate_member(x, rows[k], first.y + first.n * 2 * x->n,
+                                 first.parameters + first.n * x->varied.n);
         if (status == QDOT_OK)
             first.row[first.n++] = rows[k];
         else if (status != QDOT_ENOMEM && status != QDOT_EINTR)
-            status = QDOT_OK; /* continue: a single run reports what is wrong with its values */
+            status = QDOT_OK; /* go on: the single runs report what is wrong with their values */
     }
     if (status == QDOT_OK && first.n > 0)
         status = run_members(x, x->least, &first, &again);
     if (status == QDOT_OK && again.n > 0)
         status = run_members(x, QDOT_ENSEMBLE_PASSES - 1, &again, NULL);
-    members_clear(&first);
-    members_clear(&again);
+    free_members(&first);
+    free_members(&again);
     return status;
 }
 
@@ -473,7 +473,7 @@ qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
     const size_t most = x->ways > 0 ? KEPT_TOGETHER : count;
 
     for (size_t k = 0; k < count; k += most)
-        QDOT_TRY(run_together(x, rows + k, count - k < most ? count - k : most));
+        QDOT_TRY(run_in_lanes(x, rows + k, count - k < most ? count - k : most));
     return QDOT_OK;
 }
 

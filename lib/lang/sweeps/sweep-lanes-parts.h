@@ -18,31 +18,31 @@ typedef struct {
 struct qdot_sweep_lanes {
     qdot_sweep *s;
     qdot_ensemble *ensemble;
-    size_t least, companions; /* number of companions for each member; for members whose results are read */
+    size_t least, companions; /* numbers of companion runs: for all members; for those now read */
     qdot_ensemble_watching watching;
     qdot_ensemble_bounds bounds;
     qdot_vec(qdot_ensemble_event) events;
     qdot_vec(const char *) names; /* names of the events */
     qdot_sweep_lanes_column *columns;
-    size_t outputs, n, places; /* number of expressions; of coordinates; of values at each place */
-    size_t ways;               /* number of columns that need the whole course of a run */
-    qdot_run *run; /* holds each member in turn for such columns; NULL: no such column */
-    qdot_tape *tape;           /* outputs: the expressions of the columns */
+    size_t outputs, n, places; /* numbers of expressions, of coordinates, of values at each stored time */
+    size_t ways;               /* number of columns that need the whole course of a run, not just its end */
+    qdot_run *run; /* holds the run of each member in turn for such columns; NULL: no such column */
+    qdot_tape *tape;           /* the tape that computes the expressions of the columns */
     double *in, *work, *out; /* inputs; scratch, twice that of the tape; [passes x outputs] values */
     qdot_vec(qdot_expr) varied;
     qdot_vec(size_t) axis; /* index of the axis of each varied parameter */
     double t1;
     const qdot_ensemble_result *results; /* results of the members being read */
-    bool unsure; /* the error of the member read last is unsure: repeat it with two companions */
-    bool *made;            /* [members] the row is complete */
-    char **reasons;        /* [members] why the member failed; NULL: it did not */
+    bool unsure; /* the error of the run read last is unsure: repeat that run with two companion runs */
+    bool *made;            /* [members] whether the row of this run is complete */
+    char **reasons;        /* [members] why the run failed; NULL: it did not */
 };
 
-/* Set the values of member k (also written to `swept`) and make its request. */
+/* Set the parameters of run (member) k of the sweep, written to `swept` too, and make the request of that run. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept,
                                                      qdot_request *request);
 
-/* Fill row k from member m of the ensemble; the row stays empty if the member must be run singly. */
+/* Fill row k from member m of the ensemble; the row stays empty if that run must be made singly. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_fill_row(qdot_sweep_lanes *x, size_t m, size_t k);
 
 #endif

@@ -1,4 +1,5 @@
-/* sweep-lanes-rows.c -- fills rows of members that ran in lanes: columns with their errors. */
+/* sweep-lanes-rows.c -- fills the rows of those runs of a sweep that were made together in vector lanes: columns with
+ * errors. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 #include "sim/ensemble/path.h"
 #include "tape/rounding.h"
 
-/* A member with a larger error is repeated as a single run, which may use a better method. */
+/* A run (member) of a sweep with a larger error is repeated as a single run, which may use a better method. */
 static const double largest_error = 1e-4;
 enum { PLACES = 16 };
 
@@ -22,13 +23,13 @@ static const double roundings = 64;
 /* The error between steps counts as at most this many times the error at the end (ode/companion.h). */
 static const double most_between = 30;
 
-/* Coordinates between `nothing` and `small` may need a scale of their own (sim/run/scales.h). */
+/* coordinates of a size between `nothing` and `small` may need a scale of their own (sim/run/scales.h) */
 static const double small = 1e-3, nothing = 1e-15;
 
 /* Evaluate all expressions of that pass of a member at a stored time, into out [outputs]; false:
  * there is no state. */
 static bool
-member_evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
+evaluate_member_at(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
 {
     if (!qdot_ensemble_state(x->ensemble, pass, m, place, x->in))
         return false;
@@ -37,14 +38,14 @@ member_evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double
     return true;
 }
 
-/* Find the errors of all expressions at a stored time: errors [outputs]; x->out gets their values. */
+/* Find the errors [outputs] of all expressions at a stored time; their values are put into x->out. */
 static bool
-member_errors(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
+find_errors_at_time(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
     const size_t n = x->outputs;
 
-    for (size_t pass = x->companions + 1; pass-- > 0;) /* the run comes last, so that its inputs remain */
-        if (!member_evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
+    for (size_t pass = x->companions + 1; pass-- > 0;) /* the run itself after its companions: its inputs remain */
+        if (!evaluate_member_at(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
             return false;
     for (size_t i = 0; i < x->outputs; i++) {
         const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
@@ -55,16 +56,16 @@ member_errors(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 }
 
 static int
-by_size(const void *a, const void *b)
+compare_doubles(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
 
     return (x > y) - (x < y);
 }
 
-/* Whether an error may be caused by rounding only, which needs two companions to estimate. */
+/* Whether an error may be due to rounding only, which needs two companion runs to be estimated. */
 static bool
-is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
+may_be_rounding_error(const qdot_sweep_lanes *x, size_t m, double error, double size)
 {
     return x->companions == 1
            && error <= roundings * DBL_EPSILON * sqrt((double)(x->results[m].steps + 1))
@@ -72,15 +73,15 @@ is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
 }
 
 static bool
-is_good(double value, double error)
+is_accurate(double value, double error)
 {
     return isfinite(value) && isfinite(error)
            && error <= largest_error * fmax(1, fabs(value));
 }
 
-/* Evaluate the expressions of a member at its end: values and errors [outputs]. */
+/* Evaluate the expressions for run (member) m at its end: values and errors [outputs]. */
 static qdot_status
-read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
+evaluate_at_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
 {
     const size_t n = x->outputs;
     double *between = qdot_calloc((x->places + 1) * n + 1, sizeof *between);
@@ -91,8 +92,8 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
         return QDOT_ENOMEM;
     *there = x->places <= PLACES;
     for (size_t k = 0; k < x->places && *there; k++)
-        *there = member_errors(x, m, k, between + k * n);
-    *there = *there && member_errors(x, m, x->places, errors);
+        *there = find_errors_at_time(x, m, k, between + k * n);
+    *there = *there && find_errors_at_time(x, m, x->places, errors);
     if (*there)
         qdot_rounding_bounds(x->tape, x->in, NULL, bounds, x->work);
     for (size_t i = 0; i < n && *there; i++) {
@@ -100,21 +101,21 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
 
         for (size_t k = 0; k < x->places; k++)
             sorted[k] = between[k * n + i];
-        qsort(sorted, x->places, sizeof *sorted, by_size);
+        qsort(sorted, x->places, sizeof *sorted, compare_doubles);
         values[i] = x->out[i];
-        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
+        x->unsure = x->unsure || may_be_rounding_error(x, m, errors[i], size)
                     || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
         errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
         errors[i] += bounds[i];
-        *there = is_good(values[i], errors[i]);
+        *there = is_accurate(values[i], errors[i]);
     }
     qdot_free(between);
     return QDOT_OK;
 }
 
-/* Whether a member's coordinates are so small that a single run would look for scales. */
+/* Whether the coordinates of run m are so small that, made as a single run, it would determine scales. */
 static bool
-member_is_small(const qdot_sweep_lanes *x, size_t m)
+has_small_coordinates(const qdot_sweep_lanes *x, size_t m)
 {
     const double *sizes = qdot_ensemble_sizes(x->ensemble, m);
 
@@ -124,9 +125,9 @@ member_is_small(const qdot_sweep_lanes *x, size_t m)
     return false;
 }
 
-/* Find the time of an event and its error; *there false: a single run must decide. */
+/* Find the time of an event and its error; *there false: the run must be repeated as a single run. */
 static qdot_status
-read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, size_t k, double *to, bool *there)
+find_event_time(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, size_t k, double *to, bool *there)
 {
     double t[QDOT_ENSEMBLE_PASSES], *error = x->s->table->errors + (to - x->s->table->values);
     qdot_text text = {0};
@@ -136,9 +137,9 @@ read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, siz
     if (!isnan(t[0])) {
         *to = t[0];
         *error = qdot_ensemble_error_of(t[0], x->companions, t + 1);
-        x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
+        x->unsure = x->unsure || may_be_rounding_error(x, m, *error, fabs(t[0]));
         *error += DBL_EPSILON * fabs(t[0]);
-        *there = isfinite(*error); /* no event without an error, as a single run would have */
+        *there = isfinite(*error); /* a time of unknown error is not given; the run is then repeated as a single run */
         return QDOT_OK;
     }
     if (x->reasons[k] != NULL)
@@ -154,7 +155,7 @@ read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, siz
 /* Evaluate columns that read intermediate times, with the member as the latest run. A failure is
  * left to a single run to report. */
 static qdot_status
-measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, bool *there)
+evaluate_course_columns(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, bool *there)
 {
     qdot_cursor own = *x->s->c;
 
@@ -166,14 +167,14 @@ measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, 
         status = qdot_columns_measure(&own, &x->s->columns, i, end, values + i, errors + i);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             return status;
-        *there = status == QDOT_OK && is_good(values[i], errors[i]);
+        *there = status == QDOT_OK && is_accurate(values[i], errors[i]);
     }
     return QDOT_OK;
 }
 
-/* As measure_way, for row k of the sweep, whose parameter values are set; gives values and errors [columns]. */
+/* As evaluate_course_columns, for row k of the sweep, whose parameter values are set; finds values and errors [columns]. */
 static qdot_status
-read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
+evaluate_course_of_row(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
 {
     qdot_trial trial;
     qdot_request request = {0};
@@ -185,7 +186,7 @@ read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors
     if (status == QDOT_OK && *there)
         status = qdot_trial_lend(&trial, &request.request, x->run);
     if (status == QDOT_OK && *there)
-        status = measure_way(x, request.request.t1, values, errors, there);
+        status = evaluate_course_columns(x, request.request.t1, values, errors, there);
     qdot_trial_end(&trial);
     qdot_request_free(&request);
     return status;
@@ -198,20 +199,20 @@ qdot_sweep_lanes_fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
     qdot_row_table *t = x->s->table;
     double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
     double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
-    bool there = !qdot_ensemble_left(x->ensemble, m) && !member_is_small(x, m);
+    bool there = !qdot_ensemble_left(x->ensemble, m) && !has_small_coordinates(x, m);
     qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
 
     if (x->outputs + x->ways > 0)
         there = there && result->error <= largest_error;
     if (status == QDOT_OK && there && x->outputs > 0)
-        status = read_end(x, m, of, of + x->outputs, &there);
+        status = evaluate_at_end(x, m, of, of + x->outputs, &there);
     if (status == QDOT_OK && there && x->ways > 0)
-        status = read_way(x, m, k, values + t->n_swept, errors + t->n_swept, &there);
+        status = evaluate_course_of_row(x, m, k, values + t->n_swept, errors + t->n_swept, &there);
     for (size_t i = 0; i < t->n - t->n_swept && status == QDOT_OK && there; i++) {
         const qdot_sweep_lanes_column *c = x->columns + i;
 
         if (c->kind == QDOT_LANES_EVENT) {
-            status = read_event(x, m, c, k, values + t->n_swept + i, &there);
+            status = find_event_time(x, m, c, k, values + t->n_swept + i, &there);
         } else if (c->kind == QDOT_LANES_AT_END) {
             values[t->n_swept + i] = of[c->output];
             errors[t->n_swept + i] = of[x->outputs + c->output];

@@ -21,25 +21,25 @@
 #include "base/text.h"
 #include "lang/sweeps/sweep-parts.h"
 
-/* Sweeps with fewer members than this are run one by one. */
+/* The runs of a sweep with fewer runs than this are made one by one, not together in vector lanes. */
 enum { QDOT_SWEEP_LANES_LEAST = 16 };
 
 typedef struct qdot_sweep_lanes qdot_sweep_lanes;
 
-/* The memory per member: whether it is finished, and why its row failed. */
+/* Bytes for each run (member) of a sweep: whether it is finished, and why its row failed. */
 enum { QDOT_SWEEP_LANES_BYTES = sizeof(bool) + sizeof(char *) };
 
-/* Set up lanes for a sweep that was read. *lanes NULL: members are run one by one, and `why` says why. */
+/* Prepare to make the runs of a sweep together in vector lanes. *lanes NULL: one by one, and `why` says why. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes,
                                                  qdot_text *why);
 void qdot_sweep_lanes_free(qdot_sweep_lanes *lanes);
 
-/* Run these members [n]; _run: those of first ... first + count - 1 that are not finished. */
+/* Make these runs [n] of the sweep; _run: those of first ... first + count - 1 that are not finished. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run_rows(qdot_sweep_lanes *lanes, const size_t *rows,
                                                       size_t n);
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run(qdot_sweep_lanes *lanes, size_t first,
                                                  size_t count);
-/* Whether row k has been made; then *status is its status, with the last error set. */
+/* Whether row k has been made; if so, *status is its status, and its error becomes the last error. */
 bool qdot_sweep_lanes_made(qdot_sweep_lanes *lanes, size_t k, qdot_status *status);
 
 #endif

@@ -18,15 +18,15 @@ typedef struct {
     const char *path; /* name of the file that stores the rows; NULL: none */
     const qdot_token *path_at;
     qdot_file_lock lock; /* lock of that file */
-    qdot_text said;   /* the text by which the file identifies the sweep */
+    qdot_text said;   /* the text of the sweep's statement, by which the file identifies the sweep */
     qdot_row_table *table;
-    bool *done;       /* [members] the row is complete */
+    bool *done;       /* [members] whether the row of this run of the sweep is complete */
     size_t told;      /* number of rows already written as JSON */
-    size_t n_done, failed, resumed; /* number of complete rows; of failed rows; of rows taken from the file */
+    size_t n_done, failed, resumed; /* numbers of complete rows, of failed rows, and of rows taken from the file */
     bool interrupted;
-    double kept_at, keeping; /* time of the last write to the file, and how long it took */
-    size_t row;              /* the row that is being made */
-    struct qdot_sweep_lanes *lanes; /* makes rows in vector lanes; NULL: not used */
+    double kept_at, keeping; /* time of the last write to the file, and the duration of that write */
+    size_t row;              /* index of the row that is being made */
+    struct qdot_sweep_lanes *lanes; /* makes several rows at once in vector lanes; NULL: not used */
 } qdot_sweep;
 
 /* What a sweep would do, in words: its members, whether they go by lanes, and, from a few of them that
@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
 /* Carry out the statement `plan sweep ...`. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_plan(qdot_record *r);
 
-/* Make row k of the table in this process. Failures such as QDOT_EFAILED concern this row. */
+/* Make row k of the table in this process. A failure such as QDOT_EFAILED concerns that row only. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_fill_row(qdot_sweep *s, size_t k);
 
 /* Make all rows of the empty table, but for those that the file has; after Ctrl-C those that are done

@@ -11,7 +11,7 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* The number of members, spread over the sweep, that are run for the estimate. */
+/* The number of runs, spread over the sweep, that are made to estimate its cost: together in lanes, or singly. */
 enum { BY_LANES = 32, ALONE = 4 };
 
 typedef struct {
@@ -19,9 +19,9 @@ typedef struct {
     double seconds; /* estimated seconds for one row */
 } sample;
 
-/* Run a few members to measure their cost. */
+/* Make a few runs of the sweep to measure their cost. */
 static qdot_status
-plan_measure(qdot_sweep *s, sample *m)
+measure_sample_runs(qdot_sweep *s, sample *m)
 {
     const size_t members = s->members.axes.members, most = s->lanes != NULL ? BY_LANES : ALONE;
     size_t rows[BY_LANES], n = members < most ? members : most;
@@ -48,7 +48,7 @@ plan_measure(qdot_sweep *s, sample *m)
 }
 
 static void
-tell_members(const qdot_sweep *s, qdot_text *text)
+write_number_of_members(const qdot_sweep *s, qdot_text *text)
 {
     const qdot_sweep_axes *axes = &s->members.axes;
 
@@ -62,7 +62,7 @@ tell_members(const qdot_sweep *s, qdot_text *text)
 }
 
 static void
-tell_way(const qdot_sweep *s, const sample *m, const char *why, qdot_text *text)
+write_way_of_running(const qdot_sweep *s, const sample *m, const char *why, qdot_text *text)
 {
     if (s->lanes == NULL)
         qdot_text_format(text, "each: alone: %s\n", why);
@@ -77,7 +77,7 @@ tell_way(const qdot_sweep *s, const sample *m, const char *why, qdot_text *text)
 
 /* Write an estimated duration with at most two digits. */
 static void
-tell_seconds(double x, qdot_text *text)
+write_duration(double x, qdot_text *text)
 {
     if (x < 120)
         qdot_text_format(text, "%.2g s", x);
@@ -90,7 +90,7 @@ tell_seconds(double x, qdot_text *text)
 /* In this process while the sweep is made (another writes to its copies of these): the row, what was drawn for it, whether it is done, by whom,
  * and the reason why it may have failed. */
 static size_t
-bytes_of_member(const qdot_sweep *s)
+memory_of_member(const qdot_sweep *s)
 {
     const size_t drawn = s->members.axes.random ? s->members.axes.at.n * sizeof(double) : 0;
 
@@ -115,17 +115,17 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
     QDOT_TRY(qdot_row_table_add_all(s->table, members));
     status = qdot_sweep_lanes_new(s, &s->lanes, &why);
     if (status == QDOT_OK)
-        status = plan_measure(s, &m);
+        status = measure_sample_runs(s, &m);
     if (status == QDOT_OK) {
-        tell_members(s, text);
-        tell_way(s, &m, qdot_text_str(&why), text);
+        write_number_of_members(s, text);
+        write_way_of_running(s, &m, qdot_text_str(&why), text);
         qdot_text_format(text, "processes: %zu", workers);
         qdot_text_format(text, ranks > 1 ? " in each of %zu ranks\n" : "\n", ranks);
         qdot_text_format(text, "time: %.2g s a member, by %zu of them: about ", m.seconds,
                          m.rows);
-        tell_seconds(m.seconds * (double)members / (double)(useful > 0 ? useful : 1), text);
+        write_duration(m.seconds * (double)members / (double)(useful > 0 ? useful : 1), text);
         qdot_text_format(text, "\nmemory: %.2g MB for rows of %zu numbers with their errors",
-                         (double)members * (double)bytes_of_member(s) / 1e6, n);
+                         (double)members * (double)memory_of_member(s) / 1e6, n);
         qdot_text_add(text, workers > 1 ? ", about as much again in each of the processes\n" : "\n");
         if (m.failed > 0)
             qdot_text_format(text, "failed: %zu of %zu\n", m.failed, m.rows);

@@ -7,7 +7,7 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* The result of the sweep, as sent to the other ranks. */
+/* The result of the sweep, as rank 0 sends it to the other MPI ranks. */
 typedef struct {
     uint64_t done, failed, resumed;
 } sweep_end;
@@ -28,7 +28,7 @@ qdot_sweep_processes(const qdot_sweep *s)
 }
 
 static void
-pack(const qdot_sweep *s, size_t first, size_t end, qdot_text *out)
+pack_rows(const qdot_sweep *s, size_t first, size_t end, qdot_text *out)
 {
     const qdot_row_table *t = s->table;
 
@@ -48,9 +48,9 @@ pack(const qdot_sweep *s, size_t first, size_t end, qdot_text *out)
     }
 }
 
-/* Unpack the rows that rank 0 has packed; its data are trusted. */
+/* Unpack rows of the sweep that rank 0 has packed; its data need no checks. */
 static qdot_status
-unpack(qdot_sweep *s, const char *at, const char *end)
+unpack_rows(qdot_sweep *s, const char *at, const char *end)
 {
     qdot_row_table *t = s->table;
     const size_t bytes = t->n * sizeof *t->values;
@@ -73,19 +73,19 @@ unpack(qdot_sweep *s, const char *at, const char *end)
     return QDOT_OK;
 }
 
-/* Send the rows to the other ranks in blocks. */
+/* Send the rows of the sweep to the other MPI ranks in blocks. */
 static qdot_status
-share_blocks(qdot_sweep *s, qdot_text *text)
+send_rows_in_blocks(qdot_sweep *s, qdot_text *text)
 {
     const size_t rows = s->table->rows;
 
     for (size_t k = 0; k < rows; k += TOGETHER) {
         qdot_text_truncate(text, 0);
         if (qdot_rank() == 0)
-            pack(s, k, rows - k < TOGETHER ? rows : k + TOGETHER, text);
+            pack_rows(s, k, rows - k < TOGETHER ? rows : k + TOGETHER, text);
         QDOT_TRY(qdot_ranks_share(qdot_text_status(text), text));
         if (qdot_rank() > 0 && text->n > 0)
-            QDOT_TRY(unpack(s, text->at, text->at + text->n));
+            QDOT_TRY(unpack_rows(s, text->at, text->at + text->n));
     }
     return QDOT_OK;
 }
@@ -112,7 +112,7 @@ qdot_sweep_share_rows(qdot_sweep *s, qdot_status status)
         s->resumed = (size_t)all.resumed;
     }
     if (status == QDOT_OK || status == QDOT_EINTR)
-        shared = share_blocks(s, &text);
+        shared = send_rows_in_blocks(s, &text);
     qdot_text_clear(&text);
     if (shared != QDOT_OK)
         return shared;

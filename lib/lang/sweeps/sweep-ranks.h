@@ -10,7 +10,7 @@
 
 #include "lang/sweeps/sweep-parts.h"
 
-/* The number of processes that work in each rank. */
+/* The number of worker processes in each MPI rank. */
 size_t qdot_sweep_processes(const qdot_sweep *s);
 
 /* The rows that are done, and how making them ended, become those of rank 0. Returns that status, with

@@ -1,4 +1,4 @@
-/* sweep-rows.c -- makes the rows of a sweep, here or in other processes, and stores them in a file. */
+/* sweep-rows.c -- makes the rows of a sweep, in this process or in others, and stores them in a file. */
 #include <math.h>
 #include <string.h>
 
@@ -15,13 +15,13 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* The least remaining work (s) for which it pays to start further processes. */
+/* the least remaining work, in seconds, for which it pays to start further processes */
 static const double worth = 0.05;
 
-/* The largest and the smallest number of rows that this process makes together in lanes. */
+/* The largest and the smallest number of rows that this process makes together in vector lanes. */
 enum { MOST = 256, LEAST = 32 };
 
-/* The desired duration (s) of such a group of rows, which an interruption would lose. */
+/* the desired duration, in seconds, of making a group of rows together; an interruption would lose the group */
 static const double soon = 0.5;
 
 /* --- making a row ----------------------------------------------------------------------- */
@@ -29,7 +29,7 @@ static const double soon = 0.5;
 /* The columns of the latest run, behind what was swept in its row; of those that fail the first is
  * told. */
 static qdot_status
-fill_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
+evaluate_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 {
     const qdot_sweep *s = user;
     qdot_row_table *t = s->table;
@@ -64,14 +64,14 @@ qdot_sweep_fill_row(qdot_sweep *s, size_t k)
     s->row = k;
     for (size_t i = 0; i < t->n_swept; i++)
         t->errors[k * t->n + i] = 0;
-    return qdot_members_run(s->c, &s->members, k, t->values + k * t->n, fill_columns, s);
+    return qdot_members_run(s->c, &s->members, k, t->values + k * t->n, evaluate_columns, s);
 }
 
 /* --- storing rows in a file ----------------------------------------------------------- */
 
 /* Write the finished rows to the file if the last write was long ago, or now if `at_once`. */
 static qdot_status
-keep_rows(qdot_sweep *s, bool at_once)
+write_rows_to_file(qdot_sweep *s, bool at_once)
 {
     double now;
 
@@ -88,9 +88,9 @@ keep_rows(qdot_sweep *s, bool at_once)
 
 /* --- finished rows of the sweep --------------------------------------------------------- */
 
-/* Answer the next rows as JSON as far as they are finished; `all`: including the rest. */
+/* Answer the finished rows that come next as JSON; `all`: also the rest. */
 static qdot_status
-tell_rows(qdot_sweep *s, bool all)
+answer_finished_rows(qdot_sweep *s, bool all)
 {
     const size_t from = s->told;
 
@@ -101,7 +101,7 @@ tell_rows(qdot_sweep *s, bool all)
 
 /* Record that row k is finished, or has failed with that status and the last error. */
 static qdot_status
-rows_take_row(qdot_sweep *s, size_t k, qdot_status status)
+record_finished_row(qdot_sweep *s, size_t k, qdot_status status)
 {
     qdot_row_table *t = s->table;
 
@@ -115,21 +115,21 @@ rows_take_row(qdot_sweep *s, size_t k, qdot_status status)
     }
     s->done[k] = true;
     s->n_done++;
-    QDOT_TRY(tell_rows(s, false));
-    return keep_rows(s, false);
+    QDOT_TRY(answer_finished_rows(s, false));
+    return write_rows_to_file(s, false);
 }
 
 /* --- rows made by other processes ------------------------------------------------------- */
 
-/* The head of a worker's answer; the numbers, their errors, and the message and hint of a failure follow. */
+/* The head of a worker's message about a row; numbers, errors, and a failure's message and hint follow. */
 typedef struct {
     qdot_status status;
     size_t error_at, message, hint;
 } row_head;
 
-/* Run the rows in lanes if they allow it; a failure will be reported by the single runs. */
+/* Make rows together in vector lanes if they allow it; any failure will be reported by the single runs. */
 static void
-begin_rows_there(size_t first, size_t count, void *user)
+make_rows_in_worker(size_t first, size_t count, void *user)
 {
     qdot_sweep *s = user;
 
@@ -138,7 +138,7 @@ begin_rows_there(size_t first, size_t count, void *user)
 }
 
 static void
-work_on_row(size_t k, qdot_text *answer, void *user)
+make_row_in_worker(size_t k, qdot_text *answer, void *user)
 {
     qdot_sweep *s = user;
     const qdot_row_table *t = s->table;
@@ -158,7 +158,7 @@ work_on_row(size_t k, qdot_text *answer, void *user)
 }
 
 static qdot_status
-take_answer(size_t k, const char *bytes, size_t n, void *user)
+take_row_from_worker(size_t k, const char *bytes, size_t n, void *user)
 {
     qdot_sweep *s = user;
     qdot_row_table *t = s->table;
@@ -166,7 +166,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
     row_head h;
 
     if (bytes == NULL || n < sizeof h + 2 * numbers)
-        return rows_take_row(s, k, qdot_fail(QDOT_EFAILED, "the process that made the run has ended"));
+        return record_finished_row(s, k, qdot_fail(QDOT_EFAILED, "the process that made the run has ended"));
     memcpy(&h, bytes, sizeof h);
     bytes += sizeof h;
     memcpy(t->values + k * t->n, bytes, numbers);
@@ -179,14 +179,14 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
         if (qdot_trial_all_fail(h.status))
             s->c->error_at = h.error_at;
     }
-    return rows_take_row(s, k, h.status);
+    return record_finished_row(s, k, h.status);
 }
 
 /* --- making all rows -------------------------------------------------------------------- */
 
-/* The number of rows for the next group, if `before` rows took this number of seconds. */
+/* The number of rows to make together next, if the last `before` rows took this number of seconds. */
 static size_t
-next_together(size_t before, double seconds)
+next_group_size(size_t before, double seconds)
 {
     if (seconds > soon)
         return before / 2 > LEAST ? before / 2 : LEAST;
@@ -195,7 +195,7 @@ next_together(size_t before, double seconds)
 
 /* Make the rows first ... end - 1 that are not finished, in this process. */
 static qdot_status
-run_here(qdot_sweep *s, size_t first, size_t end)
+make_rows_in_this_process(qdot_sweep *s, size_t first, size_t end)
 {
     size_t together = LEAST;
     double begun = qdot_wall_now();
@@ -205,13 +205,13 @@ run_here(qdot_sweep *s, size_t first, size_t end)
         if (s->lanes != NULL && k == next) {
             const double now = qdot_wall_now();
 
-            together = k > first ? next_together(together, now - begun) : LEAST;
+            together = k > first ? next_group_size(together, now - begun) : LEAST;
             begun = now;
             next = end - k < together ? end : k + together;
             QDOT_TRY(qdot_sweep_lanes_run(s->lanes, k, next - k));
         }
         if (!s->done[k])
-            QDOT_TRY(rows_take_row(s, k, qdot_sweep_fill_row(s, k)));
+            QDOT_TRY(record_finished_row(s, k, qdot_sweep_fill_row(s, k)));
     }
     return QDOT_OK;
 }
@@ -219,16 +219,16 @@ run_here(qdot_sweep *s, size_t first, size_t end)
 /* The first row here, for what it costs; then the others, by several processes if that is worth it. With
  * other ranks all rows at once, so that none waits. */
 static qdot_status
-run_all(qdot_sweep *s)
+make_all_rows(qdot_sweep *s)
 {
     const size_t members = s->members.axes.members, side = s->lanes != NULL ? LEAST : 1;
     const double begun = qdot_wall_now();
     size_t first = 0;
-    qdot_workers_job job = {.end = members, .skip = s->done, .user = s, .work = work_on_row,
-                            .done = take_answer, .workers = qdot_sweep_processes(s)};
+    qdot_workers_job job = {.end = members, .skip = s->done, .user = s, .work = make_row_in_worker,
+                            .done = take_row_from_worker, .workers = qdot_sweep_processes(s)};
 
     if (s->lanes != NULL) {
-        job.begin = begin_rows_there;
+        job.begin = make_rows_in_worker;
         job.least = LEAST;
     }
     qdot_progress_begin(0, (double)members, "sweep");
@@ -237,18 +237,18 @@ run_all(qdot_sweep *s)
     while (first < members && s->done[first])
         first++;
     job.first = members - first > side ? first + side : members;
-    QDOT_TRY(run_here(s, first, job.first));
+    QDOT_TRY(make_rows_in_this_process(s, first, job.first));
     job.seconds = (qdot_wall_now() - begun) / (double)(job.first > first ? job.first - first : 1);
     if (s->threads == 0 && job.seconds * (double)(members - first) < worth)
         job.workers = 1;
     if (job.workers > members - job.first)
         job.workers = members - job.first;
-    return job.workers > 1 ? qdot_workers_run(&job) : run_here(s, job.first, members);
+    return job.workers > 1 ? qdot_workers_run(&job) : make_rows_in_this_process(s, job.first, members);
 }
 
-/* Remove the rows of unfinished members from the table. */
+/* Remove the rows whose runs are not finished from the table. */
 static void
-drop_others(qdot_sweep *s)
+drop_unfinished_rows(qdot_sweep *s)
 {
     qdot_row_table *t = s->table;
     size_t n = 0;
@@ -263,9 +263,9 @@ drop_others(qdot_sweep *s)
     t->rows = n;
 }
 
-/* Begin the table, with the rows that a file has kept. */
+/* Begin the table of the sweep, with the rows that a file of an earlier call has kept. */
 static qdot_status
-begin_rows(qdot_sweep *s)
+begin_table(qdot_sweep *s)
 {
     const size_t members = s->members.axes.members;
 
@@ -283,22 +283,22 @@ begin_rows(qdot_sweep *s)
         s->resumed += s->done[k];
     }
     s->n_done = s->resumed;
-    return keep_rows(s, true); /* write now, so that an unwritable file is reported early */
+    return write_rows_to_file(s, true); /* write now, so that an unwritable file is reported early */
 }
 
 qdot_status
 qdot_sweep_make_rows(qdot_sweep *s)
 {
     const size_t start = s->c->error_at;
-    qdot_text why = {0}; /* why lanes are not used, for `plan sweep` */
+    qdot_text why = {0}; /* reason why the rows are not made together in lanes, for `plan sweep` */
     qdot_status status;
 
-    QDOT_TRY(begin_rows(s));
+    QDOT_TRY(begin_table(s));
     s->c->error_at = start;
     s->kept_at = qdot_wall_now();
     status = qdot_sweep_lanes_new(s, &s->lanes, &why);
     if (status == QDOT_OK)
-        status = run_all(s);
+        status = make_all_rows(s);
     status = qdot_sweep_share_rows(s, status);
     qdot_sweep_lanes_free(s->lanes);
     qdot_text_clear(&why);
@@ -310,8 +310,8 @@ qdot_sweep_make_rows(qdot_sweep *s)
     }
     QDOT_TRY(status);
     s->c->error_at = start;
-    QDOT_TRY(keep_rows(s, true));
+    QDOT_TRY(write_rows_to_file(s, true));
     if (s->interrupted)
-        drop_others(s);
-    return tell_rows(s, true);
+        drop_unfinished_rows(s);
+    return answer_finished_rows(s, true);
 }

@@ -19,7 +19,7 @@
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/syntax/record.h"
 
-static qdot_status sweep_make(qdot_record *r);
+static qdot_status carry_out_sweep(qdot_record *r);
 
 QDOT_STATEMENT(sweep) = {
     .word = "sweep",
@@ -29,7 +29,7 @@ QDOT_STATEMENT(sweep) = {
                "uniform(A, B) - with numbers of it as a row, each with its error: `table NAME`, `plot NAME`, "
                "`save NAME to` show them; `mpirun -n N qdot FILE` divides it among machines",
     .example = "sweep omega = 0..5 step 0.1 run 0..20 : value(theta, 20)",
-    .handler = sweep_make,
+    .handler = carry_out_sweep,
 };
 
 enum { MOST_THREADS = 1024 };
@@ -37,7 +37,7 @@ enum { MOST_THREADS = 1024 };
 /* --- reading the statement -------------------------------------------------------------- */
 
 static qdot_status
-threads_find(qdot_record *r, qdot_sweep *s)
+read_number_of_threads(qdot_record *r, qdot_sweep *s)
 {
     const qdot_filled *part = qdot_record_hole(r, "threads", "N");
 
@@ -50,9 +50,9 @@ threads_find(qdot_record *r, qdot_sweep *s)
     return qdot_fail(QDOT_EINVAL, "threads are from 1 to %d", MOST_THREADS);
 }
 
-/* Take the name of the file in which rows are stored. */
+/* Read the name of the file in which the rows of the sweep are stored. */
 static qdot_status
-sweep_find_file(qdot_record *r, qdot_sweep *s)
+read_file_name(qdot_record *r, qdot_sweep *s)
 {
     const qdot_filled *part = qdot_record_hole(r, "resume", NULL);
 
@@ -68,7 +68,7 @@ sweep_find_file(qdot_record *r, qdot_sweep *s)
 }
 
 static qdot_status
-sweep_find_name(qdot_record *r, qdot_sweep *s)
+read_sweep_name(qdot_record *r, qdot_sweep *s)
 {
     const qdot_filled *part = qdot_record_hole(r, "as", "NAME");
 
@@ -76,20 +76,20 @@ sweep_find_name(qdot_record *r, qdot_sweep *s)
 }
 
 static qdot_status
-sweep_find_all(qdot_sweep *s)
+read_sweep_operands(qdot_sweep *s)
 {
     qdot_record *r = s->record;
 
     QDOT_TRY(qdot_members_find(r, &s->members));
     QDOT_TRY(qdot_columns_find(r, &s->columns));
-    QDOT_TRY(threads_find(r, s));
-    QDOT_TRY(sweep_find_file(r, s));
-    return sweep_find_name(r, s);
+    QDOT_TRY(read_number_of_threads(r, s));
+    QDOT_TRY(read_file_name(r, s));
+    return read_sweep_name(r, s);
 }
 
-/* Write the text of the sweep and a hash (FNV-1a) of its scene as it would be saved. */
+/* Write the text of the sweep's statement and a hash (FNV-1a) of its scene, as it would be saved, to identify it. */
 static qdot_status
-say_what(qdot_sweep *s)
+write_identifying_text(qdot_sweep *s)
 {
     qdot_text scene = {0};
     uint64_t hash = 0xcbf29ce484222325;
@@ -125,9 +125,9 @@ make_table(qdot_session *session, qdot_sweep *s)
     return status;
 }
 
-/* The number of finished rows with a number whose error is unknown. */
+/* The number of finished rows that contain a number whose error is unknown. */
 static size_t
-unknown_errors(const qdot_row_table *t)
+count_rows_of_unknown_error(const qdot_row_table *t)
 {
     size_t rows = 0;
 
@@ -142,7 +142,7 @@ unknown_errors(const qdot_row_table *t)
 }
 
 static qdot_status
-sweep_tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
+answer_sweep(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
 {
     qdot_text text = {0};
 
@@ -153,8 +153,8 @@ sweep_tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, 
         qdot_text_format(&text, ", seed %lu", s->members.axes.seed);
     if (s->failed > 0)
         qdot_text_format(&text, ", %zu failed", s->failed);
-    if (unknown_errors(t) > 0)
-        qdot_text_format(&text, ", the errors of %zu unknown", unknown_errors(t));
+    if (count_rows_of_unknown_error(t) > 0)
+        qdot_text_format(&text, ", the errors of %zu unknown", count_rows_of_unknown_error(t));
     if (s->resumed > 0)
         qdot_text_format(&text, ", %zu of them from %s", s->resumed, s->path);
     qdot_text_format(&text, ", in %.3g s", seconds);
@@ -163,9 +163,9 @@ sweep_tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, 
     return t->rows <= QDOT_ROWS_PRINTED ? qdot_row_answer(session, t) : QDOT_OK;
 }
 
-/* Whether no row has any requested number. */
+/* Whether no row of the table has any of the requested numbers. */
 static bool
-is_empty(const qdot_row_table *t)
+has_no_numbers(const qdot_row_table *t)
 {
     bool empty = t->rows > 0;
 
@@ -175,9 +175,9 @@ is_empty(const qdot_row_table *t)
     return empty;
 }
 
-/* Repeat the notice of a run, for instance that its start was moved onto the constraints. */
+/* Give the notice of a run of the sweep once more, for instance that its start was moved onto the constraints. */
 static qdot_status
-tell_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
+repeat_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 {
     const char *notice = qdot_run_get_report(run)->notice;
     bool *told = user;
@@ -190,9 +190,9 @@ tell_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
                               (int)strcspn(notice, "\n"), notice);
 }
 
-/* Whether a start value is swept or given by `with`. */
+/* Whether a start value is swept, or given by the option `with`. */
 static bool
-names_start(const qdot_session *session, const qdot_members *m)
+sets_start_values(const qdot_session *session, const qdot_members *m)
 {
     for (size_t i = 0; i < m->axes.at.n; i++)
         if (qdot_expr_is_class(session->pool, m->axes.at.at[i].symbol, QDOT_COORD))
@@ -200,9 +200,9 @@ names_start(const qdot_session *session, const qdot_members *m)
     return qdot_run_options_name_start(session->pool, &m->run);
 }
 
-/* Repeat notices about starts for the first, the middle and the last member, as rows do not show them. */
+/* Give the notices about the start of the first, middle and last run of a sweep, as its rows do not show them. */
 static qdot_status
-tell_starts(qdot_cursor *c, const qdot_members *m)
+give_notices_of_starts(qdot_cursor *c, const qdot_members *m)
 {
     const size_t members = m->axes.members, looked[] = {0, members / 2, members - 1};
     double *swept = qdot_calloc(m->axes.at.n + 1, sizeof *swept);
@@ -210,10 +210,10 @@ tell_starts(qdot_cursor *c, const qdot_members *m)
     bool told = false;
 
     for (size_t i = 0; i < 3 && swept != NULL && !told; i++) {
-        status = qdot_members_begin(c, m, looked[i], swept, tell_notice, &told);
+        status = qdot_members_begin(c, m, looked[i], swept, repeat_notice, &told);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             break;
-        status = QDOT_OK; /* the reason is kept in the row */
+        status = QDOT_OK; /* a failure is no error here: the row of the run gives the reason */
     }
     qdot_free(swept);
     return status;
@@ -221,7 +221,7 @@ tell_starts(qdot_cursor *c, const qdot_members *m)
 
 /* Record the parameters that have the same value in all rows. */
 static qdot_status
-note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *table)
+record_constant_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *table)
 {
     const size_t n = m->axes.at.n;
     double *swept = qdot_calloc(n + 1, sizeof *swept);
@@ -236,7 +236,7 @@ note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *ta
         if (status == QDOT_OK)
             status = qdot_row_tables_note_parameters(session, table, n, open);
         else
-            status = qdot_grave(status); /* the member's row tells why */
+            status = qdot_grave(status); /* a failure is no error here: the row of the run gives the reason */
         qdot_trial_end(&trial);
     }
     qdot_free(swept);
@@ -245,30 +245,30 @@ note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *ta
 }
 
 static qdot_status
-sweep_carry_out(qdot_cursor *c, qdot_sweep *s)
+run_sweep(qdot_cursor *c, qdot_sweep *s)
 {
     const double begun = qdot_wall_now();
     qdot_row_table *table = s->table;
 
-    QDOT_TRY(note_parameters(c->session, &s->members, table));
+    QDOT_TRY(record_constant_parameters(c->session, &s->members, table));
     QDOT_TRY(qdot_sweep_make_rows(s));
     s->table = NULL; /* now owned by the session */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
-    QDOT_TRY(sweep_tell(c->session, s, table, qdot_wall_now() - begun));
-    if (!names_start(c->session, &s->members))
+    QDOT_TRY(answer_sweep(c->session, s, table, qdot_wall_now() - begun));
+    if (!sets_start_values(c->session, &s->members))
         QDOT_TRY(qdot_warnings_start(c->session));
     if (!s->interrupted)
-        QDOT_TRY(tell_starts(c, &s->members));
+        QDOT_TRY(give_notices_of_starts(c, &s->members));
     if (s->interrupted)
         return qdot_fail(QDOT_EINTR, "interrupted: %s has %zu of %zu rows", table->name,
                          table->rows, s->members.axes.members);
-    if (is_empty(table))
+    if (has_no_numbers(table))
         return qdot_fail(QDOT_EFAILED, "all rows failed: %s", table->reasons[0]);
     return QDOT_OK;
 }
 
 static void
-sweep_free(qdot_sweep *s)
+free_sweep(qdot_sweep *s)
 {
     qdot_file_lock_release(&s->lock);
     qdot_row_table_release(s->table);
@@ -279,23 +279,23 @@ sweep_free(qdot_sweep *s)
 }
 
 static qdot_status
-sweep_make(qdot_record *r)
+carry_out_sweep(qdot_record *r)
 {
     qdot_sweep s = {.members.run.tol = 1e-12, .record = r, .c = &r->cursor};
-    qdot_status status = sweep_find_all(&s);
+    qdot_status status = read_sweep_operands(&s);
 
     if (status == QDOT_OK) {
         r->cursor.error_at = r->start->start;
         status = make_table(s.c->session, &s);
     }
     if (status == QDOT_OK && s.path != NULL)
-        status = say_what(&s);
+        status = write_identifying_text(&s);
     if (status == QDOT_OK) {
         s.table->members = qdot_function_body_new(r->cursor.source, r->start, r->cursor.at);
-        status = s.table->members ? sweep_carry_out(s.c, &s) : QDOT_ENOMEM;
+        status = s.table->members ? run_sweep(s.c, &s) : QDOT_ENOMEM;
     }
     qdot_run_options_place(s.c, s.members.run.method_at, status);
-    sweep_free(&s);
+    free_sweep(&s);
     return status;
 }
 
@@ -304,7 +304,7 @@ qdot_sweep_plan(qdot_record *r)
 {
     qdot_sweep s = {.members.run.tol = 1e-12, .record = r, .c = &r->cursor};
     qdot_text text = {0};
-    qdot_status status = sweep_find_all(&s);
+    qdot_status status = read_sweep_operands(&s);
 
     if (status == QDOT_OK) {
         r->cursor.error_at = r->start[1].start;
@@ -314,6 +314,6 @@ qdot_sweep_plan(qdot_record *r)
         status = qdot_sweep_tell_plan(&s, &text);
     qdot_run_options_place(s.c, s.members.run.method_at, status);
     status = qdot_answer_written(s.c->session, "plan", status, &text);
-    sweep_free(&s);
+    free_sweep(&s);
     return status;
 }

@@ -1,10 +1,10 @@
-/* definition.c -- takes LEFT = RIGHT apart. */
+/* definition.c -- splits a definition LEFT = RIGHT into its parts. */
 #include "lang/syntax/definition.h"
 
 #include "lang/language/token-text.h"
 #include "lang/syntax/form.h"
 
-/* Find what the right side holds, and its end. */
+/* Find where the right side of a definition ends, and what it contains. */
 static void
 read_right(qdot_definition *d, const qdot_token *end)
 {

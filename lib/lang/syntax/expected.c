@@ -1,4 +1,4 @@
-/* expected.c -- the message for a token that does not fit the usage. */
+/* expected.c -- the error message for a token that does not fit the usage text of its statement. */
 #include "lang/syntax/expected.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 typedef struct {
     const char *statement, *before, *what, *hint;
-    bool name; /* the row is for a name at this place */
+    bool name; /* the row of the table is used if a name stands at this place */
 } expected_row;
 
 static const expected_row rows[] = {
@@ -40,7 +40,7 @@ static const struct {
 #undef REFUSED
 
 static bool
-is_of(const char *statement, const qdot_expected *list)
+is_for_statement(const char *statement, const qdot_expected *list)
 {
     return statement == NULL || strcmp(statement, list->usage->word) == 0;
 }
@@ -49,8 +49,8 @@ is_of(const char *statement, const qdot_expected *list)
  * `next` (the first that is no option taken before) or `sign`, which is among them, is its second. next, sign may be
  * NULL. */
 static bool
-row_is_behind(const char *before, const qdot_usage_node *first, const qdot_usage_node *next,
-              const qdot_usage_node *sign)
+row_fits_context(const char *before, const qdot_usage_node *first, const qdot_usage_node *next,
+                 const qdot_usage_node *sign)
 {
     const size_t n = strlen(first->before);
 
@@ -60,16 +60,16 @@ row_is_behind(const char *before, const qdot_usage_node *first, const qdot_usage
                                   (sign != NULL && strcmp(before + n + 1, sign->text) == 0))));
 }
 
-/* Add all nodes that may come next at `node`. */
+/* Add to the list all nodes of the usage automaton that may come next at `node`. */
 static void
-expected_collect(qdot_expected *list, int node, bool taken)
+collect_expected(qdot_expected *list, int node, bool taken)
 {
     const qdot_usage_node *at = &list->usage->node[node];
 
     if (at->kind == QDOT_USAGE_FORK) {
-        expected_collect(list, at->next, taken);
+        collect_expected(list, at->next, taken);
         if (at->other >= 0)
-            expected_collect(list, at->other, taken);
+            collect_expected(list, at->other, taken);
         return;
     }
     list->hole = list->hole || at->kind == QDOT_USAGE_HOLE;
@@ -91,15 +91,15 @@ qdot_expected_add(qdot_expected *list, int node, uint64_t taken)
     const qdot_usage_node *at = &list->usage->node[node];
 
     if (at->kind != QDOT_USAGE_FORK)
-        expected_collect(list, node, false);
+        collect_expected(list, node, false);
     else if ((taken & at->enters) != 0)
-        expected_collect(list, at->next, true);
+        collect_expected(list, at->next, true);
 }
 
 /* The first node of this kind in the order of the usage; open: only if its option may still come.
  * NULL: none. */
 static const qdot_usage_node *
-expected_first(const qdot_expected *list, int kind, bool open)
+first_expected_of_kind(const qdot_expected *list, int kind, bool open)
 {
     int first = -1;
 
@@ -110,9 +110,9 @@ expected_first(const qdot_expected *list, int kind, bool open)
     return first >= 0 ? &list->usage->node[first] : NULL;
 }
 
-/* Whether an earlier node of the list has the same word. */
+/* Whether an earlier node of the list of expected words has the same word. */
 static bool
-is_said(const qdot_expected *list, int node)
+is_listed_before(const qdot_expected *list, int node)
 {
     for (int i = 0; i < list->n; i++)
         if (list->node[i] < node &&
@@ -124,7 +124,7 @@ is_said(const qdot_expected *list, int node)
 
 /* List the expected words, `a`, `b` or `c`, in the order of the usage. */
 static void
-list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
+list_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 {
     const char *word[QDOT_EXPECTED_NODES];
     int n = 0;
@@ -133,7 +133,7 @@ list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
     for (int node = 0; node < list->usage->n; node++)
         for (int i = 0; i < list->n; i++)
             if (list->node[i] == node && list->usage->node[node].kind == QDOT_USAGE_WORD &&
-                !is_said(list, node))
+                !is_listed_before(list, node))
                 word[n++] = list->usage->node[node].text;
     for (int i = 0; i < n && length < QDOT_EXPECTED_TEXT; i++)
         length += (size_t)snprintf(what + length, QDOT_EXPECTED_TEXT - length, "%s`%s`",
@@ -169,12 +169,12 @@ write_row(const qdot_expected *list, const char *text, const char *before, char 
 
 /* The row of expected.def for expected words or signs that begin with `first`; NULL if none. */
 static const expected_row *
-expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const qdot_usage_node *sign)
+find_row_of_expected(const qdot_expected *list, const qdot_usage_node *first, const qdot_usage_node *sign)
 {
-    const qdot_usage_node *next = expected_first(list, QDOT_USAGE_WORD, true);
+    const qdot_usage_node *next = first_expected_of_kind(list, QDOT_USAGE_WORD, true);
 
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (is_of(rows[i].statement, list) && row_is_behind(rows[i].before, first, next, sign) &&
+        if (is_for_statement(rows[i].statement, list) && row_fits_context(rows[i].before, first, next, sign) &&
             (!rows[i].name || list->token->kind == QDOT_TOKEN_NAME))
             return &rows[i];
     return NULL;
@@ -183,12 +183,12 @@ expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const
 const char *
 qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 {
-    const qdot_usage_node *word = expected_first(list, QDOT_USAGE_WORD, false),
-                          *sign = expected_first(list, QDOT_USAGE_SIGN, false),
-                          *hole = expected_first(list, QDOT_USAGE_HOLE, false),
-                          *end = expected_first(list, QDOT_USAGE_END, false),
+    const qdot_usage_node *word = first_expected_of_kind(list, QDOT_USAGE_WORD, false),
+                          *sign = first_expected_of_kind(list, QDOT_USAGE_SIGN, false),
+                          *hole = first_expected_of_kind(list, QDOT_USAGE_HOLE, false),
+                          *end = first_expected_of_kind(list, QDOT_USAGE_END, false),
                           *first = word != NULL ? word : sign;
-    const expected_row *row = first != NULL ? expected_find_row(list, first, sign) : NULL;
+    const expected_row *row = first != NULL ? find_row_of_expected(list, first, sign) : NULL;
 
     if (sign != NULL && strcmp(sign->text, "=") == 0 && (word != NULL || end == NULL)) {
         snprintf(what, QDOT_EXPECTED_TEXT, "`=`");
@@ -199,7 +199,7 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
         return row->hint;
     }
     if (word != NULL)
-        list_words(list, what);
+        list_expected_words(list, what);
     else if (end != NULL)
         snprintf(what, QDOT_EXPECTED_TEXT, "the end of the statement");
     else if (sign != NULL)
@@ -220,9 +220,9 @@ qdot_expected_clause(const char *statement, const char *word)
     return NULL;
 }
 
-/* Give the hint, with the token or earlier text inserted for `%s` or `%n`. */
+/* Give the hint of a table row, with the token or earlier text inserted for `%s` or `%n`. */
 static void
-hint_give(const char *hint, const qdot_token *token, const qdot_record *r)
+give_hint_of_row(const char *hint, const qdot_token *token, const qdot_record *r)
 {
     const char *gap = strchr(hint, '%');
     const qdot_filled *last = &r->parts.at[r->parts.n - 1];
@@ -245,12 +245,12 @@ qdot_expected_refuses(const qdot_expected *list, const qdot_record *r)
                                                 : qdot_token_is_word(list->token, refused[i].word) ||
                                                       qdot_token_is(list->token, refused[i].word);
 
-        if (!is_of(refused[i].statement, list) || !is ||
+        if (!is_for_statement(refused[i].statement, list) || !is ||
             (refused[i].beside != NULL && (!list->given || qdot_record_word(r, refused[i].beside) == NULL)))
             continue;
         (void)qdot_fail(refused[i].status, "%s", refused[i].message);
         if (refused[i].hint != NULL)
-            hint_give(refused[i].hint, list->token, r);
+            give_hint_of_row(refused[i].hint, list->token, r);
         return true;
     }
     return false;

@@ -28,7 +28,7 @@ qdot_statement_behind_bracket(const qdot_token *open)
         if (step != 0 && depth == 0)
             return k + 1;
     }
-    return open; /* no closing bracket, as a `for` inside cuts the statement */
+    return open; /* there is no closing bracket when a `for` inside the brackets ends the statement */
 }
 
 /* --- definitions of functions --------------------------------------------------------- */
@@ -53,7 +53,7 @@ qdot_statement_is_free_argument(const qdot_session *session, const char *name)
 
 /* Whether `name` is argument number i in the definition of the function. */
 static bool
-is_formal_at(const qdot_session *session, const qdot_name *function, uint32_t i, const char *name)
+is_argument_at(const qdot_session *session, const qdot_name *function, uint32_t i, const char *name)
 {
     const qdot_symbol *formal;
 
@@ -73,7 +73,7 @@ is_declared(const qdot_session *session, const char *name)
 
 /* Whether an argument in the bracket after `name` occurs on the right side of the equation sign. */
 static bool
-is_of_arguments(const qdot_token *name, const qdot_token *equals)
+right_side_uses_arguments(const qdot_token *name, const qdot_token *equals)
 {
     for (const qdot_token *k = equals + 1; k->kind != QDOT_TOKEN_END; k++)
         for (const qdot_token *argument = name + 2; argument < equals; argument += 2)
@@ -85,7 +85,7 @@ is_of_arguments(const qdot_token *name, const qdot_token *equals)
 /* Whether NAME(names) = RIGHT, of a function of the user's, is an equation: a declared name stands in place of its own
  * argument, or all are declared and the right side is of none of them, f(x) = 0. */
 static bool
-is_applied(const qdot_session *session, const qdot_name *known, const qdot_token *name, const qdot_token *equals)
+is_equation_of_function(const qdot_session *session, const qdot_name *known, const qdot_token *name, const qdot_token *equals)
 {
     bool all = true, other = false;
     uint32_t i = 0;
@@ -94,9 +94,9 @@ is_applied(const qdot_session *session, const qdot_name *known, const qdot_token
         const bool declared = is_declared(session, k->text);
 
         all = all && declared;
-        other = other || (declared && !is_formal_at(session, known, i, k->text));
+        other = other || (declared && !is_argument_at(session, known, i, k->text));
     }
-    return other || (all && !is_of_arguments(name, equals));
+    return other || (all && !right_side_uses_arguments(name, equals));
 }
 
 /* Whether the statement begins with NAME(names) =, the definition of a function. */
@@ -117,7 +117,7 @@ defines_function(const qdot_session *session, const qdot_token *name)
             break;
     }
     return qdot_token_is(k + 1, ")") && qdot_token_is(k + 2, "=") &&
-           !(known != NULL && known->kind == QDOT_NAME_FUNCTION && is_applied(session, known, name, k + 2));
+           !(known != NULL && known->kind == QDOT_NAME_FUNCTION && is_equation_of_function(session, known, name, k + 2));
 }
 
 /* NAME =, NAME[...] =, NAME(names) =. Behind a statement's word a bracket opens an
@@ -140,7 +140,7 @@ is_definition(const qdot_session *session, const qdot_token *name, bool word)
 
 /* Whether a minus is a sign, as in `potential -k/x`: a blank before it, none after it. */
 static bool
-is_sign(const qdot_token *token)
+is_unary_minus(const qdot_token *token)
 {
     return qdot_token_is(token, "-") && !token->glued && token[1].glued;
 }
@@ -156,7 +156,7 @@ begins_operand(const qdot_token *token)
         if (qdot_token_is_word(token, words[i]))
             return false;
     return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER ||
-           (qdot_token_is(token, "(") && !token->glued) || is_sign(token);
+           (qdot_token_is(token, "(") && !token->glued) || is_unary_minus(token);
 }
 
 bool
@@ -169,7 +169,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
     bool declared = qdot_names_find(session->names, name->text) != NULL ||
                     qdot_names_is_family(session->names, name->text);
 
-    /* `hamiltonian` by itself is a value; followed by an operand it is a statement */
+    /* `hamiltonian` without an operand is a value; followed by an operand it is a statement */
     if (!row->alone && qdot_quantity_find(row->word) != NULL)
         return declared || !begins_operand(next);
     if (row->alone)
@@ -181,7 +181,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
             return true;
     return declared &&
            (next->kind == QDOT_TOKEN_END || qdot_token_is(next, "+") ||
-            (qdot_token_is(next, "-") && !is_sign(next)) ||
+            (qdot_token_is(next, "-") && !is_unary_minus(next)) ||
             ((qdot_token_is(next, "(") || qdot_token_is(next, "[")) && next->glued));
 }
 
@@ -206,7 +206,7 @@ is_comparison(const qdot_token *first)
     return equal;
 }
 
-/* Whether the statement begins with a name that means nothing and that another name follows. */
+/* Whether the statement begins with an unknown name that is followed by another name. */
 static bool
 is_unknown(const qdot_session *session, const qdot_token *name)
 {

@@ -28,7 +28,7 @@ typedef enum {
  * arguments are declared and the right side holds none of them (f(x) = x^2, then f(x) = 0). */
 qdot_form qdot_statement_form(const qdot_session *session, const qdot_token *first);
 
-/* The row of the statement whose word the token is; NULL: it is none. */
+/* The table row of the statement whose word the token is; NULL: the token is no such word. */
 const qdot_statement *qdot_statement_row(const qdot_token *word);
 
 /* Whether the word of a statement at `name` is used as a name here: `run*2`, a user's own `scene`. */

@@ -14,7 +14,7 @@ typedef struct {
 } reader;
 
 static qdot_hole_class
-node_class(const qdot_usage_node *node)
+placeholder_class(const qdot_usage_node *node)
 {
     return qdot_hole_at(node->hole)->class;
 }
@@ -26,20 +26,20 @@ qdot_usage_node_is(const qdot_usage_node *node, const qdot_token *token)
            (node->kind == QDOT_USAGE_SIGN && qdot_token_is(token, node->text));
 }
 
-/* Whether the token is a sign or word that may come after this node in the usage. */
+/* Whether the token is a sign or word that may come after this node of the usage automaton. */
 static bool
-leads_to(const qdot_usage *u, int node, const qdot_token *token)
+may_be_followed_by(const qdot_usage *u, int node, const qdot_token *token)
 {
     const qdot_usage_node *at = &u->node[node];
 
     if (at->kind != QDOT_USAGE_FORK)
         return qdot_usage_node_is(at, token);
-    return leads_to(u, at->next, token) || (at->other >= 0 && leads_to(u, at->other, token));
+    return may_be_followed_by(u, at->next, token) || (at->other >= 0 && may_be_followed_by(u, at->other, token));
 }
 
-/* The token behind the name that begins at t, with its brackets. */
+/* The token after the name that begins at t and its brackets. */
 static const qdot_token *
-behind_name(const qdot_token *t)
+token_after_name(const qdot_token *t)
 {
     long depth = 0;
 
@@ -115,7 +115,7 @@ is_declared(const reader *m, const char *name)
 static bool
 begins_with_bound(const reader *m)
 {
-    const qdot_token *t = m->c->at, *next = behind_name(t);
+    const qdot_token *t = m->c->at, *next = token_after_name(t);
     const bool more = next->kind != QDOT_TOKEN_END && !qdot_token_is(next, ",") && !qdot_token_is(next, "=");
 
     if (t->kind != QDOT_TOKEN_NAME)
@@ -162,7 +162,7 @@ read_domain(const reader *m, const qdot_hole *hole, qdot_filled *part)
 /* Where what is read of the part so far is a name that means nothing, or that of a function without
  * its argument, that is told. */
 static qdot_status
-tell_unknown(const reader *m, const qdot_filled *part)
+report_unknown_name(const reader *m, const qdot_filled *part)
 {
     const qdot_token *name = part->from;
     qdot_expr value;
@@ -177,7 +177,7 @@ tell_unknown(const reader *m, const qdot_filled *part)
 static qdot_status
 read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
 {
-    const bool comparison = node_class(node) == QDOT_HOLE_COMPARISON;
+    const bool comparison = placeholder_class(node) == QDOT_HOLE_COMPARISON;
     qdot_cursor *c = m->c;
 
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
@@ -185,10 +185,10 @@ read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
         c->at++;
         return read_expression(m, QDOT_PARSE_SIDE, part);
     }
-    if (qdot_cursor_is_end(c) || leads_to(m->u, node->next, c->at))
+    if (qdot_cursor_is_end(c) || may_be_followed_by(m->u, node->next, c->at))
         return QDOT_OK;
     if (comparison)
-        QDOT_TRY(tell_unknown(m, part));
+        QDOT_TRY(report_unknown_name(m, part));
     return qdot_cursor_expected(c, comparison ? "`==` and the other side" : "`=` and the other side");
 }
 
@@ -233,7 +233,7 @@ read_range(const reader *m, const qdot_hole *hole, qdot_filled *part)
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
     if (qdot_cursor_accept_op(m->c, ".."))
         return read_expression(m, QDOT_PARSE_SIDE, part);
-    QDOT_TRY(tell_unknown(m, part));
+    QDOT_TRY(report_unknown_name(m, part));
     return qdot_cursor_expected(m->c, hole->expected);
 }
 
@@ -301,7 +301,7 @@ read_curve(const reader *m, qdot_filled *part)
 }
 
 static qdot_status
-read_token(const reader *m, const qdot_hole *hole, qdot_token_kind kind)
+read_single_token(const reader *m, const qdot_hole *hole, qdot_token_kind kind)
 {
     if (m->c->at->kind != kind)
         return qdot_cursor_expected(m->c, hole->expected);
@@ -312,7 +312,7 @@ read_token(const reader *m, const qdot_hole *hole, qdot_token_kind kind)
 bool
 qdot_hole_is_expression(const qdot_usage_node *node)
 {
-    switch (node_class(node)) {
+    switch (placeholder_class(node)) {
     case QDOT_HOLE_NAME:
     case QDOT_HOLE_ROWS:
     case QDOT_HOLE_COORDINATE:
@@ -329,30 +329,30 @@ qdot_hole_suits(const qdot_usage *u, const qdot_record *r, const qdot_usage_node
 {
     const qdot_token *t = r->cursor.at;
 
-    switch (node_class(node)) {
+    switch (placeholder_class(node)) {
     case QDOT_HOLE_TEXT: return t->kind == QDOT_TOKEN_STRING;
     case QDOT_HOLE_NAME:
-        return t->kind == QDOT_TOKEN_NAME && leads_to(u, node->next, behind_name(t));
+        return t->kind == QDOT_TOKEN_NAME && may_be_followed_by(u, node->next, token_after_name(t));
     case QDOT_HOLE_CALL: return t->kind == QDOT_TOKEN_NAME && qdot_token_is(t + 1, "(");
     case QDOT_HOLE_COORDINATE: return t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t + 1, "(");
     case QDOT_HOLE_WORD: return t->kind == QDOT_TOKEN_NAME;
     case QDOT_HOLE_ROWS:
         return t->kind == QDOT_TOKEN_NAME && qdot_row_tables_find(r->cursor.session, t->text) != NULL &&
-               (t[1].kind == QDOT_TOKEN_END || leads_to(u, node->next, t + 1));
+               (t[1].kind == QDOT_TOKEN_END || may_be_followed_by(u, node->next, t + 1));
     case QDOT_HOLE_TOPIC:
         return t->kind == QDOT_TOKEN_NAME || t->kind == QDOT_TOKEN_STRING || qdot_token_is(t, "%");
     default: return t->kind != QDOT_TOKEN_STRING;
     }
 }
 
-/* Whether `to "FILE"` stands where the expression or name of the hole should be. */
+/* Whether `to "FILE"` stands where an expression or name is expected. */
 static bool
 is_file_in_place(const reader *m, const qdot_usage_node *node)
 {
     const qdot_token *t = m->c->at;
 
-    return (qdot_hole_is_expression(node) || node_class(node) == QDOT_HOLE_COORDINATE) && qdot_token_is_word(t, "to") &&
-           t[1].kind == QDOT_TOKEN_STRING && leads_to(m->u, node->next, t);
+    return (qdot_hole_is_expression(node) || placeholder_class(node) == QDOT_HOLE_COORDINATE) && qdot_token_is_word(t, "to") &&
+           t[1].kind == QDOT_TOKEN_STRING && may_be_followed_by(m->u, node->next, t);
 }
 
 qdot_status
@@ -385,9 +385,9 @@ qdot_hole_read(const qdot_usage *u, qdot_record *r, const qdot_usage_node *node,
     case QDOT_HOLE_CALL: return read_call(m, hole, part);
     case QDOT_HOLE_BODY: return read_body(m, part);
     case QDOT_HOLE_ROWS:
-    case QDOT_HOLE_WORD: return read_token(m, hole, QDOT_TOKEN_NAME);
+    case QDOT_HOLE_WORD: return read_single_token(m, hole, QDOT_TOKEN_NAME);
     case QDOT_HOLE_TOPIC:
-        return read_token(m, hole, qdot_hole_suits(u, r, node) ? m->c->at->kind : QDOT_TOKEN_NAME);
+        return read_single_token(m, hole, qdot_hole_suits(u, r, node) ? m->c->at->kind : QDOT_TOKEN_NAME);
     default: return read_text(m, node);
     }
 }

@@ -5,11 +5,11 @@
 #include "lang/syntax/holes.h"
 #include "lang/syntax/record.h"
 
-/* Whether the token is that word or sign of a usage. */
+/* Whether the token is the word or sign of this node of the usage automaton. */
 bool qdot_usage_node_is(const qdot_usage_node *node, const qdot_token *token);
-/* Whether an expression begins the hole, so that any token may be its first. */
+/* Whether the placeholder ("hole") begins with an expression, so that any token may be its first. */
 bool qdot_hole_is_expression(const qdot_usage_node *node);
-/* Whether the hole can begin with the token at the record's cursor, where others may stand too. */
+/* Whether the placeholder can begin with the token at the record's cursor, where other things may stand, too. */
 bool qdot_hole_suits(const qdot_usage *u, const qdot_record *r, const qdot_usage_node *node);
 /* Read the hole at the record's cursor and step over it: its expressions are appended to the record, its names put into
  * the part. Errors: QDOT_ESYNTAX and those of qdot_compiled_parse, the place in the cursor. */

@@ -12,7 +12,7 @@ static const qdot_hole rows[] = {
 #undef HOLE
 
 static bool
-hole_fits(const char *row, const char *text)
+row_fits_placeholder(const char *row, const char *text)
 {
     return row == NULL || strcmp(row, text) == 0;
 }
@@ -23,9 +23,9 @@ qdot_hole_find(const char *statement, const char *before, const char *text)
     const char *kind = text[0] == '"' ? "\"...\"" : text[0] == '(' ? "(...)" : text;
     int i = 0;
 
-    while (!hole_fits(rows[i].statement, statement) || !hole_fits(rows[i].before, before) ||
-           !hole_fits(rows[i].text, kind))
-        i++; /* ends at the last row, which fits any hole */
+    while (!row_fits_placeholder(rows[i].statement, statement) || !row_fits_placeholder(rows[i].before, before) ||
+           !row_fits_placeholder(rows[i].text, kind))
+        i++; /* the search ends at the last row, which fits any placeholder */
     return i;
 }
 

@@ -1,11 +1,11 @@
-/* loop-clause.c -- the clause `for NAME = A..B, ...`, read by a usage of its own. */
+/* loop-clause.c -- reads the clause `for NAME = A..B, ...` by a usage text of its own. */
 #include "lang/syntax/loop-clause.h"
 
 #include "lang/syntax/match.h"
 
 const qdot_statement qdot_loop_clause = {.word = "for", .usage = "for NAME = A..B, ..."};
 
-/* Show how values are written, if nothing else is suggested. */
+/* Give a hint how the values of an index are written, if there is no other hint. */
 static qdot_status
 suggest_values(qdot_status status)
 {
@@ -32,7 +32,7 @@ qdot_loop_clause_read(const qdot_cursor *c, const qdot_usage *usage, qdot_record
     const qdot_status status = qdot_match(c, &qdot_loop_clause, usage, record);
     const qdot_filled *last = record->parts.n > 0 ? &record->parts.at[record->parts.n - 1] : NULL;
 
-    /* it failed in the values of an index */
+    /* the failure is in the values of an index */
     return status != QDOT_OK && last != NULL && qdot_filled_is(last, "=") && !qdot_token_is(last->to, "[")
                ? suggest_values(status)
                : status;

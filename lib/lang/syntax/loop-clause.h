@@ -7,15 +7,15 @@
 
 #include "lang/syntax/record.h"
 
-/* The clause as a statement of its own, which is entered nowhere: its usage is `for NAME = A..B, ...`. */
+/* The clause `for NAME = A..B, ...` as a statement that is in no table, so that it can be read by its usage text. */
 extern const qdot_statement qdot_loop_clause;
 
 /* Read the clause whose word `for` is at the cursor, up to the end of the statement; usage: that of qdot_loop_clause. Free
  * the record in any case. QDOT_ESYNTAX with the place in record->cursor.error_at. */
 QDOT_MUST_CHECK qdot_status qdot_loop_clause_read(const qdot_cursor *c, const qdot_usage *usage, qdot_record *record);
-/* Fail behind the values of an index, which are no range and no list. */
+/* Fail after the values of a loop index because they are neither a range nor a list. */
 qdot_status qdot_loop_clause_need_range(qdot_record *r, const qdot_filled *values);
-/* Whether the values of an index begin as a list: [1, 2, 5]. */
+/* Whether the values of a loop index begin as a list: [1, 2, 5]. */
 bool qdot_loop_clause_is_list(const qdot_filled *values);
 
 #endif

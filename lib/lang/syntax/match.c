@@ -17,7 +17,7 @@
 
 typedef struct {
     int node;
-    uint32_t from;  /* index in `places` of the previous part */
+    uint32_t from;  /* index in `places` of the position before the previous part of the statement */
     uint64_t taken; /* bits of the options already given */
 } place;
 
@@ -26,14 +26,14 @@ typedef struct {
     qdot_record *r;
     qdot_cursor *c;
     qdot_vec(place) places;
-    size_t first; /* the first state at the present token */
+    size_t first; /* index of the first of the positions in the usage that are possible at the present token */
 } matcher;
 
 /* --- positions in the usage ---------------------------------------------------------- */
 
-/* Add everything that may come at the node to the current positions. */
+/* Add all that may come at the node of the usage automaton to the current positions. */
 static qdot_status
-match_add_place(matcher *m, int node, uint32_t from, uint64_t taken)
+add_position(matcher *m, int node, uint32_t from, uint64_t taken)
 {
     const qdot_usage_node *at = &m->u->node[node];
 
@@ -45,32 +45,32 @@ match_add_place(matcher *m, int node, uint32_t from, uint64_t taken)
         return QDOT_OK;
     taken &= ~at->forgets;
     if ((taken & at->enters) == 0)
-        QDOT_TRY(match_add_place(m, at->next, from, taken | at->enters));
-    return at->other >= 0 ? match_add_place(m, at->other, from, taken) : QDOT_OK;
+        QDOT_TRY(add_position(m, at->next, from, taken | at->enters));
+    return at->other >= 0 ? add_position(m, at->other, from, taken) : QDOT_OK;
 }
 
 static const qdot_usage_node *
-place_node(const matcher *m, size_t i)
+node_at_position(const matcher *m, size_t i)
 {
     return &m->u->node[m->places.at[i].node];
 }
 
 static qdot_hole_class
-node_class(const qdot_usage_node *node)
+placeholder_class(const qdot_usage_node *node)
 {
     return qdot_hole_at(node->hole)->class;
 }
 
 /* --- choosing the hole at a token ---------------------------------------------------- */
 
-/* Choose the hole to be read at the token, preferring a name to an expression; NULL: none is possible here. */
+/* Choose the kind of placeholder to be read at the token, preferring a name to an expression; NULL: none is possible. */
 static const qdot_usage_node *
-hole_choose(const matcher *m)
+choose_placeholder(const matcher *m)
 {
     const qdot_usage_node *found = NULL, *suits = NULL;
 
     for (size_t i = m->first; i < m->places.n; i++) {
-        const qdot_usage_node *node = place_node(m, i);
+        const qdot_usage_node *node = node_at_position(m, i);
 
         if (node->kind != QDOT_USAGE_HOLE)
             continue;
@@ -83,28 +83,28 @@ hole_choose(const matcher *m)
 
 /* --- matching a statement ------------------------------------------------------------ */
 
-/* Record the part, and move the positions over it: those whose node is the token, or a hole of its class. */
+/* Record a part of the statement, and advance all positions in the usage that it fits: its word, or its placeholder. */
 static qdot_status
-go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
+advance_positions(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
 {
     const size_t first = m->first, n = m->places.n;
 
     QDOT_TRY(qdot_vec_push(&m->r->parts, *part));
     m->first = n;
     for (size_t i = first; i < n; i++) {
-        const qdot_usage_node *node = place_node(m, i);
+        const qdot_usage_node *node = node_at_position(m, i);
 
-        if (hole != NULL ? node->kind != QDOT_USAGE_HOLE || node_class(node) != node_class(hole)
+        if (hole != NULL ? node->kind != QDOT_USAGE_HOLE || placeholder_class(node) != placeholder_class(hole)
                          : !qdot_usage_node_is(node, part->from))
             continue;
-        m->r->parts.at[m->r->parts.n - 1].node = node; /* one of the possible nodes; the end of the statement decides */
-        QDOT_TRY(match_add_place(m, node->next, (uint32_t)i, m->places.at[i].taken));
+        m->r->parts.at[m->r->parts.n - 1].node = node; /* one of the nodes that fit; which one is decided at the end */
+        QDOT_TRY(add_position(m, node->next, (uint32_t)i, m->places.at[i].taken));
     }
     return QDOT_OK;
 }
 
 static bool
-stands_in_usage(const matcher *m, const qdot_token *t)
+is_word_in_usage(const matcher *m, const qdot_token *t)
 {
     for (int i = 0; i < m->u->n; i++)
         if (m->u->node[i].kind == QDOT_USAGE_WORD && qdot_token_is_word(t, m->u->node[i].text))
@@ -116,20 +116,20 @@ stands_in_usage(const matcher *m, const qdot_token *t)
 static bool
 is_usage_word(const matcher *m, const qdot_token *t)
 {
-    return stands_in_usage(m, t) && !qdot_cursor_knows(m->c->session, t->text);
+    return is_word_in_usage(m, t) && !qdot_cursor_knows(m->c->session, t->text);
 }
 
 /* Whether the token may be a factor whose `*` is missing: a value precedes it, and neither is a
  * word of the usage. */
 static bool
-may_be_factor(const matcher *m)
+may_be_unmarked_factor(const matcher *m)
 {
     const qdot_filled *last = m->r->parts.n > 0 ? &m->r->parts.at[m->r->parts.n - 1] : NULL;
 
     if (last == NULL || last->node == NULL || last->node->kind != QDOT_USAGE_HOLE ||
         is_usage_word(m, m->c->at) || (last->to == last->from + 1 && is_usage_word(m, last->from)))
         return false;
-    switch (node_class(last->node)) {
+    switch (placeholder_class(last->node)) {
     case QDOT_HOLE_SIDE:
     case QDOT_HOLE_VALUE:
     case QDOT_HOLE_VALUES:
@@ -145,15 +145,15 @@ may_be_factor(const matcher *m)
 
 /* Whether the last error reports a product without `*`. */
 static bool
-tells_product(void)
+reports_missing_times(void)
 {
     return strcmp(qdot_last_error()->message, "a `*` is missing") == 0 ||
            strncmp(qdot_last_error()->hint, "a product ", 10) == 0;
 }
 
-/* Fail at the token: nothing in the usage fits it. */
+/* Fail at the token because nothing in the usage of the statement fits it. */
 static qdot_status
-fail_at_token(matcher *m)
+report_unfitting_token(matcher *m)
 {
     qdot_expected list = {.usage = m->u, .token = m->c->at};
     char what[QDOT_EXPECTED_TEXT];
@@ -169,7 +169,7 @@ fail_at_token(matcher *m)
         return qdot_last_error()->status;
     hint = qdot_expected_words(&list, what);
     status = qdot_cursor_expected(m->c, what);
-    if (tells_product() && (!may_be_factor(m) || (hint != NULL && !qdot_cursor_is_call(m->c, m->c->at)))) {
+    if (reports_missing_times() && (!may_be_unmarked_factor(m) || (hint != NULL && !qdot_cursor_is_call(m->c, m->c->at)))) {
         m->c->error_at = m->c->at->start;
         status = qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.100s`", what, m->c->at->text);
     }
@@ -179,7 +179,7 @@ fail_at_token(matcher *m)
 /* Whether the word has an operand, where a value of that name may stand too: `conserved E` and
  * `conserved[2]`, `help search energy` and `help search`. */
 static bool
-has_operand(const matcher *m, const qdot_token *word)
+is_word_with_operand(const matcher *m, const qdot_token *word)
 {
     const qdot_token *t = word + 1;
 
@@ -191,43 +191,43 @@ has_operand(const matcher *m, const qdot_token *word)
 /* Whether the word is a value, where one may stand: a function before its argument, as in `plot log(x)`, or a name of
  * the session before an operator, a word of the usage or the end, as in `plot range vs range = 0..1`. */
 static bool
-token_is_value(const matcher *m, const qdot_token *word)
+is_word_used_as_value(const matcher *m, const qdot_token *word)
 {
     const qdot_token *next = word + 1;
 
     if (next->glued && qdot_token_is(next, "("))
         return qdot_cursor_is_call(m->c, word);
     return qdot_names_find(m->c->session->names, word->text) != NULL &&
-           (next->kind == QDOT_TOKEN_OPERATOR || next->kind == QDOT_TOKEN_END || stands_in_usage(m, next));
+           (next->kind == QDOT_TOKEN_OPERATOR || next->kind == QDOT_TOKEN_END || is_word_in_usage(m, next));
 }
 
 /* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a
  * spring may be called `rest`. */
 static bool
-token_fits(const matcher *m)
+is_token_expected(const matcher *m)
 {
     bool fits = false, named = false, value = false;
 
     for (size_t i = m->first; i < m->places.n; i++) {
-        const qdot_usage_node *node = place_node(m, i);
+        const qdot_usage_node *node = node_at_position(m, i);
 
-        if (node->kind == QDOT_USAGE_HOLE && node_class(node) == QDOT_HOLE_NAME && qdot_hole_suits(m->u, m->r, node))
+        if (node->kind == QDOT_USAGE_HOLE && placeholder_class(node) == QDOT_HOLE_NAME && qdot_hole_suits(m->u, m->r, node))
             return false;
-        named = named || (node->kind == QDOT_USAGE_HOLE && (node_class(node) == QDOT_HOLE_COMPARISON ||
-                                                            node_class(node) == QDOT_HOLE_TOPIC));
+        named = named || (node->kind == QDOT_USAGE_HOLE && (placeholder_class(node) == QDOT_HOLE_COMPARISON ||
+                                                            placeholder_class(node) == QDOT_HOLE_TOPIC));
         value = value || (node->kind == QDOT_USAGE_HOLE && qdot_hole_is_expression(node));
         fits = fits || qdot_usage_node_is(node, m->c->at);
     }
     if (named)
-        return fits && has_operand(m, m->c->at);
-    return fits && !(value && m->c->at->kind == QDOT_TOKEN_NAME && token_is_value(m, m->c->at));
+        return fits && is_word_with_operand(m, m->c->at);
+    return fits && !(value && m->c->at->kind == QDOT_TOKEN_NAME && is_word_used_as_value(m, m->c->at));
 }
 
 static bool
 may_end(const matcher *m)
 {
     for (size_t i = m->first; i < m->places.n; i++)
-        if (place_node(m, i)->kind == QDOT_USAGE_END)
+        if (node_at_position(m, i)->kind == QDOT_USAGE_END)
             return true;
     return false;
 }
@@ -239,7 +239,7 @@ is_at_end(const matcher *m)
 }
 
 static qdot_status
-match_token(matcher *m, bool *end)
+read_next_part(matcher *m, bool *end)
 {
     qdot_filled part = {.from = m->c->at, .first = m->r->compiled.n};
     const qdot_usage_node *hole = NULL;
@@ -247,23 +247,23 @@ match_token(matcher *m, bool *end)
     *end = is_at_end(m);
     if (*end)
         return QDOT_OK;
-    if (token_fits(m)) {
+    if (is_token_expected(m)) {
         m->c->at++;
     } else {
-        hole = hole_choose(m);
-        if (hole == NULL || (node_class(hole) == QDOT_HOLE_TOPIC && may_end(m) && !qdot_hole_suits(m->u, m->r, hole)))
-            return fail_at_token(m);
+        hole = choose_placeholder(m);
+        if (hole == NULL || (placeholder_class(hole) == QDOT_HOLE_TOPIC && may_end(m) && !qdot_hole_suits(m->u, m->r, hole)))
+            return report_unfitting_token(m);
         QDOT_TRY(qdot_hole_read(m->u, m->r, hole, &part));
     }
     part.to = m->c->at;
     if (part.primes == NULL)
         part.primes = part.to;
-    return go_on(m, &part, hole);
+    return advance_positions(m, &part, hole);
 }
 
-/* The first clause of the alternative that must be there and is not among `taken`; NULL: none is missing. */
+/* The first required clause of this form of the statement that is not among `taken`; NULL: none is missing. */
 static const qdot_usage_node *
-clause_missing(const qdot_usage *u, int alternative, uint64_t taken)
+find_missing_clause(const qdot_usage *u, int alternative, uint64_t taken)
 {
     for (int i = 0; i < u->n; i++)
         if (u->node[i].needs != 0 && (u->node[i].needs & taken) == 0 && u->node[i].alternative == alternative)
@@ -274,11 +274,11 @@ clause_missing(const qdot_usage *u, int alternative, uint64_t taken)
 /* The first name in what was read for expressions that means nothing; NULL: each is known, or its meaning depends on
  * what follows. */
 static const qdot_token *
-unknown_name(const matcher *m)
+find_unknown_name(const matcher *m)
 {
     for (size_t k = 0; k < m->r->parts.n; k++) {
         const qdot_filled *part = &m->r->parts.at[k];
-        int depth = 0; /* an index of a sum has a meaning only within its brackets */
+        int depth = 0; /* bracket depth, as an index of a sum has a meaning only within its brackets */
 
         if (part->node->kind != QDOT_USAGE_HOLE || !qdot_hole_is_expression(part->node))
             continue;
@@ -292,26 +292,26 @@ unknown_name(const matcher *m)
     return NULL;
 }
 
-/* Assign to the parts the nodes through which the end was reached. */
+/* Assign to each part of the statement the node of the usage through which its end was reached. */
 static qdot_status
-trace_back(matcher *m)
+assign_nodes_to_parts(matcher *m)
 {
     const qdot_usage_node *missing;
     const qdot_token *unknown;
     uint32_t at = (uint32_t)m->first;
     uint64_t taken;
 
-    while (place_node(m, at)->kind != QDOT_USAGE_END)
+    while (node_at_position(m, at)->kind != QDOT_USAGE_END)
         at++;
     taken = m->places.at[at].taken;
     for (size_t k = m->r->parts.n; k-- > 0;) {
         at = m->places.at[at].from;
-        m->r->parts.at[k].node = place_node(m, at);
+        m->r->parts.at[k].node = node_at_position(m, at);
     }
-    missing = clause_missing(m->u, m->r->parts.at[m->r->parts.n - 1].node->alternative, taken);
+    missing = find_missing_clause(m->u, m->r->parts.at[m->r->parts.n - 1].node->alternative, taken);
     if (missing == NULL)
         return QDOT_OK;
-    unknown = unknown_name(m); /* an unknown name: the hint at a missing clause would not help */
+    unknown = find_unknown_name(m); /* an unknown name explains the error better than a missing clause */
     if (unknown != NULL) {
         m->c->error_at = unknown->start;
         return qdot_hints_unknown(m->c, unknown, NULL);
@@ -325,14 +325,14 @@ trace_back(matcher *m)
 
 /* Read tokens up to the end of the statement. */
 static qdot_status
-match_all(matcher *m, qdot_status status)
+read_to_end(matcher *m, qdot_status status)
 {
     bool end = false;
 
     while (status == QDOT_OK && !end)
-        status = match_token(m, &end);
+        status = read_next_part(m, &end);
     if (status == QDOT_OK)
-        status = trace_back(m);
+        status = assign_nodes_to_parts(m);
     qdot_free(m->places.at);
     return status;
 }
@@ -345,7 +345,7 @@ qdot_match(const qdot_cursor *c, const qdot_statement *row, const qdot_usage *u,
 
     *record = (qdot_record){.row = row, .cursor = *c, .start = c->at + 1};
     m.c = &record->cursor;
-    return match_all(&m, match_add_place(&m, 0, 0, 0));
+    return read_to_end(&m, add_position(&m, 0, 0, 0));
 }
 
 qdot_status
@@ -363,12 +363,12 @@ qdot_match_operands(const qdot_cursor *c, const qdot_statement *row, qdot_record
         return QDOT_ENOMEM;
     m.u = record->usage;
     word.text = row->word;
-    status = match_add_place(&m, 0, 0, 0);
+    status = add_position(&m, 0, 0, 0);
     if (status == QDOT_OK)
-        status = go_on(&m, &(qdot_filled){.from = &word, .to = &word, .primes = &word}, NULL);
+        status = advance_positions(&m, &(qdot_filled){.from = &word, .to = &word, .primes = &word}, NULL);
     if (status == QDOT_OK)
         m.r->parts.at[0].from = m.r->parts.at[0].to = m.r->parts.at[0].primes = c->at;
-    return match_all(&m, status);
+    return read_to_end(&m, status);
 }
 
 qdot_status

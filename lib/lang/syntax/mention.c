@@ -1,4 +1,4 @@
-/* mention.c -- the names in tokens that no usage has read. */
+/* mention.c -- finds the names that occur in tokens, without parsing these. */
 #include "lang/syntax/mention.h"
 
 #include <stdlib.h>

@@ -1,9 +1,9 @@
-/* outline.c -- where the statements and blocks of a source begin and end. */
+/* outline.c -- finds where the statements and blocks of a source begin and end. */
 #include "lang/syntax/outline.h"
 
 #include "lang/session/names.h"
 
-enum { FEW = 5 }; /* the first tokens of a statement */
+enum { FEW = 5 }; /* the number of first tokens of a statement that are looked at */
 
 qdot_outline_kind
 qdot_outline_at(const qdot_token *first)

@@ -13,25 +13,25 @@
 
 typedef struct {
     const qdot_token *first;
-    const qdot_token *loop; /* the word `for` of its loop; NULL: none */
-    const qdot_token *end;  /* its end, behind the loop */
+    const qdot_token *loop; /* the word `for` of the statement's loop; NULL: it has none */
+    const qdot_token *end;  /* the end of the statement, after its loop */
 } qdot_outline;
 
-/* What is at a token with which a statement may begin. */
+/* What begins at a token at which a statement may begin: a statement, a block, an end. */
 typedef enum { QDOT_OUTLINE_END, QDOT_OUTLINE_BLOCK, QDOT_OUTLINE_STATEMENT } qdot_outline_kind;
 
 qdot_outline_kind qdot_outline_at(const qdot_token *first);
 /* The statement that begins at `first`. plot keeps a loop that goes with `vs NAME =` or is over a declared NAME. */
 qdot_outline qdot_outline_statement(const qdot_session *session, const qdot_token *first);
-/* The end of the statement in which the token is. */
+/* The end of the statement that contains the token. */
 const qdot_token *qdot_outline_end(const qdot_token *token);
 
-/* For each `{` of the source the index of its `}`; NULL: there are no blocks. Free it. */
+/* For each `{` of the source the index of its `}`; NULL: there are no blocks. The caller frees it. */
 QDOT_MUST_CHECK qdot_status qdot_outline_blocks(const qdot_source *source, uint32_t **close);
-/* The word `for` behind the `}` of a block; NULL: another token stands there. */
+/* The word `for` after the `}` of a block; NULL if another token stands there. */
 const qdot_token *qdot_outline_block_loop(const qdot_token *close);
 
-/* The word `to` of `to "FILE"` at the end of the statement; NULL: it does not end so. */
+/* The word `to` of `to "FILE"` at the end of the statement; NULL if the statement does not end like that. */
 const qdot_token *qdot_outline_file(const qdot_token *first);
 
 /* While a part of a statement is carried out, the word behind it, `for` or `to`, is its end; then a word again. */

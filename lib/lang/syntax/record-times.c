@@ -1,4 +1,4 @@
-/* record-times.c -- the times at which a statement reads a run. */
+/* record-times.c -- finds the times at which a statement reads a run. */
 #include "lang/syntax/record-times.h"
 
 #include <math.h>
@@ -8,8 +8,8 @@
 /* If the last argument of the call that the code makes, a time or the end of a range A..B, is farther from `start` than *t
  * it replaces *latest and *t. */
 static void
-note_time(const qdot_record *r, const qdot_compiled *program, uint32_t code, double start, qdot_expr *latest,
-          double *t)
+record_time(const qdot_record *r, const qdot_compiled *program, uint32_t code, double start, qdot_expr *latest,
+            double *t)
 {
     qdot_cursor look = r->cursor;
     qdot_expr e = QDOT_NIL;
@@ -29,7 +29,7 @@ qdot_record_farthest_time(const qdot_record *r, const qdot_token *at, qdot_expr 
     double from = 0, t;
 
     if (qdot_session_number(r->cursor.session, start, &from, NULL) != QDOT_OK)
-        from = 0; /* whoever makes the run says why */
+        from = 0; /* ignore the failure here: whoever makes the run will report it */
     t = from;
     for (size_t i = 0; i < r->compiled.n; i++) {
         const qdot_compiled *program = &r->compiled.at[i];
@@ -38,7 +38,7 @@ qdot_record_farthest_time(const qdot_record *r, const qdot_token *at, qdot_expr 
             const qdot_postfix *code = &program->code.list.at[k];
 
             if (code->last > 0 && qdot_postfix_reads_way(code))
-                note_time(r, program, k, from, &latest, &t);
+                record_time(r, program, k, from, &latest, &t);
         }
     }
     return latest;

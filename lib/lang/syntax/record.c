@@ -1,4 +1,4 @@
-/* record.c -- a parsed statement: its words and holes, and the values of the holes. */
+/* record.c -- a parsed statement: its words and placeholders ("holes"), and the values of the placeholders. */
 #include "lang/syntax/record.h"
 
 #include <string.h>
@@ -186,9 +186,9 @@ qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion, qdot_
     return QDOT_OK;
 }
 
-/* Spell name[i,j] with evaluated indices, in the arena of the source. */
+/* Write name[i,j] with evaluated indices, as a text in the arena of the source. */
 static qdot_status
-spell_name(const qdot_record *r, const char *name, size_t n, const long *index, const char **spelled)
+write_indexed_name(const qdot_record *r, const char *name, size_t n, const long *index, const char **spelled)
 {
     qdot_text text = {0};
     qdot_status status;
@@ -215,13 +215,13 @@ qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name)
         long value = 0;
 
         if (one->from < part->name || one->from >= part->primes)
-            continue; /* tokens of a bound, not of the name */
+            continue; /* these tokens belong to a bound, not to the name */
         status = qdot_compiled_integer(&r->cursor, one, &value);
         if (status == QDOT_OK)
             status = qdot_vec_push(&index, value);
     }
     if (status == QDOT_OK && index.n > 0)
-        status = spell_name(r, *name, index.n, index.at, name);
+        status = write_indexed_name(r, *name, index.n, index.at, name);
     qdot_free(index.at);
     return status;
 }
@@ -254,7 +254,7 @@ qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k, qdot_bound 
     return QDOT_OK;
 }
 
-/* Evaluate the code [0, at), which leaves n values, as a list. */
+/* Evaluate the instructions [0, at), which leave n values on the stack, as a list. */
 static qdot_status
 evaluate_as_list(qdot_record *r, const qdot_compiled *whole, size_t at, uint32_t n, qdot_expr *list)
 {
@@ -272,9 +272,9 @@ evaluate_as_list(qdot_record *r, const qdot_compiled *whole, size_t at, uint32_t
     return status;
 }
 
-/* Spell the name that the code [0, at] stands for, whose indices come before it. */
+/* Write the name for which the instructions [0, at] stand; its indices come before the name. */
 static qdot_status
-spell_code(qdot_record *r, const qdot_compiled *whole, size_t at, const char **name)
+write_name_of_code(qdot_record *r, const qdot_compiled *whole, size_t at, const char **name)
 {
     const qdot_postfix *last = &whole->code.list.at[at];
     qdot_session *session = r->cursor.session;
@@ -289,7 +289,7 @@ spell_code(qdot_record *r, const qdot_compiled *whole, size_t at, const char **n
     QDOT_TRY(evaluate_as_list(r, whole, at, last->n, &list));
     for (uint32_t i = 0; i < last->n; i++)
         QDOT_TRY(qdot_session_integer(session, qdot_expr_arg(session->pool, list, i), &index[i]));
-    return spell_name(r, *name, last->n, index, name);
+    return write_indexed_name(r, *name, last->n, index, name);
 }
 
 qdot_status
@@ -302,7 +302,7 @@ qdot_record_bare_name(qdot_record *r, const qdot_filled *part, size_t k, const c
     *name = NULL;
     return (code->op == QDOT_POSTFIX_NAME || code->op == QDOT_POSTFIX_INDEX_NAME) &&
                    code->token == whole->from && code->primes == 0
-               ? spell_code(r, whole, last, name)
+               ? write_name_of_code(r, whole, last, name)
                : QDOT_OK;
 }
 
@@ -318,7 +318,7 @@ qdot_record_label_in(qdot_record *r, const qdot_filled *part, const char *functi
         return QDOT_OK;
     for (size_t i = 0; i + 1 < whole->code.list.n; i++)
         if (whole->code.list.at[i].op == QDOT_POSTFIX_LABEL)
-            return spell_code(r, whole, i, label);
+            return write_name_of_code(r, whole, i, label);
     return QDOT_OK;
 }
 

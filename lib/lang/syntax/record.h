@@ -23,12 +23,12 @@
 
 enum { QDOT_RECORD_INDICES = 8 }; /* largest number of indices of a name */
 
-/* A word, a sign or a filled hole of the statement. */
+/* A part of a statement: a word, a sign, or a placeholder ("hole") with what was typed for it. */
 typedef struct {
     const qdot_usage_node *node;
     const qdot_token *from, *to; /* the tokens from ... to - 1 of this part */
-    size_t first, n; /* its expressions are compiled[first] ... compiled[first + n - 1] */
-    const qdot_token *name;      /* for a name: its token, as bounds may precede it */
+    size_t first, n; /* indices of its expressions: compiled[first] ... compiled[first + n - 1] */
+    const qdot_token *name;      /* for a name: its token, since bounds may stand before it */
     const qdot_token *primes;    /* the token after the name; the primes of a coordinate are [primes, to) */
 } qdot_filled;
 
@@ -36,7 +36,7 @@ typedef struct {
 typedef struct {
     const qdot_token *at;
     qdot_expr value;
-    bool upper, strict; /* the bound is an upper one; it is not included */
+    bool upper, strict; /* whether it is an upper bound; whether the bound itself is excluded */
 } qdot_bound;
 
 typedef struct qdot_record {
@@ -56,52 +56,52 @@ qdot_record qdot_record_alone(const qdot_cursor *c, const qdot_statement *row);
 
 /* --- parts of the statement ---------------------------------------------------------- */
 
-/* The first part that is this word, or this hole; NULL if there is none. before or text NULL: any. */
+/* _word: the first part that is this word; the other: this placeholder. NULL: none. before or text NULL: any. */
 const qdot_filled *qdot_record_word(const qdot_record *r, const char *word);
 const qdot_filled *qdot_record_hole(const qdot_record *r, const char *before, const char *text);
-/* The next hole of that name after `part`, as in a list; NULL if there is none. */
+/* The next placeholder of that name after `part`, as in a list; NULL if there is none. */
 const qdot_filled *qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text);
-/* Whether a part is the hole (or word) of that name in the usage. */
+/* Whether a part is the placeholder ("hole") or word of that name in the usage. */
 bool qdot_filled_is(const qdot_filled *part, const char *text);
-/* Whether the part consists of one token, this word. */
+/* Whether the part consists of the single token `word`. */
 bool qdot_filled_is_word(const qdot_filled *part, const char *word);
-/* Whether the part is a member NAME[...] of that family. */
+/* Whether the part has the form NAME[...], a member of the family with that name. */
 bool qdot_filled_is_member(const qdot_filled *part, const char *family);
-/* Whether the name is mentioned in the operands of the statement outside the part. */
+/* Whether the name occurs in the operands of the statement, other than in this part. */
 bool qdot_record_mentions_besides(const qdot_record *r, const qdot_filled *part, const char *name);
 /* Whether the part is a text in quotes. */
 bool qdot_filled_is_text(const qdot_filled *part);
-/* Whether an operator outside brackets begins with the sign. */
+/* Whether the part contains, outside of brackets, an operator that begins with the sign. */
 bool qdot_filled_holds_sign(const qdot_filled *part, char sign);
 
 /* --- evaluating parts ---------------------------------------------------------------- */
 
 QDOT_MUST_CHECK qdot_status qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value);
-/* Evaluate an answer that has a name. *over: the coordinates by which its entries are indexed, or nil. */
+/* Evaluate an expression whose answer has a name. *over: the coordinates that index its entries, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_record_named(qdot_record *r, const qdot_filled *part, qdot_expr *value,
                                               qdot_expr *over);
 QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_number(qdot_record *r, const qdot_filled *part, double *value);
 QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);
-/* Evaluate the exact ends of a range a..b. */
+/* Evaluate the two ends of a range a..b exactly. */
 QDOT_MUST_CHECK qdot_status qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from,
                                               qdot_expr *to);
-/* Evaluate component k of a tuple, a scalar. */
+/* Evaluate component k of a tuple (A, B, ...), which must be a scalar. */
 QDOT_MUST_CHECK qdot_status qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
-/* Evaluate expression k of an operand, such as one side of a comparison. */
+/* Evaluate expression k of a part of the statement, such as one side of a comparison. */
 QDOT_MUST_CHECK qdot_status qdot_record_side(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
 /* The sides of an equation; of a motion: what a loop holds moves there. `A = B` or an equation by its
  * name, else a failure behind it. */
 QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion,
                                                  qdot_expr *left, qdot_expr *right);
-/* Spell a name with its indices evaluated, in the arena of the source. */
+/* Write a name with its indices evaluated, as a text in the arena of the source. */
 QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
-/* The same, of something new: QDOT_ENAME at the part if a declaration or definition has the name. */
+/* As qdot_record_name, for a new name: QDOT_ENAME at the part if something with that name is declared or defined. */
 QDOT_MUST_CHECK qdot_status qdot_record_new_name(qdot_record *r, const qdot_filled *part, const char **name);
-/* Bound k of a name with bounds, in the order typed; *is: the name has a bound k. */
+/* Find bound k of a name with bounds, in the order typed; *is: the name has a bound k. */
 QDOT_MUST_CHECK qdot_status qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k,
                                               qdot_bound *bound, bool *is);
 /* Read the arguments of NAME(u, v); evaluate an expression in which they hide other names. Leave f
@@ -122,14 +122,14 @@ QDOT_MUST_CHECK qdot_status qdot_record_label_in(qdot_record *r, const qdot_fill
 /* Find the arguments of FUNCTION(A, B) as numbers, if the part is just such a call; *is: whether it is. */
 QDOT_MUST_CHECK qdot_status qdot_record_call_of_two(qdot_record *r, const qdot_filled *part,
                                                     const char *function, double *values, bool *is);
-/* The text of a hole in quotes. */
+/* The text in quotes that was typed for a placeholder. */
 const char *qdot_record_text(const qdot_filled *part);
 
 /* --- reporting errors ---------------------------------------------------------------- */
 
-/* Set the position of an error to the beginning of this part. */
+/* Set the position at which an error is shown to the beginning of this part of the statement. */
 void qdot_record_blame(qdot_record *r, const qdot_filled *part);
-/* Fail at the primes of a name that cannot have any; what: what should follow the name. */
+/* Fail at the primes of a name that cannot have any; what: a description of what should follow the name. */
 QDOT_MUST_CHECK qdot_status qdot_record_no_prime(qdot_record *r, const qdot_filled *part,
                                                  const char *what);
 /* Fail at the token `at`: "expected WHAT, found ...". */

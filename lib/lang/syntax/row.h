@@ -20,11 +20,11 @@ typedef struct {
     const char *word, *group;
     const char *usage, *summary, *example;
     const char *form; /* shown instead of `usage` in the hint at a missing clause; NULL: none */
-    bool alone; /* is also a value, which prints more if it is the whole statement */
+    bool alone; /* the word is also a value; as a whole statement it prints more */
     qdot_status (*handler)(struct qdot_record *r); /* carries the statement out; NULL: not built in this version */
 } qdot_statement;
 
-/* Define the row of a statement, at the beginning of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
+/* Define the table row of a statement, at the beginning of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
 #define QDOT_STATEMENT(word)                                                             \
     extern const qdot_statement qdot_statement_row_##word;                                   \
     const qdot_statement qdot_statement_row_##word

@@ -11,7 +11,7 @@ add_state(qdot_usage *u, int node, bool inside, uint64_t taken)
             u->state[i].taken == taken)
             return;
     if (u->states >= QDOT_USAGE_STATES)
-        return; /* too many states: fewer continuations are offered */
+        return; /* beyond this number of states some possible continuations are not offered */
     u->state[u->states++] = (qdot_usage_state){node, inside, taken};
     if (inside) {
         if (u->operand)
@@ -45,7 +45,7 @@ is_connective(const qdot_token *token)
            qdot_token_is_word(token, "not");
 }
 
-/* Whether a token belongs to the hole because it continues an operand or follows an operator. */
+/* Whether a token continues the expression in a placeholder, as after an operator or as one. */
 static bool
 continues_expression(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
@@ -63,27 +63,27 @@ continues_expression(const qdot_usage *u, const qdot_usage_node *hole, const qdo
             qdot_token_is(token - 1, "%"));
 }
 
-/* Whether the token may be the first of the hole. */
+/* Whether the token may be the first one of the expression or name in a placeholder. */
 static bool
-begins(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
+may_begin_placeholder(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
     return token->kind != QDOT_TOKEN_END && !qdot_token_is(token, ",") &&
            !qdot_token_is(token, ":") && !qdot_token_is(token, "=") &&
            (u->suits == NULL || u->suits(u->user, hole, token));
 }
 
-/* Whether an operand ends with the token, or with the bracket that it opens. */
+/* Whether an operand ends with the token, or is the contents of the bracket that it opens. */
 static bool
-operand_ends_with(const qdot_token *token)
+token_ends_operand(const qdot_token *token)
 {
     if (token->kind != QDOT_TOKEN_OPERATOR)
         return token->kind != QDOT_TOKEN_END && !is_connective(token);
     return strchr("([{)]}'%", token->text[0]) != NULL;
 }
 
-/* Whether the token is the word or sign that the state expects. */
+/* Whether the token is the word or sign that this state of the usage automaton expects. */
 static bool
-is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *token)
+is_expected_token(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *token)
 {
     const qdot_usage_node *at = &u->node[state->node];
     const bool same = (at->kind == QDOT_USAGE_WORD && token->kind == QDOT_TOKEN_NAME) ||
@@ -93,27 +93,27 @@ is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *to
 }
 
 static void
-usage_take(qdot_usage *u, const qdot_token *token)
+advance_states(qdot_usage *u, const qdot_token *token)
 {
     qdot_usage_state old[QDOT_USAGE_STATES];
     const int n = u->states;
-    const bool operand = u->operand, after = operand_ends_with(token);
-    bool word = false; /* the token is a word of the usage, and so does not begin an expression */
+    const bool operand = u->operand, after = token_ends_operand(token);
+    bool word = false; /* whether the token is a word of the usage, and so does not begin an expression */
 
     memcpy(old, u->state, sizeof *old * (size_t)n);
     u->states = 0;
     for (int i = 0; i < n; i++)
         word = word || (u->node[old[i].node].kind == QDOT_USAGE_WORD &&
-                        is_next(u, &old[i], token));
+                        is_expected_token(u, &old[i], token));
     for (int i = 0; i < n; i++) {
         const qdot_usage_node *at = &u->node[old[i].node];
 
         u->operand = operand;
         if (at->kind == QDOT_USAGE_HOLE &&
-            (old[i].inside ? continues_expression(u, at, token) : begins(u, at, token) && !word)) {
+            (old[i].inside ? continues_expression(u, at, token) : may_begin_placeholder(u, at, token) && !word)) {
             u->operand = after;
             add_state(u, old[i].node, true, old[i].taken);
-        } else if (is_next(u, &old[i], token)) {
+        } else if (is_expected_token(u, &old[i], token)) {
             u->operand = after;
             add_state(u, at->next, false, old[i].taken);
         }
@@ -127,7 +127,7 @@ qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to)
     while (from < to) {
         int depth = 0;
 
-        usage_take(u, from);
+        advance_states(u, from);
         do {
             depth += qdot_token_bracket(from);
             from++;
@@ -141,7 +141,7 @@ qdot_usage_takes(const qdot_usage *u, const char *word)
     const qdot_token token = {.kind = QDOT_TOKEN_NAME, .text = word};
 
     for (int i = 0; i < u->states; i++)
-        if (u->node[u->state[i].node].kind == QDOT_USAGE_WORD && is_next(u, &u->state[i], &token))
+        if (u->node[u->state[i].node].kind == QDOT_USAGE_WORD && is_expected_token(u, &u->state[i], &token))
             return true;
     return false;
 }

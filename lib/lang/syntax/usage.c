@@ -21,12 +21,12 @@ typedef struct {
     const char *word; /* first word of the statement */
     piece piece[PIECES];
     int n;
-    char before[QDOT_USAGE_TEXT]; /* the last word that was compiled */
+    char before[QDOT_USAGE_TEXT]; /* the word of the usage text that was compiled last */
     unsigned options;
-    int depth;          /* bracket depth at the present piece */
-    int tail, tail_end; /* range of nodes: alternatives at the end of the present piece; empty if equal */
+    int depth;          /* bracket depth at the present piece of the usage text */
+    int tail, tail_end; /* range of nodes: the alternatives at the end of the present piece; empty if the ends are equal */
     int alternative;
-    int again;          /* node after the statement's word, where `[| plot ...]` continues */
+    int again;          /* node after the statement's word, to which a repetition `[| plot ...]` returns */
     bool failed;
 } compiler;
 
@@ -42,22 +42,22 @@ add_piece(compiler *c, piece_kind kind, const char *text, size_t length)
     c->piece[c->n++].text[length] = '\0';
 }
 
-/* The end of a hole's name in the text: NAME, T0..T1, Q', F(ARGUMENTS). */
+/* The end of a placeholder's name in the usage text: NAME, T0..T1, Q', F(ARGUMENTS). */
 static const char *
-end_of_hole(const char *at)
+end_of_placeholder(const char *at)
 {
     while (isupper((unsigned char)*at) || isdigit((unsigned char)*at) || *at == '\'' ||
            *at == '_')
         at++;
     if (strncmp(at, "..", 2) == 0 && isupper((unsigned char)at[2]))
-        return end_of_hole(at + 2);
+        return end_of_placeholder(at + 2);
     if (*at == '(' && strchr(at, ')') != NULL)
         return strchr(at, ')') + 1;
     return at;
 }
 
 static const char *
-next_piece(compiler *c, const char *at, bool blank)
+add_next_piece(compiler *c, const char *at, bool blank)
 {
     const char *end = at + 1;
 
@@ -71,7 +71,7 @@ next_piece(compiler *c, const char *at, bool blank)
             end++;
         add_piece(c, WORD, at, (size_t)(end - at));
     } else if (isupper((unsigned char)*at)) {
-        end = end_of_hole(at);
+        end = end_of_placeholder(at);
         add_piece(c, HOLE, at, (size_t)(end - at));
     } else if (*at == '"' && strchr(end, '"') != NULL) {
         end = strchr(end, '"') + 1;
@@ -97,7 +97,7 @@ next_piece(compiler *c, const char *at, bool blank)
 /* --- making the automaton ------------------------------------------------------------ */
 
 static int
-emit(compiler *c, int kind, const char *text)
+append_node(compiler *c, int kind, const char *text)
 {
     qdot_usage *u = c->u;
     qdot_usage_node *node = &u->node[u->n < QDOT_USAGE_NODES ? u->n : 0];
@@ -116,9 +116,9 @@ emit(compiler *c, int kind, const char *text)
 
 static void compile(compiler *c, int from, int to);
 
-/* The index of the piece after the bracketed group that opens at i. */
+/* The index of the piece after the end of the bracketed group of the usage text that begins at piece i. */
 static int
-behind_group(const compiler *c, int i, int to)
+piece_after_group(const compiler *c, int i, int to)
 {
     int depth = 0;
 
@@ -130,59 +130,59 @@ behind_group(const compiler *c, int i, int to)
     return i;
 }
 
-/* The first piece of that kind and text in [from, to), outside groups; `to` if there is none. */
+/* The first piece of that kind and text in [from, to), outside of bracketed groups; `to` if there is none. */
 static int
-piece_find(const compiler *c, int from, int to, piece_kind kind, const char *text)
+find_piece(const compiler *c, int from, int to, piece_kind kind, const char *text)
 {
     while (from < to && (c->piece[from].kind != kind ||
                          (text != NULL && strcmp(c->piece[from].text, text) != 0)))
-        from = c->piece[from].kind == OPEN ? behind_group(c, from, to) : from + 1;
+        from = c->piece[from].kind == OPEN ? piece_after_group(c, from, to) : from + 1;
     return from < to ? from : to;
 }
 
-/* Let the jumps TO_END among the nodes [start, last] lead to the node after all compiled ones. */
+/* Let the jumps TO_END among the nodes [start, last] lead to the node after all nodes compiled so far. */
 static void
-lead_to_end(compiler *c, int start, int last)
+direct_jumps_to_end(compiler *c, int start, int last)
 {
     for (int i = start; i <= last; i++)
         if (c->u->node[i].next == TO_END)
             c->u->node[i].next = c->u->n;
 }
 
-/* Compile the alternatives in [from, to), cut at each separator. */
+/* Compile the alternatives of the usage text in the pieces [from, to), cut at each separator. */
 static void
-compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separator)
+compile_alternatives(compiler *c, int from, int to, piece_kind kind, const char *separator)
 {
     const int start = c->u->n;
-    int last = -1; /* node that jumps to the end */
+    int last = -1; /* index of the latest node that jumps to the end */
 
     for (;;) {
-        const int end = piece_find(c, from, to, kind, separator);
-        const int fork = end < to ? emit(c, QDOT_USAGE_FORK, "") : -1;
+        const int end = find_piece(c, from, to, kind, separator);
+        const int fork = end < to ? append_node(c, QDOT_USAGE_FORK, "") : -1;
 
         compile(c, from, end);
         if (end >= to)
             break;
-        last = emit(c, QDOT_USAGE_FORK, "");
+        last = append_node(c, QDOT_USAGE_FORK, "");
         c->u->node[last].next = TO_END;
         c->u->node[fork].other = c->u->n;
         from = end + 1;
     }
-    lead_to_end(c, start, last);
+    direct_jumps_to_end(c, start, last);
 }
 
-/* The most options and clauses that may come in any order. */
+/* The most options and clauses of a statement that may come in any order. */
 enum { MEMBERS = 24 };
 typedef struct {
     struct {
-        int from, to;   /* range of its pieces */
+        int from, to;   /* range of pieces of the usage text that it consists of */
         int first;      /* first of several alternatives, one of which is required; -1: an option */
     } at[MEMBERS];
     int n;
 } members;
 
 static void
-add_member(compiler *c, members *m, int from, int to, int first)
+add_option_or_clause(compiler *c, members *m, int from, int to, int first)
 {
     if (m->n >= MEMBERS) {
         c->failed = true;
@@ -193,20 +193,20 @@ add_member(compiler *c, members *m, int from, int to, int first)
     m->at[m->n++].first = first;
 }
 
-/* Collect options [a] [b] [c]; returns the index after them. */
+/* Collect the options [a] [b] [c] of a usage text, from piece i on; returns the index after them. */
 static int
-gather_options(compiler *c, int i, int to, members *m)
+collect_options(compiler *c, int i, int to, members *m)
 {
     int k;
 
     for (; i < to && c->piece[i].kind == OPEN; i = k) {
-        k = behind_group(c, i, to);
-        add_member(c, m, i + 1, k - 1, -1);
+        k = piece_after_group(c, i, to);
+        add_option_or_clause(c, m, i + 1, k - 1, -1);
     }
     return i;
 }
 
-/* Whether a clause `word HOLE` begins at i that is not an alternative of the statement. */
+/* Whether a clause `word PLACEHOLDER` begins at piece i that is not an alternative of the statement. */
 static bool
 is_clause(const compiler *c, int i, int to)
 {
@@ -217,7 +217,7 @@ is_clause(const compiler *c, int i, int to)
 /* Clauses from i on, with the options among them; i: there are less than two, or no one between an operand and options
  * that end the usage: `EXPR, ... every DT [to "FILE"]`. */
 static int
-gather_clauses(compiler *c, int i, int to, members *m)
+collect_clauses(compiler *c, int i, int to, members *m)
 {
     const bool behind = i > 0 && (c->piece[i - 1].kind == HOLE || c->piece[i - 1].kind == MORE);
     const int start = i;
@@ -225,7 +225,7 @@ gather_clauses(compiler *c, int i, int to, members *m)
 
     while (i < to) {
         if (c->piece[i].kind == OPEN) {
-            i = gather_options(c, i, to, m);
+            i = collect_options(c, i, to, m);
             continue;
         }
         if (!is_clause(c, i, to))
@@ -233,16 +233,16 @@ gather_clauses(compiler *c, int i, int to, members *m)
         for (k = i + 1; k < to && c->piece[k].kind != WORD && c->piece[k].kind != OPEN; k++)
             if (c->piece[k].kind != HOLE && strcmp(c->piece[k].text, ",") != 0)
                 return start;
-        add_member(c, m, i, k, m->n);
+        add_option_or_clause(c, m, i, k, m->n);
         clauses++;
         i = k;
     }
     return clauses + (behind && i == to && m->n > 1) < 2 ? start : i;
 }
 
-/* Whether one of the options has the form `word HOLE`, like a clause. */
+/* Whether one of the options has the form `word PLACEHOLDER`, like a clause. */
 static bool
-holds_clause(const compiler *c, const members *m)
+has_option_like_clause(const compiler *c, const members *m)
 {
     for (int k = 0; k < m->n; k++)
         if (is_clause(c, m->at[k].from, m->at[k].to))
@@ -250,45 +250,45 @@ holds_clause(const compiler *c, const members *m)
     return false;
 }
 
-/* Collect clauses that follow options, as in `[title TEXT] to "FILE"`. */
+/* Collect the clauses after options in a usage text, as in `[title TEXT] to "FILE"`. */
 static int
-gather_clauses_behind(compiler *c, int i, int to, members *m)
+collect_clauses_after_options(compiler *c, int i, int to, members *m)
 {
     while (is_clause(c, i, to)) {
         int k = i + 1;
 
         while (k < to && (c->piece[k].kind == HOLE || c->piece[k].kind == TIGHT))
             k++;
-        add_member(c, m, i, k, m->n);
+        add_option_or_clause(c, m, i, k, m->n);
         i = k;
     }
     return i;
 }
 
-/* Collect the alternatives [a|b|c) that end the clauses. */
+/* Collect the alternatives [a|b|c) of a usage text that end its clauses. */
 static void
-gather_tail(compiler *c, members *m)
+collect_final_alternatives(compiler *c, members *m)
 {
     const int first = m->n;
 
     for (int i = c->tail; i < c->tail_end;) {
-        const int end = piece_find(c, i, c->tail_end, BAR, NULL);
+        const int end = find_piece(c, i, c->tail_end, BAR, NULL);
 
-        add_member(c, m, i, end, first);
+        add_option_or_clause(c, m, i, end, first);
         i = end + 1;
     }
     c->tail = c->tail_end;
 }
 
-/* Compile members that may come in any order, each at most once. */
+/* Compile options and clauses that may come in any order, each at most once. */
 static void
-compile_members(compiler *c, const members *m)
+compile_options_and_clauses(compiler *c, const members *m)
 {
     const int start = c->u->n;
     char before[QDOT_USAGE_TEXT];
 
     for (int k = 0; k <= m->n; k++)
-        (void)emit(c, QDOT_USAGE_FORK, ""); /* the last member leads to the end */
+        (void)append_node(c, QDOT_USAGE_FORK, ""); /* the last option leads to the end */
     strcpy(before, c->before);
     for (int k = 0; k < m->n && !c->failed; k++) {
         const uint64_t own = (uint64_t)1 << (c->options++ & 63);
@@ -306,14 +306,14 @@ compile_members(compiler *c, const members *m)
         c->depth++;
         compile(c, m->at[k].from, m->at[k].to);
         c->depth--;
-        c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = start;
+        c->u->node[append_node(c, QDOT_USAGE_FORK, "")].next = start;
     }
     c->u->node[start + m->n].next = c->u->n;
     strcpy(c->before, before);
     c->failed = c->failed || c->options > 64;
 }
 
-/* Compile the list X, Y, ... of the pieces [from, comma), which end before the last comma. */
+/* Compile a list X, Y, ... of a usage text: the pieces [from, comma), which end before the last comma. */
 static void
 compile_list(compiler *c, int from, int comma)
 {
@@ -321,18 +321,18 @@ compile_list(compiler *c, int from, int comma)
     const unsigned options = c->options;
     int fork;
 
-    compile_cut(c, from, comma, SIGN, ",");
-    fork = emit(c, QDOT_USAGE_FORK, "");
-    (void)emit(c, QDOT_USAGE_SIGN, ",");
+    compile_alternatives(c, from, comma, SIGN, ",");
+    fork = append_node(c, QDOT_USAGE_FORK, "");
+    (void)append_node(c, QDOT_USAGE_SIGN, ",");
     c->u->node[fork].next = fork + 1;
     c->u->node[fork].other = fork + 3;
-    fork = emit(c, QDOT_USAGE_FORK, "");
+    fork = append_node(c, QDOT_USAGE_FORK, "");
     c->u->node[fork].next = start;
     for (unsigned k = options; k < c->options && k < 64; k++)
         c->u->node[fork].forgets |= (uint64_t)1 << k;
 }
 
-/* Compile the alternatives a|b|c at i; returns the index after them. */
+/* Compile the alternatives a|b|c of a usage text at piece i; returns the index after them. */
 static int
 compile_words(compiler *c, int i, int to)
 {
@@ -341,11 +341,11 @@ compile_words(compiler *c, int i, int to)
     while (end + 1 < to && c->piece[end].kind == TIGHT)
         end += 2;
     if (end > i + 1) {
-        compile_cut(c, i, end, TIGHT, NULL);
+        compile_alternatives(c, i, end, TIGHT, NULL);
     } else {
         const bool word = c->piece[i].kind == WORD;
 
-        (void)emit(c, word ? QDOT_USAGE_WORD : QDOT_USAGE_HOLE, c->piece[i].text);
+        (void)append_node(c, word ? QDOT_USAGE_WORD : QDOT_USAGE_HOLE, c->piece[i].text);
         if (word)
             strcpy(c->before, c->piece[i].text);
         if (word && strcmp(c->piece[i].text, c->word) == 0)
@@ -354,33 +354,33 @@ compile_words(compiler *c, int i, int to)
     return end;
 }
 
-/* Whether [i, more) contains a word that does not begin an item of a list, as `t` in `Q = A, t = B`. */
+/* Whether the pieces [i, more) contain a word that does not begin an item of a list, as `t` in `Q = A, t = B`. */
 static bool
-item_holds_word(const compiler *c, int i, int more)
+item_contains_word(const compiler *c, int i, int more)
 {
-    for (i = piece_find(c, i, more, WORD, NULL); i < more;
-         i = piece_find(c, i + 1, more, WORD, NULL))
+    for (i = find_piece(c, i, more, WORD, NULL); i < more;
+         i = find_piece(c, i + 1, more, WORD, NULL))
         if (strcmp(c->piece[i - 1].text, ",") != 0)
             return true;
     return false;
 }
 
-/* The last comma of the list that begins at i; i if there is no list. */
+/* The last comma of the list in a usage text that begins at piece i; i if there is no list. */
 static int
 end_of_list(const compiler *c, int i, int to)
 {
-    const int more = piece_find(c, i, to, MORE, NULL);
+    const int more = find_piece(c, i, to, MORE, NULL);
 
     if (more >= to || more == i || strcmp(c->piece[more - 1].text, ",") != 0 ||
-        item_holds_word(c, i, more) ||
-        piece_find(c, i, more, SIGN, ":") < piece_find(c, i, more, SIGN, ","))
+        item_contains_word(c, i, more) ||
+        find_piece(c, i, more, SIGN, ":") < find_piece(c, i, more, SIGN, ","))
         return i;
     return more - 1;
 }
 
-/* The index after the relations and sides that are read together with a hole of that class. */
+/* The index after the relations and expressions that are read together with a placeholder of that class. */
 static int
-behind_relation(const compiler *c, int i, int to, qdot_hole_class class)
+piece_after_relation(const compiler *c, int i, int to, qdot_hole_class class)
 {
     if (class == QDOT_HOLE_DOMAIN)
         for (bool option; i + 1 < to; i += option ? 4 : 2) {
@@ -394,15 +394,15 @@ behind_relation(const compiler *c, int i, int to, qdot_hole_class class)
     return i;
 }
 
-/* Whether the option at i is a hole directly after the statement's word, which comes first: `animate [RUN]`. */
+/* Whether the option at piece i is a placeholder directly after the statement's word: `animate [RUN]`. */
 static bool
-stands_first(const compiler *c, int i)
+is_placeholder_after_word(const compiler *c, int i)
 {
     return c->depth == 0 && i > 0 && c->piece[i - 1].kind == WORD && strcmp(c->piece[i - 1].text, c->word) == 0 &&
            c->piece[i + 1].kind == HOLE;
 }
 
-/* Compile pieces in sequence, without alternatives. */
+/* Compile pieces of a usage text in sequence; they contain no alternatives. */
 static void
 compile_sequence(compiler *c, int i, int to)
 {
@@ -410,20 +410,20 @@ compile_sequence(compiler *c, int i, int to)
         const piece *p = &c->piece[i];
         const int comma = p->kind == HOLE ? end_of_list(c, i, to) : i;
         members m = {.n = 0};
-        int fork, behind = p->kind == WORD && c->depth == 0 ? gather_clauses(c, i, to, &m) : i;
+        int fork, behind = p->kind == WORD && c->depth == 0 ? collect_clauses(c, i, to, &m) : i;
 
         if (behind > i) {
             if (behind == to)
-                gather_tail(c, &m);
-            compile_members(c, &m);
+                collect_final_alternatives(c, &m);
+            compile_options_and_clauses(c, &m);
             i = behind;
         } else if (comma > i) {
             compile_list(c, i, comma);
             i = comma + 2;
         } else if (p->kind == WORD && i + 1 < to && c->piece[i + 1].kind == MORE &&
-                   strcmp(p->text, c->word) == 0) { /* the statement's word again: a second form begins */
-            (void)emit(c, QDOT_USAGE_WORD, p->text);
-            fork = emit(c, QDOT_USAGE_FORK, "");
+                   strcmp(p->text, c->word) == 0) { /* the statement's word again: another form of the statement begins */
+            (void)append_node(c, QDOT_USAGE_WORD, p->text);
+            fork = append_node(c, QDOT_USAGE_FORK, "");
             c->u->node[fork].next = c->again;
             c->u->node[fork].forgets = UINT64_MAX;
             i += 2;
@@ -432,43 +432,43 @@ compile_sequence(compiler *c, int i, int to)
             i = compile_words(c, i, to);
         } else if (p->kind == OPEN) {
             m.n = 0;
-            if (stands_first(c, i)) {
-                add_member(c, &m, i + 1, behind_group(c, i, to) - 1, -1);
-                i = behind_group(c, i, to);
+            if (is_placeholder_after_word(c, i)) {
+                add_option_or_clause(c, &m, i + 1, piece_after_group(c, i, to) - 1, -1);
+                i = piece_after_group(c, i, to);
             } else {
-                i = gather_options(c, i, to, &m);
-                if (c->depth == 0 && holds_clause(c, &m))
-                    i = gather_clauses_behind(c, i, to, &m);
+                i = collect_options(c, i, to, &m);
+                if (c->depth == 0 && has_option_like_clause(c, &m))
+                    i = collect_clauses_after_options(c, i, to, &m);
             }
-            compile_members(c, &m);
+            compile_options_and_clauses(c, &m);
         } else if (p->kind == SIGN) {
-            (void)emit(c, QDOT_USAGE_SIGN, p->text);
+            (void)append_node(c, QDOT_USAGE_SIGN, p->text);
             i++;
-        } else if (p->kind == MORE) { /* any number of repetitions */
-            fork = emit(c, QDOT_USAGE_FORK, "");
-            (void)emit(c, QDOT_USAGE_HOLE, p->text);
-            c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = fork;
+        } else if (p->kind == MORE) { /* the sign `...`: any number of repetitions */
+            fork = append_node(c, QDOT_USAGE_FORK, "");
+            (void)append_node(c, QDOT_USAGE_HOLE, p->text);
+            c->u->node[append_node(c, QDOT_USAGE_FORK, "")].next = fork;
             c->u->node[fork].other = c->u->n;
             i++;
         } else if (p->kind == HOLE) {
-            const int hole = emit(c, QDOT_USAGE_HOLE, p->text);
+            const int hole = append_node(c, QDOT_USAGE_HOLE, p->text);
 
-            i = behind_relation(c, i + 1, to, qdot_hole_at(c->u->node[hole].hole)->class);
+            i = piece_after_relation(c, i + 1, to, qdot_hole_at(c->u->node[hole].hole)->class);
         } else {
             c->failed = true;
         }
     }
 }
 
-/* Compile the alternatives that begin at the last word before the first bar. */
+/* Compile the alternatives of a usage text that begin at the last word before the first bar. */
 static void
-compile_tail(compiler *c, int from, int to)
+compile_final_alternatives(compiler *c, int from, int to)
 {
-    const int bar = piece_find(c, from, to, BAR, NULL);
+    const int bar = find_piece(c, from, to, BAR, NULL);
     int last = from;
 
-    for (int i = piece_find(c, from, bar, WORD, NULL); i < bar;
-         i = piece_find(c, i + 1, bar, WORD, NULL))
+    for (int i = find_piece(c, from, bar, WORD, NULL); i < bar;
+         i = find_piece(c, i + 1, bar, WORD, NULL))
         last = i;
     if (bar == to) {
         compile_sequence(c, from, to);
@@ -479,13 +479,13 @@ compile_tail(compiler *c, int from, int to)
         last = c->tail;
         c->tail = c->tail_end = 0;
         if (last < to)
-            compile_cut(c, last, to, BAR, NULL);
+            compile_alternatives(c, last, to, BAR, NULL);
     } else {
-        compile_cut(c, from, to, BAR, NULL);
+        compile_alternatives(c, from, to, BAR, NULL);
     }
 }
 
-/* Compile alternatives: first those that begin with the statement's word. */
+/* Compile the alternatives of a usage text: first those that begin with the statement's word. */
 static void
 compile(compiler *c, int from, int to)
 {
@@ -493,22 +493,22 @@ compile(compiler *c, int from, int to)
     int last = -1;
 
     for (;;) {
-        int end = piece_find(c, from, to, BAR, NULL), fork;
+        int end = find_piece(c, from, to, BAR, NULL), fork;
 
         while (end < to && strcmp(c->piece[end + 1].text, c->word) != 0)
-            end = piece_find(c, end + 1, to, BAR, NULL);
+            end = find_piece(c, end + 1, to, BAR, NULL);
         if (end >= to)
             break;
-        fork = emit(c, QDOT_USAGE_FORK, "");
-        compile_tail(c, from, end);
-        last = emit(c, QDOT_USAGE_FORK, "");
+        fork = append_node(c, QDOT_USAGE_FORK, "");
+        compile_final_alternatives(c, from, end);
+        last = append_node(c, QDOT_USAGE_FORK, "");
         c->u->node[last].next = TO_END;
         c->u->node[fork].other = c->u->n;
         from = end + 1;
         c->alternative++;
     }
-    compile_tail(c, from, to);
-    lead_to_end(c, start, last);
+    compile_final_alternatives(c, from, to);
+    direct_jumps_to_end(c, start, last);
 }
 
 static void
@@ -516,7 +516,7 @@ cut_into_pieces(compiler *c, const char *text)
 {
     c->n = 0;
     for (const char *at = text + strspn(text, " "); *at != '\0' && !c->failed;) {
-        at = next_piece(c, at, at > text && at[-1] == ' ');
+        at = add_next_piece(c, at, at > text && at[-1] == ' ');
         at += strspn(at, " ");
     }
 }
@@ -540,6 +540,6 @@ qdot_usage_compile(qdot_usage *u, const char *word, const char *usage, const cha
     compile_text(&c, usage);
     if (more != NULL)
         compile_text(&c, more);
-    (void)emit(&c, QDOT_USAGE_END, "");
+    (void)append_node(&c, QDOT_USAGE_END, "");
     return !c.failed;
 }

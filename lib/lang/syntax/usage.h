@@ -35,7 +35,7 @@
 
 enum { QDOT_USAGE_NODES = 200, QDOT_USAGE_TEXT = 48, QDOT_USAGE_STATES = 96 };
 
-/* A node of the automaton; `before` is the word that precedes it in the usage. */
+/* A node of the automaton for a usage text; `before` is the word that precedes it in that text. */
 typedef struct {
     enum {
         QDOT_USAGE_WORD,
@@ -46,19 +46,19 @@ typedef struct {
     } kind;
     char text[QDOT_USAGE_TEXT], before[QDOT_USAGE_TEXT];
     int next, other; /* indices of the following nodes; other: second branch of a FORK, < 0: none */
-    int hole;         /* for HOLE: index of its row in holes.def */
+    int hole;         /* for HOLE (a placeholder): index of its row in holes.def */
     int alternative;  /* index of the form of the statement to which the node belongs */
     uint64_t enters; /* for FORK: bit of the option that begins at `next`, which may be given once */
-    uint64_t needs;   /* for FORK of a clause: bits of clauses, one of which is required */
-    uint64_t later; /* for FORK of an option among clauses: bits of the clauses written after it */
-    uint64_t forgets; /* for FORK of a list: bits of options that each new item may have again */
+    uint64_t needs;   /* for FORK of a required clause: bits of the clauses of which one must be given */
+    uint64_t later; /* for FORK of an option among clauses: bits of the clauses after it in the text */
+    uint64_t forgets; /* for FORK of a list: bits of the options that each item may have anew */
 } qdot_usage_node;
 
-/* A state of the automaton: before the node, or (inside) within the hole that the node is. */
+/* A state of the automaton: at a node, or (inside) within the expression of the placeholder that the node is. */
 typedef struct {
     int node;
     bool inside;
-    uint64_t taken; /* bits of the options already given */
+    uint64_t taken; /* bits of the options that have been given already */
 } qdot_usage_state;
 
 typedef struct {
@@ -68,7 +68,7 @@ typedef struct {
     qdot_usage_state state[QDOT_USAGE_STATES]; /* states that are possible after the tokens so far */
     int states;
     bool operand; /* the last token ends an operand */
-    /* whether a token may begin a hole; NULL: any token may */
+    /* whether a token may begin a placeholder ("hole"); NULL: any token may */
     bool (*suits)(const void *user, const qdot_usage_node *hole, const qdot_token *token);
     const void *user;
 } qdot_usage;
@@ -77,14 +77,14 @@ typedef struct {
  * too large, or no usage text; nothing may be asked then. */
 bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage, const char *more);
 
-/* Compile, with what may follow any statement, for reading from its first token on. answers: `to "FILE"` may follow. */
+/* Compile the usage and what may follow any statement, to be read from the first token. answers: `to "FILE"` may follow. */
 bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers);
 
 /* Advance over the tokens [from, to) of the statement, the first of which is its word. Tokens
  * inside closed brackets are skipped with the opening one. */
 void qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to);
 
-/* Whether that word of the usage may come next. */
+/* Whether that word of the usage text may come next in the statement. */
 bool qdot_usage_takes(const qdot_usage *u, const char *word);
 
 /* Whether the tokens read so far are a complete statement. */

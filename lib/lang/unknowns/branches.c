@@ -1,4 +1,4 @@
-/* branches.c -- answers with branches of solutions: rows, and in words their extent and stability. */
+/* branches.c -- answers with branches of solutions, as table rows and in words: their extent and stability. */
 #include "lang/unknowns/branches.h"
 
 #include <math.h>
@@ -13,11 +13,11 @@
 /* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
  * words. */
 static const double small = 1e-9, nothing = 1e-20, digits = 5e-7;
-/* Changes smaller than this, relative to the sizes of the coordinates, are not described. */
+/* changes smaller than this, relative to the sizes of the coordinates, are not mentioned in the text */
 static const double tiny = 1e-5;
 
 static const char *
-name_of(const qdot_branches *b, size_t i)
+name_of_quantity(const qdot_branches *b, size_t i)
 {
     return b->names[i];
 }
@@ -25,7 +25,7 @@ name_of(const qdot_branches *b, size_t i)
 /* --- tables of branches -------------------------------------------------------------------- */
 
 static qdot_status
-fill_branches(const qdot_branches *b, qdot_row_table *t)
+fill_branch_table(const qdot_branches *b, qdot_row_table *t)
 {
     const size_t n = b->found->n, k = b->n_columns;
 
@@ -52,7 +52,7 @@ fill_branches(const qdot_branches *b, qdot_row_table *t)
 }
 
 static qdot_status
-fill_marks(const qdot_branches *b, qdot_row_table *t)
+fill_bifurcation_table(const qdot_branches *b, qdot_row_table *t)
 {
     const size_t n = b->found->n;
 
@@ -86,9 +86,9 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     if (labels == NULL)
         return QDOT_ENOMEM;
     labels[0] = "branch";
-    labels[1] = name_of(b, b->found->n);
+    labels[1] = name_of_quantity(b, b->found->n);
     for (size_t q = 0; q < k; q++)
-        labels[QDOT_BRANCH_BEFORE + q] = name_of(b, b->columns[q]);
+        labels[QDOT_BRANCH_BEFORE + q] = name_of_quantity(b, b->columns[q]);
     labels[QDOT_BRANCH_BEFORE + k] = "stable";
     labels[QDOT_BRANCH_BEFORE + k + 1] = "bifurcation";
     all = qdot_row_table_new(name, n, n, labels);
@@ -97,9 +97,9 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     if (all == NULL || points == NULL)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = fill_branches(b, all);
+        status = fill_branch_table(b, all);
     if (status == QDOT_OK)
-        status = fill_marks(b, points);
+        status = fill_bifurcation_table(b, points);
     if (status != QDOT_OK) {
         qdot_row_table_release(all);
         qdot_row_table_release(points);
@@ -127,13 +127,13 @@ fill_columns(const qdot_branches *b, const double *y, size_t stride, qdot_table_
     for (size_t q = 0; q <= b->n_columns; q++) {
         const size_t k = q == 0 ? b->found->n : b->columns[q - 1];
 
-        columns[q] = (qdot_table_column){.name = name_of(b, k), .values = y + k, .stride = stride};
+        columns[q] = (qdot_table_column){.name = name_of_quantity(b, k), .values = y + k, .stride = stride};
     }
 }
 
-/* Write the points of branch i; columns [2 + b->n_columns] are work space. */
+/* Write the points of branch i as JSON; columns [2 + b->n_columns] are work space. */
 static qdot_status
-branch_json(qdot_session *session, const qdot_branches *b, size_t i, qdot_table_column *columns)
+write_branch_as_json(qdot_session *session, const qdot_branches *b, size_t i, qdot_table_column *columns)
 {
     const qdot_branch *branch = &b->found->branches.at[i];
     double *stable = qdot_calloc(branch->n + 1, sizeof *stable);
@@ -162,7 +162,7 @@ branch_json(qdot_session *session, const qdot_branches *b, size_t i, qdot_table_
 }
 
 static qdot_status
-bifurcations_json(qdot_session *session, const qdot_branches *b, qdot_table_column *columns)
+write_bifurcations_as_json(qdot_session *session, const qdot_branches *b, qdot_table_column *columns)
 {
     qdot_table t = {.name = "bifurcation"};
     qdot_status status;
@@ -185,15 +185,15 @@ bifurcations_json(qdot_session *session, const qdot_branches *b, qdot_table_colu
 }
 
 static qdot_status
-answer_json(qdot_session *session, const qdot_branches *b)
+answer_branches_as_json(qdot_session *session, const qdot_branches *b)
 {
     qdot_table_column *columns = qdot_calloc(2 + b->n_columns, sizeof *columns);
     qdot_status status = columns != NULL ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < b->found->branches.n && status == QDOT_OK; i++)
-        status = branch_json(session, b, i, columns);
+        status = write_branch_as_json(session, b, i, columns);
     if (status == QDOT_OK)
-        status = bifurcations_json(session, b, columns);
+        status = write_bifurcations_as_json(session, b, columns);
     if (status == QDOT_OK && !b->orbits) {
         const size_t stride = b->found->n + 1;
         const qdot_table t = {.name = "not followed",
@@ -211,7 +211,7 @@ answer_json(qdot_session *session, const qdot_branches *b)
 /* --- branches in words --------------------------------------------------------------------- */
 
 static void
-write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
+write_rounded_value(const qdot_branches *b, size_t i, double v, qdot_text *out)
 {
     const double size = b->found->size[i];
 
@@ -223,7 +223,7 @@ write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
 /* The value of unknown i at points k ... end of a branch that is farthest outside the range of its
  * end values. */
 static double
-farthest_outside(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
+farthest_value_outside_ends(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
 {
     const size_t m = b->found->width;
     const double first = branch->y[k * m + i], last = branch->y[end * m + i];
@@ -241,35 +241,35 @@ farthest_outside(const qdot_branches *b, const qdot_branch *branch, size_t k, si
     return at;
 }
 
-/* Write a range: `0..3.132`; `0..0.577..0` via `turn` if it lies outside both ends; one number if constant. */
+/* Write a range of values: `0..3.132`; `0..0.577..0` if it goes via `turn`; a single number if constant. */
 static void
 write_range(const qdot_branches *b, size_t i, const double *from, const double *to, double turn,
             qdot_text *out)
 {
     const bool beyond = turn < fmin(from[i], to[i]) || turn > fmax(from[i], to[i]);
 
-    write_place(b, i, from[i], out);
+    write_rounded_value(b, i, from[i], out);
     if (beyond) {
         qdot_text_add(out, "..");
-        write_place(b, i, turn, out);
+        write_rounded_value(b, i, turn, out);
     } else if (fabs(to[i] - from[i]) < small * b->found->size[i]) {
         return;
     }
     qdot_text_add(out, "..");
-    write_place(b, i, to[i], out);
+    write_rounded_value(b, i, to[i], out);
 }
 
-/* The stability of the branch between its points k and k + 1. */
+/* The stability of the solutions on the branch between its points k and k + 1. */
 static qdot_stability
-stability_between(const qdot_branch *b, size_t k)
+stability_of_segment(const qdot_branch *b, size_t k)
 {
     return b->mark[k] > 0 || b->stability[k] == QDOT_STABILITY_UNDECIDED ? b->stability[k + 1]
                                                                          : b->stability[k];
 }
 
-/* Whether the parameter p turns back at point k of a branch, a bifurcation. */
+/* Whether the parameter p turns back at point k of a branch: a fold bifurcation. */
 static bool
-turns_back_at(const qdot_branches *b, const qdot_branch *branch, size_t k)
+does_parameter_turn_at(const qdot_branches *b, const qdot_branch *branch, size_t k)
 {
     const size_t m = b->found->width;
     const double *p = branch->y + k * m + b->found->n;
@@ -280,7 +280,7 @@ turns_back_at(const qdot_branches *b, const qdot_branch *branch, size_t k)
 /* Whether the points from .. to are too close to be described; not if they lie between two
  * different bifurcations. */
 static bool
-is_short(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t to)
+is_short_part(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t to)
 {
     const bool apart = branch->mark[from] > 0 && branch->mark[to] > 0 && branch->mark[from] != branch->mark[to];
     const double *y = branch->y + from * b->found->width, *z = branch->y + to * b->found->width;
@@ -297,24 +297,24 @@ is_short(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t 
 /* Where the part that begins at k ends: another verdict, or p turns. A part too short for words has none:
  * it goes with what is next to it. *verdict of the part. */
 static size_t
-part_end(const qdot_branches *b, const qdot_branch *branch, size_t k, qdot_stability *verdict)
+end_of_part_of_same_stability(const qdot_branches *b, const qdot_branch *branch, size_t k, qdot_stability *verdict)
 {
     size_t from = k;
 
-    *verdict = stability_between(branch, k);
+    *verdict = stability_of_segment(branch, k);
     for (k++; k + 1 < branch->n; k++) {
-        const qdot_stability here = stability_between(branch, k);
+        const qdot_stability here = stability_of_segment(branch, k);
         size_t next = k + 1;
 
-        if (here == *verdict && !turns_back_at(b, branch, k))
+        if (here == *verdict && !does_parameter_turn_at(b, branch, k))
             continue;
-        if (is_short(b, branch, from, k)) {
+        if (is_short_part(b, branch, from, k)) {
             *verdict = here;
             continue;
         }
-        while (next + 1 < branch->n && stability_between(branch, next) == here && !turns_back_at(b, branch, next))
+        while (next + 1 < branch->n && stability_of_segment(branch, next) == here && !does_parameter_turn_at(b, branch, next))
             next++;
-        if (next + 1 < branch->n || !is_short(b, branch, k, next))
+        if (next + 1 < branch->n || !is_short_part(b, branch, k, next))
             break;
         k = next;
     }
@@ -322,7 +322,7 @@ part_end(const qdot_branches *b, const qdot_branch *branch, size_t k, qdot_stabi
 }
 
 static const char *
-word_of(qdot_stability verdict)
+word_for_stability(qdot_stability verdict)
 {
     static const char *const words[] = {
         [QDOT_STABLE] = "stable",
@@ -345,7 +345,7 @@ add_branch(const qdot_branches *b, size_t i, qdot_table *t)
         qdot_stability verdict;
         qdot_text cell = {0};
 
-        end = part_end(b, branch, k, &verdict);
+        end = end_of_part_of_same_stability(b, branch, k, &verdict);
         from = branch->y + k * b->found->width;
         to = branch->y + end * b->found->width;
         if (k == 0)
@@ -362,16 +362,16 @@ add_branch(const qdot_branches *b, size_t i, qdot_table *t)
         for (size_t q = 0; q < b->n_told; q++) {
             const size_t i_q = b->columns[q];
 
-            write_range(b, i_q, from, to, farthest_outside(b, branch, k, end, i_q), &cell);
+            write_range(b, i_q, from, to, farthest_value_outside_ends(b, branch, k, end, i_q), &cell);
             qdot_table_add_written(t, &cell);
         }
-        qdot_table_add_text(t, word_of(verdict));
+        qdot_table_add_text(t, word_for_stability(verdict));
     }
 }
 
 /* Whether the parameter p is constant along the branch. */
 static bool
-is_upright(const qdot_branches *b, const qdot_branch *branch)
+has_constant_parameter(const qdot_branches *b, const qdot_branch *branch)
 {
     const size_t n = b->found->n, m = b->found->width;
 
@@ -381,9 +381,9 @@ is_upright(const qdot_branches *b, const qdot_branch *branch)
     return true;
 }
 
-/* Describe ends of a branch that are not ends of the range of p. */
+/* Write why a branch ends within the range of the parameter p. */
 static void
-say_ends(const qdot_branches *b, size_t i, qdot_text *out)
+write_ends_of_branch(const qdot_branches *b, size_t i, qdot_text *out)
 {
     static const char *const words[] = {
         [QDOT_END_REST] = "shrinks to an equilibrium",
@@ -398,9 +398,9 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
     const qdot_branch *branch = &b->found->branches.at[i];
     const size_t n = b->found->n;
 
-    if (branch->n > 1 && is_upright(b, branch)) {
-        qdot_text_format(out, "branch[%zu] is vertical: at %s = ", i + 1, name_of(b, n));
-        write_place(b, n, branch->y[n], out);
+    if (branch->n > 1 && has_constant_parameter(b, branch)) {
+        qdot_text_format(out, "branch[%zu] is vertical: at %s = ", i + 1, name_of_quantity(b, n));
+        write_rounded_value(b, n, branch->y[n], out);
         qdot_text_add(out, b->orbits ? " alone all of these are orbits\n"
                                      : " alone all of these are equilibria\n");
         return;
@@ -421,18 +421,18 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
             qdot_text_add(out, "is lost: no orbit is found further on");
         else
             qdot_text_add(out, words[branch->end[side]]);
-        qdot_text_format(out, ", at %s = ", name_of(b, n));
-        write_place(b, n, y[n], out);
+        qdot_text_format(out, ", at %s = ", name_of_quantity(b, n));
+        write_rounded_value(b, n, y[n], out);
         for (size_t q = 0; q < b->n_told; q++) {
-            qdot_text_format(out, ", %s = ", name_of(b, b->columns[q]));
-            write_place(b, b->columns[q], y[b->columns[q]], out);
+            qdot_text_format(out, ", %s = ", name_of_quantity(b, b->columns[q]));
+            write_rounded_value(b, b->columns[q], y[b->columns[q]], out);
         }
         qdot_text_char(out, '\n');
     }
 }
 
 static void
-write_measured(double value, double error, double size, qdot_text *out)
+write_value_with_error(double value, double error, double size, qdot_text *out)
 {
     if (isnan(error)) {
         qdot_number_text(out, value, digits * fmax(fabs(value), 1e-3 * size));
@@ -458,12 +458,12 @@ add_bifurcation(const qdot_branches *b, size_t i, qdot_table *t)
     bool first = true;
 
     qdot_table_add_text(t, qdot_bifurcation_name(one->kind));
-    write_measured(one->y[n], one->error[n], b->found->size[n], &cell);
+    write_value_with_error(one->y[n], one->error[n], b->found->size[n], &cell);
     qdot_table_add_written(t, &cell);
     for (size_t q = 0; q < b->n_told; q++) {
         const size_t k = b->columns[q];
 
-        write_measured(one->y[k], one->error[k], b->found->size[k], &cell);
+        write_value_with_error(one->y[k], one->error[k], b->found->size[k], &cell);
         qdot_table_add_written(t, &cell);
     }
     for (size_t k = 0; k < b->found->branches.n; k++) {
@@ -479,14 +479,14 @@ add_bifurcation(const qdot_branches *b, size_t i, qdot_table *t)
     }
     if (one->frequency > 0) {
         qdot_text_add(&cell, b->orbits ? ", multipliers at the angle " : ", angular frequency ");
-        write_measured(one->frequency, one->frequency_error, 1, &cell);
+        write_value_with_error(one->frequency, one->frequency_error, 1, &cell);
     }
     qdot_table_add_written(t, &cell);
 }
 
-/* Begin a table of texts with the columns `first`, p, the described unknowns, `last`. */
+/* Begin a table of texts, with the columns `first`, p, the unknowns that are described, and `last`. */
 static qdot_status
-begin_words(const qdot_branches *b, const char *first, const char *last, qdot_table *t)
+begin_text_table(const qdot_branches *b, const char *first, const char *last, qdot_table *t)
 {
     const size_t n = b->n_told + 3;
     qdot_table_column *columns = qdot_calloc(n, sizeof *columns);
@@ -496,9 +496,9 @@ begin_words(const qdot_branches *b, const char *first, const char *last, qdot_ta
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++) {
         const char *name = i == 0       ? first
-                           : i == 1     ? name_of(b, b->found->n)
+                           : i == 1     ? name_of_quantity(b, b->found->n)
                            : i + 1 == n ? last
-                                        : name_of(b, b->columns[i - 2]);
+                                        : name_of_quantity(b, b->columns[i - 2]);
 
         columns[i] = (qdot_table_column){.name = name, .kind = QDOT_CELL_TEXT, .left = true, .gap = 2};
     }
@@ -508,10 +508,10 @@ begin_words(const qdot_branches *b, const char *first, const char *last, qdot_ta
 }
 
 static qdot_status
-tell_branches(const qdot_branches *b, qdot_text *out)
+write_branches_as_text(const qdot_branches *b, qdot_text *out)
 {
     qdot_table t = {0};
-    qdot_status status = begin_words(b, "branch", "", &t);
+    qdot_status status = begin_text_table(b, "branch", "", &t);
 
     for (size_t i = 0; i < b->found->branches.n && status == QDOT_OK; i++)
         add_branch(b, i, &t);
@@ -519,12 +519,12 @@ tell_branches(const qdot_branches *b, qdot_text *out)
         status = qdot_answer_add_table(&t, out);
     qdot_table_clear(&t);
     for (size_t i = 0; i < b->found->branches.n; i++)
-        say_ends(b, i, out);
+        write_ends_of_branch(b, i, out);
     return status;
 }
 
 static qdot_status
-tell_bifurcations(const qdot_branches *b, qdot_text *out)
+write_bifurcations_as_text(const qdot_branches *b, qdot_text *out)
 {
     qdot_table t = {0};
     qdot_status status;
@@ -534,7 +534,7 @@ tell_bifurcations(const qdot_branches *b, qdot_text *out)
         return QDOT_OK;
     }
     qdot_text_char(out, '\n');
-    status = begin_words(b, "bifurcation", "of", &t);
+    status = begin_text_table(b, "bifurcation", "of", &t);
     for (size_t i = 0; i < b->found->bifurcations.n && status == QDOT_OK; i++)
         add_bifurcation(b, i, &t);
     if (status == QDOT_OK)
@@ -544,7 +544,7 @@ tell_bifurcations(const qdot_branches *b, qdot_text *out)
 }
 
 static void
-say_degenerate(const qdot_branches *b, qdot_text *out)
+write_degenerate_points(const qdot_branches *b, qdot_text *out)
 {
     bool some = false;
 
@@ -554,9 +554,9 @@ say_degenerate(const qdot_branches *b, qdot_text *out)
         qdot_text_add(out, "other branches that begin at a degenerate point are not followed\n");
 }
 
-/* List the equilibria from which no branch was followed. */
+/* List the equilibria from which no branch of solutions was followed. */
 static void
-say_left(const qdot_branches *b, qdot_text *out)
+write_equilibria_left_out(const qdot_branches *b, qdot_text *out)
 {
     const size_t n = b->found->n;
 
@@ -566,11 +566,11 @@ say_left(const qdot_branches *b, qdot_text *out)
     for (size_t k = 0; k < b->found->left.n; k += n + 1) {
         const double *y = b->found->left.at + k;
 
-        qdot_text_format(out, "%s%s = ", k == 0 ? "" : "; ", name_of(b, n));
-        write_place(b, n, y[n], out);
+        qdot_text_format(out, "%s%s = ", k == 0 ? "" : "; ", name_of_quantity(b, n));
+        write_rounded_value(b, n, y[n], out);
         for (size_t q = 0; q < b->n_told; q++) {
-            qdot_text_format(out, ", %s = ", name_of(b, b->columns[q]));
-            write_place(b, b->columns[q], y[b->columns[q]], out);
+            qdot_text_format(out, ", %s = ", name_of_quantity(b, b->columns[q]));
+            write_rounded_value(b, b->columns[q], y[b->columns[q]], out);
         }
     }
     qdot_text_char(out, '\n');
@@ -583,11 +583,11 @@ qdot_branches_answer(qdot_session *session, const qdot_branches *b)
     qdot_status status;
 
     if (session->output->json)
-        return answer_json(session, b);
-    status = tell_branches(b, &text);
+        return answer_branches_as_json(session, b);
+    status = write_branches_as_text(b, &text);
     if (status == QDOT_OK)
-        status = tell_bifurcations(b, &text);
-    say_degenerate(b, &text);
-    say_left(b, &text);
+        status = write_bifurcations_as_text(b, &text);
+    write_degenerate_points(b, &text);
+    write_equilibria_left_out(b, &text);
     return qdot_answer_written(session, "branches", status, &text);
 }

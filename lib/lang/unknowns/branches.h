@@ -23,10 +23,10 @@ typedef struct {
     bool orbits;
 } qdot_branches;
 
-/* Columns of the table of branches before these (branch, p) and after them (stable, bifurcation). */
+/* Number of columns of a table of branches before the quantities (branch, p) and after them (stable, bifurcation). */
 enum { QDOT_BRANCH_BEFORE = 2, QDOT_BRANCH_BEHIND = 2 };
 
-/* Keep both tables: of branches under `name`, of bifurcations under `marks`. */
+/* Store two tables in the session: the branches under `name`, their bifurcations under `marks`. */
 QDOT_MUST_CHECK qdot_status qdot_branches_keep(qdot_session *session, const qdot_branches *b,
                                                const char *name, const char *marks);
 /* Print the branches that were found. */

@@ -1,4 +1,4 @@
-/* continue-orbit.c -- follows branches of periodic orbits, starting from the latest run that is one. */
+/* continue-orbit.c -- follows branches of periodic orbits as a parameter varies, starting from the latest run that is one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 enum { NAME_ROOM = 120 };
 
-/* Periods that differ by less than this, relatively, are equal. */
+/* periods whose relative difference is less than this are considered equal */
 static const double same = 1e-9;
 
 typedef struct {
@@ -27,7 +27,7 @@ typedef struct {
     qdot_expr *values; /* values of the run's parameters */
     double *z;         /* [2n] start state of the orbit */
     qdot_continuation found;
-    char (*text)[NAME_ROOM]; /* [width] names made here */
+    char (*text)[NAME_ROOM]; /* [width] names of columns that are made here */
     const char **names;
     size_t *columns;
 } job;
@@ -35,7 +35,7 @@ typedef struct {
 /* --- the orbit to start from ------------------------------------------------------------------- */
 
 static qdot_status
-orbit_read_start(job *j, qdot_run *run)
+read_start_of_orbit(job *j, qdot_run *run)
 {
     qdot_scene *s = j->session->scene;
     const size_t n = s->coordinates.n;
@@ -57,7 +57,7 @@ orbit_read_start(job *j, qdot_run *run)
 /* Read the parameter values of the family; the continued parameter stays a symbol, its value is
  * stored separately. */
 static qdot_status
-read_values(job *j, const qdot_conditions *conditions)
+read_parameter_values(job *j, const qdot_conditions *conditions)
 {
     qdot_session *session = j->session;
     const qdot_expr p = j->w->parameter;
@@ -73,7 +73,7 @@ read_values(job *j, const qdot_conditions *conditions)
 }
 
 static qdot_status
-find_first(job *j)
+find_first_orbit(job *j)
 {
     qdot_session *session = j->session;
     const qdot_expr p = j->w->parameter;
@@ -100,15 +100,15 @@ find_first(job *j)
                             .z = j->z,
                             .least = j->w->least,
                             .most = j->w->most};
-    QDOT_TRY(orbit_read_start(j, orbit->run));
-    return read_values(j, orbit->conditions);
+    QDOT_TRY(read_start_of_orbit(j, orbit->run));
+    return read_parameter_values(j, orbit->conditions);
 }
 
 /* --- rows of the branches ------------------------------------------------------------------------ */
 
-/* Whether the period differs between points of the branches. */
+/* Whether the period of the orbits differs between points of the branches. */
 static bool
-period_changes(const job *j)
+does_period_vary(const job *j)
 {
     const size_t T = 2 * j->session->scene->coordinates.n;
 
@@ -122,7 +122,7 @@ period_changes(const job *j)
 /* Choose the columns: in words the largest value of each coordinate and the period; then start and
  * |multipliers|. */
 static qdot_status
-name_columns(job *j, qdot_branches *b)
+make_column_names(job *j, qdot_branches *b)
 {
     qdot_scene *s = j->session->scene;
     const size_t n = s->coordinates.n, width = j->found.width, behind = j->found.n + 1;
@@ -135,7 +135,7 @@ name_columns(job *j, qdot_branches *b)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < width; i++)
         j->names[i] = j->text[i];
-    for (size_t i = 0; i < 2 * n; i++) /* written as text: after Ctrl-C no symbol can be made */
+    for (size_t i = 0; i < 2 * n; i++) /* names are written as text, since after Ctrl-C no symbol can be made */
         snprintf(j->text[i], NAME_ROOM, "%s%s", qdot_expr_symbol(s->pool, s->coordinates.at[i % n])->name,
                  i < n ? "" : "'");
     strcpy(j->text[2 * n], "T");
@@ -151,7 +151,7 @@ name_columns(job *j, qdot_branches *b)
         j->columns[k++] = behind + i;
     j->columns[k++] = 2 * n;
     b->n_told = k;
-    b->n_drawn = period_changes(j) ? k : k - 1;
+    b->n_drawn = does_period_vary(j) ? k : k - 1;
     for (size_t i = 0; i < 2 * n; i++)
         if (strcmp(j->text[i], j->text[j->found.n]) != 0)
             j->columns[k++] = i;
@@ -165,7 +165,7 @@ name_columns(job *j, qdot_branches *b)
 
 /* After Ctrl-C: clear the interruption, so that the results so far can be printed. */
 static qdot_status
-forget_interrupt(qdot_session *session)
+clear_interruption(qdot_session *session)
 {
     qdot_interrupt_clear();
     return qdot_pool_check(session->pool) == QDOT_ENOMEM ? QDOT_ENOMEM : QDOT_OK;
@@ -176,14 +176,14 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
 {
     job j = {.session = session, .w = w};
     qdot_branches b = {.found = &j.found, .orbits = true};
-    qdot_status status = find_first(&j);
+    qdot_status status = find_first_orbit(&j);
 
     if (status == QDOT_OK)
         status = qdot_orbit_continuation_find(&j.of, &j.found);
     if (status == QDOT_OK && j.found.interrupted)
-        status = forget_interrupt(session);
+        status = clear_interruption(session);
     if (status == QDOT_OK && j.found.width > 0)
-        status = name_columns(&j, &b);
+        status = make_column_names(&j, &b);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session, "the orbit is that of %s", j.run);
     if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.conserved)

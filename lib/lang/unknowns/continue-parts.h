@@ -20,9 +20,9 @@ typedef struct {
     char *own;
 } qdot_continue_wish;
 
-/* Follow the latest run that is a periodic orbit. */
+/* Follow a branch of periodic orbits from the latest run that is one. */
 QDOT_MUST_CHECK qdot_status qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w);
-/* Keep and print what was found, even if it is incomplete. */
+/* Store and print the branches that were found, even if they are incomplete. */
 QDOT_MUST_CHECK qdot_status qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w,
                                                    const qdot_branches *b, qdot_status status);
 

@@ -1,4 +1,4 @@
-/* continue.c -- the statement `continue`: reads its operands; branches of equilibria. */
+/* continue.c -- the statement `continue`: reads its operands, and follows branches of equilibria. */
 #include <math.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@
 #include "lang/unknowns/continue-parts.h"
 #include "sim/branches/rest-continuation.h"
 
-static qdot_status continue_follow(qdot_record *r);
+static qdot_status carry_out_continue(qdot_record *r);
 
 QDOT_STATEMENT(continue) = {
     .word = "continue",
@@ -29,14 +29,14 @@ QDOT_STATEMENT(continue) = {
                "`energy` or a number of the start; `plot branches` draws them, `table branches`, "
                "`save branches to`, `table bifurcations` give the numbers",
     .example = "continue equilibria in Omega = 0..10",
-    .handler = continue_follow,
+    .handler = carry_out_continue,
 };
 
 /* --- reading the operands --------------------------------------------------------------- */
 
-/* Find the parameter; for orbits also `energy` or a start value x, x'. */
+/* Find the parameter to be varied; for periodic orbits this may also be `energy` or a start value x, x'. */
 static qdot_status
-parameter_find(qdot_record *r, qdot_continue_wish *w)
+find_varied_parameter(qdot_record *r, qdot_continue_wish *w)
 {
     const qdot_filled *part = qdot_record_hole(r, "in", "NAME");
 
@@ -48,7 +48,7 @@ parameter_find(qdot_record *r, qdot_continue_wish *w)
     return qdot_set_find_symbol(r, part, &w->parameter);
 }
 
-/* Check that the range lies within the parameter's domain; it may reach the ends of that. */
+/* Check that the range A..B lies within the parameter's domain; it may reach the ends of that domain. */
 static qdot_status
 check_range(qdot_cursor *c, const qdot_continue_wish *w)
 {
@@ -75,7 +75,7 @@ check_range(qdot_cursor *c, const qdot_continue_wish *w)
 }
 
 static qdot_status
-continue_find_range(qdot_record *r, qdot_continue_wish *w)
+read_parameter_range(qdot_record *r, qdot_continue_wish *w)
 {
     const qdot_filled *part = qdot_record_hole(r, "in", "A..B");
     qdot_expr ends[2];
@@ -92,7 +92,7 @@ continue_find_range(qdot_record *r, qdot_continue_wish *w)
 }
 
 static qdot_status
-continue_find_name(qdot_record *r, qdot_continue_wish *w)
+read_table_name(qdot_record *r, qdot_continue_wish *w)
 {
     const qdot_filled *part = qdot_record_hole(r, "as", "NAME");
 
@@ -114,18 +114,18 @@ continue_find_name(qdot_record *r, qdot_continue_wish *w)
 }
 
 static qdot_status
-continue_find_all(qdot_record *r, qdot_continue_wish *w)
+read_continue_operands(qdot_record *r, qdot_continue_wish *w)
 {
     w->orbit = qdot_record_word(r, "orbit") != NULL;
-    QDOT_TRY(parameter_find(r, w));
-    QDOT_TRY(continue_find_range(r, w));
-    return continue_find_name(r, w);
+    QDOT_TRY(find_varied_parameter(r, w));
+    QDOT_TRY(read_parameter_range(r, w));
+    return read_table_name(r, w);
 }
 
 /* --- following branches of equilibria -------------------------------------------------------- */
 
 static qdot_expr
-bind(void *session, qdot_expr e)
+insert_session_values(void *session, qdot_expr e)
 {
     return qdot_session_bind(session, e);
 }
@@ -152,7 +152,7 @@ qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const
 /* Notice of equilibria at a corner of the potential: `equilibria` lists them, but no curve can be
  * followed from them. */
 static qdot_status
-tell_corners(qdot_session *session, qdot_equilibrium_curve *curve)
+give_notice_of_corners(qdot_session *session, qdot_equilibrium_curve *curve)
 {
     qdot_expr u;
 
@@ -172,7 +172,7 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
     const char **names = NULL;
     size_t *columns = NULL;
     qdot_status status =
-        qdot_equilibrium_curve_begin(&curve, session->scene, w->parameter, bind, session);
+        qdot_equilibrium_curve_begin(&curve, session->scene, w->parameter, insert_session_values, session);
 
     if (status == QDOT_OK) {
         names = qdot_calloc(curve.n + 1, sizeof *names);
@@ -195,7 +195,7 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
         status = qdot_continue_conclude(session, w, &b, status);
     }
     if (status == QDOT_OK && found.corners)
-        status = tell_corners(session, &curve);
+        status = give_notice_of_corners(session, &curve);
     for (uint32_t i = 0; found.undefined != QDOT_NIL && i < qdot_expr_count(session->pool, found.undefined) && status == QDOT_OK; i++)
         status = qdot_answer_notice_of(session, "where %s = 0 the energy or a force has no value",
                                        qdot_expr_arg(session->pool, found.undefined, i));
@@ -215,7 +215,7 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
 
 /* Set the parameter to its own symbol, so that values depending on it vary with it. */
 static void
-free_parameter(qdot_session *session, qdot_expr parameter)
+let_parameter_vary(qdot_session *session, qdot_expr parameter)
 {
     for (size_t i = 0; i < session->values->set_symbols.n; i++)
         if (session->values->set_symbols.at[i] == parameter)
@@ -223,12 +223,12 @@ free_parameter(qdot_session *session, qdot_expr parameter)
 }
 
 static qdot_status
-continue_follow(qdot_record *r)
+carry_out_continue(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_trial trial;
     qdot_continue_wish w = {0};
-    qdot_status status = continue_find_all(r, &w);
+    qdot_status status = read_continue_operands(r, &w);
 
     if (status == QDOT_OK) {
         r->cursor.error_at = w.place->start;
@@ -245,7 +245,7 @@ continue_follow(qdot_record *r)
         if (w.orbit) {
             status = qdot_continue_orbit(session, &w);
         } else {
-            free_parameter(session, w.parameter);
+            let_parameter_vary(session, w.parameter);
             status = follow_equilibria(session, &w);
         }
         qdot_trial_end(&trial);

@@ -1,4 +1,4 @@
-/* find-orbit.c -- improves the guess of a periodic orbit by multiple shooting. */
+/* find-orbit.c -- improves the guess of a periodic orbit by multiple shooting, for the statement `find`. */
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/symbol.h"
@@ -15,14 +15,14 @@ typedef struct {
     qdot_expr *unknowns, *at; /* [k] symbols of the unknowns; their guessed values */
     const char **names;       /* [k] names of the unknowns */
     qdot_expr *values, *start; /* [n_values] parameter values, [2n] start, in terms of the unknowns */
-    bool *named;              /* [2n] the start prescribes this value */
+    bool *named;              /* [2n] whether the `start` statement gives this value */
     qdot_request order;       /* request of the run at the guess */
     qdot_run_request free;    /* the same request with the unknowns as symbols */
     qdot_expr period;
 } guess;
 
 static qdot_status
-guess_begin(guess *x)
+begin_guess(guess *x)
 {
     qdot_pool *pool = x->f->c->session->pool;
 
@@ -41,7 +41,7 @@ guess_begin(guess *x)
     return qdot_pool_check(pool);
 }
 
-/* Make the request of a run, with start and period as functions of the unknowns; guesses are set. */
+/* Make the request of a run whose start and period are functions of the unknowns; the guesses are set before. */
 static qdot_status
 make_request(guess *x)
 {
@@ -58,7 +58,7 @@ make_request(guess *x)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_free_request(session, x->k, x->unknowns, &x->order.request, x->values, x->start, x->named,
                                &x->free));
-    for (size_t i = 0; i < x->k; i++) /* unknowns of the statement and parameters stand for themselves in the period */
+    for (size_t i = 0; i < x->k; i++) /* in the period, each unknown and parameter stands for itself */
         if (!qdot_expr_is_class(session->pool, x->unknowns[i], QDOT_COORD))
             QDOT_TRY(qdot_session_put(session, x->unknowns[i], x->unknowns[i]));
     x->period = qdot_session_bind(session, qdot_sub(session->pool, to, from));
@@ -66,7 +66,7 @@ make_request(guess *x)
 }
 
 static qdot_status
-shoot(guess *x, qdot_shooting_result *r)
+carry_out_shooting(guess *x, qdot_shooting_result *r)
 {
     const qdot_find *f = x->f;
     const qdot_shooting_of of = {.scene = f->c->session->scene,
@@ -94,14 +94,14 @@ qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r)
     if (f->conditions.n > 1 || session->scene->constraints.n > 0)
         return QDOT_OK;
     QDOT_TRY(qdot_trial_begin(&trial, session));
-    status = guess_begin(&x);
+    status = begin_guess(&x);
     if (status == QDOT_OK)
         status = qdot_slope_names_put(session, x.k, f->unknowns.at, x.at);
     if (status == QDOT_OK)
         status = make_request(&x);
     qdot_trial_end(&trial);
     if (status == QDOT_OK)
-        status = shoot(&x, r);
+        status = carry_out_shooting(&x, r);
     qdot_request_free(&x.order);
     qdot_free(x.unknowns);
     qdot_free(x.names);

@@ -13,7 +13,7 @@
 
 typedef struct {
     const qdot_token *from;
-    const qdot_compiled *side[2]; /* the two sides, owned by the record; for a return: the time, twice */
+    const qdot_compiled *side[2]; /* both sides, owned by the record; for a return: the time, twice */
     bool returns;
 } qdot_find_condition;
 
@@ -24,7 +24,7 @@ typedef struct {
     qdot_vec(double) guess, low, high; /* guessed values and bounds of the unknowns; infinite bounds with a guess only */
     size_t pushed; /* number of unknowns not declared elsewhere, whose names are bound temporarily */
     qdot_vec(qdot_find_condition) conditions;
-    bool returns;             /* some condition is a return to the start */
+    bool returns;             /* some condition is that the motion returns to its start */
     const qdot_token *run_at; /* the word `run`; NULL: not given */
     qdot_run_options run;     /* options of the run, or of the latest run */
     const qdot_run_report
@@ -35,7 +35,7 @@ typedef struct {
 /* Search for a solution, and print it. */
 QDOT_MUST_CHECK qdot_status qdot_find_carry_out(qdot_find *f);
 
-/* The number of conditions' residuals that must vanish. */
+/* The number of residuals that must vanish for the conditions to hold. */
 size_t qdot_find_count(const qdot_find *f);
 /* The limits of the run for unknowns that are in force; they may hold unknowns. QDOT_EINVAL: nothing says how
  * long it is. */
@@ -45,7 +45,7 @@ QDOT_MUST_CHECK qdot_status qdot_find_limits(const qdot_find *f, qdot_expr *from
  * (sim/study/shooting.h); as it was where these do not, where it does not lead to one, or where more than a return
  * is asked for. */
 QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r);
-/* Write the residuals [qdot_find_count], which must be 0, as expressions of the latest run. */
+/* Set the residuals [qdot_find_count] of the conditions, which must be 0, as expressions of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
                                                 qdot_expr *e);
 
@@ -55,12 +55,12 @@ QDOT_MUST_CHECK qdot_status qdot_find_sizes(const qdot_find *f, qdot_run *run, c
 
 /* The cost of the runs made by a search so far. Starts as {0}. */
 typedef struct {
-    double first, length, spent; /* work and duration of the first run; work of all runs */
+    double first, length, spent; /* work and duration of the first run; work of all runs so far */
 } qdot_find_budget;
 
-/* QDOT_EFAILED if a further run of that length would exceed the budget. */
+/* QDOT_EFAILED if a further run of that length would exceed the budget of the search. */
 QDOT_MUST_CHECK qdot_status qdot_find_spend(qdot_find_budget *b, double length);
-/* Record the cost of `runs` runs like this one. */
+/* Add the cost of `runs` runs, each like this one, to the cost of the search. */
 void qdot_find_spent(qdot_find_budget *b, qdot_run *run, size_t runs);
 
 #endif

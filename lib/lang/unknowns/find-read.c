@@ -15,7 +15,7 @@
 #include "lang/syntax/record-times.h"
 #include "sim/model/simple-zeros.h"
 
-static qdot_status find_make(qdot_record *r);
+static qdot_status carry_out_find(qdot_record *r);
 
 QDOT_STATEMENT(find) = {
     .word = "find",
@@ -26,11 +26,11 @@ QDOT_STATEMENT(find) = {
                "Newton's method with exact slopes, and bisection between bounds; `returns after T`: a periodic orbit. They "
                "hold from then on, and the run is the latest",
     .example = "find theta' = 0..5 such that value(theta, 3) = 0",
-    .handler = find_make,
+    .handler = carry_out_find,
 };
 
 static void
-find_free(qdot_find *f)
+free_find(qdot_find *f)
 {
     for (size_t i = 0; i < f->unknowns.n; i++)
         qdot_free(f->unknowns.at[i].label);
@@ -46,9 +46,9 @@ find_free(qdot_find *f)
 
 /* --- reading the unknowns ---------------------------------------------------------------- */
 
-/* Whether is(of, name) holds for one of the names in the expression. */
+/* Whether is(of, name) is true for one of the names that occur in the expression. */
 static bool
-names_any(const qdot_compiled *program, bool (*is)(const void *of, const char *name), const void *of)
+any_name_satisfies(const qdot_compiled *program, bool (*is)(const void *of, const char *name), const void *of)
 {
     uint32_t k = 0;
 
@@ -59,32 +59,32 @@ names_any(const qdot_compiled *program, bool (*is)(const void *of, const char *n
 }
 
 static bool
-is_name(const void *of, const char *name)
+is_same_name(const void *of, const char *name)
 {
     return strcmp(of, name) == 0;
 }
 
 static bool
-is_event(const void *scene, const char *name)
+is_event_name(const void *scene, const char *name)
 {
     return qdot_scene_find_event(scene, name) != NULL;
 }
 
-/* Whether the name occurs among the conditions after `such that`. */
+/* Whether the name occurs among the conditions that follow the words `such that`. */
 static bool
-such_names(const qdot_record *r, const char *name)
+conditions_use_name(const qdot_record *r, const char *name)
 {
     const qdot_token *such = qdot_record_word(r, "such")->from;
 
     for (size_t i = 0; i < r->compiled.n; i++)
-        if (r->compiled.at[i].from > such && names_any(&r->compiled.at[i], is_name, name))
+        if (r->compiled.at[i].from > such && any_name_satisfies(&r->compiled.at[i], is_same_name, name))
             return true;
     return false;
 }
 
-/* Bind an undeclared name that the conditions use as an unknown to a new symbol. */
+/* If the conditions use an undeclared name as an unknown, bind the name to a new symbol. */
 static qdot_status
-own_find(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_name *x)
+bind_undeclared_unknown(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_name *x)
 {
     qdot_session *session = f->c->session;
 
@@ -98,7 +98,7 @@ own_find(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_nam
 }
 
 static qdot_status
-symbol_find(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
+find_unknown_symbol(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
 {
     const char *name;
 
@@ -106,14 +106,14 @@ symbol_find(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
     if (qdot_set_is_momentum(f->c->session, part))
         return qdot_slope_name_find(f->record, part, x);
     QDOT_TRY(qdot_record_name(f->record, part, &name));
-    if (qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to && such_names(f->record, name))
-        return own_find(f, part, name, x);
+    if (qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to && conditions_use_name(f->record, name))
+        return bind_undeclared_unknown(f, part, name, x);
     QDOT_TRY(qdot_slope_name_find(f->record, part, x));
     return qdot_set_need_read(f->record, part, x->symbol);
 }
 
 static qdot_status
-bound_find(qdot_find *f, const qdot_compiled *program, double *value)
+evaluate_bound(qdot_find *f, const qdot_compiled *program, double *value)
 {
     qdot_expr e;
 
@@ -126,15 +126,15 @@ bound_find(qdot_find *f, const qdot_compiled *program, double *value)
 
 /* Read the bounds `A..B` of an unknown, or its `GUESS`. */
 static qdot_status
-guess_find(qdot_find *f, const qdot_filled *part)
+read_bounds_or_guess(qdot_find *f, const qdot_filled *part)
 {
     const qdot_compiled *ends = &f->record->compiled.at[part->first];
     double low, high = INFINITY, guess;
 
-    QDOT_TRY(bound_find(f, &ends[0], &low));
+    QDOT_TRY(evaluate_bound(f, &ends[0], &low));
     guess = low;
     if (part->n == 2) {
-        QDOT_TRY(bound_find(f, &ends[1], &high));
+        QDOT_TRY(evaluate_bound(f, &ends[1], &high));
         guess = low + (high - low) / 2;
         qdot_record_blame(f->record, part);
         if (!(low < high))
@@ -149,26 +149,26 @@ guess_find(qdot_find *f, const qdot_filled *part)
 }
 
 static qdot_status
-unknowns_find(qdot_find *f)
+read_unknowns(qdot_find *f)
 {
     const qdot_filled *such = qdot_record_word(f->record, "such");
 
     for (const qdot_filled *part = qdot_record_hole(f->record, "find", "NAME"); part != NULL && part < such;
          part = qdot_record_next(f->record, part, "NAME")) {
         qdot_slope_name x;
-        const qdot_status status = symbol_find(f, part, &x);
+        const qdot_status status = find_unknown_symbol(f, part, &x);
 
         QDOT_TRY(qdot_slope_names_take(f->c, &f->unknowns, &x, status));
-        QDOT_TRY(guess_find(f, part + 2));
+        QDOT_TRY(read_bounds_or_guess(f, part + 2));
     }
     return QDOT_OK;
 }
 
 /* --- reading conditions and run ------------------------------------------------------------ */
 
-/* Read the conditions of one hole, joined by `and`. */
+/* Read the conditions, joined by `and`, that were typed for one placeholder of the usage. */
 static qdot_status
-conditions_of(qdot_find *f, const qdot_filled *part)
+read_joined_conditions(qdot_find *f, const qdot_filled *part)
 {
     const qdot_compiled *sides = &f->record->compiled.at[part->first];
 
@@ -177,7 +177,7 @@ conditions_of(qdot_find *f, const qdot_filled *part)
             .from = sides[k].from, .side = {&sides[k], &sides[k]}, .returns = sides[k].is_period};
 
         if (x.returns)
-            x.from -= 2; /* `returns after` */
+            x.from -= 2; /* the two words `returns after` belong to the condition */
         else
             x.side[1] = &sides[++k];
         f->returns = f->returns || x.returns;
@@ -187,17 +187,17 @@ conditions_of(qdot_find *f, const qdot_filled *part)
 }
 
 static qdot_status
-conditions_find(qdot_find *f)
+read_conditions(qdot_find *f)
 {
     for (const qdot_filled *part = qdot_record_hole(f->record, "that", "CONDITION"); part != NULL;
          part = qdot_record_next(f->record, part, "CONDITION"))
-        QDOT_TRY(conditions_of(f, part));
+        QDOT_TRY(read_joined_conditions(f, part));
     return QDOT_OK;
 }
 
-/* Use the latest run for the conditions, if it belongs to this scene. */
+/* Use the latest run, if it belongs to this scene, for the conditions of `find`. */
 static qdot_status
-latest_find(qdot_find *f)
+find_latest_run(qdot_find *f)
 {
     qdot_session *session = f->c->session;
     qdot_named_run *named;
@@ -221,9 +221,9 @@ latest_find(qdot_find *f)
     return QDOT_OK;
 }
 
-/* Take `run T0..T1 [options]` and `as NAME`, after the conditions. */
+/* Read `run T0..T1 [options]` and `as NAME`, which stand after the conditions. */
 static qdot_status
-run_find(qdot_find *f)
+read_run_options(qdot_find *f)
 {
     const qdot_filled *run = qdot_record_word(f->record, "run"), *name = qdot_record_hole(f->record, "as", "NAME"),
                       *end = f->record->parts.at + f->record->parts.n;
@@ -231,7 +231,7 @@ run_find(qdot_find *f)
     if (name != NULL)
         QDOT_TRY(qdot_record_name(f->record, name, &f->run.name));
     if (run == NULL)
-        return latest_find(f);
+        return find_latest_run(f);
     f->run_at = run->from;
     QDOT_TRY(qdot_run_options_find(f->record, run + 1, end, &f->run));
     qdot_record_blame(f->record, run);
@@ -242,7 +242,7 @@ run_find(qdot_find *f)
 
 /* Find the period T in the condition `returns after T`. */
 static qdot_status
-period_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
+evaluate_period(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
 {
     return qdot_compiled_scalar(f->c, x->side[0], T);
 }
@@ -250,14 +250,14 @@ period_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
 /* Bound a period that is itself an unknown by a quarter of its guess from below: with T = 0
  * everything returns. */
 static qdot_status
-bound_period(qdot_find *f)
+bound_period_below(qdot_find *f)
 {
     for (size_t i = 0; i < f->conditions.n; i++) {
         qdot_expr T;
 
         if (!f->conditions.at[i].returns)
             continue;
-        QDOT_TRY(period_find(f, &f->conditions.at[i], &T));
+        QDOT_TRY(evaluate_period(f, &f->conditions.at[i], &T));
         for (size_t k = 0; k < f->unknowns.n; k++)
             if (f->unknowns.at[k].symbol == T && isinf(f->low.at[k])) {
                 const double least = f->guess.at[k] / 4;
@@ -271,11 +271,11 @@ bound_period(qdot_find *f)
 
 /* Whether a condition of the search contains the time of an event. */
 static bool
-names_event(const qdot_find *f)
+any_condition_has_event_time(const qdot_find *f)
 {
     for (size_t i = 0; i < f->conditions.n; i++)
         for (int k = 0; k < 2; k++)
-            if (names_any(f->conditions.at[i].side[k], is_event, f->c->session->scene))
+            if (any_name_satisfies(f->conditions.at[i].side[k], is_event_name, f->c->session->scene))
                 return true;
     return false;
 }
@@ -314,13 +314,13 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
 
         if (!f->conditions.at[i].returns)
             continue;
-        QDOT_TRY(period_find(f, &f->conditions.at[i], &T));
+        QDOT_TRY(evaluate_period(f, &f->conditions.at[i], &T));
         QDOT_TRY(set_to_later_time(session, *from, to, qdot_add(session->pool, *from, T)));
     }
     if (f->returns)
         return qdot_pool_check(session->pool);
     *to = qdot_record_farthest_time(f->record, f->conditions.at[0].from, *from);
-    if (f->latest != NULL && (*to == QDOT_NIL || names_event(f)))
+    if (f->latest != NULL && (*to == QDOT_NIL || any_condition_has_event_time(f)))
         QDOT_TRY(set_to_later_time(session, *from, to, f->latest_to));
     if (*to != QDOT_NIL)
         return QDOT_OK;
@@ -335,12 +335,12 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
 /* --- reading all operands ------------------------------------------------------------------ */
 
 static qdot_status
-find_all(qdot_find *f)
+read_find_operands(qdot_find *f)
 {
-    QDOT_TRY(unknowns_find(f));
-    QDOT_TRY(conditions_find(f));
-    QDOT_TRY(run_find(f));
-    return bound_period(f);
+    QDOT_TRY(read_unknowns(f));
+    QDOT_TRY(read_conditions(f));
+    QDOT_TRY(read_run_options(f));
+    return bound_period_below(f);
 }
 
 /* --- residuals of the conditions ------------------------------------------------------------- */
@@ -355,16 +355,16 @@ qdot_find_count(const qdot_find *f)
     return n;
 }
 
-/* Append the residuals of a return: q and q' after T minus their initial values. */
+/* Append the residuals for a return to the start: q and q' after the time T minus their initial values. */
 static qdot_status
-return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr from,
-                 qdot_expr *e)
+append_return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr from,
+                        qdot_expr *e)
 {
     qdot_session *session = f->c->session;
     const size_t n = session->scene->coordinates.n;
     qdot_expr T;
 
-    QDOT_TRY(period_find(f, x, &T));
+    QDOT_TRY(evaluate_period(f, x, &T));
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
@@ -379,7 +379,7 @@ return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr fro
 }
 
 static qdot_status
-equation_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *e)
+evaluate_equation(const qdot_find *f, const qdot_find_condition *x, qdot_expr *e)
 {
     qdot_session *session = f->c->session;
     qdot_expr side[2], touching;
@@ -408,11 +408,11 @@ qdot_find_residuals(const qdot_find *f, qdot_expr from, qdot_expr *e)
 
         f->c->error_at = x->from->start;
         if (x->returns) {
-            QDOT_TRY(return_residuals(f, x, from, e));
+            QDOT_TRY(append_return_residuals(f, x, from, e));
             e += 2 * f->c->session->scene->coordinates.n;
             continue;
         }
-        QDOT_TRY(equation_find(f, x, e++));
+        QDOT_TRY(evaluate_equation(f, x, e++));
     }
     return QDOT_OK;
 }
@@ -420,14 +420,14 @@ qdot_find_residuals(const qdot_find *f, qdot_expr from, qdot_expr *e)
 /* --- the statement `find` -------------------------------------------------------------------- */
 
 static qdot_status
-find_make(qdot_record *r)
+carry_out_find(qdot_record *r)
 {
     qdot_find f = {.record = r, .c = &r->cursor, .run.tol = 1e-12};
-    qdot_status status = find_all(&f);
+    qdot_status status = read_find_operands(&f);
 
     if (status == QDOT_OK)
         status = qdot_find_carry_out(&f);
     qdot_run_options_place(f.c, f.run.method_at, status);
-    find_free(&f);
+    free_find(&f);
     return status;
 }

@@ -7,7 +7,7 @@
 #include "lang/unknowns/find-parts.h"
 #include "sim/study/sizes.h"
 
-/* Find the sum of the magnitudes of the terms of e. */
+/* Find the sum of the magnitudes of the terms of the expression e. */
 static qdot_status
 size_of_terms(qdot_session *session, qdot_expr e, double *size)
 {
@@ -15,7 +15,7 @@ size_of_terms(qdot_session *session, qdot_expr e, double *size)
     const uint32_t n = sum ? qdot_expr_count(session->pool, e) : 1;
 
     *size = 0;
-    for (uint32_t k = sum ? 1 : 0; k < n; k += 2) { /* entries of a sum: constant, then pairs of coefficient and term */
+    for (uint32_t k = sum ? 1 : 0; k < n; k += 2) { /* a sum has its constant first, then pairs of term and coefficient */
         double one, factor = 1;
 
         QDOT_TRY(qdot_session_number(session, sum ? qdot_expr_arg(session->pool, e, k) : e, &one, NULL));
@@ -52,7 +52,7 @@ qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *s
     return QDOT_OK;
 }
 
-/* A search may cost this many times its first run, and at least this much (ns, ode/meter.h). */
+/* The cost allowed for a search: this many times that of its first run, but at least this many ns (ode/meter.h). */
 static const double most_runs = 1500, least_budget = 4e9;
 /* What an event or a switch costs beside the steps that the meter counts: that it is searched for, carried out and
  * kept, in the run and the second ones. Runs with bounces without number cost little else. */

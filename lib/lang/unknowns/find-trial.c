@@ -1,4 +1,5 @@
-/* find-trial.c -- the conditions of `find` at one place of its unknowns. */
+/* find-trial.c -- one trial of the statement `find`: makes the run for given values of the unknowns, and evaluates the
+ * conditions. */
 #include <math.h>
 #include <string.h>
 
@@ -10,13 +11,13 @@
 #include "lang/session/runs.h"
 #include "lang/unknowns/find-trial.h"
 
-/* A start value counts as moved by constraints if it changes by more than this, which is above rounding. */
+/* a start value counts as moved by the constraints if it changes by more than this, which exceeds rounding */
 static const double moved = 1e-9;
 
 /* --- limits of the run ----------------------------------------------------------------------- */
 
 static qdot_status
-take_values(qdot_find_trial *t, const double *u)
+set_unknowns(qdot_find_trial *t, const double *u)
 {
     qdot_pool *pool = t->f->c->session->pool;
 
@@ -33,7 +34,7 @@ qdot_find_trial_limits(qdot_find_trial *t, const double *u)
     qdot_trial trial;
     qdot_status status;
 
-    QDOT_TRY(take_values(t, u));
+    QDOT_TRY(set_unknowns(t, u));
     QDOT_TRY(qdot_trial_begin(&trial, session));
     status = qdot_slope_names_put(session, t->f->unknowns.n, t->f->unknowns.at, t->values);
     if (status == QDOT_OK)
@@ -60,9 +61,9 @@ qdot_find_trial_length(const qdot_find_trial *t, double *length)
 
 /* --- the run --------------------------------------------------------------------------------- */
 
-/* Fail if the constraints moved the unknowns: no free start value could satisfy them. */
+/* Fail if projection onto the constraints moved the unknowns, because no free start value could satisfy them. */
 static qdot_status
-check_start(const qdot_find_trial *t)
+check_start_not_moved(const qdot_find_trial *t)
 {
     const qdot_session *session = t->f->c->session;
     const double t0 = qdot_run_get_report(t->trial.run)->t0;
@@ -97,7 +98,7 @@ qdot_find_trial_open(qdot_find_trial *t, const double *u)
     QDOT_TRY(qdot_slope_names_put(f->c->session, f->unknowns.n, f->unknowns.at, t->values));
     QDOT_TRY(qdot_run_options_try(&t->trial, &f->run, t->from, t->to));
     qdot_find_spent(&t->budget, t->trial.run, 1);
-    QDOT_TRY(check_start(t));
+    QDOT_TRY(check_start_not_moved(t));
     QDOT_TRY(qdot_find_residuals(f, t->from, t->e));
     if (!t->sized)
         QDOT_TRY(qdot_find_sizes(f, t->trial.run, t->e, t->size));
@@ -123,11 +124,11 @@ qdot_find_trial_numbers(const qdot_find_trial *t, double *value, double *error)
     return QDOT_OK;
 }
 
-/* Make the run with variational equations, as far as the numbers in e [m] need it. */
+/* Make the run with its variational equations, up to the time that the numbers in e [m] need. */
 static qdot_status
-vary_run(qdot_find_trial *t, const qdot_expr *e)
+make_variational_run(qdot_find_trial *t, const qdot_expr *e)
 {
-    if (t->slopes.session != NULL) /* of an earlier call */
+    if (t->slopes.session != NULL) /* free the slopes of an earlier call */
         qdot_slopes_free(&t->slopes);
     t->slopes.session = t->trial.session;
     for (size_t k = 0; k < t->f->unknowns.n; k++) {
@@ -145,9 +146,9 @@ vary_run(qdot_find_trial *t, const qdot_expr *e)
                             t->trial.measured);
 }
 
-/* Replace the results of other runs in e by constants. */
+/* Replace results of other runs in the expression e by constants. */
 static qdot_status
-hold_others(const qdot_find_trial *t, qdot_expr *e)
+replace_other_results(const qdot_find_trial *t, qdot_expr *e)
 {
     qdot_session *session = t->trial.session;
     qdot_named_run *named;
@@ -178,10 +179,10 @@ qdot_find_trial_slopes(qdot_find_trial *t, double *slope, double *error)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < t->m && status == QDOT_OK; i++) {
         held[i] = t->e[i];
-        status = hold_others(t, &held[i]);
+        status = replace_other_results(t, &held[i]);
     }
     if (status == QDOT_OK)
-        status = vary_run(t, held);
+        status = make_variational_run(t, held);
     for (size_t i = 0; i < t->m * n && status == QDOT_OK; i++) {
         qdot_expr one;
 

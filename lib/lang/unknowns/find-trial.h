@@ -10,27 +10,27 @@
 
 typedef struct {
     const qdot_find *f;
-    size_t m;          /* residuals */
+    size_t m;          /* number of residuals */
     qdot_trial trial;
-    qdot_expr from, to; /* of its run */
-    double *at;         /* [n] the place u */
-    qdot_expr *values;  /* [n] the same, exact */
-    qdot_expr *e;       /* [m] what must vanish */
-    double *size;       /* [m] of what is subtracted in e */
-    bool sized;         /* the latter are known */
-    qdot_slopes slopes; /* by the unknowns; without a session: not made */
+    qdot_expr from, to; /* time limits of the run */
+    double *at;         /* [n] the values u of the unknowns */
+    qdot_expr *values;  /* [n] the values of the unknowns as exact numbers */
+    qdot_expr *e;       /* [m] the residuals, which must vanish, as expressions */
+    double *size;       /* [m] size of the terms whose difference each residual is */
+    bool sized;         /* whether `size` is known */
+    qdot_slopes slopes; /* derivatives of the run by the unknowns; without a session: not made */
     qdot_find_budget budget;
 } qdot_find_trial;
 
-/* Make the run for the unknowns u [n], and the residuals; nothing to do if it is made. Close the trial in any case. */
+/* Make the run for the unknowns u [n] and its residuals, unless that is done already. Close the trial in any case. */
 QDOT_MUST_CHECK qdot_status qdot_find_trial_open(qdot_find_trial *t, const double *u);
 void qdot_find_trial_close(qdot_find_trial *t);
-/* Find the limits of the run for the unknowns u; the length of the run between the limits. */
+/* _limits: find the time limits of the run for the unknowns u; _length: the time between these limits. */
 QDOT_MUST_CHECK qdot_status qdot_find_trial_limits(qdot_find_trial *t, const double *u);
 QDOT_MUST_CHECK qdot_status qdot_find_trial_length(const qdot_find_trial *t, double *length);
-/* The residuals [m] of an open trial, with their errors (NaN: unknown). */
+/* Evaluate the residuals [m] of an open trial, with their errors (NaN: unknown). */
 QDOT_MUST_CHECK qdot_status qdot_find_trial_numbers(const qdot_find_trial *t, double *value, double *error);
-/* Their slopes [m x n] by the unknowns, with their errors. Numbers of other runs are constants. */
+/* Evaluate derivatives [m x n] of the residuals by the unknowns, with errors. Results of other runs are constants. */
 QDOT_MUST_CHECK qdot_status qdot_find_trial_slopes(qdot_find_trial *t, double *slope, double *error);
 
 #endif

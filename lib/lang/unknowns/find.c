@@ -1,4 +1,4 @@
-/* find.c -- the search of `find`: values of unknowns for which conditions on a run hold. */
+/* find.c -- the search of the statement `find`: values of unknowns for which conditions on a run hold. */
 #include <math.h>
 #include <string.h>
 
@@ -17,18 +17,18 @@
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 
-/* A motion whose extent is below this fraction of the extent at the guess counts as shrunk to rest. */
+/* a motion whose extent is below this fraction of that of the guess is considered to have shrunk to rest */
 static const double shrunk = 0.1;
 
 typedef struct {
     qdot_find *f;
     qdot_find_trial now;
-    double *unit;       /* [n] units of the unknowns, if multiple shooting has improved the guess */
+    double *unit;       /* [n] units (scales) of the unknowns, if multiple shooting improved the guess */
     double *before;     /* [n] errors of the unknowns found by multiple shooting */
-    double *start;      /* [start_open.n] open start values at the solution */
+    double *start;      /* [start_open.n] start values that constraints may change, at the solution */
     bool bounded;       /* the unknown has bounds: bisection is possible without derivatives */
     size_t rank;        /* number of unknowns determined by multiple shooting */
-    double *slope_error; /* [m x n] of what must vanish */
+    double *slope_error; /* [m x n] errors of the derivatives of the residuals by the unknowns */
     double length;      /* duration of the run at the guess */
     double reach;       /* size of the guessed orbit (sim/study/floquet.h) */
     qdot_error failure; /* the error of the latest trial that failed */
@@ -48,7 +48,7 @@ is_unknown(const qdot_find *f, qdot_expr symbol)
 /* Where unknowns of the start and values that it names beside them leave constraints of positions (or velocities) too
  * few to solve for, those values follow: the ones nearest to what was named. */
 static qdot_status
-open_start(const qdot_find *f, bool velocities)
+choose_open_start_values(const qdot_find *f, bool velocities)
 {
     qdot_session *session = f->c->session;
     const qdot_scene *scene = session->scene;
@@ -69,7 +69,7 @@ open_start(const qdot_find *f, bool velocities)
         named++;
         QDOT_TRY(qdot_vec_push(&session->values->start_open, jet));
     }
-    if (!some || open - named >= held || open > held) /* enough coordinates are free, or it is unknown which */
+    if (!some || open - named >= held || open > held) /* enough coordinates are free, or it is unknown which are */
         session->values->start_open.n = before;
     return QDOT_OK;
 }
@@ -77,7 +77,7 @@ open_start(const qdot_find *f, bool velocities)
 /* The values of open start variables in the solution's run, which are kept after `find`: numbers
  * [start_open.n]. */
 static qdot_status
-find_read_start(const hunt *h, double *numbers)
+read_open_start_values(const hunt *h, double *numbers)
 {
     const qdot_session *session = h->f->c->session;
     const double t0 = qdot_run_get_report(h->now.trial.run)->t0;
@@ -89,7 +89,7 @@ find_read_start(const hunt *h, double *numbers)
 }
 
 static qdot_status
-keep_start(qdot_session *session, const double *numbers)
+store_open_start_values(qdot_session *session, const double *numbers)
 {
     for (size_t i = 0; i < session->values->start_open.n; i++) {
         qdot_text name = {0};
@@ -111,7 +111,7 @@ keep_start(qdot_session *session, const double *numbers)
 /* --- evaluating the conditions --------------------------------------------------------------- */
 
 static qdot_status
-find_evaluate(const double *u, double *f, double *error, double *slope, void *user)
+evaluate_residuals(const double *u, double *f, double *error, double *slope, void *user)
 {
     hunt *h = user;
     qdot_status status = qdot_find_trial_open(&h->now, u);
@@ -139,7 +139,7 @@ find_evaluate(const double *u, double *f, double *error, double *slope, void *us
 }
 
 static qdot_status
-find_reach(hunt *h, const double *u, double *reach, bool *rests)
+find_extent_of_motion(hunt *h, const double *u, double *reach, bool *rests)
 {
     qdot_session *session = h->f->c->session;
     qdot_named_run *named;
@@ -153,21 +153,21 @@ find_reach(hunt *h, const double *u, double *reach, bool *rests)
 /* A motion near a rest, where F is of higher order, so small that it returns within its errors. Conditions that fix all
  * unknowns are of first order. */
 static bool
-has_shrunk(const hunt *h, double reach, size_t rank)
+has_shrunk_to_rest(const hunt *h, double reach, size_t rank)
 {
     return reach <= shrunk * h->reach && rank < h->f->unknowns.n && h->rank < h->f->unknowns.n;
 }
 
-/* Whether the solution is a periodic orbit if one was wanted; a motion at rest also returns after any time. */
+/* Whether the solution is a periodic orbit, if one is wanted; a motion at rest also returns after any time. */
 static qdot_status
-is_orbit(const double *u, size_t rank, bool *is, void *user)
+is_wanted_orbit(const double *u, size_t rank, bool *is, void *user)
 {
     hunt *h = user;
     double reach;
     bool rests;
 
-    QDOT_TRY(find_reach(h, u, &reach, &rests));
-    *is = !rests && !has_shrunk(h, reach, rank);
+    QDOT_TRY(find_extent_of_motion(h, u, &reach, &rests));
+    *is = !rests && !has_shrunk_to_rest(h, reach, rank);
     return QDOT_OK;
 }
 
@@ -175,14 +175,14 @@ is_orbit(const double *u, size_t rank, bool *is, void *user)
 
 /* Append values of the unknowns, such as "theta' = 2.1, T = 3". */
 static void
-write_place(const qdot_find *f, const double *u, int digits, qdot_text *out)
+write_unknowns(const qdot_find *f, const double *u, int digits, qdot_text *out)
 {
     for (size_t i = 0; i < f->unknowns.n; i++)
         qdot_text_format(out, "%s%s = %.*g", i > 0 ? ", " : "", f->unknowns.at[i].label, digits, u[i]);
 }
 
 static double
-largest(const hunt *h, const qdot_zero_result *r)
+largest_relative_error(const hunt *h, const qdot_zero_result *r)
 {
     double most = 0;
 
@@ -192,7 +192,7 @@ largest(const hunt *h, const qdot_zero_result *r)
 }
 
 static qdot_status
-hint_at_more(const hunt *h)
+hint_at_improvement(const hunt *h)
 {
     const char *name = h->f->unknowns.at[0].label;
 
@@ -205,9 +205,9 @@ hint_at_more(const hunt *h)
                            name);
 }
 
-/* The unknown with the largest relative error. */
+/* The index of the unknown with the largest relative error. */
 static size_t
-least_known(const hunt *h, const qdot_zero_result *r)
+least_known_unknown(const hunt *h, const qdot_zero_result *r)
 {
     size_t worst = 0;
 
@@ -219,14 +219,14 @@ least_known(const hunt *h, const qdot_zero_result *r)
 
 /* Report why no solution was found, as an error at the conditions. */
 static qdot_status
-find_refuse(const hunt *h, const qdot_zero_result *r)
+report_no_solution(const hunt *h, const qdot_zero_result *r)
 {
     const char *at;
     qdot_text place = {0};
     size_t j;
 
     h->f->c->error_at = h->f->conditions.at[0].from->start;
-    write_place(h->f, r->u, r->answer == QDOT_ZERO_NONE ? 3 : 10, &place);
+    write_unknowns(h->f, r->u, r->answer == QDOT_ZERO_NONE ? 3 : 10, &place);
     at = qdot_text_str(&place);
     switch (r->answer) {
     case QDOT_ZERO_NOWHERE:
@@ -237,7 +237,7 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
         (void)qdot_fail(QDOT_EFAILED,
                         "the conditions do not change with the unknowns at %.150s, where "
                         "they are %.3g off",
-                        at, largest(h, r));
+                        at, largest_relative_error(h, r));
         break;
     case QDOT_ZERO_JUMP:
         (void)qdot_fail(QDOT_EFAILED,
@@ -247,7 +247,7 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
                         at, r->f[0]);
         break;
     case QDOT_ZERO_VAGUE:
-        j = least_known(h, r);
+        j = least_known_unknown(h, r);
         (void)qdot_fail(QDOT_EFAILED,
                         "at %.150s the conditions hold within their errors, which leave %.80s open by %.3g", at,
                         h->f->unknowns.at[j].label, r->error[j]);
@@ -256,22 +256,22 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
         (void)qdot_fail(
             QDOT_EFAILED,
             "not found after %zu steps: at %.150s the conditions are %.3g off", r->steps,
-            at, largest(h, r));
+            at, largest_relative_error(h, r));
         break;
     default:
         (void)qdot_fail(
             QDOT_EFAILED,
             "no solution found: the search ended at %.150s, where the conditions are %.3g off",
-            at, largest(h, r));
-        (void)hint_at_more(h);
+            at, largest_relative_error(h, r));
+        (void)hint_at_improvement(h);
     }
     qdot_text_clear(&place);
     return qdot_last_error()->status;
 }
 
-/* Notice that the solution is one of a family, or that others may exist between the bounds. */
+/* Give a notice that the solution is one of a family, or that others may exist between the bounds. */
 static qdot_status
-tell_others(const hunt *h, const qdot_zero_result *r)
+give_notice_of_others(const hunt *h, const qdot_zero_result *r)
 {
     if (r->rank >= h->f->unknowns.n)
         return !isfinite(h->f->low.at[0]) ? QDOT_OK
@@ -310,9 +310,9 @@ write_time(qdot_session *session, qdot_expr *time, qdot_text *out)
     return qdot_print(pool, *time, QDOT_PLAIN, out);
 }
 
-/* Write the operands with which `run` would repeat the run; its limits become what is written. */
+/* Write the operands with which the statement `run` would repeat the run; its limits become the numbers written. */
 static qdot_status
-write_run(const qdot_find *f, qdot_expr *from, qdot_expr *to, qdot_text *out)
+write_run_operands(const qdot_find *f, qdot_expr *from, qdot_expr *to, qdot_text *out)
 {
     QDOT_TRY(write_time(f->c->session, from, out));
     qdot_text_add(out, "..");
@@ -326,16 +326,16 @@ write_run(const qdot_find *f, qdot_expr *from, qdot_expr *to, qdot_text *out)
 
 /* --- after the search ------------------------------------------------------------------------ */
 
-/* Keep the run of the solution as the latest run. */
+/* Store the run for the solution as the latest run of the session. */
 static qdot_status
-keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
+store_solution_run(const qdot_find *f, qdot_expr from, qdot_expr to)
 {
     qdot_session *session = f->c->session;
     qdot_request request = {0};
     qdot_run *run = NULL;
     qdot_text text = {0};
     char next[32];
-    qdot_status status = write_run(f, &from, &to, &text);
+    qdot_status status = write_run_operands(f, &from, &to, &text);
 
     if (status == QDOT_OK)
         status = qdot_run_options_fill(session, &f->run, from, to, &request);
@@ -355,7 +355,7 @@ keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
 
 /* Refuse a run of duration 0, which returns to any start. */
 static qdot_status
-check_length(const hunt *h)
+check_duration_positive(const hunt *h)
 {
     double length;
 
@@ -366,9 +366,9 @@ check_length(const hunt *h)
     return qdot_fail(QDOT_EFAILED, "no orbit found: the time until the return went to 0");
 }
 
-/* Notice if the run of an orbit ends at its period, not at the end that was given. */
+/* Give a notice if the run of a periodic orbit ends after its period, not at the time that was given. */
 static qdot_status
-tell_end(const hunt *h)
+give_notice_of_end(const hunt *h)
 {
     const qdot_find *f = h->f;
     double to, said;
@@ -384,19 +384,19 @@ tell_end(const hunt *h)
 }
 
 static qdot_status
-refuse_shrunk(const hunt *h, const qdot_zero_result *r)
+report_shrunk_motion(const hunt *h, const qdot_zero_result *r)
 {
     qdot_text place = {0};
 
     h->f->c->error_at = h->f->conditions.at[0].from->start;
-    write_place(h->f, r->u, 10, &place);
+    write_unknowns(h->f, r->u, 10, &place);
     (void)qdot_fail(QDOT_EFAILED, "no orbit found: from the guess the motion shrinks to an equilibrium, so far to %.150s",
                     qdot_text_str(&place));
     qdot_text_clear(&place);
     return qdot_hint("another guess, or other values of the start that stay as they are");
 }
 
-/* Set declared unknowns to the values found; the solution's run becomes the latest run. */
+/* Set the unknowns to the values found; the run for the solution becomes the latest run. */
 static qdot_status
 adopt_solution(hunt *h, const qdot_zero_result *r)
 {
@@ -406,26 +406,26 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
     bool rests = false;
 
     QDOT_TRY(qdot_find_trial_open(&h->now, r->u));
-    QDOT_TRY(find_read_start(h, h->start));
-    QDOT_TRY(check_length(h));
-    QDOT_TRY(tell_end(h));
+    QDOT_TRY(read_open_start_values(h, h->start));
+    QDOT_TRY(check_duration_positive(h));
+    QDOT_TRY(give_notice_of_end(h));
     if (f->returns)
-        QDOT_TRY(find_reach(h, r->u, &reach, &rests));
-    if (!rests && has_shrunk(h, reach, r->rank))
-        return refuse_shrunk(h, r);
+        QDOT_TRY(find_extent_of_motion(h, r->u, &reach, &rests));
+    if (!rests && has_shrunk_to_rest(h, reach, r->rank))
+        return report_shrunk_motion(h, r);
     qdot_find_trial_close(&h->now);
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
             QDOT_TRY(qdot_slope_names_put(session, 1, &f->unknowns.at[i], &h->now.values[i]));
-    QDOT_TRY(keep_start(session, h->start));
-    QDOT_TRY(keep_run(f, h->now.from, h->now.to));
+    QDOT_TRY(store_open_start_values(session, h->start));
+    QDOT_TRY(store_solution_run(f, h->now.from, h->now.to));
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
             qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
     if (rests)
         QDOT_TRY(qdot_answer_notice(
             session, "this is an equilibrium: velocities and accelerations are 0 at the start"));
-    return tell_others(h, r);
+    return give_notice_of_others(h, r);
 }
 
 /* --- searching again along the motion -------------------------------------------------------- */
@@ -433,7 +433,7 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
 /* Where each unknown stands among the coordinates and velocities that must return, which are all unknown. False: they
  * are not, or more is asked for. */
 static bool
-find_places(const hunt *h, size_t *place)
+find_indices_of_unknowns(const hunt *h, size_t *place)
 {
     const qdot_session *session = h->f->c->session;
     const size_t n = session->scene->coordinates.n;
@@ -456,7 +456,7 @@ find_places(const hunt *h, size_t *place)
 /* Where motions are damped, that of the guess may come to an orbit to which Newton's method does not lead: start anew
  * from each return, u <- u + f(u), until that moves u by a thousandth of what it did. *returns: how many; 0: it comes to none. */
 static qdot_status
-follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t *returns)
+evaluate_returns(hunt *h, const size_t *place, double *f, double *error, double *u, size_t *returns)
 {
     enum { most = 400, trend = 32 };
     const qdot_find *of = h->f;
@@ -466,7 +466,7 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
     for (size_t k = 0; k <= most; k++) {
         double left = 0;
 
-        QDOT_TRY(find_evaluate(u, f, error, NULL, h));
+        QDOT_TRY(evaluate_residuals(u, f, error, NULL, h));
         for (size_t i = 0; i < h->now.m; i++)
             left = isfinite(f[i]) ? fmax(left, fabs(f[i])) : INFINITY;
         if (k == 0)
@@ -490,7 +490,7 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
 /* After a failed search try again from the time at which the guess returns most closely; r is
  * unchanged if that does not help. */
 static qdot_status
-search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
+search_at_later_returns(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
 {
     const size_t n = h->f->unknowns.n;
     size_t returns = 0, *place = qdot_calloc(n, sizeof *place);
@@ -499,9 +499,9 @@ search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
         .u = room, .error = room + n, .f = room + 2 * n, .f_error = room + 2 * n + h->now.m};
     qdot_status status = place != NULL && room != NULL ? QDOT_OK : QDOT_ENOMEM;
 
-    if (status == QDOT_OK && find_places(h, place)) {
+    if (status == QDOT_OK && find_indices_of_unknowns(h, place)) {
         memcpy(again.u, h->f->guess.at, n * sizeof *again.u);
-        status = follow(h, place, again.f, again.f_error, again.u, &returns);
+        status = evaluate_returns(h, place, again.f, again.f_error, again.u, &returns);
         if (status == QDOT_OK && returns > 0)
             status = qdot_zero_find(p, &again);
         if (status == QDOT_OK && returns > 0 && again.answer == QDOT_ZERO_FOUND) {
@@ -522,12 +522,12 @@ search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
 /* --- the whole search ---------------------------------------------------------------------- */
 
 static qdot_status
-find_search(hunt *h, qdot_zero_result *r)
+search_solution(hunt *h, qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
     qdot_zero_problem p = {.n = f->unknowns.n,
                                  .m = h->now.m,
-                                 .at = find_evaluate,
+                                 .at = evaluate_residuals,
                                  .user = h,
                                  .low = f->low.at,
                                  .high = f->high.at,
@@ -537,31 +537,31 @@ find_search(hunt *h, qdot_zero_result *r)
     memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
     for (size_t i = 0; i < p.n; i++)
         h->unit[i] = r->u[i] != 0 ? fabs(r->u[i]) : 1;
-    QDOT_TRY(qdot_find_trial_limits(&h->now, r->u)); /* check the limits before the first run */
+    QDOT_TRY(qdot_find_trial_limits(&h->now, r->u)); /* check the time limits before the first run */
     QDOT_TRY(qdot_find_trial_length(&h->now, &h->length));
     p.verify = true;
     if (f->returns) {
         qdot_shooting_result shot = {.u = r->u, .error = h->before};
         bool rests;
 
-        QDOT_TRY(find_reach(h, r->u, &h->reach, &rests));
-        p.wanted = rests ? NULL : is_orbit;
+        QDOT_TRY(find_extent_of_motion(h, r->u, &h->reach, &rests));
+        p.wanted = rests ? NULL : is_wanted_orbit;
         if (!rests)
             QDOT_TRY(qdot_find_shoot(f, &shot));
         h->rank = shot.rank;
         p.unit = shot.found ? h->unit : NULL;
         p.verify = !shot.found;
-        p.once = shot.found; /* if no run can follow the orbit all around, do not search from other points */
+        p.once = shot.found; /* if no run can follow the orbit for a whole period, do not search from other points */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
     if (r->answer != QDOT_ZERO_FOUND && !p.once)
-        QDOT_TRY(search_behind(h, &p, r));
+        QDOT_TRY(search_at_later_returns(h, &p, r));
     if (r->rank < h->rank) { /* strong growth hides decaying directions from a single run: use the larger rank */
         for (size_t i = 0; i < p.n; i++)
             r->error[i] = fmax(r->error[i], h->before[i]);
         r->rank = h->rank;
     }
-    return r->answer == QDOT_ZERO_FOUND ? adopt_solution(h, r) : find_refuse(h, r);
+    return r->answer == QDOT_ZERO_FOUND ? adopt_solution(h, r) : report_no_solution(h, r);
 }
 
 qdot_status
@@ -585,12 +585,12 @@ qdot_find_carry_out(qdot_find *f)
     h.now.values = qdot_calloc(n + m + 1, sizeof *h.now.values);
     if (room != NULL && h.now.values != NULL) {
         h.now.e = h.now.values + n;
-        status = open_start(f, false);
+        status = choose_open_start_values(f, false);
     }
     if (status == QDOT_OK)
-        status = open_start(f, true);
+        status = choose_open_start_values(f, true);
     if (status == QDOT_OK)
-        status = find_search(&h, &r);
+        status = search_solution(&h, &r);
     qdot_find_trial_close(&h.now);
     f->c->session->values->start_open.n = 0;
     qdot_free(h.now.values);

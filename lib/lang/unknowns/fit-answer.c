@@ -12,17 +12,17 @@
 #include "lang/session/output.h"
 #include "lang/unknowns/fit-parts.h"
 
-/* A numerical error counts as large if it exceeds this part of a standard error. */
+/* a numerical error counts as large if it exceeds this fraction of a standard error */
 static const double small = 0.1;
 
-/* A probability of chi^2 below this is mentioned. */
+/* a probability of such a chi^2 below this is mentioned in the answer */
 static const double improbable = 1e-3;
 
 /* --- values and intervals ----------------------------------------------------------------------- */
 
 /* Append a value with two digits of its error, such as "2.3855 ± 0.0012". */
 static void
-write_value(double value, double error, qdot_text *out)
+write_value_with_error(double value, double error, qdot_text *out)
 {
     int decimals;
 
@@ -45,7 +45,7 @@ write_value(double value, double error, qdot_text *out)
 
 /* The half width of a 95 % confidence interval, in units of the standard error. */
 static double
-interval(const qdot_fit *f)
+half_width_of_interval(const qdot_fit *f)
 {
     return f->weighted ? gsl_cdf_ugaussian_Pinv(0.975)
                        : gsl_cdf_tdist_Pinv(0.975, (double)f->freedom);
@@ -58,20 +58,20 @@ write_unknowns(const qdot_fit *f, qdot_text *out)
 {
     for (size_t k = 0; k < f->unknowns.names.n; k++) {
         qdot_text_format(out, "%s = ", f->unknowns.names.at[k].label);
-        write_value(f->u[k], f->error[k], out);
+        write_value_with_error(f->u[k], f->error[k], out);
         qdot_text_char(out, '\n');
     }
 }
 
 static double
-correlation(const qdot_fit *f, size_t i, size_t j)
+get_correlation(const qdot_fit *f, size_t i, size_t j)
 {
     return f->found.covariance[i * f->unknowns.names.n + j] / (f->error[i] * f->error[j]);
 }
 
-/* Fill the lower triangle of correlations; all columns have the same width. */
+/* Fill the lower triangle of the matrix of correlations; all columns have the same width. */
 static qdot_status
-correlations_fill(const qdot_fit *f, qdot_table_column *columns, qdot_table *t)
+fill_correlations(const qdot_fit *f, qdot_table_column *columns, qdot_table *t)
 {
     const size_t k = f->unknowns.names.n;
     size_t width = 6;
@@ -93,7 +93,7 @@ correlations_fill(const qdot_fit *f, qdot_table_column *columns, qdot_table *t)
     for (size_t i = 1; i < k; i++) {
         qdot_table_add_text(t, f->unknowns.names.at[i].label);
         for (size_t j = 0; j < i; j++)
-            qdot_table_add_number(t, correlation(f, i, j), NAN);
+            qdot_table_add_number(t, get_correlation(f, i, j), NAN);
         for (size_t j = i; j + 1 < k; j++)
             qdot_table_add_text(t, "");
     }
@@ -105,7 +105,7 @@ write_correlations(const qdot_fit *f, qdot_text *out)
 {
     qdot_table_column *columns = qdot_calloc(f->unknowns.names.n, sizeof *columns);
     qdot_table t = {0};
-    qdot_status status = columns != NULL ? correlations_fill(f, columns, &t) : QDOT_ENOMEM;
+    qdot_status status = columns != NULL ? fill_correlations(f, columns, &t) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = qdot_answer_add_table(&t, out);
@@ -131,11 +131,11 @@ write_residuals(const qdot_fit *f, qdot_text *out)
     qdot_text_char(out, '\n');
     if (f->freedom > 0 || f->weighted)
         qdot_text_format(out, "± is the standard error: intervals of %.3g times it hold the true value in 95 %% of cases\n",
-                         interval(f));
+                         half_width_of_interval(f));
 }
 
 static qdot_status
-tell_text(qdot_fit *f, const char *residuals)
+answer_fit_as_text(qdot_fit *f, const char *residuals)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -154,7 +154,7 @@ tell_text(qdot_fit *f, const char *residuals)
 /* --- the answer as JSON ---------------------------------------------------------------------------- */
 
 static qdot_status
-tell_json(qdot_fit *f)
+answer_fit_as_json(qdot_fit *f)
 {
     const size_t k = f->unknowns.names.n;
     qdot_text name = {0};
@@ -162,7 +162,7 @@ tell_json(qdot_fit *f)
 
     for (size_t i = 0; i < k; i++)
         QDOT_TRY(qdot_answer_number(f->session, f->unknowns.names.at[i].label, f->u[i], f->error[i]));
-    /* the numerical error of chi^2 is that of the residuals */
+    /* no error is given: the numerical error of chi^2 is due to that of the residuals */
     QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, NAN));
     QDOT_TRY(qdot_answer_number(f->session, "degrees of freedom", (double)f->freedom, 0));
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
@@ -185,7 +185,7 @@ tell_json(qdot_fit *f)
 /* --- notices about the fit ------------------------------------------------------------------------- */
 
 static qdot_status
-tell_notices(qdot_fit *f)
+give_notices(qdot_fit *f)
 {
     for (size_t k = 0; k < f->unknowns.names.n; k++) {
         const char *label = f->unknowns.names.at[k].label;
@@ -222,7 +222,7 @@ tell_notices(qdot_fit *f)
 /* --- the table of residuals -------------------------------------------------------------------------- */
 
 static qdot_status
-make_residuals(const qdot_fit *f, const char *name, qdot_row_table **table)
+make_residual_table(const qdot_fit *f, const char *name, qdot_row_table **table)
 {
     const char **labels = qdot_calloc(1 + f->m, sizeof *labels);
     qdot_text *texts = qdot_calloc(f->m, sizeof *texts);
@@ -267,13 +267,13 @@ qdot_fit_tell(qdot_fit *f)
 {
     const char *name = f->name != NULL ? f->name : "residuals";
     qdot_row_table *table = NULL;
-    qdot_status status = make_residuals(f, name, &table);
+    qdot_status status = make_residual_table(f, name, &table);
 
     if (status != QDOT_OK) {
         qdot_row_table_release(table);
         return status;
     }
     QDOT_TRY(qdot_row_tables_keep(f->session, table));
-    QDOT_TRY(f->session->output->json ? tell_json(f) : tell_text(f, name));
-    return tell_notices(f);
+    QDOT_TRY(f->session->output->json ? answer_fit_as_json(f) : answer_fit_as_text(f, name));
+    return give_notices(f);
 }

@@ -1,4 +1,4 @@
-/* fit-data.c -- reads the rows of a file as times, values and standard errors. */
+/* fit-data.c -- reads the rows of a data file as times, values and standard errors, for the statement `fit`. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,9 +37,9 @@ check_columns(qdot_cursor *c, const qdot_fit *f, const qdot_csv *csv)
                : qdot_hint("one expression for each column of the file");
 }
 
-/* Whether the name is the time, a coordinate or a velocity of the scene. */
+/* Whether the name is that of the time, or of a coordinate or velocity of the scene. */
 static bool
-is_of_motion(const qdot_fit *f, const char *name)
+is_name_of_motion(const qdot_fit *f, const char *name)
 {
     const qdot_scene *s = f->session->scene;
 
@@ -54,9 +54,9 @@ is_of_motion(const qdot_fit *f, const char *name)
     return strcmp(name, "t") == 0;
 }
 
-/* Refuse a column that the file names as one variable of the motion if it is to be read as another. */
+/* Refuse a column that is to be read as one variable of the motion but has the name of another in the file. */
 static qdot_status
-check_names(const qdot_fit *f, const qdot_csv *csv)
+check_column_names(const qdot_fit *f, const qdot_csv *csv)
 {
     for (size_t i = 0; i < f->columns.n && csv->names.n == csv->columns; i++) {
         const qdot_csv_name *name = &csv->names.at[i];
@@ -64,7 +64,7 @@ check_names(const qdot_fit *f, const qdot_csv *csv)
         const char *label = column->kind == QDOT_FIT_TIME ? "t" : column->label;
 
         if ((column->kind != QDOT_FIT_TIME && column->kind != QDOT_FIT_VALUE) || strcmp(name->word, label) == 0 ||
-            !is_of_motion(f, label) || !is_of_motion(f, name->word))
+            !is_name_of_motion(f, label) || !is_name_of_motion(f, name->word))
             continue;
         (void)qdot_csv_fail(f->path, &name->place, "the file calls this column `%.40s`, the statement %.40s", name->word,
                             label);
@@ -73,9 +73,9 @@ check_names(const qdot_fit *f, const qdot_csv *csv)
     return QDOT_OK;
 }
 
-/* Read the time, values and standard errors of a row. */
+/* Read the time, values and standard errors from a row of the data file. */
 static qdot_status
-take_row(qdot_fit *f, const qdot_csv *csv, size_t row, size_t to)
+read_row(qdot_fit *f, const qdot_csv *csv, size_t row, size_t to)
 {
     size_t j = 0;
 
@@ -122,14 +122,14 @@ check_times(const qdot_fit *f, const qdot_csv *csv)
 }
 
 static qdot_status
-take(qdot_cursor *c, qdot_fit *f, const qdot_csv *csv)
+read_all_rows(qdot_cursor *c, qdot_fit *f, const qdot_csv *csv)
 {
     sorted *order;
     qdot_status status;
 
     QDOT_TRY(check_columns(c, f, csv));
     c->error_at = f->path_at->start;
-    QDOT_TRY(check_names(f, csv));
+    QDOT_TRY(check_column_names(f, csv));
     QDOT_TRY(check_times(f, csv));
     f->rows = csv->rows;
     f->t = qdot_calloc(csv->rows * (1 + 2 * f->m), sizeof *f->t);
@@ -142,7 +142,7 @@ take(qdot_cursor *c, qdot_fit *f, const qdot_csv *csv)
     if (status == QDOT_OK)
         qsort(order, csv->rows, sizeof *order, compare_data_times);
     for (size_t i = 0; i < csv->rows && status == QDOT_OK; i++)
-        status = take_row(f, csv, order[i].row, i);
+        status = read_row(f, csv, order[i].row, i);
     qdot_free(order);
     return status;
 }
@@ -160,7 +160,7 @@ qdot_fit_read_data(qdot_cursor *c, qdot_fit *f)
     if (status == QDOT_OK)
         status = qdot_csv_read(qdot_text_str(&path), &csv);
     if (status == QDOT_OK)
-        status = take(c, f, &csv);
+        status = read_all_rows(c, f, &csv);
     qdot_csv_clear(&csv);
     qdot_text_clear(&path);
     return status;

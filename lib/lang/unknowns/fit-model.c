@@ -17,14 +17,14 @@
  * its error: that with slopes goes another way. */
 static const double apart = 1e-6;
 
-/* Parameters with a smaller share of an undetermined direction are not listed. */
+/* parameters with a smaller share in a direction that the data do not determine are not listed */
 static const double least_part = 1e-3;
 
 typedef struct {
     qdot_fit *f;
     qdot_run_request request; /* request of the run with the unknowns as symbols */
     qdot_expr *values, *start; /* [n_values] parameter values, [2n] start, in terms of the unknowns */
-    bool *named;               /* [2n] the start prescribes this value */
+    bool *named;               /* [2n] whether the `start` statement gives this value */
     const char **names;        /* [k] names of the unknowns */
     qdot_expr *unknowns;       /* [k] symbols of the unknowns */
     qdot_response *response;
@@ -33,7 +33,7 @@ typedef struct {
 
 /* --- the request of the run ----------------------------------------------------------------- */
 
-/* Find the guesses: values of `set`, start values. */
+/* Find the guesses for the unknowns: the values by `set`, and start values. */
 static qdot_status
 find_guesses(qdot_fit *f)
 {
@@ -82,7 +82,7 @@ make_request(model *x)
 /* Evaluate residuals and derivatives in units of the standard errors. Parameters must stay in their
  * declared domains. */
 static qdot_status
-fit_evaluate(const double *u, double *out, double *J, void *user)
+evaluate_model(const double *u, double *out, double *J, void *user)
 {
     model *x = user;
     const qdot_fit *f = x->f;
@@ -101,7 +101,7 @@ fit_evaluate(const double *u, double *out, double *J, void *user)
 }
 
 static qdot_status
-fit_search(model *x)
+search_least_squares(model *x)
 {
     qdot_fit *f = x->f;
     const qdot_response_of of = {.scene = f->session->scene,
@@ -117,7 +117,7 @@ fit_search(model *x)
     QDOT_TRY(qdot_response_new(&of, &x->response));
     f->found = (qdot_least_squares){.n = f->rows * f->m,
                                     .p = f->unknowns.names.n,
-                                    .model = fit_evaluate,
+                                    .model = evaluate_model,
                                     .user = x,
                                     .u = f->u};
     return qdot_least_squares_find(&f->found);
@@ -125,9 +125,9 @@ fit_search(model *x)
 
 /* --- when the fit fails ---------------------------------------------------------------------- */
 
-/* Write an undetermined direction: "m by 1 % with k by -2 %". */
+/* Write a combination of unknowns that the data do not determine: "m by 1 % with k by -2 %". */
 static void
-say_direction(const qdot_fit *f, qdot_text *text)
+write_undetermined_direction(const qdot_fit *f, qdot_text *text)
 {
     const size_t k = f->unknowns.names.n;
     double first = 0;
@@ -148,7 +148,7 @@ say_direction(const qdot_fit *f, qdot_text *text)
     }
 }
 
-/* QDOT_EFAILED, with names, if the data do not determine an unknown. */
+/* QDOT_EFAILED, with the names of the unknowns, if the data do not determine an unknown. */
 static qdot_status
 check_determined(const qdot_fit *f)
 {
@@ -161,7 +161,7 @@ check_determined(const qdot_fit *f)
             qdot_text_format(&names, "%s%s", n++ > 0 ? ", " : "", f->unknowns.names.at[i].label);
     if (n == 0)
         return QDOT_OK;
-    say_direction(f, &step);
+    write_undetermined_direction(f, &step);
     status = qdot_text_status(&names);
     if (status == QDOT_OK)
         status = qdot_text_status(&step);
@@ -205,7 +205,7 @@ check_converged(const qdot_fit *f)
 
 /* --- errors of the fit ------------------------------------------------------------------------ */
 
-/* QDOT_EFAILED if a data point lies beyond the time up to which the run is known. */
+/* QDOT_EFAILED if a data point lies beyond the time up to which the run is accurate. */
 static qdot_status
 check_horizon(const qdot_fit *f, const qdot_run *run)
 {
@@ -223,9 +223,9 @@ check_horizon(const qdot_fit *f, const qdot_run *run)
     return qdot_hint("leave out the rows with t > %.6g", report->horizon);
 }
 
-/* Find the values along an ordinary run with parameters u, with their errors [rows x m]. */
+/* Find the model values along an ordinary run with the fitted parameters u, with their errors [rows x m]. */
 static qdot_status
-run_at_end(model *x, double *errors)
+evaluate_fitted_run(model *x, double *errors)
 {
     qdot_fit *f = x->f;
     qdot_pool *pool = f->session->pool;
@@ -264,7 +264,7 @@ run_at_end(model *x, double *errors)
 /* Bound the numerical error of the parameters, du = C J^T df; check that the variational and the
  * ordinary run agree. */
 static qdot_status
-fit_compare_runs(qdot_fit *f, const double *at, const double *errors)
+compare_runs(qdot_fit *f, const double *at, const double *errors)
 {
     const size_t k = f->unknowns.names.n;
 
@@ -288,23 +288,23 @@ fit_compare_runs(qdot_fit *f, const double *at, const double *errors)
 }
 
 static qdot_status
-find_numerical(model *x)
+find_numerical_errors(model *x)
 {
     qdot_fit *f = x->f;
     double *errors = qdot_calloc(f->rows * f->m + 1, sizeof *errors);
-    qdot_status status = errors ? run_at_end(x, errors) : QDOT_ENOMEM;
+    qdot_status status = errors ? evaluate_fitted_run(x, errors) : QDOT_ENOMEM;
 
     for (size_t i = 0; i < f->found.n && status == QDOT_OK; i++)
         x->at[i] = f->found.f[i] * f->sigma[i] + f->y[i];
     if (status == QDOT_OK)
-        status = fit_compare_runs(f, x->at, errors);
+        status = compare_runs(f, x->at, errors);
     qdot_free(errors);
     return status;
 }
 
-/* Find the covariance of u, and from it the standard errors. */
+/* Find the covariance matrix of the fitted values u, and from it their standard errors. */
 static void
-fit_find_errors(qdot_fit *f)
+find_standard_errors(qdot_fit *f)
 {
     const size_t k = f->unknowns.names.n;
     double scale = 1;
@@ -321,7 +321,7 @@ fit_find_errors(qdot_fit *f)
 /* --- the whole fit ------------------------------------------------------------------------------ */
 
 static qdot_status
-fit_make_room(model *x)
+allocate_fit(model *x)
 {
     qdot_fit *f = x->f;
     const size_t k = f->unknowns.names.n, n = f->session->scene->coordinates.n,
@@ -345,18 +345,18 @@ fit_make_room(model *x)
 }
 
 static qdot_status
-fit_find(model *x)
+find_fit(model *x)
 {
     qdot_fit *f = x->f;
 
-    QDOT_TRY(fit_make_room(x));
+    QDOT_TRY(allocate_fit(x));
     QDOT_TRY(find_guesses(f));
     QDOT_TRY(make_request(x));
-    QDOT_TRY(fit_search(x));
+    QDOT_TRY(search_least_squares(x));
     QDOT_TRY(check_determined(f));
     QDOT_TRY(check_converged(f));
-    QDOT_TRY(find_numerical(x));
-    fit_find_errors(f);
+    QDOT_TRY(find_numerical_errors(x));
+    find_standard_errors(f);
     return QDOT_OK;
 }
 
@@ -373,7 +373,7 @@ qdot_fit_find(qdot_fit *f)
     f->order.request.tol = f->tol;
     f->order.request.method = f->method != NULL ? f->method : "auto";
     if (status == QDOT_OK)
-        status = fit_find(&x);
+        status = find_fit(&x);
     status = qdot_request_explain(f->session, &f->order, status);
     qdot_response_free(x.response);
     qdot_free(x.values);

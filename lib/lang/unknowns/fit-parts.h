@@ -23,9 +23,9 @@ typedef struct {
     qdot_fit_kind kind;
     const qdot_token *place;
     char *label;
-    qdot_expr e; /* for a measured quantity: its expression in the model */
-    double sigma; /* its standard error; 0: given by a column, or unknown */
-    bool weighted; /* the next column contains its standard errors */
+    qdot_expr e; /* expression of the model for the measured quantity in this column */
+    double sigma; /* standard error of the measured quantity; 0: given by a column, or unknown */
+    bool weighted; /* the next column contains the standard errors of this one */
 } qdot_fit_column;
 
 typedef struct {
@@ -41,11 +41,11 @@ typedef struct {
     const char *method, *name; /* integration method; name of the table of residuals */
     const qdot_token *method_at;
 
-    /* Fields with the data, sorted by time: */
+    /* The fields from here on hold the data, sorted by time. */
     size_t rows;
     double *t, *y, *sigma; /* [rows] times; [rows x m] data and their standard errors */
 
-    /* Fields with the results of the fit: */
+    /* The fields from here on hold the results of the fit. */
     qdot_request order;       /* request of the run at the guesses */
     qdot_expr *exprs;         /* [m] expressions of the measured quantities */
     double *guess, *u;        /* [k] guesses, fitted values of the unknowns */
@@ -64,10 +64,10 @@ QDOT_MUST_CHECK qdot_status qdot_fit_read_data(qdot_cursor *c, qdot_fit *f);
  * unknown. */
 QDOT_MUST_CHECK qdot_status qdot_fit_find(qdot_fit *f);
 
-/* Set the session's parameters to the fitted values u, rounded to 1/1000 of their errors. */
+/* Set the session's parameters to the fitted values u, rounded to 1/1000 of their standard errors. */
 QDOT_MUST_CHECK qdot_status qdot_fit_set(qdot_fit *f);
 
-/* Answer with the values found; store the residuals as a table of the session. */
+/* Answer with the fitted values; store the residuals as a table of the session. */
 QDOT_MUST_CHECK qdot_status qdot_fit_tell(qdot_fit *f);
 
 #endif

@@ -1,4 +1,4 @@
-/* fit.c -- the statement `fit NAME, ... to "FILE" : t, EXPR, ...`. */
+/* fit.c -- the statement `fit NAME, ... to "FILE" : t, EXPR, ...`: fits unknowns of the model to data. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,7 @@
 #include "lang/syntax/record.h"
 #include "lang/unknowns/fit-parts.h"
 
-static qdot_status fit_find(qdot_record *r);
+static qdot_status carry_out_fit(qdot_record *r);
 
 QDOT_STATEMENT(fit) = {
     .word = "fit",
@@ -29,11 +29,11 @@ QDOT_STATEMENT(fit) = {
                "values of `set` and `start` are the guesses; columns of the file may be `sigma`, of the one before, or "
                "`skip`",
     .example = "fit m, k, theta' to \"data.csv\" : t, theta sigma 0.01",
-    .handler = fit_find,
+    .handler = carry_out_fit,
 };
 
 static void
-fit_free(qdot_fit *f)
+free_fit(qdot_fit *f)
 {
     qdot_slopes_free(&f->unknowns);
     for (size_t i = 0; i < f->columns.n; i++)
@@ -48,9 +48,9 @@ fit_free(qdot_fit *f)
 
 /* --- columns of the file ------------------------------------------------------------------- */
 
-/* Whether the column consists of just this word. */
+/* Whether the column in the statement consists of just this word, such as t or sigma. */
 static bool
-is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
+is_single_word(const qdot_record *r, const qdot_filled *part, const char *word)
 {
     const qdot_name *known = qdot_names_find(r->cursor.session->names, word);
 
@@ -58,9 +58,9 @@ is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
            && !(known != NULL && known->kind == QDOT_NAME_COORD);
 }
 
-/* Read the standard errors of the preceding column. */
+/* Read a column that contains the standard errors of the column before it. */
 static qdot_status
-sigma_column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
+read_sigma_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
     qdot_fit_column *before = f->columns.n > 0 ? &f->columns.at[f->columns.n - 1] : NULL;
     qdot_session *session = r->cursor.session;
@@ -80,7 +80,7 @@ sigma_column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit
 }
 
 static qdot_status
-expression_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
+read_expression_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
     qdot_session *session = r->cursor.session;
     const size_t measured = session->measured->n;
@@ -115,19 +115,19 @@ expression_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_c
 }
 
 static qdot_status
-column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
+read_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
-    if (is_alone(r, part, "sigma"))
-        return sigma_column_find(r, part, f, x);
-    if (!is_alone(r, part, "skip") || f->columns.n == 0)
-        return expression_find(r, part, f, x);
+    if (is_single_word(r, part, "sigma"))
+        return read_sigma_column(r, part, f, x);
+    if (!is_single_word(r, part, "skip") || f->columns.n == 0)
+        return read_expression_column(r, part, f, x);
     x->kind = QDOT_FIT_SKIP;
     return QDOT_OK;
 }
 
-/* Read the columns after the colon. */
+/* Read the columns of the statement after its colon: what each column of the file contains. */
 static qdot_status
-columns_find(qdot_record *r, qdot_fit *f)
+read_columns(qdot_record *r, qdot_fit *f)
 {
     const qdot_filled *last = NULL;
 
@@ -139,7 +139,7 @@ columns_find(qdot_record *r, qdot_fit *f)
         if (part->n == 0 || strcmp(part->node->before, "to") != 0)
             continue;
         last = part;
-        status = column_find(r, part, f, &x);
+        status = read_column(r, part, f, &x);
         if (status == QDOT_OK)
             status = qdot_vec_push(&f->columns, x);
         if (status != QDOT_OK) {
@@ -152,9 +152,9 @@ columns_find(qdot_record *r, qdot_fit *f)
 
 /* --- reading the options ------------------------------------------------------------------------ */
 
-/* The k-th column with values to be fitted. */
+/* The k-th among the columns with values to be fitted. */
 static qdot_fit_column *
-value_column(const qdot_fit *f, size_t k)
+find_value_column(const qdot_fit *f, size_t k)
 {
     for (size_t i = 0; i < f->columns.n; i++)
         if (f->columns.at[i].kind == QDOT_FIT_VALUE && k-- == 0)
@@ -162,9 +162,9 @@ value_column(const qdot_fit *f, size_t k)
     return NULL;
 }
 
-/* Read `sigma S`, or one value for each column. */
+/* Read the option `sigma S`, a standard error for all columns, or one for each column. */
 static qdot_status
-sigma_find(qdot_record *r, qdot_fit *f)
+read_sigma_option(qdot_record *r, qdot_fit *f)
 {
     const qdot_filled *first = qdot_record_hole(r, "sigma", "EXPR"), *part = first;
     size_t n = 0;
@@ -172,7 +172,7 @@ sigma_find(qdot_record *r, qdot_fit *f)
 
     f->weighted = first != NULL;
     for (; part != NULL && strcmp(part->node->before, "sigma") == 0; part = qdot_record_next(r, part, "EXPR")) {
-        qdot_fit_column *column = value_column(f, n++);
+        qdot_fit_column *column = find_value_column(f, n++);
 
         QDOT_TRY(qdot_record_number(r, part, &x));
         qdot_record_blame(r, part);
@@ -193,20 +193,20 @@ sigma_find(qdot_record *r, qdot_fit *f)
         return qdot_fail(QDOT_EINVAL, "%zu standard errors for %zu values: one, or one for each", n,
                          f->m);
     for (size_t i = n; i < f->m; i++) {
-        if (value_column(f, i)->weighted)
+        if (find_value_column(f, i)->weighted)
             return qdot_fail(QDOT_EINVAL, "%.100s has a column of standard errors already",
-                             value_column(f, i)->label);
-        value_column(f, i)->sigma = x;
+                             find_value_column(f, i)->label);
+        find_value_column(f, i)->sigma = x;
     }
     return QDOT_OK;
 }
 
 static qdot_status
-options_find(qdot_record *r, qdot_fit *f)
+read_fit_options(qdot_record *r, qdot_fit *f)
 {
     const qdot_filled *from = qdot_record_hole(r, "from", "EXPR"), *method = qdot_record_word(r, "method");
 
-    QDOT_TRY(sigma_find(r, f));
+    QDOT_TRY(read_sigma_option(r, f));
     if (from != NULL)
         QDOT_TRY(qdot_record_scalar(r, from, &f->from));
     QDOT_TRY(qdot_error_time_tolerance(r, &f->tol));
@@ -217,7 +217,7 @@ options_find(qdot_record *r, qdot_fit *f)
     return QDOT_OK;
 }
 
-/* Refuse weights for only some of several fitted values. */
+/* Refuse to fit several values if standard errors are given only for some of them. */
 static qdot_status
 check_weights(qdot_cursor *c, qdot_fit *f)
 {
@@ -241,24 +241,24 @@ check_weights(qdot_cursor *c, qdot_fit *f)
 }
 
 static qdot_status
-fit_find_all(qdot_record *r, qdot_fit *f)
+read_fit_operands(qdot_record *r, qdot_fit *f)
 {
     const qdot_filled *file = qdot_record_hole(r, "to", "\"FILE\""), *name = qdot_record_hole(r, "as", "NAME");
 
     QDOT_TRY(qdot_slopes_find(r, "fit", &f->unknowns));
     f->path_at = file->from;
     f->path = qdot_record_text(file);
-    QDOT_TRY(columns_find(r, f));
-    QDOT_TRY(options_find(r, f));
+    QDOT_TRY(read_columns(r, f));
+    QDOT_TRY(read_fit_options(r, f));
     QDOT_TRY(check_weights(&r->cursor, f));
     return name != NULL ? qdot_record_new_name(r, name, &f->name) : QDOT_OK;
 }
 
 /* --- setting parameters to the result --------------------------------------------------------------- */
 
-/* The number x as a decimal, rounded to 1/1000 of its error. */
+/* The number x as an exact decimal, rounded to 1/1000 of its error. */
 static qdot_expr
-decimal(qdot_pool *pool, double x, double error)
+round_to_decimal(qdot_pool *pool, double x, double error)
 {
     char text[40];
     qdot_expr e;
@@ -282,10 +282,10 @@ qdot_fit_set(qdot_fit *f)
     qdot_status status = values ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < n && values; k++) {
-        values[k] = decimal(f->session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
+        values[k] = round_to_decimal(f->session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
         if (qdot_session_in_domain(f->session, f->unknowns.names.at[k].symbol, values[k])
-            != QDOT_OK) /* rounding has moved the value outside of its domain */
-            values[k] = decimal(f->session->pool, f->u[k], 0);
+            != QDOT_OK) /* the rounded value lies outside of the domain of its symbol */
+            values[k] = round_to_decimal(f->session->pool, f->u[k], 0);
     }
     if (status == QDOT_OK)
         status = qdot_pool_check(f->session->pool);
@@ -298,7 +298,7 @@ qdot_fit_set(qdot_fit *f)
 /* --- the statement `fit` ------------------------------------------------------------------------------ */
 
 static qdot_status
-fit_carry_out(qdot_cursor *c, qdot_fit *f)
+fit_and_answer(qdot_cursor *c, qdot_fit *f)
 {
     const size_t measured = c->session->measured->n;
     size_t m = 0;
@@ -328,17 +328,17 @@ fit_carry_out(qdot_cursor *c, qdot_fit *f)
 }
 
 static qdot_status
-fit_find(qdot_record *r)
+carry_out_fit(qdot_record *r)
 {
     qdot_cursor *c = &r->cursor;
     qdot_fit f = {.session = c->session};
-    qdot_status status = fit_find_all(r, &f);
+    qdot_status status = read_fit_operands(r, &f);
 
     if (status == QDOT_OK) {
         c->error_at = r->start->start;
-        status = fit_carry_out(c, &f);
+        status = fit_and_answer(c, &f);
     }
     qdot_run_options_place(c, f.method_at, status);
-    fit_free(&f);
+    free_fit(&f);
     return status;
 }

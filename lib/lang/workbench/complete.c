@@ -1,4 +1,4 @@
-/* complete.c -- completions of the word at a position of a text. */
+/* complete.c -- lists completions of the word at a position of a text. */
 #include "lang/workbench/complete.h"
 
 #include <stdlib.h>
@@ -41,14 +41,14 @@ enum {
     PARTICLES = 1 << 7,
     BODIES = 1 << 8,
     CONSTRAINTS = 1 << 9,
-    TIES = 1 << 10, /* labels of springs and dampers */
+    TIES = 1 << 10, /* labels of springs and dampers, which connect two points */
     APPLIED =
         1 << 11, /* labels of gravities, potentials, dissipations, forces, torques */
     EVENTS = 1 << 12,
     RUNS = 1 << 13,
     METHODS = 1 << 14,
     STATEMENTS = 1 << 15,
-    KINDS = 1 << 16, /* kinds of things that `remove` accepts */
+    KINDS = 1 << 16, /* words for kinds of things that the statement `remove` accepts */
     TABLES = 1 << 17, /* tables of rows */
     RETURNS = 1 << 18, /* the word `returns` of `returns after T` */
     COLOURS = 1 << 19, /* colours of curves */
@@ -63,7 +63,7 @@ enum {
 enum { FINAL_SIGMA = 0x3C2 };
 
 static void
-offer_n(completion *c, const char *word, size_t n)
+offer_word_of_length(completion *c, const char *word, size_t n)
 {
     const size_t typed = strlen(c->prefix);
     char *copy;
@@ -83,23 +83,23 @@ offer_n(completion *c, const char *word, size_t n)
 }
 
 static void
-offer(completion *c, const char *word)
+offer_word(completion *c, const char *word)
 {
     if (word != NULL)
-        offer_n(c, word, strlen(word));
+        offer_word_of_length(c, word, strlen(word));
 }
 
-/* Offer a family once, by its name and the opening bracket. */
+/* Offer a family of names, such as x[1], x[2], once, by its name and the opening bracket. */
 static void
 offer_member(completion *c, const char *name)
 {
     const char *bracket = strchr(name, '[');
 
     if (bracket == NULL)
-        offer(c, name);
+        offer_word(c, name);
     else if (c->words.n == 0 || strncmp(c->words.at[c->words.n - 1], name,
                                         (size_t)(bracket + 1 - name)) != 0)
-        offer_n(c, name, (size_t)(bracket + 1 - name));
+        offer_word_of_length(c, name, (size_t)(bracket + 1 - name));
 }
 
 static void
@@ -140,56 +140,56 @@ offer_labels(completion *c, unsigned kinds)
 #undef OFFER
 }
 
-/* Offer the words of the built-in tables. */
+/* Offer the words of the language's own tables: statements, quantities, functions. */
 static void
-offer_tables(completion *c, unsigned kinds)
+offer_language_words(completion *c, unsigned kinds)
 {
     static const char *const removable[] = {"gravity", "potential",   "spring", "damper",
                                             "force",   "dissipation", "torque"};
 
     for (size_t i = 0; (kinds & BUILTINS) != 0 && qdot_builtin_at(i) != NULL; i++)
         if ((qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT) == 0)
-            offer(c, qdot_builtin_at(i)->name);
+            offer_word(c, qdot_builtin_at(i)->name);
     for (int i = 0; (kinds & BUILTINS) != 0 && i < QDOT_FUNCTION_COUNT; i++)
-        offer(c, qdot_fun_name((qdot_fun_id)i));
+        offer_word(c, qdot_fun_name((qdot_fun_id)i));
     for (size_t i = 0; (kinds & QUANTITIES) != 0 && qdot_quantity_at(i) != NULL; i++)
         if (qdot_quantity_at(i)->example[0] != '\0')
-            offer(c, qdot_quantity_at(i)->name);
+            offer_word(c, qdot_quantity_at(i)->name);
     for (size_t i = 0; (kinds & STATEMENTS) != 0 && qdot_statement_at(i) != NULL; i++)
         if (qdot_statement_is_built(qdot_statement_at(i)))
-            offer(c, qdot_statement_at(i)->word);
+            offer_word(c, qdot_statement_at(i)->word);
     for (size_t i = 0; (kinds & METHODS) != 0 && qdot_ode_method_at(i) != NULL; i++)
-        offer(c, qdot_ode_method_at(i)->name);
+        offer_word(c, qdot_ode_method_at(i)->name);
     if ((kinds & METHODS) != 0)
-        offer(c, "auto");
+        offer_word(c, "auto");
     for (size_t i = 0; (kinds & COLOURS) != 0 && qdot_figure_colour_name(i) != NULL; i++)
-        offer(c, qdot_figure_colour_name(i));
+        offer_word(c, qdot_figure_colour_name(i));
     for (size_t i = 0; (kinds & KINDS) != 0 && i < sizeof removable / sizeof *removable;
          i++)
-        offer(c, removable[i]);
+        offer_word(c, removable[i]);
     if ((kinds & RETURNS) != 0)
-        offer(c, "returns");
+        offer_word(c, "returns");
     if ((kinds & CONSTANTS) != 0) {
-        offer(c, "pi");
-        offer(c, "t");
+        offer_word(c, "pi");
+        offer_word(c, "t");
     }
 }
 
 static void
-offer_kinds(completion *c, unsigned kinds)
+offer_words_of_kinds(completion *c, unsigned kinds)
 {
-    offer_tables(c, kinds);
+    offer_language_words(c, kinds);
     offer_names(c, kinds);
     offer_labels(c, kinds);
     for (size_t i = 0; (kinds & RUNS) != 0 && i < c->session->runs->n; i++)
-        offer(c, c->session->runs->at[i].name);
+        offer_word(c, c->session->runs->at[i].name);
     for (size_t i = 0; (kinds & TABLES) != 0 && i < c->session->tables->n; i++)
-        offer(c, c->session->tables->at[i]->name);
+        offer_word(c, c->session->tables->at[i]->name);
 }
 
 /* --- completion within brackets -------------------------------------------------------- */
 
-/* Offer the indices of the members of a family, up to a comma. */
+/* Offer the indices of the members of a family, up to a comma; false if the family has no members. */
 static bool
 offer_indices(completion *c, const char *family)
 {
@@ -199,15 +199,15 @@ offer_indices(completion *c, const char *family)
 
     for (size_t i = 0; (name = qdot_names_at(c->session->names, i)) != NULL; i++)
         if (strncmp(name->name, family, n) == 0 && name->name[n] == '[') {
-            offer_n(c, name->name + n + 1, strcspn(name->name + n + 1, ",]"));
+            offer_word_of_length(c, name->name + n + 1, strcspn(name->name + n + 1, ",]"));
             found = true;
         }
     return found;
 }
 
-/* After `NAME[` or `NAME(...)[`: offer the values that may be an index there. */
+/* Offer the values that may be an index after `NAME[` or `NAME(...)[`. */
 static void
-complete_index(completion *c, const qdot_token *first, const qdot_token *open)
+offer_values_of_index(completion *c, const qdot_token *first, const qdot_token *open)
 {
     const qdot_token *name = open - 1;
     const qdot_quantity *quantity;
@@ -215,7 +215,7 @@ complete_index(completion *c, const qdot_token *first, const qdot_token *open)
     int depth = 0;
 
     if (open == first || !open->glued) { /* the bracket opens a matrix or list, not an index */
-        offer_kinds(c, EXPRESSION);
+        offer_words_of_kinds(c, EXPRESSION);
         return;
     }
     if (qdot_token_is(name, ")") || qdot_token_is(name, "]")) {
@@ -225,32 +225,32 @@ complete_index(completion *c, const qdot_token *first, const qdot_token *open)
         } while (depth > 0 && name > first);
         builtin = name->kind == QDOT_TOKEN_NAME ? qdot_builtin_find(name->text) : NULL;
         if (builtin != NULL && builtin->over != NULL)
-            offer_kinds(c, COORDINATES);
+            offer_words_of_kinds(c, COORDINATES);
         return;
     }
     if (name->kind != QDOT_TOKEN_NAME || offer_indices(c, name->text))
         return;
     quantity = qdot_quantity_find(name->text);
     if (strcmp(name->text, "lambda") == 0)
-        offer_kinds(c, CONSTRAINTS);
+        offer_words_of_kinds(c, CONSTRAINTS);
     else if (strcmp(name->text, "p") == 0 || strcmp(name->text, "delta") == 0 ||
              strcmp(name->text, "modes") == 0 ||
              (quantity != NULL && quantity->symbol != NULL) ||
              (quantity != NULL && quantity->over_coordinates && quantity->most > 0))
-        offer_kinds(c, COORDINATES);
+        offer_words_of_kinds(c, COORDINATES);
 }
 
-/* After `NAME(`: offer labels if the function takes one. */
+/* Offer labels after `NAME(` if the function NAME takes a label. */
 static void
-complete_argument(completion *c, const qdot_token *first, const qdot_token *open,
-                  const qdot_token *end)
+offer_labels_as_argument(completion *c, const qdot_token *first, const qdot_token *open,
+                         const qdot_token *end)
 {
     const qdot_builtin *builtin =
         open > first && open[-1].kind == QDOT_TOKEN_NAME && open->glued
             ? qdot_builtin_find(open[-1].text)
             : NULL;
 
-    offer_kinds(c, builtin != NULL && (builtin->flags & QDOT_BUILTIN_LABEL) != 0 &&
+    offer_words_of_kinds(c, builtin != NULL && (builtin->flags & QDOT_BUILTIN_LABEL) != 0 &&
                            end == open + 1
                        ? BODIES | PARTICLES
                        : EXPRESSION);
@@ -258,16 +258,16 @@ complete_argument(completion *c, const qdot_token *first, const qdot_token *open
 
 /* --- completion within a statement ----------------------------------------------------- */
 
-/* The kinds of words that fit each hole of the usages. */
+/* The kinds of words that fit each placeholder ("hole") of the usage texts. */
 #define HOLE(statement, before, text, class, expected, kinds) kinds,
 static const unsigned hole_kinds[] = {
 #include "lang/syntax/holes.def"
 };
 #undef HOLE
 
-/* Whether the token may begin the hole: only the name of a run stands for a run, so that `start x` goes on with `=`. */
+/* Whether the token may begin the placeholder: only the name of a run stands for a run, as `start x` goes on with `=`. */
 static bool
-may_begin(const void *user, const qdot_usage_node *hole, const qdot_token *token)
+token_may_begin_placeholder(const void *user, const qdot_usage_node *hole, const qdot_token *token)
 {
     const qdot_session *session = user;
 
@@ -279,7 +279,7 @@ may_begin(const void *user, const qdot_usage_node *hole, const qdot_token *token
     return false;
 }
 
-/* Offer what may come next according to the usage; `=` where nothing else may. */
+/* Offer the words that may come next according to the usage of the statement; if there are none, `=`. */
 static void
 offer_usage(completion *c, const qdot_usage *u)
 {
@@ -291,7 +291,7 @@ offer_usage(completion *c, const qdot_usage *u)
         const qdot_usage_node *node = &u->node[u->state[i].node];
 
         if (node->kind == QDOT_USAGE_WORD && !u->state[i].inside)
-            offer(c, node->text);
+            offer_word(c, node->text);
         else if (node->kind == QDOT_USAGE_HOLE && !u->state[i].inside)
             kinds |= hole_kinds[node->hole];
         else if (node->kind == QDOT_USAGE_SIGN && !u->state[i].inside)
@@ -299,14 +299,14 @@ offer_usage(completion *c, const qdot_usage *u)
         else if (node->kind == QDOT_USAGE_HOLE && !u->operand)
             kinds |= EXPRESSION;
     }
-    offer_kinds(c, kinds);
+    offer_words_of_kinds(c, kinds);
     if (equal && kinds == 0 && c->words.n == before)
-        offer(c, "=");
+        offer_word(c, "=");
 }
 
-/* Complete after the tokens [first, end) of a statement without open brackets. */
+/* Offer words after the tokens [first, end) of a statement, of which no bracket is open. */
 static void
-complete_statement(completion *c, const qdot_token *first, const qdot_token *end)
+offer_in_statement(completion *c, const qdot_token *first, const qdot_token *end)
 {
     const qdot_statement *row = first < end && first->kind == QDOT_TOKEN_NAME
                                     ? qdot_statement_find(first->text)
@@ -314,12 +314,12 @@ complete_statement(completion *c, const qdot_token *first, const qdot_token *end
     qdot_usage u;
 
     if (first == end) {
-        offer_kinds(c, STATEMENTS | (c->prefix[0] != '\0' ? EXPRESSION : 0));
+        offer_words_of_kinds(c, STATEMENTS | (c->prefix[0] != '\0' ? EXPRESSION : 0));
         return;
     }
     if (row != NULL &&
         qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row))) {
-        u.suits = may_begin;
+        u.suits = token_may_begin_placeholder;
         u.user = c->session;
         qdot_usage_read(&u, first, end);
         offer_usage(c, &u);
@@ -334,30 +334,30 @@ complete_statement(completion *c, const qdot_token *first, const qdot_token *end
 
 /* Whether a blank is needed between the token and a word. */
 static bool
-needs_blank(const qdot_token *token)
+needs_blank_after(const qdot_token *token)
 {
     return token->kind != QDOT_TOKEN_END &&
            (token->kind != QDOT_TOKEN_OPERATOR || strchr(")]'%", token->text[0]) != NULL);
 }
 
-/* Complete after the tokens [first, end); the bracket at `open` is not closed, NULL: there is none. */
+/* Offer words after the tokens [first, end); `open` is an unclosed bracket among them, NULL: there is none. */
 static void
-complete_at(completion *c, const qdot_token *first, const qdot_token *open,
-            const qdot_token *end)
+offer_after_tokens(completion *c, const qdot_token *first, const qdot_token *open,
+                   const qdot_token *end)
 {
     if (end > first && qdot_token_is(end - 1, ".") && end[-1].glued)
-        offer_kinds(c, EXPRESSION); /* a name after `a.`: an expression along run a */
+        offer_words_of_kinds(c, EXPRESSION); /* a name after `a.`: an expression along run a */
     else if (open == NULL)
-        complete_statement(c, first, end);
+        offer_in_statement(c, first, end);
     else if (qdot_token_is(open, "["))
-        complete_index(c, first, open);
+        offer_values_of_index(c, first, open);
     else
-        complete_argument(c, first, open, end);
+        offer_labels_as_argument(c, first, open, end);
 }
 
-/* Find the statement that contains the last token, and its innermost open bracket. */
+/* Find the statement that contains the last token, and its innermost open bracket, and offer words there. */
 static void
-complete_tokens(completion *c, const qdot_token *tokens, size_t n)
+offer_at_end_of_tokens(completion *c, const qdot_token *tokens, size_t n)
 {
     const qdot_token *end = tokens + n, *first = tokens, *open = NULL;
     long depth = 0;
@@ -370,25 +370,25 @@ complete_tokens(completion *c, const qdot_token *tokens, size_t n)
         if (depth > 0)
             open = k;
     }
-    complete_at(c, first, open, end);
+    offer_after_tokens(c, first, open, end);
 }
 
 /* --- completion of a text -------------------------------------------------------------- */
 
 static int
-by_spelling(const void *a, const void *b)
+compare_spelling(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
 /* Return the words, sorted and without repetition. */
 static qdot_status
-return_words(completion *c, char ***words, size_t *n)
+return_sorted_words(completion *c, char ***words, size_t *n)
 {
     size_t kept = 0;
 
     if (c->words.n > 0)
-        qsort(c->words.at, c->words.n, sizeof *c->words.at, by_spelling);
+        qsort(c->words.at, c->words.n, sizeof *c->words.at, compare_spelling);
     for (size_t i = 0; i < c->words.n; i++) {
         if (kept > 0 && strcmp(c->words.at[kept - 1], c->words.at[i]) == 0)
             qdot_free(c->words.at[i]);
@@ -409,7 +409,7 @@ return_words(completion *c, char ***words, size_t *n)
 /* The spelled name of a prefix that holds Greek letters or lowered digits, θ₁ as theta1; false: it holds
  * none. */
 static bool
-spell_prefix(const char *prefix, qdot_text *out)
+spell_prefix_in_ascii(const char *prefix, qdot_text *out)
 {
     bool any = false;
 
@@ -430,9 +430,9 @@ spell_prefix(const char *prefix, qdot_text *out)
     return any;
 }
 
-/* Let each word begin as the prefix was typed, rather than in its ASCII spelling of length `spelled`. */
+/* Let each offered word begin as the prefix was typed, instead of with its ASCII spelling of length `spelled`. */
 static void
-respell(completion *c, size_t spelled, const char *typed)
+restore_typed_prefix(completion *c, size_t spelled, const char *typed)
 {
     for (size_t i = 0; i < c->words.n && c->status == QDOT_OK; i++) {
         qdot_text word = {0};
@@ -454,7 +454,7 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
               const char *prefix, char ***words, size_t *n)
 {
     qdot_text spelled = {0};
-    const bool greek = spell_prefix(prefix, &spelled);
+    const bool greek = spell_prefix_in_ascii(prefix, &spelled);
     completion c = {.session = session, .prefix = qdot_text_str(&spelled)};
     qdot_source *source;
     size_t at;
@@ -469,18 +469,18 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
 
         if (c.status == QDOT_OK &&
             !(length > 0 && strchr(";\n{}", before[length - 1]) != NULL))
-            tokens--; /* without the token END that closes the text */
+            tokens--; /* do not count the token END that closes the text */
         c.status = QDOT_OK;
-        if (tokens == 0 || !needs_blank(source->tokens.at + tokens - 1) ||
+        if (tokens == 0 || !needs_blank_after(source->tokens.at + tokens - 1) ||
             source->tokens.at[tokens - 1].start + source->tokens.at[tokens - 1].length <
                 length)
-            complete_tokens(&c, source->tokens.at, tokens);
+            offer_at_end_of_tokens(&c, source->tokens.at, tokens);
         qdot_source_free(source);
     }
     if (greek)
-        respell(&c, spelled.n, prefix);
+        restore_typed_prefix(&c, spelled.n, prefix);
     qdot_text_clear(&spelled);
-    return return_words(&c, words, n);
+    return return_sorted_words(&c, words, n);
 }
 
 qdot_status
@@ -497,7 +497,7 @@ qdot_complete_greek(const char *prefix, bool letter, char ***words, size_t *n)
             continue;
         only = c.words.n == 0 ? code : 0;
         snprintf(word, sizeof word, "\\%s", name);
-        offer(&c, word);
+        offer_word(&c, word);
     }
     if (only != 0 && c.status == QDOT_OK) {
         /* the two bytes of UTF-8 for a code point below U+0800 */
@@ -506,5 +506,5 @@ qdot_complete_greek(const char *prefix, bool letter, char ***words, size_t *n)
 
         strcpy(c.words.at[0], letter ? sign : word + 1);
     }
-    return return_words(&c, words, n);
+    return return_sorted_words(&c, words, n);
 }

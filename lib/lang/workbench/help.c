@@ -14,7 +14,7 @@
 #include "lang/workbench/topics.h"
 #include "ode/method.h"
 
-static qdot_status help_tell(qdot_record *r);
+static qdot_status carry_out_help(qdot_record *r);
 
 QDOT_STATEMENT(help) = {
     .word = "help",
@@ -23,7 +23,7 @@ QDOT_STATEMENT(help) = {
     .summary = "this list, what a word means, or the words whose help contains a text; at the prompt `?particle` "
                "and `??energy` are short for `help particle` and `help search energy`",
     .example = "help particle",
-    .handler = help_tell,
+    .handler = carry_out_help,
 };
 
 enum { OFF_TERMINAL = 86 }; /* width of text in columns if the output is no terminal */
@@ -35,13 +35,13 @@ add_help_entry(qdot_text *text, const char *word, const char *summary)
     qdot_text_format(text, "  %-14s %s\n", word, summary);
 }
 
-/* State for words that are written line by line up to a width. */
+/* State for writing words one after another, in lines up to a width. */
 typedef struct {
     size_t width, column;
 } running;
 
 static void
-flow(qdot_text *text, const char *word, running *line)
+append_word_in_line(qdot_text *text, const char *word, running *line)
 {
     size_t n = strlen(word) + 1;
 
@@ -61,7 +61,7 @@ is_built(const qdot_quantity *row)
 }
 
 static void
-overview(qdot_text *text, size_t width)
+append_overview(qdot_text *text, size_t width)
 {
     const qdot_statement *row;
     const char *group = "";
@@ -78,26 +78,26 @@ overview(qdot_text *text, size_t width)
     qdot_text_add(text, "\nvalues\n ");
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
         if (is_built(qdot_quantity_at(i)))
-            flow(text, qdot_quantity_at(i)->name, &values);
+            append_word_in_line(text, qdot_quantity_at(i)->name, &values);
     qdot_text_add(text, "\n\nfunctions\n ");
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
         if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT))
-            flow(text, qdot_builtin_at(i)->name, &functions);
+            append_word_in_line(text, qdot_builtin_at(i)->name, &functions);
     qdot_text_add(text, "\n\nhelp WORD says more of each, help search WORD finds it; any "
                         "statement may end in `for k = a..b`\n");
 }
 
 static void
-explain(qdot_text *text, const char *usage, const char *summary, const char *example)
+append_explanation(qdot_text *text, const char *usage, const char *summary, const char *example)
 {
     qdot_text_format(text, "%s\n    %s\n", usage, summary);
     if (example != NULL && example[0] != '\0' && strcmp(example, usage) != 0)
         qdot_text_format(text, "    example: %s\n", example);
 }
 
-/* List every statement that has the word as an option. */
+/* List every statement that has the word as the keyword of an option. */
 static void
-look_up_option(qdot_text *text, const char *word)
+list_statements_with_option(qdot_text *text, const char *word)
 {
     const qdot_statement *row;
 
@@ -105,7 +105,7 @@ look_up_option(qdot_text *text, const char *word)
         return;
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++)
         if (qdot_has_word(row->usage, word)) {
-            explain(text, row->usage, row->summary, row->example);
+            append_explanation(text, row->usage, row->summary, row->example);
             if (!qdot_statement_is_built(row))
                 qdot_text_add(text, "    not built yet\n");
         }
@@ -118,7 +118,7 @@ explain_topic(qdot_text *text, const qdot_topic *topic)
     const qdot_statement *row;
     size_t n = 0;
 
-    explain(text, topic->usage, topic->summary, topic->example);
+    append_explanation(text, topic->usage, topic->summary, topic->example);
     for (size_t i = 0; topic->option && (row = qdot_statement_at(i)) != NULL; i++)
         if (qdot_statement_is_built(row) && qdot_has_word(row->usage, topic->word))
             qdot_text_format(text, "%s%s", n++ == 0 ? "    an option of " : ", ", row->word);
@@ -127,7 +127,7 @@ explain_topic(qdot_text *text, const qdot_topic *topic)
 
 /* Append the explanation of a statement, function or quantity of that name; false if there is none. */
 static bool
-look_up(qdot_text *text, const char *word)
+explain_word(qdot_text *text, const char *word)
 {
     const qdot_statement *statement = qdot_statement_find(word);
     const qdot_quantity *quantity = qdot_quantity_find(word);
@@ -135,17 +135,17 @@ look_up(qdot_text *text, const char *word)
     qdot_fun_id id;
 
     if (statement != NULL) {
-        explain(text, statement->usage, statement->summary, statement->example);
+        append_explanation(text, statement->usage, statement->summary, statement->example);
         if (!qdot_statement_is_built(statement))
             qdot_text_add(text, "    not built yet\n");
     }
     if (quantity != NULL) {
-        explain(text, quantity->usage, quantity->summary, quantity->example);
+        append_explanation(text, quantity->usage, quantity->summary, quantity->example);
         if (!is_built(quantity))
             qdot_text_add(text, "    not built yet\n");
     }
     if (builtin != NULL) {
-        explain(text, builtin->usage, builtin->summary, builtin->example);
+        append_explanation(text, builtin->usage, builtin->summary, builtin->example);
         if (builtin->flags & QDOT_BUILTIN_UNBUILT)
             qdot_text_add(text, "    not built yet\n");
     } else if (qdot_fun_find(word, &id)) {
@@ -159,13 +159,13 @@ look_up(qdot_text *text, const char *word)
         qdot_text_format(text, "\n    %s\n", qdot_ode_method_find(word)->fits);
     }
     if (text->n == 0)
-        look_up_option(text, word);
+        list_statements_with_option(text, word);
     return text->n > 0;
 }
 
 /* Carry out `help search WORD ...` or `help search "TEXT"`. */
 static qdot_status
-help_search(qdot_record *r)
+carry_out_help_search(qdot_record *r)
 {
     qdot_text words = {0}, text = {0};
     qdot_status status;
@@ -184,7 +184,7 @@ help_search(qdot_record *r)
 
 /* The statement, function or quantity whose name is nearest; NULL if none is near. */
 static const char *
-nearest_word(qdot_session *session, const char *word)
+find_nearest_word(qdot_session *session, const char *word)
 {
     const char *other = qdot_hints_nearest(session, word);
     qdot_spelling near;
@@ -198,7 +198,7 @@ nearest_word(qdot_session *session, const char *word)
 }
 
 static qdot_status
-help_tell(qdot_record *r)
+carry_out_help(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *word = qdot_record_hole(r, "help", NULL);
@@ -207,13 +207,13 @@ help_tell(qdot_record *r)
     qdot_text text = {0};
 
     if (qdot_record_word(r, "search") != NULL)
-        return help_search(r);
+        return carry_out_help_search(r);
     r->cursor.error_at = r->start->start;
     if (word == NULL) {
-        overview(&text, width > 0 ? width : OFF_TERMINAL);
-    } else if (!look_up(&text, word->from->text)) {
+        append_overview(&text, width > 0 ? width : OFF_TERMINAL);
+    } else if (!explain_word(&text, word->from->text)) {
         (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word->from->text);
-        near = nearest_word(session, word->from->text);
+        near = find_nearest_word(session, word->from->text);
         return near != NULL
                    ? qdot_hint("did you mean `%s`?", near)
                    : qdot_hint("`help` lists every word; `show NAME` tells of your own names");

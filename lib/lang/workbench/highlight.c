@@ -12,9 +12,9 @@
 
 /* --- kinds of names ------------------------------------------------------------------- */
 
-/* Whether the statement's word is used as a name: `run*2`, `gravity = 9.81`. */
+/* Whether the word of a statement is used as a name here: `run*2`, `gravity = 9.81`. */
 static bool
-is_operand(const qdot_token *name)
+is_word_used_as_name(const qdot_token *name)
 {
     static const char *const binary[] = {
         "=", "*", "/", "^", "'", "==", "<", ">", "<=", ">=", "."};
@@ -25,16 +25,16 @@ is_operand(const qdot_token *name)
     return qdot_quantity_find(name->text) != NULL;
 }
 
-/* The row of the statement that begins here; NULL: an expression or a definition. */
+/* The table row of the statement that begins at this token; NULL: it is an expression or a definition. */
 static const qdot_statement *
-row_of(const qdot_token *first)
+find_statement(const qdot_token *first)
 {
-    return first->kind == QDOT_TOKEN_NAME && !is_operand(first)
+    return first->kind == QDOT_TOKEN_NAME && !is_word_used_as_name(first)
                ? qdot_statement_find(first->text)
                : NULL;
 }
 
-/* Whether the name is an option word that the statement has at this place. */
+/* Whether the name is the word of an option of this statement, at a place where it may stand. */
 static bool
 is_option(const qdot_statement *row, const qdot_token *first, const qdot_token *name)
 {
@@ -49,22 +49,22 @@ is_option(const qdot_statement *row, const qdot_token *first, const qdot_token *
 
 /* Whether `for k = ...` or `to "FILE"` begins here, which may end any statement. */
 static bool
-ends_statement(const qdot_token *name)
+begins_end_of_statement(const qdot_token *name)
 {
     return (qdot_token_is_word(name, "for") && name[1].kind == QDOT_TOKEN_NAME) ||
            (qdot_token_is_word(name, "to") && name[1].kind == QDOT_TOKEN_STRING);
 }
 
 static qdot_highlight
-kind_of_name(const qdot_session *session, const qdot_token *first, const qdot_token *name,
-             bool in_brackets)
+name_kind(const qdot_session *session, const qdot_token *first, const qdot_token *name,
+          bool in_brackets)
 {
-    const qdot_statement *row = row_of(first);
+    const qdot_statement *row = find_statement(first);
 
     if (name == first && row != NULL)
         return QDOT_HIGHLIGHT_WORD;
     if (!in_brackets && name > first &&
-        (ends_statement(name) || is_option(row, first, name)))
+        (begins_end_of_statement(name) || is_option(row, first, name)))
         return QDOT_HIGHLIGHT_WORD;
     return qdot_cursor_knows(session, name->text) ? QDOT_HIGHLIGHT_NAME
                                                   : QDOT_HIGHLIGHT_PLAIN;
@@ -73,18 +73,18 @@ kind_of_name(const qdot_session *session, const qdot_token *first, const qdot_to
 /* --- colouring a text ----------------------------------------------------------------- */
 
 static qdot_highlight
-token_kind(const qdot_session *session, const qdot_token *first, const qdot_token *token,
-           bool in_brackets)
+find_kind_of_token(const qdot_session *session, const qdot_token *first, const qdot_token *token,
+                   bool in_brackets)
 {
     switch (token->kind) {
-    case QDOT_TOKEN_NAME: return kind_of_name(session, first, token, in_brackets);
+    case QDOT_TOKEN_NAME: return name_kind(session, first, token, in_brackets);
     case QDOT_TOKEN_NUMBER: return QDOT_HIGHLIGHT_NUMBER;
     case QDOT_TOKEN_STRING: return QDOT_HIGHLIGHT_STRING;
     default: return QDOT_HIGHLIGHT_PLAIN;
     }
 }
 
-/* Mark comments between tokens, which begin with #. */
+/* Mark the comments between tokens, which begin with #, for colouring. */
 static void
 mark_comments(const char *text, size_t from, size_t to, uint8_t *kinds)
 {
@@ -94,7 +94,7 @@ mark_comments(const char *text, size_t from, size_t to, uint8_t *kinds)
                 kinds[i] = QDOT_HIGHLIGHT_COMMENT;
 }
 
-/* Classify the tokens of the text; *end: how far they reach. */
+/* Classify the tokens of the text for colouring; *end: the byte up to which they reach. */
 static void
 mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kinds,
             size_t *end)
@@ -110,9 +110,9 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
             first = token + 1;
             depth = 0;
         } else {
-            const uint8_t kind = (uint8_t)token_kind(session, first, token, depth > 0);
+            const uint8_t kind = (uint8_t)find_kind_of_token(session, first, token, depth > 0);
 
-            if (token->start >= *end) /* otherwise the token is a dot accent on the preceding name */
+            if (token->start >= *end) /* skip a dot accent, which belongs to the name before it */
                 memset(kinds + token->start, kind, token->length);
             depth += qdot_token_bracket(token);
         }
@@ -124,7 +124,7 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
 /* The byte that is no token: a text without its quote, or what means nothing. Returns how far
  * that reaches. */
 static size_t
-mark_unread(const char *text, size_t length, size_t at, uint8_t *kinds)
+mark_invalid_byte(const char *text, size_t length, size_t at, uint8_t *kinds)
 {
     const bool quoted = text[at] == '"', goes_on = text[at] == '\\';
     const size_t n = qdot_utf8_length(text + at);
@@ -162,8 +162,8 @@ qdot_highlight_text(const qdot_session *session, const char *text, size_t length
         if (status == QDOT_OK)
             mark_tokens(session, source, kinds + from, &end);
         end = status != QDOT_OK || at >= length - from || at < end
-                  ? length - from /* everything was read except a missing closing bracket */
-                  : mark_unread(text + from, length - from, at, kinds + from);
+                  ? length - from /* everything was read: only a closing bracket is missing */
+                  : mark_invalid_byte(text + from, length - from, at, kinds + from);
         qdot_source_free(source);
         QDOT_TRY(status);
         from += end;

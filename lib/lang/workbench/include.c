@@ -3,7 +3,7 @@
 #include "lang/syntax/record.h"
 #include "lang/workbench/script.h"
 
-static qdot_status include_carry_out(qdot_record *r);
+static qdot_status carry_out_include(qdot_record *r);
 
 QDOT_STATEMENT(include) = {
     .word = "include",
@@ -11,11 +11,11 @@ QDOT_STATEMENT(include) = {
     .usage = "include \"FILE.lag\"",
     .summary = "carry out another script, found beside this one",
     .example = "include \"other.lag\"",
-    .handler = include_carry_out,
+    .handler = carry_out_include,
 };
 
 static qdot_status
-include_carry_out(qdot_record *r)
+carry_out_include(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_text path = {0};

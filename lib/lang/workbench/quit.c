@@ -3,7 +3,7 @@
 #include "lang/syntax/record.h"
 
 static qdot_status
-quit_leave(qdot_record *r)
+carry_out_quit(qdot_record *r)
 {
     r->cursor.session->outcome->quit = true;
     return QDOT_OK;
@@ -16,5 +16,5 @@ QDOT_STATEMENT(quit) = {
     .summary = "leave",
     .example = "quit",
     .alone = true,
-    .handler = quit_leave,
+    .handler = carry_out_quit,
 };

@@ -1,4 +1,4 @@
-/* reset.c -- the statement `reset`. */
+/* reset.c -- the statement `reset`: removes the scene, or everything from the session. */
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/language/function.h"
@@ -12,7 +12,7 @@
 #include "lang/syntax/record.h"
 #include "mech/scene/things.h"
 
-static qdot_status reset_carry_out(qdot_record *r);
+static qdot_status carry_out_reset(qdot_record *r);
 
 QDOT_STATEMENT(reset) = {
     .word = "reset",
@@ -20,7 +20,7 @@ QDOT_STATEMENT(reset) = {
     .usage = "reset | reset scene | reset start | reset scale",
     .summary = "forget everything, or the scene, the initial state, the scales",
     .example = "reset scene",
-    .handler = reset_carry_out,
+    .handler = carry_out_reset,
 };
 
 /* Classes of symbols that belong to a scene. */
@@ -31,20 +31,20 @@ enum {
 
 /* Whether a name survives `reset scene`: parameters, and values without symbols of the scene. */
 static bool
-name_is_kept(const qdot_pool *pool, const qdot_name *name)
+survives_reset_of_scene(const qdot_pool *pool, const qdot_name *name)
 {
     return name->kind != QDOT_NAME_COORD &&
            (qdot_expr_node(pool, name->value)->holds & SCENE) == 0;
 }
 
-/* Whether a function survives: its body mentions only names that survive. */
+/* Whether a function survives `reset scene`: its body mentions only names that survive. */
 static bool
 is_function_kept(const qdot_session *session, const qdot_name *function)
 {
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
-        if (!name_is_kept(session->pool, name) &&
+        if (!survives_reset_of_scene(session->pool, name) &&
             qdot_function_mentions(session->pool, function, name->name))
             return false;
     return true;
@@ -53,14 +53,14 @@ is_function_kept(const qdot_session *session, const qdot_name *function)
 /* Carry what is kept of `old` over into `fresh`, which has a pool and names of its
  * own. */
 static qdot_status
-session_keep(const qdot_session *old, qdot_session *fresh)
+copy_surviving_names(const qdot_session *old, qdot_session *fresh)
 {
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(old->names, i)) != NULL; i++) {
         qdot_name copy = *name;
 
-        if (!name_is_kept(old->pool, name) ||
+        if (!survives_reset_of_scene(old->pool, name) ||
             (name->kind == QDOT_NAME_FUNCTION && !is_function_kept(old, name)))
             continue;
         copy.value = qdot_transfer(old->pool, fresh->pool, name->value);
@@ -107,7 +107,7 @@ session_keep(const qdot_session *old, qdot_session *fresh)
 
 /* Clear the scene, or everything in the session. */
 static qdot_status
-reset(qdot_session *session, bool everything)
+reset_session(qdot_session *session, bool everything)
 {
     qdot_session *fresh;
     qdot_status status = QDOT_OK;
@@ -118,7 +118,7 @@ reset(qdot_session *session, bool everything)
     if (fresh == NULL)
         return QDOT_ENOMEM;
     if (!everything)
-        status = session_keep(session, fresh);
+        status = copy_surviving_names(session, fresh);
     if (status != QDOT_OK) {
         qdot_session_free(fresh);
         return status;
@@ -129,7 +129,7 @@ reset(qdot_session *session, bool everything)
 }
 
 static qdot_status
-reset_carry_out(qdot_record *r)
+carry_out_reset(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
 
@@ -144,5 +144,5 @@ reset_carry_out(qdot_record *r)
         session->values->scale_symbols.n = session->values->scale_values.n = 0;
         return QDOT_OK;
     }
-    return reset(session, qdot_record_word(r, "scene") == NULL);
+    return reset_session(session, qdot_record_word(r, "scene") == NULL);
 }

@@ -13,7 +13,7 @@
 enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
 
 static int
-exit_status(qdot_session *session, qdot_status status)
+find_exit_status(qdot_session *session, qdot_status status)
 {
     session->outcome->failed = status != QDOT_OK;
     if (status != QDOT_OK)
@@ -31,11 +31,11 @@ qdot_script_run_text(qdot_session *session, const char *name, const char *text,
 int
 qdot_script_run_part(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length)
 {
-    return exit_status(session, qdot_script_carry_out(session, name, before, text, length));
+    return find_exit_status(session, qdot_script_carry_out(session, name, before, text, length));
 }
 
 static qdot_status
-script_read_file(const char *path, qdot_text *text)
+read_script_file(const char *path, qdot_text *text)
 {
     bool standard = strcmp(path, "-") == 0;
     FILE *file = standard ? stdin : fopen(path, "rb");
@@ -46,9 +46,9 @@ script_read_file(const char *path, qdot_text *text)
     return status;
 }
 
-/* Whether the file is being read already. */
+/* Whether the file is one of those being read already, so that it would include itself. */
 static bool
-script_is_open(const qdot_session *session, const char *path)
+is_script_being_read(const qdot_session *session, const char *path)
 {
     struct stat info, other;
 
@@ -70,7 +70,7 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
     char *own;
 
     *opened = false;
-    if (!standard && script_is_open(session, path))
+    if (!standard && is_script_being_read(session, path))
         return qdot_fail(QDOT_EINVAL, "`%s` includes itself", path);
     if (session->including->n >= INCLUDE_LIMIT)
         return qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another",
@@ -83,7 +83,7 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
         qdot_free(own);
         return status;
     }
-    status = script_read_file(path, &text);
+    status = read_script_file(path, &text);
     if (status == QDOT_OK) {
         *opened = true;
         status = qdot_script_carry_out(session, standard ? "standard input" : path, 0,
@@ -102,7 +102,7 @@ qdot_script_run_file(qdot_session *session, const char *path)
 
     if (status != QDOT_OK && !opened)
         qdot_answer_error(session, NULL, 0);
-    return exit_status(session, status);
+    return find_exit_status(session, status);
 }
 
 bool
@@ -114,7 +114,7 @@ qdot_script_takes_long(const char *text, size_t length)
 
     if (qdot_source_new("", text, length, &source, &at) != QDOT_OK) {
         qdot_source_free(source);
-        return false; /* the source is wrong, so an error follows */
+        return false; /* the text cannot be split into tokens, so reading it will report an error */
     }
     for (qdot_mention m = qdot_mention_in(source->tokens.at, source->tokens.at + source->tokens.n);
          !found && qdot_mention_next(&m);)

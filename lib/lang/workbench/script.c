@@ -41,7 +41,7 @@
 typedef struct {
     size_t body, close; /* indices of the first token in the block, and of its `}` */
     size_t resume;      /* the token after the block */
-    qdot_record *clause; /* of the loop; owned */
+    qdot_record *clause; /* the parsed `for` clause of the block's loop; owned */
     qdot_loop loop;
 } frame;
 
@@ -58,9 +58,9 @@ typedef struct {
 
 /* --- carrying out a simple statement ------------------------------------------------ */
 
-/* The statement whose word is spelled most similarly; NULL if none is near. */
+/* The statement whose word is most similar to the name; NULL if none is similar. */
 static const qdot_statement *
-nearest_statement(const qdot_session *session, const char *name)
+find_nearest_statement(const qdot_session *session, const char *name)
 {
     const char *words[128], *near;
     size_t n = 0;
@@ -71,14 +71,14 @@ nearest_statement(const qdot_session *session, const char *name)
     return near != NULL ? qdot_statement_find(near) : NULL;
 }
 
-/* Report the unknown first word of `partcle bob mass m`: a word that another name follows. */
+/* Report the unknown first word of a statement such as `partcle bob mass m`: a word followed by another name. */
 static qdot_status
-unknown_word(qdot_cursor *c)
+report_unknown_word(qdot_cursor *c)
 {
     const char *word = c->at->text;
-    const qdot_statement *near = nearest_statement(c->session, word);
+    const qdot_statement *near = find_nearest_statement(c->session, word);
 
-    if (qdot_statement_find(word) != NULL) { /* a statement of one word */
+    if (qdot_statement_find(word) != NULL) { /* the word is a known statement of one word */
         c->error_at = c->at[1].start;
         return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", word, c->at[1].text);
     }
@@ -91,7 +91,7 @@ unknown_word(qdot_cursor *c)
                : qdot_hint("`help` lists the statements; a product is written with *");
 }
 
-/* The compiled usage of the row; NULL if out of memory. */
+/* The compiled usage of a statement's table row; NULL if out of memory. */
 static const qdot_usage *
 find_usage(engine *x, const qdot_statement *row)
 {
@@ -109,7 +109,7 @@ find_usage(engine *x, const qdot_statement *row)
     return usage;
 }
 
-/* Carry out the statement at the cursor, read by its usage. */
+/* Carry out the statement at the cursor, which is read as its usage text says. */
 static qdot_status
 carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
 {
@@ -143,7 +143,7 @@ carry_out_row(engine *x, qdot_cursor *c, const qdot_statement *row)
 }
 
 static qdot_status
-dispatch(engine *x, qdot_cursor *c)
+dispatch_statement(engine *x, qdot_cursor *c)
 {
     const qdot_form form = qdot_statement_form(c->session, c->at);
 
@@ -158,7 +158,7 @@ dispatch(engine *x, qdot_cursor *c)
         }
         QDOT_TRY(carry_out_row(x, c, row));
     } else if (form == QDOT_FORM_UNKNOWN) {
-        return unknown_word(c);
+        return report_unknown_word(c);
     } else if (form == QDOT_FORM_COMPARISON) {
         QDOT_TRY(qdot_check(c));
     } else {
@@ -171,7 +171,7 @@ dispatch(engine *x, qdot_cursor *c)
 /* Whether the statement asks of the scene: then parameters that a loop holds are put into it. Runs
  * have them as values of their own. */
 static bool
-asks(const qdot_session *session, const qdot_token *first)
+reads_scene(const qdot_session *session, const qdot_token *first)
 {
     const qdot_statement *row;
 
@@ -182,28 +182,28 @@ asks(const qdot_session *session, const qdot_token *first)
            strcmp(row->word, "export") == 0;
 }
 
-/* Carry out one iteration of a loop, with the parameters and coordinates that it sets. */
+/* Carry out a statement in one pass of a loop, with the parameters and coordinates that the loop sets. */
 static qdot_status
-dispatch_held(engine *x, qdot_cursor *c)
+dispatch_in_loop(engine *x, qdot_cursor *c)
 {
     qdot_session *session = c->session;
     qdot_scene_saved kept = {0};
     qdot_status status = QDOT_OK;
 
-    if (session->evaluation->held.n == 0 || !asks(session, c->at))
-        return dispatch(x, c);
+    if (session->evaluation->held.n == 0 || !reads_scene(session, c->at))
+        return dispatch_statement(x, c);
     status = qdot_held_check(session);
     if (status == QDOT_OK)
         status = qdot_held_scene_begin(session, &kept);
     if (status == QDOT_OK)
-        status = dispatch(x, c);
+        status = dispatch_statement(x, c);
     qdot_held_scene_end(session, &kept);
     return status;
 }
 
-/* Find the `to FILE` that ends the statement; none if the statement parses `to` itself. */
+/* Find the `to FILE` that ends the statement; NULL if there is none or if the statement parses `to` itself. */
 static const qdot_token *
-find_to(const qdot_session *session, const qdot_token *first)
+find_output_file(const qdot_session *session, const qdot_token *first)
 {
     const qdot_token *to = qdot_outline_file(first);
     const qdot_form form = to != NULL ? qdot_statement_form(session, first) : QDOT_FORM_DEFINITION;
@@ -213,9 +213,9 @@ find_to(const qdot_session *session, const qdot_token *first)
                                         : qdot_redirect_find(word ? qdot_statement_row(first) : NULL, first, to);
 }
 
-/* Carry out a statement that ends before `to`, with its answers going to the file. */
+/* Carry out a statement that ends before token `to`, and write its answers to the file named after `to`. */
 static qdot_status
-dispatch_to(engine *x, qdot_cursor *c, size_t to)
+dispatch_with_output_file(engine *x, qdot_cursor *c, size_t to)
 {
     qdot_redirect redirect;
     qdot_status status;
@@ -223,7 +223,7 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
     c->error_at = x->tokens[to + 1].start;
     QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
     qdot_outline_cut(&x->tokens[to]);
-    status = dispatch_held(x, c);
+    status = dispatch_in_loop(x, c);
     qdot_outline_join(&x->tokens[to]);
     if (status == QDOT_OK)
         c->error_at = x->tokens[to + 1].start;
@@ -233,7 +233,7 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
 /* One notice for all forms of the answer that the work budget left unfinished. Where none is
  * shown, as by `check` or `run`, it does not matter. */
 static qdot_status
-tell_unfinished(qdot_session *session, const qdot_token *first)
+give_notice_of_unfinished(qdot_session *session, const qdot_token *first)
 {
     const qdot_statement *row = qdot_statement_row(first);
 
@@ -245,18 +245,18 @@ tell_unfinished(qdot_session *session, const qdot_token *first)
 }
 
 static qdot_status
-statement(engine *x, size_t i)
+carry_out_statement(engine *x, size_t i)
 {
     qdot_cursor c = {.session = x->session,
                      .source = x->source,
                      .at = &x->tokens[i],
                      .error_at = x->tokens[i].start};
     qdot_status status = qdot_interrupt_check();
-    const qdot_token *to = status == QDOT_OK ? find_to(x->session, &x->tokens[i]) : NULL;
+    const qdot_token *to = status == QDOT_OK ? find_output_file(x->session, &x->tokens[i]) : NULL;
 
-    (void)qdot_pool_unfinished_taken(x->session->pool); /* notes of a statement that failed are dropped */
+    (void)qdot_pool_unfinished_taken(x->session->pool); /* drop what a failed statement has noted */
     if (status == QDOT_OK)
-        status = to == NULL ? dispatch_held(x, &c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
+        status = to == NULL ? dispatch_in_loop(x, &c) : dispatch_with_output_file(x, &c, (size_t)(to - x->tokens));
     qdot_progress_clear();
     if (status == QDOT_OK)
         status = qdot_sheet_flush(x->session);
@@ -266,10 +266,10 @@ statement(engine *x, size_t i)
     if (qdot_memory_ran_out() && status == QDOT_OK)
         status = qdot_fail(QDOT_ENOMEM, "out of memory: the answers may be incomplete");
     if (status == QDOT_OK)
-        return tell_unfinished(x->session, &x->tokens[i]);
+        return give_notice_of_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;
     if (qdot_pool_failed(
-            x->session->pool)) { /* report this failure as that of the statement */
+            x->session->pool)) { /* report the pool's failure as that of the statement */
         qdot_error error = *qdot_last_error();
 
         (void)!qdot_pool_check(x->session->pool);
@@ -280,9 +280,9 @@ statement(engine *x, size_t i)
 
 /* --- repetition by a trailing `for` ------------------------------------------------- */
 
-/* Add to the error in which iteration it occurred, unless there is another hint. */
+/* Add to an error in which pass of a loop it occurred, unless it has another hint. */
 static void
-tell_pass(const engine *x, const qdot_loop *loop)
+add_loop_values_to_error(const engine *x, const qdot_loop *loop)
 {
     qdot_text text = {0};
 
@@ -321,7 +321,7 @@ read_clause(engine *x, const qdot_cursor *c, const qdot_token *from, const qdot_
     return status;
 }
 
-/* Begin the loop over the clause that has been read. */
+/* Begin the loop over the values of the `for` clause that has been read. */
 static qdot_status
 begin_loop(engine *x, qdot_loop *loop, qdot_record *clause, bool *more)
 {
@@ -332,9 +332,9 @@ begin_loop(engine *x, qdot_loop *loop, qdot_record *clause, bool *more)
     return status;
 }
 
-/* Carry out the statement at i, which ends before the word of its loop, in each pass. */
+/* Carry out the statement at i, which ends before its word `for`, once in each pass of its loop. */
 static qdot_status
-repeat(engine *x, size_t i, const qdot_token *word)
+carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
 {
     const qdot_cursor c = {.session = x->session, .source = x->source, .at = word};
     qdot_record clause;
@@ -346,10 +346,10 @@ repeat(engine *x, size_t i, const qdot_token *word)
         status = begin_loop(x, &loop, &clause, &more);
     while (status == QDOT_OK && more) {
         qdot_outline_cut(word);
-        status = statement(x, i);
+        status = carry_out_statement(x, i);
         qdot_outline_join(word);
         if (status != QDOT_OK) {
-            tell_pass(x, &loop);
+            add_loop_values_to_error(x, &loop);
             break;
         }
         status = qdot_loop_next(&loop, &more);
@@ -361,7 +361,7 @@ repeat(engine *x, size_t i, const qdot_token *word)
 }
 
 static void
-tell_time(const engine *x, clock_t since)
+report_cpu_time(const engine *x, clock_t since)
 {
     qdot_text text = {0};
     double s = (double)(clock() - since) / CLOCKS_PER_SEC;
@@ -375,7 +375,7 @@ tell_time(const engine *x, clock_t since)
     qdot_text_clear(&text);
 }
 
-/* Whether there is no hint, or one that declares the name; a mistyped statement word is likelier. */
+/* Whether an error's hint is empty or declares the name; a mistyped statement word is likelier. */
 static bool
 is_bare_or_declares(const char *hint)
 {
@@ -385,7 +385,7 @@ is_bare_or_declares(const char *hint)
 /* The row of the statement [i, end), if it fails in its first tokens and nothing says how it goes on:
  * then its example helps. */
 static const qdot_statement *
-row_with_example(const engine *x, size_t i, size_t end)
+find_row_with_example(const engine *x, size_t i, size_t end)
 {
     const qdot_token *first = &x->tokens[i];
     const qdot_error *error = qdot_last_error();
@@ -403,7 +403,7 @@ row_with_example(const engine *x, size_t i, size_t end)
 
 /* Add a hint after statement [i, end) failed, if the statement has the form of a known mistake. */
 static qdot_status
-hint_known_mistake(engine *x, size_t i, size_t end, qdot_status status)
+add_hint_at_mistake(engine *x, size_t i, size_t end, qdot_status status)
 {
     qdot_cursor c = {.session = x->session, .source = x->source, .error_at = x->error_at};
     const qdot_statement *example;
@@ -412,7 +412,7 @@ hint_known_mistake(engine *x, size_t i, size_t end, qdot_status status)
         return status;
     if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
         is_bare_or_declares(qdot_last_error()->hint)) { /* a misspelt statement, as `runn 0..10` */
-        const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
+        const qdot_statement *near = find_nearest_statement(x->session, x->tokens[i].text);
 
         if (near != NULL && strcmp(near->word, x->tokens[i].text) == 0)
             (void)qdot_hint("as in %s", near->example);
@@ -421,15 +421,15 @@ hint_known_mistake(engine *x, size_t i, size_t end, qdot_status status)
     }
     (void)qdot_foreign_hint(&c, x->tokens + i, x->tokens + end);
     x->error_at = c.error_at;
-    example = row_with_example(x, i, end);
+    example = find_row_with_example(x, i, end);
     if (example != NULL)
         (void)qdot_hint("as in %s", example->example);
     return status;
 }
 
-/* Give a notice if the form of statement [i, end), just carried out, is rarely what users mean. */
+/* Give a notice if the statement [i, end), just carried out, has a form that users rarely mean. */
 static qdot_status
-tell_seldom_meant(engine *x, size_t i, size_t end)
+warn_of_rarely_meant(engine *x, size_t i, size_t end)
 {
     const qdot_cursor c = {.session = x->session, .source = x->source};
     qdot_text text = {0};
@@ -441,7 +441,7 @@ tell_seldom_meant(engine *x, size_t i, size_t end)
     return status;
 }
 
-/* Carry out the simple statement at i, for all values of its `for`; *next: the token after it. */
+/* Carry out the statement at i, not a block, for all values of its `for` loop; *next: the token after it. */
 static qdot_status
 carry_out_simple(engine *x, size_t i, size_t *next)
 {
@@ -459,12 +459,12 @@ carry_out_simple(engine *x, size_t i, size_t *next)
         x->error_at = c.error_at;
         return status;
     }
-    status = whole.loop == NULL ? statement(x, i) : repeat(x, i, whole.loop);
+    status = whole.loop == NULL ? carry_out_statement(x, i) : carry_out_for_loop(x, i, whole.loop);
     if (status != QDOT_OK)
-        return hint_known_mistake(x, i, *next, status);
-    QDOT_TRY(tell_seldom_meant(x, i, *next));
+        return add_hint_at_mistake(x, i, *next, status);
+    QDOT_TRY(warn_of_rarely_meant(x, i, *next));
     if (timed && x->session->output->timing)
-        tell_time(x, since);
+        report_cpu_time(x, since);
     return QDOT_OK;
 }
 
@@ -478,7 +478,7 @@ leave_block(frame *f)
     qdot_free(f->clause);
 }
 
-/* Enter the block that opens at i, or step over it if its loop has no values. */
+/* Enter the block `{...}` that opens at i, or step over it if its loop has no values. */
 static qdot_status
 enter_block(engine *x, size_t i, size_t *next)
 {
@@ -509,9 +509,9 @@ enter_block(engine *x, size_t i, size_t *next)
     return status;
 }
 
-/* At the `}` of the innermost block: start its next iteration, or leave it. */
+/* At the `}` of the innermost block: begin the next pass of its loop, or leave the block. */
 static qdot_status
-round_again(engine *x, size_t *next)
+begin_next_pass(engine *x, size_t *next)
 {
     frame *top = &x->frames.at[x->frames.n - 1];
     bool more = false;
@@ -529,10 +529,10 @@ round_again(engine *x, size_t *next)
 
 /* Carry out the statement or the beginning or end of a block at *i, and move *i past it. */
 static qdot_status
-advance(engine *x, size_t *i)
+carry_out_next(engine *x, size_t *i)
 {
     if (x->frames.n > 0 && *i == x->frames.at[x->frames.n - 1].close)
-        return round_again(x, i);
+        return begin_next_pass(x, i);
     switch (qdot_outline_at(&x->tokens[*i])) {
     case QDOT_OUTLINE_BLOCK: return enter_block(x, *i, i);
     case QDOT_OUTLINE_STATEMENT: return carry_out_simple(x, *i, i);
@@ -542,7 +542,7 @@ advance(engine *x, size_t *i)
 
 /* Carry out the statement or block at *i to its end. */
 static qdot_status
-carry_out_whole(engine *x, size_t *i)
+carry_out_statement_or_block(engine *x, size_t *i)
 {
     const qdot_token *first = &x->tokens[*i], *last;
     size_t begun = qdot_undo_begin(x->session);
@@ -550,7 +550,7 @@ carry_out_whole(engine *x, size_t *i)
 
     qdot_typed_begin(x->session, x->source, first->start);
     do
-        status = advance(x, i);
+        status = carry_out_next(x, i);
     while (status == QDOT_OK && x->frames.n > 0 && !x->session->outcome->quit);
     last = x->frames.n > 0     ? &x->tokens[x->frames.at[0].resume]
            : status == QDOT_OK ? &x->tokens[*i]
@@ -558,13 +558,13 @@ carry_out_whole(engine *x, size_t *i)
     last -= last > first;
     qdot_undo_end(x->session, begun, x->source->text + first->start,
                   last->start + last->length - first->start);
-    if (status == QDOT_OK) /* after a failure it ends after its error has been printed */
+    if (status == QDOT_OK) /* after a failure, the statement ends only when its error has been printed */
         qdot_typed_end(x->session, x->source->text + first->start, last->start + last->length - first->start, status);
     return status;
 }
 
 static qdot_status
-carry_out(engine *x)
+carry_out_all(engine *x)
 {
     size_t i = 0;
 
@@ -572,7 +572,7 @@ carry_out(engine *x)
         if (qdot_outline_at(&x->tokens[i]) == QDOT_OUTLINE_END)
             i++;
         else
-            QDOT_TRY(carry_out_whole(x, &i));
+            QDOT_TRY(carry_out_statement_or_block(x, &i));
     }
     return QDOT_OK;
 }
@@ -606,11 +606,11 @@ qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, 
         status = qdot_outline_blocks(x.source, &x.match);
     }
     if (status == QDOT_OK)
-        status = carry_out(&x);
+        status = carry_out_all(&x);
     qdot_undo_text_end(session, outer);
     while (x.frames.n > 0) {
         if (status != QDOT_OK)
-            tell_pass(&x, &x.frames.at[x.frames.n - 1].loop);
+            add_loop_values_to_error(&x, &x.frames.at[x.frames.n - 1].loop);
         leave_block(&x.frames.at[--x.frames.n]);
     }
     if (status != QDOT_OK && x.error_at != QDOT_SCRIPT_REPORTED)

@@ -18,14 +18,14 @@ int qdot_script_run_part(qdot_session *session, const char *name, uint32_t befor
  * directory, or not UTF-8. */
 int qdot_script_run_file(qdot_session *session, const char *path);
 
-/* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
+/* Whether the text typed so far at the prompt is incomplete: it has an open bracket or ends in a backslash. */
 bool qdot_script_is_incomplete(const char *text, size_t length);
 
 /* For the prompt: whether the text runs a scene or another script, whose answers a person wants to
  * see as they come. */
 bool qdot_script_takes_long(const char *text, size_t length);
 
-/* The error position if an included file has already reported the error. */
+/* The value of the error position if an included file has reported the error already. */
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 
 /* Lex and carry out a text, reporting the first error; `before`: lines of the same input that precede it. */

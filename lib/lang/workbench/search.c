@@ -27,7 +27,7 @@ is_letter(char c)
 /* Whether `where` holds the n bytes of `word`, whatever the case of letters. A single letter must
  * stand by itself. */
 static bool
-holds_word(const char *where, const char *word, size_t n)
+contains_word(const char *where, const char *word, size_t n)
 {
     for (const char *at = where; *at != '\0'; at++)
         if (strncasecmp(at, word, n) == 0 &&
@@ -38,7 +38,7 @@ holds_word(const char *where, const char *word, size_t n)
 
 /* Whether every word of `text` occurs in at least one of the n texts `where`. */
 static bool
-texts_hold_words(size_t n, const char *const *where, const char *text)
+texts_contain_words(size_t n, const char *const *where, const char *text)
 {
     size_t length;
 
@@ -47,7 +47,7 @@ texts_hold_words(size_t n, const char *const *where, const char *text)
 
         length = strcspn(text, " ");
         for (size_t i = 0; i < n && !found; i++)
-            found = where[i] != NULL && holds_word(where[i], text, length);
+            found = where[i] != NULL && contains_word(where[i], text, length);
         if (!found)
             return false;
         text += length;
@@ -56,19 +56,19 @@ texts_hold_words(size_t n, const char *const *where, const char *text)
 }
 
 static void
-search_look(search *s, const char *name, const char *usage, const char *summary,
-            const char *example)
+list_if_matching(search *s, const char *name, const char *usage, const char *summary,
+                 const char *example)
 {
     const char *const all[] = {name, usage, summary, example};
 
-    if (texts_hold_words(1, all, s->text) != s->by_name || (!s->by_name && !texts_hold_words(4, all, s->text)))
+    if (texts_contain_words(1, all, s->text) != s->by_name || (!s->by_name && !texts_contain_words(4, all, s->text)))
         return;
     qdot_text_format(s->out, "  %-18s %s\n", name, summary);
     s->n++;
 }
 
 static void
-look_at_all(search *s)
+list_all_matching(search *s)
 {
     const qdot_statement *statement;
     const qdot_quantity *quantity;
@@ -76,20 +76,20 @@ look_at_all(search *s)
 
     for (size_t i = 0; (statement = qdot_statement_at(i)) != NULL; i++)
         if (qdot_statement_is_built(statement) && qdot_quantity_find(statement->word) == NULL)
-            search_look(s, statement->word, statement->usage, statement->summary,
-                        statement->example);
+            list_if_matching(s, statement->word, statement->usage, statement->summary,
+                             statement->example);
     for (size_t i = 0; (quantity = qdot_quantity_at(i)) != NULL; i++)
         if (quantity->example[0] != '\0')
-            search_look(s, quantity->name, quantity->usage, quantity->summary,
-                        quantity->example);
+            list_if_matching(s, quantity->name, quantity->usage, quantity->summary,
+                             quantity->example);
     for (size_t i = 0; (builtin = qdot_builtin_at(i)) != NULL; i++)
         if (!(builtin->flags & QDOT_BUILTIN_UNBUILT))
-            search_look(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
+            list_if_matching(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
     for (size_t i = 0; qdot_topic_at(i) != NULL; i++)
-        search_look(s, qdot_topic_at(i)->word, qdot_topic_at(i)->usage, qdot_topic_at(i)->summary,
-                    qdot_topic_at(i)->example);
+        list_if_matching(s, qdot_topic_at(i)->word, qdot_topic_at(i)->usage, qdot_topic_at(i)->summary,
+                         qdot_topic_at(i)->example);
     for (size_t i = 0; qdot_ode_method_at(i) != NULL; i++)
-        search_look(s, qdot_ode_method_at(i)->name, "method", qdot_ode_method_at(i)->fits, NULL);
+        list_if_matching(s, qdot_ode_method_at(i)->name, "method", qdot_ode_method_at(i)->fits, NULL);
 }
 
 size_t
@@ -97,8 +97,8 @@ qdot_search(const char *text, qdot_text *out)
 {
     search s = {.text = text, .by_name = true, .out = out};
 
-    look_at_all(&s);
+    list_all_matching(&s);
     s.by_name = false;
-    look_at_all(&s);
+    list_all_matching(&s);
     return s.n;
 }

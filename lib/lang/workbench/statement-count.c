@@ -18,13 +18,13 @@ qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at)
     typed->number++;
     typed->refuted = session->outcome->refuted;
     session->outcome->refuted = false;
-    if (session->output->json && source != NULL) /* only --json prints the number */
+    if (session->output->json && source != NULL) /* only JSON answers contain the number of the statement */
         qdot_source_locate(source, at, &typed->line, &column);
 }
 
-/* The status of a statement in JSON: 0; 1: it failed or refuted a check; 2: it could not be parsed. */
+/* The status of a statement for JSON: 0; 1 if it failed or refuted a check; 2 if it could not be parsed. */
 static int
-status_of(const qdot_session *session, qdot_status status)
+json_status(const qdot_session *session, qdot_status status)
 {
     return status == QDOT_ESYNTAX ? 2 : status != QDOT_OK || session->outcome->refuted ? 1 : 0;
 }
@@ -43,7 +43,7 @@ qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_stat
     }
     if (typed->told) {
         qdot_text_format(&line, "{\"kind\":\"done\",\"statement\":%zu,\"status\":%d}\n", typed->number,
-                         status_of(session, status));
+                         json_status(session, status));
         (void)!qdot_write(session, session->output->out, &line);
     }
     session->outcome->refuted = session->outcome->refuted || typed->refuted;

@@ -8,10 +8,10 @@
 #include "lang/session/parts.h"
 #include "lang/source/source.h"
 
-/* A statement begins at byte `at` of the source; no effect within another statement. */
+/* Record that a statement begins at byte `at` of the source; no effect within another statement. */
 void qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at);
 
-/* The statement ends; its text [length] is kept for `save history` if it succeeded. */
+/* Record that the statement ends; its text [length] is stored for `save history` if it succeeded. */
 void qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_status status);
 
 #endif

@@ -1,9 +1,9 @@
-/* style.c -- the statement `style`: how expressions are written. */
+/* style.c -- the statement `style`: chooses how expressions are written. */
 #include "expr/print-name.h"
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
-static qdot_status style_choose(qdot_record *r);
+static qdot_status carry_out_style(qdot_record *r);
 
 QDOT_STATEMENT(style) = {
     .word = "style",
@@ -11,11 +11,11 @@ QDOT_STATEMENT(style) = {
     .usage = "style plain | unicode | flat | latex | mathml",
     .summary = "how expressions are written",
     .example = "style latex",
-    .handler = style_choose,
+    .handler = carry_out_style,
 };
 
 static qdot_status
-style_choose(qdot_record *r)
+carry_out_style(qdot_record *r)
 {
     static const struct {
         const char *word;
@@ -26,7 +26,7 @@ style_choose(qdot_record *r)
                   {"mathml", QDOT_MATHML}};
     qdot_session *session = r->cursor.session;
 
-    /* only whether formulas are flat changes, not the style */
+    /* the words concern only whether formulas are flat (on one line); the style stays */
     session->output->flat = qdot_record_word(r, "flat") != NULL;
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++)
         if (qdot_record_word(r, styles[i].word) != NULL)

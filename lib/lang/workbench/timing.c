@@ -3,7 +3,7 @@
 #include "lang/syntax/record.h"
 
 static qdot_status
-timing_switch(qdot_record *r)
+carry_out_timing(qdot_record *r)
 {
     r->cursor.session->output->timing = qdot_record_word(r, "on") != NULL;
     return QDOT_OK;
@@ -15,5 +15,5 @@ QDOT_STATEMENT(timing) = {
     .usage = "timing on | off",
     .summary = "print the CPU time of every statement",
     .example = "timing on",
-    .handler = timing_switch,
+    .handler = carry_out_timing,
 };

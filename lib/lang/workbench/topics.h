@@ -13,7 +13,7 @@ typedef struct {
     bool option; /* the word is an option of statements */
 } qdot_topic;
 
-/* Row i of topic.def; NULL past the end. */
+/* Row i of the table topic.def; NULL past the end. */
 const qdot_topic *qdot_topic_at(size_t i);
 
 #endif

@@ -1,4 +1,4 @@
-/* undo.c -- the statements `undo` and `redo`. */
+/* undo.c -- the statements `undo` and `redo`, which take statements back or repeat them. */
 #include <string.h>
 
 #include "lang/answer/answer.h"
@@ -6,8 +6,8 @@
 #include "lang/session/undo.h"
 #include "lang/syntax/record.h"
 
-static qdot_status undo_back(qdot_record *r);
-static qdot_status undo_again(qdot_record *r);
+static qdot_status carry_out_undo(qdot_record *r);
+static qdot_status carry_out_redo(qdot_record *r);
 
 QDOT_STATEMENT(undo) = {
     .word = "undo",
@@ -16,7 +16,7 @@ QDOT_STATEMENT(undo) = {
     .summary = "take back the last statement that changed the session, or the last N: declarations, "
                "definitions, values, runs, resets; a whole `for`, block or `include` is one",
     .example = "undo",
-    .handler = undo_back,
+    .handler = carry_out_undo,
 };
 
 QDOT_STATEMENT(redo) = {
@@ -25,11 +25,11 @@ QDOT_STATEMENT(redo) = {
     .usage = "redo [N]",
     .summary = "do again what `undo` took back, until another statement changes the session",
     .example = "redo",
-    .handler = undo_again,
+    .handler = carry_out_redo,
 };
 
 static qdot_status
-undo_refuse(const qdot_session *session, const char *word, size_t n, long wanted)
+report_nothing_to_undo(const qdot_session *session, const char *word, size_t n, long wanted)
 {
     if (n > 0)
         (void)qdot_fail(QDOT_EINVAL, "%zu statement%s can be %s, not %ld", n,
@@ -47,7 +47,7 @@ undo_refuse(const qdot_session *session, const char *word, size_t n, long wanted
 
 /* Carry out `undo`, `undo N`, `redo` or `redo N`. */
 static qdot_status
-undo_step(qdot_record *r, const char *name, const char *word, bool again)
+undo_or_redo(qdot_record *r, const char *name, const char *word, bool again)
 {
     qdot_session *s = r->cursor.session;
     const qdot_filled *number = qdot_record_hole(r, NULL, "N");
@@ -61,7 +61,7 @@ undo_step(qdot_record *r, const char *name, const char *word, bool again)
         return qdot_fail(QDOT_EINVAL, "`%s` has no place inside a loop", name);
     if (wanted < 1 || (size_t)wanted > n)
         return wanted < 1 ? qdot_fail(QDOT_EINVAL, "how many statements? 1, 2, ...")
-                          : undo_refuse(s, word, n, wanted);
+                          : report_nothing_to_undo(s, word, n, wanted);
     for (; wanted > 0; wanted--) {
         qdot_text line = {0};
         const char *text;
@@ -76,13 +76,13 @@ undo_step(qdot_record *r, const char *name, const char *word, bool again)
 }
 
 static qdot_status
-undo_back(qdot_record *r)
+carry_out_undo(qdot_record *r)
 {
-    return undo_step(r, "undo", "undone", false);
+    return undo_or_redo(r, "undo", "undone", false);
 }
 
 static qdot_status
-undo_again(qdot_record *r)
+carry_out_redo(qdot_record *r)
 {
-    return undo_step(r, "redo", "done again", true);
+    return undo_or_redo(r, "redo", "done again", true);
 }

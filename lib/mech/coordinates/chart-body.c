@@ -1,4 +1,4 @@
-/* chart-body.c -- represents a body by point masses at its centre and along its axes. */
+/* chart-body.c -- represents a rigid body by point masses at its centre and along its axes, in terms of a quaternion. */
 #include "mech/coordinates/chart-body.h"
 
 #include <stdio.h>
@@ -46,9 +46,9 @@ qdot_chart_body_fits(const qdot_scene *s, const size_t *index)
     return false;
 }
 
-/* Whether a torque, or a force on material, acts on a body in space. */
+/* Whether a torque, or a force on a material point of a body, acts in the scene. */
 static bool
-is_acted_on(const qdot_scene *s)
+has_torque_or_material_force(const qdot_scene *s)
 {
     for (size_t i = 0; i < s->torques.n; i++)
         if (s->torques.at[i].coordinate == QDOT_NIL)
@@ -59,9 +59,9 @@ is_acted_on(const qdot_scene *s)
     return false;
 }
 
-/* Add to V the potential of uniform fields that act only on the given masses. */
+/* Add to V the potential of the uniform gravity fields, which act only on the masses of the given scene. */
 static qdot_status
-add_weight(const qdot_scene *s, qdot_scene *to)
+add_gravity_potential(const qdot_scene *s, qdot_scene *to)
 {
     qdot_pool *pool = s->pool;
     qdot_expr V = QDOT_ZERO;
@@ -82,10 +82,10 @@ add_weight(const qdot_scene *s, qdot_scene *to)
     return V == QDOT_ZERO ? QDOT_OK : qdot_scene_potential(to, V);
 }
 
-/* Add a point mass at column j of the rotation matrix R, or at the sum of columns j and k. */
+/* Add a point mass whose position is column j of the rotation matrix R, or the sum of its columns j and k. */
 static qdot_status
-add_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, size_t i,
-         size_t j)
+add_point_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, size_t i,
+               size_t j)
 {
     qdot_pool *pool = to->pool;
     qdot_expr r[3];
@@ -99,9 +99,9 @@ add_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, s
     return qdot_scene_particle(to, name, mass, qdot_vector(pool, 3, r));
 }
 
-/* Represent the inertia J of a body by point masses: J_jj minus the J_jk at c_j, and J_jk at c_j + c_k. */
+/* Represent the inertia J of a body by point masses at c_j and c_j + c_k, where c_j are the columns of R. */
 static qdot_status
-add_masses(qdot_scene *to, const qdot_body *b, const qdot_expr *R)
+add_point_masses_of_body(qdot_scene *to, const qdot_body *b, const qdot_expr *R)
 {
     qdot_pool *pool = to->pool;
     const qdot_expr *I = qdot_expr_args(pool, b->inertia);
@@ -117,9 +117,9 @@ add_masses(qdot_scene *to, const qdot_body *b, const qdot_expr *R)
         for (size_t j = 0; j < 3; j++)
             if (j != i)
                 mass = qdot_add(pool, mass, own[3 * i + j]);
-        QDOT_TRY(add_mass(to, b->name, mass, R, i, i));
+        QDOT_TRY(add_point_mass(to, b->name, mass, R, i, i));
         for (size_t j = i + 1; j < 3; j++)
-            QDOT_TRY(add_mass(to, b->name, qdot_neg(pool, own[3 * i + j]), R, i, j));
+            QDOT_TRY(add_point_mass(to, b->name, qdot_neg(pool, own[3 * i + j]), R, i, j));
     }
     return qdot_pool_check(pool);
 }
@@ -130,18 +130,18 @@ qdot_chart_body_replace(const qdot_scene *s, qdot_scene *to, qdot_expr rotation,
 {
     size_t left = 0;
 
-    if (is_acted_on(s)) {
+    if (has_torque_or_material_force(s)) {
         snprintf(why, size, "a torque acts on a body");
         return QDOT_OK;
     }
     if (to->gravities.n > 0)
-        QDOT_TRY(add_weight(s, to));
+        QDOT_TRY(add_gravity_potential(s, to));
     for (size_t i = 0; i < to->bodies.n; i++)
         if (to->bodies.at[i].rotation != rotation)
             to->bodies.at[left++] = to->bodies.at[i];
     to->bodies.n = left;
     for (size_t i = 0; i < s->bodies.n; i++)
         if (s->bodies.at[i].rotation == rotation)
-            QDOT_TRY(add_masses(to, s->bodies.at + i, R));
+            QDOT_TRY(add_point_masses_of_body(to, s->bodies.at + i, R));
     return QDOT_OK;
 }

@@ -10,7 +10,7 @@
 /* Find the rotation matrix R(e), row by row: quadratic in the quaternion e [4], a rotation for |e| = 1. */
 void qdot_chart_body_axes(qdot_pool *pool, const qdot_expr *e, qdot_expr *R);
 
-/* Whether the rotation of some body is Rz Rx Rz of the coordinates index [3]. */
+/* Whether the rotation of some body is Rz Rx Rz (Euler angles) of the three coordinates index [3]. */
 bool qdot_chart_body_fits(const qdot_scene *s, const size_t *index);
 
 /* In `to`, a copy of s, replace the bodies whose axes are `rotation` by masses at their centre and

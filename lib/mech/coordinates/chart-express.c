@@ -1,4 +1,4 @@
-/* chart-express.c -- writes expressions in other coordinates. */
+/* chart-express.c -- writes expressions of the coordinates of a chart in its other coordinates. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -12,12 +12,12 @@
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 
-/* Multiples of an angle larger than this are not expanded. */
+/* Multiples of an angle larger than this are not expanded into powers of its sine and cosine. */
 enum { MOST_MULTIPLE = 12 };
 
 typedef qdot_vec(qdot_expr) expressions;
 
-/* The replacements to be made in one expression. */
+/* The replacements to be made in one expression when coordinates are changed. */
 typedef struct {
     const qdot_chart *c;
     qdot_pool *pool;
@@ -25,7 +25,7 @@ typedef struct {
 } rewriting;
 
 static qdot_status
-rewriting_add(rewriting *r, qdot_expr from, qdot_expr to)
+add_replacement(rewriting *r, qdot_expr from, qdot_expr to)
 {
     QDOT_TRY(qdot_vec_push(&r->from, from));
     return qdot_vec_push(&r->to, to);
@@ -35,19 +35,19 @@ rewriting_add(rewriting *r, qdot_expr from, qdot_expr to)
 
 /* Find the base and the exponent of factor k of a product. */
 static qdot_expr
-base_of(const qdot_pool *pool, qdot_expr product, uint32_t k)
+factor_base(const qdot_pool *pool, qdot_expr product, uint32_t k)
 {
     return qdot_expr_arg(pool, product, 1 + 2 * k);
 }
 
 static qdot_expr
-exponent_of(const qdot_pool *pool, qdot_expr product, uint32_t k)
+factor_exponent(const qdot_pool *pool, qdot_expr product, uint32_t k)
 {
     return qdot_expr_arg(pool, product, 2 + 2 * k);
 }
 
 static uint32_t
-factors_of(const qdot_pool *pool, qdot_expr product)
+factor_count(const qdot_pool *pool, qdot_expr product)
 {
     return (qdot_expr_count(pool, product) - 1) / 2;
 }
@@ -58,9 +58,9 @@ typedef struct {
     qdot_expr cosine, sine;
 } direction;
 
-/* Whether the angle m is given by its cosh and sinh (hyperbolic), or by its cos and sin. */
+/* Whether the replaced angle m is given by its cosh and sinh (hyperbolic), or by its cos and sin. */
 static bool
-is_of(const qdot_chart_moved *m, bool hyperbolic)
+is_given_by_functions(const qdot_chart_moved *m, bool hyperbolic)
 {
     return m->sort == (hyperbolic ? QDOT_CHART_HYPERBOLIC : QDOT_CHART_ANGLE);
 }
@@ -77,9 +77,9 @@ add_directions(qdot_pool *pool, direction a, direction b, bool hyperbolic)
                                 qdot_mul(pool, a.cosine, b.sine))};
 }
 
-/* The cosine and sine of `angle`, a sum of integer multiples of moved angles; false if a multiple is no integer. */
+/* Find cos and sin of `angle`, a sum of integer multiples of replaced angles; false if a multiple is no integer. */
 static bool
-find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *d)
+find_cosine_and_sine(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *d)
 {
     qdot_pool *pool = r->pool;
     direction sum = {QDOT_ONE, QDOT_ZERO};
@@ -89,7 +89,7 @@ find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *
         direction one = {m->cosine, m->sine};
         long times;
 
-        if (!is_of(m, hyperbolic) || !qdot_expr_contains(pool, angle, m->q))
+        if (!is_given_by_functions(m, hyperbolic) || !qdot_expr_contains(pool, angle, m->q))
             continue;
         if (!qdot_expr_to_int(pool, qdot_diff(pool, angle, m->q), &times) ||
             labs(times) > MOST_MULTIPLE)
@@ -102,7 +102,7 @@ find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *
     }
     for (size_t i = 0; i < r->c->moved.n; i++)
         if (qdot_expr_contains(pool, angle, r->c->moved.at[i].q))
-            return false; /* the remaining part of the angle still contains a length */
+            return false; /* the rest of the angle still contains a replaced coordinate */
     *d = add_directions(pool, sum,
                         (direction){qdot_fun1(pool, hyperbolic ? QDOT_COSH : QDOT_COS, angle),
                                     qdot_fun1(pool, hyperbolic ? QDOT_SINH : QDOT_SIN, angle)},
@@ -111,7 +111,7 @@ find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *
 }
 
 static qdot_expr
-of_direction(qdot_pool *pool, uint16_t function, direction d)
+function_of_direction(qdot_pool *pool, uint16_t function, direction d)
 {
     switch (function) {
     case QDOT_SINH:
@@ -128,16 +128,16 @@ of_direction(qdot_pool *pool, uint16_t function, direction d)
 }
 
 static bool
-is_hyperbolic(uint16_t function)
+is_hyperbolic_function(uint16_t function)
 {
     return function == QDOT_SINH || function == QDOT_COSH || function == QDOT_TANH;
 }
 
 static bool
-holds_moved(const rewriting *r, qdot_expr e, bool hyperbolic)
+contains_replaced_coordinate(const rewriting *r, qdot_expr e, bool hyperbolic)
 {
     for (size_t i = 0; i < r->c->moved.n; i++)
-        if (is_of(r->c->moved.at + i, hyperbolic) &&
+        if (is_given_by_functions(r->c->moved.at + i, hyperbolic) &&
             qdot_expr_contains(r->pool, e, r->c->moved.at[i].q))
             return true;
     return false;
@@ -158,17 +158,17 @@ replace_functions(rewriting *r, qdot_expr e)
     qdot_walk_end(&w);
     for (size_t i = 0; i < found.n && status == QDOT_OK; i++) {
         const uint16_t function = qdot_expr_node(r->pool, found.at[i])->op;
-        const bool hyperbolic = is_hyperbolic(function);
+        const bool hyperbolic = is_hyperbolic_function(function);
         qdot_expr angle, now = QDOT_NIL;
         direction d = {QDOT_ONE, QDOT_ZERO};
 
-        if (of_direction(r->pool, function, d) == QDOT_NIL)
+        if (function_of_direction(r->pool, function, d) == QDOT_NIL)
             continue;
         angle = qdot_expr_arg(r->pool, found.at[i], 0);
-        if (holds_moved(r, angle, hyperbolic) && find_direction(r, angle, hyperbolic, &d))
-            now = of_direction(r->pool, function, d);
+        if (contains_replaced_coordinate(r, angle, hyperbolic) && find_cosine_and_sine(r, angle, hyperbolic, &d))
+            now = function_of_direction(r->pool, function, d);
         if (now != QDOT_NIL)
-            status = rewriting_add(r, found.at[i], now);
+            status = add_replacement(r, found.at[i], now);
     }
     qdot_free(found.at);
     return status;
@@ -188,7 +188,7 @@ qdot_chart_rate(const qdot_chart *c, qdot_expr e)
 
         if (!qdot_expr_contains(pool, e, root->symbol))
             continue;
-        if (change == QDOT_NIL) /* a root N without a given rate: N' = (N^2)'/(2 N) */
+        if (change == QDOT_NIL) /* the rate of a root N follows from that of its square: N' = (N^2)'/(2 N) */
             change = qdot_div(
                 pool, qdot_mul(pool, QDOT_HALF, qdot_chart_rate(c, root->square)), root->symbol);
         sum = qdot_add(pool, sum, qdot_mul(pool, qdot_diff(pool, e, root->symbol), change));
@@ -196,9 +196,9 @@ qdot_chart_rate(const qdot_chart *c, qdot_expr e)
     return sum;
 }
 
-/* The time derivative of a coordinate of a group, in terms of the new coordinates. */
+/* The time derivative of a replaced coordinate, in terms of the new coordinates. */
 static qdot_expr
-moved_rate(const qdot_chart *c, const qdot_chart_moved *m)
+rate_of_replaced(const qdot_chart *c, const qdot_chart_moved *m)
 {
     qdot_pool *pool = c->pool;
     qdot_expr turn, size;
@@ -224,28 +224,28 @@ replace_coordinates(rewriting *r, uint32_t holds)
         const qdot_chart_moved *m = c->moved.at + i;
         qdot_expr first;
 
-        QDOT_TRY(rewriting_add(r, m->q, m->bare != QDOT_NIL ? m->bare : m->value));
+        QDOT_TRY(add_replacement(r, m->q, m->bare != QDOT_NIL ? m->bare : m->value));
         if (!(holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
             || qdot_expr_symbol(pool, m->q)->class != QDOT_COORD)
             continue;
-        first = moved_rate(c, m);
-        QDOT_TRY(rewriting_add(r, qdot_symbol_jet(pool, m->q, 1), first));
+        first = rate_of_replaced(c, m);
+        QDOT_TRY(add_replacement(r, qdot_symbol_jet(pool, m->q, 1), first));
         if (holds & QDOT_HAS_ACCELERATION)
-            QDOT_TRY(rewriting_add(r, qdot_symbol_jet(pool, m->q, 2), qdot_chart_rate(c, first)));
+            QDOT_TRY(add_replacement(r, qdot_symbol_jet(pool, m->q, 2), qdot_chart_rate(c, first)));
     }
     return QDOT_OK;
 }
 
-/* Replace each power P^(k/2) of the square P of a root w by w^k. */
+/* Replace each power P^(k/2) by w^k, where the new coordinate w is the square root of P. */
 static qdot_expr
-put_branches(qdot_pool *pool, qdot_expr node, void *user)
+replace_root_powers(qdot_pool *pool, qdot_expr node, void *user)
 {
     const qdot_chart *c = user;
     const qdot_expr two = qdot_expr_int(pool, 2);
     qdot_expr factor = QDOT_ONE;
 
-    for (uint32_t f = 0; f < factors_of(pool, node); f++) {
-        const qdot_expr base = base_of(pool, node, f), exponent = exponent_of(pool, node, f);
+    for (uint32_t f = 0; f < factor_count(pool, node); f++) {
+        const qdot_expr base = factor_base(pool, node, f), exponent = factor_exponent(pool, node, f);
         long twice;
 
         if (!qdot_expr_to_int(pool, qdot_mul(pool, two, exponent), &twice) || twice % 2 == 0)
@@ -260,9 +260,9 @@ put_branches(qdot_pool *pool, qdot_expr node, void *user)
     return factor == QDOT_ONE ? node : qdot_mul(pool, node, factor);
 }
 
-/* e with the new coordinates and roots inserted, before products are simplified. */
+/* The expression e with the new coordinates and roots inserted, before products are simplified. */
 static qdot_expr
-replaced(const qdot_chart *c, qdot_expr e)
+insert_new_coordinates(const qdot_chart *c, qdot_expr e)
 {
     rewriting r = {.c = c, .pool = c->pool};
     qdot_status status;
@@ -273,7 +273,7 @@ replaced(const qdot_chart *c, qdot_expr e)
     for (size_t i = 0; i < c->signs.n; i++)
         branches = branches || c->signs.at[i].branch;
     if (branches)
-        e = qdot_walk_replace(r.pool, e, QDOT_PROD, put_branches, (void *)(uintptr_t)c);
+        e = qdot_walk_replace(r.pool, e, QDOT_PROD, replace_root_powers, (void *)(uintptr_t)c);
     if (e == QDOT_NIL)
         return QDOT_NIL;
     status = replace_functions(&r, e);
@@ -288,55 +288,55 @@ replaced(const qdot_chart *c, qdot_expr e)
 
 /* The exponent of `symbol` in a product if it is an integer; 0 otherwise. */
 static long
-power_in(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
+exponent_in_product(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
 {
     long k = 0;
 
-    for (uint32_t f = 0; f < factors_of(pool, product); f++)
-        if (base_of(pool, product, f) == symbol
-            && !qdot_expr_to_int(pool, exponent_of(pool, product, f), &k))
+    for (uint32_t f = 0; f < factor_count(pool, product); f++)
+        if (factor_base(pool, product, f) == symbol
+            && !qdot_expr_to_int(pool, factor_exponent(pool, product, f), &k))
             return 0;
     return k;
 }
 
-/* The expression e multiplied by (to/from)^times. */
+/* The expression e times (to/from)^times: replaces factors `from` by `to`. */
 static qdot_expr
-exchange_factor(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
+replace_factor(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
 {
     return qdot_mul(pool, e,
                     qdot_mul(pool, qdot_pow_int(pool, from, -times),
                              qdot_pow_int(pool, to, times)));
 }
 
-/* Replace products of two roots, then even powers of roots and signs, by their values. */
+/* Replace products of two roots, then even powers of roots and of signs, by their values in new coordinates. */
 static qdot_expr
-put_squares(qdot_pool *pool, qdot_expr node, void *user)
+replace_root_squares(qdot_pool *pool, qdot_expr node, void *user)
 {
     const qdot_chart *c = user;
 
     for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_root *root = c->roots.at + i;
-        const long own = power_in(pool, node, root->symbol);
+        const long own = exponent_in_product(pool, node, root->symbol);
         const long both =
-            root->partner == QDOT_NIL ? 0 : power_in(pool, node, root->partner);
+            root->partner == QDOT_NIL ? 0 : exponent_in_product(pool, node, root->partner);
 
         if (own > 0 && both > 0)
-            node = exchange_factor(pool, node, qdot_mul(pool, root->symbol, root->partner),
-                                   root->product, own < both ? own : both);
+            node = replace_factor(pool, node, qdot_mul(pool, root->symbol, root->partner),
+                                  root->product, own < both ? own : both);
     }
     for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_root *root = c->roots.at + i;
-        const long half = power_in(pool, node, root->symbol) / 2;
+        const long half = exponent_in_product(pool, node, root->symbol) / 2;
 
         if (half != 0)
-            node = exchange_factor(pool, node, qdot_pow_int(pool, root->symbol, 2), root->square, half);
+            node = replace_factor(pool, node, qdot_pow_int(pool, root->symbol, 2), root->square, half);
     }
     for (size_t i = 0; i < c->signs.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_sign *s = c->signs.at + i;
-        const long half = s->branch ? 0 : power_in(pool, node, s->symbol) / 2;
+        const long half = s->branch ? 0 : exponent_in_product(pool, node, s->symbol) / 2;
 
         if (half != 0)
-            node = exchange_factor(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
+            node = replace_factor(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
     }
     return node;
 }
@@ -344,13 +344,13 @@ put_squares(qdot_pool *pool, qdot_expr node, void *user)
 qdot_expr
 qdot_chart_put(const qdot_chart *c, qdot_expr e)
 {
-    e = replaced(c, e);
-    return e == QDOT_NIL ? e : qdot_walk_replace(c->pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
+    e = insert_new_coordinates(c, e);
+    return e == QDOT_NIL ? e : qdot_walk_replace(c->pool, e, QDOT_PROD, replace_root_squares, (void *)(uintptr_t)c);
 }
 
-/* The angle of m minus `quarters` quarter turns. */
+/* The angle m (from the given x, y) minus `quarters` quarter turns. */
 static qdot_expr
-angle_beyond(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
+angle_minus_quarters(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
 {
     const qdot_expr x[] = {m->x, m->y, qdot_neg(pool, m->x), qdot_neg(pool, m->y)};
     const size_t k = (size_t)(((quarters % 4) + 4) % 4);
@@ -361,7 +361,7 @@ angle_beyond(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
 }
 
 static direction
-direction_of(qdot_pool *pool, qdot_expr angle)
+cosine_and_sine(qdot_pool *pool, qdot_expr angle)
 {
     return (direction){qdot_fun1(pool, QDOT_COS, angle), qdot_fun1(pool, QDOT_SIN, angle)};
 }
@@ -369,22 +369,22 @@ direction_of(qdot_pool *pool, qdot_expr angle)
 /* The angle of m in e, within half a turn of so many quarters. Of its half, which may be at a zero of
  * sin or cos, the quarters are taken apart: no rounding of pi is left there. */
 static qdot_expr
-put_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters)
+insert_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters)
 {
     const qdot_expr turns = qdot_mul(pool, qdot_expr_ratio(pool, quarters, 2), QDOT_PI);
-    const qdot_expr beyond = angle_beyond(pool, m, quarters);
-    const direction bare = direction_of(pool, qdot_mul(pool, QDOT_HALF, m->bare));
+    const qdot_expr beyond = angle_minus_quarters(pool, m, quarters);
+    const direction bare = cosine_and_sine(pool, qdot_mul(pool, QDOT_HALF, m->bare));
     const direction half =
-        add_directions(pool, direction_of(pool, qdot_mul(pool, QDOT_HALF, turns)),
-                       direction_of(pool, qdot_mul(pool, QDOT_HALF, beyond)), false);
+        add_directions(pool, cosine_and_sine(pool, qdot_mul(pool, QDOT_HALF, turns)),
+                       cosine_and_sine(pool, qdot_mul(pool, QDOT_HALF, beyond)), false);
 
     return qdot_subs(pool, e, 3, (qdot_expr[]){bare.cosine, bare.sine, m->bare},
                      (qdot_expr[]){half.cosine, half.sine, qdot_add(pool, turns, beyond)});
 }
 
-/* Replace the angles, roots and signs in e once by their values, which may contain others. */
+/* Replace the angles, roots and signs in e by their values, which may contain other angles, roots and signs. */
 static qdot_expr
-chart_put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
+insert_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
 {
     qdot_pool *pool = c->pool;
 
@@ -393,7 +393,7 @@ chart_put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *t
 
         if (m->bare == QDOT_NIL || !qdot_expr_contains(pool, e, m->bare))
             continue;
-        e = put_angle(pool, e, m, quarters ? quarters[i] : 0);
+        e = insert_angle(pool, e, m, quarters ? quarters[i] : 0);
         *turns = true;
     }
     for (size_t i = 0; i < c->roots.n && e != QDOT_NIL; i++) {
@@ -426,9 +426,9 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
     bool some = false;
 
     e = qdot_chart_put(c, e);
-    /* a function of v may contain sinh u, which contains an angle, which contains a distance */
+    /* thrice: a function of v may contain sinh u, that an angle, that a distance */
     for (int depth = 0; depth < 3 && e != QDOT_NIL; depth++)
-        e = chart_put_values(c, e, quarters, &some);
+        e = insert_values(c, e, quarters, &some);
     if (turns)
         *turns = some;
     return e;
@@ -446,9 +446,9 @@ qdot_chart_beyond(const qdot_chart *c, qdot_expr e, const long *quarters)
 
 /* --- regularity of expressions ---------------------------------------------------------- */
 
-/* Whether e is the square of a root, a factor of it, or a root w that is a coordinate. */
+/* Whether e is the square of a root, a factor of that square, or a root w that is a new coordinate. */
 static bool
-is_of_square(const qdot_chart *c, const qdot_pool *pool, qdot_expr e)
+is_root_square_or_factor(const qdot_chart *c, const qdot_pool *pool, qdot_expr e)
 {
     for (size_t i = 0; i < c->signs.n; i++)
         if (c->signs.at[i].branch && c->signs.at[i].symbol == e)
@@ -460,16 +460,16 @@ is_of_square(const qdot_chart *c, const qdot_pool *pool, qdot_expr e)
             return true;
         if (qdot_expr_kind(pool, square) != QDOT_PROD)
             continue;
-        for (uint32_t f = 0; f < factors_of(pool, square); f++)
-            if (e == base_of(pool, square, f))
+        for (uint32_t f = 0; f < factor_count(pool, square); f++)
+            if (e == factor_base(pool, square, f))
                 return true;
     }
     return false;
 }
 
-/* Whether e holds an angle outside of sin and cos. */
+/* Whether e contains an angle elsewhere than in sin and cos. */
 static bool
-holds_bare(const qdot_chart *c, qdot_expr e)
+contains_bare_angle(const qdot_chart *c, qdot_expr e)
 {
     for (size_t i = 0; i < c->moved.n; i++)
         if (c->moved.at[i].bare != QDOT_NIL &&
@@ -482,7 +482,7 @@ holds_bare(const qdot_chart *c, qdot_expr e)
 static bool
 is_singular(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
 {
-    bool singular = holds_bare(c, e);
+    bool singular = contains_bare_angle(c, e);
     qdot_walk w;
 
     for (size_t i = 0; i < c->roots.n; i++)
@@ -494,14 +494,14 @@ is_singular(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
         return true;
     for (size_t i = 0; i < w.n; i++)
         for (uint32_t f = 0;
-             qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && f < factors_of(pool, w.at[i]);
+             qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && f < factor_count(pool, w.at[i]);
              f++) {
             long k;
 
             singular =
                 singular ||
-                (is_of_square(c, pool, base_of(pool, w.at[i], f)) &&
-                 !(qdot_expr_to_int(pool, exponent_of(pool, w.at[i], f), &k) && k > 0));
+                (is_root_square_or_factor(c, pool, factor_base(pool, w.at[i], f)) &&
+                 !(qdot_expr_to_int(pool, factor_exponent(pool, w.at[i], f), &k) && k > 0));
         }
     qdot_walk_end(&w);
     return singular;
@@ -513,14 +513,14 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     qdot_pool *pool = c->pool;
 
     e = qdot_chart_put(c, e);
-    if (e == QDOT_NIL || holds_bare(c, e)) /* an unexpressed coordinate remains, which no simplification removes */
+    if (e == QDOT_NIL || contains_bare_angle(c, e)) /* a replaced coordinate remains, which no simplification removes */
         return QDOT_NIL;
     for (int tries = 0; tries < 4 && e != QDOT_NIL; tries++) {
         if (!is_singular(c, pool, e))
             return e;
         e = tries < 2 ? qdot_expand(pool, e) : qdot_mech_tidy(c->of, e);
         if (e != QDOT_NIL)
-            e = qdot_walk_replace(pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
+            e = qdot_walk_replace(pool, e, QDOT_PROD, replace_root_squares, (void *)(uintptr_t)c);
     }
     return QDOT_NIL;
 }

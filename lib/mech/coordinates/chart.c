@@ -1,4 +1,4 @@
-/* chart.c -- finds groups of coordinates that can be replaced, and makes the scene in the new ones. */
+/* chart.c -- finds groups of coordinates that can be replaced by regular ones, and makes the scene in these. */
 #include "mech/coordinates/chart.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
-/* Above this number of coordinates no groups of them are searched for. */
+/* In scenes with more coordinates than this no groups to be replaced are searched for. */
 enum { MOST_COORDINATES = 12 };
 
 /* Nor with more work than so many calls of constructors, some tenths of a second: those found by
@@ -37,7 +37,7 @@ qdot_chart_clear(qdot_chart *c)
 /* --- the scene anew ------------------------------------------------------------------------ */
 
 static bool
-is_moved(const qdot_chart *c, qdot_expr q)
+is_replaced(const qdot_chart *c, qdot_expr q)
 {
     for (size_t i = 0; i < c->moved.n; i++)
         if (c->moved.at[i].q == q)
@@ -45,9 +45,9 @@ is_moved(const qdot_chart *c, qdot_expr q)
     return false;
 }
 
-/* Whether e, in the coordinates of the given scene, holds an angle outside of sin and cos. */
+/* Whether e, in the coordinates of the given scene, contains an angle elsewhere than in sin and cos. */
 static bool
-holds_angle(const qdot_chart *c, qdot_expr e)
+contains_bare_angle(const qdot_chart *c, qdot_expr e)
 {
     const qdot_expr now = qdot_chart_put(c, e);
 
@@ -59,7 +59,7 @@ holds_angle(const qdot_chart *c, qdot_expr e)
 }
 
 static qdot_expr
-regular(qdot_expr e, void *user)
+make_regular(qdot_expr e, void *user)
 {
     qdot_chart *c = user;
     const qdot_expr now = c->hindrance[0] == '\0' ? qdot_chart_regular(c, e) : e;
@@ -67,7 +67,7 @@ regular(qdot_expr e, void *user)
 
     if (now != QDOT_NIL || qdot_pool_failed(c->pool))
         return now;
-    if (c->open && !holds_angle(c, e))
+    if (c->open && !contains_bare_angle(c, e))
         return qdot_mech_tidy(c->of, qdot_chart_express(c, e, NULL, NULL));
     if (qdot_print(c->pool, e, QDOT_PLAIN, &text) == QDOT_OK)
         snprintf(c->hindrance, sizeof c->hindrance, "%.140s is not smooth there",
@@ -95,7 +95,7 @@ check_domain(qdot_chart *c, qdot_chart_moved *m)
 /* Whether e holds an angle outside of sin and cos that would jump after a turn, in a domain between
  * singular places it has no turns; or a root that may change its sign. */
 static bool
-angle_jumps(qdot_chart *c, qdot_expr e)
+may_angle_jump(qdot_chart *c, qdot_expr e)
 {
     qdot_expr now = qdot_chart_put(c, e);
 
@@ -125,7 +125,7 @@ static qdot_status
 copy_event(qdot_chart *c, const qdot_event *event)
 {
     qdot_event own = *event;
-    bool some = angle_jumps(c, event->left) || angle_jumps(c, event->right);
+    bool some = may_angle_jump(c, event->left) || may_angle_jump(c, event->right);
     qdot_status status = QDOT_OK;
 
     own.left = qdot_chart_express(c, event->left, NULL, NULL);
@@ -136,10 +136,10 @@ copy_event(qdot_chart *c, const qdot_event *event)
     for (size_t i = 0; i < own.values.n; i++) {
         const qdot_symbol *target = qdot_expr_symbol(c->pool, own.targets.at[i]);
 
-        some |= is_moved(c, target && target->base != QDOT_NIL ? target->base
+        some |= is_replaced(c, target && target->base != QDOT_NIL ? target->base
                                                                : own.targets.at[i]);
         own.values.at[i] = qdot_chart_express(c, event->values.at[i], NULL, NULL);
-        some |= angle_jumps(c, event->values.at[i]);
+        some |= may_angle_jump(c, event->values.at[i]);
     }
     if (some)
         snprintf(c->hindrance, sizeof c->hindrance, "event %.80s needs the angle itself",
@@ -152,9 +152,9 @@ copy_event(qdot_chart *c, const qdot_event *event)
     return status;
 }
 
-/* Reject a chart if a position contains the root N, which is not smooth at N = 0. */
+/* Reject a chart if a position contains the root N (a distance), which is not smooth at N = 0. */
 static void
-check_places(qdot_chart *c)
+check_positions(qdot_chart *c)
 {
     for (size_t k = 0; k < c->roots.n && c->open; k++)
         for (size_t i = 0; i < c->scene->particles.n; i++)
@@ -163,9 +163,9 @@ check_places(qdot_chart *c)
                 snprintf(c->hindrance, sizeof c->hindrance, "a place is not smooth");
 }
 
-/* Reject a chart if a position contains the length of a group itself, which is not smooth at 0. */
+/* Reject a chart if a position contains a length of a replaced group by itself, which is not smooth at 0. */
 static void
-check_lengths(qdot_chart *c)
+check_lengths_in_positions(qdot_chart *c)
 {
     for (size_t k = 0; k < c->moved.n; k++)
         for (size_t i = 0; i < c->scene->particles.n && c->moved.at[k].sort == QDOT_CHART_LENGTH; i++)
@@ -178,7 +178,7 @@ check_lengths(qdot_chart *c)
 }
 
 static qdot_status
-chart_complete(qdot_chart *c)
+complete_scene(qdot_chart *c)
 {
     const qdot_scene *s = c->of;
 
@@ -186,9 +186,9 @@ chart_complete(qdot_chart *c)
         QDOT_TRY(qdot_scene_coordinate(c->scene, c->fresh.at[i].q));
     for (size_t i = 0; i < c->moved.n; i++)
         check_domain(c, c->moved.at + i);
-    QDOT_TRY(qdot_scene_map(c->scene, regular, c));
-    check_lengths(c);
-    check_places(c);
+    QDOT_TRY(qdot_scene_map(c->scene, make_regular, c));
+    check_lengths_in_positions(c);
+    check_positions(c);
     for (size_t i = 0; i < c->unit.n && c->hindrance[0] == '\0'; i++)
         QDOT_TRY(qdot_scene_constraint(c->scene, NULL, c->unit.at[i], QDOT_ZERO));
     for (size_t i = 0; i < s->events.n && c->hindrance[0] == '\0'; i++)
@@ -197,7 +197,7 @@ chart_complete(qdot_chart *c)
 }
 
 static bool
-coordinate_is_taken(const qdot_chart_groups *groups, size_t i)
+is_coordinate_in_group(const qdot_chart_groups *groups, size_t i)
 {
     for (size_t k = 0; k < groups->n; k++)
         for (size_t j = 0; j < qdot_chart_size(groups->at[k].kind); j++)
@@ -206,7 +206,7 @@ coordinate_is_taken(const qdot_chart_groups *groups, size_t i)
     return false;
 }
 
-/* Copy the constraints of s with their names and multipliers. */
+/* Copy the constraints of the scene s, with their names and multipliers, to another scene. */
 static qdot_status
 copy_constraints(const qdot_scene *s, qdot_scene *to)
 {
@@ -220,16 +220,16 @@ copy_constraints(const qdot_scene *s, qdot_scene *to)
     return QDOT_OK;
 }
 
-/* Copy the remaining coordinates and the things; a generalized force on a replaced coordinate is refused. */
+/* Copy the other coordinates and all things to the new scene; refuse a generalized force on a replaced coordinate. */
 static qdot_status
-begin_scene(qdot_chart *c, const qdot_chart_groups *groups)
+copy_scene(qdot_chart *c, const qdot_chart_groups *groups)
 {
     const qdot_scene *s = c->of;
 
     for (size_t i = 0; i < s->coordinates.n; i++) {
         const qdot_expr q = s->coordinates.at[i];
 
-        if (!coordinate_is_taken(groups, i)) {
+        if (!is_coordinate_in_group(groups, i)) {
             QDOT_TRY(qdot_scene_coordinate(c->scene, q));
             continue;
         }
@@ -252,11 +252,11 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
         .pool = s->pool, .of = s, .scene = qdot_scene_new(s->pool), .open = open};
     if (!c->scene)
         return QDOT_ENOMEM;
-    QDOT_TRY(begin_scene(c, groups));
+    QDOT_TRY(copy_scene(c, groups));
     for (size_t i = 0; i < groups->n && c->hindrance[0] == '\0'; i++)
         QDOT_TRY(qdot_chart_add(c, groups->at + i, sign ? sign[i] : 1));
     if (c->hindrance[0] == '\0')
-        QDOT_TRY(chart_complete(c));
+        QDOT_TRY(complete_scene(c));
     QDOT_TRY(qdot_text_status(&c->names));
     if (c->hindrance[0] != '\0') {
         qdot_scene_free(c->scene);
@@ -267,9 +267,9 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
 
 /* --- finding groups -------------------------------------------------------------------------- */
 
-/* Take the group if the scene is regular in its new coordinates. */
+/* Add the group to the list if the scene is regular in the new coordinates of the group. */
 static qdot_status
-try_group(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *groups)
+add_group_if_regular(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *groups)
 {
     const qdot_chart_groups one = {.n = 1, .at = &g};
     qdot_chart chart = {0};
@@ -277,7 +277,7 @@ try_group(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *group
     bool good;
 
     for (size_t k = 0; k < qdot_chart_size(g.kind); k++)
-        if (coordinate_is_taken(groups, g.index[k]))
+        if (is_coordinate_in_group(groups, g.index[k]))
             return QDOT_OK;
     status = qdot_chart_make(s, &one, NULL, open, &chart);
     good = chart.scene != NULL;
@@ -295,17 +295,17 @@ typedef struct {
     bool hyperbolic[MOST_COORDINATES], square[MOST_COORDINATES];
 } joined;
 
-/* The position of thing number i: particles, then bodies. */
+/* The position of the i-th particle or body, particles first. */
 static qdot_expr
-position_of(const qdot_scene *s, size_t i)
+position_of_thing(const qdot_scene *s, size_t i)
 {
     return i < s->particles.n ? s->particles.at[i].position
                               : s->bodies.at[i - s->particles.n].position;
 }
 
-/* Whether e holds f(q); function 0: q in a product, or by itself. */
+/* Whether e contains f(q) for this function f; function 0: q as a factor, or by itself. */
 static bool
-holds_function(qdot_pool *pool, qdot_expr e, uint16_t function, qdot_expr q)
+contains_function(qdot_pool *pool, qdot_expr e, uint16_t function, qdot_expr q)
 {
     bool holds = false;
     qdot_walk w;
@@ -327,7 +327,7 @@ holds_function(qdot_pool *pool, qdot_expr e, uint16_t function, qdot_expr q)
 }
 
 static void
-join_pairs(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
+mark_coupled_coordinates(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
 {
     const size_t n = s->coordinates.n;
 
@@ -343,28 +343,28 @@ join_pairs(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
             if (rates && qdot_expr_contains(s->pool, slope, qdot_symbol_jet(s->pool, with, 1)))
                 pairs->at[i][j] = pairs->at[j][i] = true;
         }
-        pairs->hyperbolic[i] |= holds_function(s->pool, e, QDOT_COSH, q);
-        pairs->square[i] |= holds_function(s->pool, e, 0, q);
+        pairs->hyperbolic[i] |= contains_function(s->pool, e, QDOT_COSH, q);
+        pairs->square[i] |= contains_function(s->pool, e, 0, q);
     }
 }
 
 /* Find pairs of coordinates that occur together in positions; rates: also in one term of L with
  * their velocities. */
 static joined
-find_pairs(const qdot_scene *s, bool rates)
+find_coupled_coordinates(const qdot_scene *s, bool rates)
 {
     joined pairs = {0};
 
     for (size_t i = 0; i < s->particles.n + s->bodies.n; i++)
-        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, position_of(s, i)); d++)
-            join_pairs(s, qdot_mech_component(s->pool, position_of(s, i), d), false, &pairs);
-    join_pairs(s, s->lagrangian, rates, &pairs);
+        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, position_of_thing(s, i)); d++)
+            mark_coupled_coordinates(s, qdot_mech_component(s->pool, position_of_thing(s, i), d), false, &pairs);
+    mark_coupled_coordinates(s, s->lagrangian, rates, &pairs);
     return pairs;
 }
 
-/* Whether all coordinates of a possible group occur together in pairs. */
+/* Whether each two of these coordinates occur together in some expression, so that they may form a group. */
 static bool
-may_be(const joined *pairs, const size_t *index, size_t n)
+are_coupled_in_pairs(const joined *pairs, const size_t *index, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
@@ -373,9 +373,9 @@ may_be(const joined *pairs, const size_t *index, size_t n)
     return true;
 }
 
-/* A quick test whether coordinates can be a group, by the functions in which they occur. */
+/* Test quickly whether coordinates may form a group, by the functions of them that occur. */
 static bool
-group_fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
+may_form_group(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
 {
     const size_t n = qdot_chart_size(g->kind);
 
@@ -387,7 +387,7 @@ group_fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
         return qdot_chart_body_fits(s, g->index);
     if (n == 0)
         return true;
-    if (!may_be(pairs, g->index, n))
+    if (!are_coupled_in_pairs(pairs, g->index, n))
         return false;
     switch (g->kind) {
     case QDOT_CHART_ELLIPTIC:
@@ -401,27 +401,27 @@ group_fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
 }
 
 static qdot_status
-try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const joined *pairs,
-         qdot_chart_groups *groups)
+try_groups_of_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const joined *pairs,
+                   qdot_chart_groups *groups)
 {
     const size_t n = s->coordinates.n, third = qdot_chart_size(kind) == 3 ? n : 1;
 
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             for (size_t k = 0; k < third; k++) {
-                /* all unused indices are 0, as `group_fits` expects */
+                /* unused indices must be 0, as the function `may_form_group` expects */
                 const qdot_chart_group g = {
                     .kind = kind, .index = {i, j, third > 1 ? k : 0}, .turned = turned};
 
-                if (group_fits(s, &g, pairs))
-                    QDOT_TRY(try_group(s, open, g, groups));
+                if (may_form_group(s, &g, pairs))
+                    QDOT_TRY(add_group_if_regular(s, open, g, groups));
             }
     return QDOT_OK;
 }
 
-/* Try square roots of coordinates in a position as groups. */
+/* Try whether square roots of expressions of coordinates, in a position r, are groups that can be replaced. */
 static qdot_status
-try_roots(qdot_scene *s, qdot_expr r, qdot_chart_groups *groups)
+try_root_groups(qdot_scene *s, qdot_expr r, qdot_chart_groups *groups)
 {
     qdot_pool *pool = s->pool;
     qdot_vec(qdot_expr) found = {0};
@@ -449,7 +449,7 @@ try_roots(qdot_scene *s, qdot_expr r, qdot_chart_groups *groups)
         for (size_t k = 0; k < groups->n; k++)
             known = known || groups->at[k].square == found.at[i];
         if (!known)
-            status = try_group(
+            status = add_group_if_regular(
                 s, false, (qdot_chart_group){.kind = QDOT_CHART_ROOT, .square = found.at[i]}, groups);
     }
     qdot_free(found.at);
@@ -476,12 +476,12 @@ qdot_chart_find(qdot_scene *s, bool open, qdot_chart_groups *groups)
     if (s->coordinates.n > MOST_COORDINATES)
         return QDOT_OK;
     rest = qdot_pool_budget(s->pool, most_work);
-    pairs = find_pairs(s, open);
+    pairs = find_coupled_coordinates(s, open);
     for (size_t k = 0; k < sizeof order / sizeof *order && status == QDOT_OK; k++)
         if (!open || order[k].kind == QDOT_CHART_PLANE || order[k].kind == QDOT_CHART_SPACE)
-            status = try_kind(s, open, order[k].kind, order[k].turned, &pairs, groups);
+            status = try_groups_of_kind(s, open, order[k].kind, order[k].turned, &pairs, groups);
     for (size_t i = 0; i < s->particles.n + s->bodies.n && status == QDOT_OK && !open; i++)
-        status = try_roots(s, position_of(s, i), groups);
+        status = try_root_groups(s, position_of_thing(s, i), groups);
     pending = qdot_pool_check(s->pool);
     status = status == QDOT_OK ? pending : status;
     (void)qdot_pool_budget(s->pool, rest);

@@ -61,13 +61,13 @@ typedef enum {
     QDOT_CHART_ROOT
 } qdot_chart_kind;
 
-/* A group of coordinates that can be replaced: its kind and its indices in the order of the table. */
+/* A group of coordinates that can be replaced: its kind, and their indices in the order of the table at the top. */
 typedef struct {
     qdot_chart_kind kind;
     size_t index[3];
-    bool turned;        /* sin and cos of the angle theta, or v, are exchanged */
+    bool turned;        /* theta (or v) is shifted by a quarter turn, so that sin and cos are exchanged */
     qdot_expr square;   /* if the group contains a root w = sqrt(P): the expression P */
-    qdot_expr distance; /* signed distance from the singular place, in the given coordinates */
+    qdot_expr distance; /* signed distance from the singular position, in the given coordinates */
 } qdot_chart_group;
 
 typedef qdot_vec(qdot_chart_group) qdot_chart_groups;
@@ -82,18 +82,18 @@ typedef enum {
 typedef struct {
     qdot_expr q; /* the coordinate; for an auxiliary angle a symbol of its own */
     qdot_chart_sort sort;
-    qdot_expr value;        /* the value of a quantity that is not an angle */
-    qdot_expr cosine, sine; /* sine and cosine of an angle; or cosh and sinh */
-    qdot_expr x, y;         /* angle = atan2(y, x) up to full turns */
-    qdot_expr factor;       /* y = factor sin(angle `half` / 2); nil: not of this form */
+    qdot_expr value;        /* for a quantity that is not an angle: its value */
+    qdot_expr cosine, sine; /* of an angle: cosine and sine; of a hyperbolic quantity: cosh and sinh */
+    qdot_expr x, y;         /* the angle is atan2(y, x), up to full turns */
+    qdot_expr factor;       /* y = factor sin(alpha/2) with the angle alpha of index `half`; nil: y is not of this form */
     size_t half;
-    bool cut;        /* the angle stays within half a turn of pi `middle` */
+    bool cut;        /* the angle differs from pi `middle` by no more than half a turn */
     int middle;
-    qdot_expr bare;  /* a symbol for the angle where it occurs outside of sin and cos */
+    qdot_expr bare;  /* a symbol for the angle where it occurs elsewhere than in sin and cos */
     qdot_expr rate; /* time derivative of the coordinate; nil: computed from value, or from x and y */
-    qdot_expr given; /* its formula in the coordinates given */
-    qdot_expr ends[2]; /* values at which its domain may end: singular places; nil: none */
-    size_t sign;       /* its formula contains sign number `sign` - 1; 0: no sign */
+    qdot_expr given; /* its formula in the given coordinates */
+    qdot_expr ends[2]; /* values at which its domain may end: singular positions; nil: none */
+    size_t sign;       /* its formula contains the sign with index `sign` - 1; 0: it contains no sign */
     bool between;      /* its domain ends at singular places, so it makes no full turns */
 } qdot_chart_moved;
 
@@ -105,17 +105,17 @@ typedef struct {
 /* A root that occurs in formulas of a group: the distance N, xi, cosh u ... */
 typedef struct {
     qdot_expr symbol, square;   /* the root's symbol; symbol^2 in new coordinates and other roots */
-    qdot_expr partner, product; /* symbol * partner = product; nil: no partner */
-    qdot_expr rate;             /* time derivative of the root; nil: that of `square` gives it */
-    qdot_expr value;            /* the root in other symbols; nil: the positive root of `square` */
+    qdot_expr partner, product; /* symbol * partner = product, where both are roots; nil: no partner */
+    qdot_expr rate;             /* time derivative of the root; nil: computed from that of `square` */
+    qdot_expr value;            /* the root in terms of other symbols; nil: the positive square root of `square` */
 } qdot_chart_root;
 
 /* What is 1 or -1 along the run: it changes where a singular place is passed exactly, if no domain
  * forbids that. Of a root w that is its sign. */
 typedef struct {
-    qdot_expr symbol; /* the symbol of the sign, or w */
+    qdot_expr symbol; /* the symbol of the sign s, or of the root w */
     int start;
-    bool branch; /* the sign is that of w, the square root of `square` */
+    bool branch; /* the sign is that of w, a square root of `square` */
     bool fixed;
     qdot_expr square;
     qdot_expr distance; /* the distance with its sign: s N */
@@ -127,12 +127,12 @@ typedef struct {
     qdot_scene *scene; /* the scene in new coordinates, owned; NULL: not regular, see `hindrance` */
     char hindrance[200];
     bool open;          /* forces may contain roots, and are then singular where a root is 0 */
-    bool signed_events; /* events contain a sign: no sign may change during the run */
+    bool signed_events; /* events contain a sign s = +-1: none may change during the run */
     qdot_vec(qdot_chart_moved) moved;
     qdot_vec(qdot_chart_fresh) fresh;
-    qdot_vec(qdot_chart_root) roots; /* the value of a root contains only later roots */
+    qdot_vec(qdot_chart_root) roots; /* roots in formulas; the value of a root contains only roots that follow it in the list */
     qdot_vec(qdot_chart_sign) signs;
-    qdot_vec(qdot_expr) unit; /* constraints of `scene`: each of these is 0 */
+    qdot_vec(qdot_expr) unit; /* expressions that `scene` constrains to be 0, such as x^2 + y^2 + z^2 - 1 on a sphere */
     qdot_text names; /* formulas of the new coordinates as text: "x = r*cos(phi), y = r*sin(phi)" */
 } qdot_chart;
 
@@ -148,7 +148,7 @@ QDOT_MUST_CHECK qdot_status qdot_chart_make(qdot_scene *s,
                                             const int *sign, bool open, qdot_chart *chart);
 void qdot_chart_clear(qdot_chart *chart);
 
-/* An expression of c->scene, written in the given coordinates. */
+/* An expression of c->scene, in new coordinates, written in the given coordinates. */
 qdot_expr qdot_chart_given(const qdot_chart *c, qdot_expr e);
 
 /* An expression of the scene given in the new coordinates. An angle outside of sin and cos is
@@ -158,7 +158,7 @@ qdot_expr qdot_chart_given(const qdot_chart *c, qdot_expr e);
 qdot_expr qdot_chart_express(const qdot_chart *chart, qdot_expr e, const long *quarters,
                              bool *turns);
 
-/* A root w contained in e (in new coordinates) where w is negative, judged by `quarters`; NULL: none. */
+/* A root w contained in e (in new coordinates) that is negative there, judged by `quarters`; NULL: none. */
 const qdot_chart_sign *qdot_chart_beyond(const qdot_chart *chart, qdot_expr e,
                                          const long *quarters);
 
@@ -173,9 +173,9 @@ QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_g
 /* Inside: in new coordinates and roots, products of two roots by what they are, angles outside of sin and cos as
  * their symbols. */
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);
-/* For files of charts: de/dt, where e is in new coordinates and roots. */
+/* For the files of charts: the time derivative de/dt of e, which is in new coordinates and roots. */
 qdot_expr qdot_chart_rate(const qdot_chart *chart, qdot_expr e);
-/* For files of charts: e without roots if it is regular; otherwise nil, which is no failure. */
+/* For the files of charts: e without roots if e is regular; otherwise nil, which is no failure. */
 qdot_expr qdot_chart_regular(const qdot_chart *chart, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* collision-pairs.c -- finds pairs of points whose distance makes accelerations singular. */
+/* collision-pairs.c -- finds pairs of points whose distance, when it vanishes, makes accelerations singular. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -11,7 +11,7 @@
 /* --- squares and linear forms ------------------------------------------------------------------ */
 
 static bool
-holds_coordinates(const qdot_collision_equations *of, qdot_expr e)
+contains_coordinates(const qdot_collision_equations *of, qdot_expr e)
 {
     for (size_t i = 0; i < of->n; i++)
         if (qdot_expr_contains(of->pool, e, of->q[i]))
@@ -26,9 +26,9 @@ is_numeral(const qdot_collision_equations *of, qdot_expr e)
     return e != QDOT_NIL && qdot_expr_kind(of->pool, e) == QDOT_NUM;
 }
 
-/* Whether e is a linear combination of coordinates only: a pair in one dimension. */
+/* Whether e is a linear combination of coordinates only: a distance in one dimension; if so fill *pair. */
 static bool
-find_line(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *pair)
+find_linear_distance(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *pair)
 {
     qdot_expr rest = e, first = QDOT_NIL;
 
@@ -51,9 +51,9 @@ find_line(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *
     return true;
 }
 
-/* Whether e is scale (x_1^2 + x_2^2 ...), each x linear in coordinates: squares are completed. */
+/* Whether e is scale (x_1^2 + x_2^2 ...) with every x linear in coordinates, by completing squares. */
 static bool
-find_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *pair)
+find_sum_of_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *pair)
 {
     qdot_pool *pool = of->pool;
     qdot_expr rest = qdot_expand(pool, e);
@@ -71,7 +71,7 @@ find_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pai
         if (pair->d == 0)
             pair->scale = qdot_mul(pool, QDOT_HALF, twice);
         if (qdot_mul(pool, QDOT_HALF, twice) != pair->scale ||
-            !find_line(of, qdot_div(pool, slope, twice), &line))
+            !find_linear_distance(of, qdot_div(pool, slope, twice), &line))
             return false;
         pair->x[pair->d] = line.x[0];
         pair->pivot[pair->d++] = i;
@@ -86,7 +86,7 @@ find_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pai
 /* --- expressions by which others are divided --------------------------------------- */
 
 static bool
-pair_is_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
+is_pair_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
 {
     for (size_t i = 0; i < pairs->n; i++) {
         const qdot_collision_pair *p = pairs->at + i;
@@ -101,27 +101,27 @@ pair_is_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
 }
 
 static qdot_status
-pairs_add(const qdot_collision_equations *of, qdot_expr base, bool line,
-          qdot_collision_pairs *pairs)
+add_pair(const qdot_collision_equations *of, qdot_expr base, bool line,
+         qdot_collision_pairs *pairs)
 {
     qdot_collision_pair pair = {0};
 
-    if (!(line ? find_line(of, base, &pair) : find_squares(of, base, &pair)) ||
-        pair_is_known(pairs, &pair))
+    if (!(line ? find_linear_distance(of, base, &pair) : find_sum_of_squares(of, base, &pair)) ||
+        is_pair_known(pairs, &pair))
         return qdot_pool_check(of->pool);
     return qdot_vec_push(pairs, pair);
 }
 
-/* A divisor that contains coordinates, or the argument of an absolute value. */
+/* A divisor in the equations that contains coordinates, or the argument of an absolute value. */
 typedef struct {
     qdot_expr e;
-    bool whole; /* e occurs in integer powers only */
+    bool whole; /* the divisor e occurs in integer powers only */
 } divisor;
 
 typedef qdot_vec(divisor) divisors;
 
 static qdot_status
-list_divisors(const qdot_collision_equations *of, size_t m, const qdot_expr *exprs,
+find_divisors(const qdot_collision_equations *of, size_t m, const qdot_expr *exprs,
               divisors *list)
 {
     qdot_pool *pool = of->pool;
@@ -143,7 +143,7 @@ list_divisors(const qdot_collision_equations *of, size_t m, const qdot_expr *exp
             long k;
 
             if (is_numeral(of, exponent) && qdot_expr_is_negative(pool, exponent) &&
-                holds_coordinates(of, base))
+                contains_coordinates(of, base))
                 status = qdot_vec_push(
                     list, ((divisor){base, qdot_expr_to_int(pool, exponent, &k)}));
         }
@@ -156,7 +156,7 @@ bool
 qdot_collision_may(const qdot_collision_equations *of, qdot_expr e)
 {
     divisors list = {0};
-    const bool may = list_divisors(of, 1, &e, &list) == QDOT_OK && list.n > 0;
+    const bool may = find_divisors(of, 1, &e, &list) == QDOT_OK && list.n > 0;
 
     qdot_free(list.at);
     return may;
@@ -167,10 +167,10 @@ qdot_collision_find(const qdot_collision_equations *of, size_t m, const qdot_exp
                     qdot_collision_pairs *pairs)
 {
     divisors list = {0};
-    qdot_status status = list_divisors(of, m, exprs, &list);
+    qdot_status status = find_divisors(of, m, exprs, &list);
 
     for (size_t i = 0; i < list.n && status == QDOT_OK; i++)
-        status = pairs_add(of, list.at[i].e, list.at[i].whole, pairs);
+        status = add_pair(of, list.at[i].e, list.at[i].whole, pairs);
     qdot_free(list.at);
     return status;
 }
@@ -183,7 +183,7 @@ typedef struct {
 } distance;
 
 static qdot_expr
-put_powers(qdot_pool *pool, qdot_expr node, void *user)
+replace_distance_powers(qdot_pool *pool, qdot_expr node, void *user)
 {
     const distance *x = user;
     qdot_expr factor = QDOT_ONE;
@@ -210,5 +210,5 @@ qdot_collision_put_distance(qdot_pool *pool, qdot_expr e, const qdot_collision_p
 {
     distance x = {pair, R};
 
-    return pair->d == 1 ? e : qdot_walk_replace(pool, e, QDOT_PROD, put_powers, &x);
+    return pair->d == 1 ? e : qdot_walk_replace(pool, e, QDOT_PROD, replace_distance_powers, &x);
 }

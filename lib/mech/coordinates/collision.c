@@ -1,4 +1,4 @@
-/* collision.c -- the scene in coordinates in which a collision is regular, and expressions in these. */
+/* collision.c -- writes a scene in coordinates in which a two-body collision is regular, and expressions in these. */
 #include "mech/coordinates/collision.h"
 
 #include <string.h>
@@ -25,24 +25,24 @@ qdot_collision_clear(qdot_collision *c)
     *c = (qdot_collision){0};
 }
 
-/* The regularised scene while it is made: symbols, and the equations of the pair. */
+/* The regularised scene while it is being made: symbols, and the equations of the colliding pair. */
 typedef struct {
     qdot_collision *c;
     qdot_pool *pool;
     qdot_scene *s;
     const qdot_collision_equations *of;
-    size_t d, m; /* number of components of x, of u */
-    int sign;    /* the sign in x = sign L(u) u; -1 only if d = 1 */
-    int side;    /* the sign of x[0] at the start */
+    size_t d, m; /* numbers of components: of x (relative position), and of u */
+    int sign;    /* the sign in x = sign L(u) u; it is -1 only if d = 1 */
+    int side;    /* the sign of x[0] (of the relative position) at the start */
     qdot_expr u[PARTS], energy, R;
     qdot_expr x[MOST], rate[MOST];      /* [d] symbols for x and dx/dt */
-    qdot_expr in_u[MOST], rate_u[MOST]; /* [d] x and dx/dt in new coordinates: L u, 2 L u'/R */
+    qdot_expr in_u[MOST], rate_u[MOST]; /* [d] x and dx/dt in the new coordinates u: L u, 2 L u'/R */
     qdot_expr strength;                 /* strength k of the force k x/R^3 */
-    qdot_expr P[MOST];                  /* in terms of x, dx/dt, R */
-    /* Fields with an entry for each given coordinate, [n]: */
-    qdot_expr *Q, *w; /* [n] regular coordinates Q and their rates w; nil for a pivot */
-    qdot_expr *value; /* coordinates in terms of x and Q */
-    qdot_expr *speed; /* dq/dt in terms of dx/dt and w' */
+    qdot_expr P[MOST];                  /* [d] the rest of d2x/dt2 = -k x/R^3 + P, in terms of x, dx/dt, R */
+    /* [n]: fields with an entry for each given coordinate */
+    qdot_expr *Q, *w; /* [n] regular coordinates Q and their rates w; nil for a pivot (a coordinate that x replaces) */
+    qdot_expr *value; /* given coordinates in terms of x and Q */
+    qdot_expr *speed; /* dq/dt of the given coordinates in terms of dx/dt and w' */
     qdot_expr *pull;  /* [n d] the coefficients c in d2q/dt2 = c.x/R^3 + rest */
     qdot_expr *rest;  /* [n] the regular part of d2q/dt2 */
 } work;
@@ -50,28 +50,28 @@ typedef struct {
 /* --- auxiliary formulas ---------------------------------------------------------------------------- */
 
 static qdot_expr
-collision_times(const work *k, qdot_expr a, qdot_expr b)
+multiply_expressions(const work *k, qdot_expr a, qdot_expr b)
 {
     return qdot_mul(k->pool, a, b);
 }
 
 static qdot_expr
-velocity_of(const work *k, qdot_expr q)
+velocity_symbol(const work *k, qdot_expr q)
 {
     return qdot_symbol_jet(k->pool, q, 1);
 }
 
 static qdot_expr
-collision_dot(const work *k, size_t n, const qdot_expr *a, const qdot_expr *b)
+dot_product(const work *k, size_t n, const qdot_expr *a, const qdot_expr *b)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t i = 0; i < n; i++)
-        sum = qdot_add(k->pool, sum, collision_times(k, a[i], b[i]));
+        sum = qdot_add(k->pool, sum, multiply_expressions(k, a[i], b[i]));
     return sum;
 }
 
-/* Entry of the Kustaanheimo-Stiefel matrix L(u) in row i, column j: +-u of that index, counted from 1. */
+/* Entry (i, j) of the Kustaanheimo-Stiefel matrix L(u): plus or minus a component of u. */
 static qdot_expr
 ks_matrix_entry(const work *k, size_t i, size_t j)
 {
@@ -88,7 +88,7 @@ ks_matrix_row(const work *k, size_t i, const qdot_expr *b)
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t j = 0; j < k->m; j++)
-        sum = qdot_add(k->pool, sum, collision_times(k, ks_matrix_entry(k, i, j), b[j]));
+        sum = qdot_add(k->pool, sum, multiply_expressions(k, ks_matrix_entry(k, i, j), b[j]));
     return sum;
 }
 
@@ -98,26 +98,26 @@ ks_matrix_column(const work *k, size_t j, const qdot_expr *b)
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t i = 0; i < k->d; i++)
-        sum = qdot_add(k->pool, sum, collision_times(k, ks_matrix_entry(k, i, j), b[i]));
+        sum = qdot_add(k->pool, sum, multiply_expressions(k, ks_matrix_entry(k, i, j), b[i]));
     return sum;
 }
 
 static void
-set_hindrance(work *k, const char *why)
+record_hindrance(work *k, const char *why)
 {
     if (k->c->hindrance[0] == '\0')
         snprintf(k->c->hindrance, sizeof k->c->hindrance, "%.180s", why);
 }
 
 static bool
-is_hindered(const work *k)
+has_hindrance(const work *k)
 {
     return k->c->hindrance[0] != '\0';
 }
 
 /* Whether e contains a negative power of `base`. */
 static bool
-divides_by(qdot_pool *pool, qdot_expr e, qdot_expr base)
+contains_negative_power(qdot_pool *pool, qdot_expr e, qdot_expr base)
 {
     bool found = false;
     qdot_walk w;
@@ -137,7 +137,7 @@ divides_by(qdot_pool *pool, qdot_expr e, qdot_expr base)
 /* --- new coordinates ------------------------------------------------------------------------------- */
 
 static qdot_expr
-fresh_coordinate(work *k, const char *what, const char *of)
+make_coordinate(work *k, const char *what, const char *of)
 {
     char name[120];
     qdot_expr q;
@@ -150,7 +150,7 @@ fresh_coordinate(work *k, const char *what, const char *of)
 }
 
 static qdot_expr
-formal(const work *k, const char *what, size_t i)
+make_formal_symbol(const work *k, const char *what, size_t i)
 {
     char name[40];
 
@@ -159,7 +159,7 @@ formal(const work *k, const char *what, size_t i)
 }
 
 static bool
-is_pivot(const work *k, size_t i)
+is_replaced_by_distance(const work *k, size_t i)
 {
     for (size_t j = 0; j < k->d; j++)
         if (k->c->pair.pivot[j] == i)
@@ -176,37 +176,37 @@ make_symbols(work *k)
     k->m = k->d == 3 ? 4 : k->d;
     for (size_t j = 0; j < k->m; j++) {
         snprintf(number, sizeof number, "%zu", j + 1);
-        k->u[j] = fresh_coordinate(k, "u", number);
+        k->u[j] = make_coordinate(k, "u", number);
     }
-    k->c->time = fresh_coordinate(k, "t", "");
-    k->energy = fresh_coordinate(k, "h", "");
-    k->R = k->c->R = formal(k, "distance", 0);
+    k->c->time = make_coordinate(k, "t", "");
+    k->energy = make_coordinate(k, "h", "");
+    k->R = k->c->R = make_formal_symbol(k, "distance", 0);
     qdot_symbol_domain(k->pool, k->R, QDOT_ZERO, true, QDOT_NIL, false);
     for (size_t i = 0; i < k->d; i++) {
         qdot_expr v[PARTS];
 
         for (size_t j = 0; j < k->m; j++)
-            v[j] = velocity_of(k, k->u[j]);
-        k->x[i] = k->d > 1 ? formal(k, "x", i)
-                           : collision_times(k, qdot_expr_int(k->pool, k->sign), k->R);
-        k->rate[i] = formal(k, "rate", i);
+            v[j] = velocity_symbol(k, k->u[j]);
+        k->x[i] = k->d > 1 ? make_formal_symbol(k, "x", i)
+                           : multiply_expressions(k, qdot_expr_int(k->pool, k->sign), k->R);
+        k->rate[i] = make_formal_symbol(k, "rate", i);
         k->in_u[i] = qdot_expand(k->pool, ks_matrix_row(k, i, k->u));
         k->rate_u[i] =
-            qdot_div(k->pool, collision_times(k, qdot_expr_int(k->pool, 2), ks_matrix_row(k, i, v)), k->R);
+            qdot_div(k->pool, multiply_expressions(k, qdot_expr_int(k->pool, 2), ks_matrix_row(k, i, v)), k->R);
     }
     for (size_t i = 0; i < k->of->n; i++) {
         const char *name = qdot_expr_symbol(k->pool, k->of->q[i])->name;
 
-        if (is_pivot(k, i))
+        if (is_replaced_by_distance(k, i))
             continue;
-        k->Q[i] = fresh_coordinate(k, "free", name);
-        k->w[i] = fresh_coordinate(k, "way", name);
+        k->Q[i] = make_coordinate(k, "free", name);
+        k->w[i] = make_coordinate(k, "way", name);
     }
 }
 
-/* e in terms of x and the given coordinates without pivots; pivots are eliminated, the last one first. */
+/* The expression e in terms of x and the given coordinates, after elimination of those that x replaces (pivots). */
 static qdot_expr
-without_pivots(const work *k, qdot_expr e)
+eliminate_pivots(const work *k, qdot_expr e)
 {
     const qdot_collision_pair *pair = &k->c->pair;
     qdot_expr from[MOST], to[MOST];
@@ -222,21 +222,21 @@ without_pivots(const work *k, qdot_expr e)
 
 /* --- the equations of motion ----------------------------------------------------------------------- */
 
-/* Split each acceleration in x and R into its singular part c.x/R^3 and the rest. */
+/* Split each acceleration, written in x and R, into its singular part c.x/R^3 and the rest. */
 static void
 split_accelerations(work *k)
 {
     const long power = k->d > 1 ? 3 : 2;
 
-    for (size_t i = 0; i < k->of->n && !is_hindered(k); i++) {
+    for (size_t i = 0; i < k->of->n && !has_hindrance(k); i++) {
         qdot_expr e =
             qdot_collision_put_distance(k->pool, k->of->accels[i], &k->c->pair, k->R);
         qdot_expr most, left;
 
-        e = without_pivots(k, e);
-        e = qdot_expand(k->pool, collision_times(k, e, qdot_pow_int(k->pool, k->R, power)));
-        if (e == QDOT_NIL || divides_by(k->pool, e, k->R)) {
-            set_hindrance(k, "the forces grow faster than 1/r^2");
+        e = eliminate_pivots(k, e);
+        e = qdot_expand(k->pool, multiply_expressions(k, e, qdot_pow_int(k->pool, k->R, power)));
+        if (e == QDOT_NIL || contains_negative_power(k->pool, e, k->R)) {
+            record_hindrance(k, "the forces grow faster than 1/r^2");
             return;
         }
         left = most = qdot_subs(k->pool, e, 1, &k->R, (qdot_expr[]){QDOT_ZERO});
@@ -244,66 +244,66 @@ split_accelerations(work *k)
             qdot_expr *c = k->pull + i * k->d + j;
 
             *c = k->d > 1 ? qdot_diff(k->pool, most, k->x[j])
-                          : collision_times(k, qdot_expr_int(k->pool, k->sign), most);
+                          : multiply_expressions(k, qdot_expr_int(k->pool, k->sign), most);
             if (k->d > 1)
-                left = qdot_sub(k->pool, left, collision_times(k, *c, k->x[j]));
+                left = qdot_sub(k->pool, left, multiply_expressions(k, *c, k->x[j]));
             if (qdot_expr_kind(k->pool, *c) != QDOT_NUM)
-                set_hindrance(k, "the force between the points is not -k/r^2");
+                record_hindrance(k, "the force between the points is not -k/r^2");
         }
         if (k->d > 1 && qdot_expand(k->pool, left) != QDOT_ZERO)
-            set_hindrance(k, "the force between the points is not -k/r^2");
-        k->rest[i] = qdot_expand(k->pool, collision_times(k, qdot_sub(k->pool, e, most),
-                                                          qdot_pow_int(k->pool, k->R, -power)));
+            record_hindrance(k, "the force between the points is not -k/r^2");
+        k->rest[i] = qdot_expand(k->pool, multiply_expressions(k, qdot_sub(k->pool, e, most),
+                                                               qdot_pow_int(k->pool, k->R, -power)));
     }
 }
 
-/* Find the strength k of the attraction, and P (the rest of d2x/dt2 = -k x/R^3 + P). */
+/* Find the strength k of the attraction of the pair, and P, the rest of d2x/dt2 = -k x/R^3 + P. */
 static void
-find_pair(work *k)
+find_strength_of_attraction(work *k)
 {
     const qdot_collision_pair *pair = &k->c->pair;
 
-    for (size_t i = 0; i < k->d && !is_hindered(k); i++) {
+    for (size_t i = 0; i < k->d && !has_hindrance(k); i++) {
         k->P[i] = QDOT_ZERO;
         for (size_t l = 0; l < k->d; l++) {
             qdot_expr c = QDOT_ZERO;
 
             for (size_t j = 0; j < k->of->n; j++)
                 c = qdot_add(k->pool, c,
-                             collision_times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]),
-                                             k->pull[j * k->d + l]));
+                             multiply_expressions(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]),
+                                                  k->pull[j * k->d + l]));
             if (i == 0 && l == 0)
                 k->strength = qdot_neg(k->pool, c);
             if (c != (i == l ? qdot_neg(k->pool, k->strength) : QDOT_ZERO))
-                set_hindrance(k, "the force between the points is not -k/r^2");
+                record_hindrance(k, "the force between the points is not -k/r^2");
         }
         for (size_t j = 0; j < k->of->n; j++)
             k->P[i] = qdot_add(
                 k->pool, k->P[i],
-                collision_times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]), k->rest[j]));
+                multiply_expressions(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]), k->rest[j]));
     }
-    if (!is_hindered(k) &&
+    if (!has_hindrance(k) &&
         (k->strength == QDOT_ZERO || qdot_expr_is_negative(k->pool, k->strength)))
-        set_hindrance(k, "the points do not attract each other");
+        record_hindrance(k, "the points do not attract each other");
 }
 
-/* The difference c.x/k between a coordinate and its regular replacement Q. */
+/* The difference c.x/k between a given coordinate and the regular coordinate Q that replaces it. */
 static qdot_expr
-distance_to_regular(const work *k, size_t i, const qdot_expr *x)
+offset_from_regular(const work *k, size_t i, const qdot_expr *x)
 {
-    return qdot_div(k->pool, collision_dot(k, k->d, k->pull + i * k->d, x), k->strength);
+    return qdot_div(k->pool, dot_product(k, k->d, k->pull + i * k->d, x), k->strength);
 }
 
-/* Express q and dq/dt of the given coordinates by the new ones. */
+/* Express q and dq/dt of the given coordinates in the new ones. */
 static void
 express_coordinates(work *k)
 {
     const qdot_collision_pair *pair = &k->c->pair;
 
     for (size_t i = 0; i < k->of->n; i++)
-        if (!is_pivot(k, i)) {
-            k->value[i] = qdot_sub(k->pool, k->Q[i], distance_to_regular(k, i, k->x));
-            k->speed[i] = qdot_sub(k->pool, velocity_of(k, k->w[i]), distance_to_regular(k, i, k->rate));
+        if (!is_replaced_by_distance(k, i)) {
+            k->value[i] = qdot_sub(k->pool, k->Q[i], offset_from_regular(k, i, k->x));
+            k->speed[i] = qdot_sub(k->pool, velocity_symbol(k, k->w[i]), offset_from_regular(k, i, k->rate));
         }
     for (size_t j = k->d; j-- > 0;) {
         const size_t p = pair->pivot[j];
@@ -317,21 +317,21 @@ express_coordinates(work *k)
             if (slope == QDOT_ZERO)
                 continue;
             value = qdot_subs(k->pool, value, 1, k->of->q + i, k->value + i);
-            speed = qdot_sub(k->pool, speed, collision_times(k, slope, k->speed[i]));
+            speed = qdot_sub(k->pool, speed, multiply_expressions(k, slope, k->speed[i]));
         }
         k->value[p] = qdot_expand(k->pool, value);
         k->speed[p] = qdot_expand(k->pool, speed);
     }
 }
 
-/* Write e, given in coordinates, x and R, in terms of x, dx/dt and the Q and w' of the others. */
+/* Write e, given in coordinates, x and R, in terms of x, dx/dt, and Q and w' of the other coordinates. */
 static qdot_expr
-in_rates(const work *k, qdot_expr e)
+to_pair_coordinates(const work *k, qdot_expr e)
 {
     const qdot_expr now = QDOT_T;
 
     for (size_t i = 0; i < k->of->n; i++) {
-        const qdot_expr from[] = {k->of->q[i], velocity_of(k, k->of->q[i])};
+        const qdot_expr from[] = {k->of->q[i], velocity_symbol(k, k->of->q[i])};
         const qdot_expr to[] = {k->value[i], k->speed[i]};
 
         e = qdot_subs(k->pool, e, 2, from, to);
@@ -340,7 +340,7 @@ in_rates(const work *k, qdot_expr e)
 }
 
 static qdot_expr
-in_u(const work *k, qdot_expr e)
+to_regular_coordinates(const work *k, qdot_expr e)
 {
     if (k->d > 1)
         e = qdot_subs(k->pool, e, k->d, k->x, k->in_u);
@@ -349,44 +349,44 @@ in_u(const work *k, qdot_expr e)
 
 /* Write e, given in coordinates, x and R, in terms of the new coordinates and R. */
 static qdot_expr
-in_new(const work *k, qdot_expr e)
+to_new_coordinates(const work *k, qdot_expr e)
 {
-    return in_u(k, in_rates(k, e));
+    return to_regular_coordinates(k, to_pair_coordinates(k, e));
 }
 
-/* Write e as a polynomial in R, and replace R by |u|^2; if e is divided by R, set the hindrance. */
+/* Write e as a polynomial in R, and replace R by |u|^2; if e is divided by R, record that as the hindrance. */
 static qdot_expr
 write_regular(work *k, qdot_expr e)
 {
-    const qdot_expr square = collision_dot(k, k->m, k->u, k->u);
+    const qdot_expr square = dot_product(k, k->m, k->u, k->u);
 
     e = qdot_expand(k->pool, e);
-    if (e != QDOT_NIL && divides_by(k->pool, e, k->R)) {
+    if (e != QDOT_NIL && contains_negative_power(k->pool, e, k->R)) {
         e = qdot_expand(k->pool, qdot_subs(k->pool, e, 1, &k->R, &square));
         e = qdot_mech_tidy(k->s, e);
-        if (e == QDOT_NIL || divides_by(k->pool, e, k->d > 1 ? square : k->u[0]))
-            set_hindrance(k, "another force is not smooth there");
+        if (e == QDOT_NIL || contains_negative_power(k->pool, e, k->d > 1 ? square : k->u[0]))
+            record_hindrance(k, "another force is not smooth there");
         return e;
     }
     return qdot_subs(k->pool, e, 1, &k->R, &square);
 }
 
 static qdot_status
-add_equation(work *k, qdot_expr q, qdot_expr second, qdot_expr q0, qdot_expr v0)
+add_equation_of_motion(work *k, qdot_expr q, qdot_expr second, qdot_expr q0, qdot_expr v0)
 {
     const qdot_torque force = {
         .torque = second, .coordinate = q, .force = true, .body = -1};
 
     QDOT_TRY(qdot_pool_check(k->pool));
-    if (second != QDOT_ZERO && !is_hindered(k))
+    if (second != QDOT_ZERO && !has_hindrance(k))
         QDOT_TRY(qdot_scene_torque(k->c->scene, &force));
     QDOT_TRY(qdot_vec_push(&k->c->q0, q0));
     return qdot_vec_push(&k->c->v0, v0);
 }
 
-/* Choose the start value of u: of the two roots the one that is computed without cancellation. */
+/* Choose the start value of u: of the two solutions of x = L(u) u the one that is computed without cancellation. */
 static void
-start_of_u(const work *k, qdot_expr *u)
+choose_start_of_u(const work *k, qdot_expr *u)
 {
     const qdot_collision_pair *pair = &k->c->pair;
     const size_t main = k->d > 1 && k->side < 0 ? 1 : 0;
@@ -400,16 +400,16 @@ start_of_u(const work *k, qdot_expr *u)
         return;
     }
     u[main] =
-        qdot_sqrt(k->pool, collision_times(k, QDOT_HALF, qdot_add(k->pool, pair->distance, x)));
-    u[1 - main] = qdot_div(k->pool, pair->x[1], collision_times(k, two, u[main]));
+        qdot_sqrt(k->pool, multiply_expressions(k, QDOT_HALF, qdot_add(k->pool, pair->distance, x)));
+    u[1 - main] = qdot_div(k->pool, pair->x[1], multiply_expressions(k, two, u[main]));
     if (k->d == 3)
-        u[main ? 3 : 2] = qdot_div(k->pool, pair->x[2], collision_times(k, two, u[main]));
+        u[main ? 3 : 2] = qdot_div(k->pool, pair->x[2], multiply_expressions(k, two, u[main]));
 }
 
 /* Take b dx/dt, a force along the velocity, out of P, in rates: b. As u'.(L^T L u') = R u'.u', for 4
  * components along the motion alone, it is smooth. */
 static qdot_expr
-take_along(const work *k, qdot_expr *P)
+split_off_force_along_velocity(const work *k, qdot_expr *P)
 {
     const qdot_expr b = qdot_expand(k->pool, qdot_diff(k->pool, P[0], k->rate[0]));
 
@@ -418,75 +418,75 @@ take_along(const work *k, qdot_expr *P)
             qdot_expr_contains(k->pool, b, k->rate[i]))
             return QDOT_ZERO;
     for (size_t i = 0; i < k->d; i++)
-        P[i] = qdot_expand(k->pool, qdot_sub(k->pool, P[i], collision_times(k, b, k->rate[i])));
+        P[i] = qdot_expand(k->pool, qdot_sub(k->pool, P[i], multiply_expressions(k, b, k->rate[i])));
     return b;
 }
 
 static qdot_status
-collision_add_pair(work *k)
+add_pair_equations(work *k)
 {
-    const qdot_expr h = velocity_of(k, k->energy), two = qdot_expr_int(k->pool, 2);
+    const qdot_expr h = velocity_symbol(k, k->energy), two = qdot_expr_int(k->pool, 2);
     qdot_expr RP[MOST], u0[PARTS], v[PARTS], rate0[MOST], power = QDOT_ZERO, along;
     work at_start = *k;
 
     for (size_t j = 0; j < k->m; j++)
-        v[j] = velocity_of(k, k->u[j]);
+        v[j] = velocity_symbol(k, k->u[j]);
     for (size_t i = 0; i < k->d; i++)
-        RP[i] = in_rates(k, k->P[i]);
-    along = write_regular(k, in_u(k, take_along(k, RP)));
+        RP[i] = to_pair_coordinates(k, k->P[i]);
+    along = write_regular(k, to_regular_coordinates(k, split_off_force_along_velocity(k, RP)));
     for (size_t i = 0; i < k->d; i++) {
-        RP[i] = qdot_expand(k->pool, collision_times(k, k->R, in_u(k, RP[i])));
+        RP[i] = qdot_expand(k->pool, multiply_expressions(k, k->R, to_regular_coordinates(k, RP[i])));
         rate0[i] = qdot_ddt(k->pool, k->c->pair.x[i]);
-        power = qdot_add(k->pool, power, collision_times(k, ks_matrix_row(k, i, v), RP[i]));
+        power = qdot_add(k->pool, power, multiply_expressions(k, ks_matrix_row(k, i, v), RP[i]));
     }
-    start_of_u(k, u0);
+    choose_start_of_u(k, u0);
     memcpy(at_start.u, u0, sizeof u0);
     for (size_t j = 0; j < k->m; j++) {
-        qdot_expr push = write_regular(k, collision_times(k, QDOT_HALF, ks_matrix_column(k, j, RP)));
+        qdot_expr push = write_regular(k, multiply_expressions(k, QDOT_HALF, ks_matrix_column(k, j, RP)));
 
         push = qdot_add(k->pool, push,
-                        collision_times(k, along, collision_times(k, collision_dot(k, k->m, k->u, k->u), v[j])));
-        push = qdot_add(k->pool, collision_times(k, QDOT_HALF, collision_times(k, h, k->u[j])), push);
-        QDOT_TRY(add_equation(k, k->u[j], push, u0[j],
-                              collision_times(k, QDOT_HALF, ks_matrix_column(&at_start, j, rate0))));
+                        multiply_expressions(k, along, multiply_expressions(k, dot_product(k, k->m, k->u, k->u), v[j])));
+        push = qdot_add(k->pool, multiply_expressions(k, QDOT_HALF, multiply_expressions(k, h, k->u[j])), push);
+        QDOT_TRY(add_equation_of_motion(k, k->u[j], push, u0[j],
+                                        multiply_expressions(k, QDOT_HALF, ks_matrix_column(&at_start, j, rate0))));
     }
-    QDOT_TRY(add_equation(k, k->c->time, collision_times(k, two, collision_dot(k, k->m, k->u, v)), QDOT_T,
-                          k->c->pair.distance));
-    power = write_regular(k, qdot_div(k->pool, collision_times(k, two, power), k->R));
+    QDOT_TRY(add_equation_of_motion(k, k->c->time, multiply_expressions(k, two, dot_product(k, k->m, k->u, v)), QDOT_T,
+                                    k->c->pair.distance));
+    power = write_regular(k, qdot_div(k->pool, multiply_expressions(k, two, power), k->R));
     power = qdot_add(
         k->pool, power,
-        collision_times(k, qdot_expr_int(k->pool, 4), collision_times(k, along, collision_dot(k, k->m, v, v))));
-    return add_equation(k, k->energy, power, QDOT_ZERO,
-                        qdot_sub(k->pool, collision_times(k, QDOT_HALF, collision_dot(k, k->d, rate0, rate0)),
-                                 qdot_div(k->pool, k->strength, k->c->pair.distance)));
+        multiply_expressions(k, qdot_expr_int(k->pool, 4), multiply_expressions(k, along, dot_product(k, k->m, v, v))));
+    return add_equation_of_motion(k, k->energy, power, QDOT_ZERO,
+                                  qdot_sub(k->pool, multiply_expressions(k, QDOT_HALF, dot_product(k, k->d, rate0, rate0)),
+                                           qdot_div(k->pool, k->strength, k->c->pair.distance)));
 }
 
 static qdot_status
-add_others(work *k)
+add_other_equations(work *k)
 {
     const qdot_collision_pair *pair = &k->c->pair;
     qdot_expr v[PARTS], change, rate0[MOST];
 
     for (size_t j = 0; j < k->m; j++)
-        v[j] = velocity_of(k, k->u[j]);
+        v[j] = velocity_symbol(k, k->u[j]);
     for (size_t i = 0; i < k->d; i++)
         rate0[i] = qdot_ddt(k->pool, pair->x[i]);
-    change = collision_times(k, qdot_expr_int(k->pool, 2), collision_dot(k, k->m, k->u, v));
-    for (size_t i = 0; i < k->of->n && !is_hindered(k); i++) {
+    change = multiply_expressions(k, qdot_expr_int(k->pool, 2), dot_product(k, k->m, k->u, v));
+    for (size_t i = 0; i < k->of->n && !has_hindrance(k); i++) {
         const qdot_expr q = k->of->q[i];
         qdot_expr second, free;
 
-        if (is_pivot(k, i))
+        if (is_replaced_by_distance(k, i))
             continue;
-        free = qdot_add(k->pool, velocity_of(k, q), distance_to_regular(k, i, rate0));
-        second = qdot_add(k->pool, k->rest[i], distance_to_regular(k, i, k->P));
-        second = write_regular(k, collision_times(k, k->R, in_new(k, second)));
-        QDOT_TRY(add_equation(k, k->Q[i],
-                              qdot_add(k->pool, collision_times(k, change, velocity_of(k, k->w[i])),
-                                       collision_times(k, collision_dot(k, k->m, k->u, k->u), second)),
-                              qdot_add(k->pool, q, distance_to_regular(k, i, pair->x)),
-                              collision_times(k, pair->distance, free)));
-        QDOT_TRY(add_equation(k, k->w[i], second, QDOT_ZERO, free));
+        free = qdot_add(k->pool, velocity_symbol(k, q), offset_from_regular(k, i, rate0));
+        second = qdot_add(k->pool, k->rest[i], offset_from_regular(k, i, k->P));
+        second = write_regular(k, multiply_expressions(k, k->R, to_new_coordinates(k, second)));
+        QDOT_TRY(add_equation_of_motion(k, k->Q[i],
+                                        qdot_add(k->pool, multiply_expressions(k, change, velocity_symbol(k, k->w[i])),
+                                                 multiply_expressions(k, dot_product(k, k->m, k->u, k->u), second)),
+                                        qdot_add(k->pool, q, offset_from_regular(k, i, pair->x)),
+                                        multiply_expressions(k, pair->distance, free)));
+        QDOT_TRY(add_equation_of_motion(k, k->w[i], second, QDOT_ZERO, free));
     }
     return qdot_pool_check(k->pool);
 }
@@ -494,9 +494,9 @@ add_others(work *k)
 /* --- expressions in the new coordinates ------------------------------------------------------------ */
 
 static qdot_status
-collision_replace(work *k, qdot_expr from, qdot_expr to)
+record_replacement(work *k, qdot_expr from, qdot_expr to)
 {
-    const qdot_expr square = collision_dot(k, k->m, k->u, k->u);
+    const qdot_expr square = dot_product(k, k->m, k->u, k->u);
 
     to = qdot_subs(k->pool, to, 1, &k->R, &square);
     QDOT_TRY(qdot_vec_push(&k->c->from, from));
@@ -504,19 +504,19 @@ collision_replace(work *k, qdot_expr from, qdot_expr to)
 }
 
 static qdot_status
-list_replacements(work *k)
+record_all_replacements(work *k)
 {
     for (size_t i = 0; i < k->of->n; i++) {
         qdot_expr e =
             qdot_collision_put_distance(k->pool, k->of->accels[i], &k->c->pair, k->R);
 
-        QDOT_TRY(collision_replace(k, k->of->q[i], in_new(k, k->of->q[i])));
+        QDOT_TRY(record_replacement(k, k->of->q[i], to_new_coordinates(k, k->of->q[i])));
         QDOT_TRY(
-            collision_replace(k, velocity_of(k, k->of->q[i]), in_new(k, velocity_of(k, k->of->q[i]))));
-        QDOT_TRY(collision_replace(k, qdot_symbol_jet(k->pool, k->of->q[i], 2), in_new(k, e)));
+            record_replacement(k, velocity_symbol(k, k->of->q[i]), to_new_coordinates(k, velocity_symbol(k, k->of->q[i]))));
+        QDOT_TRY(record_replacement(k, qdot_symbol_jet(k->pool, k->of->q[i], 2), to_new_coordinates(k, e)));
     }
-    QDOT_TRY(collision_replace(k, QDOT_T, k->c->time));
-    QDOT_TRY(collision_replace(k, k->R, k->R));
+    QDOT_TRY(record_replacement(k, QDOT_T, k->c->time));
+    QDOT_TRY(record_replacement(k, k->R, k->R));
     return qdot_pool_check(k->pool);
 }
 
@@ -535,19 +535,19 @@ express_energy(work *k)
     qdot_expr e = qdot_collision_put_distance(k->pool, k->of->energy, &k->c->pair, k->R),
               m, pole;
 
-    e = in_rates(k, e);
-    pole = qdot_expand(k->pool, collision_times(k, e, k->R));
-    if (pole == QDOT_NIL || divides_by(k->pool, pole, k->R))
+    e = to_pair_coordinates(k, e);
+    pole = qdot_expand(k->pool, multiply_expressions(k, e, k->R));
+    if (pole == QDOT_NIL || contains_negative_power(k->pool, pole, k->R))
         return;
     pole = qdot_subs(k->pool, pole, 1, &k->R, (qdot_expr[]){QDOT_ZERO});
     m = qdot_neg(k->pool, qdot_div(k->pool, pole, k->strength));
     e = qdot_sub(k->pool, e, qdot_div(k->pool, pole, k->R));
     e = qdot_add(k->pool, e,
-                 collision_times(k, collision_times(k, minus_half, m), collision_dot(k, k->d, k->rate, k->rate)));
-    e = in_u(k, qdot_expand(k->pool, e));
+                 multiply_expressions(k, multiply_expressions(k, minus_half, m), dot_product(k, k->d, k->rate, k->rate)));
+    e = to_regular_coordinates(k, qdot_expand(k->pool, e));
     k->c->energy =
-        qdot_subs(k->pool, qdot_add(k->pool, e, collision_times(k, m, velocity_of(k, k->energy))), 1,
-                  &k->R, (qdot_expr[]){collision_dot(k, k->m, k->u, k->u)});
+        qdot_subs(k->pool, qdot_add(k->pool, e, multiply_expressions(k, m, velocity_symbol(k, k->energy))), 1,
+                  &k->R, (qdot_expr[]){dot_product(k, k->m, k->u, k->u)});
 }
 
 /* Copy the events of the scene, which must not set coordinates or velocities. */
@@ -556,11 +556,11 @@ copy_events(work *k)
 {
     qdot_collision *c = k->c;
 
-    for (size_t i = 0; i < k->s->events.n && !is_hindered(k); i++) {
+    for (size_t i = 0; i < k->s->events.n && !has_hindrance(k); i++) {
         qdot_event own = k->s->events.at[i];
 
         if (own.targets.n > 0) {
-            set_hindrance(k, "an event sets coordinates");
+            record_hindrance(k, "an event sets coordinates");
             return QDOT_OK;
         }
         own.left = qdot_collision_express(c, own.left);
@@ -571,7 +571,7 @@ copy_events(work *k)
     return QDOT_OK;
 }
 
-/* Check that domains of coordinates end only at the collision. */
+/* Check that the domains of coordinates end nowhere but at the collision. */
 static void
 check_domains(work *k)
 {
@@ -581,14 +581,14 @@ check_domains(work *k)
 
         if (ends && !(k->d == 1 && k->c->pair.x[0] == k->of->q[i] && q->hi == QDOT_NIL &&
                       q->lo == QDOT_ZERO))
-            set_hindrance(k, "a coordinate has a domain");
+            record_hindrance(k, "a coordinate has a domain");
     }
 }
 
 /* --- the whole scene --------------------------------------------------------------------------------- */
 
 static qdot_status
-collision_build(work *k)
+build_scene(work *k)
 {
     qdot_expr kinetic = QDOT_ZERO;
     qdot_scene *to = k->c->scene;
@@ -597,22 +597,22 @@ collision_build(work *k)
     QDOT_TRY(qdot_pool_check(k->pool));
     check_domains(k);
     split_accelerations(k);
-    find_pair(k);
+    find_strength_of_attraction(k);
     QDOT_TRY(qdot_pool_check(k->pool));
     k->c->strength = k->strength;
-    if (is_hindered(k))
+    if (has_hindrance(k))
         return QDOT_OK;
     k->c->parts = k->m;
     express_coordinates(k);
     for (size_t i = 0; i < to->coordinates.n; i++)
         kinetic =
             qdot_add(k->pool, kinetic,
-                     collision_times(k, QDOT_HALF,
-                                     qdot_pow_int(k->pool, velocity_of(k, to->coordinates.at[i]), 2)));
+                     multiply_expressions(k, QDOT_HALF,
+                                          qdot_pow_int(k->pool, velocity_symbol(k, to->coordinates.at[i]), 2)));
     QDOT_TRY(qdot_scene_lagrangian(to, kinetic));
-    QDOT_TRY(collision_add_pair(k));
-    QDOT_TRY(add_others(k));
-    QDOT_TRY(list_replacements(k));
+    QDOT_TRY(add_pair_equations(k));
+    QDOT_TRY(add_other_equations(k));
+    QDOT_TRY(record_all_replacements(k));
     if (k->of->energy != QDOT_NIL)
         express_energy(k);
     return copy_events(k);
@@ -642,7 +642,7 @@ qdot_collision_make(qdot_scene *s, const qdot_collision_equations *of,
         k.rest = k.speed + n;
         k.pull = k.rest + n;
     }
-    status = room && c->scene ? collision_build(&k) : QDOT_ENOMEM;
+    status = room && c->scene ? build_scene(&k) : QDOT_ENOMEM;
     qdot_free(room);
     if (status == QDOT_OK && c->hindrance[0] != '\0') {
         qdot_scene_free(c->scene);

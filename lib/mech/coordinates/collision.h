@@ -36,14 +36,14 @@ typedef struct {
     size_t d;
     qdot_expr x[QDOT_COLLISION_MOST];
     size_t pivot[QDOT_COLLISION_MOST];
-    /* for d > 1: R^2 = square/scale, where `square` stands under a root in the scene */
+    /* for d > 1: R^2 = square/scale, where `square` is the expression under a root in the scene */
     qdot_expr square, scale;
     qdot_expr distance;      /* distance R of the two points */
 } qdot_collision_pair;
 
 typedef qdot_vec(qdot_collision_pair) qdot_collision_pairs;
 
-/* The equations of a scene, with numbers for all parameters. */
+/* The equations of a scene in which all parameters have numbers. */
 typedef struct {
     qdot_pool *pool;
     size_t n;
@@ -51,7 +51,7 @@ typedef struct {
     qdot_expr energy;            /* the conserved energy; nil: energy is not conserved */
 } qdot_collision_equations;
 
-/* Whether e is divided by an expression of coordinates, or contains an absolute value of one. */
+/* Whether e is divided by an expression that contains coordinates, or contains the absolute value of one. */
 bool qdot_collision_may(const qdot_collision_equations *of, qdot_expr e);
 
 /* All pairs by whose distance one of the expressions [m], potentials or forces, is divided. `pairs`
@@ -66,10 +66,10 @@ typedef struct {
     size_t parts;      /* of u, its first coordinates; then come t, the integral of h, and Q and w of
                           each coordinate that stays */
     qdot_expr time;    /* the coordinate of `scene` that is the time t */
-    qdot_expr strength; /* strength k of the force k x/R^3; 0: no force is as 1/R^2 */
+    qdot_expr strength; /* strength k of the force k x/R^3 between the points; 0: no force is as 1/R^2 */
     char hindrance[200];
     qdot_collision_pair pair;
-    qdot_expr R; /* a symbol for R while the scene is made */
+    qdot_expr R; /* a symbol for the distance R, used while the scene is made */
     qdot_expr energy; /* energy in new coordinates, without division by R; nil: none */
     qdot_vec(qdot_expr) q0, v0; /* start values of the new coordinates and rates, in the given q, q', t */
     qdot_vec(qdot_expr) from, to; /* replacements: each of q, q', q'', t, R (from) by its value in new coordinates (to) */
@@ -83,10 +83,10 @@ QDOT_MUST_CHECK qdot_status qdot_collision_make(qdot_scene *s,
                                                 qdot_collision *c);
 void qdot_collision_clear(qdot_collision *c);
 
-/* An expression of the scene given in the coordinates of c->scene. Nil: the pool keeps the failure. */
+/* An expression of the given scene, written in the coordinates of c->scene. Nil: the pool keeps the failure. */
 qdot_expr qdot_collision_express(const qdot_collision *c, qdot_expr e);
 
-/* For files of collisions: replace powers of pair->square by powers of R. */
+/* For the files of collisions: replace powers of pair->square by powers of the distance R. */
 qdot_expr qdot_collision_put_distance(qdot_pool *pool, qdot_expr e,
                                       const qdot_collision_pair *pair, qdot_expr R);
 

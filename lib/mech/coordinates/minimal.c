@@ -22,7 +22,7 @@ typedef struct {
     qdot_minimal *out;
     bool *solved;    /* [constraints] the constraint has been solved for a coordinate */
     bool *gone;      /* [n] the coordinate has been eliminated */
-    qdot_expr *angle; /* [n] the new angles in terms of given coordinates; out->fresh of them are used */
+    qdot_expr *angle; /* [n] the new angles in terms of given coordinates; the first out->fresh entries are used */
     qdot_expr *held; /* [constraints] left sides f(q, t) of holonomic constraints f = 0 */
     const qdot_minimal_start *start;
 } work;
@@ -37,15 +37,15 @@ qdot_minimal_clear(qdot_minimal *m)
 }
 
 static bool
-minimal_moves(const work *w, qdot_expr e)
+is_time_dependent(const work *w, qdot_expr e)
 {
     return qdot_mech_holds(w->s, e) &
            (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_UFUN);
 }
 
-/* Record that coordinate i equals `value`, and insert `value` into the earlier solutions. */
+/* Record that coordinate i equals `value`, and insert `value` into the solutions for other coordinates. */
 static void
-put_solved(work *w, size_t i, qdot_expr value)
+record_solution(work *w, size_t i, qdot_expr value)
 {
     qdot_expr q = w->s->coordinates.at[i];
 
@@ -56,15 +56,15 @@ put_solved(work *w, size_t i, qdot_expr value)
             w->out->given[k] = qdot_subs(w->pool, w->out->given[k], 1, &q, &value);
 }
 
-/* The function f with the solved coordinates replaced by their solutions. */
+/* The function f with the solutions inserted for those coordinates that were solved for. */
 static qdot_expr
-put_solved_in(const work *w, qdot_expr f)
+insert_solutions(const work *w, qdot_expr f)
 {
     return qdot_mech_tidy(w->s, qdot_subs(w->pool, f, w->out->n, w->s->coordinates.at,
                                           w->out->given));
 }
 
-/* Solve f = c x + g = 0 for the first coordinate x whose coefficient c is constant. */
+/* Solve a constraint f = c x + g = 0 for the first coordinate x whose coefficient c is constant. */
 static bool
 solve_linear(work *w, qdot_expr f, qdot_expr whole)
 {
@@ -72,13 +72,13 @@ solve_linear(work *w, qdot_expr f, qdot_expr whole)
     for (size_t i = 0; i < w->out->n; i++) {
         qdot_expr x = w->s->coordinates.at[i], c = qdot_diff(w->pool, f, x), g;
 
-        if (w->gone[i] || c == QDOT_NIL || c == QDOT_ZERO || minimal_moves(w, c) ||
+        if (w->gone[i] || c == QDOT_NIL || c == QDOT_ZERO || is_time_dependent(w, c) ||
             qdot_mech_holds(w->s, c) & QDOT_HAS_TIME)
             continue;
         g = qdot_mech_tidy(w->s, qdot_sub(w->pool, f, qdot_mul(w->pool, c, x)));
         if (g == QDOT_NIL || qdot_expr_contains(w->pool, g, x))
             continue;
-        put_solved(w, i, qdot_mech_tidy(w->s, qdot_neg(w->pool, qdot_div(w->pool, g, c))));
+        record_solution(w, i, qdot_mech_tidy(w->s, qdot_neg(w->pool, qdot_div(w->pool, g, c))));
         return true;
     }
     return false;
@@ -91,15 +91,15 @@ typedef struct {
     qdot_expr centre[most_axes], square;
 } ball;
 
-/* Whether f = s ((x - a)^2 + ... - l^2) as a function of x [m], where 2 s is its second derivative. */
+/* Whether f = s ((x - a)^2 + ... - l^2) as a function of the coordinates x [m], where 2 s is its second derivative. */
 static bool
-is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
+is_circle_or_sphere(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
 {
     static const qdot_expr zero[most_axes] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO};
     qdot_pool *pool = w->pool;
     qdot_expr s = qdot_diff(pool, qdot_diff(pool, f, x[0]), x[0]);
 
-    if (s == QDOT_NIL || s == QDOT_ZERO || minimal_moves(w, s))
+    if (s == QDOT_NIL || s == QDOT_ZERO || is_time_dependent(w, s))
         return false;
     of->square = QDOT_ZERO;
     for (size_t i = 0; i < m; i++) {
@@ -123,12 +123,12 @@ is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
                                             qdot_subs(pool, f, m, x, zero)),
                                    s));
     of->square = qdot_mech_tidy(w->s, of->square);
-    return of->square != QDOT_NIL && of->square != QDOT_ZERO && !minimal_moves(w, of->square);
+    return of->square != QDOT_NIL && of->square != QDOT_ZERO && !is_time_dependent(w, of->square);
 }
 
-/* A new angle, equal to atan2(y, x) of the given coordinates. */
+/* Make a new angle, equal to atan2(y, x) of the given coordinates. */
 static qdot_expr
-new_angle(work *w, qdot_expr y, qdot_expr x)
+add_new_angle(work *w, qdot_expr y, qdot_expr x)
 {
     const qdot_expr sides[] = {y, x};
     char name[32];
@@ -142,12 +142,12 @@ new_angle(work *w, qdot_expr y, qdot_expr x)
 }
 
 static qdot_expr
-times_function(qdot_pool *pool, qdot_expr a, qdot_fun_id f, qdot_expr u)
+multiply_by_function(qdot_pool *pool, qdot_expr a, qdot_fun_id f, qdot_expr u)
 {
     return qdot_mul(pool, a, qdot_fun1(pool, f, u));
 }
 
-/* Solve a circle by x = a + l sin u, y = b - l cos u; whole: f as declared, for u in terms of x and y. */
+/* Solve f = 0, a circle, by x = a + l sin u, y = b - l cos u; whole: f as declared, from which u is found. */
 static bool
 solve_circle(work *w, qdot_expr f, qdot_expr whole)
 {
@@ -159,14 +159,14 @@ solve_circle(work *w, qdot_expr f, qdot_expr whole)
             qdot_expr l, u;
             ball now, given;
 
-            if (w->gone[i] || w->gone[j] || !is_ball(w, f, 2, x, &now) ||
-                !is_ball(w, whole, 2, x, &given))
+            if (w->gone[i] || w->gone[j] || !is_circle_or_sphere(w, f, 2, x, &now) ||
+                !is_circle_or_sphere(w, whole, 2, x, &given))
                 continue;
             l = qdot_mech_tidy(w->s, qdot_sqrt(pool, now.square));
-            u = new_angle(w, qdot_sub(pool, x[0], given.centre[0]),
-                          qdot_sub(pool, given.centre[1], x[1]));
-            put_solved(w, i, qdot_add(pool, now.centre[0], times_function(pool, l, QDOT_SIN, u)));
-            put_solved(w, j, qdot_sub(pool, now.centre[1], times_function(pool, l, QDOT_COS, u)));
+            u = add_new_angle(w, qdot_sub(pool, x[0], given.centre[0]),
+                              qdot_sub(pool, given.centre[1], x[1]));
+            record_solution(w, i, qdot_add(pool, now.centre[0], multiply_by_function(pool, l, QDOT_SIN, u)));
+            record_solution(w, j, qdot_sub(pool, now.centre[1], multiply_by_function(pool, l, QDOT_COS, u)));
             return true;
         }
     return false;
@@ -192,10 +192,10 @@ choose_axis(const work *w, const qdot_expr *x, const ball *given)
     return best;
 }
 
-/* Solve a sphere: x = a + l sin u cos v, y = b + l sin u sin v, z = c - l cos u, with z as axis. */
+/* Solve a sphere by x = a + l sin u cos v, y = b + l sin u sin v, z = c - l cos u, with z as its axis. */
 static bool
-put_sphere(work *w, const size_t *index, const qdot_expr *x, const ball *now,
-           const ball *given)
+solve_sphere_about_axis(work *w, const size_t *index, const qdot_expr *x, const ball *now,
+                        const ball *given)
 {
     qdot_pool *pool = w->pool;
     const size_t axis = choose_axis(w, x, given);
@@ -205,14 +205,14 @@ put_sphere(work *w, const size_t *index, const qdot_expr *x, const ball *now,
     qdot_expr dz = qdot_sub(pool, given->centre[axis], x[axis]);
     qdot_expr l = qdot_mech_tidy(w->s, qdot_sqrt(pool, now->square)), u, v, out;
 
-    u = new_angle(w, qdot_sqrt(pool, qdot_add(pool, qdot_mul(pool, dx, dx),
-                                              qdot_mul(pool, dy, dy))),
-                  dz);
-    v = new_angle(w, dy, dx);
-    out = times_function(pool, l, QDOT_SIN, u);
-    put_solved(w, index[i], qdot_add(pool, now->centre[i], times_function(pool, out, QDOT_COS, v)));
-    put_solved(w, index[j], qdot_add(pool, now->centre[j], times_function(pool, out, QDOT_SIN, v)));
-    put_solved(w, index[axis], qdot_sub(pool, now->centre[axis], times_function(pool, l, QDOT_COS, u)));
+    u = add_new_angle(w, qdot_sqrt(pool, qdot_add(pool, qdot_mul(pool, dx, dx),
+                                                  qdot_mul(pool, dy, dy))),
+                      dz);
+    v = add_new_angle(w, dy, dx);
+    out = multiply_by_function(pool, l, QDOT_SIN, u);
+    record_solution(w, index[i], qdot_add(pool, now->centre[i], multiply_by_function(pool, out, QDOT_COS, v)));
+    record_solution(w, index[j], qdot_add(pool, now->centre[j], multiply_by_function(pool, out, QDOT_SIN, v)));
+    record_solution(w, index[axis], qdot_sub(pool, now->centre[axis], multiply_by_function(pool, l, QDOT_COS, u)));
     return true;
 }
 
@@ -229,16 +229,16 @@ solve_sphere(work *w, qdot_expr f, qdot_expr whole)
                 const size_t index[] = {i, j, k};
                 ball now, given;
 
-                if (!w->gone[k] && is_ball(w, f, 3, x, &now) &&
-                    is_ball(w, whole, 3, x, &given))
-                    return put_sphere(w, index, x, &now, &given);
+                if (!w->gone[k] && is_circle_or_sphere(w, f, 3, x, &now) &&
+                    is_circle_or_sphere(w, whole, 3, x, &given))
+                    return solve_sphere_about_axis(w, index, x, &now, &given);
             }
     return false;
 }
 
-/* The function that constraint k keeps at 0: f, or its integral F minus F at the start; nil: neither. */
+/* The function that constraint k keeps at 0: f, or its integral F minus F at the start; nil: there is neither. */
 static qdot_expr
-held_by(work *w, size_t k)
+conserved_function(work *w, size_t k)
 {
     const qdot_constraint *c = &w->s->constraints.at[k];
     qdot_expr mu, F;
@@ -253,7 +253,7 @@ held_by(work *w, size_t k)
 /* Solve what can be solved until nothing more can; QDOT_OK with a reason if something is
  * left. */
 static qdot_status
-solve_all(work *w)
+solve_all_constraints(work *w)
 {
     static bool (*const ways[])(work *, qdot_expr, qdot_expr) = {solve_linear, solve_circle,
                                                                  solve_sphere};
@@ -261,7 +261,7 @@ solve_all(work *w)
     bool progress = true;
 
     for (size_t k = 0; k < c; k++) {
-        w->held[k] = held_by(w, k);
+        w->held[k] = conserved_function(w, k);
         QDOT_TRY(qdot_pool_check(w->pool));
         if (w->held[k] == QDOT_NIL) {
             snprintf(w->out->reason, sizeof w->out->reason,
@@ -277,7 +277,7 @@ solve_all(work *w)
 
                 if (w->solved[k])
                     continue;
-                f = put_solved_in(w, whole);
+                f = insert_solutions(w, whole);
                 w->solved[k] = f == QDOT_ZERO ||
                                ways[way](w, f, whole);
                 progress = w->solved[k];
@@ -298,7 +298,7 @@ solve_all(work *w)
 /* --- the scene anew ----------------------------------------------------------------- */
 
 static qdot_status
-write_anew(work *w)
+make_minimal_scene(work *w)
 {
     qdot_scene *to = qdot_scene_new(w->pool);
     qdot_minimal *m = w->out;
@@ -325,9 +325,9 @@ write_anew(work *w)
     return QDOT_OK;
 }
 
-/* Whether a generalized force acts on an eliminated coordinate; then there is no minimal form. */
+/* Whether a generalized force acts on an eliminated coordinate, so that there is no minimal form. */
 static bool
-is_acted_on(work *w)
+force_acts_on_eliminated(work *w)
 {
     for (size_t k = 0; k < w->s->torques.n; k++)
         for (size_t i = 0; i < w->out->n; i++)
@@ -359,9 +359,9 @@ qdot_minimal_make(qdot_scene *s, const qdot_minimal_start *start, qdot_minimal *
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         m->given[i] = s->coordinates.at[i];
     if (status == QDOT_OK)
-        status = solve_all(&w);
-    if (status == QDOT_OK && m->reason[0] == '\0' && !is_acted_on(&w))
-        status = write_anew(&w);
+        status = solve_all_constraints(&w);
+    if (status == QDOT_OK && m->reason[0] == '\0' && !force_acts_on_eliminated(&w))
+        status = make_minimal_scene(&w);
     qdot_free(w.angle);
     qdot_free(w.gone);
     qdot_free(w.solved);

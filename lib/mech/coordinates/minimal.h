@@ -38,7 +38,7 @@ typedef struct {
     void *user;
 } qdot_minimal_start;
 
-/* Find a minimal form of the scene; a scene without one is no error. Errors: the pool's. */
+/* Find minimal coordinates of the scene; that a scene has none is no error. Errors: the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_minimal_make(qdot_scene *s, const qdot_minimal_start *start,
                                               qdot_minimal *minimal);
 void qdot_minimal_clear(qdot_minimal *minimal);

@@ -21,8 +21,8 @@
 #include "normal/solve/linear.h"
 
 static qdot_status
-fill_constraint(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr *A,
-                qdot_expr *b)
+fill_constraint_row(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr *A,
+                    qdot_expr *b)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n;
@@ -43,8 +43,8 @@ fill_constraint(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr *A,
 }
 
 static qdot_status
-accelerations_solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, size_t size,
-                    const size_t *which)
+solve_for_accelerations(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, size_t size,
+                        const size_t *which)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -60,7 +60,7 @@ accelerations_solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, siz
         b[i] = qdot_lagrange_people_forcing(s, i);
     }
     for (size_t row = n; row < size; row++)
-        QDOT_TRY(fill_constraint(s, which[row - n], row, size, A, b));
+        QDOT_TRY(fill_constraint_row(s, which[row - n], row, size, A, b));
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve_linear(pool, (uint32_t)size, A, b, x, &pivot, &facts);
     if (status == QDOT_ESINGULAR) {
@@ -77,7 +77,7 @@ accelerations_solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, siz
     return status;
 }
 
-/* The multiplier of constraint k as declared, from that of its equation. */
+/* The multiplier of constraint k as declared: that of its equation, times the integrating factor if it was integrated. */
 static qdot_expr
 declared_multiplier(qdot_scene *s, size_t k, qdot_expr lambda)
 {
@@ -89,7 +89,7 @@ declared_multiplier(qdot_scene *s, size_t k, qdot_expr lambda)
 }
 
 static bool
-accels_get(qdot_scene *s)
+compute_accelerations(qdot_scene *s)
 {
     qdot_derived *d = qdot_derived_get(s);
     size_t n = d->n, size = n, *which;
@@ -106,7 +106,7 @@ accels_get(qdot_scene *s)
             which[size++ - n] = k;
     work = which ? qdot_calloc(size * size + 2 * size + 1, sizeof *work) : NULL;
     if (work &&
-        accelerations_solve(s, work, work + size * size, work + size * size + size, size, which) ==
+        solve_for_accelerations(s, work, work + size * size, work + size * size + size, size, which) ==
             QDOT_OK &&
         qdot_derived_array(s, &d->accel, n)) {
         for (size_t i = 0; i < n; i++)
@@ -133,7 +133,7 @@ qdot_mech_accel(qdot_scene *s, qdot_expr q)
 {
     size_t i;
 
-    if (!qdot_mech_index(s, q, &i) || !accels_get(s))
+    if (!qdot_mech_index(s, q, &i) || !compute_accelerations(s))
         return QDOT_NIL;
     return s->derived->accel[i];
 }
@@ -141,7 +141,7 @@ qdot_mech_accel(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_mech_multiplier(qdot_scene *s, size_t k)
 {
-    return accels_get(s) ? s->derived->lambda[k] : QDOT_NIL;
+    return compute_accelerations(s) ? s->derived->lambda[k] : QDOT_NIL;
 }
 
 qdot_expr
@@ -149,7 +149,7 @@ qdot_mech_accels(qdot_scene *s)
 {
     size_t n = s->coordinates.n;
 
-    if (!accels_get(s))
+    if (!compute_accelerations(s))
         return QDOT_NIL;
     return qdot_list(s->pool, (uint32_t)n, s->derived->accel);
 }

@@ -18,15 +18,15 @@
 
 enum { PATTERNS = 256, PATTERN_ATOMS = 20, UNITS = 4 };
 
-/* The sums of parameters that were replaced, each with its symbol. */
+/* The sums of parameters that were replaced by symbols, each with its symbol. */
 typedef struct {
     size_t n;
     qdot_expr sum[UNITS], symbol[UNITS];
 } units;
 
-/* A new parameter with number k, declared positive if the sum is positive. */
+/* A new parameter that stands for a sum of parameters, declared positive if the sum is. */
 static qdot_expr
-unit_symbol(qdot_pool *pool, qdot_expr sum, size_t k)
+symbol_for_sum(qdot_pool *pool, qdot_expr sum, size_t k)
 {
     bool positive = qdot_expr_node(pool, sum)->sign == QDOT_POS;
     char name[32];
@@ -40,7 +40,7 @@ unit_symbol(qdot_pool *pool, qdot_expr sum, size_t k)
 }
 
 static bool
-is_term(const qdot_pool *pool, qdot_expr sum, qdot_expr symbol)
+is_term_of_sum(const qdot_pool *pool, qdot_expr sum, qdot_expr symbol)
 {
     uint32_t n = qdot_expr_count(pool, sum);
 
@@ -50,9 +50,9 @@ is_term(const qdot_pool *pool, qdot_expr sum, qdot_expr symbol)
     return false;
 }
 
-/* e with sums of parameters replaced by symbols; e itself if that would lose information. */
+/* The expression e with sums of parameters replaced by symbols; e itself if that would lose information. */
 static qdot_expr
-with_units(qdot_scene *s, qdot_expr e, units *u)
+replace_parameter_sums(qdot_scene *s, qdot_expr e, units *u)
 {
     qdot_pool *pool = s->pool;
     qdot_expr with, atoms;
@@ -76,19 +76,19 @@ with_units(qdot_scene *s, qdot_expr e, units *u)
         return e;
     }
     for (size_t k = 0; k < u->n; k++)
-        u->symbol[k] = unit_symbol(pool, u->sum[k], k);
+        u->symbol[k] = symbol_for_sum(pool, u->sum[k], k);
     with = qdot_subs(pool, e, u->n, u->sum, u->symbol);
     atoms = qdot_expr_atoms(pool, with, false);
     for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++)
         for (size_t k = 0; k < u->n; k++)
-            if (is_term(pool, u->sum[k], qdot_expr_arg(pool, atoms, i))) {
+            if (is_term_of_sum(pool, u->sum[k], qdot_expr_arg(pool, atoms, i))) {
                 u->n = 0;
                 return e;
             }
-    for (size_t k = 1; k < u->n; k++) /* no term may occur in two of the sums */
+    for (size_t k = 1; k < u->n; k++) /* check that no parameter occurs in two of the sums */
         for (uint32_t i = 1; i < qdot_expr_count(pool, u->sum[k]); i += 2)
             for (size_t l = 0; l < k; l++)
-                if (is_term(pool, u->sum[l], qdot_expr_arg(pool, u->sum[k], i))) {
+                if (is_term_of_sum(pool, u->sum[l], qdot_expr_arg(pool, u->sum[k], i))) {
                     u->n = 0;
                     return e;
                 }
@@ -98,7 +98,7 @@ with_units(qdot_scene *s, qdot_expr e, units *u)
 /* A stand-in that tells of its symbol what simplification may ask: class and sign. Nil where
  * there is more to know (a domain). */
 static qdot_expr
-stand_in(qdot_scene *s, qdot_expr atom, uint32_t k)
+placeholder_for_symbol(qdot_scene *s, qdot_expr atom, uint32_t k)
 {
     const qdot_symbol *x = qdot_expr_symbol(s->pool, atom);
     bool positive, bounded;
@@ -120,9 +120,9 @@ stand_in(qdot_scene *s, qdot_expr atom, uint32_t k)
     return e;
 }
 
-/* e with its symbols replaced by place holders; nil if e has no such pattern. */
+/* The expression e with its symbols replaced by numbered placeholders; nil if e has a symbol that cannot be. */
 static qdot_expr
-pattern_of(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
+make_pattern(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
 {
     qdot_pool *pool = s->pool;
     qdot_expr from[PATTERN_ATOMS], to[PATTERN_ATOMS];
@@ -137,20 +137,20 @@ pattern_of(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
         return QDOT_NIL;
     for (uint32_t k = 0; k < n; k++) {
         from[k] = qdot_expr_arg(pool, *atoms, k);
-        to[k] = stand_in(s, from[k], k);
+        to[k] = placeholder_for_symbol(s, from[k], k);
         if (to[k] == QDOT_NIL)
             return QDOT_NIL;
     }
     return qdot_subs(pool, e, n, from, to);
 }
 
-/* e simplified, by its pattern if that was simplified before. */
+/* The expression e simplified; if one of the same pattern was simplified before, by inserting symbols into that. */
 static qdot_expr
-by_pattern(qdot_scene *s, qdot_expr e)
+simplify_by_pattern(qdot_scene *s, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     qdot_derived *d = s->derived;
-    qdot_expr atoms = QDOT_NIL, pattern = pattern_of(s, e, &atoms);
+    qdot_expr atoms = QDOT_NIL, pattern = make_pattern(s, e, &atoms);
     qdot_pattern new;
 
     if (pattern == QDOT_NIL)
@@ -188,6 +188,6 @@ qdot_mech_alike(qdot_scene *s, qdot_expr e)
     if (s->relations.n == 0 && s->conditions.n == 0 &&
         (seen = qdot_simple_seen(pool, e)) != QDOT_NIL)
         return seen;
-    e = by_pattern(s, with_units(s, e, &u));
+    e = simplify_by_pattern(s, replace_parameter_sums(s, e, &u));
     return u.n > 0 ? qdot_subs(pool, e, u.n, u.symbol, u.sum) : e;
 }

@@ -23,7 +23,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* dL/dt by sources: -dL/dt + sum Q q', with Q the applied forces that V does not contain. */
+/* The rate of the energy, -dL/dt + sum Q q', with Q the applied forces that are not in V. */
 static qdot_expr
 applied_power(qdot_scene *s)
 {
@@ -68,7 +68,7 @@ energy_rate(qdot_scene *s)
         qdot_expr power = constraint_power(s, k);
 
         if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
-            power = qdot_neg(s->pool, power); /* on the constraint q' df/dq = -df/dt */
+            power = qdot_neg(s->pool, power); /* since the constraint holds, q' df/dq = -df/dt */
         rate = qdot_add(s->pool, rate,
                         qdot_mul(s->pool, s->constraints.at[k].multiplier, power));
     }
@@ -97,7 +97,7 @@ is_free_of_velocities(qdot_scene *s, qdot_expr e)
 /* E less a quantity whose rate needs no accelerations: what is left, free of velocities; else
  * nil. */
 static qdot_expr
-rest_beside(qdot_scene *s, qdot_expr E, qdot_expr known)
+difference_without_velocities(qdot_scene *s, qdot_expr E, qdot_expr known)
 {
     const qdot_facts facts = qdot_scene_facts(s);
     qdot_expr rest = E == known ? QDOT_ZERO : qdot_sub(s->pool, E, known);
@@ -132,11 +132,11 @@ qdot_mech_rate(qdot_scene *s, qdot_expr E)
 
     if (is_free_of_velocities(s, E) && !qdot_mech_lacks_mass(s))
         return qdot_ddt(s->pool, E);
-    rest = rest_beside(s, E, qdot_mech_energy(s));
+    rest = difference_without_velocities(s, E, qdot_mech_energy(s));
     if (rest != QDOT_NIL)
         return qdot_add(s->pool, energy_rate(s), qdot_ddt(s->pool, rest));
     for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
-        rest = rest_beside(s, E, qdot_mech_momentum(s, s->coordinates.at[i]));
+        rest = difference_without_velocities(s, E, qdot_mech_momentum(s, s->coordinates.at[i]));
         if (rest != QDOT_NIL)
             return qdot_add(s->pool, momentum_rate(s, i), qdot_ddt(s->pool, rest));
     }
@@ -166,7 +166,7 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
         for (size_t k = 0; k < s->constraints.n && *conserved; k++) {
             qdot_expr f = s->constraints.at[k].f;
 
-            /* If f is linear and homogeneous in q' its power is a multiple of f. */
+            /* If f is linear and homogeneous in q', its power is a multiple of f, which is 0. */
             power = constraint_power(s, k);
             *conserved = power != QDOT_NIL &&
                          (qdot_is_zero(pool, power, &facts) ||

@@ -11,7 +11,7 @@
 #include "mech/scene/access.h"
 
 static qdot_expr
-forces(qdot_scene *s)
+generalized_forces(qdot_scene *s)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n;
@@ -41,7 +41,7 @@ qdot_mech_dalembert(qdot_scene *s, qdot_dalembert_term **terms, size_t *n, qdot_
         return qdot_pool_check(s->pool);
     if (!qdot_recursive_applies(s, k))
         return QDOT_OK;
-    *Q = forces(s);
+    *Q = generalized_forces(s);
     QDOT_TRY(qdot_pool_check(s->pool));
     k = qdot_kinematics_get(s);
     *terms = qdot_calloc(k->terms.n + 1, sizeof **terms);

@@ -1,4 +1,4 @@
-/* direction.c -- friction along u/|u| as sign(u): where a force divides by |u|, C/|u| becomes B sign(u). */
+/* direction.c -- friction along u/|u| written with sign(u): in a force divided by |u|, C/|u| becomes B sign(u). */
 #include "mech/dynamics/direction.h"
 
 #include "expr/build.h"
@@ -56,7 +56,7 @@ find_speed_power(qdot_pool *pool, size_t m, const qdot_expr *e, size_t n, const 
 /* A node with the symbol for |u| in place of |u|, and that for 1/|u| in its odd negative powers: |u|^-3 = (1/|u|) u^-2.
  * Nil: it holds none itself (qdot_walk_map then looks into its children). */
 static qdot_expr
-put_symbols(qdot_pool *pool, qdot_expr node, void *user)
+replace_magnitude(qdot_pool *pool, qdot_expr node, void *user)
 {
     const direction *d = user;
     long power;
@@ -70,7 +70,7 @@ put_symbols(qdot_pool *pool, qdot_expr node, void *user)
             qdot_expr rest = qdot_mul(pool, node, qdot_pow_int(pool, d->length, -power));
 
             rest = qdot_mul(pool, rest, qdot_pow_int(pool, d->u, power + 1));
-            return qdot_mul(pool, d->inverse, qdot_walk_map(pool, rest, put_symbols, user));
+            return qdot_mul(pool, d->inverse, qdot_walk_map(pool, rest, replace_magnitude, user));
         }
     return QDOT_NIL;
 }
@@ -100,7 +100,7 @@ has_negative_power(qdot_pool *pool, qdot_expr e, qdot_expr w)
 /* B, where C = B u and u = a (v - v0) is linear in v. It is found with w = v - v0: each term of the expanded C must
  * have the factor w. Nil if u is not linear in v or C is no multiple of u. */
 static qdot_expr
-divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
+divide_by_linear(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
 {
     const qdot_expr a = qdot_diff(pool, u, v), w = qdot_symbol_get(pool, QDOT_FORMAL, "direction w");
     qdot_expr v0, shifted, B, back;
@@ -119,7 +119,7 @@ divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
     return qdot_div(pool, qdot_subs(pool, B, 1, &w, &back), a);
 }
 
-/* The quotient B = C/u by the first velocity in which u is linear and that gives one; nil if none does. */
+/* The quotient B = C/u, found by division by the first velocity in which u is linear; nil if u does not divide C. */
 static qdot_expr
 divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
 {
@@ -131,7 +131,7 @@ divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
     for (size_t i = 0; i < walk.n && B == QDOT_NIL && !qdot_pool_failed(pool); i++)
         if (qdot_expr_kind(pool, walk.at[i]) == QDOT_SYM
             && (qdot_expr_node(pool, walk.at[i])->holds & QDOT_HAS_VELOCITY) != 0)
-            B = divide_by(pool, C, u, walk.at[i]);
+            B = divide_by_linear(pool, C, u, walk.at[i]);
     qdot_walk_end(&walk);
     return B;
 }
@@ -139,13 +139,13 @@ divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
 /* e with B sign(u) for C/|u|, where |u| is `length`; e itself if e does not divide by |u| or C is no multiple of
  * u. */
 static qdot_expr
-read_direction(qdot_pool *pool, qdot_expr e, qdot_expr length)
+replace_one_direction(qdot_pool *pool, qdot_expr e, qdot_expr length)
 {
     direction d = {.length = length,
                    .u = qdot_expr_arg(pool, length, 0),
                    .symbol = qdot_symbol_get(pool, QDOT_FORMAL, "direction length"),
                    .inverse = qdot_symbol_get(pool, QDOT_FORMAL, "direction inverse")};
-    const qdot_expr all = qdot_walk_map(pool, e, put_symbols, &d), zero = QDOT_ZERO;
+    const qdot_expr all = qdot_walk_map(pool, e, replace_magnitude, &d), zero = QDOT_ZERO;
     const qdot_expr C = all == QDOT_NIL ? QDOT_NIL : qdot_diff(pool, all, d.inverse);
     qdot_expr B, rest;
 
@@ -160,7 +160,7 @@ read_direction(qdot_pool *pool, qdot_expr e, qdot_expr length)
 }
 
 static qdot_expr
-with_signs(qdot_pool *pool, qdot_expr e)
+replace_all_directions(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr tried[MOST_DIRECTIONS];
 
@@ -168,7 +168,7 @@ with_signs(qdot_pool *pool, qdot_expr e)
         tried[n] = find_speed_power(pool, 1, &e, n, tried);
         if (tried[n] == QDOT_NIL)
             break;
-        e = read_direction(pool, e, tried[n]);
+        e = replace_one_direction(pool, e, tried[n]);
     }
     return qdot_pool_failed(pool) ? QDOT_NIL : e;
 }
@@ -177,7 +177,7 @@ void
 qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e)
 {
     if (qdot_pool_failed(pool) || find_speed_power(pool, n, e, 0, NULL) == QDOT_NIL)
-        return; /* most scenes have no such power */
+        return; /* nothing to do: most scenes contain no such power */
     for (size_t i = 0; i < n; i++)
-        e[i] = with_signs(pool, e[i]);
+        e[i] = replace_all_directions(pool, e[i]);
 }

@@ -1,4 +1,4 @@
-/* energy.c -- T, L, the Jacobi energy h = sum p q' - L, slopes of L. */
+/* energy.c -- the kinetic energy T, the Lagrangian L, the energy function h = sum p q' - L, and derivatives of L. */
 #include "mech/dynamics/energy.h"
 
 #include "expr/build.h"
@@ -59,7 +59,7 @@ linear_part(qdot_scene *s)
 /* 1/2 q'.M q' with the coupled pairs and triples of velocities that make it worth while as squares;
  * nil where there are none. */
 static qdot_expr
-quadratic_by_squares(qdot_scene *s)
+quadratic_part_by_squares(qdot_scene *s)
 {
     enum { MOST_COORDINATES = 24, MOST_OPERATIONS = 80 };
     qdot_pool *pool = s->pool;
@@ -108,9 +108,9 @@ out:
     return sum;
 }
 
-/* T grouped by degree in velocities if that is shorter, as m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2); else T. */
+/* T grouped by degree in velocities, as m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2), if that is shorter; else T. */
 static qdot_expr
-or_degrees(qdot_scene *s, qdot_expr T)
+shorter_by_degree(qdot_scene *s, qdot_expr T)
 {
     qdot_expr b = qdot_mech_tidy_whole(s, linear_part(s)), sum;
 
@@ -121,11 +121,11 @@ or_degrees(qdot_scene *s, qdot_expr T)
     return qdot_expr_size(s->pool, sum) < qdot_expr_size(s->pool, T) ? sum : T;
 }
 
-/* T with a sum of squares if that is shorter, else T; others: the remaining terms. */
+/* T with part of it written as a sum of squares, if that is shorter, else T; others: the remaining terms. */
 static qdot_expr
-or_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
+shorter_by_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
 {
-    qdot_expr squares = quadratic_by_squares(s);
+    qdot_expr squares = quadratic_part_by_squares(s);
 
     if (squares == QDOT_NIL || T == QDOT_NIL)
         return T;
@@ -155,7 +155,7 @@ qdot_mech_kinetic(qdot_scene *s)
     others = qdot_add(s->pool, linear_part(s), d->c);
     T = qdot_add(s->pool, quadratic_part(s), others);
     T = qdot_common_out(s->pool, qdot_mech_tidy_whole(s, T));
-    return d->kinetic = or_squares(s, or_degrees(s, T), others);
+    return d->kinetic = shorter_by_squares(s, shorter_by_degree(s, T), others);
 }
 
 qdot_expr
@@ -187,7 +187,7 @@ expanded_terms(qdot_pool *pool, qdot_expr e)
 /* h as a person adds it up: the part of T of second degree, less that of none, and V; nil where
  * some of it cancels. */
 static qdot_expr
-energy_by_parts(qdot_scene *s)
+sum_energy_parts(qdot_scene *s)
 {
     qdot_pool *pool = s->pool;
     qdot_expr T = qdot_common_out(pool, qdot_mech_tidy_whole(s, quadratic_part(s)));
@@ -195,7 +195,7 @@ energy_by_parts(qdot_scene *s)
 
     if (V == QDOT_NIL || (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY))
         return QDOT_NIL;
-    T = or_squares(s, T, QDOT_ZERO);
+    T = shorter_by_squares(s, T, QDOT_ZERO);
     c = qdot_neg(pool, qdot_mech_tidy(s, c));
     V = qdot_mech_tidy(s, V);
     if (c != QDOT_ZERO && qdot_expr_size(pool, V) < MOST_ADDED &&
@@ -213,7 +213,7 @@ qdot_mech_energy(qdot_scene *s)
 
     if (d->energy != QDOT_NIL)
         return d->energy;
-    /* For F = L or -V: sum q' dF/dq' - F; from T: its quadratic part minus the constant part. */
+    /* with F = L or -V: h = sum q' dF/dq' - F; and from T its quadratic part minus its constant part */
     F = qdot_mech_stated(s) ? s->lagrangian : qdot_neg(pool, qdot_potential_raw(s));
     h = qdot_neg(pool, F);
     if (qdot_mech_holds(s, F) & QDOT_HAS_VELOCITY)
@@ -228,7 +228,7 @@ qdot_mech_energy(qdot_scene *s)
         h = qdot_add(pool, h, qdot_sub(pool, quadratic_part(s), qdot_derived_get(s)->c));
     }
     h = qdot_mech_tidy_whole(s, h);
-    F = qdot_mech_stated(s) ? QDOT_NIL : energy_by_parts(s);
+    F = qdot_mech_stated(s) ? QDOT_NIL : sum_energy_parts(s);
     if (F != QDOT_NIL)
         h = F;
     return d->energy = h;
@@ -236,9 +236,9 @@ qdot_mech_energy(qdot_scene *s)
 
 /* --- slopes of L ---------------------------------------------------------------------- */
 
-/* Whether L depends explicitly on t, judged by positions, fields and masses before M is derived. */
+/* Whether L contains t explicitly, judged by positions, fields and masses, before the mass matrix is computed. */
 static bool
-time_stands(qdot_scene *s)
+contains_time(qdot_scene *s)
 {
     const qdot_kinematics *k = qdot_kinematics_get(s);
     uint32_t holds = qdot_mech_holds(s, qdot_potential_but_gravity(s));
@@ -261,7 +261,7 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
         return !qdot_pool_failed(s->pool);
     }
     *has = false;
-    if (x == QDOT_T && !time_stands(s))
+    if (x == QDOT_T && !contains_time(s))
         return !qdot_pool_failed(s->pool);
     if (!qdot_mass_get(s))
         return false;
@@ -306,7 +306,7 @@ qdot_lagrangian_slope(qdot_scene *s, qdot_expr x)
 }
 
 static bool
-is_still(qdot_scene *s, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+is_independent_of(qdot_scene *s, qdot_expr e, qdot_expr x, const qdot_facts *facts)
 {
     e = qdot_diff(s->pool, e, x);
     return e == QDOT_ZERO || qdot_is_zero(s->pool, e, facts);
@@ -328,11 +328,11 @@ qdot_lagrangian_is_still(qdot_scene *s, qdot_expr x)
      * most often the first that has one does not */
     for (size_t i = 0; i < s->coordinates.n; i++)
         for (size_t j = i; j < s->coordinates.n; j++)
-            if (!is_still(s, qdot_mass_entry(s, i, j), x, &facts))
+            if (!is_independent_of(s, qdot_mass_entry(s, i, j), x, &facts))
                 return false;
     for (size_t i = 0; i < s->coordinates.n; i++)
-        if (!is_still(s, qdot_derived_get(s)->b[i], x, &facts))
+        if (!is_independent_of(s, qdot_derived_get(s)->b[i], x, &facts))
             return false;
-    return is_still(s, qdot_sub(s->pool, qdot_derived_get(s)->c, qdot_potential_raw(s)), x,
-                    &facts);
+    return is_independent_of(s, qdot_sub(s->pool, qdot_derived_get(s)->c, qdot_potential_raw(s)), x,
+                             &facts);
 }

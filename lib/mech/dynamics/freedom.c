@@ -41,21 +41,21 @@ enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
  * that are not 0 row by row: as expressions and numbers. */
 typedef struct {
     size_t n, c, m; /* numbers of coordinates, of equations, of variables 3n */
-    size_t constraints; /* number of constraints, the first of the equations; then their time derivatives */
-    qdot_constraint_kind *kind; /* [c] kind of each equation: of positions, velocities or accelerations */
-    size_t *of; /* [c] index of the constraint from which the equation comes */
-    size_t slopes;                         /* number of slopes that are not identically 0 */
-    size_t *first; /* [c + 1] row i has the slopes first[i] ... first[i + 1] - 1 */
-    size_t *column;                        /* [slopes] index in z of each slope's variable */
-    qdot_expr *e; /* [c + slopes] expressions: the equations f, then their slopes */
+    size_t constraints; /* number of constraints, which are the first of the equations; their time derivatives follow */
+    qdot_constraint_kind *kind; /* [c] kind of each equation: for positions, velocities or accelerations */
+    size_t *of; /* [c] index of the constraint that each equation comes from */
+    size_t slopes;                         /* number of derivatives of equations by variables that are not identically 0 */
+    size_t *first; /* [c + 1] the derivatives of equation i have the indices first[i] ... first[i + 1] - 1 */
+    size_t *column;                        /* [slopes] index in z of the variable of each derivative */
+    qdot_expr *e; /* [c + slopes] expressions: the equations f, then their derivatives */
     qdot_expr *z;                          /* [m] the variables (q, q', q'') */
     double *value;                         /* [c + slopes] numerical values of e */
-    double *at, *step, *gram, *rhs, *rows; /* scratch: z and its step [m], Gram matrix [c*c], right side [c], rows [c*n] */
+    double *at, *step, *gram, *rhs, *rows; /* scratch: z and its step [m], Gram matrix [c*c], right side [c], rows */
     double off;                            /* the largest |f| at the point z */
 } problem;
 
 static void
-problem_clear(problem *p)
+free_problem(problem *p)
 {
     qdot_free(p->kind);
     qdot_free(p->of);
@@ -90,10 +90,10 @@ add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind, size_t 
     return n - c;
 }
 
-/* Add the derivatives of equation k by the variables in it. */
+/* Add the partial derivatives of equation k by the variables that occur in it. */
 static qdot_status
-equation_add_slopes(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind kind, size_t *capacity,
-                    size_t *columns)
+add_derivatives_of_equation(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind kind, size_t *capacity,
+                            size_t *columns)
 {
     qdot_expr atoms = qdot_expr_atoms(s->pool, p->e[k], false);
 
@@ -117,7 +117,7 @@ equation_add_slopes(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind ki
 }
 
 static qdot_status
-problem_fill(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
+fill_problem(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
              const qdot_constraint_kind *kind)
 {
     size_t n = s->coordinates.n, m = 3 * n, capacity = 0, columns = 0;
@@ -133,7 +133,7 @@ problem_fill(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
     for (size_t k = 0; k < c; k++)
         p->e[k] = f[k];
     for (size_t k = 0; k < c; k++)
-        QDOT_TRY(equation_add_slopes(s, p, k, kind[k], &capacity, &columns));
+        QDOT_TRY(add_derivatives_of_equation(s, p, k, kind[k], &capacity, &columns));
     p->first[c] = p->slopes;
     p->value = qdot_calloc(c + p->slopes + 2 * m + c * c + c + c * n + 1, sizeof *p->value);
     if (!p->value)
@@ -147,7 +147,7 @@ problem_fill(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
 }
 
 static qdot_status
-problem_init(qdot_scene *s, problem *p)
+make_problem(qdot_scene *s, problem *p)
 {
     size_t c = s->constraints.n;
     qdot_expr *f = qdot_calloc(3 * c + 1, sizeof *f);
@@ -157,17 +157,17 @@ problem_init(qdot_scene *s, problem *p)
 
     *p = (problem){0};
     if (status == QDOT_OK)
-        status = problem_fill(s, p, c + add_derivatives(s, f, kind, of), f, kind);
+        status = fill_problem(s, p, c + add_derivatives(s, f, kind, of), f, kind);
     p->kind = kind;
     p->of = of;
     if (status != QDOT_OK)
-        problem_clear(p);
+        free_problem(p);
     qdot_free(f);
     return status;
 }
 
 static qdot_status
-constraints_evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
+evaluate_constraints(qdot_scene *s, problem *p, uint64_t seed, double *size)
 {
     *size = 0;
     QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->slopes, p->e,
@@ -180,7 +180,7 @@ constraints_evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
     return QDOT_OK;
 }
 
-/* The Gram matrix A A^T, lower triangle; returns its trace. `row` [m] is work space, left at 0. */
+/* Compute the lower triangle of the Gram matrix A A^T; returns its trace. `row` [m] is work space, left at 0. */
 static double
 fill_gram(problem *p, double *row)
 {
@@ -207,7 +207,7 @@ fill_gram(problem *p, double *row)
 
 /* Find the damped Newton step A^T (A A^T + mu 1)^-1 f, by Cholesky's method. */
 static void
-damped_newton_step(problem *p, double mu)
+find_damped_newton_step(problem *p, double mu)
 {
     const double *A = p->value + p->c;
     size_t c = p->c;
@@ -233,7 +233,7 @@ damped_newton_step(problem *p, double mu)
             y[i] -= G[k * c + i] * y[k];
         y[i] /= G[i * c + i];
     }
-    for (size_t i = 0; i < c; i++) /* step holds zeros here */
+    for (size_t i = 0; i < c; i++) /* the array of the step is still 0 here */
         for (size_t k = p->first[i]; k < p->first[i + 1]; k++)
             p->step[p->column[k]] += A[k] * y[i];
 }
@@ -242,14 +242,14 @@ damped_newton_step(problem *p, double mu)
  * dependent all along, Newton's method takes a part of the way at a time, and the place is
  * as far off as the root of that: it goes on for what it can. */
 static qdot_status
-assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
+find_point_on_constraints(qdot_scene *s, problem *p, uint64_t seed, bool *found)
 {
     double size, mu = 1e-3;
 
     *found = false;
     for (size_t i = 0; i < p->m; i++)
         p->at[i] = qdot_generic_value(s->pool, p->z[i], seed + 77);
-    QDOT_TRY(constraints_evaluate(s, p, seed, &size));
+    QDOT_TRY(evaluate_constraints(s, p, seed, &size));
     for (int k = 0; k < STEPS && isfinite(size); k++) {
         double before = size, scale = 1;
 
@@ -259,20 +259,20 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
             *found = true;
             return QDOT_OK;
         }
-        damped_newton_step(p, size < 1e-3 ? 0 : mu);
+        find_damped_newton_step(p, size < 1e-3 ? 0 : mu);
         for (int half = 0; half < 12; half++, scale /= 2) {
             for (size_t i = 0; i < p->m; i++)
                 p->at[i] -= scale * p->step[i];
-            QDOT_TRY(constraints_evaluate(s, p, seed, &size));
+            QDOT_TRY(evaluate_constraints(s, p, seed, &size));
             if (size < before)
                 break;
             for (size_t i = 0; i < p->m; i++)
                 p->at[i] += scale * p->step[i];
         }
         if (!(size < before))
-            QDOT_TRY(constraints_evaluate(s, p, seed, &size));
+            QDOT_TRY(evaluate_constraints(s, p, seed, &size));
         if (!(size < before) || (size < 1e-10 && size > before / 2)) {
-            p->off = size; /* the remaining error is due to rounding or damping */
+            p->off = size; /* the error that remains is due to rounding or damping */
             *found = size < 1e-10;
             return QDOT_OK;
         }
@@ -287,7 +287,7 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
  * beside the `found` rows by Gram-Schmidt, twice: more than the place is off. Then it is one more of
  * them. */
 static bool
-rank_add_row(const problem *p, size_t k, size_t low, size_t width, double *rows, size_t found)
+add_independent_row(const problem *p, size_t k, size_t low, size_t width, double *rows, size_t found)
 {
     const double nothing = fmax(1e-6, 100 * sqrt(p->off));
     double *row = rows + found * width, norm = 0, left = 0;
@@ -322,16 +322,16 @@ rank_add_row(const problem *p, size_t k, size_t low, size_t width, double *rows,
     return true;
 }
 
-/* Find which rows are independent of those before; returns their number. */
+/* Find which rows of the Jacobian of the constraints are independent of the rows before; returns their number. */
 static size_t
-find_rank(qdot_scene *s, problem *p, bool *independent)
+find_independent_rows(qdot_scene *s, problem *p, bool *independent)
 {
     size_t found = 0;
 
     for (size_t k = 0; k < p->constraints; k++) {
         const size_t low = p->n * (size_t)s->constraints.at[k].kind;
 
-        independent[k] = found < p->n && rank_add_row(p, k, low, p->n, p->rows, found);
+        independent[k] = found < p->n && add_independent_row(p, k, low, p->n, p->rows, found);
         found += independent[k];
     }
     return found;
@@ -350,7 +350,7 @@ typedef struct {
 /* The rank, at the point found, of their equations of kinds `least` to `most` by q (order 0) to the
  * order `most`, without the orders below `lowest`. */
 static size_t
-rank_of_kinds(const selection *of, int least, int most, int lowest)
+rank_of_equations(const selection *of, int least, int most, int lowest)
 {
     const problem *p = of->p;
     const size_t low = p->n * (size_t)lowest, width = p->n * ((size_t)most + 1) - low;
@@ -360,26 +360,26 @@ rank_of_kinds(const selection *of, int least, int most, int lowest)
         if ((p->of[k] > of->last && !of->independent[p->of[k]]) || (int)p->kind[k] < least
             || (int)p->kind[k] > most)
             continue;
-        found += rank_add_row(p, k, low, width, of->rows, found);
+        found += add_independent_row(p, k, low, width, of->rows, found);
     }
     return found;
 }
 
 /* The number of hidden conditions that follow from the selected constraints. */
 static size_t
-count_hidden(const selection *of)
+count_hidden_conditions(const selection *of)
 {
     size_t count = 0;
 
     for (int kind = QDOT_VELOCITY; kind <= QDOT_ACCELERATION; kind++)
-        count += rank_of_kinds(of, 0, kind, 0) - rank_of_kinds(of, 0, kind - 1, 0)
-                 - rank_of_kinds(of, kind, kind, kind);
+        count += rank_of_equations(of, 0, kind, 0) - rank_of_equations(of, 0, kind - 1, 0)
+                 - rank_of_equations(of, kind, kind, kind);
     return count;
 }
 
-/* Find the dependent constraints from which a further (hidden) condition follows. */
+/* Find the dependent constraints that imply a further (hidden) condition. */
 static qdot_status
-find_hidden(const problem *p, const bool *independent, bool *hidden)
+find_hidden_conditions(const problem *p, const bool *independent, bool *hidden)
 {
     selection of = {.p = p, .independent = independent};
     size_t before = 0;
@@ -394,7 +394,7 @@ find_hidden(const problem *p, const bool *independent, bool *hidden)
         if (independent[k])
             continue;
         of.last = k;
-        now = count_hidden(&of);
+        now = count_hidden_conditions(&of);
         hidden[k] = now > before;
         before = now;
     }
@@ -402,9 +402,9 @@ find_hidden(const problem *p, const bool *independent, bool *hidden)
     return QDOT_OK;
 }
 
-/* Whether constraints can be evaluated at random points; not with undefined functions of moving arguments. */
+/* Whether constraints can be evaluated at random points, which undefined functions of moving arguments prevent. */
 static bool
-can_sample(qdot_scene *s, const problem *p)
+can_evaluate_at_points(qdot_scene *s, const problem *p)
 {
     if (s->relations.n)
         return false;
@@ -428,9 +428,9 @@ can_sample(qdot_scene *s, const problem *p)
     return true;
 }
 
-/* Judge independence at random points, into independent [2c]; the second half: which lead to a condition. */
+/* Find, at random points, which constraints are independent; in the second half of [2c]: which imply a condition. */
 static qdot_status
-by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
+find_independence_by_points(qdot_scene *s, problem *p, bool *independent, bool *known)
 {
     size_t c = p->constraints, most = 0, hits = 0, full = c < p->n ? c : p->n;
     size_t trials = TRIALS;
@@ -440,16 +440,16 @@ by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
     for (uint64_t seed = 1; status == QDOT_OK && seed <= trials && most < full; seed++) {
         size_t r;
 
-        status = assemble(s, p, seed, &found);
+        status = find_point_on_constraints(s, p, seed, &found);
         if (status != QDOT_OK || !found)
             continue;
         trials = MORE_TRIALS;
-        r = find_rank(s, p, seen);
+        r = find_independent_rows(s, p, seen);
         if (hits++ == 0 || r > most) {
             most = r;
             memcpy(independent, seen, c * sizeof *seen);
             if (r < c)
-                status = find_hidden(p, independent, independent + c);
+                status = find_hidden_conditions(p, independent, independent + c);
         }
     }
     *known = hits > 0;
@@ -458,7 +458,7 @@ by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
 }
 
 static qdot_status
-by_elimination(qdot_scene *s, bool *independent)
+find_independence_by_elimination(qdot_scene *s, bool *independent)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n, c = s->constraints.n, found = 0;
@@ -519,17 +519,17 @@ qdot_freedom_independent(qdot_scene *s)
     independent = qdot_calloc(2 * s->constraints.n + 1, sizeof *independent);
     status = independent ? QDOT_OK : QDOT_ENOMEM;
     if (status == QDOT_OK && s->constraints.n && s->coordinates.n) {
-        status = problem_init(s, &p);
+        status = make_problem(s, &p);
         if (status == QDOT_OK) {
-            if (can_sample(s, &p))
-                status = by_sampling(s, &p, independent, &known);
-            d->unmet = can_sample(s, &p) && !known;
-            problem_clear(&p);
+            if (can_evaluate_at_points(s, &p))
+                status = find_independence_by_points(s, &p, independent, &known);
+            d->unmet = can_evaluate_at_points(s, &p) && !known;
+            free_problem(&p);
             if (status == QDOT_OK)
                 status = qdot_pool_check(s->pool);
         }
         if (status == QDOT_OK && !known)
-            status = by_elimination(s, independent);
+            status = find_independence_by_elimination(s, independent);
     }
     if (status != QDOT_OK) {
         qdot_free(independent);
@@ -544,7 +544,7 @@ qdot_freedom_independent(qdot_scene *s)
 /* Every component of every particle a coordinate of its own: n = N D - C in so many
  * words. */
 static bool
-is_cartesian(const qdot_scene *s)
+has_cartesian_coordinates(const qdot_scene *s)
 {
     size_t seen = 0;
 
@@ -583,7 +583,7 @@ qdot_mech_dof(qdot_scene *s, qdot_dof *dof)
                       .is_independent = s->derived->independent,
                       .is_hidden = s->derived->hidden,
                       .unmet = s->derived->unmet,
-                      .cartesian = is_cartesian(s),
+                      .cartesian = has_cartesian_coordinates(s),
                       .particles = s->particles.n,
                       .dimension = qdot_scene_dimension(s)};
     for (size_t k = 0; k < s->constraints.n; k++)

@@ -48,7 +48,7 @@ function_value(qdot_fun_id id, const double *x, uint32_t n)
 }
 
 static double
-rational(const fmpq *x)
+rational_as_double(const fmpq *x)
 {
     slong p, q;
     double a = fmpz_get_d_2exp(&p, fmpq_numref(x));
@@ -58,7 +58,7 @@ rational(const fmpq *x)
     return ldexp(a / b, shift > 5000 ? 5000 : shift < -5000 ? -5000 : (int)shift);
 }
 
-/* A pseudo-random number in (0, 1), fixed by a name and a seed. */
+/* A pseudo-random number in (0, 1) that depends only on a name and a seed. */
 static double
 pseudo_random(const char *name, uint64_t seed)
 {
@@ -73,14 +73,14 @@ pseudo_random(const char *name, uint64_t seed)
 }
 
 static bool
-number_bound(const qdot_pool *pool, qdot_expr e, double *value)
+bound_as_double(const qdot_pool *pool, qdot_expr e, double *value)
 {
     const fmpq *x = e == QDOT_NIL ? NULL : qdot_expr_rational(pool, e);
 
     if (e == QDOT_PI)
         *value = M_PI;
     else if (x)
-        *value = rational(x);
+        *value = rational_as_double(x);
     return x || e == QDOT_PI;
 }
 
@@ -89,7 +89,7 @@ qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
 {
     const qdot_symbol *x = qdot_expr_symbol(pool, e);
     double u = pseudo_random(x->name, seed), lo = 0, hi = 0;
-    bool above = number_bound(pool, x->lo, &lo), below = number_bound(pool, x->hi, &hi);
+    bool above = bound_as_double(pool, x->lo, &lo), below = bound_as_double(pool, x->hi, &hi);
 
     if (e == QDOT_PI)
         return M_PI;
@@ -105,14 +105,14 @@ qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
 }
 
 static double
-double_power(double b, double e)
+power_of_doubles(double b, double e)
 {
     return e == 1 ? b : e == -1 ? 1 / b : pow(b, e);
 }
 
-/* The value of one node from the values x [n] of its children. */
+/* The value of an expression from the values x [n] of its arguments. */
 static double
-node_combine(const qdot_node *node, const double *x)
+evaluate_node(const qdot_node *node, const double *x)
 {
     double v;
 
@@ -125,7 +125,7 @@ node_combine(const qdot_node *node, const double *x)
     case QDOT_PROD:
         v = x[0];
         for (uint32_t i = 1; i + 1 < node->n; i += 2)
-            v *= double_power(x[i], x[i + 1]);
+            v *= power_of_doubles(x[i], x[i + 1]);
         return v;
     case QDOT_FUN:
         return function_value((qdot_fun_id)node->op, x, node->n);
@@ -145,7 +145,7 @@ node_combine(const qdot_node *node, const double *x)
 }
 
 static double
-get(const qdot_walk *w, qdot_expr e)
+get_double(const qdot_walk *w, qdot_expr e)
 {
     uint64_t bits = qdot_walk_get(w, e);
     double v;
@@ -155,7 +155,7 @@ get(const qdot_walk *w, qdot_expr e)
 }
 
 static void
-set(qdot_walk *w, qdot_expr e, double v)
+set_double(qdot_walk *w, qdot_expr e, double v)
 {
     uint64_t bits;
 
@@ -180,7 +180,7 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
         char name[24];
 
         if (node->kind == QDOT_NUM) {
-            set(&w, w.at[i], rational(qdot_expr_rational(pool, w.at[i])));
+            set_double(&w, w.at[i], rational_as_double(qdot_expr_rational(pool, w.at[i])));
             continue;
         }
         if (node->kind == QDOT_SYM) {
@@ -189,7 +189,7 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
             for (size_t k = 0; k < at->m; k++)
                 if (at->symbols[k] == w.at[i])
                     v = at->values[k];
-            set(&w, w.at[i], v);
+            set_double(&w, w.at[i], v);
             continue;
         }
         if (node->kind == QDOT_UFUN) {
@@ -197,19 +197,19 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
             for (int k = 0; k < 8; k++)
                 name[k + 1] = (char)('a' + (w.at[i] >> 4 * k & 15));
             name[9] = '\0';
-            set(&w, w.at[i], 0.5 + pseudo_random(name, at->seed));
+            set_double(&w, w.at[i], 0.5 + pseudo_random(name, at->seed));
             continue;
         }
         status = qdot_grow(&x.at, &x.capacity, node->n + 1u, sizeof *x.at);
         if (status != QDOT_OK)
             break;
         for (uint32_t k = 0; k < node->n; k++)
-            x.at[k] = get(&w, qdot_expr_args(pool, w.at[i])[k]);
-        set(&w, w.at[i], node_combine(node, x.at));
+            x.at[k] = get_double(&w, qdot_expr_args(pool, w.at[i])[k]);
+        set_double(&w, w.at[i], evaluate_node(node, x.at));
     }
     qdot_free(x.at);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        out[i] = get(&w, e[i]);
+        out[i] = get_double(&w, e[i]);
     qdot_walk_end(&w);
     return status;
 }

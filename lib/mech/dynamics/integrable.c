@@ -20,19 +20,19 @@ typedef struct {
     qdot_pool *pool;
     size_t n;      /* number of variables: coordinates and t */
     qdot_expr *x;  /* [n] the variables: coordinates, then t */
-    size_t m;      /* number of forms */
+    size_t m;      /* number of differential forms */
     qdot_expr *a;  /* [m x n] coefficients of the forms */
-    size_t *of;    /* [m] the constraint that each form belongs to */
-    bool *in;      /* [m] the form is still part of the system */
+    size_t *of;    /* [m] the constraint from which each form comes */
+    bool *in;      /* [m] whether the form is still in the system that is tested for integrability */
     qdot_expr *B;  /* [m x n] the system in reduced row echelon form */
     size_t *pivot; /* [m] pivot column of each row */
     size_t rank;
-    qdot_facts facts; /* facts of the scene and of its holonomic constraints */
+    qdot_facts facts; /* facts of the scene, with those of its holonomic constraints */
     qdot_expr *relations;
 } forms;
 
 static void
-forms_clear(forms *f)
+free_forms(forms *f)
 {
     qdot_free(f->x);
     qdot_free(f->a);
@@ -43,9 +43,9 @@ forms_clear(forms *f)
     qdot_free(f->relations);
 }
 
-/* Find the differential form of constraint k; *linear: whether the constraint is one. */
+/* Find the differential form of constraint k; *linear: whether the constraint is linear in the velocities. */
 static qdot_status
-form_of(const forms *f, size_t k, qdot_expr *a, bool *linear)
+find_form(const forms *f, size_t k, qdot_expr *a, bool *linear)
 {
     const qdot_constraint *c = &f->s->constraints.at[k];
     qdot_expr rest = c->f;
@@ -71,7 +71,7 @@ form_of(const forms *f, size_t k, qdot_expr *a, bool *linear)
 }
 
 static qdot_status
-forms_init(forms *f, qdot_scene *s)
+make_forms(forms *f, qdot_scene *s)
 {
     size_t c = s->constraints.n, known;
 
@@ -97,7 +97,7 @@ forms_init(forms *f, qdot_scene *s)
 
         if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
             f->relations[known++] = s->constraints.at[k].f;
-        QDOT_TRY(form_of(f, k, f->a + f->m * f->n, &linear));
+        QDOT_TRY(find_form(f, k, f->a + f->m * f->n, &linear));
         if (linear)
             f->of[f->m++] = k;
     }
@@ -108,7 +108,7 @@ forms_init(forms *f, qdot_scene *s)
 
 /* --- eliminating the forms of the system -------------------------------------------- */
 
-/* Choose a pivot: a number if possible, otherwise a short entry. */
+/* Choose the pivot of a row: a number if possible, otherwise a short entry. */
 static qdot_status
 choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
 {
@@ -135,9 +135,9 @@ choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
     return qdot_pool_check(f->pool);
 }
 
-/* Subtract row[pivot] times `by`, whose entry at the pivot is 1, from row. */
+/* Subtract row[pivot] times `by`, whose pivot entry is 1, from `row`, so that the entry there becomes 0. */
 static void
-form_eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
+eliminate_from_row(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
 {
     qdot_expr head = row[pivot];
 
@@ -153,9 +153,9 @@ form_eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot
     }
 }
 
-/* Reduce the forms to B: dx_pivot = - sum over the other dx. */
+/* Bring the system of forms to reduced row echelon form B: dx_pivot = - sum of B_j dx_j over the others. */
 static qdot_status
-forms_reduce(forms *f)
+reduce_system(forms *f)
 {
     f->rank = 0;
     for (size_t k = 0; k < f->m; k++) {
@@ -166,7 +166,7 @@ forms_reduce(forms *f)
             continue;
         memcpy(row, f->a + k * f->n, f->n * sizeof *row);
         for (size_t r = 0; r < f->rank; r++)
-            form_eliminate(f, row, f->B + r * f->n, f->pivot[r]);
+            eliminate_from_row(f, row, f->B + r * f->n, f->pivot[r]);
         QDOT_TRY(qdot_pool_check(f->pool));
         QDOT_TRY(choose_pivot(f, row, &p));
         if (p == f->n)
@@ -178,7 +178,7 @@ forms_reduce(forms *f)
                          : qdot_mech_tidy(f->s, qdot_div(f->pool, row[i], head));
         row[p] = QDOT_ONE;
         for (size_t r = 0; r < f->rank; r++)
-            form_eliminate(f, f->B + r * f->n, row, p);
+            eliminate_from_row(f, f->B + r * f->n, row, p);
         f->pivot[f->rank++] = p;
         QDOT_TRY(qdot_pool_check(f->pool));
     }
@@ -186,7 +186,7 @@ forms_reduce(forms *f)
 }
 
 static bool
-is_pivot(const forms *f, size_t i)
+is_pivot_column(const forms *f, size_t i)
 {
     for (size_t r = 0; r < f->rank; r++)
         if (f->pivot[r] == i)
@@ -194,9 +194,9 @@ is_pivot(const forms *f, size_t i)
     return false;
 }
 
-/* The component of the exterior derivative of form k for dx_i and dx_j. */
+/* The component of the exterior derivative dw for dx_i, dx_j, where w is the form with index k. */
 static qdot_expr
-curl(const forms *f, size_t k, size_t i, size_t j)
+exterior_derivative(const forms *f, size_t k, size_t i, size_t j)
 {
     const qdot_expr *a = f->a + k * f->n;
 
@@ -205,22 +205,22 @@ curl(const forms *f, size_t k, size_t i, size_t j)
                              qdot_diff(f->pool, a[i], f->x[j]));
 }
 
-/* The component of dw for the vectors u_i = x_i - sum_r B_ri x_pivot(r), along which the other forms vanish. */
+/* The component of dw for two of the vectors u_i = x_i - sum_r B_ri x_pivot(r), on which the system's forms vanish. */
 static qdot_expr
-curl_component(const forms *f, size_t k, size_t i, size_t j)
+exterior_derivative_on_system(const forms *f, size_t k, size_t i, size_t j)
 {
     qdot_pool *pool = f->pool;
-    qdot_expr sum = curl(f, k, i, j);
+    qdot_expr sum = exterior_derivative(f, k, i, j);
 
     for (size_t r = 0; r < f->rank; r++) {
         qdot_expr bi = f->B[r * f->n + i], bj = f->B[r * f->n + j];
 
-        sum = qdot_sub(pool, sum, qdot_mul(pool, bj, curl(f, k, i, f->pivot[r])));
-        sum = qdot_sub(pool, sum, qdot_mul(pool, bi, curl(f, k, f->pivot[r], j)));
+        sum = qdot_sub(pool, sum, qdot_mul(pool, bj, exterior_derivative(f, k, i, f->pivot[r])));
+        sum = qdot_sub(pool, sum, qdot_mul(pool, bi, exterior_derivative(f, k, f->pivot[r], j)));
         for (size_t p = 0; p < f->rank; p++)
             sum = qdot_add(pool, sum,
                            qdot_mul(pool, qdot_mul(pool, bi, f->B[p * f->n + j]),
-                                    curl(f, k, f->pivot[r], f->pivot[p])));
+                                    exterior_derivative(f, k, f->pivot[r], f->pivot[p])));
     }
     return qdot_mech_tidy(f->s, sum);
 }
@@ -228,7 +228,7 @@ curl_component(const forms *f, size_t k, size_t i, size_t j)
 /* Whether dw of form k vanishes on what the system leaves: the first component that does
  * not, else one that is undecided, else proved. */
 static qdot_status
-curl_vanishes(const forms *f, size_t k, qdot_integrability *result)
+decide_whether_curl_vanishes(const forms *f, size_t k, qdot_integrability *result)
 {
     result->decision = (qdot_decision){.verdict = QDOT_PROVED};
     for (size_t i = 0; i < f->n; i++)
@@ -236,9 +236,9 @@ curl_vanishes(const forms *f, size_t k, qdot_integrability *result)
             qdot_decision one;
             qdot_expr c;
 
-            if (is_pivot(f, i) || is_pivot(f, j))
+            if (is_pivot_column(f, i) || is_pivot_column(f, j))
                 continue;
-            c = curl_component(f, k, i, j);
+            c = exterior_derivative_on_system(f, k, i, j);
             QDOT_TRY(qdot_pool_check(f->pool));
             if (c == QDOT_ZERO)
                 continue;
@@ -258,7 +258,7 @@ curl_vanishes(const forms *f, size_t k, qdot_integrability *result)
 /* --- integrals of constraints ------------------------------------------------------- */
 
 static bool
-is_closed(const forms *f, const qdot_expr *a, const bool *held)
+is_closed_form(const forms *f, const qdot_expr *a, const bool *held)
 {
     for (size_t i = 0; i < f->n; i++)
         for (size_t j = i + 1; j < f->n; j++) {
@@ -274,9 +274,9 @@ is_closed(const forms *f, const qdot_expr *a, const bool *held)
     return !qdot_pool_failed(f->pool);
 }
 
-/* The integral F with dF = mu w if the form mu w is closed and can be integrated; nil otherwise. */
+/* The integral F with dF = mu w, if mu w is closed and can be integrated, for the form w of index k; else nil. */
 static qdot_expr
-try_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
+integrate_with_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
 {
     qdot_expr *a = qdot_calloc(2 * f->n, sizeof *a), *x, F = QDOT_NIL;
     size_t n = 0;
@@ -286,7 +286,7 @@ try_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
     x = a + f->n;
     for (size_t i = 0; i < f->n; i++)
         a[i] = qdot_mech_tidy(f->s, qdot_mul(f->pool, mu, f->a[k * f->n + i]));
-    if (!qdot_pool_failed(f->pool) && is_closed(f, a, held)) {
+    if (!qdot_pool_failed(f->pool) && is_closed_form(f, a, held)) {
         for (size_t i = 0; i < f->n; i++)
             if (!held[i]) {
                 x[n] = f->x[i];
@@ -301,7 +301,7 @@ try_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
 /* exp(int h'(z) dz), h' = -dw(z, x_j)/a_j the same for every j and a function of z alone;
  * nil otherwise. */
 static qdot_expr
-factor_of(const forms *f, size_t k, size_t z, const bool *held)
+find_integrating_factor(const forms *f, size_t k, size_t z, const bool *held)
 {
     const qdot_expr *a = f->a + k * f->n;
     qdot_pool *pool = f->pool;
@@ -309,7 +309,7 @@ factor_of(const forms *f, size_t k, size_t z, const bool *held)
 
     for (size_t j = 0; j < f->n && slope == QDOT_NIL; j++)
         if (j != z && !held[j] && a[j] != QDOT_ZERO)
-            slope = qdot_mech_tidy(f->s, qdot_neg(pool, qdot_div(pool, curl(f, k, z, j),
+            slope = qdot_mech_tidy(f->s, qdot_neg(pool, qdot_div(pool, exterior_derivative(f, k, z, j),
                                                                  a[j])));
     if (slope == QDOT_NIL || slope == QDOT_ZERO)
         return QDOT_NIL;
@@ -325,17 +325,17 @@ static void
 find_integral(const forms *f, size_t k, const bool *held, qdot_integrability *result)
 {
     const qdot_expr *a = f->a + k * f->n;
-    qdot_expr mu = QDOT_ONE, F = try_factor(f, k, mu, held);
+    qdot_expr mu = QDOT_ONE, F = integrate_with_factor(f, k, mu, held);
 
     for (size_t i = 0; i < f->n && F == QDOT_NIL && !qdot_pool_failed(f->pool); i++) {
         if (held[i] || a[i] == QDOT_ZERO || qdot_expr_kind(f->pool, a[i]) == QDOT_NUM)
             continue;
         mu = qdot_div(f->pool, QDOT_ONE, a[i]);
-        F = try_factor(f, k, mu, held);
+        F = integrate_with_factor(f, k, mu, held);
     }
     for (size_t i = 0; i < f->n && F == QDOT_NIL && !qdot_pool_failed(f->pool); i++) {
-        mu = held[i] ? QDOT_NIL : factor_of(f, k, i, held);
-        F = mu == QDOT_NIL ? QDOT_NIL : try_factor(f, k, mu, held);
+        mu = held[i] ? QDOT_NIL : find_integrating_factor(f, k, i, held);
+        F = mu == QDOT_NIL ? QDOT_NIL : integrate_with_factor(f, k, mu, held);
     }
     if (F != QDOT_NIL && qdot_expr_is_negative(f->pool, F)) {
         F = qdot_neg(f->pool, F);
@@ -345,9 +345,9 @@ find_integral(const forms *f, size_t k, const bool *held, qdot_integrability *re
     result->factor = F == QDOT_NIL ? QDOT_NIL : mu;
 }
 
-/* Find coordinates that another form of the system, a dz = 0, keeps constant. */
+/* Find coordinates that are constant because another form of the system is a dz = 0. */
 static void
-find_held(const forms *f, size_t k, bool *held)
+find_constant_coordinates(const forms *f, size_t k, bool *held)
 {
     for (size_t j = 0; j < f->m; j++) {
         size_t count = 0, which = 0;
@@ -365,12 +365,12 @@ find_held(const forms *f, size_t k, bool *held)
 /* --- whether the constraints are integrable ----------------------------------------- */
 
 static qdot_status
-decide_alone(forms *f, size_t k, qdot_integrability *result)
+decide_for_one_form(forms *f, size_t k, qdot_integrability *result)
 {
     memset(f->in, 0, f->m * sizeof *f->in);
     f->in[k] = true;
-    QDOT_TRY(forms_reduce(f));
-    QDOT_TRY(curl_vanishes(f, k, result));
+    QDOT_TRY(reduce_system(f));
+    QDOT_TRY(decide_whether_curl_vanishes(f, k, result));
     result->alone = result->decision.verdict == QDOT_PROVED;
     return QDOT_OK;
 }
@@ -379,7 +379,7 @@ decide_alone(forms *f, size_t k, qdot_integrability *result)
  * gives the next derived system exactly, since no combination with it vanishes either: what
  * fails there is surely not integrable. Of two or more left out a combination might stay. */
 static qdot_status
-decide_together(forms *f, size_t k, qdot_integrability *result)
+decide_for_system(forms *f, size_t k, qdot_integrability *result)
 {
     bool changed = true, surely = true;
 
@@ -390,14 +390,14 @@ decide_together(forms *f, size_t k, qdot_integrability *result)
         size_t out = 0;
 
         changed = false;
-        QDOT_TRY(forms_reduce(f));
-        QDOT_TRY(curl_vanishes(f, k, result));
+        QDOT_TRY(reduce_system(f));
+        QDOT_TRY(decide_whether_curl_vanishes(f, k, result));
         if (result->decision.verdict != QDOT_PROVED)
             break;
         for (size_t j = 0; j < f->m; j++) {
             if (!f->in[j] || j == k)
                 continue;
-            QDOT_TRY(curl_vanishes(f, j, &one));
+            QDOT_TRY(decide_whether_curl_vanishes(f, j, &one));
             if (one.decision.verdict != QDOT_PROVED) {
                 f->in[j] = false;
                 changed = true;
@@ -411,23 +411,23 @@ decide_together(forms *f, size_t k, qdot_integrability *result)
 }
 
 static qdot_status
-integrability_decide(forms *f, size_t k, bool alone, qdot_integrability *result)
+decide_integrability(forms *f, size_t k, bool alone, qdot_integrability *result)
 {
     bool *held, jump;
     qdot_status status;
 
-    /* an integral would be constant only between the jumps */
+    /* if f jumps, an integral would be constant only between the jumps */
     QDOT_TRY(qdot_jumps(f->pool, f->s->constraints.at[f->of[k]].f, UINT32_MAX, &jump));
     if (jump) {
         result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};
         return QDOT_OK;
     }
     held = qdot_calloc(f->n, sizeof *held);
-    status = held ? decide_alone(f, k, result) : QDOT_ENOMEM;
+    status = held ? decide_for_one_form(f, k, result) : QDOT_ENOMEM;
     if (status == QDOT_OK && !result->alone && !alone && f->m > 1) {
-        status = decide_together(f, k, result);
+        status = decide_for_system(f, k, result);
         if (status == QDOT_OK && result->decision.verdict == QDOT_PROVED)
-            find_held(f, k, held);
+            find_constant_coordinates(f, k, held);
     }
     if (status == QDOT_OK && result->decision.verdict == QDOT_PROVED) {
         result->component = QDOT_NIL;
@@ -458,7 +458,7 @@ qdot_mech_integrable(qdot_scene *s, size_t k, bool alone, qdot_integrability *re
                              : "constraint %s holds accelerations: the question is of "
                                "velocity constraints",
                          c->name);
-    status = forms_init(&f, s);
+    status = make_forms(&f, s);
     while (status == QDOT_OK && row < f.m && f.of[row] != k)
         row++;
     if (status == QDOT_OK && row == f.m)
@@ -467,14 +467,14 @@ qdot_mech_integrable(qdot_scene *s, size_t k, bool alone, qdot_integrability *re
                            "is of those that are",
                            c->name);
     if (status == QDOT_OK)
-        status = integrability_decide(&f, row, alone, result);
-    forms_clear(&f);
+        status = decide_integrability(&f, row, alone, result);
+    free_forms(&f);
     return status;
 }
 
-/* Whether all velocity constraints of the scene are among the forms and do not depend on time. */
+/* Whether all velocity constraints of the scene are among the forms, and none depends on time. */
 static qdot_status
-all_still(const forms *f, bool *yes)
+are_all_time_independent(const forms *f, bool *yes)
 {
     const qdot_scene *s = f->s;
     size_t row = 0;
@@ -499,20 +499,20 @@ all_still(const forms *f, bool *yes)
 }
 
 static qdot_status
-decide_all(forms *f, bool *yes)
+decide_for_all_forms(forms *f, bool *yes)
 {
-    QDOT_TRY(all_still(f, yes));
+    QDOT_TRY(are_all_time_independent(f, yes));
     if (!*yes)
         return QDOT_OK;
     for (size_t j = 0; j < f->m; j++)
         f->in[j] = true;
-    QDOT_TRY(forms_reduce(f));
+    QDOT_TRY(reduce_system(f));
     for (size_t j = 0; j < f->m && *yes; j++) {
         qdot_integrability one = {0};
 
         if (f->s->constraints.at[f->of[j]].kind == QDOT_HOLONOMIC)
             continue;
-        QDOT_TRY(curl_vanishes(f, j, &one));
+        QDOT_TRY(decide_whether_curl_vanishes(f, j, &one));
         *yes = one.decision.verdict == QDOT_PROVED;
     }
     return QDOT_OK;
@@ -533,9 +533,9 @@ qdot_mech_integrable_all(qdot_scene *s, bool *yes)
     }
     if (!*yes || !some)
         return QDOT_OK;
-    status = forms_init(&f, s);
+    status = make_forms(&f, s);
     if (status == QDOT_OK)
-        status = decide_all(&f, yes);
-    forms_clear(&f);
+        status = decide_for_all_forms(&f, yes);
+    free_forms(&f);
     return status;
 }

@@ -29,9 +29,9 @@ typedef struct {
     /* For the worst component of dw on the null space of the constraints; refuted: it does not
      * vanish, with a point and its value there (left; right is 0). */
     qdot_decision decision;
-    qdot_expr component;   /* if refuted: that component of dw; else nil */
-    qdot_expr along[2];    /* if refuted: the two coordinates (or t) of that component */
-    bool alone;            /* if proved: without use of other constraints */
+    qdot_expr component;   /* if refuted: a component of dw that is not 0; else nil */
+    qdot_expr along[2];    /* if refuted: the two coordinates (or t) of that component of dw */
+    bool alone;            /* if proved: whether without using other constraints */
     qdot_expr integral;    /* if proved: the integral F; nil if none was found */
     qdot_expr factor; /* integrating factor mu, mu f = dF/dt; nil if other constraints were needed */
 } qdot_integrability;

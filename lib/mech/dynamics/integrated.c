@@ -1,4 +1,4 @@
-/* integrated.c -- integrals of velocity constraints, cached with the scene, and when they are used. */
+/* integrated.c -- integrals F(q, t) of velocity constraints, stored with the scene, and the decision when they are used. */
 #include "mech/dynamics/integrated.h"
 
 #include "expr/calculus.h"
@@ -12,7 +12,7 @@
 #include "mech/scene/cache.h"
 #include "mech/scene/constraint.h"
 
-/* Larger constraints are not integrated: the cost of Frobenius' condition grows with their terms. */
+/* Constraints with more operations are not integrated: the cost of Frobenius' condition grows with their terms. */
 enum { MOST_OPERATIONS = 400 };
 
 /* Whether every power in a product of powers is smooth: a natural exponent, or a base that is not
@@ -62,7 +62,7 @@ is_smooth_everywhere(qdot_scene *s, qdot_expr e, bool *yes)
 }
 
 static qdot_status
-find_one(qdot_scene *s, size_t k, qdot_expr *F, qdot_expr *mu)
+integrate_constraint(qdot_scene *s, size_t k, qdot_expr *F, qdot_expr *mu)
 {
     const qdot_constraint *c = &s->constraints.at[k];
     qdot_integrability found;
@@ -106,7 +106,7 @@ qdot_integrated_of(qdot_scene *s, size_t k, qdot_expr *mu)
     if (!qdot_derived_array(s, &d->factor, n) || !qdot_derived_array(s, &d->integral, n))
         return QDOT_NIL;
     if (!d->integral_known[k]) {
-        if (find_one(s, k, &d->integral[k], &d->factor[k]) != QDOT_OK)
+        if (integrate_constraint(s, k, &d->integral[k], &d->factor[k]) != QDOT_OK)
             return qdot_pool_fail(s->pool);
         d->integral_known[k] = true;
     }
@@ -124,9 +124,9 @@ qdot_integrated_slope(qdot_scene *s, size_t k, size_t i)
                          : qdot_diff(s->pool, F, s->coordinates.at[i]);
 }
 
-/* Whether all coefficients of velocity constraint k may vanish together: none is known to be non-zero. */
+/* Whether all coefficients of velocity constraint k may vanish together, since none is known to be non-zero. */
 static bool
-may_vanish(qdot_scene *s, size_t k)
+may_all_vanish(qdot_scene *s, size_t k)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr a = qdot_constraint_slope(s, k, i);
@@ -144,7 +144,7 @@ qdot_integrated_rate(qdot_scene *s, size_t k, qdot_expr *mu)
     qdot_expr F;
 
     *mu = QDOT_ONE;
-    if (c->kind != QDOT_VELOCITY || !may_vanish(s, k))
+    if (c->kind != QDOT_VELOCITY || !may_all_vanish(s, k))
         return c->f;
     F = qdot_integrated_of(s, k, mu);
     if (F == QDOT_NIL)

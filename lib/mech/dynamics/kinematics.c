@@ -18,8 +18,8 @@
  * */
 
 static qdot_status
-kinematics_add_term(qdot_scene *s, qdot_kinematics *k, qdot_expr w, qdot_expr x, qdot_expr y,
-                    int axis)
+add_inertial_term(qdot_scene *s, qdot_kinematics *k, qdot_expr w, qdot_expr x, qdot_expr y,
+                  int axis)
 {
     qdot_inertial term = {w, x, y, axis};
 
@@ -30,19 +30,19 @@ kinematics_add_term(qdot_scene *s, qdot_kinematics *k, qdot_expr w, qdot_expr x,
 }
 
 static qdot_status
-add_place(qdot_scene *s, qdot_kinematics *k, qdot_expr mass, qdot_expr r)
+add_point_mass(qdot_scene *s, qdot_kinematics *k, qdot_expr mass, qdot_expr r)
 {
     uint32_t n = qdot_mech_dimension(s->pool, r);
 
     for (uint32_t d = 0; d < n; d++) {
         qdot_expr x = qdot_mech_component(s->pool, r, d);
 
-        QDOT_TRY(kinematics_add_term(s, k, mass, x, x, (int)d));
+        QDOT_TRY(add_inertial_term(s, k, mass, x, x, (int)d));
     }
     return QDOT_OK;
 }
 
-/* The second moments J = 1/2 tr(I) 1 - I of a body; in the plane J = 1/2 I 1, as I = J_11 + J_22. */
+/* The second moment J_ij of a body, J = 1/2 tr(I) 1 - I; in the plane J = 1/2 I 1, as I = J_11 + J_22. */
 static qdot_expr
 second_moment(qdot_scene *s, const qdot_body *b, uint32_t dim, uint32_t i, uint32_t j)
 {
@@ -58,19 +58,19 @@ second_moment(qdot_scene *s, const qdot_body *b, uint32_t dim, uint32_t i, uint3
 }
 
 static qdot_status
-add_body(qdot_scene *s, qdot_kinematics *k, const qdot_body *b)
+add_terms_of_body(qdot_scene *s, qdot_kinematics *k, const qdot_body *b)
 {
     uint32_t dim = qdot_mech_dimension(s->pool, b->position);
 
-    QDOT_TRY(add_place(s, k, b->mass, b->position));
+    QDOT_TRY(add_point_mass(s, k, b->mass, b->position));
     for (uint32_t i = 0; i < dim; i++)
         for (uint32_t j = 0; j < dim; j++) {
             qdot_expr J = second_moment(s, b, dim, i, j);
 
             for (uint32_t d = 0; d < dim && J != QDOT_ZERO; d++)
-                QDOT_TRY(kinematics_add_term(s, k, J,
-                                             qdot_expr_arg(s->pool, b->rotation, dim * d + i),
-                                             qdot_expr_arg(s->pool, b->rotation, dim * d + j), -1));
+                QDOT_TRY(add_inertial_term(s, k, J,
+                                           qdot_expr_arg(s->pool, b->rotation, dim * d + i),
+                                           qdot_expr_arg(s->pool, b->rotation, dim * d + j), -1));
         }
     return QDOT_OK;
 }
@@ -79,7 +79,7 @@ add_body(qdot_scene *s, qdot_kinematics *k, const qdot_body *b)
  * */
 
 static uint32_t
-hash_bits(const uint64_t *bits, size_t words)
+hash_of_bits(const uint64_t *bits, size_t words)
 {
     uint64_t h = 0x9e3779b97f4a7c15u;
 
@@ -91,7 +91,7 @@ hash_bits(const uint64_t *bits, size_t words)
 }
 
 static qdot_status
-slots_grow(qdot_kinematics *k)
+enlarge_hash_table(qdot_kinematics *k)
 {
     size_t size = k->slots.n ? 2 * k->slots.n : 64;
     uint32_t *slots = qdot_calloc(size, sizeof *slots);
@@ -99,7 +99,7 @@ slots_grow(qdot_kinematics *k)
     if (!slots)
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < k->weight.n; i++) {
-        size_t at = hash_bits(k->bits.at + i * k->words, k->words) & (size - 1);
+        size_t at = hash_of_bits(k->bits.at + i * k->words, k->words) & (size - 1);
 
         while (slots[at])
             at = (at + 1) & (size - 1);
@@ -111,15 +111,15 @@ slots_grow(qdot_kinematics *k)
     return QDOT_OK;
 }
 
-/* The number of a set of inertial terms; UINT32_MAX on failure. */
+/* The index of a set of inertial terms (terms of T), added if it is new; UINT32_MAX on failure. */
 static uint32_t
-set_intern(qdot_scene *s, qdot_kinematics *k, const uint64_t *bits)
+find_or_add_set(qdot_scene *s, qdot_kinematics *k, const uint64_t *bits)
 {
     size_t at;
 
-    if (2 * k->weight.n >= k->slots.n && slots_grow(k) != QDOT_OK)
+    if (2 * k->weight.n >= k->slots.n && enlarge_hash_table(k) != QDOT_OK)
         goto no_memory;
-    at = hash_bits(bits, k->words) & (k->slots.n - 1);
+    at = hash_of_bits(bits, k->words) & (k->slots.n - 1);
     for (; k->slots.at[at]; at = (at + 1) & (k->slots.n - 1))
         if (memcmp(k->bits.at + (k->slots.at[at] - 1) * k->words, bits,
                    k->words * sizeof *bits) == 0)
@@ -140,7 +140,7 @@ no_memory:
 /* `k->bits` has room for one more set behind the last: work space for what is interned.
  * */
 static uint64_t *
-set_scratch(qdot_scene *s, qdot_kinematics *k)
+get_scratch_set(qdot_scene *s, qdot_kinematics *k)
 {
     if (qdot_grow(&k->bits.at, &k->bits.capacity, k->bits.n + 2 * k->words,
                   sizeof *k->bits.at) != QDOT_OK) {
@@ -158,12 +158,12 @@ qdot_kinematics_and(qdot_scene *s, qdot_kinematics *k, uint32_t a, uint32_t b)
 
     if (a == b)
         return a;
-    both = set_scratch(s, k);
+    both = get_scratch_set(s, k);
     if (!both)
         return UINT32_MAX;
     for (size_t i = 0; i < k->words; i++)
         both[i] = k->bits.at[a * k->words + i] & k->bits.at[b * k->words + i];
-    return set_intern(s, k, both);
+    return find_or_add_set(s, k, both);
 }
 
 qdot_expr
@@ -207,7 +207,7 @@ typedef struct {
     qdot_expr e;
 } slope;
 
-/* A summand of some coordinate function x; its derivatives are slopes.at[from .. to). */
+/* A summand of a coordinate function x(q, t); its derivatives are slopes.at[from .. to). */
 typedef struct {
     qdot_expr term;
     uint32_t from, to;
@@ -218,11 +218,11 @@ typedef struct {
     qdot_vec(summand) known;
     qdot_vec(uint32_t) slots;
     qdot_vec(slope) slopes;
-    qdot_vec(uint32_t) of_symbol; /* index + 1 of each coordinate, by the id of its symbol */
+    qdot_vec(uint32_t) of_symbol; /* index + 1 of each coordinate of the scene, by the id of its symbol */
 } summands;
 
 static void
-summands_clear(summands *m)
+free_summands(summands *m)
 {
     qdot_free(m->known.at);
     qdot_free(m->slots.at);
@@ -231,7 +231,7 @@ summands_clear(summands *m)
 }
 
 static qdot_status
-push_slope(qdot_scene *s, summands *m, size_t key, qdot_expr e)
+add_derivative(qdot_scene *s, summands *m, size_t key, qdot_expr e)
 {
     slope x = {(uint32_t)key, e};
 
@@ -240,7 +240,7 @@ push_slope(qdot_scene *s, summands *m, size_t key, qdot_expr e)
 }
 
 static qdot_status
-differentiate(qdot_scene *s, summands *m, qdot_expr term)
+differentiate_summand(qdot_scene *s, summands *m, qdot_expr term)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n;
@@ -253,9 +253,9 @@ differentiate(qdot_scene *s, summands *m, qdot_expr term)
         qdot_expr q = qdot_expr_arg(pool, atoms, i);
 
         if (q == QDOT_T)
-            QDOT_TRY(push_slope(s, m, n, qdot_diff(pool, term, q)));
+            QDOT_TRY(add_derivative(s, m, n, qdot_diff(pool, term, q)));
         else if (q < m->of_symbol.n && m->of_symbol.at[q])
-            QDOT_TRY(push_slope(s, m, m->of_symbol.at[q] - 1, qdot_diff(pool, term, q)));
+            QDOT_TRY(add_derivative(s, m, m->of_symbol.at[q] - 1, qdot_diff(pool, term, q)));
         else if (qdot_expr_is_class(pool, q, QDOT_COORD))
             return qdot_fail(QDOT_ENAME, "%s is not a coordinate of the scene",
                              qdot_expr_symbol(pool, q)->name);
@@ -274,14 +274,14 @@ add_summand(qdot_scene *s, summands *m, qdot_expr term)
     QDOT_TRY(qdot_interrupt_check());
     if (m->want == REST)
         e = qdot_mech_at_rest(s, qdot_ddt(s->pool, qdot_ddt(s->pool, term)));
-    QDOT_TRY(m->want == SLOPES ? differentiate(s, m, term) : push_slope(s, m, 0, e));
+    QDOT_TRY(m->want == SLOPES ? differentiate_summand(s, m, term) : add_derivative(s, m, 0, e));
     x.to = (uint32_t)m->slopes.n;
     return qdot_vec_push(&m->known, x);
 }
 
-/* Find the index of a summand in m->known; it is added if new. */
+/* Find the index of a summand in m->known; the summand is added if it is new. */
 static qdot_status
-summand_find(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
+find_or_add_summand(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
 {
     size_t at;
 
@@ -330,7 +330,7 @@ add_entries(qdot_scene *s, summands *m, qdot_expr x, uint32_t p, entries *out)
         qdot_expr factor = sum ? qdot_expr_arg(pool, x, 2 * i + 2) : QDOT_ONE;
         uint32_t index;
 
-        QDOT_TRY(summand_find(s, m, term, &index));
+        QDOT_TRY(find_or_add_summand(s, m, term, &index));
         for (uint32_t k = m->known.at[index].from; k < m->known.at[index].to; k++) {
             entry e = {m->slopes.at[k].key, p, m->slopes.at[k].e};
 
@@ -357,7 +357,7 @@ compare_entries(const void *a, const void *b)
 }
 
 static int
-by_expression(const void *a, const void *b)
+compare_by_expression(const void *a, const void *b)
 {
     const entry *x = a, *y = b;
 
@@ -372,10 +372,10 @@ by_expression(const void *a, const void *b)
  * stay apart, so that a chain's links share them; only equal ones are counted together.
  * */
 static qdot_status
-entries_combine(qdot_scene *s, entries *all, bool slopes)
+combine_entries(qdot_scene *s, entries *all, bool slopes)
 {
     size_t kept = 0;
-    qdot_expr first = QDOT_NIL; /* the expression with which the last entry kept began */
+    qdot_expr first = QDOT_NIL; /* the expression, before additions, of the last entry that was kept */
 
     if (all->n > 1)
         qsort(all->at, all->n, sizeof *all->at, compare_entries);
@@ -394,17 +394,17 @@ entries_combine(qdot_scene *s, entries *all, bool slopes)
     return qdot_pool_check(s->pool);
 }
 
-/* Group the entries with the same key in one element of `out`. */
+/* Make one group of all entries with the same key and expression: the expression and the set of its terms. */
 static qdot_status
-group(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *out)
+group_entries(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *out)
 {
-    QDOT_TRY(entries_combine(s, all, want == SLOPES));
+    QDOT_TRY(combine_entries(s, all, want == SLOPES));
     if (all->n > 1)
-        qsort(all->at, all->n, sizeof *all->at, by_expression);
+        qsort(all->at, all->n, sizeof *all->at, compare_by_expression);
     for (size_t i = 0, j; i < all->n; i = j) {
         const entry *first = &all->at[i];
         qdot_group g = {first->e, 0};
-        uint64_t *bits = set_scratch(s, k);
+        uint64_t *bits = get_scratch_set(s, k);
 
         if (!bits)
             return qdot_pool_check(s->pool);
@@ -413,16 +413,16 @@ group(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *o
             bits[all->at[j].p / 64] |= (uint64_t)1 << all->at[j].p % 64;
         if (first->e == QDOT_ZERO)
             continue;
-        g.set = set_intern(s, k, bits);
+        g.set = find_or_add_set(s, k, bits);
         QDOT_TRY(qdot_pool_check(s->pool));
         QDOT_TRY(qdot_vec_push(&out[first->key], g));
     }
     return QDOT_OK;
 }
 
-/* Number the coordinates of the scene by the ids of their symbols. */
+/* Store the index of each coordinate of the scene by the id of its symbol. */
 static qdot_status
-number_coordinates(const qdot_scene *s, summands *m)
+index_coordinates(const qdot_scene *s, summands *m)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
@@ -439,26 +439,26 @@ number_coordinates(const qdot_scene *s, summands *m)
     return QDOT_OK;
 }
 
-/* Group the wanted derivatives of the first, or the second, functions of all inertial terms. */
+/* Group the wanted derivatives of x (or, with of_y, of y) of all inertial terms w x' y' of T. */
 static qdot_status
-group_all(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_groups *out)
+group_all_terms(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_groups *out)
 {
     summands m = {.want = want};
     entries all = {0};
-    qdot_status status = number_coordinates(s, &m);
+    qdot_status status = index_coordinates(s, &m);
 
     for (size_t p = 0; p < k->terms.n && status == QDOT_OK; p++)
         status = add_entries(s, &m, of_y ? k->terms.at[p].y : k->terms.at[p].x,
                              (uint32_t)p, &all);
     if (status == QDOT_OK)
-        status = group(s, k, &all, want, out);
+        status = group_entries(s, k, &all, want, out);
     qdot_free(all.at);
-    summands_clear(&m);
+    free_summands(&m);
     return status;
 }
 
 static qdot_status
-kinematics_build(qdot_scene *s, qdot_kinematics *k)
+build_kinematics(qdot_scene *s, qdot_kinematics *k)
 {
     size_t n = k->n = s->coordinates.n;
     qdot_status status = QDOT_OK;
@@ -466,9 +466,9 @@ kinematics_build(qdot_scene *s, qdot_kinematics *k)
     bool crossed = false;
 
     for (size_t i = 0; i < s->particles.n && status == QDOT_OK; i++)
-        status = add_place(s, k, s->particles.at[i].mass, s->particles.at[i].position);
+        status = add_point_mass(s, k, s->particles.at[i].mass, s->particles.at[i].position);
     for (size_t i = 0; i < s->bodies.n && status == QDOT_OK; i++)
-        status = add_body(s, k, &s->bodies.at[i]);
+        status = add_terms_of_body(s, k, &s->bodies.at[i]);
     QDOT_TRY(status);
     k->words = k->terms.n / 64 + 1;
     k->dx = qdot_calloc(n + 1, sizeof *k->dx);
@@ -478,22 +478,22 @@ kinematics_build(qdot_scene *s, qdot_kinematics *k)
     if (!k->dx || !k->dy)
         return QDOT_ENOMEM;
 
-    bits = set_scratch(s, k);
-    if (!bits || set_intern(s, k, bits) == UINT32_MAX)
+    bits = get_scratch_set(s, k);
+    if (!bits || find_or_add_set(s, k, bits) == UINT32_MAX)
         return qdot_pool_check(s->pool);
     for (int axis = 0; axis < 3; axis++) {
-        bits = set_scratch(s, k);
+        bits = get_scratch_set(s, k);
         if (!bits)
             return qdot_pool_check(s->pool);
         for (size_t p = 0; p < k->terms.n; p++)
             if (k->terms.at[p].axis == axis)
                 bits[p / 64] |= (uint64_t)1 << p % 64;
-        k->axis_set[axis] = set_intern(s, k, bits);
+        k->axis_set[axis] = find_or_add_set(s, k, bits);
         QDOT_TRY(qdot_pool_check(s->pool));
     }
 
-    QDOT_TRY(group_all(s, k, SLOPES, false, k->dx));
-    return crossed ? group_all(s, k, SLOPES, true, k->dy) : QDOT_OK;
+    QDOT_TRY(group_all_terms(s, k, SLOPES, false, k->dx));
+    return crossed ? group_all_terms(s, k, SLOPES, true, k->dy) : QDOT_OK;
 }
 
 qdot_kinematics *
@@ -503,7 +503,7 @@ qdot_kinematics_get(qdot_scene *s)
 
     if (!d->kinematics_ready) {
         qdot_kinematics_clear(&d->kinematics); /* remove what a failed attempt left */
-        if (kinematics_build(s, &d->kinematics) != QDOT_OK) {
+        if (build_kinematics(s, &d->kinematics) != QDOT_OK) {
             qdot_pool_fail(s->pool);
             return NULL;
         }
@@ -512,14 +512,14 @@ qdot_kinematics_get(qdot_scene *s)
     return &d->kinematics;
 }
 
-/* The groups of x'' or of x, computed when first needed. */
+/* The groups of the second time derivatives x'', or of the functions x, computed when first needed. */
 static const qdot_groups *
-groups_of(qdot_scene *s, qdot_kinematics *k, want want, qdot_groups *out, bool *ready)
+get_groups(qdot_scene *s, qdot_kinematics *k, want want, qdot_groups *out, bool *ready)
 {
     if (*ready)
         return out;
     out->n = 0; /* remove what a failed attempt left */
-    if (group_all(s, k, want, false, out) != QDOT_OK) {
+    if (group_all_terms(s, k, want, false, out) != QDOT_OK) {
         qdot_pool_fail(s->pool);
         return NULL;
     }
@@ -530,13 +530,13 @@ groups_of(qdot_scene *s, qdot_kinematics *k, want want, qdot_groups *out, bool *
 const qdot_groups *
 qdot_kinematics_rest(qdot_scene *s, qdot_kinematics *k)
 {
-    return groups_of(s, k, REST, &k->rest, &k->rest_ready);
+    return get_groups(s, k, REST, &k->rest, &k->rest_ready);
 }
 
 const qdot_groups *
 qdot_kinematics_place(qdot_scene *s, qdot_kinematics *k)
 {
-    return groups_of(s, k, PLACE, &k->place, &k->place_ready);
+    return get_groups(s, k, PLACE, &k->place, &k->place_ready);
 }
 
 /* --- sums over terms ------------------------------------------------------------------
@@ -547,7 +547,7 @@ typedef struct {
 } weighed;
 
 static int
-by_weight(const void *a, const void *b)
+compare_weights(const void *a, const void *b)
 {
     const weighed *x = a, *y = b;
 
@@ -557,7 +557,7 @@ by_weight(const void *a, const void *b)
 /* sum over weights of weight (sum of products); people: each inner sum simplified, and
  * the whole where there are several. */
 static qdot_expr
-sum_weighed(qdot_scene *s, weighed *at, size_t n, bool people)
+sum_by_weight(qdot_scene *s, weighed *at, size_t n, bool people)
 {
     qdot_pool *pool = s->pool;
     qdot_expr *inner = qdot_calloc(2 * n + 1, sizeof *inner), *outer = inner + n, total;
@@ -566,7 +566,7 @@ sum_weighed(qdot_scene *s, weighed *at, size_t n, bool people)
     if (!inner)
         return qdot_pool_fail(pool);
     if (n > 1)
-        qsort(at, n, sizeof *at, by_weight);
+        qsort(at, n, sizeof *at, compare_weights);
     for (size_t i = 0, j; i < n; i = j) {
         qdot_expr sum;
 
@@ -594,7 +594,7 @@ qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a,
             uint32_t set = qdot_kinematics_and(s, k, a->at[i].set, b->at[j].set);
             weighed w;
 
-            if (set == 0) /* no term in common, as for two axes */
+            if (set == 0) /* the two sets have no inertial term in common, as for two different axes */
                 continue;
             w.weight = qdot_kinematics_weight(s, k, set);
             w.product = qdot_mul(s->pool, a->at[i].e, b->at[j].e);
@@ -603,7 +603,7 @@ qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a,
                 goto done;
             }
         }
-    total = sum_weighed(s, all.at, all.n, people);
+    total = sum_by_weight(s, all.at, all.n, people);
 done:
     qdot_free(all.at);
     return total;
@@ -637,7 +637,7 @@ qdot_kinematics_gravity(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a)
                 goto done;
             }
         }
-    total = sum_weighed(s, all.at, all.n, false);
+    total = sum_by_weight(s, all.at, all.n, false);
 done:
     qdot_free(all.at);
     return total;

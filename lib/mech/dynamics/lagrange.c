@@ -20,7 +20,7 @@
 #include "normal/form/common.h"
 #include "normal/form/simple.h"
 
-/* A contribution to the coefficient of q_j' q_k', j <= k: halves/2 times e. */
+/* A contribution halves/2 times e to the coefficient of q_j' q_k', j <= k. */
 typedef struct {
     uint32_t j, k;
     qdot_expr e;
@@ -28,7 +28,7 @@ typedef struct {
 } coefficient;
 
 static int
-by_pair(const void *a, const void *b)
+compare_velocity_pairs(const void *a, const void *b)
 {
     const coefficient *x = a, *y = b;
 
@@ -42,7 +42,7 @@ by_pair(const void *a, const void *b)
 /* Collect the contributions of derivatives of M to equation i; those by t go to *linear, as
  * coefficients of q_j'. */
 static qdot_status
-collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *linear)
+collect_mass_derivatives(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *linear)
 {
     qdot_pool *pool = s->pool;
     const qdot_derived *d = s->derived;
@@ -65,7 +65,7 @@ collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, 
             out[n++] = (coefficient){m.j, m.k, m.value, m.j == m.k ? -1 : -2};
     }
     if (n > 1)
-        qsort(out, n, sizeof *out, by_pair);
+        qsort(out, n, sizeof *out, compare_velocity_pairs);
     *n_out = n;
     return qdot_pool_check(pool);
 }
@@ -73,7 +73,7 @@ collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, 
 /* The sum of contributions [n] to one pair. Most cancel before anything is built: a link's angle
  * stands in one row and one column. */
 static qdot_expr
-sum_contributions(qdot_pool *pool, const coefficient *at, size_t n)
+sum_velocity_terms(qdot_pool *pool, const coefficient *at, size_t n)
 {
     qdot_expr c = QDOT_ZERO;
 
@@ -91,9 +91,9 @@ sum_contributions(qdot_pool *pool, const coefficient *at, size_t n)
     return c;
 }
 
-/* The linear and constant terms in velocities, from derivatives of b, c and by t. */
+/* The terms of an equation that are linear or constant in velocities, from derivatives of b, c of T and by t. */
 static qdot_expr
-time_terms(qdot_scene *s, size_t i, qdot_expr *linear)
+linear_and_constant_terms(qdot_scene *s, size_t i, qdot_expr *linear)
 {
     qdot_pool *pool = s->pool;
     const qdot_derived *d = s->derived;
@@ -143,7 +143,7 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
     }
     for (size_t j = 0; j < n; j++)
         linear[j] = QDOT_ZERO;
-    if (collect_mass_slopes(s, (uint32_t)i, all, &m, linear) != QDOT_OK) {
+    if (collect_mass_derivatives(s, (uint32_t)i, all, &m, linear) != QDOT_OK) {
         qdot_pool_fail(pool);
         goto done;
     }
@@ -152,7 +152,7 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
 
         for (b = a; b < m && all[b].j == all[a].j && all[b].k == all[a].k; b++)
             continue;
-        c = sum_contributions(pool, &all[a], b - a);
+        c = sum_velocity_terms(pool, &all[a], b - a);
         if (c == QDOT_ZERO)
             continue;
         if (b - a > 1)
@@ -161,7 +161,7 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
             pool, c,
             qdot_mul(pool, qdot_mech_jet(s, all[a].j, 1), qdot_mech_jet(s, all[a].k, 1)));
     }
-    sum[terms++] = time_terms(s, i, linear);
+    sum[terms++] = linear_and_constant_terms(s, i, linear);
     rest = d->rest[i] = qdot_sum(pool, terms, sum);
 done:
     qdot_free(all);
@@ -193,7 +193,7 @@ qdot_lagrange_people_forcing(qdot_scene *s, size_t i)
 
 /* The left side d/dt dT/dq' - dT/dq of equation i, with the Lagrangian L in place of T if one is stated. */
 static qdot_expr
-left_side(qdot_scene *s, size_t i)
+left_side_of_equation(qdot_scene *s, size_t i)
 {
     qdot_pool *pool = s->pool;
     qdot_derived *d = qdot_derived_get(s);
@@ -241,7 +241,7 @@ qdot_mech_equation(qdot_scene *s, qdot_expr q)
     if (d->equation[i] != QDOT_NIL)
         return d->equation[i];
     right = qdot_add(s->pool, qdot_mech_force(s, q), qdot_constraint_reaction(s, i));
-    return d->equation[i] = qdot_rel(s->pool, QDOT_EQ, left_side(s, i), right);
+    return d->equation[i] = qdot_rel(s->pool, QDOT_EQ, left_side_of_equation(s, i), right);
 }
 
 qdot_expr

@@ -68,9 +68,9 @@ qdot_mass_entry(qdot_scene *s, size_t i, size_t j)
     return s->derived->M[i * s->derived->n + j];
 }
 
-/* Find the derivatives dM_jk/dq for every coordinate, and for t, in M_jk. */
+/* Find the derivatives of the entry M_jk of the mass matrix by every coordinate and t on which it depends. */
 static qdot_status
-entry_slopes(qdot_scene *s, size_t j, size_t k)
+find_derivatives_of_entry(qdot_scene *s, size_t j, size_t k)
 {
     qdot_pool *pool = s->pool;
     qdot_derived *d = s->derived;
@@ -114,7 +114,7 @@ qdot_mass_slopes(qdot_scene *s)
     d->slopes.n = 0;
     for (size_t j = 0; j < d->n; j++)
         for (size_t k = j; k < d->n; k++)
-            if (entry_slopes(s, j, k) != QDOT_OK) {
+            if (find_derivatives_of_entry(s, j, k) != QDOT_OK) {
                 qdot_pool_fail(s->pool);
                 return false;
             }
@@ -128,7 +128,7 @@ qdot_mass_of_lagrangian(qdot_scene *s, size_t i, size_t j)
     qdot_pool *pool = s->pool;
     qdot_expr V, F, second;
 
-    if (qdot_pool_failed(pool)) /* stop early: n^2 entries are asked for, also after Ctrl-C */
+    if (qdot_pool_failed(pool)) /* stop early after a failure or Ctrl-C, as there are n^2 entries */
         return QDOT_NIL;
     if (qdot_mech_stated(s)) {
         F = s->lagrangian;

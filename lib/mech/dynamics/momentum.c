@@ -51,7 +51,7 @@ qdot_mech_momenta(qdot_scene *s)
     return qdot_mech_each(s, qdot_mech_momentum);
 }
 
-/* Find whether coordinate i is cyclic, its momentum and rate; the answer may also be undecided. */
+/* Find whether coordinate i is cyclic, with its momentum and rate; the result may also be undecided. */
 static qdot_cyclic_known
 find_cyclic(qdot_scene *s, size_t i)
 {

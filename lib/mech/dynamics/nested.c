@@ -23,7 +23,7 @@ typedef struct {
 } ranked;
 
 static int
-by_size(const void *a, const void *b)
+compare_sizes(const void *a, const void *b)
 {
     const ranked *x = a, *y = b;
 
@@ -33,7 +33,7 @@ by_size(const void *a, const void *b)
 }
 
 static bool
-contains(const uint64_t *a, const uint64_t *b, size_t words)
+is_superset(const uint64_t *a, const uint64_t *b, size_t words)
 {
     for (size_t i = 0; i < words; i++)
         if (b[i] & ~a[i])
@@ -44,8 +44,8 @@ contains(const uint64_t *a, const uint64_t *b, size_t words)
 /* The sum of set at[k].set of those ranked before it and of items; `left` and `parts` are
  * work space. */
 static qdot_expr
-nested_sum(qdot_pool *pool, const qdot_family *f, const ranked *at, size_t k,
-           const qdot_expr *sum, uint64_t *left, qdot_expr *parts)
+sum_from_smaller_sets(qdot_pool *pool, const qdot_family *f, const ranked *at, size_t k,
+                      const qdot_expr *sum, uint64_t *left, qdot_expr *parts)
 {
     size_t n = 0, remain = at[k].size;
 
@@ -53,7 +53,7 @@ nested_sum(qdot_pool *pool, const qdot_family *f, const ranked *at, size_t k,
     for (size_t j = k; j-- > 0 && at[j].size > 1 && remain > 1;) {
         const uint64_t *other = f->bits + at[j].set * f->words;
 
-        if (at[j].size > remain || !contains(left, other, f->words))
+        if (at[j].size > remain || !is_superset(left, other, f->words))
             continue;
         for (size_t i = 0; i < f->words; i++)
             left[i] &= ~other[i];
@@ -84,12 +84,12 @@ qdot_nested_sums(qdot_scene *s, const qdot_family *f, qdot_expr *sum)
             at[k].size += (size_t)__builtin_popcountll(f->bits[k * f->words + i]);
     }
     if (!qdot_pool_failed(pool) && f->sets > 1)
-        qsort(at, f->sets, sizeof *at, by_size);
+        qsort(at, f->sets, sizeof *at, compare_sizes);
     for (size_t k = 0; k < f->sets && !qdot_pool_failed(pool); k++) {
         if (qdot_interrupt_check() != QDOT_OK)
             qdot_pool_fail(pool);
         else
-            sum[at[k].set] = nested_sum(pool, f, at, k, sum, left, parts);
+            sum[at[k].set] = sum_from_smaller_sets(pool, f, at, k, sum, left, parts);
     }
     qdot_free(parts);
     qdot_free(left);

@@ -32,16 +32,16 @@
  * takes milliseconds; a rotation in space is long but simplifies well. */
 static const struct {
     size_t coordinates;
-    uint64_t units; /* a limit in units of cost() */
+    uint64_t units; /* a limit of the cost of evaluating expressions, in the units of cost() */
 } both_forms = {4, 150}, both_forms_in_space = {12, 600};
 
-/* Entries with at most this many operations are simplified individually, at negligible cost. */
+/* Matrix entries and forces with at most this many operations are simplified one by one, at little cost. */
 enum { SHORT_ENTRY = 60 };
 
 /* M_ij of T: simplified where that leaves fewer operations, as along the diagonal of a
  * chain, where it leaves a number; else in shared products. */
 static qdot_expr
-kinetic_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j)
+mass_matrix_entry(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j)
 {
     qdot_pool *pool = s->pool;
     qdot_expr plain = qdot_kinematics_pair(s, k, &k->dx[i], &k->dy[j], false), short_form;
@@ -58,7 +58,7 @@ kinetic_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j)
 }
 
 static qdot_expr
-raw_mass(qdot_scene *s, size_t i, size_t j, qdot_expr V)
+unsimplified_mass_entry(qdot_scene *s, size_t i, size_t j, qdot_expr V)
 {
     qdot_pool *pool = s->pool;
     qdot_expr F = qdot_mech_stated(s) ? s->lagrangian : V, second = QDOT_ZERO;
@@ -70,12 +70,12 @@ raw_mass(qdot_scene *s, size_t i, size_t j, qdot_expr V)
     if (qdot_mech_stated(s))
         return second;
     k = qdot_kinematics_get(s);
-    return k ? qdot_sub(pool, kinetic_mass(s, k, i, j), second) : QDOT_NIL;
+    return k ? qdot_sub(pool, mass_matrix_entry(s, k, i, j), second) : QDOT_NIL;
 }
 
-/* The terms of a variable weight w: sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y'). */
+/* The terms of equation i from inertial terms w x' y' with variable w: sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y'). */
 static qdot_expr
-varying_masses(qdot_scene *s, const qdot_kinematics *k, size_t i)
+terms_of_variable_masses(qdot_scene *s, const qdot_kinematics *k, size_t i)
 {
     qdot_pool *pool = s->pool;
     qdot_expr sum = QDOT_ZERO, q = s->coordinates.at[i];
@@ -96,7 +96,7 @@ varying_masses(qdot_scene *s, const qdot_kinematics *k, size_t i)
 }
 
 static qdot_expr
-raw_forcing(qdot_scene *s, size_t i)
+unsimplified_force(qdot_scene *s, size_t i)
 {
     qdot_pool *pool = s->pool;
     qdot_expr Q = qdot_mech_at_rest(s, qdot_force_total(s, i, false, false)), inertia;
@@ -110,7 +110,7 @@ raw_forcing(qdot_scene *s, size_t i)
     if (!rest)
         return QDOT_NIL;
     inertia = qdot_kinematics_pair(s, k, &k->dy[i], rest, false);
-    inertia = qdot_add(pool, inertia, varying_masses(s, k, i));
+    inertia = qdot_add(pool, inertia, terms_of_variable_masses(s, k, i));
     return qdot_sub(pool, Q, inertia);
 }
 
@@ -121,11 +121,11 @@ raw_forcing(qdot_scene *s, size_t i)
 typedef struct {
     qdot_scene *s;
     uint64_t units;
-    qdot_vec(qdot_expr) angles; /* base angles found so far; each costs one sine and cosine */
+    qdot_vec(qdot_expr) angles; /* base angles found so far; for each one sine and cosine are computed */
 } bill;
 
 static bool
-bill_moves(const bill *b, qdot_expr e)
+depends_on_motion(const bill *b, qdot_expr e)
 {
     return qdot_mech_holds(b->s, e) & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_TIME |
                                        QDOT_HAS_UFUN);
@@ -133,7 +133,7 @@ bill_moves(const bill *b, qdot_expr e)
 
 /* Whether e has a numerical factor other than -1, or a parameter as factor. */
 static bool
-has_factor(const bill *b, qdot_expr e)
+has_constant_factor(const bill *b, qdot_expr e)
 {
     const qdot_pool *pool = b->s->pool;
     qdot_expr own;
@@ -144,14 +144,14 @@ has_factor(const bill *b, qdot_expr e)
     if (own != QDOT_ONE && own != QDOT_MINUS_ONE)
         return true;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2)
-        if (!bill_moves(b, qdot_expr_arg(pool, e, i)) &&
-            !bill_moves(b, qdot_expr_arg(pool, e, i + 1)))
+        if (!depends_on_motion(b, qdot_expr_arg(pool, e, i)) &&
+            !depends_on_motion(b, qdot_expr_arg(pool, e, i + 1)))
             return true;
     return false;
 }
 
 static void
-bill_sum(bill *b, qdot_expr e)
+add_cost_of_sum(bill *b, qdot_expr e)
 {
     const qdot_pool *pool = b->s->pool;
     uint64_t terms = 0, others = qdot_expr_arg(pool, e, 0) != QDOT_ZERO;
@@ -159,27 +159,27 @@ bill_sum(bill *b, qdot_expr e)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
         qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
 
-        if (!bill_moves(b, x)) {
+        if (!depends_on_motion(b, x)) {
             others = 1;
             continue;
         }
         terms++;
-        b->units += c != QDOT_ONE && c != QDOT_MINUS_ONE && !has_factor(b, x);
+        b->units += c != QDOT_ONE && c != QDOT_MINUS_ONE && !has_constant_factor(b, x);
     }
     b->units += terms + others - (terms > 0);
 }
 
 static void
-bill_product(bill *b, qdot_expr e)
+add_cost_of_product(bill *b, qdot_expr e)
 {
     const qdot_pool *pool = b->s->pool;
-    uint64_t factors = has_factor(b, e);
+    uint64_t factors = has_constant_factor(b, e);
 
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
         qdot_expr x = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
         long n;
 
-        if (!bill_moves(b, x) && !bill_moves(b, power))
+        if (!depends_on_motion(b, x) && !depends_on_motion(b, power))
             continue;
         factors++;
         if (!qdot_expr_to_int(pool, power, &n))
@@ -191,9 +191,9 @@ bill_product(bill *b, qdot_expr e)
     b->units += factors - (factors > 0);
 }
 
-/* A base angle not met before: a call of sine and cosine. */
+/* Record a base angle; true if it is new, so that it costs a call of sine and cosine. */
 static bool
-bill_angle(bill *b, qdot_expr term)
+add_cost_of_angle(bill *b, qdot_expr term)
 {
     qdot_pool *pool = b->s->pool;
 
@@ -207,7 +207,7 @@ bill_angle(bill *b, qdot_expr term)
 }
 
 static bool
-bill_function(bill *b, qdot_expr e)
+add_cost_of_function(bill *b, qdot_expr e)
 {
     const qdot_pool *pool = b->s->pool;
     qdot_expr x = qdot_expr_arg(pool, e, 0);
@@ -219,20 +219,20 @@ bill_function(bill *b, qdot_expr e)
         b->units += 15;
         return true;
     }
-    b->units += f > QDOT_COS; /* a quotient of sine and cosine costs a division */
+    b->units += f > QDOT_COS; /* a quotient such as tan = sin/cos costs a division, too */
     if (qdot_expr_kind(pool, x) != QDOT_SUM)
-        return bill_angle(b, x);
+        return add_cost_of_angle(b, x);
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2)
-        if (bill_moves(b, qdot_expr_arg(pool, x, i))) {
+        if (depends_on_motion(b, qdot_expr_arg(pool, x, i))) {
             b->units += i > 1 ? 3 : 0;
-            if (!bill_angle(b, qdot_expr_arg(pool, x, i)))
+            if (!add_cost_of_angle(b, qdot_expr_arg(pool, x, i)))
                 return false;
         }
     return true;
 }
 
 static bool
-cost(qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
+evaluation_cost(qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
 {
     bill b = {.s = s};
     bool done = true;
@@ -245,14 +245,14 @@ cost(qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
     for (size_t i = 0; i < w.n && done; i++) {
         qdot_kind kind = qdot_expr_kind(s->pool, w.at[i]);
 
-        if (!bill_moves(&b, w.at[i]))
+        if (!depends_on_motion(&b, w.at[i]))
             continue;
         if (kind == QDOT_SUM)
-            bill_sum(&b, w.at[i]);
+            add_cost_of_sum(&b, w.at[i]);
         else if (kind == QDOT_PROD)
-            bill_product(&b, w.at[i]);
+            add_cost_of_product(&b, w.at[i]);
         else if (kind == QDOT_FUN)
-            done = bill_function(&b, w.at[i]);
+            done = add_cost_of_function(&b, w.at[i]);
     }
     qdot_walk_end(&w);
     qdot_free(b.angles.at);
@@ -263,7 +263,7 @@ cost(qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
 }
 
 static bool
-wants_both(qdot_scene *s, const qdot_expr *raw, size_t size)
+is_worth_simplifying(qdot_scene *s, const qdot_expr *raw, size_t size)
 {
     uint64_t units = 0, most = both_forms.units;
     size_t n = both_forms.coordinates;
@@ -273,13 +273,13 @@ wants_both(qdot_scene *s, const qdot_expr *raw, size_t size)
             n = both_forms_in_space.coordinates;
             most = both_forms_in_space.units;
         }
-    return s->coordinates.n <= n && cost(s, size, raw, &units) && units <= most;
+    return s->coordinates.n <= n && evaluation_cost(s, size, raw, &units) && units <= most;
 }
 
 /* The cheapest of M for people or not with f for people or not, into e [n n + n]; of equals
  * that for people, whose angles are fewer sums. */
 static bool
-choose_cheapest(qdot_scene *s, size_t n, qdot_expr *e)
+choose_cheapest_form(qdot_scene *s, size_t n, qdot_expr *e)
 {
     size_t masses = n * n, size = masses + n;
     qdot_expr *short_form = qdot_calloc(2 * size, sizeof *short_form);
@@ -300,7 +300,7 @@ choose_cheapest(qdot_scene *s, size_t n, qdot_expr *e)
     for (int form = 0; form < 4 && !qdot_pool_failed(s->pool); form++) {
         memcpy(mixed, form & 1 ? short_form : e, masses * sizeof *mixed);
         memcpy(mixed + masses, (form & 2 ? short_form : e) + masses, n * sizeof *mixed);
-        if (cost(s, size, mixed, &units) && units <= least) {
+        if (evaluation_cost(s, size, mixed, &units) && units <= least) {
             least = units;
             best = form;
         }
@@ -315,9 +315,9 @@ choose_cheapest(qdot_scene *s, size_t n, qdot_expr *e)
 
 /* --- both forms of M and f ------------------------------------------------------------- */
 
-/* Find f [n] of M q'' = f at once if all masses are constant; otherwise one by one. */
+/* Find all f [n] of M q'' = f in one computation if all masses are constant; otherwise one by one. */
 static bool
-raw_forcings(qdot_scene *s, qdot_expr *f)
+unsimplified_forces(qdot_scene *s, qdot_expr *f)
 {
     qdot_kinematics *k = NULL;
 
@@ -331,13 +331,13 @@ raw_forcings(qdot_scene *s, qdot_expr *f)
     for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
         if (qdot_interrupt_check() != QDOT_OK)
             qdot_pool_fail(s->pool);
-        f[i] = raw_forcing(s, i);
+        f[i] = unsimplified_force(s, i);
     }
     return !qdot_pool_failed(s->pool);
 }
 
 static bool
-numeric_get(qdot_scene *s)
+compute_numeric_equations(qdot_scene *s)
 {
     qdot_pool *pool = s->pool;
     qdot_derived *d = qdot_derived_get(s);
@@ -362,10 +362,10 @@ numeric_get(qdot_scene *s)
             break;
         }
         for (size_t j = i; j < n; j++)
-            e[i * n + j] = e[j * n + i] = raw_mass(s, i, j, V);
+            e[i * n + j] = e[j * n + i] = unsimplified_mass_entry(s, i, j, V);
     }
-    if (!qdot_pool_failed(pool) && raw_forcings(s, e + n * n) && wants_both(s, e, size))
-        choose_cheapest(s, n, e);
+    if (!qdot_pool_failed(pool) && unsimplified_forces(s, e + n * n) && is_worth_simplifying(s, e, size))
+        choose_cheapest_form(s, n, e);
     qdot_directions_as_signs(pool, n, e + n * n);
     if (!qdot_pool_failed(pool)) {
         d->numeric_mass = qdot_matrix(pool, (uint32_t)n, (uint32_t)n, e);
@@ -382,17 +382,17 @@ numeric_get(qdot_scene *s)
 qdot_expr
 qdot_mech_numeric_mass(qdot_scene *s)
 {
-    return numeric_get(s) ? s->derived->numeric_mass : QDOT_NIL;
+    return compute_numeric_equations(s) ? s->derived->numeric_mass : QDOT_NIL;
 }
 
 qdot_expr
 qdot_mech_numeric_forcing(qdot_scene *s)
 {
-    return numeric_get(s) ? s->derived->numeric_forcing : QDOT_NIL;
+    return compute_numeric_equations(s) ? s->derived->numeric_forcing : QDOT_NIL;
 }
 
 static qdot_expr
-numeric_energy(qdot_scene *s)
+compute_numeric_energy(qdot_scene *s)
 {
     const size_t n = s->coordinates.n;
     qdot_pool *pool = s->pool;
@@ -427,6 +427,6 @@ qdot_mech_numeric_energy(qdot_scene *s)
     qdot_derived *d = qdot_derived_get(s);
 
     if (d->numeric_energy == QDOT_NIL)
-        d->numeric_energy = numeric_energy(s);
+        d->numeric_energy = compute_numeric_energy(s);
     return d->numeric_energy;
 }

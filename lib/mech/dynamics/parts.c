@@ -1,4 +1,4 @@
-/* parts.c -- T and V by their sources: each particle, body, field, spring. */
+/* parts.c -- splits T and V into the parts of each particle, body, field, spring. */
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
@@ -7,7 +7,7 @@
 #include "mech/scene/access.h"
 #include "normal/form/common.h"
 
-/* A particle or body; particles come first. */
+/* A particle or rigid body of the scene; they are numbered with the particles first. */
 typedef struct {
     const char *name;
     qdot_expr mass, position;
@@ -15,7 +15,7 @@ typedef struct {
 } massive;
 
 static massive
-massive_at(const qdot_scene *s, size_t k)
+get_particle_or_body(const qdot_scene *s, size_t k)
 {
     if (k < s->particles.n) {
         const qdot_particle *p = &s->particles.at[k];
@@ -28,9 +28,9 @@ massive_at(const qdot_scene *s, size_t k)
         .name = b->name, .mass = b->mass, .position = b->position, .body = b};
 }
 
-/* Twice the rotational energy: w.I w; in space in the body's axes, in which I is given. */
+/* Twice the rotational energy of a body, w.I w; in space in the body's axes, in which I is given. */
 static qdot_expr
-twice_rotation(qdot_scene *s, const qdot_body *b)
+twice_rotational_energy(qdot_scene *s, const qdot_body *b)
 {
     qdot_pool *pool = s->pool;
     qdot_expr w = qdot_scene_spin(s, b->name);
@@ -50,18 +50,18 @@ qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part)
 
     if (k >= s->particles.n + s->bodies.n)
         return false;
-    m = massive_at(s, k);
+    m = get_particle_or_body(s, k);
     T = qdot_mul(pool, m.mass, qdot_common_out(pool, qdot_mech_speed2(s, m.position)));
     T = qdot_mul(pool, QDOT_HALF, T);
     if (m.body)
-        T = qdot_add(pool, T, qdot_mul(pool, QDOT_HALF, twice_rotation(s, m.body)));
+        T = qdot_add(pool, T, qdot_mul(pool, QDOT_HALF, twice_rotational_energy(s, m.body)));
     *part = (qdot_energy_part){.kind = "kinetic energy", .name = m.name, .value = T};
     return true;
 }
 
-/* The potential -m g.r of a particle or body, g being the sum of all fields. */
+/* The potential -m g.r of a particle or body, where g is the sum of all gravity fields. */
 static qdot_expr
-weight(qdot_scene *s, const massive *m)
+gravity_potential(qdot_scene *s, const massive *m)
 {
     qdot_pool *pool = s->pool;
     qdot_expr height = QDOT_ZERO;
@@ -78,10 +78,10 @@ qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part)
     const size_t heavy = s->gravities.n > 0 ? s->particles.n + s->bodies.n : 0;
 
     if (k < heavy) {
-        const massive m = massive_at(s, k);
+        const massive m = get_particle_or_body(s, k);
 
         *part =
-            (qdot_energy_part){.kind = "gravity", .name = m.name, .value = weight(s, &m)};
+            (qdot_energy_part){.kind = "gravity", .name = m.name, .value = gravity_potential(s, &m)};
         return true;
     }
     k -= heavy;

@@ -1,4 +1,4 @@
-/* potential.c -- V: gravity, potentials, springs. */
+/* potential.c -- the potential energy V of gravity, potentials and springs. */
 
 #include "mech/dynamics/potential.h"
 
@@ -27,7 +27,7 @@ qdot_link_square(qdot_scene *s, bool damper, size_t k)
     return (*cache)[k];
 }
 
-/* The potential k/2 (d - rest)^2 of a spring; without a root if rest = 0. */
+/* The potential k/2 (d - rest)^2 of a spring of length d; written without a root if rest = 0. */
 qdot_expr
 qdot_spring_potential(qdot_scene *s, size_t k)
 {

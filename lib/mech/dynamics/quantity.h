@@ -19,10 +19,10 @@ qdot_expr qdot_mech_kinetic(qdot_scene *s);    /* kinetic energy T */
 qdot_expr qdot_mech_potential(qdot_scene *s); /* potential energy V of gravity, potentials, springs */
 qdot_expr qdot_mech_lagrangian(qdot_scene *s); /* Lagrangian: T - V, or as stated */
 qdot_expr qdot_mech_energy(qdot_scene *s);     /* energy function h = sum p q' - L */
-qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* n x n MAT of T; of a stated L: d2L/dq'dq' */
+qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* mass matrix of T as an n x n MAT; for a stated L: d2L/dq'dq' */
 
 /* --- geometry of r(q, t); R a VEC or scalar --- */
-qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R); /* line element ds^2 of positions R, in dq, dt */
+qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R); /* line element ds^2 of positions R, in terms of dq, dt */
 qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* (ds/dt)^2 of positions R, in q' */
 qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* MAT; over the coordinates in R; or of
                                                            a line element, a scalar in dq */
@@ -32,12 +32,12 @@ qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* LIST of t
 /* --- momenta and generalized forces --- */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* generalized momentum dL/dq' */
 qdot_expr qdot_mech_momenta(qdot_scene *s); /* LIST of momenta in the order of coordinates */
-/* Q[q]: sum of all applied generalized forces, -dV/dq included */
+/* Q[q]: the sum of all applied generalized forces on q, including -dV/dq */
 qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);
 /* The generalized force in Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
-qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST of generalized forces in the order of coordinates */
-qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum of Q delta[q] */
+qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST of generalized forces, in the order of coordinates */
+qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* virtual work: the sum of Q delta[q] */
 
 /* --- parts of T, V and the generalized forces, listed one by one ----- */
 typedef struct {
@@ -56,15 +56,15 @@ typedef struct {
     bool conservative;       /* the force is the gradient of a part of V */
     size_t row, k;           /* place in the list of all sources; for internal use */
 } qdot_force_source;
-/* Source number k of generalized forces; false past the end. */
+/* The k-th source of generalized forces; false if there are fewer. */
 bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
 /* The contribution of a source to the generalized force on coordinate q, simplified. */
 qdot_expr qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q);
 
 /* --- equations of motion --- */
-qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* Lagrange's equation of q as an EQ, with multipliers */
+qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* Lagrange's equation for q, with multipliers */
 qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST of Lagrange's equations */
-/* The accelerations, solved for, without multipliers; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
+/* The acceleration q'', free of multipliers; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names the coordinate. */
 qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST of q'' in the order of coordinates */
 /* lambda of constraint k in q, q', t, from the same equations; nil without a failure: constraints
@@ -76,7 +76,7 @@ typedef struct {
     qdot_expr coordinate, momentum;
     qdot_expr rate;   /* dp/dt: nil if conserved; else the sum of applied forces and multipliers */
 } qdot_cyclic;
-/* Coordinates absent from L (their velocities may occur). *list [*n], owned by caller. */
+/* Find the cyclic coordinates: those absent from L (their velocities may occur). *list [*n], owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n);
 /* Whether coordinate i is cyclic (*is), with its momentum and rate. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *cyclic,
@@ -84,7 +84,7 @@ QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cy
 /* Whether x stands in what is applied along any coordinate beside V: forces, dampers,
  * reactions. */
 QDOT_MUST_CHECK qdot_status qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds);
-/* Whether h is proved conserved: dh/dt = 0 by the equations. */
+/* Whether the energy function h is proved conserved: dh/dt = 0 by the equations of motion. */
 QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *conserved);
 /* dE/dt along the motion, with multipliers as symbols, if no acceleration has to be solved for: E
  * is the energy h, a momentum p_i or 0, plus a function of q and t. Nil without a failure: E is
@@ -94,8 +94,8 @@ qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
  * rates as above do not know. */
 bool qdot_mech_lacks_mass(qdot_scene *s);
 typedef struct {
-    size_t coordinates, constraints, independent; /* numbers; independent: symbolic rank of the constraints */
-    size_t freedom;                               /* coordinates - independent */
+    size_t coordinates, constraints, independent; /* numbers of each; independent: symbolic rank of the constraints */
+    size_t freedom;                               /* degrees of freedom: coordinates - independent */
     const bool *is_independent; /* [constraints] of those declared before; borrowed until the
                                    scene changes */
     const bool *is_hidden; /* [constraints] not independent, but not redundant: with those before
@@ -103,7 +103,7 @@ typedef struct {
                               of the constraints (x = t, x' = y: y = 1); likewise */
     bool unmet;           /* no point was found where all constraints hold, whatever the
                              parameters: no proof that there is none */
-    bool cartesian;       /* n = N D - C applies: every particle has plain Cartesian coordinates */
+    bool cartesian;       /* n = N D - C applies: every particle has its own Cartesian coordinates */
     size_t particles, dimension;
 } qdot_dof;
 QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);

@@ -39,8 +39,8 @@ qdot_recursive_applies(const qdot_scene *s, const qdot_kinematics *k)
 /* w stays with the factor whose terms are all in the intersection: the product then serves
  * every row or column that moves them. */
 static qdot_expr
-mass_part(qdot_scene *s, qdot_expr w, uint32_t both, const qdot_group *a,
-          const qdot_group *b)
+product_with_weight(qdot_scene *s, qdot_expr w, uint32_t both, const qdot_group *a,
+                    const qdot_group *b)
 {
     qdot_pool *pool = s->pool;
     qdot_expr x = qdot_hold(pool, a->e), y = qdot_hold(pool, b->e);
@@ -68,7 +68,7 @@ qdot_recursive_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j)
                 continue;
             w = qdot_kinematics_weight(s, k, both);
             if (w == QDOT_NIL ||
-                qdot_vec_push(&parts, mass_part(s, w, both, &a->at[p], &b->at[r])) !=
+                qdot_vec_push(&parts, product_with_weight(s, w, both, &a->at[p], &b->at[r])) !=
                     QDOT_OK) {
                 qdot_pool_fail(s->pool);
                 goto done;
@@ -89,7 +89,7 @@ typedef struct {
 } moving;
 
 static void
-split_moving(qdot_scene *s, qdot_expr term, qdot_expr coefficient, moving *m)
+split_velocity_factor(qdot_scene *s, qdot_expr term, qdot_expr coefficient, moving *m)
 {
     qdot_pool *pool = s->pool;
 
@@ -116,7 +116,7 @@ split_moving(qdot_scene *s, qdot_expr term, qdot_expr coefficient, moving *m)
 /* x'' with the velocities that stand beside one factor collected: both are held, since
  * slopes have the factor too and the other axes the velocities. */
 static qdot_expr
-collected(qdot_scene *s, qdot_expr e)
+collect_velocities(qdot_scene *s, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     bool sum = qdot_expr_kind(pool, e) == QDOT_SUM;
@@ -130,8 +130,8 @@ collected(qdot_scene *s, qdot_expr e)
         moving m;
         uint32_t same = 0;
 
-        split_moving(s, sum ? qdot_expr_arg(pool, e, 2 * i + 1) : e,
-                     sum ? qdot_expr_arg(pool, e, 2 * i + 2) : QDOT_ONE, &m);
+        split_velocity_factor(s, sum ? qdot_expr_arg(pool, e, 2 * i + 1) : e,
+                              sum ? qdot_expr_arg(pool, e, 2 * i + 2) : QDOT_ONE, &m);
         while (same < kept && at[same].rest != m.rest)
             same++;
         if (same == kept)
@@ -150,12 +150,12 @@ collected(qdot_scene *s, qdot_expr e)
 /* Items that the places' accelerations are made of: each group of x'', then gravity along
  * each axis. */
 static bool
-motions(qdot_scene *s, const qdot_kinematics *k, qdot_expr *value)
+find_accelerations(qdot_scene *s, const qdot_kinematics *k, qdot_expr *value)
 {
     qdot_pool *pool = s->pool;
 
     for (size_t g = 0; g < k->rest.n; g++)
-        value[g] = qdot_neg(pool, collected(s, k->rest.at[g].e));
+        value[g] = qdot_neg(pool, collect_velocities(s, k->rest.at[g].e));
     for (uint32_t axis = 0; axis < 3; axis++) {
         qdot_expr field = QDOT_ZERO;
 
@@ -168,9 +168,9 @@ motions(qdot_scene *s, const qdot_kinematics *k, qdot_expr *value)
     return !qdot_pool_failed(pool);
 }
 
-/* The inertial force w (g - x'') of every inertial term, where w is its weight and g gravity. */
+/* Find the inertial force w (g - x'') of every inertial term w x' y' of T, where g is gravity. */
 static bool
-forces_of_terms(qdot_scene *s, qdot_kinematics *k, qdot_expr *force)
+find_inertial_forces(qdot_scene *s, qdot_kinematics *k, qdot_expr *force)
 {
     qdot_family f = {.items = k->rest.n + 3, .sets = k->terms.n};
     qdot_expr *value = qdot_calloc(f.items, sizeof *value);
@@ -183,7 +183,7 @@ forces_of_terms(qdot_scene *s, qdot_kinematics *k, qdot_expr *force)
     f.bits = bits;
     if (!value || !bits) {
         qdot_pool_fail(s->pool);
-    } else if (motions(s, k, value)) {
+    } else if (find_accelerations(s, k, value)) {
         for (size_t item = 0; item < f.items; item++) {
             bool group = item < k->rest.n;
             uint32_t set = group ? k->rest.at[item].set : k->axis_set[item - k->rest.n];
@@ -205,12 +205,12 @@ bool
 qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f)
 {
     qdot_pool *pool = s->pool;
-    bool ready = qdot_kinematics_rest(s, k) != NULL; /* this call also computes the sets of masses of k */
+    bool ready = qdot_kinematics_rest(s, k) != NULL; /* this call also adds sets of inertial terms to k */
     size_t sets = k->weight.n, n = s->coordinates.n;
     qdot_family family = {.items = k->terms.n, .words = k->words};
     qdot_expr *force = qdot_calloc(k->terms.n + 1, sizeof *force);
     qdot_expr *sum = qdot_calloc(sets + 1, sizeof *sum);
-    uint32_t *number = qdot_calloc(sets + 1, sizeof *number); /* [sets] index + 1 of the sum for each set */
+    uint32_t *number = qdot_calloc(sets + 1, sizeof *number); /* [sets] index + 1 of the sum over each set */
     uint64_t *bits = qdot_calloc(sets * k->words + 1, sizeof *bits);
 
     if (!ready || !force || !sum || !number || !bits) {
@@ -229,7 +229,7 @@ qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f)
         }
     family.value = force;
     family.bits = bits;
-    if (!forces_of_terms(s, k, force) || !qdot_nested_sums(s, &family, sum))
+    if (!find_inertial_forces(s, k, force) || !qdot_nested_sums(s, &family, sum))
         goto done;
     for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
         f[i] = qdot_mech_at_rest(s, qdot_force_but_gravity(s, i));

@@ -1,4 +1,4 @@
-/* recursive.h -- M and f by nested sums. Internal to mech/. */
+/* recursive.h -- M and f of the equations M q'' = f, by nested sums over inertial terms. Internal to mech/. */
 #ifndef QDOT_MECH_RECURSIVE_H
 #define QDOT_MECH_RECURSIVE_H
 
@@ -8,7 +8,7 @@
 bool qdot_recursive_applies(const qdot_scene *s, const qdot_kinematics *k);
 /* Find f [n], the right-hand side of M q'' = f, by nested sums; false on failure. */
 bool qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f);
-/* M_ij of T, from products shared by the entries of a row or column. Nil on failure. */
+/* Entry M_ij of the mass matrix, with products shared by the entries of a row or column. Nil on failure. */
 qdot_expr qdot_recursive_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j);
 
 #endif

@@ -1,4 +1,4 @@
-/* squares.c -- writes a quadratic form as a sum of squares: tries pivots in every order, keeps the shortest. */
+/* squares.c -- writes a quadratic form as a sum of squares: tries pivots in every order, and keeps the shortest result. */
 
 #include "mech/dynamics/squares.h"
 
@@ -27,12 +27,12 @@ qdot_squares_clear(qdot_squares *q)
 }
 
 static bool
-pivot_moves(const qdot_scene *s, qdot_expr e)
+depends_on_motion(const qdot_scene *s, qdot_expr e)
 {
     return (qdot_mech_holds(s, e) & ~(uint32_t)(QDOT_HAS_PARAM | QDOT_HAS_FUN)) != 0;
 }
 
-/* Split D into key * rest, where the key contains neither coordinates nor t. */
+/* Split the coefficient D of a square into key * rest, where the key contains neither coordinates nor t. */
 static void
 split_constant_factor(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *rest)
 {
@@ -40,7 +40,7 @@ split_constant_factor(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *res
 
     *key = D;
     *rest = QDOT_ONE;
-    if (!pivot_moves(s, D))
+    if (!depends_on_motion(s, D))
         return;
     *key = QDOT_ONE;
     *rest = D;
@@ -50,7 +50,7 @@ split_constant_factor(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *res
     for (uint32_t i = 1; i < qdot_expr_count(pool, D); i += 2) {
         qdot_expr b = qdot_expr_arg(pool, D, i);
 
-        if (!pivot_moves(s, b))
+        if (!depends_on_motion(s, b))
             *key = qdot_mul(pool, *key, qdot_pow(pool, b, qdot_expr_arg(pool, D, i + 1)));
     }
     *rest = qdot_div(pool, D, *key);
@@ -108,18 +108,18 @@ qdot_squares_blocks(size_t n, const qdot_expr *A, size_t *block)
         }
 }
 
-/* Whether e, or a factor of it, is a sum that contains coordinates. */
+/* Whether e, or a factor of e, is a sum that contains coordinates. */
 static bool
 has_sum(const qdot_scene *s, qdot_expr e)
 {
     const qdot_pool *pool = s->pool;
 
     if (qdot_expr_kind(pool, e) == QDOT_SUM)
-        return pivot_moves(s, e);
+        return depends_on_motion(s, e);
     for (uint32_t i = 1;
          qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2)
         if (qdot_expr_kind(pool, qdot_expr_arg(pool, e, i)) == QDOT_SUM &&
-            pivot_moves(s, qdot_expr_arg(pool, e, i)))
+            depends_on_motion(s, qdot_expr_arg(pool, e, i)))
             return true;
     return false;
 }
@@ -133,7 +133,7 @@ qdot_squares_worth(const qdot_scene *s, size_t n, const qdot_expr *A)
     return false;
 }
 
-/* Write D (v + b/a w)^2 as D/a^2 (a v + b w)^2 if D has the factor a^2. */
+/* Write a square D (v + b/a w)^2 as D/a^2 (a v + b w)^2 if D has the factor a^2. */
 static void
 clear_denominators(qdot_pool *pool, size_t n, qdot_expr *D, qdot_expr *l)
 {
@@ -159,8 +159,8 @@ clear_denominators(qdot_pool *pool, size_t n, qdot_expr *D, qdot_expr *l)
 /* v^T A v as a sum of D u^2, completing squares in the order given; D [n], u [n]. False if some D is 0 or contains
  * a sum. */
 static bool
-squares_eliminate(qdot_scene *s, size_t n, const qdot_expr *A, const qdot_expr *v,
-                  const int *order, qdot_expr *D, qdot_expr *u)
+eliminate_in_order(qdot_scene *s, size_t n, const qdot_expr *A, const qdot_expr *v,
+                   const int *order, qdot_expr *D, qdot_expr *u)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -215,7 +215,7 @@ qdot_squares_complete(qdot_squares *q, size_t n, const qdot_expr *A, const qdot_
         qdot_expr sum = QDOT_ZERO;
         uint64_t size;
 
-        if (!squares_eliminate(q->s, n, A, v, orders[k], D, u))
+        if (!eliminate_in_order(q->s, n, A, v, orders[k], D, u))
             continue;
         for (size_t i = 0; i < n; i++)
             sum = qdot_add(pool, sum, qdot_mul(pool, D[i], qdot_pow_int(pool, u[i], 2)));

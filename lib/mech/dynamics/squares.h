@@ -11,7 +11,7 @@
 #include "mech/scene/scene.h"
 
 typedef struct {
-    qdot_expr key, sum; /* the summand 1/2 key sum, `sum` one or more squares; no coordinate occurs in the key */
+    qdot_expr key, sum; /* a summand 1/2 key sum: `sum` is one or more squares, the key contains no coordinate */
 } qdot_square;
 
 /* A sum of squares being built; cleared by qdot_squares_clear. */
@@ -24,7 +24,7 @@ typedef struct {
 void qdot_squares_begin(qdot_squares *q, qdot_scene *s);
 void qdot_squares_clear(qdot_squares *q);
 
-/* Add the square 1/2 D u^2. */
+/* Add the square 1/2 D u^2 to the sum of squares. */
 QDOT_MUST_CHECK qdot_status qdot_squares_add(qdot_squares *q, qdot_expr D, qdot_expr u);
 
 /* Add 1/2 v.A v, A [n*n] symmetric, 2 <= n <= 3, as squares whose D contain no sum with

@@ -24,7 +24,7 @@
 #include "mech/scene/access.h"
 #include "mech/scene/body.h"
 
-/* dr/dq_i of a position r, or (Kane's form) dv/dq_i'. */
+/* dr/dq_i of a position r, or, in Kane's form, dv/dq_i' of its velocity. */
 static qdot_expr
 partial_position(qdot_scene *s, qdot_expr r, size_t i, bool kane)
 {
@@ -62,7 +62,7 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
             return QDOT_NIL;
         Q = qdot_kinematics_gravity(s, kin, &kin->dx[i]);
     }
-    /* If a mass depends on q, V = -m g.r also contributes through dm/dq. */
+    /* if a mass depends on q, V = -m g.r also contributes a force through dm/dq */
     for (size_t p = 0; p < s->particles.n + s->bodies.n; p++) {
         bool body = p >= s->particles.n;
         const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
@@ -81,7 +81,7 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
 }
 
 static qdot_expr
-conservative(qdot_scene *s, qdot_expr V, size_t i, bool kane)
+force_of_potential(qdot_scene *s, qdot_expr V, size_t i, bool kane)
 {
     qdot_pool *pool = s->pool;
     qdot_expr v = qdot_mech_jet(s, i, 1);
@@ -95,12 +95,12 @@ conservative(qdot_scene *s, qdot_expr V, size_t i, bool kane)
 static qdot_expr
 potential_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
-    return conservative(s, s->potentials.at[k].e, i, kane);
+    return force_of_potential(s, s->potentials.at[k].e, i, kane);
 }
 
 /* The generalized force on q_i of a spring or damper that pulls along u: -pull u.du/dq_i. */
 static qdot_expr
-pull_along(qdot_scene *s, const qdot_link *link, size_t i, bool kane)
+force_along_link(qdot_scene *s, const qdot_link *link, size_t i, bool kane)
 {
     qdot_expr u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
 
@@ -116,7 +116,7 @@ spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
 
     if ((qdot_mech_holds(s, spring->stiffness) | qdot_mech_holds(s, spring->rest)) &
         QDOT_HAS_COORD)
-        return conservative(s, qdot_spring_potential(s, k), i, kane);
+        return force_of_potential(s, qdot_spring_potential(s, k), i, kane);
     if (!kane)
         return qdot_neg(
             pool, qdot_diff(pool, qdot_spring_potential(s, k), s->coordinates.at[i]));
@@ -125,12 +125,12 @@ spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
         pull = qdot_mul(pool, pull,
                         qdot_sub(pool, QDOT_ONE, qdot_div(pool, spring->rest, d)));
     }
-    return qdot_neg(pool, qdot_mul(pool, pull, pull_along(s, spring, i, true)));
+    return qdot_neg(pool, qdot_mul(pool, pull, force_along_link(s, spring, i, true)));
 }
 
 /* Half of e, for a sum term by term, so that factors 2 from differentiated squares cancel. */
 static qdot_expr
-half_of_terms(qdot_pool *pool, qdot_expr e)
+halve_terms(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr sum;
 
@@ -150,7 +150,7 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
     qdot_pool *pool = s->pool;
     const qdot_link *damper = &s->dampers.at[k];
-    qdot_expr square, u, rate, slope = pull_along(s, damper, i, kane);
+    qdot_expr square, u, rate, slope = force_along_link(s, damper, i, kane);
 
     if (slope == QDOT_ZERO || slope == QDOT_NIL)
         return slope;
@@ -159,11 +159,11 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
         rate = qdot_mul(pool, qdot_ddt(pool, u), partial_position(s, u, i, kane));
         return qdot_neg(pool, qdot_mul(pool, damper->stiffness, rate));
     }
-    /* Use u.u simplified; u.u' and u.du/dq are half its derivatives. */
+    /* u.u is simplified; u.u' and u.du/dq are half its derivatives */
     square = qdot_link_square(s, true, k);
-    rate = half_of_terms(pool, qdot_ddt(pool, square));
+    rate = halve_terms(pool, qdot_ddt(pool, square));
     if (!kane)
-        slope = half_of_terms(pool, qdot_diff(pool, square, s->coordinates.at[i]));
+        slope = halve_terms(pool, qdot_diff(pool, square, s->coordinates.at[i]));
     return qdot_neg(pool, qdot_mul(pool, damper->stiffness,
                                    qdot_div(pool, qdot_mul(pool, rate, slope), square)));
 }
@@ -176,7 +176,7 @@ dissipation_force(qdot_scene *s, size_t k, size_t i, bool kane)
                     qdot_diff(s->pool, s->dissipations.at[k].e, qdot_mech_jet(s, i, 1)));
 }
 
-/* For a force on a material point, dr/dq_i is that of the body's motion only. */
+/* The generalized force on q_i of a force; on a material point, dr/dq_i is that of the body's motion only. */
 static qdot_expr
 applied_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
@@ -210,7 +210,7 @@ torque_force(qdot_scene *s, size_t k, size_t i, bool kane)
 /* --- sources of generalized forces, as answers name them ------------------------------ */
 
 static size_t
-count_gravity(const qdot_scene *s)
+count_gravity_sources(const qdot_scene *s)
 {
     return s->gravities.n && s->particles.n + s->bodies.n;
 }
@@ -237,21 +237,21 @@ NAME(dissipation)
 NAME(spring)
 NAME(damper)
 
-/* The label of gravity if there is a single field; several fields act together. */
+/* The label of gravity if there is a single field; several fields act together as one source. */
 static const char *
-gravity_name(const qdot_scene *s, size_t k)
+label_of_gravity(const qdot_scene *s, size_t k)
 {
     return s->gravities.n == 1 ? s->gravities.at[k].name : NULL;
 }
 
 static const char *
-force_name(const qdot_scene *s, size_t k)
+label_of_force(const qdot_scene *s, size_t k)
 {
     return s->forces.at[k].name ? s->forces.at[k].name : s->forces.at[k].on;
 }
 
 static const char *
-torque_name(const qdot_scene *s, size_t k)
+label_of_torque(const qdot_scene *s, size_t k)
 {
     const qdot_torque *t = &s->torques.at[k];
 
@@ -260,7 +260,7 @@ torque_name(const qdot_scene *s, size_t k)
                                        : s->bodies.at[t->body].name;
 }
 
-/* The name with which an answer calls the k-th thing of a kind. */
+/* Define a function that gives the name by which an answer calls the k-th thing of a kind. */
 #define CALLED(list, word)                                                               \
     static const char *list##_words(const qdot_scene *s, size_t k)                       \
     {                                                                                    \
@@ -276,30 +276,30 @@ CALLED(force, "force")
 #undef CALLED
 
 static const char *
-torque_words(const qdot_scene *s, size_t k)
+words_for_torque(const qdot_scene *s, size_t k)
 {
     return s->torques.at[k].force ? "force" : "torque";
 }
 
 static const struct {
     const char *(*words)(const qdot_scene *s, size_t k);
-    bool conservative; /* contained in L if L = T - V */
+    bool conservative; /* the force is contained in L if L = T - V */
     size_t (*count)(const qdot_scene *s);
     qdot_expr (*force)(qdot_scene *s, size_t k, size_t i, bool kane);
     const char *(*name)(const qdot_scene *s, size_t k);
 } sources[] = {
-    {gravity_words, true, count_gravity, gravity_force, gravity_name},
+    {gravity_words, true, count_gravity_sources, gravity_force, label_of_gravity},
     {potential_words, true, count_potentials, potential_force, potential_name},
     {spring_words, true, count_springs, spring_force, spring_name},
     {damper_words, false, count_dampers, damper_force, damper_name},
     {dissipation_words, false, count_dissipations, dissipation_force, dissipation_name},
-    {force_words, false, count_forces, applied_force, force_name},
-    {torque_words, false, count_torques, torque_force, torque_name},
+    {force_words, false, count_forces, applied_force, label_of_force},
+    {words_for_torque, false, count_torques, torque_force, label_of_torque},
 };
 enum { SOURCES = sizeof sources / sizeof *sources };
 
 static qdot_expr
-total(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
+total_force(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
 {
     qdot_pool *pool = s->pool;
     qdot_expr Q = QDOT_ZERO;
@@ -323,7 +323,7 @@ total(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
 qdot_expr
 qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied)
 {
-    return total(s, i, people, applied, false);
+    return total_force(s, i, people, applied, false);
 }
 
 qdot_expr
@@ -365,7 +365,7 @@ qdot_mech_force(qdot_scene *s, qdot_expr q)
         return QDOT_NIL;
     if (d->force[i] != QDOT_NIL)
         return d->force[i];
-    return d->force[i] = total(s, i, true, false, false);
+    return d->force[i] = total_force(s, i, true, false, false);
 }
 
 qdot_expr
@@ -375,7 +375,7 @@ qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
 
     if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
-    return total(s, i, true, false, true);
+    return total_force(s, i, true, false, true);
 }
 
 qdot_expr

@@ -1,12 +1,12 @@
-/* virtual-work.h -- generalized forces. Internal to mech/. */
+/* virtual-work.h -- computes generalized forces. Internal to mech/. */
 #ifndef QDOT_MECH_VIRTUAL_WORK_H
 #define QDOT_MECH_VIRTUAL_WORK_H
 
 #include "mech/scene/scene.h"
 
-/* Generalized force on coordinate i. people: simplified for printing. applied: without -dV/dq. */
+/* The generalized force on coordinate i. people: simplified for printing. applied: without -dV/dq. */
 qdot_expr qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied);
-/* Generalized force on coordinate i without gravity, not simplified. */
+/* The generalized force on coordinate i without that of gravity, not simplified. */
 qdot_expr qdot_force_but_gravity(qdot_scene *s, size_t i);
 /* The generalized force on coordinate i from the statements `force` and `torque`. */
 qdot_expr qdot_force_declared(qdot_scene *s, size_t i);

@@ -1,4 +1,4 @@
-/* access.c -- helpers that all files of mech use to read a scene. */
+/* access.c -- helper functions by which all files of mech read a scene. */
 #include "mech/scene/access.h"
 
 #include "expr/build.h"
@@ -10,8 +10,8 @@
 #include "normal/simplify/simplify.h"
 
 enum {
-    TIDY_LIMIT = 400,  /* a part with more operations is not simplified */
-    WHOLE_LIMIT = 100  /* a sum of simplified parts with more operations is not simplified again */
+    TIDY_LIMIT = 400,  /* a part of an expression with more operations than this is not simplified */
+    WHOLE_LIMIT = 100  /* a sum of simplified parts with more operations than this is not simplified again */
 };
 
 bool

@@ -42,7 +42,7 @@ qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi)
 }
 
 static qdot_expr
-plane_turn(qdot_pool *pool, qdot_expr angle)
+rotation_in_plane(qdot_pool *pool, qdot_expr angle)
 {
     qdot_expr c = qdot_fun1(pool, QDOT_COS, angle), s = qdot_fun1(pool, QDOT_SIN, angle);
     qdot_expr e[4] = {c, qdot_neg(pool, s), s, c};
@@ -88,10 +88,10 @@ check_rotation(qdot_scene *s, qdot_expr R)
     return status;
 }
 
-/* Find the inertia as stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
+/* Find a body's inertia as it is stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
 static qdot_status
-read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bool plane,
-             qdot_expr *inertia)
+convert_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bool plane,
+                qdot_expr *inertia)
 {
     qdot_pool *pool = s->pool;
     uint32_t dim = plane ? 2 : 3;
@@ -128,7 +128,7 @@ read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bo
     if (about != QDOT_NIL) {
         qdot_expr e[9];
 
-        /* by Steiner's theorem I_P = I + m (|P|^2 1 - P P^T) */
+        /* Steiner's theorem: I_P = I + m (|P|^2 1 - P P^T) */
         for (uint32_t i = 0; i < 3; i++)
             for (uint32_t j = 0; j < 3; j++) {
                 qdot_expr PP = qdot_mul(pool, qdot_expr_arg(pool, about, i),
@@ -144,9 +144,9 @@ read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bo
     return qdot_pool_check(pool);
 }
 
-/* Refuse an inertia with a moment about the centre that is known to be negative. */
+/* Refuse an inertia of which a moment about the centre of mass is known to be negative. */
 static qdot_status
-need_moments(qdot_scene *s, qdot_expr inertia, bool moved)
+check_moments(qdot_scene *s, qdot_expr inertia, bool moved)
 {
     bool scalar = qdot_expr_is_scalar(s->pool, inertia);
 
@@ -207,10 +207,10 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
     if ((qdot_mech_holds(s, inertia) | qdot_mech_holds(s, about)) & QDOT_HAS_COORD)
         return qdot_fail(QDOT_EINVAL, "inertia is fixed in the body: it cannot contain "
                                       "coordinates");
-    QDOT_TRY(read_inertia(s, mass, inertia, about, plane, &b.inertia));
-    QDOT_TRY(need_moments(s, b.inertia, about != QDOT_NIL));
+    QDOT_TRY(convert_inertia(s, mass, inertia, about, plane, &b.inertia));
+    QDOT_TRY(check_moments(s, b.inertia, about != QDOT_NIL));
     if (plane)
-        b.rotation = plane_turn(pool, angle);
+        b.rotation = rotation_in_plane(pool, angle);
     QDOT_TRY(qdot_pool_check(pool));
     if (!plane)
         QDOT_TRY(check_rotation(s, rotation));
@@ -240,9 +240,9 @@ qdot_scene_point(qdot_scene *s, const char *label, qdot_expr P)
     return qdot_value_add(s->pool, b->position, qdot_value_mul(s->pool, b->rotation, P));
 }
 
-/* The axial vector of A R^T, A being a derivative of R; in the plane A is that of the angle, a scalar. */
+/* The axial vector of A R^T, where A is a derivative of R; in the plane A is the derivative of the angle. */
 static qdot_expr
-axial(qdot_scene *s, const qdot_body *b, qdot_expr A)
+axial_vector(qdot_scene *s, const qdot_body *b, qdot_expr A)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -261,7 +261,7 @@ qdot_body_partial_spin(qdot_scene *s, const qdot_body *b, qdot_expr q)
 {
     if (b->angle != QDOT_NIL)
         return qdot_diff(s->pool, b->angle, q);
-    return axial(s, b, qdot_diff(s->pool, b->rotation, q));
+    return axial_vector(s, b, qdot_diff(s->pool, b->rotation, q));
 }
 
 qdot_expr
@@ -269,7 +269,7 @@ qdot_body_spin(qdot_scene *s, const qdot_body *b)
 {
     if (b->angle != QDOT_NIL)
         return qdot_ddt(s->pool, b->angle);
-    return axial(s, b, qdot_ddt(s->pool, b->rotation));
+    return axial_vector(s, b, qdot_ddt(s->pool, b->rotation));
 }
 
 qdot_expr
@@ -282,7 +282,7 @@ qdot_scene_spin(qdot_scene *s, const char *label)
     return qdot_body_spin(s, b);
 }
 
-/* The velocity of a body's point: v + w x (place - r), with w a scalar in the plane. */
+/* The velocity of a point of a body: v + w x (place - r), with w a scalar in the plane. */
 static qdot_expr
 velocity_of_point(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_expr w)
 {

@@ -1,4 +1,4 @@
-/* cache.c -- results derived from a scene, cleared when the scene changes. */
+/* cache.c -- results computed from a scene, which are cleared when the scene changes. */
 #include "mech/scene/cache.h"
 
 void
@@ -23,7 +23,7 @@ qdot_kinematics_clear(qdot_kinematics *k)
 }
 
 static void
-derived_clear(qdot_derived *d)
+clear_results(qdot_derived *d)
 {
     qdot_kinematics_clear(&d->kinematics);
     qdot_free(d->square_spring);
@@ -51,7 +51,7 @@ qdot_derived_free(qdot_derived *d)
 {
     if (!d)
         return;
-    derived_clear(d);
+    clear_results(d);
     qdot_free(d);
 }
 
@@ -61,7 +61,7 @@ qdot_derived_get(qdot_scene *s)
     qdot_derived *d = s->derived;
 
     if (d->version != s->version) {
-        derived_clear(d);
+        clear_results(d);
         *d = (qdot_derived){
             .newest = d->newest, .version = s->version, .n = s->coordinates.n};
     }

@@ -26,23 +26,23 @@ typedef struct {
 
 typedef struct {
     qdot_expr e;
-    uint32_t set; /* index of the set of terms p that it multiplies */
+    uint32_t set; /* index of the set of inertial terms p in which the expression occurs */
 } qdot_group;
 
 typedef qdot_vec(qdot_group) qdot_groups;
 
 typedef struct {
     size_t n;     /* number of coordinates; index n stands for t */
-    size_t words; /* 64-bit words in a set */
+    size_t words; /* number of 64-bit words that represent a set */
     qdot_vec(qdot_inertial) terms;
     qdot_vec(uint64_t) bits; /* [sets * words] bit i of a set: term i belongs to it; set 0 is empty */
     qdot_vec(qdot_expr) weight; /* [sets] sum of the weights w of each set; nil until needed */
     qdot_vec(uint32_t) slots;   /* open hash table of the sets; an entry is the index + 1 */
-    uint32_t axis_set[3];       /* set of the terms that are positions along axis x, y, z */
-    qdot_groups *dx, *dy;       /* [n + 1] dx/dq_i, then dx/dt; dy == dx if y = x in all terms */
+    uint32_t axis_set[3];       /* index of the set of inertial terms that are positions along axis x, y, z */
+    qdot_groups *dx, *dy;       /* [n + 1] groups of dx/dq_i, then of dx/dt; dy == dx if y = x in all inertial terms */
     bool rest_ready, place_ready;
-    qdot_groups rest;  /* x'' for q'' = 0; computed by qdot_kinematics_rest */
-    qdot_groups place; /* x itself, by its terms; computed by qdot_kinematics_place */
+    qdot_groups rest;  /* groups of x'' at q'' = 0; computed by qdot_kinematics_rest */
+    qdot_groups place; /* groups of x itself, summand by summand; computed by qdot_kinematics_place */
 } qdot_kinematics;
 
 typedef struct {
@@ -51,7 +51,7 @@ typedef struct {
     qdot_expr value;
 } qdot_mass_slope;
 
-/* A sum that was simplified once, for all sums that differ from it only in their symbols (qdot_mech_alike). */
+/* A sum that was simplified once for all sums that differ from it only in their symbols (qdot_mech_alike). */
 typedef struct {
     qdot_expr pattern, atoms, simple;
 } qdot_pattern;
@@ -83,9 +83,9 @@ struct qdot_derived {
      * (mech/dynamics/integrated.h); nil for others */
     qdot_expr *integral, *factor;
     bool *integral_known;
-    bool holonomic_known, holonomic; /* cached answer of qdot_mech_is_holonomic, and whether it is known */
-    bool *independent; /* [constraints] does not follow from the constraints before it */
-    bool *hidden;      /* [constraints] implies a further condition (qdot_dof.is_hidden) */
+    bool holonomic_known, holonomic; /* whether the next is known; cached answer of qdot_mech_is_holonomic */
+    bool *independent; /* [constraints] whether a constraint is independent of the constraints before it */
+    bool *hidden;      /* [constraints] whether a constraint implies a further condition (qdot_dof.is_hidden) */
     bool unmet;        /* no point was found where all constraints hold */
     bool conserved_known, conserved;
     qdot_cyclic_known *cyclic; /* [n] facts of cyclic coordinates; NULL until requested */
@@ -94,7 +94,7 @@ struct qdot_derived {
 /* The stored results for the scene; emptied first if the scene has changed. */
 qdot_derived *qdot_derived_get(qdot_scene *s);
 void qdot_derived_free(qdot_derived *d);
-/* Allocate *array with [n] nil expressions unless it exists. */
+/* Allocate *array with [n] nil expressions, unless it is allocated already. */
 bool qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n);
 /* Clear the inertial terms, which are computed again when needed. */
 void qdot_kinematics_clear(qdot_kinematics *k);

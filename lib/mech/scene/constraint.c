@@ -16,7 +16,7 @@
 
 /* Find the highest derivative of a coordinate in f; -1 if f has no coordinate. */
 static qdot_status
-highest(qdot_pool *pool, qdot_expr f, int *order)
+find_highest_derivative(qdot_pool *pool, qdot_expr f, int *order)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, f, false);
 
@@ -34,7 +34,7 @@ highest(qdot_pool *pool, qdot_expr f, int *order)
 /* The number of the next constraint without label: 1 + those declared, counted by
  * statement. */
 static size_t
-next_number(const qdot_scene *s)
+next_constraint_number(const qdot_scene *s)
 {
     size_t statements = 0, highest_number = 0;
 
@@ -76,7 +76,7 @@ refuse_contradiction(const qdot_scene *s, const char *name, qdot_expr f)
 }
 
 static qdot_status
-without_coordinates(void)
+fail_without_coordinates(void)
 {
     qdot_fail(QDOT_EINVAL, "a constraint without coordinates");
     return qdot_hint("`assume` states a relation between parameters, `set` gives values");
@@ -95,9 +95,9 @@ is_linear_in_velocities(qdot_scene *s, qdot_expr f, bool *linear)
     return QDOT_OK;
 }
 
-/* Check that a constraint on accelerations is linear in them, at least after simplification. */
+/* Check that a constraint on accelerations is linear in these, or becomes so by simplification. */
 static qdot_status
-make_linear(qdot_scene *s, const char *name, qdot_expr *f)
+make_linear_in_accelerations(qdot_scene *s, const char *name, qdot_expr *f)
 {
     bool linear;
 
@@ -114,8 +114,8 @@ make_linear(qdot_scene *s, const char *name, qdot_expr *f)
 }
 
 static qdot_status
-add_component(qdot_scene *s, const char *label, const char *stem, uint32_t component,
-              qdot_expr left, qdot_expr right)
+add_constraint_component(qdot_scene *s, const char *label, const char *stem, uint32_t component,
+                         qdot_expr left, qdot_expr right)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -138,15 +138,15 @@ add_component(qdot_scene *s, const char *label, const char *stem, uint32_t compo
     if (status == QDOT_OK && holds) {
         status = qdot_scene_drop(s, qdot_text_str(&name), NULL);
     } else if (status == QDOT_OK) {
-        status = highest(pool, c.f, &order);
+        status = find_highest_derivative(pool, c.f, &order);
         if (status == QDOT_OK && order < 0)
-            status = without_coordinates();
+            status = fail_without_coordinates();
         else if (status == QDOT_OK && order > 2)
             status = qdot_fail(QDOT_EINVAL, "a constraint on a third derivative");
         else if (status == QDOT_OK)
             status = refuse_contradiction(s, qdot_text_str(&name), c.f);
         if (status == QDOT_OK && order == 2)
-            status = make_linear(s, qdot_text_str(&name), &c.f);
+            status = make_linear_in_accelerations(s, qdot_text_str(&name), &c.f);
         if (status == QDOT_OK) {
             c.kind = order == 0   ? QDOT_HOLONOMIC
                      : order == 1 ? QDOT_VELOCITY
@@ -192,16 +192,16 @@ qdot_scene_constraint(qdot_scene *s, const char *label, qdot_expr left, qdot_exp
                          "and parameters only");
     if (!((qdot_mech_holds(s, left) | qdot_mech_holds(s, right)) &
           (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)))
-        return without_coordinates();
+        return fail_without_coordinates();
     QDOT_TRY(qdot_scene_need_new_label(s, label));
     if (!label) {
-        snprintf(number, sizeof number, "%zu", next_number(s));
+        snprintf(number, sizeof number, "%zu", next_constraint_number(s));
         stem = number;
     }
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
-        status = add_component(s, label, stem, n > 1 ? i + 1 : 0,
-                               qdot_mech_component(pool, left, i),
-                               qdot_mech_component(pool, right, i));
+        status = add_constraint_component(s, label, stem, n > 1 ? i + 1 : 0,
+                                          qdot_mech_component(pool, left, i),
+                                          qdot_mech_component(pool, right, i));
     if (status != QDOT_OK) {
         s->constraints.n = before;
         qdot_scene_forget_dropped(s);

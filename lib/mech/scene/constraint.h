@@ -4,9 +4,9 @@
 
 #include "mech/scene/scene.h"
 
-/* The gradient of a constraint: df/dq, df/dq' or df/dq'', by its kind. */
+/* The gradient of a constraint f = 0: df/dq, df/dq' or df/dq'' if f is of positions, velocities or accelerations. */
 qdot_expr qdot_constraint_slope(qdot_scene *s, size_t constraint, size_t i);
-/* The constraints' terms on the right of equation i. */
+/* The terms with Lagrange multipliers on the right side of the equation of motion of coordinate i. */
 qdot_expr qdot_constraint_reaction(qdot_scene *s, size_t i);
 /* The scene's relations and its constraints with their derivatives, for proofs on the
  * constraints' manifold. *relations owned by the caller. */

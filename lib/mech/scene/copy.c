@@ -2,7 +2,7 @@
 #include "mech/scene/scene.h"
 
 static qdot_status
-copy_link(qdot_scene *to, const qdot_link *link, bool damper)
+copy_spring_or_damper(qdot_scene *to, const qdot_link *link, bool damper)
 {
     qdot_link copy = *link;
 
@@ -28,9 +28,9 @@ qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to)
     for (size_t i = 0; i < s->potentials.n; i++)
         QDOT_TRY(copy_term(to, QDOT_POTENTIAL, &s->potentials.at[i]));
     for (size_t i = 0; i < s->springs.n; i++)
-        QDOT_TRY(copy_link(to, &s->springs.at[i], false));
+        QDOT_TRY(copy_spring_or_damper(to, &s->springs.at[i], false));
     for (size_t i = 0; i < s->dampers.n; i++)
-        QDOT_TRY(copy_link(to, &s->dampers.at[i], true));
+        QDOT_TRY(copy_spring_or_damper(to, &s->dampers.at[i], true));
     for (size_t i = 0; i < s->dissipations.n; i++)
         QDOT_TRY(copy_term(to, QDOT_DISSIPATION, &s->dissipations.at[i]));
     for (size_t i = 0; i < s->forces.n; i++)

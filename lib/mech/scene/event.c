@@ -26,7 +26,7 @@ qdot_scene_acting_event(const qdot_scene *s)
 }
 
 static qdot_status
-event_check(const qdot_scene *s, const qdot_event *e)
+check_event(const qdot_scene *s, const qdot_event *e)
 {
     const uint32_t strange = QDOT_HAS_FORMAL | QDOT_HAS_MOMENTUM | QDOT_HAS_DIFFERENTIAL |
                              QDOT_HAS_DELTA;
@@ -58,7 +58,7 @@ event_check(const qdot_scene *s, const qdot_event *e)
 
 /* Replace an array of [n] expressions by a copy in the scene's arena. */
 static qdot_status
-copy_exprs(qdot_scene *s, size_t n, qdot_expr **at)
+copy_expressions(qdot_scene *s, size_t n, qdot_expr **at)
 {
     qdot_expr *own = qdot_arena_take(s->texts, (n + 1) * sizeof *own);
 
@@ -76,10 +76,10 @@ qdot_scene_event(qdot_scene *s, const qdot_event *event)
     qdot_event own = *event;
 
     QDOT_TRY(qdot_scene_need_new_label(s, event->name));
-    QDOT_TRY(event_check(s, event));
+    QDOT_TRY(check_event(s, event));
     QDOT_TRY(qdot_scene_copy_text(s, event->name, &own.name));
-    QDOT_TRY(copy_exprs(s, own.targets.n, &own.targets.at));
-    QDOT_TRY(copy_exprs(s, own.values.n, &own.values.at));
+    QDOT_TRY(copy_expressions(s, own.targets.n, &own.targets.at));
+    QDOT_TRY(copy_expressions(s, own.values.n, &own.values.at));
     return qdot_vec_push(&s->events, own);
 }
 

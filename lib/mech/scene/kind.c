@@ -7,7 +7,7 @@
 /* The k-th torque that was declared with `force`, or with `torque`; the number of torques where
  * there are not as many. */
 static size_t
-find_torque(const qdot_scene *s, bool force, size_t k)
+find_torque_or_force(const qdot_scene *s, bool force, size_t k)
 {
     size_t i = 0;
 
@@ -20,8 +20,8 @@ find_torque(const qdot_scene *s, bool force, size_t k)
 size_t
 qdot_scene_torque_at(const qdot_scene *s, qdot_scene_kind kind, size_t k)
 {
-    return kind == QDOT_TORQUE ? find_torque(s, false, k)
-                               : find_torque(s, true, k - s->forces.n);
+    return kind == QDOT_TORQUE ? find_torque_or_force(s, false, k)
+                               : find_torque_or_force(s, true, k - s->forces.n);
 }
 
 size_t
@@ -83,39 +83,39 @@ qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k)
 /* --- equal declarations --------------------------------------------------------------- */
 
 static bool
-same_term(const qdot_term *a, const qdot_term *b)
+terms_are_equal(const qdot_term *a, const qdot_term *b)
 {
     return !a->name && !b->name && a->e == b->e;
 }
 
 static bool
-same_link(const qdot_link *a, const qdot_link *b)
+springs_are_equal(const qdot_link *a, const qdot_link *b)
 {
     return !a->name && !b->name && a->at[0] == b->at[0] && a->at[1] == b->at[1] &&
            a->stiffness == b->stiffness && a->rest == b->rest;
 }
 
 static bool
-same_label(const char *a, const char *b)
+labels_are_equal(const char *a, const char *b)
 {
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
 static bool
-same_force(const qdot_force *a, const qdot_force *b)
+forces_are_equal(const qdot_force *a, const qdot_force *b)
 {
     return !a->name && !b->name && a->force == b->force && a->point == b->point &&
-           a->material == b->material && same_label(a->on, b->on);
+           a->material == b->material && labels_are_equal(a->on, b->on);
 }
 
 static bool
-same_torque(const qdot_torque *a, const qdot_torque *b)
+torques_are_equal(const qdot_torque *a, const qdot_torque *b)
 {
     return !a->name && !b->name && a->torque == b->torque &&
            a->coordinate == b->coordinate && a->body == b->body;
 }
 
-/* Return whether the last item of a list is the `same` as an earlier one. */
+/* Return whether same(a, b) holds for the last item b of a list and any earlier item a. */
 #define LAST_AGAIN(list, same)                                                           \
     do {                                                                                 \
         for (size_t i_ = 0; i_ + 1 < (list).n; i_++)                                     \
@@ -128,13 +128,13 @@ bool
 qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind)
 {
     switch (kind) {
-    case QDOT_GRAVITY: return false; /* a second field replaces the first */
-    case QDOT_POTENTIAL: LAST_AGAIN(s->potentials, same_term);
-    case QDOT_SPRING: LAST_AGAIN(s->springs, same_link);
-    case QDOT_DAMPER: LAST_AGAIN(s->dampers, same_link);
-    case QDOT_DISSIPATION: LAST_AGAIN(s->dissipations, same_term);
-    case QDOT_FORCE: LAST_AGAIN(s->forces, same_force);
-    case QDOT_TORQUE: LAST_AGAIN(s->torques, same_torque);
+    case QDOT_GRAVITY: return false; /* a second gravity field replaces the first */
+    case QDOT_POTENTIAL: LAST_AGAIN(s->potentials, terms_are_equal);
+    case QDOT_SPRING: LAST_AGAIN(s->springs, springs_are_equal);
+    case QDOT_DAMPER: LAST_AGAIN(s->dampers, springs_are_equal);
+    case QDOT_DISSIPATION: LAST_AGAIN(s->dissipations, terms_are_equal);
+    case QDOT_FORCE: LAST_AGAIN(s->forces, forces_are_equal);
+    case QDOT_TORQUE: LAST_AGAIN(s->torques, torques_are_equal);
     }
     return false;
 }

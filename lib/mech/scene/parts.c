@@ -1,4 +1,4 @@
-/* parts.c -- the arrays of a scene in a uniform form, for saving and restoring its state. */
+/* parts.c -- a table of the arrays of a scene (address, length, item size), for saving and restoring its state. */
 #include "mech/scene/scene.h"
 
 qdot_scene_part

@@ -9,9 +9,9 @@
 #include "mech/scene/scene.h"
 #include "normal/prove/decide.h"
 
-/* Whether the body's position and rotation contain every coordinate of the point. */
+/* Whether the body's position and rotation contain every coordinate on which the position of the point depends. */
 static bool
-knows_all(qdot_scene *s, const qdot_body *b, qdot_expr place)
+body_has_coordinates_of_point(qdot_scene *s, const qdot_body *b, qdot_expr place)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
@@ -24,9 +24,9 @@ knows_all(qdot_scene *s, const qdot_body *b, qdot_expr place)
     return true;
 }
 
-/* Decide dP/dt == v(P) component by component: proved, refuted by one of them, or undecided. */
+/* Decide whether a point P is fixed in a body: dP/dt equals the body's velocity at P, component by component. */
 static qdot_status
-fixed_in(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_verdict *verdict)
+decide_fixed_in_body(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_verdict *verdict)
 {
     qdot_pool *pool = s->pool;
     qdot_expr rate = qdot_ddt(pool, place), v = qdot_scene_velocity(s, b->name, place);
@@ -63,10 +63,10 @@ qdot_scene_moves_within(qdot_scene *s, qdot_expr place, const char *body, qdot_t
         qdot_verdict fixed;
 
         if ((body && b != qdot_scene_find_body(s, body)) ||
-            (!body && !knows_all(s, b, place)) ||
+            (!body && !body_has_coordinates_of_point(s, b, place)) ||
             qdot_mech_dimension(s->pool, b->position) != qdot_mech_dimension(s->pool, place))
             continue;
-        status = fixed_in(s, b, place, &fixed);
+        status = decide_fixed_in_body(s, b, place, &fixed);
         if (status == QDOT_OK && fixed == QDOT_PROVED) {
             moving.n = 0;
             break;

@@ -25,19 +25,19 @@ qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
 }
 
 static bool
-is_end(const qdot_link *link, const char *label)
+is_attached_to(const qdot_link *link, const char *label)
 {
     return qdot_label_is(link->end[0], label) || qdot_label_is(link->end[1], label);
 }
 
 /* Whether a torque acts on the body with the given index (-1: none). */
 static bool
-is_on(const qdot_torque *torque, int body)
+acts_on_body(const qdot_torque *torque, int body)
 {
     return body >= 0 && torque->coordinate == QDOT_NIL && torque->body == body;
 }
 
-/* Keep the items of a list for which `gone` is false. */
+/* Remove from a list the items for which the condition `gone` is true. */
 #define FILTER(list, item, gone)                                                         \
     do {                                                                                 \
         size_t kept_ = 0;                                                                \
@@ -52,7 +52,7 @@ is_on(const qdot_torque *torque, int body)
         (list).n = kept_;                                                                \
     } while (0)
 
-/* Record, for a notice, the items of a list for which `goes` is true: "spring s1", "a spring". */
+/* Record the items of a list for which `goes` is true, by names such as "spring s1" or "a spring", for a notice. */
 #define DROP(list, what, item, goes)                                                     \
     do {                                                                                 \
         for (size_t i_ = 0; i_ < (list).n; i_++) {                                       \
@@ -65,12 +65,12 @@ is_on(const qdot_torque *torque, int body)
 
 /* Record what acts on the thing to be removed; called before anything is removed. */
 static qdot_status
-name_dependents(qdot_scene *s, const char *label, int body)
+record_dependents(qdot_scene *s, const char *label, int body)
 {
-    DROP(s->springs, "spring", p, is_end(p, label));
-    DROP(s->dampers, "damper", p, is_end(p, label));
+    DROP(s->springs, "spring", p, is_attached_to(p, label));
+    DROP(s->dampers, "damper", p, is_attached_to(p, label));
     DROP(s->forces, "force", p, qdot_label_is(p->on, label));
-    DROP(s->torques, "torque", p, is_on(p, body));
+    DROP(s->torques, "torque", p, acts_on_body(p, body));
     return QDOT_OK;
 }
 
@@ -82,20 +82,20 @@ qdot_scene_remove(qdot_scene *s, const char *label)
     bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
 
     qdot_scene_forget_dropped(s);
-    if (qdot_scene_find_event(s, label)) { /* results derived without the event remain valid */
+    if (qdot_scene_find_event(s, label)) { /* events do not affect the mechanics: removing one leaves derived results valid */
         FILTER(s->events, p, qdot_label_is(p->name, label));
         return found ? QDOT_OK : QDOT_EFAILED;
     }
     if (!qdot_scene_has_label(s, label))
         return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
     if (on_thing)
-        QDOT_TRY(name_dependents(s, label, body));
+        QDOT_TRY(record_dependents(s, label, body));
     FILTER(s->particles, p, qdot_label_is(p->name, label));
     FILTER(s->bodies, p, qdot_label_is(p->name, label));
-    FILTER(s->springs, p, qdot_label_is(p->name, label) || (on_thing && is_end(p, label)));
-    FILTER(s->dampers, p, qdot_label_is(p->name, label) || (on_thing && is_end(p, label)));
+    FILTER(s->springs, p, qdot_label_is(p->name, label) || (on_thing && is_attached_to(p, label)));
+    FILTER(s->dampers, p, qdot_label_is(p->name, label) || (on_thing && is_attached_to(p, label)));
     FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)));
-    FILTER(s->torques, p, qdot_label_is(p->name, label) || is_on(p, body));
+    FILTER(s->torques, p, qdot_label_is(p->name, label) || acts_on_body(p, body));
     for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
         s->torques.at[i].body -= s->torques.at[i].body > body;
     FILTER(s->gravities, p, qdot_label_is(p->name, label));

@@ -12,7 +12,7 @@ typedef struct {
 } mapping;
 
 static void
-map(const mapping *m, qdot_expr *e)
+map_expression(const mapping *m, qdot_expr *e)
 {
     if (*e != QDOT_NIL)
         *e = m->f(*e, m->user);
@@ -22,11 +22,11 @@ map(const mapping *m, qdot_expr *e)
 #define MAP(list, field)                                                                 \
     do {                                                                                 \
         for (size_t i_ = 0; i_ < s->list.n; i_++)                                        \
-            map(&m, &s->list.at[i_] field);                                              \
+            map_expression(&m, &s->list.at[i_] field);                                              \
     } while (0)
 
 static void
-map_all(qdot_scene *s, mapping m)
+map_all_expressions(qdot_scene *s, mapping m)
 {
     MAP(particles, .mass);
     MAP(particles, .position);
@@ -55,13 +55,13 @@ map_all(qdot_scene *s, mapping m)
     MAP(assumed, .relation);
     MAP(conditions, );
     MAP(relations, );
-    map(&m, &s->lagrangian);
+    map_expression(&m, &s->lagrangian);
 }
 
 qdot_status
 qdot_scene_map(qdot_scene *s, qdot_expr (*f)(qdot_expr e, void *user), void *user)
 {
-    map_all(s, (mapping){f, user});
+    map_all_expressions(s, (mapping){f, user});
     qdot_scene_changed(s);
     return qdot_pool_check(s->pool);
 }
@@ -73,7 +73,7 @@ typedef struct {
 } search;
 
 static qdot_expr
-find_symbol(qdot_expr e, void *user)
+search_symbol_in_expression(qdot_expr e, void *user)
 {
     search *x = user;
 
@@ -86,7 +86,7 @@ qdot_scene_contains(qdot_scene *s, qdot_expr symbol)
 {
     search x = {s->pool, symbol, false};
 
-    map_all(s, (mapping){find_symbol, &x});
+    map_all_expressions(s, (mapping){search_symbol_in_expression, &x});
     return x.found;
 }
 
@@ -96,7 +96,7 @@ typedef struct {
 } replacement;
 
 static qdot_expr
-replace_in_scene(qdot_expr e, void *user)
+replace_in_expression(qdot_expr e, void *user)
 {
     const replacement *r = user;
 
@@ -106,5 +106,5 @@ replace_in_scene(qdot_expr e, void *user)
 qdot_status
 qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
 {
-    return qdot_scene_map(s, replace_in_scene, &(replacement){s->pool, from, to});
+    return qdot_scene_map(s, replace_in_expression, &(replacement){s->pool, from, to});
 }

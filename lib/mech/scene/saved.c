@@ -6,7 +6,7 @@
 #include "base/memory.h"
 
 static void
-drop(qdot_scene_saved *saved)
+free_saved_arrays(qdot_scene_saved *saved)
 {
     for (size_t k = 0; k < QDOT_SCENE_PARTS; k++)
         qdot_free(saved->at[k]);
@@ -24,7 +24,7 @@ qdot_scene_save(qdot_scene *s, qdot_scene_saved *saved)
 
         saved->at[k] = qdot_malloc(bytes + 1);
         if (saved->at[k] == NULL) {
-            drop(saved);
+            free_saved_arrays(saved);
             return QDOT_ENOMEM;
         }
         if (bytes > 0)
@@ -47,5 +47,5 @@ qdot_scene_restore(qdot_scene *s, qdot_scene_saved *saved)
     }
     s->lagrangian = saved->lagrangian;
     s->version = saved->version;
-    drop(saved);
+    free_saved_arrays(saved);
 }

@@ -93,7 +93,7 @@ qdot_scene_free(qdot_scene *s)
 /* --- checks of declarations ----------------------------------------------------------- */
 
 static qdot_status
-need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
+refuse_forbidden_symbols(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 {
     uint32_t holds = qdot_mech_holds(s, e) & forbidden;
 
@@ -103,9 +103,9 @@ need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return QDOT_OK;
 }
 
-/* Refuse friction that depends on multipliers: not built yet. */
+/* Refuse friction that depends on Lagrange multipliers: this is not implemented. */
 static qdot_status
-need_known_friction(qdot_scene *s, qdot_expr e, const char *what)
+refuse_multipliers_in_friction(qdot_scene *s, qdot_expr e, const char *what)
 {
     if (!(qdot_mech_holds(s, e) & QDOT_HAS_MULTIPLIER))
         return QDOT_OK;
@@ -113,19 +113,19 @@ need_known_friction(qdot_scene *s, qdot_expr e, const char *what)
 }
 
 static qdot_status
-need_scalar(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
+require_scalar(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 {
     QDOT_TRY(qdot_pool_check(s->pool));
     if (e == QDOT_NIL)
         return qdot_fail(QDOT_EINVAL, "%s is missing", what);
     if (!qdot_expr_is_scalar(s->pool, e))
         return qdot_fail(QDOT_ETYPE, "%s must be a number, not a vector", what);
-    return need_free_of(s, e, what, forbidden);
+    return refuse_forbidden_symbols(s, e, what, forbidden);
 }
 
 /* Fail because the dimension differs from the scene's; with a hint if gravity alone determined that. */
 static qdot_status
-tell_dimension(qdot_scene *s, const char *what, uint32_t n, uint32_t space)
+fail_with_dimension(qdot_scene *s, const char *what, uint32_t n, uint32_t space)
 {
     qdot_text field = {0};
     qdot_status status = qdot_fail(QDOT_ETYPE, "%s has %u component%s in a scene of %u dimension%s", what, n,
@@ -142,7 +142,7 @@ tell_dimension(qdot_scene *s, const char *what, uint32_t n, uint32_t space)
 
 /* Check a position, field or force: its dimension must be the scene's, which the first declaration sets. */
 static qdot_status
-need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
+require_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 {
     uint32_t n = qdot_mech_dimension(s->pool, e), space = qdot_scene_dimension(s);
 
@@ -156,8 +156,8 @@ need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
             return qdot_fail(QDOT_ETYPE, "component %u of %s is not a number", i + 1,
                              what);
     if (space && n != space)
-        return tell_dimension(s, what, n, space);
-    return need_free_of(s, e, what, forbidden);
+        return fail_with_dimension(s, what, n, space);
+    return refuse_forbidden_symbols(s, e, what, forbidden);
 }
 
 qdot_status
@@ -195,7 +195,7 @@ qdot_scene_changed(qdot_scene *s)
 }
 
 static qdot_status
-changed(qdot_scene *s)
+mark_changed(qdot_scene *s)
 {
     qdot_scene_changed(s);
     return QDOT_OK;
@@ -214,13 +214,13 @@ qdot_scene_coordinate(qdot_scene *s, qdot_expr q)
             return qdot_fail(QDOT_ENAME, "%s is a coordinate already",
                              qdot_expr_symbol(s->pool, q)->name);
     QDOT_TRY(qdot_vec_push(&s->coordinates, q));
-    return changed(s);
+    return mark_changed(s);
 }
 
 static qdot_status
-need_mass(qdot_scene *s, qdot_expr mass)
+require_mass(qdot_scene *s, qdot_expr mass)
 {
-    QDOT_TRY(need_scalar(s, mass, "a mass", NO_VELOCITY));
+    QDOT_TRY(require_scalar(s, mass, "a mass", NO_VELOCITY));
     if ((qdot_expr_node(s->pool, mass)->sign & QDOT_NEG) == QDOT_NEG)
         return qdot_fail(QDOT_EDOMAIN, "a mass cannot be negative");
     return QDOT_OK;
@@ -234,32 +234,32 @@ qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr p
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a particle"));
     QDOT_TRY(qdot_scene_need_new_label(s, name));
-    QDOT_TRY(need_mass(s, mass));
-    QDOT_TRY(need_vector(s, position, "a position", NO_VELOCITY));
+    QDOT_TRY(require_mass(s, mass));
+    QDOT_TRY(require_vector(s, position, "a position", NO_VELOCITY));
     QDOT_TRY(qdot_scene_copy_text(s, name, &p.name));
     QDOT_TRY(qdot_vec_push(&s->particles, p));
-    return changed(s);
+    return mark_changed(s);
 }
 
 static qdot_status
-need_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
+require_energy_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
 {
     switch (kind) {
     case QDOT_GRAVITY:
         QDOT_TRY(qdot_scene_need_no_lagrangian(s, "gravity"));
-        return need_vector(s, e, "a uniform field", NO_PLACE);
+        return require_vector(s, e, "a uniform field", NO_PLACE);
     case QDOT_POTENTIAL:
         QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a potential"));
-        return need_scalar(s, e, "a potential", NO_ACCELERATION);
+        return require_scalar(s, e, "a potential", NO_ACCELERATION);
     default:
-        QDOT_TRY(need_known_friction(s, e, "a dissipation function"));
-        return need_scalar(s, e, "a dissipation function", NO_ACCELERATION);
+        QDOT_TRY(refuse_multipliers_in_friction(s, e, "a dissipation function"));
+        return require_scalar(s, e, "a dissipation function", NO_ACCELERATION);
     }
 }
 
 /* The gravity field without label; NULL if there is none. */
 static qdot_term *
-plain_gravity(const qdot_scene *s)
+unlabelled_gravity(const qdot_scene *s)
 {
     for (size_t i = 0; i < s->gravities.n; i++)
         if (!s->gravities.at[i].name)
@@ -275,21 +275,21 @@ qdot_scene_term(qdot_scene *s, qdot_scene_kind kind, const char *name, qdot_expr
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_scene_need_new_label(s, name));
-    QDOT_TRY(need_term(s, kind, e));
+    QDOT_TRY(require_energy_term(s, kind, e));
     if (kind == QDOT_POTENTIAL)
         term.e = qdot_kinks_cancel(s->pool, e);
     QDOT_TRY(qdot_pool_check(s->pool));
     if (kind == QDOT_GRAVITY && !name)
-        before = plain_gravity(s);
+        before = unlabelled_gravity(s);
     if (before) {
         before->e = e;
-        return changed(s);
+        return mark_changed(s);
     }
     QDOT_TRY(qdot_scene_copy_text(s, name, &term.name));
     status = kind == QDOT_GRAVITY     ? qdot_vec_push(&s->gravities, term)
              : kind == QDOT_POTENTIAL ? qdot_vec_push(&s->potentials, term)
                                       : qdot_vec_push(&s->dissipations, term);
-    return status == QDOT_OK ? changed(s) : status;
+    return status == QDOT_OK ? mark_changed(s) : status;
 }
 
 qdot_status
@@ -312,7 +312,7 @@ qdot_scene_dissipation(qdot_scene *s, qdot_expr D)
 
 /* Check a spring or damper, and append a copy of it to its list. */
 static qdot_status
-add_link(qdot_scene *s, const qdot_link *link, bool damper)
+add_spring_or_damper(qdot_scene *s, const qdot_link *link, bool damper)
 {
     qdot_link copy = *link;
     const char *what = damper ? "an end of a damper" : "an end of a spring";
@@ -321,18 +321,18 @@ add_link(qdot_scene *s, const qdot_link *link, bool damper)
 
     QDOT_TRY(qdot_scene_need_new_label(s, link->name));
     for (int k = 0; k < 2; k++)
-        QDOT_TRY(need_vector(s, link->at[k], what, NO_VELOCITY));
+        QDOT_TRY(require_vector(s, link->at[k], what, NO_VELOCITY));
     if (qdot_mech_dimension(s->pool, link->at[0]) !=
         qdot_mech_dimension(s->pool, link->at[1]))
         return qdot_fail(QDOT_ETYPE, "the ends are in spaces of different dimension");
-    QDOT_TRY(need_scalar(s, link->stiffness, damper ? "a coefficient" : "a stiffness",
-                         damper ? NO_ACCELERATION : NO_VELOCITY));
+    QDOT_TRY(require_scalar(s, link->stiffness, damper ? "a coefficient" : "a stiffness",
+                            damper ? NO_ACCELERATION : NO_VELOCITY));
     if (damper)
         copy.rest = QDOT_NIL;
     else if (copy.rest == QDOT_NIL)
         copy.rest = QDOT_ZERO;
     else
-        QDOT_TRY(need_scalar(s, copy.rest, "a rest length", NO_VELOCITY));
+        QDOT_TRY(require_scalar(s, copy.rest, "a rest length", NO_VELOCITY));
     u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
     u2 = qdot_mech_dot(s->pool, u, u);
     QDOT_TRY(qdot_pool_check(s->pool));
@@ -344,7 +344,7 @@ add_link(qdot_scene *s, const qdot_link *link, bool damper)
     if (status == QDOT_OK)
         status =
             damper ? qdot_vec_push(&s->dampers, copy) : qdot_vec_push(&s->springs, copy);
-    return status == QDOT_OK ? changed(s) : status;
+    return status == QDOT_OK ? mark_changed(s) : status;
 }
 
 qdot_status
@@ -356,14 +356,14 @@ qdot_scene_spring(qdot_scene *s, const qdot_link *spring)
         qdot_fail(QDOT_EINVAL, "the rest length of a spring cannot be negative");
         return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
     }
-    return add_link(s, spring, false);
+    return add_spring_or_damper(s, spring, false);
 }
 
 qdot_status
 qdot_scene_damper(qdot_scene *s, const qdot_link *damper)
 {
     qdot_scene_forget_dropped(s);
-    return add_link(s, damper, true);
+    return add_spring_or_damper(s, damper, true);
 }
 
 qdot_status
@@ -373,9 +373,9 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_scene_need_new_label(s, force->name));
-    QDOT_TRY(need_known_friction(s, force->force, "a force"));
-    QDOT_TRY(need_vector(s, force->force, "a force", NO_ACCELERATION));
-    QDOT_TRY(need_vector(s, force->point, "the point of a force", NO_VELOCITY));
+    QDOT_TRY(refuse_multipliers_in_friction(s, force->force, "a force"));
+    QDOT_TRY(require_vector(s, force->force, "a force", NO_ACCELERATION));
+    QDOT_TRY(require_vector(s, force->point, "the point of a force", NO_VELOCITY));
     if (qdot_mech_dimension(s->pool, force->force) !=
         qdot_mech_dimension(s->pool, force->point))
         return qdot_fail(QDOT_ETYPE, "a force of %u components at a point of %u",
@@ -386,7 +386,7 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
     QDOT_TRY(qdot_scene_copy_text(s, force->name, &copy.name));
     QDOT_TRY(qdot_scene_copy_text(s, force->on, &copy.on));
     QDOT_TRY(qdot_vec_push(&s->forces, copy));
-    return changed(s);
+    return mark_changed(s);
 }
 
 qdot_status
@@ -400,7 +400,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
     if (torque->coordinate != QDOT_NIL) {
         size_t i;
 
-        QDOT_TRY(need_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION));
+        QDOT_TRY(require_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION));
         if (!qdot_mech_index(s, torque->coordinate, &i))
             return qdot_pool_check(s->pool);
     } else {
@@ -413,11 +413,11 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
             return qdot_fail(QDOT_ETYPE,
                              wanted == 3 ? "a torque on a body in space has 3 components"
                                          : "a torque on a plane body is a number");
-        QDOT_TRY(need_free_of(s, torque->torque, "a torque", NO_ACCELERATION));
+        QDOT_TRY(refuse_forbidden_symbols(s, torque->torque, "a torque", NO_ACCELERATION));
     }
     QDOT_TRY(qdot_scene_copy_text(s, torque->name, &copy.name));
     QDOT_TRY(qdot_vec_push(&s->torques, copy));
-    return changed(s);
+    return mark_changed(s);
 }
 
 qdot_status
@@ -434,10 +434,10 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
         (void)qdot_fail(QDOT_EINVAL, "a stated Lagrangian beside %s: L would not be T - V", beside);
         return qdot_hint("`lagrange_function` shows the one that follows; `reset scene` takes the scene away");
     }
-    QDOT_TRY(need_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
+    QDOT_TRY(require_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
     s->lagrangian = qdot_kinks_cancel(s->pool, L);
     QDOT_TRY(qdot_pool_check(s->pool));
-    return changed(s);
+    return mark_changed(s);
 }
 
 /* --- the statement `assume` ----------------------------------------------------------- */
@@ -457,7 +457,7 @@ add_relation(qdot_scene *s, qdot_expr e)
 /* A relation between undefined functions holds for all values of their arguments, so its
  * derivatives by these are relations too: the first and the second are kept. */
 static qdot_status
-relation_add_slopes(qdot_scene *s, qdot_expr relation)
+add_derivatives_of_relation(qdot_scene *s, qdot_expr relation)
 {
     qdot_pool *pool = s->pool;
     qdot_vec(qdot_expr) by = {0};
@@ -512,12 +512,12 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
         status = qdot_vec_push(&s->assumed, said);
         if (status != QDOT_OK)
             s->conditions.n--;
-        return status == QDOT_OK ? changed(s) : status;
+        return status == QDOT_OK ? mark_changed(s) : status;
     }
     f = qdot_sub(pool, qdot_expr_arg(pool, relation, 0),
                  qdot_expr_arg(pool, relation, 1));
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(need_scalar(s, f, "a relation", 0));
+    QDOT_TRY(require_scalar(s, f, "a relation", 0));
     if (qdot_expr_kind(pool, f) == QDOT_NUM) {
         if (f == QDOT_ZERO)
             return QDOT_OK;
@@ -527,12 +527,12 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
     if (status == QDOT_OK) {
         status = add_relation(s, f);
         if (status == QDOT_OK)
-            status = relation_add_slopes(s, f);
+            status = add_derivatives_of_relation(s, f);
         if (status != QDOT_OK) {
             s->assumed.n--;
             s->relations.n = before;
             return status;
         }
     }
-    return status == QDOT_OK ? changed(s) : status;
+    return status == QDOT_OK ? mark_changed(s) : status;
 }

@@ -40,14 +40,14 @@ QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
 QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
-/* Fail if the scene states its Lagrangian, because `what` would then have no effect. */
+/* Fail if the scene states its Lagrangian, because then the declaration named by `what` would have no effect. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what);
 /* f = left - right; scalars, or VECs of equal size (one constraint a component: "pin, 1").
  * Components proved to hold identically are left out and named in s->dropped. Without label the
  * constraint is called by its number. QDOT_EINVAL: no coordinate in it, or a third derivative. */
 QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *label,
                                                   qdot_expr left, qdot_expr right);
-/* f, df/dt or d2f/dt2 of constraint i (as far as its kind allows), for `when LABEL` and checks. */
+/* The derivative of the given order (0, 1, 2) by t of constraint function f number i; how high depends on its kind. */
 qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned order);
 /* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
  * does not know; a target twice. */
@@ -76,7 +76,7 @@ void qdot_scene_changed(qdot_scene *s);
  * `version` that the scene had then. */
 enum { QDOT_SCENE_PARTS = 15 };
 typedef struct {
-    void *at;            /* address of the array's pointer */
+    void *at;            /* address of the pointer to the array's first item */
     size_t *n, *capacity, size;
 } qdot_scene_part;
 qdot_scene_part qdot_scene_part_at(qdot_scene *s, size_t k);

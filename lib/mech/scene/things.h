@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
     char *name; /* NULL: no label */
     qdot_expr at[2]; /* positions of the two ends */
-    char *end[2];    /* labels of the things at the ends; NULL for a point */
+    char *end[2];    /* labels of the particles or bodies at the two ends; NULL for a plain point */
     qdot_expr stiffness, rest; /* spring: stiffness and rest length; damper: coefficient and nil */
 } qdot_link;
 
@@ -54,8 +54,8 @@ typedef struct {
 typedef struct {
     char *name;       /* label; NULL: none */
     qdot_expr torque; /* the torque: a scalar in the plane, a vector for a body in space */
-    qdot_expr coordinate; /* coordinate of a generalized force; nil: a torque on `body` */
-    bool force;           /* declared by the statement `force` */
+    qdot_expr coordinate; /* coordinate on which a generalized force acts; nil: this is a torque on `body` */
+    bool force;           /* declared by the statement `force`, not by `torque` */
     char unused[3];
     int body;             /* index of the body on which the torque acts */
 } qdot_torque;
@@ -63,9 +63,9 @@ typedef struct {
 typedef enum { QDOT_HOLONOMIC, QDOT_VELOCITY, QDOT_ACCELERATION } qdot_constraint_kind;
 
 typedef struct {
-    char *name;       /* "rod"; "pin, 1" for a component; without label "1", "2" ... */
-    char *label;      /* "rod", "pin"; NULL: no label */
-    qdot_expr f;      /* left - right = 0 */
+    char *name;       /* name of the constraint: "rod"; "pin, 1" for a component; without label "1", "2" ... */
+    char *label;      /* the declared label, such as "rod"; NULL: no label */
+    qdot_expr f;      /* the constraint is f = left - right = 0 */
     qdot_expr left, right;
     qdot_constraint_kind kind; /* by the highest time derivative in f: of positions, velocities, accelerations */
     qdot_expr multiplier;      /* its Lagrange multiplier, the symbol lambda[name] */
@@ -110,14 +110,14 @@ typedef struct qdot_scene {
     qdot_vec(qdot_constraint) constraints;
     qdot_vec(qdot_event) events;
     qdot_vec(qdot_assumption) assumed;
-    qdot_vec(qdot_expr) conditions; /* inequalities among the assumptions */
-    qdot_vec(qdot_expr) relations;  /* equations and their derivatives, as expressions that are 0 */
+    qdot_vec(qdot_expr) conditions; /* assumptions that are inequalities */
+    qdot_vec(qdot_expr) relations;  /* assumptions that are equations left = right, as left - right; also their derivatives */
     qdot_expr lagrangian;           /* the stated Lagrangian; nil: L = T - V */
     qdot_vec(char *) dropped;       /* what the latest call dropped, for a notice: components of
                                        a constraint that hold identically ("pin, 2"); springs,
                                        forces ... on a removed thing ("spring s1", "a force") */
-    qdot_derived *derived;          /* results derived for this `version`; owned */
-    void *kept;                     /* plans of runs kept by sim/; NULL: none */
+    qdot_derived *derived;          /* results derived from the declarations of this `version`, such as the Lagrangian; owned */
+    void *kept;                     /* programs for numerical runs that the directory sim/ keeps for reuse; NULL: none */
     void (*kept_free)(void *kept);
 } qdot_scene;
 
@@ -128,11 +128,11 @@ typedef enum {
     QDOT_SPRING,
     QDOT_DAMPER,
     QDOT_DISSIPATION,
-    QDOT_FORCE, /* forces on particles, bodies and points, then generalized forces on coordinates */
+    QDOT_FORCE, /* forces on particles, bodies and points come first, then generalized forces on coordinates */
     QDOT_TORQUE
 } qdot_scene_kind;
 
-/* The scene's facts for the engine (borrowed, valid until the scene changes). */
+/* The assumptions of the scene as used in proofs and simplification; borrowed, valid until the scene changes. */
 static inline qdot_facts
 qdot_scene_facts(const qdot_scene *s)
 {

@@ -60,9 +60,9 @@ depends_on_u_alone(const line *l, qdot_expr e)
 
 /* --- zeros of the relations ------------------------------------------------------------- */
 
-/* Add a zero of the relations `which`; false if it cannot be told from another zero. */
+/* Add a zero of the relations `which`; false if it is too near another zero to be told from it. */
 static bool
-line_add_point(line *l, qdot_expr exact, double at, uint32_t which)
+add_zero(line *l, qdot_expr exact, double at, uint32_t which)
 {
     for (size_t i = 0; i < l->points; i++) {
         qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
@@ -85,17 +85,17 @@ line_add_point(line *l, qdot_expr exact, double at, uint32_t which)
 }
 
 static bool
-add_exact(line *l, qdot_expr value, uint32_t which)
+add_exact_zero(line *l, qdot_expr value, uint32_t which)
 {
     double at;
 
     return qdot_is_constant(l->pool, value) &&
-           qdot_ball_double(l->pool, value, NULL, NULL, &at) && line_add_point(l, value, at, which);
+           qdot_ball_double(l->pool, value, NULL, NULL, &at) && add_zero(l, value, at, which);
 }
 
 /* Add the zeros of g by formulas; *all: they are proved to be all. */
 static qdot_status
-exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
+add_exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 {
     size_t had = l->points;
     const qdot_symbol *u = qdot_expr_symbol(l->pool, l->u);
@@ -108,9 +108,9 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 
         *all = root->condition == QDOT_NIL && root->period == QDOT_NIL &&
                root->members == QDOT_NIL && root->value != l->u &&
-               add_exact(l, root->value, which);
+               add_exact_zero(l, root->value, which);
     }
-    /* of a periodic equation only one turn is listed */
+    /* the formulas list the zeros of a periodic function within one period only, so that others may be missing */
     if (*all && !l->turn && found.root.n > 0 && (u->lo == QDOT_NIL || u->hi == QDOT_NIL))
         *all = !qdot_is_angle(l->pool, g, l->u, l->facts);
     qdot_solutions_clear(&found);
@@ -121,7 +121,7 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 
 /* Find the zeros of g numerically, by excluding intervals without one. */
 static qdot_status
-numeric_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
+add_numeric_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 {
     const qdot_symbol *u = qdot_expr_symbol(l->pool, l->u);
     qdot_zeros_range range = {.lo = u->lo, .hi = u->hi, .lo_open = u->lo_open, .hi_open = u->hi_open,
@@ -137,25 +137,25 @@ numeric_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
     *all = zeros.complete;
     for (size_t i = 0; i < zeros.count && *all; i++)
         *all = qdot_rest_is_sharp(1, zeros.at + i, zeros.radius + i) &&
-               line_add_point(l, QDOT_NIL, zeros.at[i], which);
+               add_zero(l, QDOT_NIL, zeros.at[i], which);
     qdot_zeros_clear(&zeros);
     return QDOT_OK;
 }
 
 static qdot_status
-zeros_of(line *l, qdot_expr g, uint32_t which, bool *all)
+add_all_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 {
     *all = true;
     if (!qdot_expr_contains(l->pool, g, l->u))
         return QDOT_OK;
-    QDOT_TRY(exact_zeros(l, g, which, all));
-    return *all ? QDOT_OK : numeric_zeros(l, g, which, all);
+    QDOT_TRY(add_exact_zeros(l, g, which, all));
+    return *all ? QDOT_OK : add_numeric_zeros(l, g, which, all);
 }
 
 /* Where g may change its sign without a zero: at zeros of denominators. *known: it has no other such place
  * inside its domain. */
 static qdot_status
-poles_of(line *l, qdot_expr g, bool *known)
+find_sign_changes_at_poles(line *l, qdot_expr g, bool *known)
 {
     qdot_pool *pool = l->pool;
     qdot_walk w;
@@ -175,7 +175,7 @@ poles_of(line *l, qdot_expr g, bool *known)
                      op == QDOT_COSH || op == QDOT_TANH || op == QDOT_ATAN || op == QDOT_ASIN ||
                      op == QDOT_ACOS || op == QDOT_LOG || op == QDOT_ABS || op == QDOT_SIGN;
             if (op == QDOT_SIGN) /* sign(x) jumps at 0, where it has a value */
-                status = zeros_of(l, qdot_expr_arg(pool, node, 0), 0, known);
+                status = add_all_zeros(l, qdot_expr_arg(pool, node, 0), 0, known);
             *known = *known || op == QDOT_MAX || op == QDOT_MIN || op == QDOT_IF;
         } else if (kind == QDOT_PROD) {
             for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node) && *known && status == QDOT_OK;
@@ -189,10 +189,10 @@ poles_of(line *l, qdot_expr g, bool *known)
                     continue;
                 *known = exponent != NULL;
                 if (*known && fmpq_sgn(exponent) < 0)
-                    status = zeros_of(l, base, 0, known);
+                    status = add_all_zeros(l, base, 0, known);
             }
         } else if (kind == QDOT_REL) { /* an if(...) jumps where the two sides of its condition are equal */
-            status = zeros_of(l, qdot_sub(pool, qdot_expr_arg(pool, node, 1), qdot_expr_arg(pool, node, 0)), 0, known);
+            status = add_all_zeros(l, qdot_sub(pool, qdot_expr_arg(pool, node, 1), qdot_expr_arg(pool, node, 0)), 0, known);
         } else {
             *known = kind == QDOT_SUM || kind == QDOT_SYM;
         }
@@ -203,9 +203,9 @@ poles_of(line *l, qdot_expr g, bool *known)
 
 /* --- intervals in which the relations hold ---------------------------------------------- */
 
-/* Whether all relations hold at u = value; the relations with bits in `zero` vanish there. */
+/* Whether all relations hold at u = value; relations whose bits are set in `zero` are known to be 0 there. */
 static qdot_status
-hold_at(const line *l, qdot_expr value, uint32_t zero, answer *out)
+decide_relations_at(const line *l, qdot_expr value, uint32_t zero, answer *out)
 {
     *out = YES;
     for (size_t i = 0; i < l->relations && *out != NO; i++) {
@@ -231,7 +231,7 @@ hold_at(const line *l, qdot_expr value, uint32_t zero, answer *out)
 }
 
 static qdot_expr
-turned(const line *l, qdot_expr value, bool turn)
+add_full_turn(const line *l, qdot_expr value, bool turn)
 {
     qdot_expr whole = qdot_mul(l->pool, qdot_expr_int(l->pool, 2), QDOT_PI);
 
@@ -240,13 +240,13 @@ turned(const line *l, qdot_expr value, bool turn)
                : value;
 }
 
-/* The k-th point as a value; with `turn` plus a full turn. */
+/* The value of the k-th point; if `turn` is true, increased by a full turn (2 pi). */
 static qdot_expr
 point_value(const line *l, size_t k, bool turn)
 {
     const point *p = &l->at[k];
 
-    return p->exact != QDOT_NIL ? turned(l, p->exact, turn)
+    return p->exact != QDOT_NIL ? add_full_turn(l, p->exact, turn)
                                 : qdot_generic_decimal(l->pool, p->at + (turn ? 2 * M_PI : 0));
 }
 
@@ -267,7 +267,7 @@ number_between(const line *l, size_t k)
 /* The pieces of the line in their order, 0 ... 2 points: gap, point, gap, ... The last gap of a circle is the
  * first. Intervals are the runs of pieces that hold. */
 static qdot_status
-bands_collect(const line *l, const bool *holds, qdot_bands *out)
+collect_bands(const line *l, const bool *holds, qdot_bands *out)
 {
     size_t pieces = 2 * l->points + (l->turn ? 0 : 1), first = 0;
 
@@ -290,7 +290,7 @@ bands_collect(const line *l, const bool *holds, qdot_bands *out)
         to = k;
         band.lo_open = from % 2 == 0;
         band.hi_open = to % 2 == 0;
-        /* the pieces on the two sides of a gap are its end points */
+        /* even pieces are open gaps, odd pieces are points: a gap ends at the two neighbouring points */
         if (!band.lo_open || from > 0 || l->turn) {
             size_t piece = band.lo_open ? from - 1 : from, p = piece % pieces / 2;
 
@@ -323,7 +323,7 @@ sort_points(line *l)
 }
 
 static qdot_status
-by_zeros(line *l, qdot_bands *out, bool *found)
+find_bands_by_zeros(line *l, qdot_bands *out, bool *found)
 {
     const qdot_symbol *u = qdot_expr_symbol(l->pool, l->u);
     size_t n = l->relations;
@@ -331,11 +331,11 @@ by_zeros(line *l, qdot_bands *out, bool *found)
 
     *found = true;
     for (size_t i = 0; i < n && *found; i++) {
-        QDOT_TRY(zeros_of(l, l->g[i], (uint32_t)1 << i, found));
+        QDOT_TRY(add_all_zeros(l, l->g[i], (uint32_t)1 << i, found));
         if (*found)
-            QDOT_TRY(poles_of(l, l->g[i], found));
+            QDOT_TRY(find_sign_changes_at_poles(l, l->g[i], found));
     }
-    for (int side = 0; side < 2 && *found; side++) { /* the bounds of the domain are relations, too */
+    for (int side = 0; side < 2 && *found; side++) { /* the bounds of the domain count as relations, too */
         qdot_expr end = side == 0 ? u->lo : u->hi;
 
         if (end == QDOT_NIL)
@@ -343,7 +343,7 @@ by_zeros(line *l, qdot_bands *out, bool *found)
         l->strict[l->relations] = side == 0 ? u->lo_open : u->hi_open;
         l->g[l->relations] = side == 0 ? qdot_sub(l->pool, l->u, end)
                                        : qdot_sub(l->pool, end, l->u);
-        *found = add_exact(l, end, (uint32_t)1 << l->relations++);
+        *found = add_exact_zero(l, end, (uint32_t)1 << l->relations++);
     }
     QDOT_TRY(qdot_pool_check(l->pool));
     sort_points(l);
@@ -351,19 +351,19 @@ by_zeros(line *l, qdot_bands *out, bool *found)
         size_t p = k / 2;
         answer yes;
 
-        QDOT_TRY(k % 2 == 0 ? hold_at(l, number_between(l, p), 0, &yes)
-                            : hold_at(l, point_value(l, p, false), l->at[p].zero_of, &yes));
+        QDOT_TRY(k % 2 == 0 ? decide_relations_at(l, number_between(l, p), 0, &yes)
+                            : decide_relations_at(l, point_value(l, p, false), l->at[p].zero_of, &yes));
         holds[k] = yes == YES;
         *found = yes != UNKNOWN;
     }
-    return *found ? bands_collect(l, holds, out) : QDOT_OK;
+    return *found ? collect_bands(l, holds, out) : QDOT_OK;
 }
 
 /* --- linear relations, with parameters -------------------------------------------------- */
 
 /* Add the condition lo < hi; *out FALSE if it never holds. */
 static qdot_status
-also_below(line *l, qdot_expr lo, qdot_expr hi, qdot_expr *out)
+add_order_condition(line *l, qdot_expr lo, qdot_expr hi, qdot_expr *out)
 {
     if (lo == QDOT_NIL || hi == QDOT_NIL || *out == QDOT_FALSE)
         return QDOT_OK;
@@ -373,7 +373,7 @@ also_below(line *l, qdot_expr lo, qdot_expr hi, qdot_expr *out)
 }
 
 static qdot_status
-by_slopes(line *l, qdot_bands *out, bool *found)
+find_bands_of_linear_relations(line *l, qdot_bands *out, bool *found)
 {
     qdot_pool *pool = l->pool;
     const qdot_symbol *u = qdot_expr_symbol(pool, l->u);
@@ -399,16 +399,16 @@ by_slopes(line *l, qdot_bands *out, bool *found)
         }
         end = qdot_simplify(pool, qdot_neg(pool, qdot_div(pool, end, slope)), l->facts);
         to = up ? &band.lo : &band.hi;
-        *found = *found && *to == QDOT_NIL; /* of two bounds it is not known which is nearer */
+        *found = *found && *to == QDOT_NIL; /* give up at a second bound on the same side */
         *to = end;
         *(up ? &band.lo_open : &band.hi_open) = l->strict[i];
         QDOT_TRY(qdot_pool_check(pool));
     }
     if (!*found)
         return QDOT_OK;
-    QDOT_TRY(also_below(l, band.lo, band.hi, &out->also));
-    QDOT_TRY(also_below(l, u->lo, band.hi, &out->also));
-    QDOT_TRY(also_below(l, band.lo, u->hi, &out->also));
+    QDOT_TRY(add_order_condition(l, band.lo, band.hi, &out->also));
+    QDOT_TRY(add_order_condition(l, u->lo, band.hi, &out->also));
+    QDOT_TRY(add_order_condition(l, band.lo, u->hi, &out->also));
     return out->also == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&out->at, band);
 }
 
@@ -441,9 +441,9 @@ qdot_bands_find(qdot_pool *pool, qdot_expr u, size_t n, const qdot_expr *relatio
         alone = alone && depends_on_u_alone(&l, l.g[i]);
     }
     if (!alone)
-        return by_slopes(&l, out, found);
+        return find_bands_of_linear_relations(&l, out, found);
     l.turn = symbol->lo == QDOT_NIL && symbol->hi == QDOT_NIL &&
              qdot_is_period(pool, qdot_list(pool, (uint32_t)n, l.g), u, turn, facts);
     QDOT_TRY(qdot_pool_check(pool));
-    return by_zeros(&l, out, found);
+    return find_bands_by_zeros(&l, out, found);
 }

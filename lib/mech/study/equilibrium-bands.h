@@ -18,12 +18,12 @@
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
-    bool numeric; /* an end is a decimal number, known to 12 digits */
+    bool numeric; /* true if an end is known only as a decimal number of 12 digits */
 } qdot_band;
 
 typedef struct {
     qdot_vec(qdot_band) at;
-    qdot_expr also; /* conditions without u under which the intervals are not empty; nil: none */
+    qdot_expr also; /* conditions on parameters under which the intervals are not empty; nil: none */
     bool whole;     /* the relations hold on all of u's domain; then `at` is empty */
     bool touched;   /* a relation holds with equality at a point inside an interval */
 } qdot_bands;

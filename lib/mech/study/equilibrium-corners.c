@@ -28,9 +28,9 @@
 
 enum { MOST_CORNERS = 4 };
 
-/* The k-th unknown s of a jump, in -1 <= s <= 1. */
+/* The k-th symbol s in -1 <= s <= 1 that stands for the sign of an expression where this is 0. */
 static qdot_expr
-side_symbol(qdot_pool *pool, size_t k)
+sign_symbol(qdot_pool *pool, size_t k)
 {
     char name[24];
     qdot_expr side;
@@ -44,7 +44,7 @@ side_symbol(qdot_pool *pool, size_t k)
 /* The next argument u of a sign in e after `skip` [n]: one that holds velocities and is 0 at rest, or (moving
  * false, e a LIST) one of coordinates alone by which a member jumps; nil: there is none. */
 static qdot_expr
-next_jump(const qdot_rest *r, qdot_expr e, bool moving, size_t n, const qdot_expr *skip)
+next_sign_argument(const qdot_rest *r, qdot_expr e, bool moving, size_t n, const qdot_expr *skip)
 {
     qdot_pool *pool = r->pool;
     qdot_expr nowhere = qdot_list(pool, 0, NULL), found = QDOT_NIL;
@@ -80,8 +80,8 @@ next_jump(const qdot_rest *r, qdot_expr e, bool moving, size_t n, const qdot_exp
 /* sum_i -dG_i/ds du/dx_i over the coordinates (order 0) or velocities (1): positive where the jump pushes back;
  * equations [n]: G with s in place of sign u. */
 static qdot_expr
-push_back(const qdot_rest *r, size_t n, const qdot_expr *G, qdot_expr side, qdot_expr u,
-          uint32_t order)
+restoring_slope(const qdot_rest *r, size_t n, const qdot_expr *G, qdot_expr side, qdot_expr u,
+                uint32_t order)
 {
     qdot_pool *pool = r->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -108,7 +108,7 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < n; i++)
         for (;;) {
-            qdot_expr u = next_jump(r, G[i], true, count, seen), from, side, when, room[1];
+            qdot_expr u = next_sign_argument(r, G[i], true, count, seen), from, side, when, room[1];
             qdot_expr *with;
 
             if (u == QDOT_NIL)
@@ -121,14 +121,14 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
             if (with == NULL)
                 return QDOT_ENOMEM;
             seen[count] = u;
-            side = side_symbol(pool, count++);
+            side = sign_symbol(pool, count++);
             from = qdot_fun1(pool, QDOT_SIGN, u);
             for (size_t k = 0; k < n; k++)
                 with[k] = qdot_subs(pool, G[k], 1, &from, &side);
-            when = qdot_rest_value(r->s, nowhere, push_back(r, n, with, side, u, 1));
-            /* `when` = 0: no friction, the symbol s is arbitrary */
+            when = qdot_rest_value(r->s, nowhere, restoring_slope(r, n, with, side, u, 1));
+            /* where `when` is 0 there is no friction and the symbol s may have any value */
             when = qdot_condition(pool, when, false, &r->facts);
-            if (when != QDOT_FALSE && when != QDOT_NIL) { /* a force that does not oppose the motion drives it; it is 0 at rest */
+            if (when != QDOT_FALSE && when != QDOT_NIL) { /* other forces drive the motion and are 0 at rest: keep sign(u) */
                 room[0] = side;
                 for (size_t k = 0; k < n; k++)
                     G[k] = with[k];
@@ -147,8 +147,8 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
 /* The branch in which the jumps of the bits of `which` are at 0, where nothing in their LISTs in `apart` is: there two
  * sides depend on each other. */
 static qdot_status
-corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_expr *u, size_t n, unsigned which,
-              const qdot_expr *apart)
+add_corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_expr *u, size_t n, unsigned which,
+                  const qdot_expr *apart)
 {
     qdot_pool *pool = r->pool;
     uint32_t count = qdot_expr_count(pool, forces);
@@ -161,7 +161,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
         return QDOT_ENOMEM;
     for (size_t k = 0; k < n; k++) {
         qdot_expr from = qdot_fun1(pool, QDOT_SIGN, u[k]),
-                  side = side_symbol(pool, MOST_CORNERS + k);
+                  side = sign_symbol(pool, MOST_CORNERS + k);
 
         if ((which >> k & 1) == 0)
             continue;
@@ -176,7 +176,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
 
         if ((which >> k & 1) == 0)
             continue;
-        back = push_back(r, count, G, side_symbol(pool, MOST_CORNERS + k), u[k], 0);
+        back = restoring_slope(r, count, G, sign_symbol(pool, MOST_CORNERS + k), u[k], 0);
         b.equations = qdot_list_appended(pool, b.equations, 1, &u[k]);
         for (uint32_t j = 0; j < qdot_expr_count(pool, apart[k]) && b.conditions != QDOT_FALSE; j++)
             b.conditions = qdot_conditions_and_nonzero(pool, b.conditions, qdot_expr_arg(pool, apart[k], j));
@@ -192,7 +192,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
     return status;
 }
 
-/* Whether u itself, as a function of the coordinates, has kinks. */
+/* Whether the function u of the coordinates has kinks itself. */
 static bool
 has_kinks(const qdot_rest *r, qdot_expr u)
 {
@@ -213,10 +213,10 @@ has_kinks(const qdot_rest *r, qdot_expr u)
 /* Whether the jumps of two kinks simply add where both are at q = at: no product of both signs is in the forces, and
  * each is proved to push back. Then any two sides give a force between those left and right of the place. */
 static bool
-jumps_add(const qdot_rest *r, qdot_expr forces, const qdot_expr u[2], qdot_expr q, qdot_expr at)
+jumps_add_up(const qdot_rest *r, qdot_expr forces, const qdot_expr u[2], qdot_expr q, qdot_expr at)
 {
     qdot_pool *pool = r->pool;
-    const qdot_expr side[2] = {side_symbol(pool, MOST_CORNERS), side_symbol(pool, MOST_CORNERS + 1)},
+    const qdot_expr side[2] = {sign_symbol(pool, MOST_CORNERS), sign_symbol(pool, MOST_CORNERS + 1)},
                     sign[2] = {qdot_fun1(pool, QDOT_SIGN, u[0]), qdot_fun1(pool, QDOT_SIGN, u[1])};
     qdot_expr G = qdot_subs(pool, qdot_expr_arg(pool, forces, 0), 2, sign, side);
 
@@ -224,7 +224,7 @@ jumps_add(const qdot_rest *r, qdot_expr forces, const qdot_expr u[2], qdot_expr 
         qdot_expand(pool, qdot_diff(pool, qdot_diff(pool, G, side[0]), side[1])) != QDOT_ZERO)
         return false;
     for (size_t k = 0; k < 2; k++) {
-        qdot_expr back = qdot_subs(pool, push_back(r, 1, &G, side[k], u[k], 0), 1, &q, &at);
+        qdot_expr back = qdot_subs(pool, restoring_slope(r, 1, &G, side[k], u[k], 0), 1, &q, &at);
         qdot_decision d;
 
         if (back == QDOT_NIL || qdot_decide_less(pool, QDOT_ZERO, qdot_simplify(pool, back, &r->facts), true, &r->facts,
@@ -255,7 +255,7 @@ kinks_coincide(const qdot_rest *r, qdot_expr forces, qdot_expr u, qdot_expr v, b
         for (size_t k = 0; k < zero.root.n && status == QDOT_OK && !*yes; k++) {
             qdot_expr at = zero.root.at[k].value, gap = qdot_subs(pool, u, 1, &q, &at);
 
-            *yes = gap != QDOT_NIL && qdot_is_zero(pool, gap, &r->facts) && !jumps_add(r, forces, pair, q, at);
+            *yes = gap != QDOT_NIL && qdot_is_zero(pool, gap, &r->facts) && !jumps_add_up(r, forces, pair, q, at);
             status = qdot_pool_check(pool);
             if (status == QDOT_EDOMAIN)
                 status = QDOT_OK;
@@ -269,7 +269,7 @@ kinks_coincide(const qdot_rest *r, qdot_expr forces, qdot_expr u, qdot_expr v, b
 /* To the LISTs apart [n] for each of the u [n] what is 0 where it is, whatever the parameters are, with a jump that does
  * not simply add: others of the u, and what its own kinks lie at. Such places are not searched. */
 static qdot_status
-coincidences_find(qdot_rest *r, qdot_expr forces, size_t n, const qdot_expr *u, qdot_expr *apart)
+find_coinciding_kinks(qdot_rest *r, qdot_expr forces, size_t n, const qdot_expr *u, qdot_expr *apart)
 {
     qdot_pool *pool = r->pool;
     qdot_status status = QDOT_OK;
@@ -314,7 +314,7 @@ coincidences_find(qdot_rest *r, qdot_expr forces, size_t n, const qdot_expr *u, 
 /* Add what is 0 where the u [n] of two kinks of the only coordinate q are 0 at one place: for other values of parameters
  * these are solved for one by one. */
 static qdot_status
-meetings_add(qdot_rest *r, qdot_expr q, size_t n, const qdot_expr *u)
+add_coinciding_kinks(qdot_rest *r, qdot_expr q, size_t n, const qdot_expr *u)
 {
     qdot_pool *pool = r->pool;
 
@@ -355,7 +355,7 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 
     QDOT_TRY(qdot_rest_by_signs(r, equations, &equations));
     QDOT_TRY(qdot_rest_by_signs(r, r->forces, &forces));
-    while (n <= MOST_CORNERS && (u[n] = next_jump(r, equations, false, n, u)) != QDOT_NIL)
+    while (n <= MOST_CORNERS && (u[n] = next_sign_argument(r, equations, false, n, u)) != QDOT_NIL)
         n++;
     QDOT_TRY(qdot_pool_check(pool));
     if (n > MOST_CORNERS) {
@@ -363,12 +363,12 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
         return QDOT_OK;
     }
     if (r->s->coordinates.n == 1)
-        QDOT_TRY(meetings_add(r, r->s->coordinates.at[0], n, u));
-    QDOT_TRY(coincidences_find(r, forces, n, u, apart));
+        QDOT_TRY(add_coinciding_kinks(r, r->s->coordinates.at[0], n, u));
+    QDOT_TRY(find_coinciding_kinks(r, forces, n, u, apart));
     for (size_t k = 0; k < n; k++)
-        QDOT_TRY(qdot_vec_push(&r->system.unknowns, side_symbol(pool, MOST_CORNERS + k)));
+        QDOT_TRY(qdot_vec_push(&r->system.unknowns, sign_symbol(pool, MOST_CORNERS + k)));
     for (unsigned which = 1; which < 1u << n; which++)
-        QDOT_TRY(corner_branch(r, equations, forces, u, n, which, apart));
+        QDOT_TRY(add_corner_branch(r, equations, forces, u, n, which, apart));
     return QDOT_OK;
 }
 
@@ -378,7 +378,7 @@ qdot_rest_corner(qdot_rest *r, qdot_expr *u)
     qdot_expr equations;
 
     QDOT_TRY(qdot_rest_by_signs(r, r->system.equations, &equations));
-    *u = next_jump(r, equations, false, 0, NULL);
+    *u = next_sign_argument(r, equations, false, 0, NULL);
     return qdot_pool_check(r->pool);
 }
 
@@ -390,7 +390,7 @@ qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes)
     *yes = false;
     QDOT_TRY(qdot_rest_by_signs(r, r->system.equations, &equations));
     for (size_t n = 0; n < MOST_CORNERS && !*yes; n++) {
-        u[n] = next_jump(r, equations, false, n, u);
+        u[n] = next_sign_argument(r, equations, false, n, u);
         if (u[n] == QDOT_NIL)
             break;
         there = qdot_simultaneous_put(r->pool, u[n], place);
@@ -402,7 +402,7 @@ qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes)
 /* The force beside a place at a kink, on the upper side or the lower one: signs of what is 0 at the place as they are
  * there. Nil: it is not known. */
 static qdot_expr
-force_beside(const qdot_rest *r, qdot_expr force, qdot_expr q, qdot_expr at, bool upper, const qdot_facts *facts)
+force_beside_kink(const qdot_rest *r, qdot_expr force, qdot_expr q, qdot_expr at, bool upper, const qdot_facts *facts)
 {
     qdot_pool *pool = r->pool;
     qdot_expr there = force;
@@ -442,8 +442,8 @@ qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value, 
     at = qdot_expr_arg(pool, qdot_expr_arg(pool, values, 0), 1);
     QDOT_TRY(qdot_rest_by_signs(r, r->forces, &forces));
     forces = qdot_subs(pool, qdot_expr_arg(pool, forces, 0), 1, &p, &value);
-    upper = forces == QDOT_NIL ? QDOT_NIL : force_beside(r, forces, q, at, true, facts);
-    lower = upper == QDOT_NIL ? QDOT_NIL : force_beside(r, forces, q, at, false, facts);
+    upper = forces == QDOT_NIL ? QDOT_NIL : force_beside_kink(r, forces, q, at, true, facts);
+    lower = upper == QDOT_NIL ? QDOT_NIL : force_beside_kink(r, forces, q, at, false, facts);
     there = lower == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, forces, 1, &q, &at);
     if (there != QDOT_NIL) {
         const qdot_expr down = qdot_condition(pool, qdot_neg(pool, upper), false, facts),

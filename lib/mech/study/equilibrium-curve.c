@@ -30,7 +30,7 @@ check_scene(qdot_equilibrium_curve *c)
 }
 
 static qdot_status
-check_count(qdot_equilibrium_curve *c)
+check_number_of_equations(qdot_equilibrium_curve *c)
 {
     const uint32_t equations = qdot_expr_count(c->pool, c->rest.system.equations);
 
@@ -50,7 +50,7 @@ check_count(qdot_equilibrium_curve *c)
 /* An error if the parameter has no influence: on the equations at rest, on the ends of domains, or on the motion near a
  * rest. */
 static qdot_status
-check_influence(const qdot_equilibrium_curve *c)
+check_parameter_influence(const qdot_equilibrium_curve *c)
 {
     bool some = c->moving;
 
@@ -80,7 +80,7 @@ curve_domain_end(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_ex
         qdot_expr zero = QDOT_ZERO;
 
         *moving = e;
-        e = qdot_subs(c->pool, e, 1, &c->parameter, &zero); /* the part without the parameter */
+        e = qdot_subs(c->pool, e, 1, &c->parameter, &zero); /* the bound e with the parameter set to 0 */
         if (e == QDOT_NIL)
             return qdot_pool_check(c->pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_pool_check(c->pool);
         if ((qdot_expr_node(c->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
@@ -92,7 +92,7 @@ curve_domain_end(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_ex
 }
 
 static qdot_status
-curve_allocate(qdot_equilibrium_curve *c)
+allocate_curve(qdot_equilibrium_curve *c)
 {
     const size_t n = c->n, all = c->s->coordinates.n + c->s->constraints.n;
 
@@ -151,9 +151,9 @@ qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool up
                : NAN;
 }
 
-/* The expression e at rest; coordinates that are absent from the equations of rest are set to 0. */
+/* The expression e at rest; coordinates that do not occur in the equations at rest are set to 0. */
 static qdot_expr
-at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
+value_at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
 {
     const qdot_scene *s = c->s;
 
@@ -171,9 +171,9 @@ at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
     return e;
 }
 
-/* Fill K, Gamma, M with the derivatives from which stability is judged. */
+/* Fill the matrices K, Gamma, M of the linearised motion, from which stability is judged. */
 static qdot_status
-fill_motion(qdot_equilibrium_curve *c)
+fill_linear_motion(qdot_equilibrium_curve *c)
 {
     const size_t n = c->s->coordinates.n, m = c->s->constraints.n, all = c->all;
     const qdot_expr *slopes = qdot_stability_slopes(c->judge->numbers);
@@ -185,10 +185,10 @@ fill_motion(qdot_equilibrium_curve *c)
         for (size_t j = 0; j < n; j++) {
             const size_t to = i * all + j, from = i * n + j;
 
-            c->M[to] = at_rest(c, slopes[from]);
-            c->K[to] = at_rest(c, slopes[2 * n * n + from]);
+            c->M[to] = value_at_rest(c, slopes[from]);
+            c->K[to] = value_at_rest(c, slopes[2 * n * n + from]);
             QDOT_TRY(qdot_pool_check(c->pool));
-            c->Gamma[to] = at_rest(c, slopes[n * n + from]);
+            c->Gamma[to] = value_at_rest(c, slopes[n * n + from]);
             if (c->Gamma[to] == QDOT_NIL) {
                 c->damped = false;
                 c->Gamma[to] = QDOT_ZERO;
@@ -197,7 +197,7 @@ fill_motion(qdot_equilibrium_curve *c)
             }
         }
         for (size_t k = 0; k < m; k++) {
-            const qdot_expr a = at_rest(c, slopes[3 * n * n + k * n + i]);
+            const qdot_expr a = value_at_rest(c, slopes[3 * n * n + k * n + i]);
 
             c->K[i * all + n + k] = c->K[(n + k) * all + i] = a;
         }
@@ -213,14 +213,14 @@ qdot_equilibrium_curve_begin(qdot_equilibrium_curve *c, qdot_scene *s, qdot_expr
         .s = s, .pool = s->pool, .parameter = parameter, .bind = bind, .user = user};
     QDOT_TRY(qdot_rest_begin(&c->rest, s));
     QDOT_TRY(check_scene(c));
-    QDOT_TRY(check_count(c));
-    QDOT_TRY(curve_allocate(c));
+    QDOT_TRY(check_number_of_equations(c));
+    QDOT_TRY(allocate_curve(c));
     QDOT_TRY(fill_equations(c));
     QDOT_TRY(qdot_judge_new(s, c->rest.system.equations, bind, user, &c->judge));
     c->judge->parameter = parameter;
     QDOT_TRY(qdot_stability_numbers_new(c->judge, &c->judge->numbers));
-    QDOT_TRY(fill_motion(c));
-    return check_influence(c);
+    QDOT_TRY(fill_linear_motion(c));
+    return check_parameter_influence(c);
 }
 
 void
@@ -239,14 +239,14 @@ qdot_equilibrium_curve_end(qdot_equilibrium_curve *c)
 
 /* --- equilibria at a value of the parameter ----------------------------------------------- */
 
-/* Replaces all parameters by values, including the free one. */
+/* User data of a function that replaces all parameters by values, including the free one. */
 typedef struct {
     qdot_equilibrium_curve *c;
     qdot_expr value;
 } at_value;
 
 static qdot_expr
-bind_all(void *user, qdot_expr e)
+insert_parameter_values(void *user, qdot_expr e)
 {
     const at_value *v = user;
 
@@ -254,10 +254,10 @@ bind_all(void *user, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_subs(v->c->pool, e, 1, &v->c->parameter, &v->value);
 }
 
-/* Find the value of unknown i at the parameter value; NaN if the unknown is left free or is undefined there. */
+/* Find the value of unknown i at the parameter value p; NaN if the equilibrium leaves it free or it is undefined there. */
 static qdot_status
-unknown_number(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
-               double *y)
+find_unknown_number(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
+                    double *y)
 {
     *y = NAN;
     for (uint32_t k = 0; k < qdot_expr_count(c->pool, e->equations); k++) {
@@ -266,7 +266,7 @@ unknown_number(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_va
 
         if (qdot_expr_arg(c->pool, one, 0) != c->unknown[i])
             continue;
-        x = bind_all(value, qdot_expr_arg(c->pool, one, 1));
+        x = insert_parameter_values(value, qdot_expr_arg(c->pool, one, 1));
         if (x == QDOT_NIL) {
             const qdot_status status = qdot_pool_check(c->pool);
 
@@ -288,16 +288,16 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
 
     *at = NULL;
     *count = 0;
-    rest.system.unknowns.at = NULL; /* the search appends the unknowns to its own list */
+    rest.system.unknowns.at = NULL; /* copy the list of unknowns, because the search appends its own unknowns to it */
     rest.system.unknowns.n = rest.system.unknowns.capacity = 0;
     for (size_t i = 0; i < c->rest.system.unknowns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&rest.system.unknowns, c->rest.system.unknowns.at[i]);
     if (c->moving) {
-        rest.system.ends = bind_all;
+        rest.system.ends = insert_parameter_values;
         rest.system.ends_user = &value;
     }
     if (status == QDOT_OK)
-        status = qdot_rest_find(&rest, bind_all, &value, &unused);
+        status = qdot_rest_find(&rest, insert_parameter_values, &value, &unused);
     if (status == QDOT_EDOMAIN) { /* the equations or the energy have no real value at this p: no equilibrium */
         rest.found.n = 0;
         status = QDOT_OK;
@@ -312,7 +312,7 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
         bool known = true;
 
         for (size_t i = 0; i < c->n && status == QDOT_OK; i++) {
-            status = unknown_number(c, &rest.found.at[k], &value, i, &y[i]);
+            status = find_unknown_number(c, &rest.found.at[k], &value, i, &y[i]);
             known = known && isfinite(y[i]);
         }
         y[c->n] = p;

@@ -22,21 +22,21 @@ typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_expr parameter;
-    qdot_binder bind; /* gives the values of all parameters except this one */
+    qdot_binder bind; /* gives the values of all parameters except the free one */
     void *user;
-    size_t n, coordinates; /* number of unknowns; how many, the first, are coordinates */
+    size_t n, coordinates; /* number of unknowns; how many of these are coordinates, which come first */
     qdot_expr *unknown;    /* [n + 1] the unknowns, then the parameter p */
     qdot_expr *F;          /* [n] equations of equilibrium, F = 0 */
-    bool *angle;           /* [n] an angle with period 2 pi */
-    double *lo, *hi; /* [n + 1] bounds of the domains; the whole line if a bound depends on p */
+    bool *angle;           /* [n] whether the unknown is an angle with period 2 pi */
+    double *lo, *hi; /* [n + 1] bounds of the domains; infinite if a bound depends on p */
     qdot_expr *end;        /* [2 n] lower and upper bounds that depend on p; nil: constant bound */
-    bool moving;           /* some bound of a domain depends on p */
+    bool moving;           /* whether some bound of a domain depends on p */
     size_t all;            /* number of coordinates of the scene plus constraints */
-    qdot_expr *K, *Gamma, *M; /* [all x all] H with A, A^T beside it; Gamma and M padded with 0 */
-    bool damped;           /* Gamma is defined at rest: no damping as |v| v */
+    qdot_expr *K, *Gamma, *M; /* [all x all] stiffness H with constraint Jacobian A, A^T beside it; Gamma, M padded with 0 */
+    bool damped;           /* Gamma is defined at rest, unlike for a damping force |v| v */
     qdot_rest rest;
     qdot_judge *judge;
-    qdot_linear_roots roots; /* roots of the linear motion; scratch */
+    qdot_linear_roots roots; /* characteristic roots of the linearised motion; working memory */
 } qdot_equilibrium_curve;
 
 /* c is from {0}, and ended in any case. bind leaves p free. Errors: QDOT_EINVAL if p has no
@@ -47,7 +47,7 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_begin(qdot_equilibrium_curve 
                                                          void *user);
 void qdot_equilibrium_curve_end(qdot_equilibrium_curve *c);
 
-/* An end of the domain of unknown i at the parameter value p; NaN if undefined. */
+/* A bound of the domain of unknown i at the parameter value p; NaN if undefined. */
 double qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool upper, double p);
 
 /* Find the equilibria at the parameter value p: *at [count * (n + 1)] gets u, p of each; owned by
@@ -55,7 +55,7 @@ double qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, 
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p,
                                                           double **at, size_t *count);
 
-/* Judge the stability at y [n + 1] = u, p; c->roots gets the roots of the linear motion there. */
+/* Judge the stability at y [n + 1], the unknowns and p; c->roots gets the roots of the linearised motion there. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_judge(qdot_equilibrium_curve *c,
                                                          const double *y, qdot_stability *verdict);
 

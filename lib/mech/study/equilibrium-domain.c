@@ -13,7 +13,7 @@
 
 typedef qdot_expr conditions_of(qdot_pool *pool, qdot_expr f, qdot_expr x);
 
-/* The set, and the conditions of e; `generic`: those of parameters alone. */
+/* The set of conditions extended by those that `of` gives for e; `generic`: only by those on parameters alone. */
 static qdot_expr
 add_conditions(const qdot_rest *r, qdot_expr set, qdot_expr e, conditions_of *of, bool generic)
 {
@@ -38,17 +38,17 @@ qdot_rest_domain(qdot_rest *r)
     return qdot_pool_check(r->pool);
 }
 
-/* The set of conditions, with the conditions that no divisor is 0. */
+/* The set of conditions extended by the conditions that no divisor is 0. */
 static qdot_expr
-with_divisors(const qdot_rest *r, qdot_expr set)
+add_divisor_conditions(const qdot_rest *r, qdot_expr set)
 {
     set = add_conditions(r, set, r->energy, qdot_conditions_of_divisors, false);
     return add_conditions(r, set, r->forces, qdot_conditions_of_divisors, true);
 }
 
-/* The set and that the coordinates are inside their declared domains. */
+/* The set of conditions extended by the declared domains of the coordinates. */
 static qdot_expr
-with_domains(const qdot_rest *r, qdot_expr set)
+add_domain_conditions(const qdot_rest *r, qdot_expr set)
 {
     for (size_t i = 0; i < r->s->coordinates.n && set != QDOT_FALSE; i++) {
         const qdot_expr q = r->s->coordinates.at[i];
@@ -59,9 +59,10 @@ with_domains(const qdot_rest *r, qdot_expr set)
     return set;
 }
 
-/* What is 0 where a condition fails that generic parameters fulfil; nil: they do not, or it never fails. */
+/* An expression that is 0 where a condition fails for special parameter values only; nil: it fails for generic ones, or
+ * never. */
 static qdot_expr
-single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
+special_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
 {
     qdot_facts generic = *facts, exact = *facts;
     const qdot_expr one = qdot_list(pool, 1, &condition);
@@ -78,7 +79,7 @@ single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
     return u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
 }
 
-/* Add to the LIST what is 0 where the k-th place exists but for this condition. */
+/* Add to the LIST expressions that are 0 where the k-th equilibrium is excluded by the given condition alone. */
 static qdot_status
 add_failures_at(const qdot_rest *r, size_t k, qdot_expr condition, qdot_expr *list)
 {
@@ -92,7 +93,7 @@ add_failures_at(const qdot_rest *r, size_t k, qdot_expr condition, qdot_expr *li
     if (condition != QDOT_NIL)
         condition = qdot_solve_without_turns(pool, condition);
     if (condition != QDOT_NIL && qdot_expr_kind(pool, condition) == QDOT_REL && qdot_is_generic(pool, condition))
-        u = single_failure(pool, condition, &facts);
+        u = special_failure(pool, condition, &facts);
     status = qdot_pool_check(pool);
     if (status == QDOT_OK && u != QDOT_NIL)
         status = qdot_rest_add_factors(pool, u, &all);
@@ -112,7 +113,7 @@ qdot_status
 qdot_rest_undefined(const qdot_rest *r, qdot_expr *everywhere, qdot_expr *special)
 {
     qdot_pool *pool = r->pool;
-    const qdot_expr set = with_domains(r, with_divisors(r, r->system.domain));
+    const qdot_expr set = add_domain_conditions(r, add_divisor_conditions(r, r->system.domain));
     qdot_expr others = *special;
 
     *everywhere = *special = QDOT_NIL;

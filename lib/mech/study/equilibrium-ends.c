@@ -43,14 +43,14 @@ is_undefined(qdot_pool *pool)
 }
 
 static qdot_expr
-at_end(const end *e, qdot_expr what)
+value_at_end(const end *e, qdot_expr what)
 {
     return qdot_subs(e->r->pool, what, 1, &e->p, &e->value);
 }
 
 /* Whether every expression of a LIST is proved to be 0 and to have a value. */
 static bool
-are_zero(const end *e, qdot_expr list)
+are_proved_zero(const end *e, qdot_expr list)
 {
     qdot_pool *pool = e->r->pool;
     bool all = qdot_conditions_at(pool, qdot_conditions_of_domain(pool, list, QDOT_NIL), 0, NULL, NULL,
@@ -64,7 +64,7 @@ are_zero(const end *e, qdot_expr list)
 
 /* Whether all subexpressions of a LIST are defined at these values, also those like a*log(x) at a = 0. */
 static bool
-has_value(const end *e, qdot_expr list, qdot_expr values)
+list_is_defined(const end *e, qdot_expr list, qdot_expr values)
 {
     qdot_pool *pool = e->r->pool;
     qdot_expr set = qdot_conditions_all(pool, qdot_conditions_of_domain(pool, list, QDOT_NIL),
@@ -72,7 +72,7 @@ has_value(const end *e, qdot_expr list, qdot_expr values)
     bool all = set != QDOT_FALSE;
 
     if (all && set != QDOT_NIL) {
-        set = qdot_simultaneous_put(pool, at_end(e, set), values);
+        set = qdot_simultaneous_put(pool, value_at_end(e, set), values);
         all = qdot_conditions_at(pool, set, 0, NULL, NULL, &e->facts) == QDOT_NIL;
     }
     return !is_undefined(pool) && all;
@@ -80,7 +80,7 @@ has_value(const end *e, qdot_expr list, qdot_expr values)
 
 /* Whether the values lie in the declared domains. */
 static bool
-are_inside(const end *e, qdot_expr values)
+lie_in_domains(const end *e, qdot_expr values)
 {
     qdot_pool *pool = e->r->pool;
     bool inside = true;
@@ -88,8 +88,8 @@ are_inside(const end *e, qdot_expr values)
     for (uint32_t i = 0; i < qdot_expr_count(pool, values) && inside; i++) {
         qdot_expr one = qdot_expr_arg(pool, values, i), v = qdot_expr_arg(pool, one, 1);
         const qdot_symbol *u = qdot_expr_symbol(pool, qdot_expr_arg(pool, one, 0));
-        qdot_expr lo = u->lo == QDOT_NIL ? QDOT_NIL : at_end(e, u->lo),
-                  hi = u->hi == QDOT_NIL ? QDOT_NIL : at_end(e, u->hi);
+        qdot_expr lo = u->lo == QDOT_NIL ? QDOT_NIL : value_at_end(e, u->lo),
+                  hi = u->hi == QDOT_NIL ? QDOT_NIL : value_at_end(e, u->hi);
         bool lo_open = u->lo_open, hi_open = u->hi_open;
 
         if (lo != QDOT_NIL)
@@ -102,7 +102,7 @@ are_inside(const end *e, qdot_expr values)
 
 /* Whether the j-th equilibrium has these values; `always`: and is proved to exist. */
 static bool
-is_place(const end *e, size_t j, qdot_expr values, bool always)
+has_equilibrium_values(const end *e, size_t j, qdot_expr values, bool always)
 {
     const qdot_rest *r = e->r;
     const qdot_simultaneous_solution one = {values, e->others};
@@ -111,7 +111,7 @@ is_place(const end *e, size_t j, qdot_expr values, bool always)
 
     if (j == e->place || r->found.at[j].numeric || r->found.at[j].range != QDOT_NIL)
         return false;
-    all.values = at_end(e, r->found.at[j].equations);
+    all.values = value_at_end(e, r->found.at[j].equations);
     if (is_undefined(r->pool) || !qdot_simultaneous_lies_in(&r->system, &one, &all))
         return false;
     exists = qdot_conditions_at(r->pool, r->found.at[j].exists, 1, &e->p, &e->value, &e->facts);
@@ -120,12 +120,12 @@ is_place(const end *e, size_t j, qdot_expr values, bool always)
 
 /* Whether another equilibrium that is proved to exist has these values. */
 static bool
-is_listed(const end *e, qdot_expr values)
+is_listed_elsewhere(const end *e, qdot_expr values)
 {
     bool listed = false;
 
     for (size_t j = 0; j < e->r->found.n && !listed; j++)
-        listed = is_place(e, j, values, true);
+        listed = has_equilibrium_values(e, j, values, true);
     return listed;
 }
 
@@ -152,30 +152,30 @@ judge_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr p, con
         if (n != i)
             others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, exists, n));
     e.others = qdot_conditions_at(pool, others, 1, &p, &value, &exact);
-    if (is_undefined(pool) || e.others == QDOT_FALSE) /* the other conditions exclude this end */
+    if (is_undefined(pool) || e.others == QDOT_FALSE) /* the other conditions exclude p = value */
         return IS_LISTED;
     e.facts = qdot_facts_and(pool, &exact, e.others, e.room);
-    values = at_end(&e, place->equations);
-    if (is_undefined(pool) || !are_inside(&e, values))
+    values = value_at_end(&e, place->equations);
+    if (is_undefined(pool) || !lie_in_domains(&e, values))
         return IS_NONE;
-    there = qdot_list_appended(pool, at_end(&e, r->system.equations), 0, NULL);
+    there = qdot_list_appended(pool, value_at_end(&e, r->system.equations), 0, NULL);
     there = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, there, values));
     if (is_undefined(pool))
         return IS_NONE;
-    if (!are_zero(&e, there)) { /* not at rest: at a kink the equations have another value than beside it */
+    if (!are_proved_zero(&e, there)) { /* not at rest: at a kink the equations have another value than beside it */
         qdot_held held;
 
         if (qdot_rest_is_held(r, values, p, value, &e.facts, &held) != QDOT_OK)
             (void)qdot_pool_fail(pool);
-        return held != QDOT_HELD ? IS_NONE : is_listed(&e, values) ? IS_LISTED : IS_NEW;
+        return held != QDOT_HELD ? IS_NONE : is_listed_elsewhere(&e, values) ? IS_LISTED : IS_NEW;
     }
-    (void)qdot_simultaneous_put(pool, at_end(&e, r->system.defined), values);
+    (void)qdot_simultaneous_put(pool, value_at_end(&e, r->system.defined), values);
     if (is_undefined(pool))
         return IS_NONE;
     there = qdot_list_appended(pool, r->system.equations, 1, &r->system.defined);
-    if (!has_value(&e, there, values))
+    if (!list_is_defined(&e, there, values))
         return IS_NONE;
-    return is_listed(&e, values) ? IS_LISTED : IS_NEW;
+    return is_listed_elsewhere(&e, values) ? IS_LISTED : IS_NEW;
 }
 
 /* The verdict where `factor`, one of those of right - left of the condition, is 0, by the first parameter of which
@@ -249,7 +249,7 @@ exists_at_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, bool *yes, q
 
 /* The list with relation i, a < b, replaced by a <= b. */
 static qdot_expr
-weakened(qdot_pool *pool, qdot_expr list, uint32_t i)
+with_weakened_relation(qdot_pool *pool, qdot_expr list, uint32_t i)
 {
     qdot_expr all = QDOT_NIL;
 
@@ -266,7 +266,7 @@ weakened(qdot_pool *pool, qdot_expr list, uint32_t i)
 
 /* Append those members of `more` that are not in the LIST. */
 static void
-append_new(qdot_pool *pool, qdot_expr *list, qdot_expr more)
+append_new_members(qdot_pool *pool, qdot_expr *list, qdot_expr more)
 {
     for (uint32_t i = 0; more != QDOT_NIL && i < qdot_expr_count(pool, more); i++) {
         qdot_expr one = qdot_expr_arg(pool, more, i);
@@ -283,7 +283,7 @@ append_new(qdot_pool *pool, qdot_expr *list, qdot_expr more)
  * are equal at once, it may exist by neither alone. What is 0 where a relation that stays strict is too much to ask is
  * added to the LIST *special. */
 static qdot_status
-weaken_place(qdot_rest *r, size_t k, qdot_expr *exists, qdot_expr *special)
+weaken_existence_conditions(qdot_rest *r, size_t k, qdot_expr *exists, qdot_expr *special)
 {
     qdot_pool *pool = r->pool;
     qdot_equilibrium *e = &r->found.at[k];
@@ -297,9 +297,9 @@ weaken_place(qdot_rest *r, size_t k, qdot_expr *exists, qdot_expr *special)
         if (!yes && new == QDOT_NIL && *exists != e->exists)
             QDOT_TRY(exists_at_end(r, k, e->exists, i, &alone, &new));
         if (!yes)
-            append_new(pool, special, new);
+            append_new_members(pool, special, new);
         if (yes)
-            *exists = weakened(pool, *exists, i);
+            *exists = with_weakened_relation(pool, *exists, i);
         if (yes && e->stability != QDOT_STABILITY_UNDECIDED)
             e->stable_when = qdot_conditions_and(pool, e->stable_when, strict);
         QDOT_TRY(qdot_pool_check(pool));
@@ -319,7 +319,7 @@ qdot_rest_ends(qdot_rest *r, qdot_expr *special)
 
         exists[k] = e->exists;
         if (!e->numeric && e->range == QDOT_NIL && e->exists != QDOT_NIL && qdot_solve_integers(pool, e->equations) == 0)
-            status = weaken_place(r, k, &exists[k], special);
+            status = weaken_existence_conditions(r, k, &exists[k], special);
     }
     for (size_t k = 0; k < r->found.n && status == QDOT_OK; k++)
         r->found.at[k].exists = exists[k];
@@ -330,7 +330,7 @@ qdot_rest_ends(qdot_rest *r, qdot_expr *special)
 /* Whether it is known that the point at which kinks meet, where `gap` = 0, is listed if it is an equilibrium; if it is
  * proved to be none, the places that are this point exist where gap != 0 alone. */
 static qdot_status
-settle_meeting(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *known)
+settle_coinciding_kinks(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *known)
 {
     qdot_pool *pool = r->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, gap, false);
@@ -351,13 +351,13 @@ settle_meeting(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *known)
         qdot_held held = QDOT_HELD_UNKNOWN;
 
         e.value = zero.root.at[0].value;
-        equation = qdot_rel(pool, QDOT_EQ, r->s->coordinates.at[0], at_end(&e, at));
+        equation = qdot_rel(pool, QDOT_EQ, r->s->coordinates.at[0], value_at_end(&e, at));
         values = qdot_list(pool, 1, &equation);
         if (!is_undefined(pool))
             status = qdot_rest_is_held(r, values, e.p, e.value, &e.facts, &held);
-        *known = held != QDOT_NOT_HELD && is_listed(&e, values);
+        *known = held != QDOT_NOT_HELD && is_listed_elsewhere(&e, values);
         for (size_t j = 0; j < r->found.n && status == QDOT_OK && held == QDOT_NOT_HELD; j++)
-            if (is_place(&e, j, values, false))
+            if (has_equilibrium_values(&e, j, values, false))
                 r->found.at[j].exists = qdot_conditions_and(
                     pool, r->found.at[j].exists,
                     qdot_condition(pool, qdot_fun1(pool, QDOT_ABS, gap), true, &e.facts));
@@ -376,9 +376,9 @@ qdot_rest_meetings(qdot_rest *r, qdot_expr *left)
         qdot_expr one = qdot_expr_arg(pool, r->meeting, i), gap = qdot_expr_arg(pool, one, 0);
         bool known;
 
-        QDOT_TRY(settle_meeting(r, gap, qdot_expr_arg(pool, one, 1), &known));
+        QDOT_TRY(settle_coinciding_kinks(r, gap, qdot_expr_arg(pool, one, 1), &known));
         if (!known)
-            append_new(pool, left, qdot_list(pool, 1, &gap));
+            append_new_members(pool, left, qdot_list(pool, 1, &gap));
     }
     return qdot_pool_check(pool);
 }

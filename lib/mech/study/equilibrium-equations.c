@@ -46,7 +46,7 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         e[i] = qdot_simplify(r->pool, qdot_rest_value(s, nowhere, e[i]), &r->facts);
         status = qdot_pool_check(r->pool);
-        if (status == QDOT_EDOMAIN && i < n) { /* usually a force along v/|v| */
+        if (status == QDOT_EDOMAIN && i < n) { /* undefined at rest, usually because of a force along v/|v| */
             const char *q = qdot_expr_symbol(r->pool, s->coordinates.at[i])->name;
 
             (void)qdot_fail(QDOT_EDOMAIN, "the force along %.60s has no value at rest: division by zero", q);
@@ -67,7 +67,7 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
 }
 
 static bool
-holds_multiplier(const qdot_rest *r, qdot_expr e)
+contains_multiplier(const qdot_rest *r, qdot_expr e)
 {
     for (size_t k = 0; k < r->s->constraints.n; k++)
         if (qdot_expr_contains(r->pool, e, r->s->constraints.at[k].multiplier))
@@ -77,9 +77,9 @@ holds_multiplier(const qdot_rest *r, qdot_expr e)
 
 /* Append the equations that e implies at t = `time`; QDOT_EDOMAIN if undefined. */
 static qdot_status
-at_time(qdot_rest *r, qdot_expr e, qdot_expr time, qdot_expr *list)
+append_equations_at_time(qdot_rest *r, qdot_expr e, qdot_expr time, qdot_expr *list)
 {
-    int most = holds_multiplier(r, e) ? 0 : DERIVATIVES;
+    int most = contains_multiplier(r, e) ? 0 : DERIVATIVES;
     const qdot_expr t = QDOT_T;
 
     for (int k = 0; k <= most; k++) {
@@ -106,10 +106,10 @@ qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations, qdot_expr *list)
             *list = qdot_list_appended(r->pool, *list, 1, &e);
             continue;
         }
-        status = at_time(r, e, QDOT_ZERO, &with);
+        status = append_equations_at_time(r, e, QDOT_ZERO, &with);
         if (status == QDOT_EDOMAIN) {
             with = *list;
-            status = at_time(r, e, QDOT_ONE, &with);
+            status = append_equations_at_time(r, e, QDOT_ONE, &with);
         }
         QDOT_TRY(status);
         *list = with;

@@ -7,13 +7,13 @@
 #include "normal/solve/cramer.h"
 #include "normal/solve/zeros.h"
 
-enum { MOST = 3, MOST_WALLS = 12 }; /* largest number of unknowns besides p, of walls */
+enum { MOST = 3, MOST_WALLS = 12 }; /* largest number of unknowns besides p; largest number of special values of p */
 
 /* budgets[n]: the work allowed for a search in n unknowns and p. */
 static const uint64_t budgets[MOST + 1] = {0, 30000, 40000, 40000};
 
 static qdot_expr
-slopes_determinant(const qdot_equilibrium_curve *c)
+jacobian_determinant(const qdot_equilibrium_curve *c)
 {
     qdot_expr A[MOST * MOST];
 
@@ -23,7 +23,7 @@ slopes_determinant(const qdot_equilibrium_curve *c)
     return qdot_cramer_determinant(c->pool, (uint32_t)c->n, A);
 }
 
-/* An end of the range as an expression if it is finite; nil for an infinite one. */
+/* An end of the range of p as an expression if it is finite; nil for an infinite one. */
 static qdot_expr
 fold_range_end(qdot_pool *pool, double end)
 {
@@ -50,7 +50,7 @@ qdot_equilibrium_set_add_folds(qdot_equilibrium_set *set)
                                       .turn = c->angle[i],
                                       .group = i >= c->coordinates};
     }
-    F[n] = slopes_determinant(c);
+    F[n] = jacobian_determinant(c);
     range[n] = (qdot_zeros_range){.lo = fold_range_end(c->pool, least), .hi = fold_range_end(c->pool, most)};
     QDOT_TRY(qdot_pool_check(c->pool));
     status = qdot_zeros_find(c->pool, n + 1, F, c->unknown, range, budgets[n], &zeros);

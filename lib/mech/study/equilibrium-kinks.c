@@ -34,16 +34,16 @@
 enum { SAMPLES = 64, MOST_NESTED = 3 };
 
 static bool
-holds_coordinate(const qdot_rest *r, qdot_expr e)
+contains_coordinate(const qdot_rest *r, qdot_expr e)
 {
     return (qdot_mech_holds(r->s, e) & QDOT_HAS_COORD) != 0;
 }
 
 /* --- jumps as signs --------------------------------------------------------------------------- */
 
-/* u of a condition u > 0 or u >= 0; nil for other conditions. */
+/* The expression u of a condition u > 0 or u >= 0; nil for other conditions. */
 static qdot_expr
-condition_gap(qdot_pool *pool, qdot_expr condition)
+condition_difference(qdot_pool *pool, qdot_expr condition)
 {
     if (qdot_expr_kind(pool, condition) != QDOT_REL ||
         qdot_expr_node(pool, condition)->op == QDOT_EQ)
@@ -54,11 +54,11 @@ condition_gap(qdot_pool *pool, qdot_expr condition)
 
 /* Replace a sign by a symbol: where its argument is 0, friction may give it any value in -1 ... 1. */
 static qdot_expr
-sign_as_symbol(qdot_pool *pool, qdot_expr e, void *user)
+replace_sign_by_symbol(qdot_pool *pool, qdot_expr e, void *user)
 {
     char name[32];
 
-    if (!qdot_expr_is_function(pool, e, QDOT_SIGN) || !holds_coordinate(user, e))
+    if (!qdot_expr_is_function(pool, e, QDOT_SIGN) || !contains_coordinate(user, e))
         return e;
     snprintf(name, sizeof name, "(side of %lu)", (unsigned long)e);
     return qdot_symbol_get(pool, QDOT_FORMAL, name);
@@ -79,7 +79,7 @@ vanishes_with(const qdot_rest *r, qdot_expr e, qdot_expr u, bool *yes)
             x = r->s->coordinates.at[i];
     if (*yes || x == QDOT_NIL)
         return QDOT_OK;
-    e = e == QDOT_NIL ? QDOT_NIL : qdot_walk_replace(pool, e, QDOT_FUN, sign_as_symbol, (void *)r);
+    e = e == QDOT_NIL ? QDOT_NIL : qdot_walk_replace(pool, e, QDOT_FUN, replace_sign_by_symbol, (void *)r);
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve(pool, u, x, &r->facts, &found);
     *yes = status == QDOT_OK && found.complete && found.divisor.n == 0;
@@ -135,13 +135,13 @@ is_continuous(const qdot_rest *r, qdot_expr u, bool *yes)
 
         if (!qdot_expr_is_function(pool, w.at[i], QDOT_IF))
             continue;
-        gap = condition_gap(pool, qdot_expr_arg(pool, w.at[i], 0));
-        if (gap == QDOT_NIL || (u != QDOT_NIL && gap != u) || !holds_coordinate(r, gap))
+        gap = condition_difference(pool, qdot_expr_arg(pool, w.at[i], 0));
+        if (gap == QDOT_NIL || (u != QDOT_NIL && gap != u) || !contains_coordinate(r, gap))
             continue;
         gap = qdot_sub(pool, qdot_expr_arg(pool, w.at[i], 1),
                        qdot_expr_arg(pool, w.at[i], 2));
         status = vanishes_with(r, gap,
-                               condition_gap(pool, qdot_expr_arg(pool, w.at[i], 0)), yes);
+                               condition_difference(pool, qdot_expr_arg(pool, w.at[i], 0)), yes);
     }
     qdot_walk_end(&w);
     return status;
@@ -153,26 +153,26 @@ typedef struct {
 } rewriting;
 
 static qdot_expr
-half_of(qdot_pool *pool, qdot_expr e)
+divide_by_two(qdot_pool *pool, qdot_expr e)
 {
     return qdot_div(pool, e, qdot_expr_int(pool, 2));
 }
 
 static qdot_expr
-function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
+rewrite_function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
 {
     rewriting *w = user;
     qdot_expr u, yes, no;
     bool continuous, alike;
 
-    if (w->status != QDOT_OK || !holds_coordinate(w->r, e))
+    if (w->status != QDOT_OK || !contains_coordinate(w->r, e))
         return e;
     if (qdot_expr_is_function(pool, e, QDOT_MAX) || qdot_expr_is_function(pool, e, QDOT_MIN))
         return qdot_rewrite_extreme(pool, e);
     if (!qdot_expr_is_function(pool, e, QDOT_IF))
         return e;
-    u = condition_gap(pool, qdot_expr_arg(pool, e, 0));
-    if (u != QDOT_NIL && !holds_coordinate(w->r, u))
+    u = condition_difference(pool, qdot_expr_arg(pool, e, 0));
+    if (u != QDOT_NIL && !contains_coordinate(w->r, u))
         return e;
     if (u == QDOT_NIL) {
         w->r->unresolved = true;
@@ -189,7 +189,7 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
         return e;
     }
     u = qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no));
-    return half_of(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
+    return divide_by_two(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
 }
 
 /* Whether e > 0 is proved. */
@@ -223,13 +223,13 @@ sign_beside(qdot_pool *pool, qdot_expr u, qdot_expr v, bool up, const qdot_facts
 /* By sign v alone the sign of a u that is v times another number on either side of v = 0: sign(x) for
  * sign(5 x + |x|), so that max(x, 2 x, -x) has one kink. */
 static qdot_expr
-sign_of_sides(qdot_pool *pool, qdot_expr e, void *user)
+simplify_nested_sign(qdot_pool *pool, qdot_expr e, void *user)
 {
     rewriting *w = user;
     qdot_expr u = qdot_expr_arg(pool, e, 0), by = e;
     qdot_walk walk;
 
-    if (w->status != QDOT_OK || !qdot_expr_is_function(pool, e, QDOT_SIGN) || !holds_coordinate(w->r, u))
+    if (w->status != QDOT_OK || !qdot_expr_is_function(pool, e, QDOT_SIGN) || !contains_coordinate(w->r, u))
         return e;
     w->status = qdot_walk_begin(pool, u, &walk);
     for (size_t i = 0; w->status == QDOT_OK && i < walk.n && by == e; i++) {
@@ -251,7 +251,7 @@ sign_of_sides(qdot_pool *pool, qdot_expr e, void *user)
 
 /* Replace |u|^k in a product, for odd k < 0, by sign(u) u^k. */
 static qdot_expr
-product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
+rewrite_odd_powers_by_sign(qdot_pool *pool, qdot_expr e, void *user)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr product = e;
@@ -273,7 +273,7 @@ product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
 
 /* Replace sign(u)^k in a product by sign(u) for odd k, and by 1 for even k. */
 static qdot_expr
-product_of_signs(qdot_pool *pool, qdot_expr e, void *user)
+simplify_powers_of_sign(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr product = e;
 
@@ -291,10 +291,10 @@ product_of_signs(qdot_pool *pool, qdot_expr e, void *user)
 
 /* Write if(u > 0, A, B) by the sign of u, if u contains velocities and is 0 at rest. */
 static qdot_expr
-slip_by_sign(qdot_pool *pool, qdot_expr e, void *user)
+rewrite_slip_condition_by_sign(qdot_pool *pool, qdot_expr e, void *user)
 {
     const qdot_rest *r = user;
-    qdot_expr u = qdot_expr_is_function(pool, e, QDOT_IF) ? condition_gap(pool, qdot_expr_arg(pool, e, 0))
+    qdot_expr u = qdot_expr_is_function(pool, e, QDOT_IF) ? condition_difference(pool, qdot_expr_arg(pool, e, 0))
                                                           : QDOT_NIL,
               yes, no;
 
@@ -303,21 +303,21 @@ slip_by_sign(qdot_pool *pool, qdot_expr e, void *user)
         return e;
     yes = qdot_expr_arg(pool, e, 1);
     no = qdot_expr_arg(pool, e, 2);
-    return half_of(pool, qdot_add(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no)),
-                                  qdot_add(pool, yes, no)));
+    return divide_by_two(pool, qdot_add(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no)),
+                                        qdot_add(pool, yes, no)));
 }
 
 qdot_expr
 qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr by = qdot_walk_replace(pool, force, QDOT_FUN, slip_by_sign, r);
+    qdot_expr by = qdot_walk_replace(pool, force, QDOT_FUN, rewrite_slip_condition_by_sign, r);
 
     if (by != QDOT_NIL)
         qdot_directions_as_signs(pool, 1, &by);
     if (by != QDOT_NIL && by != force)
         by = qdot_expand(pool, by);
-    return by == QDOT_NIL ? by : qdot_walk_replace(pool, by, QDOT_PROD, product_of_signs, NULL);
+    return by == QDOT_NIL ? by : qdot_walk_replace(pool, by, QDOT_PROD, simplify_powers_of_sign, NULL);
 }
 
 qdot_status
@@ -329,14 +329,14 @@ qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out)
     qdot_expr all = QDOT_NIL, by, nested;
 
     *out = list;
-    by = qdot_walk_replace(pool, list, QDOT_PROD, product_by_signs, NULL);
+    by = qdot_walk_replace(pool, list, QDOT_PROD, rewrite_odd_powers_by_sign, NULL);
     if (by != QDOT_NIL)
-        by = qdot_walk_replace(pool, by, QDOT_FUN, function_by_signs, &w);
+        by = qdot_walk_replace(pool, by, QDOT_FUN, rewrite_function_by_signs, &w);
     nested = by;
     if (by != QDOT_NIL)
-        by = qdot_walk_replace(pool, by, QDOT_FUN, sign_of_sides, &w);
+        by = qdot_walk_replace(pool, by, QDOT_FUN, simplify_nested_sign, &w);
     if (by != QDOT_NIL && by != nested)
-        by = qdot_walk_replace(pool, qdot_expand(pool, by), QDOT_PROD, product_of_signs, NULL);
+        by = qdot_walk_replace(pool, qdot_expand(pool, by), QDOT_PROD, simplify_powers_of_sign, NULL);
     QDOT_TRY(w.status);
     QDOT_TRY(qdot_pool_check(pool));
     if (by == list)
@@ -354,7 +354,7 @@ qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out)
 
 /* Whether a constraint prevents b from becoming 0. */
 static bool
-is_kept_off(const qdot_rest *r, qdot_expr b)
+is_kept_from_zero(const qdot_rest *r, qdot_expr b)
 {
     const qdot_expr zero = QDOT_ZERO;
 
@@ -362,7 +362,7 @@ is_kept_off(const qdot_rest *r, qdot_expr b)
         qdot_expr f = r->s->constraints.at[k].f,
                   there = qdot_subs(r->pool, f, 1, &b, &zero);
 
-        if (there != QDOT_NIL && there != f && !holds_coordinate(r, there) &&
+        if (there != QDOT_NIL && there != f && !contains_coordinate(r, there) &&
             !qdot_is_zero(r->pool, there, &r->facts))
             return true;
     }
@@ -387,7 +387,7 @@ may_touch_zero(const qdot_rest *r, qdot_expr b, bool *yes)
 
 /* Whether forces that contain powers of b = s^2 are proved to point away from b = 0, or to diverge there. */
 static bool
-points_away(const qdot_rest *r, qdot_expr b)
+forces_point_away(const qdot_rest *r, qdot_expr b)
 {
     qdot_pool *pool = r->pool;
     qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "(root)"), square, sum = QDOT_ZERO;
@@ -430,11 +430,11 @@ qdot_rest_tips(qdot_rest *r)
             bool touches;
 
             if (p == NULL || fmpz_is_one(fmpq_denref(p)) || fmpq_sgn(p) > 0 ||
-                fmpq_cmp_si(p, -1) < 0 || !holds_coordinate(r, b))
+                fmpq_cmp_si(p, -1) < 0 || !contains_coordinate(r, b))
                 continue;
             status = may_touch_zero(r, b, &touches);
-            if (status == QDOT_OK && touches && !is_kept_off(r, b))
-                r->unresolved = !(fmpz_equal_si(fmpq_denref(p), 2) && points_away(r, b));
+            if (status == QDOT_OK && touches && !is_kept_from_zero(r, b))
+                r->unresolved = !(fmpz_equal_si(fmpq_denref(p), 2) && forces_point_away(r, b));
             if (status == QDOT_OK)
                 status = qdot_pool_check(pool);
         }
@@ -448,7 +448,7 @@ qdot_rest_tips(qdot_rest *r)
 /* The function `node` steps from `below` to `above` where u = 0. *yes: the energy has no step there, because the change
  * that `node` makes in it vanishes at u = 0. */
 static qdot_status
-steps_over(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above, qdot_expr u, bool *yes)
+energy_is_continuous_at_step(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above, qdot_expr u, bool *yes)
 {
     qdot_pool *pool = r->pool;
     qdot_expr step = qdot_sub(pool, qdot_subs(pool, r->energy, 1, &node, &above),
@@ -459,9 +459,9 @@ steps_over(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above,
     return vanishes_with(r, step, u, yes);
 }
 
-/* Append u of the relations in a condition; the condition changes only where one of them is 0. */
+/* Append to the list the difference u of each relation in a condition, which changes only where some u is 0. */
 static qdot_expr
-with_gaps(qdot_pool *pool, qdot_expr condition, qdot_expr list)
+append_condition_differences(qdot_pool *pool, qdot_expr condition, qdot_expr list)
 {
     if (qdot_expr_kind(pool, condition) == QDOT_REL) {
         qdot_expr gap = qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
@@ -469,14 +469,14 @@ with_gaps(qdot_pool *pool, qdot_expr condition, qdot_expr list)
         return qdot_list_appended(pool, list, 1, &gap);
     }
     for (uint32_t i = 0; i < qdot_expr_count(pool, condition); i++)
-        list = with_gaps(pool, qdot_expr_arg(pool, condition, i), list);
+        list = append_condition_differences(pool, qdot_expr_arg(pool, condition, i), list);
     return list;
 }
 
 /* Whether the energy is continuous although the function `node` jumps; if not, append to *zeros
  * what vanishes at the jump. */
 static qdot_status
-jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
+is_continuous_despite_jump(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
 {
     qdot_pool *pool = r->pool;
     const qdot_expr a = qdot_expr_arg(pool, node, 0), m = qdot_symbol_get(pool, QDOT_FORMAL, "(step)");
@@ -486,25 +486,25 @@ jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
     *yes = false;
     switch (qdot_expr_node(pool, node)->op) {
     case QDOT_SIGN:
-        QDOT_TRY(steps_over(r, node, QDOT_MINUS_ONE, QDOT_ONE, a, &smooth));
+        QDOT_TRY(energy_is_continuous_at_step(r, node, QDOT_MINUS_ONE, QDOT_ONE, a, &smooth));
         break;
     case QDOT_FLOOR: /* floor(a) jumps from m - 1 to m where a = m */
         at = qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, a));
-        QDOT_TRY(steps_over(r, node, qdot_sub(pool, m, QDOT_ONE), m, qdot_sub(pool, a, m), &smooth));
+        QDOT_TRY(energy_is_continuous_at_step(r, node, qdot_sub(pool, m, QDOT_ONE), m, qdot_sub(pool, a, m), &smooth));
         break;
     case QDOT_MOD: /* a mod b jumps from b to 0 where a = m b */
         b = qdot_expr_arg(pool, node, 1);
         at = qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, qdot_div(pool, a, b)));
-        QDOT_TRY(steps_over(r, node, b, QDOT_ZERO, qdot_sub(pool, a, qdot_mul(pool, m, b)), &smooth));
+        QDOT_TRY(energy_is_continuous_at_step(r, node, b, QDOT_ZERO, qdot_sub(pool, a, qdot_mul(pool, m, b)), &smooth));
         break;
     case QDOT_IF:
-        b = with_gaps(pool, a, qdot_list(pool, 0, NULL));
+        b = append_condition_differences(pool, a, qdot_list(pool, 0, NULL));
         QDOT_TRY(qdot_pool_check(pool));
         for (uint32_t i = 0; i < qdot_expr_count(pool, b) && smooth; i++)
-            QDOT_TRY(steps_over(r, node, qdot_expr_arg(pool, node, 2), qdot_expr_arg(pool, node, 1),
-                                qdot_expr_arg(pool, b, i), &smooth));
+            QDOT_TRY(energy_is_continuous_at_step(r, node, qdot_expr_arg(pool, node, 2), qdot_expr_arg(pool, node, 1),
+                                                  qdot_expr_arg(pool, b, i), &smooth));
         if (!smooth)
-            *zeros = with_gaps(pool, a, *zeros);
+            *zeros = append_condition_differences(pool, a, *zeros);
         *yes = !smooth;
         return qdot_pool_check(pool);
     default:
@@ -518,7 +518,7 @@ jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
 
 /* Whether u != 0 is proved. */
 static bool
-never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
+is_proved_nonzero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
 {
     return qdot_condition(r->pool, u, true, facts) == QDOT_TRUE ||
            qdot_condition(r->pool, qdot_neg(r->pool, u), true, facts) == QDOT_TRUE;
@@ -526,7 +526,7 @@ never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
 
 /* Find whether one of the `zeros` vanishes at the equilibrium e: *yes: certainly; *may: not decided. */
 static qdot_status
-lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
+lies_on_zeros(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
 {
     qdot_pool *pool = r->pool;
 
@@ -550,7 +550,7 @@ lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, boo
         }
         QDOT_TRY(qdot_decide_equal(pool, u, QDOT_ZERO, &facts, &d));
         *yes = d.verdict == QDOT_PROVED;
-        *may = *may || (d.verdict != QDOT_PROVED && !never_zero(r, u, &facts));
+        *may = *may || (d.verdict != QDOT_PROVED && !is_proved_nonzero(r, u, &facts));
     }
     return qdot_pool_check(pool);
 }
@@ -568,8 +568,8 @@ qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump)
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
         bool yes = false;
 
-        if (qdot_expr_kind(r->pool, w.at[i]) == QDOT_FUN && holds_coordinate(r, w.at[i]))
-            status = jumps_by(r, w.at[i], &zeros, &yes);
+        if (qdot_expr_kind(r->pool, w.at[i]) == QDOT_FUN && contains_coordinate(r, w.at[i]))
+            status = is_continuous_despite_jump(r, w.at[i], &zeros, &yes);
         if (yes && *jump == QDOT_NIL)
             *jump = w.at[i];
     }
@@ -581,7 +581,7 @@ qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump)
     for (size_t i = 0; i < r->found.n; i++) {
         bool on;
 
-        QDOT_TRY(lies_on(r, &r->found.at[i], zeros, &on, &r->found.at[i].may_jump));
+        QDOT_TRY(lies_on_zeros(r, &r->found.at[i], zeros, &on, &r->found.at[i].may_jump));
         if (!on)
             r->found.at[kept++] = r->found.at[i];
     }

@@ -12,7 +12,7 @@
 #include "normal/solve/condition-forms.h"
 #include "normal/solve/solve.h"
 
-/* largest number of places; of operations in a set of conditions with roots */
+/* largest number of equilibria; largest number of operations in conditions that contain roots */
 enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 };
 
 /* Whether a shift of u leaves the equations of motion unchanged, so that all members of a family
@@ -38,7 +38,7 @@ qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period)
 /* Sides of jumps that nothing determines may have any value that the conditions leave: where there is one, the
  * conditions on them are met. *conditions: FALSE where there is none. */
 static qdot_status
-choose_sides(qdot_rest *r, qdot_expr *conditions)
+choose_undetermined_signs(qdot_rest *r, qdot_expr *conditions)
 {
     qdot_pool *pool = r->pool;
 
@@ -75,7 +75,7 @@ choose_sides(qdot_rest *r, qdot_expr *conditions)
 /* The value of a coordinate to which the relation a = b of two conditions a <= b and b <= a narrows a region, as an equation;
  * nil: no condition has an opposite one, or a - b is not linear in a coordinate. */
 static qdot_expr
-narrowed(const qdot_rest *r, qdot_expr conditions)
+narrowing_equation(const qdot_rest *r, qdot_expr conditions)
 {
     qdot_pool *pool = r->pool;
     const uint32_t n = conditions == QDOT_NIL || conditions == QDOT_FALSE ? 0 : qdot_expr_count(pool, conditions);
@@ -104,12 +104,12 @@ narrowed(const qdot_rest *r, qdot_expr conditions)
 
 /* If the conditions of a solution allow only one value of a coordinate, insert that value. */
 static qdot_status
-narrow(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
+insert_only_value(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
 {
     qdot_pool *pool = r->pool;
     qdot_expr one;
 
-    while ((one = narrowed(r, *conditions)) != QDOT_NIL) {
+    while ((one = narrowing_equation(r, *conditions)) != QDOT_NIL) {
         qdot_expr u = qdot_expr_arg(pool, one, 0), value = qdot_expr_arg(pool, one, 1);
 
         *conditions = qdot_conditions_at(pool, *conditions, 1, &u, &value, &r->facts);
@@ -124,7 +124,7 @@ narrow(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
     return qdot_pool_check(pool);
 }
 
-/* The set without conditions with roots that follow from the others, which tell where the roots are defined. */
+/* The set of conditions without those with roots that follow from the others; these tell where the roots are defined. */
 static qdot_expr
 without_implied_roots(const qdot_rest *r, qdot_expr set)
 {
@@ -148,12 +148,12 @@ without_implied_roots(const qdot_rest *r, qdot_expr set)
 }
 
 static qdot_status
-append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
+append_equilibrium(qdot_rest *r, qdot_expr values, qdot_expr conditions)
 {
     qdot_pool *pool = r->pool;
     qdot_equilibrium e = {.equations = qdot_list(pool, 0, NULL)};
 
-    QDOT_TRY(narrow(r, &values, &conditions));
+    QDOT_TRY(insert_only_value(r, &values, &conditions));
     if (conditions == QDOT_FALSE)
         return QDOT_OK;
     if (!r->facts.exact)
@@ -162,7 +162,7 @@ append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
     for (uint32_t i = 0; i < qdot_expr_count(pool, values); i++) {
         qdot_expr one = qdot_expr_arg(pool, values, i);
 
-        /* not the symbol that stands for the sign of u at a corner u = 0 */
+        /* leave out the symbols that stand for the sign of u at a corner u = 0 */
         if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_FORMAL))
             e.equations = qdot_list_appended(pool, e.equations, 1, &one);
     }
@@ -184,9 +184,9 @@ qdot_rest_solve(qdot_rest *r)
     for (size_t i = 0; i < r->system.found.n && status == QDOT_OK; i++) {
         qdot_expr conditions = r->system.found.at[i].conditions;
 
-        status = choose_sides(r, &conditions);
+        status = choose_undetermined_signs(r, &conditions);
         if (status == QDOT_OK && conditions != QDOT_FALSE)
-            status = append_place(r, r->system.found.at[i].values, conditions);
+            status = append_equilibrium(r, r->system.found.at[i].values, conditions);
     }
     r->system.found.n = 0;
     return status;

@@ -20,19 +20,19 @@
 
 enum { STARTS = 240, STEPS = 60, MOST = QDOT_PLACES_MOST, NEWTON = 6 };
 
-/* Half widths of the boxes from which starts are drawn, used cyclically. */
+/* Half widths of the boxes from which start points of Newton's method are drawn, used cyclically. */
 static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
 enum { RANGES = sizeof ranges / sizeof *ranges };
 
 typedef struct {
     qdot_pool *pool;
     size_t n, slopes;
-    size_t coordinates; /* how many unknowns, the first, are coordinates; the others are multipliers */
+    size_t coordinates; /* how many unknowns are coordinates, which come first; the others are multipliers */
     const qdot_expr *u;
     qdot_expr *e;            /* [n + slopes] the residuals, then their non-zero derivatives */
     size_t *row, *column;    /* [slopes] row and column of each derivative */
     double *lo, *hi;         /* [n] bounds of the domains */
-    bool *angle;             /* [n] an angle without bounds, period 2 pi */
+    bool *angle;             /* [n] whether the unknown is an angle without bounds, with period 2 pi */
     double *value;           /* [n + slopes] values of e at x */
     double *x, *try, *step;  /* [n] point, trial point, Newton step */
     double *rhs;             /* [n] right side of the Newton equations */
@@ -117,7 +117,7 @@ problem_end(problem *p)
 /* Evaluate the residuals at x, and the derivatives if wanted; *most is the largest, INFINITY if one
  * is undefined. */
 static qdot_status
-residuals_evaluate(problem *p, const double *x, bool slopes, double *most)
+evaluate_residuals(problem *p, const double *x, bool slopes, double *most)
 {
     size_t m = p->n + (slopes ? p->slopes : 0);
 
@@ -177,7 +177,7 @@ damped_step(problem *p, size_t first, double by)
            gsl_linalg_cholesky_svx(&A.matrix, &step.vector) == GSL_SUCCESS;
 }
 
-/* Newton's step by LU; false where J is singular. */
+/* Compute Newton's step by LU decomposition; false where the Jacobian J is singular. */
 static bool
 equilibrium_newton_step(problem *p)
 {
@@ -196,7 +196,7 @@ equilibrium_newton_step(problem *p)
 }
 
 static void
-begin_at(problem *p, uint64_t start)
+set_start_point(problem *p, uint64_t start)
 {
     for (size_t i = 0; i < p->n; i++) {
         /* use two seeds, so that the start is independent of the seed derived from the name */
@@ -213,11 +213,11 @@ begin_at(problem *p, uint64_t start)
     }
 }
 
-typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the residuals are 0, but J is singular */
+typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* how a descent ends; FLAT: the residuals are 0, but J is singular */
 
 /* Whether the residual is rounding error, compared to its derivatives times x. */
 static bool
-residual_is_rounding(const problem *p, double most)
+residual_is_rounding_error(const problem *p, double most)
 {
     double scale = 0;
 
@@ -227,17 +227,17 @@ residual_is_rounding(const problem *p, double most)
 }
 
 static qdot_status
-equilibrium_descend(problem *p, end *how)
+descend_to_equilibrium(problem *p, end *how)
 {
     double most, before, by = 1e-2, length = INFINITY;
     bool holds;
 
     *how = NOWHERE;
-    QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
+    QDOT_TRY(evaluate_residuals(p, p->x, true, &most));
     if (isfinite(most) && p->n > p->coordinates && damped_step(p, p->coordinates, 1e-12)) {
         for (size_t i = p->coordinates; i < p->n; i++)
             p->x[i] += p->step[i];
-        QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
+        QDOT_TRY(evaluate_residuals(p, p->x, true, &most));
     }
     for (int k = 0; k < STEPS && isfinite(most) && most > 0; k++) {
         before = residual_square(p);
@@ -250,7 +250,7 @@ equilibrium_descend(problem *p, end *how)
             p->try[i] = p->x[i] + p->step[i];
             length = fmax(length, fabs(p->step[i]) / fmax(fabs(p->x[i]), 1e-3));
         }
-        QDOT_TRY(residuals_evaluate(p, p->try, true, &most));
+        QDOT_TRY(evaluate_residuals(p, p->try, true, &most));
         if (isfinite(most) && residual_square(p) < before) {
             for (size_t i = 0; i < p->n; i++)
                 p->x[i] = p->try[i];
@@ -259,14 +259,14 @@ equilibrium_descend(problem *p, end *how)
                 break;
         } else {
             by *= 10;
-            QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
+            QDOT_TRY(evaluate_residuals(p, p->x, true, &most));
             if (by > 1e12)
                 break;
         }
     }
     if (!isfinite(most))
         return QDOT_OK;
-    holds = residual_is_rounding(p, most);
+    holds = residual_is_rounding_error(p, most);
     length = INFINITY;
     for (int k = 0; k < NEWTON; k++) {
         if (!equilibrium_newton_step(p))
@@ -278,7 +278,7 @@ equilibrium_descend(problem *p, end *how)
             break;
         for (size_t i = 0; i < p->n; i++)
             p->x[i] += p->step[i];
-        QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
+        QDOT_TRY(evaluate_residuals(p, p->x, true, &most));
         if (!isfinite(most))
             return QDOT_OK;
         if (length < 1e-12)
@@ -292,7 +292,7 @@ equilibrium_descend(problem *p, end *how)
 
 /* Reduce angles to -pi < q <= pi; returns whether x lies within the domains. */
 static bool
-place_normalise(const problem *p, double *x)
+normalise_angles(const problem *p, double *x)
 {
     for (size_t i = 0; i < p->n; i++) {
         if (p->angle[i])
@@ -304,7 +304,7 @@ place_normalise(const problem *p, double *x)
 }
 
 static bool
-is_new(const double *found, size_t count, size_t n, const double *x)
+is_new_equilibrium(const double *found, size_t count, size_t n, const double *x)
 {
     for (size_t k = 0; k < count; k++) {
         double apart = 0;
@@ -319,7 +319,7 @@ is_new(const double *found, size_t count, size_t n, const double *x)
 
 /* Sort the equilibria by the first unknown, then by the next ones. */
 static void
-places_sort(double *found, size_t count, size_t n)
+sort_equilibria(double *found, size_t count, size_t n)
 {
     for (size_t a = 1; a < count; a++)
         for (size_t b = a; b > 0; b--) {
@@ -340,7 +340,7 @@ places_sort(double *found, size_t count, size_t n)
 }
 
 static qdot_status
-places_search(problem *p, qdot_isolate *isolate, qdot_places *out)
+search_equilibria(problem *p, qdot_isolate *isolate, qdot_places *out)
 {
     size_t n = p->n;
 
@@ -349,10 +349,10 @@ places_search(problem *p, qdot_isolate *isolate, qdot_places *out)
         end how;
 
         QDOT_TRY(qdot_interrupt_check());
-        begin_at(p, start);
-        QDOT_TRY(equilibrium_descend(p, &how));
+        set_start_point(p, start);
+        QDOT_TRY(descend_to_equilibrium(p, &how));
         out->starts++;
-        if (how == NOWHERE || !place_normalise(p, p->x) || !is_new(out->at, out->n, n, p->x))
+        if (how == NOWHERE || !normalise_angles(p, p->x) || !is_new_equilibrium(out->at, out->n, n, p->x))
             continue;
         for (size_t i = 0; i < n; i++)
             place[i] = p->x[i];
@@ -364,10 +364,10 @@ places_search(problem *p, qdot_isolate *isolate, qdot_places *out)
         for (size_t i = 0; i < n; i++)
             if (fabs(place[i]) <= radius[i]) /* the value is 0 within its error bound */
                 place[i] = 0;
-        if (place_normalise(p, place) && is_new(out->at, out->n, n, place))
+        if (normalise_angles(p, place) && is_new_equilibrium(out->at, out->n, n, place))
             out->n++;
     }
-    places_sort(out->at, out->n, n);
+    sort_equilibria(out->at, out->n, n);
     return QDOT_OK;
 }
 
@@ -393,7 +393,7 @@ search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     if (status == QDOT_OK)
         status = qdot_isolate_begin(&isolate, p.pool, p.n, r, p.u);
     if (status == QDOT_OK) {
-        status = places_search(&p, &isolate, out);
+        status = search_equilibria(&p, &isolate, out);
         qdot_isolate_end(&isolate);
     }
     problem_end(&p);

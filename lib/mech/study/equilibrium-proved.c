@@ -12,7 +12,7 @@
 
 enum { MOST = 4 };
 
-/* budgets[n]: the work that exclusion for n unknowns may take, before the search from many starts. */
+/* budgets[n]: the work allowed for finding all equilibria with n unknowns by exclusion, before random starts are tried. */
 static const uint64_t budgets[MOST + 1] = {0, 20000, 60000, 120000, 80000};
 
 static bool
@@ -48,7 +48,7 @@ qdot_rest_window(const qdot_rest *rest, size_t k, qdot_expr equations)
 
 /* Find where the k-th unknown is searched for; false: the ends of its domain are not known as numbers. */
 static bool
-unknown_range(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
+find_unknown_range(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
 {
     qdot_window w;
 
@@ -88,7 +88,7 @@ qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     if (n == 0 || n > MOST)
         return QDOT_OK;
     for (size_t k = 0; k < n; k++)
-        if (!unknown_range(rest, k, equations, &range[k]))
+        if (!find_unknown_range(rest, k, equations, &range[k]))
             return QDOT_OK;
     QDOT_TRY(qdot_pool_check(rest->pool));
     status =

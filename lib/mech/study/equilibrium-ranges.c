@@ -23,8 +23,8 @@ free_coordinate(const qdot_rest *r, qdot_expr conditions)
 }
 
 static qdot_status
-append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr exists,
-             const qdot_band *band, bool touched)
+append_interval(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr exists,
+                const qdot_band *band, bool touched)
 {
     qdot_pool *pool = r->pool;
     qdot_equilibrium one = {.equations = all->equations, .exists = exists, .touched = touched};
@@ -53,7 +53,7 @@ append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr e
 
 /* Append a region with one free coordinate as intervals; *done: that was possible. */
 static qdot_status
-list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
+list_region_as_intervals(qdot_rest *r, const qdot_equilibrium *all, bool *done)
 {
     qdot_pool *pool = r->pool;
     qdot_expr u = free_coordinate(r, all->exists), in[QDOT_CONDITIONS_MOST], exists = QDOT_NIL,
@@ -84,16 +84,16 @@ list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
     }
     if (bands.touched && r->s->coordinates.n > 1)
         *done = false;
-    for (size_t i = 0; i < bands.at.n && *done; i++) /* a single point in decimals is not listed among exact ranges */
+    for (size_t i = 0; i < bands.at.n && *done; i++) /* do not list a point known in decimals among exact intervals */
         *done = !bands.at.at[i].numeric || bands.at.at[i].lo != bands.at.at[i].hi;
     if (*done && bands.also != QDOT_NIL)
         exists = qdot_conditions_all(pool, exists, bands.also);
     if (exists == QDOT_FALSE)
         bands.at.n = 0;
     for (size_t i = 0; i < bands.at.n && *done && status == QDOT_OK; i++)
-        status = append_range(r, all, u, exists, &bands.at.at[i], bands.touched);
+        status = append_interval(r, all, u, exists, &bands.at.at[i], bands.touched);
     if (*done && bands.whole && status == QDOT_OK)
-        status = append_range(r, all, u, exists, &(qdot_band){0}, bands.touched);
+        status = append_interval(r, all, u, exists, &(qdot_band){0}, bands.touched);
     qdot_bands_clear(&bands);
     return status;
 }
@@ -110,7 +110,7 @@ qdot_rest_ranges(qdot_rest *r)
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         bool done;
 
-        status = list_ranges(r, &before[i], &done);
+        status = list_region_as_intervals(r, &before[i], &done);
         if (status == QDOT_OK && !done)
             status = qdot_vec_push(&r->found, before[i]);
     }

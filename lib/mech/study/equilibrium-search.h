@@ -57,18 +57,19 @@ QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G
 /* Find an expression *u at whose zeros the forces at rest jump; nil if there is none.
  * (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corner(qdot_rest *r, qdot_expr *u);
-/* Whether forces jump at the equilibrium, given as a LIST of equations u = value. (equilibrium-corners.c) */
+/* In equilibrium-corners.c: whether forces jump at an equilibrium, which is given as a LIST of equations u = value. */
 QDOT_MUST_CHECK qdot_status qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes);
 /* Add branches of the search for points at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
 
 typedef enum {
     QDOT_HELD_UNKNOWN,
-    QDOT_HELD,    /* the force on either side does not push away from the kink */
-    QDOT_NOT_HELD /* a force on one side pushes away, and the force at the kink itself is not 0 */
+    QDOT_HELD,    /* the force beside the kink, on either side, does not push away from it */
+    QDOT_NOT_HELD /* the force beside the kink pushes away on one side, and the force at the kink is not 0 */
 } qdot_held;
 
-/* What is proved of the only coordinate at its value in `values`, a LIST, with p = value put in. (equilibrium-corners.c) */
+/* In equilibrium-corners.c: decide whether the forces hold the only coordinate at its value in the LIST `values` when p =
+ * value. */
 QDOT_MUST_CHECK qdot_status qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value,
                                               const qdot_facts *facts, qdot_held *held);
 
@@ -110,7 +111,7 @@ QDOT_MUST_CHECK qdot_status qdot_rest_meetings(qdot_rest *r, qdot_expr *left);
 QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places,
                                               qdot_expr *special);
 
-/* Append those factors of e that may be 0 to the LIST, sqrt(a) and |a| as a. (equilibrium-special.c) */
+/* Append those factors of e that may be 0 to the LIST; a factor sqrt(a) or |a| as a. (equilibrium-special.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list);
 
 /* Of a scene in which no place is found, to the LIST *special what of parameters alone is 0 where there may be one; where
@@ -142,13 +143,13 @@ QDOT_MUST_CHECK qdot_status qdot_rest_ranges(qdot_rest *r);
 /* --- numbers (equilibrium-numeric.c) ---- */
 enum { QDOT_PLACES_MOST = 100 };
 
-/* The equilibria that are proved, at [n * unknowns]; owned. */
+/* Equilibria that are proved to exist, found numerically: their coordinates at [n * unknowns]; owned. */
 typedef struct {
     double *at;
     size_t n, starts;
     bool complete;   /* proved that these are all; then no start points were used */
     double reach;    /* start points lay within +-reach if no domain is declared */
-    size_t unproved; /* number of start points that led to an unproved zero within rounding */
+    size_t unproved; /* number of start points that led to a zero within rounding errors that is not proved */
 } qdot_places;
 
 /* Zeros of r [unknowns] in the unknowns, every other symbol bound; rest->complete if these are
@@ -158,7 +159,7 @@ QDOT_MUST_CHECK qdot_status qdot_rest_search(qdot_rest *rest, const qdot_expr *r
 /* An end of the domain of the k-th unknown (0: the lower) with the values of parameters put in; nil: there is
  * none. */
 qdot_expr qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which);
-/* Where the k-th unknown is looked for: its domain, with the values of parameters put in; of an angle one turn of it. */
+/* The interval in which the k-th unknown is sought: its domain with parameter values inserted; one turn of an angle. */
 qdot_window qdot_rest_window(const qdot_rest *rest, size_t k, qdot_expr equations);
 /* Add to *out all equilibria that are found by excluding the rest of a box; out->complete: there are no others.
  * (equilibrium-proved.c) */

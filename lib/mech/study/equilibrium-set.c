@@ -21,7 +21,7 @@
 enum { BUDGET = 20000, MOST_WALLS = 200 };
 
 static bool
-holds_only(const qdot_equilibrium_curve *c, qdot_expr e)
+contains_only_parameter(const qdot_equilibrium_curve *c, qdot_expr e)
 {
     const qdot_expr atoms = qdot_expr_atoms(c->pool, e, true);
 
@@ -39,7 +39,7 @@ holds_only(const qdot_equilibrium_curve *c, qdot_expr e)
 /* What relations a < b say is positive, with values put in, added to *list; *known: all of them are inequalities
  * of p. */
 static qdot_status
-append_gaps(const qdot_equilibrium_curve *c, qdot_expr relations, qdot_expr *list, bool *known)
+append_relation_differences(const qdot_equilibrium_curve *c, qdot_expr relations, qdot_expr *list, bool *known)
 {
     qdot_pool *pool = c->pool;
 
@@ -52,7 +52,7 @@ append_gaps(const qdot_equilibrium_curve *c, qdot_expr relations, qdot_expr *lis
         if (!*known)
             return QDOT_OK;
         gap = c->bind(c->user, qdot_positive_of(pool, one));
-        *known = gap != QDOT_NIL && holds_only(c, gap);
+        *known = gap != QDOT_NIL && contains_only_parameter(c, gap);
         if (*known)
             *list = qdot_list_appended(pool, *list, 1, &gap);
         else if (qdot_pool_check(pool) != QDOT_EDOMAIN)
@@ -63,7 +63,7 @@ append_gaps(const qdot_equilibrium_curve *c, qdot_expr relations, qdot_expr *lis
 
 /* The value of unknown i at an equilibrium, with parameter values; nil if p does not determine it. */
 static qdot_expr
-value_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
+value_at_equilibrium(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
 {
     for (uint32_t k = 0; k < qdot_expr_count(c->pool, e->equations); k++) {
         const qdot_expr one = qdot_expr_arg(c->pool, e->equations, k);
@@ -71,7 +71,7 @@ value_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
         if (qdot_expr_arg(c->pool, one, 0) == c->unknown[i]) {
             const qdot_expr value = c->bind(c->user, qdot_expr_arg(c->pool, one, 1));
 
-            return value == QDOT_NIL || !holds_only(c, value) ? QDOT_NIL : value;
+            return value == QDOT_NIL || !contains_only_parameter(c, value) ? QDOT_NIL : value;
         }
     }
     return QDOT_NIL;
@@ -79,7 +79,7 @@ value_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
 
 /* Add an equilibrium; for a family with integers n, one member. */
 static qdot_status
-member_add(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e)
+add_set_member(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e)
 {
     const qdot_equilibrium_curve *c = set->c;
     qdot_equilibrium_member one = {.place = *e, .value = qdot_list(c->pool, 0, NULL)};
@@ -94,7 +94,7 @@ member_add(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e
         e = &one.place;
     }
     for (size_t i = 0; i < c->n && known; i++) {
-        const qdot_expr value = value_of(c, e, i);
+        const qdot_expr value = value_at_equilibrium(c, e, i);
 
         known = value != QDOT_NIL;
         if (known)
@@ -103,7 +103,7 @@ member_add(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e
             return qdot_pool_check(c->pool);
     }
     if (known)
-        QDOT_TRY(append_gaps(c, e->exists, &one.value, &known));
+        QDOT_TRY(append_relation_differences(c, e->exists, &one.value, &known));
     set->complete = set->complete && known;
     if (!known)
         return QDOT_OK;
@@ -142,9 +142,9 @@ add_walls(qdot_equilibrium_set *set, qdot_expr g)
     return status;
 }
 
-/* Add the values of p at which one of the relations ceases to hold. */
+/* Add as walls (special values of p) the values at which one of the relations ceases to hold. */
 static qdot_status
-add_walls_of(qdot_equilibrium_set *set, qdot_expr relations)
+add_walls_of_relations(qdot_equilibrium_set *set, qdot_expr relations)
 {
     qdot_pool *pool = set->c->pool;
 
@@ -157,7 +157,7 @@ add_walls_of(qdot_equilibrium_set *set, qdot_expr relations)
     return QDOT_OK;
 }
 
-/* Add the values of p at which u is an integer as walls. */
+/* Add as walls (special values of the parameter p) the values at which u is an integer. */
 static qdot_status
 add_walls_at_integers(qdot_equilibrium_set *set, qdot_expr u)
 {
@@ -227,8 +227,8 @@ add_walls_of_list(qdot_equilibrium_set *set, qdot_expr list, size_t n, bool *kno
     QDOT_TRY(add_walls_of_jumps(set, list));
     for (uint32_t i = (uint32_t)n; i < qdot_expr_count(pool, list); i++)
         QDOT_TRY(add_walls(set, qdot_expr_arg(pool, list, i)));
-    QDOT_TRY(add_walls_of(set, qdot_conditions_of_domain(pool, list, QDOT_NIL)));
-    QDOT_TRY(add_walls_of(set, qdot_conditions_of_divisors(pool, list, QDOT_NIL)));
+    QDOT_TRY(add_walls_of_relations(set, qdot_conditions_of_domain(pool, list, QDOT_NIL)));
+    QDOT_TRY(add_walls_of_relations(set, qdot_conditions_of_divisors(pool, list, QDOT_NIL)));
     *known = set->complete;
     set->complete = complete;
     return QDOT_OK;
@@ -243,7 +243,7 @@ add_walls_of_member(qdot_equilibrium_set *set, qdot_equilibrium_member *one)
 }
 
 static int
-ascending(const void *a, const void *b)
+compare_ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
 
@@ -255,7 +255,7 @@ qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set)
 {
     size_t kept = 1;
 
-    qsort(set->wall.at, set->wall.n, sizeof *set->wall.at, ascending);
+    qsort(set->wall.at, set->wall.n, sizeof *set->wall.at, compare_ascending);
     for (size_t i = 1; i < set->wall.n; i++)
         if (set->wall.at[i] > set->wall.at[kept - 1])
             set->wall.at[kept++] = set->wall.at[i];
@@ -264,9 +264,9 @@ qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set)
 
 /* --- the whole set ---------------------------------------------------------------------------- */
 
-/* Insert the values of all parameters except p; they need not be generic. */
+/* Insert the values of all parameters except p; these may be special values. */
 static qdot_status
-bind_rest(qdot_equilibrium_curve *c, qdot_rest *rest)
+insert_other_parameters(qdot_equilibrium_curve *c, qdot_rest *rest)
 {
     rest->system.equations = c->bind(c->user, rest->system.equations);
     rest->forces = c->bind(c->user, rest->forces);
@@ -275,7 +275,7 @@ bind_rest(qdot_equilibrium_curve *c, qdot_rest *rest)
     return qdot_rest_domain(rest);
 }
 
-/* Add walls at single values of p at which there is no energy or force. */
+/* Add as walls the single values of p at which the energy or a force is undefined. */
 static qdot_status
 add_walls_of_undefined(qdot_equilibrium_set *set, const qdot_rest *rest)
 {
@@ -311,7 +311,7 @@ find_members(qdot_equilibrium_set *set, qdot_equilibrium_curve *c, qdot_rest *re
     if (status == QDOT_OK)
         status = qdot_rest_by_signs(rest, rest->forces, &c->judge->by_signs);
     for (size_t i = 0; i < rest->found.n && status == QDOT_OK; i++)
-        status = member_add(set, rest, &rest->found.at[i]);
+        status = add_set_member(set, rest, &rest->found.at[i]);
     if (status == QDOT_OK)
         status = add_walls_of_undefined(set, rest);
     for (size_t i = 0; i < set->member.n && status == QDOT_OK; i++)
@@ -330,7 +330,7 @@ qdot_equilibrium_set_begin(qdot_equilibrium_set *set, qdot_equilibrium_curve *c,
     QDOT_TRY(qdot_vec_push(&set->wall, most));
     status = qdot_rest_begin(&rest, c->s);
     if (status == QDOT_OK)
-        status = bind_rest(c, &rest);
+        status = insert_other_parameters(c, &rest);
     if (status == QDOT_OK)
         status = find_members(set, c, &rest);
     qdot_equilibrium_set_sort_walls(set);
@@ -351,7 +351,7 @@ qdot_equilibrium_set_end(qdot_equilibrium_set *set)
 
 /* Evaluate the members of a LIST at p. */
 static qdot_status
-list_evaluate(const qdot_equilibrium_curve *c, qdot_expr list, double p, double *value)
+evaluate_list(const qdot_equilibrium_curve *c, qdot_expr list, double p, double *value)
 {
     return qdot_generic_evaluate(c->pool, qdot_expr_count(c->pool, list), qdot_expr_args(c->pool, list),
                                  &(qdot_generic_point){1, &c->parameter, &p, 1}, value);
@@ -364,7 +364,7 @@ qdot_equilibrium_set_place(const qdot_equilibrium_set *set, size_t k, double *y,
     const qdot_expr list = set->member.at[k].value;
     const uint32_t count = qdot_expr_count(set->c->pool, list);
     double *value = qdot_calloc(count + 1, sizeof *value);
-    qdot_status status = value ? list_evaluate(set->c, list, y[n], value) : QDOT_ENOMEM;
+    qdot_status status = value ? evaluate_list(set->c, list, y[n], value) : QDOT_ENOMEM;
 
     *exists = status == QDOT_OK;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -389,7 +389,7 @@ judge_member(qdot_equilibrium_set *set, qdot_equilibrium_member *one)
         QDOT_TRY(qdot_judge_place(c->judge, &one->place));
     else
         one->place.stability = QDOT_STABILITY_UNDECIDED;
-    QDOT_TRY(append_gaps(c, one->place.stable_when, &one->when, &known));
+    QDOT_TRY(append_relation_differences(c, one->place.stable_when, &one->when, &known));
     if (!known)
         one->place.stability = QDOT_STABILITY_UNDECIDED;
     return QDOT_OK;
@@ -420,7 +420,7 @@ qdot_equilibrium_set_judge(qdot_equilibrium_set *set, size_t k, double p, qdot_s
     if (!one->judged)
         QDOT_TRY(judge_member(set, one));
     value = qdot_calloc(qdot_expr_count(set->c->pool, one->when) + 1, sizeof *value);
-    status = value ? list_evaluate(set->c, one->when, p, value) : QDOT_ENOMEM;
+    status = value ? evaluate_list(set->c, one->when, p, value) : QDOT_ENOMEM;
     *verdict = one->place.stability;
     for (uint32_t i = 0; i < qdot_expr_count(set->c->pool, one->when) && status == QDOT_OK; i++)
         if (!(value[i] > 0))

@@ -17,13 +17,13 @@
 typedef struct {
     qdot_equilibrium place;
     qdot_expr value; /* a LIST of coordinates f [n] and multipliers g as functions of p */
-    bool corner;     /* forces jump at this place: it is not a zero of the smooth equations */
-    bool known;      /* proved: all its walls are known, so it is continuous between walls */
-    bool judged; /* place.stability holds where all of `when` are positive; elsewhere undecided */
+    bool corner;     /* forces jump at this place, so that it is not a zero of the smooth equations */
+    bool known;      /* proved: all special values of p ("walls") are known; continuous between them */
+    bool judged; /* place.stability holds where all members of `when` are positive; elsewhere it is undecided */
     qdot_expr when;  /* a LIST of expressions that must be positive */
 } qdot_equilibrium_member;
 
-/* A single value of p at which the energy or a force has no value: there `what` is 0. */
+/* A single value of p at which the energy or a force is undefined, because `what` is 0 there. */
 typedef struct {
     qdot_expr what;
     double at;
@@ -33,14 +33,14 @@ typedef struct {
     const qdot_equilibrium_curve *c; /* equations of the equilibria; borrowed */
     double least, most;              /* range of the parameter p */
     qdot_vec(qdot_equilibrium_member) member;
-    qdot_vec(double) wall; /* values of p that separate cells, ascending; first least, last most */
+    qdot_vec(double) wall; /* special values of p that separate intervals, ascending; first least, last most */
     /* proved: except for single values of p, all equilibria are members of the set, and all walls are known */
     bool complete;
     qdot_vec(qdot_equilibrium_gap) gap;
     bool families; /* some equilibria are infinite families, of which only one member is listed */
 } qdot_equilibrium_set;
 
-/* Begin a set {0}; call _end in any case. If nothing can be found the set is empty and incomplete. */
+/* Fill a set that is {0}; call _end in any case. If nothing can be found the set is empty and incomplete. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_begin(qdot_equilibrium_set *set, qdot_equilibrium_curve *c,
                                                        double least, double most);
 void qdot_equilibrium_set_end(qdot_equilibrium_set *set);
@@ -55,7 +55,7 @@ void qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set);
  * values. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_place(const qdot_equilibrium_set *set, size_t k, double *y,
                                                        bool *exists);
-/* Add walls at which the stability of member k may change. If not all can be found it becomes undecided. */
+/* Add values of p at which the stability of member k may change. If not all can be found it becomes undecided. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_verdicts(qdot_equilibrium_set *set, size_t k);
 /* Find the stability of member k at p. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_judge(qdot_equilibrium_set *set, size_t k, double p,

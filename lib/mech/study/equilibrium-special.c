@@ -66,7 +66,7 @@ qdot_rest_add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list)
     return qdot_pool_check(pool);
 }
 
-/* Append the divisors of an equilibrium that may vanish to *special. */
+/* Append those divisors in the formulas of an equilibrium that may be 0 to the LIST *special. */
 static qdot_status
 add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
 {
@@ -112,7 +112,7 @@ qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places, 
 /* What of parameters is 0 where conditions hold that generic parameters do not fulfil, one alone as -a^2 >= 0, or two as
  * a >= 1 and a <= 1; nil: this is not known. */
 static qdot_expr
-thin_set(const qdot_rest *r, qdot_expr set)
+special_parameter_equation(const qdot_rest *r, qdot_expr set)
 {
     qdot_pool *pool = r->pool;
     const uint32_t n = set == QDOT_NIL ? 0 : qdot_expr_count(pool, set);
@@ -139,7 +139,7 @@ thin_set(const qdot_rest *r, qdot_expr set)
 /* Search once more, for single values of parameters too: of x^3/3 + a^2 x they have a rest at a = 0, of
  * x^2/2 + sqrt(a - 1) + sqrt(1 - a) an energy at a = 1. */
 static qdot_status
-add_single_values(qdot_rest *r, qdot_expr *special)
+add_special_values(qdot_rest *r, qdot_expr *special)
 {
     qdot_rest exact;
     qdot_status status = qdot_rest_begin(&exact, r->s);
@@ -149,7 +149,7 @@ add_single_values(qdot_rest *r, qdot_expr *special)
         status = qdot_rest_find_exactly(&exact);
     r->system.complete = r->system.complete && exact.system.complete && !exact.unresolved;
     for (size_t i = 0; i < exact.found.n && status == QDOT_OK; i++) {
-        const qdot_expr zero = thin_set(r, exact.found.at[i].exists);
+        const qdot_expr zero = special_parameter_equation(r, exact.found.at[i].exists);
 
         status = qdot_pool_check(r->pool);
         if (zero == QDOT_NIL)
@@ -166,12 +166,12 @@ qdot_rest_none(qdot_rest *r, qdot_expr *special)
 {
     for (size_t i = 0; i < r->system.special.n; i++)
         QDOT_TRY(qdot_rest_add_factors(r->pool, r->system.special.at[i], special));
-    return r->formulas ? add_single_values(r, special) : QDOT_OK; /* equilibria in numbers hold for the given values of parameters */
+    return r->formulas ? add_special_values(r, special) : QDOT_OK; /* equilibria in numbers hold for the given values of parameters */
 }
 
 /* --- poles --------------------------------------------------------------------------------------- */
 
-/* Whether d vanishes at an open end of q's domain. */
+/* Whether the expression d is 0 at an open end of the domain of the coordinate q. */
 static bool
 is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
 {
@@ -184,7 +184,7 @@ is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
     return false;
 }
 
-/* Whether the scene becomes regular if one group of coordinates, or all, are replaced; roots do not count. */
+/* Whether the scene becomes regular if group g of coordinates, or all groups, are replaced; roots may stay singular. */
 static qdot_status
 scene_is_regular(qdot_scene *s, const qdot_chart_groups *all, size_t g, bool *regular)
 {

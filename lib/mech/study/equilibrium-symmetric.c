@@ -12,7 +12,7 @@ enum { MOST_COORDINATES = 6 };
 
 /* Whether all equations at rest are proved to hold at given values. */
 static bool
-hold_there(const qdot_rest *r, qdot_expr values)
+equations_hold_at(const qdot_rest *r, qdot_expr values)
 {
     qdot_expr there = qdot_simultaneous_put(r->pool, r->system.equations, values);
     bool hold = there != QDOT_NIL;
@@ -46,9 +46,9 @@ qdot_rest_symmetric(qdot_rest *r)
             at[i] = qdot_rel(pool, QDOT_EQ, r->system.unknowns.at[i], half >> i & 1 ? QDOT_PI : QDOT_ZERO);
         b.known = qdot_list(pool, (uint32_t)n, at);
         QDOT_TRY(qdot_pool_check(pool));
-        hold = hold_there(r, b.known);
+        hold = equations_hold_at(r, b.known);
         status = qdot_pool_check(pool);
-        if (status == QDOT_EDOMAIN) /* the equations are singular at this place */
+        if (status == QDOT_EDOMAIN) /* the equations are singular at this place, which is therefore skipped */
             continue;
         QDOT_TRY(status);
         if (hold)

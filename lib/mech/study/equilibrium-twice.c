@@ -3,7 +3,7 @@
 #include "mech/study/equilibrium-search.h"
 
 static bool
-lies_in(const qdot_rest *r, const qdot_equilibrium *one, const qdot_equilibrium *all)
+belongs_to_family(const qdot_rest *r, const qdot_equilibrium *one, const qdot_equilibrium *all)
 {
     const qdot_simultaneous_solution a = {one->equations, one->exists}, b = {all->equations, all->exists};
 
@@ -23,7 +23,7 @@ qdot_rest_leave_out_twice(qdot_rest *r)
             out[i] = j != i && !out[j] && !r->found.at[i].numeric &&
                      (j < i || qdot_expr_count(r->pool, r->found.at[j].equations) <
                                    qdot_expr_count(r->pool, r->found.at[i].equations)) &&
-                     lies_in(r, &r->found.at[i], &r->found.at[j]);
+                     belongs_to_family(r, &r->found.at[i], &r->found.at[j]);
     for (size_t i = 0; i < r->found.n; i++)
         if (!out[i])
             r->found.at[kept++] = r->found.at[i];

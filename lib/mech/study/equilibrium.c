@@ -20,7 +20,7 @@
 enum { WORK = 1500 };
 
 static bool
-rest_holds_time(const qdot_rest *r, qdot_expr e)
+contains_time(const qdot_rest *r, qdot_expr e)
 {
     return (qdot_mech_holds(r->s, e) & QDOT_HAS_TIME) != 0;
 }
@@ -44,7 +44,7 @@ find_unknowns(qdot_rest *r)
 }
 
 static qdot_status
-begin_branch(qdot_rest *r, qdot_expr equations)
+begin_first_branch(qdot_rest *r, qdot_expr equations)
 {
     qdot_expr none = qdot_list(r->pool, 0, NULL);
     qdot_simultaneous_branch first = {
@@ -57,9 +57,9 @@ begin_branch(qdot_rest *r, qdot_expr equations)
 
 /* --- equilibria at all times --------------------------------------------------------------- */
 
-/* The equations of an equilibrium for coordinates, without those for multipliers. */
+/* Those equations of an equilibrium that give coordinates, without those that give multipliers. */
 static qdot_expr
-places_alone(const qdot_rest *r, qdot_expr equations)
+coordinate_equations(const qdot_rest *r, qdot_expr equations)
 {
     qdot_expr list = qdot_list(r->pool, 0, NULL);
 
@@ -75,7 +75,7 @@ places_alone(const qdot_rest *r, qdot_expr equations)
 /* Of the places found at one time those at which the equations hold for all, multipliers as they
  * are then. Where some hold for a part of a family only, that part is not looked for. */
 static qdot_status
-keep_lasting(qdot_rest *r)
+keep_equilibria_for_all_times(qdot_rest *r)
 {
     size_t n = r->found.n;
     qdot_equilibrium *before = r->found.at;
@@ -84,7 +84,7 @@ keep_lasting(qdot_rest *r)
     r->found.at = NULL;
     r->found.n = r->found.capacity = 0;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_simultaneous_branch b = {.known = places_alone(r, before[i].equations),
+        qdot_simultaneous_branch b = {.known = coordinate_equations(r, before[i].equations),
                               .conditions = before[i].exists};
         size_t had = r->found.n, kept = had;
 
@@ -97,7 +97,7 @@ keep_lasting(qdot_rest *r)
         if (status == QDOT_OK)
             status = qdot_rest_solve(r);
         for (size_t k = had; k < r->found.n; k++)
-            if (!rest_holds_time(r, places_alone(r, r->found.at[k].equations)))
+            if (!contains_time(r, coordinate_equations(r, r->found.at[k].equations)))
                 r->found.at[kept++] = r->found.at[k];
         r->found.n = kept;
         if (kept == had && qdot_expr_count(r->pool, b.known) < r->system.places)
@@ -109,9 +109,9 @@ keep_lasting(qdot_rest *r)
 
 /* --- numerical search ------------------------------------------------------------------------- */
 
-/* The name of a symbol in e that is no unknown and has no value. */
+/* The name of a symbol in e that is not an unknown and has no value; NULL: there is none. */
 static const char *
-unset(const qdot_rest *r, qdot_expr e)
+symbol_without_value(const qdot_rest *r, qdot_expr e)
 {
     qdot_expr atoms = qdot_expr_atoms(r->pool, e, true);
 
@@ -137,9 +137,9 @@ value_is_known(const qdot_pool *pool, qdot_expr angles, qdot_expr u, double off)
     return fabs(qdot_expr_contains(pool, angles, u) ? remainder(off, 2 * M_PI) : off) < 1e-7;
 }
 
-/* Whether the place x [searched] is one of those known exactly. */
+/* Whether the point x [searched] is one of the equilibria known exactly. */
 static bool
-place_is_known(const qdot_rest *r, const double *x, qdot_expr angles, qdot_binder bind, void *user)
+equilibrium_is_known(const qdot_rest *r, const double *x, qdot_expr angles, qdot_binder bind, void *user)
 {
     for (size_t i = 0; i < r->found.n; i++) {
         qdot_expr all = r->found.at[i].equations;
@@ -165,9 +165,9 @@ place_is_known(const qdot_rest *r, const double *x, qdot_expr angles, qdot_binde
     return false;
 }
 
-/* Whether the energy is defined at the point x [searched]. */
+/* Whether the energy is defined at the point x, the values of the `searched` unknowns. */
 static qdot_status
-is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
+energy_is_defined_at(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
 {
     double value;
 
@@ -179,7 +179,7 @@ is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
 
 /* Those coordinates that are angles in `equations`, a LIST. */
 static qdot_expr
-rest_angles(const qdot_rest *r, qdot_expr equations)
+angle_coordinates(const qdot_rest *r, qdot_expr equations)
 {
     qdot_expr angles = qdot_list(r->pool, 0, NULL);
 
@@ -190,7 +190,7 @@ rest_angles(const qdot_rest *r, qdot_expr equations)
 }
 
 static qdot_status
-add_places(qdot_rest *r, const qdot_places *places, qdot_expr angles, qdot_binder bind, void *user)
+add_numeric_equilibria(qdot_rest *r, const qdot_places *places, qdot_expr angles, qdot_binder bind, void *user)
 {
     size_t n = r->searched;
     qdot_expr *list = qdot_malloc((n + 1) * sizeof *list),
@@ -201,10 +201,10 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_expr angles, qdot_binde
         qdot_equilibrium one = {.numeric = true};
         bool defined;
 
-        status = is_defined(r, places->at + k * n, energy, &defined);
+        status = energy_is_defined_at(r, places->at + k * n, energy, &defined);
         if (status != QDOT_OK || !defined)
             continue;
-        if (place_is_known(r, places->at + k * n, angles, bind, user))
+        if (equilibrium_is_known(r, places->at + k * n, angles, bind, user))
             continue;
         for (size_t i = 0; i < n; i++)
             list[i] = qdot_rel(r->pool, QDOT_EQ, r->system.unknowns.at[i],
@@ -219,7 +219,7 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_expr angles, qdot_binde
 }
 
 static qdot_status
-rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+search_numerically(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_pool *pool = r->pool;
     const size_t n = r->searched;
@@ -233,12 +233,12 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
         return qdot_fail(QDOT_EFAILED, "the equilibria cannot be solved for exactly; under dry "
                                        "friction they are regions, which are not searched for in "
                                        "numbers");
-    name = unset(r, bound);
-    for (size_t k = 0; k < r->system.places && name == NULL; k++) /* also names in the ends of domains */
+    name = symbol_without_value(r, bound);
+    for (size_t k = 0; k < r->system.places && name == NULL; k++) /* also parameters in domain bounds */
         for (int which = 0; which < 2 && name == NULL; which++) {
             qdot_expr end = qdot_rest_domain_end(r, k, which);
 
-            name = end == QDOT_NIL ? NULL : unset(r, end);
+            name = end == QDOT_NIL ? NULL : symbol_without_value(r, end);
         }
     if (name != NULL) {
         QDOT_TRY(qdot_rest_symmetric(r));
@@ -267,7 +267,7 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
         out->starts = places.starts;
         out->reach = places.reach;
         out->unproved = places.unproved;
-        status = add_places(r, &places, rest_angles(r, bound), bind, user);
+        status = add_numeric_equilibria(r, &places, angle_coordinates(r, bound), bind, user);
         qdot_places_clear(&places);
     }
     qdot_free(e);
@@ -277,7 +277,7 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 /* --- all equilibria ---------------------------------------------------------------------- */
 
 static bool
-holds_integer(qdot_pool *pool, qdot_expr e)
+contains_integer(qdot_pool *pool, qdot_expr e)
 {
     return qdot_solve_one_member(pool, e) != e;
 }
@@ -285,13 +285,13 @@ holds_integer(qdot_pool *pool, qdot_expr e)
 /* Whether the equations are periodic in every coordinate that contains an integer: then all members
  * are equivalent. */
 static qdot_status
-is_alike(qdot_rest *r, const qdot_equilibrium *e, bool *yes)
+members_are_equivalent(qdot_rest *r, const qdot_equilibrium *e, bool *yes)
 {
     *yes = true;
     for (uint32_t i = 0; i < qdot_expr_count(r->pool, e->equations) && *yes; i++) {
         qdot_expr one = qdot_expr_arg(r->pool, e->equations, i), period;
 
-        if (!holds_integer(r->pool, one))
+        if (!contains_integer(r->pool, one))
             continue;
         QDOT_TRY(qdot_simultaneous_period(&r->system, qdot_expr_arg(r->pool, one, 0), &period));
         *yes = period != QDOT_NIL;
@@ -315,10 +315,10 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
         return QDOT_OK;
     if (qdot_solve_integers(pool, e->equations) == 0)
         return qdot_judge_place(judge, e);
-    QDOT_TRY(is_alike(r, e, &alike));
+    QDOT_TRY(members_are_equivalent(r, e, &alike));
     if (!alike) { /* keep only a verdict that holds for all integers n */
         QDOT_TRY(qdot_judge_place(judge, e));
-        if (e->stability == QDOT_UNSTABLE || (e->stable_when != QDOT_NIL && holds_integer(pool, e->stable_when))) {
+        if (e->stability == QDOT_UNSTABLE || (e->stable_when != QDOT_NIL && contains_integer(pool, e->stable_when))) {
             e->stability = QDOT_STABILITY_UNDECIDED;
             e->stable_when = QDOT_NIL;
         }
@@ -326,7 +326,7 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     }
     one.equations = qdot_solve_one_member(pool, e->equations);
     for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(pool, e->exists); i++)
-        if (!holds_integer(pool, qdot_expr_arg(pool, e->exists, i)))
+        if (!contains_integer(pool, qdot_expr_arg(pool, e->exists, i)))
             left = qdot_conditions_and(pool, left, qdot_expr_arg(pool, e->exists, i));
     one.exists = left;
     QDOT_TRY(qdot_pool_check(pool));
@@ -339,7 +339,7 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
 /* Stability, wherever what is in the LIST `special` is not 0; `first`: up to the first that is not unstable, wherever
  * what that divides by is not 0. */
 static qdot_status
-rest_judge(qdot_rest *r, qdot_expr special, bool first, qdot_binder bind, void *user)
+judge_all_equilibria(qdot_rest *r, qdot_expr special, bool first, qdot_binder bind, void *user)
 {
     qdot_judge *judge;
     qdot_status status = qdot_judge_new(r->s, r->system.equations, bind, user, &judge);
@@ -405,13 +405,13 @@ qdot_status
 qdot_rest_find_exactly(qdot_rest *r)
 {
     qdot_expr equations = r->system.equations;
-    bool lasting = rest_holds_time(r, r->system.equations);
+    bool lasting = contains_time(r, r->system.equations);
 
     if (lasting)
         QDOT_TRY(qdot_rest_at_all_times(r, r->system.equations, &equations));
-    QDOT_TRY(begin_branch(r, equations));
+    QDOT_TRY(begin_first_branch(r, equations));
     QDOT_TRY(qdot_rest_solve(r));
-    return lasting ? keep_lasting(r) : QDOT_OK;
+    return lasting ? keep_equilibria_for_all_times(r) : QDOT_OK;
 }
 
 qdot_status
@@ -421,8 +421,8 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     r->user = user;
     QDOT_TRY(qdot_rest_find_exactly(r));
     r->formulas = r->system.complete;
-    if (!r->system.complete && !rest_holds_time(r, r->system.equations))
-        QDOT_TRY(rest_search(r, bind, user, out));
+    if (!r->system.complete && !contains_time(r, r->system.equations))
+        QDOT_TRY(search_numerically(r, bind, user, out));
     QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_ranges(r));
     QDOT_TRY(qdot_rest_tips(r));
@@ -455,7 +455,7 @@ need_declared_angles(qdot_rest *r)
 /* Remove equilibria outside the assumed domains of coordinates; if that depends on parameters add a
  * condition. */
 static qdot_status
-keep_assumed(qdot_rest *r)
+keep_assumed_domains(qdot_rest *r)
 {
     size_t kept = 0;
 
@@ -477,7 +477,7 @@ keep_assumed(qdot_rest *r)
 }
 
 static qdot_status
-equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
+find_equilibria(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_rest r;
     qdot_status status = qdot_rest_begin(&r, s);
@@ -486,21 +486,21 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
     if (status == QDOT_OK)
         status = qdot_rest_find(&r, bind, user, out);
     if (status == QDOT_OK && first_only) /* the first place must satisfy the assumptions on coordinates */
-        status = keep_assumed(&r);
+        status = keep_assumed_domains(&r);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, r.found.n, r.found.at, &out->special);
     if (status == QDOT_OK && !first_only && r.found.n == 0 && r.system.complete)
         status = qdot_rest_none(&r, &out->special);
     if (status == QDOT_OK)
-        status = rest_judge(&r, out->special, first_only, bind, user);
+        status = judge_all_equilibria(&r, out->special, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_ends(&r, &out->special);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_meetings(&r, &out->meeting);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_undefined(&r, &out->undefined, &out->special);
-    if (status == QDOT_OK && !first_only) /* after the ends, which are not ends of assumed domains */
-        status = keep_assumed(&r);
+    if (status == QDOT_OK && !first_only) /* only now: ends of regions were sought without the assumptions on coordinates */
+        status = keep_assumed_domains(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))
         status = qdot_rest_pole(&r, &out->pole);
     out->at = r.found.at;
@@ -524,13 +524,13 @@ qdot_equilibria_clear(qdot_equilibria *e)
 qdot_status
 qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    return equilibria_find(s, false, bind, user, out);
+    return find_equilibria(s, false, bind, user, out);
 }
 
 qdot_status
 qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    return equilibria_find(s, true, bind, user, out);
+    return find_equilibria(s, true, bind, user, out);
 }
 
 qdot_status
@@ -542,7 +542,7 @@ qdot_equilibrium_judge(qdot_scene *s, qdot_binder bind, void *user, qdot_equilib
     if (status == QDOT_OK)
         status = qdot_vec_push(&r.found, *one);
     if (status == QDOT_OK)
-        status = rest_judge(&r, QDOT_NIL, true, bind, user);
+        status = judge_all_equilibria(&r, QDOT_NIL, true, bind, user);
     if (status == QDOT_OK)
         *one = r.found.at[0];
     qdot_rest_end(&r);

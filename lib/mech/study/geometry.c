@@ -26,7 +26,7 @@ typedef struct {
 } geometry;
 
 static qdot_expr
-geometry_tidy(const geometry *m, qdot_expr e)
+simplify_entry(const geometry *m, qdot_expr e)
 {
     return qdot_simplify(m->pool, e, &m->facts);
 }
@@ -64,18 +64,18 @@ metric_invert(geometry *m)
                 m->inverse[i * n + j] = QDOT_ZERO;
             m->inverse[i * n + i] = qdot_pow_int(pool, m->g[i * n + i], -1);
         }
-        m->det = geometry_tidy(m, m->det);
+        m->det = simplify_entry(m, m->det);
         return;
     }
     inverse = qdot_matrix(pool, n, n, m->g);
-    m->det = geometry_tidy(m, qdot_det(pool, inverse));
+    m->det = simplify_entry(m, qdot_det(pool, inverse));
     if (m->det == QDOT_ZERO) {
         qdot_mech_fail(m->s, QDOT_EDOMAIN, "the metric is singular: its determinant is 0");
         return;
     }
     inverse = qdot_inverse(pool, inverse);
     for (uint32_t i = 0; i < n * n && inverse != QDOT_NIL; i++)
-        m->inverse[i] = geometry_tidy(m, qdot_expr_arg(pool, inverse, i));
+        m->inverse[i] = simplify_entry(m, qdot_expr_arg(pool, inverse, i));
 }
 
 static bool
@@ -111,7 +111,7 @@ geometry_begin(geometry *m, qdot_scene *s, qdot_expr R)
 /* --- connection and curvature ------------------------------------------------------------- */
 
 static qdot_expr
-christoffel(geometry *m, uint32_t i, uint32_t j, uint32_t k)
+christoffel_symbol(geometry *m, uint32_t i, uint32_t j, uint32_t k)
 {
     qdot_pool *pool = m->pool;
     uint32_t n = m->n;
@@ -130,44 +130,44 @@ christoffel(geometry *m, uint32_t i, uint32_t j, uint32_t k)
                                        qdot_neg(pool, qdot_diff(pool, m->g[j * n + k], m->q[l]))});
         sum = qdot_add(pool, sum, qdot_mul(pool, m->inverse[i * n + l], slope));
     }
-    sum = geometry_tidy(m, qdot_mul(pool, QDOT_HALF, sum));
+    sum = simplify_entry(m, qdot_mul(pool, QDOT_HALF, sum));
     *kept = m->gamma[(i * n + k) * n + j] = sum;
     return sum;
 }
 
 static qdot_expr
-riemann(geometry *m, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
+riemann_component(geometry *m, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
 {
     qdot_pool *pool = m->pool;
     qdot_expr sum;
 
     if (k == l)
         return QDOT_ZERO;
-    sum = qdot_sub(pool, qdot_diff(pool, christoffel(m, i, l, j), m->q[k]),
-                   qdot_diff(pool, christoffel(m, i, k, j), m->q[l]));
+    sum = qdot_sub(pool, qdot_diff(pool, christoffel_symbol(m, i, l, j), m->q[k]),
+                   qdot_diff(pool, christoffel_symbol(m, i, k, j), m->q[l]));
     for (uint32_t a = 0; a < m->n; a++)
         sum = qdot_sum(pool, 3,
                        (qdot_expr[]){sum,
-                                     qdot_mul(pool, christoffel(m, i, k, a), christoffel(m, a, l, j)),
-                                     qdot_neg(pool, qdot_mul(pool, christoffel(m, i, l, a),
-                                                             christoffel(m, a, k, j)))});
-    return geometry_tidy(m, sum);
+                                     qdot_mul(pool, christoffel_symbol(m, i, k, a), christoffel_symbol(m, a, l, j)),
+                                     qdot_neg(pool, qdot_mul(pool, christoffel_symbol(m, i, l, a),
+                                                             christoffel_symbol(m, a, k, j)))});
+    return simplify_entry(m, sum);
 }
 
 static qdot_expr
-ricci(geometry *m, uint32_t j, uint32_t l)
+ricci_component(geometry *m, uint32_t j, uint32_t l)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (uint32_t i = 0; i < m->n; i++)
-        sum = qdot_add(m->pool, sum, riemann(m, i, j, i, l));
-    return geometry_tidy(m, sum);
+        sum = qdot_add(m->pool, sum, riemann_component(m, i, j, i, l));
+    return simplify_entry(m, sum);
 }
 
 /* The n x n matrix whose entry in row i and column j is f(m, prefix, i, j). */
 static qdot_expr
-matrix_of(geometry *m, const uint32_t *prefix,
-          qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t row, uint32_t column))
+build_matrix(geometry *m, const uint32_t *prefix,
+             qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t row, uint32_t column))
 {
     uint32_t n = m->n;
     qdot_expr *entries = qdot_calloc((size_t)n * n, sizeof *entries), result;
@@ -183,8 +183,8 @@ matrix_of(geometry *m, const uint32_t *prefix,
 
 /* The LIST with the members f(m, prefix, i), i = 1 ... n. */
 static qdot_expr
-list_of(geometry *m, const uint32_t *prefix,
-        qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t i))
+build_list(geometry *m, const uint32_t *prefix,
+           qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t i))
 {
     qdot_expr *members = qdot_calloc(m->n, sizeof *members), result;
 
@@ -200,44 +200,44 @@ list_of(geometry *m, const uint32_t *prefix,
 static qdot_expr
 christoffel_entry(geometry *m, const uint32_t *prefix, uint32_t j, uint32_t k)
 {
-    return christoffel(m, prefix[0], j, k);
+    return christoffel_symbol(m, prefix[0], j, k);
 }
 
 static qdot_expr
-christoffel_of(geometry *m, const uint32_t *prefix, uint32_t i)
+christoffel_matrix(geometry *m, const uint32_t *prefix, uint32_t i)
 {
     (void)prefix;
-    return matrix_of(m, &i, christoffel_entry);
+    return build_matrix(m, &i, christoffel_entry);
 }
 
 static qdot_expr
 riemann_entry(geometry *m, const uint32_t *prefix, uint32_t k, uint32_t l)
 {
-    return riemann(m, prefix[0], prefix[1], k, l);
+    return riemann_component(m, prefix[0], prefix[1], k, l);
 }
 
 static qdot_expr
 riemann_row(geometry *m, const uint32_t *prefix, uint32_t j)
 {
-    return matrix_of(m, (uint32_t[]){prefix[0], j}, riemann_entry);
+    return build_matrix(m, (uint32_t[]){prefix[0], j}, riemann_entry);
 }
 
 static qdot_expr
-riemann_of(geometry *m, const uint32_t *prefix, uint32_t i)
+riemann_matrices(geometry *m, const uint32_t *prefix, uint32_t i)
 {
     (void)prefix;
-    return list_of(m, &i, riemann_row);
+    return build_list(m, &i, riemann_row);
 }
 
 static qdot_expr
 ricci_entry(geometry *m, const uint32_t *prefix, uint32_t j, uint32_t l)
 {
     (void)prefix;
-    return ricci(m, j, l);
+    return ricci_component(m, j, l);
 }
 
 static qdot_expr
-geodesic_of(geometry *m, const uint32_t *prefix, uint32_t i)
+geodesic_equation(geometry *m, const uint32_t *prefix, uint32_t i)
 {
     qdot_pool *pool = m->pool;
     qdot_expr sum = qdot_symbol_jet(pool, m->q[i], 2);
@@ -247,35 +247,35 @@ geodesic_of(geometry *m, const uint32_t *prefix, uint32_t i)
         for (uint32_t k = 0; k < m->n; k++)
             sum = qdot_add(pool, sum,
                            qdot_product(pool, 3,
-                                        (qdot_expr[]){christoffel(m, i, j, k),
+                                        (qdot_expr[]){christoffel_symbol(m, i, j, k),
                                                       qdot_symbol_jet(pool, m->q[j], 1),
                                                       qdot_symbol_jet(pool, m->q[k], 1)}));
-    return qdot_rel(pool, QDOT_EQ, geometry_tidy(m, sum), QDOT_ZERO);
+    return qdot_rel(pool, QDOT_EQ, simplify_entry(m, sum), QDOT_ZERO);
 }
 
 static qdot_expr
 scale_factor(const geometry *m, uint32_t i)
 {
-    return geometry_tidy(m, qdot_sqrt(m->pool, m->g[i * m->n + i]));
+    return simplify_entry(m, qdot_sqrt(m->pool, m->g[i * m->n + i]));
 }
 
 static qdot_expr
-scale_factor_of(geometry *m, const uint32_t *prefix, uint32_t i)
+scale_factor_entry(geometry *m, const uint32_t *prefix, uint32_t i)
 {
     (void)prefix;
     return scale_factor(m, i);
 }
 
 static qdot_expr
-list_over(qdot_scene *s, qdot_expr R,
-          qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t i))
+list_for_metric(qdot_scene *s, qdot_expr R,
+                qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t i))
 {
     geometry m;
     qdot_expr result;
 
     if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
-    result = list_of(&m, NULL, f);
+    result = build_list(&m, NULL, f);
     geometry_end(&m);
     return result;
 }
@@ -283,25 +283,25 @@ list_over(qdot_scene *s, qdot_expr R,
 qdot_expr
 qdot_geometry_christoffel(qdot_scene *s, qdot_expr R)
 {
-    return list_over(s, R, christoffel_of);
+    return list_for_metric(s, R, christoffel_matrix);
 }
 
 qdot_expr
 qdot_geometry_riemann(qdot_scene *s, qdot_expr R)
 {
-    return list_over(s, R, riemann_of);
+    return list_for_metric(s, R, riemann_matrices);
 }
 
 qdot_expr
 qdot_geometry_geodesic(qdot_scene *s, qdot_expr R)
 {
-    return list_over(s, R, geodesic_of);
+    return list_for_metric(s, R, geodesic_equation);
 }
 
 qdot_expr
 qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R)
 {
-    return list_over(s, R, scale_factor_of);
+    return list_for_metric(s, R, scale_factor_entry);
 }
 
 qdot_expr
@@ -312,7 +312,7 @@ qdot_geometry_ricci(qdot_scene *s, qdot_expr R)
 
     if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
-    result = matrix_of(&m, NULL, ricci_entry);
+    result = build_matrix(&m, NULL, ricci_entry);
     geometry_end(&m);
     return result;
 }
@@ -329,8 +329,8 @@ qdot_geometry_scalar_curvature(qdot_scene *s, qdot_expr R)
         for (uint32_t l = 0; l < m.n; l++)
             if (m.inverse[j * m.n + l] != QDOT_ZERO)
                 sum = qdot_add(m.pool, sum,
-                               qdot_mul(m.pool, m.inverse[j * m.n + l], ricci(&m, j, l)));
-    sum = geometry_tidy(&m, sum);
+                               qdot_mul(m.pool, m.inverse[j * m.n + l], ricci_component(&m, j, l)));
+    sum = simplify_entry(&m, sum);
     geometry_end(&m);
     return sum;
 }
@@ -343,7 +343,7 @@ qdot_geometry_volume_element(qdot_scene *s, qdot_expr R)
 
     if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
-    w = geometry_tidy(&m, qdot_sqrt(m.pool, m.det));
+    w = simplify_entry(&m, qdot_sqrt(m.pool, m.det));
     geometry_end(&m);
     return w;
 }
@@ -388,9 +388,9 @@ is_scalar_field(const geometry *m, qdot_expr f)
     return false;
 }
 
-/* d_i e + 1/2 (d_i det g / det g) e: the divergence of a contravariant component. */
+/* d_i e + 1/2 (d_i det g / det g) e: the part of the divergence that a contravariant component e contributes. */
 static qdot_expr
-weighted_slope(const geometry *m, qdot_expr e, uint32_t i)
+divergence_term(const geometry *m, qdot_expr e, uint32_t i)
 {
     qdot_pool *pool = m->pool;
     qdot_expr growth = qdot_div(pool, qdot_diff(pool, m->det, m->q[i]),
@@ -399,9 +399,9 @@ weighted_slope(const geometry *m, qdot_expr e, uint32_t i)
     return qdot_add(pool, qdot_diff(pool, e, m->q[i]), qdot_mul(pool, growth, e));
 }
 
-/* d_i h_j / h_j = d_i g_jj / (2 g_jj), without the root (whose sign need not be known). */
+/* d_i h_j / h_j, computed as d_i g_jj / (2 g_jj) without the root h_j, whose sign need not be known. */
 static qdot_expr
-log_scale_slope(const geometry *m, uint32_t i, uint32_t j)
+log_scale_derivative(const geometry *m, uint32_t i, uint32_t j)
 {
     qdot_expr g = m->g[j * m->n + j];
 
@@ -422,7 +422,7 @@ qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R)
         qdot_pool_fail(m.pool);
     } else if (is_scalar_field(&m, f)) {
         for (uint32_t i = 0; i < m.n; i++)
-            parts[i] = geometry_tidy(&m, qdot_div(m.pool, qdot_diff(m.pool, f, m.q[i]), scale_factor(&m, i)));
+            parts[i] = simplify_entry(&m, qdot_div(m.pool, qdot_diff(m.pool, f, m.q[i]), scale_factor(&m, i)));
         result = m.n == 1 ? parts[0] : qdot_vector(m.pool, m.n, parts);
     }
     qdot_free(parts);
@@ -441,13 +441,13 @@ qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R)
     if (!components_fit(&m, F))
         sum = QDOT_NIL;
     for (uint32_t i = 0; i < m.n && sum != QDOT_NIL; i++) {
-        qdot_expr e = weighted_slope(&m, qdot_mech_component(m.pool, F, i), i);
+        qdot_expr e = divergence_term(&m, qdot_mech_component(m.pool, F, i), i);
 
         e = qdot_sub(m.pool, e,
-                     qdot_mul(m.pool, qdot_mech_component(m.pool, F, i), log_scale_slope(&m, i, i)));
+                     qdot_mul(m.pool, qdot_mech_component(m.pool, F, i), log_scale_derivative(&m, i, i)));
         sum = qdot_add(m.pool, sum, qdot_div(m.pool, e, scale_factor(&m, i)));
     }
-    sum = sum == QDOT_NIL ? sum : geometry_tidy(&m, sum);
+    sum = sum == QDOT_NIL ? sum : simplify_entry(&m, sum);
     geometry_end(&m);
     return sum;
 }
@@ -465,9 +465,9 @@ qdot_geometry_laplacian(qdot_scene *s, qdot_expr f, qdot_expr R)
     for (uint32_t i = 0; i < m.n && sum != QDOT_NIL; i++) {
         qdot_expr e = qdot_mul(m.pool, m.inverse[i * m.n + i], qdot_diff(m.pool, f, m.q[i]));
 
-        sum = qdot_add(m.pool, sum, weighted_slope(&m, e, i));
+        sum = qdot_add(m.pool, sum, divergence_term(&m, e, i));
     }
-    sum = sum == QDOT_NIL ? sum : geometry_tidy(&m, sum);
+    sum = sum == QDOT_NIL ? sum : simplify_entry(&m, sum);
     geometry_end(&m);
     return sum;
 }
@@ -488,26 +488,26 @@ frame_handedness(const geometry *m)
             entries[i * n + d] = qdot_diff(pool, qdot_mech_component(pool, m->R, d), m->q[i]);
     for (uint32_t i = 0; i < n; i++)
         sign = qdot_mul(pool, sign, scale_factor(m, i));
-    return geometry_tidy(m, qdot_div(pool, qdot_det(pool, qdot_matrix(pool, n, n, entries)), sign));
+    return simplify_entry(m, qdot_div(pool, qdot_det(pool, qdot_matrix(pool, n, n, entries)), sign));
 }
 
-/* (1/h_i) (d_i F_j + F_j d_i h_j / h_j): d_i (h_j F_j) / (h_i h_j). */
+/* d_i (h_j F_j) / (h_i h_j), one half of a component of the curl: (1/h_i) (d_i F_j + F_j d_i h_j / h_j). */
 static qdot_expr
-half_circulation(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
+curl_half(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
 {
     qdot_pool *pool = m->pool;
     qdot_expr Fj = qdot_mech_component(pool, F, j);
     qdot_expr e = qdot_add(pool, qdot_diff(pool, Fj, m->q[i]),
-                           qdot_mul(pool, Fj, log_scale_slope(m, i, j)));
+                           qdot_mul(pool, Fj, log_scale_derivative(m, i, j)));
 
     return qdot_div(pool, e, scale_factor(m, i));
 }
 
-/* (d_i (h_j F_j) - d_j (h_i F_i)) / (h_i h_j). */
+/* A component of the curl: (d_i (h_j F_j) - d_j (h_i F_i)) / (h_i h_j). */
 static qdot_expr
-circulation(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
+curl_component(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
 {
-    return qdot_sub(m->pool, half_circulation(m, F, i, j), half_circulation(m, F, j, i));
+    return qdot_sub(m->pool, curl_half(m, F, i, j), curl_half(m, F, j, i));
 }
 
 qdot_expr
@@ -524,10 +524,10 @@ qdot_geometry_curl(qdot_scene *s, qdot_expr F, qdot_expr R)
     } else if (components_fit(&m, F)) {
         turn = frame_handedness(&m);
         if (m.n == 2) {
-            result = geometry_tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, 0, 1)));
+            result = simplify_entry(&m, qdot_mul(m.pool, turn, curl_component(&m, F, 0, 1)));
         } else {
             for (uint32_t i = 0; i < 3; i++)
-                c[i] = geometry_tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, (i + 1) % 3, (i + 2) % 3)));
+                c[i] = simplify_entry(&m, qdot_mul(m.pool, turn, curl_component(&m, F, (i + 1) % 3, (i + 2) % 3)));
             result = qdot_vector(m.pool, 3, c);
         }
     }

@@ -31,7 +31,7 @@ qdot_expr qdot_geometry_volume_element(qdot_scene *s, qdot_expr R);
 /* The scale factors h_i = sqrt(g_ii) as a LIST. */
 qdot_expr qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R);
 
-/* In the frame of the unit vectors e_i = (dr/dq_i)/h_i; g must be diagonal. */
+/* Vector fields have components along the unit vectors e_i = (dr/dq_i)/h_i; the metric g must be diagonal. */
 /* The gradient (1/h_i) df/dq_i as a VEC (a scalar for one coordinate). */
 qdot_expr qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R);
 /* The divergence (1/w) d_i (w F_i/h_i), w = sqrt(det g). */

@@ -21,14 +21,14 @@ typedef struct {
     uint32_t n;
     qdot_expr L;
     qdot_expr *q, *qdot, *p; /* [n] coordinates, velocities, momenta */
-    qdot_expr *rest;         /* [n] p - dL/dq' for q' = 0 */
+    qdot_expr *rest;         /* [n] p - dL/dq' at q' = 0 */
     qdot_expr *A;            /* [n*n] d2L/dq'dq' */
     qdot_expr *solved;       /* [n]: q' in terms of p */
 } legendre;
 
 /* Write the momenta as linear forms p_i = sum A_ij q_j' + b_i. */
 static bool
-linear_form(legendre *l)
+find_linear_momenta(legendre *l)
 {
     qdot_pool *pool = l->pool;
 
@@ -57,7 +57,7 @@ linear_form(legendre *l)
 }
 
 static bool
-legendre_solve(legendre *l)
+solve_for_velocities(legendre *l)
 {
     uint32_t pivot = 0;
     qdot_status status =
@@ -73,9 +73,9 @@ legendre_solve(legendre *l)
     return status == QDOT_OK;
 }
 
-/* Add 1/2 (p - b).A^-1 (p - b) for one block of A; which [m] lists its rows. As squares or by the inverse. */
+/* Add 1/2 (p - b).A^-1 (p - b) for one block of A, whose rows are which [m]; written as squares or by the inverse. */
 static qdot_status
-legendre_add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
+add_block_energy(legendre *l, qdot_squares *q, size_t m, const size_t *which)
 {
     qdot_pool *pool = l->pool;
     qdot_expr inverse[9], v[3], sum = QDOT_ZERO;
@@ -111,7 +111,7 @@ legendre_add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
  *
  * without terms that cancel, block by block of A. */
 static qdot_expr
-quadratic(legendre *l)
+quadratic_legendre_transform(legendre *l)
 {
     qdot_pool *pool = l->pool;
     qdot_expr sum = QDOT_NIL, at_rest = l->L;
@@ -130,7 +130,7 @@ quadratic(legendre *l)
             if (block[k] == i)
                 which[m++] = k;
         if (m > 0)
-            status = legendre_add_block(l, &q, m, which);
+            status = add_block_energy(l, &q, m, which);
     }
     if (status == QDOT_OK)
         sum = qdot_common_out(pool, qdot_squares_sum(&q));
@@ -140,7 +140,7 @@ quadratic(legendre *l)
         return qdot_pool_fail(pool);
     for (uint32_t i = 0; i < l->n; i++)
         at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
-    if (l->s->lagrangian != QDOT_NIL) /* T - V is in simplified form already */
+    if (l->s->lagrangian != QDOT_NIL) /* simplify a stated Lagrangian only: T - V is in simplified form already */
         at_rest = qdot_simplify(pool, at_rest, &l->facts);
     return qdot_sub(pool, sum, at_rest);
 }
@@ -172,15 +172,15 @@ legendre_begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
         l->qdot[i] = qdot_symbol_jet(pool, q[i], 1);
         l->p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
     }
-    return !qdot_pool_failed(pool) && linear_form(l) && legendre_solve(l);
+    return !qdot_pool_failed(pool) && find_linear_momenta(l) && solve_for_velocities(l);
 }
 
 /* The Legendre transform sum p q' - L over the coordinates q [n], with their velocities replaced by momenta. */
 static qdot_expr
-transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
+legendre_transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     legendre l;
-    qdot_expr result = legendre_begin(&l, s, n, q) ? quadratic(&l) : QDOT_NIL;
+    qdot_expr result = legendre_begin(&l, s, n, q) ? quadratic_legendre_transform(&l) : QDOT_NIL;
 
     qdot_free(l.q);
     return result;
@@ -227,7 +227,7 @@ qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
 
 /* An argument of Poisson's bracket, with velocities replaced by momenta. */
 static qdot_expr
-bracket_side(qdot_scene *s, qdot_expr e)
+bracket_argument(qdot_scene *s, qdot_expr e)
 {
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION))
         return qdot_hamilton_in_momenta(s, e);
@@ -248,8 +248,8 @@ qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
         qdot_mech_fail(s, QDOT_EINVAL, "the scene has no coordinate");
         return QDOT_NIL;
     }
-    f = bracket_side(s, f);
-    g = bracket_side(s, g);
+    f = bracket_argument(s, f);
+    g = bracket_argument(s, g);
     if (f == QDOT_NIL || g == QDOT_NIL)
         return QDOT_NIL;
     for (size_t i = 0; i < s->coordinates.n; i++) {
@@ -267,7 +267,7 @@ qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
 qdot_expr
 qdot_hamilton_hamiltonian(qdot_scene *s)
 {
-    return transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
+    return legendre_transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
 }
 
 /* The Routhian R for the coordinates q [n], in the shorter of two forms. */
@@ -275,7 +275,7 @@ static qdot_expr
 routhian(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     const qdot_facts facts = qdot_scene_facts(s);
-    qdot_expr result = transform(s, n, q), shorter;
+    qdot_expr result = legendre_transform(s, n, q), shorter;
 
     if (result == QDOT_NIL)
         return QDOT_NIL;

@@ -19,7 +19,7 @@ qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
 /* The Routhian for the coordinates q [n], without repetition; n = 0: for the cyclic ones. */
 qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
 
-/* e with velocities expressed by momenta; e with momenta replaced by dL/dq'. */
+/* e with velocities written in terms of momenta; second function: e with momenta replaced by dL/dq'. */
 qdot_expr qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e);
 qdot_expr qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e);
 

@@ -33,11 +33,11 @@ qdot_rest_facts(qdot_scene *s, qdot_expr exists, qdot_facts *facts, qdot_expr **
     return QDOT_OK;
 }
 
-/* Replacements and facts that turn an expression into its value at rest at an equilibrium. */
+/* Replacements and facts by which an expression is evaluated at rest at an equilibrium. */
 typedef struct {
     qdot_scene *s;
     qdot_facts facts;
-    qdot_expr *own; /* [conditions] array for the conditions of `facts`; owned */
+    qdot_expr *own; /* [conditions] the array in which the conditions of `facts` are stored; owned */
     size_t n;
     qdot_expr *from, *to;
 } place;
@@ -77,7 +77,7 @@ place_end(place *p)
 /* The value of e at the equilibrium; for a family, whole turns are dropped from the arguments of
  * circular functions. */
 static qdot_expr
-value_at(const place *p, qdot_expr e)
+substituted_value(const place *p, qdot_expr e)
 {
     qdot_pool *pool = p->s->pool;
     bool family = false;
@@ -89,9 +89,9 @@ value_at(const place *p, qdot_expr e)
 }
 
 static qdot_expr
-value_at_place(const place *p, qdot_expr e)
+simplified_value_at_rest(const place *p, qdot_expr e)
 {
-    return qdot_simplify(p->s->pool, value_at(p, e), &p->facts);
+    return qdot_simplify(p->s->pool, substituted_value(p, e), &p->facts);
 }
 
 qdot_expr
@@ -110,7 +110,7 @@ qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
     place p = {0};
     qdot_status status = place_begin(&p, s, equations, QDOT_NIL);
 
-    e = status == QDOT_OK ? value_at(&p, e) : qdot_pool_fail(s->pool);
+    e = status == QDOT_OK ? substituted_value(&p, e) : qdot_pool_fail(s->pool);
     place_end(&p);
     return e;
 }
@@ -122,9 +122,9 @@ typedef struct {
     size_t *pivot; /* [rank] column of each row's leading 1; other rows have 0 there */
 } echelon;
 
-/* Subtract `by` times the row `other` [n] from row [n]. */
+/* Subtract from row [n] the row `other` [n] times `by`. */
 static qdot_status
-row_subtract(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_expr *other)
+subtract_row(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_expr *other)
 {
     qdot_pool *pool = p->s->pool;
 
@@ -133,7 +133,7 @@ row_subtract(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_
     return qdot_pool_check(pool);
 }
 
-/* Add the gradient of constraint k unless it depends on the earlier ones. *pivot: the divisor of its row. */
+/* Add the gradient of constraint k unless it depends linearly on earlier ones. *pivot: the divisor of its row. */
 static qdot_status
 echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
 {
@@ -142,10 +142,10 @@ echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
     size_t j = 0;
 
     for (size_t i = 0; i < e->n; i++)
-        row[i] = value_at_place(p, qdot_integrated_slope(p->s, k, i));
+        row[i] = simplified_value_at_rest(p, qdot_integrated_slope(p->s, k, i));
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t r = 0; r < e->rank; r++)
-        QDOT_TRY(row_subtract(p, e->n, row, row[e->pivot[r]], e->A + r * e->n));
+        QDOT_TRY(subtract_row(p, e->n, row, row[e->pivot[r]], e->A + r * e->n));
     while (j < e->n && qdot_is_zero(pool, row[j], &p->facts))
         j++;
     if (j == e->n)
@@ -156,7 +156,7 @@ echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
             row[i] = qdot_simplify(pool, qdot_div(pool, row[i], row[j]), &p->facts);
     row[j] = QDOT_ONE;
     for (size_t r = 0; r < e->rank; r++)
-        QDOT_TRY(row_subtract(p, e->n, e->A + r * e->n, e->A[r * e->n + j], row));
+        QDOT_TRY(subtract_row(p, e->n, e->A + r * e->n, e->A[r * e->n + j], row));
     e->pivot[e->rank++] = j;
     return qdot_pool_check(pool);
 }
@@ -225,8 +225,8 @@ project_on_tangents(const place *p, const qdot_expr *X, const qdot_expr *N, size
 /* *slope = d(left)/dx at the place, x the derivative of that order of coordinate j; out->exact,
  * out->damped. */
 static qdot_status
-slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *slope,
-         qdot_linear_motion *out)
+derivative_at_rest(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *slope,
+                   qdot_linear_motion *out)
 {
     const uint32_t motion =
         QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME;
@@ -235,16 +235,16 @@ slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *sl
     qdot_status status;
 
     out->exact = out->exact && e != QDOT_NIL && (qdot_mech_holds(s, e) & motion) == 0;
-    *slope = value_at_place(p, e);
+    *slope = simplified_value_at_rest(p, e);
     status = qdot_pool_check(s->pool);
-    if (status != QDOT_EDOMAIN || order != 1) /* undefined by a velocity: it has a root of velocities, as |v| v */
+    if (status != QDOT_EDOMAIN || order != 1) /* derivative by a velocity undefined, as of sqrt(v^2) v at 0 */
         return status;
     out->damped = false;
     *slope = QDOT_ZERO;
     return QDOT_OK;
 }
 
-/* Linearise the motion: M, Gamma, H of all coordinates, [n*n] each; sets out->exact and out->damped. */
+/* Linearise the motion: mass M, damping Gamma, stiffness H of all coordinates; sets out->exact and out->damped. */
 static qdot_status
 linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
 {
@@ -259,7 +259,7 @@ linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
         QDOT_TRY(qdot_pool_check(s->pool));
         for (uint32_t order = 0; order < 3; order++)
             for (size_t j = 0; j < n; j++)
-                QDOT_TRY(slope_at(p, left, j, order, &X[(2 - order) * n * n + i * n + j], out));
+                QDOT_TRY(derivative_at_rest(p, left, j, order, &X[(2 - order) * n * n + i * n + j], out));
     }
     return qdot_pool_check(s->pool);
 }
@@ -274,8 +274,8 @@ qdot_linear_motion_clear(qdot_linear_motion *m)
 }
 
 static qdot_status
-reduced(const place *p, const qdot_expr *X, const qdot_expr *columns,
-        qdot_linear_motion *out)
+reduce_to_tangents(const place *p, const qdot_expr *X, const qdot_expr *columns,
+                   qdot_linear_motion *out)
 {
     size_t n = p->s->coordinates.n, m = out->n;
 
@@ -314,7 +314,7 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
     if (status == QDOT_OK)
         status = constraint_tangents(&p, X + 3 * n * n, out);
     if (status == QDOT_OK)
-        status = reduced(&p, X, X + 3 * n * n, out);
+        status = reduce_to_tangents(&p, X, X + 3 * n * n, out);
     qdot_free(X);
     place_end(&p);
     if (status != QDOT_OK)
@@ -325,7 +325,7 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
 /* --- coordinates without mass ---------------------------------------------------------- */
 
 static bool
-has_mass(const qdot_linear_motion *m, size_t a, qdot_pool *pool, const qdot_facts *facts)
+coordinate_has_mass(const qdot_linear_motion *m, size_t a, qdot_pool *pool, const qdot_facts *facts)
 {
     for (size_t b = 0; b < m->n; b++)
         if (!qdot_is_zero(pool, m->M[a * m->n + b], facts) || !qdot_is_zero(pool, m->M[b * m->n + a], facts))
@@ -333,7 +333,7 @@ has_mass(const qdot_linear_motion *m, size_t a, qdot_pool *pool, const qdot_fact
     return false;
 }
 
-/* Copy X [rows * n] without column a, and without row a if `square`, to `to`; returns the next address. */
+/* Copy X [rows * n] without column a (and row a if `square`) to the address `to`; returns the address after the copy. */
 static qdot_expr *
 copy_without(const qdot_expr *X, size_t rows, size_t n, size_t a, bool square, qdot_expr *to)
 {
@@ -344,7 +344,7 @@ copy_without(const qdot_expr *X, size_t rows, size_t n, size_t a, bool square, q
     return to;
 }
 
-/* Eliminate y_a = -sum_b H_ab y_b / H_aa from the unknowns. */
+/* Eliminate a coordinate without mass, y_a = -sum_b H_ab y_b / H_aa, from the unknowns. */
 static qdot_status
 eliminate_unknown(qdot_scene *s, const qdot_facts *facts, size_t a, qdot_linear_motion *m)
 {
@@ -391,7 +391,7 @@ qdot_linear_motion_condense(qdot_scene *s, const qdot_facts *facts, qdot_linear_
         found = false;
         *left = SIZE_MAX;
         for (size_t a = 0; a < m->n && !found; a++) {
-            if (has_mass(m, a, s->pool, facts))
+            if (coordinate_has_mass(m, a, s->pool, facts))
                 continue;
             *left = *left == SIZE_MAX ? m->which[a] : *left;
             found = !qdot_is_zero(s->pool, m->H[a * m->n + a], facts);

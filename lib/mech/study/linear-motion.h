@@ -15,12 +15,12 @@
 typedef struct {
     size_t n;
     qdot_expr *M, *Gamma, *H; /* [n x n] matrices of M y'' + Gamma y' + H y = 0 */
-    qdot_expr *N;             /* [coordinates x n] displacement of each coordinate: N y */
+    qdot_expr *N;             /* [coordinates x n] displacement of each coordinate is N y */
     size_t *which;            /* [n] index of the coordinate whose displacement is y_a */
-    size_t rank;              /* of the constraints' Jacobian at the equilibrium */
-    qdot_expr *pivot;         /* [rank] pivots of the elimination: N holds where none is 0 */
+    size_t rank;              /* rank of the constraints' Jacobian at the equilibrium */
+    qdot_expr *pivot;         /* [rank] pivots of the elimination: N is valid where none of them is 0 */
     bool exact;               /* the equations of motion are linear: nothing is neglected */
-    bool damped;              /* Gamma is defined; false: set to 0, as for a force |v| v at v = 0 */
+    bool damped;              /* Gamma is defined; false: it was set to 0, as for a force |v| v at v = 0 */
 } qdot_linear_motion;
 
 /* About the equilibrium `equations`, which exists under the conditions `exists` (a LIST; nil:
@@ -41,7 +41,7 @@ QDOT_MUST_CHECK qdot_status qdot_linear_motion_condense(qdot_scene *s, const qdo
 QDOT_MUST_CHECK qdot_status qdot_rest_facts(qdot_scene *s, qdot_expr exists,
                                             qdot_facts *facts, qdot_expr **own);
 
-/* The residual left - right of the equation of coordinate i. Nil: the pool keeps the failure. */
+/* The residual left - right of the equation of motion of coordinate i. Nil: the pool keeps the failure. */
 qdot_expr qdot_motion_residual(qdot_scene *s, size_t i);
 
 /* The expression e at rest, with the values of an equilibrium substituted; not simplified. */

@@ -19,7 +19,7 @@ enum { MOST_DECIDED = 300 }; /* largest number of operations of a power whose si
 
 /* The expression e with all velocities set to 0. */
 static qdot_expr
-without_velocities(qdot_scene *s, qdot_expr e)
+set_velocities_to_zero(qdot_scene *s, qdot_expr e)
 {
     for (size_t i = 0; i < s->coordinates.n && e != QDOT_NIL; i++) {
         qdot_expr v = qdot_mech_jet(s, i, 1), zero = QDOT_ZERO;
@@ -31,7 +31,7 @@ without_velocities(qdot_scene *s, qdot_expr e)
 
 /* Write each sign(u) in *e as |u|/u, so that u sign(u) becomes |u|. */
 static qdot_status
-with_magnitudes(qdot_scene *s, qdot_expr *e)
+replace_signs_by_quotients(qdot_scene *s, qdot_expr *e)
 {
     qdot_walk w;
     qdot_status status = QDOT_OK;
@@ -54,11 +54,11 @@ with_magnitudes(qdot_scene *s, qdot_expr *e)
 
 /* Whether e >= 0 is proved wherever it is defined. */
 static qdot_status
-never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
+is_never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
 {
     qdot_decision d;
 
-    QDOT_TRY(with_magnitudes(s, &e));
+    QDOT_TRY(replace_signs_by_quotients(s, &e));
     e = qdot_simplify(s->pool, e, facts);
     QDOT_TRY(qdot_pool_check(s->pool));
     *yes = (qdot_expr_node(s->pool, e)->sign & QDOT_GE0) != 0;
@@ -72,7 +72,7 @@ never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
 /* Nothing of the scene changes with time by itself, and constraints bind coordinates alone, be it
  * in disguise. */
 static qdot_status
-is_still(qdot_scene *s, bool *yes)
+is_time_independent(qdot_scene *s, bool *yes)
 {
     bool holonomic;
 
@@ -85,12 +85,12 @@ is_still(qdot_scene *s, bool *yes)
 
 /* Judge dampers and Rayleigh's function: *used if there are any, *yes if all dissipate energy. */
 static qdot_status
-damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
+judge_damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 {
     *yes = true;
     for (size_t k = 0; k < s->dampers.n && *yes; k++) {
         *used = true;
-        QDOT_TRY(never_negative(s, s->dampers.at[k].stiffness, facts, yes));
+        QDOT_TRY(is_never_negative(s, s->dampers.at[k].stiffness, facts, yes));
     }
     for (size_t k = 0; k < s->dissipations.n && *yes; k++) {
         qdot_expr power = QDOT_ZERO;
@@ -103,7 +103,7 @@ damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
                                       qdot_diff(s->pool, s->dissipations.at[k].e, v)));
         }
         *used = true;
-        QDOT_TRY(never_negative(s, power, facts, yes));
+        QDOT_TRY(is_never_negative(s, power, facts, yes));
     }
     return QDOT_OK;
 }
@@ -121,7 +121,7 @@ declared_forces_dissipate(qdot_scene *s, const qdot_facts *facts, bool *yes, boo
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_expr Q = qdot_force_declared(s, i);
 
-        F[i] = without_velocities(s, Q);
+        F[i] = set_velocities_to_zero(s, Q);
         power = qdot_sub(pool, power,
                          qdot_mul(pool, qdot_mech_jet(s, i, 1), qdot_sub(pool, Q, F[i])));
         status = qdot_pool_check(pool);
@@ -145,7 +145,7 @@ declared_forces_dissipate(qdot_scene *s, const qdot_facts *facts, bool *yes, boo
     if (status != QDOT_OK || !*yes || qdot_is_zero(pool, power, facts))
         return status;
     *used = true;
-    return never_negative(s, power, facts, yes);
+    return is_never_negative(s, power, facts, yes);
 }
 
 qdot_status
@@ -155,9 +155,9 @@ qdot_energy_law_of(qdot_scene *s, qdot_energy_law *law)
     bool yes, used = false;
 
     *law = QDOT_ENERGY_UNKNOWN;
-    QDOT_TRY(is_still(s, &yes));
+    QDOT_TRY(is_time_independent(s, &yes));
     if (yes)
-        QDOT_TRY(damping(s, &facts, &yes, &used));
+        QDOT_TRY(judge_damping(s, &facts, &yes, &used));
     if (yes)
         QDOT_TRY(declared_forces_dissipate(s, &facts, &yes, &used));
     if (yes)

@@ -12,21 +12,21 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* Whether the argument R is a line element in dq, not a position. */
+/* Whether the argument R is a line element in the differentials dq, not a position. */
 static bool
-is_element(const qdot_scene *s, qdot_expr R)
+is_line_element(const qdot_scene *s, qdot_expr R)
 {
     return qdot_mech_holds(s, R) & QDOT_HAS_DIFFERENTIAL;
 }
 
 static bool
-metric_check(qdot_scene *s, qdot_expr R)
+check_metric_argument(qdot_scene *s, qdot_expr R)
 {
     uint32_t n = qdot_mech_dimension(s->pool, R);
 
     if (R == QDOT_NIL)
         return false;
-    if (n == 0 || (is_element(s, R) && n != 1)) {
+    if (n == 0 || (is_line_element(s, R) && n != 1)) {
         qdot_mech_fail(s, QDOT_ETYPE,
                        "a position r(q) or a line element in dq belongs here");
         return false;
@@ -40,7 +40,7 @@ metric_check(qdot_scene *s, qdot_expr R)
     return true;
 }
 
-/* The quadratic form sum of g_ij step_i step_j, with steps dq and dt, or velocities q' and 1. */
+/* The quadratic form sum of g_ij s_i s_j, where s are the differentials dq and dt, or the velocities q' and 1. */
 static qdot_expr
 metric_form(qdot_scene *s, qdot_expr R, bool velocities)
 {
@@ -49,7 +49,7 @@ metric_form(qdot_scene *s, qdot_expr R, bool velocities)
     size_t n = s->coordinates.n;
     qdot_expr *slope, *step, sum = QDOT_ZERO;
 
-    if (!metric_check(s, R))
+    if (!check_metric_argument(s, R))
         return QDOT_NIL;
     slope = qdot_calloc(2 * n + 2, sizeof *slope);
     if (!slope)
@@ -58,13 +58,13 @@ metric_form(qdot_scene *s, qdot_expr R, bool velocities)
     for (size_t i = 0; i <= n; i++) {
         qdot_expr q = i < n ? s->coordinates.at[i] : QDOT_T;
 
-        slope[i] = is_element(s, R) ? qdot_symbol_of(pool, QDOT_DIFFERENTIAL, q)
+        slope[i] = is_line_element(s, R) ? qdot_symbol_of(pool, QDOT_DIFFERENTIAL, q)
                                     : qdot_diff(pool, R, q);
         step[i] = !velocities ? qdot_symbol_of(pool, QDOT_DIFFERENTIAL, q)
                   : i < n     ? qdot_mech_jet(s, i, 1)
                               : QDOT_ONE;
     }
-    if (is_element(s, R)) {
+    if (is_line_element(s, R)) {
         sum = velocities ? qdot_subs(pool, R, n + 1, slope, step) : R;
         qdot_free(slope);
         return sum;
@@ -103,7 +103,7 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     size_t n = s->coordinates.n, m = 0;
     qdot_expr *members, list;
 
-    if (!metric_check(s, R))
+    if (!check_metric_argument(s, R))
         return QDOT_NIL;
     members = qdot_calloc(n + 1, sizeof *members);
     if (!members)
@@ -111,7 +111,7 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     for (size_t i = 0; i < n; i++) {
         qdot_expr q = s->coordinates.at[i];
         qdot_expr mark =
-            is_element(s, R) ? qdot_symbol_of(pool, QDOT_DIFFERENTIAL, q) : q;
+            is_line_element(s, R) ? qdot_symbol_of(pool, QDOT_DIFFERENTIAL, q) : q;
 
         if (qdot_expr_contains(pool, R, mark))
             members[m++] = q;
@@ -121,9 +121,9 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     return list;
 }
 
-/* Find g_ij of a line element as half its second derivatives; check that it contains nothing else. */
+/* Find g_ij of a line element as half its second derivatives; check that it has no other terms. */
 static qdot_expr
-coefficients(qdot_scene *s, qdot_expr R, qdot_expr over, qdot_expr *g, uint32_t n)
+metric_coefficients(qdot_scene *s, qdot_expr R, qdot_expr over, qdot_expr *g, uint32_t n)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -171,8 +171,8 @@ qdot_mech_metric(qdot_scene *s, qdot_expr R)
     g = qdot_calloc((size_t)n * n, sizeof *g);
     if (!g)
         return qdot_pool_fail(pool);
-    if (is_element(s, R))
-        result = coefficients(s, R, over, g, n);
+    if (is_line_element(s, R))
+        result = metric_coefficients(s, R, over, g, n);
     else
         for (uint32_t i = 0; i < n; i++)
             for (uint32_t j = i; j < n; j++) {

@@ -47,14 +47,14 @@ is_proved_zero(const job *j, qdot_expr e)
 }
 
 static qdot_expr
-with_values(const job *j, qdot_expr e)
+insert_values(const job *j, qdot_expr e)
 {
     return j->bind == NULL || e == QDOT_NIL ? e : j->bind(j->user, e);
 }
 
-/* Eliminate coordinates without mass: they follow the others statically. */
+/* Eliminate coordinates without mass, which follow the other coordinates as in statics. */
 static qdot_status
-put_massless(job *j)
+eliminate_massless(job *j)
 {
     size_t left;
 
@@ -69,7 +69,7 @@ put_massless(job *j)
 /* *yes: the argument of a sign in e, or the difference between both sides of an `if`'s condition, is proved to be 0 at
  * the place, so that e jumps there. */
 static qdot_status
-jumps_there(const job *j, qdot_expr e, qdot_expr place, bool *yes)
+expression_jumps_at(const job *j, qdot_expr e, qdot_expr place, bool *yes)
 {
     qdot_pool *pool = j->pool;
     qdot_status status = QDOT_OK;
@@ -103,9 +103,9 @@ check_smooth(const job *j, qdot_expr place)
     for (size_t i = 0; i < s->coordinates.n && !jumps; i++) {
         const qdot_expr gap = qdot_motion_residual(s, i);
 
-        QDOT_TRY(jumps_there(j, qdot_mech_equation(s, s->coordinates.at[i]), place, &jumps));
+        QDOT_TRY(expression_jumps_at(j, qdot_mech_equation(s, s->coordinates.at[i]), place, &jumps));
         for (size_t k = 0; k < s->coordinates.n && !jumps; k++)
-            QDOT_TRY(jumps_there(j, qdot_diff(j->pool, gap, s->coordinates.at[k]), place, &jumps));
+            QDOT_TRY(expression_jumps_at(j, qdot_diff(j->pool, gap, s->coordinates.at[k]), place, &jumps));
     }
     QDOT_TRY(qdot_pool_check(j->pool));
     return jumps ? qdot_fail(QDOT_ETYPE, "the forces or their slopes jump at the equilibrium: there is no linear motion "
@@ -116,7 +116,7 @@ check_smooth(const job *j, qdot_expr place)
 /* Whether |value|, that of e at the place, is no more than relative errors of 1e-6 in the coordinates of the place (of
  * 1e-6 where they are below 1) make of it, to first order. */
 static bool
-is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
+is_within_rounding_error(const job *j, qdot_expr e, qdot_expr place, double value)
 {
     double sum = 0;
 
@@ -124,9 +124,9 @@ is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
         const qdot_expr q = j->s->coordinates.at[k];
         double slope = 0, at = 0;
 
-        if (qdot_ball_double(j->pool, with_values(j, qdot_rest_value(j->s, place, qdot_diff(j->pool, e, q))), NULL, NULL,
+        if (qdot_ball_double(j->pool, insert_values(j, qdot_rest_value(j->s, place, qdot_diff(j->pool, e, q))), NULL, NULL,
                              &slope) &&
-            qdot_ball_double(j->pool, with_values(j, qdot_rest_value(j->s, place, q)), NULL, NULL, &at))
+            qdot_ball_double(j->pool, insert_values(j, qdot_rest_value(j->s, place, q)), NULL, NULL, &at))
             sum += fabs(slope) * fmax(1, fabs(at));
     }
     return fabs(value) <= 1e-6 * sum;
@@ -135,7 +135,7 @@ is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
 /* An error if an equation of motion is refuted at rest at the place, beyond rounding: it is no equilibrium.
  * Equations that hold a multiplier are passed over, because its value there need not be known. */
 static qdot_status
-check_rests(const job *j, qdot_expr place)
+check_is_equilibrium(const job *j, qdot_expr place)
 {
     for (size_t i = 0; i < j->s->coordinates.n; i++) {
         const qdot_expr gap = qdot_motion_residual(j->s, i);
@@ -147,10 +147,10 @@ check_rests(const job *j, qdot_expr place)
             pulled = pulled || qdot_expr_contains(j->pool, gap, j->s->constraints.at[k].multiplier);
         if (pulled)
             continue;
-        there = with_values(j, qdot_rest_value(j->s, place, gap));
+        there = insert_values(j, qdot_rest_value(j->s, place, gap));
         QDOT_TRY(qdot_pool_check(j->pool));
         QDOT_TRY(qdot_decide_equal(j->pool, there, QDOT_ZERO, &j->facts, &decision));
-        if (decision.verdict != QDOT_REFUTED || is_within_rounding(j, gap, place, decision.left))
+        if (decision.verdict != QDOT_REFUTED || is_within_rounding_error(j, gap, place, decision.left))
             continue;
         (void)qdot_fail(QDOT_EINVAL, "that is no equilibrium: the equation of %s does not hold at rest there",
                         qdot_expr_symbol(j->pool, j->s->coordinates.at[i])->name);
@@ -160,7 +160,7 @@ check_rests(const job *j, qdot_expr place)
 }
 
 static qdot_status
-check_motion(job *j)
+check_linear_motion(job *j)
 {
     size_t n = j->m.n;
 
@@ -177,10 +177,10 @@ check_motion(job *j)
                 return qdot_fail(QDOT_ETYPE, "the forces have no potential: there are no "
                                              "normal modes");
     QDOT_TRY(qdot_pool_check(j->pool));
-    return put_massless(j);
+    return eliminate_massless(j);
 }
 
-/* Add a mode: frequency w, and x = N y scaled so that its first non-zero component is 1. */
+/* Add the mode with frequency w and displacements x = N y, scaled so that the first non-zero component of x is 1. */
 static qdot_status
 add_mode(job *j, qdot_expr w, const qdot_expr *y)
 {
@@ -209,7 +209,7 @@ add_mode(job *j, qdot_expr w, const qdot_expr *y)
 /* --- exact modes ---------------------------------------------------------------------- */
 
 static qdot_status
-to_echelon(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
+reduce_to_echelon_form(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
 {
     qdot_pool *pool = j->pool;
     size_t n = j->m.n;
@@ -249,7 +249,7 @@ to_echelon(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
 }
 
 static qdot_status
-unstable(void)
+fail_because_unstable(void)
 {
     return qdot_fail(QDOT_EDOMAIN,
                      "the equilibrium is not stable: there is no oscillation about it");
@@ -257,7 +257,7 @@ unstable(void)
 
 /* Add the modes for one root W = w^2: the null space of H - W M. */
 static qdot_status
-modes_of(job *j, qdot_expr W)
+add_modes_of_root(job *j, qdot_expr W)
 {
     qdot_pool *pool = j->pool;
     size_t n = j->m.n, rank = 0;
@@ -271,16 +271,16 @@ modes_of(job *j, qdot_expr W)
     else if (qdot_positive(pool, W, &j->facts, 0, NULL) == QDOT_FALSE && !is_proved_zero(j, W))
         w = QDOT_NIL;
     if (w == QDOT_NIL && status == QDOT_OK && !qdot_pool_failed(pool))
-        status = unstable();
+        status = fail_because_unstable();
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
         A[i] = qdot_simplify(
             pool, qdot_sub(pool, j->m.H[i], qdot_mul(pool, W, j->m.M[i])), &j->facts);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_EDOMAIN)
-        status = unstable();
+        status = fail_because_unstable();
     if (status == QDOT_OK)
-        status = to_echelon(j, A, pivot, &rank);
+        status = reduce_to_echelon_form(j, A, pivot, &rank);
     for (size_t c = 0; c < n && status == QDOT_OK; c++) {
         bool dependent = false;
 
@@ -323,13 +323,13 @@ frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
 
 /* The order of a and b at the parameter values; parameters without value get a generic one. */
 static int
-order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
+compare_numerically(const job *j, qdot_expr a, qdot_expr b)
 {
     qdot_expr pair[2] = {a, b};
     double v[2];
 
     for (int k = 0; k < 2; k++)
-        pair[k] = with_values(j, pair[k]);
+        pair[k] = insert_values(j, pair[k]);
     if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
         qdot_generic_evaluate(j->pool, 2, pair, NULL, v) != QDOT_OK)
         return 1;
@@ -364,7 +364,7 @@ frequencies_sort(job *j)
                 QDOT_TRY(frequency_order(j, left, right, &order));
             if (order == 0) {
                 j->unordered = true;
-                order = order_in_numbers(j, left, right);
+                order = compare_numerically(j, left, right);
             }
             if (order > 0)
                 break;
@@ -380,14 +380,14 @@ frequencies_sort(job *j)
  *
  * whose root is mostly shorter than that of b^2 - 4 a det H; taken where W is. */
 static void
-of_two(job *j, qdot_root *roots)
+solve_two_coordinates(job *j, qdot_root *roots)
 {
     qdot_pool *pool = j->pool;
     const qdot_expr *M = j->m.M, *H = j->m.H;
     qdot_expr cross[4], b, root, W[2];
     static const int pick[3][4] = {{0, 3, 3, 0}, {0, 1, 1, 0}, {3, 1, 1, 3}};
 
-    for (int i = 0; i < 3; i++) /* coefficients of products: M_x H_y - M_z H_w */
+    for (int i = 0; i < 3; i++) /* cross products of entries of M and H, such as M11 H22 - M22 H11 */
         cross[i] =
             qdot_simplify(pool,
                           qdot_sub(pool, qdot_mul(pool, M[pick[i][0]], H[pick[i][1]]),
@@ -413,7 +413,7 @@ of_two(job *j, qdot_root *roots)
             roots[i].value = W[i];
 }
 
-/* Find the modes exactly; *done: all n were found. */
+/* Find the modes by exact formulas; *done: all n modes were found. */
 static qdot_status
 find_exact_modes(job *j, bool *done)
 {
@@ -436,11 +436,11 @@ find_exact_modes(job *j, bool *done)
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve(pool, e, W, &j->facts, &roots);
     if (status == QDOT_OK && n == 2 && roots.root.n == 2 && roots.complete)
-        of_two(j, roots.root.at);
+        solve_two_coordinates(j, roots.root.at);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     for (size_t k = 0; k < roots.root.n && roots.complete && status == QDOT_OK; k++)
-        status = modes_of(j, roots.root.at[k].value);
+        status = add_modes_of_root(j, roots.root.at[k].value);
     *done = roots.complete && j->frequency.n == n;
     qdot_solutions_clear(&roots);
     if (status == QDOT_OK && *done)
@@ -459,7 +459,7 @@ evaluate_all(const job *j, size_t n, const qdot_expr *e, double *out)
     qdot_expr *bound;
     qdot_status status;
 
-    list = with_values(j, list);
+    list = insert_values(j, list);
     QDOT_TRY(qdot_pool_check(pool));
     atoms = qdot_expr_atoms(pool, list, true);
     QDOT_TRY(qdot_pool_check(pool));
@@ -489,7 +489,7 @@ evaluate_all(const job *j, size_t n, const qdot_expr *e, double *out)
 
 /* Add a numerical mode: x = N y, scaled so that the first component that is not small is 1. */
 static qdot_status
-add_numeric(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
+add_numeric_mode(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
 {
     size_t n = j->s->coordinates.n, m = j->m.n;
     double *x = qdot_calloc(n, sizeof *x), most = 0, first = 0;
@@ -515,7 +515,7 @@ add_numeric(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
 }
 
 static qdot_status
-in_numbers(job *j)
+find_numeric_modes(job *j)
 {
     size_t n = j->s->coordinates.n, m = j->m.n;
     double *v = qdot_calloc(3 * m * m + n * m + 1, sizeof *v);
@@ -545,10 +545,10 @@ in_numbers(job *j)
                scale = fmax(fabs(gsl_vector_get(W, 0)), fabs(gsl_vector_get(W, m - 1)));
 
         if (square < -1e-10 * scale)
-            status = unstable();
+            status = fail_because_unstable();
         else
-            status = add_numeric(j, sqrt(square > 1e-13 * scale ? square : 0),
-                                 v + 3 * m * m, Y, k);
+            status = add_numeric_mode(j, sqrt(square > 1e-13 * scale ? square : 0),
+                                      v + 3 * m * m, Y, k);
     }
     j->numeric = true;
     gsl_set_error_handler(before);
@@ -581,7 +581,7 @@ modes_linearise(job *j, qdot_expr equations)
 
     for (size_t i = 0; i < j->s->coordinates.n && status == QDOT_EDOMAIN; i++) {
         (void)qdot_rest_value(j->s, equations, qdot_motion_residual(j->s, i));
-        QDOT_TRY(qdot_pool_check(j->pool)); /* the equations have no value at the equilibrium */
+        QDOT_TRY(qdot_pool_check(j->pool)); /* fails if the equations have no value at the equilibrium */
     }
     if (status != QDOT_EDOMAIN)
         return status;
@@ -606,16 +606,16 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     if (!holonomic)
         return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
     QDOT_TRY(modes_linearise(&j, equations));
-    status = check_rests(&j, equations);
+    status = check_is_equilibrium(&j, equations);
     if (status == QDOT_OK)
-        status = check_motion(&j);
+        status = check_linear_motion(&j);
     if (status == QDOT_OK)
         status = check_smooth(&j, equations);
     if (status == QDOT_OK && !numbers)
         status = find_exact_modes(&j, &done);
     if (status == QDOT_OK && !done) {
         j.frequency.n = j.amplitude.n = 0;
-        status = in_numbers(&j);
+        status = find_numeric_modes(&j);
     }
     qdot_linear_motion_clear(&j.m);
     out->n = j.frequency.n;

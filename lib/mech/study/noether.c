@@ -58,9 +58,9 @@ noether_slope(const search *f, uint32_t order, size_t i, size_t j)
     return f->slope[(order * f->n + i) * f->n + j];
 }
 
-/* The Euler-Lagrange expression E_i of the change of L under one unknown: dE_i(xi) + sum_j dxi_j/dq_i E_j. */
+/* The expression E_i of the change of L under one unknown coefficient: dE_i(xi) + sum_j dxi_j/dq_i E_j. */
 static qdot_expr
-variation(const search *f, const unknown *u, size_t i)
+variation_component(const search *f, const unknown *u, size_t i)
 {
     qdot_pool *pool = f->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -82,7 +82,7 @@ variation(const search *f, const unknown *u, size_t i)
 
 /* The component xi_j of the symmetry that belongs to one unknown. */
 static qdot_expr
-generator_component(const search *f, const unknown *u, size_t j)
+symmetry_component(const search *f, const unknown *u, size_t j)
 {
     if (u->kind == TIME || u->i != j)
         return QDOT_ZERO;
@@ -93,18 +93,18 @@ generator_component(const search *f, const unknown *u, size_t j)
 
 /* The work sum_j (xi_j - tau q_j') F_j of a force F along a symmetry (xi, tau). */
 static qdot_expr
-work_of(const search *f, const unknown *u, const qdot_expr *F)
+work_along_symmetry(const search *f, const unknown *u, const qdot_expr *F)
 {
     qdot_expr sum = QDOT_ZERO;
 
     if (u->kind != TIME)
-        return qdot_mul(f->pool, generator_component(f, u, u->i), F[u->i]);
+        return qdot_mul(f->pool, symmetry_component(f, u, u->i), F[u->i]);
     for (size_t j = 0; j < f->n; j++)
         sum = qdot_sub(f->pool, sum, qdot_mul(f->pool, noether_jet(f, j, 1), F[j]));
     return sum;
 }
 
-/* The work of a reaction along a symmetry, where the constraint holds: multiples of f are removed. */
+/* The work of a constraint's reaction along a symmetry, on the constraint f = 0: multiples of f are removed. */
 static qdot_expr
 reaction_work(const search *f, const unknown *u, size_t k, const qdot_expr *F)
 {
@@ -113,21 +113,21 @@ reaction_work(const search *f, const unknown *u, size_t k, const qdot_expr *F)
 
     if (u->kind == TIME && c->kind == QDOT_HOLONOMIC)
         return qdot_diff(f->pool, c->f, QDOT_T);
-    work = work_of(f, u, F);
+    work = work_along_symmetry(f, u, F);
     if (u->kind == TIME && c->kind == QDOT_VELOCITY)
         work = qdot_add(f->pool, work, c->f);
     return work;
 }
 
 static size_t
-rows(const search *f)
+number_of_conditions(const search *f)
 {
     return f->n + 1 + f->s->constraints.n;
 }
 
-/* Fill in all conditions, with a column for each of the unknowns [m]. */
+/* Fill the matrix of all conditions on the coefficients, with a column for each of the unknowns [m]. */
 static bool
-conditions_fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
+fill_conditions(const search *f, const unknown *u, size_t m, qdot_expr *e)
 {
     qdot_expr *F = qdot_calloc(f->n + 1, sizeof *F);
 
@@ -137,11 +137,11 @@ conditions_fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
     }
     for (size_t i = 0; i < f->n; i++)
         for (size_t j = 0; j < m; j++)
-            e[i * m + j] = variation(f, &u[j], i);
+            e[i * m + j] = variation_component(f, &u[j], i);
     for (size_t i = 0; i < f->n; i++)
         F[i] = qdot_force_total(f->s, i, false, true);
     for (size_t j = 0; j < m; j++)
-        e[f->n * m + j] = work_of(f, &u[j], F);
+        e[f->n * m + j] = work_along_symmetry(f, &u[j], F);
     for (size_t k = 0; k < f->s->constraints.n; k++) {
         for (size_t i = 0; i < f->n; i++)
             F[i] = qdot_constraint_slope(f->s, k, i);
@@ -157,10 +157,10 @@ conditions_fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
 /* Values of e [m] stacked over many points, parameters the same at all: A [*height * columns],
  * each row of length about 1. */
 static qdot_status
-conditions_sample(const search *f, const qdot_expr *e, size_t columns, double *A, size_t height)
+sample_conditions(const search *f, const qdot_expr *e, size_t columns, double *A, size_t height)
 {
     qdot_pool *pool = f->pool;
-    size_t m = rows(f) * columns, at = 0;
+    size_t m = number_of_conditions(f) * columns, at = 0;
     qdot_vec(qdot_expr) parameters = {0};
     qdot_vec(double) values = {0};
     double *out = qdot_calloc(m, sizeof *out);
@@ -184,7 +184,7 @@ conditions_sample(const search *f, const qdot_expr *e, size_t columns, double *A
             status = qdot_generic_evaluate(
                 pool, m, e,
                 &(qdot_generic_point){parameters.n, parameters.at, values.at, seed}, out);
-        for (size_t i = 0; status == QDOT_OK && i < rows(f) && at < height; i++) {
+        for (size_t i = 0; status == QDOT_OK && i < number_of_conditions(f) && at < height; i++) {
             double length = 0;
 
             for (size_t j = 0; j < columns; j++)
@@ -206,16 +206,16 @@ conditions_sample(const search *f, const qdot_expr *e, size_t columns, double *A
 static qdot_status
 mark_reachable_columns(const search *f, const qdot_expr *e, size_t columns, bool *possible)
 {
-    size_t height = 3 * columns + 2 * rows(f);
+    size_t height = 3 * columns + 2 * number_of_conditions(f);
     gsl_matrix *A = gsl_matrix_calloc(height, columns);
     gsl_matrix *V = gsl_matrix_alloc(columns, columns);
     gsl_vector *sigma = gsl_vector_alloc(columns), *work = gsl_vector_alloc(columns);
     qdot_status status = QDOT_ENOMEM;
 
     if (A != NULL && V != NULL && sigma != NULL && work != NULL)
-        status = conditions_sample(f, e, columns, A->data, height);
+        status = sample_conditions(f, e, columns, A->data, height);
     if (status == QDOT_OK) {
-        /* not Jacobi's method: GSL's takes columns for noise after many rotations */
+        /* not Jacobi's method, because GSL's takes columns for rounding errors after many rotations */
         gsl_linalg_SV_decomp(A, V, sigma, work);
         for (size_t j = 0; j < columns; j++) {
             double along = 0;
@@ -235,22 +235,22 @@ mark_reachable_columns(const search *f, const qdot_expr *e, size_t columns, bool
 
 /* --- from a symmetry to its conserved quantity -------------------------------------------- */
 
-/* The component xi_j of the symmetry with coefficients v [m]. */
+/* The component xi_j of the symmetry with coefficients v [m] of the unknowns. */
 static qdot_expr
-combine_generators(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t j)
+combine_symmetry_component(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t j)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t k = 0; k < m; k++)
         if (v[k] != QDOT_ZERO)
-            sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], generator_component(f, &u[k], j)));
+            sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], symmetry_component(f, &u[k], j)));
     return sum;
 }
 
 /* K with dK/dt = F, F linear in q': dK/dq_i = dF/dq_i', one coordinate after another, then t. False:
  * none was found. */
 static bool
-gauge(const search *f, qdot_expr F, qdot_expr *K)
+antiderivative_in_time(const search *f, qdot_expr F, qdot_expr *K)
 {
     qdot_pool *pool = f->pool;
     qdot_expr rest = F;
@@ -273,11 +273,11 @@ gauge(const search *f, qdot_expr F, qdot_expr *K)
            qdot_is_zero(pool, qdot_sub(pool, qdot_ddt(pool, *K), F), &f->facts);
 }
 
-/* Whether applied forces and reactions do no work along (xi, tau): each such row of e vanishes. */
+/* Whether applied forces and reactions do no work along the symmetry with coefficients v: rows of e times v vanish. */
 static bool
-works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
+forces_do_no_work(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
 {
-    for (size_t i = f->n; i < rows(f); i++) {
+    for (size_t i = f->n; i < number_of_conditions(f); i++) {
         qdot_expr sum = QDOT_ZERO;
 
         for (size_t k = 0; k < m; k++)
@@ -291,7 +291,7 @@ works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
 
 /* Multiply the coefficients v [m] by their common denominator, and return it. */
 static qdot_expr
-denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
+remove_denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
 {
     qdot_expr all = QDOT_ONE;
     fmpz_t lcm;
@@ -329,13 +329,13 @@ denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
 
 /* Choose the sign that books use: positive for the energy, else for x y' - y x', else for a translation. */
 static void
-turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
+choose_conventional_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
 {
     qdot_pool *pool = f->pool;
     size_t lead = m;
     int best = 0;
 
-    for (size_t k = m; k-- > 0;) { /* from the end, where the unknowns of the first coordinates are */
+    for (size_t k = m; k-- > 0;) { /* search from the end, where the unknowns of the first coordinates are */
         int rank = u[k].kind == TIME                          ? 4
                    : u[k].kind == ROTATION && u[k].i > u[k].j ? 3
                    : u[k].kind == TRANSLATION                 ? 2
@@ -354,7 +354,7 @@ turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
 
 /* The quantity tau h - sum, in the shorter of two forms: with h as the energy is printed, or expanded. */
 static qdot_expr
-with_energy(const search *f, qdot_expr tau, qdot_expr sum)
+express_by_energy(const search *f, qdot_expr tau, qdot_expr sum)
 {
     qdot_pool *pool = f->pool;
     qdot_expr h = qdot_mul(pool, tau, qdot_mech_energy(f->s)), apart, whole;
@@ -375,13 +375,13 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
     qdot_expr change = QDOT_ZERO, sum = QDOT_ZERO, tau = QDOT_ZERO, K;
     const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY;
 
-    if (!works_nothing(f, m, e, v))
+    if (!forces_do_no_work(f, m, e, v))
         return QDOT_NIL;
     for (size_t k = 0; k < m; k++)
         if (u[k].kind == TIME)
             tau = v[k];
     for (size_t j = 0; j < f->n; j++) {
-        qdot_expr xi = combine_generators(f, u, m, v, j), q = noether_jet(f, j, 0), qdot = noether_jet(f, j, 1);
+        qdot_expr xi = combine_symmetry_component(f, u, m, v, j), q = noether_jet(f, j, 0), qdot = noether_jet(f, j, 1);
 
         change = qdot_add(pool, change, qdot_mul(pool, xi, qdot_diff(pool, f->L, q)));
         change =
@@ -394,13 +394,13 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
         change =
             qdot_add(pool, change, qdot_mul(pool, tau, qdot_diff(pool, f->L, QDOT_T)));
     change = qdot_simplify(pool, change, &f->facts);
-    if (change == QDOT_NIL || !gauge(f, change, &K))
+    if (change == QDOT_NIL || !antiderivative_in_time(f, change, &K))
         return QDOT_NIL;
     sum = qdot_sub(pool, sum, K);
     if (tau == QDOT_ZERO)
         sum = qdot_simplify(pool, sum, &f->facts);
     else
-        sum = with_energy(f, tau, sum);
+        sum = express_by_energy(f, tau, sum);
     return qdot_mech_holds(f->s, sum) & motion ? sum : QDOT_NIL;
 }
 
@@ -411,15 +411,15 @@ shortest_quantity(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
     qdot_pool *pool = f->pool;
     qdot_expr by, one, other;
 
-    turn_sign(f, f->unknowns.at, m, v);
+    choose_conventional_sign(f, f->unknowns.at, m, v);
     one = quantity(f, f->unknowns.at, m, e, v);
-    by = denominators(pool, m, v);
+    by = remove_denominators(pool, m, v);
     if (one == QDOT_NIL || by == QDOT_ONE || by == QDOT_NIL)
         return one;
     for (size_t k = 0; k < m; k++)
         v[k] = qdot_simplify(pool, qdot_mul(pool, v[k], by), NULL);
     other = quantity(f, f->unknowns.at, m, e, v);
-    /* of forms with equal length take the one without fractions: 3*m1*x1' + 2*m2*x2' */
+    /* of two equally long expressions take the one without fractions: 3*m1*x1' + 2*m2*x2' */
     return other != QDOT_NIL &&
                    qdot_expr_size(pool, other) <
                        qdot_expr_size(pool, one) + (qdot_expr_kind(pool, by) == QDOT_NUM)
@@ -461,7 +461,7 @@ list_unknowns(search *f, const bool *cyclic, bool energy)
 }
 
 static qdot_status
-euler_lagrange(search *f)
+fill_euler_lagrange(search *f)
 {
     qdot_pool *pool = f->pool;
     size_t n = f->n;
@@ -487,13 +487,13 @@ static qdot_status
 search_linear(search *f)
 {
     size_t all = f->unknowns.n, m = 0, count = 0;
-    qdot_expr *e = qdot_calloc(rows(f) * all + 1, sizeof *e), *basis = NULL;
+    qdot_expr *e = qdot_calloc(number_of_conditions(f) * all + 1, sizeof *e), *basis = NULL;
     bool *possible = qdot_calloc(all + 1, sizeof *possible);
     qdot_status status = QDOT_ENOMEM;
 
     if (e != NULL && possible != NULL)
-        status = euler_lagrange(f);
-    if (status == QDOT_OK && !conditions_fill(f, f->unknowns.at, all, e))
+        status = fill_euler_lagrange(f);
+    if (status == QDOT_OK && !fill_conditions(f, f->unknowns.at, all, e))
         status = qdot_pool_check(f->pool);
     if (status == QDOT_OK)
         status = mark_reachable_columns(f, e, all, possible);
@@ -501,17 +501,17 @@ search_linear(search *f)
         for (size_t j = 0; j < all; j++)
             if (possible[j])
                 f->unknowns.at[m++] = f->unknowns.at[j];
-        if (m > 0 && !conditions_fill(f, f->unknowns.at, m, e))
+        if (m > 0 && !fill_conditions(f, f->unknowns.at, m, e))
             status = qdot_pool_check(f->pool);
     }
     if (status == QDOT_OK && m > 0)
-        status = qdot_null_space(f->pool, rows(f), m, e, &basis, &count);
+        status = qdot_null_space(f->pool, number_of_conditions(f), m, e, &basis, &count);
     for (size_t k = count; k-- > 0 && status == QDOT_OK;) {
         qdot_expr one = shortest_quantity(f, m, e, basis + k * m);
         bool jumps = true;
 
         status = qdot_pool_check(f->pool);
-        if (status == QDOT_OK && one != QDOT_NIL) /* where the derivatives of L jump, the quantity may jump, too */
+        if (status == QDOT_OK && one != QDOT_NIL) /* leave out a quantity that may jump where derivatives of L jump */
             status = qdot_jumps(f->pool, one, UINT32_MAX, &jumps);
         if (status == QDOT_OK && !jumps)
             status = qdot_vec_push(&f->found, one);
@@ -560,7 +560,7 @@ conserved(search *f)
         if (status == QDOT_OK && !jumps)
             status = search_linear(f);
     }
-    for (size_t k = 0; k < f->s->constraints.n && status == QDOT_OK; k++) { /* holonomic constraints in disguise */
+    for (size_t k = 0; k < f->s->constraints.n && status == QDOT_OK; k++) { /* integrable velocity constraints */
         qdot_expr mu, F = QDOT_NIL;
 
         if (f->s->constraints.at[k].kind == QDOT_VELOCITY)

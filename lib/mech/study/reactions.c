@@ -28,7 +28,7 @@ typedef struct {
 } thing;
 
 static bool
-depends(const work *w, const thing *one, size_t j)
+depends_on_coordinate(const work *w, const thing *one, size_t j)
 {
     qdot_expr q = w->s->coordinates.at[j];
     const qdot_pool *pool = w->s->pool;
@@ -37,7 +37,7 @@ depends(const work *w, const thing *one, size_t j)
            (one->body && qdot_expr_contains(pool, one->body->rotation, q));
 }
 
-/* Column j of the Jacobian d(position, rotation)/dq as numbers. */
+/* Column j of the Jacobian d(position, rotation)/dq as its components. */
 static uint32_t
 jacobian_column(const work *w, const thing *one, size_t j, qdot_expr out[6])
 {
@@ -87,7 +87,7 @@ reactions_solve(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, co
     return qdot_pool_check(pool);
 }
 
-/* Remove rows of J [rows x k] in whose direction nothing moves; kept[]: those that remain. */
+/* Remove rows of J [rows x k] that are 0: nothing moves in these directions; kept[]: indices of the remaining rows. */
 static uint32_t
 moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
 {
@@ -109,7 +109,7 @@ moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
 
 /* Find the reaction force on a thing, if no other thing depends on its coordinates. */
 static qdot_status
-reaction(work *w, const thing *one)
+find_reaction_force(work *w, const thing *one)
 {
     qdot_pool *pool = w->s->pool;
     uint32_t dim = qdot_mech_dimension(pool, one->position), rows = dim, k = 0;
@@ -121,7 +121,7 @@ reaction(work *w, const thing *one)
     qdot_status status;
 
     for (size_t j = 0; j < w->n; j++) {
-        if (!depends(w, one, j))
+        if (!depends_on_coordinate(w, one, j))
             continue;
         if (w->uses[j] > 1 || k == 6)
             return QDOT_OK;
@@ -161,7 +161,7 @@ reaction(work *w, const thing *one)
 }
 
 static thing
-thing_at(const qdot_scene *s, size_t i)
+particle_or_body_at(const qdot_scene *s, size_t i)
 {
     const qdot_body *b;
 
@@ -172,7 +172,7 @@ thing_at(const qdot_scene *s, size_t i)
 }
 
 static qdot_status
-collect_things(work *w)
+collect_particles_and_bodies(work *w)
 {
     qdot_scene *s = w->s;
     size_t things = s->particles.n + s->bodies.n;
@@ -181,15 +181,15 @@ collect_things(work *w)
         w->R[j] = qdot_constraint_reaction(s, j);
     QDOT_TRY(qdot_pool_check(s->pool));
     for (size_t i = 0; i < things; i++) {
-        thing one = thing_at(s, i);
+        thing one = particle_or_body_at(s, i);
 
         for (size_t j = 0; j < w->n; j++)
-            w->uses[j] += depends(w, &one, j);
+            w->uses[j] += depends_on_coordinate(w, &one, j);
     }
     for (size_t i = 0; i < things; i++) {
-        thing one = thing_at(s, i);
+        thing one = particle_or_body_at(s, i);
 
-        QDOT_TRY(reaction(w, &one));
+        QDOT_TRY(find_reaction_force(w, &one));
     }
     for (size_t j = 0; j < w->n; j++) {
         qdot_reaction r = {.coordinate = s->coordinates.at[j], .force = w->R[j]};
@@ -210,7 +210,7 @@ qdot_mech_reactions(qdot_scene *s, qdot_reaction **list, size_t *n)
     w.R = qdot_calloc(w.n + 1, sizeof *w.R);
     w.uses = qdot_calloc(w.n + 1, sizeof *w.uses);
     w.told = qdot_calloc(w.n + 1, sizeof *w.told);
-    status = w.R && w.uses && w.told ? collect_things(&w) : QDOT_ENOMEM;
+    status = w.R && w.uses && w.told ? collect_particles_and_bodies(&w) : QDOT_ENOMEM;
     qdot_free(w.R);
     qdot_free(w.uses);
     qdot_free(w.told);

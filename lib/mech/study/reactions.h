@@ -24,7 +24,7 @@
 typedef struct {
     const char *name;     /* label of the particle or body, borrowed; NULL: a coordinate */
     qdot_expr coordinate; /* the coordinate; nil: a particle or body */
-    qdot_expr force; /* force of the constraints: a vector (scalar in one dimension); for a coordinate R_j */
+    qdot_expr force; /* reaction: a force (scalar in one dimension), or a coordinate's generalized force */
     qdot_expr torque;     /* torque on a body: scalar in the plane, vector in space; else nil */
 } qdot_reaction;
 

@@ -14,17 +14,17 @@ typedef enum {
 typedef struct {
     qdot_expr
         equations;    /* a LIST: coordinate = value ..., then multipliers lambda[...] = value ... */
-    qdot_expr exists; /* a LIST of conditions (REL) under which it is real; nil: always */
+    qdot_expr exists; /* a LIST of conditions (REL) under which the equilibrium is real; nil: always */
     qdot_expr range; /* a LIST lo <= u, u <= hi: every u between is an equilibrium; nil: a single point */
     bool touched;       /* at a point inside the range friction is exactly at its limit */
     bool numeric_range; /* an end of the range is a decimal number, known to 12 digits */
     qdot_stability stability;
-    qdot_expr stable_when; /* a LIST of conditions (REL) for `stability`; nil: it holds wherever the place exists */
+    qdot_expr stable_when; /* a LIST of conditions (REL) under which `stability` holds; nil: wherever the equilibrium exists */
     bool numeric;
     bool may_jump; /* the energy may be discontinuous there: stability is not judged */
 } qdot_equilibrium;
 
-/* Whether it is unstable wherever it exists. */
+/* Whether the equilibrium is unstable wherever it exists. */
 static inline bool
 qdot_equilibrium_is_unstable(const qdot_equilibrium *e)
 {
@@ -32,13 +32,13 @@ qdot_equilibrium_is_unstable(const qdot_equilibrium *e)
 }
 
 typedef struct {
-    qdot_equilibrium *at; /* [n] the equilibria, owned */
+    qdot_equilibrium *at; /* [n] the equilibria of the list, owned */
     size_t n;
     bool complete;        /* the list has all equilibria, for generic parameter values */
     bool recurs; /* an angle has one declared bound: one turn is listed, others differ by full turns */
     size_t starts;        /* number of start points of a numerical search; 0: no such search */
     double reach;         /* start points lay within +-reach if no domain is declared */
-    size_t unproved;      /* number of start points that led to an unproved zero within rounding */
+    size_t unproved;      /* number of start points that led to a zero within rounding errors that is not proved */
     qdot_expr special; /* a LIST of divisors in the results: where one is 0 the list does not hold; nil: none */
     qdot_expr undefined; /* a LIST: where one of these is 0 the energy or a force is undefined everywhere; nil: none */
     qdot_expr meeting; /* a LIST: where one of these is 0 two kinks coincide and equilibria may differ; nil: none */

@@ -34,21 +34,21 @@ point_moves(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & QDOT_HAS_COORD) != 0;
 }
 
-/* The squared distance |a - b|^2. */
+/* The squared distance |a - b|^2 between two points. */
 static qdot_expr
-distance2(qdot_pool *pool, qdot_expr a, qdot_expr b)
+squared_distance(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     qdot_expr d = qdot_value_sub(pool, a, b);
 
     return qdot_dot(pool, d, d);
 }
 
-/* Whether the distance between a and b is a non-zero constant, by r(q). */
+/* Whether the distance between the points a and b is a non-zero constant because of their positions r(q). */
 static bool
-keeps_distance(const search *w, qdot_expr a, qdot_expr b)
+is_constant_distance(const search *w, qdot_expr a, qdot_expr b)
 {
     qdot_pool *pool = w->s->pool;
-    qdot_expr D = distance2(pool, a, b);
+    qdot_expr D = squared_distance(pool, a, b);
 
     if (D == QDOT_NIL || qdot_expr_size(pool, D) > LARGE)
         return false;
@@ -70,7 +70,7 @@ add_rod(search *w, qdot_expr a, qdot_expr b, const char *name)
 }
 
 static bool
-has_rod(const search *w, qdot_expr a)
+point_has_rod(const search *w, qdot_expr a)
 {
     for (size_t i = 0; i < w->rods->n; i++)
         if (w->rods->at[i].ends[0] == a || w->rods->at[i].ends[1] == a)
@@ -80,7 +80,7 @@ has_rod(const search *w, qdot_expr a)
 
 /* The position r without the terms that contain coordinate i; nil if r does not contain it. */
 static qdot_expr
-position_of_hinge(qdot_scene *s, qdot_expr r, size_t i)
+hinge_of_position(qdot_scene *s, qdot_expr r, size_t i)
 {
     qdot_expr q = s->coordinates.at[i];
 
@@ -89,7 +89,7 @@ position_of_hinge(qdot_scene *s, qdot_expr r, size_t i)
 }
 
 static bool
-is_point(const search *w, qdot_expr r)
+is_listed_point(const search *w, qdot_expr r)
 {
     for (size_t i = 0; i < w->points.n; i++)
         if (w->points.at[i] == r)
@@ -100,7 +100,7 @@ is_point(const search *w, qdot_expr r)
 static qdot_status
 rods_add_point(search *w, qdot_expr r)
 {
-    return r == QDOT_NIL || is_point(w, r) ? qdot_pool_check(w->s->pool)
+    return r == QDOT_NIL || is_listed_point(w, r) ? qdot_pool_check(w->s->pool)
                                            : qdot_vec_push(&w->points, r);
 }
 
@@ -114,7 +114,7 @@ origin(qdot_pool *pool, uint32_t dimension)
 
 /* Collect the points: particles first, then fixed points. */
 static qdot_status
-find_points(search *w, uint32_t dimension)
+collect_points(search *w, uint32_t dimension)
 {
     qdot_scene *s = w->s;
 
@@ -136,20 +136,20 @@ find_points(search *w, uint32_t dimension)
 /* --- distances kept constant by positions r(q) -------------------------------------- */
 
 static qdot_status
-between_particles(search *w)
+add_rods_between_particles(search *w)
 {
     for (size_t i = 0; i < w->particles && w->particles <= ALL_PAIRS; i++)
         for (size_t j = 0; j < i; j++)
             if ((point_moves(w->s->pool, w->points.at[i]) ||
                  point_moves(w->s->pool, w->points.at[j])) &&
-                keeps_distance(w, w->points.at[i], w->points.at[j]))
+                is_constant_distance(w, w->points.at[i], w->points.at[j]))
                 QDOT_TRY(add_rod(w, w->points.at[i], w->points.at[j], NULL));
     return qdot_pool_check(w->s->pool);
 }
 
-/* Add the hinge about which a point turns, and its hinge in turn, as long as they are new. */
+/* Add the hinge about which a point turns, the hinge about which that one turns, and so on, while they are new. */
 static qdot_status
-to_hinges(search *w, qdot_expr r)
+add_hinges(search *w, qdot_expr r)
 {
     qdot_scene *s = w->s;
 
@@ -157,13 +157,13 @@ to_hinges(search *w, qdot_expr r)
         qdot_expr next = QDOT_NIL;
 
         for (size_t i = s->coordinates.n; i-- > 0;) {
-            qdot_expr c = position_of_hinge(s, r, i);
+            qdot_expr c = hinge_of_position(s, r, i);
             bool known;
 
             if (c == QDOT_NIL || c == r)
                 continue;
-            known = is_point(w, c) || !point_moves(s->pool, c);
-            if ((!known && has_rod(w, r)) || !keeps_distance(w, r, c))
+            known = is_listed_point(w, c) || !point_moves(s->pool, c);
+            if ((!known && point_has_rod(w, r)) || !is_constant_distance(w, r, c))
                 continue;
             QDOT_TRY(add_rod(w, r, c, NULL));
             if (!known) {
@@ -182,11 +182,11 @@ to_hinges(search *w, qdot_expr r)
 /* Whether d|a - b|^2 and df are parallel everywhere, in the coordinates and t; every
  * coordinate of f counts. */
 static bool
-keeps(const search *w, qdot_expr f, qdot_expr a, qdot_expr b)
+constraint_keeps_distance(const search *w, qdot_expr f, qdot_expr a, qdot_expr b)
 {
     qdot_scene *s = w->s;
     qdot_pool *pool = s->pool;
-    qdot_expr D = distance2(pool, a, b), pivot = QDOT_NIL, D1 = QDOT_NIL, f1 = QDOT_NIL;
+    qdot_expr D = squared_distance(pool, a, b), pivot = QDOT_NIL, D1 = QDOT_NIL, f1 = QDOT_NIL;
 
     if (D == QDOT_NIL || qdot_expr_size(pool, D) + qdot_expr_size(pool, f) > LARGE)
         return false;
@@ -218,7 +218,7 @@ keeps(const search *w, qdot_expr f, qdot_expr a, qdot_expr b)
 /* The centre c of g = k |r - c|^2 + ...: c_i = r_i - g_i/g_ii with the derivatives of g; nil if
  * there is none. */
 static qdot_expr
-centre_of(const search *w, qdot_expr g, qdot_expr r)
+sphere_centre(const search *w, qdot_expr g, qdot_expr r)
 {
     qdot_pool *pool = w->s->pool;
     uint32_t n = qdot_mech_dimension(pool, r);
@@ -240,9 +240,9 @@ centre_of(const search *w, qdot_expr g, qdot_expr r)
     return qdot_vector(pool, n, c);
 }
 
-/* Add the rod between points of bodies that constraint c represents, if it does. */
+/* Add the rod between points of bodies that constraint c represents, if it represents one. */
 static qdot_status
-of_bodies(search *w, const qdot_constraint *c)
+add_rod_between_bodies(search *w, const qdot_constraint *c)
 {
     qdot_expr ends[2];
 
@@ -250,34 +250,34 @@ of_bodies(search *w, const qdot_constraint *c)
     return ends[0] == QDOT_NIL ? QDOT_OK : add_rod(w, ends[0], ends[1], c->label);
 }
 
-/* Add the rod that constraint c represents, if it does. */
+/* Add the rod that constraint c represents, if it represents one. */
 static qdot_status
-of_constraint(search *w, const qdot_constraint *c)
+add_rod_of_constraint(search *w, const qdot_constraint *c)
 {
     qdot_pool *pool = w->s->pool;
     const size_t n = w->points.n;
 
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
-            if (keeps(w, c->f, w->points.at[i], w->points.at[j])) {
+            if (constraint_keeps_distance(w, c->f, w->points.at[i], w->points.at[j])) {
                 bool first = point_moves(pool, w->points.at[i]);
 
                 return add_rod(w, w->points.at[first ? i : j],
                                w->points.at[first ? j : i], c->label);
             }
     for (size_t i = 0; i < n; i++) {
-        qdot_expr r = w->points.at[i], centre = centre_of(w, c->f, r);
+        qdot_expr r = w->points.at[i], centre = sphere_centre(w, c->f, r);
 
         if (centre == QDOT_NIL) /* a constraint of the form norm(a - c) = L */
-            centre = centre_of(w,
-                               qdot_sub(pool, qdot_pow_int(pool, c->left, 2),
-                                        qdot_pow_int(pool, c->right, 2)),
-                               r);
-        if (centre != QDOT_NIL && keeps(w, c->f, r, centre))
+            centre = sphere_centre(w,
+                                   qdot_sub(pool, qdot_pow_int(pool, c->left, 2),
+                                            qdot_pow_int(pool, c->right, 2)),
+                                   r);
+        if (centre != QDOT_NIL && constraint_keeps_distance(w, c->f, r, centre))
             return add_rod(w, r, centre, c->label);
     }
     QDOT_TRY(qdot_pool_check(pool));
-    return of_bodies(w, c);
+    return add_rod_between_bodies(w, c);
 }
 
 qdot_status
@@ -289,23 +289,23 @@ qdot_mech_rods(qdot_scene *s, qdot_rods *rods)
 
     if (dimension < 2)
         return QDOT_OK;
-    status = find_points(&w, dimension);
+    status = collect_points(&w, dimension);
     if (status == QDOT_OK)
-        status = between_particles(&w);
+        status = add_rods_between_particles(&w);
     for (size_t i = 0; i < w.particles && status == QDOT_OK; i++)
-        status = to_hinges(&w, w.points.at[i]);
+        status = add_hinges(&w, w.points.at[i]);
     for (size_t k = 0; k < s->constraints.n && status == QDOT_OK; k++)
         if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
-            status = of_constraint(&w, &s->constraints.at[k]);
+            status = add_rod_of_constraint(&w, &s->constraints.at[k]);
     qdot_free(w.points.at);
     return status;
 }
 
 /* --- points fixed in bodies --------------------------------------------------------- */
 
-/* Append P as an arm if it is fixed in the body and is not its centre. */
+/* Append the point P to the list of points of the body (arms) if it is fixed in the body and is not its centre. */
 static qdot_status
-try_arm(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arms *arms)
+append_if_fixed_in_body(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arms *arms)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -330,9 +330,9 @@ try_arm(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arms *arms)
     return qdot_vec_push(arms, P);
 }
 
-/* Try both sides of constraints between points: as many successive components as space has dimensions. */
+/* Find fixed points of a body among the left and right sides of constraints whose successive components form a vector. */
 static qdot_status
-try_constraints(qdot_scene *s, const qdot_body *b, qdot_arms *arms)
+find_body_points_in_constraints(qdot_scene *s, const qdot_body *b, qdot_arms *arms)
 {
     uint32_t n = qdot_mech_dimension(s->pool, b->position);
 
@@ -348,8 +348,8 @@ try_constraints(qdot_scene *s, const qdot_body *b, qdot_arms *arms)
         }
         if (!whole)
             continue;
-        QDOT_TRY(try_arm(s, b, qdot_vector(s->pool, n, left), arms));
-        QDOT_TRY(try_arm(s, b, qdot_vector(s->pool, n, right), arms));
+        QDOT_TRY(append_if_fixed_in_body(s, b, qdot_vector(s->pool, n, left), arms));
+        QDOT_TRY(append_if_fixed_in_body(s, b, qdot_vector(s->pool, n, right), arms));
         k += n - 1;
     }
     return QDOT_OK;
@@ -364,24 +364,24 @@ qdot_mech_arms(qdot_scene *s, size_t i, const qdot_rods *rods, qdot_arms *arms)
 
     QDOT_TRY(qdot_pool_check(s->pool));
     for (size_t k = s->coordinates.n; k-- > 0 && arms->n == before;) {
-        qdot_expr c = position_of_hinge(s, r, k);
+        qdot_expr c = hinge_of_position(s, r, k);
 
         if (c != QDOT_NIL && c != r &&
             qdot_expr_contains(s->pool, b->rotation, s->coordinates.at[k]))
-            QDOT_TRY(try_arm(s, b, c, arms));
+            QDOT_TRY(append_if_fixed_in_body(s, b, c, arms));
     }
     for (size_t k = 0; k < s->particles.n; k++)
-        QDOT_TRY(try_arm(s, b, s->particles.at[k].position, arms));
+        QDOT_TRY(append_if_fixed_in_body(s, b, s->particles.at[k].position, arms));
     for (size_t k = 0; k < s->forces.n; k++)
-        QDOT_TRY(try_arm(s, b, s->forces.at[k].point, arms));
+        QDOT_TRY(append_if_fixed_in_body(s, b, s->forces.at[k].point, arms));
     for (size_t k = 0; k < 2 * (s->springs.n + s->dampers.n); k++) {
         const qdot_link *link = k / 2 < s->springs.n
                                     ? &s->springs.at[k / 2]
                                     : &s->dampers.at[k / 2 - s->springs.n];
 
-        QDOT_TRY(try_arm(s, b, link->at[k % 2], arms));
+        QDOT_TRY(append_if_fixed_in_body(s, b, link->at[k % 2], arms));
     }
     for (size_t k = 0; k < 2 * rods->n; k++)
-        QDOT_TRY(try_arm(s, b, rods->at[k / 2].ends[k % 2], arms));
-    return try_constraints(s, b, arms);
+        QDOT_TRY(append_if_fixed_in_body(s, b, rods->at[k / 2].ends[k % 2], arms));
+    return find_body_points_in_constraints(s, b, arms);
 }

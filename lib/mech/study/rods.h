@@ -30,7 +30,7 @@ typedef struct {
     qdot_expr
         ends[2]; /* positions of the two ends, expanded; the second is nearer to a fixed point */
     const char
-        *name; /* label of the constraint, borrowed; NULL: constant by r(q) itself */
+        *name; /* label of the constraint that keeps the distance, borrowed; NULL: the positions r(q) do */
 } qdot_rod;
 
 typedef qdot_vec(qdot_rod) qdot_rods;

@@ -47,18 +47,18 @@ typedef struct {
     qdot_expr a[MOST_KINKS * MOST_COORDINATES];
     qdot_expr F[MOST_COORDINATES]; /* generalized forces near the place, in terms of these symbols */
     qdot_expr there[MOST_COORDINATES];         /* generalized forces exactly at the place */
-    bool rough;                                /* derivatives of the forces jump, too */
+    bool rough;                                /* whether derivatives of the forces jump, too */
 } corner;
 
 /* --- kinks of the forces -------------------------------------------------------------------- */
 
 static qdot_expr
-value_there(const corner *c, qdot_expr e)
+value_at_equilibrium(const corner *c, qdot_expr e)
 {
     return qdot_simplify(c->pool, qdot_rest_value(c->j->s, c->e->equations, e), &c->j->facts);
 }
 
-/* Find the kinks of the forces at the equilibrium; *known: they are of the kinds treated here. */
+/* Find the kinks of the forces at the equilibrium; *known: all of them are of a kind that this file can treat. */
 static qdot_status
 find_kinks(corner *c, bool *known)
 {
@@ -94,7 +94,7 @@ find_kinks(corner *c, bool *known)
 
 /* Replace the signs in the forces by the symbols of their kinks. */
 static qdot_status
-corner_put_symbols(corner *c)
+replace_signs_by_symbols(corner *c)
 {
     qdot_expr list = c->j->judge->by_signs, from[MOST_KINKS];
 
@@ -104,14 +104,14 @@ corner_put_symbols(corner *c)
     QDOT_TRY(qdot_pool_check(c->pool));
     for (size_t i = 0; i < c->n; i++) {
         c->F[i] = qdot_expr_arg(c->pool, list, (uint32_t)i);
-        c->there[i] = value_there(c, c->F[i]);
+        c->there[i] = value_at_equilibrium(c, c->F[i]);
     }
     return qdot_pool_check(c->pool);
 }
 
-/* Read the forces with symbols for signs; drop kinks at which no force jumps. */
+/* Compute the forces with symbols in place of signs; drop kinks at which no force jumps. */
 static qdot_status
-read_forces(corner *c)
+compute_forces(corner *c)
 {
     size_t kept = 0;
 
@@ -121,7 +121,7 @@ read_forces(corner *c)
         snprintf(name, sizeof name, "(side of kink %zu)", k + 1);
         c->s[k] = qdot_symbol_get(c->pool, QDOT_FORMAL, name);
     }
-    QDOT_TRY(corner_put_symbols(c));
+    QDOT_TRY(replace_signs_by_symbols(c));
     for (size_t k = 0; k < c->m; k++) {
         bool jumps = false;
 
@@ -134,19 +134,19 @@ read_forces(corner *c)
         c->s[kept++] = c->s[k];
     }
     c->m = kept;
-    return corner_put_symbols(c);
+    return replace_signs_by_symbols(c);
 }
 
-/* Compute the gradients a of the kinks; *known: they are numbers, and none vanishes. */
+/* Compute the gradients of the kink functions u_k; *known: all are numbers, and none is 0. */
 static qdot_status
-read_slopes(corner *c, bool *known)
+compute_kink_gradients(corner *c, bool *known)
 {
     *known = true;
     for (size_t k = 0; k < c->m; k++) {
         bool zero = true;
 
         for (size_t i = 0; i < c->n; i++) {
-            qdot_expr a = value_there(c, qdot_diff(c->pool, c->u[k], c->j->s->coordinates.at[i]));
+            qdot_expr a = value_at_equilibrium(c, qdot_diff(c->pool, c->u[k], c->j->s->coordinates.at[i]));
 
             QDOT_TRY(qdot_pool_check(c->pool));
             *known = *known && qdot_expr_rational(c->pool, a) != NULL;
@@ -170,9 +170,9 @@ scalar_product(const corner *c, const qdot_expr *v, const qdot_expr *w)
     return sum;
 }
 
-/* The directional derivative V'(sign d), simplified. */
+/* The directional derivative of the potential energy V along d (sign 1) or -d (sign -1), simplified. */
 static qdot_expr
-slope_along(const corner *c, const qdot_expr *d, int sign)
+energy_slope_along(const corner *c, const qdot_expr *d, int sign)
 {
     qdot_expr side[MOST_KINKS], sum;
 
@@ -188,12 +188,12 @@ slope_along(const corner *c, const qdot_expr *d, int sign)
 
 typedef enum { RISES, FALLS, OPEN } course;
 
-/* Find how V changes along d in both directions; record conditions under which it rises. */
+/* Find whether the potential energy V rises along d and -d; record the conditions under which it does. */
 static qdot_status
-ask_ray(corner *c, const qdot_expr *d, course *how)
+decide_along_ray(corner *c, const qdot_expr *d, course *how)
 {
     for (int sign = -1; sign <= 1 && *how == RISES; sign += 2) {
-        qdot_expr slope = slope_along(c, d, sign), answer;
+        qdot_expr slope = energy_slope_along(c, d, sign), answer;
 
         QDOT_TRY(qdot_pool_check(c->pool));
         QDOT_TRY(qdot_judgement_ask(c->j, slope, &answer));
@@ -210,7 +210,7 @@ ask_ray(corner *c, const qdot_expr *d, course *how)
 /* A direction in which the planes of the kinks in `which` meet that crosses another one, d [n]; *found: there is one, up to
  * directions in which all planes meet. `rank`: of all planes. */
 static qdot_status
-ray_of(const corner *c, unsigned which, size_t rank, qdot_expr *d, bool *found)
+find_intersection_ray(const corner *c, unsigned which, size_t rank, qdot_expr *d, bool *found)
 {
     qdot_expr rows[MOST_KINKS * MOST_COORDINATES], *basis = NULL;
     size_t count = 0, m = 0;
@@ -218,7 +218,7 @@ ray_of(const corner *c, unsigned which, size_t rank, qdot_expr *d, bool *found)
     for (size_t k = 0; k < c->m; k++)
         for (size_t i = 0; i < c->n && (which >> k & 1) != 0; i++)
             rows[count++] = c->a[k * c->n + i];
-    for (size_t i = 0; i < c->n && count == 0; i++) /* no plane: a single row of zeros */
+    for (size_t i = 0; i < c->n && count == 0; i++) /* without planes the matrix is a single row of zeros */
         rows[i] = QDOT_ZERO;
     QDOT_TRY(qdot_null_space(c->pool, count == 0 ? 1 : count / c->n, c->n, rows, &basis, &m));
     *found = false;
@@ -234,7 +234,7 @@ ray_of(const corner *c, unsigned which, size_t rank, qdot_expr *d, bool *found)
 }
 
 static qdot_status
-ask_rays(corner *c, size_t rank, course *how)
+decide_along_all_rays(corner *c, size_t rank, course *how)
 {
     for (unsigned which = 0; which < 1u << c->m && *how == RISES; which++) {
         qdot_expr d[MOST_COORDINATES];
@@ -245,9 +245,9 @@ ask_rays(corner *c, size_t rank, course *how)
             bits += which >> k & 1;
         if (bits != rank - 1)
             continue;
-        QDOT_TRY(ray_of(c, which, rank, d, &found));
+        QDOT_TRY(find_intersection_ray(c, which, rank, d, &found));
         if (found)
-            QDOT_TRY(ask_ray(c, d, how));
+            QDOT_TRY(decide_along_ray(c, d, how));
     }
     return QDOT_OK;
 }
@@ -256,7 +256,7 @@ ask_rays(corner *c, size_t rank, course *how)
 
 /* Whether L contains no terms linear in velocities, that is, no gyroscopic forces. */
 static bool
-is_natural(const corner *c)
+is_without_gyroscopic_terms(const corner *c)
 {
     qdot_scene *s = c->j->s;
     bool natural = true;
@@ -272,7 +272,7 @@ is_natural(const corner *c)
 /* q0 + sum_v z_v N_v, N [p * n], to at [n]; *on: every u_k stays 0 there, and the forces W [p] along the N_v, as functions of
  * z, are 0 at q0. */
 static qdot_status
-read_inside(const corner *c, size_t p, const qdot_expr *N, const qdot_expr *z, qdot_expr *W, bool *on)
+forces_where_kinks_meet(const corner *c, size_t p, const qdot_expr *N, const qdot_expr *z, qdot_expr *W, bool *on)
 {
     qdot_pool *pool = c->pool;
     const qdot_expr *q = c->j->s->coordinates.at;
@@ -298,9 +298,9 @@ read_inside(const corner *c, size_t p, const qdot_expr *N, const qdot_expr *z, q
     return qdot_pool_check(pool);
 }
 
-/* Find how V changes along a line on which all u_k stay 0, from the force W(z) on each of its sides. */
+/* Find how the energy V changes along a line on which all kink functions u_k stay 0, from the force W(z) on each side. */
 static qdot_status
-ask_line(corner *c, qdot_expr z, qdot_expr W, course *how)
+decide_along_line(corner *c, qdot_expr z, qdot_expr W, course *how)
 {
     qdot_expr eps = qdot_symbol_get(c->pool, QDOT_FORMAL, "epsilon"), answer;
 
@@ -330,9 +330,9 @@ ask_line(corner *c, qdot_expr z, qdot_expr W, course *how)
     return QDOT_OK;
 }
 
-/* Find how V changes where all planes of kinks meet, in the directions N [p * n]. */
+/* Find how the energy V changes in the directions N [p * n] in which all kink functions u_k stay 0. */
 static qdot_status
-ask_inside(corner *c, size_t p, const qdot_expr *N, course *how)
+decide_where_kinks_meet(corner *c, size_t p, const qdot_expr *N, course *how)
 {
     qdot_pool *pool = c->pool;
     qdot_expr z[MOST_COORDINATES], none[MOST_COORDINATES], W[MOST_COORDINATES], H[MOST_COORDINATES * MOST_COORDINATES];
@@ -347,11 +347,11 @@ ask_inside(corner *c, size_t p, const qdot_expr *N, course *how)
         z[v] = qdot_symbol_get(pool, QDOT_FORMAL, name);
         none[v] = QDOT_ZERO;
     }
-    QDOT_TRY(read_inside(c, p, N, z, W, &on));
+    QDOT_TRY(forces_where_kinks_meet(c, p, N, z, W, &on));
     if (!on)
         return QDOT_OK;
     if (p == 1)
-        return ask_line(c, z[0], W[0], how);
+        return decide_along_line(c, z[0], W[0], how);
     if (c->rough)
         return QDOT_OK;
     for (size_t v = 0; v < p; v++)
@@ -366,7 +366,7 @@ ask_inside(corner *c, size_t p, const qdot_expr *N, course *how)
     QDOT_TRY(qdot_judgement_definiteness(c->j, p, H, &definite));
     if (definite == QDOT_DEFINITE_POSITIVE || definite == QDOT_DEFINITE_CONDITIONAL)
         *how = RISES;
-    else if (definite == QDOT_NEGATIVE_SOMEWHERE && is_natural(c))
+    else if (definite == QDOT_NEGATIVE_SOMEWHERE && is_without_gyroscopic_terms(c))
         *how = FALLS;
     return QDOT_OK;
 }
@@ -379,7 +379,7 @@ corner_mass_is_definite(corner *c, bool *yes)
     qdot_expr M[MOST_COORDINATES * MOST_COORDINATES];
 
     for (size_t i = 0; i < c->n * c->n; i++)
-        M[i] = value_there(c, qdot_mass_of_lagrangian(c->j->s, i / c->n, i % c->n));
+        M[i] = value_at_equilibrium(c, qdot_mass_of_lagrangian(c->j->s, i / c->n, i % c->n));
     QDOT_TRY(qdot_pool_check(c->pool));
     return qdot_judgement_is_definite(c->j, c->n, M, yes);
 }
@@ -402,17 +402,17 @@ qdot_stability_by_corner(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(find_kinks(&c, &known));
     if (!known || c.m == 0)
         return QDOT_OK;
-    QDOT_TRY(read_forces(&c));
-    QDOT_TRY(read_slopes(&c, &known));
+    QDOT_TRY(compute_forces(&c));
+    QDOT_TRY(compute_kink_gradients(&c, &known));
     if (!known || c.m == 0)
         return QDOT_OK;
     QDOT_TRY(corner_mass_is_definite(&c, &known));
     if (!known)
         return QDOT_OK;
     QDOT_TRY(qdot_null_space(c.pool, c.m, c.n, c.a, &N, &p));
-    status = ask_rays(&c, c.n - p, &how);
+    status = decide_along_all_rays(&c, c.n - p, &how);
     if (status == QDOT_OK && how == RISES && p > 0)
-        status = ask_inside(&c, p, N, &how);
+        status = decide_where_kinks_meet(&c, p, N, &how);
     qdot_free(N);
     QDOT_TRY(status);
     if (how == RISES) {

@@ -17,14 +17,14 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
-enum { LONGEST_SLOPE = 200, MOST_ROOT = 6, MOST_DETERMINANT = 3 }; /* operations; denominator of exponents; coordinates */
+enum { LONGEST_SLOPE = 200, MOST_ROOT = 6, MOST_DETERMINANT = 3 }; /* most operations; exponent denominator; coordinates */
 
 /* --- one degree of freedom: the forces on either side ----------------------------------- */
 
 /* *leading: the derivative of lowest order of e by eps that is not 0 at eps = 0; nil if none is found. *sign: 1 or -1
  * where it has that sign for all parameters, else 0. */
 static qdot_status
-leading_term(qdot_judgement *j, qdot_expr e, qdot_expr eps, qdot_expr *leading, int *sign)
+find_leading_term(qdot_judgement *j, qdot_expr e, qdot_expr eps, qdot_expr *leading, int *sign)
 {
     qdot_pool *pool = j->s->pool;
     qdot_expr zero = QDOT_ZERO;
@@ -58,7 +58,7 @@ typedef struct {
     bool known;
 } one_side;
 
-/* a or b, selected by the sign of u for small eps > 0; o->known becomes false if that is unknown. */
+/* a or b, selected by the sign of u for small eps > 0; o->known becomes false if this sign is unknown. */
 static qdot_expr
 chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 {
@@ -69,7 +69,7 @@ chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 
     if (o->status != QDOT_OK || u == QDOT_NIL || !qdot_expr_contains(pool, u, o->eps))
         return e;
-    o->status = leading_term(o->j, u, o->eps, &leading, &sign);
+    o->status = find_leading_term(o->j, u, o->eps, &leading, &sign);
     if (sign != 0 || o->status != QDOT_OK)
         return sign > 0 ? a : sign < 0 ? b : e;
     there = qdot_subs(pool, u, 1, &o->eps, &zero);
@@ -82,7 +82,7 @@ chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 
 /* The value of sign u, |u|, max, min or if(0 < u, a, b) for small eps > 0. */
 static qdot_expr
-on_one_side(qdot_pool *pool, qdot_expr e, void *user)
+value_on_one_side(qdot_pool *pool, qdot_expr e, void *user)
 {
     one_side *o = user;
     uint32_t op = qdot_expr_node(pool, e)->op, n = qdot_expr_count(pool, e);
@@ -103,7 +103,7 @@ on_one_side(qdot_pool *pool, qdot_expr e, void *user)
             a = b == QDOT_NIL || qdot_expr_kind(pool, b) != QDOT_FUN ||
                         qdot_expr_node(pool, b)->op != op
                     ? b
-                    : on_one_side(pool, b, user);
+                    : value_on_one_side(pool, b, user);
         }
         return a;
     }
@@ -119,7 +119,7 @@ qdot_judgement_one_side(qdot_judgement *j, qdot_expr F, qdot_expr eps, qdot_expr
 {
     one_side o = {j, eps, QDOT_OK, true};
 
-    F = qdot_walk_replace(j->s->pool, F, QDOT_FUN, on_one_side, &o);
+    F = qdot_walk_replace(j->s->pool, F, QDOT_FUN, value_on_one_side, &o);
     *leading = QDOT_NIL;
     *sign = 0;
     if (o.status == QDOT_OK)
@@ -127,13 +127,13 @@ qdot_judgement_one_side(qdot_judgement *j, qdot_expr F, qdot_expr eps, qdot_expr
     *known = o.status == QDOT_OK && o.known;
     if (!*known)
         return o.status == QDOT_EDOMAIN ? QDOT_OK : o.status;
-    return leading_term(j, F, eps, leading, sign);
+    return find_leading_term(j, F, eps, leading, sign);
 }
 
 /* The place is stable where both forces back [2] are positive: for all parameters (sign [2] is 1), or under conditions on
  * these, which j collects. Undecided if these depend on more than parameters or cannot both be positive. */
 static qdot_status
-by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, const int *sign)
+judge_by_forces_with_conditions(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, const int *sign)
 {
     const qdot_judgement_point before = qdot_judgement_mark(j);
     bool possible = (sign[0] > 0 || qdot_is_generic(j->s->pool, back[0])) &&
@@ -154,7 +154,7 @@ by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, con
 
 /* Find the least common denominator of the exponents of powers that contain q; 1 if it exceeds MOST_ROOT. */
 static qdot_status
-common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
+common_exponent_denominator(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
 {
     qdot_walk w;
 
@@ -182,8 +182,8 @@ common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
 /* Find the leading term in eps of the restoring force at q = place + eps^root, or (below) at place
  * - eps^root. */
 static qdot_status
-push_back_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, long root, qdot_expr *leading, int *sign,
-                 bool *known)
+restoring_force_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, long root, qdot_expr *leading, int *sign,
+                       bool *known)
 {
     qdot_pool *pool = j->s->pool;
     qdot_expr eps = qdot_symbol_get(pool, QDOT_FORMAL, "epsilon"), at, F;
@@ -208,12 +208,12 @@ push_back_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, lo
  * eps: also where H = 0, where the force jumps, or where it has no value on one side. A force by roots of what is 0 at
  * q0 is looked at as a series of roots of eps. */
 static qdot_status
-by_sides(qdot_judgement *j, qdot_equilibrium *e)
+judge_by_forces_beside(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_scene *s = j->s;
     qdot_pool *pool = s->pool;
     qdot_expr q = s->coordinates.at[0], mass, up, place;
-    qdot_expr back[2]; /* leading terms of the force towards the place, on both sides */
+    qdot_expr back[2]; /* leading terms of the force towards the equilibrium, below and above it */
     int sign[2];
     long root;
 
@@ -227,18 +227,18 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(qdot_pool_check(pool));
     if (up != QDOT_TRUE)
         return QDOT_OK;
-    QDOT_TRY(common_root(pool, j->judge->at_rest, q, &root));
+    QDOT_TRY(common_exponent_denominator(pool, j->judge->at_rest, q, &root));
     for (int side = 0; side < 2; side++) {
         bool known;
 
-        QDOT_TRY(push_back_beside(j, q, place, side == 1, 1, &back[side], &sign[side], &known));
+        QDOT_TRY(restoring_force_beside(j, q, place, side == 1, 1, &back[side], &sign[side], &known));
         if (known && back[side] == QDOT_NIL && root > 1)
-            QDOT_TRY(push_back_beside(j, q, place, side == 1, root, &back[side], &sign[side], &known));
+            QDOT_TRY(restoring_force_beside(j, q, place, side == 1, root, &back[side], &sign[side], &known));
         if (!known)
             return QDOT_OK;
     }
     if (back[0] != QDOT_NIL && back[1] != QDOT_NIL && sign[0] >= 0 && sign[1] >= 0)
-        return by_sides_when(j, e, back, sign);
+        return judge_by_forces_with_conditions(j, e, back, sign);
     if ((sign[0] < 0 || sign[1] < 0) && !j->judge->velocity_kink)
         e->stability = QDOT_UNSTABLE;
     return QDOT_OK;
@@ -247,14 +247,14 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
 /* --- the verdict on stability ----------------------------------------------------------- */
 
 static qdot_stability
-conclude_if_definite(qdot_definite how, qdot_stability verdict)
+verdict_if_definite(qdot_definite how, qdot_stability verdict)
 {
     return how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL ? verdict : QDOT_STABILITY_UNDECIDED;
 }
 
 /* Prove stability by an energy that has a strict minimum at the equilibrium. */
 static qdot_status
-by_energy(qdot_judgement *j, qdot_equilibrium *e)
+prove_stable_by_energy(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_definite how;
     qdot_judgement_point before = qdot_judgement_mark(j);
@@ -266,7 +266,7 @@ by_energy(qdot_judgement *j, qdot_equilibrium *e)
         QDOT_TRY(qdot_judgement_definiteness(j, j->m.n, j->m.M, &how));
     if (how == QDOT_DEFINITE_POSITIVE && j->when.n > before.when)
         how = QDOT_DEFINITE_CONDITIONAL;
-    e->stability = conclude_if_definite(how, QDOT_STABLE);
+    e->stability = verdict_if_definite(how, QDOT_STABLE);
     if (e->stability != QDOT_STABLE)
         qdot_judgement_back_to(j, before);
     return QDOT_OK;
@@ -275,7 +275,7 @@ by_energy(qdot_judgement *j, qdot_equilibrium *e)
 /* A direction in which the energy falls, no gyroscopic terms: det(M s^2 + Gamma s + H) has a root
  * s > 0. */
 static qdot_status
-by_falling(qdot_judgement *j, qdot_equilibrium *e)
+prove_unstable_by_energy(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_definite how;
     bool mass;
@@ -300,7 +300,7 @@ by_falling(qdot_judgement *j, qdot_equilibrium *e)
 /* Whether the equations at rest have no slopes at the place: |u|, sign u where u = 0; of what
  * else jumps it is not looked into where. */
 static qdot_status
-kink_at(const qdot_judgement *j, qdot_expr equations, bool *yes)
+has_kink_at(const qdot_judgement *j, qdot_expr equations, bool *yes)
 {
     qdot_pool *pool = j->s->pool;
     qdot_walk w;
@@ -347,7 +347,7 @@ qdot_judgement_confirm(qdot_judgement *j, bool *yes)
 /* The blocks of those y whose place is told: all but coordinates that stand in no equation at
  * rest, along which a family of rests is alike. */
 static qdot_status
-take_blocks(qdot_judgement *j)
+copy_determined_coordinates(qdot_judgement *j)
 {
     size_t m = j->m.n;
     bool *told = qdot_calloc(m + 1, sizeof *told);
@@ -376,7 +376,7 @@ take_blocks(qdot_judgement *j)
     return QDOT_OK;
 }
 
-/* Whether a force gradient is so long that signs of expressions of them are not attempted. */
+/* Whether a derivative of a force is too long for attempts to find the signs of expressions made of them. */
 static bool
 is_too_long(const qdot_judgement *j)
 {
@@ -388,7 +388,7 @@ is_too_long(const qdot_judgement *j)
 }
 
 static qdot_status
-by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
+judge_by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
 {
     const qdot_judgement_point before = qdot_judgement_mark(j);
     qdot_dof dof;
@@ -397,17 +397,17 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
     if (status == QDOT_EDOMAIN) /* the forces have no derivatives there */
         return QDOT_OK;
     QDOT_TRY(status);
-    QDOT_TRY(take_blocks(j));
+    QDOT_TRY(copy_determined_coordinates(j));
     QDOT_TRY(qdot_mech_dof(j->s, &dof));
     j->regular = j->m.rank == dof.independent;
-    if (j->n == 0) { /* no motion is possible except along coordinates that change nothing */
+    if (j->n == 0) { /* no motion is possible except along coordinates that the equations at rest do not contain */
         if (j->m.n == 0 && !j->judge->timed)
             e->stability = QDOT_STABLE;
         return QDOT_OK;
     }
     if (is_too_long(j))
         return QDOT_OK;
-    QDOT_TRY(by_energy(j, e));
+    QDOT_TRY(prove_stable_by_energy(j, e));
     if (j->judge->velocity_kink || j->judge->timed || !j->m.damped)
         return QDOT_OK;
     if (e->stability == QDOT_STABLE && j->when.n > before.when && j->m.exact &&
@@ -417,10 +417,10 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
         e->stability = QDOT_STABILITY_UNDECIDED;
         QDOT_TRY(qdot_stability_by_roots(j, e));
         if (e->stability == QDOT_STABILITY_UNDECIDED)
-            QDOT_TRY(by_energy(j, e));
+            QDOT_TRY(prove_stable_by_energy(j, e));
     }
     if (e->stability == QDOT_STABILITY_UNDECIDED)
-        QDOT_TRY(by_falling(j, e));
+        QDOT_TRY(prove_unstable_by_energy(j, e));
     if (e->stability == QDOT_STABILITY_UNDECIDED)
         QDOT_TRY(qdot_stability_by_roots(j, e));
     return QDOT_OK;
@@ -429,7 +429,7 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
 /* Of an undecided place: unstable where det H < 0, a condition on parameters, for then det(M s^2 + Gamma s + H), which is
  * positive for large s, has a root s > 0. */
 static qdot_status
-unstable_where(qdot_judgement *j, qdot_equilibrium *e)
+find_instability_condition(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_pool *pool = j->s->pool;
     qdot_expr det, when;
@@ -454,22 +454,22 @@ unstable_where(qdot_judgement *j, qdot_equilibrium *e)
 }
 
 static qdot_status
-exact_place(qdot_judgement *j, qdot_equilibrium *e)
+judge_exact_equilibrium(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_scene *s = j->s;
-    qdot_judgement_point before; /* any verdict */
+    qdot_judgement_point before; /* the state before any verdict */
     bool kink, sure;
 
     for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(s->pool, e->exists); i++)
         QDOT_TRY(qdot_vec_push(
             &j->known, qdot_positive_of(s->pool, qdot_expr_arg(s->pool, e->exists, i))));
     before = qdot_judgement_mark(j);
-    QDOT_TRY(kink_at(j, e->equations, &kink));
+    QDOT_TRY(has_kink_at(j, e->equations, &kink));
     if (!kink)
-        QDOT_TRY(by_linear_motion(j, e));
+        QDOT_TRY(judge_by_linear_motion(j, e));
     if (e->stability == QDOT_STABILITY_UNDECIDED && s->coordinates.n == 1 &&
         s->constraints.n == 0 && j->judge->law != QDOT_ENERGY_UNKNOWN)
-        QDOT_TRY(by_sides(j, e));
+        QDOT_TRY(judge_by_forces_beside(j, e));
     if (e->stability == QDOT_STABILITY_UNDECIDED && kink && s->coordinates.n > 1 && j->judge->law != QDOT_ENERGY_UNKNOWN)
         QDOT_TRY(qdot_stability_by_corner(j, e));
     if (e->stability != QDOT_STABILITY_UNDECIDED) {
@@ -484,8 +484,8 @@ exact_place(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(qdot_pool_check(s->pool));
     if (e->stability != QDOT_STABILITY_UNDECIDED || kink)
         return QDOT_OK;
-    qdot_judgement_back_to(j, before); /* what a verdict that was not confirmed took for positive need not be so */
-    return unstable_where(j, e);
+    qdot_judgement_back_to(j, before); /* drop what was taken for positive by a verdict that was not confirmed */
+    return find_instability_condition(j, e);
 }
 
 qdot_status
@@ -496,7 +496,7 @@ qdot_stability_judge_exact(qdot_judge *judge, qdot_equilibrium *e)
     qdot_status status = qdot_rest_facts(judge->s, e->exists, &j.facts, &own);
 
     if (status == QDOT_OK)
-        status = exact_place(&j, e);
+        status = judge_exact_equilibrium(&j, e);
     qdot_linear_motion_clear(&j.m);
     qdot_free(j.M);
     qdot_free(own);

@@ -34,14 +34,14 @@
 typedef struct {
     qdot_judgement j;
     qdot_equilibrium *e;
-    qdot_expr inside;     /* a LIST of strict inequalities: the conditions of e and its range */
+    qdot_expr inside;     /* a LIST of strict inequalities: the conditions and the range of equilibrium e */
     qdot_expr *limit;     /* [coordinates] largest friction force f_i; nil: no friction */
     qdot_expr *force;     /* [coordinates] the other forces F_i */
 } held;
 
 /* --- coordinates held by friction ---------------------------------------------------------- */
 
-/* The only coordinate whose velocity u is a multiple of; s->coordinates.n if there is none. */
+/* Index of the coordinate of whose velocity u is a constant multiple; s->coordinates.n if there is none. */
 static size_t
 slipping_coordinate(qdot_scene *s, qdot_expr u)
 {
@@ -57,9 +57,9 @@ slipping_coordinate(qdot_scene *s, qdot_expr u)
     return s->coordinates.n;
 }
 
-/* Whether the equation of coordinate i jumps only because of friction on that coordinate. */
+/* Whether the equation of motion of coordinate i jumps only because of friction on this coordinate. */
 static qdot_status
-jumps_are_own(held *h, size_t i, bool *yes)
+jumps_only_by_own_friction(held *h, size_t i, bool *yes)
 {
     qdot_scene *s = h->j.s;
     qdot_expr slips = h->j.judge->slips;
@@ -82,9 +82,9 @@ jumps_are_own(held *h, size_t i, bool *yes)
     return QDOT_OK;
 }
 
-/* Whether the forces at rest have slopes everywhere. */
+/* Whether the forces at rest are differentiable everywhere. */
 static qdot_status
-forces_are_smooth(held *h, bool *yes)
+forces_are_differentiable(held *h, bool *yes)
 {
     qdot_pool *pool = h->j.s->pool;
     qdot_walk w;
@@ -97,9 +97,9 @@ forces_are_smooth(held *h, bool *yes)
     return QDOT_OK;
 }
 
-/* Split the force on every coordinate into F and friction f; *yes if friction has the form above. */
+/* Split the force on each coordinate i into friction, at most f_i, and other forces F_i; *yes if that is possible. */
 static qdot_status
-split_forces(held *h, bool *yes)
+split_off_friction(held *h, bool *yes)
 {
     qdot_judge *judge = h->j.judge;
     qdot_scene *s = judge->s;
@@ -132,13 +132,13 @@ split_forces(held *h, bool *yes)
         QDOT_TRY(qdot_pool_check(pool));
     }
     for (size_t i = 0; i < s->coordinates.n && *yes; i++)
-        QDOT_TRY(jumps_are_own(h, i, yes));
-    return *yes ? forces_are_smooth(h, yes) : QDOT_OK;
+        QDOT_TRY(jumps_only_by_own_friction(h, i, yes));
+    return *yes ? forces_are_differentiable(h, yes) : QDOT_OK;
 }
 
-/* Whether friction is below its limit: by the conditions of the region, or asked for elsewhere. */
+/* Whether friction is below its limit: by the conditions of the region, or by further conditions, which are recorded. */
 static qdot_status
-is_below(held *h, bool *yes)
+friction_is_below_limit(held *h, bool *yes)
 {
     qdot_scene *s = h->j.s;
     qdot_pool *pool = s->pool;
@@ -163,9 +163,9 @@ is_below(held *h, bool *yes)
 
 /* --- the other coordinates --------------------------------------------------------------- */
 
-/* Compute M, Gamma, H for the coordinates that friction does not hold; if `whole`, M for all of them. */
+/* Compute M, Gamma, H for the coordinates that friction does not hold at rest; if `whole`, M for all coordinates. */
 static qdot_status
-matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
+compute_matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
 {
     qdot_scene *s = h->j.s;
     qdot_pool *pool = s->pool;
@@ -196,7 +196,7 @@ matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
 }
 
 static qdot_status
-by_others(held *h)
+judge_by_other_coordinates(held *h)
 {
     qdot_scene *s = h->j.s;
     size_t n = 0;
@@ -216,7 +216,7 @@ by_others(held *h)
     M = qdot_calloc(3 * n * n, sizeof *M);
     if (M == NULL)
         return QDOT_ENOMEM;
-    status = matrices(h, n, M, M + n * n, M + 2 * n * n);
+    status = compute_matrices(h, n, M, M + n * n, M + 2 * n * n);
     if (status == QDOT_OK && qdot_judgement_is_symmetric(&h->j, n, M + 2 * n * n, 1))
         status = qdot_judgement_definiteness(&h->j, n, M + 2 * n * n, &how);
     if (how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL)
@@ -231,7 +231,7 @@ by_others(held *h)
     return status;
 }
 
-/* Whether the whole of M is positive definite, so that T bounds every velocity. */
+/* Whether the mass matrix M of all coordinates is positive definite, so that T bounds every velocity. */
 static qdot_status
 friction_mass_is_definite(held *h, bool *yes)
 {
@@ -260,7 +260,7 @@ friction_mass_is_definite(held *h, bool *yes)
 
 /* Whether the force at an end of the range of the only coordinate points inward. */
 static qdot_status
-points_inside(held *h, qdot_expr end, bool upper, bool *yes)
+force_points_inside(held *h, qdot_expr end, bool upper, bool *yes)
 {
     qdot_scene *s = h->j.s;
     qdot_pool *pool = s->pool;
@@ -295,9 +295,9 @@ make_strict(qdot_pool *pool, qdot_expr relation)
                : QDOT_NIL;
 }
 
-/* Add conditions that exclude those ends of a stable band at which nothing is proved. */
+/* Add conditions that exclude those ends of an interval of stable equilibria at which nothing is proved. */
 static qdot_status
-leave_out_ends(held *h)
+exclude_undecided_ends(held *h)
 {
     qdot_scene *s = h->j.s;
     qdot_pool *pool = s->pool;
@@ -312,7 +312,7 @@ leave_out_ends(held *h)
             if (strict == QDOT_NIL || (qdot_mech_holds(s, one) & QDOT_HAS_COORD) == 0)
                 continue;
             if (part == 1 && s->coordinates.n == 1 && h->j.judge->law != QDOT_ENERGY_UNKNOWN)
-                QDOT_TRY(points_inside(h, qdot_expr_arg(pool, one, upper ? 1 : 0), upper, &inside));
+                QDOT_TRY(force_points_inside(h, qdot_expr_arg(pool, one, upper ? 1 : 0), upper, &inside));
             if (!inside)
                 QDOT_TRY(qdot_vec_push(&h->j.when, strict));
         }
@@ -323,7 +323,7 @@ leave_out_ends(held *h)
 /* --- the verdict on stability ------------------------------------------------------------ */
 
 static qdot_status
-judge_held(held *h, bool *judged)
+judge_held_by_friction(held *h, bool *judged)
 {
     qdot_scene *s = h->j.s;
     qdot_pool *pool = s->pool;
@@ -335,20 +335,20 @@ judge_held(held *h, bool *judged)
                                qdot_positive_of(pool, qdot_expr_arg(pool, h->inside, i))));
     known = h->j.known.n;
     *judged = true;
-    QDOT_TRY(split_forces(h, judged));
+    QDOT_TRY(split_off_friction(h, judged));
     if (*judged)
-        QDOT_TRY(is_below(h, judged));
+        QDOT_TRY(friction_is_below_limit(h, judged));
     if (*judged)
         QDOT_TRY(friction_mass_is_definite(h, judged));
     if (!*judged || (h->e->touched && h->j.judge->law == QDOT_ENERGY_UNKNOWN))
         return QDOT_OK;
-    QDOT_TRY(by_others(h));
+    QDOT_TRY(judge_by_other_coordinates(h));
     QDOT_TRY(qdot_judgement_confirm(&h->j, &sure));
     if (!sure)
         h->e->stability = QDOT_STABILITY_UNDECIDED;
     QDOT_TRY(qdot_judgement_drop_implied(&h->j, known));
     if (h->e->stability == QDOT_STABLE)
-        QDOT_TRY(leave_out_ends(h));
+        QDOT_TRY(exclude_undecided_ends(h));
     if (h->e->stability == QDOT_STABLE && h->j.when.n > 0)
         h->e->stable_when = qdot_list(pool, (uint32_t)h->j.when.n, h->j.when.at);
     return qdot_pool_check(pool);
@@ -356,7 +356,7 @@ judge_held(held *h, bool *judged)
 
 /* All conditions of equilibrium e, with < instead of <=. */
 static qdot_expr
-inside_of(qdot_pool *pool, const qdot_equilibrium *e)
+strict_conditions(qdot_pool *pool, const qdot_equilibrium *e)
 {
     qdot_expr all = QDOT_NIL;
 
@@ -376,7 +376,7 @@ qdot_status
 qdot_stability_judge_held(qdot_judge *judge, qdot_equilibrium *e, bool *judged)
 {
     qdot_scene *s = judge->s;
-    held h = {.j = {.judge = judge, .s = s}, .e = e, .inside = inside_of(s->pool, e)};
+    held h = {.j = {.judge = judge, .s = s}, .e = e, .inside = strict_conditions(s->pool, e)};
     qdot_expr *own = NULL;
     qdot_status status = qdot_pool_check(s->pool);
 
@@ -389,7 +389,7 @@ qdot_stability_judge_held(qdot_judge *judge, qdot_equilibrium *e, bool *judged)
     h.force = h.limit + s->coordinates.n;
     status = qdot_rest_facts(s, h.inside, &h.j.facts, &own);
     if (status == QDOT_OK)
-        status = judge_held(&h, judged);
+        status = judge_held_by_friction(&h, judged);
     qdot_free(h.limit);
     qdot_free(own);
     qdot_free(h.j.known.at);

@@ -27,8 +27,8 @@ struct qdot_stability_numbers {
     qdot_scene *s;
     size_t n, c;    /* numbers of coordinates and constraints */
     qdot_expr *e;   /* expressions M, Gamma, H [n * n] each, then A = df/dq [c * n] */
-    bool damped;    /* Gamma is defined at rest */
-    bool *told;     /* [n] the coordinate occurs in an equation at rest */
+    bool damped;    /* whether the damping matrix Gamma is defined at rest */
+    bool *told;     /* [n] whether the coordinate occurs in an equation at rest */
     size_t m;       /* number of symbols: q, q', q'', multipliers, then the free parameter */
     qdot_expr *symbol;
     double *at, *value;
@@ -102,7 +102,7 @@ qdot_stability_numbers_free(qdot_stability_numbers *x)
 
 /* --- the linear motion in numbers ------------------------------------------------------- */
 
-/* The motion in the tangent space: y, first those in equations at rest; scaled so that M = 1. */
+/* The linear motion in the tangent space of the constraints, in coordinates y scaled so that M = 1. */
 typedef struct {
     size_t m, told;
     double *M, *G, *H; /* [m x m] mass, damping and stiffness matrix */
@@ -110,7 +110,7 @@ typedef struct {
 
 /* Set the values of the symbols at the equilibrium. */
 static qdot_status
-put_place(qdot_stability_numbers *x, const qdot_equilibrium *e)
+set_equilibrium_values(qdot_stability_numbers *x, const qdot_equilibrium *e)
 {
     const qdot_pool *pool = x->s->pool;
 
@@ -128,7 +128,7 @@ put_place(qdot_stability_numbers *x, const qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* Evaluate the matrices of the linear motion at the values of the symbols; false if a coefficient has none. */
+/* Evaluate M, Gamma, H and A at the values of the symbols; *finite is false if an entry is undefined there. */
 static qdot_status
 matrices_evaluate(qdot_stability_numbers *x, bool *finite)
 {
@@ -153,7 +153,7 @@ matrices_evaluate(qdot_stability_numbers *x, bool *finite)
 /* A basis of the null space of A, the told coordinates' part first: N [n * m]. Free coordinates
  * stand in no constraint. */
 static bool
-numeric_tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
+find_tangent_space(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
 {
     size_t n = x->n, c = x->c, rank = 0, column = 0, told = 0;
     gsl_matrix *A = gsl_matrix_calloc(n + c, n), *V = gsl_matrix_alloc(n, n);
@@ -163,7 +163,7 @@ numeric_tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
     for (size_t k = 0; k < c && fine; k++)
         for (size_t i = 0; i < n; i++)
             gsl_matrix_set(A, k, i, x->value[3 * n * n + k * n + i]);
-    /* rows that separate coordinates that do not occur in the equations at rest */
+    /* add rows that separate the coordinates that do not occur in the equations at rest */
     for (size_t i = 0; i < n && fine; i++) {
         told += x->told[i];
         if (!x->told[i])
@@ -191,9 +191,9 @@ numeric_tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
     return fine;
 }
 
-/* Replace X by its projection N^T X N, m x m. */
+/* Project the matrix X onto the tangent space with basis N: N^T X N, an m x m matrix. */
 static void
-project_numbers(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
+project_matrix(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
 {
     for (size_t a = 0; a < m; a++)
         for (size_t b = 0; b < m; b++) {
@@ -241,7 +241,7 @@ eigenvalue_range(const double *X, size_t m, size_t k, double *least, double *mos
 
 /* The largest entry of (X + sign X^T)/2, the symmetric (1) or antisymmetric (-1) part. */
 static double
-part_of_symmetry(const double *X, size_t m, int sign)
+largest_symmetric_entry(const double *X, size_t m, int sign)
 {
     double most = 0;
 
@@ -251,9 +251,9 @@ part_of_symmetry(const double *X, size_t m, int sign)
     return most;
 }
 
-/* Find real and imaginary parts of the roots s of det(s^2 + G s + H), [2 m] each. */
+/* Find the roots s of det(s^2 + G s + H) = 0: 2 m real and 2 m imaginary parts. */
 static bool
-roots(const motion *x, double *re, double *im)
+find_characteristic_roots(const motion *x, double *re, double *im)
 {
     size_t m = x->m;
     gsl_matrix *A = gsl_matrix_calloc(2 * m, 2 * m);
@@ -280,9 +280,9 @@ roots(const motion *x, double *re, double *im)
     return fine;
 }
 
-/* Scale the motion so that M = 1, by y = L^-T z; false if M is not positive definite. */
+/* Scale the coordinates, y = L^-T z with M = L L^T, so that M = 1; false if M is not positive definite. */
 static bool
-normalise(motion *x)
+normalise_mass(motion *x)
 {
     size_t m = x->m;
     gsl_matrix_view M = gsl_matrix_view_array(x->M, m, m);
@@ -322,7 +322,7 @@ stability_by_roots(const motion *x, double h, double g, bool definite)
     if (re == NULL)
         return verdict;
     im = re + 2 * x->m;
-    if (roots(x, re, im)) {
+    if (find_characteristic_roots(x, re, im)) {
         decay = growth = re[0];
         for (size_t i = 0; i < 2 * x->m; i++) {
             decay = fmax(decay, re[i]);
@@ -334,7 +334,7 @@ stability_by_roots(const motion *x, double h, double g, bool definite)
             verdict = QDOT_UNSTABLE;
         else if (x->told == x->m && decay < -DECAYS * fast)
             verdict = QDOT_STABLE;
-        else if (x->told == x->m && part_of_symmetry(x->G, x->m, 1) <= SMALL * fast &&
+        else if (x->told == x->m && largest_symmetric_entry(x->G, x->m, 1) <= SMALL * fast &&
                  fabs(growth) < SMALL * fast && gap > AWAY * fast)
             verdict = QDOT_STABLE_TO_FIRST_ORDER;
     }
@@ -350,37 +350,37 @@ stability_by_roots(const motion *x, double h, double g, bool definite)
 }
 
 static qdot_stability
-verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motion *x,
-           qdot_linear_roots *all)
+judge_stability(const qdot_judge *judge, const qdot_stability_numbers *numbers, motion *x,
+                qdot_linear_roots *all)
 {
     double h, g, least, most;
     bool symmetric, definite;
 
     if (x->m == 0)
         return QDOT_STABLE; /* no motion is possible */
-    if (x->told == 0 || !normalise(x))
+    if (x->told == 0 || !normalise_mass(x))
         return QDOT_STABILITY_UNDECIDED;
-    if (all != NULL && roots(x, all->re, all->im))
+    if (all != NULL && find_characteristic_roots(x, all->re, all->im))
         all->n = 2 * x->m;
     h = largest_modulus(x->m * x->m, x->H);
     g = largest_modulus(x->m * x->m, x->G);
     if (!eigenvalue_range(x->H, x->m, x->told, &least, &most))
         return QDOT_STABILITY_UNDECIDED;
-    symmetric = part_of_symmetry(x->H, x->m, -1) <= SMALL * h;
+    symmetric = largest_symmetric_entry(x->H, x->m, -1) <= SMALL * h;
     definite = symmetric && least > SMALL * h;
     if (definite && judge->law != QDOT_ENERGY_UNKNOWN)
         return QDOT_STABLE;
     if (judge->velocity_kink || judge->timed || !numbers->damped)
         return QDOT_STABILITY_UNDECIDED;
-    if (symmetric && least < -SMALL * h && part_of_symmetry(x->G, x->m, -1) <= SMALL * fmax(g, sqrt(h)))
+    if (symmetric && least < -SMALL * h && largest_symmetric_entry(x->G, x->m, -1) <= SMALL * fmax(g, sqrt(h)))
         return QDOT_UNSTABLE;
     return stability_by_roots(x, h, g, definite);
 }
 
-/* Judge stability at the present values of the symbols; the roots of the linear motion, if asked for. */
+/* Judge stability at the present values of the symbols; also find the roots of the linear motion, if asked for. */
 static qdot_status
-judge_there(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_stability *verdict,
-            qdot_linear_roots *all)
+judge_at_values(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_stability *verdict,
+                qdot_linear_roots *all)
 {
     size_t n = numbers->n;
     gsl_error_handler_t *before = gsl_set_error_handler_off();
@@ -392,12 +392,12 @@ judge_there(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_stabi
     *verdict = QDOT_STABILITY_UNDECIDED;
     if (status == QDOT_OK)
         status = matrices_evaluate(numbers, &finite);
-    if (status == QDOT_OK && finite && numeric_tangents(numbers, N, &x)) {
+    if (status == QDOT_OK && finite && find_tangent_space(numbers, N, &x)) {
         x.G = x.M + x.m * x.m;
         x.H = x.G + x.m * x.m;
         for (size_t k = 0; k < 3; k++)
-            project_numbers(numbers->value + k * n * n, N, n, x.m, x.M + k * x.m * x.m);
-        *verdict = verdict_of(judge, numbers, &x, all);
+            project_matrix(numbers->value + k * n * n, N, n, x.m, x.M + k * x.m * x.m);
+        *verdict = judge_stability(judge, numbers, &x, all);
     }
     gsl_set_error_handler(before);
     gsl_matrix_free(N);
@@ -410,8 +410,8 @@ qdot_stability_judge_numbers(const qdot_judge *judge, qdot_stability_numbers *nu
                              qdot_equilibrium *e)
 {
     e->stability = QDOT_STABILITY_UNDECIDED;
-    QDOT_TRY(put_place(numbers, e));
-    return judge_there(judge, numbers, &e->stability, NULL);
+    QDOT_TRY(set_equilibrium_values(numbers, e));
+    return judge_at_values(judge, numbers, &e->stability, NULL);
 }
 
 qdot_status
@@ -426,7 +426,7 @@ qdot_stability_judge_at(const qdot_judge *judge, qdot_stability_numbers *numbers
                 numbers->at[i] = at->values[k];
     }
     all->n = 0;
-    return judge_there(judge, numbers, verdict, all);
+    return judge_at_values(judge, numbers, verdict, all);
 }
 
 const qdot_expr *

@@ -30,13 +30,13 @@ typedef enum {
     QDOT_DEFINITE_UNKNOWN
 } qdot_definite;
 
-/* The numbers of conditions and claims noted up to a point. */
+/* A mark to which a judgement can be reset: how many conditions and claims it had recorded. */
 typedef struct {
     size_t when, known, claims;
 } qdot_judgement_point;
 
 qdot_judgement_point qdot_judgement_mark(const qdot_judgement *j);
-/* Drop what was recorded since the mark; or only its conditions, as a refuted claim needs none. */
+/* Drop everything recorded since the mark; the second function drops only conditions: a refuted claim needs none. */
 void qdot_judgement_back_to(qdot_judgement *j, qdot_judgement_point m);
 void qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m);
 
@@ -57,7 +57,7 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_is_definite(qdot_judgement *j, size_t
 bool qdot_judgement_is_symmetric(qdot_judgement *j, size_t n, const qdot_expr *A, int sign);
 /* Whether the symmetric part of Gamma is proved not negative: zero, or diagonal with known signs. */
 bool qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma);
-/* Whether e != 0, with `above` e > 0, is proved wherever the facts and the noted conditions hold. */
+/* Whether e != 0 (or e > 0 if `above`) is proved wherever the facts and the noted conditions hold. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above,
                                                    bool *yes);
 /* Drop conditions that follow from others. known [n]: expressions that are positive in any case. */

@@ -15,7 +15,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
-/* Coordinates y coupled by M, Gamma or H, [n * n] each. */
+/* Coordinates y that are coupled with each other by the matrices M, Gamma or H, [n * n] each. */
 typedef struct {
     size_t n;
     qdot_expr *M, *Gamma, *H;
@@ -26,7 +26,7 @@ typedef enum { GROWS, DECAYS, BOUNDED, OPEN } motion;
 /* --- Hurwitz's criterion; damping ------------------------------------------------------------ */
 
 static qdot_expr
-det2(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr d)
+determinant2(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr d)
 {
     return qdot_sub(pool, qdot_mul(pool, a, d), qdot_mul(pool, b, c));
 }
@@ -35,7 +35,7 @@ det2(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr d)
  * coefficients and, of degree 4, a1 a2 a3 - a0 a3^2 - a1^2 a4; whose being negative proves a root
  * with a positive one. */
 static qdot_status
-hurwitz(qdot_judgement *j, const block *b, qdot_definite *how)
+judge_by_hurwitz(qdot_judgement *j, const block *b, qdot_definite *how)
 {
     qdot_pool *pool = j->s->pool;
     const qdot_expr *M = b->M, *G = b->Gamma, *H = b->H;
@@ -46,14 +46,14 @@ hurwitz(qdot_judgement *j, const block *b, qdot_definite *how)
         a[1] = qdot_mul(pool, M[0], H[0]);
         return qdot_judgement_all_positive(j, 2, a, how);
     }
-    a[0] = det2(pool, M[0], M[1], M[2], M[3]);
-    a[1] = qdot_add(pool, det2(pool, M[0], M[1], G[2], G[3]), det2(pool, G[0], G[1], M[2], M[3]));
+    a[0] = determinant2(pool, M[0], M[1], M[2], M[3]);
+    a[1] = qdot_add(pool, determinant2(pool, M[0], M[1], G[2], G[3]), determinant2(pool, G[0], G[1], M[2], M[3]));
     a[2] = qdot_sum(pool, 3,
-                    (qdot_expr[]){det2(pool, M[0], M[1], H[2], H[3]),
-                                  det2(pool, H[0], H[1], M[2], M[3]),
-                                  det2(pool, G[0], G[1], G[2], G[3])});
-    a[3] = qdot_add(pool, det2(pool, G[0], G[1], H[2], H[3]), det2(pool, H[0], H[1], G[2], G[3]));
-    a[4] = det2(pool, H[0], H[1], H[2], H[3]);
+                    (qdot_expr[]){determinant2(pool, M[0], M[1], H[2], H[3]),
+                                  determinant2(pool, H[0], H[1], M[2], M[3]),
+                                  determinant2(pool, G[0], G[1], G[2], G[3])});
+    a[3] = qdot_add(pool, determinant2(pool, G[0], G[1], H[2], H[3]), determinant2(pool, H[0], H[1], G[2], G[3]));
+    a[4] = determinant2(pool, H[0], H[1], H[2], H[3]);
     a[5] = qdot_sub(
         pool,
         qdot_sub(pool, qdot_product(pool, 3, (qdot_expr[]){a[1], a[2], a[3]}),
@@ -87,7 +87,7 @@ is_nonzero(qdot_judgement *j, qdot_expr e, bool *yes)
 /* Gamma antisymmetric, n = 2: det = a W^2 + b W + c of W = s^2, if nothing goes with s. All W negative
  * and different: bounded; else a root with a positive real part: so if b <= 0 and c != 0. */
 static qdot_status
-undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
+judge_undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
 {
     qdot_pool *pool = j->s->pool;
     const qdot_expr *M = x->M, *G = x->Gamma, *H = x->H;
@@ -96,15 +96,15 @@ undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
     bool nonzero;
 
     *how = QDOT_DEFINITE_UNKNOWN;
-    odd = qdot_add(pool, det2(pool, G[0], G[1], H[2], H[3]), det2(pool, H[0], H[1], G[2], G[3]));
+    odd = qdot_add(pool, determinant2(pool, G[0], G[1], H[2], H[3]), determinant2(pool, H[0], H[1], G[2], G[3]));
     if (odd == QDOT_NIL || !qdot_is_zero(pool, odd, &j->facts))
         return qdot_pool_check(pool);
-    a = det2(pool, M[0], M[1], M[2], M[3]);
+    a = determinant2(pool, M[0], M[1], M[2], M[3]);
     b = qdot_sum(pool, 3,
-                 (qdot_expr[]){det2(pool, M[0], M[1], H[2], H[3]),
-                               det2(pool, H[0], H[1], M[2], M[3]),
-                               det2(pool, G[0], G[1], G[2], G[3])});
-    c = det2(pool, H[0], H[1], H[2], H[3]);
+                 (qdot_expr[]){determinant2(pool, M[0], M[1], H[2], H[3]),
+                               determinant2(pool, H[0], H[1], M[2], M[3]),
+                               determinant2(pool, G[0], G[1], G[2], G[3])});
+    c = determinant2(pool, H[0], H[1], H[2], H[3]);
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_decide_less(pool, b, QDOT_ZERO, false, &j->facts, &d));
     if (d.verdict == QDOT_PROVED) {
@@ -139,7 +139,7 @@ twice_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma, qdot_expr **o
 
 /* Judge a block with complete damping and symmetric H: it decays where H is positive definite (Kelvin). */
 static qdot_status
-completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
+judge_completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
 {
     qdot_expr *D;
     qdot_status status = twice_damping(j, x->n, x->Gamma, &D);
@@ -155,11 +155,11 @@ completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
     return QDOT_OK;
 }
 
-enum { MOST_UNBALANCED = 3 }; /* coordinates */
+enum { MOST_UNBALANCED = 3 }; /* largest number of coordinates */
 
-/* Whether det H < 0 is proved where all of these [n] are 0. */
+/* Whether det H < 0 is proved under the condition that all expressions zero [n] are 0. */
 static qdot_status
-falls_where_zero(qdot_judgement *j, size_t n, const qdot_expr *zero, qdot_expr detH, bool *yes)
+determinant_is_negative_where(qdot_judgement *j, size_t n, const qdot_expr *zero, qdot_expr detH, bool *yes)
 {
     qdot_facts facts = j->facts;
     qdot_expr *all = qdot_malloc((facts.n_relations + n + 1) * sizeof *all);
@@ -185,7 +185,7 @@ falls_where_zero(qdot_judgement *j, size_t n, const qdot_expr *zero, qdot_expr d
  * s^(2n-1), but another odd one that is proved not to be 0. Then one of them has a positive real part, for imaginary
  * roots alone, with their conjugates, are symmetric. Where the odd terms are 0, det H < 0 makes one positive. */
 static qdot_status
-is_unbalanced(qdot_judgement *j, const block *x, bool *yes)
+has_unbalanced_roots(qdot_judgement *j, const block *x, bool *yes)
 {
     qdot_pool *pool = j->s->pool;
     const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "s"), zero = QDOT_ZERO;
@@ -200,7 +200,7 @@ is_unbalanced(qdot_judgement *j, const block *x, bool *yes)
                                           qdot_mul(pool, x->Gamma[i], s), x->H[i]});
     p = qdot_det(pool, qdot_matrix(pool, (uint32_t)x->n, (uint32_t)x->n, entry));
     detH = qdot_simplify(pool, qdot_subs(pool, p, 1, &s, &zero), &j->facts);
-    for (size_t k = 0; k < x->n; k++) { /* the coefficient of s^(2k+1), times (2k+1)! */
+    for (size_t k = 0; k < x->n; k++) { /* odd[k]: the coefficient of s^(2k+1), times (2k+1)! */
         p = qdot_diff(pool, p, s);
         odd[k] = qdot_simplify(pool, qdot_subs(pool, p, 1, &s, &zero), &j->facts);
         p = qdot_diff(pool, p, s);
@@ -211,7 +211,7 @@ is_unbalanced(qdot_judgement *j, const block *x, bool *yes)
     for (size_t k = 0; k + 1 < x->n && !*yes; k++)
         QDOT_TRY(is_nonzero(j, odd[k], yes));
     if (!*yes && x->n > 1)
-        QDOT_TRY(falls_where_zero(j, x->n - 1, odd, detH, yes));
+        QDOT_TRY(determinant_is_negative_where(j, x->n - 1, odd, detH, yes));
     return qdot_pool_check(pool);
 }
 
@@ -229,7 +229,7 @@ block_is_constant(const qdot_judgement *j, const block *x)
 }
 
 static qdot_status
-constant_block(qdot_judgement *j, const block *x, motion *what)
+judge_constant_block(qdot_judgement *j, const block *x, motion *what)
 {
     bool even = qdot_judgement_is_symmetric(j, x->n, x->M, 1) &&
                 qdot_judgement_is_symmetric(j, x->n, x->H, 1) &&
@@ -244,8 +244,8 @@ constant_block(qdot_judgement *j, const block *x, motion *what)
 /* Set *what by the sign of a form: `otherwise` if it is positive definite, GROWS if it is negative
  * somewhere. If the sign is not known, drop the conditions noted since `before`. */
 static void
-motion_settle(qdot_judgement *j, qdot_judgement_point before, qdot_definite how, motion otherwise,
-              motion *what)
+set_motion_by_sign(qdot_judgement *j, qdot_judgement_point before, qdot_definite how, motion otherwise,
+                   motion *what)
 {
     if (how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL) {
         *what = otherwise;
@@ -258,7 +258,7 @@ motion_settle(qdot_judgement *j, qdot_judgement_point before, qdot_definite how,
 }
 
 static qdot_status
-symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
+judge_symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
 {
     const qdot_judgement_point before = qdot_judgement_mark(j);
     bool undamped = qdot_judgement_is_symmetric(j, x->n, x->Gamma, -1),
@@ -266,16 +266,16 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
     qdot_definite how = QDOT_DEFINITE_UNKNOWN;
 
     if (!undamped && x->n <= 2)
-        QDOT_TRY(hurwitz(j, x, &how));
+        QDOT_TRY(judge_by_hurwitz(j, x, &how));
     else if (!undamped && potential)
-        QDOT_TRY(completely_damped(j, x, &how));
-    motion_settle(j, before, how, DECAYS, what);
+        QDOT_TRY(judge_completely_damped(j, x, &how));
+    set_motion_by_sign(j, before, how, DECAYS, what);
     if (*what != OPEN || !mass)
         return QDOT_OK;
     if (!undamped || !potential) {
         bool unbalanced;
 
-        QDOT_TRY(is_unbalanced(j, x, &unbalanced));
+        QDOT_TRY(has_unbalanced_roots(j, x, &unbalanced));
         *what = unbalanced ? GROWS : OPEN;
         if (unbalanced)
             return QDOT_OK;
@@ -289,23 +289,23 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
         /* two undamped coordinates may be stable although H is indefinite */
         if (how == QDOT_DEFINITE_CONDITIONAL && undamped && x->n == 2) {
             qdot_judgement_back_to(j, before);
-            QDOT_TRY(undamped_pair(j, x, &how));
-            motion_settle(j, before, how, BOUNDED, what);
+            QDOT_TRY(judge_undamped_pair(j, x, &how));
+            set_motion_by_sign(j, before, how, BOUNDED, what);
             if (*what != OPEN)
                 return QDOT_OK;
             QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));
         }
     }
-    motion_settle(j, before, how, BOUNDED, what);
+    set_motion_by_sign(j, before, how, BOUNDED, what);
     if (*what != OPEN || !undamped || x->n != 2)
         return QDOT_OK;
-    QDOT_TRY(undamped_pair(j, x, &how));
-    motion_settle(j, before, how, BOUNDED, what);
+    QDOT_TRY(judge_undamped_pair(j, x, &how));
+    set_motion_by_sign(j, before, how, BOUNDED, what);
     return QDOT_OK;
 }
 
 static qdot_status
-block_motion(qdot_judgement *j, const block *x, motion *what)
+judge_block(qdot_judgement *j, const block *x, motion *what)
 {
     bool mass;
 
@@ -314,13 +314,13 @@ block_motion(qdot_judgement *j, const block *x, motion *what)
     if (!mass && x->n != 1)
         return QDOT_OK;
     if (mass && block_is_constant(j, x))
-        QDOT_TRY(constant_block(j, x, what));
-    return *what == OPEN ? symbolic_block(j, x, mass, what) : QDOT_OK;
+        QDOT_TRY(judge_constant_block(j, x, what));
+    return *what == OPEN ? judge_symbolic_block(j, x, mass, what) : QDOT_OK;
 }
 
 /* --- motion of all blocks ----------------------------------------------------------------- */
 
-/* of [n]: the number of the block of each y; returns the number of blocks. */
+/* Set of[n] to the number of the block of coupled coordinates to which each y belongs; returns the number of blocks. */
 static size_t
 number_blocks(const qdot_linear_motion *m, size_t *of)
 {
@@ -348,7 +348,7 @@ number_blocks(const qdot_linear_motion *m, size_t *of)
 
 /* Copy block k; its matrices follow one another from x->M on. */
 static void
-pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
+copy_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
 {
     const qdot_expr *from[3] = {m->M, m->Gamma, m->H};
     qdot_expr *to = x->M;
@@ -366,15 +366,15 @@ pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
 
 /* Whether the motion of one block grows, decided without the conditions recorded for other blocks. */
 static qdot_status
-one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes)
+some_block_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes)
 {
     *yes = false;
     for (size_t k = 0; k < count && !*yes; k++) {
         const qdot_judgement_point before = qdot_judgement_mark(j);
         motion one;
 
-        pick_block(&j->m, of, k, x);
-        QDOT_TRY(block_motion(j, x, &one));
+        copy_block(&j->m, of, k, x);
+        QDOT_TRY(judge_block(j, x, &one));
         *yes = one == GROWS;
         if (!*yes)
             qdot_judgement_back_to(j, before);
@@ -387,20 +387,20 @@ one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes
 /* Judge the whole motion: GROWS if one block grows; else the weakest verdict of all blocks, under
  * all conditions. */
 static qdot_status
-whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
+judge_whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
 {
     const qdot_judgement_point before = qdot_judgement_mark(j);
     size_t count = number_blocks(&j->m, of);
     motion worst = DECAYS;
     bool grows;
 
-    QDOT_TRY(one_grows(j, of, count, x, &grows));
+    QDOT_TRY(some_block_grows(j, of, count, x, &grows));
     for (size_t k = 0; k < count && !grows; k++) {
         motion one;
 
-        pick_block(&j->m, of, k, x);
-        QDOT_TRY(block_motion(j, x, &one));
-        if (one == GROWS) /* its conditions may contradict those of another block */
+        copy_block(&j->m, of, k, x);
+        QDOT_TRY(judge_block(j, x, &one));
+        if (one == GROWS) /* decide growth alone, since the block's conditions may contradict those of another block */
             one = OPEN;
         worst = one > worst ? one : worst;
     }
@@ -421,7 +421,7 @@ qdot_stability_by_roots(qdot_judgement *j, qdot_equilibrium *e)
     qdot_status status = of == NULL || x.M == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     if (status == QDOT_OK && j->regular)
-        status = whole_motion(j, of, &x, &all);
+        status = judge_whole_motion(j, of, &x, &all);
     qdot_free(of);
     qdot_free(x.M);
     QDOT_TRY(status);

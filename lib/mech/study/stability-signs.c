@@ -18,7 +18,7 @@ enum { MOST_ASKED = 150 }; /* largest conditions (in operations) that are tested
 /* --- definite or not ---------------------------------------------------------------------- */
 
 static qdot_status
-claim(qdot_judgement *j, qdot_expr e)
+record_claim(qdot_judgement *j, qdot_expr e)
 {
     return (qdot_mech_holds(j->s, e) & QDOT_HAS_COORD) != 0 || qdot_solve_integers(j->s->pool, e) > 0
                ? qdot_vec_push(&j->claims, e)
@@ -32,7 +32,7 @@ qdot_judgement_ask(qdot_judgement *j, qdot_expr e, qdot_expr *answer)
     *answer = qdot_positive(j->s->pool, e, &j->facts, j->known.n, j->known.at);
     QDOT_TRY(qdot_pool_check(j->s->pool));
     if (*answer != QDOT_FALSE)
-        QDOT_TRY(claim(j, e));
+        QDOT_TRY(record_claim(j, e));
     if (*answer == QDOT_TRUE || *answer == QDOT_FALSE)
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&j->when, *answer));
@@ -45,7 +45,7 @@ qdot_judgement_mark(const qdot_judgement *j)
     return (qdot_judgement_point){j->when.n, j->known.n, j->claims.n};
 }
 
-/* Drop the conditions recorded since the mark: a refuted claim needs none. */
+/* Drop the conditions recorded since the mark m: a claim that was refuted needs no conditions. */
 void
 qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m)
 {
@@ -60,9 +60,9 @@ qdot_judgement_back_to(qdot_judgement *j, qdot_judgement_point m)
     j->claims.n = m.claims;
 }
 
-/* Leading minor number k of A [n*n], simplified. */
+/* The leading principal minor number k of the matrix A [n*n], simplified. */
 static qdot_expr
-minor_of(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
+leading_minor(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
 {
     qdot_pool *pool = j->s->pool;
     qdot_expr *part, e;
@@ -115,11 +115,11 @@ qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdo
         QDOT_TRY(qdot_pool_check(pool));
         if (sign == QDOT_TRUE) {
             *how = QDOT_NEGATIVE_SOMEWHERE;
-            return claim(j, qdot_neg(pool, A[i * n + i]));
+            return record_claim(j, qdot_neg(pool, A[i * n + i]));
         }
     }
     for (size_t k = 1; k <= n; k++) {
-        qdot_expr e = minor_of(j, n, A, k), answer;
+        qdot_expr e = leading_minor(j, n, A, k), answer;
         const bool first = j->when.n == before.when;
         bool zero, never = false;
 
@@ -137,7 +137,7 @@ qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdo
             if (zero || j->when.n > before.when)
                 return QDOT_OK;
             *how = QDOT_NEGATIVE_SOMEWHERE;
-            return claim(j, qdot_neg(pool, e));
+            return record_claim(j, qdot_neg(pool, e));
         }
         not_negative = qdot_conditions_and(pool, not_negative, qdot_rel(pool, QDOT_LE, QDOT_ZERO, e));
     }
@@ -193,7 +193,7 @@ qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma)
     return fine;
 }
 
-/* That no divisor of the places is 0, as a set of conditions. */
+/* The set of conditions that no divisor in the formulas of the equilibria is 0. */
 static qdot_expr
 divisors_differ_from_zero(const qdot_judgement *j)
 {
@@ -212,7 +212,7 @@ qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e, qdot_defi
 {
     qdot_pool *pool = j->s->pool;
     qdot_judgement_point before = qdot_judgement_mark(j);
-    qdot_expr not_negative = divisors_differ_from_zero(j); /* with 0 <= e for those before the present one */
+    qdot_expr not_negative = divisors_differ_from_zero(j); /* also 0 <= e for all e before the present one */
 
     for (size_t k = 0; k < n; k++) {
         qdot_expr below;
@@ -223,7 +223,7 @@ qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e, qdot_defi
         QDOT_TRY(qdot_pool_check(pool));
         *how = QDOT_NEGATIVE_SOMEWHERE;
         if (below == QDOT_TRUE)
-            return claim(j, qdot_neg(pool, e[k]));
+            return record_claim(j, qdot_neg(pool, e[k]));
     }
     *how = QDOT_DEFINITE_UNKNOWN;
     for (size_t k = 0; k < n; k++) {
@@ -245,7 +245,7 @@ qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e, qdot_defi
     return QDOT_OK;
 }
 
-/* Whether e != 0, with `above` e > 0, is proved wherever the facts and the noted conditions hold. */
+/* Whether e != 0 (or e > 0 if `above`) is proved wherever the facts and the noted conditions hold. */
 qdot_status
 qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above, bool *yes)
 {

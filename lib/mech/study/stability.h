@@ -17,11 +17,11 @@ typedef struct {
     bool timed;         /* the equations contain t explicitly */
     bool velocity_kink; /* the equations contain |q'|, sign(q') ...: no linear part at rest */
     qdot_expr at_rest;  /* a LIST of the equations at rest */
-    /* dry friction, as in qdot_rest; nil if there is none */
+    /* generalized forces and dry friction, as in struct qdot_rest; nil if there is no friction */
     qdot_expr forces, friction, slips;
     qdot_expr by_signs; /* forces with each jump written as a sign; nil: not known */
     qdot_expr nonzero; /* a LIST of expressions by which the results are divided; nil: none */
-    qdot_stability_numbers *numbers; /* scratch for numerical places, allocated at first use */
+    qdot_stability_numbers *numbers; /* working memory for equilibria given by numbers, allocated at first use */
     qdot_expr parameter; /* parameter left free by `bind`, with a value at each place; nil: none */
 } qdot_judge;
 

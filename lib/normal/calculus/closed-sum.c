@@ -18,7 +18,7 @@ typedef struct {
 } range;
 
 static qdot_status
-no_formula(void)
+fail_without_formula(void)
 {
     return qdot_fail(QDOT_EFAILED, "no formula is known");
 }
@@ -26,7 +26,7 @@ no_formula(void)
 /* Sums of k^0 ... k^p over 0..n, for negative n too: with them
  * (n+1)^(p+1) = sum_j binomial(p+1, j) S_j(n). */
 static qdot_status
-powers_up_to(range *r, long n, long p, qdot_expr *S)
+sums_of_powers(range *r, long n, long p, qdot_expr *S)
 {
     qdot_pool *pool = r->pool;
     const qdot_expr next = qdot_add(pool, qdot_expr_int(pool, n), QDOT_ONE);
@@ -52,13 +52,13 @@ sum_of_power(range *r, long p, qdot_expr *value)
     qdot_status status;
 
     if (p < 0 || p > MOST_POWER)
-        return no_formula();
+        return fail_without_formula();
     S = qdot_malloc(2 * ((size_t)p + 1) * sizeof *S);
     if (S == NULL)
         return QDOT_ENOMEM;
-    status = powers_up_to(r, r->last, p, S);
+    status = sums_of_powers(r, r->last, p, S);
     if (status == QDOT_OK)
-        status = powers_up_to(r, r->first - 1, p, S + p + 1);
+        status = sums_of_powers(r, r->first - 1, p, S + p + 1);
     if (status == QDOT_OK)
         *value = qdot_sub(r->pool, S[p], S[2 * p + 1]);
     qdot_free(S);
@@ -76,10 +76,10 @@ sum_of_geometric(range *r, qdot_expr base, qdot_expr exponent, qdot_expr *value)
 
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_expr_contains(pool, alpha, r->k))
-        return no_formula();
+        return fail_without_formula();
     rho = qdot_pow(pool, base, alpha);
     if (rho == QDOT_ONE)
-        return no_formula();
+        return fail_without_formula();
     sum = qdot_sub(pool, qdot_pow(pool, rho, qdot_expr_int(pool, r->first)),
                    qdot_pow(pool, rho, qdot_expr_int(pool, r->last + 1)));
     sum = qdot_div(pool, sum, qdot_sub(pool, QDOT_ONE, rho));
@@ -114,12 +114,12 @@ sum_of_product(range *r, qdot_expr e, qdot_expr *value)
             base = b;
             exponent = q;
         } else {
-            return no_formula();
+            return fail_without_formula();
         }
     }
     QDOT_TRY(qdot_pool_check(pool));
     if (base != QDOT_NIL && p > 0)
-        return no_formula();
+        return fail_without_formula();
     if (base != QDOT_NIL)
         QDOT_TRY(sum_of_geometric(r, base, exponent, &sum));
     else

@@ -21,7 +21,7 @@ enum { LEAST_EXPONENT = -100000, PASSES = 4 };
 
 /* Evaluate the constant e as x; exactly 0 if that is proved. */
 static qdot_status
-real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
+evaluate_constant(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
 {
     qdot_decision seen = {.verdict = QDOT_UNDECIDED};
     qdot_text text = {0};
@@ -64,7 +64,7 @@ text_distance(mpfr_srcptr x, const char *text)
 
 /* Round x to `digits` digits: *value is the exact decimal, *error its distance from x. */
 static qdot_status
-round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *error)
+round_to_digits(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *error)
 {
     qdot_text text = {0};
     mpfr_exp_t exponent;
@@ -104,9 +104,9 @@ qdot_decimal(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value, double 
     mpfr_t x;
 
     mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
-    status = real_of(pool, e, x);
+    status = evaluate_constant(pool, e, x);
     if (status == QDOT_OK)
-        status = round_to(pool, x, digits, value, error);
+        status = round_to_digits(pool, x, digits, value, error);
     if (status == QDOT_OK && *value == e)
         *error = 0;
     mpfr_clear(x);
@@ -122,7 +122,7 @@ typedef struct {
 } writer;
 
 static qdot_expr
-known(const writer *w, qdot_expr e)
+replaced_node(const writer *w, qdot_expr e)
 {
     return (qdot_expr)qdot_walk_get(w->walk, e);
 }
@@ -145,13 +145,13 @@ written(const writer *w, qdot_expr e, qdot_expr *value)
 
 /* Find the product c e with all its constant factors merged into one number. */
 static qdot_status
-product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
+decimal_product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
 {
     qdot_pool *pool = w->pool;
     qdot_expr rest = QDOT_ONE;
 
     if (qdot_expr_kind(pool, e) != QDOT_PROD) {
-        rest = known(w, e);
+        rest = replaced_node(w, e);
     } else {
         c = qdot_mul(pool, c, qdot_expr_arg(pool, e, 0));
         for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
@@ -161,8 +161,8 @@ product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
                 c = qdot_mul(pool, c, qdot_pow(pool, b, x));
             else
                 rest = qdot_mul(pool, rest,
-                                qdot_pow(pool, known(w, b),
-                                         qdot_expr_rational(pool, x) ? x : known(w, x)));
+                                qdot_pow(pool, replaced_node(w, b),
+                                         qdot_expr_rational(pool, x) ? x : replaced_node(w, x)));
         }
     }
     QDOT_TRY(written(w, c, &c));
@@ -171,7 +171,7 @@ product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
 }
 
 static qdot_status
-sum(const writer *w, qdot_expr e, qdot_expr *value)
+decimal_sum(const writer *w, qdot_expr e, qdot_expr *value)
 {
     qdot_pool *pool = w->pool;
     qdot_expr constant = qdot_expr_arg(pool, e, 0), term;
@@ -184,7 +184,7 @@ sum(const writer *w, qdot_expr e, qdot_expr *value)
             constant = qdot_add(pool, constant, qdot_mul(pool, c, t));
             continue;
         }
-        QDOT_TRY(product(w, c, t, &term));
+        QDOT_TRY(decimal_product(w, c, t, &term));
         *value = qdot_add(pool, *value, term);
     }
     QDOT_TRY(written(w, constant, &constant));
@@ -198,15 +198,15 @@ node(const writer *w, qdot_expr e, qdot_expr *value)
     if (is_number(w, e))
         return written(w, e, value);
     switch (qdot_expr_kind(w->pool, e)) {
-    case QDOT_SUM: return sum(w, e, value);
-    case QDOT_PROD: return product(w, QDOT_ONE, e, value);
+    case QDOT_SUM: return decimal_sum(w, e, value);
+    case QDOT_PROD: return decimal_product(w, QDOT_ONE, e, value);
     default: *value = qdot_walk_rebuild(w->pool, w->walk, e); return QDOT_OK;
     }
 }
 
 /* Write e with every constant subexpression replaced by a decimal. */
 static qdot_status
-with_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
+replace_constants_by_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
 {
     qdot_walk walk;
     writer w = {pool, &walk, digits};
@@ -221,7 +221,7 @@ with_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
             status = qdot_value_kind_check(pool, to);
         qdot_walk_set(&walk, walk.at[i], to);
     }
-    *value = status == QDOT_OK ? known(&w, e) : QDOT_NIL;
+    *value = status == QDOT_OK ? replaced_node(&w, e) : QDOT_NIL;
     qdot_walk_end(&walk);
     return status;
 }
@@ -234,7 +234,7 @@ qdot_decimals_beside_symbols(qdot_pool *pool, qdot_expr e, int digits, qdot_expr
     for (int pass = 0; pass < PASSES; pass++) {
         qdot_expr before = *value;
 
-        QDOT_TRY(with_decimals(pool, before, digits, value));
+        QDOT_TRY(replace_constants_by_decimals(pool, before, digits, value));
         if (*value == before)
             break;
     }

@@ -47,7 +47,7 @@ typedef struct {
     qdot_vec(qdot_expr) c;
 } laurent;
 
-static qdot_status laurent_of(course *x, qdot_expr e, long most, laurent *s);
+static qdot_status laurent_series(course *x, qdot_expr e, long most, laurent *s);
 
 /* --- the terms of the answer -------------------------------------------------------- */
 
@@ -67,9 +67,9 @@ is_nested(const course *x, qdot_expr term)
     return false;
 }
 
-/* The terms of one degree, with products of sums multiplied out. */
+/* The terms of one degree in the ray parameter, with products of sums multiplied out. */
 static qdot_expr
-multiplied_out(const course *x, qdot_expr scalar)
+expand_products(const course *x, qdot_expr scalar)
 {
     bool nested;
 
@@ -83,9 +83,9 @@ multiplied_out(const course *x, qdot_expr scalar)
     return nested ? qdot_expand(x->pool, scalar) : scalar;
 }
 
-/* e with ray = 1 and the original symbols instead of their distances from the expansion point. */
+/* The expression e with ray = 1 and the original symbols in place of their distances from the expansion point. */
 static qdot_expr
-in_symbols(const course *x, qdot_expr e)
+restore_symbols(const course *x, qdot_expr e)
 {
     const qdot_expr one = QDOT_ONE;
 
@@ -94,10 +94,10 @@ in_symbols(const course *x, qdot_expr e)
 }
 
 static qdot_status
-no_series(course *x, qdot_expr e, const char *why)
+fail_without_series(course *x, qdot_expr e, const char *why)
 {
     qdot_text text = {0};
-    qdot_expr shown = in_symbols(x, e);
+    qdot_expr shown = restore_symbols(x, e);
     qdot_status status = qdot_pool_check(x->pool);
 
     if (status == QDOT_OK)
@@ -112,14 +112,14 @@ no_series(course *x, qdot_expr e, const char *why)
 }
 
 static qdot_status
-check_switches(course *x, qdot_expr e)
+check_no_switches(course *x, qdot_expr e)
 {
     qdot_expr part;
 
     QDOT_TRY(qdot_switch_find(x->pool, e, x->ray, &x->facts, &part));
     return part == QDOT_NIL ? QDOT_OK
-                            : no_series(x, qdot_expr_is_scalar(x->pool, part) ? part : e,
-                                        "it switches at the point");
+                            : fail_without_series(x, qdot_expr_is_scalar(x->pool, part) ? part : e,
+                                                  "it switches at the point");
 }
 
 /* --- arithmetic of series ----------------------------------------------------------- */
@@ -131,14 +131,14 @@ coefficient(const laurent *s, long k)
 }
 
 static void
-laurent_drop(laurent *s)
+laurent_clear(laurent *s)
 {
     qdot_free(s->c.at);
     *s = (laurent){0};
 }
 
 static qdot_status
-coefficient_shorten(course *x, qdot_expr *e)
+shorten_coefficient(course *x, qdot_expr *e)
 {
     *e = qdot_simplify(x->pool, *e, &x->facts);
     return qdot_value_kind_check(x->pool, *e);
@@ -146,7 +146,7 @@ coefficient_shorten(course *x, qdot_expr *e)
 
 /* Drop leading coefficients of a series that are 0. */
 static void
-trim(course *x, laurent *s)
+drop_leading_zeros(course *x, laurent *s)
 {
     size_t zeros = 0;
 
@@ -160,7 +160,7 @@ trim(course *x, laurent *s)
 
 /* Multiply the series s by b, truncated after ray^most. */
 static qdot_status
-multiply(course *x, laurent *s, const laurent *b, long most)
+multiply_series(course *x, laurent *s, const laurent *b, long most)
 {
     laurent made = {.least = s->least + b->least};
     qdot_status status = QDOT_OK;
@@ -173,11 +173,11 @@ multiply(course *x, laurent *s, const laurent *b, long most)
                            qdot_mul(x->pool, coefficient(s, i), coefficient(b, k - i)));
         status = qdot_value_kind_check(x->pool, sum);
         if (status == QDOT_OK)
-            status = coefficient_shorten(x, &sum);
+            status = shorten_coefficient(x, &sum);
         if (status == QDOT_OK)
             status = qdot_vec_push(&made.c, sum);
     }
-    laurent_drop(s);
+    laurent_clear(s);
     *s = made;
     return status;
 }
@@ -204,7 +204,7 @@ laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, l
             a = qdot_div(pool, a, qdot_mul(pool, qdot_expr_int(pool, k), b->c.at[0]));
         }
         QDOT_TRY(qdot_value_kind_check(pool, a));
-        QDOT_TRY(coefficient_shorten(x, &a));
+        QDOT_TRY(shorten_coefficient(x, &a));
         QDOT_TRY(qdot_vec_push(&s->c, a));
         QDOT_TRY(qdot_interrupt_check());
     }
@@ -215,7 +215,7 @@ laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, l
 
 /* Whether e contains 0^a, whose value depends on a. */
 static bool
-holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
+contains_power_of_zero(const qdot_pool *pool, qdot_expr e)
 {
     qdot_walk w;
     bool found = false;
@@ -231,7 +231,7 @@ holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
     return found;
 }
 
-/* Find the coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN if one of them does not exist. */
+/* Find the Taylor coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN if one of them does not exist. */
 static qdot_status
 derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, laurent *s)
 {
@@ -242,9 +242,9 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
         if (k > 0 && e != QDOT_ZERO)
             e = qdot_div(x->pool, qdot_diff(x->pool, e, symbol), qdot_expr_int(x->pool, k));
         QDOT_TRY(qdot_value_kind_check(x->pool, e));
-        c = multiplied_out(x, qdot_subs(x->pool, e, 1, &symbol, &at));
+        c = expand_products(x, qdot_subs(x->pool, e, 1, &symbol, &at));
         QDOT_TRY(qdot_value_kind_check(x->pool, c));
-        if (holds_power_of_zero(x->pool, c))
+        if (contains_power_of_zero(x->pool, c))
             return QDOT_EDOMAIN;
         QDOT_TRY(qdot_vec_push(&s->c, c));
         QDOT_TRY(qdot_interrupt_check());
@@ -254,27 +254,27 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
 
 /* Find the order of the first term of e that does not vanish. */
 static qdot_status
-find_leading(course *x, qdot_expr e, long *least)
+find_leading_order(course *x, qdot_expr e, long *least)
 {
     for (long most = 4; most <= MOST_LEADING; most *= 2) {
         laurent s = {0};
-        qdot_status status = laurent_of(x, e, most, &s);
+        qdot_status status = laurent_series(x, e, most, &s);
         bool found;
 
         if (status == QDOT_OK)
-            trim(x, &s);
+            drop_leading_zeros(x, &s);
         found = s.c.n > 0;
         *least = s.least;
-        laurent_drop(&s);
+        laurent_clear(&s);
         QDOT_TRY(status);
         if (found)
             return QDOT_OK;
     }
-    return no_series(x, e, "no term of it is known to differ from 0");
+    return fail_without_series(x, e, "no term of it is known to differ from 0");
 }
 
 static qdot_status
-sum_of(course *x, qdot_expr e, long most, laurent *s)
+series_of_sum(course *x, qdot_expr e, long most, laurent *s)
 {
     const uint32_t n = qdot_expr_count(x->pool, e);
     laurent *parts = qdot_calloc(n + 1, sizeof *parts);
@@ -282,7 +282,7 @@ sum_of(course *x, qdot_expr e, long most, laurent *s)
     qdot_status status = parts == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
-        status = laurent_of(x, qdot_expr_arg(x->pool, e, i), most, &parts[i]);
+        status = laurent_series(x, qdot_expr_arg(x->pool, e, i), most, &parts[i]);
         least = parts[i].least < least ? parts[i].least : least;
     }
     s->least = least;
@@ -298,14 +298,14 @@ sum_of(course *x, qdot_expr e, long most, laurent *s)
             status = qdot_vec_push(&s->c, sum);
     }
     for (uint32_t i = 0; parts != NULL && i < n; i++)
-        laurent_drop(&parts[i]);
+        laurent_clear(&parts[i]);
     qdot_free(parts);
     return status;
 }
 
-/* Find the series of base^q up to ray^most, where base begins with ray^first. */
+/* Find the series of base^q up to the power ray^most, where the series of the base begins with ray^first. */
 static qdot_status
-power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
+series_of_power(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
 {
     laurent b = {0};
     long times = 0;
@@ -313,22 +313,22 @@ power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent 
 
     if (qdot_expr_contains(x->pool, q, x->ray) ||
         (first != 0 && !qdot_expr_to_int(x->pool, q, &times)))
-        return no_series(x, qdot_pow(x->pool, base, q), "it is no power series in the symbols");
+        return fail_without_series(x, qdot_pow(x->pool, base, q), "it is no power series in the symbols");
     if (times * first > most) {
         s->least = most + 1;
         return QDOT_OK;
     }
-    status = laurent_of(x, base, first + most - times * first, &b);
+    status = laurent_series(x, base, first + most - times * first, &b);
     if (status == QDOT_OK)
-        trim(x, &b);
+        drop_leading_zeros(x, &b);
     if (status == QDOT_OK)
         status = laurent_power(x, &b, q, times * first, most, s);
-    laurent_drop(&b);
+    laurent_clear(&b);
     return status;
 }
 
 static qdot_status
-product_of(course *x, qdot_expr e, long most, laurent *s)
+series_of_product(course *x, qdot_expr e, long most, laurent *s)
 {
     qdot_pool *pool = x->pool;
     const uint32_t n = qdot_expr_count(pool, e);
@@ -341,7 +341,7 @@ product_of(course *x, qdot_expr e, long most, laurent *s)
 
         if (!qdot_expr_contains(pool, base, x->ray))
             continue;
-        status = find_leading(x, base, &first[i]);
+        status = find_leading_order(x, base, &first[i]);
         if (status == QDOT_OK && first[i] != 0 && qdot_expr_to_int(pool, q, &times))
             total += times * first[i];
     }
@@ -365,17 +365,17 @@ product_of(course *x, qdot_expr e, long most, laurent *s)
             continue;
         if (first[i] != 0 && qdot_expr_to_int(pool, q, &times))
             own = times * first[i];
-        /* only to the order that is still needed after multiplying with the other factors */
-        status = power_of(x, base, q, first[i], most - (total - own), &part);
+        /* expand only to the order that is still needed after multiplying with the other factors */
+        status = series_of_power(x, base, q, first[i], most - (total - own), &part);
         if (status == QDOT_OK)
-            status = multiply(x, s, &part, most - total + s->least + own);
-        laurent_drop(&part);
+            status = multiply_series(x, s, &part, most - total + s->least + own);
+        laurent_clear(&part);
     }
     qdot_free(first);
     return status;
 }
 
-/* tan, cot, sec, csc as quotients of sine and cosine; other functions unchanged. */
+/* The functions tan, cot, sec, csc as quotients of sine and cosine; other functions unchanged. */
 static qdot_expr
 as_quotient(qdot_pool *pool, qdot_expr e)
 {
@@ -394,7 +394,7 @@ as_quotient(qdot_pool *pool, qdot_expr e)
 
 /* Find the series of f(a + h), where h has no term of order 0. */
 static qdot_status
-function_of(course *x, qdot_expr e, long most, laurent *s)
+series_of_function(course *x, qdot_expr e, long most, laurent *s)
 {
     qdot_pool *pool = x->pool;
     const qdot_expr z = qdot_symbol_get(pool, QDOT_FORMAL, "a place");
@@ -403,22 +403,22 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
     qdot_status status;
 
     if (node->n != 1)
-        return no_series(x, e, "a derivative does not exist at the point");
+        return fail_without_series(x, e, "a derivative does not exist at the point");
     const qdot_fun_id id = (qdot_fun_id)node->op;
     if (as_quotient(pool, e) != e)
-        return laurent_of(x, as_quotient(pool, e), most, s);
-    status = laurent_of(x, qdot_expr_arg(pool, e, 0), most, &inner);
+        return laurent_series(x, as_quotient(pool, e), most, s);
+    status = laurent_series(x, qdot_expr_arg(pool, e, 0), most, &inner);
     if (status == QDOT_OK)
-        trim(x, &inner);
+        drop_leading_zeros(x, &inner);
     if (status == QDOT_OK && inner.least < 0)
-        status = no_series(x, e, "its argument grows without bound at the point");
+        status = fail_without_series(x, e, "its argument grows without bound at the point");
     if (status == QDOT_OK &&
         qdot_switch_at(x->pool, id, coefficient(&inner, 0), &x->facts))
-        status = no_series(x, e, "it switches at the point");
+        status = fail_without_series(x, e, "it switches at the point");
     if (status == QDOT_OK) {
         status = derivatives(x, qdot_fun1(pool, id, z), z, coefficient(&inner, 0), most, &outer);
         if (status == QDOT_EDOMAIN)
-            status = no_series(x, e, "a derivative does not exist at the point");
+            status = fail_without_series(x, e, "a derivative does not exist at the point");
     }
     if (status == QDOT_OK && inner.c.n > 0 && inner.least == 0) {
         inner.c.at[0] = QDOT_ZERO;
@@ -426,13 +426,13 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
     s->least = 0;
     for (long k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner's scheme */
         if (s->c.n > 0)
-            status = multiply(x, s, &inner, most);
+            status = multiply_series(x, s, &inner, most);
         while (status == QDOT_OK && s->least > 0) { /* add zeros so that the list starts at order 0 */
             laurent whole = {0};
 
             for (long i = 0; i < s->least + (long)s->c.n && status == QDOT_OK; i++)
                 status = qdot_vec_push(&whole.c, coefficient(s, i));
-            laurent_drop(s);
+            laurent_clear(s);
             *s = whole;
         }
         if (status == QDOT_OK && s->c.n == 0)
@@ -440,14 +440,14 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
         if (status == QDOT_OK)
             s->c.at[0] = qdot_add(pool, s->c.at[0], coefficient(&outer, k));
     }
-    laurent_drop(&inner);
-    laurent_drop(&outer);
+    laurent_clear(&inner);
+    laurent_clear(&outer);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
 /* Find the series of e up to the power `most` of the variable. */
 static qdot_status
-laurent_of(course *x, qdot_expr e, long most, laurent *s)
+laurent_series(course *x, qdot_expr e, long most, laurent *s)
 {
     qdot_status status;
 
@@ -458,15 +458,15 @@ laurent_of(course *x, qdot_expr e, long most, laurent *s)
     status = derivatives(x, e, x->ray, QDOT_ZERO, most > 0 ? most : 0, s);
     if (status != QDOT_EDOMAIN)
         return status;
-    laurent_drop(s);
+    laurent_clear(s);
     if (x->depth >= MOST_DEPTH)
-        return no_series(x, e, "it is nested too deep");
+        return fail_without_series(x, e, "it is nested too deep");
     x->depth++;
     switch (qdot_expr_kind(x->pool, e)) {
-    case QDOT_SUM: status = sum_of(x, e, most, s); break;
-    case QDOT_PROD: status = product_of(x, e, most, s); break;
-    case QDOT_FUN: status = function_of(x, e, most, s); break;
-    default: status = no_series(x, e, "it is not defined at the point");
+    case QDOT_SUM: status = series_of_sum(x, e, most, s); break;
+    case QDOT_PROD: status = series_of_product(x, e, most, s); break;
+    case QDOT_FUN: status = series_of_function(x, e, most, s); break;
+    default: status = fail_without_series(x, e, "it is not defined at the point");
     }
     x->depth--;
     return status;
@@ -513,9 +513,9 @@ typedef struct {
     long most;
 } degree;
 
-/* The series of a scalar, along the ray u. */
+/* The Taylor series of a scalar along the ray through the expansion point. */
 static qdot_expr
-sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
+series_along_ray(qdot_pool *pool, qdot_expr scalar, void *user)
 {
     const degree *d = user;
     course *x = d->x;
@@ -524,30 +524,30 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
     qdot_status status = qdot_value_kind_check(pool, f);
 
     if (status == QDOT_OK)
-        status = check_switches(x, f);
+        status = check_no_switches(x, f);
     if (status == QDOT_OK)
-        status = laurent_of(x, f, d->most, &s);
+        status = laurent_series(x, f, d->most, &s);
     if (status == QDOT_OK)
         for (long k = s.least; k < 0 && status == QDOT_OK; k++)
             if (!qdot_is_zero(pool, coefficient(&s, k), &x->facts))
-                status = no_series(x, f, "it grows without bound at the point");
+                status = fail_without_series(x, f, "it grows without bound at the point");
     for (long k = 0; k <= d->most && status == QDOT_OK; k++) {
         qdot_expr c = qdot_circle_join(pool, coefficient(&s, k));
 
         if (!is_polynomial(x, c)) {
-            status = coefficient_shorten(x, &c);
+            status = shorten_coefficient(x, &c);
             if (status == QDOT_OK && !is_polynomial(x, c))
-                status = no_series(x, f, "its value depends on the path to the point");
+                status = fail_without_series(x, f, "its value depends on the path to the point");
         }
-        sum = qdot_add(pool, sum, multiplied_out(x, c));
+        sum = qdot_add(pool, sum, expand_products(x, c));
     }
-    laurent_drop(&s);
+    laurent_clear(&s);
     return status == QDOT_OK ? sum : qdot_pool_fail(pool);
 }
 
 /* Prepare the substitutions for an expansion about the point `at`. */
 static qdot_status
-series_set_ways(course *x, const qdot_expr *at)
+set_expansion_rays(course *x, const qdot_expr *at)
 {
     qdot_pool *pool = x->pool;
 
@@ -578,14 +578,14 @@ qdot_series(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, size_t n,
                 .n = n,
                 .symbols = symbols};
     degree d = {&x, most};
-    qdot_status status = series_set_ways(&x, at);
+    qdot_status status = set_expansion_rays(&x, at);
 
     if (status == QDOT_OK) {
-        qdot_expr sum = qdot_value_map(pool, e, sum_along, &d);
+        qdot_expr sum = qdot_value_map(pool, e, series_along_ray, &d);
 
         status = qdot_value_kind_check(pool, sum);
         if (status == QDOT_OK) {
-            *value = in_symbols(&x, sum);
+            *value = restore_symbols(&x, sum);
             status = qdot_value_kind_check(pool, *value);
         }
     }

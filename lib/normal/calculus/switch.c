@@ -15,7 +15,7 @@ typedef struct {
 } place;
 
 static bool
-vanishes(const place *x, qdot_expr e)
+vanishes_at_point(const place *x, qdot_expr e)
 {
     const qdot_expr zero = QDOT_ZERO;
     qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
@@ -27,20 +27,20 @@ vanishes(const place *x, qdot_expr e)
     return qdot_is_zero(x->pool, there, x->facts);
 }
 
-/* Whether two of the arguments, which depend on ray, are equal at the point. */
+/* Whether two of the arguments of a function (max, min), which depend on `ray`, are equal at the point. */
 static bool
 arguments_meet_at(const place *x, qdot_expr e)
 {
     for (uint32_t i = 0; i < qdot_expr_count(x->pool, e); i++)
         for (uint32_t k = 0; k < i; k++)
-            if (vanishes(x, qdot_sub(x->pool, qdot_expr_arg(x->pool, e, i),
-                                     qdot_expr_arg(x->pool, e, k))))
+            if (vanishes_at_point(x, qdot_sub(x->pool, qdot_expr_arg(x->pool, e, i),
+                                              qdot_expr_arg(x->pool, e, k))))
                 return true;
     return false;
 }
 
 static bool
-is_whole(qdot_pool *pool, qdot_expr there)
+is_integer_value(qdot_pool *pool, qdot_expr there)
 {
     return there != QDOT_NIL && qdot_expr_kind(pool, there) == QDOT_NUM &&
            qdot_fun1(pool, QDOT_FLOOR, there) == there;
@@ -51,7 +51,7 @@ qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there, const qdot_fact
 {
     if (id == QDOT_ABS || id == QDOT_SIGN)
         return qdot_is_zero(pool, there, facts);
-    return id == QDOT_FLOOR && is_whole(pool, there);
+    return id == QDOT_FLOOR && is_integer_value(pool, there);
 }
 
 /* Whether floor(e) jumps at the point because e is an integer there. */
@@ -59,7 +59,7 @@ static bool
 floor_jumps(const place *x, qdot_expr e)
 {
     const qdot_expr zero = QDOT_ZERO;
-    bool whole = is_whole(x->pool, qdot_subs(x->pool, e, 1, &x->ray, &zero));
+    bool whole = is_integer_value(x->pool, qdot_subs(x->pool, e, 1, &x->ray, &zero));
 
     (void)!qdot_pool_check(x->pool);
     return whole;
@@ -77,7 +77,7 @@ node_switches(const place *x, qdot_expr e)
         return false;
     switch ((qdot_fun_id)node->op) {
     case QDOT_ABS:
-    case QDOT_SIGN: return vanishes(x, qdot_expr_arg(pool, e, 0));
+    case QDOT_SIGN: return vanishes_at_point(x, qdot_expr_arg(pool, e, 0));
     case QDOT_MIN:
     case QDOT_MAX: return arguments_meet_at(x, e);
     case QDOT_FLOOR: return floor_jumps(x, qdot_expr_arg(pool, e, 0));

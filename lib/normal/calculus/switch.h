@@ -6,10 +6,10 @@
 #include "expr/function.h"
 #include "normal/field/facts.h"
 
-/* Find the first subexpression *part of e that switches at ray = 0; nil if none does. QDOT_ENOMEM. */
+/* Find the first subexpression *part of e that jumps or has a kink at ray = 0; nil if none does. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray,
                                              const qdot_facts *facts, qdot_expr *part);
-/* Whether a function of one argument switches where the argument has the value `there`. */
+/* Whether a function of one argument jumps or has a kink where the argument has the value `there`. */
 bool qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there,
                     const qdot_facts *facts);
 

@@ -13,7 +13,7 @@
 #define MOST_DEGREE 16
 
 static bool
-within_bounds(qdot_field *f, const fmpz_mpoly_t p)
+is_small_enough(qdot_field *f, const fmpz_mpoly_t p)
 {
     slong used = 0, length = fmpz_mpoly_length(p, f->ctx), total = 0;
     slong *degree;
@@ -48,9 +48,9 @@ factors_reserve(qdot_field *f, qdot_factors *out, slong n)
     return QDOT_OK;
 }
 
-/* Split off the integer content and the generators that divide p, then the rest. */
+/* Split off the integer content of p and the variables (generators) that divide p, then append the remaining factor. */
 static qdot_status
-by_monomials(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
+split_off_monomials(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
 {
     ulong *exp = qdot_malloc(((size_t)f->n + 1) * sizeof *exp);
     qdot_status status = QDOT_ENOMEM;
@@ -140,7 +140,7 @@ common_power(qdot_field *f, const fmpz_mpoly_t p)
 
 /* The square root of a term with even exponents; false if its coefficient is no square. */
 static bool
-root_of_term(qdot_field *f, fmpz_mpoly_t root, const fmpz_mpoly_t p, slong i)
+square_root_of_term(qdot_field *f, fmpz_mpoly_t root, const fmpz_mpoly_t p, slong i)
 {
     ulong *exp = qdot_malloc(((size_t)f->n + 1) * sizeof *exp);
     bool square;
@@ -165,8 +165,8 @@ root_of_term(qdot_field *f, fmpz_mpoly_t root, const fmpz_mpoly_t p, slong i)
 /* Binomials a M + b N, coprime: irreducible if the exponents have no common divisor; if
  * that is 2, only a difference of squares comes apart. *split: it did, into u and v. */
 static bool
-is_plain_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpoly_t v,
-                  bool *split)
+factor_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpoly_t v,
+                bool *split)
 {
     ulong power = common_power(f, p);
     fmpz_mpoly_t a, b;
@@ -179,7 +179,7 @@ is_plain_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpol
     fmpz_mpoly_init(a, f->ctx);
     fmpz_mpoly_init(b, f->ctx);
     *split = fmpz_sgn(p->coeffs + 0) * fmpz_sgn(p->coeffs + 1) < 0 &&
-             root_of_term(f, a, p, 0) && root_of_term(f, b, p, 1);
+             square_root_of_term(f, a, p, 0) && square_root_of_term(f, b, p, 1);
     if (*split) {
         fmpz_mpoly_add(u, a, b, f->ctx);
         fmpz_mpoly_sub(v, a, b, f->ctx);
@@ -192,7 +192,7 @@ is_plain_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpol
 /* Finish `out` (its monomials and the rest) without FLINT's factorisation, where that
  * shows. */
 static qdot_status
-at_a_glance(qdot_field *f, qdot_factors *out, bool *done)
+factor_without_flint(qdot_field *f, qdot_factors *out, bool *done)
 {
     fmpz_mpoly_struct *rest = out->poly + out->n - 1;
     fmpz_mpoly_t u, v;
@@ -204,7 +204,7 @@ at_a_glance(qdot_field *f, qdot_factors *out, bool *done)
     fmpz_mpoly_init(u, f->ctx);
     fmpz_mpoly_init(v, f->ctx);
     *done =
-        fmpz_mpoly_length(rest, f->ctx) == 2 && is_plain_binomial(f, rest, u, v, &split);
+        fmpz_mpoly_length(rest, f->ctx) == 2 && factor_binomial(f, rest, u, v, &split);
     if (*done && split) {
         fmpz_mpoly_swap(rest, u, f->ctx);
         fmpz_mpoly_init(out->poly + out->n, f->ctx);
@@ -233,13 +233,13 @@ qdot_factor(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
     bool done;
 
     QDOT_TRY(factors_begin(out));
-    QDOT_TRY(by_monomials(f, out, p));
+    QDOT_TRY(split_off_monomials(f, out, p));
     if (out->n == 0)
         return QDOT_OK;
-    QDOT_TRY(at_a_glance(f, out, &done));
+    QDOT_TRY(factor_without_flint(f, out, &done));
     if (done)
         return QDOT_OK;
-    if (!within_bounds(f, p)) {
+    if (!is_small_enough(f, p)) {
         out->complete = false;
         return QDOT_OK;
     }
@@ -265,7 +265,7 @@ qdot_factor(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
     if (done)
         return status;
     out->complete = false;
-    return by_monomials(f, out, p);
+    return split_off_monomials(f, out, p);
 }
 
 bool
@@ -293,7 +293,7 @@ qdot_factor_join(qdot_field *f, qdot_factors *factors)
             fmpz_mpoly_clear(factors->poly + factors->n, f->ctx);
             factors->complete = false;
             any = true;
-            j = i; /* the joined factor may also combine with an earlier one */
+            j = i; /* the joined factor may also combine with an earlier one, so that the search restarts */
         }
     fmpz_mpoly_clear(product, f->ctx);
     return any;
@@ -330,9 +330,9 @@ group_find_slot(const index_of *index, const qdot_groups *out, slong gens, const
             return k;
 }
 
-/* Make room for one more entry. */
+/* Make room for one more entry in the hash table. */
 static qdot_status
-grow_index(index_of *index, const qdot_groups *out, slong gens)
+enlarge_index(index_of *index, const qdot_groups *out, slong gens)
 {
     if (index->size >= 2 * ((size_t)out->n + 1))
         return QDOT_OK;
@@ -370,7 +370,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
             key[v] = by[v] ? rest[v] : 0;
             rest[v] = by[v] ? 0 : rest[v];
         }
-        status = grow_index(&index, out, gens);
+        status = enlarge_index(&index, out, gens);
         if (status != QDOT_OK)
             break;
         slot = group_find_slot(&index, out, gens, key);

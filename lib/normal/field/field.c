@@ -33,7 +33,7 @@ struct found {
 };
 
 static qdot_status
-add_gen(struct found *g, qdot_gen gen)
+add_generator(struct found *g, qdot_gen gen)
 {
     if (gen.expr == QDOT_NIL)
         return QDOT_EINVAL;
@@ -115,7 +115,7 @@ field_add_power(qdot_field *f, struct found *g, qdot_expr base, qdot_expr expone
 
     if (x == NULL || !fmpz_abs_fits_ui(fmpq_denref(x)) ||
         fmpz_cmp_ui(fmpq_denref(x), 10000) > 0)
-        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN,
+        return add_generator(g, (qdot_gen){.kind = QDOT_GEN_PLAIN,
                                      .expr = qdot_pow(f->pool, base, exponent)});
     q = fmpz_get_ui(fmpq_denref(x));
     if (q == 1)
@@ -141,7 +141,7 @@ add_offset_roots(qdot_field *f, struct found *g)
 }
 
 static qdot_status
-look_at_function(qdot_field *f, struct found *g, qdot_expr e)
+add_generators_of_function(qdot_field *f, struct found *g, qdot_expr e)
 {
     qdot_expr arg = qdot_expr_arg(f->pool, e, 0);
     uint32_t row;
@@ -159,8 +159,8 @@ look_at_function(qdot_field *f, struct found *g, qdot_expr e)
     case QDOT_EXP: return qdot_lattice_add(&f->exponential, f->pool, arg, false, &row);
     case QDOT_ABS:
         QDOT_TRY(nodes_push(g, arg));
-        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_ABS, .expr = e, .of = arg});
-    default: return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
+        return add_generator(g, (qdot_gen){.kind = QDOT_GEN_ABS, .expr = e, .of = arg});
+    default: return add_generator(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
     }
 }
 
@@ -169,7 +169,7 @@ look_at_function(qdot_field *f, struct found *g, qdot_expr e)
      QDOT_HAS_MOMENTUM | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA)
 
 static qdot_status
-look_at_node(qdot_field *f, struct found *g, qdot_expr e)
+add_generators_of_node(qdot_field *f, struct found *g, qdot_expr e)
 {
     qdot_pool *pool = f->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -177,7 +177,7 @@ look_at_node(qdot_field *f, struct found *g, qdot_expr e)
     switch (qdot_expr_kind(pool, e)) {
     case QDOT_NUM: return QDOT_OK;
     case QDOT_SYM:
-        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN,
+        return add_generator(g, (qdot_gen){.kind = QDOT_GEN_PLAIN,
                                      .expr = e,
                                      .fast = qdot_expr_node(pool, e)->holds & FAST});
     case QDOT_SUM:
@@ -189,14 +189,14 @@ look_at_node(qdot_field *f, struct found *g, qdot_expr e)
             QDOT_TRY(field_add_power(f, g, qdot_expr_arg(pool, e, i),
                                      qdot_expr_arg(pool, e, i + 1)));
         return QDOT_OK;
-    case QDOT_FUN: return look_at_function(f, g, e);
-    case QDOT_UFUN: return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
+    case QDOT_FUN: return add_generators_of_function(f, g, e);
+    case QDOT_UFUN: return add_generator(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
     default: return qdot_fail(QDOT_ETYPE, "a number is needed here");
     }
 }
 
 static int
-ascending(const void *a, const void *b)
+compare_ascending(const void *a, const void *b)
 {
     qdot_expr x = *(const qdot_expr *)a, y = *(const qdot_expr *)b;
 
@@ -226,7 +226,7 @@ field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr 
     for (size_t i = 0; i < n; i++)
         QDOT_TRY(nodes_push(g, e[i]));
     while (g->depth > 0 || rows < f->circular.n_rows) {
-        if (g->depth == 0) { /* new angles may lead to new roots */
+        if (g->depth == 0) { /* repeat, because new angles may lead to new roots */
             rows = f->circular.n_rows;
             QDOT_TRY(add_offset_roots(f, g));
             continue;
@@ -242,9 +242,9 @@ field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr 
         f->node[f->n_nodes++] = at;
         if (!qdot_field_charge(f, 8, 8 + node_length(f->pool, at)))
             return f->state == QDOT_FIELD_FAILED ? f->status : QDOT_ELIMIT;
-        QDOT_TRY(look_at_node(f, g, at));
+        QDOT_TRY(add_generators_of_node(f, g, at));
     }
-    qsort(f->node, f->n_nodes, sizeof *f->node, ascending);
+    qsort(f->node, f->n_nodes, sizeof *f->node, compare_ascending);
     for (size_t i = 0; i < f->n_nodes; i++)
         QDOT_TRY(qdot_map_set(&f->nodes, f->node[i], (uint32_t)i));
     return QDOT_OK;
@@ -268,8 +268,8 @@ merge_hyperbolic(qdot_field *f)
 }
 
 static qdot_status
-add_pairs(qdot_field *f, struct found *g, const qdot_lattice *l, qdot_fun_id s,
-          qdot_fun_id c, qdot_gen_kind ks, qdot_gen_kind kc)
+add_sine_cosine_pairs(qdot_field *f, struct found *g, const qdot_lattice *l, qdot_fun_id s,
+                      qdot_fun_id c, qdot_gen_kind ks, qdot_gen_kind kc)
 {
     for (size_t j = 0; j < l->n_bases; j++) {
         qdot_expr b = l->base[j];
@@ -330,7 +330,7 @@ compare_generators(const void *a, const void *b, void *pool)
 }
 
 static void
-pair_up(qdot_field *f)
+pair_sines_with_cosines(qdot_field *f)
 {
     for (slong i = 0; i < f->n; i++)
         for (slong j = i + 1; j < f->n; j++)
@@ -346,7 +346,7 @@ pair_up(qdot_field *f)
 /* Rules in the order of their variables; those of roots are filled in when the value of
  * the base is known (value.c). */
 static qdot_status
-make_rules(qdot_field *f)
+make_rewriting_rules(qdot_field *f)
 {
     ulong *exp = qdot_calloc((size_t)f->n + 1, sizeof *exp);
 
@@ -377,7 +377,7 @@ make_rules(qdot_field *f)
     return QDOT_OK;
 }
 
-/* Find the bases of a lattice; the work is charged to the budget. */
+/* Find base angles of which the arguments (a lattice) are integer combinations; the work is charged to the budget. */
 static qdot_status
 solve_lattice(qdot_field *f, qdot_lattice *l)
 {
@@ -401,13 +401,13 @@ field_settle_generators(qdot_field *f, struct found *g)
     QDOT_TRY(merge_hyperbolic(f));
     if (f->circular.n_rows > 0) {
         QDOT_TRY(solve_lattice(f, &f->circular));
-        QDOT_TRY(add_pairs(f, g, &f->circular, QDOT_SIN, QDOT_COS, QDOT_GEN_SIN,
-                           QDOT_GEN_COS));
+        QDOT_TRY(add_sine_cosine_pairs(f, g, &f->circular, QDOT_SIN, QDOT_COS, QDOT_GEN_SIN,
+                                       QDOT_GEN_COS));
     }
     if (f->hyperbolic.n_rows > 0) {
         QDOT_TRY(solve_lattice(f, &f->hyperbolic));
-        QDOT_TRY(add_pairs(f, g, &f->hyperbolic, QDOT_SINH, QDOT_COSH, QDOT_GEN_SINH,
-                           QDOT_GEN_COSH));
+        QDOT_TRY(add_sine_cosine_pairs(f, g, &f->hyperbolic, QDOT_SINH, QDOT_COSH, QDOT_GEN_SINH,
+                                       QDOT_GEN_COSH));
     }
     if (f->exponential.n_rows > 0) {
         QDOT_TRY(solve_lattice(f, &f->exponential));
@@ -418,12 +418,12 @@ field_settle_generators(qdot_field *f, struct found *g)
     f->gen = g->at;
     g->at = NULL;
     f->n = (slong)g->n;
-    pair_up(f);
+    pair_sines_with_cosines(f);
     for (slong v = 0; v < f->n; v++)
         QDOT_TRY(qdot_map_set(&f->vars, f->gen[v].expr, (uint32_t)v));
     fmpz_mpoly_ctx_init(f->ctx, f->n, ORD_LEX);
     f->has_ctx = true;
-    return make_rules(f);
+    return make_rewriting_rules(f);
 }
 
 void

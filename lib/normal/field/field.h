@@ -28,7 +28,7 @@ void qdot_field_end(qdot_field *f);
 /* The value of one of the e of qdot_field_begin; owned by the field. NULL if it
  * stopped. */
 const qdot_ratio *qdot_field_value(qdot_field *f, qdot_expr e);
-/* Set r to a cancelled copy of the value of e; the caller clears it. */
+/* Set r to the value of the expression e with common factors cancelled; the caller clears r. */
 void qdot_field_cancelled(qdot_field *f, qdot_ratio *r, qdot_expr e);
 
 #endif

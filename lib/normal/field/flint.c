@@ -14,7 +14,7 @@
 #include "base/memory.h"
 #include "base/scope.h"
 
-/* If FLINT's caches of a thread exceed this many bytes, the thread is ended. */
+/* If FLINT's caches in a thread exceed this many bytes, the thread is ended to free them. */
 #define KEPT ((size_t)64 << 20)
 /* Stack size: FLINT recurses over variables; unused address space costs nothing. */
 #define STACK ((size_t)64 << 20)
@@ -175,7 +175,7 @@ static struct {
 } before = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static void
-install(void)
+install_memory_functions(void)
 {
     pthread_mutex_lock(&before.lock);
     if (before.users++ == 0) {
@@ -199,7 +199,7 @@ install(void)
 }
 
 static void
-uninstall(void)
+restore_memory_functions(void)
 {
     pthread_mutex_lock(&before.lock);
     if (--before.users == 0) {
@@ -239,14 +239,14 @@ static pthread_key_t key;
 
 /* Carry out one computation. False: it was abandoned, so this thread must end with FLINT's caches. */
 static bool
-compute(worker *w)
+run_computation(worker *w)
 {
     w->status = qdot_scope_begin(&guard.own);
     if (w->status != QDOT_OK)
         return true;
     guard.cached = guard.library.bytes;
     guard.on = true;
-    install();
+    install_memory_functions();
     if (setjmp(guard.out) == 0) {
         w->work(w->user);
         guard.on = false;
@@ -256,12 +256,12 @@ compute(worker *w)
         qdot_scope_discard(&guard.own);
         w->status = guard.why;
     }
-    uninstall();
+    restore_memory_functions();
     return w->status == QDOT_OK;
 }
 
 static void *
-compute_for(void *user)
+worker_main(void *user)
 {
     worker *w = user;
     bool begun = qdot_scope_begin(&guard.library) == QDOT_OK;
@@ -276,7 +276,7 @@ compute_for(void *user)
         (void)qdot_fail_again(&w->error);
         if (!begun)
             w->status = qdot_fail(QDOT_ENOMEM, "out of memory");
-        w->state = begun && compute(w) && guard.library.bytes <= KEPT ? WAITING : ENDING;
+        w->state = begun && run_computation(w) && guard.library.bytes <= KEPT ? WAITING : ENDING;
         w->error = *qdot_last_error();
         pthread_cond_signal(&w->changed);
     }
@@ -307,7 +307,7 @@ worker_forget(void)
 }
 
 static void
-thread_ends(void *place)
+end_worker_of_thread(void *place)
 {
     worker **its = place;
 
@@ -318,9 +318,9 @@ thread_ends(void *place)
 }
 
 static void
-make_key(void)
+create_thread_key(void)
 {
-    (void)pthread_key_create(&key, thread_ends);
+    (void)pthread_key_create(&key, end_worker_of_thread);
     (void)pthread_atfork(NULL, NULL, worker_forget);
 }
 
@@ -335,14 +335,14 @@ worker_start_thread(void)
 
     if (w == NULL)
         return NULL;
-    pthread_once(&once, make_key);
+    pthread_once(&once, create_thread_key);
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->changed, NULL);
     pthread_attr_init(&attr);
     pthread_attr_setstacksize(&attr, STACK);
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &old);
-    refused = pthread_create(&w->thread, &attr, compute_for, w);
+    refused = pthread_create(&w->thread, &attr, worker_main, w);
     pthread_sigmask(SIG_SETMASK, &old, NULL);
     pthread_attr_destroy(&attr);
     if (refused) {

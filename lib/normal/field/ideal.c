@@ -11,7 +11,7 @@
 enum { MOST_PAIRS = 400, MOST_POLYS = 48, MOST_TERMS = 400 };
 
 static bool
-never_zero(qdot_field *f, const fmpz_mpoly_t p, bool generic)
+polynomial_never_zero(qdot_field *f, const fmpz_mpoly_t p, bool generic)
 {
     qdot_expr e = qdot_field_expr(f, p);
     const qdot_node *node;
@@ -23,7 +23,7 @@ never_zero(qdot_field *f, const fmpz_mpoly_t p, bool generic)
            (generic && !(node->holds & ~(uint32_t)QDOT_HAS_PARAM));
 }
 
-/* Remove from p powers and factors that never vanish; if nothing is left p stays as it is. */
+/* Remove from p all powers and factors that are never 0; if nothing else is left p stays as it is. */
 static qdot_status
 polynomial_strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
 {
@@ -34,7 +34,7 @@ polynomial_strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
     fmpz_mpoly_init(rest, f->ctx);
     fmpz_mpoly_one(rest, f->ctx);
     for (slong i = 0; i < factors.n && status == QDOT_OK; i++)
-        if (!never_zero(f, factors.poly + i, generic))
+        if (!polynomial_never_zero(f, factors.poly + i, generic))
             qdot_field_mul(f, rest, rest, factors.poly + i);
     if (status == QDOT_OK && !fmpz_mpoly_is_fmpz(rest, f->ctx))
         fmpz_mpoly_swap(p, rest, f->ctx);

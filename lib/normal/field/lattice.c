@@ -1,4 +1,4 @@
-/* lattice.c -- finds the directions of arguments of functions, their rank, and a basis for each direction. */
+/* lattice.c -- treats arguments of functions as vectors: finds their directions, rank, and base angles. */
 #include "normal/field/lattice.h"
 
 #include <flint/fmpq_mat.h>
@@ -55,7 +55,7 @@ lattice_add_term(qdot_lattice *l, qdot_lattice_row *row, qdot_expr mono, const f
 
 /* Write e = c * rest with a rational c, where the rest has no coefficient. */
 static qdot_expr
-unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
+split_off_coefficient(qdot_pool *pool, qdot_expr e, fmpq_t c)
 {
     qdot_expr first, inverse;
 
@@ -76,8 +76,8 @@ unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
 
 /* Parse an argument as c times a sum, or c times a term: 2*(x + y) is 2*x + 2*y. */
 static qdot_status
-parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
-      bool offsets)
+parse_argument(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
+               bool offsets)
 {
     qdot_status status = QDOT_OK;
     qdot_expr rest;
@@ -85,7 +85,7 @@ parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
 
     fmpq_init(c);
     fmpq_init(x);
-    rest = unscale(pool, arg, c);
+    rest = split_off_coefficient(pool, arg, c);
     if (rest == QDOT_NIL) {
         status = qdot_pool_check(pool);
     } else if (qdot_expr_kind(pool, rest) == QDOT_SUM) {
@@ -134,7 +134,7 @@ qdot_lattice_add(qdot_lattice *l, qdot_pool *pool, qdot_expr arg, bool offsets,
     for (size_t i = l->n_rows == FEW + 1 ? 0 : l->n_rows - 1;
          i < l->n_rows && l->n_rows > FEW; i++)
         QDOT_TRY(qdot_map_set(&l->rows, l->row[i].arg, (uint32_t)i));
-    return parse(l, pool, row, arg, offsets);
+    return parse_argument(l, pool, row, arg, offsets);
 }
 
 /* Set g to the greatest common divisor of the rationals g and c. */
@@ -165,8 +165,8 @@ lattice_set_coordinate(qdot_lattice_row *row, size_t j, const fmpq_t c, const fm
 }
 
 static qdot_expr
-combination(qdot_lattice *l, qdot_pool *pool, size_t n, const qdot_lattice_term *term,
-            const fmpq_t unit, const fmpq_t scalar)
+combine_terms(qdot_lattice *l, qdot_pool *pool, size_t n, const qdot_lattice_term *term,
+              const fmpq_t unit, const fmpq_t scalar)
 {
     qdot_expr *terms = qdot_malloc((n + 1) * sizeof *terms), sum;
     fmpq_t c;
@@ -186,14 +186,14 @@ combination(qdot_lattice *l, qdot_pool *pool, size_t n, const qdot_lattice_term 
 }
 
 struct direction {
-    size_t row; /* the row that defines the direction, with scalar 1 */
-    fmpq unit;  /* greatest common divisor of the rows' scalars */
+    size_t row; /* index of the argument that defines the direction; its scalar is 1 */
+    fmpq unit;  /* greatest common divisor of the scalars of all arguments in this direction */
 };
 
 /* Whether row b is a rational multiple of row a; *q is b/a. Terms are sorted by
  * monomial. */
 static bool
-parallel(const qdot_lattice_row *a, const qdot_lattice_row *b, fmpq_t q)
+are_parallel(const qdot_lattice_row *a, const qdot_lattice_row *b, fmpq_t q)
 {
     fmpq_t x;
     bool same = a->n == b->n && a->n > 0;
@@ -250,7 +250,7 @@ are_independent(const qdot_lattice *l, size_t n, const struct direction *d)
 }
 
 static qdot_status
-take_directions(qdot_lattice *l, qdot_pool *pool, size_t n, struct direction *d)
+use_directions_as_bases(qdot_lattice *l, qdot_pool *pool, size_t n, struct direction *d)
 {
     qdot_status status = QDOT_OK;
     fmpq_t one, q;
@@ -262,13 +262,13 @@ take_directions(qdot_lattice *l, qdot_pool *pool, size_t n, struct direction *d)
     for (size_t i = 0; i < n; i++) {
         const qdot_lattice_row *row = &l->row[d[i].row];
 
-        l->base[i] = combination(l, pool, row->n, row->term, &d[i].unit, one);
+        l->base[i] = combine_terms(l, pool, row->n, row->term, &d[i].unit, one);
         if (l->base[i] != QDOT_NIL && qdot_expr_is_negative(pool, l->base[i])) {
             l->base[i] = qdot_neg(pool, l->base[i]);
             fmpq_neg(&d[i].unit, &d[i].unit);
         }
         for (size_t r = 0; r < l->n_rows && status == QDOT_OK; r++)
-            if (parallel(row, &l->row[r], q))
+            if (are_parallel(row, &l->row[r], q))
                 status = lattice_set_coordinate(&l->row[r], i, q, &d[i].unit);
     }
     fmpq_clear(one);
@@ -277,7 +277,7 @@ take_directions(qdot_lattice *l, qdot_pool *pool, size_t n, struct direction *d)
 }
 
 static qdot_status
-take_monomials(qdot_lattice *l, qdot_pool *pool)
+use_monomials_as_bases(qdot_lattice *l, qdot_pool *pool)
 {
     qdot_status status = QDOT_OK;
     fmpq_t unit;
@@ -323,7 +323,7 @@ qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool)
         sort_terms(&l->row[r]);
         if (l->row[r].n == 0)
             continue;
-        while (i < n && !parallel(&l->row[d[i].row], &l->row[r], q))
+        while (i < n && !are_parallel(&l->row[d[i].row], &l->row[r], q))
             i++;
         if (i == n) {
             d[n].row = r;
@@ -334,8 +334,8 @@ qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool)
         }
     }
     if (status == QDOT_OK)
-        status = are_independent(l, n, d) ? take_directions(l, pool, n, d)
-                                      : take_monomials(l, pool);
+        status = are_independent(l, n, d) ? use_directions_as_bases(l, pool, n, d)
+                                      : use_monomials_as_bases(l, pool);
     for (size_t i = 0; i < n; i++)
         fmpq_clear(&d[i].unit);
     fmpq_clear(q);

@@ -36,14 +36,14 @@ typedef struct {
     size_t n_monos, monos_capacity;
     qdot_expr *base; /* [n_bases] the base angles */
     size_t n_bases;
-    qdot_map rows, monos; /* indices of rows and monomials by expression, used if there are many */
+    qdot_map rows, monos; /* indices of rows (arguments) and monomials by expression, used if there are many */
 } qdot_lattice;
 
 /* Add an argument (a sum of terms; twice is once). `offsets`: split multiples of pi off.
  * *row: its number. Errors: QDOT_ENOMEM, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_add(qdot_lattice *l, qdot_pool *pool,
                                              qdot_expr arg, bool offsets, uint32_t *row);
-/* The index of an argument that was added. False: it was not added. */
+/* Find the index of an argument that was added before. False: it was not added. */
 bool qdot_lattice_find(const qdot_lattice *l, qdot_expr arg, uint32_t *row);
 /* Find the bases and all coordinates. QDOT_ELIMIT: a coordinate beyond +-200. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool);

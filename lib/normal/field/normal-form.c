@@ -11,7 +11,7 @@
 enum { WORK = 4000000 };
 
 static qdot_expr
-normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
+normal_form_of_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     const qdot_facts *facts = user;
     size_t nr = facts == NULL ? 0 : facts->n_relations;
@@ -50,11 +50,11 @@ struct normalizing {
 };
 
 static void
-normal_value(void *user)
+compute_normal_form(void *user)
 {
     struct normalizing *x = user;
 
-    x->result = qdot_value_map(x->pool, x->e, normal_scalar, (void *)(uintptr_t)x->facts);
+    x->result = qdot_value_map(x->pool, x->e, normal_form_of_scalar, (void *)(uintptr_t)x->facts);
 }
 
 qdot_expr
@@ -65,7 +65,7 @@ qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    status = qdot_flint_run(pool, normal_value, &x);
+    status = qdot_flint_run(pool, compute_normal_form, &x);
     if (qdot_grave(status) != QDOT_OK)
         return qdot_pool_fail(pool);
     return status == QDOT_OK ? x.result : e;

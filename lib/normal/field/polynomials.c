@@ -3,9 +3,9 @@
 
 #include "base/memory.h"
 
-/* Hash the exponents and the low bits of the coefficients. False: no memory. */
+/* Hash the exponents and the low bits of the coefficients of p. False: no memory. */
 static bool
-hash_of(const qdot_field *f, const fmpz_mpoly_t p, uint64_t *hash)
+hash_polynomial(const qdot_field *f, const fmpz_mpoly_t p, uint64_t *hash)
 {
     ulong few[32], *exp = f->n > 32 ? qdot_malloc((size_t)f->n * sizeof *exp) : few;
 
@@ -25,7 +25,7 @@ hash_of(const qdot_field *f, const fmpz_mpoly_t p, uint64_t *hash)
 
 /* The slot of p, or the free slot where it belongs; the table has one. */
 static size_t
-polynomial_find_place(const qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p, uint64_t hash)
+find_polynomial_slot(const qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p, uint64_t hash)
 {
     size_t k = hash & (t->places - 1);
 
@@ -42,11 +42,11 @@ qdot_polynomials_find(qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly
 
     if (t->places == 0)
         return -1;
-    if (!hash_of(f, p, &hash)) {
+    if (!hash_polynomial(f, p, &hash)) {
         qdot_pool_fail(f->pool);
         return -1;
     }
-    return (slong)t->place[polynomial_find_place(f, t, p, hash)] - 1;
+    return (slong)t->place[find_polynomial_slot(f, t, p, hash)] - 1;
 }
 
 /* Make room for one more polynomial, with half of the slots free. */
@@ -67,7 +67,7 @@ polynomials_make_room(const qdot_field *f, qdot_polynomials *t)
     t->place = all;
     t->places = places;
     for (size_t i = 0; i < t->n; i++)
-        t->place[polynomial_find_place(f, t, t->at + i, t->hash[i])] = (uint32_t)i + 1;
+        t->place[find_polynomial_slot(f, t, t->at + i, t->hash[i])] = (uint32_t)i + 1;
     return QDOT_OK;
 }
 
@@ -77,12 +77,12 @@ qdot_polynomials_add(qdot_field *f, qdot_polynomials *t, const fmpz_mpoly_t p)
     uint64_t hash;
 
     QDOT_TRY(polynomials_make_room(f, t));
-    if (!hash_of(f, p, &hash))
+    if (!hash_polynomial(f, p, &hash))
         return QDOT_ENOMEM;
     fmpz_mpoly_init(t->at + t->n, f->ctx);
     fmpz_mpoly_set(t->at + t->n, p, f->ctx);
     t->hash[t->n] = hash;
-    t->place[polynomial_find_place(f, t, p, hash)] = (uint32_t)t->n + 1;
+    t->place[find_polynomial_slot(f, t, p, hash)] = (uint32_t)t->n + 1;
     t->n++;
     return QDOT_OK;
 }

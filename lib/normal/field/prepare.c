@@ -97,7 +97,7 @@ term_by_term(qdot_field *f, const fmpz_mpoly_t p, qdot_expr c)
 
 /* Write n/d as q + r/d, where no term of r is divisible by the leading term of d; d is irreducible. */
 static qdot_expr
-whole_and_rest(qdot_field *f, const qdot_ratio *x)
+quotient_and_remainder(qdot_field *f, const qdot_ratio *x)
 {
     qdot_expr over, sum = QDOT_NIL;
     fmpz_mpoly_t q, r, d;
@@ -129,7 +129,7 @@ whole_and_rest(qdot_field *f, const qdot_ratio *x)
 
 /* An angle as a sum of terms: a polynomial, and the remainder over the denominator. */
 static qdot_expr
-flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
+expand_angle(qdot_pool *pool, qdot_expr e, int64_t work)
 {
     qdot_expr sum = e;
     qdot_field f;
@@ -142,7 +142,7 @@ flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
 
         qdot_field_cancelled(&f, &r, e);
         if (qdot_field_goes(&f))
-            sum = whole_and_rest(&f, &r);
+            sum = quotient_and_remainder(&f, &r);
         if (!qdot_field_goes(&f))
             sum = e;
         qdot_ratio_clear(&f, &r);
@@ -169,7 +169,7 @@ prepare_root(qdot_pool *pool, qdot_expr e)
 /* s, c: sin and cos of an inverse circular function, sinh and cosh of an inverse
  * hyperbolic. */
 static bool
-of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr *c)
+sine_cosine_of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr *c)
 {
     qdot_expr u, v, r;
 
@@ -234,8 +234,8 @@ halve_angle(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr 
 
 /* Sine s and cosine c of n/d times an inverse function, d a power of 2; false for other arguments. */
 static bool
-part_of_inverse(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular, long *n,
-                qdot_expr *s, qdot_expr *c)
+sine_cosine_of_part(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular, long *n,
+                    qdot_expr *s, qdot_expr *c)
 {
     unsigned op = qdot_expr_kind(pool, e) == QDOT_FUN ? qdot_expr_node(pool, e)->op : 0;
     long d;
@@ -247,7 +247,7 @@ part_of_inverse(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular,
     d = fmpz_get_si(fmpq_denref(factor));
     *n = fmpz_get_si(fmpq_numref(factor));
     if ((d & (d - 1)) != 0 || (d > 1 && op == QDOT_ATAN2) ||
-        !of_inverse(pool, e, circular, s, c))
+        !sine_cosine_of_inverse(pool, e, circular, s, c))
         return false;
     first = op == QDOT_ACOS || op == QDOT_ACOSH;
     for (; d > 1; d /= 2) {
@@ -267,14 +267,14 @@ tangent_of_half(qdot_pool *pool, qdot_expr arg)
         qdot_expr_arg(pool, arg, 0) != QDOT_HALF || qdot_expr_arg(pool, arg, 2) != QDOT_ONE ||
         qdot_expr_kind(pool, qdot_expr_arg(pool, arg, 1)) != QDOT_FUN ||
         qdot_expr_node(pool, qdot_expr_arg(pool, arg, 1))->op != QDOT_ATAN2 ||
-        !of_inverse(pool, qdot_expr_arg(pool, arg, 1), true, &s, &c))
+        !sine_cosine_of_inverse(pool, qdot_expr_arg(pool, arg, 1), true, &s, &c))
         return QDOT_NIL;
     return qdot_div(pool, s, qdot_add(pool, QDOT_ONE, c));
 }
 
-/* The i-th term of an argument: coefficient and the rest. */
+/* The number of terms of a function's argument; the next function gives the i-th term: coefficient and rest. */
 static uint32_t
-argument_terms(const qdot_pool *pool, qdot_expr e)
+count_argument_terms(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_kind(pool, e) == QDOT_SUM ? (qdot_expr_count(pool, e) - 1) / 2 : 1;
 }
@@ -297,7 +297,7 @@ argument_term_at(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *c, qdot_ex
 /* A function of an argument that holds inverse functions, by the addition theorems; nil
  * if it holds none. */
 static qdot_expr
-resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
+resolve_inverse_functions(qdot_pool *pool, uint32_t op, qdot_expr arg)
 {
     bool circular = op != QDOT_SINH && op != QDOT_COSH && op != QDOT_TANH, any = false;
     qdot_expr left = arg, s = QDOT_ZERO, c = QDOT_ONE, s1, c1, s2, c2;
@@ -306,12 +306,12 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
     if (op == QDOT_TAN && (s1 = tangent_of_half(pool, arg)) != QDOT_NIL)
         return s1;
 
-    for (uint32_t i = 0; i < argument_terms(pool, arg); i++) {
+    for (uint32_t i = 0; i < count_argument_terms(pool, arg); i++) {
         qdot_expr factor, rest;
 
         argument_term_at(pool, arg, i, &factor, &rest);
-        if (!part_of_inverse(pool, rest, qdot_expr_rational(pool, factor), circular, &n,
-                             &s1, &c1))
+        if (!sine_cosine_of_part(pool, rest, qdot_expr_rational(pool, factor), circular, &n,
+                                 &s1, &c1))
             continue;
         any = true;
         left = qdot_sub(pool, left, qdot_mul(pool, factor, rest));
@@ -352,7 +352,7 @@ prepare_exponential(qdot_pool *pool, qdot_expr arg)
 {
     qdot_expr left = arg, product = QDOT_ONE;
 
-    for (uint32_t i = 0; i < argument_terms(pool, arg); i++) {
+    for (uint32_t i = 0; i < count_argument_terms(pool, arg); i++) {
         qdot_expr factor, rest, u;
 
         argument_term_at(pool, arg, i, &factor, &rest);
@@ -387,14 +387,14 @@ prepare_function(qdot_pool *pool, qdot_expr e, int64_t work)
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH:
-        arg = flat_angle(pool, arg, work);
+        arg = expand_angle(pool, arg, work);
         if (arg == QDOT_NIL)
             return arg;
-        resolved = resolve(pool, op, arg);
+        resolved = resolve_inverse_functions(pool, op, arg);
         return resolved != QDOT_NIL || qdot_pool_failed(pool) ? resolved
                                                               : qdot_fun1(pool, op, arg);
     case QDOT_EXP:
-        arg = flat_angle(pool, arg, work);
+        arg = expand_angle(pool, arg, work);
         return arg == QDOT_NIL ? arg : prepare_exponential(pool, arg);
     case QDOT_ABS: return qdot_split_abs(pool, arg);
     case QDOT_LOG: return qdot_split_log(pool, arg);
@@ -410,7 +410,7 @@ prepare_function(qdot_pool *pool, qdot_expr e, int64_t work)
 /* Remember that `now` stands where `before` stood; what cannot be kept is only
  * longer. */
 static void
-remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)
+record_origin(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)
 {
     if (origins != NULL && now != QDOT_NIL && now != before &&
         !qdot_map_get(origins, now, NULL) &&
@@ -421,8 +421,8 @@ remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)
 /* The base of a power x made of b, if b is left as a whole under the root, or the product of the
  * sums that it came apart into: (cosh(u) - cos(v))*(cosh(u) + cos(v)). */
 static void
-remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
-              qdot_expr b)
+record_origin_of_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
+                      qdot_expr b)
 {
     qdot_expr bases = QDOT_ONE;
 
@@ -438,7 +438,7 @@ remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
             return;
         bases = qdot_mul(pool, bases, base);
     }
-    remember(pool, origins, bases, b);
+    record_origin(pool, origins, bases, b);
 }
 
 /* Split powers with fractional exponents; normalise base and exponent of other powers. */
@@ -461,7 +461,7 @@ prepare_product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
         if (qdot_expr_to_int(pool, x, &k))
             power = qdot_pow(pool, b, x);
         else if (qdot_expr_kind(pool, x) == QDOT_NUM)
-            remember_base(pool, origins, power = qdot_split_power(pool, b, x), x, b);
+            record_origin_of_base(pool, origins, power = qdot_split_power(pool, b, x), x, b);
         else
             power = qdot_pow(pool, qdot_prepare_flat(pool, b, work),
                              qdot_prepare_flat(pool, x, work));
@@ -471,7 +471,7 @@ prepare_product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
 }
 
 static qdot_expr
-with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count, int64_t work)
+expand_arguments(qdot_pool *pool, qdot_expr e, uint32_t count, int64_t work)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr *args = qdot_malloc((n + 1) * sizeof *args), result;
@@ -499,20 +499,20 @@ prepare_node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins
     switch (qdot_expr_kind(pool, e)) {
     case QDOT_FUN: now = prepare_function(pool, e, work); break;
     case QDOT_PROD: return prepare_product(pool, e, origins, work);
-    case QDOT_UFUN: now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2, work); break;
-    case QDOT_REL: return with_flat_args(pool, e, 2, work);
+    case QDOT_UFUN: now = expand_arguments(pool, e, qdot_expr_count(pool, e) / 2, work); break;
+    case QDOT_REL: return expand_arguments(pool, e, 2, work);
     default: return e;
     }
     if (now != QDOT_NIL &&
         (qdot_expr_kind(pool, now) == QDOT_FUN || qdot_expr_kind(pool, now) == QDOT_UFUN))
-        remember(pool, origins, now, before);
+        record_origin(pool, origins, now, before);
     return now;
 }
 
 /* A failure that is only a wrong turn (a zero denominator found on the way) is
  * forgotten. */
 static bool
-recover(qdot_pool *pool)
+clear_harmless_failure(qdot_pool *pool)
 {
     qdot_status status = qdot_pool_check(pool);
 
@@ -553,7 +553,7 @@ qdot_prepare_from(qdot_pool *pool, qdot_expr e, qdot_map *origins)
         qdot_walk_set(&w, at, result);
     }
     qdot_walk_end(&w);
-    if (recover(pool))
+    if (clear_harmless_failure(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : e;
     return result;
 }

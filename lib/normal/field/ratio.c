@@ -102,9 +102,9 @@ qdot_ratio_set(qdot_field *f, qdot_ratio *r, const qdot_ratio *a)
     fmpz_mpoly_set(r->d, a->d, f->ctx);
 }
 
-/* Whether the denominator of a quotient turned out to be zero. */
+/* Set the field's state if the denominator of a quotient turned out to be zero. */
 static void
-look_at_denominator(qdot_field *f, qdot_ratio *r)
+check_denominator(qdot_field *f, qdot_ratio *r)
 {
     if (!fmpz_mpoly_is_zero(r->d, f->ctx))
         return;
@@ -137,7 +137,7 @@ qdot_ratio_add(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, const qdot_rat
     qdot_field_mul(f, y, b->n, u);
     fmpz_mpoly_add(r->n, x, y, f->ctx);
     qdot_field_mul(f, r->d, a->d, v);
-    look_at_denominator(f, r);
+    check_denominator(f, r);
     fmpz_mpoly_clear(g, f->ctx);
     fmpz_mpoly_clear(u, f->ctx);
     fmpz_mpoly_clear(v, f->ctx);
@@ -166,7 +166,7 @@ qdot_ratio_mul(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, const qdot_rat
         return;
     qdot_field_mul(f, r->n, a->n, b->n);
     qdot_field_mul(f, r->d, a->d, b->d);
-    look_at_denominator(f, r);
+    check_denominator(f, r);
     several = fmpz_mpoly_length(r->n, f->ctx) > 1 && fmpz_mpoly_length(r->d, f->ctx) > 1;
     if (several &&
         fmpz_mpoly_length(r->n, f->ctx) * fmpz_mpoly_length(r->d, f->ctx) < 2500)
@@ -191,9 +191,9 @@ qdot_ratio_div(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, const qdot_rat
     qdot_ratio_clear(f, &inverse);
 }
 
-/* An upper bound of the terms of a polynomial of `length` terms to the n-th. */
+/* An upper bound of the number of terms of the n-th power of a polynomial with `length` terms. */
 static slong
-terms_of_power(slong length, slong n)
+bound_terms_of_power(slong length, slong n)
 {
     double terms = 1;
 
@@ -213,13 +213,13 @@ poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, slong n)
         fmpz_mpoly_set(r, a, f->ctx);
         return;
     }
-    /* 2^n has n bits, and the budget counts only terms: numbers need a limit of their own */
+    /* limit n apart from the budget, which counts only terms: the number 2^n alone has n bits */
     if (n > 100000) {
         if (f->state == QDOT_FIELD_GOES && !fmpz_mpoly_is_one(a, f->ctx))
             f->state = QDOT_FIELD_OVER;
         return;
     }
-    if (!qdot_field_charge(f, terms_of_power(length, n), length > 1 ? length : 0))
+    if (!qdot_field_charge(f, bound_terms_of_power(length, n), length > 1 ? length : 0))
         return;
     fmpz_mpoly_pow_ui(r, a, (ulong)n, f->ctx);
     qdot_field_reduce(f, r);
@@ -238,7 +238,7 @@ qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n)
     poly_pow(f, r->d, a->d, n < 0 ? -n : n);
     if (n < 0)
         fmpz_mpoly_swap(r->n, r->d, f->ctx);
-    look_at_denominator(f, r);
+    check_denominator(f, r);
 }
 
 void

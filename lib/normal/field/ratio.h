@@ -24,9 +24,9 @@ typedef enum {
 
 typedef struct {
     qdot_gen_kind kind;
-    bool fast; /* a velocity, acceleration, multiplier, momentum, differential, delta */
+    bool fast; /* is a velocity, acceleration, multiplier, momentum, differential or delta */
     qdot_expr expr; /* the expression that the generator represents */
-    qdot_expr of;   /* ROOT, ABS: the argument b; sine, cosine, EXP: the base angle */
+    qdot_expr of;   /* ROOT, ABS: the argument b; sines, cosines, EXP: the base angle */
     uint32_t order; /* for ROOT: the degree q of the root */
     uint32_t pair;  /* SIN <-> COS, SINH <-> COSH: variable of the other function of this angle */
 } qdot_gen;
@@ -73,7 +73,7 @@ bool qdot_field_goes(const qdot_field *f);
 /* The variable of the field that stands for this generator; -1 if there is none. */
 slong qdot_field_var(const qdot_field *f, qdot_expr e);
 
-/* The rewriting rule for a power of that variable; NULL if there is none. */
+/* The rewriting rule for a power of the variable v; NULL if there is none. */
 qdot_rule *qdot_field_rule(const qdot_field *f, slong v);
 
 /* Split p = c primitive with an integer c, p not 0; positive: the leading coefficient of `primitive` is > 0. */
@@ -112,7 +112,7 @@ void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);
  * below; r becomes r'. */
 void qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r);
 
-/* The polynomial p (_ratio_expr: the quotient r) as an expanded expression. */
+/* The polynomial p as an expanded expression; qdot_ratio_expr: the quotient r as one. */
 qdot_expr qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p);
 qdot_expr qdot_field_ratio_expr(qdot_field *f, const qdot_ratio *r);
 

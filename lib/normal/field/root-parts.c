@@ -68,7 +68,7 @@ term_roots(qdot_pool *pool, qdot_expr term)
     return roots;
 }
 
-/* A term of expression j, with the row for its product of roots. */
+/* A term of expression j, with the index of the row to which its product of roots belongs. */
 struct placed {
     size_t row, j;
     qdot_expr term;
@@ -83,7 +83,7 @@ typedef struct {
 
 /* Record `term` of expression j in the row of its product of roots. */
 static qdot_status
-division_place_term(division *d, size_t j, qdot_expr term)
+record_term(division *d, size_t j, qdot_expr term)
 {
     const qdot_expr key = term_roots(d->pool, term);
     size_t k = d->first;
@@ -111,20 +111,20 @@ division_sort_terms(division *d, const qdot_expr *E)
         QDOT_TRY(qdot_pool_check(pool));
         if (qdot_expr_kind(pool, e) != QDOT_SUM) {
             if (e != QDOT_ZERO)
-                QDOT_TRY(division_place_term(d, j, e));
+                QDOT_TRY(record_term(d, j, e));
             continue;
         }
         if (qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
-            QDOT_TRY(division_place_term(d, j, qdot_expr_arg(pool, e, 0)));
+            QDOT_TRY(record_term(d, j, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2)
-            QDOT_TRY(division_place_term(d, j, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1),
-                                                        qdot_expr_arg(pool, e, i))));
+            QDOT_TRY(record_term(d, j, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1),
+                                                qdot_expr_arg(pool, e, i))));
     }
     return QDOT_OK;
 }
 
 static int
-by_entry(const void *left, const void *right)
+compare_by_entry(const void *left, const void *right)
 {
     const struct placed *a = left, *b = right;
 
@@ -140,13 +140,13 @@ division_add_terms(division *d)
     qdot_status status = QDOT_OK;
 
     if (d->placed.n > 0)
-        qsort(d->placed.at, d->placed.n, sizeof *d->placed.at, by_entry);
+        qsort(d->placed.at, d->placed.n, sizeof *d->placed.at, compare_by_entry);
     for (size_t i = 0; i < d->placed.n && status == QDOT_OK; i++) {
         const struct placed *p = d->placed.at + i;
 
         status = qdot_vec_push(&terms, p->term);
         if (status == QDOT_OK &&
-            (i + 1 == d->placed.n || by_entry(p, p + 1) != 0)) {
+            (i + 1 == d->placed.n || compare_by_entry(p, p + 1) != 0)) {
             d->to->entries.at[p->row * d->to->n + p->j] =
                 qdot_sum(d->pool, terms.n, terms.at);
             status = qdot_pool_check(d->pool);
@@ -163,7 +163,7 @@ qdot_root_parts_add(qdot_pool *pool, qdot_root_parts *parts, const qdot_expr *E)
     division d = {.pool = pool, .to = parts, .first = parts->roots.n};
     qdot_status status = division_sort_terms(&d, E);
 
-    if (status == QDOT_OK && parts->roots.n == d.first + 1) /* the factor as written, not expanded */
+    if (status == QDOT_OK && parts->roots.n == d.first + 1) /* keep the factor as it was written, not expanded */
         memcpy(parts->entries.at + d.first * parts->n, E, parts->n * sizeof *E);
     else if (status == QDOT_OK)
         status = division_add_terms(&d);

@@ -25,7 +25,7 @@ typedef struct {
 /* Expressions with at least this many roots of different sums are split. */
 enum { QDOT_ROOTS_MANY = 3 };
 
-/* Whether e contains at least QDOT_ROOTS_MANY such roots. */
+/* Whether e contains at least QDOT_ROOTS_MANY roots of different sums. */
 bool qdot_root_parts_many(qdot_pool *pool, qdot_expr e);
 
 /* Add the rows into which E [n] splits: itself if it has one part. Two forms of one base count as

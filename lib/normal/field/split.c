@@ -21,12 +21,12 @@ struct parts {
         long m;
     } * at;
     size_t n, capacity;
-    qdot_expr rest; /* product of factors whose single signs are unknown; 1: none */
+    qdot_expr rest; /* product of factors whose signs are not known one by one; 1: none */
     bool negative;  /* the value is minus the product; for parts of any sign */
 };
 
 static void
-init(struct parts *p)
+parts_init(struct parts *p)
 {
     *p = (struct parts){.rest = QDOT_ONE};
     fmpq_init(p->c);
@@ -176,7 +176,7 @@ qdot_split_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
 
     if (qdot_expr_kind(pool, b) == QDOT_NUM || qdot_expr_kind(pool, b) == QDOT_SYM)
         return qdot_pow(pool, b, x);
-    init(&p);
+    parts_init(&p);
     if (split_base(pool, b, true, &p) != QDOT_OK) {
         e = qdot_pow(pool, b, x);
     } else {
@@ -199,7 +199,7 @@ qdot_split_abs(qdot_pool *pool, qdot_expr b)
 
     if (qdot_expr_kind(pool, b) == QDOT_NUM || qdot_expr_kind(pool, b) == QDOT_SYM)
         return qdot_fun1(pool, QDOT_ABS, b);
-    init(&p);
+    parts_init(&p);
     if (split_base(pool, b, false, &p) != QDOT_OK) {
         e = qdot_fun1(pool, QDOT_ABS, b);
     } else {
@@ -269,7 +269,7 @@ qdot_split_log(qdot_pool *pool, qdot_expr b)
 
     if (qdot_expr_kind(pool, b) == QDOT_SYM)
         return qdot_fun1(pool, QDOT_LOG, b);
-    init(&p);
+    parts_init(&p);
     if (split_base(pool, b, true, &p) != QDOT_OK) {
         e = qdot_fun1(pool, QDOT_LOG, b);
     } else {

@@ -16,7 +16,7 @@ struct arguments {
 };
 
 static bool
-holds_functions(const qdot_pool *pool, qdot_expr e)
+contains_functions(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_scalar(pool, e) && qdot_expr_kind(pool, e) != QDOT_FUN &&
            (qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN);
@@ -42,7 +42,7 @@ arguments_gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr
         qdot_kind kind = qdot_expr_kind(pool, w.at[i]);
 
         for (uint32_t k = 0; kind == QDOT_FUN && k < qdot_expr_count(pool, w.at[i]); k++)
-            if (holds_functions(pool, qdot_expr_arg(pool, w.at[i], k)))
+            if (contains_functions(pool, qdot_expr_arg(pool, w.at[i], k)))
                 arguments_add(a, qdot_expr_arg(pool, w.at[i], k));
     }
     qdot_walk_end(&w);
@@ -51,7 +51,7 @@ arguments_gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr
 
 /* Compute all arguments as values of one field; false if the budget was exhausted. */
 static bool
-flatten(struct arguments *a, qdot_pool *pool)
+compute_arguments(struct arguments *a, qdot_pool *pool)
 {
     bool good;
     qdot_field f;
@@ -78,7 +78,7 @@ qdot_together(qdot_pool *pool, size_t n, qdot_expr *e, bool *changed)
 
     *changed = false;
     QDOT_TRY(arguments_gather(&a, pool, n, e));
-    if (a.n < 2 || !flatten(&a, pool))
+    if (a.n < 2 || !compute_arguments(&a, pool))
         return QDOT_OK;
     for (size_t i = 0; i < n; i++) {
         qdot_expr to = qdot_subs(pool, e[i], a.n, a.at, a.flat);

@@ -40,7 +40,7 @@ polynomials_add_up(qdot_field *f, slong n, fmpz_mpoly_struct *p)
 }
 
 static bool
-constant(qdot_field *f, const qdot_ratio *r, fmpz_t d)
+is_over_integer(qdot_field *f, const qdot_ratio *r, fmpz_t d)
 {
     if (!fmpz_mpoly_is_fmpz(r->d, f->ctx))
         return false;
@@ -58,7 +58,7 @@ node_value(qdot_field *f, qdot_expr e)
 
 /* Add the terms with constant denominators over one common denominator. */
 static qdot_status
-whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
+add_constant_denominator_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
 {
     qdot_pool *pool = f->pool;
     const qdot_expr *args = qdot_expr_args(pool, e);
@@ -73,7 +73,7 @@ whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
     fmpz_init(k);
     fmpz_init_set(all, fmpq_denref(c0));
     for (uint32_t i = 1; i < n; i += 2)
-        if (constant(f, node_value(f, args[i]), d)) {
+        if (is_over_integer(f, node_value(f, args[i]), d)) {
             fmpz_mul(d, d, fmpq_denref(qdot_expr_rational(pool, args[i + 1])));
             fmpz_lcm(all, all, d);
         }
@@ -85,7 +85,7 @@ whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
     for (uint32_t i = 1; i < n; i += 2) {
         const fmpq *c = qdot_expr_rational(pool, args[i + 1]);
 
-        if (!constant(f, node_value(f, args[i]), d))
+        if (!is_over_integer(f, node_value(f, args[i]), d))
             continue;
         fmpz_mul(d, d, fmpq_denref(c));
         fmpz_divexact(k, all, d);
@@ -114,11 +114,11 @@ value_of_sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
     qdot_ratio term;
     fmpz_t d;
 
-    QDOT_TRY(whole_terms(f, r, e));
+    QDOT_TRY(add_constant_denominator_terms(f, r, e));
     fmpz_init(d);
     qdot_ratio_init(f, &term);
     for (uint32_t i = 1; i < n && qdot_field_goes(f); i += 2)
-        if (!constant(f, node_value(f, args[i]), d)) {
+        if (!is_over_integer(f, node_value(f, args[i]), d)) {
             qdot_ratio_set(f, &term, node_value(f, args[i]));
             qdot_ratio_scale(f, &term, qdot_expr_rational(f->pool, args[i + 1]));
             qdot_ratio_add(f, r, r, &term);
@@ -240,7 +240,7 @@ value_of_product(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* Set c = T_n(x), s = y U_{n-1}(x), n >= 0: cos(n b) and sin(n b), or the hyperbolic functions. */
 static void
-multiple(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slong n)
+find_multiple_angle(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slong n)
 {
     fmpz_mpoly_t x, before_s, before_c, next;
 
@@ -306,7 +306,7 @@ angle_turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int
 
     fmpz_mpoly_init(s1, f->ctx);
     fmpz_mpoly_init(c1, f->ctx);
-    multiple(f, s1, c1, vs, (slong)f->gen[vs].pair, labs(n));
+    find_multiple_angle(f, s1, c1, vs, (slong)f->gen[vs].pair, labs(n));
     if (n < 0)
         fmpz_mpoly_neg(s1, s1, f->ctx);
     add_angles(f, s, c, s1, c1, sign);
@@ -386,7 +386,7 @@ lattice_row_of(const qdot_lattice *l, qdot_expr arg)
 }
 
 static slong
-sine_of(const qdot_field *f, qdot_expr base, qdot_gen_kind kind)
+find_generator_of_angle(const qdot_field *f, qdot_expr base, qdot_gen_kind kind)
 {
     for (slong v = 0; v < f->n; v++)
         if (f->gen[v].kind == kind && f->gen[v].of == base)
@@ -406,7 +406,7 @@ sine_cosine(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg, bool cir
     for (size_t j = 0; j < l->n_bases; j++)
         if (row->at[j] != 0)
             angle_turn(f, s->n, c->n,
-                       sine_of(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH),
+                       find_generator_of_angle(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH),
                        row->at[j], circular ? -1 : 1);
     if (circular && !fmpq_is_zero(&row->pi)) {
         add_pi_offset(f, s->n, c->n, &row->pi);
@@ -428,7 +428,7 @@ value_of_exponential(qdot_field *f, qdot_ratio *r, qdot_expr arg)
         if (row->at[j] == 0)
             continue;
         qdot_ratio_init(f, &factor);
-        fmpz_mpoly_gen(factor.n, sine_of(f, f->exponential.base[j], QDOT_GEN_EXP),
+        fmpz_mpoly_gen(factor.n, find_generator_of_angle(f, f->exponential.base[j], QDOT_GEN_EXP),
                        f->ctx);
         qdot_ratio_pow(f, &factor, &factor, row->at[j]);
         qdot_ratio_mul(f, r, r, &factor);
@@ -438,7 +438,7 @@ value_of_exponential(qdot_field *f, qdot_ratio *r, qdot_expr arg)
 
 /* Express sinh and cosh by the exponential E: sinh = (E - 1/E)/2, cosh = (E + 1/E)/2. */
 static void
-by_exponential(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg)
+write_hyperbolic_by_exponential(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg)
 {
     qdot_ratio e, inverse;
     fmpq_t half;
@@ -480,7 +480,7 @@ value_of_function(qdot_field *f, qdot_ratio *r, qdot_expr e)
     qdot_ratio_init(f, &one);
     fmpz_mpoly_one(one.n, f->ctx);
     if (hyperbolic && f->exponential.n_rows > 0)
-        by_exponential(f, &s, &c, arg);
+        write_hyperbolic_by_exponential(f, &s, &c, arg);
     else
         sine_cosine(f, &s, &c, arg, !hyperbolic);
     if (op == QDOT_SIN || op == QDOT_SINH)

@@ -30,7 +30,7 @@ common_divisor_of_groups(qdot_field *f, fmpz_mpoly_t g, const qdot_groups *group
 /* c p: the integers of both together go into the coefficient, where they may shorten it
  * (2 sin a cos a), denominators stand in front. */
 static qdot_expr
-say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
+write_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     fmpz_mpoly_t whole;
@@ -50,7 +50,7 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
     fmpz_one(fmpq_numref(k));
     e = scaled_by(f->pool, k, qdot_form_coefficient(form, whole));
     if (out != QDOT_NIL &&
-        /* if not longer, with the number in front: 2*(1 - x)*v' */
+        /* if not longer, write the number in front: 2*(1 - x)*v' */
         qdot_expr_size(f->pool, out) <= qdot_expr_size(f->pool, e))
         e = out;
     fmpz_clear(content);
@@ -62,7 +62,7 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
 /* c * coefficient * (sum of monomials in velocities), the sum primitive and not
  * negative. */
 static qdot_expr
-say_merged(qdot_form *form, const qdot_item *item, const fmpq_t c)
+write_merged(qdot_form *form, const qdot_item *item, const fmpq_t c)
 {
     qdot_field *f = form->f;
     fmpz_mpoly_t primitive;
@@ -75,7 +75,7 @@ say_merged(qdot_form *form, const qdot_item *item, const fmpq_t c)
     fmpz_mpoly_init(primitive, f->ctx);
     qdot_field_primitive(f, content, primitive, item->sum, true);
     fmpq_mul_fmpz(k, c, content);
-    e = qdot_mul(f->pool, say_scaled(form, k, item->key),
+    e = qdot_mul(f->pool, write_scaled(form, k, item->key),
                  fmpz_mpoly_length(primitive, f->ctx) == 1
                      ? qdot_field_expr(f, primitive)
                      : qdot_form_plain(form, primitive));
@@ -88,8 +88,8 @@ say_merged(qdot_form *form, const qdot_item *item, const fmpq_t c)
 /* c times the sum of coefficient * monomial, coefficients divided by g; like coefficients
  * together: (u^2 + v^2)*(du^2 + dv^2). */
 static qdot_expr
-say_collected(qdot_form *form, const qdot_groups *groups, const fmpz_mpoly_t g,
-              const fmpq_t c, bool merged)
+write_collected(qdot_form *form, const qdot_groups *groups, const fmpz_mpoly_t g,
+                const fmpq_t c, bool merged)
 {
     qdot_field *f = form->f;
     qdot_items items = {0};
@@ -110,12 +110,12 @@ say_collected(qdot_form *form, const qdot_groups *groups, const fmpz_mpoly_t g,
             status = qdot_items_add(f, &items, value, key);
         } else {
             sum = qdot_add(f->pool, sum,
-                           qdot_mul(f->pool, say_scaled(form, c, value),
+                           qdot_mul(f->pool, write_scaled(form, c, value),
                                     qdot_form_monomial(f, one, groups->key + i * f->n)));
         }
     }
     for (size_t i = 0; i < items.n && status == QDOT_OK; i++)
-        sum = qdot_add(f->pool, sum, say_merged(form, &items.at[i], c));
+        sum = qdot_add(f->pool, sum, write_merged(form, &items.at[i], c));
     qdot_items_clear(f, &items);
     fmpz_mpoly_clear(key, f->ctx);
     fmpz_mpoly_clear(value, f->ctx);
@@ -123,9 +123,9 @@ say_collected(qdot_form *form, const qdot_groups *groups, const fmpz_mpoly_t g,
     return status == QDOT_OK ? sum : qdot_pool_fail(f->pool);
 }
 
-/* Whether every monomial holds a velocity, acceleration ... */
+/* Whether every monomial contains a velocity, an acceleration or the like. */
 static bool
-all_moving(qdot_field *f, const qdot_groups *groups)
+all_contain_velocities(qdot_field *f, const qdot_groups *groups)
 {
     for (slong i = 0; i < groups->n; i++) {
         bool moving = false;
@@ -138,9 +138,9 @@ all_moving(qdot_field *f, const qdot_groups *groups)
     return true;
 }
 
-/* Whether the factor depends on time, as exp(c*t/m) in front of both kinetic and potential energy. */
+/* Whether the factor depends on time, such as exp(c*t/m) in front of both kinetic and potential energy. */
 static bool
-factor_holds_time(const qdot_form *form, const fmpz_mpoly_t g)
+factor_contains_time(const qdot_form *form, const fmpz_mpoly_t g)
 {
     qdot_field *f = form->f;
 
@@ -151,7 +151,7 @@ factor_holds_time(const qdot_form *form, const fmpz_mpoly_t g)
     return false;
 }
 
-/* Whether the expression is of first degree in velocities, as m*(x*y' - y*x' + w*x) is. */
+/* Whether the expression is of first degree in velocities, such as m*(x*y' - y*x' + w*x). */
 static bool
 is_linear_in_velocities(const qdot_form *form, const qdot_groups *groups)
 {
@@ -175,20 +175,20 @@ is_linear_in_velocities(const qdot_form *form, const qdot_groups *groups)
 /* Whether the sum is one thing, not a kinetic and a potential part: every term moves, or it stands
  * over a denominator, or it is of first degree in velocities. */
 static bool
-is_one_thing(const qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
+is_not_energy_sum(const qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
 {
     qdot_field *f = form->f;
 
-    if (form->quotient || all_moving(f, groups))
+    if (form->quotient || all_contain_velocities(f, groups))
         return true;
-    return factor_holds_time(form, g) || is_linear_in_velocities(form, groups);
+    return factor_contains_time(form, g) || is_linear_in_velocities(form, groups);
 }
 
 /* Whether g comes out as in a book: nothing of it is left in the quotients (m*L^2 comes
  * out of m*L^2*q'' + m*L^2*..., but L1 stays in (m1 + m2)*L1^2*q1'' + m2*L1*L2*..., if
  * not above a denominator), and it is not taken out of a sum of a kinetic and a potential part. */
 static bool
-goes_out_whole(qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
+factor_comes_out_whole(qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
 {
     qdot_field *f = form->f;
 
@@ -199,12 +199,12 @@ goes_out_whole(qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
             if (fmpz_mpoly_degree_si(groups->poly + i, v, f->ctx) > degree)
                 return false;
     }
-    return !fmpz_mpoly_is_fmpz(g, f->ctx) && is_one_thing(form, g, groups);
+    return !fmpz_mpoly_is_fmpz(g, f->ctx) && is_not_energy_sum(form, g, groups);
 }
 
 /* Whether a factor is a single generator that also occurs in another factor. */
 static bool
-comes_apart(qdot_field *f, const qdot_factors *factors)
+has_repeated_variable(qdot_field *f, const qdot_factors *factors)
 {
     for (slong i = 0; i < factors->n; i++) {
         slong v = 0;
@@ -222,7 +222,7 @@ comes_apart(qdot_field *f, const qdot_factors *factors)
 }
 
 static qdot_expr
-say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
+write_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
 {
     qdot_field *f = form->f;
     qdot_expr e = QDOT_NIL;
@@ -239,7 +239,7 @@ say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     fmpq_one(one);
     form->depth++;
     if ((factors.n > 1 || (factors.n == 1 && factors.exp[0] > 1)) &&
-        (form->quotient || comes_apart(f, &factors))) {
+        (form->quotient || has_repeated_variable(f, &factors))) {
         e = scaled_by(f->pool, c, qdot_form_integer(f->pool, factors.content));
         for (slong i = 0; i < factors.n; i++)
             e = qdot_mul(f->pool, e,
@@ -252,9 +252,9 @@ say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     return e;
 }
 
-/* The terms with and without velocities written separately: m*(x*y' - y*x') + 1/2*q*B*(x^2 + y^2). */
+/* Write the terms with velocities and those without separately: m*(x*y' - y*x') + 1/2*q*B*(x^2 + y^2). */
 static qdot_expr
-say_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
+write_moving_terms_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
 {
     qdot_field *f = form->f;
     qdot_expr still = QDOT_ZERO, e = QDOT_NIL;
@@ -267,7 +267,7 @@ say_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
         fmpz_mpoly_zero(monomial, f->ctx);
         fmpz_mpoly_push_term_si_ui(monomial, 1, groups->key + i * f->n, f->ctx);
         if (fmpz_mpoly_is_one(monomial, f->ctx)) {
-            still = say_scaled(form, c, groups->poly + i);
+            still = write_scaled(form, c, groups->poly + i);
             continue;
         }
         fmpz_mpoly_mul(monomial, monomial, groups->poly + i, f->ctx);
@@ -282,7 +282,7 @@ say_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
 }
 
 static ulong
-degree_of(const qdot_groups *groups, slong i, slong n)
+degree_in_velocities(const qdot_groups *groups, slong i, slong n)
 {
     ulong degree = 0;
 
@@ -292,10 +292,10 @@ degree_of(const qdot_groups *groups, slong i, slong n)
 }
 
 static bool
-all_of_degree(const qdot_groups *groups, slong n, ulong degree)
+all_have_degree(const qdot_groups *groups, slong n, ulong degree)
 {
     for (slong i = 0; i < groups->n; i++)
-        if (degree_of(groups, i, n) != degree)
+        if (degree_in_velocities(groups, i, n) != degree)
             return false;
     return true;
 }
@@ -303,7 +303,7 @@ all_of_degree(const qdot_groups *groups, slong n, ulong degree)
 /* What is of second degree in velocities, of first, of none, each by itself:
  * m*(x'^2 + y'^2)/2 + m*w*(x*y' - y*x') + m*w^2*(x^2 + y^2)/2. Nil: it is of one degree. */
 static qdot_expr
-say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
+write_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
 {
     enum { MOST_DEGREE = 8 };
     qdot_field *f = form->f;
@@ -312,9 +312,9 @@ say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
     int parts = 0;
 
     for (slong i = 0; i < groups->n; i++) {
-        if (degree_of(groups, i, f->n) > MOST_DEGREE)
+        if (degree_in_velocities(groups, i, f->n) > MOST_DEGREE)
             return QDOT_NIL;
-        /* polynomials in velocities only: an energy, not an equation of motion */
+        /* group by degree only polynomials in velocities alone, which are energies, not equations of motion */
         for (slong v = 0; v < f->n; v++)
             if (groups->key[i * f->n + v] > 0 &&
                 !(qdot_expr_node(f->pool, f->gen[v].expr)->holds & QDOT_HAS_VELOCITY))
@@ -325,7 +325,7 @@ say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
     for (ulong degree = 0; degree <= MOST_DEGREE; degree++) {
         fmpz_mpoly_zero(part, f->ctx);
         for (slong i = 0; i < groups->n; i++) {
-            if (degree_of(groups, i, f->n) != degree)
+            if (degree_in_velocities(groups, i, f->n) != degree)
                 continue;
             fmpz_mpoly_zero(monomial, f->ctx);
             fmpz_mpoly_push_term_si_ui(monomial, 1, groups->key + i * f->n, f->ctx);
@@ -334,7 +334,7 @@ say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
         }
         if (fmpz_mpoly_is_zero(part, f->ctx))
             continue;
-        if (all_of_degree(groups, f->n, degree))
+        if (all_have_degree(groups, f->n, degree))
             break;
         parts++;
         sum = qdot_add(f->pool, sum, qdot_form_say(form, part, c));
@@ -344,9 +344,9 @@ say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
     return parts > 1 ? sum : QDOT_NIL;
 }
 
-/* The terms grouped by their parameters: m1*(x1*y1' - y1*x1') + m2*(x2*y2' - y2*x2'). */
+/* Write the terms grouped by their parameters: m1*(x1*y1' - y1*x1') + m2*(x2*y2' - y2*x2'). */
 static qdot_expr
-say_by_parameters(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
+write_by_parameters(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
 {
     qdot_field *f = form->f;
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
@@ -397,35 +397,35 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     fmpz_mpoly_init(g, f->ctx);
     fmpz_mpoly_init(unit, f->ctx);
     fmpz_mpoly_one(unit, f->ctx);
-    qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, false));
+    qdot_form_keep(pool, &best, write_collected(form, &groups, unit, c, false));
     if (groups.n > 1) {
         qdot_expr out;
 
-        if (form->quotient && fmpz_is_one(fmpq_denref(c))) /* keep the integer as a factor: 2*(u*u' + v*v')/d */
+        if (form->quotient && fmpz_is_one(fmpq_denref(c))) /* keep an integer factor: 2*(u*u' + v*v')/d */
             qdot_form_keep(
                 pool, &best,
-                scaled_by(pool, c, say_collected(form, &groups, unit, one, false)));
-        qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, true));
+                scaled_by(pool, c, write_collected(form, &groups, unit, one, false)));
+        qdot_form_keep(pool, &best, write_collected(form, &groups, unit, c, true));
         common_divisor_of_groups(f, g, &groups);
         out = qdot_form_coefficient(form, g);
-        for (int merged = 0; merged < 2 && goes_out_whole(form, g, &groups); merged++) {
-            qdot_expr inner = say_collected(form, &groups, g, one, merged);
+        for (int merged = 0; merged < 2 && factor_comes_out_whole(form, g, &groups); merged++) {
+            qdot_expr inner = write_collected(form, &groups, g, one, merged);
 
             qdot_form_keep(pool, &best, qdot_mul(pool, scaled_by(pool, c, out), inner));
-            if (!all_moving(f, &groups)) /* a common factor in front: r^2*(m*phi' + 1/2*q*B) */
+            if (!all_contain_velocities(f, &groups)) /* try a common factor in front: r^2*(m*phi' + 1/2*q*B) */
                 qdot_form_keep(
                     pool, &best,
-                    qdot_mul(pool, out, say_collected(form, &groups, g, c, merged)));
+                    qdot_mul(pool, out, write_collected(form, &groups, g, c, merged)));
         }
-        if (is_one_thing(form, g, &groups))
-            qdot_form_keep(pool, &best, say_product(form, p, c));
-        if (!all_moving(f, &groups) && (form->quotient || is_linear_in_velocities(form, &groups)))
-            qdot_form_keep(pool, &best, say_apart(form, &groups, c));
+        if (is_not_energy_sum(form, g, &groups))
+            qdot_form_keep(pool, &best, write_product(form, p, c));
+        if (!all_contain_velocities(f, &groups) && (form->quotient || is_linear_in_velocities(form, &groups)))
+            qdot_form_keep(pool, &best, write_moving_terms_apart(form, &groups, c));
         if (form->depth == 0 && !form->quotient)
-            qdot_form_keep(pool, &best, say_by_degree(form, &groups, c));
+            qdot_form_keep(pool, &best, write_by_degree(form, &groups, c));
         if (!qdot_form_has_trig(form, p)) {
             if (is_linear_in_velocities(form, &groups))
-                qdot_form_keep(pool, &best, say_by_parameters(form, p, c));
+                qdot_form_keep(pool, &best, write_by_parameters(form, p, c));
             qdot_form_keep(pool, &best, qdot_form_squares(form, p, c));
         }
     }

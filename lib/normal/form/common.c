@@ -14,7 +14,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* The exponent of b in a term; nil if b is no factor. */
+/* The exponent of the base b in a term; nil if no power of b is a factor of the term. */
 static qdot_expr
 exponent_in(const qdot_pool *pool, qdot_expr term, qdot_expr b)
 {
@@ -28,9 +28,9 @@ exponent_in(const qdot_pool *pool, qdot_expr term, qdot_expr b)
     return QDOT_NIL;
 }
 
-/* The number of terms that contain b; *alike: always with the exponent x. */
+/* The number of terms of a sum that contain the factor b; *alike: always with the exponent x. */
 static uint32_t
-count_of(const qdot_pool *pool, qdot_expr sum, qdot_expr b, qdot_expr x, bool *alike)
+count_terms_with_factor(const qdot_pool *pool, qdot_expr sum, qdot_expr b, qdot_expr x, bool *alike)
 {
     uint32_t count = 0;
 
@@ -44,7 +44,7 @@ count_of(const qdot_pool *pool, qdot_expr sum, qdot_expr b, qdot_expr x, bool *a
     return count;
 }
 
-/* |c| if all coefficients are c or -c; 1 if all are integers; else 0. */
+/* The common coefficient of a sum: |c| if all are c or -c; 1 if all are integers; else 0. */
 static qdot_expr
 shared_number(qdot_pool *pool, qdot_expr sum)
 {
@@ -66,7 +66,7 @@ shared_number(qdot_pool *pool, qdot_expr sum)
 /* The shared factors of a SUM; 1: none. A factor that is in all, but not alike, leaves the sum as
  * it is: L1 stays in (m1 + m2)*L1^2*x'' + m2*L1*L2*y'', and m2 with it. */
 static qdot_expr
-factors_shared(qdot_pool *pool, qdot_expr sum)
+common_factors(qdot_pool *pool, qdot_expr sum)
 {
     qdot_expr term = qdot_expr_arg(pool, sum, 1), number = shared_number(pool, sum);
     bool product = qdot_expr_kind(pool, term) == QDOT_PROD, alike;
@@ -81,7 +81,7 @@ factors_shared(qdot_pool *pool, qdot_expr sum)
         qdot_expr x = product ? qdot_expr_arg(pool, term, i + 1) : QDOT_ONE;
 
         if ((qdot_expr_node(pool, b)->holds & fast) ||
-            count_of(pool, sum, b, x, &alike) < terms)
+            count_terms_with_factor(pool, sum, b, x, &alike) < terms)
             continue;
         if (!alike)
             return QDOT_ONE;
@@ -91,13 +91,13 @@ factors_shared(qdot_pool *pool, qdot_expr sum)
 }
 
 static qdot_expr
-of_sum(qdot_pool *pool, qdot_expr sum)
+factor_sum(qdot_pool *pool, qdot_expr sum)
 {
     qdot_expr c, rest = QDOT_ZERO;
 
     if (qdot_expr_arg(pool, sum, 0) != QDOT_ZERO || qdot_expr_count(pool, sum) < 5)
         return sum;
-    c = factors_shared(pool, sum);
+    c = common_factors(pool, sum);
     if (c == QDOT_ONE || c == QDOT_NIL)
         return sum;
     for (uint32_t i = 1; i < qdot_expr_count(pool, sum); i += 2)
@@ -111,7 +111,7 @@ of_sum(qdot_pool *pool, qdot_expr sum)
 
 /* The index of the only factor of a product that is a sum to the first power; 0 if there is none or several. */
 static uint32_t
-sole_sum(const qdot_pool *pool, qdot_expr product)
+only_sum_factor(const qdot_pool *pool, qdot_expr product)
 {
     uint32_t at = 0;
 
@@ -160,16 +160,16 @@ qdot_common_out(qdot_pool *pool, qdot_expr e)
     if (e == QDOT_NIL)
         return e;
     if (qdot_expr_kind(pool, e) == QDOT_SUM) {
-        other = of_sum(pool, e);
+        other = factor_sum(pool, e);
         return other != QDOT_NIL && qdot_expr_size(pool, other) < qdot_expr_size(pool, e)
                    ? other
                    : e;
     }
-    at = qdot_expr_kind(pool, e) == QDOT_PROD ? sole_sum(pool, e) : 0;
+    at = qdot_expr_kind(pool, e) == QDOT_PROD ? only_sum_factor(pool, e) : 0;
     if (at == 0)
         return e;
     sum = qdot_expr_arg(pool, e, at);
-    other = of_sum(pool, sum);
+    other = factor_sum(pool, sum);
     if (other != sum && other != QDOT_NIL) {
         other = qdot_mul(pool, qdot_div(pool, e, sum), other);
         return qdot_expr_size(pool, other) <= qdot_expr_size(pool, e) ? other : e;

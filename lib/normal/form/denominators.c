@@ -30,11 +30,11 @@ struct parts {
     struct part at[MOST_PARTS];
     slong n;
     qdot_groups groups;
-    fmpz_mpoly_t above, below; /* factors common to all numerators; to all denominators */
+    fmpz_mpoly_t above, below; /* factors common to all numerators; factors common to all denominators */
 };
 
 static slong
-weight(const qdot_field *f, const qdot_ratio *r)
+quotient_length(const qdot_field *f, const qdot_ratio *r)
 {
     return fmpz_mpoly_length(r->n, f->ctx) + fmpz_mpoly_length(r->d, f->ctx) +
            fmpz_mpoly_total_degree_si(r->d, f->ctx);
@@ -42,7 +42,7 @@ weight(const qdot_field *f, const qdot_ratio *r)
 
 /* Cancel a quotient, also with c^2 = 1 - s^2 for one angle if that cancels more. */
 static void
-cancel(qdot_field *f, qdot_ratio *r)
+cancel_quotient(qdot_field *f, qdot_ratio *r)
 {
     qdot_ratio x, from;
     int turns = 0;
@@ -60,10 +60,10 @@ cancel(qdot_field *f, qdot_ratio *r)
             qdot_factor_flip(f, x.d, from.d, v) == QDOT_OK && qdot_field_goes(f) &&
             !fmpz_mpoly_is_zero(x.d, f->ctx)) {
             qdot_ratio_cancel(f, &x);
-            /* reduce to cosines again, so that equal denominators are recognised */
+            /* reduce squares of sines to cosines again, so that equal denominators are recognised */
             qdot_field_reduce(f, x.n);
             qdot_field_reduce(f, x.d);
-            if (weight(f, &x) < weight(f, r))
+            if (quotient_length(f, &x) < quotient_length(f, r))
                 qdot_ratio_set(f, r, &x);
         }
         qdot_ratio_clear(f, &x);
@@ -71,7 +71,7 @@ cancel(qdot_field *f, qdot_ratio *r)
     qdot_ratio_clear(f, &from);
 }
 
-/* Compute the coefficients, each cancelled; false if there are too few or too many. */
+/* Compute the coefficients as cancelled fractions; false if there are too few or too many of them. */
 static bool
 fractions_begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
 {
@@ -95,7 +95,7 @@ fractions_begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmp
         one->said = false;
         fmpz_mpoly_set(one->r.n, p->groups.poly + i, f->ctx);
         fmpz_mpoly_set(one->r.d, r->d, f->ctx);
-        cancel(f, &one->r);
+        cancel_quotient(f, &one->r);
         qdot_ratio_content(f, one->k, &one->r);
         fmpq_mul(one->k, one->k, c);
         if (i == 0) {
@@ -124,7 +124,7 @@ fractions_end(struct parts *p)
 /* A denominator; its sign is free: sinh(u)^2 + sin(v)^2, not -(cos(v)^2 - cosh(u)^2); what its
  * terms share stands in front. */
 static qdot_expr
-say_below(struct parts *p, const fmpz_mpoly_t d)
+write_denominator(struct parts *p, const fmpz_mpoly_t d)
 {
     qdot_field *f = p->f;
     qdot_expr best, e, shared;
@@ -147,7 +147,7 @@ say_below(struct parts *p, const fmpz_mpoly_t d)
 
 /* Replace cos(a)/sin(a) by cot(a) where that is shorter. */
 static qdot_expr
-with_tangents(qdot_pool *pool, qdot_expr e)
+write_cotangents(qdot_pool *pool, qdot_expr e)
 {
     qdot_form_keep(pool, &e, qdot_products_tangents(pool, e));
     return e;
@@ -155,7 +155,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
 
 /* Write all fractions that have the same denominator as fraction i as one quotient. */
 static qdot_expr
-say_group(struct parts *p, slong i)
+write_fraction_group(struct parts *p, slong i)
 {
     qdot_field *f = p->f;
     const struct part *first = &p->at[i];
@@ -190,8 +190,8 @@ say_group(struct parts *p, slong i)
     qdot_field_primitive(f, k, sum, sum, false);
     fmpq_set_fmpz_frac(front, k, lcm);
     p->form->quotient = !fmpz_mpoly_is_one(first->r.d, f->ctx);
-    e = qdot_div(f->pool, qdot_form_say(p->form, sum, front), say_below(p, first->r.d));
-    e = with_tangents(f->pool, e);
+    e = qdot_div(f->pool, qdot_form_say(p->form, sum, front), write_denominator(p, first->r.d));
+    e = write_cotangents(f->pool, e);
     fmpz_mpoly_clear(sum, f->ctx);
     fmpz_mpoly_clear(term, f->ctx);
     fmpz_mpoly_clear(monomial, f->ctx);
@@ -202,7 +202,7 @@ say_group(struct parts *p, slong i)
 }
 
 static qdot_expr
-say_all(struct parts *p)
+write_all_fractions(struct parts *p)
 {
     qdot_expr sum = QDOT_ZERO;
 
@@ -210,7 +210,7 @@ say_all(struct parts *p)
         p->at[i].said = false;
     for (slong i = 0; i < p->n; i++)
         if (!p->at[i].said)
-            sum = qdot_add(p->f->pool, sum, say_group(p, i));
+            sum = qdot_add(p->f->pool, sum, write_fraction_group(p, i));
     return sum;
 }
 
@@ -218,7 +218,7 @@ say_all(struct parts *p)
 enum which { ABOVE = 1, BELOW = 2 };
 
 static qdot_expr
-sums_of(qdot_pool *pool, qdot_expr e, unsigned which)
+powers_of_sums(qdot_pool *pool, qdot_expr e, unsigned which)
 {
     qdot_expr sums = QDOT_ONE;
 
@@ -234,22 +234,22 @@ sums_of(qdot_pool *pool, qdot_expr e, unsigned which)
 }
 
 static void
-say_part(struct parts *p, struct part *one, unsigned which)
+write_fraction(struct parts *p, struct part *one, unsigned which)
 {
     qdot_pool *pool = p->f->pool;
     qdot_expr e;
 
     p->form->quotient = !fmpz_mpoly_is_one(one->r.d, p->f->ctx);
-    e = qdot_div(pool, qdot_form_say(p->form, one->r.n, one->k), say_below(p, one->r.d));
-    e = with_tangents(pool, e);
-    one->shared = e == QDOT_NIL ? e : sums_of(pool, e, which);
+    e = qdot_div(pool, qdot_form_say(p->form, one->r.n, one->k), write_denominator(p, one->r.d));
+    e = write_cotangents(pool, e);
+    one->shared = e == QDOT_NIL ? e : powers_of_sums(pool, e, which);
     one->own = qdot_div(pool, e, one->shared);
     one->said = false;
 }
 
 /* Write the factors of fraction i other than the sums, with like terms merged. */
 static qdot_expr
-say_beside(struct parts *p, slong i)
+write_other_factors(struct parts *p, slong i)
 {
     qdot_pool *pool = p->f->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -282,22 +282,22 @@ say_beside(struct parts *p, slong i)
 /* The parts with the same sums above or below together, what else there is with each:
  * (f_uu + f_u/u)/(u^2 + v^2). */
 static qdot_expr
-say_by_sums(struct parts *p, unsigned which)
+write_grouped_by_sums(struct parts *p, unsigned which)
 {
     qdot_pool *pool = p->f->pool;
     qdot_expr sum = QDOT_ZERO;
 
     for (slong i = 0; i < p->n; i++)
-        say_part(p, &p->at[i], which);
+        write_fraction(p, &p->at[i], which);
     for (slong i = 0; i < p->n; i++)
         if (!p->at[i].said)
-            sum = qdot_add(pool, sum, qdot_mul(pool, say_beside(p, i), p->at[i].shared));
+            sum = qdot_add(pool, sum, qdot_mul(pool, write_other_factors(p, i), p->at[i].shared));
     return sum;
 }
 
 /* Take common factors of all numerators and denominators out; false if there are none. */
 static bool
-take_out(struct parts *p)
+take_out_common_factors(struct parts *p)
 {
     qdot_field *f = p->f;
 
@@ -316,7 +316,7 @@ take_out(struct parts *p)
 /* What moves: derivatives of functions or differentials. Fractions over fractions are theirs, not
  * those of velocities and momenta. */
 static bool
-form_moves(const qdot_form *form, uint32_t differential)
+has_moving_functions(const qdot_form *form, uint32_t differential)
 {
     const qdot_field *f = form->f;
 
@@ -330,14 +330,14 @@ form_moves(const qdot_form *form, uint32_t differential)
 }
 
 static void
-say_each_way(struct parts *p, qdot_expr front, qdot_expr *best)
+try_all_groupings(struct parts *p, qdot_expr front, qdot_expr *best)
 {
     qdot_pool *pool = p->f->pool;
-    unsigned last = form_moves(p->form, 0) ? (ABOVE | BELOW) : ABOVE;
+    unsigned last = has_moving_functions(p->form, 0) ? (ABOVE | BELOW) : ABOVE;
 
-    qdot_form_keep(pool, best, qdot_mul(pool, front, say_all(p)));
+    qdot_form_keep(pool, best, qdot_mul(pool, front, write_all_fractions(p)));
     for (unsigned which = ABOVE; which <= last; which++)
-        qdot_form_keep(pool, best, qdot_mul(pool, front, say_by_sums(p, which)));
+        qdot_form_keep(pool, best, qdot_mul(pool, front, write_grouped_by_sums(p, which)));
 }
 
 void
@@ -348,14 +348,14 @@ qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c, qdot_e
     struct parts p;
 
     if (fractions_begin(&p, form, r, c)) {
-        say_each_way(&p, QDOT_ONE, best);
-        if (form_moves(form, QDOT_HAS_DIFFERENTIAL) && take_out(&p)) {
+        try_all_groupings(&p, QDOT_ONE, best);
+        if (has_moving_functions(form, QDOT_HAS_DIFFERENTIAL) && take_out_common_factors(&p)) {
             qdot_expr out = QDOT_NIL;
 
-            say_each_way(&p,
-                         qdot_div(pool, qdot_form_coefficient(form, p.above),
-                                  say_below(&p, p.below)),
-                         &out);
+            try_all_groupings(&p,
+                              qdot_div(pool, qdot_form_coefficient(form, p.above),
+                                       write_denominator(&p, p.below)),
+                              &out);
             if (out != QDOT_NIL && *best != QDOT_NIL &&
                 qdot_expr_size(pool, out) <= qdot_expr_size(pool, *best))
                 *best = out;

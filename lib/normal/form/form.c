@@ -77,7 +77,7 @@ qdot_form_integer(qdot_pool *pool, const fmpz_t n)
 /* p = c * monomial * rest, rest primitive with a positive leading coefficient; the
  * expression of the monomial. */
 static qdot_expr
-take_content(qdot_field *f, fmpz_mpoly_t rest, fmpz_t c, const fmpz_mpoly_t p)
+split_off_content(qdot_field *f, fmpz_mpoly_t rest, fmpz_t c, const fmpz_mpoly_t p)
 {
     ulong *exp = qdot_malloc(((size_t)f->n + 1) * sizeof *exp);
     fmpz_mpoly_t content;
@@ -139,8 +139,8 @@ best_power(qdot_field *f, const fmpz_mpoly_t p, ulong *power, slong *saved)
 
 /* Split p: q = the terms divisible by v^power, divided by it; r = the other terms. */
 static void
-part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong v,
-     ulong power)
+split_by_power(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong v,
+               ulong power)
 {
     slong length = fmpz_mpoly_length(p, f->ctx);
     fmpz_mpoly_t term, x;
@@ -162,10 +162,10 @@ part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong 
     fmpz_mpoly_clear(x, f->ctx);
 }
 
-/* Factor v^power out of the terms of `rest`; keep the result if it is the shortest form. */
+/* Factor v^power out of the terms of `rest`; keep the result in *best if it is the shortest form so far. */
 static void
-keep_collected(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
-               qdot_expr factor, qdot_expr plain, qdot_expr *best)
+try_collecting_power(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
+                     qdot_expr factor, qdot_expr plain, qdot_expr *best)
 {
     qdot_field *f = form->f;
     qdot_pool *pool = f->pool;
@@ -174,7 +174,7 @@ keep_collected(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
 
     fmpz_mpoly_init(q, f->ctx);
     fmpz_mpoly_init(r, f->ctx);
-    part(f, q, r, rest, v, power);
+    split_by_power(f, q, r, rest, v, power);
     collected = qdot_form_horner(form, q);
     /* of two equally short forms prefer the one that collects parameters: (m1 - m2)*x */
     if (collected == QDOT_NIL ||
@@ -205,7 +205,7 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
     fmpz_init(c);
     fmpz_mpoly_init(rest, f->ctx);
     form->depth++;
-    factor = take_content(f, rest, c, p);
+    factor = split_off_content(f, rest, c, p);
     factor = qdot_mul(pool, qdot_form_integer(pool, c), factor);
     plain = qdot_mul(pool, factor, qdot_field_expr(f, rest));
     if (fmpz_mpoly_length(rest, f->ctx) > 2) {
@@ -216,10 +216,10 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
         form->horner++;
         v = power == NULL ? -1 : best_power(f, rest, power, saved);
         if (v >= 0)
-            keep_collected(form, rest, v, power[v], factor, plain, &best);
+            try_collecting_power(form, rest, v, power[v], factor, plain, &best);
         for (slong w = v + 1; v >= 0 && w < f->n && all; w++)
             if (saved[w] == saved[v])
-                keep_collected(form, rest, w, power[w], factor, plain, &best);
+                try_collecting_power(form, rest, w, power[w], factor, plain, &best);
         form->horner--;
         qdot_free(power);
     }
@@ -232,7 +232,7 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
 
 /* Factor out the content, then complete squares. */
 static qdot_expr
-squares(qdot_form *form, const fmpz_mpoly_t p)
+complete_squares(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     fmpz_mpoly_t rest;
@@ -246,7 +246,7 @@ squares(qdot_form *form, const fmpz_mpoly_t p)
     fmpq_one(one);
     fmpz_init(c);
     fmpz_mpoly_init(rest, f->ctx);
-    factor = take_content(f, rest, c, p);
+    factor = split_off_content(f, rest, c, p);
     e = qdot_form_squares(form, rest, one);
     if (e != QDOT_NIL)
         e = qdot_mul(f->pool, qdot_mul(f->pool, qdot_form_integer(f->pool, c), factor),
@@ -258,11 +258,11 @@ squares(qdot_form *form, const fmpz_mpoly_t p)
 }
 
 static qdot_expr
-sum_or_squares(qdot_form *form, const fmpz_mpoly_t p)
+shorter_sum_or_squares(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_expr best = qdot_form_horner(form, p);
 
-    qdot_form_keep(form->f->pool, &best, squares(form, p));
+    qdot_form_keep(form->f->pool, &best, complete_squares(form, p));
     return best;
 }
 
@@ -292,7 +292,7 @@ collect_by_roots(qdot_form *form, const fmpz_mpoly_t p)
     fmpq_init(one);
     fmpq_one(one);
     fmpz_mpoly_init(rest, f->ctx);
-    front = take_content(f, rest, k, p);
+    front = split_off_content(f, rest, k, p);
     front = qdot_mul(f->pool, qdot_form_integer(f->pool, k), front);
     if (qdot_factor_group(f, &groups, rest, by) == QDOT_OK) {
         for (slong i = 0; i < groups.n && groups.n > 1; i++) {
@@ -312,14 +312,14 @@ collect_by_roots(qdot_form *form, const fmpz_mpoly_t p)
 }
 
 static qdot_expr
-plain_product(qdot_form *form, const qdot_factors *factors)
+write_plain_product(qdot_form *form, const qdot_factors *factors)
 {
     qdot_pool *pool = form->f->pool;
     qdot_expr product = qdot_form_integer(pool, factors->content);
 
     for (slong i = 0; i < factors->n; i++)
         product = qdot_mul(pool, product,
-                           qdot_pow_int(pool, sum_or_squares(form, factors->poly + i),
+                           qdot_pow_int(pool, shorter_sum_or_squares(form, factors->poly + i),
                                         factors->exp[i]));
     return product;
 }
@@ -336,7 +336,7 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
         return best;
     if (fmpz_mpoly_length(p, f->ctx) <= 1)
         return qdot_field_expr(f, p);
-    best = sum_or_squares(form, p);
+    best = shorter_sum_or_squares(form, p);
     if (fmpz_mpoly_length(p, f->ctx) <= 4) { /* multiply out short products: sign(x)*(1 - abs(x)) is sign(x) - x */
         qdot_expr sum = qdot_field_expr(f, p);
 
@@ -348,9 +348,9 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
         qdot_form_keep(f->pool, &best, collect_by_roots(form, p));
     if (fmpz_mpoly_length(p, f->ctx) > 2 || fmpz_mpoly_total_degree_si(p, f->ctx) > 1) {
         if (qdot_factor(f, &factors, p) == QDOT_OK) {
-            qdot_form_keep(f->pool, &best, plain_product(form, &factors));
+            qdot_form_keep(f->pool, &best, write_plain_product(form, &factors));
             if (qdot_factor_join(f, &factors))
-                qdot_form_keep(f->pool, &best, plain_product(form, &factors));
+                qdot_form_keep(f->pool, &best, write_plain_product(form, &factors));
         }
         qdot_factor_clear(f, &factors);
     }
@@ -361,7 +361,7 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
 
 /* Write coefficient * trigonometric factor; integers are moved to where they shorten it (2 sin a cos a). */
 static qdot_expr
-say_item(qdot_form *form, const fmpz_mpoly_t coefficient, const fmpz_mpoly_t trig)
+write_product_with_trig(qdot_form *form, const fmpz_mpoly_t coefficient, const fmpz_mpoly_t trig)
 {
     qdot_field *f = form->f;
     fmpz_mpoly_t primitive, scaled;
@@ -388,7 +388,7 @@ say_item(qdot_form *form, const fmpz_mpoly_t coefficient, const fmpz_mpoly_t tri
 /* Items keyed by trigonometric parts (or, `by_trig`, made by terms t first: equal
  * coefficients bring their t together). */
 static qdot_expr
-say_groups(qdot_form *form, const fmpz_mpoly_t p, bool by_trig)
+write_groups(qdot_form *form, const fmpz_mpoly_t p, bool by_trig)
 {
     qdot_field *f = form->f;
     bool *by = qdot_malloc((size_t)f->n + 1);
@@ -416,7 +416,7 @@ say_groups(qdot_form *form, const fmpz_mpoly_t p, bool by_trig)
     for (size_t i = 0; i < items.n && status == QDOT_OK; i++) {
         if (!by_trig) {
             sum =
-                qdot_add(f->pool, sum, say_item(form, items.at[i].sum, items.at[i].key));
+                qdot_add(f->pool, sum, write_product_with_trig(form, items.at[i].sum, items.at[i].key));
         } else { /* write the trigonometric sum group by group */
             qdot_items parts = {0};
             fmpz_mpoly_t unit;
@@ -427,7 +427,7 @@ say_groups(qdot_form *form, const fmpz_mpoly_t p, bool by_trig)
             status = qdot_items_add_parts(f, &parts, items.at[i].sum, unit);
             for (size_t k = 0; k < parts.n && status == QDOT_OK; k++)
                 inner = qdot_add(f->pool, inner,
-                                 say_item(form, parts.at[k].sum, parts.at[k].key));
+                                 write_product_with_trig(form, parts.at[k].sum, parts.at[k].key));
             sum = qdot_add(
                 f->pool, sum,
                 qdot_mul(f->pool, qdot_form_plain(form, items.at[i].key), inner));
@@ -453,7 +453,7 @@ qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p)
 
 /* Write the polynomial p as a sum. */
 static qdot_expr
-say_sum(qdot_form *form, const fmpz_mpoly_t p)
+write_as_sum(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_expr best = QDOT_NIL;
@@ -462,14 +462,14 @@ say_sum(qdot_form *form, const fmpz_mpoly_t p)
         return qdot_form_horner(form, p);
     if (fmpz_mpoly_length(p, f->ctx) > MOST_GROUPS)
         return qdot_field_expr(f, p);
-    qdot_form_keep(f->pool, &best, say_groups(form, p, false));
+    qdot_form_keep(f->pool, &best, write_groups(form, p, false));
     if (fmpz_mpoly_length(p, f->ctx) > 1)
-        qdot_form_keep(f->pool, &best, say_groups(form, p, true));
+        qdot_form_keep(f->pool, &best, write_groups(form, p, true));
     return best;
 }
 
 static qdot_expr
-product_of_sums(qdot_form *form, const qdot_factors *factors)
+write_product_of_sums(qdot_form *form, const qdot_factors *factors)
 {
     qdot_pool *pool = form->f->pool;
     qdot_expr e = qdot_form_integer(pool, factors->content);
@@ -477,21 +477,21 @@ product_of_sums(qdot_form *form, const qdot_factors *factors)
     for (slong i = 0; i < factors->n; i++)
         e = qdot_mul(
             pool, e,
-            qdot_pow_int(pool, say_sum(form, factors->poly + i), factors->exp[i]));
+            qdot_pow_int(pool, write_as_sum(form, factors->poly + i), factors->exp[i]));
     return e;
 }
 
 static qdot_expr
-say_factors(qdot_form *form, const fmpz_mpoly_t p)
+write_as_factors(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_expr e = QDOT_NIL;
     qdot_factors factors;
 
     if (qdot_factor(f, &factors, p) == QDOT_OK) {
-        e = product_of_sums(form, &factors);
-        if (qdot_factor_join(f, &factors)) /* two factors are one difference again: cosh(u)^2 - cos(v)^2 */
-            qdot_form_keep(f->pool, &e, product_of_sums(form, &factors));
+        e = write_product_of_sums(form, &factors);
+        if (qdot_factor_join(f, &factors)) /* try whether two factors form one difference again: cosh(u)^2 - cos(v)^2 */
+            qdot_form_keep(f->pool, &e, write_product_of_sums(form, &factors));
     }
     qdot_factor_clear(f, &factors);
     return e;
@@ -514,11 +514,11 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
     fmpz_init(c);
     fmpz_mpoly_init(rest, f->ctx);
     fmpz_mpoly_init(flipped, f->ctx);
-    qdot_form_keep(pool, &best, say_sum(form, p));
-    factor = take_content(f, rest, c, p);
+    qdot_form_keep(pool, &best, write_as_sum(form, p));
+    factor = split_off_content(f, rest, c, p);
     factor = qdot_mul(pool, qdot_form_integer(pool, c), factor);
     if (factor != QDOT_ONE && fmpz_mpoly_length(rest, f->ctx) > 1)
-        qdot_form_keep(pool, &best, qdot_mul(pool, factor, say_sum(form, rest)));
+        qdot_form_keep(pool, &best, qdot_mul(pool, factor, write_as_sum(form, rest)));
     if (fmpz_mpoly_length(rest, f->ctx) >= 4 && fmpz_mpoly_length(rest, f->ctx) <= 8) {
         fmpq_t one; /* try completed squares: (2 + v*cos(u/2))^2 + v^2/4 */
 
@@ -532,7 +532,7 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
     if (fmpz_mpoly_length(rest, f->ctx) > 1) {
         int flips = 0;
 
-        qdot_form_keep(pool, &best, qdot_mul(pool, factor, say_factors(form, rest)));
+        qdot_form_keep(pool, &best, qdot_mul(pool, factor, write_as_factors(form, rest)));
         for (slong v = 0; v < f->n && flips < MOST_FLIPS && qdot_field_goes(f); v++)
             if ((f->gen[v].kind == QDOT_GEN_COS || f->gen[v].kind == QDOT_GEN_COSH) &&
                 fmpz_mpoly_degree_si(rest, v, f->ctx) >= 2) {
@@ -540,7 +540,7 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
                 if (qdot_factor_flip(f, flipped, rest, v) == QDOT_OK &&
                     qdot_field_goes(f))
                     qdot_form_keep(pool, &best,
-                                   qdot_mul(pool, factor, say_factors(form, flipped)));
+                                   qdot_mul(pool, factor, write_as_factors(form, flipped)));
             }
     }
     fmpz_clear(c);

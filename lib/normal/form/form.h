@@ -16,7 +16,7 @@ typedef struct {
     qdot_polynomials known;
     qdot_expr *said; /* [known.n] the shortest form found for each polynomial */
     size_t said_capacity;
-    int depth, horner; /* nesting depth of products; number of powers taken out of sums */
+    int depth, horner; /* nesting depth of products now being written; number of powers taken out of sums */
     bool quotient; /* the polynomial is the numerator of a quotient */
 } qdot_form;
 
@@ -55,11 +55,11 @@ qdot_expr qdot_form_integer(qdot_pool *pool, const fmpz_t n);
 /* The shortest form of a polynomial in trigonometric variables only (trig-form.c). */
 qdot_expr qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p);
 
-/* The form of p found before, nil if none; store e as the form of p and return e. */
+/* The form of p found before, nil if none; the second function stores e as the form of p and returns e. */
 qdot_expr qdot_form_recall(const qdot_form *form, const fmpz_mpoly_t p);
 qdot_expr qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e);
 
-/* Replace *best (nil: none yet) by e if e is smaller. */
+/* Replace *best (nil: none yet) by the expression e if e has fewer operations. */
 void qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e);
 
 /* Write c * monomial, or a product of factors with exponents. */

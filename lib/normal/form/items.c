@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 
-/* Add key * value to the items: c key' * value, key' primitive. */
+/* Add key * value to the items: a key = c key' with primitive key' adds c value to the item of key'. */
 qdot_status
 qdot_items_add(qdot_field *f, qdot_items *items, const fmpz_mpoly_t key,
                const fmpz_mpoly_t value)

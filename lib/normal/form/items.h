@@ -1,4 +1,4 @@
-/* items.h -- sums of key * value over polynomials, like keys together. */
+/* items.h -- sums of key * value over polynomials; terms with the same key are added. */
 #ifndef QDOT_NORMAL_ITEMS_H
 #define QDOT_NORMAL_ITEMS_H
 
@@ -14,7 +14,7 @@ typedef struct {
     size_t n, capacity;
 } qdot_items;
 
-/* Add key * value: c key' * value, key' primitive. Errors: QDOT_ENOMEM. */
+/* Add key * value; the key is made primitive: key = c key', c value is added to the item of key'. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_items_add(qdot_field *f, qdot_items *items,
                                            const fmpz_mpoly_t key,
                                            const fmpz_mpoly_t value);

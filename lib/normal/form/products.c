@@ -10,9 +10,9 @@
 #include "expr/walk.h"
 #include "normal/form/common.h"
 
-/* Write sin(a)^m cos(a)^-n in a product as tan(a)^min(m, n) ..., likewise cot and tanh. */
+/* Write sin(a)^m cos(a)^-n in a product by tan(a)^min(m, n) and what remains, likewise cot and tanh. */
 static qdot_expr
-tangents(qdot_pool *pool, qdot_expr e, void *user)
+write_tangents(qdot_pool *pool, qdot_expr e, void *user)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr result = e;
@@ -56,7 +56,7 @@ tangents(qdot_pool *pool, qdot_expr e, void *user)
 }
 
 static bool
-all_negative(const qdot_pool *pool, qdot_expr sum)
+all_terms_negative(const qdot_pool *pool, qdot_expr sum)
 {
     uint32_t n = qdot_expr_count(pool, sum);
     bool all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, 0))) <= 0;
@@ -68,7 +68,7 @@ all_negative(const qdot_pool *pool, qdot_expr sum)
 
 /* Write (-a - b)*c as -(a + b)*c. */
 static qdot_expr
-signs_in_front(qdot_pool *pool, qdot_expr e, void *user)
+move_signs_to_front(qdot_pool *pool, qdot_expr e, void *user)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr few[24], *factor = few, result;
@@ -83,7 +83,7 @@ signs_in_front(qdot_pool *pool, qdot_expr e, void *user)
         qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1);
 
         if (qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_to_int(pool, x, &k) &&
-            all_negative(pool, b)) {
+            all_terms_negative(pool, b)) {
             any = true;
             b = qdot_neg(pool, b);
             if (k % 2 != 0)
@@ -99,7 +99,7 @@ signs_in_front(qdot_pool *pool, qdot_expr e, void *user)
 
 /* Multiply a fraction c into a sum if that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */
 static qdot_expr
-number_in(qdot_pool *pool, qdot_expr e)
+multiply_number_into_sum(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr sum, rest = QDOT_ZERO, c = qdot_expr_arg(pool, e, 0);
 
@@ -118,16 +118,16 @@ number_in(qdot_pool *pool, qdot_expr e)
                                                                                     : e;
 }
 
-/* As number_in, if the sum is one factor of a product: c (c1 a + ...) x. */
+/* Multiply the number c of a product c (c1 a + ...) x into its sum if that is shorter. */
 static qdot_expr
-number_into(qdot_pool *pool, qdot_expr e, void *user)
+multiply_number_into_factor(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr c = qdot_expr_arg(pool, e, 0);
 
     (void)user;
     if (qdot_expr_count(pool, e) == 3 ||
         fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))))
-        return number_in(pool, e);
+        return multiply_number_into_sum(pool, e);
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i), one, result;
 
@@ -137,7 +137,7 @@ number_into(qdot_pool *pool, qdot_expr e, void *user)
         one = qdot_mul(pool, c, b);
         if (one == QDOT_NIL || qdot_expr_kind(pool, one) != QDOT_PROD)
             continue;
-        one = number_in(pool, one);
+        one = multiply_number_into_sum(pool, one);
         if (one == QDOT_NIL || qdot_expr_kind(pool, one) != QDOT_SUM)
             continue;
         result = qdot_mul(pool, qdot_div(pool, e, qdot_mul(pool, c, b)), one);
@@ -150,24 +150,24 @@ number_into(qdot_pool *pool, qdot_expr e, void *user)
 qdot_expr
 qdot_products_numbers(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, e, QDOT_PROD, number_into, NULL);
+    return qdot_walk_replace(pool, e, QDOT_PROD, multiply_number_into_factor, NULL);
 }
 
 qdot_expr
 qdot_products_tangents(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, e, QDOT_PROD, tangents, NULL);
+    return qdot_walk_replace(pool, e, QDOT_PROD, write_tangents, NULL);
 }
 
 qdot_expr
 qdot_products_signs(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, e, QDOT_PROD, signs_in_front, NULL);
+    return qdot_walk_replace(pool, e, QDOT_PROD, move_signs_to_front, NULL);
 }
 
 /* Write sin(2 a) as 2 sin(a) cos(a). */
 static qdot_expr
-halved(qdot_pool *pool, qdot_expr e, void *user)
+expand_double_angle(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr a = qdot_expr_arg(pool, e, 0), half;
     bool even =
@@ -194,7 +194,7 @@ halved(qdot_pool *pool, qdot_expr e, void *user)
 /* The least power of a function in the terms of a sum, out: sin(a)*cos(a)*x + sin(a)^2*y =
  * sin(a)*(cos(a)*x + sin(a)*y). */
 static qdot_expr
-function_out(qdot_pool *pool, qdot_expr sum, void *user)
+take_out_function(qdot_pool *pool, qdot_expr sum, void *user)
 {
     qdot_expr first, best = sum;
 
@@ -237,6 +237,6 @@ function_out(qdot_pool *pool, qdot_expr sum, void *user)
 qdot_expr
 qdot_products_out(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, qdot_walk_replace(pool, e, QDOT_FUN, halved, NULL),
-                             QDOT_SUM, function_out, NULL);
+    return qdot_walk_replace(pool, qdot_walk_replace(pool, e, QDOT_FUN, expand_double_angle, NULL),
+                             QDOT_SUM, take_out_function, NULL);
 }

@@ -4,7 +4,7 @@
 
 #include "expr/id.h"
 
-/* e with sin(a)^m cos(a)^-n as tan(a)^k ..., likewise cot and tanh; nil if the pool failed. */
+/* The expression e with sin(a)^m cos(a)^-n as tan(a)^k ..., likewise cot and tanh; nil if the pool failed. */
 qdot_expr qdot_products_tangents(qdot_pool *pool, qdot_expr e);
 
 /* e with products such as (-a - b)*c as -(a + b)*c. */

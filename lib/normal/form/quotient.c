@@ -39,7 +39,7 @@ write_each_term(struct saying *s, const qdot_ratio *r, const fmpq_t c)
 /* The terms that share what is left of a monomial denominator together:
  * (m*r*x'^2 + m*g - c*x' + k*y)/m = r*x'^2 + g + (k*y - c*x')/m. */
 static qdot_expr
-spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
+write_by_denominator(struct saying *s, const qdot_ratio *r, const fmpq_t c)
 {
     qdot_field *f = s->f;
     qdot_items items = {0};
@@ -58,7 +58,7 @@ spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
             !fmpz_mpoly_divides(below, r->d, g, f->ctx) ||
             !fmpz_mpoly_divides(term, term, g, f->ctx))
             status = QDOT_EFAILED;
-        /* if the denominator is a monomial, numbers stay with the terms */
+        /* over a monomial denominator, numbers stay with the terms */
         if (status == QDOT_OK && fmpz_mpoly_length(below, f->ctx) == 1) {
             fmpz_mpoly_scalar_mul_fmpz(term, term, r->d->coeffs, f->ctx);
             fmpz_mpoly_scalar_divexact_fmpz(term, term, below->coeffs, f->ctx);
@@ -107,7 +107,7 @@ cancels(qdot_field *f, const fmpz_mpoly_t p, const fmpz_mpoly_t d)
 /* Whether a quotient with a monomial below may come apart: the coefficient of a monomial in
  * velocities cancels something of it, or a term of what does not move. */
 static bool
-comes_apart(const qdot_form *form, const qdot_ratio *r)
+may_split_quotient(const qdot_form *form, const qdot_ratio *r)
 {
     qdot_field *f = form->f;
     bool apart = false;
@@ -138,7 +138,7 @@ comes_apart(const qdot_form *form, const qdot_ratio *r)
 
 /* Write the denominator d as the shorter of d and -d; if they are equal, without a leading minus. */
 static qdot_expr
-say_below(struct saying *s, qdot_ratio *r, fmpq_t c)
+write_denominator(struct saying *s, qdot_ratio *r, fmpq_t c)
 {
     qdot_field *f = s->f;
     qdot_expr below = qdot_form_coefficient(s->form, r->d), best = below;
@@ -158,7 +158,7 @@ say_below(struct saying *s, qdot_ratio *r, fmpq_t c)
 /* A sum of first degree in undefined functions and their derivatives, nothing else moving, is
  * collected in them as in velocities: the Laplacian of f. */
 static void
-derivatives_move(qdot_form *form, const qdot_ratio *r)
+treat_derivatives_as_velocities(qdot_form *form, const qdot_ratio *r)
 {
     qdot_field *f = form->f;
     bool *moves = qdot_calloc((size_t)f->n + 1, sizeof *moves), linear = moves != NULL;
@@ -202,11 +202,11 @@ qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
     qdot_ratio_set(f, &r, from);
     qdot_ratio_content(f, c, &r);
     form->quotient = false;
-    derivatives_move(form, &r);
+    treat_derivatives_as_velocities(form, &r);
     if (!fmpz_mpoly_is_one(r.d, f->ctx)) {
-        bool apart = comes_apart(form, &r);
+        bool apart = may_split_quotient(form, &r);
 
-        qdot_expr below = say_below(s, &r, c);
+        qdot_expr below = write_denominator(s, &r, c);
 
         form->quotient = !apart;
         e = qdot_div(s->pool, qdot_form_say(s->form, r.n, c), below);
@@ -217,7 +217,7 @@ qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
             fmpz_mpoly_length(r.n, f->ctx) <= MOST_SPREAD)
             qdot_form_keep(s->pool, s->best, write_each_term(s, &r, c));
         if (apart && fmpz_mpoly_length(r.n, f->ctx) > 1)
-            qdot_form_keep(s->pool, s->best, spread_alike(s, &r, c));
+            qdot_form_keep(s->pool, s->best, write_by_denominator(s, &r, c));
         qdot_form_say_apart(form, &r, c, s->best);
     } else {
         qdot_form_keep(s->pool, s->best, qdot_form_say(s->form, r.n, c));

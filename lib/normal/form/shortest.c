@@ -36,7 +36,7 @@ struct simplifier {
 };
 
 static void
-shortest_keep(struct simplifier *s, qdot_expr e)
+keep_if_shortest(struct simplifier *s, qdot_expr e)
 {
     qdot_form_keep(s->pool, &s->best, e);
 }
@@ -65,9 +65,9 @@ cosines_to_sines(qdot_field *f, qdot_ratio *r, const qdot_ratio *from, slong v)
     return qdot_field_goes(f);
 }
 
-/* Offer the quotient with c^2 = 1 - s^2 inserted for one angle, if something cancels then. */
+/* Try as a form the quotient with c^2 = 1 - s^2 inserted for one angle, if factors cancel then. */
 static void
-say_turned(struct simplifier *s, const qdot_ratio *from)
+try_sine_forms(struct simplifier *s, const qdot_ratio *from)
 {
     qdot_field *f = s->f;
     int turns = 0;
@@ -90,7 +90,7 @@ say_turned(struct simplifier *s, const qdot_ratio *from)
 /* n/d with d = r^2 d' as (n r/r^2)/(r d'), where n r is r^2 times something: (a r - b)/b, b = r^2, is
  * (a - r)/r. */
 static void
-say_rooted(struct simplifier *s, const qdot_ratio *from)
+try_cancelling_root(struct simplifier *s, const qdot_ratio *from)
 {
     qdot_field *f = s->f;
     int turns = 0;
@@ -119,7 +119,7 @@ say_rooted(struct simplifier *s, const qdot_ratio *from)
             if (cosines_to_sines(f, &r, &x, c) && fmpz_mpoly_total_degree_si(r.d, f->ctx) <
                                           fmpz_mpoly_total_degree_si(x.d, f->ctx)) {
                 qdot_form_say_quotient(&s->form, &r, &e);
-                shortest_keep(s, qdot_div(s->pool, e, f->gen[v].expr));
+                keep_if_shortest(s, qdot_div(s->pool, e, f->gen[v].expr));
             }
             qdot_ratio_clear(f, &r);
         }
@@ -129,7 +129,7 @@ say_rooted(struct simplifier *s, const qdot_ratio *from)
 }
 
 static void
-all_candidates(struct simplifier *s, const qdot_ratio *r)
+try_all_forms(struct simplifier *s, const qdot_ratio *r)
 {
     qdot_field *f = s->f;
 
@@ -139,10 +139,10 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
     }
     qdot_form_say_quotient(&s->form, r, &s->best);
     if (!fmpz_mpoly_is_one(r->d, f->ctx))
-        say_rooted(s, r);
+        try_cancelling_root(s, r);
     if (qdot_form_has_trig(&s->form, r->d)) {
-        say_turned(s, r);
-        shortest_keep(s, qdot_products_tangents(s->pool, s->best));
+        try_sine_forms(s, r);
+        keep_if_shortest(s, qdot_products_tangents(s->pool, s->best));
     }
 }
 
@@ -219,7 +219,7 @@ rejoin_roots(qdot_pool *pool, const qdot_map *map, qdot_expr e)
 }
 
 static qdot_expr
-roots_together(qdot_pool *pool, qdot_expr e, void *user)
+join_roots(qdot_pool *pool, qdot_expr e, void *user)
 {
     enum { TIMES = 4 };
 
@@ -235,9 +235,9 @@ roots_together(qdot_pool *pool, qdot_expr e, void *user)
 
 /* --- simplifying a scalar ---------------------------------------------------------- */
 
-/* Clear a failure that occurred while a candidate was made, except out of memory and Ctrl-C. */
+/* Clear a failure that occurred while a form of the expression was tried, except out of memory and Ctrl-C. */
 static void
-forgive(qdot_pool *pool)
+clear_failure(qdot_pool *pool)
 {
     if (qdot_grave(qdot_pool_check(pool)) != QDOT_OK)
         qdot_pool_fail(pool);
@@ -246,7 +246,7 @@ forgive(qdot_pool *pool)
 /* Whether e holds the exponential of a number, one `below` 0 too, that no double holds, or nearly so: a
  * common factor of Gaussian pulses exp(-30*(t - k)^2) leaves such ones of k. */
 static bool
-is_beyond_doubles(qdot_pool *pool, qdot_expr e, bool below)
+exceeds_double_range(qdot_pool *pool, qdot_expr e, bool below)
 {
     static const double most = 300;
     bool beyond = false;
@@ -269,7 +269,7 @@ is_beyond_doubles(qdot_pool *pool, qdot_expr e, bool below)
 struct request {
     const qdot_facts *facts;
     int64_t work; /* budget of operations for one scalar */
-    bool spent;   /* some budget was used up */
+    bool spent;   /* whether some budget was used up */
     qdot_map simplified; /* maps an argument of a function or root to its simplest form */
 };
 
@@ -300,19 +300,19 @@ shortest_outer(qdot_pool *pool, qdot_expr e, struct request *request)
 
         qdot_field_cancelled(&f, &r, all[0]);
         if (qdot_field_goes(&f))
-            all_candidates(&s, &r);
+            try_all_forms(&s, &r);
         if (nr > 0 && qdot_field_goes(&f) &&
             qdot_ideal_reduce_ratio(&f, &r, nr, all + 1) == QDOT_OK && qdot_field_goes(&f))
-            all_candidates(&s, &r);
+            try_all_forms(&s, &r);
         qdot_ratio_clear(&f, &r);
         qdot_form_end(&s.form);
         s.best = qdot_products_signs(pool, s.best);
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
-            shortest_keep(&s, qdot_products_out(pool, s.best));
+            keep_if_shortest(&s, qdot_products_out(pool, s.best));
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
-            shortest_keep(&s, qdot_products_numbers(pool, s.best));
+            keep_if_shortest(&s, qdot_products_numbers(pool, s.best));
         if (s.best != QDOT_NIL && origins.map.n > 0) {
-            qdot_expr back = qdot_walk_replace(pool, s.best, QDOT_PROD, roots_together, &origins.map);
+            qdot_expr back = qdot_walk_replace(pool, s.best, QDOT_PROD, join_roots, &origins.map);
 
             if (back != QDOT_NIL &&
                 qdot_expr_size(pool, back) <= qdot_expr_size(pool, s.best))
@@ -329,19 +329,19 @@ shortest_outer(qdot_pool *pool, qdot_expr e, struct request *request)
     qdot_field_end(&f);
     qdot_map_clear(&origins.map);
     qdot_free(all);
-    forgive(pool);
+    clear_failure(pool);
     if (qdot_pool_failed(pool))
         return QDOT_NIL;
-    if ((qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN) && is_beyond_doubles(pool, s.best, true)
-        && !is_beyond_doubles(pool, e, false))
+    if ((qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN) && exceeds_double_range(pool, s.best, true)
+        && !exceeds_double_range(pool, e, false))
         return e;
-    shortest_keep(&s, e);
+    keep_if_shortest(&s, e);
     return s.best;
 }
 
 /* Whether a term of a sum contains a power of a sum. */
 static bool
-holds_powers(const qdot_pool *pool, qdot_expr e)
+has_power_of_sum(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         const qdot_expr term = qdot_expr_arg(pool, e, i);
@@ -357,7 +357,7 @@ holds_powers(const qdot_pool *pool, qdot_expr e)
 
 /* Whether e is a sum of at least three terms, which may contain a complete square. */
 static bool
-is_long(const qdot_pool *pool, qdot_expr e)
+has_three_terms(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_kind(pool, e) == QDOT_SUM && qdot_expr_count(pool, e) >= 7;
 }
@@ -370,9 +370,9 @@ is_root(const qdot_pool *pool, qdot_expr exponent)
     return x != NULL && !fmpz_is_one(fmpq_denref(x));
 }
 
-/* outer(e), looked up if it was simplified before: a root may occur in many terms. */
+/* The result of shortest_outer for e, looked up if e was simplified before: a root may occur in many terms. */
 static qdot_expr
-outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
+shortest_outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
 {
     qdot_expr simplest;
     uint32_t before;
@@ -388,15 +388,15 @@ outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
 /* An argument or base in its shortest form. Squares of sums, which show a distance, are given up for half as many
  * operations only. */
 static qdot_expr
-inner_one(qdot_pool *pool, qdot_expr e, struct request *request)
+shorten_argument(qdot_pool *pool, qdot_expr e, struct request *request)
 {
-    bool squares = qdot_expr_kind(pool, e) == QDOT_SUM && holds_powers(pool, e);
+    bool squares = qdot_expr_kind(pool, e) == QDOT_SUM && has_power_of_sum(pool, e);
     qdot_expr best;
 
-    if (!is_long(pool, e) && !squares)
+    if (!has_three_terms(pool, e) && !squares)
         return e;
-    best = outer_once(pool, e, request);
-    return is_long(pool, e) || best == QDOT_NIL ||
+    best = shortest_outer_once(pool, e, request);
+    return has_three_terms(pool, e) || best == QDOT_NIL ||
                    2 * qdot_expr_size(pool, best) <= qdot_expr_size(pool, e)
                ? best
                : e;
@@ -427,7 +427,7 @@ shorten_arguments(qdot_pool *pool, qdot_expr e, struct request *request)
 
             args[k] = (qdot_expr)qdot_walk_get(&w, old);
             if (inside)
-                args[k] = inner_one(pool, args[k], request);
+                args[k] = shorten_argument(pool, args[k], request);
             changed |= args[k] != old;
         }
         result = changed ? qdot_rebuild(pool, w.at[i], args) : w.at[i];
@@ -459,7 +459,7 @@ simplify_by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *w
                            *whole ? parts.entries.at[k]
                                   : shorten_arguments(pool, shortest_outer(pool, parts.entries.at[k], request),
                                                       request));
-        if (request->spent) /* if one part exceeds the budget, similar parts would, too */
+        if (request->spent) /* stop, because if one part exceeds the budget, similar parts would, too */
             sum = e;
         request->spent |= spent;
         /* the expanded sum counts only if it still has roots or was simplified part by part */
@@ -467,12 +467,12 @@ simplify_by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *w
             qdot_form_keep(pool, &sum, e);
     }
     qdot_root_parts_clear(&parts);
-    forgive(pool);
+    clear_failure(pool);
     return qdot_pool_failed(pool) ? QDOT_NIL : sum;
 }
 
 static qdot_expr
-simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
+shorten_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     const qdot_facts *facts = ((const struct request *)user)->facts;
     const bool free = facts == NULL || facts->n_relations == 0;
@@ -500,7 +500,7 @@ simplify_value(void *user)
 {
     struct simplifying *x = user;
 
-    x->result = qdot_value_map(x->pool, x->e, simplify_scalar, &x->request);
+    x->result = qdot_value_map(x->pool, x->e, shorten_scalar, &x->request);
     qdot_map_clear(&x->request.simplified);
 }
 
@@ -527,7 +527,7 @@ qdot_shortest_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int6
     return status == QDOT_OK ? x.result : e;
 }
 
-/* The stored result of a simplification. */
+/* The stored result of a simplification of one expression. */
 struct simplified {
     qdot_expr result;
     bool spent;
@@ -536,7 +536,7 @@ struct simplified {
 qdot_expr
 qdot_shortest(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
-    /* conditions do not matter, relations do */
+    /* the result can be stored unless it depends on relations; conditions do not change it */
     const bool keep = (facts == NULL || facts->n_relations == 0) && !qdot_pool_failed(pool);
     struct simplified s;
 

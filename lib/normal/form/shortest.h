@@ -10,7 +10,7 @@
 
 #include "normal/field/facts.h"
 
-/* The shortest form of e; uses the relations in `facts`, not the conditions. */
+/* The shortest form of e; the relations among the facts are used, the conditions are not. */
 qdot_expr qdot_shortest(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 /* The same with a budget for each scalar, in operations on terms of polynomials;

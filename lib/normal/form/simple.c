@@ -86,7 +86,7 @@ is_angle_function(const qdot_pool *pool, qdot_expr e)
 /* A term c w f(angle) of symbols, one sum of parameters at most, and one velocity or acceleration w, to
  * whatever power: *fast. */
 static bool
-read_collected(const qdot_pool *pool, qdot_expr t, qdot_expr *fast, qdot_expr *power)
+read_collected_term(const qdot_pool *pool, qdot_expr t, qdot_expr *fast, qdot_expr *power)
 {
     int functions = 0, sums = 0, moving = 0;
     long k;
@@ -124,8 +124,8 @@ qdot_simple_is_collected(const qdot_pool *pool, qdot_expr e)
         n < 2 || n > MOST_COLLECTED)
         return false;
     for (uint32_t i = 0; i < n; i++) {
-        if (!read_collected(pool, qdot_expr_arg(pool, e, 1 + 2 * i), &fast[2 * i],
-                            &fast[2 * i + 1]))
+        if (!read_collected_term(pool, qdot_expr_arg(pool, e, 1 + 2 * i), &fast[2 * i],
+                                 &fast[2 * i + 1]))
             return false;
         for (uint32_t j = 0; j < i; j++)
             if (fast[2 * i] == fast[2 * j] && fast[2 * i + 1] == fast[2 * j + 1])
@@ -151,13 +151,13 @@ qdot_simple_is_done(const qdot_pool *pool, qdot_expr e)
 
 /* A product of powers of symbols and of two sines and cosines of coordinates. */
 typedef struct {
-    qdot_expr angle[2]; /* the two angles, in the order of the product; equal for a square */
+    qdot_expr angle[2]; /* the arguments of the two functions, in the order of the product; equal for a square */
     bool sine[2];
     uint32_t at[2]; /* positions of the two functions in the product */
 } two_angles;
 
 static bool
-read_two_angles(const qdot_pool *pool, qdot_expr e, two_angles *t)
+read_two_angle_term(const qdot_pool *pool, qdot_expr e, two_angles *t)
 {
     uint32_t found = 0;
     long k;
@@ -187,7 +187,7 @@ read_two_angles(const qdot_pool *pool, qdot_expr e, two_angles *t)
 
 /* The common powers of symbols in two terms, *product; false if the terms contain different ones. */
 static bool
-shared_powers(qdot_pool *pool, qdot_expr term, const two_angles *t, qdot_expr other,
+common_powers(qdot_pool *pool, qdot_expr term, const two_angles *t, qdot_expr other,
               const two_angles *u, qdot_expr *product)
 {
     uint32_t i = 1, j = 1, n = qdot_expr_count(pool, term),
@@ -213,9 +213,9 @@ shared_powers(qdot_pool *pool, qdot_expr term, const two_angles *t, qdot_expr ot
     }
 }
 
-/* Recognise P cos(a) cos(b) + P sin(a) sin(b) = P cos(a - b) and similar sums; nil if e is none. */
+/* Rewrite sums such as P cos(a) cos(b) + P sin(a) sin(b) as P cos(a - b); nil if e is not such a sum. */
 static qdot_expr
-sum_of_angles(qdot_pool *pool, qdot_expr e)
+contract_angle_sum(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr term[2], c[2], front, turn;
     two_angles t, u;
@@ -228,7 +228,7 @@ sum_of_angles(qdot_pool *pool, qdot_expr e)
         term[i] = qdot_expr_arg(pool, e, 1 + 2 * i);
         c[i] = qdot_expr_arg(pool, e, 2 + 2 * i);
     }
-    if (!read_two_angles(pool, term[0], &t) || !read_two_angles(pool, term[1], &u))
+    if (!read_two_angle_term(pool, term[0], &t) || !read_two_angle_term(pool, term[1], &u))
         return QDOT_NIL;
     swapped = u.angle[0] != t.angle[0];
     if (u.angle[swapped] != t.angle[0] || u.angle[!swapped] != t.angle[1] ||
@@ -238,17 +238,17 @@ sum_of_angles(qdot_pool *pool, qdot_expr e)
     if (!same && c[1] != qdot_neg(pool, c[0]))
         return QDOT_NIL;
     if (t.angle[0] == t.angle[1] && (!same || t.sine[0] != t.sine[1]))
-        return QDOT_NIL; /* sin a cos a: double angles are treated elsewhere */
-    if (!shared_powers(pool, term[0], &t, term[1], &u, &front))
+        return QDOT_NIL; /* leave sin a cos a to the code that treats double angles */
+    if (!common_powers(pool, term[0], &t, term[1], &u, &front))
         return QDOT_NIL;
     if (t.angle[0] == t.angle[1])
         return qdot_mul(pool, c[0], front);
-    if (t.sine[0] == t.sine[1]) { /* cos a cos b +- sin a sin b */
+    if (t.sine[0] == t.sine[1]) { /* the sum is cos a cos b +- sin a sin b */
         turn = same ? qdot_sub(pool, t.angle[0], t.angle[1])
                     : qdot_add(pool, t.angle[0], t.angle[1]);
         turn = qdot_fun1(pool, QDOT_COS, turn);
         front = qdot_mul(pool, c[t.sine[0]], front);
-    } else { /* sin a cos b +- cos a sin b */
+    } else { /* the sum is sin a cos b +- cos a sin b */
         turn = same ? qdot_add(pool, t.angle[0], t.angle[1])
                     : qdot_sub(pool, t.angle[!t.sine[0]], t.angle[t.sine[0]]);
         turn = qdot_fun1(pool, QDOT_SIN, turn);
@@ -260,5 +260,5 @@ sum_of_angles(qdot_pool *pool, qdot_expr e)
 qdot_expr
 qdot_simple_seen(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_simple_is_done(pool, e) ? e : sum_of_angles(pool, e);
+    return qdot_simple_is_done(pool, e) ? e : contract_angle_sum(pool, e);
 }

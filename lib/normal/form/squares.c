@@ -10,7 +10,7 @@
 
 enum { MOST_TERMS = 24 };
 
-/* A polynomial taken apart: c[i] times the monomial with the exponents exp + i gens. */
+/* A polynomial as arrays of coefficients and exponents: c[i] times the monomial with exponents exp + i gens. */
 struct terms {
     qdot_field *f;
     slong n;
@@ -20,7 +20,7 @@ struct terms {
 };
 
 static const ulong *
-exponents(const struct terms *t, slong i)
+exponents_of_term(const struct terms *t, slong i)
 {
     return t->exp + i * t->f->n;
 }
@@ -28,9 +28,9 @@ exponents(const struct terms *t, slong i)
 /* c_i m_i, c_j m_j, c_k m_k as g common (a^2, b^2, +-2 a b): whether 4 c_i c_j = c_k^2,
  * m_i m_j = m_k^2 and both are squares but for what they share. */
 static bool
-fits_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
+is_complete_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
 {
-    const ulong *a = exponents(t, i), *b = exponents(t, j), *ab = exponents(t, k);
+    const ulong *a = exponents_of_term(t, i), *b = exponents_of_term(t, j), *ab = exponents_of_term(t, k);
     bool good = fmpz_sgn(t->c + i) == fmpz_sgn(t->c + j), same = true;
     bool moving = false, still = false;
     ulong fast = 0;
@@ -43,7 +43,7 @@ fits_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
         moving |= t->f->gen[v].fast && a[v] != b[v];
         still |= !t->f->gen[v].fast && a[v] != b[v];
     }
-    /* (v - w)^2, but E*du^2 + 2*F*du*dv + G*dv^2 stays collected */
+    /* velocities and other symbols must not mix: E*du^2 + 2*F*du*dv + G*dv^2 stays collected */
     if (!good || same || fast != 0 || (moving && still))
         return false;
     fmpz_init(x);
@@ -62,11 +62,11 @@ fits_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
     return good;
 }
 
-/* The square root of term i divided by what it has in common with `other`: sqrt(c/g) times a monomial. */
+/* The square root of term i divided by its common factor with the term `other`: sqrt(c/g) times a monomial. */
 static qdot_expr
-root_of(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
+term_root(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
 {
-    const ulong *a = exponents(t, i), *b = exponents(t, other);
+    const ulong *a = exponents_of_term(t, i), *b = exponents_of_term(t, other);
     qdot_expr e;
     fmpq_t c;
 
@@ -80,12 +80,12 @@ root_of(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
     return e;
 }
 
-/* Write the complete square g common (a +- b)^2, with a, the first of both terms, in front. */
+/* Write the complete square g (common factor) (a +- b)^2; a stands for the term that comes first. */
 static qdot_expr
-written_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g, ulong *exp)
+write_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g, ulong *exp)
 {
     qdot_pool *pool = t->f->pool;
-    qdot_expr a = root_of(t, i, j, g, exp), b = root_of(t, j, i, g, exp), e;
+    qdot_expr a = term_root(t, i, j, g, exp), b = term_root(t, j, i, g, exp), e;
     fmpq_t c;
 
     if (fmpz_sgn(t->c + k) != fmpz_sgn(g))
@@ -94,7 +94,7 @@ written_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g,
     if (e != QDOT_NIL && qdot_expr_is_negative(pool, e))
         e = qdot_neg(pool, e);
     for (slong v = 0; v < t->f->n; v++) {
-        ulong x = exponents(t, i)[v], y = exponents(t, j)[v];
+        ulong x = exponents_of_term(t, i)[v], y = exponents_of_term(t, j)[v];
 
         exp[v] = x < y ? x : y;
     }
@@ -116,9 +116,9 @@ next_square(struct terms *t, ulong *exp)
     for (slong i = 0; i < t->n && e == QDOT_NIL; i++)
         for (slong j = i + 1; j < t->n && e == QDOT_NIL && !t->used[i]; j++)
             for (slong k = 0; k < t->n && e == QDOT_NIL && !t->used[j]; k++) {
-                if (k == i || k == j || t->used[k] || !fits_square(t, i, j, k, g))
+                if (k == i || k == j || t->used[k] || !is_complete_square(t, i, j, k, g))
                     continue;
-                e = written_square(t, i, j, k, g, exp);
+                e = write_square(t, i, j, k, g, exp);
                 t->used[i] = t->used[j] = t->used[k] = true;
             }
     fmpz_clear(g);

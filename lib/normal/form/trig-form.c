@@ -18,7 +18,7 @@ enum { MOST_ANGLES = 4, MOST_HARMONICS = 40, MOST_DEGREE = 8, MOST_FLIPS = 3 };
 
 /* Whether a product has a denominator. */
 static bool
-is_over(const qdot_pool *pool, qdot_expr e)
+has_denominator(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 2;
          qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2)
@@ -53,7 +53,7 @@ count_awkward(const qdot_pool *pool, qdot_expr e, bool inner)
             count += fmpq_sgn(qdot_expr_rational(pool, c)) < 0;
             if (inner)
                 count += !fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))) +
-                         (i > 0 && is_over(pool, x));
+                         (i > 0 && has_denominator(pool, x));
             if (i > 0 && !inner && qdot_expr_kind(pool, x) == QDOT_PROD)
                 count += count_awkward(pool, x, true);
         }
@@ -109,7 +109,7 @@ struct fourier {
 };
 
 static struct harmonic *
-harmonic_at(struct fourier *x, const int *k)
+find_harmonic(struct fourier *x, const int *k)
 {
     for (size_t i = 0; i < x->n; i++)
         if (memcmp(x->at[i].k, k, sizeof x->at[i].k) == 0)
@@ -134,7 +134,7 @@ fourier_clear(struct fourier *x)
     x->n = 0;
 }
 
-/* Add a sin(k) + b cos(k), the first non-zero of k made positive. */
+/* Add the harmonic a sin(k) + b cos(k), where k are multiples of the angles, the first non-zero made positive. */
 static void
 fourier_add(struct fourier *x, const int *k, const fmpq *a, const fmpq *b)
 {
@@ -146,7 +146,7 @@ fourier_add(struct fourier *x, const int *k, const fmpq *a, const fmpq *b)
             sign = k[i] > 0 ? 1 : k[i] < 0 ? -1 : 0;
         plus[i] = sign < 0 ? -k[i] : k[i];
     }
-    h = harmonic_at(x, plus);
+    h = find_harmonic(x, plus);
     if (h == NULL)
         return;
     fmpq_add(&h->c, &h->c, b);
@@ -159,7 +159,7 @@ fourier_add(struct fourier *x, const int *k, const fmpq *a, const fmpq *b)
 /* y = x times sin (or cos) of the j-th angle; the signs of the product formulas are
  *   circular    s s' = (c- - c+)/2   hyperbolic  S S' = (C+ - C-)/2, all others alike. */
 static void
-fourier_times(struct fourier *y, const struct fourier *x, int j, bool sine, bool circular)
+fourier_multiply(struct fourier *y, const struct fourier *x, int j, bool sine, bool circular)
 {
     fmpq_t zero, s, c, minus;
 
@@ -196,9 +196,9 @@ fourier_times(struct fourier *y, const struct fourier *x, int j, bool sine, bool
     fmpq_clear(minus);
 }
 
-/* The angles of p: their sine variables; -1 if too many or of both kinds. */
+/* Find the sine variables of the angles in p; -1 if there are too many, or both circular and hyperbolic ones. */
 static int
-angles_of(qdot_field *f, const slong *degree, slong *sine, bool *circular)
+find_angles(qdot_field *f, const slong *degree, slong *sine, bool *circular)
 {
     int n = 0, kinds = 0;
     slong total = 0;
@@ -218,9 +218,9 @@ angles_of(qdot_field *f, const slong *degree, slong *sine, bool *circular)
     return kinds == 3 || total > MOST_DEGREE ? -1 : n;
 }
 
-/* The angle of a harmonic, with denominator `parts`. */
+/* The argument of a harmonic, a combination of angles with the denominator `parts`. */
 static qdot_expr
-angle_of(qdot_field *f, const struct harmonic *h, int n, const slong *sine, int parts)
+harmonic_argument(qdot_field *f, const struct harmonic *h, int n, const slong *sine, int parts)
 {
     qdot_pool *pool = f->pool;
     qdot_expr angle = QDOT_ZERO;
@@ -234,8 +234,8 @@ angle_of(qdot_field *f, const struct harmonic *h, int n, const slong *sine, int 
 }
 
 static qdot_expr
-say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
-              bool circular)
+write_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
+                bool circular)
 {
     qdot_pool *pool = f->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -245,7 +245,7 @@ say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
 
         if (fmpq_is_zero(&x->at[i].s) && fmpq_is_zero(&x->at[i].c))
             continue;
-        angle = angle_of(f, &x->at[i], n, sine, 1);
+        angle = harmonic_argument(f, &x->at[i], n, sine, 1);
         sum = qdot_add(pool, sum,
                        qdot_mul(pool, qdot_expr_fmpq(pool, &x->at[i].s),
                                 qdot_fun1(pool, circular ? QDOT_SIN : QDOT_SINH, angle)));
@@ -259,10 +259,10 @@ say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
 /* With b cos(2 k) as b - 2 b sin(k)^2 or 2 b cos(k)^2 - b (hyperbolic: b + 2 b sinh(k)^2, 2 b
  * cosh(k)^2 - b), of the harmonics the one that makes it shortest. */
 static qdot_expr
-with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
+write_with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
 {
     static const int origin[MOST_ANGLES];
-    struct harmonic *zero = harmonic_at(x, origin);
+    struct harmonic *zero = find_harmonic(x, origin);
     qdot_pool *pool = f->pool;
     qdot_expr best = QDOT_NIL;
     fmpq_t b, constant, rest;
@@ -280,7 +280,7 @@ with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool cir
         for (int j = 0; j < MOST_ANGLES; j++)
             even &= h->k[j] % 2 == 0;
         for (int cosine = 0; cosine < 2 && even; cosine++) {
-            qdot_expr square = angle_of(f, h, n, sine, 2);
+            qdot_expr square = harmonic_argument(f, h, n, sine, 2);
 
             fmpq_set(b, &h->c);
             if (cosine)
@@ -301,7 +301,7 @@ with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool cir
                 qdot_mul(pool, qdot_expr_fmpq(pool, b), qdot_pow_int(pool, square, 2));
             qdot_form_keep(
                 pool, &best,
-                qdot_add(pool, square, say_harmonics(f, x, n, sine, circular)));
+                qdot_add(pool, square, write_harmonics(f, x, n, sine, circular)));
             fmpq_div_2exp(&h->c, b, 1);
             if (circular && !cosine)
                 fmpq_neg(&h->c, &h->c);
@@ -314,9 +314,9 @@ with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool cir
     return best;
 }
 
-/* p in terms of multiple angles; nil if that is too long. */
+/* Write p in terms of sines and cosines of multiple angles; nil if that is too long. */
 static qdot_expr
-by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
+write_by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
 {
     static const int origin[MOST_ANGLES];
     slong sine[MOST_ANGLES],
@@ -338,7 +338,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
     y = x + 1;
     sum = x + 2;
     fmpz_mpoly_degrees_si(degree, p, f->ctx);
-    n = angles_of(f, degree, sine, &circular);
+    n = find_angles(f, degree, sine, &circular);
     fmpq_init(c);
     fmpq_init(zero);
     for (slong i = 0; n > 0 && i < fmpz_mpoly_length(p, f->ctx) && !sum->full; i++) {
@@ -352,7 +352,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
                 while (k-- > 0) {
                     struct fourier *swap = x;
 
-                    fourier_times(y, x, j, sin_or_cos == 0, circular);
+                    fourier_multiply(y, x, j, sin_or_cos == 0, circular);
                     fourier_clear(x);
                     sum->full |= y->full;
                     x = y;
@@ -364,8 +364,8 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
         fourier_clear(x);
     }
     if (n > 0 && !sum->full) {
-        e = say_harmonics(f, sum, n, sine, circular);
-        qdot_form_keep(f->pool, &e, with_square(f, sum, n, sine, circular));
+        e = write_harmonics(f, sum, n, sine, circular);
+        qdot_form_keep(f->pool, &e, write_with_square(f, sum, n, sine, circular));
     }
     fourier_clear(sum);
     fmpq_clear(c);
@@ -378,7 +378,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
 /* --- sin^2 + cos^2 = 1 used either way, in sums and products ----------------------- */
 
 static qdot_expr
-by_factors(qdot_form *form, const fmpz_mpoly_t p)
+write_factors_separately(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_factors factors;
@@ -391,7 +391,7 @@ by_factors(qdot_form *form, const fmpz_mpoly_t p)
         e = qdot_expr_fmpq(f->pool, c);
         fmpq_clear(c);
         for (slong i = 0; i < factors.n; i++) {
-            /* of several, each is of smaller degree than p: sin(a - b)*cos(b) */
+            /* if p has several factors, each has a smaller degree: sin(a - b)*cos(b) */
             bool part = factors.n > 1 || factors.exp[i] > 1;
             qdot_expr one = part ? qdot_form_trig(form, factors.poly + i)
                                  : qdot_field_expr(f, factors.poly + i);
@@ -403,9 +403,9 @@ by_factors(qdot_form *form, const fmpz_mpoly_t p)
     return e;
 }
 
-/* Keep e if it is shorter than *best; of equally long ones prefer a product of functions to a sum. */
+/* Replace *best by e if e is shorter; of two equally long ones prefer a product of functions to a sum. */
 static void
-keep_product(qdot_pool *pool, qdot_expr *best, qdot_expr e)
+keep_shorter_or_product(qdot_pool *pool, qdot_expr *best, qdot_expr e)
 {
     if (e != QDOT_NIL && *best != QDOT_NIL && qdot_expr_kind(pool, *best) == QDOT_SUM &&
         qdot_expr_kind(pool, e) == QDOT_PROD &&
@@ -445,9 +445,9 @@ qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p)
             break;
         qdot_form_keep(f->pool, &best, qdot_field_expr(f, q));
         if (fmpz_mpoly_length(q, f->ctx) > 1)
-            keep_product(f->pool, &best, by_factors(form, q));
+            keep_shorter_or_product(f->pool, &best, write_factors_separately(form, q));
     }
     fmpz_mpoly_clear(q, f->ctx);
-    qdot_form_keep(f->pool, &best, by_harmonics(f, p));
+    qdot_form_keep(f->pool, &best, write_by_harmonics(f, p));
     return qdot_form_remember(form, p, best);
 }

@@ -14,9 +14,9 @@
 enum { MOST_SYMBOLS = 2, MOST_CONDITIONS = 12, MOST_PARTS = 300, DEEPEST = 24 };
 
 typedef struct {
-    size_t n, m;                   /* symbols, conditions */
+    size_t n, m;                   /* numbers of symbols and of conditions */
     qdot_expr symbol[MOST_SYMBOLS];
-    qdot_expr gap[MOST_CONDITIONS]; /* right - left of a < b or a <= b */
+    qdot_expr gap[MOST_CONDITIONS]; /* right - left of a condition a < b or a <= b */
     bool strict[MOST_CONDITIONS];
 } search;
 
@@ -41,7 +41,7 @@ read_conditions(qdot_pool *pool, const qdot_facts *facts, search *s)
     }
 }
 
-/* Read the symbols of the conditions. *few: there are any, not too many, and nothing else is unknown in them. */
+/* Read the symbols of the conditions. *few: there is at least one, not too many, and nothing else is unknown. */
 static qdot_status
 read_symbols(qdot_pool *pool, search *s, bool *few)
 {
@@ -63,7 +63,7 @@ read_symbols(qdot_pool *pool, search *s, bool *few)
 /* Whether the base of a power with a symbol in its exponent may be negative: there it is real at single places, which
  * bounds leave out, as (-2)^2 of b^c. */
 static qdot_status
-have_single_places(qdot_pool *pool, const search *s, bool *yes)
+has_isolated_points(qdot_pool *pool, const search *s, bool *yes)
 {
     const qdot_expr bases = qdot_expr_bases_of_powers(pool, s->m, s->gap, s->n, s->symbol);
 
@@ -74,9 +74,9 @@ have_single_places(qdot_pool *pool, const search *s, bool *yes)
     return QDOT_OK;
 }
 
-/* What is known of the conditions in the box. */
+/* What interval bounds tell of the conditions in a box: they hold at no point, at every point, or unknown. */
 static verdict
-verdict_in(const search *s, qdot_enclosure *bounds, const box *b)
+judge_box(const search *s, qdot_enclosure *bounds, const box *b)
 {
     verdict all = EVERY_POINT;
 
@@ -92,9 +92,9 @@ verdict_in(const search *s, qdot_enclosure *bounds, const box *b)
     return all;
 }
 
-/* Where to halve an interval: in the middle of a bounded one; another at 0 or at twice its finite end, at least 1. */
+/* Where to halve an interval: a bounded one in the middle; another one at 0, or at twice its finite end, at least 1. */
 static double
-middle_of(qdot_interval a)
+dividing_point(qdot_interval a)
 {
     if (isfinite(a.lo) && isfinite(a.hi))
         return a.lo / 2 + a.hi / 2;
@@ -105,17 +105,17 @@ middle_of(qdot_interval a)
 
 /* Halve the box along the side that was halved least. */
 static void
-boxes_halve(const search *s, const box *b, box *left, box *right)
+halve_box(const search *s, const box *b, box *left, box *right)
 {
     const size_t j = (size_t)b->depth % s->n;
-    const double at = middle_of(b->side[j]);
+    const double at = dividing_point(b->side[j]);
 
     *left = *right = *b;
     left->side[j].hi = right->side[j].lo = at;
     left->depth = right->depth = b->depth + 1;
 }
 
-/* Whether all parts of the domain are excluded. */
+/* Whether the conditions are proved to fail in all parts of the domain, which is divided into boxes. */
 static bool
 excludes_all(const search *s, qdot_enclosure *bounds, const box *whole)
 {
@@ -125,13 +125,13 @@ excludes_all(const search *s, qdot_enclosure *bounds, const box *whole)
     todo[n++] = *whole;
     for (int parts = 0; n > 0; parts++) {
         const box b = todo[--n];
-        const verdict v = verdict_in(s, bounds, &b);
+        const verdict v = judge_box(s, bounds, &b);
 
         if (v == NO_POINT)
             continue;
         if (v == EVERY_POINT || b.depth == DEEPEST || parts == MOST_PARTS)
             return false;
-        boxes_halve(s, &b, &todo[n], &todo[n + 1]);
+        halve_box(s, &b, &todo[n], &todo[n + 1]);
         n += 2;
     }
     return true;
@@ -152,7 +152,7 @@ qdot_boxes_exclude(qdot_pool *pool, const qdot_facts *facts, bool *never)
     QDOT_TRY(read_symbols(pool, &s, &few));
     if (!few || s.m == 0)
         return QDOT_OK;
-    QDOT_TRY(have_single_places(pool, &s, &single));
+    QDOT_TRY(has_isolated_points(pool, &s, &single));
     if (single)
         return QDOT_OK;
     for (size_t j = 0; j < s.n; j++)

@@ -18,7 +18,7 @@ qdot_gap_is_linear(qdot_field *f, qdot_expr g)
     return fmpz_mpoly_total_degree_si(r->n, f->ctx) <= 1;
 }
 
-/* Whether the slope of g along the symbol x is positive everywhere, or negative. */
+/* Whether the derivative of g by the symbol x is positive everywhere, or negative everywhere. */
 static bool
 is_monotone(qdot_pool *pool, qdot_expr g, qdot_expr x)
 {

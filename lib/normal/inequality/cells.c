@@ -28,21 +28,21 @@ typedef qdot_vec(fmpz_mpoly_struct) polynomials;
 typedef struct {
     qdot_pool *pool;
     qdot_field f;
-    qdot_expr *all; /* [1 + n_conditions + n_bases] e, gaps of conditions, arguments of even roots */
+    qdot_expr *all; /* [1 + n_conditions + n_bases] e, then right - left of conditions, then arguments of even roots */
     size_t n_conditions, n_bases;
-    qdot_expr unused[MOST_CONDITIONS]; /* gaps of conditions that only a counterexample must satisfy */
+    qdot_expr unused[MOST_CONDITIONS]; /* right - left of conditions that only a counterexample must satisfy */
     size_t n_unused;
     bool weak[MOST_CONDITIONS];
-    slong symbol[MOST_SYMBOLS]; /* variables of the field; the last is eliminated first */
+    slong symbol[MOST_SYMBOLS]; /* variables of the field for the symbols; the last is eliminated first */
     slong n;
     polynomials level[MOST_SYMBOLS];
     polynomials zero; /* factors of the norm of e, whose zeros include those of e */
     fmpq x[MOST_SYMBOLS];
-    slong chosen; /* number of x that have a value */
-    arb_t root;   /* if there is one symbol: an algebraic number in place of x[0] */
+    slong chosen; /* number of symbols whose value x has been chosen */
+    arb_t root;   /* with a single symbol: an algebraic number used in place of x[0] */
     bool at_root;
     qdot_ball ball;
-    int64_t *work; /* the remaining budget */
+    int64_t *work; /* the remaining budget of operations */
     bool too_much, any, inside, touches;
     bool denied; /* e < 0 at a point where an unused condition fails or is undecided */
     qdot_expr point;
@@ -51,7 +51,7 @@ typedef struct {
 /* --- cost, levels and lists of polynomials --------------------------------------------- */
 
 static bool
-charge(cells *c, int64_t work)
+charge_work(cells *c, int64_t work)
 {
     *c->work -= work;
     c->too_much |= *c->work < 0 || qdot_interrupt_flag;
@@ -70,11 +70,11 @@ charge_resultant(cells *c, const fmpz_mpoly_t p, const fmpz_mpoly_t q, slong v)
 
     for (slong k = 1; k < c->n && terms < *c->work; k++)
         terms *= 1 + degree / k;
-    return charge(c, least + terms * sides * sides);
+    return charge_work(c, least + terms * sides * sides);
 }
 
 static bool
-reasonable(const cells *c, const fmpz_mpoly_t p)
+is_small_enough(const cells *c, const fmpz_mpoly_t p)
 {
     return fmpz_mpoly_length(p, c->f.ctx) <= MOST_TERMS &&
            fmpz_mpoly_total_degree_fits_si(p, c->f.ctx) &&
@@ -82,7 +82,7 @@ reasonable(const cells *c, const fmpz_mpoly_t p)
            labs(fmpz_mpoly_max_bits(p)) < MOST_BITS;
 }
 
-/* The index of the last symbol in p; -1 if p is constant. */
+/* The index of the last symbol in the polynomial p, its level; -1 if p is constant. */
 static slong
 level_of(const cells *c, const fmpz_mpoly_t p)
 {
@@ -93,7 +93,7 @@ level_of(const cells *c, const fmpz_mpoly_t p)
 }
 
 static bool
-polynomials_hold(const cells *c, const polynomials *list, const fmpz_mpoly_t p)
+list_has_polynomial(const cells *c, const polynomials *list, const fmpz_mpoly_t p)
 {
     for (size_t i = 0; i < list->n; i++)
         if (fmpz_mpoly_equal(list->at + i, p, c->f.ctx))
@@ -102,11 +102,11 @@ polynomials_hold(const cells *c, const polynomials *list, const fmpz_mpoly_t p)
 }
 
 static void
-polynomials_keep(cells *c, polynomials *list, const fmpz_mpoly_t p)
+append_polynomial(cells *c, polynomials *list, const fmpz_mpoly_t p)
 {
     fmpz_mpoly_struct copy;
 
-    if (polynomials_hold(c, list, p))
+    if (list_has_polynomial(c, list, p))
         return;
     fmpz_mpoly_init(&copy, c->f.ctx);
     fmpz_mpoly_set(&copy, p, c->f.ctx);
@@ -116,7 +116,7 @@ polynomials_keep(cells *c, polynomials *list, const fmpz_mpoly_t p)
     }
 }
 
-/* Add the irreducible factors of p to the polynomials of their levels, and to `also`. */
+/* Add the irreducible factors of p to the polynomials of their levels (last symbols), and to the list `also`. */
 static void
 level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
 {
@@ -125,7 +125,7 @@ level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
 
     if (fmpz_mpoly_is_fmpz(p, c->f.ctx) || c->too_much)
         return;
-    if (!reasonable(c, p) || !charge(c, 100 * fmpz_mpoly_length(p, c->f.ctx) *
+    if (!is_small_enough(c, p) || !charge_work(c, 100 * fmpz_mpoly_length(p, c->f.ctx) *
                                             fmpz_mpoly_total_degree_si(p, c->f.ctx))) {
         c->too_much = true;
         return;
@@ -144,9 +144,9 @@ level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
         k = level_of(c, q);
         if (k < 0)
             continue;
-        polynomials_keep(c, &c->level[k], q);
+        append_polynomial(c, &c->level[k], q);
         if (also != NULL)
-            polynomials_keep(c, also, q);
+            append_polynomial(c, also, q);
     }
     fmpz_mpoly_clear(q, c->f.ctx);
     fmpz_mpoly_factor_clear(factors, c->f.ctx);
@@ -154,7 +154,7 @@ level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
 
 /* Replace p by its norm over roots and absolute values: a polynomial in the symbols that is 0 wherever p is. */
 static void
-to_norm(cells *c, fmpz_mpoly_t p)
+replace_by_norm(cells *c, fmpz_mpoly_t p)
 {
     qdot_field *f = &c->f;
 
@@ -163,14 +163,14 @@ to_norm(cells *c, fmpz_mpoly_t p)
 
         if (fmpz_mpoly_degree_si(p, r->var, f->ctx) == 0)
             continue;
-        if (!reasonable(c, p) || !reasonable(c, r->poly) || r->power > 8 ||
+        if (!is_small_enough(c, p) || !is_small_enough(c, r->poly) || r->power > 8 ||
             !charge_resultant(c, p, r->poly, r->var) ||
             !fmpz_mpoly_resultant(p, p, r->poly, r->var, f->ctx))
             c->too_much = true;
     }
 }
 
-/* Add the polynomials that bound the regions in which an expression has one sign. */
+/* Add the polynomials whose zeros bound the regions in which an expression has one sign. */
 static void
 add_expression(cells *c, qdot_expr e, bool zeros)
 {
@@ -184,7 +184,7 @@ add_expression(cells *c, qdot_expr e, bool zeros)
     fmpz_mpoly_init(p, c->f.ctx);
     for (int i = 0; i < 2 && !c->too_much; i++) {
         fmpz_mpoly_set(p, i == 0 ? r->n : r->d, c->f.ctx);
-        to_norm(c, p);
+        replace_by_norm(c, p);
         if (fmpz_mpoly_is_zero(p, c->f.ctx) && i == 0)
             c->too_much |= !fmpz_mpoly_is_zero(r->n, c->f.ctx);
         else if (!c->too_much)
@@ -231,7 +231,7 @@ level_project(cells *c, slong k)
 /* --- testing a point -------------------------------------------------------------------- */
 
 static bool
-cells_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+symbol_value(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const cells *c = user;
 
@@ -246,7 +246,7 @@ cells_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* The exact sign of e at the chosen point. */
+/* The exact sign of e at the chosen values of the symbols. */
 static qdot_constant_sign
 sign_at_point(cells *c, qdot_expr e)
 {
@@ -263,14 +263,14 @@ sign_at_point(cells *c, qdot_expr e)
 }
 
 static bool
-cells_vanishes(cells *c, qdot_expr e)
+is_zero_at_point(cells *c, qdot_expr e)
 {
     return sign_at_point(c, e) == QDOT_CONSTANT_ZERO;
 }
 
-/* Whether the weak conditions that were left out hold at the point. */
+/* Whether the weak conditions that were left out of the search hold at the chosen point. */
 static bool
-unused_hold(cells *c)
+unused_conditions_hold(cells *c)
 {
     bool hold = true;
 
@@ -282,9 +282,9 @@ unused_hold(cells *c)
     return hold;
 }
 
-/* The sign of an expression at the point where the ball was evaluated; 2 if not known. */
+/* The sign of an expression at the point where it was last evaluated in ball arithmetic; 2 if not known. */
 static int
-sign_here(const cells *c, qdot_expr e)
+sign_of_enclosure(const cells *c, qdot_expr e)
 {
     arb_srcptr v = qdot_ball_get(&c->ball, e);
 
@@ -295,14 +295,14 @@ sign_here(const cells *c, qdot_expr e)
 
 typedef enum { OUTSIDE, INSIDE, UNCLEAR } place;
 
-/* Whether conditions hold and roots are real, as far as symbols are chosen. */
+/* Whether all conditions hold and all roots are real at the values of the symbols chosen so far. */
 static place
-cells_look_around(const cells *c)
+check_conditions_at_point(const cells *c)
 {
     place p = INSIDE;
 
     for (size_t i = 1; i < 1 + c->n_conditions + c->n_bases; i++) {
-        int s = sign_here(c, c->all[i]);
+        int s = sign_of_enclosure(c, c->all[i]);
 
         if (s < 0 || (s == 0 && !(i <= c->n_conditions && c->weak[i - 1])))
             return OUTSIDE;
@@ -313,7 +313,7 @@ cells_look_around(const cells *c)
 }
 
 static void
-keep_point(cells *c)
+store_point(cells *c)
 {
     qdot_expr row[MOST_SYMBOLS];
 
@@ -323,58 +323,58 @@ keep_point(cells *c)
     c->point = qdot_list(c->pool, (uint32_t)c->n, row);
 }
 
-/* Test the point, now that all symbols have values; false ends the search. */
+/* Test the sign of e at the point, now that all symbols have values; false ends the search. */
 static bool
-look_here(cells *c)
+test_point(cells *c)
 {
     place p = UNCLEAR;
     int s = 2;
 
     for (slong prec = 64; prec <= MOST_BITS && (p == UNCLEAR || (p == INSIDE && s == 2));
          prec *= 2) {
-        if (!charge(c, prec / 4 * (int64_t)c->ball.walk.n))
+        if (!charge_work(c, prec / 4 * (int64_t)c->ball.walk.n))
             return false;
-        qdot_ball_eval(&c->ball, prec, cells_value_of, c);
-        p = cells_look_around(c);
-        s = sign_here(c, c->all[0]);
+        qdot_ball_eval(&c->ball, prec, symbol_value, c);
+        p = check_conditions_at_point(c);
+        s = sign_of_enclosure(c, c->all[0]);
     }
     c->inside = p == INSIDE;
     if (p == OUTSIDE)
         return true;
-    if (p == UNCLEAR || (s == 2 && !cells_vanishes(c, c->all[0]))) {
+    if (p == UNCLEAR || (s == 2 && !is_zero_at_point(c, c->all[0]))) {
         c->too_much = true;
         return false;
     }
     c->any = true;
     if (s >= 0)
         return true;
-    if (!unused_hold(c)) { /* not a counterexample: an unused condition fails here */
+    if (!unused_conditions_hold(c)) { /* not a counterexample: an unused condition fails here */
         c->denied = true;
         return true;
     }
-    keep_point(c);
+    store_point(c);
     return false;
 }
 
 /* --- sample points of a level ------------------------------------------------------------- */
 
-/* Set r to p as a polynomial in the next symbol, for the values of the symbols chosen so far. */
+/* Set r to the polynomial p in the symbol of level k, with the values of the symbols chosen before inserted. */
 static void
-polynomial_over_points(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
+insert_chosen_values(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
 {
     qdot_polynomial_over(r, p, k, c->symbol, c->x, c->f.ctx);
 }
 
-/* The precision of zeros: with one symbol expressions are evaluated at them, with more only between them. */
+/* The precision of isolated zeros in bits: high for one symbol, as expressions are evaluated also at zeros. */
 static slong
 bits_needed(const cells *c)
 {
     return c->n == 1 ? 96 : 24;
 }
 
-/* The zeros of the polynomials of level k, for the values of the symbols chosen before. */
+/* Find the zeros of the polynomials of level k (last symbol k) for the values of the symbols chosen before. */
 static slong
-zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
+find_zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
 {
     fmpz_poly_t p, product, g;
     slong n;
@@ -384,7 +384,7 @@ zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
     fmpz_poly_init(g);
     fmpz_poly_one(product);
     for (size_t i = 0; i < c->level[k].n; i++) {
-        polynomial_over_points(c, p, c->level[k].at + i, k);
+        insert_chosen_values(c, p, c->level[k].at + i, k);
         if (fmpz_poly_degree(p) > 0)
             fmpz_poly_mul(product, product, p);
     }
@@ -393,7 +393,7 @@ zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
     fmpz_poly_div(product, product, g);
     *room = fmpz_poly_degree(product);
     *zeros = NULL;
-    n = charge(c, 20 * (1 + *room) * (1 + *room) * (1 + fmpz_poly_max_limbs(product)))
+    n = charge_work(c, 20 * (1 + *room) * (1 + *room) * (1 + fmpz_poly_max_limbs(product)))
             ? qdot_real_zeros(product, bits_needed(c), zeros)
             : -1;
     fmpz_poly_clear(p);
@@ -402,7 +402,7 @@ zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
     return n;
 }
 
-/* Whether p divides the numerator of an expression. */
+/* Whether e is 0 wherever p is, as p divides the numerator of e. */
 static bool
 vanishes_with(cells *c, qdot_expr e, const fmpz_mpoly_struct *p)
 {
@@ -416,7 +416,7 @@ vanishes_with(cells *c, qdot_expr e, const fmpz_mpoly_struct *p)
     return divides;
 }
 
-/* With one symbol: whether its value at `root` certainly violates a condition. */
+/* For a single symbol: whether the conditions certainly fail at its value `root`, a zero of `factor`. */
 static bool
 is_outside(cells *c, arb_srcptr root, const fmpz_mpoly_struct *factor)
 {
@@ -425,16 +425,16 @@ is_outside(cells *c, arb_srcptr root, const fmpz_mpoly_struct *factor)
     c->chosen = 1;
     c->at_root = true;
     arb_set(c->root, root);
-    qdot_ball_eval(&c->ball, 256, cells_value_of, c);
+    qdot_ball_eval(&c->ball, 256, symbol_value, c);
     for (size_t i = 1; i < 1 + c->n_conditions + c->n_bases; i++)
-        outside |= sign_here(c, c->all[i]) < 0 ||
+        outside |= sign_of_enclosure(c, c->all[i]) < 0 ||
                    (i <= c->n_conditions && !c->weak[i - 1] && factor != NULL &&
                     vanishes_with(c, c->all[i], factor));
     c->at_root = false;
     return outside;
 }
 
-/* With one symbol: the polynomial that has this zero; NULL if not known. */
+/* For a single symbol: the polynomial that is 0 at `root`; NULL if not known. */
 static const fmpz_mpoly_struct *
 polynomial_with_zero(cells *c, arb_srcptr root)
 {
@@ -446,7 +446,7 @@ polynomial_with_zero(cells *c, arb_srcptr root)
     fmpz_poly_init(p);
     arb_init(v);
     for (size_t i = 0; i < c->level[0].n; i++) {
-        polynomial_over_points(c, p, c->level[0].at + i, 0);
+        insert_chosen_values(c, p, c->level[0].at + i, 0);
         arb_fmpz_poly_evaluate_arb(v, p, root, 256);
         if (arb_contains_zero(v)) {
             found = c->level[0].at + i;
@@ -468,18 +468,18 @@ choose_values_from(cells *c, slong k)
     bool go = true, before = true;
 
     if (k == c->n)
-        return look_here(c);
-    n = zeros_of_level(c, k, &zero, &room);
+        return test_point(c);
+    n = find_zeros_of_level(c, k, &zero, &room);
     c->too_much |= n < 0;
     for (slong i = 0; i <= n && go && !c->too_much; i++) {
         qdot_between_zeros(&c->x[k], i > 0 ? zero + i - 1 : NULL,
                            i < n ? zero + i : NULL);
         c->chosen = k + 1;
-        if (!charge(c, 20 * (int64_t)c->ball.walk.n))
+        if (!charge_work(c, 20 * (int64_t)c->ball.walk.n))
             break;
-        if (k + 1 < c->n) { /* skip this value if a condition already fails */
-            qdot_ball_eval(&c->ball, 64, cells_value_of, c);
-            if (cells_look_around(c) == OUTSIDE)
+        if (k + 1 < c->n) { /* skip this value of the symbol if a condition already fails */
+            qdot_ball_eval(&c->ball, 64, symbol_value, c);
+            if (check_conditions_at_point(c) == OUTSIDE)
                 continue;
         }
         go = choose_values_from(c, k + 1);
@@ -495,16 +495,16 @@ choose_values_from(cells *c, slong k)
 
 /* --- zeros of e, if it has one symbol ------------------------------------------------------ */
 
-/* Whether a zero of a factor of the norm of e lies in the domain and may be a zero of e. */
+/* Whether `root`, a zero of a factor of the norm of e, lies in the domain and may be a zero of e. */
 static bool
 may_be_zero(cells *c, arb_srcptr root, const fmpz_mpoly_t factor)
 {
-    return !is_outside(c, root, factor) && sign_here(c, c->all[0]) != 1;
+    return !is_outside(c, root, factor) && sign_of_enclosure(c, c->all[0]) != 1;
 }
 
-/* Find whether e has a zero, if e >= 0 is known. */
+/* Find whether e has a zero, given that e >= 0 is known. */
 static void
-look_at_zeros(cells *c)
+search_zeros_of_e(cells *c)
 {
     fmpz_poly_t p;
 
@@ -514,7 +514,7 @@ look_at_zeros(cells *c)
         slong n, room;
         arb_ptr zero;
 
-        polynomial_over_points(c, p, c->zero.at + i, 0);
+        insert_chosen_values(c, p, c->zero.at + i, 0);
         room = fmpz_poly_degree(p);
         n = qdot_real_zeros(p, bits_needed(c), &zero);
         c->touches |= n < 0;
@@ -525,9 +525,9 @@ look_at_zeros(cells *c)
                 fmpz_poly_get_coeff_fmpz(fmpq_denref(&c->x[0]), p, 1);
                 fmpq_neg(&c->x[0], &c->x[0]);
                 fmpq_canonicalise(&c->x[0]);
-                qdot_ball_eval(&c->ball, 128, cells_value_of, c);
-                if (cells_vanishes(c, c->all[0]) && cells_look_around(c) == INSIDE)
-                    keep_point(c);
+                qdot_ball_eval(&c->ball, 128, symbol_value, c);
+                if (is_zero_at_point(c, c->all[0]) && check_conditions_at_point(c) == INSIDE)
+                    store_point(c);
             }
         }
         if (zero != NULL)
@@ -580,7 +580,7 @@ order_symbols(cells *c)
 
 /* Append conditions that bases of roots are not negative. */
 static bool
-gather_bases(cells *c)
+append_root_bases(cells *c)
 {
     qdot_field *f = &c->f;
     size_t n = 1 + c->n_conditions;
@@ -591,7 +591,7 @@ gather_bases(cells *c)
         if (f->gen[v].kind != QDOT_GEN_ROOT || qdot_is_constant(c->pool, of))
             continue;
         if (c->n > 1 && !(qdot_expr_node(c->pool, of)->sign & QDOT_GE0) && !qdot_gap_is_linear(&c->f, of))
-            return false; /* points where the argument is 0 might be isolated */
+            return false; /* give up, since points where the argument is 0 might be isolated */
         more = qdot_realloc(c->all, (n + 1) * sizeof *more);
         if (more == NULL)
             return false;
@@ -633,7 +633,7 @@ cells_search(cells *c, qdot_cells *result)
     if (!qdot_field_goes(&c->f) || !qdot_field_is_algebraic(&c->f) || !choose_symbols(c))
         return;
     choose_conditions(c);
-    if (!gather_bases(c) ||
+    if (!append_root_bases(c) ||
         qdot_ball_begin(&c->ball, c->pool, 1 + c->n_conditions + c->n_bases, c->all) != QDOT_OK)
         return;
     order_symbols(c);
@@ -647,7 +647,7 @@ cells_search(cells *c, qdot_cells *result)
     else if (through && !c->too_much && !c->denied)
         *result = c->any ? QDOT_CELLS_NOT_NEGATIVE : QDOT_CELLS_EMPTY;
     if (*result == QDOT_CELLS_NOT_NEGATIVE && c->n == 1) {
-        look_at_zeros(c);
+        search_zeros_of_e(c);
         if (!c->touches && !c->too_much)
             *result = QDOT_CELLS_POSITIVE;
         else if (c->point != QDOT_NIL)

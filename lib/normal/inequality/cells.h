@@ -25,7 +25,7 @@
 #include "expr/id.h"
 
 typedef struct {
-    qdot_expr gap; /* the condition gap > 0, or gap >= 0 if `weak` */
+    qdot_expr gap; /* the condition is gap > 0, or gap >= 0 if `weak` is true */
     bool weak;
 } qdot_cells_condition;
 

@@ -9,7 +9,7 @@
 enum { MOST = 8, LARGEST = 200 };
 
 static bool
-is_small_question(const qdot_pool *pool, const qdot_facts *facts)
+has_few_small_facts(const qdot_pool *pool, const qdot_facts *facts)
 {
     if (facts->n_conditions + facts->n_relations > MOST)
         return false;
@@ -35,13 +35,13 @@ less_is_proved(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
 }
 
 static qdot_status
-of_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *before, bool *found)
+condition_is_refuted(qdot_pool *pool, qdot_expr c, const qdot_facts *before, bool *found)
 {
     if (c == QDOT_FALSE)
         *found = true;
     if (qdot_expr_kind(pool, c) != QDOT_REL || qdot_expr_node(pool, c)->op == QDOT_EQ)
         return QDOT_OK;
-    /* u < v is false where v <= u, u <= v where v < u */
+    /* u < v is false where v <= u is proved, u <= v where v < u is proved */
     return less_is_proved(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0),
                           qdot_expr_node(pool, c)->op == QDOT_LE, before, found);
 }
@@ -52,13 +52,13 @@ qdot_contradiction(qdot_pool *pool, const qdot_facts *facts, bool *found)
     qdot_facts before = {0};
 
     *found = false;
-    if (!is_small_question(pool, facts))
+    if (!has_few_small_facts(pool, facts))
         return QDOT_OK;
     before.conditions = facts->conditions;
     before.relations = facts->relations;
     for (size_t i = 0; i < facts->n_conditions && !*found; i++) {
         before.n_conditions = i;
-        QDOT_TRY(of_condition(pool, facts->conditions[i], &before, found));
+        QDOT_TRY(condition_is_refuted(pool, facts->conditions[i], &before, found));
     }
     if (!*found && facts->n_conditions > 0)
         QDOT_TRY(qdot_boxes_exclude(pool, facts, found));

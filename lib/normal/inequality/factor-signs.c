@@ -9,7 +9,7 @@
 enum { WORK = 4000000, MOST_ENDS = 5 };
 
 static uint8_t
-bounds_of_product(uint8_t a, uint8_t b)
+product_of_signs(uint8_t a, uint8_t b)
 {
     const uint8_t either = QDOT_GE0 | QDOT_LE0;
     uint8_t known = 0;
@@ -28,12 +28,12 @@ common_sign(uint8_t a, uint8_t b)
     return a & b & (QDOT_GE0 | QDOT_LE0) ? (uint8_t)(a & b) : 0;
 }
 
-static uint8_t poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth);
+static uint8_t polynomial_sign(qdot_field *f, const fmpz_mpoly_t p, int depth);
 
 /* The sign of p = A x + B with x in [-1, 1] or [1, oo), from its values at the ends. depth bounds
  * the recursion. */
 static uint8_t
-by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
+sign_from_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
 {
     fmpz_mpoly_t at_one, at_other;
     uint8_t sign;
@@ -47,11 +47,11 @@ by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
         fmpz_mpoly_derivative(at_other, p, v,
                               f->ctx); /* the sign of A itself, at least as >= 0 */
         sign =
-            common_sign(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
+            common_sign(polynomial_sign(f, at_one, depth), polynomial_sign(f, at_other, depth) | QDOT_NE0);
     } else {
         fmpz_set_si(end, -1);
         fmpz_mpoly_evaluate_one_fmpz(at_other, p, v, end, f->ctx);
-        sign = common_sign(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth));
+        sign = common_sign(polynomial_sign(f, at_one, depth), polynomial_sign(f, at_other, depth));
     }
     fmpz_clear(end);
     fmpz_mpoly_clear(at_one, f->ctx);
@@ -70,7 +70,7 @@ is_free_cosine(const qdot_field *f, const fmpz_mpoly_t p, slong v)
 }
 
 static uint8_t
-poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth)
+polynomial_sign(qdot_field *f, const fmpz_mpoly_t p, int depth)
 {
     uint8_t sign;
 
@@ -81,7 +81,7 @@ poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth)
         return sign;
     for (slong v = 0; v < f->n && depth > 0; v++)
         if (is_free_cosine(f, p, v)) {
-            uint8_t here = by_ends(f, p, v, depth - 1);
+            uint8_t here = sign_from_ends(f, p, v, depth - 1);
 
             if (here != 0)
                 return here | sign;
@@ -100,11 +100,11 @@ product_sign(qdot_field *f, const fmpz_mpoly_t p)
     if (qdot_factor(f, &factors, p) == QDOT_OK) {
         sign = fmpz_sgn(factors.content) > 0 ? QDOT_POS : QDOT_NEG;
         for (slong i = 0; i < factors.n; i++) {
-            uint8_t one = poly_sign(f, factors.poly + i, MOST_ENDS);
+            uint8_t one = polynomial_sign(f, factors.poly + i, MOST_ENDS);
 
             if (factors.exp[i] % 2 == 0)
                 one = (uint8_t)(QDOT_GE0 | (one & QDOT_NE0));
-            sign = bounds_of_product(sign, one);
+            sign = product_of_signs(sign, one);
         }
     }
     qdot_factor_clear(f, &factors);
@@ -128,13 +128,13 @@ qdot_sign_by_factors(qdot_pool *pool, qdot_expr e)
         qdot_ratio_set(&f, &x, r);
         qdot_ratio_cancel(&f, &x);
         if (qdot_field_goes(&f))
-            sign = bounds_of_product(product_sign(&f, x.n),
-                                     product_sign(&f, x.d) | QDOT_NE0);
+            sign = product_of_signs(product_sign(&f, x.n),
+                                    product_sign(&f, x.d) | QDOT_NE0);
         for (slong v = 0; v < f.n && sign == 0 && qdot_field_goes(&f); v++)
             if (f.gen[v].kind == QDOT_GEN_COS &&
                 qdot_factor_flip(&f, x.n, x.n, v) == QDOT_OK)
-                sign = bounds_of_product(product_sign(&f, x.n),
-                                         product_sign(&f, x.d) | QDOT_NE0);
+                sign = product_of_signs(product_sign(&f, x.n),
+                                        product_sign(&f, x.d) | QDOT_NE0);
         qdot_ratio_clear(&f, &x);
     }
     qdot_field_end(&f);
@@ -144,8 +144,8 @@ qdot_sign_by_factors(qdot_pool *pool, qdot_expr e)
 /* The product of those factors of p whose sign is not known, once or twice, to the power `turn`, 1 or -1. *sign: times
  * that of the others, 0 where p cannot be factored; *less: there are others. */
 static qdot_expr
-product_of_open_factors(qdot_field *f, const fmpz_mpoly_t p, long turn, int *sign,
-                        bool *less)
+product_of_unsigned_factors(qdot_field *f, const fmpz_mpoly_t p, long turn, int *sign,
+                            bool *less)
 {
     qdot_pool *pool = f->pool;
     qdot_expr product = QDOT_ONE;
@@ -157,7 +157,7 @@ product_of_open_factors(qdot_field *f, const fmpz_mpoly_t p, long turn, int *sig
     }
     *sign *= fmpz_sgn(factors.content);
     for (slong i = 0; i < factors.n; i++) {
-        const uint8_t one = poly_sign(f, factors.poly + i, MOST_ENDS);
+        const uint8_t one = polynomial_sign(f, factors.poly + i, MOST_ENDS);
         const bool odd = factors.exp[i] % 2 != 0;
 
         if ((one & QDOT_POS) == QDOT_POS || (one & QDOT_NEG) == QDOT_NEG) {
@@ -191,8 +191,8 @@ qdot_without_signed_factors(qdot_pool *pool, qdot_expr e)
         qdot_ratio_init(&f, &x);
         qdot_ratio_set(&f, &x, r);
         qdot_ratio_cancel(&f, &x);
-        above = product_of_open_factors(&f, x.n, 1, &sign, &less);
-        below = product_of_open_factors(&f, x.d, -1, &sign, &less);
+        above = product_of_unsigned_factors(&f, x.n, 1, &sign, &less);
+        below = product_of_unsigned_factors(&f, x.d, -1, &sign, &less);
         if (qdot_field_goes(&f) && sign != 0 && less)
             rest = qdot_mul(pool, sign > 0 ? QDOT_ONE : QDOT_MINUS_ONE,
                             qdot_mul(pool, above, below));

@@ -11,7 +11,7 @@
 /* What is known of the sign of e, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; 0: nothing. */
 uint8_t qdot_sign_by_factors(qdot_pool *pool, qdot_expr e);
 
-/* e without the factors of known sign: it has the sign of e wherever e is defined. */
+/* The expression e without its factors of known sign; it has the sign of e wherever e is defined. */
 qdot_expr qdot_without_signed_factors(qdot_pool *pool, qdot_expr e);
 
 #endif

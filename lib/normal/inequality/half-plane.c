@@ -11,7 +11,7 @@
 #include "normal/field/flint.h"
 #include "normal/refute/ball.h"
 
-/* The first and the last precision in bits; SURE bounds loops that must end anyway. */
+/* Precision in bits at first and at most; SURE bounds loops that are known to end; largest degree of p(s). */
 enum { FIRST = 128, LAST = 2048, SURE = 1 << 16, MOST_DEGREE = 64 };
 
 typedef struct {
@@ -37,7 +37,7 @@ is_rational(const question *q)
 
 /* Find a multiple of det(M s^2 + G s + H), with integer coefficients. */
 static void
-integer_polynomial(const question *q, fmpz_poly_t p)
+find_integer_polynomial(const question *q, fmpz_poly_t p)
 {
     slong n = (slong)q->n;
     fmpz_poly_mat_t A;
@@ -80,7 +80,7 @@ typedef struct {
 /* Where the zeros of f lie, which has none twice: by their real parts, none of which is 0; or, with
  * `squares`, where +-sqrt of them lie. */
 static sides
-sides_of(const fmpz_poly_t f, bool squares)
+locate_zeros(const fmpz_poly_t f, bool squares)
 {
     slong degree = fmpz_poly_degree(f);
     sides s = {.sure = degree <= 0};
@@ -113,9 +113,9 @@ sides_of(const fmpz_poly_t f, bool squares)
     return s;
 }
 
-/* Count the zeros of the square-free factor f, which occurs `times` in p. */
+/* Count the zeros of f, a factor without multiple zeros that occurs `times` times in p. */
 static void
-add_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
+add_zeros_of_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
 {
     fmpz_poly_t g, h, rest;
     sides off, on;
@@ -130,8 +130,8 @@ add_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
     zero = fmpz_is_zero(fmpz_poly_get_coeff_ptr(g, 0));
     for (slong k = zero; k < fmpz_poly_length(g); k += 2)
         fmpz_poly_set_coeff_fmpz(h, k / 2, fmpz_poly_get_coeff_ptr(g, k));
-    off = sides_of(rest, false);
-    on = sides_of(h, true);
+    off = locate_zeros(rest, false);
+    on = locate_zeros(h, true);
     found->grows |= off.right || on.right;
     found->decays &= off.sure && on.sure && !off.right && !on.right && !on.axis && !zero;
     found->bounded &= off.sure && on.sure && !off.right && !on.right && !zero &&
@@ -142,19 +142,19 @@ add_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
 }
 
 static void
-exactly(question *q)
+decide_exactly(question *q)
 {
     fmpz_poly_t p;
     fmpz_poly_factor_t parts;
 
     fmpz_poly_init(p);
     fmpz_poly_factor_init(parts);
-    integer_polynomial(q, p);
-    if (fmpz_poly_degree(p) == 2 * (slong)q->n) { /* full degree 2 n; otherwise M is singular */
+    find_integer_polynomial(q, p);
+    if (fmpz_poly_degree(p) == 2 * (slong)q->n) { /* the degree is 2 n unless the mass matrix M is singular */
         q->found.decays = q->found.bounded = true;
         fmpz_poly_factor_squarefree(parts, p);
         for (slong i = 0; i < parts->num; i++)
-            add_factor(parts->p + i, parts->exp[i], &q->found);
+            add_zeros_of_factor(parts->p + i, parts->exp[i], &q->found);
     }
     fmpz_poly_factor_clear(parts);
     fmpz_poly_clear(p);
@@ -162,7 +162,7 @@ exactly(question *q)
 
 /* --- other constant coefficients ---------------------------------------------------------- */
 
-/* Enclose the matrix X [n x n] in balls. */
+/* Enclose the entries of the matrix X [n x n] in balls (intervals around a midpoint). */
 static bool
 matrix_enclose(const qdot_ball *ball, const qdot_expr *X, arb_mat_t A)
 {
@@ -178,9 +178,9 @@ matrix_enclose(const qdot_ball *ball, const qdot_expr *X, arb_mat_t A)
     return true;
 }
 
-/* Enclose the characteristic polynomial of y' = ((0, 1), (-M^-1 H, -M^-1 G)) y; with `even` that of -M^-1 H. */
+/* Enclose the characteristic polynomial of M y'' + G y' + H y = 0 in balls; if `even` that of -M^-1 H. */
 static bool
-enclosed_polynomial(const question *q, const qdot_ball *ball, bool even, arb_poly_t p, slong bits)
+enclose_polynomial(const question *q, const qdot_ball *ball, bool even, arb_poly_t p, slong bits)
 {
     slong n = (slong)q->n, all = even ? n : 2 * n;
     arb_mat_t M, X, A;
@@ -206,9 +206,9 @@ enclosed_polynomial(const question *q, const qdot_ball *ball, bool even, arb_pol
     return fine;
 }
 
-/* For p(s) = h(s^2): drop the odd coefficients of p, whose balls contain 0. */
+/* Keep the even coefficients of p(s) = h(s^2): drop the odd ones, whose enclosures contain 0. */
 static void
-keep_even(arb_poly_t p)
+drop_odd_coefficients(arb_poly_t p)
 {
     slong n = arb_poly_length(p) / 2;
 
@@ -223,16 +223,16 @@ keep_even(arb_poly_t p)
     arb_poly_truncate(p, n + 1);
 }
 
-/* Whether a zero isolated in its ball is real: as p is real, its conjugate would be a second zero. */
+/* Whether a zero isolated in the ball z is real: since p is real, the conjugate would be a second zero. */
 static bool
 is_real_zero(acb_srcptr z)
 {
     return arb_contains_zero(acb_imagref(z));
 }
 
-/* Decide from enclosures of the polynomial's zeros; false if undecided, where more bits may help. */
+/* Decide from enclosures of the zeros of p; false if undecided, in which case more bits may help. */
 static bool
-judge_enclosed(arb_poly_t p, bool squares, slong bits, qdot_half_plane *found)
+decide_by_enclosures(arb_poly_t p, bool squares, slong bits, qdot_half_plane *found)
 {
     slong degree = arb_poly_degree(p), alone;
     acb_poly_t c;
@@ -263,7 +263,7 @@ judge_enclosed(arb_poly_t p, bool squares, slong bits, qdot_half_plane *found)
 }
 
 static void
-in_balls(question *q)
+decide_with_balls(question *q)
 {
     const size_t m = q->n * q->n;
     qdot_expr *all = qdot_malloc((3 * m + 1) * sizeof *all);
@@ -283,10 +283,10 @@ in_balls(question *q)
 
         arb_poly_init(p);
         qdot_ball_eval(&ball, bits, NULL, NULL);
-        if (enclosed_polynomial(q, &ball, undamped, p, bits)) {
+        if (enclose_polynomial(q, &ball, undamped, p, bits)) {
             if (q->even && !undamped)
-                keep_even(p);
-            done = judge_enclosed(p, q->even || undamped, bits, &q->found);
+                drop_odd_coefficients(p);
+            done = decide_by_enclosures(p, q->even || undamped, bits, &q->found);
         }
         arb_poly_clear(p);
     }
@@ -296,14 +296,14 @@ in_balls(question *q)
 }
 
 static void
-half_plane_answer(void *user)
+decide_half_plane(void *user)
 {
     question *q = user;
 
     if (is_rational(q))
-        exactly(q);
+        decide_exactly(q);
     else
-        in_balls(q);
+        decide_with_balls(q);
 }
 
 qdot_status
@@ -316,7 +316,7 @@ qdot_half_plane_of(qdot_pool *pool, size_t n, const qdot_expr *M, const qdot_exp
     *out = (qdot_half_plane){0};
     if (n == 0 || 2 * n > MOST_DEGREE)
         return QDOT_OK;
-    status = qdot_flint_run(pool, half_plane_answer, &q);
+    status = qdot_flint_run(pool, decide_half_plane, &q);
     if (status == QDOT_OK)
         status = q.status;
     if (status == QDOT_OK)

@@ -19,7 +19,7 @@
 typedef struct {
     bool grows;   /* proved: a zero has a positive real part */
     bool decays;  /* proved: all real parts are negative */
-    bool bounded; /* proved: no zero has a positive real part; those on the axis are single and not 0 */
+    bool bounded; /* proved: no zero has a positive real part; zeros on the imaginary axis are single and not 0 */
 } qdot_half_plane;
 
 /* M, G, H [n * n], constants (normal/refute/constant.h). even: M and H are known to be symmetric and G

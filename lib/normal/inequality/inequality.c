@@ -27,9 +27,9 @@ enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, SMALLEST_PART = 128,
 
 /* --- the facts of a question ------------------------------------------------------------ */
 
-/* Add the declared bounds of all symbols, including symbols in those bounds. */
+/* Add the declared bounds of all symbols in the question, including symbols in those bounds. */
 static void
-declared_bounds(qdot_pool *pool, qdot_question *q)
+add_declared_bounds(qdot_pool *pool, qdot_question *q)
 {
     qdot_expr seen = qdot_list(pool, 0, NULL);
 
@@ -75,12 +75,12 @@ question_begin(qdot_pool *pool, qdot_question *q, qdot_expr e, const qdot_facts 
     if (facts != NULL && facts->n_relations > 0)
         q->exact = false;
     if (!q->too_much)
-        declared_bounds(pool, q);
+        add_declared_bounds(pool, q);
 }
 
 /* --- case distinctions ------------------------------------------------------------------ */
 
-/* The innermost absolute value or if; nil: none. */
+/* The innermost absolute value or if(...) in e, which needs a case distinction; nil: none. */
 static qdot_expr
 first_choice(qdot_pool *pool, qdot_expr e)
 {
@@ -88,7 +88,7 @@ first_choice(qdot_pool *pool, qdot_expr e)
 }
 
 static void
-question_put(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
+substitute_in_question(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
 {
     q->e = qdot_subs(pool, q->e, 1, &x, &to);
     for (size_t i = 0; i < q->n; i++)
@@ -96,9 +96,9 @@ question_put(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
     q->too_much |= q->e == QDOT_NIL;
 }
 
-/* Replace a question with a case distinction by two; a: the first case holds. */
+/* Replace a question that needs a case distinction by two questions; `a` gets the first case, `b` the second. */
 static void
-question_split_choice(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
+split_question(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
 {
     qdot_expr u = qdot_expr_arg(pool, choice, 0), gap;
     bool strict;
@@ -106,8 +106,8 @@ question_split_choice(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_
     if (qdot_expr_node(pool, choice)->op == QDOT_ABS) {
         qdot_question_demand(a, u, true);
         qdot_question_demand(b, qdot_neg(pool, u), true);
-        question_put(pool, a, choice, u);
-        question_put(pool, b, choice, qdot_neg(pool, u));
+        substitute_in_question(pool, a, choice, u);
+        substitute_in_question(pool, b, choice, qdot_neg(pool, u));
         return;
     }
     if (qdot_expr_kind(pool, u) != QDOT_REL || qdot_expr_node(pool, u)->op == QDOT_EQ) {
@@ -119,8 +119,8 @@ question_split_choice(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_
     strict = qdot_expr_node(pool, u)->op == QDOT_LT;
     qdot_question_demand(a, gap, !strict);
     qdot_question_demand(b, qdot_neg(pool, gap), strict);
-    question_put(pool, a, choice, qdot_expr_arg(pool, choice, 1));
-    question_put(pool, b, choice, qdot_expr_arg(pool, choice, 2));
+    substitute_in_question(pool, a, choice, qdot_expr_arg(pool, choice, 1));
+    substitute_in_question(pool, b, choice, qdot_expr_arg(pool, choice, 2));
 }
 
 /* Drop conditions whose symbols are not connected with e, directly or through other conditions. */
@@ -158,7 +158,7 @@ drop_unconnected(qdot_pool *pool, qdot_question *q)
 /* Prove e > 0 from e - c m >= 0 for some c > 0 and m > 0; if refuted for a small c it is for every
  * larger one. */
 static qdot_status
-with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
+prove_with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
 {
     qdot_expr margin[MOST_MARGINS] = {QDOT_ONE}, at;
     size_t n = 1, singles;
@@ -180,7 +180,7 @@ with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
     return QDOT_OK;
 }
 
-/* Whether e = c g for a number c > 0. */
+/* Whether e is a positive number times g. */
 static bool
 is_multiple(qdot_pool *pool, qdot_expr e, qdot_expr g)
 {
@@ -190,9 +190,9 @@ is_multiple(qdot_pool *pool, qdot_expr e, qdot_expr g)
            fmpq_sgn(qdot_expr_rational(pool, ratio)) > 0;
 }
 
-/* Whether a condition, or the sum of two, is literally what is to be proved. */
+/* Whether a condition, or the sum of two conditions, is literally the inequality to be proved. */
 static bool
-is_said(qdot_pool *pool, const qdot_question *q, bool strict)
+is_given_by_conditions(qdot_pool *pool, const qdot_question *q, bool strict)
 {
     bool said = false;
 
@@ -216,7 +216,7 @@ is_said(qdot_pool *pool, const qdot_question *q, bool strict)
 /* Without choices in it. *any: there are points inside. Where there are none the question is settled by
  * the other sides of absolute values: their points come as near as one likes. */
 static qdot_status
-question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
+answer_question(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
                 qdot_expr *at)
 {
     qdot_cells result = QDOT_CELLS_UNKNOWN;
@@ -233,7 +233,7 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
         *any = true;
         return QDOT_OK;
     }
-    if (!q->too_much && q->n <= MOST_SAID && is_said(pool, q, strict)) {
+    if (!q->too_much && q->n <= MOST_SAID && is_given_by_conditions(pool, q, strict)) {
         *proved = *any = true;
         return QDOT_OK;
     }
@@ -243,7 +243,7 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
     if (q->too_much || qdot_pool_failed(pool))
         return qdot_grave(qdot_pool_check(pool));
     QDOT_TRY(qdot_linear_decide(pool, q->e, q->n, q->condition, &result));
-    /* cells find the point that refutes it */
+    /* let the cell decomposition find the point that refutes e, although elimination did refute it */
     by_rows = result != QDOT_CELLS_UNKNOWN && !(q->exact && result >= QDOT_CELLS_NOT_NEGATIVE);
     if (!by_rows)
         QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));
@@ -254,7 +254,7 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
     case QDOT_CELLS_NOT_NEGATIVE:
         *proved = !strict;
         if (strict && !by_rows)
-            QDOT_TRY(with_margin(pool, q, proved));
+            QDOT_TRY(prove_with_margin(pool, q, proved));
         break;
     case QDOT_CELLS_ZERO:
         *proved = !strict;
@@ -271,8 +271,8 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
 }
 
 static qdot_status
-by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
-         int64_t *work, bool *proved, qdot_expr *at)
+prove_by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
+               int64_t *work, bool *proved, qdot_expr *at)
 {
     qdot_question *q = qdot_malloc(MOST_CASES * sizeof *q);
     size_t n = 1, done = 0;
@@ -293,14 +293,14 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
 
         if (choice != QDOT_NIL && n < MOST_CASES && done + n < MOST_CASES) {
             q[n] = *last;
-            question_split_choice(pool, choice, last, &q[n]);
+            split_question(pool, choice, last, &q[n]);
             n++;
             continue;
         }
         n--;
         done++;
         last->too_much |= choice != QDOT_NIL || last->e == QDOT_NIL;
-        status = question_settle(pool, last, strict, proved, &any, at);
+        status = answer_question(pool, last, strict, proved, &any, at);
         *proved &= !last->too_much;
     }
     *proved &= any;
@@ -314,7 +314,7 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
 
 /* Whether e is defined and smooth on the whole domain of its only symbol. */
 static bool
-is_smooth(qdot_pool *pool, qdot_expr e)
+is_smooth_on_domain(qdot_pool *pool, qdot_expr e)
 {
     bool good = true;
     qdot_walk w;
@@ -348,12 +348,12 @@ is_smooth(qdot_pool *pool, qdot_expr e)
     return good;
 }
 
-static qdot_status prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes,
-                                 int64_t *work, bool *proved);
+static qdot_status prove_by_cases_or_derivatives(qdot_pool *pool, qdot_expr e, bool strict, int slopes,
+                                                 int64_t *work, bool *proved);
 
-/* Whether e(a) >= 0 is known; *above: e(a) > 0. */
+/* Whether e >= 0 at x = a is known; *above: e > 0 there. */
 static bool
-known_at(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr a, bool *above)
+is_nonnegative_at(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr a, bool *above)
 {
     qdot_expr there = qdot_subs(pool, e, 1, &x, &a);
     qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
@@ -373,8 +373,8 @@ known_at(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr a, bool *above)
 /* How far the domain of x goes from a: *end nil without end. False: not at all, or not known;
  * *nothing: a is its end. */
 static bool
-reaches(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr *end,
-        bool *nothing)
+domain_extends(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr *end,
+               bool *nothing)
 {
     qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
 
@@ -390,7 +390,7 @@ reaches(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr *end,
     return *nothing || sign == QDOT_CONSTANT_POSITIVE;
 }
 
-/* e as a function of one symbol, its derivative, and how many more derivatives may be used. */
+/* An expression e of one symbol: its derivative, and how many more derivatives may be used. */
 struct line {
     qdot_pool *pool;
     qdot_expr x, slope;
@@ -401,7 +401,7 @@ struct line {
 /* On one side of a, where e(a) >= 0: the slope of e leads away from 0. As it does not vanish along a
  * stretch, e > e(a) there. */
 static qdot_status
-one_side(const struct line *e, qdot_expr a, bool up, bool *proved)
+prove_on_one_side(const struct line *e, qdot_expr a, bool up, bool *proved)
 {
     qdot_pool *pool = e->pool;
     qdot_symbol s = *qdot_expr_symbol(pool, e->x);
@@ -409,7 +409,7 @@ one_side(const struct line *e, qdot_expr a, bool up, bool *proved)
     char name[80];
 
     *proved = false;
-    if (!reaches(pool, up ? s.hi : s.lo, a, up, &end, proved) || *proved)
+    if (!domain_extends(pool, up ? s.hi : s.lo, a, up, &end, proved) || *proved)
         return QDOT_OK;
     snprintf(name, sizeof name, "(%u from %u to %u%d)", e->x, a, end,
              up ? s.hi_open : s.lo_open);
@@ -421,12 +421,12 @@ one_side(const struct line *e, qdot_expr a, bool up, bool *proved)
     slope = qdot_subs(pool, up ? e->slope : qdot_neg(pool, e->slope), 1, &e->x, &to);
     if (slope == QDOT_NIL)
         return qdot_grave(qdot_pool_check(pool));
-    return prove_somehow(pool, slope, false, e->slopes - 1, e->work, proved);
+    return prove_by_cases_or_derivatives(pool, slope, false, e->slopes - 1, e->work, proved);
 }
 
 static qdot_status
-by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
-          bool *proved)
+prove_by_derivatives(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
+                     bool *proved)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, e, true), points[3] = {QDOT_ZERO, QDOT_ONE},
               x;
@@ -436,7 +436,7 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
     *proved = false;
     if (slopes == 0 || atoms == QDOT_NIL || qdot_expr_count(pool, atoms) != 1 ||
         qdot_expr_kind(pool, qdot_expr_arg(pool, atoms, 0)) != QDOT_SYM ||
-        !is_smooth(pool, e))
+        !is_smooth_on_domain(pool, e))
         return QDOT_OK;
     line.x = x = qdot_expr_arg(pool, atoms, 0);
     points[2] = qdot_expr_symbol(pool, x)->lo;
@@ -451,13 +451,13 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
         qdot_expr a = points[i];
         bool above = false, up = false, down = false;
 
-        if (a == QDOT_NIL || !known_at(pool, e, x, a, &above))
+        if (a == QDOT_NIL || !is_nonnegative_at(pool, e, x, a, &above))
             continue;
         if (strict && !above && !(a == s.lo && s.lo_open) && !(a == s.hi && s.hi_open))
             continue;
-        QDOT_TRY(one_side(&line, a, true, &up));
+        QDOT_TRY(prove_on_one_side(&line, a, true, &up));
         if (up)
-            QDOT_TRY(one_side(&line, a, false, &down));
+            QDOT_TRY(prove_on_one_side(&line, a, false, &down));
         *proved = up && down;
     }
     return qdot_pool_failed(pool) ? qdot_grave(qdot_pool_check(pool)) : QDOT_OK;
@@ -466,15 +466,15 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
 /* Prove that e is positive or not negative by cases, then by derivatives; the work is bounded by
  * MOST_SLOPES. */
 static qdot_status
-prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
-              bool *proved)
+prove_by_cases_or_derivatives(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
+                              bool *proved)
 {
     qdot_expr at = QDOT_NIL;
 
-    QDOT_TRY(by_cases(pool, e, strict, NULL, work, proved, &at));
+    QDOT_TRY(prove_by_cases(pool, e, strict, NULL, work, proved, &at));
     if (*proved || at != QDOT_NIL)
         return QDOT_OK;
-    return by_slopes(pool, e, strict, slopes, work, proved);
+    return prove_by_derivatives(pool, e, strict, slopes, work, proved);
 }
 
 /* --- the whole decision ----------------------------------------------------------------------- */
@@ -482,8 +482,8 @@ prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *wo
 /* Conditions, and relations that can be solved, put into the symbols; what is left of them. Slopes
  * too. */
 static qdot_status
-unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
-         int64_t *work, bool *proved)
+prove_after_substitutions(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
+                          int64_t *work, bool *proved)
 {
     size_t nr = facts->n_relations;
     qdot_expr *all = qdot_malloc((nr + 1) * sizeof *all), at = QDOT_NIL;
@@ -502,9 +502,9 @@ unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
     known.n_conditions = rest.positive.n;
     known.conditions = rest.positive.at;
     if (status == QDOT_OK && !qdot_pool_failed(pool) && !rest.empty && nr > 0)
-        status = by_cases(pool, all[0], strict, &known, work, proved, &at);
+        status = prove_by_cases(pool, all[0], strict, &known, work, proved, &at);
     if (status == QDOT_OK && !qdot_pool_failed(pool) && !rest.empty && !*proved)
-        status = by_slopes(pool, all[0], strict, MOST_SLOPES, work, proved);
+        status = prove_by_derivatives(pool, all[0], strict, MOST_SLOPES, work, proved);
     qdot_free(rest.positive.at);
     qdot_free(all);
     return status == QDOT_OK ? qdot_grave(qdot_pool_check(pool)) : status;
@@ -524,8 +524,8 @@ qdot_inequality(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *fac
     if (facts == NULL)
         facts = &nothing;
     if (facts->n_relations == 0)
-        QDOT_TRY(by_cases(pool, e, strict, facts, &work, proved, at));
+        QDOT_TRY(prove_by_cases(pool, e, strict, facts, &work, proved, at));
     if (*proved || *at != QDOT_NIL)
         return QDOT_OK;
-    return unfolded(pool, e, strict, facts, &work, proved);
+    return prove_after_substitutions(pool, e, strict, facts, &work, proved);
 }

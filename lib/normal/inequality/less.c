@@ -63,7 +63,7 @@ struct boxes {
 };
 
 static bool
-side(void *user, qdot_expr atom, arb_t value, slong prec)
+box_side(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const struct boxes *b = user;
     arf_t lo, hi;
@@ -87,7 +87,7 @@ side(void *user, qdot_expr atom, arb_t value, slong prec)
 /* Whether e > 0 on the whole (closed) box of its symbols' domains: halved until every
  * part says so. */
 static bool
-positive_on_box(qdot_pool *pool, qdot_expr e)
+is_positive_on_box(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, e, true);
     struct boxes b = {.n = atoms == QDOT_NIL ? 99 : qdot_expr_count(pool, atoms)};
@@ -120,7 +120,7 @@ positive_on_box(qdot_pool *pool, qdot_expr e)
         uint32_t widest = 0;
 
         b.box = &box;
-        qdot_ball_eval(&ball, 53, side, &b);
+        qdot_ball_eval(&ball, 53, box_side, &b);
         value = qdot_ball_get(&ball, e);
         if (value != NULL && arb_is_positive(value))
             continue;
@@ -147,7 +147,7 @@ positive_on_box(qdot_pool *pool, qdot_expr e)
 /* --- deciding left < right --------------------------------------------------------- */
 
 static bool
-enough(uint8_t sign, bool strict)
+sign_suffices(uint8_t sign, bool strict)
 {
     return strict ? (sign & QDOT_POS) == QDOT_POS : (sign & QDOT_GE0) != 0;
 }
@@ -179,10 +179,10 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 {
     qdot_expr s;
 
-    if (enough(qdot_expr_sign(pool, d), strict))
+    if (sign_suffices(qdot_expr_sign(pool, d), strict))
         return true;
     s = qdot_with_less_constants(pool, d, false);
-    if (s != QDOT_NIL && enough(qdot_expr_sign(pool, s), strict))
+    if (s != QDOT_NIL && sign_suffices(qdot_expr_sign(pool, s), strict))
         return true;
     d = qdot_known_signs(pool, d, facts);
     if ((facts == NULL || facts->n_relations == 0) && is_negative_somewhere(pool, d))
@@ -190,13 +190,13 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     s = qdot_shortest(pool, d, facts);
     if (s == QDOT_NIL)
         return false;
-    if (enough(qdot_expr_sign(pool, s), strict) || enough(qdot_sign_by_factors(pool, s), strict))
+    if (sign_suffices(qdot_expr_sign(pool, s), strict) || sign_suffices(qdot_sign_by_factors(pool, s), strict))
         return true;
     d = shift_to_bounds(pool, s);
     if (d != s &&
-        (enough(qdot_expr_sign(pool, d), strict) || enough(qdot_sign_by_factors(pool, d), strict)))
+        (sign_suffices(qdot_expr_sign(pool, d), strict) || sign_suffices(qdot_sign_by_factors(pool, d), strict)))
         return true;
-    return positive_on_box(pool, s);
+    return is_positive_on_box(pool, s);
 }
 
 /* Whether the fact 0 < |u| (gap = |u|) can help to prove 0 < d: d contains |u|, or is u times a number. */
@@ -211,9 +211,9 @@ is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *fac
     return ratio == QDOT_NIL || qdot_expr_rational(pool, ratio) != NULL;
 }
 
-/* Whether e divides only by expressions that cannot be 0, and contains no function with a pole. */
+/* Whether all divisors in e are proved not to be 0, and e contains no function with a pole. */
 static bool
-divides_by_nonzero(qdot_pool *pool, qdot_expr e)
+divisors_are_nonzero(qdot_pool *pool, qdot_expr e)
 {
     bool good = e != QDOT_NIL;
     qdot_walk w;
@@ -230,7 +230,7 @@ divides_by_nonzero(qdot_pool *pool, qdot_expr e)
     return good;
 }
 
-/* Prove d > 0 from a condition u < v: d is a positive multiple of v - u, or not less than it. */
+/* Prove d > 0 from a condition u < v: if d is a positive multiple of v - u, or at least v - u. */
 static bool
 proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 {
@@ -252,9 +252,9 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
         if (gap == QDOT_ZERO)
             continue;
         rest = qdot_div(pool, d, gap);
-        if (!sharp) /* where the gap is 0, d = 0 if the ratio d/gap is defined there */
+        if (!sharp) /* divide d by the gap: where the gap is 0, d = 0 if the ratio is defined there */
             rest = qdot_shortest(pool, rest, facts);
-        if ((sharp || divides_by_nonzero(pool, rest)) && proved(pool, rest, strict, facts))
+        if ((sharp || divisors_are_nonzero(pool, rest)) && proved(pool, rest, strict, facts))
             return true;
     }
     return false;
@@ -308,10 +308,10 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
-/* Refute at a point, a LIST of symbol = rational, where right - left was found negative (or zero). */
+/* Refute left < right at a point, a LIST of symbol = rational, where right - left was found negative (or zero). */
 static qdot_status
-refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
-             const qdot_facts *facts, qdot_expr at, qdot_decision *d)
+refute_at_point(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+                const qdot_facts *facts, qdot_expr at, qdot_decision *d)
 {
     qdot_expr none = qdot_list(pool, 0, NULL);
     qdot_expr e[4] = {left, right, qdot_sub(pool, right, left),
@@ -431,7 +431,7 @@ less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     if (holds)
         d->verdict = QDOT_PROVED;
     else if (at != QDOT_NIL)
-        QDOT_TRY(refute_there(pool, left, right, strict, facts, at, d));
+        QDOT_TRY(refute_at_point(pool, left, right, strict, facts, at, d));
     if (d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(by_rational_constants(pool, gap, strict, facts, &holds));
     if (d->verdict == QDOT_UNDECIDED && !holds && facts != NULL && facts->n_conditions > 0) {
@@ -457,7 +457,7 @@ struct order {
 };
 
 static void
-decide_order(void *user)
+decide_less_task(void *user)
 {
     struct order *x = user;
 
@@ -466,13 +466,13 @@ decide_order(void *user)
 
 /* --- questions that were answered before -------------------------------------------- */
 
-/* What is kept of a decision: also whether a simplification on the way stopped at its budget. */
+/* The stored answer of a decision; also whether a simplification on the way stopped at its budget. */
 struct decided {
     qdot_decision d;
     bool unfinished;
 };
 
-/* left, right and all facts as one expression. Nil: nothing can be kept of it. */
+/* The two sides and all facts as one expression, under which an answer is stored. Nil: it cannot be. */
 static qdot_expr
 question_as_list(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts)
 {
@@ -506,7 +506,7 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         return QDOT_OK;
     }
     before = qdot_pool_unfinished_taken(pool);
-    status = qdot_flint_run(pool, decide_order, &x);
+    status = qdot_flint_run(pool, decide_less_task, &x);
     *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
     known = (struct decided){*d, qdot_pool_unfinished_taken(pool)};
     if (before || known.unfinished)
@@ -535,9 +535,9 @@ facts_without_choices(qdot_pool *pool, const qdot_facts *facts, qdot_expr *left)
     return rest;
 }
 
-/* Replace |u| by u or -u, sign(u) by 1 or -1, if the facts decide the sign of u; nil if not. */
+/* Replace |u| by u or -u, sign(u) by 1 or -1, if the facts decide the sign of u; nil if they do not. */
 static qdot_expr
-known_sign(qdot_pool *pool, qdot_expr node, const qdot_facts *facts)
+replace_by_known_sign(qdot_pool *pool, qdot_expr node, const qdot_facts *facts)
 {
     const bool sign = qdot_expr_node(pool, node)->op == QDOT_SIGN;
     const qdot_expr u = qdot_expr_arg(pool, node, 0);
@@ -553,9 +553,9 @@ known_sign(qdot_pool *pool, qdot_expr node, const qdot_facts *facts)
     return QDOT_NIL;
 }
 
-/* 1: the comparison is proved, -1: it is refuted, 0: neither. */
+/* The truth of a comparison by the facts: 1 proved, -1 refuted, 0 neither. */
 static int
-known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
+truth_of_comparison(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 {
     const uint32_t op = qdot_expr_node(pool, c)->op;
     const qdot_expr a = qdot_expr_arg(pool, c, 0), b = qdot_expr_arg(pool, c, 1);
@@ -571,9 +571,9 @@ known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return is.verdict == QDOT_PROVED ? 1 : is_not.verdict == QDOT_PROVED ? -1 : 0;
 }
 
-/* As known_relation, for the condition of an if: comparisons joined by and, or, not. */
+/* The truth of the condition of an if, comparisons joined by and, or, not: 1 proved, -1 refuted, 0 neither. */
 static int
-known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
+truth_of_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 {
     const uint32_t op = qdot_expr_node(pool, c)->op;
     int least = 1, most = -1;
@@ -581,11 +581,11 @@ known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     if (c == QDOT_TRUE || c == QDOT_FALSE)
         return c == QDOT_TRUE ? 1 : -1;
     if (qdot_expr_kind(pool, c) == QDOT_REL)
-        return known_relation(pool, c, facts);
+        return truth_of_comparison(pool, c, facts);
     if (qdot_expr_kind(pool, c) != QDOT_LOGIC)
         return 0;
     for (uint32_t i = 0; i < qdot_expr_count(pool, c); i++) {
-        const int one = known_condition(pool, qdot_expr_arg(pool, c, i), facts);
+        const int one = truth_of_condition(pool, qdot_expr_arg(pool, c, i), facts);
 
         least = one < least ? one : least;
         most = one > most ? one : most;
@@ -595,7 +595,7 @@ known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 
 /* The value of |u|, sign(u) or if(c, u, v) under the facts; nil if it is undecided, and for other nodes. */
 static qdot_expr
-known_node(qdot_pool *pool, qdot_expr node, void *user)
+replace_decided_node(qdot_pool *pool, qdot_expr node, void *user)
 {
     const qdot_facts *facts = user;
     const uint32_t op = qdot_expr_node(pool, node)->op;
@@ -609,11 +609,11 @@ known_node(qdot_pool *pool, qdot_expr node, void *user)
         return qdot_pool_fail(pool);
     rest = facts_without_choices(pool, facts, left);
     if (op == QDOT_IF) {
-        const int is = known_condition(pool, qdot_expr_arg(pool, node, 0), &rest);
+        const int is = truth_of_condition(pool, qdot_expr_arg(pool, node, 0), &rest);
 
         known = is == 0 ? QDOT_NIL : qdot_known_signs(pool, qdot_expr_arg(pool, node, is > 0 ? 1 : 2), facts);
     } else {
-        known = known_sign(pool, node, &rest);
+        known = replace_by_known_sign(pool, node, &rest);
     }
     qdot_free(left);
     return known;
@@ -624,5 +624,5 @@ qdot_known_signs(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
     if (e == QDOT_NIL || facts == NULL || facts->n_conditions == 0)
         return e;
-    return qdot_walk_map(pool, e, known_node, (void *)(uintptr_t)facts);
+    return qdot_walk_map(pool, e, replace_decided_node, (void *)(uintptr_t)facts);
 }

@@ -1,4 +1,4 @@
-/* linear-rows.c -- Fourier and Motzkin's elimination over the integers. */
+/* linear-rows.c -- Fourier and Motzkin's elimination for systems of linear inequalities, in integers. */
 #include "normal/inequality/linear-rows.h"
 
 #include <flint/fmpq.h>
@@ -24,7 +24,7 @@ typedef struct {
 typedef struct {
     slong width;
     qdot_vec(row) row;
-    bool wrong;    /* contradiction: a row without symbols is false */
+    bool wrong;    /* contradiction: an inequality without symbols is false */
     bool too_much; /* too many rows, or out of memory */
 } rows;
 
@@ -36,7 +36,7 @@ rows_clear(rows *s)
     qdot_free(s->row.at);
 }
 
-/* Add a row, taking it over, without the common factor of its coefficients; not if it is there already. */
+/* Add a row (inequality), owning it, divided by the common factor of its coefficients; not if it is there already. */
 static void
 rows_add(rows *s, fmpz *c, bool weak)
 {
@@ -68,7 +68,7 @@ rows_add(rows *s, fmpz *c, bool weak)
         _fmpz_vec_clear(c, s->width);
 }
 
-/* Add a copy of a row. */
+/* Add a copy of a row, that is, of an inequality. */
 static void
 rows_add_copy(rows *s, const fmpz *from, bool weak)
 {
@@ -81,7 +81,7 @@ rows_add_copy(rows *s, const fmpz *from, bool weak)
 /* Add the combination of two rows in which v drops out; v has a positive coefficient in `up`, a
  * negative one in `down`. */
 static void
-rows_add_without(rows *s, const row *up, const row *down, slong v)
+add_row_without_symbol(rows *s, const row *up, const row *down, slong v)
 {
     fmpz *c = _fmpz_vec_init(s->width);
     fmpz_t factor;
@@ -94,7 +94,7 @@ rows_add_without(rows *s, const row *up, const row *down, slong v)
     rows_add(s, c, up->weak && down->weak);
 }
 
-/* The symbol whose elimination makes the fewest rows; -1: no row has a symbol. */
+/* The symbol whose elimination makes the fewest rows (inequalities); -1: no row contains a symbol. */
 static slong
 rows_next_symbol(const rows *s)
 {
@@ -116,7 +116,7 @@ rows_next_symbol(const rows *s)
     return best;
 }
 
-/* Eliminate the symbol v from all rows. */
+/* Eliminate the symbol v from all rows, that is, inequalities. */
 static void
 rows_eliminate(rows *s, slong v)
 {
@@ -132,16 +132,16 @@ rows_eliminate(rows *s, slong v)
             rows_add_copy(s, up->c, up->weak);
         for (size_t j = 0; j < from.row.n && sign > 0 && !s->wrong && !s->too_much; j++)
             if (fmpz_sgn(from.row.at[j].c + v) < 0)
-                rows_add_without(s, up, &from.row.at[j], v);
+                add_row_without_symbol(s, up, &from.row.at[j], v);
     }
     rows_clear(&from);
 }
 
 /* --- expressions as rows ---------------------------------------------------------------- */
 
-/* Find the coefficients of e in the symbols, then e with all symbols 0. False: e is not linear. */
+/* Find the coefficients q of the symbols in e, then the value of e with all symbols 0. False: e is not linear. */
 static bool
-coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbol, fmpq *q)
+find_linear_coefficients(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbol, fmpq *q)
 {
     qdot_expr zero[MOST_SYMBOLS];
 
@@ -163,14 +163,14 @@ coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbo
 /* The row [width] for sign e > 0 (sign: 1 or -1) with integer coefficients; the caller clears it.
  * NULL: e is not linear. */
 static fmpz *
-linear_row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width, int sign)
+linear_row(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width, int sign)
 {
     fmpq q[MOST_SYMBOLS + 1];
     fmpz *c = NULL;
 
     for (slong v = 0; v < width; v++)
         fmpq_init(q + v);
-    if (coefficients_of(pool, e, (uint32_t)width - 1, symbol, q)) {
+    if (find_linear_coefficients(pool, e, (uint32_t)width - 1, symbol, q)) {
         fmpz_t common;
 
         c = _fmpz_vec_init(width);
@@ -193,7 +193,7 @@ linear_row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width
 
 typedef enum { NOT_KNOWN, CONTRADICTION, POSSIBLE } rows_verdict;
 
-/* Whether the rows and, unless c is NULL, the row c contradict each other. */
+/* Whether the given inequalities (rows) and, unless c is NULL, the row c contradict each other. */
 static rows_verdict
 rows_decide(const rows *given, const fmpz *c, bool weak)
 {
@@ -210,9 +210,9 @@ rows_decide(const rows *given, const fmpz *c, bool weak)
     return s.too_much || qdot_interrupt_flag ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
 }
 
-/* Decide e by the rows of the conditions and that of -e. */
+/* Decide e > 0 by the rows of the conditions together with that of -e. */
 static qdot_cells
-rows_result(const rows *given, const fmpz *minus_e)
+decide_by_rows(const rows *given, const fmpz *minus_e)
 {
     rows_verdict verdict = rows_decide(given, NULL, false);
 
@@ -246,17 +246,17 @@ qdot_linear_decide(qdot_pool *pool, qdot_expr e, size_t n, const qdot_cells_cond
     for (; given.width < (slong)qdot_expr_count(pool, atoms); given.width++)
         symbol[given.width] = qdot_expr_arg(pool, atoms, (uint32_t)given.width);
     given.width++;
-    minus_e = linear_row_of(pool, e, symbol, given.width, -1);
+    minus_e = linear_row(pool, e, symbol, given.width, -1);
     linear = minus_e != NULL;
     for (size_t i = 0; i < n && linear; i++) {
-        fmpz *c = linear_row_of(pool, condition[i].gap, symbol, given.width, 1);
+        fmpz *c = linear_row(pool, condition[i].gap, symbol, given.width, 1);
 
         linear = c != NULL;
         if (linear)
             rows_add(&given, c, condition[i].weak);
     }
     if (linear)
-        *result = rows_result(&given, minus_e);
+        *result = decide_by_rows(&given, minus_e);
     if (minus_e != NULL)
         _fmpz_vec_clear(minus_e, given.width);
     rows_clear(&given);

@@ -1,4 +1,4 @@
-/* question.c -- replaces functions by symbols with bounds. */
+/* question.c -- replaces functions by new symbols with bounds, so that only algebraic expressions remain. */
 #include "normal/inequality/question.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ typedef struct {
 } substitutes;
 
 static qdot_expr
-fresh(substitutes *s, const char *what)
+new_symbol(substitutes *s, const char *what)
 {
     char name[64];
     qdot_expr y;
@@ -59,12 +59,12 @@ stand_for(substitutes *s, qdot_expr from, qdot_expr to)
     s->to[s->n++] = to;
 }
 
-/* A new unknown y with lo < y < hi, or with <=. */
+/* A new symbol y with the conditions lo < y < hi, or <= where lo_weak or hi_weak is true. */
 static qdot_expr
-bounded_unknown(substitutes *s, const char *what, qdot_expr lo, qdot_expr hi, bool lo_weak,
-                bool hi_weak)
+bounded_symbol(substitutes *s, const char *what, qdot_expr lo, qdot_expr hi, bool lo_weak,
+               bool hi_weak)
 {
-    qdot_expr y = fresh(s, what);
+    qdot_expr y = new_symbol(s, what);
 
     qdot_question_demand(s->q, qdot_sub(s->pool, y, lo), lo_weak);
     qdot_question_demand(s->q, qdot_sub(s->pool, hi, y), hi_weak);
@@ -72,7 +72,7 @@ bounded_unknown(substitutes *s, const char *what, qdot_expr lo, qdot_expr hi, bo
 }
 
 static void
-by_sign(substitutes *s, qdot_expr y, uint8_t sign)
+demand_sign(substitutes *s, qdot_expr y, uint8_t sign)
 {
     if (sign & QDOT_GE0)
         qdot_question_demand(s->q, y, !(sign & QDOT_NE0));
@@ -82,16 +82,16 @@ by_sign(substitutes *s, qdot_expr y, uint8_t sign)
 
 /* Replace pi by an unknown between two close rationals, so that fractions of it are bounded on both sides. */
 static qdot_expr
-pi_itself(substitutes *s)
+replace_pi(substitutes *s)
 {
     qdot_expr lo = qdot_expr_ratio(s->pool, 3141592653589793, 1000000000000000);
     qdot_expr hi = qdot_expr_ratio(s->pool, 3141592653589794, 1000000000000000);
 
-    return bounded_unknown(s, "pi", lo, hi, false, false);
+    return bounded_symbol(s, "pi", lo, hi, false, false);
 }
 
 static qdot_expr
-plain_function(substitutes *s, qdot_expr e)
+replace_plain_function(substitutes *s, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     uint32_t op = qdot_expr_kind(pool, e) == QDOT_FUN ? qdot_expr_node(pool, e)->op
@@ -101,31 +101,31 @@ plain_function(substitutes *s, qdot_expr e)
 
     switch (op) {
     case QDOT_ATAN:
-        y = bounded_unknown(s, "atan", qdot_neg(pool, half), half, false, false);
+        y = bounded_symbol(s, "atan", qdot_neg(pool, half), half, false, false);
         break;
-    case QDOT_ASIN: y = bounded_unknown(s, "asin", qdot_neg(pool, half), half, true, true); break;
-    case QDOT_ACOS: y = bounded_unknown(s, "acos", QDOT_ZERO, QDOT_PI, true, true); break;
+    case QDOT_ASIN: y = bounded_symbol(s, "asin", qdot_neg(pool, half), half, true, true); break;
+    case QDOT_ACOS: y = bounded_symbol(s, "acos", QDOT_ZERO, QDOT_PI, true, true); break;
     case QDOT_ATAN2:
-        y = bounded_unknown(s, "atan2", qdot_neg(pool, QDOT_PI), QDOT_PI, false, true);
+        y = bounded_symbol(s, "atan2", qdot_neg(pool, QDOT_PI), QDOT_PI, false, true);
         break;
-    case QDOT_SIGN: y = bounded_unknown(s, "sign", QDOT_MINUS_ONE, QDOT_ONE, true, true); break;
-    default: y = fresh(s, "value"); break;
+    case QDOT_SIGN: y = bounded_symbol(s, "sign", QDOT_MINUS_ONE, QDOT_ONE, true, true); break;
+    default: y = new_symbol(s, "value"); break;
     }
-    by_sign(s, y, sign);
+    demand_sign(s, y, sign);
     return y;
 }
 
 /* Replace cosine and sine by (1 - t^2)/(1 + t^2), 2 t/(1 + t^2); their known signs bound t. */
 static void
-put_half_angle(substitutes *s, const qdot_field *f, slong sine)
+replace_by_half_angle(substitutes *s, const qdot_field *f, slong sine)
 {
     qdot_pool *pool = s->pool;
     const qdot_gen *gs = &f->gen[sine], *gc = &f->gen[gs->pair];
-    qdot_expr t = fresh(s, "tan"), square = qdot_pow_int(pool, t, 2);
+    qdot_expr t = new_symbol(s, "tan"), square = qdot_pow_int(pool, t, 2);
     qdot_expr over = qdot_div(pool, QDOT_ONE, qdot_add(pool, QDOT_ONE, square));
     uint8_t of_sine = qdot_range_sign(pool, gs), of_cosine = qdot_range_sign(pool, gc);
 
-    by_sign(s, t, of_sine);
+    demand_sign(s, t, of_sine);
     if (of_cosine & QDOT_GE0) {
         qdot_question_demand(s->q, qdot_sub(pool, QDOT_ONE, t), !(of_cosine & QDOT_NE0));
         qdot_question_demand(s->q, qdot_add(pool, QDOT_ONE, t), !(of_cosine & QDOT_NE0));
@@ -137,11 +137,11 @@ put_half_angle(substitutes *s, const qdot_field *f, slong sine)
 
 /* Replace exp(u) by an unknown E > 0, with E > 1 or E < 1 if u has a sign. */
 static qdot_expr
-exponential(substitutes *s, qdot_expr u)
+replace_exponential(substitutes *s, qdot_expr u)
 {
     qdot_pool *pool = s->pool;
     uint8_t sign = qdot_expr_node(pool, u)->sign;
-    qdot_expr E = fresh(s, "exp");
+    qdot_expr E = new_symbol(s, "exp");
 
     qdot_question_demand(s->q, E, false);
     if (sign & QDOT_GE0)
@@ -152,18 +152,18 @@ exponential(substitutes *s, qdot_expr u)
 }
 
 static void
-hyperbola(substitutes *s, const qdot_field *f, slong sine)
+replace_hyperbolic(substitutes *s, const qdot_field *f, slong sine)
 {
     qdot_pool *pool = s->pool;
     const qdot_gen *gs = &f->gen[sine], *gc = &f->gen[gs->pair];
-    qdot_expr E = exponential(s, gs->of), over = qdot_div(pool, QDOT_ONE, E);
+    qdot_expr E = replace_exponential(s, gs->of), over = qdot_div(pool, QDOT_ONE, E);
 
     stand_for(s, gs->expr, qdot_mul(pool, QDOT_HALF, qdot_sub(pool, E, over)));
     stand_for(s, gc->expr, qdot_mul(pool, QDOT_HALF, qdot_add(pool, E, over)));
 }
 
 static qdot_expr
-standing_for(const substitutes *s, qdot_expr e)
+replacement_of(const substitutes *s, qdot_expr e)
 {
     for (size_t i = 0; i < s->n; i++)
         if (s->from[i] == e)
@@ -193,7 +193,7 @@ polynomial(substitutes *s, qdot_field *f, const fmpz_mpoly_t p)
             if (exp[v] > 0)
                 term = qdot_mul(
                     s->pool, term,
-                    qdot_pow_int(s->pool, standing_for(s, f->gen[v].expr), (long)exp[v]));
+                    qdot_pow_int(s->pool, replacement_of(s, f->gen[v].expr), (long)exp[v]));
         sum = qdot_add(s->pool, sum, term);
     }
     fmpq_clear(c);
@@ -203,7 +203,7 @@ polynomial(substitutes *s, qdot_field *f, const fmpz_mpoly_t p)
 
 /* The value of a node of the field with all replacements inserted. */
 static qdot_expr
-replaced(substitutes *s, qdot_field *f, qdot_expr e)
+value_with_replacements(substitutes *s, qdot_field *f, qdot_expr e)
 {
     const qdot_ratio *r = qdot_field_value(f, e);
 
@@ -214,7 +214,7 @@ replaced(substitutes *s, qdot_field *f, qdot_expr e)
 }
 
 static void
-generator(substitutes *s, qdot_field *f, slong v)
+replace_generator(substitutes *s, qdot_field *f, slong v)
 {
     qdot_pool *pool = s->pool;
     const qdot_gen *g = &f->gen[v];
@@ -222,26 +222,26 @@ generator(substitutes *s, qdot_field *f, slong v)
     switch (g->kind) {
     case QDOT_GEN_PLAIN:
         if (g->expr == QDOT_PI)
-            stand_for(s, g->expr, pi_itself(s));
+            stand_for(s, g->expr, replace_pi(s));
         else if (qdot_expr_kind(pool, g->expr) != QDOT_SYM)
-            stand_for(s, g->expr, plain_function(s, g->expr));
+            stand_for(s, g->expr, replace_plain_function(s, g->expr));
         break;
-    case QDOT_GEN_SIN: put_half_angle(s, f, v); break;
-    case QDOT_GEN_SINH: hyperbola(s, f, v); break;
-    case QDOT_GEN_EXP: stand_for(s, g->expr, exponential(s, g->of)); break;
+    case QDOT_GEN_SIN: replace_by_half_angle(s, f, v); break;
+    case QDOT_GEN_SINH: replace_hyperbolic(s, f, v); break;
+    case QDOT_GEN_EXP: stand_for(s, g->expr, replace_exponential(s, g->of)); break;
     case QDOT_GEN_ROOT:
         if (!qdot_is_constant(pool, g->of))
             stand_for(s, g->expr,
-                      qdot_pow(pool, replaced(s, f, g->of),
+                      qdot_pow(pool, value_with_replacements(s, f, g->of),
                                qdot_expr_ratio(pool, 1, (long)g->order)));
         break;
     default: s->q->too_much |= g->kind == QDOT_GEN_ABS; break;
     }
 }
 
-/* Replace floor(u) by u - y, mod(u, m) by m y (m > 0, 0 <= y < 1), and max and min. */
+/* Replace floor(u) by u - y and mod(u, m), m > 0, by m y, where 0 <= y < 1; also max and min. */
 static qdot_expr
-put_whole_parts(qdot_pool *pool, qdot_expr e, void *user)
+replace_whole_parts(qdot_pool *pool, qdot_expr e, void *user)
 {
     substitutes *s = user;
     qdot_expr y, m;
@@ -250,14 +250,14 @@ put_whole_parts(qdot_pool *pool, qdot_expr e, void *user)
         return QDOT_NIL;
     switch (qdot_expr_node(s->pool, e)->op) {
     case QDOT_FLOOR:
-        y = bounded_unknown(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
+        y = bounded_symbol(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
         stand_for(s, e, y); /* replaces e by the new symbol y */
         return qdot_sub(s->pool, qdot_expr_arg(s->pool, e, 0), y);
     case QDOT_MOD:
         m = qdot_expr_arg(s->pool, e, 1);
         if ((qdot_expr_node(s->pool, m)->sign & QDOT_POS) != QDOT_POS)
             return QDOT_NIL;
-        y = bounded_unknown(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
+        y = bounded_symbol(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
         stand_for(s, e, y);
         return qdot_mul(s->pool, m, y);
     case QDOT_MAX:
@@ -282,11 +282,11 @@ qdot_question_reduce(qdot_pool *pool, qdot_question *q)
         return;
     }
     qdot_field_begin(&f, pool, 1 + n, all, WORK);
-    /* go from inner roots, which have larger indices, to outer ones */
+    /* replace inner roots, which have larger indices, before outer ones */
     for (slong v = f.n - 1; v >= 0 && qdot_field_goes(&f) && !q->too_much; v--)
-        generator(&s, &f, v);
+        replace_generator(&s, &f, v);
     for (size_t i = 0; i < 1 + n && qdot_field_goes(&f) && !q->too_much; i++) {
-        qdot_expr now = replaced(&s, &f, all[i]);
+        qdot_expr now = value_with_replacements(&s, &f, all[i]);
 
         q->too_much |= now == QDOT_NIL;
         if (i == 0)
@@ -294,7 +294,7 @@ qdot_question_reduce(qdot_pool *pool, qdot_question *q)
         else
             q->condition[i - 1].gap = now;
     }
-    for (size_t i = n; i < q->n && !q->too_much; i++) /* conditions that contain pi: bound pi by rationals */
+    for (size_t i = n; i < q->n && !q->too_much; i++) /* if conditions contain pi, bound it by rationals */
         q->condition[i].gap = qdot_subs(pool, q->condition[i].gap, s.n, s.from, s.to);
     q->too_much |= !qdot_field_goes(&f);
     qdot_field_end(&f);
@@ -305,6 +305,6 @@ qdot_question_whole_parts(qdot_pool *pool, qdot_question *q)
 {
     substitutes s = {.pool = pool, .q = q};
 
-    q->e = qdot_prepare(pool, qdot_walk_map(pool, q->e, put_whole_parts, &s));
+    q->e = qdot_prepare(pool, qdot_walk_map(pool, q->e, replace_whole_parts, &s));
     q->too_much |= q->e == QDOT_NIL;
 }

@@ -14,12 +14,12 @@
 #include "base/memory.h"
 
 enum { MOST_DEGREE = 160 };
-/* The most words that one call may change when it shifts polynomials: a few seconds. */
+/* The most machine words that one call may change when it shifts polynomials: a few seconds of work. */
 #define MOST_WORK 4000000000.0
 
 /* --- intervals that hold one zero ------------------------------------------------------- */
 
-/* The polynomial p, scaled: 0 < t < 1 stands for x = (number + t) 2^(scale - depth). */
+/* An interval of x with its polynomial p, where 0 < t < 1 stands for x = (number + t) 2^(scale - depth). */
 typedef struct {
     fmpz_poly_t p;
     fmpz_t number;
@@ -29,9 +29,9 @@ typedef struct {
 typedef struct {
     qdot_vec(part) stack; /* intervals still to be searched, the leftmost on top */
     slong scale;
-    bool minus; /* negative zeros: search p(-x) */
+    bool minus; /* search for negative zeros: those of p(-x) */
     double work;
-    arb_ptr zero; /* [degree] zeros found: balls that cover their intervals, or exact */
+    arb_ptr zero; /* [degree] zeros found: balls that cover the isolating intervals, or exact numbers */
     slong found;
 } isolation;
 
@@ -66,7 +66,7 @@ isolation_shift(isolation *s, fmpz_poly_t p)
 /* A bound on the number of zeros of p with 0 < t < 1, by Descartes' rule for (1 + t)^n p(1/(1 + t)): 0 and 1 are the
  * number itself, 2 stands for any number. */
 static int
-most_zeros(isolation *s, const fmpz_poly_t p)
+bound_number_of_zeros(isolation *s, const fmpz_poly_t p)
 {
     fmpz_poly_t q;
     int changes;
@@ -79,7 +79,7 @@ most_zeros(isolation *s, const fmpz_poly_t p)
     return changes;
 }
 
-/* Record one zero between `from` and from + 1, times 2^(scale - depth); exact: at `from` itself. */
+/* Record one zero between `from` and from + 1 in units of 2^(scale - depth); `exact`: at `from` itself. */
 static void
 isolation_keep(isolation *s, const fmpz_t from, slong depth, bool exact)
 {
@@ -97,7 +97,7 @@ isolation_keep(isolation *s, const fmpz_t from, slong depth, bool exact)
 }
 
 static bool
-isolation_push(isolation *s, const fmpz_poly_t p, const fmpz_t number, slong depth)
+push_interval(isolation *s, const fmpz_poly_t p, const fmpz_t number, slong depth)
 {
     part *to;
 
@@ -121,7 +121,7 @@ halve_argument(fmpz_poly_t p)
     fmpz_poly_primitive_part(p, p);
 }
 
-/* Replace the last interval of the stack by its halves, and record a zero at the middle. False: no memory. */
+/* Replace the last interval on the stack by its two halves, and record a zero at the middle. False: no memory. */
 static bool
 isolation_split(isolation *s)
 {
@@ -142,7 +142,7 @@ isolation_split(isolation *s)
         isolation_keep(s, last->number, last->depth, true);
         fmpz_poly_shift_right(last->p, last->p, 1);
     }
-    good = isolation_push(s, half, number, last->depth);
+    good = push_interval(s, half, number, last->depth);
     fmpz_clear(number);
     fmpz_poly_clear(half);
     return good;
@@ -159,12 +159,12 @@ isolate_positive(isolation *s, const fmpz_poly_t p)
     fmpz_init(zero);
     fmpz_poly_bound_roots(bound, p);
     s->scale = (slong)fmpz_bits(bound);
-    good = isolation_push(s, p, zero, 0);
+    good = push_interval(s, p, zero, 0);
     for (slong i = 1; good && i <= fmpz_poly_degree(p); i++)
         fmpz_mul_2exp(s->stack.at[0].p->coeffs + i, s->stack.at[0].p->coeffs + i, (ulong)(i * s->scale));
     while (s->stack.n > 0) {
         part *last = &s->stack.at[s->stack.n - 1];
-        int most = good ? most_zeros(s, last->p) : 0;
+        int most = good ? bound_number_of_zeros(s, last->p) : 0;
 
         good = good && s->work < MOST_WORK && !qdot_interrupt_flag;
         if (most == 2 && good) {
@@ -184,7 +184,7 @@ isolate_positive(isolation *s, const fmpz_poly_t p)
 
 /* --- zeros to many digits ----------------------------------------------------------------- */
 
-/* The sign of p at a binary fraction. */
+/* The sign of the polynomial p at a binary fraction. */
 static int
 sign_at(const fmpz_poly_t p, const arf_t at)
 {
@@ -262,7 +262,7 @@ bisect(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
 /* --- isolating all real zeros ----------------------------------------------------------------- */
 
 static int
-by_middle(const void *a, const void *b)
+compare_by_midpoint(const void *a, const void *b)
 {
     return arf_cmp(arb_midref((arb_srcptr)a), arb_midref((arb_srcptr)b));
 }
@@ -286,7 +286,7 @@ qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros)
     fmpz_poly_set(q, p);
     if (fmpz_is_zero(q->coeffs)) {
         fmpz_poly_shift_right(q, q, 1);
-        s.found = 1; /* the zero x = 0 */
+        s.found = 1; /* x = 0 is a zero */
     }
     for (int i = 0; i < 2 && good; i++) {
         s.minus = i == 1;
@@ -295,7 +295,7 @@ qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros)
                 fmpz_neg(q->coeffs + k, q->coeffs + k);
         good = isolate_positive(&s, q);
     }
-    qsort(s.zero, (size_t)s.found, sizeof *s.zero, by_middle);
+    qsort(s.zero, (size_t)s.found, sizeof *s.zero, compare_by_midpoint);
     for (; good && !apart && bits <= 1536; bits *= 4) {
         apart = true;
         for (slong i = 0; i < s.found; i++)

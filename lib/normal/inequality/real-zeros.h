@@ -21,7 +21,7 @@ void qdot_polynomial_over(fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k,
  * was made; the caller's (_arb_vec_clear). */
 slong qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros);
 
-/* Set x to a fraction with few digits above all of a (NULL: no bound) and below all of b. */
+/* Set x to a fraction with few digits above all numbers of the ball a (NULL: no bound) and below all of b. */
 void qdot_between_zeros(fmpq_t x, arb_srcptr a, arb_srcptr b);
 
 #endif

@@ -15,7 +15,7 @@
 
 enum { MOST = 12, POINTS = MOST + 3, TRIES = 120, LARGEST = 64 };
 
-/* Columns: pi, then the angles; `base` are orthogonalised by Gram-Schmidt. */
+/* Angles at sample points: column 0 is pi, then the angles; `base` is orthonormalised by Gram-Schmidt. */
 struct basis {
     qdot_pool *pool;
     size_t n, points;
@@ -34,7 +34,7 @@ is_angle(const qdot_pool *pool, qdot_expr e)
            qdot_expr_is_function(pool, e, QDOT_LOG);
 }
 
-/* Collect the angles, simpler ones in earlier columns. */
+/* Collect the angles as columns, simpler ones first. */
 static qdot_status
 basis_gather(struct basis *b, size_t n, const qdot_expr *e)
 {
@@ -100,7 +100,7 @@ dot(const struct basis *b, const double *x, const double *y)
     return sum;
 }
 
-/* Find the component of column j orthogonal to the earlier columns; computed twice because of rounding. */
+/* Find the component of column j orthogonal to the earlier columns; done twice because of rounding errors. */
 static void
 basis_project(struct basis *b, size_t j)
 {
@@ -123,7 +123,7 @@ basis_project(struct basis *b, size_t j)
         rest[i] /= b->length[j];
 }
 
-/* A fraction with a small denominator near x; false if there is none. */
+/* Find a fraction n/d with a small denominator close to x; false if there is none. */
 static bool
 small_fraction(double x, long *n, long *d)
 {
@@ -137,7 +137,7 @@ small_fraction(double x, long *n, long *d)
     return false;
 }
 
-/* Guess the dependent column j as a combination of earlier ones; nil if a coefficient is no small fraction. */
+/* Guess the linearly dependent column j as a combination of earlier ones; nil if a coefficient is no small fraction. */
 static qdot_expr
 guess_combination(struct basis *b, size_t j)
 {
@@ -163,7 +163,7 @@ guess_combination(struct basis *b, size_t j)
     return sum;
 }
 
-/* Guess a constant column j as c B + q pi, with one earlier constant B; nil if none fits. */
+/* Guess a constant column j as c B + q pi with one earlier constant B and fractions c, q; nil if none fits. */
 static qdot_expr
 guess_constant(struct basis *b, size_t j)
 {

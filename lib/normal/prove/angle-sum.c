@@ -16,7 +16,7 @@
 enum { MOST_GROUPS = 30, MOST_POWER = 24 };
 
 static bool
-is_angle(const qdot_field *f, slong v)
+is_angle_variable(const qdot_field *f, slong v)
 {
     qdot_expr e = f->gen[v].expr;
     unsigned op;
@@ -27,7 +27,7 @@ is_angle(const qdot_field *f, slong v)
     return op == QDOT_ATAN || op == QDOT_ASIN || op == QDOT_ACOS || op == QDOT_ATAN2;
 }
 
-/* What is known of a sum of angles: its bounds, and a complex number Z with this argument, and |Z|. */
+/* What is known of a sum of angles: bounds; a complex number Z whose argument is the sum; |Z|. */
 struct sum {
     qdot_pool *pool;
     qdot_expr lo, hi;
@@ -44,7 +44,7 @@ times_pi(qdot_pool *pool, long n, long d)
 /* --- bounds of angles ---------------------------------------------------------------------- */
 
 static void
-add_bounds(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_expr hi, bool hi_open)
+add_interval_of_angle(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_expr hi, bool hi_open)
 {
     qdot_pool *pool = s->pool;
     qdot_expr by = qdot_expr_int(pool, k);
@@ -55,9 +55,9 @@ add_bounds(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_expr hi, bool
     s->hi_open |= k > 0 ? hi_open : lo_open;
 }
 
-/* Add the bounds of k times the angle e, in quarter turns, narrowed by the known signs of its arguments. */
+/* Add to the sum the bounds of k times the angle e, in quarter turns, narrowed by the known signs of its arguments. */
 static void
-bound_angle(struct sum *s, long k, qdot_expr e)
+add_bounds_of_angle(struct sum *s, long k, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     unsigned op = qdot_expr_node(pool, e)->op;
@@ -67,7 +67,7 @@ bound_angle(struct sum *s, long k, qdot_expr e)
     bool open = op == QDOT_ATAN, lo_open = open || op == QDOT_ATAN2, hi_open = open;
 
     if (qdot_is_constant(pool, e)) {
-        add_bounds(s, k, e, false, e, false);
+        add_interval_of_angle(s, k, e, false, e, false);
         return;
     }
     if (op == QDOT_ATAN2) {
@@ -88,12 +88,12 @@ bound_angle(struct sum *s, long k, qdot_expr e)
         if ((u & QDOT_LE0) && (op != QDOT_ATAN2 || (u & QDOT_NE0)))
             hi = 0, hi_open = u & QDOT_NE0;
     }
-    add_bounds(s, k, times_pi(pool, lo, 2), lo_open, times_pi(pool, hi, 2), hi_open);
+    add_interval_of_angle(s, k, times_pi(pool, lo, 2), lo_open, times_pi(pool, hi, 2), hi_open);
 }
 
-/* Whether the sum lies strictly between -n pi and n pi. */
+/* Whether the sum of angles lies strictly between -n pi and n pi. */
 static bool
-stays_within(const struct sum *s, long n)
+lies_within_turns(const struct sum *s, long n)
 {
     qdot_pool *pool = s->pool;
     qdot_expr gap[2] = {qdot_add(pool, s->lo, times_pi(pool, n, 1)),
@@ -113,18 +113,18 @@ stays_within(const struct sum *s, long n)
 /* --- the complex number whose argument is the sum ------------------------------------------- */
 
 static qdot_expr
-root_of(qdot_pool *pool, qdot_expr e)
+square_root(qdot_pool *pool, qdot_expr e)
 {
     return qdot_pow(pool, e, QDOT_HALF);
 }
 
 static qdot_expr
-squared(qdot_pool *pool, qdot_expr e)
+square(qdot_pool *pool, qdot_expr e)
 {
     return qdot_pow_int(pool, e, 2);
 }
 
-/* Multiply Z by (re + i im)^k, for k < 0 by powers of the conjugate. */
+/* Multiply Z by (re + i im)^k; for k < 0 by powers of the complex conjugate. */
 static void
 sum_multiply(struct sum *s, long k, qdot_expr re, qdot_expr im, qdot_expr modulus)
 {
@@ -148,19 +148,19 @@ add_angle(struct sum *s, long k, qdot_expr e)
     qdot_pool *pool = s->pool;
     qdot_expr u = qdot_expr_arg(pool, e, 0), other;
 
-    bound_angle(s, k, e);
+    add_bounds_of_angle(s, k, e);
     switch (qdot_expr_node(pool, e)->op) {
     case QDOT_ATAN:
-        other = root_of(pool, qdot_add(pool, QDOT_ONE, squared(pool, u)));
+        other = square_root(pool, qdot_add(pool, QDOT_ONE, square(pool, u)));
         sum_multiply(s, k, QDOT_ONE, u, other);
         return;
     case QDOT_ATAN2: /* arguments are y, x */
         other = qdot_expr_arg(pool, e, 1);
         sum_multiply(s, k, other, u,
-                     root_of(pool, qdot_add(pool, squared(pool, other), squared(pool, u))));
+                     square_root(pool, qdot_add(pool, square(pool, other), square(pool, u))));
         return;
     default:
-        other = root_of(pool, qdot_sub(pool, QDOT_ONE, squared(pool, u)));
+        other = square_root(pool, qdot_sub(pool, QDOT_ONE, square(pool, u)));
         if (qdot_expr_node(pool, e)->op == QDOT_ASIN)
             sum_multiply(s, k, other, u, QDOT_ONE);
         else
@@ -169,20 +169,20 @@ add_angle(struct sum *s, long k, qdot_expr e)
 }
 
 static void
-add_turn(struct sum *s, qdot_expr q)
+add_multiple_of_pi(struct sum *s, qdot_expr q)
 {
     qdot_expr turn = qdot_mul(s->pool, q, QDOT_PI);
 
-    add_bounds(s, 1, turn, false, turn, false);
+    add_interval_of_angle(s, 1, turn, false, turn, false);
     sum_multiply(s, 1, qdot_fun1(s->pool, QDOT_COS, turn), qdot_fun1(s->pool, QDOT_SIN, turn),
                  QDOT_ONE);
 }
 
 /* --- sums of angles in a polynomial --------------------------------------------------------- */
 
-/* The generator if term i of p is a number times one generator; -1 otherwise. */
+/* The variable (generator) v if term i of p is a number times v; -1 otherwise. */
 static slong
-sole_generator(qdot_field *f, const fmpz_mpoly_t p, slong i, ulong *exp)
+only_variable_of_term(qdot_field *f, const fmpz_mpoly_t p, slong i, ulong *exp)
 {
     slong at = -1;
 
@@ -199,7 +199,7 @@ sole_generator(qdot_field *f, const fmpz_mpoly_t p, slong i, ulong *exp)
 /* The greatest common divisor of the coefficients of angles; 0: p is not a sum of angles and
  * multiples of pi, or of too large ones. */
 static bool
-shared_factor(qdot_field *f, const fmpz_mpoly_t p, fmpz_t g, ulong *exp)
+find_common_divisor(qdot_field *f, const fmpz_mpoly_t p, fmpz_t g, ulong *exp)
 {
     slong n = fmpz_mpoly_length(p, f->ctx);
     bool good = true;
@@ -209,9 +209,9 @@ shared_factor(qdot_field *f, const fmpz_mpoly_t p, fmpz_t g, ulong *exp)
     fmpz_init(sum);
     fmpz_zero(g);
     for (slong i = 0; i < n && good; i++) {
-        slong v = sole_generator(f, p, i, exp);
+        slong v = only_variable_of_term(f, p, i, exp);
 
-        good = v >= 0 && (is_angle(f, v) || f->gen[v].expr == QDOT_PI);
+        good = v >= 0 && (is_angle_variable(f, v) || f->gen[v].expr == QDOT_PI);
         if (!good || f->gen[v].expr == QDOT_PI)
             continue;
         fmpz_mpoly_get_term_coeff_fmpz(k, p, i, f->ctx);
@@ -229,22 +229,22 @@ shared_factor(qdot_field *f, const fmpz_mpoly_t p, fmpz_t g, ulong *exp)
     return good;
 }
 
-/* Collect the bounds and the factors of Z of all terms of the sum p/g. */
+/* Collect the bounds and the complex factors of Z of all terms of the sum of angles p/g. */
 static void
-put_together(qdot_field *f, struct sum *s, const fmpz_mpoly_t p, const fmpz_t g,
-             ulong *exp)
+collect_sum(qdot_field *f, struct sum *s, const fmpz_mpoly_t p, const fmpz_t g,
+            ulong *exp)
 {
     fmpq_t k;
 
     fmpq_init(k);
     for (slong i = 0; i < fmpz_mpoly_length(p, f->ctx); i++) {
-        slong v = sole_generator(f, p, i, exp);
+        slong v = only_variable_of_term(f, p, i, exp);
 
         fmpz_mpoly_get_term_coeff_fmpz(fmpq_numref(k), p, i, f->ctx);
         fmpz_set(fmpq_denref(k), g);
         fmpq_canonicalise(k);
         if (f->gen[v].expr == QDOT_PI)
-            add_turn(s, qdot_expr_fmpq(f->pool, k));
+            add_multiple_of_pi(s, qdot_expr_fmpq(f->pool, k));
         else
             add_angle(s, fmpz_get_si(fmpq_numref(k)), f->gen[v].expr);
     }
@@ -252,7 +252,7 @@ put_together(qdot_field *f, struct sum *s, const fmpz_mpoly_t p, const fmpz_t g,
 }
 
 static qdot_status
-is_zero_sum(const qdot_zero *z, const fmpz_mpoly_t p, ulong *exp, bool *zero)
+prove_angle_sum_zero(const qdot_zero *z, const fmpz_mpoly_t p, ulong *exp, bool *zero)
 {
     qdot_field *f = z->f;
     qdot_pool *pool = f->pool;
@@ -263,14 +263,14 @@ is_zero_sum(const qdot_zero *z, const fmpz_mpoly_t p, ulong *exp, bool *zero)
 
     *zero = false;
     fmpz_init(g);
-    if (shared_factor(f, p, g, exp)) {
-        put_together(f, &s, p, g, exp);
-        if (qdot_pool_failed(pool)) { /* undefined: nothing can be proved */
+    if (find_common_divisor(f, p, g, exp)) {
+        collect_sum(f, &s, p, g, exp);
+        if (qdot_pool_failed(pool)) { /* the expression is undefined: nothing can be proved */
             status = qdot_grave(qdot_pool_check(pool));
-        } else if (stays_within(&s, 1))
+        } else if (lies_within_turns(&s, 1))
             status = z->prove(pool, s.im, QDOT_ZERO, z->n_positive, z->positive,
                                       z->sure, zero);
-        else if (stays_within(&s, 2))
+        else if (lies_within_turns(&s, 2))
             status = z->prove(pool, s.re, s.modulus, z->n_positive, z->positive,
                                       z->sure, zero);
     }
@@ -290,7 +290,7 @@ qdot_zero_angles(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
 
     *zero = false;
     for (slong v = 0; v < f->n && status == QDOT_OK; v++) {
-        bool angle = is_angle(f, v);
+        bool angle = is_angle_variable(f, v);
 
         by[v] = !angle && f->gen[v].expr != QDOT_PI;
         any |= angle && fmpz_mpoly_degree_si(p, v, f->ctx) > 0;
@@ -299,7 +299,7 @@ qdot_zero_angles(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
         status = qdot_factor_group(f, &groups, p, by);
         *zero = status == QDOT_OK && groups.n <= MOST_GROUPS;
         for (slong i = 0; i < groups.n && status == QDOT_OK && *zero; i++)
-            status = is_zero_sum(z, groups.poly + i, exp, zero);
+            status = prove_angle_sum_zero(z, groups.poly + i, exp, zero);
         qdot_factor_ungroup(f, &groups);
     }
     qdot_free(by);

@@ -1,4 +1,4 @@
-/* cases.c -- proves an equation in all cases of orders and signs, each inserted as a substitution. */
+/* cases.c -- proves an equation in all cases of the orders and signs of arguments, each inserted as a substitution. */
 #include "normal/prove/cases.h"
 
 #include "base/memory.h"
@@ -17,21 +17,21 @@
 enum { LEAVES = 4, SIGNS = 3, NODES = 24, LINKS = SIGNS * LEAVES };
 
 static bool
-is_extreme(const qdot_pool *pool, qdot_expr e)
+is_max_or_min(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_function(pool, e, QDOT_MAX) || qdot_expr_is_function(pool, e, QDOT_MIN);
 }
 
 static bool
-is_signed(const qdot_pool *pool, qdot_expr e)
+is_abs_or_sign(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_function(pool, e, QDOT_ABS) || qdot_expr_is_function(pool, e, QDOT_SIGN);
 }
 
 static bool
-is_told_apart(const qdot_pool *pool, qdot_expr e)
+needs_cases(const qdot_pool *pool, qdot_expr e)
 {
-    return is_extreme(pool, e) || is_signed(pool, e) || qdot_expr_is_function(pool, e, QDOT_IF);
+    return is_max_or_min(pool, e) || is_abs_or_sign(pool, e) || qdot_expr_is_function(pool, e, QDOT_IF);
 }
 
 /* --- signs of powers and products ------------------------------------------------------- */
@@ -52,13 +52,13 @@ sign_of_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
 
 /* Replace sign(x y) by sign(x) sign(y), and |x y| by |x| |y|. */
 static qdot_expr
-signs_apart(qdot_pool *pool, qdot_expr e, void *user)
+split_signs_of_products(qdot_pool *pool, qdot_expr e, void *user)
 {
     bool sign = qdot_expr_is_function(pool, e, QDOT_SIGN);
     qdot_expr x, result = QDOT_ONE;
 
     (void)user;
-    if (!is_signed(pool, e))
+    if (!is_abs_or_sign(pool, e))
         return QDOT_NIL;
     x = qdot_expr_arg(pool, e, 0);
     if (qdot_expr_kind(pool, x) != QDOT_PROD)
@@ -82,7 +82,7 @@ signs_apart(qdot_pool *pool, qdot_expr e, void *user)
     return result;
 }
 
-/* A simpler expression with the sign of u times *sign: without coefficient and increasing odd functions. */
+/* A simpler expression that has the sign of u times *sign: without coefficient and increasing odd functions. */
 static qdot_expr
 sign_key(qdot_pool *pool, qdot_expr u, int *sign)
 {
@@ -108,14 +108,14 @@ sign_key(qdot_pool *pool, qdot_expr u, int *sign)
 struct cases {
     qdot_pool *pool;
     qdot_expr side[2];
-    qdot_expr leaf[LEAVES]; /* the different arguments of max and min */
+    qdot_expr leaf[LEAVES]; /* the different arguments of max and min, whose order is a case */
     qdot_expr sign[SIGNS];  /* canonical forms u of |u|, sign(u) and of conditions of if(...) */
     size_t n_leaves, n_signs;
     bool zero[SIGNS]; /* u = 0 is a case of its own, because of sign(u) or an if(...) */
     qdot_expr node[NODES],
-        to[NODES]; /* the functions max, abs ..., inner ones first; their values in the present case */
+        to[NODES]; /* the functions max, abs ..., inner ones first, and the values of these in the present case */
     size_t n;
-    /* an expression proved equal to the one at `place` of `list`, or to its negative */
+    /* an expression proved equal to the one at index `place` of `list` (or to its negative) */
     struct alias {
         const qdot_expr *list;
         qdot_expr e;
@@ -123,7 +123,7 @@ struct cases {
         int turn;
     } alias[NODES];
     size_t n_aliases;
-    /* the sign with index k is that of leaf[i] - leaf[j] */
+    /* the sign with index k is that of the difference leaf[i] - leaf[j] of arguments of max or min */
     struct link {
         size_t k, i, j;
     } link[LINKS];
@@ -132,7 +132,7 @@ struct cases {
 };
 
 static bool
-is_proved(struct cases *c, qdot_expr a, qdot_expr b)
+is_proved_equal(struct cases *c, qdot_expr a, qdot_expr b)
 {
     bool equal = false;
 
@@ -141,9 +141,9 @@ is_proved(struct cases *c, qdot_expr a, qdot_expr b)
     return equal;
 }
 
-/* The index in a list of an expression proved equal to e, or (turn not NULL) to -e; n if there is none. */
+/* The index in a list of an expression proved equal to e, or (if turn is not NULL) to -e; n if there is none. */
 static size_t
-leaf_place(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
+find_equal_expression(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
 {
     size_t place = qdot_expr_place(n, list, e);
     qdot_expr other = turn == NULL || e == QDOT_NIL ? e : qdot_neg(c->pool, e);
@@ -159,8 +159,8 @@ leaf_place(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *t
             return c->alias[i].place;
         }
     for (size_t i = 0; i < n && place == n && c->n_aliases < NODES; i++) {
-        int t = is_proved(c, list[i], e)                     ? 1
-                : other != e && is_proved(c, list[i], other) ? -1
+        int t = is_proved_equal(c, list[i], e)                     ? 1
+                : other != e && is_proved_equal(c, list[i], other) ? -1
                                                              : 0;
 
         if (t == 0)
@@ -174,9 +174,9 @@ leaf_place(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *t
 }
 
 static void
-add_leaf(struct cases *c, qdot_expr e)
+add_argument(struct cases *c, qdot_expr e)
 {
-    if (leaf_place(c, c->leaf, c->n_leaves, e, NULL) < c->n_leaves)
+    if (find_equal_expression(c, c->leaf, c->n_leaves, e, NULL) < c->n_leaves)
         return;
     if (c->n_leaves == LEAVES)
         c->too_much = true;
@@ -184,7 +184,7 @@ add_leaf(struct cases *c, qdot_expr e)
         c->leaf[c->n_leaves++] = e;
 }
 
-/* The index of the sign of u, added if new; SIGNS: no room. */
+/* The index of the sign of u, which is added if it is new; SIGNS: no room. */
 static size_t
 add_sign(struct cases *c, qdot_expr u, bool zero)
 {
@@ -194,7 +194,7 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
 
     if (key != QDOT_NIL && qdot_is_constant(c->pool, key))
         return SIGNS;
-    k = leaf_place(c, c->sign, c->n_signs, key, &turned);
+    k = find_equal_expression(c, c->sign, c->n_signs, key, &turned);
     if (k == SIGNS || key == QDOT_NIL) {
         c->too_much = true;
         return SIGNS;
@@ -227,7 +227,7 @@ cases_add_condition(struct cases *c, qdot_expr condition)
 }
 
 static qdot_status
-add_node(struct cases *c, qdot_expr e)
+add_case_function(struct cases *c, qdot_expr e)
 {
     const qdot_pool *pool = c->pool;
 
@@ -238,42 +238,42 @@ add_node(struct cases *c, qdot_expr e)
     c->node[c->n++] = e;
     if (qdot_expr_is_function(pool, e, QDOT_IF))
         return cases_add_condition(c, qdot_expr_arg(pool, e, 0));
-    if (is_extreme(pool, e)) {
+    if (is_max_or_min(pool, e)) {
         for (uint32_t i = 0; i < qdot_expr_count(pool, e); i++)
-            if (!is_extreme(pool, qdot_expr_arg(pool, e, i)))
-                add_leaf(c, qdot_expr_arg(pool, e, i));
+            if (!is_max_or_min(pool, qdot_expr_arg(pool, e, i)))
+                add_argument(c, qdot_expr_arg(pool, e, i));
     } else {
         add_sign(c, qdot_expr_arg(pool, e, 0), qdot_expr_is_function(pool, e, QDOT_SIGN));
     }
     return QDOT_OK;
 }
 
-/* Note too_much if e contains a function that needs cases itself. */
+/* Set too_much if e contains a function that needs a case distinction itself. */
 static qdot_status
-look_inside(struct cases *c, qdot_expr e)
+refuse_inner_cases(struct cases *c, qdot_expr e)
 {
     qdot_walk w;
 
     QDOT_TRY(qdot_walk_begin(c->pool, e, &w));
     for (size_t i = 0; i < w.n; i++)
-        c->too_much |= is_told_apart(c->pool, w.at[i]);
+        c->too_much |= needs_cases(c->pool, w.at[i]);
     qdot_walk_end(&w);
     return QDOT_OK;
 }
 
-/* Find the signs that are differences of leaves: the order of the leaves determines them. */
+/* Find the signs that are differences of arguments of max or min: the order of these determines the signs. */
 static void
-link_signs(struct cases *c)
+relate_signs_to_order(struct cases *c)
 {
     for (size_t k = 0; k < c->n_signs; k++)
         for (size_t i = 0; i < c->n_leaves; i++)
             for (size_t j = 0; j < c->n_leaves && !c->too_much; j++)
                 if (i != j &&
-                    is_proved(c, c->sign[k], qdot_sub(c->pool, c->leaf[i], c->leaf[j])))
+                    is_proved_equal(c, c->sign[k], qdot_sub(c->pool, c->leaf[i], c->leaf[j])))
                     c->link[c->n_links++] = (struct link){k, i, j};
 }
 
-/* Whether signs contradict an order: leaf[i] <= leaf[j], yet leaf[i] - leaf[j] > 0. */
+/* Whether signs contradict an order of arguments: leaf[i] <= leaf[j] although leaf[i] - leaf[j] > 0. */
 static bool
 contradicts(const struct cases *c, const size_t *order, const int *sign)
 {
@@ -290,7 +290,7 @@ contradicts(const struct cases *c, const size_t *order, const int *sign)
 }
 
 static qdot_status
-cases_gather(struct cases *c)
+gather_cases(struct cases *c)
 {
     qdot_walk w;
 
@@ -298,15 +298,15 @@ cases_gather(struct cases *c)
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
-        if (is_told_apart(c->pool, w.at[i]))
-            status = add_node(c, w.at[i]);
+        if (needs_cases(c->pool, w.at[i]))
+            status = add_case_function(c, w.at[i]);
     qdot_walk_end(&w);
     QDOT_TRY(status);
     for (size_t i = 0; i < c->n_leaves && !c->too_much; i++)
-        QDOT_TRY(look_inside(c, c->leaf[i]));
+        QDOT_TRY(refuse_inner_cases(c, c->leaf[i]));
     for (size_t i = 0; i < c->n_signs && !c->too_much; i++)
-        QDOT_TRY(look_inside(c, c->sign[i]));
-    link_signs(c);
+        QDOT_TRY(refuse_inner_cases(c, c->sign[i]));
+    relate_signs_to_order(c);
     return QDOT_OK;
 }
 
@@ -323,9 +323,9 @@ sign_of_constant(struct cases *c, qdot_expr e)
     return sign == QDOT_CONSTANT_POSITIVE ? 1 : sign == QDOT_CONSTANT_NEGATIVE ? -1 : 0;
 }
 
-/* The sign that u has in a given case. */
+/* The sign of u in the case that is given by the signs `sign`. */
 static int
-sign_in(struct cases *c, qdot_expr u, const int *sign)
+sign_in_case(struct cases *c, qdot_expr u, const int *sign)
 {
     int turned, again;
     qdot_expr key = sign_key(c->pool, u, &turned);
@@ -335,7 +335,7 @@ sign_in(struct cases *c, qdot_expr u, const int *sign)
         return 0;
     if (qdot_is_constant(c->pool, key))
         return turned * sign_of_constant(c, key);
-    k = leaf_place(c, c->sign, c->n_signs, key, &again);
+    k = find_equal_expression(c, c->sign, c->n_signs, key, &again);
     if (k == c->n_signs) {
         c->too_much = true;
         return 0;
@@ -343,9 +343,9 @@ sign_in(struct cases *c, qdot_expr u, const int *sign)
     return turned * again * sign[k];
 }
 
-/* Evaluate a condition in a case, over its nodes: 1 false, 2 true. */
+/* Evaluate the condition of an if in a case, node by node; in the table 1 is false, 2 is true. */
 static bool
-holds_in(struct cases *c, qdot_expr condition, const int *sign)
+condition_holds_in_case(struct cases *c, qdot_expr condition, const int *sign)
 {
     qdot_pool *pool = c->pool;
     uint64_t value = 0;
@@ -361,7 +361,7 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
         bool good = e == QDOT_TRUE;
 
         if (qdot_expr_kind(pool, e) == QDOT_REL) {
-            int s = sign_in(
+            int s = sign_in_case(
                 c, qdot_sub(pool, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 0)),
                 sign);
 
@@ -384,7 +384,7 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
     return value == 2;
 }
 
-/* The argument that max or min selects in this case. */
+/* The argument that max or min selects in the present case, by the ranks of the arguments. */
 static qdot_expr
 selected_argument(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
 {
@@ -394,7 +394,7 @@ selected_argument(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
         qdot_expr x = qdot_expr_arg(c->pool, e, i);
         size_t inner = qdot_expr_place(k, c->node, x), at;
 
-        at = leaf_place(c, c->leaf, c->n_leaves, inner < k ? c->to[inner] : x, NULL);
+        at = find_equal_expression(c, c->leaf, c->n_leaves, inner < k ? c->to[inner] : x, NULL);
         if (at == c->n_leaves) {
             c->too_much = true;
             return x;
@@ -407,9 +407,9 @@ selected_argument(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
     return c->leaf[best];
 }
 
-/* Insert the values of a case: order [] lists the leaves in ascending order, sign [] is 1, -1 or 0. */
+/* Insert the values of a case: order [] lists the arguments of max and min ascending, sign [] is 1, -1 or 0. */
 static void
-cases_put_in(struct cases *c, const size_t *order, const int *sign)
+insert_case_values(struct cases *c, const size_t *order, const int *sign)
 {
     qdot_pool *pool = c->pool;
     size_t rank[LEAVES];
@@ -420,13 +420,13 @@ cases_put_in(struct cases *c, const size_t *order, const int *sign)
         qdot_expr e = c->node[k], u = qdot_expr_arg(pool, e, 0);
         int s;
 
-        if (is_extreme(pool, e)) {
+        if (is_max_or_min(pool, e)) {
             c->to[k] = selected_argument(c, e, k, rank);
         } else if (qdot_expr_is_function(pool, e, QDOT_IF)) {
-            u = qdot_expr_arg(pool, e, holds_in(c, u, sign) ? 1 : 2);
+            u = qdot_expr_arg(pool, e, condition_holds_in_case(c, u, sign) ? 1 : 2);
             c->to[k] = qdot_subs(pool, u, k, c->node, c->to);
         } else {
-            s = sign_in(c, u, sign);
+            s = sign_in_case(c, u, sign);
             c->to[k] = qdot_expr_is_function(pool, e, QDOT_SIGN) ? qdot_expr_int(pool, s)
                        : s == 0                        ? QDOT_ZERO
                        : s > 0                         ? u
@@ -435,7 +435,7 @@ cases_put_in(struct cases *c, const size_t *order, const int *sign)
     }
 }
 
-/* Whether everything in e is evaluated: a branch not taken may be undefined. */
+/* Whether every part of e is always evaluated: the branch of an if that is not taken may be undefined. */
 static bool
 has_no_branches(const struct cases *c)
 {
@@ -450,9 +450,9 @@ has_no_branches(const struct cases *c)
     return none;
 }
 
-/* Whether an expression has no value because it divides by the zero of this case; nothing is claimed then. */
+/* Whether an expression is undefined because it divides by an expression that is 0 in this case; nothing is claimed then. */
 static bool
-no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
+divides_by_zero_of_case(const struct cases *c, qdot_status status, const int *sign)
 {
     bool at_zero = false;
 
@@ -461,9 +461,9 @@ no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
     return status == QDOT_EDOMAIN && at_zero && has_no_branches(c);
 }
 
-/* e with key = c x + rest = 0 solved for a symbol x and inserted; e itself if there is no such x. */
+/* Insert into e a symbol x for which key = c x + rest = 0 is solved; e itself if there is no such x. */
 static qdot_expr
-at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
+insert_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
 {
     uint32_t n = qdot_expr_kind(pool, key) == QDOT_SUM ? qdot_expr_count(pool, key) : 2;
 
@@ -484,21 +484,21 @@ at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
     return e;
 }
 
-/* Whether an expression that must be defined is undefined at the zeros of this case. */
+/* Whether an expression that must be defined is undefined where expressions are 0 in this case. */
 static bool
-nothing_is_claimed(struct cases *c, const int *sign, const qdot_facts *facts)
+is_undefined_in_case(struct cases *c, const int *sign, const qdot_facts *facts)
 {
     qdot_expr e = facts == NULL ? QDOT_NIL : facts->defined;
 
     for (size_t k = 0; k < c->n_signs && e != QDOT_NIL; k++)
         if (sign[k] == 0)
-            e = at_zero_of(c->pool, e, c->sign[k]);
+            e = insert_zero_of(c->pool, e, c->sign[k]);
     if (!qdot_pool_failed(c->pool))
         return false;
     return qdot_pool_check(c->pool) == QDOT_EDOMAIN;
 }
 
-/* Collect what is known in a case: the facts, and its order, signs and zeros. */
+/* Collect what is known in a case: the given facts, the order of arguments, the signs and zeros. */
 static void
 collect_case_facts(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
                    qdot_facts *known, qdot_expr *relation, qdot_expr *condition)
@@ -528,8 +528,8 @@ collect_case_facts(struct cases *c, const size_t *order, const int *sign, const 
 }
 
 static qdot_status
-cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
-            bool *equal)
+prove_case(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
+           bool *equal)
 {
     size_t given = facts == NULL ? 0 : facts->n_conditions + facts->n_relations;
     qdot_expr *condition = qdot_malloc((given + 2 * SIGNS + LEAVES) * sizeof *condition);
@@ -539,27 +539,27 @@ cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_fa
     qdot_facts known;
 
     *equal = status == QDOT_OK && contradicts(c, order, sign);
-    if (*equal) { /* no point satisfies these signs */
+    if (*equal) { /* no point satisfies the signs of this case */
         qdot_free(condition);
         return status;
     }
     QDOT_TRY(status);
-    cases_put_in(c, order, sign);
+    insert_case_values(c, order, sign);
     for (int i = 0; i < 2; i++) {
         side[i] = qdot_subs(c->pool, c->side[i], c->n, c->node, c->to);
         for (size_t k = 0; k < c->n_signs && side[i] != QDOT_NIL; k++)
             if (sign[k] == 0)
-                side[i] = at_zero_of(c->pool, side[i], c->sign[k]);
+                side[i] = insert_zero_of(c->pool, side[i], c->sign[k]);
     }
     if (qdot_pool_failed(c->pool)) { /* undefined in this case: a division by zero */
         status = qdot_pool_check(c->pool);
-        *equal = no_value_at_zero(c, status, sign);
+        *equal = divides_by_zero_of_case(c, status, sign);
         qdot_free(condition);
         return qdot_grave(status);
     }
     relation = condition + (facts == NULL ? 0 : facts->n_conditions) + SIGNS + LEAVES;
     collect_case_facts(c, order, sign, facts, &known, relation, condition);
-    *equal = nothing_is_claimed(c, sign, facts);
+    *equal = is_undefined_in_case(c, sign, facts);
     if (!c->too_much && !*equal)
         status = qdot_prove_equal(c->pool, side[0], side[1], &known, equal);
     if (status == QDOT_OK && !*equal && !c->too_much)
@@ -592,7 +592,7 @@ next_order(size_t *order, size_t n)
 }
 
 static bool
-next_signs(const struct cases *c, int *sign)
+next_sign_combination(const struct cases *c, int *sign)
 {
     for (size_t i = 0; i < c->n_signs; i++) {
         if (sign[i] == 1) {
@@ -620,9 +620,9 @@ qdot_prove_cases(qdot_pool *pool, qdot_expr left, qdot_expr right,
     c.side[0] = qdot_within_values(pool, left);
     c.side[1] = qdot_within_values(pool, right);
     for (int i = 0; i < 2; i++)
-        c.side[i] = qdot_walk_map(pool, c.side[i], signs_apart, NULL);
+        c.side[i] = qdot_walk_map(pool, c.side[i], split_signs_of_products, NULL);
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(cases_gather(&c));
+    QDOT_TRY(gather_cases(&c));
     if (c.too_much)
         return QDOT_OK;
     if (c.n == 0)
@@ -635,8 +635,8 @@ qdot_prove_cases(qdot_pool *pool, qdot_expr left, qdot_expr right,
         for (size_t i = 0; i < c.n_signs; i++)
             sign[i] = 1;
         do
-            QDOT_TRY(cases_prove(&c, order, sign, facts, equal));
-        while (*equal && next_signs(&c, sign));
+            QDOT_TRY(prove_case(&c, order, sign, facts, equal));
+        while (*equal && next_sign_combination(&c, sign));
     } while (*equal && next_order(order, c.n_leaves));
     return QDOT_OK;
 }

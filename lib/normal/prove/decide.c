@@ -25,7 +25,7 @@
 /* --- looking for a counterexample -------------------------------------------------- */
 
 struct look {
-    int points;    /* number of points at which to compare */
+    int points;    /* number of points at which both sides are compared */
     int tries;     /* largest number of points tried, as some are outside domains */
     slong prec[4]; /* precisions in bits, ascending; ended by 0 */
     bool edges;    /* take points at edges of domains: qdot_sample_edge */
@@ -45,9 +45,9 @@ to_double(arb_srcptr x)
     return arf_get_d(arb_midref(x), ARF_RND_NEAR);
 }
 
-/* The number of digits to which the sides agree: the ball of the difference contains zero. */
+/* The number of digits to which both sides of an equation agree; the ball of the difference contains 0. */
 static int
-digits_of(const arb_t difference, arb_srcptr left)
+count_equal_digits(const arb_t difference, arb_srcptr left)
 {
     double radius = mag_get_d_log2_approx(arb_radref(difference));
     slong size = arf_abs_bound_lt_2exp_si(arb_midref(left)); /* exponent: |left| < 2^size */
@@ -58,13 +58,13 @@ digits_of(const arb_t difference, arb_srcptr left)
     return radius > 0 ? 0 : (int)fmin(-radius * 0.30103, 9999);
 }
 
-/* Two sides that are compared at points where all of `defined` (a LIST) have values. */
+/* Both sides of an equation, compared at points where all members of `defined` (a LIST) have values. */
 struct sides {
     qdot_expr left, right, defined;
 };
 
 static bool
-all_defined(const qdot_sample *s, qdot_expr list)
+all_are_defined(const qdot_sample *s, qdot_expr list)
 {
     for (uint32_t i = 0; i < qdot_expr_count(s->pool, list); i++)
         if (qdot_ball_get(&s->ball, qdot_expr_arg(s->pool, list, i)) == NULL)
@@ -72,7 +72,7 @@ all_defined(const qdot_sample *s, qdot_expr list)
     return true;
 }
 
-/* Compare at one point. 1: the sides differ; 0: they agree so far; -1: no point was found. */
+/* Compare the sides of an equation at one point. 1: they differ; 0: they agree so far; -1: no point was found. */
 static int
 compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *look,
                  qdot_decision *d, int *digits)
@@ -86,7 +86,7 @@ compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *l
         arb_srcptr l = qdot_ball_get(&s->ball, sides->left);
         arb_srcptr r = qdot_ball_get(&s->ball, sides->right);
 
-        if (!here || l == NULL || r == NULL || !all_defined(s, sides->defined)) {
+        if (!here || l == NULL || r == NULL || !all_are_defined(s, sides->defined)) {
             if (i > 0)
                 break;
             continue;
@@ -99,7 +99,7 @@ compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *l
             d->right = to_double(r);
             break;
         }
-        *digits = digits_of(difference, l);
+        *digits = count_equal_digits(difference, l);
         if (arb_is_zero(difference))
             break;
     }
@@ -107,10 +107,10 @@ compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *l
     return result;
 }
 
-/* The values of a point for symbols in the two sides, and for those related to them by assumptions. */
+/* The values at a point of the symbols in both sides of an equation, and of symbols related to these by assumptions. */
 static qdot_expr
-concerning(qdot_pool *pool, qdot_expr point, const qdot_expr *sides,
-           const qdot_facts *facts)
+relevant_values(qdot_pool *pool, qdot_expr point, const qdot_expr *sides,
+                const qdot_facts *facts)
 {
     uint32_t n = point == QDOT_NIL ? 0 : qdot_expr_count(pool, point), kept = 0;
     size_t assumed = facts == NULL ? 0 : facts->n_relations + facts->n_conditions;
@@ -154,7 +154,7 @@ concerning(qdot_pool *pool, qdot_expr point, const qdot_expr *sides,
 }
 
 static qdot_status
-look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *facts,
+compare_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *facts,
               const struct look *look, qdot_decision *d)
 {
     qdot_expr e[3] = {sides->left, sides->right, sides->defined};
@@ -185,7 +185,7 @@ look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *fact
                 d->digits = digits;
         } else if (here == 1) {
             d->verdict = QDOT_REFUTED;
-            d->at = concerning(pool, qdot_sample_list(&s), e, facts);
+            d->at = relevant_values(pool, qdot_sample_list(&s), e, facts);
             break;
         }
     }
@@ -194,18 +194,18 @@ look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *fact
 }
 
 static qdot_status
-look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-               const struct look *look, qdot_decision *d)
+compare_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+                  const struct look *look, qdot_decision *d)
 {
     struct sides sides = {left, right,
                           facts != NULL && facts->defined != QDOT_NIL
                               ? facts->defined
                               : qdot_list(pool, 0, NULL)};
 
-    return look_at_sides(pool, &sides, facts, look, d);
+    return compare_sides(pool, &sides, facts, look, d);
 }
 
-/* The arguments of undefined functions in e, a LIST; nil on failure. */
+/* The arguments of undefined functions in e, as a LIST; nil on failure. */
 static qdot_expr
 arguments(qdot_pool *pool, qdot_expr e)
 {
@@ -230,7 +230,7 @@ arguments(qdot_pool *pool, qdot_expr e)
 /* --- deciding an equation ---------------------------------------------------------- */
 
 static qdot_status
-need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
+require_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     if (a == QDOT_NIL || b == QDOT_NIL)
         return qdot_pool_failed(pool) ? qdot_pool_check(pool)
@@ -243,7 +243,7 @@ need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
 
 /* The concatenation of two LISTs. */
 static qdot_expr
-joined(qdot_pool *pool, qdot_expr a, qdot_expr b)
+join_lists(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     uint32_t m = qdot_expr_count(pool, a), n = qdot_expr_count(pool, b);
     qdot_expr *all = qdot_malloc((m + n + 1) * sizeof *all), list;
@@ -260,11 +260,11 @@ joined(qdot_pool *pool, qdot_expr a, qdot_expr b)
 /* Once more, with undefined functions of equal arguments made one: at a point where two
  * of them have arguments that cannot be told apart nothing is known. */
 static qdot_status
-look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-                qdot_decision *d)
+compare_with_unified_functions(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+                               qdot_decision *d)
 {
     static const qdot_unify_way way = {qdot_prove_harder, qdot_prove_cases, true};
-    /* only what is inside of the arguments changes */
+    /* unify only inside the arguments of undefined functions */
     qdot_expr e[3] = {left, right, QDOT_NIL}, both[2];
     bool any = false, changed = true;
     struct sides sides;
@@ -272,7 +272,7 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     e[2] = arguments(pool, qdot_list(pool, 2, e));
     if (e[2] == QDOT_NIL)
         return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
-    for (int round = 0; round < 3 && changed; round++) { /* again, because functions may be nested */
+    for (int round = 0; round < 3 && changed; round++) { /* repeat, because functions may be nested */
         QDOT_TRY(qdot_unify(pool, 3, e, facts, &way, &changed));
         any |= changed;
     }
@@ -281,15 +281,15 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     both[0] = e[2];
     both[1] = facts == NULL ? QDOT_NIL : facts->defined;
     if (both[1] != QDOT_NIL)
-        e[2] = joined(pool, both[0], both[1]);
+        e[2] = join_lists(pool, both[0], both[1]);
     sides = (struct sides){e[0], e[1], e[2]};
-    return look_at_sides(pool, &sides, facts, &thorough, d);
+    return compare_sides(pool, &sides, facts, &thorough, d);
 }
 
-/* Prove with the relations between multiples of inverse functions; do nothing if there are none. */
+/* Prove an equation with the relations between multiples of inverse functions; do nothing if there are none. */
 static qdot_status
-prove_parts(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-            bool *equal)
+prove_by_inverse_parts(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+                       bool *equal)
 {
     qdot_facts more = facts == NULL ? (qdot_facts){0} : *facts;
     qdot_expr e[2] = {left, right};
@@ -314,39 +314,39 @@ decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts 
     bool equal;
 
     *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
-    QDOT_TRY(need_scalars(pool, left, right));
+    QDOT_TRY(require_scalars(pool, left, right));
     if (left == right) {
         d->verdict = QDOT_PROVED;
         return QDOT_OK;
     }
-    QDOT_TRY(look_at_points(pool, left, right, facts, &quick, d));
+    QDOT_TRY(compare_at_points(pool, left, right, facts, &quick, d));
     if (d->verdict == QDOT_REFUTED)
         return QDOT_OK;
     QDOT_TRY(qdot_prove_equal(pool, left, right, facts, &equal));
     d->points = 0;
     if (!equal)
-        QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
+        QDOT_TRY(compare_at_points(pool, left, right, facts, &thorough, d));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_harder(pool, left, right, facts, &equal));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_defined(pool, left, right, facts, &equal, NULL));
     if (!equal && d->verdict == QDOT_UNDECIDED)
-        QDOT_TRY(prove_parts(pool, left, right, facts, &equal));
+        QDOT_TRY(prove_by_inverse_parts(pool, left, right, facts, &equal));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_cases(pool, left, right, facts, &equal));
     if (!equal && d->verdict == QDOT_UNDECIDED && d->points > 0 && facts != NULL &&
         facts->n_conditions > 0) {
         qdot_decision more = {.verdict = QDOT_UNDECIDED};
 
-        QDOT_TRY(look_at_points(pool, left, right, facts, &patient, &more));
+        QDOT_TRY(compare_at_points(pool, left, right, facts, &patient, &more));
         if (more.verdict == QDOT_REFUTED)
             *d = more;
     }
     if (d->verdict == QDOT_UNDECIDED) {
         qdot_decision more = {.verdict = QDOT_UNDECIDED};
 
-        QDOT_TRY(look_at_points(pool, left, right, facts, &edges, &more));
-        if (more.verdict == QDOT_REFUTED) { /* the proof does not hold where a divisor is 0: a point counts more */
+        QDOT_TRY(compare_at_points(pool, left, right, facts, &edges, &more));
+        if (more.verdict == QDOT_REFUTED) { /* a counterexample overrides a proof, which does not hold where a divisor is 0 */
             *d = more;
             equal = false;
         }
@@ -354,7 +354,7 @@ decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts 
     if (equal)
         *d = (qdot_decision){.verdict = QDOT_PROVED};
     else if (d->points == 0 && d->verdict == QDOT_UNDECIDED)
-        QDOT_TRY(look_at_unified(pool, left, right, facts, d));
+        QDOT_TRY(compare_with_unified_functions(pool, left, right, facts, d));
     if (d->verdict == QDOT_REFUTED)
         d->points = d->digits = 0;
     return QDOT_OK;
@@ -370,7 +370,7 @@ struct equality {
 };
 
 static void
-decide_equality(void *user)
+decide_equality_task(void *user)
 {
     struct equality *x = user;
 
@@ -382,7 +382,7 @@ qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
                   const qdot_facts *facts, qdot_decision *d)
 {
     struct equality x = {pool, left, right, facts, {.verdict = QDOT_UNDECIDED}, 0, 0};
-    qdot_status status = qdot_flint_run(pool, decide_equality, &x);
+    qdot_status status = qdot_flint_run(pool, decide_equality_task, &x);
 
     *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
     return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
@@ -390,7 +390,7 @@ qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
 
 /* Whether x->left is proved to be zero. */
 static void
-decide_zero(void *user)
+decide_zero_task(void *user)
 {
     struct equality *x = user;
     qdot_pool *pool = x->pool;
@@ -400,12 +400,12 @@ decide_zero(void *user)
     bool zero = false;
     qdot_status status;
 
-    status = look_at_points(pool, e, QDOT_ZERO, facts, &quick, &d);
+    status = compare_at_points(pool, e, QDOT_ZERO, facts, &quick, &d);
     if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
         status = qdot_prove_equal(pool, e, QDOT_ZERO, facts, &zero);
     if (status == QDOT_OK && d.verdict != QDOT_REFUTED && !zero && d.points > 0) {
         d.points = 0;
-        status = look_at_points(pool, e, QDOT_ZERO, facts, &closer, &d);
+        status = compare_at_points(pool, e, QDOT_ZERO, facts, &closer, &d);
         if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
             status = qdot_prove_harder(pool, e, QDOT_ZERO, facts, &zero);
     }
@@ -426,7 +426,7 @@ qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     if (qdot_expr_kind(pool, e) == QDOT_NUM || qdot_expr_kind(pool, e) == QDOT_SYM)
         if (facts == NULL || facts->n_relations == 0)
             return false;
-    status = qdot_flint_run(pool, decide_zero, &x);
+    status = qdot_flint_run(pool, decide_zero_task, &x);
     if (status == QDOT_ELIMIT)
         return false;
     if (status != QDOT_OK || x.status != QDOT_OK)

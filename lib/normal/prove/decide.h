@@ -24,8 +24,8 @@ typedef enum { QDOT_PROVED, QDOT_REFUTED, QDOT_UNDECIDED } qdot_verdict;
 typedef struct {
     qdot_verdict verdict;
     qdot_expr at;       /* if refuted: a LIST symbol = number of the point of the counterexample */
-    double left, right; /* if refuted: values of both sides at that point */
-    int digits;         /* if undecided: to how many digits both sides agree at `points` points */
+    double left, right; /* if refuted: values of both sides of the equation at that point */
+    int digits;         /* if undecided: to how many digits both sides of the equation agree at `points` points */
     int points;
 } qdot_decision;
 

@@ -21,7 +21,7 @@ struct job {
 
 /* Split g = c (a^2 - x^2), c > 0, a >= 0 (a number or of known sign), into two linear conditions. */
 static qdot_status
-between_roots(struct job *j, qdot_expr g, bool weak, bool *done)
+split_difference_of_squares(struct job *j, qdot_expr g, bool weak, bool *done)
 {
     qdot_pool *pool = j->pool;
     qdot_expr square = QDOT_NIL, c = QDOT_NIL, rest = QDOT_NIL, a;
@@ -56,20 +56,20 @@ between_roots(struct job *j, qdot_expr g, bool weak, bool *done)
 }
 
 static qdot_status
-factor_is_defined(struct job *j, qdot_expr g, bool weak)
+report_condition_of_factor(struct job *j, qdot_expr g, bool weak)
 {
     uint8_t sign = g == QDOT_NIL ? QDOT_GE0 : qdot_expr_node(j->pool, g)->sign;
     bool done;
 
     if ((sign & QDOT_GE0) && (weak || (sign & QDOT_NE0)))
         return QDOT_OK;
-    QDOT_TRY(between_roots(j, g, weak, &done));
+    QDOT_TRY(split_difference_of_squares(j, g, weak, &done));
     return done ? QDOT_OK : j->tell(j->user, g, weak);
 }
 
 /* Find the product of the factors of p whose sign is not known. */
 static qdot_status
-unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_expr *product)
+product_of_unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_expr *product)
 {
     qdot_factors factors;
     qdot_status status = qdot_factor(f, &factors, p);
@@ -84,7 +84,7 @@ unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_expr *produ
 
         if (even)
             sign = (uint8_t)(QDOT_GE0 | (sign & QDOT_NE0));
-        /* where it is 0 the other factors are unknown, unless the product is not 0 */
+        /* keep a factor that may be 0: where it is 0 the condition tells nothing of the other factors */
         if (weak && !(sign & QDOT_NE0))
             *product = qdot_mul(pool, *product,
                                 qdot_pow_int(pool, b, (long)factors.exp[i]));
@@ -115,9 +115,9 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
         qdot_field_cancelled(&f, &r, gap);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.n, f.ctx)) {
             product = QDOT_ONE;
-            status = unknown_factors(&f, r.n, weak, &product);
+            status = product_of_unknown_factors(&f, r.n, weak, &product);
             if (status == QDOT_OK) /* the condition: denominator != 0 */
-                status = unknown_factors(&f, r.d, false, &product);
+                status = product_of_unknown_factors(&f, r.d, false, &product);
         }
         qdot_ratio_clear(&f, &r);
     }
@@ -126,13 +126,13 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
     qdot_field_end(&f);
     QDOT_TRY(qdot_grave(status));
     product = status == QDOT_OK && product != QDOT_NIL ? qdot_expand(pool, product) : gap;
-    return factor_is_defined(&j, product, weak);
+    return report_condition_of_factor(&j, product, weak);
 }
 
 /* --- conditions for each node to be defined --------------------------------------------- */
 
 static qdot_status
-need(struct job *j, qdot_expr gap, bool weak)
+report_condition(struct job *j, qdot_expr gap, bool weak)
 {
     uint8_t sign = gap == QDOT_NIL ? QDOT_POS : qdot_expr_node(j->pool, gap)->sign;
 
@@ -142,27 +142,27 @@ need(struct job *j, qdot_expr gap, bool weak)
 }
 
 static qdot_status
-function_is_defined(struct job *j, qdot_expr e)
+report_conditions_of_function(struct job *j, qdot_expr e)
 {
     qdot_pool *pool = j->pool;
     unsigned op = qdot_expr_node(pool, e)->op;
     qdot_expr u = qdot_expr_arg(pool, e, 0);
 
     switch (op) {
-    case QDOT_LOG: return need(j, u, false);
-    case QDOT_ACOSH: return need(j, qdot_sub(pool, u, QDOT_ONE), true);
+    case QDOT_LOG: return report_condition(j, u, false);
+    case QDOT_ACOSH: return report_condition(j, qdot_sub(pool, u, QDOT_ONE), true);
     case QDOT_ASIN:
     case QDOT_ACOS:
     case QDOT_ATANH:
-        QDOT_TRY(need(j, qdot_sub(pool, QDOT_ONE, u), op != QDOT_ATANH));
-        return need(j, qdot_add(pool, QDOT_ONE, u), op != QDOT_ATANH);
+        QDOT_TRY(report_condition(j, qdot_sub(pool, QDOT_ONE, u), op != QDOT_ATANH));
+        return report_condition(j, qdot_add(pool, QDOT_ONE, u), op != QDOT_ATANH);
     default: return QDOT_OK;
     }
 }
 
-/* Whether b^x may have been taken out of a root in the same product, and may be zero. */
+/* Whether b^x may be a factor taken out of a root in the same product, and may be zero. */
 static bool
-may_have_come_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+may_be_taken_out_of_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *k = qdot_expr_rational(pool, x);
     uint8_t sign = qdot_expr_node(pool, b)->sign;
@@ -174,7 +174,7 @@ may_have_come_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 }
 
 static qdot_status
-product_is_defined(struct job *j, qdot_expr e)
+report_conditions_of_product(struct job *j, qdot_expr e)
 {
     qdot_pool *pool = j->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -186,10 +186,10 @@ product_is_defined(struct job *j, qdot_expr e)
         if (x == NULL || fmpz_is_one(fmpq_denref(x)))
             continue;
         for (uint32_t k = 1; k < n; k += 2)
-            alone &= k == i || !may_have_come_out(pool, qdot_expr_arg(pool, e, k),
-                                                  qdot_expr_arg(pool, e, k + 1));
+            alone &= k == i || !may_be_taken_out_of_root(pool, qdot_expr_arg(pool, e, k),
+                                                         qdot_expr_arg(pool, e, k + 1));
         if (alone)
-            QDOT_TRY(need(j, qdot_expr_arg(pool, e, i), fmpq_sgn(x) > 0));
+            QDOT_TRY(report_condition(j, qdot_expr_arg(pool, e, i), fmpq_sgn(x) > 0));
     }
     return QDOT_OK;
 }
@@ -217,9 +217,9 @@ qdot_defined(qdot_pool *pool, size_t n, const qdot_expr *e, qdot_defined_gap tel
             if (qdot_walk_index(&w, qdot_expr_arg(pool, at, k)) != SIZE_MAX)
                 qdot_walk_set(&w, qdot_expr_arg(pool, at, k), 1);
         if (kind == QDOT_FUN)
-            status = function_is_defined(&j, at);
+            status = report_conditions_of_function(&j, at);
         else if (kind == QDOT_PROD)
-            status = product_is_defined(&j, at);
+            status = report_conditions_of_product(&j, at);
     }
     qdot_walk_end(&w);
     return status;

@@ -25,7 +25,7 @@ typedef qdot_status (*qdot_defined_gap)(void *user, qdot_expr gap, bool weak);
 QDOT_MUST_CHECK qdot_status qdot_defined(qdot_pool *pool, size_t n, const qdot_expr *e,
                                          qdot_defined_gap tell, void *user);
 
-/* Call `tell` for the simpler conditions into which gap >= 0 (or > 0) splits. */
+/* Call `tell` for each of the simpler conditions into which gap >= 0 (or gap > 0) splits. */
 QDOT_MUST_CHECK qdot_status qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak,
                                                qdot_defined_gap tell, void *user);
 

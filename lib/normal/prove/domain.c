@@ -24,10 +24,10 @@ typedef struct {
     bool changed, empty;
 } job;
 
-/* A new symbol y for x with the given bounds, and no others. */
+/* A new symbol y that takes the place of x, with the given bounds and no others. */
 static qdot_expr
-fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
-      bool hi_open)
+new_symbol(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
+           bool hi_open)
 {
     char name[80];
     qdot_expr y;
@@ -52,7 +52,7 @@ domain_replace(job *j, qdot_expr x, qdot_expr to)
 }
 
 static qdot_status
-add_gap(job *j, qdot_expr gap, bool weak)
+add_domain_condition(job *j, qdot_expr gap, bool weak)
 {
     if (j->gap.n >= MOST_GAPS)
         return QDOT_OK;
@@ -64,7 +64,7 @@ add_gap(job *j, qdot_expr gap, bool weak)
 
 /* Whether a < b is proved, a and b constants. */
 static bool
-surely_less(qdot_pool *pool, qdot_expr a, qdot_expr b)
+is_proved_less(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     qdot_expr d = qdot_sub(pool, b, a);
     qdot_constant_sign sign;
@@ -74,7 +74,7 @@ surely_less(qdot_pool *pool, qdot_expr a, qdot_expr b)
 }
 
 static bool
-inside_angle(const job *j, qdot_expr x)
+occurs_in_angle(const job *j, qdot_expr x)
 {
     for (size_t i = 0; i < j->n; i++) {
         bool found = false;
@@ -99,29 +99,29 @@ static void
 domain_move_bounds(job *j, qdot_expr x, qdot_symbol s)
 {
     qdot_pool *pool = j->pool;
-    bool two = s.lo != QDOT_NIL && s.hi != QDOT_NIL, angle = two && inside_angle(j, x);
+    bool two = s.lo != QDOT_NIL && s.hi != QDOT_NIL, angle = two && occurs_in_angle(j, x);
     qdot_expr y;
 
-    if (two && (angle || (surely_less(pool, s.lo, QDOT_ZERO) &&
-                          surely_less(pool, QDOT_ZERO, s.hi)))) {
+    if (two && (angle || (is_proved_less(pool, s.lo, QDOT_ZERO) &&
+                          is_proved_less(pool, QDOT_ZERO, s.hi)))) {
         const qdot_symbol *now = qdot_expr_symbol(pool, x);
 
         if (now->lo != s.lo || now->hi != s.hi || now->lo_open != s.lo_open ||
             now->hi_open != s.hi_open)
-            domain_replace(j, x, fresh(pool, x, s.lo, s.lo_open, s.hi, s.hi_open));
-    } else if (s.lo != QDOT_NIL && (!two || !surely_less(pool, s.lo, QDOT_ZERO))) {
+            domain_replace(j, x, new_symbol(pool, x, s.lo, s.lo_open, s.hi, s.hi_open));
+    } else if (s.lo != QDOT_NIL && (!two || !is_proved_less(pool, s.lo, QDOT_ZERO))) {
         qdot_expr to = two ? qdot_sub(pool, s.hi, s.lo) : QDOT_NIL;
         const qdot_symbol *now = qdot_expr_symbol(pool, x);
 
         if (s.lo == QDOT_ZERO && now->lo == s.lo && (now->lo_open || !s.lo_open) &&
             now->hi == s.hi && (now->hi_open || !s.hi_open))
             return;
-        y = fresh(pool, x, QDOT_ZERO, s.lo_open, to, s.hi_open);
+        y = new_symbol(pool, x, QDOT_ZERO, s.lo_open, to, s.hi_open);
         domain_replace(j, x, qdot_add(pool, s.lo, y));
     } else if (s.hi != QDOT_NIL) {
         qdot_expr to = two ? qdot_sub(pool, s.hi, s.lo) : QDOT_NIL;
 
-        y = fresh(pool, x, QDOT_ZERO, s.hi_open, to, s.lo_open);
+        y = new_symbol(pool, x, QDOT_ZERO, s.hi_open, to, s.lo_open);
         domain_replace(j, x, qdot_sub(pool, s.hi, y));
     }
 }
@@ -134,10 +134,10 @@ count_terms(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_SUM ? (qdot_expr_count(pool, e) - 1) / 2 : 1;
 }
 
-/* Whether term i of g is c x with a symbol x that occurs in no other term. */
+/* Whether term i of g is c x with a symbol x that occurs in no other term of g. */
 static bool
-linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x,
-            qdot_expr *rest)
+find_linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x,
+                 qdot_expr *rest)
 {
     if (qdot_expr_kind(pool, g) == QDOT_SUM) {
         *x = qdot_expr_arg(pool, g, 1 + 2 * i);
@@ -156,7 +156,7 @@ linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x
     return *rest != QDOT_NIL && !qdot_expr_contains(pool, *rest, *x);
 }
 
-/* Tighten the bounds of x by c x + rest > 0, if that gives a constant bound. */
+/* Tighten the bounds of x by the condition c x + rest > 0, if that gives a constant bound. */
 static void
 tighten_bounds(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
 {
@@ -167,12 +167,12 @@ tighten_bounds(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
         return;
     if (fmpq_sgn(qdot_expr_rational(j->pool, c)) > 0) {
         if (s.lo == QDOT_NIL || !qdot_is_constant(j->pool, s.lo) || s.lo == v ||
-            surely_less(j->pool, s.lo, v)) {
+            is_proved_less(j->pool, s.lo, v)) {
             s.lo_open = !weak || (s.lo == v && s.lo_open);
             s.lo = v;
         }
     } else if (s.hi == QDOT_NIL || !qdot_is_constant(j->pool, s.hi) || s.hi == v ||
-               surely_less(j->pool, v, s.hi)) {
+               is_proved_less(j->pool, v, s.hi)) {
         s.hi_open = !weak || (s.hi == v && s.hi_open);
         s.hi = v;
     }
@@ -180,14 +180,14 @@ tighten_bounds(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
         s.lo = QDOT_NIL;
     if (s.hi != QDOT_NIL && !qdot_is_constant(j->pool, s.hi))
         s.hi = QDOT_NIL;
-    if (s.lo != QDOT_NIL && s.hi != QDOT_NIL && !surely_less(j->pool, s.lo, s.hi))
+    if (s.lo != QDOT_NIL && s.hi != QDOT_NIL && !is_proved_less(j->pool, s.lo, s.hi))
         return; /* lo < hi is not certain */
     domain_move_bounds(j, x, s);
 }
 
-/* Solve a condition for a symbol such that its declared sign is visible in its replacement. */
+/* Solve a condition for a symbol in such a way that its declared sign is visible in the replacement. */
 static bool
-solve_gap(job *j, qdot_expr gap, bool weak)
+solve_condition(job *j, qdot_expr gap, bool weak)
 {
     qdot_pool *pool = j->pool;
     qdot_expr g = qdot_expand(pool, gap), c, x, rest, to;
@@ -197,13 +197,13 @@ solve_gap(job *j, qdot_expr gap, bool weak)
     for (uint32_t i = 0; i < count_terms(pool, g); i++) {
         uint8_t need, have;
 
-        if (!linear_term(pool, g, i, &c, &x, &rest))
+        if (!find_linear_term(pool, g, i, &c, &x, &rest))
             continue;
         if (qdot_is_constant(pool, rest)) {
             tighten_bounds(j, x, c, rest, weak);
             return true;
         }
-        to = qdot_sub(pool, fresh(pool, x, QDOT_ZERO, !weak, QDOT_NIL, false), rest);
+        to = qdot_sub(pool, new_symbol(pool, x, QDOT_ZERO, !weak, QDOT_NIL, false), rest);
         to = qdot_div(pool, to, c);
         if (to == QDOT_NIL)
             return false;
@@ -221,7 +221,7 @@ solve_gap(job *j, qdot_expr gap, bool weak)
 
 /* Solve r = a x + b for x if a is never zero and neither a nor b contains x: *to is -b/a. */
 static bool
-solvable(qdot_pool *pool, qdot_expr r, qdot_expr x, qdot_expr *to)
+solve_linear(qdot_pool *pool, qdot_expr r, qdot_expr x, qdot_expr *to)
 {
     qdot_expr zero = QDOT_ZERO, a = qdot_diff(pool, r, x), b;
 
@@ -235,14 +235,14 @@ solvable(qdot_pool *pool, qdot_expr r, qdot_expr x, qdot_expr *to)
 
 /* Keep the declared bounds of x as conditions on its replacement. */
 static qdot_status
-keep_bounds(job *j, qdot_expr x)
+keep_bounds_as_conditions(job *j, qdot_expr x)
 {
     qdot_symbol s = *qdot_expr_symbol(j->pool, x);
 
     if (s.lo != QDOT_NIL)
-        QDOT_TRY(add_gap(j, qdot_sub(j->pool, x, s.lo), !s.lo_open));
+        QDOT_TRY(add_domain_condition(j, qdot_sub(j->pool, x, s.lo), !s.lo_open));
     if (s.hi != QDOT_NIL)
-        QDOT_TRY(add_gap(j, qdot_sub(j->pool, s.hi, x), !s.hi_open));
+        QDOT_TRY(add_domain_condition(j, qdot_sub(j->pool, s.hi, x), !s.hi_open));
     return QDOT_OK;
 }
 
@@ -259,8 +259,8 @@ solve_relations(job *j, size_t nr)
 
             if (qdot_expr_is_class(pool, x, QDOT_CONST))
                 continue;
-            if (solvable(pool, j->e[i], x, &to)) {
-                QDOT_TRY(keep_bounds(j, x));
+            if (solve_linear(pool, j->e[i], x, &to)) {
+                QDOT_TRY(keep_bounds_as_conditions(j, x));
                 domain_replace(j, x, to);
                 j->e[i] = QDOT_ZERO;
                 break;
@@ -275,27 +275,27 @@ solve_relations(job *j, size_t nr)
 /* --- the whole elimination ------------------------------------------------------ */
 
 static qdot_status
-domain_add_gap(void *user, qdot_expr gap, bool weak)
+add_reported_condition(void *user, qdot_expr gap, bool weak)
 {
     job *j = user;
 
     for (size_t i = 0; i < j->gap.n; i++)
         if (j->gap.at[i] == gap && j->weak.at[i] <= weak)
             return QDOT_OK;
-    return add_gap(j, gap, weak);
+    return add_domain_condition(j, gap, weak);
 }
 
-/* Add the conditions under which the sides are defined, and those that follow from conditions by splitting. */
+/* Add the conditions under which both sides are defined, and simpler conditions into which given ones split. */
 static qdot_status
-gather_implied(job *j, const qdot_facts *facts)
+gather_implied_conditions(job *j, const qdot_facts *facts)
 {
     size_t given = j->gap.n;
 
     for (size_t i = 0; i < given; i++)
-        QDOT_TRY(qdot_defined_apart(j->pool, j->gap.at[i], j->weak.at[i], domain_add_gap, j));
+        QDOT_TRY(qdot_defined_apart(j->pool, j->gap.at[i], j->weak.at[i], add_reported_condition, j));
     if (facts != NULL && facts->defined != QDOT_NIL)
-        QDOT_TRY(qdot_defined(j->pool, 1, &facts->defined, domain_add_gap, j));
-    return qdot_defined(j->pool, 2, j->e, domain_add_gap, j);
+        QDOT_TRY(qdot_defined(j->pool, 1, &facts->defined, add_reported_condition, j));
+    return qdot_defined(j->pool, 2, j->e, add_reported_condition, j);
 }
 
 /* Collect the conditions, and the declared bounds that contain symbols. */
@@ -309,7 +309,7 @@ domain_gather(job *j, const qdot_facts *facts, qdot_expr atoms)
 
         if (qdot_expr_kind(pool, c) != QDOT_REL || qdot_expr_node(pool, c)->op == QDOT_EQ)
             continue;
-        QDOT_TRY(add_gap(
+        QDOT_TRY(add_domain_condition(
             j, qdot_sub(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0)),
             qdot_expr_node(pool, c)->op == QDOT_LE));
     }
@@ -318,15 +318,15 @@ domain_gather(job *j, const qdot_facts *facts, qdot_expr atoms)
         qdot_symbol s = *qdot_expr_symbol(pool, x);
 
         if (s.lo != QDOT_NIL && !qdot_is_constant(pool, s.lo))
-            QDOT_TRY(add_gap(j, qdot_sub(pool, x, s.lo), !s.lo_open));
+            QDOT_TRY(add_domain_condition(j, qdot_sub(pool, x, s.lo), !s.lo_open));
         if (s.hi != QDOT_NIL && !qdot_is_constant(pool, s.hi))
-            QDOT_TRY(add_gap(j, qdot_sub(pool, s.hi, x), !s.hi_open));
+            QDOT_TRY(add_domain_condition(j, qdot_sub(pool, s.hi, x), !s.hi_open));
     }
     return QDOT_OK;
 }
 
 static void
-move_declared(job *j, qdot_expr atoms)
+move_declared_bounds(job *j, qdot_expr atoms)
 {
     for (uint32_t i = 0; i < qdot_expr_count(j->pool, atoms); i++) {
         qdot_expr x = qdot_expr_arg(j->pool, atoms, i);
@@ -353,26 +353,26 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
     if (status == QDOT_OK && atoms != QDOT_NIL)
         status = domain_gather(&j, facts, atoms);
     if (status == QDOT_OK && implied)
-        status = gather_implied(&j, facts);
+        status = gather_implied_conditions(&j, facts);
     if (status == QDOT_OK)
         status = solve_relations(&j, nr);
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++) {
         qdot_expr gap = j.gap.at[i];
 
-        j.gap.at[i] = QDOT_NIL; /* remove the gap, unless it is put back */
+        j.gap.at[i] = QDOT_NIL; /* remove the condition gap > 0, unless it is put back */
         if (gap != QDOT_NIL && qdot_expr_is_scalar(pool, gap)) {
             uint8_t sign = qdot_expr_node(pool, gap)->sign;
 
             j.empty |= (sign & QDOT_LE0) && (!j.weak.at[i] || (sign & QDOT_NE0));
         }
-        if (gap != QDOT_NIL && !solve_gap(&j, gap, j.weak.at[i]) && !j.weak.at[i])
+        if (gap != QDOT_NIL && !solve_condition(&j, gap, j.weak.at[i]) && !j.weak.at[i])
             j.gap.at[i] = gap;
     }
     if (status == QDOT_OK && !qdot_pool_failed(pool)) {
         list = qdot_list(pool, (uint32_t)n, e);
         atoms = qdot_expr_atoms(pool, list, false);
         if (atoms != QDOT_NIL)
-            move_declared(&j, atoms);
+            move_declared_bounds(&j, atoms);
     }
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++)
         if (j.gap.at[i] != QDOT_NIL)

@@ -19,11 +19,11 @@ typedef qdot_vec(qdot_expr) qdot_exprs;
 
 /* The conditions that could not be eliminated. */
 typedef struct {
-    qdot_exprs positive; /* left sides of conditions gap > 0 that remain; owned by the caller */
+    qdot_exprs positive; /* left sides of the remaining conditions gap > 0; owned by the caller */
     bool empty; /* the conditions contradict each other: no point satisfies them */
 } qdot_domain_rest;
 
-/* Rewrite e[n] in place; the last nr of them are relations, replaced by 0 once solved. */
+/* Rewrite e[n] by substitutions that satisfy the conditions; the last nr are relations, 0 once they are solved. */
 QDOT_MUST_CHECK qdot_status qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts,
                                                size_t n, qdot_expr *e, size_t nr,
                                                bool implied, qdot_domain_rest *rest);

@@ -1,4 +1,4 @@
-/* equal.c -- proves a difference to be zero in one field, or split by its roots if there are many. */
+/* equal.c -- proves a difference to be zero in one field, or part by part if it contains many roots. */
 #include "normal/prove/equal.h"
 
 #include "expr/build.h"

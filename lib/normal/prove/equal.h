@@ -40,15 +40,15 @@ qdot_problem_count(const qdot_problem *p)
     return 2 + p->nr + p->np;
 }
 
-/* Call finish after every begin: it returns the status of the proof. */
+/* Begin a proof; call qdot_problem_finish after every begin: it returns the status of the proof. */
 QDOT_MUST_CHECK qdot_status qdot_problem_begin(qdot_problem *p, qdot_pool *pool, qdot_expr left,
                                                qdot_expr right, const qdot_facts *facts);
 QDOT_MUST_CHECK qdot_status qdot_problem_finish(qdot_problem *p, qdot_status status);
 
-/* Record bases of roots that are obviously positive; after expansion that is hard to see. */
+/* Record bases of roots that are obviously positive, because after expansion that is hard to see. */
 QDOT_MUST_CHECK qdot_status qdot_problem_note_positive(qdot_problem *p);
 
-/* Prepare all expressions; QDOT_EFAILED if one is undefined (a zero denominator). */
+/* Prepare all expressions for a field; QDOT_EFAILED if one is undefined (a zero denominator). */
 QDOT_MUST_CHECK qdot_status qdot_problem_prepare(qdot_problem *p);
 
 /* Whether the difference is zero in a field of all of them. `signs`: with roots and

@@ -1,4 +1,4 @@
-/* logarithm.c -- proves sums of logarithms zero. */
+/* logarithm.c -- proves that sums of logarithms are zero. */
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/exact.h"
@@ -10,7 +10,7 @@
 enum { MOST_GROUPS = 30, MOST_POWER = 24 };
 
 static bool
-is_logarithm(const qdot_field *f, slong v)
+is_logarithm_variable(const qdot_field *f, slong v)
 {
     qdot_expr e = f->gen[v].expr;
 
@@ -21,7 +21,7 @@ is_logarithm(const qdot_field *f, slong v)
 /* The product of A^k for a sum p/c of k log A, c the content of p, *divided; nil if p is anything
  * else. */
 static qdot_expr
-as_product(qdot_field *f, const fmpz_mpoly_t p, qdot_expr *divided)
+logarithms_as_product(qdot_field *f, const fmpz_mpoly_t p, qdot_expr *divided)
 {
     slong length = fmpz_mpoly_length(p, f->ctx);
     ulong *exp = qdot_malloc(((size_t)f->n + 1) * sizeof *exp);
@@ -37,7 +37,7 @@ as_product(qdot_field *f, const fmpz_mpoly_t p, qdot_expr *divided)
         fmpz_mpoly_get_term_exp_ui(exp, p, i, f->ctx);
         for (slong v = 0; v < f->n; v++)
             if (exp[v] != 0)
-                at = at < 0 && exp[v] == 1 && is_logarithm(f, v) ? v : f->n;
+                at = at < 0 && exp[v] == 1 && is_logarithm_variable(f, v) ? v : f->n;
         fmpz_mpoly_get_term_coeff_fmpz(k, p, i, f->ctx);
         fmpz_divexact(k, k, content);
         if (at < 0 || at == f->n || fmpz_cmp_si(k, MOST_POWER) > 0 ||
@@ -65,7 +65,7 @@ as_product(qdot_field *f, const fmpz_mpoly_t p, qdot_expr *divided)
 /* m (k1 log A1 + ...) + rest, m the only monomial before logarithms: 0 if the product of all A^k is
  * exp(-rest/m). */
 static qdot_status
-against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
+compare_logarithms_with_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
 {
     qdot_field *f = z->f;
     qdot_pool *pool = f->pool;
@@ -93,7 +93,7 @@ against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
     for (slong i = 0; i < groups->n; i++) {
         fmpz_mpoly_zero(key, f->ctx);
         fmpz_mpoly_push_term_si_ui(key, 1, groups->key + i * f->n, f->ctx);
-        if (i == with) { /* the term without a logarithm belongs to the rest */
+        if (i == with) { /* the term without a logarithm belongs to the remaining sum */
             fmpz_t number;
 
             fmpz_init(number);
@@ -108,7 +108,7 @@ against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
     }
     fmpz_mpoly_zero(key, f->ctx);
     fmpz_mpoly_push_term_si_ui(key, 1, groups->key + with * f->n, f->ctx);
-    product = as_product(f, logs, &content);
+    product = logarithms_as_product(f, logs, &content);
     rest = qdot_neg(pool, qdot_div(pool, qdot_field_expr(f, others),
                                    qdot_mul(pool, content, qdot_field_expr(f, key))));
     if (product != QDOT_NIL && rest != QDOT_NIL)
@@ -133,7 +133,7 @@ qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
     if (by == NULL)
         return QDOT_ENOMEM;
     for (slong v = 0; v < f->n; v++) {
-        by[v] = !is_logarithm(f, v);
+        by[v] = !is_logarithm_variable(f, v);
         any |= !by[v] && fmpz_mpoly_degree_si(p, v, f->ctx) > 0;
     }
     *zero = false;
@@ -141,7 +141,7 @@ qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
         status = qdot_factor_group(f, &groups, p, by);
         *zero = status == QDOT_OK && groups.n <= MOST_GROUPS;
         for (slong i = 0; i < groups.n && status == QDOT_OK && *zero; i++) {
-            qdot_expr content, product = as_product(f, groups.poly + i, &content);
+            qdot_expr content, product = logarithms_as_product(f, groups.poly + i, &content);
 
             *zero = product != QDOT_NIL;
             if (*zero)
@@ -149,7 +149,7 @@ qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
                                           z->positive, z->sure, zero);
         }
         if (status == QDOT_OK && !*zero && groups.n <= MOST_GROUPS && qdot_field_goes(f))
-            status = against_rest(z, &groups, zero);
+            status = compare_logarithms_with_rest(z, &groups, zero);
         qdot_factor_ungroup(f, &groups);
     }
     qdot_free(by);

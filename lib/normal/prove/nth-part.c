@@ -11,12 +11,12 @@
 enum { MOST_PARTS = 15, MOST = 4 };
 
 static bool
-is_inverse(const qdot_pool *pool, qdot_expr e, bool circular)
+is_inverse_function(const qdot_pool *pool, qdot_expr e, bool circular)
 {
     return qdot_expr_is_function_that(pool, e, circular ? QDOT_FUN_ARC : QDOT_FUN_AREA);
 }
 
-/* Add the relations of h = f/n, once for each h. */
+/* Add the relations for h = f/n, where f is an inverse function, once for each h. */
 static qdot_status
 add_nth_part_relations(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot_nth_parts *relations)
 {
@@ -46,7 +46,7 @@ add_nth_part_relations(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot
 }
 
 static qdot_status
-argument_look_at(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nth_parts *relations)
+add_relations_of_argument(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nth_parts *relations)
 {
     bool sum = qdot_expr_kind(pool, arg) == QDOT_SUM;
     uint32_t n = sum ? qdot_expr_count(pool, arg) : 3;
@@ -64,7 +64,7 @@ argument_look_at(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nth_parts *
             f = qdot_expr_arg(pool, arg, 1);
             c = qdot_expr_arg(pool, arg, 0);
         }
-        if (f == QDOT_NIL || !is_inverse(pool, f, circular) ||
+        if (f == QDOT_NIL || !is_inverse_function(pool, f, circular) ||
             fmpz_cmp_ui(fmpq_denref(qdot_expr_rational(pool, c)), MOST_PARTS) > 0)
             continue;
         parts = fmpz_get_si(fmpq_denref(qdot_expr_rational(pool, c)));
@@ -87,7 +87,7 @@ qdot_nth_part_relations(qdot_pool *pool, size_t n, const qdot_expr *e, qdot_nth_
                           : QDOT_FUNCTION_COUNT;
 
         if (op <= QDOT_COT || (op >= QDOT_SINH && op <= QDOT_TANH))
-            status = argument_look_at(pool, qdot_expr_arg(pool, w.at[i], 0), op <= QDOT_COT, relations);
+            status = add_relations_of_argument(pool, qdot_expr_arg(pool, w.at[i], 0), op <= QDOT_COT, relations);
     }
     qdot_walk_end(&w);
     return status;

@@ -9,12 +9,12 @@
 #include "normal/prove/rewrite.h"
 #include "normal/prove/unify.h"
 
-#define ROUNDS 3 /* how often to repeat for nested functions */
+#define ROUNDS 3 /* how often the proof is repeated after arguments of nested functions were unified */
 
 /* Replace symbols so that conditions and bounds hold; conditions that cannot be eliminated follow
  * the relations. */
 static qdot_status
-unfold(qdot_problem *p, const qdot_facts *facts, bool implied, bool *empty)
+insert_domains(qdot_problem *p, const qdot_facts *facts, bool implied, bool *empty)
 {
     qdot_domain_rest rest;
     qdot_status status =
@@ -37,8 +37,8 @@ unfold(qdot_problem *p, const qdot_facts *facts, bool implied, bool *empty)
 }
 
 static qdot_status
-harder(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-       bool implied, bool *equal, bool *empty)
+prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+             bool implied, bool *equal, bool *empty)
 {
     static const qdot_unify_way plainly = {.prove = qdot_prove_equal};
     bool changed = true, exponentials = false;
@@ -48,7 +48,7 @@ harder(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts
 
     *equal = false;
     QDOT_TRY(qdot_problem_begin(&p, pool, left, right, facts));
-    status = unfold(&p, facts, implied, empty);
+    status = insert_domains(&p, facts, implied, empty);
     if (status == QDOT_OK && implied && *empty) {
         *equal = true;
         return qdot_problem_finish(&p, status);
@@ -96,7 +96,7 @@ qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
 {
     bool empty;
 
-    return harder(pool, left, right, facts, false, equal, &empty);
+    return prove_harder(pool, left, right, facts, false, equal, &empty);
 }
 
 qdot_status
@@ -104,11 +104,11 @@ qdot_prove_defined(qdot_pool *pool, qdot_expr left, qdot_expr right,
                    const qdot_facts *facts, bool *equal, bool *empty)
 {
     bool none = false;
-    qdot_status status = harder(pool, left, right, facts, true, equal, &none);
+    qdot_status status = prove_harder(pool, left, right, facts, true, equal, &none);
 
     if (empty != NULL)
         *empty = none;
     else
-        *equal &= !none; /* no claim of equality on an empty domain */
+        *equal &= !none; /* do not claim equality on an empty domain */
     return status;
 }

@@ -16,7 +16,7 @@ enum { MOST_SQUARES = 2, LONGEST = 60 };
 #define EITHER (QDOT_GE0 | QDOT_LE0)
 
 static uint8_t
-range_of_product(uint8_t a, uint8_t b)
+sign_of_product(uint8_t a, uint8_t b)
 {
     uint8_t known = 0;
 
@@ -29,15 +29,15 @@ range_of_product(uint8_t a, uint8_t b)
 
 /* --- angles and their sines -------------------------------------------------------- */
 
-/* The least and greatest value of an angle, as constants; open: the angle does not reach them. */
+/* The least and greatest value of an angle as constants; open: the angle does not reach this value. */
 struct range {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
 };
 
-/* Add c x to the range r. */
+/* Add c x to the range r, where the symbol x has its declared bounds. */
 static bool
-add_symbol(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
+add_symbol_range(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
     bool up = fmpq_sgn(qdot_expr_rational(pool, c)) > 0;
@@ -46,7 +46,7 @@ add_symbol(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
     if (s == NULL || s->lo == QDOT_NIL || s->hi == QDOT_NIL ||
         !qdot_is_constant(pool, s->lo) || !qdot_is_constant(pool, s->hi))
         return false;
-    own = *s; /* copied, since constructors may move the pool's nodes */
+    own = *s; /* copy the symbol, since making expressions may move the pool's memory */
     r->lo = qdot_add(pool, r->lo, qdot_mul(pool, c, up ? own.lo : own.hi));
     r->hi = qdot_add(pool, r->hi, qdot_mul(pool, c, up ? own.hi : own.lo));
     r->lo_open |= up ? own.lo_open : own.hi_open;
@@ -55,17 +55,17 @@ add_symbol(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
 }
 
 static bool
-range_of(qdot_pool *pool, qdot_expr e, struct range *r)
+find_range(qdot_pool *pool, qdot_expr e, struct range *r)
 {
     uint32_t n = qdot_expr_count(pool, e);
     bool known = true;
 
     *r = (struct range){QDOT_ZERO, QDOT_ZERO, false, false};
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_SYM: return add_symbol(pool, r, QDOT_ONE, e);
+    case QDOT_SYM: return add_symbol_range(pool, r, QDOT_ONE, e);
     case QDOT_PROD:
         return n == 3 && qdot_expr_arg(pool, e, 2) == QDOT_ONE &&
-               add_symbol(pool, r, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
+               add_symbol_range(pool, r, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
     case QDOT_SUM:
         r->lo = r->hi = qdot_expr_arg(pool, e, 0);
         for (uint32_t i = 1; i < n && known; i += 2) {
@@ -75,7 +75,7 @@ range_of(qdot_pool *pool, qdot_expr e, struct range *r)
                 r->lo = qdot_add(pool, r->lo, qdot_mul(pool, c, t));
                 r->hi = qdot_add(pool, r->hi, qdot_mul(pool, c, t));
             } else {
-                known = add_symbol(pool, r, c, t);
+                known = add_symbol_range(pool, r, c, t);
             }
         }
         return known;
@@ -83,9 +83,9 @@ range_of(qdot_pool *pool, qdot_expr e, struct range *r)
     }
 }
 
-/* Whether 0 <= e is proved; *open: whether 0 < e is, too. */
+/* Whether 0 <= e is proved; *open is set if 0 < e is proved, too. */
 static bool
-not_negative(qdot_pool *pool, qdot_expr e, bool *open)
+is_proved_nonnegative(qdot_pool *pool, qdot_expr e, bool *open)
 {
     qdot_constant_sign sign;
 
@@ -95,7 +95,7 @@ not_negative(qdot_pool *pool, qdot_expr e, bool *open)
     return sign == QDOT_CONSTANT_POSITIVE || sign == QDOT_CONSTANT_ZERO;
 }
 
-/* The sign of sin(x) for x in a range: between k pi and (k + 1) pi it is (-1)^k. */
+/* The sign of sin(x) for x in a range: (-1)^k between k pi and (k + 1) pi. */
 static uint8_t
 sign_of_sine(qdot_pool *pool, struct range r)
 {
@@ -109,7 +109,7 @@ sign_of_sine(qdot_pool *pool, struct range r)
     k = qdot_expr_int(pool, (long)n);
     r.lo = qdot_sub(pool, r.lo, qdot_mul(pool, k, QDOT_PI));
     r.hi = qdot_sub(pool, qdot_mul(pool, qdot_add(pool, k, QDOT_ONE), QDOT_PI), r.hi);
-    if (!not_negative(pool, r.lo, &r.lo_open) || !not_negative(pool, r.hi, &r.hi_open))
+    if (!is_proved_nonnegative(pool, r.lo, &r.lo_open) || !is_proved_nonnegative(pool, r.hi, &r.hi_open))
         return 0;
     open = r.lo_open && r.hi_open;
     return (uint8_t)((fmod(n, 2) == 0 ? QDOT_GE0 : QDOT_LE0) | (open ? QDOT_NE0 : 0));
@@ -133,7 +133,7 @@ qdot_range_sign(qdot_pool *pool, const qdot_gen *gen)
         return sign;
     }
     if ((gen->kind != QDOT_GEN_SIN && gen->kind != QDOT_GEN_COS) ||
-        !range_of(pool, gen->of, &r))
+        !find_range(pool, gen->of, &r))
         return sign;
     if (gen->kind == QDOT_GEN_COS) {
         qdot_expr quarter = qdot_mul(pool, QDOT_HALF, QDOT_PI);
@@ -147,7 +147,7 @@ qdot_range_sign(qdot_pool *pool, const qdot_gen *gen)
 /* --- signs of polynomials ---------------------------------------------------------- */
 
 static uint8_t
-monomial(const qdot_zero *z, const fmpz_mpoly_t p, slong i, ulong *exp)
+sign_of_term(const qdot_zero *z, const fmpz_mpoly_t p, slong i, ulong *exp)
 {
     const qdot_field *f = z->f;
     uint8_t sign =
@@ -158,22 +158,22 @@ monomial(const qdot_zero *z, const fmpz_mpoly_t p, slong i, ulong *exp)
     fmpz_mpoly_get_term_exp_ui(exp, p, i, f->ctx);
     for (slong v = 0; v < f->n && sign != 0; v++)
         if (exp[v] != 0)
-            sign = range_of_product(sign, exp[v] % 2 == 0
+            sign = sign_of_product(sign, exp[v] % 2 == 0
                                    ? (uint8_t)(QDOT_GE0 | (z->sign[v] & QDOT_NE0))
                                    : z->sign[v]);
     return sign;
 }
 
-/* The sign of a sum if all terms have the same sign. */
+/* The sign of a sum if all its terms have the same sign. */
 static uint8_t
-by_terms(const qdot_zero *z, const fmpz_mpoly_t p)
+sign_by_terms(const qdot_zero *z, const fmpz_mpoly_t p)
 {
     slong n = fmpz_mpoly_length(p, z->f->ctx);
     ulong *exp = qdot_malloc(((size_t)z->f->n + 1) * sizeof *exp);
     uint8_t all = EITHER, any = 0;
 
     for (slong i = 0; exp != NULL && i < n && all != 0; i++) {
-        uint8_t s = monomial(z, p, i, exp);
+        uint8_t s = sign_of_term(z, p, i, exp);
 
         all &= s;
         any |= s & QDOT_NE0;
@@ -184,9 +184,9 @@ by_terms(const qdot_zero *z, const fmpz_mpoly_t p)
     return all == 0 ? 0 : all | any;
 }
 
-/* The sign of p if it is c times an expression known to be positive, perhaps times one of known sign. */
+/* The sign of p if it is c times an expression known to be positive, perhaps times another one of known sign. */
 static uint8_t
-by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
+sign_by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
 {
     qdot_field *f = z->f;
     uint8_t sign = 0;
@@ -199,10 +199,10 @@ by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
 
         if (r == NULL || fmpz_mpoly_is_zero(r->n, f->ctx))
             continue;
-        /* n/d > 0: n d > 0 */
+        /* n/d > 0 is equivalent to n d > 0 */
         qdot_field_mul(f, product, r->n, r->d);
         if (qdot_field_goes(f) && fmpz_mpoly_divides(q, product, p, f->ctx))
-            sign = by_terms(z, q); /* p q > 0, so p has the sign of q */
+            sign = sign_by_terms(z, q); /* p q > 0, so p has the sign of q */
         if (sign != 0)
             sign |= QDOT_NE0;
     }
@@ -211,9 +211,9 @@ by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
     return sign & EITHER ? sign : 0;
 }
 
-/* The sign of p if it is c times a node of known sign, as cosh(x + y). */
+/* The sign of p if it is c times a node of known sign, such as cosh(x + y). */
 static uint8_t
-by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
+sign_by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
 {
     qdot_field *f = z->f;
     slong length = fmpz_mpoly_length(p, f->ctx);
@@ -230,15 +230,15 @@ by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
             !fmpz_mpoly_divides(q, r->n, p, f->ctx) || !fmpz_mpoly_is_fmpz(q, f->ctx) ||
             fmpz_mpoly_is_zero(q, f->ctx))
             continue;
-        sign = range_of_product(here, range_of_product(by_terms(z, q), by_terms(z, r->d)));
+        sign = sign_of_product(here, sign_of_product(sign_by_terms(z, q), sign_by_terms(z, r->d)));
     }
     fmpz_mpoly_clear(q, f->ctx);
     return sign;
 }
 
-/* The sign of p after c^2 = 1 - s^2 for one angle, if all terms then have the same sign. */
+/* The sign of p after c^2 = 1 - s^2 is inserted for one angle, if all terms then have the same sign. */
 static uint8_t
-by_turning(const qdot_zero *z, const fmpz_mpoly_t p)
+sign_by_sines(const qdot_zero *z, const fmpz_mpoly_t p)
 {
     qdot_field *f = z->f;
     uint8_t sign = 0;
@@ -249,13 +249,13 @@ by_turning(const qdot_zero *z, const fmpz_mpoly_t p)
         if ((f->gen[v].kind == QDOT_GEN_COS || f->gen[v].kind == QDOT_GEN_COSH) &&
             fmpz_mpoly_degree_si(p, v, f->ctx) >= 2 &&
             qdot_factor_flip(f, q, p, v) == QDOT_OK && qdot_field_goes(f))
-            sign = by_terms(z, q);
+            sign = sign_by_terms(z, q);
     fmpz_mpoly_clear(q, f->ctx);
     return sign & EITHER ? sign : 0;
 }
 
 static bool
-has_roots(const qdot_field *f, const fmpz_mpoly_t p)
+contains_roots(const qdot_field *f, const fmpz_mpoly_t p)
 {
     for (slong v = 0; v < f->n; v++)
         if (f->gen[v].kind == QDOT_GEN_ROOT && fmpz_mpoly_degree_si(p, v, f->ctx) > 0)
@@ -268,7 +268,7 @@ static uint8_t sign_of_polynomial(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 /* A - B for A, B >= 0 has the sign of A^2 - B^2, which has fewer roots. depth bounds the
  * recursion. */
 static uint8_t
-by_squares(qdot_zero *z, const fmpz_mpoly_t p, int depth)
+sign_by_squares(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 {
     qdot_field *f = z->f;
     slong n = fmpz_mpoly_length(p, f->ctx);
@@ -282,7 +282,7 @@ by_squares(qdot_zero *z, const fmpz_mpoly_t p, int depth)
     fmpz_mpoly_init(part[1], f->ctx);
     fmpz_mpoly_init(term, f->ctx);
     for (slong i = 0; i < n && sign != 0; i++) {
-        sign = monomial(z, p, i, exp) & EITHER;
+        sign = sign_of_term(z, p, i, exp) & EITHER;
         fmpz_mpoly_get_term(term, p, i, f->ctx);
         if (sign & QDOT_GE0) {
             fmpz_mpoly_add(part[0], part[0], term, f->ctx);
@@ -306,7 +306,7 @@ by_squares(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 /* p = P + Q r, r a square root of B: where Q^2 B >= P^2 the sign is that of Q, where P^2 >= Q^2 B that of
  * P: y + sqrt(y^2 + 1) > 0. */
 static uint8_t
-by_larger(qdot_zero *z, const fmpz_mpoly_t p, int depth)
+sign_by_dominant_part(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 {
     qdot_field *f = z->f;
     const qdot_rule *rule = NULL;
@@ -345,22 +345,22 @@ by_larger(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 }
 
 static uint8_t
-of_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth)
+sign_of_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 {
-    uint8_t sign = by_terms(z, p);
+    uint8_t sign = sign_by_terms(z, p);
 
     if (sign & EITHER)
         return sign;
-    sign = by_facts(z, p);
+    sign = sign_by_facts(z, p);
     if (sign == 0)
-        sign = by_nodes(z, p);
+        sign = sign_by_nodes(z, p);
     if (sign == 0)
-        sign = by_turning(z, p);
+        sign = sign_by_sines(z, p);
     if (sign == 0 && depth > 0 && fmpz_mpoly_length(p, z->f->ctx) <= LONGEST &&
-        has_roots(z->f, p))
-        sign = by_squares(z, p, depth);
+        contains_roots(z->f, p))
+        sign = sign_by_squares(z, p, depth);
     if (sign == 0 && depth > 0 && fmpz_mpoly_length(p, z->f->ctx) <= LONGEST)
-        sign = by_larger(z, p, depth);
+        sign = sign_by_dominant_part(z, p, depth);
     return sign;
 }
 
@@ -373,17 +373,17 @@ sign_of_polynomial(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 
     if (fmpz_mpoly_is_zero(p, f->ctx))
         return EITHER;
-    sign = of_factor(z, p, 0);
+    sign = sign_of_factor(z, p, 0);
     if (sign != 0)
         return sign;
     if (qdot_factor(f, &factors, p) == QDOT_OK) {
         sign = fmpz_sgn(factors.content) > 0 ? QDOT_POS : QDOT_NEG;
         for (slong i = 0; i < factors.n && sign != 0; i++) {
-            uint8_t one = of_factor(z, factors.poly + i, depth);
+            uint8_t one = sign_of_factor(z, factors.poly + i, depth);
 
             if (factors.exp[i] % 2 == 0)
                 one = (uint8_t)(QDOT_GE0 | (one & QDOT_NE0));
-            sign = one & EITHER ? range_of_product(sign, one) : 0;
+            sign = one & EITHER ? sign_of_product(sign, one) : 0;
         }
     }
     qdot_factor_clear(f, &factors);

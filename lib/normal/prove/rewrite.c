@@ -9,14 +9,14 @@
 #include "expr/walk.h"
 
 static qdot_expr
-half(qdot_pool *pool, qdot_expr e)
+half_of(qdot_pool *pool, qdot_expr e)
 {
     return qdot_mul(pool, QDOT_HALF, e);
 }
 
-/* The inverse hyperbolic function log(v + sqrt(v^2 + c)). */
+/* The inverse hyperbolic function (area function) log(v + sqrt(v^2 + c)). */
 static qdot_expr
-area(qdot_pool *pool, qdot_expr v, qdot_expr c)
+area_function(qdot_pool *pool, qdot_expr v, qdot_expr c)
 {
     qdot_expr root = qdot_sqrt(pool, qdot_add(pool, qdot_pow_int(pool, v, 2), c));
 
@@ -24,11 +24,11 @@ area(qdot_pool *pool, qdot_expr v, qdot_expr c)
 }
 
 static qdot_expr
-log_ratio(qdot_pool *pool, qdot_expr v)
+area_tangent(qdot_pool *pool, qdot_expr v)
 {
     qdot_expr up = qdot_add(pool, QDOT_ONE, v), down = qdot_sub(pool, QDOT_ONE, v);
 
-    return half(pool, qdot_fun1(pool, QDOT_LOG, qdot_div(pool, up, down)));
+    return half_of(pool, qdot_fun1(pool, QDOT_LOG, qdot_div(pool, up, down)));
 }
 
 qdot_expr
@@ -42,19 +42,19 @@ qdot_rewrite_extreme(qdot_pool *pool, qdot_expr e)
         qdot_expr y = qdot_expr_arg(pool, e, i);
         qdot_expr gap = qdot_fun1(pool, QDOT_ABS, qdot_sub(pool, best, y));
 
-        best = half(pool, qdot_add(pool, qdot_add(pool, best, y),
-                                   most ? gap : qdot_neg(pool, gap)));
+        best = half_of(pool, qdot_add(pool, qdot_add(pool, best, y),
+                                      most ? gap : qdot_neg(pool, gap)));
     }
     return best;
 }
 
 /* Replace floor(x + k) by floor(x) + k for an integer k. */
 static qdot_expr
-whole_part(qdot_pool *pool, qdot_expr x)
+rewrite_floor(qdot_pool *pool, qdot_expr x)
 {
     qdot_expr k;
 
-    x = qdot_expand(pool, x); /* to find integers in sums, as in (c + 8)/4 */
+    x = qdot_expand(pool, x); /* expand, so that integers in sums are found, as in (c + 8)/4 */
     if (x == QDOT_NIL || qdot_expr_kind(pool, x) != QDOT_SUM)
         return qdot_fun1(pool, QDOT_FLOOR, x);
     k = qdot_fun1(pool, QDOT_FLOOR, qdot_expr_arg(pool, x, 0));
@@ -63,16 +63,16 @@ whole_part(qdot_pool *pool, qdot_expr x)
 
 /* Write mod(a, b) as a - b floor(a/b). */
 static qdot_expr
-modulo(qdot_pool *pool, qdot_expr a, qdot_expr b)
+rewrite_modulo(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    qdot_expr whole = whole_part(pool, qdot_div(pool, a, b));
+    qdot_expr whole = rewrite_floor(pool, qdot_div(pool, a, b));
 
     return qdot_sub(pool, a, qdot_mul(pool, b, whole));
 }
 
-/* u^c for an argument c log(u) with a number c; nil for other arguments. */
+/* The power u^c for an argument c log(u) with a number c; nil for other arguments. */
 static qdot_expr
-power_of_log(qdot_pool *pool, qdot_expr arg)
+power_from_logarithm(qdot_pool *pool, qdot_expr arg)
 {
     qdot_expr c = QDOT_ONE;
 
@@ -90,7 +90,7 @@ power_of_log(qdot_pool *pool, qdot_expr arg)
 static qdot_expr
 rewrite_hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
-    qdot_expr arg = qdot_expr_arg(pool, e, 0), w = power_of_log(pool, arg), over, s, c;
+    qdot_expr arg = qdot_expr_arg(pool, e, 0), w = power_from_logarithm(pool, arg), over, s, c;
 
     if (w != QDOT_NIL)
         ;
@@ -102,8 +102,8 @@ rewrite_hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
     s = qdot_sub(pool, w, over);
     c = qdot_add(pool, w, over);
     switch (qdot_expr_node(pool, e)->op) {
-    case QDOT_SINH: return half(pool, s);
-    case QDOT_COSH: return half(pool, c);
+    case QDOT_SINH: return half_of(pool, s);
+    case QDOT_COSH: return half_of(pool, c);
     default: return qdot_div(pool, s, c);
     }
 }
@@ -115,15 +115,15 @@ rewrite_function(qdot_pool *pool, qdot_expr e, bool exponentials)
 
     switch (qdot_expr_node(pool, e)->op) {
     case QDOT_ACOS:
-        return qdot_sub(pool, half(pool, QDOT_PI), qdot_fun1(pool, QDOT_ASIN, v));
-    case QDOT_ASINH: return area(pool, v, QDOT_ONE);
-    case QDOT_ACOSH: return area(pool, v, QDOT_MINUS_ONE);
-    case QDOT_ATANH: return log_ratio(pool, v);
+        return qdot_sub(pool, half_of(pool, QDOT_PI), qdot_fun1(pool, QDOT_ASIN, v));
+    case QDOT_ASINH: return area_function(pool, v, QDOT_ONE);
+    case QDOT_ACOSH: return area_function(pool, v, QDOT_MINUS_ONE);
+    case QDOT_ATANH: return area_tangent(pool, v);
     case QDOT_ERFC: return qdot_sub(pool, QDOT_ONE, qdot_fun1(pool, QDOT_ERF, v));
     case QDOT_MAX:
     case QDOT_MIN: return qdot_rewrite_extreme(pool, e);
-    case QDOT_MOD: return modulo(pool, v, qdot_expr_arg(pool, e, 1));
-    case QDOT_FLOOR: return whole_part(pool, v);
+    case QDOT_MOD: return rewrite_modulo(pool, v, qdot_expr_arg(pool, e, 1));
+    case QDOT_FLOOR: return rewrite_floor(pool, v);
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH: return rewrite_hyperbolic(pool, e, exponentials);

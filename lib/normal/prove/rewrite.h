@@ -15,13 +15,13 @@
 
 #include "expr/id.h"
 
-/* e rewritten, children first; nil on failure. */
+/* The expression e with functions rewritten by the rules of this file, children first; nil on failure. */
 qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials);
 
-/* max(x, y, ...) or min by absolute values, as above; nil on failure. */
+/* The function max(x, y, ...) or min written by absolute values; nil on failure. */
 qdot_expr qdot_rewrite_extreme(qdot_pool *pool, qdot_expr e);
 
-/* Whether an exponential occurs in e (or would, rewritten). */
+/* Whether an exponential occurs in e, or would occur after the rewriting. */
 bool qdot_rewrite_has_exp(const qdot_pool *pool, qdot_expr e);
 
 #endif

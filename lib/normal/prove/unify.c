@@ -25,17 +25,17 @@ enum {
 /* Classes of arguments; only arguments of the same class are compared. */
 typedef enum { NONE, ANGLE, ABSOLUTE, BASE, LOGARITHM, OTHER } class;
 
-/* The position of an argument: in which function or power. */
+/* Where an argument stands: in which function or power. */
 struct place {
     class class;
     uint32_t op; /* for class OTHER: the function */
     qdot_kind kind;
 };
 
-/* An argument that represents all multiples of it. */
+/* An argument of functions to which all multiples of it are reduced. */
 struct seen {
     struct place place;
-    qdot_expr arg; /* the argument in its present form */
+    qdot_expr arg; /* the argument as it is after the replacements made so far */
     arb_struct at[POINTS];
 };
 
@@ -45,7 +45,7 @@ typedef struct {
     qdot_sample sample;
     qdot_walk walk;
     arb_ptr value[POINTS]; /* [walk.n] values of all nodes at each sample point */
-    uint8_t *known;        /* [walk.n] the node has a value at all points */
+    uint8_t *known;        /* [walk.n] whether the node has a value at all sample points */
     struct seen *seen;
     size_t n_seen;
     int proofs;
@@ -56,7 +56,7 @@ typedef struct {
 /* --- sample values of arguments ---------------------------------------------------- */
 
 static bool
-some_undefined(const job *j)
+has_undefined_node(const job *j)
 {
     for (size_t i = 0; i < j->walk.n; i++)
         if (qdot_expr_is_scalar(j->pool, j->walk.at[i]) &&
@@ -66,14 +66,14 @@ some_undefined(const job *j)
 }
 
 static qdot_status
-unify_evaluate(job *j, size_t n, const qdot_expr *e)
+evaluate_nodes(job *j, size_t n, const qdot_expr *e)
 {
     int found = 0;
 
     QDOT_TRY(qdot_sample_begin(&j->sample, j->pool, n, e, j->facts));
     for (int k = 0; k < TRIES && j->sample.possible && found < POINTS; k++) {
         qdot_sample_point(&j->sample, k);
-        if (!qdot_sample_values(&j->sample, 192) || (k < PATIENCE && some_undefined(j)))
+        if (!qdot_sample_values(&j->sample, 192) || (k < PATIENCE && has_undefined_node(j)))
             continue;
         for (size_t i = 0; i < j->walk.n; i++) {
             arb_srcptr v = qdot_expr_is_scalar(j->pool, j->walk.at[i])
@@ -92,9 +92,9 @@ unify_evaluate(job *j, size_t n, const qdot_expr *e)
     return QDOT_OK;
 }
 
-/* A fraction with a small denominator near x; false if there is none. */
+/* Find a fraction c with a small denominator close to x; false if there is none. */
 static bool
-small_fraction(fmpq_t c, double x)
+find_small_fraction(fmpq_t c, double x)
 {
     for (long d = 1; d <= 24; d++) {
         double n = nearbyint(x * (double)d);
@@ -110,7 +110,7 @@ small_fraction(fmpq_t c, double x)
 
 /* Whether the sample values agree with a = c b for a rational c. */
 static bool
-proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
+values_are_proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
 {
     int k = 0;
     arb_t x;
@@ -120,7 +120,7 @@ proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
         k++;
     arb_init(x);
     arb_div(x, j->value[k] + a, b->at + k, 128);
-    fits = arb_is_finite(x) && small_fraction(c, arf_get_d(arb_midref(x), ARF_RND_NEAR));
+    fits = arb_is_finite(x) && find_small_fraction(c, arf_get_d(arb_midref(x), ARF_RND_NEAR));
     for (k = 0; k < POINTS && fits; k++) {
         arb_set_fmpq(x, c, 192);
         arb_mul(x, x, b->at + k, 192);
@@ -132,16 +132,16 @@ proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
 
 /* --- finding equal arguments ------------------------------------------------------- */
 
-/* Whether an argument is compared: a plain one is normal, but others may equal it. */
+/* Whether an argument is compared with others: a plain one stays as it is, but others may be multiples of it. */
 static bool
-worth_a_look(const qdot_pool *pool, qdot_expr arg)
+is_worth_comparing(const qdot_pool *pool, qdot_expr arg)
 {
     return qdot_expr_is_scalar(pool, arg) && qdot_expr_kind(pool, arg) != QDOT_NUM;
 }
 
-/* Find *with, which represents `arg` (whose old node has the index `at`), such that arg = *c times it. */
+/* Find *with, which represents `arg` (whose old node has the index `at`), such that arg = *c times *with. */
 static qdot_status
-unify_find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
+find_representative(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
 {
     qdot_status status = QDOT_OK;
     struct seen *new;
@@ -156,7 +156,7 @@ unify_find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fm
 
         if (s->place.class != p.class ||
             (p.class == OTHER && (s->place.op != p.op || s->place.kind != p.kind)) ||
-            !proportional(j, at, s, c))
+            !values_are_proportional(j, at, s, c))
             continue;
         if ((p.class == OTHER && !fmpq_is_one(c)) ||
             ((p.class == BASE || p.class == LOGARITHM) && fmpq_sgn(c) < 0))
@@ -214,17 +214,17 @@ unify_function(job *j, qdot_expr old, qdot_expr *now)
     fmpq_init(c);
     for (uint32_t i = 0; i < n; i++) {
         args[i] = qdot_expr_arg(pool, *now, i);
-        if (!worth_a_look(pool, args[i]))
+        if (!is_worth_comparing(pool, args[i]))
             continue;
-        if (unify_find(j, (struct place){class, op, QDOT_FUN}, args[i], argument_index(j, old, i), &with,
-                       c) != QDOT_OK)
+        if (find_representative(j, (struct place){class, op, QDOT_FUN}, args[i], argument_index(j, old, i), &with,
+                                c) != QDOT_OK)
             break;
         if (with == QDOT_NIL)
             continue;
         scaled = qdot_mul(pool, qdot_expr_fmpq(pool, c), with);
         any |= scaled != args[i];
         args[i] = scaled;
-        if (class == ABSOLUTE && any) { /* moves a factor out: |c B| = |c| |B| */
+        if (class == ABSOLUTE && any) { /* move a factor out of an absolute value: |c B| = |c| |B| */
             fmpq_abs(c, c);
             *now =
                 qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_fun1(pool, QDOT_ABS, with));
@@ -260,10 +260,10 @@ unify_undefined(job *j, qdot_expr old, qdot_expr *now)
     fmpq_init(c);
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
         args[i] = qdot_expr_arg(pool, *now, i);
-        if (2 * i >= n) /* the orders of derivatives of an undefined function */
+        if (2 * i >= n) /* the rest are the orders of derivatives of an undefined function */
             continue;
-        status = unify_find(j, (struct place){OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN},
-                            args[i], argument_index(j, old, i), &with, c);
+        status = find_representative(j, (struct place){OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN},
+                                     args[i], argument_index(j, old, i), &with, c);
         if (with != QDOT_NIL) {
             any |= with != args[i];
             args[i] = with;
@@ -301,9 +301,9 @@ unify_product(job *j, qdot_expr old, qdot_expr *now)
         if (b == QDOT_NIL || x == QDOT_NIL)
             break;
         power = qdot_pow(pool, b, x);
-        if (!qdot_expr_to_int(pool, x, &k) && worth_a_look(pool, b)) {
-            status = unify_find(j, (struct place){BASE, 0, QDOT_PROD}, b, argument_index(j, old, i),
-                                &with, c);
+        if (!qdot_expr_to_int(pool, x, &k) && is_worth_comparing(pool, b)) {
+            status = find_representative(j, (struct place){BASE, 0, QDOT_PROD}, b, argument_index(j, old, i),
+                                         &with, c);
             if (with != QDOT_NIL && with != b) {
                 any = true;
                 power = qdot_mul(pool, qdot_pow(pool, qdot_expr_fmpq(pool, c), x),
@@ -352,7 +352,7 @@ unify_node(job *j, qdot_expr old, qdot_expr *now)
 }
 
 static qdot_status
-reserve(job *j)
+reserve_memory(job *j)
 {
     size_t n = j->walk.n + 1;
 
@@ -371,7 +371,7 @@ reserve(job *j)
 }
 
 static void
-unify_release(job *j)
+release_memory(job *j)
 {
     for (int k = 0; k < POINTS; k++) {
         for (size_t i = 0; j->value[k] != NULL && i < j->walk.n; i++)
@@ -385,9 +385,9 @@ unify_release(job *j)
     qdot_walk_end(&j->walk);
 }
 
-/* Whether anything can be compared at all. */
+/* Whether there are at least two arguments that can be compared. */
 static bool
-has_several(const job *j)
+has_comparable_arguments(const job *j)
 {
     size_t count = 0;
 
@@ -416,24 +416,24 @@ qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *facts,
 
     *changed = false;
     QDOT_TRY(qdot_walk_begin_n(pool, n, e, &j.walk));
-    if (!has_several(&j)) {
+    if (!has_comparable_arguments(&j)) {
         qdot_walk_end(&j.walk);
         return QDOT_OK;
     }
-    status = reserve(&j);
+    status = reserve_memory(&j);
     if (status == QDOT_OK)
-        status = unify_evaluate(&j, n, e);
+        status = evaluate_nodes(&j, n, e);
     for (size_t i = 0; i < j.walk.n && status == QDOT_OK; i++) {
         qdot_expr now = QDOT_NIL;
 
         status = unify_node(&j, j.walk.at[i], &now);
         if (now == QDOT_NIL && status == QDOT_OK)
-            status = QDOT_EFAILED; /* the result is undefined: the replacement was wrong */
+            status = QDOT_EFAILED; /* give up: the result is undefined, so the replacement was wrong */
         qdot_walk_set(&j.walk, j.walk.at[i], now);
     }
     for (size_t i = 0; i < n && status == QDOT_OK && j.changed; i++)
         e[i] = (qdot_expr)qdot_walk_get(&j.walk, e[i]);
     *changed = status == QDOT_OK && j.changed;
-    unify_release(&j);
+    release_memory(&j);
     return status == QDOT_EFAILED ? QDOT_OK : status;
 }

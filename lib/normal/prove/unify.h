@@ -13,11 +13,11 @@
 
 #include "normal/prove/equal.h"
 
-/* The procedures that prove arguments equal. */
+/* The procedures by which arguments are proved equal. */
 typedef struct {
     qdot_prover prove;   /* called a limited number of times */
     qdot_prover harder;  /* a stronger prover, tried if `prove` fails; NULL: none */
-    bool only_undefined; /* only for arguments of undefined functions */
+    bool only_undefined; /* treat only arguments of undefined functions */
 } qdot_unify_way;
 
 /* Rewrite e[n] in place; the relations of facts may be used, and are among the e if they

@@ -10,9 +10,9 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* Whether bound <= n/2 pi (below: >=), for a rational or a rational times pi. */
+/* Whether bound <= n pi/2 (or >= if `below`), for a rational bound or a rational multiple of pi. */
 static bool
-bounded_by_quarters(const qdot_pool *pool, qdot_expr bound, long n, bool below)
+is_bounded_by_quarter_turns(const qdot_pool *pool, qdot_expr bound, long n, bool below)
 {
     const fmpq *x = qdot_expr_rational(pool, bound);
     fmpq_t limit, c;
@@ -47,19 +47,19 @@ bounded_by_quarters(const qdot_pool *pool, qdot_expr bound, long n, bool below)
     return known && (below ? order >= 0 : order <= 0);
 }
 
-/* Whether x is a symbol declared within [from, to], in units of pi/2. */
+/* Whether x is a symbol declared within [from, to], in units of pi/2 (quarter turns). */
 static bool
 lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 
-    return s != NULL && bounded_by_quarters(pool, s->lo, from, true) &&
-           bounded_by_quarters(pool, s->hi, to, false);
+    return s != NULL && is_bounded_by_quarter_turns(pool, s->lo, from, true) &&
+           is_bounded_by_quarter_turns(pool, s->hi, to, false);
 }
 
-/* The angle phi with y = p sin(phi), x = p cos(phi), p > 0; nil if y and x do not have this form. */
+/* The angle phi for which y = p sin(phi), x = p cos(phi), p > 0; nil if y and x do not have this form. */
 static qdot_expr
-angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
+find_polar_angle(qdot_pool *pool, qdot_expr y, qdot_expr x)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, y, false);
 
@@ -68,7 +68,7 @@ angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
         const qdot_symbol *s = qdot_expr_symbol(pool, u);
 
         if (!lies_within(pool, u, -2, 2) ||
-            (s->lo != QDOT_NIL && !s->lo_open && !bounded_by_quarters(pool, s->lo, -1, true)))
+            (s->lo != QDOT_NIL && !s->lo_open && !is_bounded_by_quarter_turns(pool, s->lo, -1, true)))
             continue;
         p = qdot_div(pool, y, qdot_fun1(pool, QDOT_SIN, u));
         if (p != QDOT_NIL && qdot_expr_node(pool, p)->sign == QDOT_POS &&
@@ -79,7 +79,7 @@ angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
 }
 
 static qdot_expr
-within_values(qdot_pool *pool, qdot_expr e, void *user)
+replace_inverse_function(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr x, u;
 
@@ -87,7 +87,7 @@ within_values(qdot_pool *pool, qdot_expr e, void *user)
     if (qdot_expr_kind(pool, e) != QDOT_FUN)
         return QDOT_NIL;
     if (qdot_expr_is_function(pool, e, QDOT_ATAN2))
-        return angle_of(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
+        return find_polar_angle(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
     x = qdot_expr_arg(pool, e, 0);
     if (qdot_expr_kind(pool, x) != QDOT_FUN)
         return QDOT_NIL;
@@ -105,5 +105,5 @@ within_values(qdot_pool *pool, qdot_expr e, void *user)
 qdot_expr
 qdot_within_values(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_map(pool, e, within_values, NULL);
+    return qdot_walk_map(pool, e, replace_inverse_function, NULL);
 }

@@ -11,7 +11,7 @@
 
 #include "expr/id.h"
 
-/* e with inverse functions of circular functions replaced by their angles; nil on failure. */
+/* The expression e with inverse functions such as asin(sin(x)) replaced by the angle x; nil on failure. */
 qdot_expr qdot_within_values(qdot_pool *pool, qdot_expr e);
 
 #endif

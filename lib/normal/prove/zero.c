@@ -44,7 +44,7 @@ qdot_zero_end(qdot_zero *z)
 }
 
 static void
-zero_reduce(qdot_zero *z, fmpz_mpoly_t p)
+reduce_by_ideal(qdot_zero *z, fmpz_mpoly_t p)
 {
     fmpz_t scale;
 
@@ -59,7 +59,7 @@ zero_reduce(qdot_zero *z, fmpz_mpoly_t p)
 /* --- constant coefficients --------------------------------------------------------- */
 
 static bool
-has_constants(const qdot_field *f, const fmpz_mpoly_t p)
+contains_constants(const qdot_field *f, const fmpz_mpoly_t p)
 {
     for (slong v = 0; v < f->n; v++)
         if (fmpz_mpoly_degree_si(p, v, f->ctx) > 0 && f->gen[v].kind != QDOT_GEN_PLAIN &&
@@ -68,9 +68,9 @@ has_constants(const qdot_field *f, const fmpz_mpoly_t p)
     return false;
 }
 
-/* Remove the terms of p over one monomial whose constant coefficient is zero. */
+/* Remove from p the groups of terms with equal monomials whose constant coefficients add up to zero. */
 static qdot_status
-drop_constants(qdot_field *f, fmpz_mpoly_t p)
+drop_zero_coefficients(qdot_field *f, fmpz_mpoly_t p)
 {
     bool *by = qdot_malloc(((size_t)f->n + 1) * sizeof *by);
     qdot_status status;
@@ -113,7 +113,7 @@ struct split {
 };
 
 static void
-init(qdot_field *f, struct split *s)
+split_init(qdot_field *f, struct split *s)
 {
     fmpz_mpoly_init(s->P, f->ctx);
     fmpz_mpoly_init(s->Q, f->ctx);
@@ -129,7 +129,7 @@ root_split_clear(qdot_field *f, struct split *s)
 }
 
 static slong
-common(slong a, slong b)
+greatest_common_divisor(slong a, slong b)
 {
     while (b != 0) {
         slong rest = a % b;
@@ -143,7 +143,7 @@ common(slong a, slong b)
 /* The first root or absolute value in p behind generator `after` (-1: of all), of functions; where
  * there is none of any function, of a number, if there are relations. -1: no more. */
 static slong
-next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
+find_next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
 {
     const qdot_field *f = z->f;
     slong constant = -1;
@@ -160,7 +160,7 @@ next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
     return z->ideal == NULL || after >= 0 ? -1 : constant;
 }
 
-/* Split p by the root v; false if p does not have that form. */
+/* Split p into P + Q R by the root with variable v; false if p does not have that form. */
 static bool
 split_at(qdot_field *f, struct split *s, const fmpz_mpoly_t p, slong v)
 {
@@ -191,7 +191,7 @@ split_at(qdot_field *f, struct split *s, const fmpz_mpoly_t p, slong v)
     qdot_free(by);
     if (!fits || power == 0)
         return false;
-    shared = common(power, rule->power);
+    shared = greatest_common_divisor(power, rule->power);
     s->order = rule->power / shared;
     if (s->order < 2 || s->order > MOST_ORDER)
         return false;
@@ -213,7 +213,7 @@ split_at(qdot_field *f, struct split *s, const fmpz_mpoly_t p, slong v)
 
 /* Set n to the norm P^order - (-Q)^order B of the polynomial P + Q R, where R^order = B. */
 static void
-norm(qdot_field *f, fmpz_mpoly_t n, const struct split *s)
+compute_norm(qdot_field *f, fmpz_mpoly_t n, const struct split *s)
 {
     fmpz_mpoly_t a, b;
 
@@ -235,7 +235,7 @@ norm(qdot_field *f, fmpz_mpoly_t n, const struct split *s)
 }
 
 static bool
-opposite_signs(qdot_zero *z, const struct split *s)
+have_opposite_signs(qdot_zero *z, const struct split *s)
 {
     uint8_t p = qdot_zero_sign(z, s->P), q = p == 0 ? 0 : qdot_zero_sign(z, s->Q);
 
@@ -244,9 +244,9 @@ opposite_signs(qdot_zero *z, const struct split *s)
 
 /* --- analytic functions on a connected domain -------------------------------------- */
 
-/* The domain is a product of intervals: bounds are constants. */
+/* Whether the bounds of x are constants, so that the domain is a product of intervals. */
 static bool
-is_in_interval(const qdot_pool *pool, qdot_expr x)
+has_constant_bounds(const qdot_pool *pool, qdot_expr x)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 
@@ -254,9 +254,9 @@ is_in_interval(const qdot_pool *pool, qdot_expr x)
            (s->hi == QDOT_NIL || qdot_is_constant(pool, s->hi));
 }
 
-/* Whether a function is analytic wherever its arguments are. */
+/* Whether a function is analytic wherever its arguments are analytic. */
 static bool
-analytic_function(const qdot_pool *pool, qdot_expr e)
+is_analytic_function(const qdot_pool *pool, qdot_expr e)
 {
     uint8_t sign = qdot_expr_node(pool, qdot_expr_arg(pool, e, 0))->sign;
 
@@ -265,7 +265,7 @@ analytic_function(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-analytic_product(const qdot_pool *pool, qdot_expr e)
+is_analytic_product(const qdot_pool *pool, qdot_expr e)
 {
     uint32_t n = qdot_expr_count(pool, e);
 
@@ -299,9 +299,9 @@ is_analytic(const qdot_pool *pool, qdot_expr e)
         case QDOT_NUM:
         case QDOT_SUM:
         case QDOT_UFUN: break; /* an undefined function is a variable of its own */
-        case QDOT_SYM: all = is_in_interval(pool, w.at[i]); break;
-        case QDOT_PROD: all = analytic_product(pool, w.at[i]); break;
-        case QDOT_FUN: all = analytic_function(pool, w.at[i]); break;
+        case QDOT_SYM: all = has_constant_bounds(pool, w.at[i]); break;
+        case QDOT_PROD: all = is_analytic_product(pool, w.at[i]); break;
+        case QDOT_FUN: all = is_analytic_function(pool, w.at[i]); break;
         default: all = false;
         }
     qdot_walk_end(&w);
@@ -333,7 +333,7 @@ differs_somewhere(qdot_pool *pool, qdot_expr e)
 /* Of a generator: a root also where its base is positive by what is known of the field. depth bounds
  * the recursion into the generators of the base. */
 static bool
-analytic_generator(qdot_zero *z, slong v, int depth)
+is_analytic_generator(qdot_zero *z, slong v, int depth)
 {
     qdot_field *f = z->f;
     const qdot_gen *gen = &f->gen[v];
@@ -356,13 +356,13 @@ analytic_generator(qdot_zero *z, slong v, int depth)
     for (slong w = 0; w < f->n && positive; w++)
         if (fmpz_mpoly_degree_si(b->n, w, f->ctx) > 0 ||
             fmpz_mpoly_degree_si(b->d, w, f->ctx) > 0)
-            positive = analytic_generator(z, w, depth - 1);
+            positive = is_analytic_generator(z, w, depth - 1);
     return positive;
 }
 
 /* Whether P - Q R is analytic, as p = P + Q R is, and not zero everywhere. */
 static bool
-only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
+other_branch_is_nonzero(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 {
     qdot_field *f = z->f;
     fmpz_mpoly_t other;
@@ -370,7 +370,7 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 
     for (slong v = 0; v < f->n && all; v++)
         if (fmpz_mpoly_degree_si(p, v, f->ctx) > 0)
-            all = analytic_generator(z, v, MOST_NESTED);
+            all = is_analytic_generator(z, v, MOST_NESTED);
     if (!all)
         return false;
     fmpz_mpoly_init(other, f->ctx);
@@ -385,15 +385,15 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 
 static qdot_status zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero);
 
-/* Whether p vanishes if its norm over the root v does. */
+/* Whether p is proved to be 0 if its norm over the root v is 0. */
 static bool
-follows_from_norm(qdot_zero *z, const fmpz_mpoly_t p, struct split *s, slong v)
+is_zero_if_norm_is(qdot_zero *z, const fmpz_mpoly_t p, struct split *s, slong v)
 {
     return split_at(z->f, s, p, v) &&
-           (s->order % 2 != 0 || opposite_signs(z, s) || only_this_branch(z, p, s));
+           (s->order % 2 != 0 || have_opposite_signs(z, s) || other_branch_is_nonzero(z, p, s));
 }
 
-/* Prove that an irreducible factor is zero, by the outermost root about which enough is known. */
+/* Prove that an irreducible factor is zero, by its norm over the outermost root about which enough is known. */
 static qdot_status
 prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 {
@@ -401,15 +401,15 @@ prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
     qdot_status status = QDOT_OK;
     bool found = false;
 
-    for (slong v = next_root(z, p, -1); v >= 0 && depth > 0 && !found; v = next_root(z, p, v)) {
+    for (slong v = find_next_root(z, p, -1); v >= 0 && depth > 0 && !found; v = find_next_root(z, p, v)) {
         struct split s;
         fmpz_mpoly_t n;
 
-        init(f, &s);
+        split_init(f, &s);
         fmpz_mpoly_init(n, f->ctx);
-        found = follows_from_norm(z, p, &s, v);
+        found = is_zero_if_norm_is(z, p, &s, v);
         if (found) {
-            norm(f, n, &s);
+            compute_norm(f, n, &s);
             if (qdot_field_goes(f))
                 status = zero_prove(z, n, depth - 1, zero);
         }
@@ -431,16 +431,16 @@ zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
     *zero = false;
     fmpz_mpoly_init(q, f->ctx);
     fmpz_mpoly_set(q, p, f->ctx);
-    zero_reduce(z, q);
-    if (qdot_field_goes(f) && has_constants(f, q))
-        status = drop_constants(f, q);
+    reduce_by_ideal(z, q);
+    if (qdot_field_goes(f) && contains_constants(f, q))
+        status = drop_zero_coefficients(f, q);
     if (status == QDOT_OK && qdot_field_goes(f)) {
         *zero = fmpz_mpoly_is_zero(q, f->ctx);
         if (!*zero)
             status = qdot_zero_logarithms(z, q, zero);
         if (status == QDOT_OK && !*zero)
             status = qdot_zero_angles(z, q, zero);
-        if (status == QDOT_OK && !*zero && next_root(z, q, -1) >= 0 &&
+        if (status == QDOT_OK && !*zero && find_next_root(z, q, -1) >= 0 &&
             fmpz_mpoly_length(q, f->ctx) < MOST_TERMS) {
             status = qdot_factor(f, &factors, q);
             for (slong i = 0; i < factors.n && status == QDOT_OK && !*zero; i++)

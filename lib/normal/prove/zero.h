@@ -33,7 +33,7 @@ typedef struct {
     const qdot_ideal *ideal; /* relations between the generators; NULL: none */
     size_t n_positive;
     const qdot_expr *positive; /* [n_positive] expressions in the field that are > 0 */
-    bool sure;                 /* they are positive on the whole declared domain */
+    bool sure;                 /* the expressions in `positive` are > 0 on the whole declared domain */
     uint8_t *sign;             /* [f->n] signs of the generators */
     /* Proves that two prepared sides, simpler than p, are equal; set by the caller. */
     qdot_status (*prove)(qdot_pool *pool, qdot_expr left, qdot_expr right, size_t n_positive,

@@ -14,7 +14,7 @@
 /* Every domain error becomes an infinite or indeterminate ball, which is "not known"; so does the sign of what may
  * be 0. */
 static void
-eval_sign(arb_t y, const arb_t x)
+evaluate_sign(arb_t y, const arb_t x)
 {
     if (arb_is_positive(x))
         arb_one(y);
@@ -33,7 +33,7 @@ ball_argument_index(const qdot_ball *b, qdot_expr e, uint32_t i)
 }
 
 static bool
-finite_args(const qdot_ball *b, qdot_expr e, uint32_t from)
+arguments_are_finite(const qdot_ball *b, qdot_expr e, uint32_t from)
 {
     uint32_t n = qdot_expr_count(b->pool, e);
 
@@ -45,7 +45,7 @@ finite_args(const qdot_ball *b, qdot_expr e, uint32_t from)
 
 /* Evaluate mod: x - y floor(x/y), which has the sign of y. */
 static void
-eval_mod(arb_t z, const arb_t x, const arb_t y, slong prec)
+evaluate_mod(arb_t z, const arb_t x, const arb_t y, slong prec)
 {
     arb_t quotient;
 
@@ -58,7 +58,7 @@ eval_mod(arb_t z, const arb_t x, const arb_t y, slong prec)
 }
 
 static bool
-ball_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+evaluate_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 {
     uint32_t op = qdot_expr_node(b->pool, e)->op, n = qdot_expr_count(b->pool, e);
 
@@ -72,20 +72,20 @@ ball_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
         arb_set(y, b->value + branch);
         return b->known[branch] == 1;
     }
-    if (!finite_args(b, e, 0))
+    if (!arguments_are_finite(b, e, 0))
         return false;
     if (op == QDOT_SIGN) {
-        eval_sign(y, b->value + ball_argument_index(b, e, 0));
+        evaluate_sign(y, b->value + ball_argument_index(b, e, 0));
     } else if (qdot_fun_ball_of(op) != NULL) {
         qdot_fun_ball_of(op)(y, b->value + ball_argument_index(b, e, 0), prec);
     } else if (op == QDOT_ATAN2) {
         arb_srcptr v = b->value + ball_argument_index(b, e, 0), u = b->value + ball_argument_index(b, e, 1);
 
         if (arb_contains_zero(v) && (arb_contains_zero(u) || (!arb_is_zero(v) && !arb_is_positive(u))))
-            return false; /* undefined at the origin; from pi to -pi there is a jump */
+            return false; /* give up: atan2 is undefined at the origin, and jumps from pi to -pi on the negative axis */
         arb_atan2(y, v, u, prec);
     } else if (op == QDOT_MOD) {
-        eval_mod(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1), prec);
+        evaluate_mod(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1), prec);
     } else if (op == QDOT_MIN || op == QDOT_MAX) {
         arb_set(y, b->value + ball_argument_index(b, e, 0));
         for (uint32_t i = 1; i < n; i++)
@@ -100,11 +100,11 @@ ball_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 /* --- sums, products, relations ----------------------------------------------------- */
 
 static bool
-ball_sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+evaluate_sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 {
     uint32_t n = qdot_expr_count(b->pool, e);
 
-    if (!finite_args(b, e, 0))
+    if (!arguments_are_finite(b, e, 0))
         return false;
     arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
     for (uint32_t i = 1; i < n; i += 2)
@@ -114,7 +114,7 @@ ball_sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 }
 
 static bool
-ball_power_of(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, slong prec)
+evaluate_power(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, slong prec)
 {
     if (x == NULL) {
         if (!arb_is_positive(base))
@@ -133,10 +133,10 @@ ball_power_of(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, sl
 }
 
 static bool
-ball_product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+evaluate_product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 {
     uint32_t n = qdot_expr_count(b->pool, e);
-    bool known = finite_args(b, e, 0);
+    bool known = arguments_are_finite(b, e, 0);
     arb_t factor;
 
     if (!known)
@@ -144,9 +144,9 @@ ball_product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
     arb_init(factor);
     arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
     for (uint32_t i = 1; i < n && known; i += 2) {
-        known = ball_power_of(factor, b->value + ball_argument_index(b, e, i),
-                              qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, i + 1)),
-                              b->value + ball_argument_index(b, e, i + 1), prec);
+        known = evaluate_power(factor, b->value + ball_argument_index(b, e, i),
+                               qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, i + 1)),
+                               b->value + ball_argument_index(b, e, i + 1), prec);
         arb_mul(y, y, factor, prec);
     }
     arb_clear(factor);
@@ -154,11 +154,11 @@ ball_product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 }
 
 static uint8_t
-relation(const qdot_ball *b, qdot_expr e)
+evaluate_relation(const qdot_ball *b, qdot_expr e)
 {
     arb_srcptr l = b->value + ball_argument_index(b, e, 0), r = b->value + ball_argument_index(b, e, 1);
 
-    if (!finite_args(b, e, 0))
+    if (!arguments_are_finite(b, e, 0))
         return 0;
     switch (qdot_expr_node(b->pool, e)->op) {
     case QDOT_EQ: return arb_eq(l, r) ? 1 : arb_ne(l, r) ? 2 : 0;
@@ -168,7 +168,7 @@ relation(const qdot_ball *b, qdot_expr e)
 }
 
 static uint8_t
-logic(const qdot_ball *b, qdot_expr e)
+evaluate_logic(const qdot_ball *b, qdot_expr e)
 {
     uint32_t n = qdot_expr_count(b->pool, e), op = qdot_expr_node(b->pool, e)->op;
     uint8_t all = op == QDOT_AND ? 1 : 2, decisive = op == QDOT_AND ? 2 : 1;
@@ -244,11 +244,11 @@ qdot_ball_eval(qdot_ball *b, slong prec,
                 arb_const_pi(y, prec);
             break;
         case QDOT_UFUN: known = of && of(user, e, y, prec); break;
-        case QDOT_SUM: known = ball_sum(b, y, e, prec); break;
-        case QDOT_PROD: known = ball_product(b, y, e, prec); break;
-        case QDOT_FUN: known = ball_function(b, y, e, prec); break;
-        case QDOT_REL: b->known[i] = relation(b, e); continue;
-        case QDOT_LOGIC: b->known[i] = logic(b, e); continue;
+        case QDOT_SUM: known = evaluate_sum(b, y, e, prec); break;
+        case QDOT_PROD: known = evaluate_product(b, y, e, prec); break;
+        case QDOT_FUN: known = evaluate_function(b, y, e, prec); break;
+        case QDOT_REL: b->known[i] = evaluate_relation(b, e); continue;
+        case QDOT_LOGIC: b->known[i] = evaluate_logic(b, e); continue;
         default: break;
         }
         b->known[i] = known && arb_is_finite(y);

@@ -28,16 +28,16 @@ void qdot_ball_eval(qdot_ball *b, slong prec,
                     bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                     void *user);
 
-/* The value of one of the expressions; NULL if undefined or not known. */
+/* The enclosure of the value of one of the expressions; NULL if it is undefined or not known. */
 arb_srcptr qdot_ball_get(const qdot_ball *b, qdot_expr e);
-/* The midpoint of the value of a single expression; false if it has none. `of` as in qdot_ball_eval. */
+/* The midpoint of the enclosure of a single expression; false if it has none. `of` as in qdot_ball_eval. */
 bool qdot_ball_double(qdot_pool *pool, qdot_expr e,
                       bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                       void *user, double *x);
 
-/* Bounds of a constant; the whole line if it has no value or contains a symbol. */
+/* An interval that contains the value of a constant; the whole line if it has none or contains a symbol. */
 qdot_interval qdot_ball_bounds(qdot_pool *pool, qdot_expr e);
-/* Bounds of the declared domain of a symbol, without end where none is declared or the end depends on a symbol. */
+/* The declared domain of a symbol as an interval, infinite where no end is declared or the end depends on a symbol. */
 qdot_interval qdot_ball_domain(qdot_pool *pool, qdot_expr symbol);
 
 /* The truth of a relation or logical expression: 1 true, 2 false, 0 not known. */

@@ -27,7 +27,7 @@ qdot_is_constant(const qdot_pool *pool, qdot_expr e)
             ~(uint32_t)(QDOT_HAS_FUN | 1 << QDOT_CONST)) == 0;
 }
 
-/* Bounds of the conjugates of an algebraic number (constant.c), as log2, rounded up. */
+/* Bounds of the conjugates of an algebraic number, as logarithms to base 2, rounded up. */
 typedef struct {
     double u, l;
 } size;
@@ -40,7 +40,7 @@ struct root {
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;
-    size *of; /* [walk.n] root bound of each node */
+    size *of; /* [walk.n] bounds of the conjugates of each node */
     qdot_vec(struct root) roots;
     ulong unity; /* order n of the roots of unity e^(2 pi i/n) that occur */
 } bound;
@@ -67,19 +67,19 @@ log2_sum(double a, double b)
 }
 
 static size
-size_add(size a, size b)
+bound_of_sum(size a, size b)
 {
     return (size){log2_sum(a.u + b.l, b.u + a.l), round_up_a_little(a.l + b.l)};
 }
 
 static size
-size_multiply(size a, size b)
+bound_of_product(size a, size b)
 {
     return (size){round_up_a_little(a.u + b.u), round_up_a_little(a.l + b.l)};
 }
 
 static size
-size_of_number(const fmpq *x)
+bound_of_number(const fmpq *x)
 {
     double n = log2_of(fmpq_numref(x));
 
@@ -89,16 +89,16 @@ size_of_number(const fmpq *x)
     return (size){n, fmpz_is_one(fmpq_denref(x)) ? 0 : log2_of(fmpq_denref(x))};
 }
 
-/* Size of the k-th root: (U L^(k-1))^(1/k) / L. The alternative U / (U^(k-1) L)^(1/k) fails for U = 0. */
+/* Bounds of the k-th root: (U L^(k-1))^(1/k) / L. The alternative U / (U^(k-1) L)^(1/k) fails for U = 0. */
 static size
-size_of_root(size a, double k)
+bound_of_root(size a, double k)
 {
     return (size){round_up_a_little((a.u + (k - 1) * a.l) / k), a.l};
 }
 
-/* Record a root; roots of the same base get the least common order. */
+/* Record a root; roots of the same base are treated as one root of their least common order. */
 static qdot_status
-note_root(bound *b, qdot_expr base, ulong order)
+record_root(bound *b, qdot_expr base, ulong order)
 {
     for (size_t i = 0; i < b->roots.n; i++)
         if (b->roots.at[i].base == base) {
@@ -111,14 +111,14 @@ note_root(bound *b, qdot_expr base, ulong order)
 }
 
 static size
-get(const bound *b, qdot_expr e)
+bound_of_node(const bound *b, qdot_expr e)
 {
     return b->of[qdot_walk_index(&b->walk, e)];
 }
 
-/* Find the bounds of a power; QDOT_EFAILED if the rules do not apply. */
+/* Find the bounds of the conjugates of a power; QDOT_EFAILED if the rules do not apply. */
 static qdot_status
-size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
+find_bound_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
 {
     const fmpq *x = qdot_expr_rational(b->pool, exponent);
     ulong p, q;
@@ -129,10 +129,10 @@ size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
         return QDOT_EFAILED;
     p = fmpz_get_ui(fmpq_numref(x)); /* p is |numerator| of the exponent */
     q = fmpz_get_ui(fmpq_denref(x));
-    *s = get(b, base);
+    *s = bound_of_node(b, base);
     if (q > 1) {
-        QDOT_TRY(note_root(b, base, q));
-        *s = size_of_root(*s, (double)q);
+        QDOT_TRY(record_root(b, base, q));
+        *s = bound_of_root(*s, (double)q);
     }
     s->u = round_up_a_little(s->u * (double)p);
     s->l = round_up_a_little(s->l * (double)p);
@@ -144,9 +144,9 @@ size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
     return QDOT_OK;
 }
 
-/* The rational c if e is c*pi. */
+/* Find the rational c if e is c pi. */
 static bool
-multiple_of_pi(const qdot_pool *pool, qdot_expr e, fmpq_t c)
+is_multiple_of_pi(const qdot_pool *pool, qdot_expr e, fmpq_t c)
 {
     fmpq_one(c);
     if (e == QDOT_PI)
@@ -159,7 +159,7 @@ multiple_of_pi(const qdot_pool *pool, qdot_expr e, fmpq_t c)
 }
 
 static qdot_status
-size_of_function(bound *b, qdot_expr e, size *s)
+find_bound_of_function(bound *b, qdot_expr e, size *s)
 {
     uint32_t op = qdot_expr_node(b->pool, e)->op;
     qdot_expr arg = qdot_expr_arg(b->pool, e, 0);
@@ -167,13 +167,13 @@ size_of_function(bound *b, qdot_expr e, size *s)
     fmpq_t c;
 
     if (op == QDOT_ABS) {
-        *s = get(b, arg);
+        *s = bound_of_node(b, arg);
         return QDOT_OK;
     }
     fmpq_init(c);
-    if (op <= QDOT_COT && multiple_of_pi(b->pool, arg, c) &&
+    if (op <= QDOT_COT && is_multiple_of_pi(b->pool, arg, c) &&
         fmpz_cmp_ui(fmpq_denref(c), MOST_DEGREE) <= 0) {
-        /* c pi = 2 pi p/q, q divides twice the denominator; a sine needs a quarter */
+        /* the angle is 2 pi p/q, where q divides twice the denominator; a sine needs a further quarter turn */
         ulong q = 4 * fmpz_get_ui(fmpq_denref(c));
 
         b->unity = b->unity / n_gcd(b->unity, q) * q;
@@ -186,40 +186,40 @@ size_of_function(bound *b, qdot_expr e, size *s)
 }
 
 static qdot_status
-size_of_node(bound *b, qdot_expr e, size *s)
+find_bound_of_node(bound *b, qdot_expr e, size *s)
 {
     qdot_pool *pool = b->pool;
     uint32_t n = qdot_expr_count(pool, e);
     size one;
 
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_NUM: *s = size_of_number(qdot_expr_rational(pool, e)); return QDOT_OK;
-    case QDOT_SYM: /* pi, allowed only in angles of sine and cosine */
+    case QDOT_NUM: *s = bound_of_number(qdot_expr_rational(pool, e)); return QDOT_OK;
+    case QDOT_SYM: /* a symbol: pi, allowed only in angles of sine and cosine */
         *s = (size){NAN, NAN};
         return e == QDOT_PI ? QDOT_OK : QDOT_EFAILED;
     case QDOT_SUM:
-        *s = size_of_number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
+        *s = bound_of_number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < n; i += 2) {
-            one = size_multiply(get(b, qdot_expr_arg(pool, e, i)),
-                                get(b, qdot_expr_arg(pool, e, i + 1)));
-            *s = size_add(*s, one);
+            one = bound_of_product(bound_of_node(b, qdot_expr_arg(pool, e, i)),
+                                   bound_of_node(b, qdot_expr_arg(pool, e, i + 1)));
+            *s = bound_of_sum(*s, one);
         }
         return QDOT_OK;
     case QDOT_PROD:
-        *s = size_of_number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
+        *s = bound_of_number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < n; i += 2) {
             QDOT_TRY(
-                size_of_power(b, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1), &one));
-            *s = size_multiply(*s, one);
+                find_bound_of_power(b, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1), &one));
+            *s = bound_of_product(*s, one);
         }
         return QDOT_OK;
-    case QDOT_FUN: return size_of_function(b, e, s);
+    case QDOT_FUN: return find_bound_of_function(b, e, s);
     default: return QDOT_EFAILED;
     }
 }
 
 static ulong
-degree(const bound *b)
+field_degree(const bound *b)
 {
     ulong d = b->unity > 2 ? n_euler_phi(b->unity) / 2 : 1;
 
@@ -231,28 +231,28 @@ degree(const bound *b)
 /* Find *bits such that a constant with |e| below 2^-bits must be zero; QDOT_EFAILED if no such
  * bound is known. */
 static qdot_status
-separation(bound *b, qdot_expr e, double *bits)
+find_root_separation(bound *b, qdot_expr e, double *bits)
 {
     qdot_status status = QDOT_OK;
     size s = {0, 0};
 
     for (size_t i = 0; i < b->walk.n && status == QDOT_OK; i++) {
-        status = size_of_node(b, b->walk.at[i], &b->of[i]);
+        status = find_bound_of_node(b, b->walk.at[i], &b->of[i]);
         s = b->of[i];
     }
     if (status == QDOT_OK)
-        s = get(b, e);
+        s = bound_of_node(b, e);
     if (status == QDOT_OK &&
-        (isnan(s.u) || isnan(s.l) || s.u < 0 || s.l < 0 || degree(b) > MOST_DEGREE))
+        (isnan(s.u) || isnan(s.l) || s.u < 0 || s.l < 0 || field_degree(b) > MOST_DEGREE))
         status = QDOT_EFAILED;
-    *bits = status == QDOT_OK ? round_up_a_little((double)(degree(b) - 1) * s.u + s.l) + 1 : 0;
+    *bits = status == QDOT_OK ? round_up_a_little((double)(field_degree(b) - 1) * s.u + s.l) + 1 : 0;
     return status == QDOT_OK && *bits > MOST_BITS ? QDOT_EFAILED : status;
 }
 
 /* Enclosures with more and more bits, until one has no zero in it or is smaller than
  * 2^-bits. */
 static qdot_status
-constant_enclose(qdot_pool *pool, qdot_expr e, double bits, qdot_constant_sign *sign)
+find_sign_by_enclosure(qdot_pool *pool, qdot_expr e, double bits, qdot_constant_sign *sign)
 {
     slong most = (slong)bits * 3 + 512;
     qdot_status status = QDOT_OK;
@@ -308,12 +308,12 @@ qdot_constant_decide(qdot_pool *pool, qdot_expr e, qdot_constant_sign *sign)
     QDOT_TRY(qdot_walk_begin(pool, e, &b.walk));
     b.of = qdot_calloc(b.walk.n + 1, sizeof *b.of);
     status = b.of == NULL             ? QDOT_ENOMEM
-             : b.walk.n <= MOST_NODES ? separation(&b, e, &bits)
+             : b.walk.n <= MOST_NODES ? find_root_separation(&b, e, &bits)
                                       : QDOT_EFAILED;
     qdot_walk_end(&b.walk);
     qdot_free(b.of);
     qdot_free(b.roots.at);
     if (status == QDOT_ENOMEM)
         return status;
-    return constant_enclose(pool, e, bits, sign);
+    return find_sign_by_enclosure(pool, e, bits, sign);
 }

@@ -25,7 +25,7 @@
 
 /* The sign of a constant, as far as it is proved. */
 typedef enum {
-    QDOT_CONSTANT_UNKNOWN, /* undefined, not algebraic, or more digits needed than allowed */
+    QDOT_CONSTANT_UNKNOWN, /* undefined, not algebraic, or decided only with more digits than allowed */
     QDOT_CONSTANT_ZERO,
     QDOT_CONSTANT_POSITIVE,
     QDOT_CONSTANT_NEGATIVE

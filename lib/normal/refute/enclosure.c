@@ -16,7 +16,7 @@ typedef struct {
     qdot_kind kind;
     uint32_t op;
     uint32_t n, at; /* operands are arg[at] ... arg[at + n - 1]: terms of a sum, bases of a product */
-    bool constant;  /* a constant: evaluated once, when the object is made */
+    bool constant;  /* a constant, evaluated only once, when the object is made */
     size_t unknown; /* for a symbol: its index among the unknowns */
 } node;
 
@@ -33,7 +33,7 @@ struct qdot_enclosure {
 
 /* --- functions of one variable --------------------------------------------------------------- */
 
-/* A function on an interval a: f(a), f'(a), and whether f is defined on a. */
+/* The image of an interval a under a function f: f(a), f'(a), and whether f is defined on a. */
 typedef struct {
     qdot_interval y, slope;
     qdot_enclosure_state state;
@@ -88,12 +88,12 @@ wave_cos(qdot_interval a)
 }
 
 static bool
-holds_zero(qdot_interval a)
+contains_zero(qdot_interval a)
 {
     return a.lo <= 0 && a.hi >= 0;
 }
 
-/* Where a lies relative to the domain least ... most of a function; `ends`: the ends belong to it. */
+/* Where the interval a lies relative to the domain least ... most of a function; `ends`: the domain is closed. */
 static qdot_enclosure_state
 compare_with_domain(qdot_interval a, double least, double most, bool ends)
 {
@@ -110,7 +110,7 @@ fraction(qdot_interval above, qdot_interval below, qdot_interval slope)
 {
     image f = {qdot_interval_quotient(above, below), slope, QDOT_ENCLOSURE_WHOLE};
 
-    if (holds_zero(below))
+    if (contains_zero(below))
         f.state = below.lo == 0 && below.hi == 0 ? QDOT_ENCLOSURE_NOWHERE
                                                  : QDOT_ENCLOSURE_PARTLY;
     return f;
@@ -145,7 +145,7 @@ tangent(qdot_interval a)
 {
     qdot_interval c = wave_cos(a), slope = inverse(interval_square(c));
 
-    if (!holds_zero(c) && a.hi - a.lo < 3) /* within one branch, in which tan increases */
+    if (!contains_zero(c) && a.hi - a.lo < 3) /* no pole of tan inside: a lies within one branch, in which tan increases */
         return everywhere(qdot_interval_rising(tan, a), slope);
     return fraction(wave_sin(a), c, slope);
 }
@@ -194,7 +194,7 @@ stepped(uint32_t op, qdot_interval a)
 
 /* The image of a function of function.def, by its column. */
 static image
-of_one(uint32_t op, qdot_interval a)
+image_of_function(uint32_t op, qdot_interval a)
 {
     const qdot_interval one = qdot_interval_point(1);
 
@@ -220,15 +220,15 @@ of_one(uint32_t op, qdot_interval a)
 /* --- operations on intervals -------------------------------------------------------------------- */
 
 static qdot_enclosure_state
-worse(qdot_enclosure_state a, qdot_enclosure_state b)
+worse_state(qdot_enclosure_state a, qdot_enclosure_state b)
 {
     return a < b ? a : b;
 }
 
-/* Add factor times the slopes of v to those of `to`. */
+/* Add to the derivatives of `to` those of v times a factor. */
 static void
-enclosure_add_slopes(const qdot_enclosure *s, qdot_enclosure_value *to, qdot_interval factor,
-                     const qdot_enclosure_value *v)
+add_scaled_derivatives(const qdot_enclosure *s, qdot_enclosure_value *to, qdot_interval factor,
+                       const qdot_enclosure_value *v)
 {
     for (size_t j = 0; j < s->n && s->slopes; j++)
         if (v->slope[j].lo != 0 || v->slope[j].hi != 0)
@@ -243,19 +243,19 @@ operand(const qdot_enclosure *s, const node *k, uint32_t i)
 }
 
 static void
-eval_sum(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_sum(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     for (uint32_t i = 0; i < k->n; i++) {
         const qdot_enclosure_value *v = operand(s, k, i);
         qdot_interval c = s->number[k->at + i];
 
         to->y = qdot_interval_sum(to->y, qdot_interval_product(c, v->y, false));
-        to->state = worse(to->state, v->state);
-        enclosure_add_slopes(s, to, c, v);
+        to->state = worse_state(to->state, v->state);
+        add_scaled_derivatives(s, to, c, v);
     }
 }
 
-/* The image of v^p and of its derivative by v. */
+/* The image of an interval a under v^p, and of its derivative by v, for exponents p in an interval. */
 static image
 image_power(qdot_interval a, qdot_interval p, bool integer)
 {
@@ -266,7 +266,7 @@ image_power(qdot_interval a, qdot_interval p, bool integer)
     if (!integer) {
         f.state = compare_with_domain(a, 0, INFINITY, p.lo > 0);
         a = qdot_interval_within(a, 0, INFINITY);
-    } else if (p.lo < 0 && holds_zero(a)) {
+    } else if (p.lo < 0 && contains_zero(a)) {
         f.state = a.lo == 0 && a.hi == 0 ? QDOT_ENCLOSURE_NOWHERE : QDOT_ENCLOSURE_PARTLY;
     }
     f.y = qdot_interval_power(a, p);
@@ -280,29 +280,29 @@ image_power(qdot_interval a, qdot_interval p, bool integer)
     return f;
 }
 
-/* Evaluate v^p as exp(p log v), for an exponent that is an expression. */
+/* Evaluate a power v^p as exp(p log v), for an exponent that is an expression. */
 static image
-general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
-              const qdot_enclosure_value *p, qdot_enclosure_value *to)
+evaluate_general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
+                       const qdot_enclosure_value *p, qdot_enclosure_value *to)
 {
     qdot_interval base = qdot_interval_within(v->y, 0, INFINITY);
     image f = {qdot_interval_whole, qdot_interval_whole,
-               worse(compare_with_domain(v->y, 0, INFINITY, false), worse(v->state, p->state))};
+               worse_state(compare_with_domain(v->y, 0, INFINITY, false), worse_state(v->state, p->state))};
 
     f.y = qdot_interval_power(base, p->y);
     if (s->slopes) { /* derivative of y = p^v: y (v' log p + v p'/p) */
         qdot_interval log_v = qdot_interval_rising(log, base);
 
-        enclosure_add_slopes(s, to, qdot_interval_product(f.y, log_v, false), p);
-        enclosure_add_slopes(s, to,
-                             qdot_interval_product(f.y, qdot_interval_quotient(p->y, base), false),
-                             v);
+        add_scaled_derivatives(s, to, qdot_interval_product(f.y, log_v, false), p);
+        add_scaled_derivatives(s, to,
+                               qdot_interval_product(f.y, qdot_interval_quotient(p->y, base), false),
+                               v);
     }
     return f;
 }
 
 static void
-eval_product(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_product(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     for (uint32_t i = 0; i < k->n; i++) {
         const qdot_enclosure_value *v = operand(s, k, i);
@@ -310,24 +310,24 @@ eval_product(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
         image f;
         qdot_enclosure_value part = {.state = QDOT_ENCLOSURE_WHOLE};
 
-        if (isnan(p.lo)) { /* the exponent follows its base in the list */
-            f = general_power(s, v, operand(s, k, ++i), &part);
+        if (isnan(p.lo)) { /* NaN marks that the exponent is an expression, which follows its base in the list */
+            f = evaluate_general_power(s, v, operand(s, k, ++i), &part);
         } else {
             f = image_power(v->y, p, s->integer[k->at + i]);
-            f.state = worse(f.state, v->state);
-            enclosure_add_slopes(s, &part, f.slope, v);
+            f.state = worse_state(f.state, v->state);
+            add_scaled_derivatives(s, &part, f.slope, v);
         }
         for (size_t j = 0; j < s->n && s->slopes; j++)
             to->slope[j] =
                 qdot_interval_sum(qdot_interval_product(to->slope[j], f.y, false),
                                   qdot_interval_product(to->y, part.slope[j], false));
         to->y = qdot_interval_product(to->y, f.y, false);
-        to->state = worse(to->state, f.state);
+        to->state = worse_state(to->state, f.state);
     }
 }
 
 static void
-eval_extreme(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_max_or_min(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     bool most = k->op == QDOT_MAX;
 
@@ -343,19 +343,19 @@ eval_extreme(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
                                    : qdot_interval_around(to->slope[j], v->slope[j]);
         to->y = most ? interval_of(fmax(to->y.lo, v->y.lo), fmax(to->y.hi, v->y.hi))
                      : interval_of(fmin(to->y.lo, v->y.lo), fmin(to->y.hi, v->y.hi));
-        to->state = worse(to->state, v->state);
+        to->state = worse_state(to->state, v->state);
     }
 }
 
 static void
-eval_if(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_if(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     const qdot_enclosure_value *c = operand(s, k, 0), *a = operand(s, k, 1),
                                *b = operand(s, k, 2);
 
     if (c->y.lo == c->y.hi) {
         *to = c->y.lo == 1 ? *a : *b;
-        to->state = worse(to->state, c->state);
+        to->state = worse_state(to->state, c->state);
         return;
     }
     to->y = a->state == QDOT_ENCLOSURE_NOWHERE   ? b->y
@@ -368,62 +368,62 @@ eval_if(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
             : QDOT_ENCLOSURE_PARTLY;
 }
 
-/* Evaluate atan2 or mod. */
+/* Evaluate the functions of two arguments, atan2 or mod. */
 static void
-eval_two(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_two_arguments(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     const qdot_enclosure_value *a = operand(s, k, 0), *b = operand(s, k, 1);
     qdot_interval square_of_r, q;
 
-    to->state = worse(a->state, b->state);
+    to->state = worse_state(a->state, b->state);
     if (k->op == QDOT_ATAN2) {
         square_of_r = qdot_interval_sum(interval_square(a->y), interval_square(b->y));
         to->y = qdot_interval_angle(a->y, b->y);
-        if (holds_zero(a->y) && b->y.lo <= 0)
-            to->state = worse(to->state, QDOT_ENCLOSURE_PARTLY);
-        enclosure_add_slopes(s, to, qdot_interval_quotient(b->y, square_of_r), a);
-        enclosure_add_slopes(s, to,
-                             qdot_interval_negative(qdot_interval_quotient(a->y, square_of_r)), b);
+        if (contains_zero(a->y) && b->y.lo <= 0)
+            to->state = worse_state(to->state, QDOT_ENCLOSURE_PARTLY);
+        add_scaled_derivatives(s, to, qdot_interval_quotient(b->y, square_of_r), a);
+        add_scaled_derivatives(s, to,
+                               qdot_interval_negative(qdot_interval_quotient(a->y, square_of_r)), b);
         return;
     }
     q = qdot_interval_quotient(a->y, b->y);
     to->y = qdot_interval_remainder(a->y, b->y);
     if (!isfinite(q.lo) || !isfinite(q.hi) || floor(q.lo) != floor(q.hi) ||
         q.lo == floor(q.lo))
-        to->state = worse(to->state, QDOT_ENCLOSURE_PARTLY);
-    enclosure_add_slopes(s, to, qdot_interval_point(1), a);
-    enclosure_add_slopes(s, to, qdot_interval_point(-floor(q.lo)), b);
+        to->state = worse_state(to->state, QDOT_ENCLOSURE_PARTLY);
+    add_scaled_derivatives(s, to, qdot_interval_point(1), a);
+    add_scaled_derivatives(s, to, qdot_interval_point(-floor(q.lo)), b);
 }
 
 static void
-eval_function(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_function(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     const qdot_enclosure_value *v = operand(s, k, 0);
     image f;
 
     switch (k->op) {
     case QDOT_MIN:
-    case QDOT_MAX: eval_extreme(s, k, to); return;
-    case QDOT_IF: eval_if(s, k, to); return;
+    case QDOT_MAX: evaluate_max_or_min(s, k, to); return;
+    case QDOT_IF: evaluate_if(s, k, to); return;
     case QDOT_ATAN2:
-    case QDOT_MOD: eval_two(s, k, to); return;
+    case QDOT_MOD: evaluate_two_arguments(s, k, to); return;
     default: break;
     }
-    f = of_one(k->op, v->y);
+    f = image_of_function(k->op, v->y);
     to->y = f.y;
-    to->state = worse(v->state, f.state);
-    enclosure_add_slopes(s, to, f.slope, v);
+    to->state = worse_state(v->state, f.state);
+    add_scaled_derivatives(s, to, f.slope, v);
 }
 
 /* Evaluate a relation or logical operation: 1 true, 0 false, 0..1 not known. */
 static void
-eval_truth(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
+evaluate_truth(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
     const qdot_interval a = operand(s, k, 0)->y, b = k->n > 1 ? operand(s, k, 1)->y : a;
     bool sure, never;
 
     for (uint32_t i = 0; i < k->n; i++)
-        to->state = worse(to->state, operand(s, k, i)->state);
+        to->state = worse_state(to->state, operand(s, k, i)->state);
     if (k->kind == QDOT_REL && k->op == QDOT_EQ) {
         sure = a.lo == a.hi && b.lo == b.hi && a.lo == b.lo;
         never = a.hi < b.lo || b.hi < a.lo;
@@ -468,14 +468,14 @@ qdot_enclosure_eval(qdot_enclosure *s, const qdot_interval *X, bool slopes)
             break;
         case QDOT_SUM:
             to->y = s->number[k->at + k->n];
-            eval_sum(s, k, to);
+            evaluate_sum(s, k, to);
             break;
         case QDOT_PROD:
             to->y = s->number[k->at + k->n];
-            eval_product(s, k, to);
+            evaluate_product(s, k, to);
             break;
-        case QDOT_FUN: eval_function(s, k, to); break;
-        default: eval_truth(s, k, to); break;
+        case QDOT_FUN: evaluate_function(s, k, to); break;
+        default: evaluate_truth(s, k, to); break;
         }
         if (isnan(to->y.lo) || isnan(to->y.hi))
             to->y = qdot_interval_whole;
@@ -502,9 +502,9 @@ qdot_enclosure_count(const qdot_enclosure *s)
 
 /* --- translating an expression -------------------------------------------------------------------- */
 
-/* The smallest interval of doubles that contains a rational. */
+/* The smallest interval with doubles as ends that contains a rational. */
 static qdot_interval
-around_rational(const fmpq *x)
+interval_of_rational(const fmpq *x)
 {
     qdot_interval d;
     arb_t v;
@@ -523,36 +523,36 @@ around_rational(const fmpq *x)
 }
 
 static void
-enclosure_put(qdot_enclosure *s, uint32_t at, uint32_t arg, const fmpq *number)
+set_operand(qdot_enclosure *s, uint32_t at, uint32_t arg, const fmpq *number)
 {
     s->arg[at] = arg;
-    s->number[at] = number == NULL ? interval_of(NAN, NAN) : around_rational(number);
+    s->number[at] = number == NULL ? interval_of(NAN, NAN) : interval_of_rational(number);
     s->integer[at] = number != NULL && fmpz_is_one(fmpq_denref(number));
 }
 
-/* List the operands of a sum or product; its constant comes last. */
+/* List the operands of a sum or product with their coefficients or exponents; the constant comes last. */
 static void
-put_pairs(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, qdot_expr e,
-          node *k, uint32_t *used)
+list_operands(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, qdot_expr e,
+              node *k, uint32_t *used)
 {
     uint32_t n = qdot_expr_count(pool, e);
 
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         const fmpq *number = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i + 1));
 
-        enclosure_put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i)),
-                      number);
+        set_operand(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i)),
+                    number);
         if (number == NULL)
-            enclosure_put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i + 1)),
-                          NULL);
+            set_operand(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i + 1)),
+                        NULL);
     }
     k->n = *used - k->at;
-    enclosure_put(s, (*used)++, 0, qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
+    set_operand(s, (*used)++, 0, qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
 }
 
 static bool
-translate(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t i,
-          const qdot_expr *x, uint32_t *used)
+translate_node(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t i,
+               const qdot_expr *x, uint32_t *used)
 {
     qdot_expr e = w->at[i];
     node *k = s->nodes + i;
@@ -564,7 +564,7 @@ translate(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t i
     switch (k->kind) {
     case QDOT_NUM:
         k->constant = true;
-        v->y = around_rational(qdot_expr_rational(pool, e));
+        v->y = interval_of_rational(qdot_expr_rational(pool, e));
         return true;
     case QDOT_SYM:
         k->unknown = qdot_expr_place(s->n, x, e);
@@ -573,22 +573,22 @@ translate(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t i
                             : qdot_interval_point(e == QDOT_TRUE);
         return !k->constant || e == QDOT_PI || e == QDOT_TRUE || e == QDOT_FALSE;
     case QDOT_SUM:
-    case QDOT_PROD: put_pairs(s, pool, w, e, k, used); return true;
+    case QDOT_PROD: list_operands(s, pool, w, e, k, used); return true;
     case QDOT_FUN:
     case QDOT_REL:
     case QDOT_LOGIC:
         k->n = qdot_expr_count(pool, e);
         for (uint32_t a = 0; a < k->n; a++)
-            enclosure_put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, a)),
-                          NULL);
+            set_operand(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, a)),
+                        NULL);
         return true;
     default: return false;
     }
 }
 
 static qdot_status
-translate_all(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t m,
-              const qdot_expr *e, const qdot_expr *x)
+translate_nodes(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t m,
+                const qdot_expr *e, const qdot_expr *x)
 {
     size_t operands = 1;
     uint32_t used = 0;
@@ -607,7 +607,7 @@ translate_all(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size
         s->integer == NULL || s->root == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < w->n; i++)
-        if (!translate(s, pool, w, i, x, &used))
+        if (!translate_node(s, pool, w, i, x, &used))
             return qdot_fail(QDOT_ETYPE, "an expression has no numbers");
     for (size_t i = 0; i < m; i++)
         s->root[i] = (uint32_t)qdot_walk_index(w, e[i]);
@@ -628,7 +628,7 @@ qdot_enclosure_new(qdot_pool *pool, size_t m, const qdot_expr *e, size_t n,
     status = n > QDOT_ENCLOSURE_MOST ? qdot_fail(QDOT_ETYPE, "too many unknowns")
                                      : qdot_walk_begin_n(pool, m, e, &walk);
     if (status == QDOT_OK) {
-        status = translate_all(*out, pool, &walk, m, e, x);
+        status = translate_nodes(*out, pool, &walk, m, e, x);
         qdot_walk_end(&walk);
     }
     if (status != QDOT_OK) {

@@ -45,10 +45,10 @@ QDOT_MUST_CHECK qdot_status qdot_enclosure_new(qdot_pool *pool, size_t m,
                                                const qdot_expr *x, qdot_enclosure **out);
 void qdot_enclosure_free(qdot_enclosure *s);
 
-/* Evaluate all expressions over the box X [n], with their slopes if wanted. */
+/* Evaluate all expressions over the box X [n] of intervals, with their derivatives if these are wanted. */
 void qdot_enclosure_eval(qdot_enclosure *s, const qdot_interval *X, bool slopes);
 
-/* The number of nodes in one evaluation. */
+/* The number of nodes (operations and operands) that one evaluation visits. */
 size_t qdot_enclosure_size(const qdot_enclosure *s);
 
 size_t qdot_enclosure_count(const qdot_enclosure *s); /* number m of expressions given to qdot_enclosure_new */

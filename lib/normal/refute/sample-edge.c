@@ -1,12 +1,12 @@
-/* sample-edge.c -- sample points at which two sides may differ although they agree nearby. */
+/* sample-edge.c -- sample points at which two sides of an equation may differ although they agree nearby. */
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "normal/refute/sample.h"
 
-/* The rational x of a constant x or x pi; *turn: it is x pi. */
+/* The rational x of a constant x or x pi; *turn tells that it is x pi. */
 static bool
-number_or_turn(const qdot_pool *pool, qdot_expr e, fmpq_t x, bool *turn)
+read_number_or_multiple_of_pi(const qdot_pool *pool, qdot_expr e, fmpq_t x, bool *turn)
 {
     const fmpq *c = qdot_expr_rational(pool, e);
 
@@ -23,9 +23,9 @@ number_or_turn(const qdot_pool *pool, qdot_expr e, fmpq_t x, bool *turn)
     return c != NULL;
 }
 
-/* The i-th special value of an atom, into x; false if there is none. */
+/* Set x to the i-th special value of a symbol, such as a bound of its domain; false if there is none. */
 static bool
-at_edge(const qdot_pool *pool, qdot_sample_atom *a, int i, fmpq_t x)
+special_value(const qdot_pool *pool, qdot_sample_atom *a, int i, fmpq_t x)
 {
     static const struct {
         long n;
@@ -45,9 +45,9 @@ at_edge(const qdot_pool *pool, qdot_sample_atom *a, int i, fmpq_t x)
         return false;
     a->edge = true;
     return i == plain ? symbol->lo != QDOT_NIL && !symbol->lo_open &&
-                            number_or_turn(pool, symbol->lo, x, &a->turn)
+                            read_number_or_multiple_of_pi(pool, symbol->lo, x, &a->turn)
                       : symbol->hi != QDOT_NIL && !symbol->hi_open &&
-                            number_or_turn(pool, symbol->hi, x, &a->turn);
+                            read_number_or_multiple_of_pi(pool, symbol->hi, x, &a->turn);
 }
 
 enum { EDGES = 10 };
@@ -72,7 +72,7 @@ qdot_sample_edge(qdot_sample *s, int k)
         fmpq_t x;
 
         fmpq_init(x);
-        if (at_edge(s->pool, a, (int)j, x))
+        if (special_value(s->pool, a, (int)j, x))
             fmpq_set(&a->x, x);
         else
             a->turn = a->edge = false;

@@ -25,7 +25,7 @@
 
 /* The sign in front of a square root: 1 or -1, chosen at each point. */
 static qdot_expr
-either_sign(qdot_pool *pool, size_t i)
+sign_of_square_root(qdot_pool *pool, size_t i)
 {
     char name[32];
 
@@ -41,7 +41,7 @@ qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
     return s != NULL && strncmp(s->name, "(sign ", 6) == 0;
 }
 
-/* The preference for solving a relation for this atom; 0: never. */
+/* How much it is preferred to solve a relation for this symbol (generator); 0: never. */
 static int
 preference_to_solve(const qdot_pool *pool, const qdot_gen *gen)
 {
@@ -64,9 +64,9 @@ preference_to_solve(const qdot_pool *pool, const qdot_gen *gen)
     }
 }
 
-/* Whether generator v occurs inside another generator that p contains. */
+/* Whether the variable v occurs inside another variable (a function or root) that p contains. */
 static bool
-inside_another(qdot_field *f, const fmpz_mpoly_t p, slong v)
+occurs_inside_another(qdot_field *f, const fmpz_mpoly_t p, slong v)
 {
     for (slong w = 0; w < f->n; w++)
         if (w != v && fmpz_mpoly_degree_si(p, w, f->ctx) > 0 &&
@@ -136,10 +136,10 @@ may_jump(const qdot_pool *pool, qdot_expr e)
     return may;
 }
 
-/* The atom for which a relation is solved numerically at each point; it may occur inside functions. */
+/* The symbol for which a relation is solved numerically at each point, as it may occur inside functions. */
 static qdot_expr
-implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n,
-              const qdot_sample_solution *solved)
+symbol_for_numerical_solution(qdot_pool *pool, qdot_expr relation, size_t n,
+                              const qdot_sample_solution *solved)
 {
     qdot_expr atoms, best = QDOT_NIL;
     int fit = 0;
@@ -188,7 +188,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
                        : preference_to_solve(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
 
         if (here > fit && !qdot_sample_is_solved(n, solved, f.gen[v].expr) &&
-            !inside_another(&f, r->n, v)) {
+            !occurs_inside_another(&f, r->n, v)) {
             fit = here;
             best = v;
             best_degree = degree;
@@ -196,14 +196,14 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
     }
     if (best >= 0) {
         out->atom = f.gen[best].expr;
-        out->solution = solve_for_variable(&f, r->n, best, best_degree, either_sign(pool, number));
+        out->solution = solve_for_variable(&f, r->n, best, best_degree, sign_of_square_root(pool, number));
     }
     qdot_field_end(&f);
     if (best >= 0 && out->solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
         return false;
     if (best >= 0)
         return out->solution != QDOT_NIL;
-    *out = (qdot_sample_solution){implicit_atom(pool, relation, n, solved), relation, true};
+    *out = (qdot_sample_solution){symbol_for_numerical_solution(pool, relation, n, solved), relation, true};
     return out->atom != QDOT_NIL;
 }
 
@@ -211,13 +211,13 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
 
 enum { PLACES = 24, HALVINGS = 60, SECANTS = 24, LEAST = 64 };
 
-/* The budget of evaluated nodes for all values of a sample; a node counts more at higher precision. */
+/* The budget, in evaluated nodes, for all zeros of a sample; a node counts more at higher precision. */
 #define ROOT_WORK 1000000
 
 /* Evaluate the relation at a->value; its sign, 0 where that is not sure. f: its value, if there is
  * one. */
 static int
-sign_here(qdot_sample *s, qdot_sample_atom *a, slong prec, arf_t f)
+sign_at_present_value(qdot_sample *s, qdot_sample_atom *a, slong prec, arf_t f)
 {
     arb_srcptr value;
 
@@ -234,15 +234,15 @@ sign_here(qdot_sample *s, qdot_sample_atom *a, slong prec, arf_t f)
 }
 
 static int
-sign_at(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong prec, arf_t f)
+sign_at_value(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong prec, arf_t f)
 {
     arb_set_arf(a->value, x);
-    return sign_here(s, a, prec, f);
+    return sign_at_present_value(s, a, prec, f);
 }
 
-/* Bracket a root between left < right, where the signs differ, by bisection while signs are certain. */
+/* Bracket a zero between left < right, where signs differ, by bisection while the signs are certain. */
 static bool
-bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
+bracket_zero(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
 {
     double lo, hi;
     int before = 0, sign;
@@ -253,7 +253,7 @@ bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
     arf_init(f);
     for (int i = 0; i <= PLACES; i++) {
         arf_set_d(x, lo + (hi - lo) * ((double)i + 0.37) / (PLACES + 0.9));
-        sign = sign_at(s, a, x, LEAST, f);
+        sign = sign_at_value(s, a, x, LEAST, f);
         if (sign * before < 0) {
             arf_set(right, x);
             break;
@@ -265,7 +265,7 @@ bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
     for (int i = 0; i < HALVINGS && sign != 0; i++) {
         arf_add(x, left, right, LEAST, ARF_RND_NEAR);
         arf_mul_2exp_si(x, x, -1);
-        sign = sign_at(s, a, x, LEAST, f);
+        sign = sign_at_value(s, a, x, LEAST, f);
         if (sign != 0)
             arf_set(sign == before ? left : right, x);
     }
@@ -276,7 +276,7 @@ bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
 
 /* Whether a zero certainly lies within 2^-bits of x; then a->value becomes that ball. */
 static bool
-encloses(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong prec)
+ball_contains_zero(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong prec)
 {
     bool holds = false;
     arf_t end, r, f;
@@ -287,12 +287,12 @@ encloses(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong p
     arf_init(f);
     arf_set_si_2exp_si(r, 1, -bits);
     arf_sub(end, x, r, ARF_PREC_EXACT, ARF_RND_DOWN);
-    left = sign_at(s, a, end, prec, f);
+    left = sign_at_value(s, a, end, prec, f);
     arf_add(end, x, r, ARF_PREC_EXACT, ARF_RND_DOWN);
-    if (left * sign_at(s, a, end, prec, f) < 0) {
+    if (left * sign_at_value(s, a, end, prec, f) < 0) {
         arb_set_arf(a->value, x);
         mag_set_ui_2exp_si(arb_radref(a->value), 1, -bits);
-        (void)sign_here(s, a, prec, f); /* evaluate again inside the ball: leaves its value in a->value */
+        (void)sign_at_present_value(s, a, prec, f); /* evaluate again inside the ball, which stays in a->value */
         holds = s->root_work <= ROOT_WORK && qdot_ball_get(a->relation, a->solution) != NULL;
     }
     arf_clear(end);
@@ -301,9 +301,9 @@ encloses(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong p
     return holds;
 }
 
-/* Find a zero between left and right by the secant method, as precisely as prec allows. */
+/* Find a zero between left and right by the secant method, as precisely as `prec` bits allow. */
 static bool
-secant_zero(qdot_sample *s, qdot_sample_atom *a, const arf_t left, const arf_t right, slong prec)
+find_zero_by_secants(qdot_sample *s, qdot_sample_atom *a, const arf_t left, const arf_t right, slong prec)
 {
     slong bits = prec - 16;
     arf_t x, y, fx, fy, step;
@@ -312,9 +312,9 @@ secant_zero(qdot_sample *s, qdot_sample_atom *a, const arf_t left, const arf_t r
     arf_init(x), arf_init(y), arf_init(fx), arf_init(fy), arf_init(step);
     arf_set(x, left);
     arf_set(y, right);
-    (void)sign_at(s, a, x, prec, fx);
+    (void)sign_at_value(s, a, x, prec, fx);
     for (int i = 0; i < SECANTS; i++) {
-        (void)sign_at(s, a, y, prec, fy);
+        (void)sign_at_value(s, a, y, prec, fy);
         arf_sub(step, y, x, prec, ARF_RND_NEAR);
         arf_mul(step, step, fy, prec, ARF_RND_NEAR);
         arf_sub(fx, fy, fx, prec, ARF_RND_NEAR);
@@ -328,7 +328,7 @@ secant_zero(qdot_sample *s, qdot_sample_atom *a, const arf_t left, const arf_t r
             break;
     }
     for (; bits > 8 && !found && arf_is_finite(y) && s->root_work <= ROOT_WORK; bits -= bits / 4)
-        found = encloses(s, a, y, bits, prec);
+        found = ball_contains_zero(s, a, y, bits, prec);
     arf_clear(x), arf_clear(y), arf_clear(fx), arf_clear(fy), arf_clear(step);
     return found;
 }
@@ -350,7 +350,7 @@ qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec)
     }
     arf_init(left);
     arf_init(right);
-    found = bracket_root(s, a, left, right) && secant_zero(s, a, left, right, prec);
+    found = bracket_zero(s, a, left, right) && find_zero_by_secants(s, a, left, right, prec);
     arf_clear(left);
     arf_clear(right);
     a->ready = found;

@@ -14,13 +14,13 @@
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
 
-#define SIMPLE 24 /* the first points have small numbers */
-#define FAR 96    /* number of points from which on some have large coordinates */
+#define SIMPLE 24 /* number of points at first that have small numbers */
+#define FAR 96    /* index of the first point that may have large coordinates */
 
 /* --- preparing samples ------------------------------------------------------------- */
 
 static uint32_t
-order_of(const qdot_pool *pool, qdot_expr ufun)
+derivative_order(const qdot_pool *pool, qdot_expr ufun)
 {
     uint32_t n = qdot_expr_count(pool, ufun) / 2, all = 0;
     long k;
@@ -35,8 +35,8 @@ order_of(const qdot_pool *pool, qdot_expr ufun)
  * which are not at hand unless given: with derivatives above `most` there are no sure
  * points. */
 static bool
-higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations,
-                   uint32_t most)
+has_higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations,
+                       uint32_t most)
 {
     uint32_t n = qdot_expr_count(pool, atoms), m = qdot_expr_count(pool, relations);
     bool any = false;
@@ -46,21 +46,21 @@ higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations,
 
         if (qdot_expr_kind(pool, a) == QDOT_UFUN) {
             any = true;
-            if (order_of(pool, a) > most)
-                most = order_of(pool, a);
+            if (derivative_order(pool, a) > most)
+                most = derivative_order(pool, a);
         }
     }
     for (uint32_t i = 0; any && i < n; i++) {
         qdot_expr a = qdot_expr_arg(pool, atoms, i);
 
-        if (qdot_expr_kind(pool, a) == QDOT_UFUN && order_of(pool, a) > most)
+        if (qdot_expr_kind(pool, a) == QDOT_UFUN && derivative_order(pool, a) > most)
             return true;
     }
     return false;
 }
 
 static void
-sample_add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implicit)
+append_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implicit)
 {
     qdot_sample_atom *a = &s->atom[s->n++];
 
@@ -72,7 +72,7 @@ sample_add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implici
 /* The solved atoms, each after those that its solution holds; where two are solved for each other
  * there are no points. */
 static void
-add_solved(qdot_sample *s, size_t n, qdot_sample_solution *solved)
+append_solved_atoms(qdot_sample *s, size_t n, qdot_sample_solution *solved)
 {
     for (size_t left = n, before = n + 1; left > 0 && left < before;) {
         before = left;
@@ -84,7 +84,7 @@ add_solved(qdot_sample *s, size_t n, qdot_sample_solution *solved)
                         qdot_expr_contains(s->pool, solved[k].solution, solved[j].atom);
             if (waits)
                 continue;
-            sample_add_atom(s, solved[k].atom, solved[k].solution, solved[k].implicit);
+            append_atom(s, solved[k].atom, solved[k].solution, solved[k].implicit);
             solved[k].atom = QDOT_NIL;
             left--;
         }
@@ -94,7 +94,7 @@ add_solved(qdot_sample *s, size_t n, qdot_sample_solution *solved)
 }
 
 static qdot_expr
-bounds_of(qdot_pool *pool, qdot_expr atoms)
+list_bounds(qdot_pool *pool, qdot_expr atoms)
 {
     qdot_expr all = qdot_list(pool, 0, NULL), two[2];
 
@@ -116,7 +116,7 @@ bounds_of(qdot_pool *pool, qdot_expr atoms)
     return all;
 }
 
-/* 1 for atoms whose bounds contain other atoms: they come last. */
+/* 1 for symbols (atoms) whose bounds contain other symbols: these get their values last. */
 static int
 bound_rank(const qdot_pool *pool, qdot_expr atom)
 {
@@ -130,9 +130,9 @@ bound_rank(const qdot_pool *pool, qdot_expr atom)
     return 1;
 }
 
-/* Record the bound of x from 0 < c x + rest, where c is a number: x is above (below, if c < 0) -rest/c. */
+/* Record the bound of x that a condition 0 < c x + rest with a number c gives: x > -rest/c, or < if c < 0. */
 static qdot_status
-bounds_by_condition(qdot_sample *s, qdot_expr condition)
+record_bound_of_condition(qdot_sample *s, qdot_expr condition)
 {
     qdot_pool *pool = s->pool;
     qdot_expr gap, atoms;
@@ -184,18 +184,18 @@ solve_relations(qdot_sample *s, qdot_sample_solution *solved, qdot_expr *put, si
         put[k] = solved[k].solution;
 }
 
-/* Add the free atoms, those with bounds that contain others last, then the solved ones. */
+/* Add the symbols that are chosen freely, those with bounds that contain others last, then the solved ones. */
 static void
-add_atoms(qdot_sample *s, qdot_expr atoms, size_t n, qdot_sample_solution *solved)
+append_atoms(qdot_sample *s, qdot_expr atoms, size_t n, qdot_sample_solution *solved)
 {
     for (int rank = 0; rank < 2; rank++)
         for (uint32_t i = 0; i < qdot_expr_count(s->pool, atoms); i++) {
             qdot_expr a = qdot_expr_arg(s->pool, atoms, i);
 
             if (!qdot_sample_is_solved(n, solved, a) && bound_rank(s->pool, a) == rank)
-                sample_add_atom(s, a, QDOT_NIL, false);
+                append_atom(s, a, QDOT_NIL, false);
         }
-    add_solved(s, n, solved);
+    append_solved_atoms(s, n, solved);
 }
 
 static qdot_status
@@ -224,20 +224,20 @@ sample_gather(qdot_sample *s, size_t n, const qdot_expr *e)
         parts[4] = qdot_expr_atoms(pool, s->list, true);
         if (parts[4] == QDOT_NIL)
             break;
-        parts[5] = bounds_of(pool, parts[4]);
+        parts[5] = list_bounds(pool, parts[4]);
         s->list = qdot_list(pool, 6, parts);
     }
     atoms = qdot_expr_atoms(pool, s->list, true);
     if (atoms == QDOT_NIL) {
         status = qdot_pool_check(pool);
     } else {
-        if (higher_derivatives(pool, atoms, of_relations, facts->free_derivatives))
+        if (has_higher_derivatives(pool, atoms, of_relations, facts->free_derivatives))
             s->possible = false;
         s->atom = qdot_malloc((qdot_expr_count(pool, atoms) + 1) * sizeof *s->atom);
         if (s->atom == NULL)
             status = QDOT_ENOMEM;
         else
-            add_atoms(s, atoms, n_solved, solved);
+            append_atoms(s, atoms, n_solved, solved);
     }
     qdot_free(solved);
     return status;
@@ -252,7 +252,7 @@ qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n, const qdot_expr *e,
     *s = (qdot_sample){.pool = pool, .facts = facts, .possible = true};
     status = sample_gather(s, n, e);
     for (size_t i = 0; status == QDOT_OK && i < s->facts->n_conditions; i++)
-        status = bounds_by_condition(s, s->facts->conditions[i]);
+        status = record_bound_of_condition(s, s->facts->conditions[i]);
     if (status == QDOT_OK)
         status = qdot_ball_begin(&s->ball, pool, 1, &s->list);
     if (status != QDOT_OK) {
@@ -282,7 +282,7 @@ qdot_sample_end(qdot_sample *s)
 /* --- drawing points ---------------------------------------------------------------- */
 
 static uint32_t
-sample_draw(qdot_sample *s, uint32_t below)
+draw_random(qdot_sample *s, uint32_t below)
 {
     s->seed ^= s->seed << 13;
     s->seed ^= s->seed >> 7;
@@ -308,7 +308,7 @@ qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec)
 /* A rational with a small denominator strictly between lo and hi, about so far from the
  * one to the other. */
 static void
-rational_between(fmpq_t x, double lo, double hi, double where, double about)
+find_rational_between(fmpq_t x, double lo, double hi, double where, double about)
 {
     double at = lo + (hi - lo) * where, margin = (hi - lo) * 1e-3;
 
@@ -323,18 +323,18 @@ rational_between(fmpq_t x, double lo, double hi, double where, double about)
     }
     if (fabs(at) < 1e12) {
         fmpq_set_si(x, (long)nearbyint(at * 1048576), 1048576);
-    } else if (isfinite(at)) { /* beyond the spacing of 1/2^20: an integer */
+    } else if (isfinite(at)) { /* the doubles have a spacing above 1/2^20 here: take an integer */
         fmpz_set_d(fmpq_numref(x), at);
         fmpz_one(fmpq_denref(x));
     }
 }
 
-/* Ranges tried in turn: functions with narrow domains need small arguments. */
+/* Half widths of the ranges tried in turn: functions with narrow domains need small arguments. */
 static const double reach[] = {3, 1, 7, 0.5, 20, 2, 0.9, 0.1};
 
-/* Find the range in which an atom is drawn, narrowed by conditions in which the other atoms have values. */
+/* Find the range in which a symbol is drawn, narrowed by conditions in which all other symbols have values. */
 static void
-sample_narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
+narrow_range(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
 {
     double above = -HUGE_VAL, below = HUGE_VAL, x;
 
@@ -382,7 +382,7 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
            hi = size, x;
     uint8_t sign = qdot_expr_node(s->pool, atom)->sign;
 
-    if (k >= FAR && k % 3 == 0) { /* for expressions that are defined only at large values */
+    if (k >= FAR && k % 3 == 0) { /* large values, for expressions that are defined only there */
         size *= 1000;
         lo = -size;
         hi = size;
@@ -400,7 +400,7 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
         } else if (has_lo) {
             hi = lo + size;
         }
-        sample_narrow(s, atom, size, &lo, &hi);
+        narrow_range(s, atom, size, &lo, &hi);
     }
     if ((sign & QDOT_GE0) && lo < 0)
         lo = 0;
@@ -411,20 +411,20 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
 }
 
 static void
-sample_choose(qdot_sample *s, qdot_sample_atom *a)
+choose_value(qdot_sample *s, qdot_sample_atom *a)
 {
-    double where = (1 + sample_draw(s, 61)) / 63.0, lo, hi;
+    double where = (1 + draw_random(s, 61)) / 63.0, lo, hi;
     double about = s->k < SIMPLE ? 0.1 : 0.01; /* first integers, then other rationals */
 
     if (qdot_sample_is_sign(s->pool, a->atom)) {
-        fmpq_set_si(&a->x, sample_draw(s, 2) == 0 ? 1 : -1, 1);
+        fmpq_set_si(&a->x, draw_random(s, 2) == 0 ? 1 : -1, 1);
         qdot_sample_set(a, 64);
         return;
     }
     qdot_sample_range(s, a->atom, &lo, &hi);
-    rational_between(&a->x, lo, hi, where, about);
+    find_rational_between(&a->x, lo, hi, where, about);
     if (fmpq_is_zero(&a->x))
-        rational_between(&a->x, lo, hi, where * 0.9 + 0.01, about);
+        find_rational_between(&a->x, lo, hi, where * 0.9 + 0.01, about);
     qdot_sample_set(a, 64);
 }
 
@@ -434,17 +434,17 @@ qdot_sample_point(qdot_sample *s, int k)
     s->k = k;
     s->seed = 0x9e3779b97f4a7c15u * (uint64_t)(k + 1);
     for (int i = 0; i < 8; i++)
-        sample_draw(s, 2);
+        draw_random(s, 2);
     for (size_t i = 0; i < s->n; i++)
         s->atom[i].ready = s->atom[i].turn = s->atom[i].edge = false;
     for (size_t i = 0; i < s->n; i++)
         if (s->atom[i].solution == QDOT_NIL)
-            sample_choose(s, &s->atom[i]);
+            choose_value(s, &s->atom[i]);
 }
 
-/* Whether a solved value certainly lies in its domain. */
+/* Whether the value of a solved symbol certainly lies in its domain. */
 static bool
-in_domain(qdot_sample *s, const qdot_sample_atom *a)
+is_in_domain(qdot_sample *s, const qdot_sample_atom *a)
 {
     const qdot_symbol *symbol = qdot_expr_symbol(s->pool, a->atom);
     uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
@@ -470,9 +470,9 @@ in_domain(qdot_sample *s, const qdot_sample_atom *a)
     return true;
 }
 
-/* Whether two applications of the same function may have equal arguments. */
+/* Whether two occurrences of the same undefined function may have equal arguments at the point. */
 static bool
-arguments_meet(const qdot_sample *s)
+arguments_may_coincide(const qdot_sample *s)
 {
     const qdot_pool *pool = s->pool;
 
@@ -529,7 +529,7 @@ qdot_sample_values(qdot_sample *s, slong prec)
     }
     qdot_ball_eval(&s->ball, prec, qdot_sample_value, s);
     for (size_t i = 0; i < s->n; i++)
-        if (!in_domain(s, &s->atom[i]))
+        if (!is_in_domain(s, &s->atom[i]))
             return false;
     for (size_t i = 0; i < s->facts->n_conditions; i++)
         if (qdot_ball_truth(&s->ball, s->facts->conditions[i]) != 1)
@@ -540,7 +540,7 @@ qdot_sample_values(qdot_sample *s, slong prec)
 bool
 qdot_sample_eval(qdot_sample *s, slong prec)
 {
-    return qdot_sample_values(s, prec) && !arguments_meet(s);
+    return qdot_sample_values(s, prec) && !arguments_may_coincide(s);
 }
 
 qdot_expr
@@ -560,14 +560,14 @@ qdot_sample_list(qdot_sample *s)
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
             if (s->atom[i].turn)
                 x = qdot_mul(s->pool, x, QDOT_PI);
-        } else { /* irrational: a decimal number for printing */
+        } else { /* the value is irrational: give a decimal number for printing */
             fmpq_t rounded;
 
             fmpq_init(rounded);
             arf_get_fmpq(rounded, arb_midref(s->atom[i].value));
-            rational_between(rounded, arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) - 1e-6,
-                             arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5,
-                             0.1);
+            find_rational_between(rounded, arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) - 1e-6,
+                                  arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5,
+                                  0.1);
             x = qdot_expr_fmpq(s->pool, rounded);
             fmpq_clear(rounded);
         }

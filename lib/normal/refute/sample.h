@@ -21,13 +21,13 @@ typedef struct {
     bool implicit;            /* the value is a root: `solution` is an expression that is 0 */
     qdot_ball *relation;      /* the expression `solution` for evaluation; made when first needed */
     fmpq x;                   /* the chosen value, if free */
-    bool turn;                /* the value is x pi */
+    bool turn;                /* the value is x times pi */
     bool edge;                /* the value is a closed bound of the domain */
     bool ready;
     arb_t value;
 } qdot_sample_atom;
 
-/* A condition linear in an atom: the atom lies below (or above) `bound`. */
+/* A condition that is linear in a symbol (atom): the symbol lies below (or above) `bound`. */
 typedef struct {
     qdot_expr atom, bound;
     bool below;
@@ -36,7 +36,7 @@ typedef struct {
 typedef struct {
     qdot_pool *pool;
     qdot_sample_atom
-        *atom; /* free symbols first, each after those in its bounds; then solved ones, last first */
+        *atom; /* free symbols first, each after those in its bounds; then solved symbols in reverse order */
     size_t n;
     qdot_sample_bound *bound;
     size_t n_bounds, bounds_capacity;
@@ -46,10 +46,10 @@ typedef struct {
     int k;             /* index of the point */
     int64_t root_work; /* operations used for roots so far, limited by a budget */
     uint64_t seed;
-    bool possible; /* points may exist: no contradiction was found */
+    bool possible; /* false if a contradiction was found, so that no points exist */
 } qdot_sample;
 
-/* Begin to sample e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
+/* Prepare to sample e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, those of the pool. */
 QDOT_MUST_CHECK qdot_status qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n,
                                               const qdot_expr *e,
                                               const qdot_facts *facts);
@@ -68,17 +68,17 @@ bool qdot_sample_eval(qdot_sample *s, slong prec);
  * their values are then not those of a function, but all others are right. */
 bool qdot_sample_values(qdot_sample *s, slong prec);
 
-/* The point as a LIST of equations atom = number. */
+/* The sample point as a LIST of equations symbol = number. */
 qdot_expr qdot_sample_list(qdot_sample *s);
 
 /* For the files of samples: the value of a free atom, put in; whether a symbol is the sign before a
  * root that solves a relation. */
 void qdot_sample_set(qdot_sample_atom *a, slong prec);
-/* Find the range in which a value of the atom may be searched, with the other atoms at the present point. */
+/* Find the range in which a value of the symbol may be sought, with the other symbols at the present point. */
 void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
-/* The value of an atom at the sample, as a callback of qdot_ball_eval. */
+/* The value of a symbol at the sample point, as a callback of qdot_ball_eval. */
 bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
-/* A solved atom: atom = solution; or (implicit) `solution` vanishes at the atom's value. */
+/* A symbol given by relations: atom = solution; or (implicit) the expression `solution` is 0 at its value. */
 typedef struct {
     qdot_expr atom, solution;
     bool implicit;

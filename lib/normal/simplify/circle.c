@@ -21,9 +21,9 @@ is_sine_squared(const qdot_pool *pool, qdot_expr term, uint32_t k)
            fmpz_is_one(fmpq_denref(n)) && fmpz_cmp_ui(fmpq_numref(n), 2) >= 0;
 }
 
-/* The place of a term in a sum; 0: it is none of its terms. */
+/* The index of a term in a sum; 0: the sum does not contain the term. */
 static uint32_t
-place_of(const qdot_pool *pool, qdot_expr sum, qdot_expr term)
+find_term(const qdot_pool *pool, qdot_expr sum, qdot_expr term)
 {
     for (uint32_t j = 1; j < qdot_expr_count(pool, sum); j += 2)
         if (qdot_expr_arg(pool, sum, j) == term)
@@ -34,7 +34,7 @@ place_of(const qdot_pool *pool, qdot_expr sum, qdot_expr term)
 /* The part of c and d by which two terms are joined: both if they are equal, the smaller of two integers of one sign;
  * nil: none. */
 static qdot_expr
-common_part(const qdot_pool *pool, qdot_expr c, qdot_expr d)
+common_coefficient(const qdot_pool *pool, qdot_expr c, qdot_expr d)
 {
     const fmpq *x = qdot_expr_rational(pool, c), *y = qdot_expr_rational(pool, d);
 
@@ -45,7 +45,7 @@ common_part(const qdot_pool *pool, qdot_expr c, qdot_expr d)
     return fmpz_cmpabs(fmpq_numref(x), fmpq_numref(y)) < 0 ? c : d;
 }
 
-/* The sum with term i joined with another one by its factor k, sin(u)^n; nil: there is no other. */
+/* The sum with term i, whose factor k is sin(u)^n, joined with a term that has cos(u)^2 instead; nil: there is none. */
 static qdot_expr
 joined(qdot_pool *pool, qdot_expr sum, uint32_t i, uint32_t k)
 {
@@ -55,9 +55,9 @@ joined(qdot_pool *pool, qdot_expr sum, uint32_t i, uint32_t k)
     const qdot_expr factor = qdot_div(pool, term, qdot_pow(pool, sine, two));
     const qdot_expr other =
         qdot_mul(pool, factor, qdot_pow(pool, qdot_fun(pool, QDOT_COS, 1, &u), two));
-    const uint32_t j = place_of(pool, sum, other);
+    const uint32_t j = find_term(pool, sum, other);
     const qdot_expr c =
-        j > 0 ? common_part(pool, qdot_expr_arg(pool, sum, i + 1), qdot_expr_arg(pool, sum, j + 1)) : QDOT_NIL;
+        j > 0 ? common_coefficient(pool, qdot_expr_arg(pool, sum, i + 1), qdot_expr_arg(pool, sum, j + 1)) : QDOT_NIL;
 
     if (c == QDOT_NIL)
         return QDOT_NIL;
@@ -65,7 +65,7 @@ joined(qdot_pool *pool, qdot_expr sum, uint32_t i, uint32_t k)
     return qdot_add(pool, sum, qdot_mul(pool, c, factor));
 }
 
-/* The sum with one pair of terms joined; itself if there is none. */
+/* The sum with one pair of terms in sin(u)^2 and cos(u)^2 joined; the sum itself if there is no pair. */
 static qdot_expr
 join_pair(qdot_pool *pool, qdot_expr sum)
 {
@@ -83,7 +83,7 @@ join_pair(qdot_pool *pool, qdot_expr sum)
 }
 
 static qdot_expr
-join_sum(qdot_pool *pool, qdot_expr sum, void *user)
+join_all_pairs(qdot_pool *pool, qdot_expr sum, void *user)
 {
     qdot_expr before = QDOT_NIL;
 
@@ -98,5 +98,5 @@ join_sum(qdot_pool *pool, qdot_expr sum, void *user)
 qdot_expr
 qdot_circle_join(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, e, QDOT_SUM, join_sum, NULL);
+    return qdot_walk_replace(pool, e, QDOT_SUM, join_all_pairs, NULL);
 }

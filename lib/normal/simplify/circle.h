@@ -11,7 +11,7 @@
 
 #include "expr/id.h"
 
-/* e, of any kind of value, with squares joined; e itself if there are none to join. Nil on failure. */
+/* Join sin(u)^2 and cos(u)^2 in e, of any kind of value; e itself if there are none to join. Nil on failure. */
 qdot_expr qdot_circle_join(qdot_pool *pool, qdot_expr e);
 
 #endif

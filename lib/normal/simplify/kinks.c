@@ -22,7 +22,7 @@ typedef struct {
 
 /* --- the sign of u inside other absolute values ------------------------------------------------- */
 
-/* Whether u = c w with a number c, or a parameter of known sign; *sign: that of c. */
+/* Whether u = c w with a number c, or a parameter c of known sign; *sign: the sign of c. */
 static bool
 sign_of_multiple(qdot_pool *pool, qdot_expr u, qdot_expr w, int *sign)
 {
@@ -50,7 +50,7 @@ sign_everywhere(qdot_pool *pool, qdot_expr u)
     w = qdot_expr_arg(pool, inner, 0);
     if (!sign_of_multiple(pool, qdot_expand(pool, qdot_subs(pool, u, 1, &inner, &w)), w, &above))
         return 0;
-    w = qdot_neg(pool, w); /* w < 0: take -w, which is |w| */
+    w = qdot_neg(pool, w); /* w < 0 everywhere: take -w, which is |w| */
     if (!sign_of_multiple(pool, qdot_expand(pool, qdot_subs(pool, u, 1, &inner, &w)), w, &below))
         return 0;
     return above >= 0 && below >= 0 ? 1 : above <= 0 && below <= 0 ? -1 : 0;
@@ -59,7 +59,7 @@ sign_everywhere(qdot_pool *pool, qdot_expr u)
 /* --- removing kinks ------------------------------------------------------------------------------- */
 
 static qdot_expr
-absolute_of(qdot_pool *pool, qdot_expr u, kinks *k)
+write_absolute_value(qdot_pool *pool, qdot_expr u, kinks *k)
 {
     qdot_expr e;
     int sign;
@@ -80,19 +80,19 @@ absolute_of(qdot_pool *pool, qdot_expr u, kinks *k)
 /* A node with replaced children by absolute values. Each is noted before the sum is built, where it may cancel: so this is
  * not left to qdot_rewrite_extreme. */
 static qdot_expr
-write_by_absolute(qdot_pool *pool, qdot_expr e, void *user)
+write_by_absolute_values(qdot_pool *pool, qdot_expr e, void *user)
 {
     kinks *k = user;
     const bool greatest = qdot_expr_is_function(pool, e, QDOT_MAX);
     qdot_expr a, b, difference;
 
     if (qdot_expr_is_function(pool, e, QDOT_ABS))
-        return absolute_of(pool, qdot_expr_arg(pool, e, 0), k);
+        return write_absolute_value(pool, qdot_expr_arg(pool, e, 0), k);
     if ((!greatest && !qdot_expr_is_function(pool, e, QDOT_MIN)) || qdot_expr_count(pool, e) != 2)
         return e;
     a = qdot_expr_arg(pool, e, 0);
     b = qdot_expr_arg(pool, e, 1);
-    difference = absolute_of(pool, qdot_sub(pool, a, b), k);
+    difference = write_absolute_value(pool, qdot_sub(pool, a, b), k);
     return qdot_mul(pool, QDOT_HALF,
                     qdot_add(pool, qdot_add(pool, a, b), greatest ? difference : qdot_neg(pool, difference)));
 }
@@ -122,7 +122,7 @@ qdot_kinks_cancel(qdot_pool *pool, qdot_expr e)
     if (e == QDOT_NIL || !(qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN) ||
         qdot_expr_size(pool, e) > MOST_OPERATIONS || count_kinks(pool, e, &before) != QDOT_OK || before < 2)
         return e;
-    joined = qdot_expand(pool, qdot_walk_replace(pool, e, QDOT_FUN, write_by_absolute, &k));
+    joined = qdot_expand(pool, qdot_walk_replace(pool, e, QDOT_FUN, write_by_absolute_values, &k));
     if (joined != QDOT_NIL && (k.failed || count_kinks(pool, joined, &after) != QDOT_OK ||
                                after >= k.absolute.n + k.decided))
         joined = e;

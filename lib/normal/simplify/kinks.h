@@ -14,7 +14,7 @@
 
 #include "expr/id.h"
 
-/* e without kinks that cancel each other; e itself if there are none. Nil on failure. */
+/* The expression e without kinks that cancel each other; e itself if there are none. Nil on failure. */
 qdot_expr qdot_kinks_cancel(qdot_pool *pool, qdot_expr e);
 
 #endif

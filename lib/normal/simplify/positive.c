@@ -34,7 +34,7 @@ typedef struct {
 /* Numerators of the known ones: 1 if p is one of them times a square or so, -1 if it is its
  * negative, 0 otherwise. */
 static int
-known_sign(job *j, const fmpz_mpoly_t p)
+sign_by_known_factor(job *j, const fmpz_mpoly_t p)
 {
     qdot_field *f = j->f;
     fmpz_mpoly_t q;
@@ -61,7 +61,7 @@ known_sign(job *j, const fmpz_mpoly_t p)
     return sign;
 }
 
-/* The sign of an expression without symbols, by an enclosure. */
+/* The sign of an expression without symbols, by an enclosure of its value. */
 static int
 sign_of_constant(job *j, qdot_expr e)
 {
@@ -83,7 +83,7 @@ sign_of_constant(job *j, qdot_expr e)
     return sign;
 }
 
-/* Whether e is found positive at some sample points and negative at others: then no sign can be proved. */
+/* Find whether e is positive at some sample points and negative at others, so that no sign can be proved. */
 static void
 sample_signs(job *j, qdot_expr e, bool *above, bool *below)
 {
@@ -115,9 +115,9 @@ is_known_positive(const job *j, qdot_expr b)
     return false;
 }
 
-/* Whether e is a product of powers of factors known to be positive. */
+/* Whether e is a product of powers of factors that are known to be positive. */
 static bool
-is_of_known(const job *j, qdot_expr e)
+is_product_of_positive(const job *j, qdot_expr e)
 {
     qdot_pool *pool = j->pool;
 
@@ -149,12 +149,12 @@ proved_sign(job *j, qdot_expr e)
         return 1;
     if ((sign & QDOT_NEG) == QDOT_NEG)
         return -1;
-    /* e >= 0 everywhere, as an even power: positive except where e = 0 */
+    /* e >= 0 everywhere, being an even power: it is positive except where e = 0 */
     if (j->asked == POSITIVE_GENERIC && (sign & QDOT_GE0) != 0)
         return 1;
     if (j->asked == POSITIVE_GENERIC && (sign & QDOT_LE0) != 0)
         return -1;
-    if (j->n_known > 0 && is_of_known(j, e))
+    if (j->n_known > 0 && is_product_of_positive(j, e))
         return 1;
     if ((qdot_expr_node(j->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
         return sign_of_constant(j, e);
@@ -170,9 +170,9 @@ proved_sign(job *j, qdot_expr e)
     return 0;
 }
 
-/* Keep the factors of a polynomial in numerator or denominator that matter for the condition. */
+/* Keep those factors of a polynomial in numerator or denominator on which the condition e > 0 depends. */
 static qdot_status
-keep_factors(job *j, const fmpz_mpoly_t p, bool below)
+keep_relevant_factors(job *j, const fmpz_mpoly_t p, bool below)
 {
     qdot_field *f = j->f;
     qdot_factors factors;
@@ -183,7 +183,7 @@ keep_factors(job *j, const fmpz_mpoly_t p, bool below)
     for (slong i = 0; i < factors.n && status == QDOT_OK; i++) {
         qdot_expr e = qdot_field_expr(f, factors.poly + i);
         bool even = factors.exp[i] % 2 == 0, vanishes = j->asked != POSITIVE_GENERIC && !below;
-        int sign = known_sign(j, factors.poly + i);
+        int sign = sign_by_known_factor(j, factors.poly + i);
 
         if ((even && !vanishes) || (below && j->asked == POSITIVE_NONZERO))
             continue;
@@ -225,9 +225,9 @@ qdot_positive_without_minus(qdot_pool *pool, qdot_expr e)
     return qdot_rel(pool, QDOT_LT, left, right);
 }
 
-/* Drop a factor |v| beside v: it is never negative, and 0 only where v is. */
+/* Drop a factor |v| if v is a factor, too: |v| is never negative, and 0 only where v is. */
 static void
-leave_out_magnitudes(job *j)
+drop_absolute_values(job *j)
 {
     qdot_pool *pool = j->pool;
 
@@ -245,13 +245,13 @@ leave_out_magnitudes(job *j)
 }
 
 static qdot_expr
-positive_conclude(job *j)
+write_condition(job *j)
 {
     qdot_pool *pool = j->pool;
     qdot_expr rest;
     bool spent;
 
-    leave_out_magnitudes(j);
+    drop_absolute_values(j);
     if (j->rest.n == 0)
         return j->sign > 0 || j->asked == POSITIVE_NONZERO ? QDOT_TRUE : QDOT_FALSE;
     if (j->asked == POSITIVE_NONZERO)
@@ -273,7 +273,7 @@ struct asking {
 };
 
 static void
-reduce_condition(void *user)
+simplify_condition_task(void *user)
 {
     struct asking *x = user;
     job *j = &x->j;
@@ -302,11 +302,11 @@ reduce_condition(void *user)
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
             x->result = QDOT_FALSE;
         } else {
-            x->status = keep_factors(j, r.n, false);
+            x->status = keep_relevant_factors(j, r.n, false);
             if (x->status == QDOT_OK)
-                x->status = keep_factors(j, r.d, true);
+                x->status = keep_relevant_factors(j, r.d, true);
             if (x->status == QDOT_OK && qdot_field_goes(&f))
-                x->result = positive_conclude(j);
+                x->result = write_condition(j);
         }
         qdot_ratio_clear(&f, &r);
     }
@@ -318,14 +318,14 @@ reduce_condition(void *user)
 }
 
 static qdot_expr
-positive_ask(struct asking *x, qdot_expr unknown)
+decide_sign_or_unknown(struct asking *x, qdot_expr unknown)
 {
     qdot_pool *pool = x->j.pool;
     qdot_status status;
 
     if (qdot_pool_failed(pool))
         return QDOT_NIL;
-    status = qdot_flint_run(pool, reduce_condition, x);
+    status = qdot_flint_run(pool, simplify_condition_task, x);
     if (status == QDOT_ELIMIT)
         return unknown;
     if (status != QDOT_OK || x->status != QDOT_OK)
@@ -342,7 +342,7 @@ qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
         .e = e,
     };
 
-    return positive_ask(&x, qdot_positive_without_minus(pool, e));
+    return decide_sign_or_unknown(&x, qdot_positive_without_minus(pool, e));
 }
 
 qdot_expr
@@ -351,7 +351,7 @@ qdot_positive_exact(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     struct asking x = {
         .j = {.pool = pool, .asked = POSITIVE_EXACT, .facts = facts, .sign = 1}, .e = e};
 
-    return positive_ask(&x, qdot_positive_without_minus(pool, e));
+    return decide_sign_or_unknown(&x, qdot_positive_without_minus(pool, e));
 }
 
 qdot_expr
@@ -360,7 +360,7 @@ qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     struct asking x = {
         .j = {.pool = pool, .asked = POSITIVE_NONZERO, .facts = facts, .sign = 1}, .e = e};
 
-    return positive_ask(&x, qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, e)));
+    return decide_sign_or_unknown(&x, qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, e)));
 }
 
 qdot_expr

@@ -24,7 +24,7 @@ qdot_expr qdot_positive_exact(qdot_pool *pool, qdot_expr e, const qdot_facts *fa
  * those factors of its numerator, each once, that may be 0. */
 qdot_expr qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
-/* The relation 0 < e, with negative terms moved to the other side. */
+/* The relation 0 < e with the negative terms of e moved to the left side. */
 qdot_expr qdot_positive_without_minus(qdot_pool *pool, qdot_expr e);
 
 /* The expression e - b that a relation b < e or b <= e states to be positive (or not negative). */

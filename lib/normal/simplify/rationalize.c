@@ -31,7 +31,7 @@ conjugate(qdot_field *f, fmpz_mpoly_t out, const fmpz_mpoly_t p, slong v)
 }
 
 static void
-clear_roots(qdot_field *f, qdot_ratio *r)
+remove_roots_from_denominator(qdot_field *f, qdot_ratio *r)
 {
     qdot_ratio by;
 
@@ -50,11 +50,11 @@ clear_roots(qdot_field *f, qdot_ratio *r)
 
 struct rationalizing {
     qdot_pool *pool;
-    qdot_expr e, result; /* expression; its form without roots below, nil if the budget is used up */
+    qdot_expr e, result; /* expression; its form without roots in denominators, nil if the budget is used up */
 };
 
 static void
-without_roots(void *user)
+rationalize_task(void *user)
 {
     struct rationalizing *x = user;
     qdot_expr prepared = qdot_prepare(x->pool, x->e);
@@ -67,7 +67,7 @@ without_roots(void *user)
         qdot_ratio r;
 
         qdot_field_cancelled(&f, &r, prepared);
-        clear_roots(&f, &r);
+        remove_roots_from_denominator(&f, &r);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.d, f.ctx))
             x->result = qdot_field_ratio_expr(&f, &r);
         qdot_ratio_clear(&f, &r);
@@ -84,7 +84,7 @@ qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     qdot_expr best = qdot_simplify(pool, e, facts), other = QDOT_NIL;
     struct rationalizing x = {pool, best, QDOT_NIL};
     qdot_status status =
-        best == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, without_roots, &x);
+        best == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, rationalize_task, &x);
 
     if (qdot_grave(status) != QDOT_OK)
         return qdot_pool_fail(pool);

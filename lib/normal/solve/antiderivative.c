@@ -11,7 +11,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* The deepest nesting of substitutions and integrations by parts; common integrals need two. */
+/* The deepest nesting of substitutions and integrations by parts; usual integrals need two. */
 enum { MOST_DEPTH = 4 };
 
 typedef struct {
@@ -19,17 +19,17 @@ typedef struct {
     const qdot_facts *facts;
 } table;
 
-static qdot_expr integrate(const table *t, qdot_expr e, qdot_expr x, int depth);
+static qdot_expr integrate_expression(const table *t, qdot_expr e, qdot_expr x, int depth);
 
-/* A term split into its factors with x, and the product of the others. */
+/* A term split into its factors that contain x, and the product of the other factors. */
 typedef struct {
     qdot_expr rest;
     qdot_expr base[4], exponent[4];
-    uint32_t n; /* number of factors with x; more than 4: not in the table */
+    uint32_t n; /* number of factors that contain x; with more than 4 the term is not in the table */
 } factors;
 
 static factors
-term_take_apart(qdot_pool *pool, qdot_expr term, qdot_expr x)
+split_term(qdot_pool *pool, qdot_expr term, qdot_expr x)
 {
     factors f = {.rest = term};
     uint32_t n = qdot_expr_count(pool, term);
@@ -91,7 +91,7 @@ function(qdot_pool *pool, qdot_fun_id id, qdot_expr u)
 
 /* Integrate a single factor: a power of a linear function of x, or a function of one. */
 static qdot_expr
-one_factor(const table *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
+integrate_factor(const table *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
 {
     qdot_pool *pool = t->pool;
     bool fun = qdot_expr_kind(pool, base) == QDOT_FUN;
@@ -109,9 +109,9 @@ one_factor(const table *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
     return whole == QDOT_NIL ? whole : qdot_div(pool, whole, slope);
 }
 
-/* Integrate x^n f(x) by parts, for a small positive integer n: x^n F - int n x^(n-1) F. */
+/* Integrate x^n f(x) by parts for a small positive integer n: x^n F - int n x^(n-1) F dx with F' = f. */
 static qdot_expr
-by_parts(const table *t, const factors *f, qdot_expr x, int depth)
+integrate_by_parts(const table *t, const factors *f, qdot_expr x, int depth)
 {
     qdot_pool *pool = t->pool;
 
@@ -122,11 +122,11 @@ by_parts(const table *t, const factors *f, qdot_expr x, int depth)
         if (f->base[i] != x || !qdot_expr_to_int(pool, f->exponent[i], &n) || n < 1 ||
             n > MOST_DEPTH)
             continue;
-        F = one_factor(t, f->base[1 - i], f->exponent[1 - i], x);
+        F = integrate_factor(t, f->base[1 - i], f->exponent[1 - i], x);
         if (F == QDOT_NIL)
             return QDOT_NIL;
         p = qdot_pow_int(pool, x, n);
-        left = integrate(t, qdot_mul(pool, qdot_diff(pool, p, x), F), x, depth + 1);
+        left = integrate_expression(t, qdot_mul(pool, qdot_diff(pool, p, x), F), x, depth + 1);
         return left == QDOT_NIL ? left
                                 : qdot_sub(pool, qdot_mul(pool, p, F), left);
     }
@@ -135,7 +135,7 @@ by_parts(const table *t, const factors *f, qdot_expr x, int depth)
 
 /* Substitute u for a subexpression of the term: int f(u) u' dx = int f(u) du. */
 static qdot_expr
-substitute(const table *t, qdot_expr term, qdot_expr u, qdot_expr x, int depth)
+integrate_by_substitution(const table *t, qdot_expr term, qdot_expr u, qdot_expr x, int depth)
 {
     static const char *const names[] = {"u#0", "u#1", "u#2", "u#3", "u#4"};
     qdot_pool *pool = t->pool;
@@ -148,7 +148,7 @@ substitute(const table *t, qdot_expr term, qdot_expr u, qdot_expr x, int depth)
     f = qdot_subs(pool, f, 1, &u, &w);
     if (f == QDOT_NIL || qdot_expr_contains(pool, f, x))
         return QDOT_NIL;
-    f = integrate(t, f, w, depth + 1);
+    f = integrate_expression(t, f, w, depth + 1);
     return f == QDOT_NIL ? f : qdot_subs(pool, f, 1, &w, &u);
 }
 
@@ -161,25 +161,25 @@ integrate_term(const table *t, qdot_expr term, qdot_expr x, int depth)
 
     if (!qdot_expr_contains(pool, term, x))
         return qdot_mul(pool, term, x);
-    f = term_take_apart(pool, term, x);
+    f = split_term(pool, term, x);
     if (f.n == 0 || f.n > 4 || f.rest == QDOT_NIL)
         return QDOT_NIL;
     for (uint32_t i = 0; i < f.n; i++)
         product = qdot_mul(pool, product, qdot_pow(pool, f.base[i], f.exponent[i]));
     if (f.n == 1)
-        F = one_factor(t, f.base[0], f.exponent[0], x);
+        F = integrate_factor(t, f.base[0], f.exponent[0], x);
     if (F == QDOT_NIL && depth < MOST_DEPTH)
-        F = by_parts(t, &f, x, depth);
+        F = integrate_by_parts(t, &f, x, depth);
     for (uint32_t i = 0; i < f.n && F == QDOT_NIL && depth < MOST_DEPTH; i++) {
-        F = substitute(t, product, f.base[i], x, depth);
+        F = integrate_by_substitution(t, product, f.base[i], x, depth);
         if (F == QDOT_NIL && qdot_expr_kind(pool, f.base[i]) == QDOT_FUN)
-            F = substitute(t, product, qdot_expr_arg(pool, f.base[i], 0), x, depth);
+            F = integrate_by_substitution(t, product, qdot_expr_arg(pool, f.base[i], 0), x, depth);
     }
     return F == QDOT_NIL ? F : qdot_mul(pool, f.rest, F);
 }
 
 static qdot_expr
-integrate(const table *t, qdot_expr e, qdot_expr x, int depth)
+integrate_expression(const table *t, qdot_expr e, qdot_expr x, int depth)
 {
     qdot_pool *pool = t->pool;
     qdot_expr sum = QDOT_ZERO, whole;
@@ -188,7 +188,7 @@ integrate(const table *t, qdot_expr e, qdot_expr x, int depth)
     if (e == QDOT_NIL)
         return e;
     if (qdot_expr_kind(pool, e) != QDOT_SUM) {
-        whole = integrate_term(t, e, x, depth); /* a single term as it is: (2 x + 3)^-2 must not be expanded */
+        whole = integrate_term(t, e, x, depth); /* try a single term as it is: (2 x + 3)^-2 must not be expanded */
         if (whole != QDOT_NIL)
             return whole;
     }
@@ -197,7 +197,7 @@ integrate(const table *t, qdot_expr e, qdot_expr x, int depth)
         return e == QDOT_NIL ? e : integrate_term(t, e, x, depth);
     n = qdot_expr_count(pool, e);
     for (uint32_t i = 0; i < n && sum != QDOT_NIL; i += i == 0 ? 1 : 2) {
-        /* the args of a sum are its constant c0, then pairs of coefficient and term: c1, t1, c2, t2 ... */
+        /* the arguments of a sum are its constant c0, then pairs of coefficient and term: c1, t1, c2, t2 ... */
         qdot_expr term = qdot_expr_arg(pool, e, i), part;
 
         if (i > 0)
@@ -213,7 +213,7 @@ qdot_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts 
 {
     table t = {pool, facts};
 
-    return integrate(&t, e, x, 0);
+    return integrate_expression(&t, e, x, 0);
 }
 
 qdot_expr

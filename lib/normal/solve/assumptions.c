@@ -22,7 +22,7 @@ qdot_assumptions_put(qdot_pool *pool, const qdot_assumptions *a, qdot_expr e)
     return e == QDOT_NIL || a->from.n == 0 ? e : qdot_subs(pool, e, a->from.n, a->from.at, a->to.at);
 }
 
-/* Record parameter = value, and insert the value into those recorded before. */
+/* Record the value of a parameter, and insert it into the values recorded before. */
 static qdot_status
 add_value(qdot_pool *pool, qdot_assumptions *a, qdot_expr parameter, qdot_expr value)
 {
@@ -33,7 +33,7 @@ add_value(qdot_pool *pool, qdot_assumptions *a, qdot_expr parameter, qdot_expr v
     return qdot_vec_push(&a->to, value);
 }
 
-/* Record the parameter value at which `zero` vanishes, if there is just one. */
+/* Record the value of a parameter at which the expression `zero` vanishes, if there is exactly one. */
 static qdot_status
 add_relation(qdot_pool *pool, qdot_assumptions *a, qdot_expr zero)
 {
@@ -52,7 +52,7 @@ add_relation(qdot_pool *pool, qdot_assumptions *a, qdot_expr zero)
 }
 
 static bool
-holds_unknown(const qdot_pool *pool, qdot_expr e, qdot_expr unknowns)
+contains_unknown(const qdot_pool *pool, qdot_expr e, qdot_expr unknowns)
 {
     bool holds = false;
 
@@ -71,7 +71,7 @@ qdot_assumptions_read(qdot_pool *pool, const qdot_facts *facts, qdot_expr unknow
     for (size_t i = 0; i < facts->n_conditions; i++) {
         const qdot_expr one = facts->conditions[i];
 
-        if (holds_unknown(pool, one, unknowns))
+        if (contains_unknown(pool, one, unknowns))
             a->domain = qdot_conditions_and(pool, a->domain, qdot_assumptions_put(pool, a, one));
         else
             QDOT_TRY(qdot_vec_push(&a->others, one));

@@ -12,9 +12,9 @@
 #include "normal/field/facts.h"
 
 typedef struct {
-    qdot_facts facts;               /* facts without inequalities of unknowns; borrows `others` */
+    qdot_facts facts;               /* facts without the inequalities of unknowns; borrows the array `others` */
     qdot_expr domain; /* inequalities of the unknowns, a set of conditions (conditions.h); nil: none */
-    qdot_vec(qdot_expr) from, to; /* replace parameters by values that contain none of these parameters */
+    qdot_vec(qdot_expr) from, to; /* parameters, and the values that replace them, which contain none of these parameters */
     qdot_vec(qdot_expr) others;
 } qdot_assumptions;
 
@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_assumptions_read(qdot_pool *pool, const qdot_fa
                                                   qdot_assumptions *a);
 void qdot_assumptions_clear(qdot_assumptions *a);
 
-/* e with the recorded values inserted (nil stays nil). */
+/* The expression e with the recorded parameter values inserted (nil stays nil). */
 qdot_expr qdot_assumptions_put(qdot_pool *pool, const qdot_assumptions *a, qdot_expr e);
 
 #endif

@@ -21,7 +21,7 @@ enum { MOST_CHOICES = 4, LARGEST = 80, MOST_ROOT = 24 };
 /* A node |u|, sign u, max(u, v) or min(u, v) of e, and what its value may be, other [2]: u or -u, 1 or -1, u or v. Nil:
  * there is none. */
 static qdot_expr
-find_choice(qdot_pool *pool, qdot_expr e, qdot_expr *other)
+find_switching_function(qdot_pool *pool, qdot_expr e, qdot_expr *other)
 {
     qdot_expr found = QDOT_NIL;
     qdot_walk w;
@@ -50,9 +50,9 @@ find_choice(qdot_pool *pool, qdot_expr e, qdot_expr *other)
 /* Whether e vanishes identically for some choice of the values of all such nodes; `depth` of them
  * are chosen already. */
 static bool
-vanishes_by_choice(qdot_pool *pool, qdot_expr e, int depth)
+vanishes_for_some_choice(qdot_pool *pool, qdot_expr e, int depth)
 {
-    qdot_expr other[2], choice = find_choice(pool, e, other);
+    qdot_expr other[2], choice = find_switching_function(pool, e, other);
 
     if (choice == QDOT_NIL)
         return depth > 0 && qdot_expand(pool, e) == QDOT_ZERO;
@@ -64,7 +64,7 @@ vanishes_by_choice(qdot_pool *pool, qdot_expr e, int depth)
 
             if (status != QDOT_OK && status != QDOT_EDOMAIN)
                 (void)qdot_pool_fail(pool);
-        } else if (vanishes_by_choice(pool, there, depth + 1)) {
+        } else if (vanishes_for_some_choice(pool, there, depth + 1)) {
             return true;
         }
     }
@@ -92,7 +92,7 @@ qdot_holds_root(qdot_pool *pool, qdot_expr e)
 bool
 qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e)
 {
-    return e != QDOT_NIL && qdot_expr_size(pool, e) <= LARGEST && vanishes_by_choice(pool, e, 0);
+    return e != QDOT_NIL && qdot_expr_size(pool, e) <= LARGEST && vanishes_for_some_choice(pool, e, 0);
 }
 
 qdot_expr
@@ -154,7 +154,7 @@ qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict)
 }
 
 static bool
-holds_square_root(qdot_pool *pool, qdot_expr e)
+contains_square_root(qdot_pool *pool, qdot_expr e)
 {
     bool found = false;
     qdot_walk w;
@@ -250,7 +250,7 @@ qdot_condition_beside_root(qdot_pool *pool, qdot_expr gap, bool *above)
 
         if (qdot_constant_is(pool, t))
             continue;
-        if (!holds_square_root(pool, t))
+        if (!contains_square_root(pool, t))
             rest = qdot_add(pool, rest, term);
         else if (root != QDOT_NIL || qdot_expr_kind(pool, t) != QDOT_PROD || (qdot_expr_node(pool, t)->sign & QDOT_GE0) == 0)
             return QDOT_NIL;
@@ -270,7 +270,7 @@ qdot_condition_squared(qdot_pool *pool, qdot_expr gap)
     uint32_t n, terms = 0;
 
     if (gap == QDOT_NIL || qdot_expr_kind(pool, gap) != QDOT_SUM || qdot_expr_size(pool, gap) > LARGEST ||
-        !holds_square_root(pool, gap))
+        !contains_square_root(pool, gap))
         return QDOT_NIL;
     n = qdot_expr_count(pool, gap);
     for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) { /* entries c0, c1, t1, c2, t2, ...: look at coefficients */

@@ -38,7 +38,7 @@ qdot_expr qdot_condition_of_power(qdot_pool *pool, qdot_expr gap, qdot_expr *bas
  * s^2 - e^2. Where that is not negative s >= |e|, and the gap is positive (*above) or negative. Nil: another form. */
 qdot_expr qdot_condition_beside_root(qdot_pool *pool, qdot_expr gap, bool *above);
 
-/* For a condition s - t with a square root: s^2 - t^2 if s and t are never negative; else nil. */
+/* For a condition s - t > 0 with square roots: s^2 - t^2 if s and t are never negative; else nil. */
 qdot_expr qdot_condition_squared(qdot_pool *pool, qdot_expr gap);
 
 /* A relation between c h(u) + d and a number, u not a number and h monotone, as one of u: atan(u) < 1 is u < tan(1). Where

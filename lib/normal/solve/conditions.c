@@ -53,9 +53,9 @@ qdot_is_generic(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & ~generic) == 0;
 }
 
-/* Move a number to the left side: -1 < x for 0 < x + 1. */
+/* Move a number to the left side of a relation: -1 < x for 0 < x + 1. */
 static qdot_expr
-number_apart(qdot_pool *pool, qdot_expr relation)
+move_number_to_left(qdot_pool *pool, qdot_expr relation)
 {
     qdot_expr right, c;
 
@@ -75,9 +75,9 @@ qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     return (facts == NULL || !facts->exact) && qdot_is_generic(pool, e) && !qdot_vanishes_in_regions(pool, e);
 }
 
-/* The expression u if the condition is 0 < |u|, which means u != 0; else nil. */
+/* The expression u if the condition gap > 0 is 0 < |u|, which means u != 0; else nil. */
 static qdot_expr
-magnitude_of(const qdot_pool *pool, qdot_expr gap)
+argument_of_absolute_value(const qdot_pool *pool, qdot_expr gap)
 {
     return qdot_expr_is_function(pool, gap, QDOT_ABS)
                ? qdot_expr_arg(pool, gap, 0)
@@ -96,9 +96,9 @@ gap_without_power(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts)
 
 /* Write 0 < gap or 0 <= gap in its shortest form. Expressions with coordinates are not factored. */
 static qdot_expr
-condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+shorten_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
-    qdot_expr u = magnitude_of(pool, gap), shortest, unfolded, again;
+    qdot_expr u = argument_of_absolute_value(pool, gap), shortest, unfolded, again;
     bool generic = qdot_is_taken_generic(pool, gap, facts);
 
     if (strict && u != QDOT_NIL && !generic)
@@ -107,7 +107,7 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
     /* do not drop a factor that may vanish for some values */
     shortest = generic                      ? qdot_positive(pool, gap, facts, 0, NULL)
                : qdot_is_generic(pool, gap) ? qdot_positive_exact(pool, gap, facts)
-                                            : number_apart(pool, qdot_positive_without_minus(pool, gap));
+                                            : move_number_to_left(pool, qdot_positive_without_minus(pool, gap));
     if (shortest == QDOT_NIL)
         return QDOT_NIL;
     shortest = strict ? shortest : weaken_relation(pool, shortest);
@@ -122,7 +122,7 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
 }
 
 static qdot_expr
-condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+decide_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
     bool generic, above;
     qdot_expr squares;
@@ -157,19 +157,19 @@ condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *
     squares = qdot_condition_beside_root(pool, gap, &above);
     if (squares != QDOT_NIL && is_proved(pool, QDOT_ZERO, squares, false, facts))
         return above ? QDOT_TRUE : QDOT_FALSE;
-    return condition_shorten(pool, gap, strict, facts);
+    return shorten_condition(pool, gap, strict, facts);
 }
 
 /* s > t, of a gap s - t with square roots, as the condition s^2 > t^2. Nil: the gap has another form, or s^2 > t^2 is not
  * known to imply that s and t are defined. */
 static qdot_expr
-condition_by_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+condition_from_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
     qdot_expr squared = qdot_condition_squared(pool, gap), relation, domain;
 
     if (squared == QDOT_NIL)
         return QDOT_NIL;
-    relation = condition_decide(pool, squared, strict, facts);
+    relation = decide_condition(pool, squared, strict, facts);
     if (relation == QDOT_NIL || relation == QDOT_FALSE)
         return relation;
     domain = qdot_conditions_of_domain(pool, gap, QDOT_NIL);
@@ -192,11 +192,11 @@ qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *fa
         plain = qdot_condition_of_logarithms(pool, gap);
     if (plain == QDOT_NIL)
         plain = qdot_condition_without_magnitude(pool, gap, strict);
-    relation = condition_decide(pool, plain == QDOT_NIL ? gap : plain, strict, facts);
+    relation = decide_condition(pool, plain == QDOT_NIL ? gap : plain, strict, facts);
     if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)
         return relation;
-    by_squares = condition_by_squares(pool, qdot_positive_of(pool, relation),
-                                      qdot_expr_node(pool, relation)->op == QDOT_LT, facts);
+    by_squares = condition_from_squares(pool, qdot_positive_of(pool, relation),
+                                        qdot_expr_node(pool, relation)->op == QDOT_LT, facts);
     return qdot_pool_failed(pool) ? QDOT_NIL : by_squares == QDOT_NIL ? relation : by_squares;
 }
 
@@ -245,9 +245,9 @@ qdot_conditions_and_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u)
                                qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, u)));
 }
 
-/* The set with relation i replaced by `to`, or removed if `to` is TRUE. */
+/* The set of conditions with relation i replaced by `to`, or removed if `to` is TRUE. */
 static qdot_expr
-conditions_replace(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr to)
+replace_condition(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr to)
 {
     qdot_expr all = QDOT_NIL;
 
@@ -275,9 +275,9 @@ set_follows(qdot_pool *pool, qdot_expr from, qdot_expr set, const qdot_facts *fa
     return all;
 }
 
-/* The only relation of `set` that is not in `other`; nil if there are none or several. */
+/* The only relation of `set` that is not in the set `other`; nil if there are none or several. */
 static qdot_expr
-only_beside(qdot_pool *pool, qdot_expr set, qdot_expr other)
+only_other_relation(qdot_pool *pool, qdot_expr set, qdot_expr other)
 {
     qdot_expr only = QDOT_NIL;
     unsigned count = 0;
@@ -293,14 +293,14 @@ only_beside(qdot_pool *pool, qdot_expr set, qdot_expr other)
 /* If the sets differ in one relation, u > 0 (or u >= 0) and its opposite: replace it in *set by u
  * != 0, or remove it. */
 static bool
-join_opposites(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts)
+join_opposite_relations(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts)
 {
-    qdot_expr a = only_beside(pool, *set, other), b = only_beside(pool, other, *set), sum, left = QDOT_NIL;
+    qdot_expr a = only_other_relation(pool, *set, other), b = only_other_relation(pool, other, *set), sum, left = QDOT_NIL;
 
     if (a == QDOT_NIL || b == QDOT_NIL || qdot_expr_kind(pool, a) != QDOT_REL || qdot_expr_kind(pool, b) != QDOT_REL)
         return false;
     sum = qdot_add(pool, qdot_positive_of(pool, a), qdot_positive_of(pool, b));
-    if (sum != QDOT_ZERO) /* not a pair a >= 0, a <= 0 */
+    if (sum != QDOT_ZERO) /* the relations are not a pair a >= 0 and a <= 0 */
         return false;
     for (uint32_t i = 0; i < qdot_expr_count(pool, *set); i++)
         if (qdot_expr_arg(pool, *set, i) != a)
@@ -315,10 +315,10 @@ join_opposites(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_fact
 /* The set without its i-th relation, where all of that follows from `other`, and `other` from it and the opposite of that
  * relation: that is what either set says. *set gets it. */
 static bool
-join_complement(qdot_pool *pool, qdot_expr *set, qdot_expr one, qdot_expr other, const qdot_facts *facts)
+join_with_complement(qdot_pool *pool, qdot_expr *set, qdot_expr one, qdot_expr other, const qdot_facts *facts)
 {
     for (uint32_t i = 0; i < qdot_expr_count(pool, one); i++) {
-        qdot_expr relation = qdot_expr_arg(pool, one, i), rest = conditions_replace(pool, one, i, QDOT_TRUE), opposite;
+        qdot_expr relation = qdot_expr_arg(pool, one, i), rest = replace_condition(pool, one, i, QDOT_TRUE), opposite;
         bool strict;
 
         if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_node(pool, relation)->op == QDOT_EQ)
@@ -344,8 +344,8 @@ qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdo
         *set = QDOT_NIL;
         return true;
     }
-    if (join_opposites(pool, set, other, facts) || set_follows(pool, other, *set, facts) ||
-        join_complement(pool, set, *set, other, facts) || join_complement(pool, set, other, *set, facts))
+    if (join_opposite_relations(pool, set, other, facts) || set_follows(pool, other, *set, facts) ||
+        join_with_complement(pool, set, *set, other, facts) || join_with_complement(pool, set, other, *set, facts))
         return true;
     if (!set_follows(pool, *set, other, facts))
         return false;
@@ -363,7 +363,7 @@ qdot_conditions_generic(qdot_pool *pool, qdot_expr set)
         qdot_expr one = qdot_expr_arg(pool, set, i);
 
         if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op == QDOT_LE &&
-            /* not for an if(...), of which only a part may be 0 */
+            /* except for an if(...), of which only a part may be 0 */
             !qdot_expr_is_function(pool, qdot_positive_of(pool, one), QDOT_IF) &&
             qdot_is_taken_generic(pool, qdot_positive_of(pool, one), NULL))
             one = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0),
@@ -406,9 +406,9 @@ relation_at(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *from
                           qdot_expr_node(pool, there)->op == QDOT_LT, facts);
 }
 
-/* Add a relation to the set; 0 < |u v| becomes u != 0 and v != 0, 0 < u^2 v becomes u != 0 and 0 < v. */
+/* Add a relation to the set by factors; 0 < |u v| becomes u != 0 and v != 0, 0 < u^2 v becomes u != 0 and 0 < v. */
 static qdot_expr
-conditions_add_factors(qdot_pool *pool, qdot_expr set, qdot_expr relation)
+add_relation_by_factors(qdot_pool *pool, qdot_expr set, qdot_expr relation)
 {
     qdot_expr u = relation == QDOT_NIL ? QDOT_NIL : qdot_conditions_nonzero(pool, relation), rest = QDOT_NIL;
     bool nonzero = u != QDOT_NIL;
@@ -445,7 +445,7 @@ qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *fr
     for (uint32_t i = 0; i < m && left != QDOT_FALSE; i++) {
         qdot_facts known = qdot_facts_and(pool, facts, left, room);
 
-        left = conditions_add_factors(
+        left = add_relation_by_factors(
             pool, left,
             relation_at(pool, qdot_expr_arg(pool, set, i), n, from, to, &known));
         if (qdot_pool_failed(pool))
@@ -491,9 +491,9 @@ is_small(const qdot_pool *pool, qdot_expr set)
     return small;
 }
 
-/* Whether all relations of `some` are in the set. */
+/* Whether all relations of the set `some` are in the set `set`. */
 static bool
-holds_all(qdot_pool *pool, qdot_expr set, qdot_expr some)
+contains_all(qdot_pool *pool, qdot_expr set, qdot_expr some)
 {
     bool all = some != QDOT_NIL && some != QDOT_FALSE;
 
@@ -511,18 +511,18 @@ strict_relation(qdot_pool *pool, qdot_expr relation)
                : qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, relation, 0), qdot_expr_arg(pool, relation, 1));
 }
 
-/* Join 0 <= g and u != 0 for all factors u of g to 0 < g. */
+/* Replace 0 <= g together with u != 0 for all factors u of g by 0 < g. */
 static qdot_expr
-conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
+join_with_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 {
     for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++) {
         qdot_expr one = qdot_expr_arg(pool, set, i), factors, rest = QDOT_NIL;
 
         if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_node(pool, one)->op != QDOT_LE)
             continue;
-        factors = conditions_add_factors(
+        factors = add_relation_by_factors(
             pool, QDOT_NIL, qdot_nonzero(pool, qdot_positive_of(pool, one), facts));
-        if (!holds_all(pool, set, factors))
+        if (!contains_all(pool, set, factors))
             continue;
         for (uint32_t k = 0; k < qdot_expr_count(pool, set); k++) {
             qdot_expr other = qdot_expr_arg(pool, set, k);
@@ -542,7 +542,7 @@ conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 /* Whether relation i follows from the others, and so do the conditions `domain` under which its
  * sides are defined. */
 static bool
-is_follower(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const qdot_facts *facts)
+is_implied(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const qdot_facts *facts)
 {
     bool yes = follows_from_others(pool, set, i, qdot_expr_arg(pool, set, i), false, facts);
 
@@ -554,15 +554,15 @@ is_follower(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const 
 /* The set without relations that follow from the others; partial_alone: only those are left out whose sides are not
  * defined everywhere. */
 static qdot_expr
-conditions_without_followers(qdot_pool *pool, qdot_expr set, bool partial_alone, const qdot_facts *facts)
+remove_implied_conditions(qdot_pool *pool, qdot_expr set, bool partial_alone, const qdot_facts *facts)
 {
     for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && qdot_expr_count(pool, set) > 1 &&
                          i < qdot_expr_count(pool, set);) {
         qdot_expr one = qdot_expr_arg(pool, set, i), domain = qdot_conditions_of_domain(pool, one, QDOT_NIL);
 
         if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op != QDOT_EQ &&
-            (domain != QDOT_NIL || !partial_alone) && is_follower(pool, set, i, domain, facts))
-            set = conditions_replace(pool, set, i, QDOT_TRUE);
+            (domain != QDOT_NIL || !partial_alone) && is_implied(pool, set, i, domain, facts))
+            set = replace_condition(pool, set, i, QDOT_TRUE);
         else
             i++;
     }
@@ -574,8 +574,8 @@ qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 {
     if (!is_small(pool, set))
         return set;
-    set = conditions_join_nonzero(pool, set, facts);
-    /* a <= b where a != b follows is a < b */
+    set = join_with_nonzero(pool, set, facts);
+    /* where a <= b and a != b follows from the others, write a < b */
     for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++) {
         qdot_expr one = qdot_expr_arg(pool, set, i), strict;
 
@@ -584,11 +584,11 @@ qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
             continue;
         strict = strict_relation(pool, one);
         if (strict != QDOT_FALSE && follows_from_others(pool, set, i, strict, true, facts))
-            set = conditions_replace(pool, set, i, strict);
+            set = replace_condition(pool, set, i, strict);
     }
     /* first those with roots: they imply that the roots are defined, and simpler relations might be
      * dropped because of that */
-    return conditions_without_followers(pool, conditions_without_followers(pool, set, true, facts), false, facts);
+    return remove_implied_conditions(pool, remove_implied_conditions(pool, set, true, facts), false, facts);
 }
 
 qdot_expr
@@ -597,7 +597,7 @@ qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation)
     return qdot_expr_kind(pool, relation) == QDOT_REL &&
                    qdot_expr_node(pool, relation)->op == QDOT_LT &&
                    qdot_expr_arg(pool, relation, 0) == QDOT_ZERO
-               ? magnitude_of(pool, qdot_expr_arg(pool, relation, 1))
+               ? argument_of_absolute_value(pool, qdot_expr_arg(pool, relation, 1))
                : QDOT_NIL;
 }
 
@@ -608,7 +608,7 @@ qdot_conditions_unequal(qdot_pool *pool, qdot_expr u)
 
     if (qdot_expr_kind(pool, u) != QDOT_SUM)
         return qdot_rel(pool, QDOT_LT, u, QDOT_ZERO);
-    sides = number_apart(pool, qdot_positive_without_minus(pool, u));
+    sides = move_number_to_left(pool, qdot_positive_without_minus(pool, u));
     left = qdot_expr_arg(pool, sides, 0);
     right = qdot_expr_arg(pool, sides, 1);
     return qdot_expr_rational(pool, right) != NULL ? sides : qdot_rel(pool, QDOT_LT, right, left);

@@ -23,18 +23,18 @@ bool qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts
  * failure. */
 qdot_expr qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts);
 
-/* The set with one more relation; the union of two sets. */
+/* The set of conditions with one more relation; the second function: the union of two sets. */
 qdot_expr qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation);
 qdot_expr qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other);
-/* The set with u != 0, written as 0 < |u|. */
+/* The set of conditions with the further condition u != 0, written as 0 < |u|. */
 qdot_expr qdot_conditions_and_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u);
 
 /* Join two alternative sets of conditions to one, *set; false if no single set is equivalent. */
 bool qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts);
 
-/* The set with a < b for a <= b between parameters, as these are generic. */
+/* The set with a < b in place of a <= b between parameters, because these have generic values. */
 qdot_expr qdot_conditions_generic(qdot_pool *pool, qdot_expr set);
-/* The set without relations that follow from the others, and a < b for a <= b if a != b follows. */
+/* The set without relations that follow from the others, and with a < b in place of a <= b if a != b follows. */
 qdot_expr qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts);
 
 /* The set with values put in for the symbols from [n], decided anew; a relation that is not defined there does
@@ -45,7 +45,7 @@ qdot_expr qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdo
 /* The conditions under which every part of f that holds x (nil: every part) is defined: of bases of roots, logarithms
  * and inverse functions. Denominators and poles are not among them. (definedness.c) */
 qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
-/* The conditions under which the function is defined, without those of its argument. (definedness.c) */
+/* The conditions under which the function node is defined, without those of its arguments. (definedness.c) */
 qdot_expr qdot_conditions_of_function(qdot_pool *pool, qdot_expr function);
 /* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0.
  * (definedness.c) */
@@ -55,9 +55,9 @@ qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
  * NULL. (definedness.c) */
 QDOT_MUST_CHECK qdot_status qdot_has_single_places(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m,
                                                    const qdot_expr *x, const qdot_facts *facts, bool *yes);
-/* u if the relation is 0 < |u|; else nil. */
+/* The expression u if the relation is 0 < |u|; else nil. */
 qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
-/* A relation with the two sides of u != 0, where negative terms are moved to the other side. */
+/* The relation u != 0 written with two sides, where negative terms are moved to the other side. */
 qdot_expr qdot_conditions_unequal(qdot_pool *pool, qdot_expr u);
 
 /* The facts with the relations of a set (nil: none) added; `room` [QDOT_CONDITIONS_MOST] holds them. More than

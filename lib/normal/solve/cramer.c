@@ -1,4 +1,4 @@
-/* cramer.c -- Cramer's rule over expressions. */
+/* cramer.c -- Cramer's rule for linear systems whose entries are expressions. */
 #include "normal/solve/cramer.h"
 
 #include "expr/build.h"

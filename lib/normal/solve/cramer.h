@@ -12,7 +12,7 @@ enum { QDOT_CRAMER_MOST = 3 };
 QDOT_MUST_CHECK qdot_status qdot_cramer(qdot_pool *pool, uint32_t n, const qdot_expr *A,
                                         const qdot_expr *b, qdot_expr *x);
 
-/* det A without expanding the entries; nil: the pool failed. */
+/* The determinant of A without expanding its entries; nil: the pool failed. */
 qdot_expr qdot_cramer_determinant(qdot_pool *pool, uint32_t n, const qdot_expr *A);
 
 #endif

@@ -10,9 +10,9 @@
 
 /* --- where a function is defined ------------------------------------------------------ */
 
-/* The set with lo <= u <= hi, or lo < u < hi if `open`; a nil end adds nothing. */
+/* The set of conditions with lo <= u <= hi, or lo < u < hi if `open`; a nil end adds nothing. */
 static qdot_expr
-conditions_add_bounds(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, bool open)
+add_bounds(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, bool open)
 {
     qdot_rel_op op = open ? QDOT_LT : QDOT_LE;
 
@@ -24,20 +24,20 @@ conditions_add_bounds(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo,
 }
 
 static qdot_expr
-conditions_of_function(qdot_pool *pool, qdot_expr set, qdot_expr node)
+add_conditions_of_function(qdot_pool *pool, qdot_expr set, qdot_expr node)
 {
     qdot_expr u = qdot_expr_count(pool, node) == 0 ? QDOT_NIL : qdot_expr_arg(pool, node, 0);
 
     switch (qdot_expr_node(pool, node)->op) {
     case QDOT_LOG:
-        return conditions_add_bounds(pool, set, u, QDOT_ZERO, QDOT_NIL, true);
+        return add_bounds(pool, set, u, QDOT_ZERO, QDOT_NIL, true);
     case QDOT_ASIN:
     case QDOT_ACOS:
-        return conditions_add_bounds(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, false);
+        return add_bounds(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, false);
     case QDOT_ATANH:
-        return conditions_add_bounds(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, true);
+        return add_bounds(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, true);
     case QDOT_ACOSH:
-        return conditions_add_bounds(pool, set, u, QDOT_ONE, QDOT_NIL, false);
+        return add_bounds(pool, set, u, QDOT_ONE, QDOT_NIL, false);
     default:
         return set;
     }
@@ -46,7 +46,7 @@ conditions_of_function(qdot_pool *pool, qdot_expr set, qdot_expr node)
 /* The set, and that bases of powers with exponents that are no integers are not negative, or positive where the exponent
  * may be negative. */
 static qdot_expr
-conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
+add_conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
 {
     for (uint32_t i = 1; i < qdot_expr_count(pool, product); i += 2) {
         qdot_expr base = qdot_expr_arg(pool, product, i),
@@ -56,7 +56,7 @@ conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_exp
         if ((x != QDOT_NIL && !qdot_expr_contains(pool, base, x)) ||
             (q != NULL && fmpz_is_one(fmpq_denref(q))))
             continue;
-        set = conditions_add_bounds(pool, set, base, QDOT_ZERO, QDOT_NIL, q == NULL || fmpq_sgn(q) < 0);
+        set = add_bounds(pool, set, base, QDOT_ZERO, QDOT_NIL, q == NULL || fmpq_sgn(q) < 0);
     }
     return set;
 }
@@ -67,9 +67,9 @@ typedef qdot_expr conditions_of_part(qdot_pool *pool, qdot_expr set, qdot_expr p
 
 /* --- what if(...) chooses --------------------------------------------------------------------------- */
 
-/* That c, a relation, does not hold; nil: c is none of < and <=. */
+/* The opposite of the relation c, which holds where c does not; nil: c is neither < nor <=. */
 static qdot_expr
-opposite_of(qdot_pool *pool, qdot_expr c)
+opposite_relation(qdot_pool *pool, qdot_expr c)
 {
     const qdot_rel_op op = qdot_expr_kind(pool, c) == QDOT_REL ? qdot_expr_node(pool, c)->op : QDOT_EQ;
 
@@ -78,9 +78,9 @@ opposite_of(qdot_pool *pool, qdot_expr c)
     return qdot_rel(pool, op == QDOT_LT ? QDOT_LE : QDOT_LT, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0));
 }
 
-/* Whether a < b or a <= b is proved where c holds. */
+/* Whether the relation, a < b or a <= b, is proved to hold wherever the relation c holds. */
 static bool
-follows_from(qdot_pool *pool, qdot_expr relation, qdot_expr c)
+relation_follows_from(qdot_pool *pool, qdot_expr relation, qdot_expr c)
 {
     const qdot_facts facts = {.n_conditions = 1, .conditions = &c};
     qdot_decision d;
@@ -95,55 +95,55 @@ follows_from(qdot_pool *pool, qdot_expr relation, qdot_expr c)
     return d.verdict == QDOT_PROVED;
 }
 
-/* if(c, gap, 1), or if(c, 1, gap) for what is not chosen by c. */
+/* The expression if(c, gap, 1); for the value that is chosen where c fails (`chosen` false): if(c, 1, gap). */
 static qdot_expr
-gap_where_chosen(qdot_pool *pool, qdot_expr gap, qdot_expr c, bool chosen)
+gap_restricted_to_case(qdot_pool *pool, qdot_expr gap, qdot_expr c, bool chosen)
 {
     const qdot_expr args[3] = {c, chosen ? gap : QDOT_ONE, chosen ? QDOT_ONE : gap};
 
     return gap == QDOT_NIL ? QDOT_NIL : qdot_fun(pool, QDOT_IF, 3, args);
 }
 
-/* The relation where c holds (`chosen`) or does not, and nothing elsewhere: a - 1 > 0 becomes if(c, a - 1, 1) > 0. */
+/* A relation required only where c holds (`chosen`) or does not: a - 1 > 0 becomes if(c, a - 1, 1) > 0. */
 static qdot_expr
-where_chosen(qdot_pool *pool, qdot_expr relation, qdot_expr c, bool chosen)
+relation_restricted_to_case(qdot_pool *pool, qdot_expr relation, qdot_expr c, bool chosen)
 {
-    const qdot_expr u = qdot_conditions_nonzero(pool, relation), opposite = opposite_of(pool, c),
+    const qdot_expr u = qdot_conditions_nonzero(pool, relation), opposite = opposite_relation(pool, c),
                     here = chosen ? c : opposite;
     qdot_expr gap = u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, relation, 1), qdot_expr_arg(pool, relation, 0));
 
-    if (opposite != QDOT_NIL && follows_from(pool, relation, here))
+    if (opposite != QDOT_NIL && relation_follows_from(pool, relation, here))
         return QDOT_TRUE;
-    if (opposite != QDOT_NIL && u == QDOT_NIL && follows_from(pool, opposite_of(pool, relation), here))
+    if (opposite != QDOT_NIL && u == QDOT_NIL && relation_follows_from(pool, opposite_relation(pool, relation), here))
         return chosen ? opposite : c;
-    gap = gap_where_chosen(pool, gap, c, chosen);
+    gap = gap_restricted_to_case(pool, gap, c, chosen);
     gap = gap == QDOT_NIL || u == QDOT_NIL ? gap : qdot_fun1(pool, QDOT_ABS, gap);
     return gap == QDOT_NIL ? QDOT_NIL : qdot_rel(pool, qdot_expr_node(pool, relation)->op, QDOT_ZERO, gap);
 }
 
-static qdot_expr conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part);
+static qdot_expr conditions_of_nodes(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part);
 
-/* The set with the conditions of both values that `choice`, if(...), may take. */
+/* The set of conditions with those of both values that the function if(...), `choice`, may take. */
 static qdot_expr
-conditions_of_choice(qdot_pool *pool, qdot_expr set, qdot_expr choice, qdot_expr x, conditions_of_part *of_part)
+add_conditions_of_if(qdot_pool *pool, qdot_expr set, qdot_expr choice, qdot_expr x, conditions_of_part *of_part)
 {
     const qdot_expr c = qdot_expr_arg(pool, choice, 0);
 
     for (uint32_t k = 1; k <= 2; k++) {
-        const qdot_expr inner = conditions_of_parts(pool, qdot_expr_arg(pool, choice, k), x, of_part);
+        const qdot_expr inner = conditions_of_nodes(pool, qdot_expr_arg(pool, choice, k), x, of_part);
 
         if (inner == QDOT_FALSE)
             set = qdot_conditions_and(
-                pool, set, qdot_rel(pool, QDOT_LT, QDOT_ZERO, gap_where_chosen(pool, QDOT_MINUS_ONE, c, k == 1)));
+                pool, set, qdot_rel(pool, QDOT_LT, QDOT_ZERO, gap_restricted_to_case(pool, QDOT_MINUS_ONE, c, k == 1)));
         for (uint32_t i = 0; inner != QDOT_NIL && inner != QDOT_FALSE && i < qdot_expr_count(pool, inner); i++)
-            set = qdot_conditions_and(pool, set, where_chosen(pool, qdot_expr_arg(pool, inner, i), c, k == 1));
+            set = qdot_conditions_and(pool, set, relation_restricted_to_case(pool, qdot_expr_arg(pool, inner, i), c, k == 1));
     }
     return set;
 }
 
-/* The conditions of all nodes of f that contain x (nil: all), of what if(...) chooses where it does. */
+/* The conditions of all nodes of f that contain x (nil: all nodes); those inside an if(...) only for their case. */
 static qdot_expr
-conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part)
+conditions_of_nodes(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part)
 {
     qdot_expr set = QDOT_NIL;
     qdot_walk w;
@@ -151,7 +151,7 @@ conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
     if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (w.n > 0)
-        qdot_walk_set(&w, f, true); /* f is defined only where this node is */
+        qdot_walk_set(&w, f, true); /* record that f is defined only where this node is */
     for (size_t i = w.n; i-- > 0;) {
         const bool choice = qdot_expr_is_function(pool, w.at[i], QDOT_IF);
 
@@ -163,7 +163,7 @@ conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
             continue;
         set = of_part(pool, set, w.at[i], x);
         if (qdot_expr_is_function(pool, w.at[i], QDOT_IF))
-            set = conditions_of_choice(pool, set, w.at[i], x, of_part);
+            set = add_conditions_of_if(pool, set, w.at[i], x, of_part);
     }
     qdot_walk_end(&w);
     return set;
@@ -172,27 +172,27 @@ conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
 qdot_expr
 qdot_conditions_of_function(qdot_pool *pool, qdot_expr function)
 {
-    return conditions_of_function(pool, QDOT_NIL, function);
+    return add_conditions_of_function(pool, QDOT_NIL, function);
 }
 
 static qdot_expr
-domain_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
+add_domain_of_node(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
 {
     if (qdot_expr_kind(pool, part) == QDOT_FUN)
-        return conditions_of_function(pool, set, part);
-    return qdot_expr_kind(pool, part) == QDOT_PROD ? conditions_of_powers(pool, set, part, x) : set;
+        return add_conditions_of_function(pool, set, part);
+    return qdot_expr_kind(pool, part) == QDOT_PROD ? add_conditions_of_powers(pool, set, part, x) : set;
 }
 
 qdot_expr
 qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
 {
-    return conditions_of_parts(pool, f, x, domain_of_part);
+    return conditions_of_nodes(pool, f, x, add_domain_of_node);
 }
 
 /* --- where its divisors vanish -------------------------------------------------------- */
 
 static qdot_expr
-conditions_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)
+add_condition_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)
 {
     qdot_expr u = qdot_expr_count(pool, node) == 0 ? QDOT_NIL : qdot_expr_arg(pool, node, 0);
 
@@ -206,10 +206,10 @@ conditions_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)
 }
 
 static qdot_expr
-divisors_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
+add_divisors_of_node(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
 {
     if (qdot_expr_kind(pool, part) == QDOT_FUN)
-        return conditions_of_pole(pool, set, part);
+        return add_condition_of_pole(pool, set, part);
     if (qdot_expr_kind(pool, part) != QDOT_PROD)
         return set;
     for (uint32_t k = 1; k < qdot_expr_count(pool, part); k += 2) {
@@ -225,7 +225,7 @@ divisors_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
 qdot_expr
 qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
 {
-    return conditions_of_parts(pool, f, x, divisors_of_part);
+    return conditions_of_nodes(pool, f, x, add_divisors_of_node);
 }
 
 /* --- powers of what may be negative --------------------------------------------------------------- */

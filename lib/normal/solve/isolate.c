@@ -13,7 +13,7 @@
 enum { BITS = 128, SIZES = 5, STEPS = 10 };
 
 static bool
-isolate_value(void *user, qdot_expr atom, arb_t value, slong prec)
+value_of_unknown(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const qdot_isolate *s = user;
 
@@ -74,7 +74,7 @@ qdot_isolate_end(qdot_isolate *s)
 /* Evaluate about x0, each component within radius (NULL: at x0 itself); false where something has no
  * value or may jump. */
 static bool
-isolate_evaluate(qdot_isolate *s, const double *x0, const double *radius)
+evaluate_in_box(qdot_isolate *s, const double *x0, const double *radius)
 {
     const qdot_walk *w = &s->ball.walk;
 
@@ -83,7 +83,7 @@ isolate_evaluate(qdot_isolate *s, const double *x0, const double *radius)
         if (radius != NULL)
             mag_set_d(arb_radref(s->at + i), radius[i]);
     }
-    qdot_ball_eval(&s->ball, BITS, isolate_value, s);
+    qdot_ball_eval(&s->ball, BITS, value_of_unknown, s);
     for (size_t i = 0; i < s->n + s->n * s->n; i++)
         if (qdot_ball_get(&s->ball, s->f[i]) == NULL)
             return false;
@@ -99,9 +99,9 @@ isolate_evaluate(qdot_isolate *s, const double *x0, const double *radius)
     return true;
 }
 
-/* C = A^-1 by Gauss and Jordan with the largest pivot; false where A is singular in double. */
+/* Compute C = A^-1 by Gauss-Jordan elimination with the largest pivot; false if A is singular in doubles. */
 static bool
-invert(size_t n, double *A, double *C)
+invert_matrix(size_t n, double *A, double *C)
 {
     memset(C, 0, n * n * sizeof *C);
     for (size_t i = 0; i < n; i++)
@@ -137,23 +137,23 @@ invert(size_t n, double *A, double *C)
 }
 
 static double
-mid(arb_srcptr v)
+midpoint(arb_srcptr v)
 {
     return arf_get_d(arb_midref(v), ARF_RND_NEAR);
 }
 
-/* Find the Newton step y = C f(x0), and C, the inverse of the derivatives. */
+/* Compute the Newton step y = C f(x0), with C the inverse of the Jacobian. */
 static bool
-newton_step(qdot_isolate *s, const double *x0)
+compute_newton_step(qdot_isolate *s, const double *x0)
 {
     size_t n = s->n;
     arb_t c;
 
-    if (!isolate_evaluate(s, x0, NULL))
+    if (!evaluate_in_box(s, x0, NULL))
         return false;
     for (size_t i = 0; i < n * n; i++)
-        s->work[i] = mid(qdot_ball_get(&s->ball, s->f[n + i]));
-    if (!invert(n, s->work, s->C))
+        s->work[i] = midpoint(qdot_ball_get(&s->ball, s->f[n + i]));
+    if (!invert_matrix(n, s->work, s->C))
         return false;
     arb_init(c);
     for (size_t i = 0; i < n; i++) {
@@ -170,32 +170,32 @@ newton_step(qdot_isolate *s, const double *x0)
 /* Newton's steps from x0 until they end at rounding; s->y and C at the last x0. Where they hardly shorten, x0 is near a
  * multiple zero or none. */
 static bool
-newton_to_end(qdot_isolate *s, double *x0)
+iterate_newton(qdot_isolate *s, double *x0)
 {
     double before = INFINITY;
 
     for (int k = 0; k <= STEPS; k++) {
         double length = 0;
 
-        if (!newton_step(s, x0))
+        if (!compute_newton_step(s, x0))
             return false;
         for (size_t i = 0; i < s->n; i++)
-            length = fmax(length, fabs(mid(s->y + i)) / fmax(fabs(x0[i]), 1e-3));
+            length = fmax(length, fabs(midpoint(s->y + i)) / fmax(fabs(x0[i]), 1e-3));
         if (k == STEPS || (k >= 3 && !(length > 2 * DBL_EPSILON && length < before / 4)))
             break;
         for (size_t i = 0; i < s->n; i++)
-            x0[i] -= mid(s->y + i);
+            x0[i] -= midpoint(s->y + i);
         before = length;
     }
     return true;
 }
 
-/* Whether the Krawczyk image K lies inside the box x0 +- radius; s->z is K - x0. */
+/* Whether the Krawczyk image K of the box x0 +- radius lies inside the box; s->z is K - x0. */
 static bool
-is_inside(qdot_isolate *s, const double *x0, const double *radius)
+image_is_inside(qdot_isolate *s, const double *x0, const double *radius)
 {
     size_t n = s->n;
-    bool inside = isolate_evaluate(s, x0, radius);
+    bool inside = evaluate_in_box(s, x0, radius);
     arb_t c, d, r;
 
     arb_init(c);
@@ -231,14 +231,14 @@ qdot_isolate_prove(qdot_isolate *s, double *x0, double *radius)
     size_t n = s->n;
     double grow = 1;
 
-    if (!newton_to_end(s, x0))
+    if (!iterate_newton(s, x0))
         return false;
     for (int size = 0; size < SIZES; size++, grow *= 1e3) {
         double *r = radius;
 
         for (size_t i = 0; i < n; i++)
-            r[i] = grow * (4 * fabs(mid(s->y + i)) + 1e-14 * fmax(fabs(x0[i]), 1e-3));
-        if (!is_inside(s, x0, r))
+            r[i] = grow * (4 * fabs(midpoint(s->y + i)) + 1e-14 * fmax(fabs(x0[i]), 1e-3));
+        if (!image_is_inside(s, x0, r))
             continue;
         for (size_t i = 0; i < n; i++) {
             mag_t most;

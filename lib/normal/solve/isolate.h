@@ -21,11 +21,11 @@ typedef struct {
     qdot_pool *pool;
     size_t n;
     const qdot_expr *x; /* [n] the unknowns; borrowed */
-    qdot_expr *f;       /* [n + n * n] f, then the Jacobian df_i/dx_j by rows */
+    qdot_expr *f;       /* [n + n * n] functions f, then the Jacobian df_i/dx_j by rows */
     qdot_ball ball;
     arb_ptr at;         /* [n] present values of x as balls */
-    arb_ptr y, z;       /* [n] scratch */
-    double *C, *work;   /* [n x n] approximate inverse of the Jacobian; scratch */
+    arb_ptr y, z;       /* [n] working memory */
+    double *C, *work;   /* [n x n] approximate inverse of the Jacobian; working memory */
     double *unique;     /* [n] after a proof: |x_i - x0_i| within which the zero is unique */
 } qdot_isolate;
 

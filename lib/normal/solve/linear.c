@@ -17,12 +17,12 @@
 #include "normal/solve/cramer.h"
 
 #define WORK 30000000
-/* An expanded solution is not simplified if it is this many times longer than Cramer's. */
+/* An expanded solution is not simplified if it is this many times longer than that by Cramer's rule. */
 #define TOO_LONG 4
 
 /* Write the rows of [A b] as polynomials, each multiplied by the common denominator of its entries. */
 static void
-rows_fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
+fill_rows(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
 {
     fmpz_mpoly_t all, g, k;
 
@@ -54,7 +54,7 @@ rows_fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
     fmpz_mpoly_clear(k, f->ctx);
 }
 
-/* Whether p is zero modulo the rules. */
+/* Whether the polynomial p is zero modulo the rewriting rules of the field. */
 static bool
 is_zero_by_rules(qdot_field *f, const fmpz_mpoly_t p)
 {
@@ -69,7 +69,7 @@ is_zero_by_rules(qdot_field *f, const fmpz_mpoly_t p)
     return zero;
 }
 
-/* Charge a product to the budget: coefficients of several words count by their number of words. */
+/* Charge a product of polynomials to the budget; coefficients count by their numbers of machine words. */
 static bool
 charge_product(qdot_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
@@ -107,9 +107,9 @@ swap_rows(qdot_field *f, fmpz_mpoly_struct *m, uint32_t n, uint32_t i, uint32_t 
         fmpz_mpoly_swap(m + i * (n + 1) + j, m + k * (n + 1) + j, f->ctx);
 }
 
-/* The row, from k on, with the shortest non-zero entry in column k; n if all vanish. */
+/* The row, among those from k on, with the shortest non-zero entry in column k; n if all are zero. */
 static uint32_t
-find_pivot(qdot_field *f, const fmpz_mpoly_struct *m, uint32_t n, uint32_t k)
+find_pivot_row(qdot_field *f, const fmpz_mpoly_struct *m, uint32_t n, uint32_t k)
 {
     uint32_t best = n;
 
@@ -127,7 +127,7 @@ find_pivot(qdot_field *f, const fmpz_mpoly_struct *m, uint32_t n, uint32_t k)
 /* Gauss-Jordan form of Bareiss: after step k every column up to k is diagonal with the
  * same entry, the leading minor; at the end x_i = m[i][n] / m[i][i]. */
 static bool
-eliminate(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, uint32_t *pivot)
+eliminate_unknowns(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, uint32_t *pivot)
 {
     fmpz_mpoly_t before, x;
     bool regular = true;
@@ -136,7 +136,7 @@ eliminate(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, uint32_t *pivot)
     fmpz_mpoly_init(x, f->ctx);
     fmpz_mpoly_one(before, f->ctx);
     for (uint32_t k = 0; k < n && regular && qdot_field_goes(f); k++) {
-        uint32_t row = find_pivot(f, m, n, k);
+        uint32_t row = find_pivot_row(f, m, n, k);
         const fmpz_mpoly_struct *p = m + k * (n + 1) + k;
 
         regular = row < n;
@@ -185,8 +185,8 @@ solve_in_field(qdot_field *f, uint32_t n, const qdot_expr *e, qdot_expr *x,
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < n * (n + 1); i++)
         fmpz_mpoly_init(m + i, f->ctx);
-    rows_fill(f, n, m, e);
-    regular = eliminate(f, n, m, pivot);
+    fill_rows(f, n, m, e);
+    regular = eliminate_unknowns(f, n, m, pivot);
     if (f->state == QDOT_FIELD_OVER)
         status = qdot_fail(QDOT_ELIMIT,
                            "past the work budget: more than %ld terms in a system of "
@@ -258,9 +258,9 @@ solve(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b, qdot_
     return status;
 }
 
-/* The number of operations in all entries. */
+/* The number of operations in all entries e [n]. */
 static uint64_t
-operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
+count_operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
 {
     uint64_t sum = 0;
 
@@ -294,15 +294,15 @@ simplify_all(qdot_pool *pool, uint32_t n, qdot_expr *e, const qdot_facts *facts)
  * asked where that is longer than what was given: multiplied out, long entries make a solution
  * too long to be found or to be read. */
 static qdot_status
-simplest(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
-         qdot_expr *x, const qdot_facts *facts, qdot_status status)
+choose_simplest_solution(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
+                         qdot_expr *x, const qdot_facts *facts, qdot_status status)
 {
     qdot_expr y[QDOT_CRAMER_MOST];
     bool known = status == QDOT_OK, asked = false;
 
     if (n <= QDOT_CRAMER_MOST && (known || status == QDOT_ELIMIT))
-        asked = !known || operations(pool, n, x) >
-                              operations(pool, n * n, A) + operations(pool, n, b);
+        asked = !known || count_operations(pool, n, x) >
+                              count_operations(pool, n * n, A) + count_operations(pool, n, b);
     if (asked && !known) {
         qdot_decision d;
 
@@ -344,7 +344,7 @@ struct system {
     qdot_status status;
 };
 
-/* Solve one block: the m unknowns whose `block` is k. */
+/* Solve block number k of the system: the m unknowns whose entry in `block` is k. */
 static qdot_status
 solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
 {
@@ -365,7 +365,7 @@ solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
                 A[at++] = s->A[i * s->n + j];
     }
     status = solve(s->pool, m, A, b, x, &pivot, s->facts);
-    status = simplest(s->pool, m, A, b, x, s->facts, status);
+    status = choose_simplest_solution(s->pool, m, A, b, x, s->facts, status);
     for (uint32_t i = 0, to = 0; i < s->n; i++) {
         if (block[i] != k)
             continue;
@@ -377,7 +377,7 @@ solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
     return status;
 }
 
-/* Find block[i], the first unknown to which i is coupled, directly or through others. */
+/* Set block[i] to the first unknown to which unknown i is coupled, directly or through others. */
 static void
 find_blocks(uint32_t n, const qdot_expr *A, uint32_t *block)
 {
@@ -395,7 +395,7 @@ find_blocks(uint32_t n, const qdot_expr *A, uint32_t *block)
 }
 
 static void
-solve_system(void *user)
+solve_system_task(void *user)
 {
     struct system *s = user;
     uint32_t *block = qdot_malloc((s->n + 1) * sizeof *block);
@@ -421,6 +421,6 @@ qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_ex
 {
     struct system s = {pool, n, A, b, x, pivot, facts, QDOT_OK};
 
-    QDOT_TRY(qdot_flint_run(pool, solve_system, &s));
+    QDOT_TRY(qdot_flint_run(pool, solve_system_task, &s));
     return s.status;
 }

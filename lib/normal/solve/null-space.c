@@ -16,7 +16,7 @@
 
 enum { WORK = 40000000 };
 
-/* The coefficient of one monomial in one column. */
+/* The coefficient of one monomial (in coordinates and velocities) in one column of a row. */
 typedef struct {
     const ulong *key; /* [gens] exponents of the monomial */
     slong gens;
@@ -28,25 +28,25 @@ typedef struct {
     qdot_pool *pool;
     qdot_field *f;
     size_t n;
-    bool *moving;       /* [gens] the generator varies: it is not made of parameters only */
+    bool *moving;       /* [gens] whether the variable (generator) varies: it is not made of parameters only */
     qdot_ratio *row;    /* [n] the present row */
     qdot_ratio *pivots; /* [rank x n] rows in reduced echelon form, 1 at the pivot */
-    size_t *column;     /* [rank] pivot column of each row */
+    size_t *column;     /* [rank] the pivot column of each reduced row */
     size_t rank;
 } elimination;
 
-/* Compare two monomials for sorting; without generators there is only one, without a key. */
+/* Compare two monomials for sorting; in a field without variables there is only one, without a key. */
 static int
-key_order(const piece *x, const piece *y)
+compare_monomials(const piece *x, const piece *y)
 {
     return x->gens > 0 ? memcmp(x->key, y->key, (size_t)x->gens * sizeof *x->key) : 0;
 }
 
 static int
-by_key(const void *a, const void *b)
+compare_pieces(const void *a, const void *b)
 {
     const piece *x = a, *y = b;
-    int order = key_order(x, y);
+    int order = compare_monomials(x, y);
 
     return order != 0 ? order : x->column < y->column ? -1 : x->column > y->column;
 }
@@ -57,9 +57,9 @@ is_zero(const elimination *e, const qdot_ratio *r)
     return fmpz_mpoly_is_zero(r->n, e->f->ctx);
 }
 
-/* Subtract c times b from a, [n] each. */
+/* Subtract c times the row b from the row a, [n] each. */
 static void
-subtract(elimination *e, qdot_ratio *a, const qdot_ratio *c, const qdot_ratio *b)
+subtract_multiple(elimination *e, qdot_ratio *a, const qdot_ratio *c, const qdot_ratio *b)
 {
     qdot_ratio factor, product;
 
@@ -77,7 +77,7 @@ subtract(elimination *e, qdot_ratio *a, const qdot_ratio *c, const qdot_ratio *b
     qdot_ratio_clear(e->f, &product);
 }
 
-/* Reduce the present row by the pivots; if it does not vanish it becomes a new pivot. */
+/* Reduce the present row by the pivot rows; if it does not become zero it is a new pivot row. */
 static void
 reduce_by_pivots(elimination *e)
 {
@@ -87,7 +87,7 @@ reduce_by_pivots(elimination *e)
 
     for (size_t k = 0; k < e->rank && qdot_field_goes(f); k++)
         if (!is_zero(e, &e->row[e->column[k]]))
-            subtract(e, e->row, &e->row[e->column[k]], e->pivots + k * e->n);
+            subtract_multiple(e, e->row, &e->row[e->column[k]], e->pivots + k * e->n);
     while (at < e->n && is_zero(e, &e->row[at]))
         at++;
     if (at == e->n || !qdot_field_goes(f))
@@ -103,23 +103,23 @@ reduce_by_pivots(elimination *e)
     qdot_ratio_clear(f, &head);
     for (size_t k = 0; k < e->rank && qdot_field_goes(f); k++)
         if (!is_zero(e, &e->pivots[k * e->n + at]))
-            subtract(e, e->pivots + k * e->n, &e->pivots[k * e->n + at], fresh);
+            subtract_multiple(e, e->pivots + k * e->n, &e->pivots[k * e->n + at], fresh);
     e->column[e->rank++] = at;
 }
 
-/* Add the equations of pieces [n], one for each monomial. */
+/* Add the equations of the pieces [n], one for each monomial, whose coefficients must vanish separately. */
 static qdot_status
-absorb_pieces(elimination *e, piece *pieces, size_t n)
+add_equations_of_pieces(elimination *e, piece *pieces, size_t n)
 {
     qdot_field *f = e->f;
 
     if (n > 1)
-        qsort(pieces, n, sizeof *pieces, by_key);
+        qsort(pieces, n, sizeof *pieces, compare_pieces);
     for (size_t a = 0, b; a < n && e->rank < e->n && qdot_field_goes(f); a = b) {
         QDOT_TRY(qdot_interrupt_check());
         for (size_t j = 0; j < e->n; j++)
             fmpz_mpoly_zero(e->row[j].n, f->ctx), fmpz_mpoly_one(e->row[j].d, f->ctx);
-        for (b = a; b < n && key_order(&pieces[a], &pieces[b]) == 0; b++)
+        for (b = a; b < n && compare_monomials(&pieces[a], &pieces[b]) == 0; b++)
             fmpz_mpoly_set(e->row[pieces[b].column].n, pieces[b].coefficient, f->ctx);
         reduce_by_pivots(e);
     }
@@ -128,7 +128,7 @@ absorb_pieces(elimination *e, piece *pieces, size_t n)
 
 /* Find the least common multiple of the denominators of a row. */
 static void
-common_denominator(elimination *e, const qdot_expr *row, fmpz_mpoly_t lcm)
+find_common_denominator(elimination *e, const qdot_expr *row, fmpz_mpoly_t lcm)
 {
     qdot_field *f = e->f;
     fmpz_mpoly_t g;
@@ -148,9 +148,9 @@ common_denominator(elimination *e, const qdot_expr *row, fmpz_mpoly_t lcm)
     fmpz_mpoly_clear(g, f->ctx);
 }
 
-/* Split a row of E into one equation for each monomial. */
+/* Split a row of the matrix E into one equation for each monomial. */
 static qdot_status
-take_row(elimination *e, const qdot_expr *row)
+split_row(elimination *e, const qdot_expr *row)
 {
     qdot_field *f = e->f;
     qdot_groups *groups = qdot_calloc(e->n, sizeof *groups);
@@ -162,14 +162,14 @@ take_row(elimination *e, const qdot_expr *row)
         return QDOT_ENOMEM;
     fmpz_mpoly_init(lcm, f->ctx);
     fmpz_mpoly_init(p, f->ctx);
-    common_denominator(e, row, lcm);
+    find_common_denominator(e, row, lcm);
     for (size_t j = 0; j < e->n && status == QDOT_OK && qdot_field_goes(f); j++) {
         const qdot_ratio *r = qdot_field_value(f, row[j]);
 
         if (fmpz_mpoly_is_zero(r->n, f->ctx))
             continue;
         if (!fmpz_mpoly_divides(p, lcm, r->d,
-                                f->ctx)) { /* not divisible: the quotient was reduced by relations */
+                                f->ctx)) { /* not divisible, because the quotient was reduced by relations */
             qdot_ratio x, y;
 
             qdot_ratio_init(f, &x);
@@ -194,7 +194,7 @@ take_row(elimination *e, const qdot_expr *row)
         }
     }
     if (status == QDOT_OK && qdot_field_goes(f))
-        status = absorb_pieces(e, pieces.at, pieces.n);
+        status = add_equations_of_pieces(e, pieces.at, pieces.n);
     for (size_t j = 0; j < e->n; j++)
         qdot_factor_ungroup(f, &groups[j]);
     fmpz_mpoly_clear(lcm, f->ctx);
@@ -204,9 +204,9 @@ take_row(elimination *e, const qdot_expr *row)
     return status;
 }
 
-/* Make a null vector for each column without a pivot. */
+/* Make a vector of the null space for each column without a pivot. */
 static qdot_status
-vectors(elimination *e, qdot_expr **basis, size_t *m)
+make_null_vectors(elimination *e, qdot_expr **basis, size_t *m)
 {
     qdot_expr *v = qdot_calloc(e->n * (e->n - e->rank) + 1, sizeof *v);
     size_t count = 0;
@@ -263,10 +263,10 @@ elimination_end(elimination *e)
     qdot_free(e->moving);
 }
 
-/* Prepare E, and split each row by its roots into rows without roots. */
+/* Prepare the matrix E, and split each row by its roots into rows without roots. */
 static qdot_status
-rows_take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
-                qdot_root_parts *parts)
+split_rows_by_roots(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
+                    qdot_root_parts *parts)
 {
     qdot_expr *row = qdot_malloc((n + 1) * sizeof *row);
     size_t done = 0;
@@ -296,7 +296,7 @@ null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr
 {
     qdot_root_parts parts = {0};
     elimination e = {.pool = pool, .n = n};
-    qdot_status status = rows_take_apart(pool, rows, n, E, &parts);
+    qdot_status status = split_rows_by_roots(pool, rows, n, E, &parts);
     qdot_field f;
 
     *basis = NULL;
@@ -310,9 +310,9 @@ null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr
     if (qdot_field_goes(&f))
         status = elimination_begin(&e);
     for (size_t i = 0; i < parts.entries.n && status == QDOT_OK && qdot_field_goes(&f); i += n)
-        status = take_row(&e, parts.entries.at + i);
+        status = split_row(&e, parts.entries.at + i);
     if (status == QDOT_OK && qdot_field_goes(&f))
-        status = vectors(&e, basis, m);
+        status = make_null_vectors(&e, basis, m);
     if (status == QDOT_OK && f.state == QDOT_FIELD_FAILED)
         status = f.status;
     if (status == QDOT_ELIMIT || (status == QDOT_OK && !qdot_field_goes(&f)))
@@ -333,7 +333,7 @@ struct relations {
 };
 
 static void
-find_relations(void *user)
+find_null_space_task(void *user)
 {
     struct relations *x = user;
 
@@ -348,7 +348,7 @@ qdot_null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
 
     *basis = NULL;
     *m = 0;
-    QDOT_TRY(qdot_flint_run(pool, find_relations, &x));
+    QDOT_TRY(qdot_flint_run(pool, find_null_space_task, &x));
     *basis = x.basis;
     *m = x.m;
     return x.status;

@@ -18,7 +18,7 @@
 #define WORK 40000000
 #define MOVING (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
 
-/* Mark the variables that must not occur in the factor. */
+/* Mark the variables that must not occur in the factor between the two equations. */
 static bool *
 moving_variables(const qdot_field *f)
 {
@@ -30,9 +30,9 @@ moving_variables(const qdot_field *f)
     return by;
 }
 
-/* Whether a velocity occurs inside another generator, as in sin(q'). */
+/* Whether a velocity occurs inside another function or root of the field, as in sin(q'). */
 static bool
-hidden_motion(const qdot_field *f, const bool *by)
+has_velocity_inside_function(const qdot_field *f, const bool *by)
 {
     for (slong v = 0; v < f->n; v++)
         if (!by[v] && (qdot_expr_node(f->pool, f->gen[v].expr)->holds & MOVING))
@@ -41,7 +41,7 @@ hidden_motion(const qdot_field *f, const bool *by)
 }
 
 static const fmpz_mpoly_struct *
-same_key(const qdot_field *f, const qdot_groups *groups, const ulong *key)
+find_group_by_key(const qdot_field *f, const qdot_groups *groups, const ulong *key)
 {
     for (slong i = 0; i < groups->n; i++) {
         bool same = true;
@@ -57,8 +57,8 @@ same_key(const qdot_field *f, const qdot_groups *groups, const ulong *key)
 /* a = factor * b with numerators and denominators free of velocities; *moving: there
  * are any. */
 static qdot_status
-divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *factor,
-       bool *proved, bool *moving)
+find_constant_ratio(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *factor,
+                    bool *proved, bool *moving)
 {
     bool *by = moving_variables(f);
     qdot_groups ga = {0}, gb = {0};
@@ -68,7 +68,7 @@ divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *fact
     *proved = *moving = false;
     if (by == NULL)
         return QDOT_ENOMEM;
-    if (hidden_motion(f, by)) {
+    if (has_velocity_inside_function(f, by)) {
         qdot_free(by);
         return QDOT_OK;
     }
@@ -96,7 +96,7 @@ divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *fact
                 fmpz_mpoly_length(gb.poly + at, f->ctx))
                 at = i;
         }
-        match = same_key(f, &ga, gb.key + at * f->n);
+        match = find_group_by_key(f, &ga, gb.key + at * f->n);
         if (match != NULL) {
             qdot_field_mul(f, factor->n, match, b->d);
             qdot_field_mul(f, factor->d, gb.poly + at, a->d);
@@ -118,7 +118,7 @@ divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *fact
 }
 
 static bool
-nonzero_factors(qdot_field *f, const fmpz_mpoly_t p)
+factors_are_nonzero(qdot_field *f, const fmpz_mpoly_t p)
 {
     qdot_factors factors;
     bool nonzero = qdot_factor(f, &factors, p) == QDOT_OK;
@@ -132,9 +132,9 @@ nonzero_factors(qdot_field *f, const fmpz_mpoly_t p)
     return nonzero;
 }
 
-/* The value of an atom from a LIST of equations atom = number. */
+/* The value of a symbol from a LIST of equations symbol = number, as a callback. */
 static bool
-point_value_of_motion(void *user, qdot_expr atom, arb_t value, slong prec)
+value_from_list(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const qdot_ball *b = ((void **)user)[0];
     qdot_expr at = *(qdot_expr *)((void **)user)[1];
@@ -151,9 +151,9 @@ point_value_of_motion(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* Report the point with a single motion, and the values of a and b there. */
+/* Report the point with only one set of velocities, and the values of a and b there. */
 static qdot_status
-proportion_tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *d)
+report_point(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *d)
 {
     uint32_t n = qdot_expr_count(pool, d->at), kept = 0;
     qdot_expr *rows = qdot_malloc((n + 1) * sizeof *rows), both[2] = {a, b};
@@ -174,7 +174,7 @@ proportion_tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot
     if (d->at == QDOT_NIL)
         return qdot_pool_check(pool);
     QDOT_TRY(qdot_ball_begin(&ball, pool, 2, both));
-    qdot_ball_eval(&ball, 64, point_value_of_motion, user);
+    qdot_ball_eval(&ball, 64, value_from_list, user);
     x = qdot_ball_get(&ball, a);
     d->left = x == NULL ? 0 : arf_get_d(arb_midref(x), ARF_RND_NEAR);
     x = qdot_ball_get(&ball, b);
@@ -219,21 +219,21 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
     qdot_free(from);
     if (left == QDOT_NIL || right == QDOT_NIL)
         return qdot_pool_check(pool);
-    /* conditions on velocities would have to hold for both: not taken */
+    /* do not use facts with relations or conditions on velocities: these would have to hold for both sets of velocities */
     if (facts == NULL || facts->n_relations == 0)
         status = qdot_decide_equal(pool, left, right, facts, &inner);
     else
         inner.verdict = QDOT_UNDECIDED;
     if (status == QDOT_OK && inner.verdict == QDOT_REFUTED) {
         *d = inner;
-        status = proportion_tell(pool, a, b, atoms, d);
+        status = report_point(pool, a, b, atoms, d);
     }
     return status;
 }
 
 /* Refute that a and b are proportional, if one vanishes at a point where the other does not. */
 static qdot_status
-refute_by_zeros(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision *d)
+refute_by_zeros_of_one(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision *d)
 {
     for (int side = 0; side < 2 && d->verdict == QDOT_UNDECIDED; side++) {
         qdot_expr zero = side == 0 ? a : b, other = side == 0 ? b : a;
@@ -253,8 +253,8 @@ refute_by_zeros(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision *d)
 }
 
 static qdot_status
-decide(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
-       qdot_decision *d, qdot_expr *factor, bool *may_vanish)
+decide_ratio(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
+             qdot_decision *d, qdot_expr *factor, bool *may_vanish)
 {
     bool zero_a, zero_b, proved = false, moving = false;
     qdot_status status = QDOT_OK;
@@ -285,9 +285,9 @@ decide(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
         qdot_field_cancelled(&f, &x, e[0]);
         qdot_field_cancelled(&f, &y, e[1]);
         qdot_ratio_init(&f, &k);
-        status = divide(&f, &x, &y, &k, &proved, &moving);
+        status = find_constant_ratio(&f, &x, &y, &k, &proved, &moving);
         if (status == QDOT_OK && proved) {
-            *may_vanish = !nonzero_factors(&f, k.n) || !nonzero_factors(&f, k.d);
+            *may_vanish = !factors_are_nonzero(&f, k.n) || !factors_are_nonzero(&f, k.d);
             *factor = qdot_field_ratio_expr(&f, &k);
         }
         qdot_ratio_clear(&f, &x);
@@ -316,7 +316,7 @@ decide(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
         }
         *factor = QDOT_NIL;
         *may_vanish = false;
-        return refute_by_zeros(pool, a, b, d);
+        return refute_by_zeros_of_one(pool, a, b, d);
     }
     return refute(pool, a, b, facts, d);
 }
@@ -332,11 +332,11 @@ struct proportion {
 };
 
 static void
-decide_proportion(void *user)
+decide_proportion_task(void *user)
 {
     struct proportion *x = user;
 
-    x->status = decide(x->pool, x->a, x->b, x->facts, &x->d, &x->factor, &x->may_vanish);
+    x->status = decide_ratio(x->pool, x->a, x->b, x->facts, &x->d, &x->factor, &x->may_vanish);
 }
 
 qdot_status
@@ -345,7 +345,7 @@ qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
                          bool *may_vanish)
 {
     struct proportion x = {.pool = pool, .a = a, .b = b, .facts = facts};
-    qdot_status status = qdot_flint_run(pool, decide_proportion, &x);
+    qdot_status status = qdot_flint_run(pool, decide_proportion_task, &x);
 
     *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
     *factor = status == QDOT_OK ? x.factor : QDOT_NIL;

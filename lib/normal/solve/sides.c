@@ -20,14 +20,14 @@ qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
 
 /* --- switching functions --------------------------------------------------------------------------- */
 
-/* The values of a switching function for left > right, left < right and left = right. */
+/* A function that switches at left = right (|u|, sign, max, min, if): its values on either side and in between. */
 typedef struct {
     qdot_expr left, right;
     qdot_expr above, below, equal; /* value for left > right, <, =; nil: not a function of one difference */
 } chooser;
 
 static chooser
-chooser_of(qdot_pool *pool, qdot_expr e)
+read_switch(qdot_pool *pool, qdot_expr e)
 {
     const chooser none = {QDOT_NIL, QDOT_NIL, QDOT_NIL, QDOT_NIL, QDOT_NIL};
     qdot_expr a, b, c;
@@ -55,7 +55,7 @@ chooser_of(qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* 1 if v = c u with c > 0, -1 if c < 0, both proved from the form of v/u; else 0. */
+/* The sign of c in v = c u, if it is proved from the form of v/u: 1 or -1; else 0. */
 static int
 sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
 {
@@ -66,9 +66,9 @@ sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
 
 /* --- replacing them on either side ------------------------------------------------------------------ */
 
-/* Collect the functions of e that switch by the sign of u in s->choice; with[2]: which sides agree at u = 0. */
+/* Collect in s->choice the functions of e that switch where u does; with[2]: which sides agree with u = 0. */
 static qdot_status
-collect(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
+collect_switches(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
 {
     qdot_pool *pool = s->pool;
     qdot_vec(chooser) found = {0};
@@ -79,7 +79,7 @@ collect(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
     QDOT_TRY(qdot_walk_begin(pool, e, &w));
     status = qdot_pool_check(pool);
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
-        chooser one = chooser_of(pool, w.at[i]);
+        chooser one = read_switch(pool, w.at[i]);
         int sign = one.above == QDOT_NIL ? 0 : sign_of_ratio(pool, qdot_sub(pool, one.left, one.right), u);
 
         status = qdot_pool_check(pool);
@@ -111,9 +111,9 @@ collect(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
     return status;
 }
 
-/* Add the two sides left > right and left < right of a switch. */
+/* Add the two sides of a switch: left > right and left < right. */
 static qdot_status
-two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
+add_two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
 {
     qdot_pool *pool = s->pool;
     qdot_expr u = qdot_sub(pool, by->left, by->right), relation;
@@ -121,11 +121,11 @@ two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
     qdot_status status = qdot_pool_check(pool);
 
     QDOT_TRY(status);
-    QDOT_TRY(collect(s, e, u, with));
+    QDOT_TRY(collect_switches(s, e, u, with));
     s->n = 2;
     (void)qdot_sides_put(s, 2, e);
     status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN) /* a divisor is 0 there */
+    if (status == QDOT_EDOMAIN) /* no value on this side, because a divisor is 0 there */
         with[0] = with[1] = false;
     else if (status == QDOT_OK && !with[0] && !with[1])
         s->jump = u;
@@ -140,7 +140,7 @@ two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
 
 /* For max or min of several arguments: one side for each argument that may be selected. */
 static qdot_status
-side_each(qdot_sides *s, qdot_expr choice)
+add_side_for_each_argument(qdot_sides *s, qdot_expr choice)
 {
     qdot_pool *pool = s->pool;
     bool largest = qdot_expr_node(pool, choice)->op == QDOT_MAX;
@@ -169,12 +169,12 @@ side_each(qdot_sides *s, qdot_expr choice)
 qdot_status
 qdot_sides_of(qdot_pool *pool, qdot_expr e, qdot_expr choice, qdot_sides *out)
 {
-    const chooser by = chooser_of(pool, choice);
+    const chooser by = read_switch(pool, choice);
 
     *out = (qdot_sides){.pool = pool, .jump = QDOT_NIL};
     if (by.above != QDOT_NIL)
-        return two_sides(out, e, &by);
-    return qdot_expr_is_function(pool, choice, QDOT_IF) ? qdot_pool_check(pool) : side_each(out, choice);
+        return add_two_sides(out, e, &by);
+    return qdot_expr_is_function(pool, choice, QDOT_IF) ? qdot_pool_check(pool) : add_side_for_each_argument(out, choice);
 }
 
 qdot_expr

@@ -26,7 +26,7 @@ typedef struct {
     qdot_pool *pool;
     size_t n; /* number of sides; 0: the condition of an if(...) is not a < b or a <= b */
     qdot_expr relations[QDOT_SIDES_MOST]; /* [n] a LIST of relations that define each side */
-    qdot_expr jump;                       /* u, if no side contains the zeros of u; else nil */
+    qdot_expr jump;                       /* u, if the points where u = 0 belong to no side; else nil */
     qdot_vec(qdot_expr) choice;           /* the functions that switch at u = 0 */
     qdot_vec(qdot_expr) value; /* [choice.n x n] value of each function on each side; u = 0 last */
 } qdot_sides;
@@ -37,7 +37,7 @@ qdot_expr qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x);
 /* The switch to which `choice` belongs, with all functions in e (or a LIST) that it decides. *out
  * is cleared by the caller in any case. */
 QDOT_MUST_CHECK qdot_status qdot_sides_of(qdot_pool *pool, qdot_expr e, qdot_expr choice, qdot_sides *out);
-/* e on side number `side` of the switch; for s->n at u = 0. Nil (QDOT_EDOMAIN): e is undefined there. */
+/* The expression e on side number `side` of a switch; for s->n at u = 0. Nil (QDOT_EDOMAIN): undefined there. */
 qdot_expr qdot_sides_put(const qdot_sides *s, size_t side, qdot_expr e);
 void qdot_sides_clear(qdot_sides *s);
 

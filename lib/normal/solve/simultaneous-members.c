@@ -23,7 +23,7 @@ enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16, MOST_LISTED = 64 };
 /* The different rates c at which u occurs in circular functions sin(c u + d); false if one is not
  * linear in u. */
 static bool
-circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
+find_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
 {
     qdot_pool *pool = s->pool;
     bool linear = true;
@@ -50,7 +50,7 @@ circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
     return linear && *n > 0;
 }
 
-/* The period 2 pi/r with the largest r of which all rates are integer multiples; nil if there is none. */
+/* The period 2 pi/r with the largest r of which all rates (factors of u) are integer multiples; nil if there is none. */
 static qdot_expr
 common_period(qdot_simultaneous *s, const qdot_expr *rate, size_t n)
 {
@@ -86,7 +86,7 @@ find_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period)
     size_t rates;
 
     *period = QDOT_FALSE;
-    if (circular_rates(s, u, rate, &rates)) {
+    if (find_rates(s, u, rate, &rates)) {
         qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
                   least = common_period(s, rate, rates);
 
@@ -191,7 +191,7 @@ add_domain_as_written(const qdot_simultaneous *s, qdot_expr known, qdot_expr set
 /* Whether the equations may be 0 there: they have values (that a numerator vanishes is not enough), and none is
  * refuted inside the domains; *conditions gets where all of it is defined. */
 static qdot_status
-may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *conditions, bool *yes)
+may_be_solution(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *conditions, bool *yes)
 {
     qdot_pool *pool = s->pool;
     qdot_expr whole = b->whole == QDOT_NIL ? s->equations : b->whole,
@@ -229,7 +229,7 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
         QDOT_TRY(
             qdot_decide_equal(pool, qdot_expr_arg(pool, there, i), QDOT_ZERO, &facts, &d));
         *yes = d.verdict != QDOT_REFUTED;
-        if (!*yes && qdot_solve_integers(pool, there) > 0) /* possible for some integers of the family */
+        if (!*yes && qdot_solve_integers(pool, there) > 0) /* not excluded, since some integers of the family may solve it */
             s->complete = false;
     }
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
@@ -237,13 +237,13 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
 
 /* A solution while its periodic unknowns are replaced by members of their families. */
 typedef struct {
-    qdot_expr *symbol, *value; /* [n] the periodic unknowns and their values */
+    qdot_expr *symbol, *value; /* [n] the periodic unknowns, and their values with an integer n */
     size_t n;
     qdot_expr *equation; /* [n] the equations symbol = member of the family */
 } solution;
 
 static qdot_status
-push_solution(qdot_simultaneous *s, qdot_expr values, qdot_expr conditions)
+append_to_solutions(qdot_simultaneous *s, qdot_expr values, qdot_expr conditions)
 {
     QDOT_TRY(qdot_pool_check(s->pool));
     if (s->found.n >= MOST_SOLUTIONS)
@@ -254,7 +254,7 @@ push_solution(qdot_simultaneous *s, qdot_expr values, qdot_expr conditions)
 /* Bounds of the integer n by conditions a n + b > 0 with constants a and b, in doubles and a little too wide. False: they
  * do not bound it on both sides, or MOST_LISTED values or more are left. */
 static bool
-integer_bounds(qdot_simultaneous *s, qdot_expr conditions, qdot_expr n, double *lo, double *hi)
+find_integer_bounds(qdot_simultaneous *s, qdot_expr conditions, qdot_expr n, double *lo, double *hi)
 {
     qdot_pool *pool = s->pool;
     uint32_t count = conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, conditions);
@@ -293,17 +293,17 @@ append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
 
     QDOT_TRY(qdot_pool_check(pool));
     if (conditions == QDOT_NIL || qdot_solve_integers(pool, values) != 1)
-        return push_solution(s, values, conditions);
+        return append_to_solutions(s, values, conditions);
     n = qdot_solve_integer(pool, 0);
-    if (!qdot_expr_contains(pool, values, n) || !integer_bounds(s, conditions, n, &lo, &hi))
-        return push_solution(s, values, conditions);
+    if (!qdot_expr_contains(pool, values, n) || !find_integer_bounds(s, conditions, n, &lo, &hi))
+        return append_to_solutions(s, values, conditions);
     for (double k = lo; k <= hi; k++) {
         qdot_expr number = qdot_expr_int(pool, (long)k),
                   there = qdot_conditions_at(pool, conditions, 1, &n, &number, &s->facts);
 
         QDOT_TRY(qdot_pool_check(pool));
         if (there != QDOT_FALSE)
-            QDOT_TRY(push_solution(s, qdot_subs(pool, values, 1, &n, &number), there));
+            QDOT_TRY(append_to_solutions(s, qdot_subs(pool, values, 1, &n, &number), there));
     }
     return QDOT_OK;
 }
@@ -311,7 +311,7 @@ append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
 /* How many integers count members already, of the unknowns before the i-th and in the values of all: each family has
  * one of its own. */
 static unsigned
-integers_before(qdot_simultaneous *s, const solution *p, size_t i)
+count_integers_in_use(qdot_simultaneous *s, const solution *p, size_t i)
 {
     unsigned a = qdot_solve_integers(s->pool, qdot_list(s->pool, (uint32_t)i, p->equation)),
              b = qdot_solve_integers(s->pool, qdot_list(s->pool, (uint32_t)p->n, p->value));
@@ -319,9 +319,9 @@ integers_before(qdot_simultaneous *s, const solution *p, size_t i)
     return a > b ? a : b;
 }
 
-/* Append the members of unknown i and of the later ones inside their domains. */
+/* Append the solutions for those members of the families of unknowns i, i + 1 ... that lie inside their domains. */
 static qdot_status
-append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr conditions)
+append_family_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr conditions)
 {
     qdot_pool *pool = s->pool;
     qdot_solutions members = {.complete = true};
@@ -334,7 +334,7 @@ append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr cond
     u = p->symbol[i];
     QDOT_TRY(qdot_simultaneous_period(s, u, &period));
     window = qdot_simultaneous_window(s, u, period == turn);
-    window.integer = integers_before(s, p, i);
+    window.integer = count_integers_in_use(s, p, i);
     status = qdot_solve_members(pool, u, &(qdot_root){.value = p->value[i], .period = period}, &window,
                                 &s->facts, &members);
     s->complete = s->complete && members.complete;
@@ -347,15 +347,15 @@ append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr cond
         p->equation[i] = qdot_rel(pool, QDOT_EQ, u, members.root.at[k].value);
         status = qdot_pool_check(pool);
         if (status == QDOT_OK && all != QDOT_FALSE)
-            status = append_members(s, p, i + 1, all);
+            status = append_family_members(s, p, i + 1, all);
     }
     qdot_solutions_clear(&members);
     return status;
 }
 
-/* The equations u = value, with values in simple form: one that is 0 in disguise is then seen to be a pole of 1/u. */
+/* The equations u = value with simplified values: only then a value that is 0 is recognised as a pole of 1/u. */
 static qdot_expr
-known_simplified(const qdot_simultaneous *s, qdot_expr known)
+simplify_known_values(const qdot_simultaneous *s, qdot_expr known)
 {
     qdot_expr list = qdot_list(s->pool, 0, NULL);
 
@@ -374,7 +374,7 @@ qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *bra
 {
     qdot_pool *pool = s->pool;
     size_t n = s->unknowns.n;
-    const qdot_simultaneous_branch simple = {.known = known_simplified(s, branch->known), .whole = branch->whole},
+    const qdot_simultaneous_branch simple = {.known = simplify_known_values(s, branch->known), .whole = branch->whole},
                                    *b = &simple;
     qdot_expr conditions = qdot_conditions_at(pool, branch->conditions, 0, NULL, NULL, &s->facts),
               room[QDOT_CONDITIONS_MOST];
@@ -384,7 +384,7 @@ qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *bra
     bool yes = false;
 
     if (status == QDOT_OK && conditions != QDOT_FALSE)
-        status = may_solve(s, b, &conditions, &yes);
+        status = may_be_solution(s, b, &conditions, &yes);
     if (status != QDOT_OK || !yes) {
         qdot_free(p.symbol);
         return status;
@@ -403,7 +403,7 @@ qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *bra
         }
     status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = append_members(s, &p, 0, conditions);
+        status = append_family_members(s, &p, 0, conditions);
     qdot_free(p.symbol);
     return status;
 }

@@ -1,4 +1,4 @@
-/* simultaneous-set.c -- completes the set of solutions: each once, sorted; unknowns that remain free. */
+/* simultaneous-set.c -- completes the set of solutions: lists each once, sorts them, adds unknowns that remain free. */
 #include <math.h>
 #include <stdio.h>
 
@@ -13,14 +13,14 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/simultaneous.h"
 
-/* The budget; typical textbook systems take some hundred units. */
+/* The budget of operations; typical textbook systems take some hundred units. */
 enum { WORK = 6000 };
 
 /* --- each solution once ------------------------------------------------------------------------------- */
 
-/* Whether d is an integer number of full turns. */
+/* Whether the difference d of two angles is an integer number of full turns. */
 static bool
-is_turns(const qdot_simultaneous *s, qdot_expr d)
+is_full_turns(const qdot_simultaneous *s, qdot_expr d)
 {
     const fmpq *c;
 
@@ -33,7 +33,7 @@ is_turns(const qdot_simultaneous *s, qdot_expr d)
     return fmpz_is_one(fmpq_denref(c)) && fmpz_is_even(fmpq_numref(c));
 }
 
-/* Whether u is an angle without declared bounds; with bounds its members are listed individually. */
+/* Whether u is an angle without declared bounds; with bounds the members of a family are listed one by one. */
 static bool
 is_free_angle(const qdot_simultaneous *s, qdot_expr u)
 {
@@ -45,7 +45,7 @@ is_free_angle(const qdot_simultaneous *s, qdot_expr u)
 
 /* Whether the conditions are proved to hold at the solution `one`, wherever that exists. */
 static bool
-hold_at(const qdot_simultaneous *s, qdot_expr conditions, const qdot_simultaneous_solution *one)
+conditions_hold_at(const qdot_simultaneous *s, qdot_expr conditions, const qdot_simultaneous_solution *one)
 {
     qdot_expr room[QDOT_CONDITIONS_MOST],
         there = qdot_simultaneous_put(s->pool, conditions, one->values);
@@ -73,22 +73,22 @@ qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_so
                   there = qdot_simultaneous_put(pool, u, one->values), d;
 
         d = qdot_sub(pool, there, qdot_simultaneous_put(pool, v, one->values));
-        if (d == QDOT_NIL) { /* undefined: the family `all` has no member there */
+        if (d == QDOT_NIL) { /* undefined there: the family `all` has no member at this solution */
             if (qdot_pool_check(pool) != QDOT_EDOMAIN)
                 (void)qdot_pool_fail(pool);
             return false;
         }
         inside = there != u && (d == QDOT_ZERO || qdot_is_zero(pool, d, &facts) ||
-                                (is_turns(s, d) && is_free_angle(s, u)));
+                                (is_full_turns(s, d) && is_free_angle(s, u)));
     }
     if (inside && all->conditions != QDOT_NIL && all->conditions != one->conditions)
-        inside = hold_at(s, all->conditions, one);
+        inside = conditions_hold_at(s, all->conditions, one);
     return inside;
 }
 
 /* Join solutions that differ only in their conditions. */
 static void
-join(qdot_simultaneous *s)
+join_solutions(qdot_simultaneous *s)
 {
     size_t kept = 0;
 
@@ -107,7 +107,7 @@ join(qdot_simultaneous *s)
 
 /* Remove solutions that are contained in another one. */
 static qdot_status
-leave_out_twice(qdot_simultaneous *s)
+remove_contained_solutions(qdot_simultaneous *s)
 {
     qdot_simultaneous_solution *at = s->found.at;
     size_t n = s->found.n, kept = 0;
@@ -133,8 +133,8 @@ leave_out_twice(qdot_simultaneous *s)
 
 /* Whether a is listed before b: by the first value that differs, if both are constants. */
 static bool
-is_before(const qdot_simultaneous *s, const qdot_simultaneous_solution *a,
-          const qdot_simultaneous_solution *b)
+is_listed_before(const qdot_simultaneous *s, const qdot_simultaneous_solution *a,
+                 const qdot_simultaneous_solution *b)
 {
     uint32_t n = qdot_expr_count(s->pool, a->values);
 
@@ -156,12 +156,12 @@ is_before(const qdot_simultaneous *s, const qdot_simultaneous_solution *a,
 }
 
 static void
-sort(qdot_simultaneous *s)
+sort_solutions(qdot_simultaneous *s)
 {
     qdot_simultaneous_solution *at = s->found.at;
 
     for (size_t a = 1; a < s->found.n; a++)
-        for (size_t b = a; b > 0 && is_before(s, &at[b], &at[b - 1]); b--) {
+        for (size_t b = a; b > 0 && is_listed_before(s, &at[b], &at[b - 1]); b--) {
             qdot_simultaneous_solution keep = at[b];
 
             at[b] = at[b - 1];
@@ -181,7 +181,7 @@ typedef struct {
 } alias;
 
 static qdot_expr
-alias_symbol(qdot_pool *pool, qdot_expr u)
+make_temporary_symbol(qdot_pool *pool, qdot_expr u)
 {
     const qdot_symbol *x = qdot_expr_symbol(pool, u);
     qdot_expr lo, hi, symbol;
@@ -203,51 +203,51 @@ alias_symbol(qdot_pool *pool, qdot_expr u)
 }
 
 static qdot_expr
-renamed(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to)
+rename_symbols(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to)
 {
     return e == QDOT_NIL || e == QDOT_FALSE ? e : qdot_subs(pool, e, n, from, to);
 }
 
 static qdot_expr
-named(const alias *a, qdot_expr e)
+restore_parameters(const alias *a, qdot_expr e)
 {
-    return renamed(a->pool, e, a->n, a->symbol, a->name);
+    return rename_symbols(a->pool, e, a->n, a->symbol, a->name);
 }
 
 static qdot_expr
-aliased(const alias *a, qdot_expr e)
+replace_parameters(const alias *a, qdot_expr e)
 {
-    return renamed(a->pool, e, a->n, a->name, a->symbol);
+    return rename_symbols(a->pool, e, a->n, a->name, a->symbol);
 }
 
-/* Write the facts with the aliases for their parameters, in room [relations + conditions]. */
+/* Write the facts with temporary symbols in place of parameters, stored in room [relations + conditions]. */
 static qdot_facts
-facts_aliased(const alias *a, const qdot_facts *facts, qdot_expr *room)
+facts_with_symbols(const alias *a, const qdot_facts *facts, qdot_expr *room)
 {
     qdot_facts all = *facts;
 
     for (size_t i = 0; i < facts->n_relations; i++)
-        room[i] = aliased(a, facts->relations[i]);
+        room[i] = replace_parameters(a, facts->relations[i]);
     all.relations = room;
     room += facts->n_relations;
     for (size_t i = 0; i < facts->n_conditions; i++)
-        room[i] = aliased(a, facts->conditions[i]);
+        room[i] = replace_parameters(a, facts->conditions[i]);
     all.conditions = room;
-    all.defined = aliased(a, facts->defined);
+    all.defined = replace_parameters(a, facts->defined);
     return all;
 }
 
 static qdot_status
-solve_aliased(const alias *a, const qdot_expr *f, qdot_expr conditions, const qdot_facts *facts,
-              qdot_simultaneous *s)
+solve_with_symbols(const alias *a, const qdot_expr *f, qdot_expr conditions, const qdot_facts *facts,
+                   qdot_simultaneous *s)
 {
     qdot_pool *pool = a->pool;
     qdot_simultaneous_branch first = {.known = qdot_list(pool, 0, NULL),
-                                      .conditions = aliased(a, conditions)};
+                                      .conditions = replace_parameters(a, conditions)};
     bool single;
 
     s->facts = *facts;
-    s->equations = first.equations = aliased(a, qdot_list(pool, (uint32_t)a->n, f));
+    s->equations = first.equations = replace_parameters(a, qdot_list(pool, (uint32_t)a->n, f));
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < a->n; i++)
         QDOT_TRY(qdot_vec_push(&s->unknowns, a->symbol[i]));
@@ -256,15 +256,15 @@ solve_aliased(const alias *a, const qdot_expr *f, qdot_expr conditions, const qd
     if (first.conditions != QDOT_FALSE)
         QDOT_TRY(qdot_vec_push(&s->todo, first));
     QDOT_TRY(qdot_simultaneous_solve(s));
-    join(s);
-    QDOT_TRY(leave_out_twice(s));
-    sort(s);
+    join_solutions(s);
+    QDOT_TRY(remove_contained_solutions(s));
+    sort_solutions(s);
     for (size_t i = 0; i < s->found.n; i++) {
-        s->found.at[i].values = named(a, s->found.at[i].values);
-        s->found.at[i].conditions = named(a, s->found.at[i].conditions);
+        s->found.at[i].values = restore_parameters(a, s->found.at[i].values);
+        s->found.at[i].conditions = restore_parameters(a, s->found.at[i].conditions);
     }
     for (size_t i = 0; i < s->special.n; i++)
-        s->special.at[i] = named(a, s->special.at[i]);
+        s->special.at[i] = restore_parameters(a, s->special.at[i]);
     return qdot_pool_check(pool);
 }
 
@@ -282,12 +282,12 @@ qdot_simultaneous_all(qdot_pool *pool, size_t n, const qdot_expr *f, const qdot_
     *out = (qdot_simultaneous){
         .pool = pool, .defined = QDOT_ZERO, .places = n, .work = WORK, .complete = true};
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        a.symbol[i] = alias_symbol(pool, u[i]);
+        a.symbol[i] = make_temporary_symbol(pool, u[i]);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK) {
-        all = facts_aliased(&a, given, a.symbol + n);
-        status = solve_aliased(&a, f, conditions, &all, out);
+        all = facts_with_symbols(&a, given, a.symbol + n);
+        status = solve_with_symbols(&a, f, conditions, &all, out);
     }
     out->facts = *given;
     qdot_free(a.symbol);

@@ -43,9 +43,9 @@ qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values)
     return e;
 }
 
-/* An end of a window with the session's values inserted; unchanged if it then has no value. */
+/* A bound of a domain with the session's parameter values inserted; unchanged if it then has no value. */
 static qdot_expr
-end_with_values(const qdot_simultaneous *s, qdot_expr end)
+bound_with_values(const qdot_simultaneous *s, qdot_expr end)
 {
     qdot_expr there = s->ends == NULL || end == QDOT_NIL ? end : s->ends(s->ends_user, end);
 
@@ -59,13 +59,13 @@ qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle)
 {
     qdot_window w = qdot_solve_window(s->pool, u, false);
 
-    w.lo = end_with_values(s, w.lo);
-    w.hi = end_with_values(s, w.hi);
+    w.lo = bound_with_values(s, w.lo);
+    w.hi = bound_with_values(s, w.hi);
     return angle ? qdot_window_turn(s->pool, w) : w;
 }
 
 static size_t
-holds_unknowns(const qdot_simultaneous *s, qdot_expr e)
+count_unknowns(const qdot_simultaneous *s, qdot_expr e)
 {
     size_t n = 0;
 
@@ -74,9 +74,9 @@ holds_unknowns(const qdot_simultaneous *s, qdot_expr e)
     return n;
 }
 
-/* Record that the solutions may differ where d, if it contains parameters only, vanishes. */
+/* Record that solutions may differ where d = 0, if d contains parameters only. */
 static qdot_status
-add_special(qdot_simultaneous *s, qdot_expr d)
+add_special_equation(qdot_simultaneous *s, qdot_expr d)
 {
     if (!qdot_is_generic(s->pool, d) || qdot_is_constant(s->pool, d) ||
         (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0 ||
@@ -87,9 +87,9 @@ add_special(qdot_simultaneous *s, qdot_expr d)
 
 /* --- one step of a branch ------------------------------------------------------------ */
 
-/* Whether e contains unknowns other than coordinates: multipliers, shares of forces. */
+/* Whether e contains unknowns other than coordinates: Lagrange multipliers, or symbols that stand for signs. */
 static bool
-holds_others(const qdot_simultaneous *s, qdot_expr e)
+contains_other_unknowns(const qdot_simultaneous *s, qdot_expr e)
 {
     bool holds = false;
 
@@ -98,9 +98,9 @@ holds_others(const qdot_simultaneous *s, qdot_expr e)
     return holds;
 }
 
-/* Whether e contains shares of switching forces: unknowns other than coordinates, between bounds. */
+/* Whether e contains unknowns in [-1, 1] that stand for undetermined signs, such as the direction of friction at rest. */
 static bool
-holds_shares(const qdot_simultaneous *s, qdot_expr e)
+has_bounded_unknowns(const qdot_simultaneous *s, qdot_expr e)
 {
     bool holds = false;
 
@@ -114,7 +114,7 @@ holds_shares(const qdot_simultaneous *s, qdot_expr e)
 
 /* Whether e jumps or has a kink as a function of u: its derivative then does not tell whether e is linear. */
 static bool
-has_kinks(const qdot_simultaneous *s, qdot_expr e, qdot_expr u)
+has_kink_in(const qdot_simultaneous *s, qdot_expr e, qdot_expr u)
 {
     static const qdot_fun_id kinks[] = {QDOT_SIGN, QDOT_ABS, QDOT_FLOOR, QDOT_MOD, QDOT_MIN, QDOT_MAX, QDOT_IF};
 
@@ -130,23 +130,23 @@ effort_to_solve(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
 
     if (!qdot_expr_contains(s->pool, factor, u))
         return 9;
-    if (holds_unknowns(s, factor) == 1)
+    if (count_unknowns(s, factor) == 1)
         return 0;
     slope = qdot_diff(s->pool, factor, u);
     if (slope == QDOT_NIL || qdot_expr_contains(s->pool, slope, u))
         return 3;
-    if (slope != QDOT_ZERO && holds_others(s, factor) && has_kinks(s, factor, u)) /* after factors without kinks */
+    if (slope != QDOT_ZERO && contains_other_unknowns(s, factor) && has_kink_in(s, factor, u)) /* after factors without kinks */
         return 2;
-    if (holds_shares(s, factor) && !holds_shares(s, u)) /* a friction share: its bounds limit a region of equilibria */
+    if (has_bounded_unknowns(s, factor) && !has_bounded_unknowns(s, u)) /* a sign symbol: its bounds limit equilibria */
         return 2;
-    if (holds_shares(s, u) && (qdot_expr_node(s->pool, slope)->sign & QDOT_NE0) != 0)
+    if (has_bounded_unknowns(s, u) && (qdot_expr_node(s->pool, slope)->sign & QDOT_NE0) != 0)
         return 1;
-    return holds_unknowns(s, slope) == 0 ? 1 : 2;
+    return count_unknowns(s, slope) == 0 ? 1 : 2;
 }
 
-/* The unknown for which a factor is solved most easily; of equal ones the last. */
+/* The index of the unknown for which a factor is solved most easily; of equally easy ones the last. */
 static int
-easiest_unknown(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
+find_easiest_unknown(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
 {
     int least = 9;
 
@@ -161,10 +161,10 @@ easiest_unknown(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
     return least;
 }
 
-/* Continue a branch with u = value inserted everywhere. */
+/* Continue a branch of the search with u = value inserted in all equations. */
 static qdot_status
-with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
-           qdot_expr value, qdot_expr conditions)
+continue_with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
+                    qdot_expr value, qdot_expr conditions)
 {
     qdot_pool *pool = s->pool;
     qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, value);
@@ -179,7 +179,7 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
         if (next.conditions != QDOT_NIL && next.conditions != QDOT_FALSE)
             next.conditions = qdot_solve_without_turns(pool, qdot_subs(pool, next.conditions, 1, &u, &value));
     }
-    if (qdot_pool_failed(pool)) { /* a denominator is 0: no solution */
+    if (qdot_pool_failed(pool)) { /* a denominator is 0 at this value: no solution */
         qdot_status status = qdot_pool_check(pool);
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
@@ -189,7 +189,7 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
     QDOT_TRY(qdot_pool_check(pool));
     if (next.conditions == QDOT_FALSE)
         return QDOT_OK;
-    /* the left sides of `known` are unknowns and stay as they are */
+    /* the left sides of the equations u = value are unknowns and stay as they are */
     next.known = qdot_list_appended(pool, next.known, 1, &equation);
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_vec_push(&s->todo, next);
@@ -198,7 +198,7 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
 /* How many members u = base + k period, k = 0, 1 ..., the circular functions of u in the equations take for
  * different: *members; 0: without end, or more than MOST_MEMBERS. */
 static qdot_status
-count_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members)
+count_different_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members)
 {
     qdot_pool *pool = s->pool;
     qdot_expr two_pi = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
@@ -219,7 +219,7 @@ count_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members
         q = turns == QDOT_NIL ? NULL : qdot_expr_rational(pool, turns);
         if (q == NULL || fmpz_cmp_si(fmpq_denref(q), MOST_MEMBERS) > 0) {
             *members = 0;
-        } else { /* the least common multiple of the periods */
+        } else { /* take the least common multiple of the periods */
             long d = fmpz_get_si(fmpq_denref(q)), k = *members;
 
             while (k % d != 0)
@@ -235,8 +235,8 @@ count_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members
  * u = base + (k + members n) period for each value of the sines; they lose their whole turns, and the integer n stays.
  * *done: false where there is no such number. */
 static qdot_status
-with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
-             const qdot_root *root, bool *done)
+continue_with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
+                      const qdot_root *root, bool *done)
 {
     qdot_pool *pool = s->pool;
     qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, b->known));
@@ -247,23 +247,23 @@ with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr 
     if (qdot_expr_place(s->places, s->unknowns.at, u) == s->places ||
         root->members != QDOT_NIL)
         return QDOT_OK;
-    QDOT_TRY(count_members(s, u, root->period, &members));
+    QDOT_TRY(count_different_members(s, u, root->period, &members));
     for (long k = members; k-- > 0 && status == QDOT_OK;) {
         qdot_expr count = qdot_add(pool, qdot_expr_int(pool, k),
                                    qdot_mul(pool, qdot_expr_int(pool, members), n));
 
-        status = with_value(s, b, equations, u,
-                            qdot_add(pool, root->value, qdot_mul(pool, count, root->period)),
-                            root->condition);
+        status = continue_with_value(s, b, equations, u,
+                                     qdot_add(pool, root->value, qdot_mul(pool, count, root->period)),
+                                     root->condition);
     }
     *done = members > 0;
     return status;
 }
 
-/* Continue with one branch for each member of a family of u within the common period of all equations. */
+/* Continue with one branch of the search for each member of a family of u within the common period of all equations. */
 static qdot_status
-with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
-            const qdot_root *root)
+continue_with_members(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
+                      const qdot_root *root)
 {
     qdot_pool *pool = s->pool;
     qdot_window window = qdot_solve_tighten(pool, u, root->members,
@@ -280,10 +280,10 @@ with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e
             members = 0;
     }
     for (long k = members; k-- > 0 && status == QDOT_OK;)
-        status = with_value(s, b, equations, u,
-                            qdot_add(pool, root->value,
-                                     qdot_mul(pool, qdot_expr_int(pool, k), root->period)),
-                            qdot_conditions_all(pool, root->condition, root->members));
+        status = continue_with_value(s, b, equations, u,
+                                     qdot_add(pool, root->value,
+                                              qdot_mul(pool, qdot_expr_int(pool, k), root->period)),
+                                     qdot_conditions_all(pool, root->condition, root->members));
     if (status != QDOT_OK || members > 0)
         return status;
     if (window.lo != QDOT_NIL && window.hi != QDOT_NIL) {
@@ -292,23 +292,23 @@ with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e
         status = qdot_solve_members(pool, u, root, &window, &s->facts, &inside);
         s->complete = s->complete && inside.complete;
         for (size_t i = inside.root.n; i-- > 0 && status == QDOT_OK;)
-            status = with_value(s, b, equations, u, inside.root.at[i].value,
-                                inside.root.at[i].condition);
+            status = continue_with_value(s, b, equations, u, inside.root.at[i].value,
+                                         inside.root.at[i].condition);
         qdot_solutions_clear(&inside);
         return status;
     }
-    QDOT_TRY(with_integer(s, b, equations, u, root, &done));
+    QDOT_TRY(continue_with_integer(s, b, equations, u, root, &done));
     if (done)
         return QDOT_OK;
-    s->complete = false; /* the other equations differ for every member of an infinite family */
-    return with_value(s, b, equations, u, root->value,
-                      qdot_conditions_all(pool, root->condition, root->members));
+    s->complete = false; /* incomplete, since the other equations differ for every member of an infinite family */
+    return continue_with_value(s, b, equations, u, root->value,
+                               qdot_conditions_all(pool, root->condition, root->members));
 }
 
-/* Continue with a branch on which a divisor is 0 (for a LIST: all its members). */
+/* Continue the search with a branch on which a divisor is 0 (for a LIST: all its members are). */
 static qdot_status
-with_divisor_zero(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr factor,
-                  qdot_expr divisor)
+continue_with_zero_divisor(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr factor,
+                           qdot_expr divisor)
 {
     qdot_pool *pool = s->pool;
     bool many = qdot_expr_kind(pool, divisor) == QDOT_LIST;
@@ -327,16 +327,16 @@ with_divisor_zero(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_
 }
 
 static qdot_status
-with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr u,
-          const qdot_root *root)
+continue_with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr u,
+                   const qdot_root *root)
 {
     qdot_simultaneous_branch free;
 
     if (root->period != QDOT_NIL)
-        return with_family(s, b, others, u, root);
+        return continue_with_members(s, b, others, u, root);
     if (root->value != u)
-        return with_value(s, b, others, u, root->value, root->condition);
-    free = *b; /* every u is a solution, under a condition */
+        return continue_with_value(s, b, others, u, root->value, root->condition);
+    free = *b; /* every u is a solution, under a condition: u stays free on this branch */
     free.equations = others;
     free.first = QDOT_NIL;
     free.conditions = qdot_conditions_all(s->pool, b->conditions, root->condition);
@@ -345,7 +345,7 @@ with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr oth
 
 /* Represent each family with constant values by its first member in the declared domain, in ascending order. */
 static qdot_status
-order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
+normalise_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
 {
     qdot_window window = qdot_simultaneous_window(s, u, true);
     bool any = false;
@@ -366,38 +366,38 @@ order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
     return any ? qdot_solve_sort(s->pool, found->root.n, found->root.at) : QDOT_OK;
 }
 
-/* Solve factor = 0 for its easiest unknown, and continue a branch for each root. */
+/* Solve factor = 0 for the unknown in it for which that is easiest, and continue a branch for each root. */
 static qdot_status
-split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr factor)
+solve_factor(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr factor)
 {
     qdot_solutions found;
     size_t which = 0;
     qdot_expr u;
     qdot_status status;
 
-    if (easiest_unknown(s, factor, &which) == 9) /* contains no unknown: parameters are generic, so it is not 0 */
-        return add_special(s, factor);
+    if (find_easiest_unknown(s, factor, &which) == 9) /* a factor without unknowns is not 0, because parameters are generic */
+        return add_special_equation(s, factor);
     u = s->unknowns.at[which];
     status = qdot_solve(s->pool, factor, u, &s->facts, &found);
     s->complete = s->complete && found.complete;
     for (size_t i = 0; i < found.special.n && status == QDOT_OK; i++)
-        status = add_special(s, found.special.at[i]);
+        status = add_special_equation(s, found.special.at[i]);
     if (status == QDOT_OK)
-        status = order_families(s, u, &found);
+        status = normalise_families(s, u, &found);
     for (size_t i = found.root.n; i-- > 0 && status == QDOT_OK;)
-        status = with_root(s, b, others, u, &found.root.at[i]);
+        status = continue_with_root(s, b, others, u, &found.root.at[i]);
     for (size_t i = 0; i < found.divisor.n && status == QDOT_OK; i++)
-        status = with_divisor_zero(s, b, others, factor, found.divisor.at[i]);
+        status = continue_with_zero_divisor(s, b, others, factor, found.divisor.at[i]);
     qdot_solutions_clear(&found);
     return status;
 }
 
 /* --- sides of switching functions ------------------------------------------------------ */
 
-/* Continue a branch on one side of a switch, with further conditions and the equation `jump` (nil: none). */
+/* Continue a branch on one side of a switch: with further conditions, and the equation `jump` (nil: none). */
 static qdot_status
-with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_sides *sides, size_t side,
-          qdot_expr relations, qdot_expr jump)
+continue_on_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_sides *sides, size_t side,
+                 qdot_expr relations, qdot_expr jump)
 {
     qdot_pool *pool = s->pool;
     bool free = b->conditions == QDOT_NIL;
@@ -409,7 +409,7 @@ with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_si
         .whole = qdot_sides_put(sides, side, b->whole == QDOT_NIL ? s->equations : b->whole)};
     qdot_status status = qdot_pool_check(pool);
 
-    if (status != QDOT_OK) /* the equation is not defined at this value */
+    if (status != QDOT_OK) /* skip the side: the equation is not defined at this value */
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     if (jump != QDOT_NIL)
         next.equations = qdot_list_appended(pool, next.equations, 1, &jump);
@@ -419,9 +419,9 @@ with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_si
     return next.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->todo, next);
 }
 
-/* Continue with a branch for each side of the switch of `choice`; the first one is solved first. */
+/* Continue with a branch for each side of the switching function `choice`; the first side is solved first. */
 static qdot_status
-with_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr choice)
+continue_on_all_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr choice)
 {
     qdot_expr all = qdot_list_appended(s->pool, b->equations, 1, &b->known);
     qdot_sides sides = {0};
@@ -435,9 +435,9 @@ with_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr ch
     status = qdot_sides_of(s->pool, all, choice, &sides);
     s->complete = s->complete && sides.n > 0;
     if (status == QDOT_OK && sides.jump != QDOT_NIL)
-        status = with_side(s, b, &sides, sides.n, QDOT_NIL, sides.jump);
+        status = continue_on_side(s, b, &sides, sides.n, QDOT_NIL, sides.jump);
     for (size_t i = sides.n; i-- > 0 && status == QDOT_OK;)
-        status = with_side(s, b, &sides, i, sides.relations[i], QDOT_NIL);
+        status = continue_on_side(s, b, &sides, i, sides.relations[i], QDOT_NIL);
     qdot_sides_clear(&sides);
     return status;
 }
@@ -445,11 +445,11 @@ with_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr ch
 /* The innermost switch in e that depends on unknowns; nil if e is the last equation, in one
  * unknown, as solving it treats the switch. */
 static qdot_expr
-shared_choice(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
+find_common_switch(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
 {
     qdot_expr choice = QDOT_NIL;
 
-    if (qdot_expr_count(s->pool, others) == 0 && holds_unknowns(s, e) == 1)
+    if (qdot_expr_count(s->pool, others) == 0 && count_unknowns(s, e) == 1)
         return QDOT_NIL;
     for (size_t i = 0; i < s->unknowns.n && choice == QDOT_NIL; i++)
         choice = qdot_sides_choice(s->pool, e, s->unknowns.at[i]);
@@ -467,13 +467,13 @@ is_never_zero(qdot_simultaneous *s, qdot_expr e, const qdot_facts *facts)
 
     QDOT_TRY(qdot_decide_equal(s->pool, e, QDOT_ZERO, facts, &d));
     s->complete = s->complete && d.verdict == QDOT_REFUTED;
-    return add_special(s, e);
+    return add_special_equation(s, e);
 }
 
 /* e = 0 without unknowns, with integers that count members of families: the branch for each integer that solves it. A
  * root with parameters is no integer for generic ones. */
 static qdot_status
-with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e)
+continue_with_solved_integers(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, e) - 1);
@@ -518,7 +518,7 @@ with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qd
     return status;
 }
 
-/* The equation that is solved next, and the others. */
+/* The equation that is solved next, and the remaining equations. */
 typedef struct {
     qdot_expr equation, factors; /* the equation, and its factors; nil if nothing is left to solve */
     qdot_expr others;            /* a LIST of the other equations */
@@ -527,7 +527,7 @@ typedef struct {
 
 /* Factor every equation, and choose the one whose hardest factor is easiest to solve. */
 static qdot_status
-choose_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_equation *next)
+choose_next_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_equation *next)
 {
     qdot_pool *pool = s->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
@@ -544,15 +544,15 @@ choose_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *fac
 
         if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &s->facts))
             continue;
-        if (holds_unknowns(s, e) == 0 && qdot_is_zero(pool, e, facts))
+        if (count_unknowns(s, e) == 0 && qdot_is_zero(pool, e, facts))
             continue;
         list = qdot_solve_factors(pool, e);
         if (list == QDOT_NIL)
             break;
-        if (holds_unknowns(s, e) == 0)
+        if (count_unknowns(s, e) == 0)
             next->dead = e;
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
-            int one = easiest_unknown(s, qdot_expr_arg(pool, list, k), &which);
+            int one = find_easiest_unknown(s, qdot_expr_arg(pool, list, k), &which);
 
             if (one < 9 && one > hardest)
                 hardest = one;
@@ -573,7 +573,7 @@ choose_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *fac
     return qdot_pool_check(pool);
 }
 
-/* Choose the factors of a divisor that must vanish first; nil if it is 0 already. */
+/* Choose those factors of a divisor that vanish on the branch to be solved; nil if it is 0 already. */
 static qdot_status
 choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
 {
@@ -584,7 +584,7 @@ choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
         return qdot_pool_check(pool);
     next->equation = e;
     next->factors = qdot_solve_factors(pool, e);
-    if (holds_unknowns(s, e) == 0)
+    if (count_unknowns(s, e) == 0)
         next->dead = e;
     return qdot_pool_check(pool);
 }
@@ -592,7 +592,7 @@ choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
 /* An equation e = 0 without unknowns. Integers that count members of families may solve it, or one side of a switch of
  * parameters; else it never holds. */
 static qdot_status
-with_dead(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_equation *next, const qdot_facts *facts)
+test_known_equation(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_equation *next, const qdot_facts *facts)
 {
     qdot_expr choice = qdot_vanishes_in_regions(s->pool, next->dead)
                            ? qdot_sides_choice(s->pool, next->dead, QDOT_NIL)
@@ -601,35 +601,35 @@ with_dead(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_eq
 
     if (qdot_solve_integers(s->pool, next->dead) > 0) {
         if (b->first == QDOT_NIL)
-            return with_integers_solved(s, b, next->dead);
-        s->complete = false; /* integers for which a divisor is 0 are not determined */
+            return continue_with_solved_integers(s, b, next->dead);
+        s->complete = false; /* incomplete, since integers for which a divisor is 0 are not determined */
         return QDOT_OK;
     }
     if (choice == QDOT_NIL)
         return is_never_zero(s, next->dead, facts);
     simple.equations = qdot_list_appended(s->pool, b->equations, 1, &next->dead);
-    return with_sides(s, &simple, choice);
+    return continue_on_all_sides(s, &simple, choice);
 }
 
 /* The factors of the next equation, each solved where no choice is in it; else a branch with that factor alone, or, if it
  * is the only one, for each side. */
 static qdot_status
-with_factors(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_equation *next)
+continue_with_factors(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_equation *next)
 {
     uint32_t n = qdot_expr_count(s->pool, next->factors);
 
     for (uint32_t k = n; k-- > 0;) {
-        qdot_expr one = qdot_expr_arg(s->pool, next->factors, k), choice = shared_choice(s, one, next->others);
+        qdot_expr one = qdot_expr_arg(s->pool, next->factors, k), choice = find_common_switch(s, one, next->others);
         qdot_simultaneous_branch with = *b;
         qdot_expr *at = b->first == QDOT_NIL ? &with.equations : &with.first;
 
         if (choice == QDOT_NIL) {
-            QDOT_TRY(split(s, b, next->others, one));
+            QDOT_TRY(solve_factor(s, b, next->others, one));
             continue;
         }
         *at = b->first == QDOT_NIL ? qdot_list_appended(s->pool, next->others, 1, &one) : one;
         QDOT_TRY(qdot_pool_check(s->pool));
-        QDOT_TRY(n == 1 ? with_sides(s, &with, choice) : qdot_vec_push(&s->todo, with));
+        QDOT_TRY(n == 1 ? continue_on_all_sides(s, &with, choice) : qdot_vec_push(&s->todo, with));
     }
     return QDOT_OK;
 }
@@ -647,17 +647,17 @@ step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
         QDOT_TRY(choose_divisor(s, b->first, &next));
     if (next.factors == QDOT_NIL) { /* the divisor is 0: no solution on this branch */
         left.first = QDOT_NIL;
-        QDOT_TRY(choose_equation(s, b->equations, &facts, &next));
+        QDOT_TRY(choose_next_equation(s, b->equations, &facts, &next));
     }
     if (next.dead != QDOT_NIL)
-        return with_dead(s, &left, &next, &facts);
-    return next.factors == QDOT_NIL ? qdot_simultaneous_emit(s, b) : with_factors(s, &left, &next);
+        return test_known_equation(s, &left, &next, &facts);
+    return next.factors == QDOT_NIL ? qdot_simultaneous_emit(s, b) : continue_with_factors(s, &left, &next);
 }
 
 /* Charge a step on these equations, whose factors and forms take more than their length; false when
  * the budget is spent. */
 static bool
-charge(qdot_simultaneous *s, qdot_expr equations)
+charge_work(qdot_simultaneous *s, qdot_expr equations)
 {
     uint64_t size = qdot_expr_size(s->pool, equations), work;
 
@@ -678,7 +678,7 @@ qdot_simultaneous_solve(qdot_simultaneous *s)
     while (status == QDOT_OK && s->todo.n > 0) {
         qdot_simultaneous_branch b = s->todo.at[--s->todo.n];
 
-        if (!charge(s, b.equations)) {
+        if (!charge_work(s, b.equations)) {
             s->complete = false;
             s->todo.n = 0;
             break;

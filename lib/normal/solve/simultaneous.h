@@ -40,7 +40,7 @@ typedef struct {
     qdot_expr defined; /* further expressions that must be defined at a solution; nil: none */
     qdot_expr domain; /* conditions (conditions.h) for the equations as typed to be defined; nil: none */
     qdot_vec(qdot_expr) unknowns; /* the unknowns; solved from the last to the first, unless another is easier */
-    size_t places;                  /* how many unknowns, the first, may be periodic */
+    size_t places;                  /* how many unknowns may be periodic (coordinates); these come first */
     /* Whether members of a family with this period, not a full turn, are equivalent for the caller;
      * NULL: always. */
     bool (*alike)(void *user, qdot_expr u, qdot_expr period);
@@ -48,14 +48,14 @@ typedef struct {
     /* Inserts values into the ends of the domains in which members are listed; NULL: unchanged. */
     qdot_expr (*ends)(void *user, qdot_expr end);
     void *ends_user;
-    uint64_t work;                  /* rest of the budget of operations */
+    uint64_t work;                  /* the remaining budget of operations */
     qdot_vec(qdot_simultaneous_branch) todo;
 
     qdot_vec(qdot_simultaneous_solution) found;
     bool complete; /* no solution has been lost; true at first */
     bool recurs;   /* an angle has one declared bound: solutions within one turn are listed */
     qdot_vec(qdot_expr) special; /* expressions in parameters: where one is 0 the set of solutions may differ */
-    qdot_vec(qdot_expr) period; /* periods of the first unknowns; nil: not computed; QDOT_FALSE: not periodic */
+    qdot_vec(qdot_expr) period; /* periods of the unknowns that may be periodic; nil: not computed; QDOT_FALSE: none */
 } qdot_simultaneous;
 
 /* Every solution of f [n] in the unknowns u [n] under `conditions` (nil: none), each once, ascending where all are
@@ -74,10 +74,10 @@ bool qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneo
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_solve(qdot_simultaneous *s);
 void qdot_simultaneous_clear(qdot_simultaneous *s);
 
-/* e with the values of the equations u = value inserted simultaneously. */
+/* The expression e with the values of the equations u = value inserted simultaneously. */
 qdot_expr qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values);
 
-/* The window of the unknown u (solutions.h), with values inserted into its ends. */
+/* The interval in which the unknown u is sought (solutions.h), with parameter values inserted into its ends. */
 qdot_window qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle);
 
 /* Find the smallest shift of the unknown u that leaves all equations unchanged; nil if none is known. */

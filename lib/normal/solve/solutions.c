@@ -1,4 +1,4 @@
-/* solutions.c -- the roots inside a domain: members of periodic families, and conditions. */
+/* solutions.c -- the roots of an equation inside a domain: members of periodic families, and conditions. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -146,9 +146,9 @@ qdot_solve_integers(qdot_pool *pool, qdot_expr e)
     return n;
 }
 
-/* For a circular function f: f(u) with integer multiples of its period removed from u. */
+/* For a circular function f(u): remove integer multiples of its period from u. */
 static qdot_expr
-leave_out_turns(qdot_pool *pool, qdot_expr f, void *user)
+remove_turns(qdot_pool *pool, qdot_expr f, void *user)
 {
     const uint32_t op = qdot_expr_node(pool, f)->op;
     qdot_expr u = qdot_expr_count(pool, f) == 1 ? qdot_expr_arg(pool, f, 0) : QDOT_NIL,
@@ -175,7 +175,7 @@ leave_out_turns(qdot_pool *pool, qdot_expr f, void *user)
 qdot_expr
 qdot_solve_without_turns(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, e, QDOT_FUN, leave_out_turns, NULL);
+    return qdot_walk_replace(pool, e, QDOT_FUN, remove_turns, NULL);
 }
 
 qdot_expr
@@ -190,7 +190,7 @@ qdot_solve_one_member(qdot_pool *pool, qdot_expr e)
     return qdot_subs(pool, e, MOST_INTEGERS, integer, zero);
 }
 
-/* Arguments for listing the members of a root inside a window. */
+/* Arguments of the functions that list the members of a periodic root inside an interval. */
 typedef struct {
     qdot_pool *pool;
     qdot_expr x;
@@ -231,9 +231,9 @@ is_never_inside(qdot_pool *pool, qdot_expr set, qdot_expr relations, const qdot_
     return never;
 }
 
-/* The conditions, with those that `value` lies in the window. */
+/* The set of conditions extended by those under which `value` lies in the interval w. */
 static qdot_expr
-conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
+add_interval_conditions(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
        const qdot_facts *facts)
 {
     qdot_expr room[QDOT_CONDITIONS_MOST], relations = qdot_window_relations(pool, w, value);
@@ -242,7 +242,7 @@ conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_wi
         return relations == QDOT_FALSE ? QDOT_FALSE : set;
     if (is_never_inside(pool, set, relations, facts))
         return QDOT_FALSE;
-    /* decide them together with the value's own conditions, which may contradict them */
+    /* decide these together with the value's own conditions, which may contradict them */
     if (set != QDOT_NIL) {
         qdot_facts all = qdot_facts_and(pool, facts, set, room);
 
@@ -256,13 +256,13 @@ conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_wi
 }
 
 static qdot_status
-members_add_value(const members *m, qdot_expr value, const qdot_window *w)
+append_value(const members *m, qdot_expr value, const qdot_window *w)
 {
     qdot_root one = {qdot_simplify(m->pool, value, m->facts), QDOT_NIL, QDOT_NIL, QDOT_NIL};
     qdot_expr room[QDOT_CONDITIONS_MOST];
 
     QDOT_TRY(qdot_pool_check(m->pool));
-    one.condition = conditions_inside(m->pool, m->root->condition, one.value, w, m->facts);
+    one.condition = add_interval_conditions(m->pool, m->root->condition, one.value, w, m->facts);
     if (one.condition != QDOT_FALSE && m->root->members != QDOT_NIL) {
         const qdot_facts known = qdot_facts_and(m->pool, m->facts, one.condition, room);
 
@@ -278,26 +278,26 @@ members_add_value(const members *m, qdot_expr value, const qdot_window *w)
 
 /* Whether e is a constant; *v: its value as a double. */
 static bool
-as_number(qdot_pool *pool, qdot_expr e, double *v)
+constant_as_double(qdot_pool *pool, qdot_expr e, double *v)
 {
     return e != QDOT_NIL && qdot_is_constant(pool, e) &&
            qdot_ball_double(pool, e, NULL, NULL, v) && isfinite(*v);
 }
 
-/* Find the number of periods (end - base)/period, if it is a constant. */
+/* Find the number of periods between the base member and `end` of the interval, if it is a constant. */
 static bool
-periods_to(const members *m, qdot_expr end, double *v)
+count_periods_to(const members *m, qdot_expr end, double *v)
 {
     qdot_expr e;
 
     if (end == QDOT_NIL)
         return false;
     e = qdot_div(m->pool, qdot_sub(m->pool, end, m->root->value), m->root->period);
-    return as_number(m->pool, qdot_simplify(m->pool, e, m->facts), v);
+    return constant_as_double(m->pool, qdot_simplify(m->pool, e, m->facts), v);
 }
 
 static qdot_expr
-members_value(const members *m, long k)
+family_member(const members *m, long k)
 {
     return qdot_add(m->pool, m->root->value,
                     qdot_mul(m->pool, qdot_expr_int(m->pool, k), m->root->period));
@@ -306,21 +306,21 @@ members_value(const members *m, long k)
 /* Add members number first ... last; those near an end of the window are decided exactly, the
  * others lie inside. */
 static qdot_status
-members_add_between(const members *m, double first, double last)
+append_members_between(const members *m, double first, double last)
 {
     for (long k = (long)ceil(first - 1e-6); k <= (long)floor(last + 1e-6); k++) {
         bool is_near = (double)k - first < 1e-6 || last - (double)k < 1e-6;
 
-        QDOT_TRY(members_add_value(m, members_value(m, k), is_near ? m->window : &window_whole));
+        QDOT_TRY(append_value(m, family_member(m, k), is_near ? m->window : &window_whole));
     }
     return QDOT_OK;
 }
 
 /* --- the members: families with bounded values --- */
 
-/* Find bounds of e [m] over the declared domains of all their symbols; the whole line if unknown. */
+/* Find bounds of each e [m] over the declared domains of all symbols in it; infinite if unknown. */
 static qdot_status
-bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval *to)
+find_bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval *to)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, qdot_list(pool, (uint32_t)m, e), true),
               x[QDOT_ENCLOSURE_MOST];
@@ -354,7 +354,7 @@ bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval
 /* Add the members between the ends of the window. How many periods away each end is depends on parameters; intervals bound
  * that over their declared domains. *bounded: there are few enough; else none is added. */
 static qdot_status
-members_add_bounded(const members *m, bool *bounded)
+append_members_within_bounds(const members *m, bool *bounded)
 {
     qdot_expr e[2] = {m->window->lo, m->window->hi};
     qdot_interval to[2];
@@ -362,54 +362,54 @@ members_add_bounded(const members *m, bool *bounded)
     for (int i = 0; i < 2; i++)
         e[i] = qdot_div(m->pool, qdot_sub(m->pool, e[i], m->root->value), m->root->period);
     QDOT_TRY(qdot_pool_check(m->pool));
-    QDOT_TRY(bounds_over_domains(m->pool, 2, e, to));
+    QDOT_TRY(find_bounds_over_domains(m->pool, 2, e, to));
     *bounded = to[1].hi - to[0].lo <= 2 * MOST_PERIODS;
     for (double k = ceil(to[0].lo); k <= floor(to[1].hi) && *bounded; k++) {
         bool inside = k > to[0].hi && k < to[1].lo;
 
-        QDOT_TRY(members_add_value(m, members_value(m, (long)k), inside ? &window_whole : m->window));
+        QDOT_TRY(append_value(m, family_member(m, (long)k), inside ? &window_whole : m->window));
     }
     return QDOT_OK;
 }
 
-/* Whether the member `k` periods away is proved to lie beyond the end in that direction. */
+/* Whether the member k periods from the base is proved to lie beyond the end of the interval on its side. */
 static bool
-is_beyond(const members *m, long k)
+is_beyond_end(const members *m, long k)
 {
     const qdot_window *w = m->window;
-    qdot_expr value = members_value(m, k),
+    qdot_expr value = family_member(m, k),
               gap = k > 0 ? qdot_sub(m->pool, w->hi, value) : qdot_sub(m->pool, value, w->lo);
 
     return qdot_condition(m->pool, gap, k > 0 ? w->hi_open : w->lo_open, m->facts) == QDOT_FALSE;
 }
 
-/* Add members in both directions up to the first that is proved to lie beyond the end. */
+/* Append members from the base in both directions up to the first that is proved to lie beyond the end. */
 static qdot_status
-members_add_outward(const members *m)
+append_members_outward(const members *m)
 {
     for (long direction = 1; direction >= -1; direction -= 2)
-        for (long k = direction > 0 ? 0 : -1; labs(k) < MOST_PERIODS && !(k != 0 && is_beyond(m, k)); k += direction)
-            QDOT_TRY(members_add_value(m, members_value(m, k), m->window));
+        for (long k = direction > 0 ? 0 : -1; labs(k) < MOST_PERIODS && !(k != 0 && is_beyond_end(m, k)); k += direction)
+            QDOT_TRY(append_value(m, family_member(m, k), m->window));
     return qdot_pool_check(m->pool);
 }
 
-/* Add as many members as make a full turn; *few: there are few enough, otherwise none is added. */
+/* Append as many members as make a full turn; *few: there are few enough, otherwise none is appended. */
 static qdot_status
-members_add_turn(const members *m, bool *few)
+append_members_of_turn(const members *m, bool *few)
 {
     qdot_expr turn = qdot_mul(m->pool, qdot_expr_int(m->pool, 2), QDOT_PI);
     double n;
 
     turn = qdot_simplify(m->pool, qdot_div(m->pool, turn, m->root->period), m->facts);
-    *few = as_number(m->pool, turn, &n) && n < MOST_MEMBERS + 0.5;
-    for (long k = 0; *few && k < lround(n); k++) /* the integers 0, -1, 1, -2 ... */
-        QDOT_TRY(members_add_value(m, members_value(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
+    *few = constant_as_double(m->pool, turn, &n) && n < MOST_MEMBERS + 0.5;
+    for (long k = 0; *few && k < lround(n); k++) /* the integers in the order 0, -1, 1, -2 ... */
+        QDOT_TRY(append_value(m, family_member(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
     return qdot_pool_check(m->pool);
 }
 
-/* Add the whole family, value + n period, with the conditions on n. */
+/* Append the whole family as one root, value + n period, with the conditions on n. */
 static qdot_status
-members_add_family(const members *m)
+append_family(const members *m)
 {
     qdot_pool *pool = m->pool;
     const qdot_window *w = m->window;
@@ -419,10 +419,10 @@ members_add_family(const members *m)
     members all = *m;
     double at;
 
-    if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && periods_to(m, w->lo, &at) &&
+    if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && count_periods_to(m, w->lo, &at) &&
         qdot_condition(pool, m->root->period, true, m->facts) == QDOT_TRUE) {
-        /* number the members from the first one on */
-        qdot_expr first = members_value(m, (long)ceil(at - 1e-6));
+        /* number the members so that the first inside the interval has n = 0 */
+        qdot_expr first = family_member(m, (long)ceil(at - 1e-6));
 
         if (qdot_condition(pool, qdot_sub(pool, first, w->lo), w->lo_open, m->facts) == QDOT_FALSE)
             first = qdot_add(pool, first, m->root->period);
@@ -433,7 +433,7 @@ members_add_family(const members *m)
     }
     QDOT_TRY(qdot_pool_check(pool));
     all.root = &from;
-    return members_add_value(&all, qdot_add(pool, value, qdot_mul(pool, n, m->root->period)), &rest);
+    return append_value(&all, qdot_add(pool, value, qdot_mul(pool, n, m->root->period)), &rest);
 }
 
 qdot_status
@@ -447,34 +447,34 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
     bool bounded, few = true;
 
     if (root->period == QDOT_NIL)
-        return members_add_value(&m, root->value, root->value == x ? &window_whole : &w);
+        return append_value(&m, root->value, root->value == x ? &window_whole : &w);
     if (w.lo == QDOT_NIL || w.hi == QDOT_NIL)
-        return members_add_family(&m);
-    if (periods_to(&m, w.lo, &first) && periods_to(&m, w.hi, &last) && fabs(last - first) <= MOST_MEMBERS) {
+        return append_family(&m);
+    if (count_periods_to(&m, w.lo, &first) && count_periods_to(&m, w.hi, &last) && fabs(last - first) <= MOST_MEMBERS) {
         out->recurs = recurs;
-        return members_add_between(&m, fmin(first, last), fmax(first, last));
+        return append_members_between(&m, fmin(first, last), fmax(first, last));
     }
     QDOT_TRY(qdot_pool_check(pool));
     if (w.turn && qdot_is_constant(pool, root->period)) {
-        QDOT_TRY(members_add_turn(&m, &few));
+        QDOT_TRY(append_members_of_turn(&m, &few));
         if (few)
             return QDOT_OK;
     }
     if (few && qdot_is_constant(pool, root->period)) {
-        QDOT_TRY(members_add_bounded(&m, &bounded));
+        QDOT_TRY(append_members_within_bounds(&m, &bounded));
         if (bounded) {
             out->recurs = recurs;
             return QDOT_OK;
         }
-        if (!w.recurs && is_beyond(&m, MOST_PERIODS) && is_beyond(&m, -MOST_PERIODS))
-            return members_add_outward(&m);
+        if (!w.recurs && is_beyond_end(&m, MOST_PERIODS) && is_beyond_end(&m, -MOST_PERIODS))
+            return append_members_outward(&m);
         QDOT_TRY(qdot_pool_check(pool));
     }
-    if (!few || w.recurs) { /* list families over the whole domain, not for one turn */
+    if (!few || w.recurs) { /* list families over the whole domain of x, not only within one turn */
         w = qdot_solve_window(pool, x, false);
         w.integer = window->integer;
     }
-    return members_add_family(&m);
+    return append_family(&m);
 }
 
 void

@@ -9,7 +9,7 @@
 #include "normal/solve/conditions.h"
 
 typedef struct {
-    qdot_expr value;     /* the root; x itself: every x that satisfies the condition */
+    qdot_expr value;     /* the root of an equation in x; x itself: every x that satisfies the condition is a root */
     qdot_expr condition; /* a LIST of relations under which it is a root; nil: always */
     qdot_expr period;    /* value + n period is a root for every integer n; nil: a single root */
     qdot_expr members; /* for a family: conditions in x that each member must satisfy; nil: none */
@@ -17,42 +17,42 @@ typedef struct {
 
 typedef struct {
     qdot_vec(qdot_root) root;
-    bool complete; /* these are all roots, where no divisor is 0 */
+    bool complete; /* `root` has all roots, except where a divisor is 0 */
     bool single;   /* they are all but for single places where a power with x in its exponent has a negative base */
     bool recurs; /* x is an angle with one declared bound: roots of one turn, others differ by full turns */
     qdot_vec(qdot_expr) divisor; /* divisors without x, assumed non-zero; a LIST: not all of its entries are 0 */
-    qdot_vec(qdot_expr) special; /* the same in parameters only: where one is 0 the roots may differ */
+    qdot_vec(qdot_expr) special; /* divisors that contain parameters only: where one is 0 the roots may differ */
 } qdot_solutions;
 
 void qdot_solutions_clear(qdot_solutions *s);
 
 /* --- inside a domain ---- */
 
-/* The window in which x is sought; nil: no end. */
+/* The interval in which the unknown x is sought; nil: no end. */
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
-    bool turn;   /* one turn of an unbounded angle, which represents all turns */
-    bool recurs; /* one turn of an angle with one declared bound */
+    bool turn;   /* the interval is one turn of an angle without bounds, and represents all turns */
+    bool recurs; /* the interval is one turn of an angle with one declared bound */
     unsigned integer; /* index of the integer that numbers members of a family (qdot_solve_integer) */
 } qdot_window;
 
-/* The declared domain of x; for an angle (f has period 2 pi in x) one turn of it. */
+/* The declared domain of x as an interval; for an angle (f has period 2 pi in x) one turn of it. */
 qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
 /* One turn within the window: of one with one end, the turn from there; -pi < x <= pi if it has none. A window with two
  * ends stays as it is. */
 qdot_window qdot_window_turn(qdot_pool *pool, qdot_window w);
 
-/* The conditions that a value lies in the window; nil if the window has no ends. */
+/* The conditions under which a value lies in the interval; nil if the interval has no ends. */
 qdot_expr qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value);
 
-/* Whether a shift of x by `period` changes nothing in e, an expression or a LIST, by proof. */
+/* Whether e, an expression or a LIST, is proved to be unchanged by a shift of x by `period`. */
 bool qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period,
                     const qdot_facts *facts);
-/* Whether a full turn of x changes nothing in e, by proof. */
+/* Whether e is proved to be unchanged by a full turn (2 pi) of x. */
 bool qdot_is_angle(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts);
 
-/* The window narrowed by conditions that are linear in x with constant bounds. */
+/* The interval narrowed by those conditions that are linear in x and have constant bounds. */
 qdot_window qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions,
                                qdot_window window, const qdot_facts *facts);
 
@@ -62,16 +62,16 @@ QDOT_MUST_CHECK qdot_status qdot_solve_members(qdot_pool *pool, qdot_expr x, con
                                                const qdot_window *window,
                                                const qdot_facts *facts, qdot_solutions *out);
 
-/* The k-th symbol for an integer, k = 0, 1 ...: n, n1, n2 ... without declared names. */
+/* The k-th symbol for an integer, k = 0, 1 ...: n, n1, n2 ..., leaving out names that are declared. */
 qdot_expr qdot_solve_integer(qdot_pool *pool, unsigned k);
 
 /* How many of the symbols n, n1, n2 ... must be counted to include those in e. */
 unsigned qdot_solve_integers(qdot_pool *pool, qdot_expr e);
 
-/* e without multiples of full turns in circular functions: sin(x) for sin(x + 2 pi n). */
+/* The expression e without full turns in the arguments of circular functions: sin(x) for sin(x + 2 pi n). */
 qdot_expr qdot_solve_without_turns(qdot_pool *pool, qdot_expr e);
 
-/* e with the integers n, n1 ... set to 0: one member of a family. */
+/* The expression e with the integers n, n1 ... set to 0: one member of a family of solutions. */
 qdot_expr qdot_solve_one_member(qdot_pool *pool, qdot_expr e);
 
 #endif

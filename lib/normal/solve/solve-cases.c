@@ -9,7 +9,7 @@
 /* Those members of a family at which e, which is not as periodic, is 0: value + n period for the integers n that
  * solve e = 0. */
 static qdot_status
-members_with(qdot_solver *s, qdot_expr e, const qdot_root *root, qdot_expr when)
+add_members_with_zero(qdot_solver *s, qdot_expr e, const qdot_root *root, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     qdot_expr n = qdot_solve_integer(pool, 0),
@@ -39,7 +39,7 @@ members_with(qdot_solver *s, qdot_expr e, const qdot_root *root, qdot_expr when)
 
 /* Add the roots of u, at which sign u jumps, if e itself is proved to vanish there. */
 static qdot_status
-at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
+add_roots_at_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
 {
     qdot_solutions found = {.complete = true};
     qdot_solver inner = {.pool = s->pool, .f = u, .x = s->x, .facts = s->facts, .out = &found,
@@ -52,13 +52,13 @@ at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
                   all = qdot_conditions_all(s->pool, when, root->condition);
 
         if (root->period != QDOT_NIL && !qdot_is_period(s->pool, e, s->x, root->period, s->facts)) {
-            status = members_with(s, e, root, all);
+            status = add_members_with_zero(s, e, root, all);
         } else if (at == QDOT_NIL) {
             status = qdot_pool_check(s->pool);
             status = status == QDOT_EDOMAIN ? QDOT_OK : status;
         } else if (qdot_is_zero(s->pool, at, s->facts)) {
             status = qdot_solver_add(s, root->value, root->period, all);
-        /* not generic: for some values of other unknowns it may be a root */
+        /* the value is not generic: for some values of other unknowns it may be a root */
         } else if (!qdot_is_generic(s->pool, at) ||
                    root->period == QDOT_NIL) {
             status = qdot_solver_add_where(s, root->value, at, all);
@@ -80,7 +80,7 @@ qdot_solver_cases(qdot_solver *s, qdot_expr e, qdot_expr choice, qdot_expr when)
         status = qdot_solver_equation(s, qdot_sides_put(&sides, i, e),
                                       qdot_conditions_all(s->pool, when, sides.relations[i]));
     if (status == QDOT_OK && sides.jump != QDOT_NIL)
-        status = at_the_jump(s, e, sides.jump, when);
+        status = add_roots_at_jump(s, e, sides.jump, when);
     qdot_sides_clear(&sides);
     return status;
 }

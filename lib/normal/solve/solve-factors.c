@@ -1,4 +1,4 @@
-/* solve-factors.c -- writes an expression as a product. */
+/* solve-factors.c -- writes an expression as a product of factors, for solving equations factor by factor. */
 #include "normal/solve/solve-factors.h"
 
 #include <stdio.h>
@@ -22,10 +22,10 @@
 
 enum { WORK = 2000000 };
 
-/* Multiply a product by the irreducible factors of p, with their exponents times `turn`, and its content. */
+/* Multiply a product by p in irreducible factors, with their exponents times `turn` (1 or -1), and by its content. */
 static qdot_status
-collect(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
-        qdot_expr **list, size_t *n, size_t *capacity)
+multiply_by_factors(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
+                    qdot_expr **list, size_t *n, size_t *capacity)
 {
     qdot_pool *pool = f->pool;
     qdot_factors factors;
@@ -56,7 +56,7 @@ collect(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
 /* Find the product of factors and, if asked for, the factors of the numerator (*list stays NULL if
  * over budget). */
 static qdot_status
-factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, size_t *n)
+find_factors(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, size_t *n)
 {
     qdot_expr prepared = qdot_prepare(pool, e);
     size_t capacity = 0;
@@ -74,9 +74,9 @@ factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, s
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
             result = QDOT_ZERO;
         } else if (qdot_field_goes(&f)) {
-            status = collect(&f, r.n, 1, &result, list, n, &capacity);
+            status = multiply_by_factors(&f, r.n, 1, &result, list, n, &capacity);
             if (status == QDOT_OK)
-                status = collect(&f, r.d, -1, &result, NULL, NULL, NULL);
+                status = multiply_by_factors(&f, r.d, -1, &result, NULL, NULL, NULL);
         }
         if (status == QDOT_OK && qdot_field_goes(&f))
             *product = result;
@@ -98,10 +98,10 @@ enum { MOST_ROOTS = 4, MOST_ORDER = 12 };
 
 struct roots {
     uint32_t n;
-    qdot_expr v[MOST_ROOTS], root[MOST_ROOTS]; /* symbols v for roots; a root may contain symbols of earlier roots */
+    qdot_expr v[MOST_ROOTS], root[MOST_ROOTS]; /* symbols v that replace roots; a root may contain symbols of earlier roots */
 };
 
-/* A parameter in which `base` is linear with a number as slope; nil if there is none. */
+/* A parameter in which `base` is linear, with a number as coefficient *slope; nil if there is none. */
 static qdot_expr
 linear_parameter(qdot_pool *pool, qdot_expr base, qdot_expr *slope)
 {
@@ -117,7 +117,7 @@ linear_parameter(qdot_pool *pool, qdot_expr base, qdot_expr *slope)
     return QDOT_NIL;
 }
 
-/* The least n for which all powers of base in the nodes of w are those of base^(1/n), up to MOST_ORDER. */
+/* The least n <= MOST_ORDER for which all powers of base in the nodes of w are integer powers of base^(1/n). */
 static ulong
 common_order(const qdot_pool *pool, const qdot_walk *w, qdot_expr base)
 {
@@ -158,9 +158,9 @@ is_under_one_root(const qdot_pool *pool, const qdot_walk *w, qdot_expr base, qdo
     return one;
 }
 
-/* e with the first root of a linear function of a parameter written by v; e itself where there is none. */
+/* The expression e with the first root of a linear function of a parameter replaced by a symbol v; else e. */
 static qdot_expr
-without_root(qdot_pool *pool, qdot_expr e, struct roots *r)
+replace_root_by_symbol(qdot_pool *pool, qdot_expr e, struct roots *r)
 {
     qdot_expr base = QDOT_NIL, p = QDOT_NIL, slope = QDOT_NIL, value, zero = QDOT_ZERO;
     char name[24];
@@ -195,19 +195,19 @@ without_root(qdot_pool *pool, qdot_expr e, struct roots *r)
 }
 
 static qdot_expr
-factors_without_roots(qdot_pool *pool, qdot_expr e, struct roots *r)
+replace_roots_by_symbols(qdot_pool *pool, qdot_expr e, struct roots *r)
 {
     qdot_expr last = QDOT_NIL;
 
     while (e != QDOT_NIL && e != last && r->n < MOST_ROOTS) {
         last = e;
-        e = without_root(pool, e, r);
+        e = replace_root_by_symbol(pool, e, r);
     }
     return e;
 }
 
 static qdot_expr
-with_roots(qdot_pool *pool, qdot_expr e, const struct roots *r)
+restore_roots(qdot_pool *pool, qdot_expr e, const struct roots *r)
 {
     for (uint32_t i = r->n; e != QDOT_NIL && i-- > 0;)
         e = qdot_subs(pool, e, 1, &r->v[i], &r->root[i]);
@@ -222,28 +222,28 @@ struct factoring {
 };
 
 static void
-list_factors(void *user)
+list_factors_task(void *user)
 {
     struct factoring *x = user;
     struct roots roots = {0};
-    qdot_expr product = QDOT_NIL, *list = NULL, e = factors_without_roots(x->pool, x->e, &roots);
+    qdot_expr product = QDOT_NIL, *list = NULL, e = replace_roots_by_symbols(x->pool, x->e, &roots);
     size_t n = 0;
     qdot_status status = qdot_pool_check(x->pool);
 
-    if (status == QDOT_EDOMAIN) { /* nowhere real in this form */
+    if (status == QDOT_EDOMAIN) { /* the expression is nowhere real in this form */
         e = x->e;
         roots.n = 0;
         status = QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = factors_of(x->pool, e, &product, &list, &n);
+        status = find_factors(x->pool, e, &product, &list, &n);
 
     if (status != QDOT_OK)
         x->result = qdot_pool_fail(x->pool);
     else if (product == QDOT_NIL || product == QDOT_ZERO)
         x->result = qdot_list(x->pool, 1, product == QDOT_NIL ? &x->e : &product);
     else
-        x->result = with_roots(x->pool, qdot_list(x->pool, (uint32_t)n, list), &roots);
+        x->result = restore_roots(x->pool, qdot_list(x->pool, (uint32_t)n, list), &roots);
     qdot_free(list);
 }
 
@@ -251,7 +251,7 @@ qdot_expr
 qdot_solve_factors(qdot_pool *pool, qdot_expr e)
 {
     struct factoring x = {pool, e, QDOT_NIL};
-    qdot_status status = qdot_flint_run(pool, list_factors, &x);
+    qdot_status status = qdot_flint_run(pool, list_factors_task, &x);
 
     if (status == QDOT_ELIMIT)
         return qdot_list(pool, 1, &e);
@@ -262,14 +262,14 @@ qdot_solve_factors(qdot_pool *pool, qdot_expr e)
 
 enum { MOST_FUNCTIONS = 32 };
 
-/* Functions, and the symbols that replace them. */
+/* Functions in an expression, and the symbols that replace them. */
 struct unrelated {
     uint32_t n;
     qdot_expr of[MOST_FUNCTIONS], as[MOST_FUNCTIONS];
 };
 
 static qdot_expr
-as_symbol(qdot_pool *pool, qdot_expr node, void *user)
+replace_function_by_symbol(qdot_pool *pool, qdot_expr node, void *user)
 {
     struct unrelated *u = user;
     char name[32];
@@ -312,20 +312,20 @@ count_factors(qdot_pool *pool, qdot_expr e)
 /* The product by all that relates functions to each other, or the one in which they stand for
  * themselves, sin(y)^2 for (1 - cos(y)) (1 + cos(y)): more factors, then fewer operations. */
 static qdot_expr
-product_of(qdot_pool *pool, qdot_expr e, void *user)
+find_shortest_product(qdot_pool *pool, qdot_expr e, void *user)
 {
     struct unrelated u = {0};
     qdot_expr related = QDOT_NIL, apart = QDOT_NIL, bare;
     long more;
 
     (void)user;
-    if (factors_of(pool, e, &related, NULL, NULL) != QDOT_OK)
+    if (find_factors(pool, e, &related, NULL, NULL) != QDOT_OK)
         return qdot_pool_fail(pool);
     related = related == QDOT_NIL ? e : related;
-    bare = qdot_walk_map(pool, e, as_symbol, &u);
+    bare = qdot_walk_map(pool, e, replace_function_by_symbol, &u);
     if (bare == QDOT_NIL || u.n == 0)
         return bare == QDOT_NIL ? QDOT_NIL : related;
-    if (factors_of(pool, bare, &apart, NULL, NULL) != QDOT_OK)
+    if (find_factors(pool, bare, &apart, NULL, NULL) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (apart == QDOT_NIL || related == QDOT_ZERO)
         return related;
@@ -341,18 +341,18 @@ product_of(qdot_pool *pool, qdot_expr e, void *user)
 }
 
 static void
-make_product(void *user)
+make_product_task(void *user)
 {
     struct factoring *x = user;
 
-    x->result = qdot_value_map(x->pool, x->e, product_of, NULL);
+    x->result = qdot_value_map(x->pool, x->e, find_shortest_product, NULL);
 }
 
 qdot_expr
 qdot_solve_product(qdot_pool *pool, qdot_expr e)
 {
     struct factoring x = {pool, e, e};
-    qdot_status status = e == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, make_product, &x);
+    qdot_status status = e == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, make_product_task, &x);
 
     if (status == QDOT_ELIMIT)
         return e;

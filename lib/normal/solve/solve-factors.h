@@ -11,7 +11,7 @@
  * is. A LIST; f itself alone where it cannot be factored. */
 qdot_expr qdot_solve_factors(qdot_pool *pool, qdot_expr f);
 
-/* e as a product of irreducible factors, numerator and denominator. */
+/* The expression e as a product of irreducible factors of its numerator and denominator. */
 qdot_expr qdot_solve_product(qdot_pool *pool, qdot_expr e);
 
 #endif

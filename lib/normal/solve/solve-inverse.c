@@ -11,7 +11,7 @@
 
 /* Solve u(x) = w + 2 pi k for every integer k, where u is linear in x. */
 static qdot_status
-turns_of(qdot_solver *s, qdot_expr u, qdot_expr w, qdot_expr when)
+solve_up_to_turns(qdot_solver *s, qdot_expr u, qdot_expr w, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     qdot_expr c = qdot_solver_tidy(s, qdot_diff(pool, u, s->x)), zero = QDOT_ZERO, base, period;
@@ -33,24 +33,24 @@ qdot_status
 qdot_solver_turns(qdot_solver *s, qdot_expr u, size_t n, const qdot_expr *w, qdot_expr when)
 {
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(turns_of(s, u, w[i], when));
+        QDOT_TRY(solve_up_to_turns(s, u, w[i], when));
     return QDOT_OK;
 }
 
 /* Solve sin u = v or cos u = v. */
 static qdot_status
-circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
+solve_sine_or_cosine(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     qdot_expr angle = qdot_fun1(pool, sine ? QDOT_ASIN : QDOT_ACOS, v);
 
-    if (angle == QDOT_NIL) { /* undefined: |v| > 1 */
+    if (angle == QDOT_NIL) { /* the inverse function is undefined: |v| > 1 */
         qdot_status status = qdot_pool_check(pool);
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     }
     if (v == QDOT_ONE || v == QDOT_MINUS_ONE)
-        return turns_of(s, u, angle, when);
+        return solve_up_to_turns(s, u, angle, when);
     when = qdot_conditions_and(pool, when,
                                qdot_solver_positive(s, qdot_sub(pool, QDOT_ONE, v)));
     when = qdot_conditions_and(pool, when,
@@ -65,7 +65,7 @@ circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
 
 /* The solution u of tan(u/2) = a/b, by the function atan2. */
 static qdot_expr
-twice_the_angle(qdot_pool *pool, qdot_expr a, qdot_expr b)
+double_arc_tangent(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     qdot_expr two = qdot_expr_int(pool, 2);
 
@@ -81,7 +81,7 @@ twice_the_angle(qdot_pool *pool, qdot_expr a, qdot_expr b)
  * *at: the first; nil: it is not so. The sum of arc functions of the general form would hide a root at an end of a
  * domain. */
 static qdot_status
-mixed_at_quarter(const qdot_solver *s, qdot_expr a, qdot_expr b, qdot_expr d, qdot_expr *at, qdot_expr *beside)
+solve_with_quarter_turn(const qdot_solver *s, qdot_expr a, qdot_expr b, qdot_expr d, qdot_expr *at, qdot_expr *beside)
 {
     qdot_pool *pool = s->pool;
     qdot_expr quarter = qdot_mul(pool, QDOT_HALF, QDOT_PI), minus_b = qdot_neg(pool, b);
@@ -99,7 +99,7 @@ mixed_at_quarter(const qdot_solver *s, qdot_expr a, qdot_expr b, qdot_expr d, qd
         *at = cases[i].at;
         *beside = qdot_add(
             pool, cases[i].at,
-            twice_the_angle(pool, qdot_solver_tidy(s, cases[i].over), qdot_solver_tidy(s, cases[i].below)));
+            double_arc_tangent(pool, qdot_solver_tidy(s, cases[i].over), qdot_solver_tidy(s, cases[i].below)));
     }
     return qdot_pool_check(pool);
 }
@@ -120,7 +120,7 @@ qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_ex
         return qdot_solver_turns(s, u, 2, (qdot_expr[]){w, qdot_add(pool, w, QDOT_PI)}, when);
     }
     QDOT_TRY(qdot_solver_divide(s, qdot_list(pool, 2, (qdot_expr[]){a, b})));
-    QDOT_TRY(mixed_at_quarter(s, a, b, d, &at, &beside));
+    QDOT_TRY(solve_with_quarter_turn(s, a, b, d, &at, &beside));
     if (at != QDOT_NIL)
         return qdot_solver_turns(s, u, 2, (qdot_expr[]){at, beside}, when);
     R = qdot_add(pool, qdot_mul(pool, a, a), qdot_mul(pool, b, b));
@@ -139,9 +139,9 @@ qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_ex
 
 /* --- equations for other functions ----------------------------------------------------- */
 
-/* The conditions, with lo < v < hi (<= at an end that is not open); a nil end adds nothing. */
+/* The set of conditions with lo < v < hi (<= at an end that is not open); a nil end adds nothing. */
 static qdot_expr
-in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool lo_open, bool hi_open)
+add_range_conditions(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool lo_open, bool hi_open)
 {
     qdot_pool *pool = s->pool;
 
@@ -156,7 +156,7 @@ in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi
 
 /* An end of the range of values of a function; nil if there is none. */
 static qdot_expr
-end_of_values(qdot_pool *pool, const qdot_fun_end *end)
+range_end(qdot_pool *pool, const qdot_fun_end *end)
 {
     if (!end->known)
         return QDOT_NIL;
@@ -164,19 +164,19 @@ end_of_values(qdot_pool *pool, const qdot_fun_end *end)
                       : qdot_expr_int(pool, end->number);
 }
 
-/* The conditions under which v lies in the range of the function h. */
+/* The set of conditions with the conditions under which v lies in the range of the function h. */
 static qdot_expr
-in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
+add_function_range(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
 {
     const qdot_fun_facts *f = qdot_fun_facts_of(h);
 
-    return in_range(s, when, v, end_of_values(s->pool, &f->lo), end_of_values(s->pool, &f->hi),
-                    f->lo.open, f->hi.open);
+    return add_range_conditions(s, when, v, range_end(s->pool, &f->lo), range_end(s->pool, &f->hi),
+                                f->lo.open, f->hi.open);
 }
 
 /* Solve floor(u) = v: v <= u < v + 1 for an integer v. */
 static qdot_status
-whole_part(qdot_solver *s, qdot_expr u, qdot_expr v, qdot_expr when)
+solve_floor(qdot_solver *s, qdot_expr u, qdot_expr v, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     const fmpq *number = qdot_expr_rational(pool, v);
@@ -201,10 +201,10 @@ qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
     qdot_expr u = qdot_expr_arg(pool, g, 0), w;
 
     if (h == QDOT_SIN || h == QDOT_COS)
-        return circular(s, h == QDOT_SIN, u, v, when);
+        return solve_sine_or_cosine(s, h == QDOT_SIN, u, v, when);
     if (h == QDOT_FLOOR)
-        return whole_part(s, u, v, when);
-    when = in_range_of(s, h, when, v);
+        return solve_floor(s, u, v, when);
+    when = add_function_range(s, h, when, v);
     QDOT_TRY(qdot_pool_check(pool));
     if (when == QDOT_FALSE)
         return QDOT_OK;

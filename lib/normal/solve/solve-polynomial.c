@@ -1,4 +1,4 @@
-/* solve-polynomial.c -- the zeros of a polynomial in one thing, a power of it or of degree two. */
+/* solve-polynomial.c -- the zeros of a polynomial in y that is linear or quadratic in a power of y. */
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -9,9 +9,9 @@
 #include "normal/solve/solve-factors.h"
 #include "normal/solve/solver.h"
 
-/* Add the y with y^k = v: v^(1/k), and its negative if k is even. */
+/* Add the real y for which y^k = v: v^(1/k), and its negative if k is even. */
 static qdot_status
-arguments_add_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, qdot_arguments *out)
+add_kth_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, qdot_arguments *out)
 {
     qdot_pool *pool = s->pool;
     qdot_expr y, exponent = qdot_expr_ratio(pool, 1, k);
@@ -39,9 +39,9 @@ arguments_add_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, qdot_ar
     return qdot_vec_push(out, ((qdot_argument){y, when}));
 }
 
-/* The largest k such that sum c_i y^i, c [degree + 1], is a polynomial in y^k; 0 for a constant. */
+/* The largest k for which the polynomial sum c_i y^i, c [degree + 1], is one in y^k; 0 for a constant. */
 static long
-common_step(const qdot_expr *c, long degree)
+largest_inner_power(const qdot_expr *c, long degree)
 {
     long step = 0;
 
@@ -62,7 +62,7 @@ common_step(const qdot_expr *c, long degree)
 /* The zeros of each factor of the polynomial, among roots of parameters too, which keep the field from factoring:
  * y^3 - 3 sqrt(c) y^2 + 3 c y - c sqrt(c) is (y - sqrt(c))^3. A factor of the full degree cannot be solved. */
 static qdot_status
-factors_add_roots(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, qdot_arguments *out)
+add_zeros_of_factors(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, qdot_arguments *out)
 {
     qdot_pool *pool = s->pool;
     qdot_expr y = qdot_symbol_get(pool, QDOT_FORMAL, "(y)"), sum = QDOT_ZERO, list,
@@ -98,17 +98,17 @@ qdot_status
 qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, qdot_arguments *out)
 {
     qdot_pool *pool = s->pool;
-    long step = common_step(c, degree);
+    long step = largest_inner_power(c, degree);
     qdot_expr a, b, discriminant, root, two_a;
 
     if (step == 0)
         return QDOT_OK;
     if (degree / step > 2)
-        return factors_add_roots(s, c, degree, when, out);
+        return add_zeros_of_factors(s, c, degree, when, out);
     a = c[degree];
     QDOT_TRY(qdot_solver_divide(s, a));
     if (degree == step)
-        return arguments_add_roots(s, qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, c[0], a))), step,
+        return add_kth_roots(s, qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, c[0], a))), step,
                        when, out);
     b = c[step];
     discriminant = qdot_solver_tidy(
@@ -127,7 +127,7 @@ qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_exp
 
         y = qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, y, two_a)));
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(arguments_add_roots(s, y, step, when, out));
+        QDOT_TRY(add_kth_roots(s, y, step, when, out));
         if (discriminant == QDOT_ZERO)
             break;
     }

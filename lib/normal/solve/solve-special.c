@@ -1,4 +1,4 @@
-/* solve-special.c -- roots where parameters have special values. */
+/* solve-special.c -- roots of an equation where its parameters have special values. */
 #include "normal/solve/solve-special.h"
 
 #include <string.h>
@@ -29,9 +29,9 @@ qdot_specials_clear(qdot_specials *s)
 
 /* --- where a root exists --------------------------------------------------------------- */
 
-/* The set, with those relations of `more` that do not contain x. */
+/* The set of conditions extended by those relations of `more` that do not contain x. */
 static qdot_expr
-conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
+add_conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
 {
     uint32_t n = more == QDOT_NIL ? 0 : qdot_expr_count(pool, more);
 
@@ -54,9 +54,9 @@ typedef struct {
     qdot_specials *out;
 } special_search;
 
-/* Record that the solutions may differ where the equation holds. */
+/* Record that the solutions may differ where the given equation in parameters holds. */
 static qdot_status
-leave_open(special_search *s, qdot_expr equation)
+record_open_equation(special_search *s, qdot_expr equation)
 {
     QDOT_TRY(qdot_pool_check(s->pool));
     return qdot_expr_place(s->out->open.n, s->out->open.at, equation) < s->out->open.n
@@ -66,7 +66,7 @@ leave_open(special_search *s, qdot_expr equation)
 
 /* --- solutions that are known already -------------------------------------------------- */
 
-/* Whether `root`, wherever it exists, is one of these roots with the values inserted. */
+/* Whether `root`, wherever it exists, is one of the roots of `set` with parameter values inserted. */
 static bool
 is_among(const special_search *s, const qdot_solutions *set, size_t n, const qdot_expr *from,
          const qdot_expr *to, const qdot_root *root)
@@ -96,7 +96,7 @@ is_among(const special_search *s, const qdot_solutions *set, size_t n, const qdo
 
 /* The first relation a <= b of a set that can only hold as a = b; nil if there is none. */
 static qdot_expr
-equality_in(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
+find_equality(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 {
     uint32_t n = set == QDOT_NIL ? 0 : qdot_expr_count(pool, set);
 
@@ -114,10 +114,10 @@ equality_in(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 /* Whether the root exists only where both sides of one of its conditions are equal, and is one of `found` at all values of
  * parameters where they are. */
 static qdot_status
-is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_solutions *found, const qdot_root *root,
-            bool *yes)
+is_root_at_equality(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_solutions *found, const qdot_root *root,
+                    bool *yes)
 {
-    qdot_expr equal = equality_in(pool, root->condition, facts), gap;
+    qdot_expr equal = find_equality(pool, root->condition, facts), gap;
     qdot_special_values values = {0};
     const special_search s = {.pool = pool, .x = x, .facts = facts, .found = found};
     qdot_status status = qdot_pool_check(pool);
@@ -145,7 +145,7 @@ is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_so
 /* Leave out roots that exist only at special values of parameters and equal another root there: under a <= 0, -sqrt(a)
  * exists at a = 0 alone, where sqrt(a) is the same. */
 static qdot_status
-leave_out_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_solutions *found)
+remove_repeated_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_solutions *found)
 {
     for (size_t i = 0; found->root.n > 1 && i < found->root.n;) {
         const qdot_root root = found->root.at[i];
@@ -155,7 +155,7 @@ leave_out_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_sol
 
         memmove(found->root.at + i, found->root.at + i + 1, behind * sizeof root);
         found->root.n--;
-        status = is_point_of(pool, x, facts, found, &root, &point);
+        status = is_root_at_equality(pool, x, facts, found, &root, &point);
         if (status == QDOT_OK && point)
             continue;
         memmove(found->root.at + i + 1, found->root.at + i, behind * sizeof root);
@@ -169,16 +169,16 @@ leave_out_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_sol
 qdot_expr
 qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr x)
 {
-    qdot_expr set = conditions_without(pool, QDOT_NIL, domain, x);
+    qdot_expr set = add_conditions_without(pool, QDOT_NIL, domain, x);
 
-    set = conditions_without(pool, set, qdot_conditions_of_domain(pool, f, QDOT_NIL), x);
-    return conditions_without(pool, set, qdot_conditions_of_divisors(pool, f, QDOT_NIL), x);
+    set = add_conditions_without(pool, set, qdot_conditions_of_domain(pool, f, QDOT_NIL), x);
+    return add_conditions_without(pool, set, qdot_conditions_of_divisors(pool, f, QDOT_NIL), x);
 }
 
 /* Remove whole turns by integers from the root, as cot(x + 2 pi n) is cot(x). *defined: it then has a value, and its
  * conditions may hold. */
 static qdot_status
-without_turns(qdot_pool *pool, const qdot_facts *facts, qdot_root *root, bool *defined)
+remove_turns_from_root(qdot_pool *pool, const qdot_facts *facts, qdot_root *root, bool *defined)
 {
     qdot_expr value = root->value, condition = root->condition;
     qdot_status status;
@@ -210,15 +210,15 @@ qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_writ
         qdot_expr value, set = of_equation;
         bool lifted, defined;
 
-        QDOT_TRY(without_turns(pool, facts, &root, &defined));
+        QDOT_TRY(remove_turns_from_root(pool, facts, &root, &defined));
         if (!defined)
             continue;
         value = root.period == QDOT_NIL ? root.value : qdot_list(pool, 2, (qdot_expr[]){root.value, root.period});
         QDOT_TRY(qdot_written_lifts(pool, written, f, x, root.value, facts, &lifted));
         if (lifted)
             set = qdot_conditions_less(pool, set, written->apart);
-        set = conditions_without(pool, set, qdot_conditions_of_divisors(pool, value, QDOT_NIL), x);
-        set = conditions_without(pool, set, qdot_conditions_of_domain(pool, value, QDOT_NIL), x);
+        set = add_conditions_without(pool, set, qdot_conditions_of_divisors(pool, value, QDOT_NIL), x);
+        set = add_conditions_without(pool, set, qdot_conditions_of_domain(pool, value, QDOT_NIL), x);
         if (set != QDOT_NIL)
             set = qdot_conditions_at(pool, qdot_conditions_all(pool, set, root.condition), 0, NULL, NULL,
                                      facts);
@@ -230,7 +230,7 @@ qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_writ
             found->root.at[kept++] = root;
     }
     found->root.n = kept;
-    return leave_out_points(pool, x, facts, found);
+    return remove_repeated_points(pool, x, facts, found);
 }
 
 /* Whether the conditions `where` of a listed set hold with the values inserted: then that set
@@ -254,10 +254,10 @@ applies(const special_search *s, qdot_expr where, size_t n, const qdot_expr *fro
     return holds;
 }
 
-/* Whether the general and special solutions already listed contain all of this set. */
+/* Whether sets of roots already listed, general or special, contain all roots at the parameter values `to`. */
 static bool
-is_told(const special_search *s, size_t n, const qdot_expr *from, const qdot_expr *to,
-        const qdot_solutions *set)
+is_already_listed(const special_search *s, size_t n, const qdot_expr *from, const qdot_expr *to,
+                  const qdot_solutions *set)
 {
     bool all = true;
 
@@ -270,11 +270,11 @@ is_told(const special_search *s, size_t n, const qdot_expr *from, const qdot_exp
     return all;
 }
 
-static qdot_status search_specials(special_search *s);
+static qdot_status search_special_values(special_search *s);
 
-/* Solve the equation with the parameters at these values. */
+/* Solve the equation with the parameter values of `where` inserted. */
 static qdot_status
-solve_at(special_search *s, qdot_expr where)
+solve_at_special_values(special_search *s, qdot_expr where)
 {
     qdot_pool *pool = s->pool;
     qdot_expr from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
@@ -285,7 +285,7 @@ solve_at(special_search *s, qdot_expr where)
 
     next.f = qdot_subs(pool, s->f, n, from, to);
     status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN) /* the equation is undefined there */
+    if (status == QDOT_EDOMAIN) /* the equation is undefined at these parameter values */
         return QDOT_OK;
     QDOT_TRY(status);
     next.written.domain = qdot_conditions_at(pool, s->written.domain, n, from, to, s->facts);
@@ -303,22 +303,22 @@ solve_at(special_search *s, qdot_expr where)
         status = qdot_solve_parameters(pool, next.f, s->x, &next.written, s->facts, &one.set);
     if (status == QDOT_OK && !one.set.complete) {
         for (size_t i = 0; i < n && status == QDOT_OK; i++)
-            status = leave_open(s, qdot_rel(pool, QDOT_EQ, qdot_sub(pool, from[i], to[i]), QDOT_ZERO));
+            status = record_open_equation(s, qdot_rel(pool, QDOT_EQ, qdot_sub(pool, from[i], to[i]), QDOT_ZERO));
     } else if (status == QDOT_OK) {
         next.found = &one.set;
         next.where = where;
-        if (!is_told(s, n, from, to, &one.set) && qdot_pool_check(pool) == QDOT_OK) {
+        if (!is_already_listed(s, n, from, to, &one.set) && qdot_pool_check(pool) == QDOT_OK) {
             status = qdot_vec_push(&s->out->at, one);
-            return status == QDOT_OK ? search_specials(&next) : status; /* the new set is owned by `out` */
+            return status == QDOT_OK ? search_special_values(&next) : status; /* the new set is owned by `out` */
         }
-        status = search_specials(&next);
+        status = search_special_values(&next);
     }
     qdot_solutions_clear(&one.set);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
 static qdot_status
-search_specials(special_search *s)
+search_special_values(special_search *s)
 {
     const qdot_solutions *set = s->found;
     qdot_special_values values = {0};
@@ -326,15 +326,15 @@ search_specials(special_search *s)
                                                  s->facts, &values);
 
     for (size_t i = 0; i < values.open.n && status == QDOT_OK; i++)
-        status = leave_open(s, values.open.at[i]);
+        status = record_open_equation(s, values.open.at[i]);
     for (size_t i = 0; i < values.at.n && status == QDOT_OK; i++) {
         qdot_expr where = values.at.at[i];
 
         status = s->out->at.n < MOST_SPECIALS
-                     ? solve_at(s, where)
-                     : leave_open(s, qdot_rel(s->pool, QDOT_EQ,
-                                              qdot_positive_of(s->pool, qdot_expr_arg(s->pool, where, 0)),
-                                              QDOT_ZERO));
+                     ? solve_at_special_values(s, where)
+                     : record_open_equation(s, qdot_rel(s->pool, QDOT_EQ,
+                                                        qdot_positive_of(s->pool, qdot_expr_arg(s->pool, where, 0)),
+                                                        QDOT_ZERO));
     }
     qdot_special_values_clear(&values);
     return status;
@@ -347,5 +347,5 @@ qdot_solve_specials(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_writte
     special_search s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .found = found,
                         .where = QDOT_NIL, .out = out};
 
-    return search_specials(&s);
+    return search_special_values(&s);
 }

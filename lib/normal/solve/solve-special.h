@@ -12,7 +12,7 @@
 #include "normal/solve/solutions.h"
 #include "normal/solve/written.h"
 
-/* A set of roots at special values of parameters. */
+/* The set of roots of an equation at special values of its parameters. */
 typedef struct {
     qdot_expr where; /* a LIST of equations parameter = value */
     qdot_solutions set;

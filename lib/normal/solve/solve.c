@@ -1,4 +1,4 @@
-/* solve.c -- the set of roots of an equation, and its part inside a domain. */
+/* solve.c -- finds the set of roots of an equation, and those of them that lie inside a domain. */
 #include "normal/solve/solve.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@
 
 /* Whether the root `one` belongs to the family or range `all`, wherever it exists. */
 static bool
-is_member(const qdot_solver *s, const qdot_root *one, const qdot_root *all)
+belongs_to_family_or_range(const qdot_solver *s, const qdot_root *one, const qdot_root *all)
 {
     qdot_expr room[QDOT_CONDITIONS_MOST];
     qdot_facts there;
@@ -34,7 +34,7 @@ is_member(const qdot_solver *s, const qdot_root *one, const qdot_root *all)
 
 /* Remove roots that belong to a listed family or range. */
 static qdot_status
-leave_out_members(qdot_solver *s)
+remove_family_members(qdot_solver *s)
 {
     qdot_root *at = s->out->root.at;
     size_t n = s->out->root.n, kept = 0;
@@ -44,7 +44,7 @@ leave_out_members(qdot_solver *s)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < n && !out[i]; k++)
-            out[i] = is_member(s, &at[i], &at[k]);
+            out[i] = belongs_to_family_or_range(s, &at[i], &at[k]);
     for (size_t i = 0; i < n; i++)
         if (!out[i])
             at[kept++] = at[i];
@@ -54,7 +54,7 @@ leave_out_members(qdot_solver *s)
 }
 
 static void
-solve_guarded(void *user)
+solve_equation_task(void *user)
 {
     qdot_solver *s = user;
     qdot_expr domain = qdot_conditions_all(
@@ -64,7 +64,7 @@ solve_guarded(void *user)
     if (s->status == QDOT_OK)
         s->status = qdot_solver_equation(s, s->f, domain);
     if (s->status == QDOT_OK)
-        s->status = leave_out_members(s);
+        s->status = remove_family_members(s);
     if (s->status == QDOT_OK)
         s->status = qdot_solve_sort(s->pool, s->out->root.n, s->out->root.at);
 }
@@ -89,8 +89,8 @@ as_exponential(qdot_pool *pool, qdot_expr node, void *user)
 }
 
 static qdot_status
-solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
-            qdot_solutions *out)
+solve_under_conditions(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
+                       qdot_solutions *out)
 {
     qdot_solver s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .out = out};
     qdot_status status;
@@ -103,8 +103,8 @@ solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *writt
     out->complete = true;
     if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
-    status = qdot_flint_run(pool, solve_guarded, &s);
-    if (status != QDOT_OK) { /* its results were freed with the failure */
+    status = qdot_flint_run(pool, solve_equation_task, &s);
+    if (status != QDOT_OK) { /* the results were freed when the solver failed */
         *out = (qdot_solutions){0};
         return status == QDOT_ELIMIT ? QDOT_OK : status;
     }
@@ -117,7 +117,7 @@ qdot_status
 qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
            qdot_solutions *out)
 {
-    return solve_where(pool, f, x, &(qdot_written){QDOT_NIL, QDOT_NIL}, facts, out);
+    return solve_under_conditions(pool, f, x, &(qdot_written){QDOT_NIL, QDOT_NIL}, facts, out);
 }
 
 qdot_status
@@ -150,16 +150,16 @@ qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts 
 
 /* Whether f may be piecewise constant: it contains |u|, sign, max, min, if or floor of x. */
 static qdot_status
-has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
+may_be_piecewise_constant(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
 {
     *yes = qdot_sides_choice(pool, f, x) != QDOT_NIL ||
            qdot_expr_find_function(pool, f, 1, (qdot_fun_id[]){QDOT_FLOOR}, x) != QDOT_NIL;
     return qdot_pool_check(pool);
 }
 
-/* The conditions except those that bound x by constants. */
+/* The set of conditions except those that bound x by constants. */
 static qdot_expr
-conditions_beside_ends(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
+remove_constant_bounds(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
 {
     uint32_t n = conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, conditions);
     qdot_expr left = QDOT_NIL;
@@ -177,11 +177,11 @@ conditions_beside_ends(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
 
 /* Add all x in the window that satisfy the conditions: a range, one point, or nothing. */
 static qdot_status
-add_range(qdot_pool *pool, qdot_expr x, qdot_expr conditions, const qdot_window *window,
-          qdot_solutions *out)
+add_range_of_solutions(qdot_pool *pool, qdot_expr x, qdot_expr conditions, const qdot_window *window,
+                       qdot_solutions *out)
 {
     const qdot_window w = qdot_solve_tighten(pool, x, conditions, *window, NULL);
-    qdot_root one = {x, conditions_beside_ends(pool, x, conditions), QDOT_NIL, QDOT_NIL};
+    qdot_root one = {x, remove_constant_bounds(pool, x, conditions), QDOT_NIL, QDOT_NIL};
     bool open = w.lo_open || w.hi_open;
 
     QDOT_TRY(qdot_pool_check(pool));
@@ -204,7 +204,7 @@ add_range(qdot_pool *pool, qdot_expr x, qdot_expr conditions, const qdot_window 
 
 /* Remove points that belong to a listed range. */
 static void
-leave_out_points(qdot_pool *pool, qdot_expr x, qdot_solutions *out)
+remove_points_in_ranges(qdot_pool *pool, qdot_expr x, qdot_solutions *out)
 {
     size_t kept = 0;
 
@@ -231,10 +231,10 @@ qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     bool pieces, ranges = false;
 
     *out = (qdot_solutions){0};
-    QDOT_TRY(has_pieces(pool, f, x, &pieces));
+    QDOT_TRY(may_be_piecewise_constant(pool, f, x, &pieces));
     if (!pieces)
         return QDOT_OK;
-    status = solve_where(pool, f, x, &(qdot_written){domain, QDOT_NIL}, NULL, &all);
+    status = solve_under_conditions(pool, f, x, &(qdot_written){domain, QDOT_NIL}, NULL, &all);
     for (size_t i = 0; i < all.root.n && !ranges; i++)
         ranges = all.root.at[i].value == x;
     out->complete = all.complete && ranges;
@@ -242,12 +242,12 @@ qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
         const qdot_root *root = &all.root.at[i];
 
         status = root->value == x
-                     ? add_range(pool, x, qdot_conditions_reduce(pool, root->condition, NULL), window, out)
+                     ? add_range_of_solutions(pool, x, qdot_conditions_reduce(pool, root->condition, NULL), window, out)
                      : qdot_solve_members(pool, x, root, window, NULL, out);
     }
     qdot_solutions_clear(&all);
     QDOT_TRY(status);
-    leave_out_points(pool, x, out);
+    remove_points_in_ranges(pool, x, out);
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_solve_sort(pool, out->root.n, out->root.at);
 }
@@ -265,7 +265,7 @@ qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written
     *out = all = (qdot_solutions){0};
     if (w.domain != QDOT_NIL) /* decide what holds on the whole domain of x before inserting roots */
         w.domain = qdot_conditions_at(pool, w.domain, 0, NULL, NULL, facts);
-    status = solve_where(pool, f, x, &w, facts, &all);
+    status = solve_under_conditions(pool, f, x, &w, facts, &all);
     for (size_t i = 0; i < all.root.n && !angle; i++)
         angle = all.root.at[i].period != QDOT_NIL;
     angle = angle && status == QDOT_OK && qdot_is_angle(pool, f, x, facts);

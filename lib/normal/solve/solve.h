@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_facts *facts,
                                               qdot_solutions *out);
 
-/* As qdot_solve_inside, for an equation in the form in which it was typed. */
+/* Solve as qdot_solve_inside does, for an equation given in the form in which it was typed. */
 QDOT_MUST_CHECK qdot_status qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                                const qdot_written *written, const qdot_facts *facts,
                                                qdot_solutions *out);
@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_window *window,
                                               qdot_solutions *out);
 
-/* Find the factors of f with x that qdot_solve does not solve completely, as a LIST. *all: f has no others. */
+/* Find as a LIST those factors of f with x that qdot_solve does not solve completely. *all: f has no other factors. */
 QDOT_MUST_CHECK qdot_status qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                                 const qdot_facts *facts, qdot_expr *list,
                                                 bool *all);

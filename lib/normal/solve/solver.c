@@ -36,7 +36,7 @@ qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
 }
 
 static bool
-is_listed(size_t n, const qdot_expr *list, qdot_expr e)
+list_contains(size_t n, const qdot_expr *list, qdot_expr e)
 {
     return qdot_expr_place(n, list, e) < n;
 }
@@ -49,10 +49,10 @@ qdot_solver_divide(qdot_solver *s, qdot_expr d)
     if ((qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0)
         return QDOT_OK;
     if (qdot_is_generic(s->pool, d))
-        return is_listed(s->out->special.n, s->out->special.at, d)
+        return list_contains(s->out->special.n, s->out->special.at, d)
                    ? QDOT_OK
                    : qdot_vec_push(&s->out->special, d);
-    return is_listed(s->out->divisor.n, s->out->divisor.at, d)
+    return list_contains(s->out->divisor.n, s->out->divisor.at, d)
                ? QDOT_OK
                : qdot_vec_push(&s->out->divisor, d);
 }
@@ -81,7 +81,7 @@ vanishes_somewhere(const qdot_solver *s, qdot_expr e, const qdot_facts *facts, b
 /* Take note that f has no value at a place, with what it does not choose there: if(...) may choose otherwise for some
  * parameters. */
 static qdot_status
-look_for_choices(qdot_solver *s)
+note_possible_branches(qdot_solver *s)
 {
     if (qdot_expr_find_function(s->pool, s->f, 1, (qdot_fun_id[]){QDOT_IF}, QDOT_NIL) != QDOT_NIL)
         s->out->complete = false;
@@ -91,7 +91,7 @@ look_for_choices(qdot_solver *s)
 /* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some
  * parameters only, no condition says for which: then these are not all. */
 static qdot_status
-is_root(qdot_solver *s, qdot_expr value, const qdot_facts *facts, bool *yes)
+decide_is_root(qdot_solver *s, qdot_expr value, const qdot_facts *facts, bool *yes)
 {
     qdot_expr at = qdot_subs(s->pool, s->f, 1, &s->x, &value);
     qdot_decision d;
@@ -101,7 +101,7 @@ is_root(qdot_solver *s, qdot_expr value, const qdot_facts *facts, bool *yes)
     if (at == QDOT_NIL) { /* the value is not defined */
         qdot_status status = qdot_pool_check(s->pool);
 
-        return status == QDOT_EDOMAIN ? look_for_choices(s) : status;
+        return status == QDOT_EDOMAIN ? note_possible_branches(s) : status;
     }
     QDOT_TRY(qdot_decide_equal(s->pool, at, QDOT_ZERO, facts, &d));
     *yes = d.verdict != QDOT_REFUTED;
@@ -123,9 +123,9 @@ qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_expr v
     return number != NULL && fmpz_is_one(fmpq_denref(number));
 }
 
-/* Whether two values are the same root; for families with one period, an integer number of periods apart. */
+/* Whether two values are the same root; for families with the same period: differ by a multiple of it. */
 static bool
-is_same(const qdot_solver *s, const qdot_root *a, qdot_expr value, qdot_expr period)
+is_same_root(const qdot_solver *s, const qdot_root *a, qdot_expr value, qdot_expr period)
 {
     qdot_expr apart;
 
@@ -137,9 +137,9 @@ is_same(const qdot_solver *s, const qdot_root *a, qdot_expr value, qdot_expr per
     return apart != QDOT_NIL && qdot_is_zero(s->pool, apart, s->facts);
 }
 
-/* The conditions that are the same for all members of a family; *each gets the others, which contain x. */
+/* Those conditions that are the same for all members of a family; *each gets the others, which contain x. */
 static qdot_expr
-of_all_members(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr *each)
+split_off_member_conditions(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr *each)
 {
     qdot_pool *pool = s->pool;
     uint32_t n = when == QDOT_NIL ? 0 : qdot_expr_count(pool, when);
@@ -161,7 +161,7 @@ of_all_members(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr
 /* Where f divides by 0 at the value of a family, but not at all of its members, as sin(x)/x does at 0 of n pi: *each, the
  * conditions that tell these apart; else nil. */
 static qdot_status
-poles_apart(const qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr *each)
+find_conditions_of_poles(const qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr *each)
 {
     qdot_expr at = qdot_subs(s->pool, s->f, 1, &s->x, &value), all;
     qdot_status status = qdot_pool_check(s->pool);
@@ -169,7 +169,7 @@ poles_apart(const qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr *
     *each = QDOT_NIL;
     if (at != QDOT_NIL || status != QDOT_EDOMAIN)
         return status;
-    all = of_all_members(s, qdot_conditions_of_divisors(s->pool, s->f, s->x), period, each);
+    all = split_off_member_conditions(s, qdot_conditions_of_divisors(s->pool, s->f, s->x), period, each);
     if (*each != QDOT_NIL && qdot_conditions_at(s->pool, all, 1, &s->x, &value, s->facts) == QDOT_FALSE)
         *each = QDOT_NIL;
     return qdot_pool_check(s->pool);
@@ -188,7 +188,7 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
         return QDOT_OK;
     QDOT_TRY(status);
     if (period != QDOT_NIL)
-        when = of_all_members(s, when, period, &root.members);
+        when = split_off_member_conditions(s, when, period, &root.members);
     root.condition = qdot_conditions_at(s->pool, when, 1, &s->x, &root.value, s->facts);
     QDOT_TRY(qdot_pool_check(s->pool));
     if (root.condition != QDOT_NIL)
@@ -202,16 +202,16 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
         return QDOT_OK;
     for (size_t i = 0; i < s->out->root.n; i++)
         if (s->out->root.at[i].members == root.members &&
-            is_same(s, &s->out->root.at[i], root.value, period) &&
+            is_same_root(s, &s->out->root.at[i], root.value, period) &&
             qdot_conditions_join(s->pool, &s->out->root.at[i].condition, root.condition,
                                  s->facts))
             return qdot_pool_check(s->pool);
     if (period != QDOT_NIL && root.members == QDOT_NIL && !lifted)
-        QDOT_TRY(poles_apart(s, root.value, period, &root.members));
+        QDOT_TRY(find_conditions_of_poles(s, root.value, period, &root.members));
     if (root.members != QDOT_NIL || lifted) /* this member may be no root; or it has been proved to be one */
         return qdot_vec_push(&s->out->root, root);
     facts = qdot_facts_and(s->pool, s->facts, root.condition, room);
-    QDOT_TRY(is_root(s, root.value, &facts, &yes));
+    QDOT_TRY(decide_is_root(s, root.value, &facts, &yes));
     return yes ? qdot_vec_push(&s->out->root, root) : QDOT_OK;
 }
 
@@ -243,7 +243,7 @@ qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr wh
 
 /* --- one factor -------------------------------------------------------------------- */
 
-/* The generators of one factor that contain x, and the factor as a polynomial in them. */
+/* The functions of x (generators) in one factor of an equation, and the factor as a polynomial in these. */
 typedef struct {
     slong var[3];
     size_t n;
@@ -252,7 +252,7 @@ typedef struct {
 } shape;
 
 static qdot_status
-shape_of(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, shape *out)
+read_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, shape *out)
 {
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
     qdot_status status;
@@ -276,7 +276,7 @@ shape_of(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, shape *out)
     return status;
 }
 
-/* The coefficient of var0^i (and var1^j). */
+/* The coefficient of var0^i (and of var1^j, if there are two variables) in the polynomial. */
 static qdot_expr
 coefficient(qdot_field *f, const shape *sh, ulong i, ulong j)
 {
@@ -289,9 +289,9 @@ coefficient(qdot_field *f, const shape *sh, ulong i, ulong j)
     return QDOT_ZERO;
 }
 
-/* The sum over powers of var0 at var1^j, as an expression. */
+/* The coefficient of var1^j in the polynomial, a sum over powers of var0, as an expression. */
 static qdot_expr
-slice(qdot_field *f, const shape *sh, ulong j)
+coefficient_of_second_variable(qdot_field *f, const shape *sh, ulong j)
 {
     qdot_pool *pool = f->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -304,7 +304,7 @@ slice(qdot_field *f, const shape *sh, ulong j)
 }
 
 static void
-exchange(shape *sh)
+exchange_variables(shape *sh)
 {
     slong var = sh->var[0];
     long degree = sh->degree[0];
@@ -315,15 +315,15 @@ exchange(shape *sh)
     sh->degree[1] = degree;
 }
 
-/* Solve an equation in sin u and cos u of the same u. */
+/* Solve an equation that is a polynomial in sin u and cos u with the same u. */
 static qdot_status
-sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
+solve_sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     qdot_expr u = f->gen[sh->var[0]].of, A, B, c;
 
-    if (f->gen[sh->var[0]].kind == QDOT_GEN_SIN) /* exchange: var[0] must be the cosine */
-        exchange(sh);
+    if (f->gen[sh->var[0]].kind == QDOT_GEN_SIN) /* exchange the variables, since var[0] must be the cosine */
+        exchange_variables(sh);
     if (sh->degree[0] == 1 && sh->degree[1] == 1 && coefficient(f, sh, 1, 1) == QDOT_ZERO)
         return qdot_solver_mixed(s, u, coefficient(f, sh, 0, 1), coefficient(f, sh, 1, 0),
                                  coefficient(f, sh, 0, 0), when);
@@ -338,10 +338,10 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
         return qdot_solver_mixed(s, qdot_mul(pool, qdot_expr_int(pool, 2), u), B, A,
                                  qdot_add(pool, A, coefficient(f, sh, 0, 0)), when);
     }
-    A = slice(f, sh, 0);
-    B = slice(f, sh, 1);
+    A = coefficient_of_second_variable(f, sh, 0);
+    B = coefficient_of_second_variable(f, sh, 1);
     c = f->gen[sh->var[0]].expr;
-    /* sin u = -A/B: of the two angles with this cosine take the one with the right sign of the sine */
+    /* of the two angles with this cosine take that with the right sign of the sine, sin u = -A/B */
     when = qdot_conditions_and(
         pool, when,
         qdot_rel(pool, QDOT_LE, QDOT_ZERO,
@@ -355,7 +355,7 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
 
 /* Solve an equation in sinh u and cosh u as a polynomial equation in E = exp u > 0. */
 static qdot_status
-hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh, qdot_expr when)
+solve_hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     qdot_expr u = f->gen[sh->var[0]].of, E = qdot_symbol_get(pool, QDOT_FORMAL, "(exp u)"), e,
@@ -394,24 +394,24 @@ hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh,
     return status;
 }
 
-/* Solve A + B r = 0 with r^q = b: A^q = (-B)^q b, where r = -A/B is not negative. */
+/* Solve A + B r = 0 for a root r with r^q = b: A^q = (-B)^q b, where r = -A/B must not be negative. */
 static qdot_status
-root_and_rest(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
+solve_equation_with_root(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
     size_t at = f->gen[sh->var[0]].kind == QDOT_GEN_ROOT ? 1 : 0;
     const qdot_gen *root;
     qdot_expr A, B;
 
-    if (at == 1) /* exchange: var[1] must be the root */
-        exchange(sh);
+    if (at == 1) /* exchange the variables, since var[1] must be the root */
+        exchange_variables(sh);
     root = &f->gen[sh->var[1]];
     if (root->kind != QDOT_GEN_ROOT || sh->degree[1] != 1) {
         s->out->complete = false;
         return QDOT_OK;
     }
-    A = slice(f, sh, 0);
-    B = qdot_neg(pool, slice(f, sh, 1));
+    A = coefficient_of_second_variable(f, sh, 0);
+    B = qdot_neg(pool, coefficient_of_second_variable(f, sh, 1));
     when = qdot_conditions_and(pool, when,
                                qdot_rel(pool, QDOT_LE, QDOT_ZERO, qdot_mul(pool, A, B)));
     A = qdot_sub(pool, qdot_pow_int(pool, A, root->order),
@@ -419,9 +419,9 @@ root_and_rest(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
     return qdot_solver_equation(s, A, when);
 }
 
-/* Solve g(x) = v for a generator g. */
+/* Solve g(x) = v for a function or root g (generator of the field), or x itself. */
 static qdot_status
-generator_is(qdot_solver *s, const qdot_gen *gen, qdot_expr v, qdot_expr when)
+solve_generator_equals(qdot_solver *s, const qdot_gen *gen, qdot_expr v, qdot_expr when)
 {
     qdot_pool *pool = s->pool;
 
@@ -438,9 +438,9 @@ generator_is(qdot_solver *s, const qdot_gen *gen, qdot_expr v, qdot_expr when)
     return QDOT_OK;
 }
 
-/* Solve an equation in one generator g: find values of g, then solve g(x) = value. */
+/* Solve an equation in one function g of x: find the values of g, then solve g(x) = value. */
 static qdot_status
-one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
+solve_in_one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
 {
     const qdot_gen gen = f->gen[sh->var[0]];
     qdot_expr *c = qdot_calloc((size_t)sh->degree[0] + 1, sizeof *c);
@@ -453,15 +453,15 @@ one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
         status = qdot_solver_polynomial(s, c, sh->degree[0], when, &values);
     for (size_t i = 0; i < values.n && status == QDOT_OK; i++)
         if (values.at[i].when != QDOT_FALSE)
-            status = generator_is(s, &gen, values.at[i].value, values.at[i].when);
+            status = solve_generator_equals(s, &gen, values.at[i].value, values.at[i].when);
     qdot_free(c);
     qdot_free(values.at);
     return status;
 }
 
-/* Whether two generators are sine and cosine of the same argument, circular or hyperbolic. */
+/* Whether the two functions are sine and cosine of the same argument, circular or hyperbolic. */
 static bool
-is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind cosine)
+is_sine_cosine_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind cosine)
 {
     const qdot_gen *a = &f->gen[sh->var[0]], *b = &f->gen[sh->var[1]];
 
@@ -469,9 +469,9 @@ is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind 
            a->pair == (uint32_t)sh->var[1] && (a->kind == sine || a->kind == cosine);
 }
 
-/* Whether generators of x in p are exponentials: as a product, exp(x - a) exp(x) is exp(2 x - a), a generator less. */
+/* Whether functions of x in p are exponentials, which join in products: exp(x - a) exp(x) is exp(2 x - a). */
 static bool
-holds_exponential(const qdot_field *f, const shape *sh)
+contains_exponential(const qdot_field *f, const shape *sh)
 {
     for (size_t i = 0; i < sh->n && i < 2; i++)
         if (qdot_expr_kind(f->pool, f->gen[sh->var[i]].expr) == QDOT_FUN &&
@@ -480,39 +480,39 @@ holds_exponential(const qdot_field *f, const shape *sh)
     return false;
 }
 
-/* Solve one factor of the numerator of `whole`. */
+/* Solve one factor p of the numerator of the equation `whole`. */
 static qdot_status
-one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr whole, qdot_expr when)
+solve_one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr whole, qdot_expr when)
 {
     qdot_status status;
     qdot_expr e;
     shape sh;
 
     QDOT_TRY(qdot_interrupt_check());
-    status = shape_of(s, f, p, &sh);
+    status = read_factor(s, f, p, &sh);
     if (status != QDOT_OK)
         ;
-    else if (sh.n == 0) /* a factor without x: where it is 0, every x is a root */
+    else if (sh.n == 0) /* the factor does not contain x: where it is 0, every x is a root */
         status = qdot_solver_add_where(s, s->x, qdot_field_expr(f, p), when);
     else if (sh.n == 1)
-        status = one_generator(s, f, &sh, when);
-    else if (holds_exponential(f, &sh) && (e = qdot_field_expr(f, p)) != whole)
+        status = solve_in_one_generator(s, f, &sh, when);
+    else if (contains_exponential(f, &sh) && (e = qdot_field_expr(f, p)) != whole)
         status = qdot_solver_equation(s, e, when);
     else if (sh.n > 2)
         s->out->complete = false;
-    else if (is_pair(f, &sh, QDOT_GEN_SIN, QDOT_GEN_COS))
-        status = sine_and_cosine(s, f, &sh, when);
-    else if (is_pair(f, &sh, QDOT_GEN_SINH, QDOT_GEN_COSH))
-        status = hyperbolic(s, f, p, &sh, when);
+    else if (is_sine_cosine_pair(f, &sh, QDOT_GEN_SIN, QDOT_GEN_COS))
+        status = solve_sine_and_cosine(s, f, &sh, when);
+    else if (is_sine_cosine_pair(f, &sh, QDOT_GEN_SINH, QDOT_GEN_COSH))
+        status = solve_hyperbolic(s, f, p, &sh, when);
     else
-        status = root_and_rest(s, f, &sh, when);
+        status = solve_equation_with_root(s, f, &sh, when);
     qdot_factor_ungroup(f, &sh.groups);
     return status;
 }
 
-/* Solve every factor of e's numerator; if e is 0 identically, every x is a root. */
+/* Solve every factor of the numerator of e; if e is 0 identically, every x is a root. */
 static qdot_status
-by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
+solve_by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
 {
     qdot_expr prepared = qdot_prepare(s->pool, e);
     qdot_factors factors;
@@ -530,7 +530,7 @@ by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
         } else if (qdot_field_goes(&f)) {
             status = qdot_factor(&f, &factors, r.n);
             for (slong i = 0; i < factors.n && status == QDOT_OK; i++)
-                status = one_factor(s, &f, factors.poly + i, e, when);
+                status = solve_one_factor(s, &f, factors.poly + i, e, when);
             qdot_factor_clear(&f, &factors);
         }
         qdot_ratio_clear(&f, &r);
@@ -546,7 +546,7 @@ by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
 /* How many factors with x a product of their integer powers has, one whose denominators do not contain x; else 0.
  * *repeated: one of them has a power above 1. */
 static uint32_t
-factors_with_x(const qdot_solver *s, qdot_expr e, bool *repeated)
+count_factors_with_x(const qdot_solver *s, qdot_expr e, bool *repeated)
 {
     uint32_t n = qdot_expr_kind(s->pool, e) == QDOT_PROD ? qdot_expr_count(s->pool, e) : 0, with = 0;
 
@@ -567,7 +567,7 @@ factors_with_x(const qdot_solver *s, qdot_expr e, bool *repeated)
 /* Find the zeros of each factor of a product; factors with switches come last, so that they do not
  * affect the others. */
 static qdot_status
-by_product(qdot_solver *s, qdot_expr e, qdot_expr when)
+solve_product(qdot_solver *s, qdot_expr e, qdot_expr when)
 {
     qdot_expr rest = qdot_expr_arg(s->pool, e, 0);
 
@@ -603,12 +603,12 @@ qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
     }
     s->depth++;
     choice = qdot_sides_choice(s->pool, e, s->x);
-    factors = factors_with_x(s, e, &repeated);
-    /* leave a power as it is: multiplied out it may not factor again */
+    factors = count_factors_with_x(s, e, &repeated);
+    /* leave a product with a power as it is: multiplied out it may not factor again */
     if (repeated || (choice != QDOT_NIL && factors > 1))
-        status = by_product(s, e, when);
+        status = solve_product(s, e, when);
     else
-        status = choice == QDOT_NIL ? by_factors(s, e, when) : qdot_solver_cases(s, e, choice, when);
+        status = choice == QDOT_NIL ? solve_by_factors(s, e, when) : qdot_solver_cases(s, e, choice, when);
     s->depth--;
     return status;
 }

@@ -12,15 +12,15 @@ typedef struct {
     qdot_written written; /* conditions for the equation as typed to be defined, which each root must satisfy */
     const qdot_facts *facts;
     qdot_solutions *out;
-    int depth; /* number of functions inverted so far */
+    int depth; /* number of functions inverted so far, as in asin(log(x)) = v */
     qdot_status status;
 } qdot_solver;
 
-/* In all of these `when` is a set of conditions; those that contain x are decided at each root. */
+/* In all functions below `when` is a set of conditions; those that contain x are decided at each root. */
 
 /* Find every x with e = 0, e being an expression in x (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when);
-/* Add the root `value`, with a period or nil, if it satisfies the equation and `when` (solver.c). */
+/* Add the root `value`, with its period or nil, if it satisfies the equation and the conditions `when` (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period,
                                             qdot_expr when);
 /* The root `value` where e is 0: in regions of parameters on the sides of its choices; else e is noted as a divisor, for
@@ -29,9 +29,9 @@ QDOT_MUST_CHECK qdot_status qdot_solver_add_where(qdot_solver *s, qdot_expr valu
                                                   qdot_expr when);
 /* Whether a value differs from the members of a family by an integer number of periods (solver.c). */
 bool qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_expr value);
-/* Record that d, which does not contain x, was divided by (solver.c). */
+/* Record that the solution divided by d, which does not contain x (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_divide(qdot_solver *s, qdot_expr d);
-/* e simplified (solver.c). */
+/* The expression e, simplified (solver.c). */
 qdot_expr qdot_solver_tidy(const qdot_solver *s, qdot_expr e);
 /* The condition 0 <= gap; 0 < gap if the gap contains only generic parameters (solver.c). */
 qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
@@ -42,7 +42,7 @@ typedef struct {
 
 typedef qdot_vec(qdot_argument) qdot_arguments;
 
-/* Add the real y with sum c_k y^k = 0, c [degree + 1], to *out (solve-polynomial.c). */
+/* Add all real y for which the polynomial sum c_k y^k = 0, c [degree + 1], to *out (solve-polynomial.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when,
                                                    qdot_arguments *out);
 

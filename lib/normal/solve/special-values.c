@@ -40,9 +40,9 @@ qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot
     return n;
 }
 
-static qdot_status zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
+static qdot_status find_common_zeros(search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
 
-/* Whether it is proved that d is never 0, by its sign, or of a constant by its value. */
+/* Whether it is proved that d is never 0, by its sign; for a constant d by its value. */
 static qdot_status
 is_never_zero(const search *s, qdot_expr d, bool *yes)
 {
@@ -58,7 +58,7 @@ is_never_zero(const search *s, qdot_expr d, bool *yes)
 
 /* Record the equation d = 0, which is not solved, unless d is never 0. */
 static qdot_status
-leave_open(search *s, qdot_expr d)
+record_open_equation(search *s, qdot_expr d)
 {
     qdot_expr equation = qdot_rel(s->pool, QDOT_EQ, d, QDOT_ZERO);
     bool never;
@@ -72,10 +72,10 @@ leave_open(search *s, qdot_expr d)
                : qdot_vec_push(&s->out->open, equation);
 }
 
-/* Insert p = value, and find where the other divisors d [n] vanish, too. */
+/* Insert p = value, and find where the other divisors d [n] are 0, too. */
 static qdot_status
-zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
-        qdot_expr where)
+find_zeros_at_value(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
+                    qdot_expr where)
 {
     qdot_pool *pool = s->pool;
     qdot_expr there[2], equation = qdot_rel(pool, QDOT_EQ, p, value);
@@ -83,8 +83,8 @@ zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
     qdot_expr all = QDOT_NIL;
 
     if (had + 1 > QDOT_SPECIAL_TOGETHER)
-        return leave_open(s, qdot_sub(pool, p, value));
-    for (uint32_t i = 0; i < had; i++) { /* the values found for other parameters, with this one inserted */
+        return record_open_equation(s, qdot_sub(pool, p, value));
+    for (uint32_t i = 0; i < had; i++) { /* insert the new value into the values found for other parameters */
         qdot_expr one = qdot_expr_arg(pool, where, i);
 
         all = qdot_conditions_and(
@@ -101,25 +101,25 @@ zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     }
-    return zeros_of_all(s, n, there, all);
+    return find_common_zeros(s, n, there, all);
 }
 
-/* Solve d = s p + r = 0 where the slope s may vanish: p = -r/s, or s = 0 and r = 0. */
+/* Solve d = s p + r = 0, where the coefficient s may be 0: p = -r/s, or s = 0 and r = 0. */
 static qdot_status
-zeros_of_linear(search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_t n,
-                const qdot_expr *d, qdot_expr where)
+find_zeros_of_linear(search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_t n,
+                     const qdot_expr *d, qdot_expr where)
 {
-    QDOT_TRY(zero_at(s, p,
-                     qdot_simplify(s->pool, qdot_neg(s->pool, qdot_div(s->pool, rest, slope)), s->facts),
-                     n, d, where));
-    return n > 0 ? leave_open(s, slope)
-                 : zeros_of_all(s, 2, (qdot_expr[]){slope, rest}, where);
+    QDOT_TRY(find_zeros_at_value(s, p,
+                                 qdot_simplify(s->pool, qdot_neg(s->pool, qdot_div(s->pool, rest, slope)), s->facts),
+                                 n, d, where));
+    return n > 0 ? record_open_equation(s, slope)
+                 : find_common_zeros(s, 2, (qdot_expr[]){slope, rest}, where);
 }
 
 /* Whether the zeros of d recur after a full turn of p, whose domain is not bounded on both sides:
  * one turn is listed. */
 static bool
-recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
+zeros_recur_after_turn(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
 {
     const qdot_window w = qdot_solve_window(pool, p, false);
 
@@ -129,7 +129,7 @@ recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
 /* One irreducible factor d is 0, and the others [n]: by a parameter that stands alone in it, or with a number as its
  * slope, or in which it is linear. */
 static qdot_status
-zeros_of_factor(search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdot_expr where)
+find_zeros_of_factor(search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdot_expr where)
 {
     qdot_pool *pool = s->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, d, false), linear = QDOT_NIL, zero = QDOT_ZERO;
@@ -150,28 +150,28 @@ zeros_of_factor(search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdo
             continue;
         status = qdot_solve_inside(pool, d, p, QDOT_NIL, s->facts, &found);
         if (status == QDOT_OK && (!found.complete || (found.root.n > 0 && (found.root.at[0].value == p ||
-                                                                          recurs(pool, d, p, s->facts)))))
-            status = leave_open(s, d);
+                                                                          zeros_recur_after_turn(pool, d, p, s->facts)))))
+            status = record_open_equation(s, d);
         for (size_t k = 0; k < found.root.n && status == QDOT_OK; k++)
             if (found.root.at[k].value != p)
-                status = zero_at(s, p, found.root.at[k].value, n, others, where);
+                status = find_zeros_at_value(s, p, found.root.at[k].value, n, others, where);
         qdot_solutions_clear(&found);
         return status;
     }
     if (linear == QDOT_NIL)
-        return leave_open(s, d);
-    return zeros_of_linear(s, linear, qdot_diff(pool, d, linear),
-                           qdot_subs(pool, d, 1, &linear, &zero), n, others, where);
+        return record_open_equation(s, d);
+    return find_zeros_of_linear(s, linear, qdot_diff(pool, d, linear),
+                                qdot_subs(pool, d, 1, &linear, &zero), n, others, where);
 }
 
-/* Find parameter values at which all of d [n] vanish; for n = 0 those of `where`. */
+/* Find the parameter values at which all divisors d [n] are 0; if n = 0 record the values of `where`. */
 static qdot_status
-zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
+find_common_zeros(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
 {
     qdot_pool *pool = s->pool;
     qdot_expr factors, first;
 
-    if (n == 0 && where == s->where) /* 0 at all these values: none is special */
+    if (n == 0 && where == s->where) /* the divisors are 0 at all parameter values: none is special */
         return QDOT_OK;
     if (n == 0)
         return qdot_expr_place(s->out->at.n, s->out->at.at, where) < s->out->at.n ? QDOT_OK
@@ -179,18 +179,18 @@ zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
     first = qdot_simplify(pool, d[0], s->facts);
     QDOT_TRY(qdot_pool_check(pool));
     if (first == QDOT_ZERO)
-        return zeros_of_all(s, n - 1, d + 1, where);
+        return find_common_zeros(s, n - 1, d + 1, where);
     if ((qdot_expr_node(pool, first)->sign & QDOT_NE0) != 0)
         return QDOT_OK;
     if (qdot_is_constant(pool, first))
-        return qdot_is_zero(pool, first, s->facts) ? zeros_of_all(s, n - 1, d + 1, where)
+        return qdot_is_zero(pool, first, s->facts) ? find_common_zeros(s, n - 1, d + 1, where)
                                                    : qdot_pool_check(pool);
     if (!qdot_expr_is_scalar(pool, first) || qdot_expr_size(pool, first) > QDOT_SPECIAL_LONGEST)
-        return leave_open(s, first);
+        return record_open_equation(s, first);
     factors = qdot_solve_factors(pool, first);
     QDOT_TRY(qdot_pool_check(pool));
     for (uint32_t k = 0; k < qdot_expr_count(pool, factors); k++)
-        QDOT_TRY(zeros_of_factor(s, qdot_expr_arg(pool, factors, k), n - 1, d + 1, where));
+        QDOT_TRY(find_zeros_of_factor(s, qdot_expr_arg(pool, factors, k), n - 1, d + 1, where));
     return QDOT_OK;
 }
 
@@ -207,9 +207,9 @@ qdot_special_values_add(qdot_pool *pool, size_t n, const qdot_expr *special, qdo
         for (uint32_t k = 0; k < m && k < 2; k++)
             list[k] = qdot_expr_arg(pool, d, k);
         if (m > 2)
-            QDOT_TRY(leave_open(&s, list[0]));
+            QDOT_TRY(record_open_equation(&s, list[0]));
         else
-            QDOT_TRY(zeros_of_all(&s, m == 0 ? 1 : m, list, where));
+            QDOT_TRY(find_common_zeros(&s, m == 0 ? 1 : m, list, where));
     }
     return QDOT_OK;
 }

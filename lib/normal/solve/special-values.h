@@ -17,7 +17,7 @@
 enum { QDOT_SPECIAL_TOGETHER = 3, QDOT_SPECIAL_LONGEST = 60 };
 
 typedef struct {
-    qdot_vec(qdot_expr) at;   /* LISTs of equations parameter = value */
+    qdot_vec(qdot_expr) at;   /* LISTs of equations parameter = value at which divisors are 0 */
     qdot_vec(qdot_expr) open; /* equations in parameters at which divisors are 0, and which were not solved */
 } qdot_special_values;
 

@@ -1,4 +1,4 @@
-/* written.c -- conditions of roots in the equation as typed, before products under roots were split. */
+/* written.c -- conditions for roots of an equation in the form in which it was typed, before roots of products are split. */
 #include "normal/solve/written.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@
 
 /* The index of a relation in a set; UINT32_MAX if it is not there. */
 static uint32_t
-place_in(qdot_pool *pool, qdot_expr set, qdot_expr relation)
+find_relation(qdot_pool *pool, qdot_expr set, qdot_expr relation)
 {
     for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++)
         if (qdot_expr_arg(pool, set, i) == relation)
@@ -61,9 +61,9 @@ qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_writt
     return qdot_pool_check(pool);
 }
 
-/* A sum as the product of its factors if a factor with x is repeated; otherwise the sum. */
+/* A sum as the product of its factors if one that contains x is repeated; otherwise the sum. */
 static qdot_expr
-square_factors(qdot_pool *pool, qdot_expr sum, qdot_expr x)
+factor_if_repeated(qdot_pool *pool, qdot_expr sum, qdot_expr x)
 {
     qdot_expr product = qdot_solve_product(pool, sum);
     uint32_t n = product != QDOT_NIL && qdot_expr_kind(pool, product) == QDOT_PROD ? qdot_expr_count(pool, product) : 0;
@@ -85,9 +85,9 @@ typedef struct {
     qdot_status status;
 } sums;
 
-/* Replace roots of sums with repeated factors by products of roots. */
+/* Replace roots of sums with repeated factors, such as sqrt(a^2 b), by products of roots. */
 static qdot_expr
-take_sums_apart(qdot_pool *pool, qdot_expr product, void *user)
+split_roots_of_sums(qdot_pool *pool, qdot_expr product, void *user)
 {
     sums *s = user;
     qdot_expr result = qdot_expr_arg(pool, product, 0);
@@ -97,7 +97,7 @@ take_sums_apart(qdot_pool *pool, qdot_expr product, void *user)
 
         if (is_root_exponent(qdot_expr_rational(pool, exponent)) && qdot_expr_kind(pool, base) == QDOT_SUM &&
             qdot_expr_contains(pool, base, s->x))
-            by = square_factors(pool, base, s->x);
+            by = factor_if_repeated(pool, base, s->x);
         if (by != base && s->status == QDOT_OK) {
             qdot_written of_sum = {QDOT_NIL, QDOT_NIL};
             qdot_expr whole = QDOT_NIL; /* the argument of a power that is not split: f itself requires it to be >= 0 */
@@ -116,13 +116,13 @@ qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written
 {
     sums s = {x, w, QDOT_OK};
 
-    *f = qdot_walk_replace(pool, *f, QDOT_PROD, take_sums_apart, &s);
+    *f = qdot_walk_replace(pool, *f, QDOT_PROD, split_roots_of_sums, &s);
     return s.status == QDOT_OK ? qdot_pool_check(pool) : s.status;
 }
 
-/* The symbol that stands for g in condition number k, 0 <= g, of `apart`. */
+/* The symbol that stands for the expression g of condition number k, 0 <= g, in the set `apart`. */
 static qdot_expr
-part_symbol(qdot_pool *pool, uint32_t k)
+symbol_of_condition(qdot_pool *pool, uint32_t k)
 {
     char name[40];
 
@@ -133,7 +133,7 @@ part_symbol(qdot_pool *pool, uint32_t k)
 /* A product with a formal symbol in the place of each base of a root, one for each, that is >= 0 by a condition of
  * `user`, a list. */
 static qdot_expr
-replace_bases(qdot_pool *pool, qdot_expr product, void *user)
+replace_bases_of_roots(qdot_pool *pool, qdot_expr product, void *user)
 {
     const qdot_expr apart = *(qdot_expr *)user;
     qdot_expr result = qdot_expr_arg(pool, product, 0);
@@ -142,11 +142,11 @@ replace_bases(qdot_pool *pool, qdot_expr product, void *user)
         qdot_expr base = qdot_expr_arg(pool, product, i), exponent = qdot_expr_arg(pool, product, i + 1);
         uint32_t k = is_root_exponent(qdot_expr_rational(pool, exponent)) &&
                              (qdot_expr_node(pool, base)->sign & QDOT_GE0) == 0
-                         ? place_in(pool, apart, qdot_rel(pool, QDOT_LE, QDOT_ZERO, base))
+                         ? find_relation(pool, apart, qdot_rel(pool, QDOT_LE, QDOT_ZERO, base))
                          : UINT32_MAX;
 
         if (k != UINT32_MAX)
-            base = part_symbol(pool, k);
+            base = symbol_of_condition(pool, k);
         result = qdot_mul(pool, result, qdot_pow(pool, base, exponent));
     }
     return result;
@@ -162,7 +162,7 @@ qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_exp
     *yes = false;
     if (apart == QDOT_NIL || apart == QDOT_FALSE || value == x)
         return QDOT_OK;
-    there = qdot_walk_replace(pool, f, QDOT_PROD, replace_bases, &apart);
+    there = qdot_walk_replace(pool, f, QDOT_PROD, replace_bases_of_roots, &apart);
     there = there == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, there, 1, &x, &value);
     status = qdot_pool_check(pool);
     if (status != QDOT_OK)
@@ -171,17 +171,17 @@ qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_exp
     return qdot_pool_check(pool);
 }
 
-/* Find the relation at x = value if no split root is left in it; nil if one is left, or if there was none. */
+/* Find the relation at x = value if it then contains no split root; nil if it does, or if it contained none before. */
 static qdot_status
-without_roots(qdot_pool *pool, qdot_expr relation, qdot_expr apart, qdot_expr x, qdot_expr value, qdot_expr *there)
+relation_without_roots(qdot_pool *pool, qdot_expr relation, qdot_expr apart, qdot_expr x, qdot_expr value, qdot_expr *there)
 {
-    qdot_expr by = qdot_walk_replace(pool, relation, QDOT_PROD, replace_bases, &apart);
+    qdot_expr by = qdot_walk_replace(pool, relation, QDOT_PROD, replace_bases_of_roots, &apart);
     qdot_status status;
 
     *there = by == relation || by == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, by, 1, &x, &value);
     status = qdot_pool_check(pool);
     for (uint32_t k = 0; *there != QDOT_NIL && k < qdot_expr_count(pool, apart); k++)
-        if (qdot_expr_contains(pool, *there, part_symbol(pool, k)))
+        if (qdot_expr_contains(pool, *there, symbol_of_condition(pool, k)))
             *there = QDOT_NIL;
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
@@ -194,7 +194,7 @@ qdot_written_conditions(qdot_pool *pool, const qdot_written *w, qdot_expr x, qdo
     for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++) {
         qdot_expr one = qdot_expr_arg(pool, set, i), there;
 
-        QDOT_TRY(without_roots(pool, one, w->apart, x, value, &there));
+        QDOT_TRY(relation_without_roots(pool, one, w->apart, x, value, &there));
         left = qdot_conditions_and(pool, left, there != QDOT_NIL ? there : one);
     }
     *when = set == QDOT_FALSE ? set : left;

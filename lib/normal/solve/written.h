@@ -12,7 +12,7 @@
 #include "normal/solve/conditions.h"
 
 typedef struct {
-    qdot_expr domain; /* conditions that solutions must satisfy; nil: none */
+    qdot_expr domain; /* conditions that each root must satisfy; nil: none */
     qdot_expr apart; /* conditions 0 <= u from roots that were split; not required where u = 0; nil: none */
 } qdot_written;
 
@@ -25,10 +25,10 @@ QDOT_MUST_CHECK qdot_status qdot_written_add(qdot_pool *pool, qdot_expr base, qd
  * becomes |x| sqrt(a - x^2), and `apart` gets what that asks and `domain` does not. */
 QDOT_MUST_CHECK qdot_status qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written *w);
 
-/* The set without the relations that the set `some` contains. */
+/* The set of conditions without those that the set `some` contains. */
 qdot_expr qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some);
 
-/* Whether f vanishes at x = value for any values of the roots whose conditions are `apart`. */
+/* Whether f = 0 at x = value whatever the values of the roots are whose conditions are in `apart`. */
 QDOT_MUST_CHECK qdot_status qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_expr x,
                                                qdot_expr value, const qdot_facts *facts, bool *yes);
 

@@ -46,12 +46,12 @@ qdot_zeros_system_end(qdot_zeros_system *s)
 /* Enclosures of f over a box. */
 typedef struct {
     qdot_interval y[MOST], slope[MOST][MOST];
-    bool nowhere, zero_free; /* f is undefined in the whole box; f has no zero in the box */
+    bool nowhere, zero_free; /* f is undefined in the whole box; f is proved to have no zero in the box */
     bool smooth;             /* f is continuous with bounded derivatives in the box */
 } image;
 
 static void
-box_evaluate(qdot_zeros_system *s, const qdot_interval *X, image *to)
+evaluate_over_box(qdot_zeros_system *s, const qdot_interval *X, image *to)
 {
     size_t n = s->n;
 
@@ -75,7 +75,7 @@ box_evaluate(qdot_zeros_system *s, const qdot_interval *X, image *to)
 
 /* Whether one of the additional expressions has no zero in the box. */
 static bool
-is_excluded_by_others(qdot_zeros_system *s, const qdot_interval *X)
+others_exclude_box(qdot_zeros_system *s, const qdot_interval *X)
 {
     if (s->also == NULL)
         return false;
@@ -90,13 +90,13 @@ is_excluded_by_others(qdot_zeros_system *s, const qdot_interval *X)
 }
 
 static double
-width(qdot_interval a)
+interval_width(qdot_interval a)
 {
     return a.hi - a.lo;
 }
 
 static double
-middle(qdot_interval a)
+interval_midpoint(qdot_interval a)
 {
     double m = 0.5 * a.lo + 0.5 * a.hi;
 
@@ -104,7 +104,7 @@ middle(qdot_interval a)
 }
 
 static qdot_interval
-minus(qdot_interval a, double b)
+subtract_number(qdot_interval a, double b)
 {
     return qdot_interval_sum(a, qdot_interval_point(-b));
 }
@@ -146,21 +146,21 @@ invert(size_t n, double A[MOST][MOST], double C[MOST][MOST])
     return true;
 }
 
-/* Set C to the inverse of the matrix of the slopes' midpoints. */
+/* Set C to the inverse of the matrix of the midpoints of the derivatives' enclosures. */
 static bool
-invert_middles(size_t n, const image *f, double C[MOST][MOST])
+invert_midpoint_matrix(size_t n, const image *f, double C[MOST][MOST])
 {
     double A[MOST][MOST];
 
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
-            A[i][j] = middle(f->slope[i][j]);
+            A[i][j] = interval_midpoint(f->slope[i][j]);
     return invert(n, A, C);
 }
 
-/* Compute R = 1 - C f'(X), where C is an approximate inverse of f'; returns its norm, the largest row sum. */
+/* Compute R = 1 - C f'(X), where C is an approximate inverse of the Jacobian f'; returns its norm, the largest row sum. */
 static double
-remainder_of(size_t n, double C[MOST][MOST], const image *f, qdot_interval R[MOST][MOST])
+norm_of_remainder(size_t n, double C[MOST][MOST], const image *f, qdot_interval R[MOST][MOST])
 {
     double norm = 0;
 
@@ -195,13 +195,13 @@ qdot_zeros_is_regular(const qdot_enclosure *bounds, size_t n)
             if (isinf(f.slope[i][j].lo) || isinf(f.slope[i][j].hi))
                 return false;
         }
-    return invert_middles(n, &f, C) && remainder_of(n, C, &f, R) < 1;
+    return invert_midpoint_matrix(n, &f, C) && norm_of_remainder(n, C, &f, R) < 1;
 }
 
-/* Component i of Krawczyk's image: K - m = -C f(m) + R (X - m). */
+/* Component i of Krawczyk's image K of the box X about its middle m: K - m = -C f(m) + R (X - m). */
 static qdot_interval
-krawczyk(size_t n, size_t i, double C[MOST][MOST], qdot_interval R[MOST][MOST],
-         const image *at_m, const qdot_interval *X, const double *m)
+krawczyk_component(size_t n, size_t i, double C[MOST][MOST], qdot_interval R[MOST][MOST],
+                   const image *at_m, const qdot_interval *X, const double *m)
 {
     qdot_interval K = qdot_interval_point(0);
 
@@ -209,16 +209,16 @@ krawczyk(size_t n, size_t i, double C[MOST][MOST], qdot_interval R[MOST][MOST],
         K = qdot_interval_sum(
             K, qdot_interval_product(qdot_interval_point(-C[i][k]), at_m->y[k], false));
         K = qdot_interval_sum(K,
-                              qdot_interval_product(R[i][k], minus(X[k], m[k]), false));
+                              qdot_interval_product(R[i][k], subtract_number(X[k], m[k]), false));
     }
     return K;
 }
 
 /* --- proof of one zero ------------------------------------------------------------------------------ */
 
-/* Krawczyk's test in doubles over small boxes about z, for zeros at kinks. */
+/* Prove a zero near z by Krawczyk's test in doubles over small boxes about z; for zeros at kinks. */
 static bool
-prove_here(qdot_zeros_system *s, const double *z, qdot_zero_place *place)
+prove_zero_near(qdot_zeros_system *s, const double *z, qdot_zero_place *place)
 {
     size_t n = s->n;
 
@@ -234,12 +234,12 @@ prove_here(qdot_zeros_system *s, const double *z, qdot_zero_place *place)
             X[i] = (qdot_interval){z[i] - r, z[i] + r};
             point[i] = qdot_interval_point(z[i]);
         }
-        box_evaluate(s, X, &f);
-        box_evaluate(s, point, &at_z);
-        inside = f.smooth && at_z.smooth && invert_middles(n, &f, C) &&
-                 remainder_of(n, C, &f, R) < 1;
+        evaluate_over_box(s, X, &f);
+        evaluate_over_box(s, point, &at_z);
+        inside = f.smooth && at_z.smooth && invert_midpoint_matrix(n, &f, C) &&
+                 norm_of_remainder(n, C, &f, R) < 1;
         for (size_t i = 0; i < n && inside; i++) {
-            qdot_interval K = krawczyk(n, i, C, R, &at_z, X, z);
+            qdot_interval K = krawczyk_component(n, i, C, R, &at_z, X, z);
 
             inside = K.lo > X[i].lo - z[i] && K.hi < X[i].hi - z[i];
             place->radius[i] = fmax(fabs(K.lo), fabs(K.hi));
@@ -267,15 +267,15 @@ qdot_zeros_prove(qdot_zeros_system *s, const double *x0, qdot_zero_place *place)
 
         for (size_t i = 0; i < n; i++)
             X[i] = qdot_interval_point(z[i]);
-        box_evaluate(s, X, &f);
-        if (!f.smooth || !invert_middles(n, &f, C))
+        evaluate_over_box(s, X, &f);
+        if (!f.smooth || !invert_midpoint_matrix(n, &f, C))
             break;
         length = 0;
         for (size_t i = 0; i < n; i++) {
             double step = 0;
 
             for (size_t j = 0; j < n; j++)
-                step -= C[i][j] * middle(f.y[j]);
+                step -= C[i][j] * interval_midpoint(f.y[j]);
             z[i] += step;
             length = fmax(length, fabs(step) / fmax(fabs(z[i]), 1e-3));
         }
@@ -285,7 +285,7 @@ qdot_zeros_prove(qdot_zeros_system *s, const double *x0, qdot_zero_place *place)
     memcpy(place->at, z, n * sizeof *z);
     s->evaluations += 8;
     if (!qdot_isolate_prove(&s->isolate, place->at, place->radius))
-        return prove_here(s, z, place);
+        return prove_zero_near(s, z, place);
     for (size_t i = 0; i < n; i++) {
         double r = s->isolate.unique[i] * (1 - DBL_EPSILON);
 
@@ -304,7 +304,7 @@ is_within(size_t n, const qdot_interval *a, const qdot_interval *b)
 }
 
 static bool
-is_covered(const qdot_zeros_system *s, const qdot_interval *X)
+lies_in_uniqueness_box(const qdot_zeros_system *s, const qdot_interval *X)
 {
     for (size_t k = s->found.n; k-- > 0;)
         if (is_within(s->n, X, s->found.at[k].alone))
@@ -312,9 +312,9 @@ is_covered(const qdot_zeros_system *s, const qdot_interval *X)
     return false;
 }
 
-/* Whether all points of X are known to be zeros, by a range that the caller gave (qdot_zeros_range.held). */
+/* Whether all points of the box X are known to be zeros, by a range that the caller gave (qdot_zeros_range.held). */
 static bool
-box_is_held(const qdot_zeros_system *s, const qdot_interval *X)
+box_has_only_zeros(const qdot_zeros_system *s, const qdot_interval *X)
 {
     for (size_t k = 0; k < s->ranges; k++) {
         bool inside = true;
@@ -332,21 +332,21 @@ box_is_held(const qdot_zeros_system *s, const qdot_interval *X)
 }
 
 static void
-ball(size_t n, const qdot_zero_place *place, qdot_interval *to)
+box_of_zero(size_t n, const qdot_zero_place *place, qdot_interval *to)
 {
     for (size_t i = 0; i < n; i++)
         to[i] = (qdot_interval){place->at[i] - place->radius[i],
                                 place->at[i] + place->radius[i]};
 }
 
-/* If X, which contains at most one zero, contains a known one: record X as its uniqueness box. */
+/* If the box X, which contains at most one zero, contains a known one: record X as its uniqueness box. */
 static bool
-is_known(qdot_zeros_system *s, const qdot_interval *X)
+contains_known_zero(qdot_zeros_system *s, const qdot_interval *X)
 {
     for (size_t k = 0; k < s->found.n; k++) {
         qdot_interval z[MOST];
 
-        ball(s->n, &s->found.at[k], z);
+        box_of_zero(s->n, &s->found.at[k], z);
         if (is_within(s->n, z, X)) {
             if (is_within(s->n, s->found.at[k].alone, X))
                 memcpy(s->found.at[k].alone, X, s->n * sizeof *X);
@@ -356,7 +356,7 @@ is_known(qdot_zeros_system *s, const qdot_interval *X)
     return false;
 }
 
-/* If a box slightly larger than X contains at most one zero: find and prove it. */
+/* If a box slightly larger than the box X contains at most one zero: find this zero and prove it. */
 static qdot_status
 prove_zero_in(qdot_zeros_system *s, const qdot_interval *X, const double *m, bool *settled)
 {
@@ -368,17 +368,17 @@ prove_zero_in(qdot_zeros_system *s, const qdot_interval *X, const double *m, boo
 
     *settled = false;
     for (size_t i = 0; i < n; i++) {
-        double more = 0.2 * width(X[i]) + 1e-14 * fmax(fabs(m[i]), 1e-3);
+        double more = 0.2 * interval_width(X[i]) + 1e-14 * fmax(fabs(m[i]), 1e-3);
 
         wide[i] = (qdot_interval){X[i].lo - more, X[i].hi + more};
     }
-    box_evaluate(s, wide, &f);
-    if (!f.smooth || !invert_middles(n, &f, C) || !(remainder_of(n, C, &f, R) < 1))
+    evaluate_over_box(s, wide, &f);
+    if (!f.smooth || !invert_midpoint_matrix(n, &f, C) || !(norm_of_remainder(n, C, &f, R) < 1))
         return QDOT_OK;
-    *settled = is_known(s, wide);
+    *settled = contains_known_zero(s, wide);
     if (*settled || !qdot_zeros_prove(s, m, &place))
         return QDOT_OK;
-    ball(n, &place, z);
+    box_of_zero(n, &place, z);
     if (!is_within(n, z, wide))
         return QDOT_OK;
     *settled = true;
@@ -389,10 +389,10 @@ prove_zero_in(qdot_zeros_system *s, const qdot_interval *X, const double *m, boo
 /* --- deciding about one box ----------------------------------------------------------------------------- */
 
 static bool
-is_narrow(const qdot_zeros_system *s, const qdot_interval *X)
+is_too_narrow_to_halve(const qdot_zeros_system *s, const qdot_interval *X)
 {
     for (size_t i = 0; i < s->n; i++)
-        if (width(X[i]) > narrow * fmax(fabs(X[i].lo), fabs(X[i].hi)) + s->least)
+        if (interval_width(X[i]) > narrow * fmax(fabs(X[i].lo), fabs(X[i].hi)) + s->least)
             return false;
     return true;
 }
@@ -403,7 +403,7 @@ static bool
 box_is_small(size_t n, const qdot_interval *X)
 {
     for (size_t i = 0; i < n; i++)
-        if (width(X[i]) > 1e-5 * fmax(1, fabs(X[i].lo)))
+        if (interval_width(X[i]) > 1e-5 * fmax(1, fabs(X[i].lo)))
             return false;
     return true;
 }
@@ -411,8 +411,8 @@ box_is_small(size_t n, const qdot_interval *X)
 /* Try to exclude X by f(m) + f'(X) (X - m) for each equation; *noisy: the rounding of f(m) is
  * larger than the change. */
 static bool
-is_excluded(size_t n, const image *f, const image *at_m, const qdot_interval *X,
-            const double *m, bool *noisy)
+excludes_zeros(size_t n, const image *f, const image *at_m, const qdot_interval *X,
+               const double *m, bool *noisy)
 {
     bool one = false;
 
@@ -422,10 +422,10 @@ is_excluded(size_t n, const image *f, const image *at_m, const qdot_interval *X,
 
         for (size_t j = 0; j < n; j++)
             e = qdot_interval_sum(
-                e, qdot_interval_product(f->slope[i][j], minus(X[j], m[j]), false));
+                e, qdot_interval_product(f->slope[i][j], subtract_number(X[j], m[j]), false));
         if (e.lo > 0 || e.hi < 0)
             return true;
-        if (width(at_m->y[i]) > 0.25 * width(e))
+        if (interval_width(at_m->y[i]) > 0.25 * interval_width(e))
             one = true;
         else
             *noisy = false;
@@ -434,10 +434,10 @@ is_excluded(size_t n, const image *f, const image *at_m, const qdot_interval *X,
     return false;
 }
 
-/* Whether rounding of f(m) makes K about as wide as a small X, as near a multiple zero. */
+/* Whether rounding errors of f(m) make Krawczyk's image about as wide as the small box X, as near a multiple zero. */
 static bool
-hides_in_rounding(size_t n, double C[MOST][MOST], const image *at_m,
-                  const qdot_interval *X)
+rounding_hides_zero(size_t n, double C[MOST][MOST], const image *at_m,
+                    const qdot_interval *X)
 {
     if (!box_is_small(n, X))
         return false;
@@ -445,16 +445,16 @@ hides_in_rounding(size_t n, double C[MOST][MOST], const image *at_m,
         double noise = 0;
 
         for (size_t k = 0; k < n; k++)
-            noise += fabs(C[i][k]) * width(at_m->y[k]);
-        if (noise > 0.25 * width(X[i]))
+            noise += fabs(C[i][k]) * interval_width(at_m->y[k]);
+        if (noise > 0.25 * interval_width(X[i]))
             return true;
     }
     return false;
 }
 
-/* The direction in which f changes most over X, along which X is halved. */
+/* The direction (index of an unknown) in which f changes most over the box X, along which X is halved. */
 static size_t
-widest(size_t n, const image *f, const qdot_interval *X)
+widest_direction(size_t n, const image *f, const qdot_interval *X)
 {
     size_t best = 0;
     double most = -1;
@@ -467,11 +467,11 @@ widest(size_t n, const image *f, const qdot_interval *X)
 
             for (size_t k = 0; k < n; k++)
                 all +=
-                    fmax(fabs(f->slope[i][k].lo), fabs(f->slope[i][k].hi)) * width(X[k]);
-            change = fmax(change, all > 0 ? size * width(X[j]) / all : 0);
+                    fmax(fabs(f->slope[i][k].lo), fabs(f->slope[i][k].hi)) * interval_width(X[k]);
+            change = fmax(change, all > 0 ? size * interval_width(X[j]) / all : 0);
         }
         if (!f->smooth)
-            change = width(X[j]) / fmax(1, fmax(fabs(X[j].lo), fabs(X[j].hi)));
+            change = interval_width(X[j]) / fmax(1, fmax(fabs(X[j].lo), fabs(X[j].hi)));
         if (change > most && nextafter(X[j].lo, INFINITY) < X[j].hi) {
             most = change;
             best = j;
@@ -482,7 +482,7 @@ widest(size_t n, const image *f, const qdot_interval *X)
 
 /* Exclude the box X, shrink it, or find its zero. */
 static qdot_status
-look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
+examine_box(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
 {
     size_t n = s->n;
 
@@ -493,29 +493,29 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
         image at_m;
         bool noisy, settled;
 
-        if (is_covered(s, X) || box_is_held(s, X))
+        if (lies_in_uniqueness_box(s, X) || box_has_only_zeros(s, X))
             return QDOT_OK;
-        box_evaluate(s, X, f);
-        if (f->nowhere || f->zero_free || is_excluded_by_others(s, X))
+        evaluate_over_box(s, X, f);
+        if (f->nowhere || f->zero_free || others_exclude_box(s, X))
             return QDOT_OK;
-        *how = is_narrow(s, X) ? DOUBT : SPLIT;
+        *how = is_too_narrow_to_halve(s, X) ? DOUBT : SPLIT;
         if (!f->smooth)
             return QDOT_OK;
         for (size_t i = 0; i < n; i++) {
-            m[i] = middle(X[i]);
+            m[i] = interval_midpoint(X[i]);
             point[i] = qdot_interval_point(m[i]);
         }
-        box_evaluate(s, point, &at_m);
-        if (is_excluded(n, f, &at_m, X, m, &noisy)) {
+        evaluate_over_box(s, point, &at_m);
+        if (excludes_zeros(n, f, &at_m, X, m, &noisy)) {
             *how = DONE;
             return QDOT_OK;
         }
         if (noisy)
             *how = DOUBT;
-        if (!invert_middles(n, f, C))
+        if (!invert_midpoint_matrix(n, f, C))
             return QDOT_OK;
-        norm = remainder_of(n, C, f, R);
-        if (hides_in_rounding(n, C, &at_m, X))
+        norm = norm_of_remainder(n, C, f, R);
+        if (rounding_hides_zero(n, C, &at_m, X))
             *how = DOUBT;
         if (norm < 0.9) {
             QDOT_TRY(prove_zero_in(s, X, m, &settled));
@@ -525,7 +525,7 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
             }
         }
         for (size_t i = 0; i < n; i++) {
-            qdot_interval K = krawczyk(n, i, C, R, &at_m, X, m), was = X[i];
+            qdot_interval K = krawczyk_component(n, i, C, R, &at_m, X, m), was = X[i];
 
             K = qdot_interval_sum(K, qdot_interval_point(m[i]));
             X[i] = (qdot_interval){fmax(K.lo, was.lo), fmin(K.hi, was.hi)};
@@ -533,8 +533,8 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
                 *how = DONE;
                 return QDOT_OK;
             }
-            if (width(was) > 0)
-                gain = fmin(gain, width(X[i]) / width(was));
+            if (interval_width(was) > 0)
+                gain = fmin(gain, interval_width(X[i]) / interval_width(was));
         }
         if (gain > 0.7)
             return QDOT_OK;
@@ -542,7 +542,7 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
     return QDOT_OK;
 }
 
-/* The place where an interval is cut: by magnitude if it spans many orders. */
+/* Where an interval is cut in two: in the middle, or by magnitude if it spans many orders of magnitude. */
 static double
 cutting_point(qdot_interval X)
 {
@@ -560,13 +560,13 @@ cutting_point(qdot_interval X)
 }
 
 static qdot_status
-halve(qdot_zeros_system *s, const qdot_interval *X, size_t j)
+halve_box(qdot_zeros_system *s, const qdot_interval *X, size_t j)
 {
     qdot_zero_box a, b;
     double at = cutting_point(X[j]);
 
     if (!(at > X[j].lo && at < X[j].hi))
-        at = middle(X[j]);
+        at = interval_midpoint(X[j]);
     memcpy(a.at, X, s->n * sizeof *X);
     b = a;
     a.at[j].hi = at;
@@ -575,9 +575,9 @@ halve(qdot_zeros_system *s, const qdot_interval *X, size_t j)
     return qdot_vec_push(&s->todo, a);
 }
 
-/* Whether X is a small box to be treated last: near multiple zeros the search takes long. */
+/* Whether the box X is small and therefore treated last: near multiple zeros the search takes long. */
 static bool
-is_late(qdot_zeros_system *s, const qdot_interval *X)
+is_treated_later(qdot_zeros_system *s, const qdot_interval *X)
 {
     return s->n > 1 && !s->late && box_is_small(s->n, X);
 }
@@ -621,11 +621,11 @@ qdot_zeros_search(qdot_zeros_system *s)
             s->exhausted = true;
             return QDOT_OK;
         }
-        QDOT_TRY(look_at(s, box.at, &f, &how));
-        if (how == SPLIT && is_late(s, box.at))
+        QDOT_TRY(examine_box(s, box.at, &f, &how));
+        if (how == SPLIT && is_treated_later(s, box.at))
             QDOT_TRY(qdot_vec_push(&s->small, box));
         else if (how == SPLIT)
-            QDOT_TRY(halve(s, box.at, widest(s->n, &f, box.at)));
+            QDOT_TRY(halve_box(s, box.at, widest_direction(s->n, &f, box.at)));
         else if (how == DOUBT)
             QDOT_TRY(qdot_vec_push(&s->doubt, box));
     }
@@ -634,10 +634,10 @@ qdot_zeros_search(qdot_zeros_system *s)
 /* --- undecided boxes that touch ---------------------------------------------------------------------------- */
 
 static bool
-touch(size_t n, const qdot_interval *a, const qdot_interval *b)
+boxes_touch(size_t n, const qdot_interval *a, const qdot_interval *b)
 {
     for (size_t i = 0; i < n; i++) {
-        double slack = fmax(width(a[i]), width(b[i])) + 1e-12 * fabs(a[i].lo);
+        double slack = fmax(interval_width(a[i]), interval_width(b[i])) + 1e-12 * fabs(a[i].lo);
 
         if (a[i].lo > b[i].hi + slack || b[i].lo > a[i].hi + slack)
             return false;
@@ -652,7 +652,7 @@ qdot_zeros_join(qdot_zeros_system *s)
         for (size_t l = k + 1; l < s->doubt.n;) {
             qdot_interval *a = s->doubt.at[k].at, *b = s->doubt.at[l].at;
 
-            if (!touch(s->n, a, b)) {
+            if (!boxes_touch(s->n, a, b)) {
                 l++;
                 continue;
             }

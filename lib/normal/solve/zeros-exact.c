@@ -9,9 +9,9 @@
 
 enum { FRACTION = 100000, PART = 120 };
 
-/* The fraction with the smallest denominator in lo ... hi; false if none is below `most`. */
+/* Find the fraction p/q with the smallest denominator in lo ... hi; false if no denominator is below `most`. */
 static bool
-simplest(double lo, double hi, long most, long *p, long *q)
+find_simplest_fraction(double lo, double hi, long most, long *p, long *q)
 {
     long a = 0, b = 1, c = 1,
          d = 0; /* a/b < x < c/d, neighbours in the tree of fractions (Stern-Brocot) */
@@ -32,7 +32,7 @@ simplest(double lo, double hi, long most, long *p, long *q)
     c = a + 1, d = 1;
     if (a >= lo)
         c = a;
-    if (c <= hi) { /* the next integer lies in the interval */
+    if (c <= hi) { /* the next integer c lies in the interval */
         *p = minus ? -c : c;
         return true;
     }
@@ -66,7 +66,7 @@ qdot_zeros_candidate(qdot_pool *pool, qdot_interval X, int k)
     double unit = k == 0 ? 1 : M_PI;
     long p, q;
 
-    if (k > 1 || !simplest(X.lo / unit, X.hi / unit, k == 0 ? FRACTION : PART, &p, &q) ||
+    if (k > 1 || !find_simplest_fraction(X.lo / unit, X.hi / unit, k == 0 ? FRACTION : PART, &p, &q) ||
         (k == 1 && p == 0))
         return QDOT_NIL;
     return qdot_mul(pool, qdot_expr_ratio(pool, p, q), k == 0 ? QDOT_ONE : QDOT_PI);
@@ -81,7 +81,7 @@ qdot_zeros_vanish(qdot_pool *pool, size_t m, const qdot_expr *f, size_t n,
         qdot_expr at = qdot_subs(pool, f[i], n, x, value);
         qdot_status status = qdot_pool_check(pool);
 
-        if (status == QDOT_EDOMAIN) /* the equation is not defined at this candidate */
+        if (status == QDOT_EDOMAIN) /* the equation is not defined at this exact value */
             *yes = false;
         else
             QDOT_TRY(status);

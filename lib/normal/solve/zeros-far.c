@@ -13,7 +13,7 @@
 #include "expr/walk.h"
 #include "normal/solve/zeros-parts.h"
 
-/* Exponents are integer multiples of 1/UNIT, so that their sums are exact. */
+/* Exponents are stored as integer multiples of 1/UNIT, so that their sums are exact. */
 enum { UNIT = 5040, LARGEST = 10000, TERMS = 4, FIRST = 2, LAST = 30, SIZE = 400 };
 
 /* A scale S(x) = x^power log(x)^logs exp(sum of rate x^exponent), the exponents descending and > 0. */
@@ -33,7 +33,7 @@ typedef struct {
     qdot_interval bounds;
     far_scale scale;
     bool known;
-    bool nowhere; /* the function is defined at no x >= R */
+    bool nowhere; /* the function is defined at no x >= R, the start of the range */
 } far_form;
 
 typedef struct {
@@ -91,7 +91,7 @@ scale_multiply(qdot_pool *pool, far_scale *s, const far_scale *r, long num, long
     return true;
 }
 
-/* The sign of the growth of S: > 0 to infinity, < 0 to 0, 0: S = 1. */
+/* How the scale S(x) grows for large x: > 0 to infinity, < 0 to 0; 0: S = 1. */
 static int
 scale_growth(const far_scale *s)
 {
@@ -117,7 +117,7 @@ power_of_R(const far_task *t, long exponent)
  * holds for x >= R if it does at R with the leading term and what is positive of the others: these,
  * divided by x^exponent of the leading one, fall. */
 static double
-scale_bound(const far_task *t, const far_scale *s)
+bound_of_scale(const far_task *t, const far_scale *s)
 {
     qdot_interval slope = {0, 0}, size = {0, 0}, R = qdot_interval_point(t->R), log_R;
     double rest = fmax((double)s->power, 0) + fmax((double)s->logs, 0);
@@ -154,19 +154,19 @@ scale_bound(const far_task *t, const far_scale *s)
     return qdot_interval_rising(exp, size).hi;
 }
 
-/* Bounds of S for x >= R. */
+/* Bounds of the scale S(x) for x >= R. */
 static qdot_interval
-scale_range(const far_task *t, const far_scale *s)
+range_of_scale(const far_task *t, const far_scale *s)
 {
     far_scale inverse = {0};
 
     switch (scale_growth(s)) {
     case 0: return qdot_interval_point(1);
-    case -1: return (qdot_interval){0, scale_bound(t, s)};
+    case -1: return (qdot_interval){0, bound_of_scale(t, s)};
     default:
         if (!scale_multiply(t->pool, &inverse, s, -1, 1))
             return (qdot_interval){0, INFINITY};
-        return (qdot_interval){qdot_interval_outward(1 / scale_bound(t, &inverse), 1).lo,
+        return (qdot_interval){qdot_interval_outward(1 / bound_of_scale(t, &inverse), 1).lo,
                                INFINITY};
     }
 }
@@ -174,51 +174,51 @@ scale_range(const far_task *t, const far_scale *s)
 /* --- forms: a scale times a bounded factor --------------------------------------------------------- */
 
 static const far_form *
-form_at(const far_task *t, qdot_expr e)
+growth_of_node(const far_task *t, qdot_expr e)
 {
     return &t->form[qdot_walk_index(t->walk, e)];
 }
 
 static far_form
-form_constant(qdot_interval c)
+growth_of_constant(qdot_interval c)
 {
     return (far_form){.bounds = c, .known = isfinite(c.lo) && isfinite(c.hi)};
 }
 
 static bool
-is_bounded(const far_form *f)
+has_finite_bounds(const far_form *f)
 {
     return isfinite(f->bounds.lo) && isfinite(f->bounds.hi);
 }
 
 static far_form
-form_checked(far_form f)
+check_growth(far_form f)
 {
-    f.known = f.known && (is_bounded(&f) || (f.bounds.lo > 0 && isfinite(f.bounds.lo)) ||
+    f.known = f.known && (has_finite_bounds(&f) || (f.bounds.lo > 0 && isfinite(f.bounds.lo)) ||
                           (f.bounds.hi < 0 && isfinite(f.bounds.hi)));
     return f;
 }
 
 static qdot_interval
-form_range(const far_task *t, const far_form *f)
+range_of_growth(const far_task *t, const far_form *f)
 {
-    return is_bounded(f) ? qdot_interval_product(f->bounds, scale_range(t, &f->scale), false) : qdot_interval_whole;
+    return has_finite_bounds(f) ? qdot_interval_product(f->bounds, range_of_scale(t, &f->scale), false) : qdot_interval_whole;
 }
 
 static far_form
-form_product(const far_task *t, far_form f, const far_form *g)
+multiply_growth(const far_task *t, far_form f, const far_form *g)
 {
-    const bool bounded = is_bounded(&f) && is_bounded(g);
+    const bool bounded = has_finite_bounds(&f) && has_finite_bounds(g);
 
     f.known = f.known && g->known && scale_multiply(t->pool, &f.scale, &g->scale, 1, 1);
     if (!bounded && (!(f.bounds.lo > 0 || f.bounds.hi < 0) || !(g->bounds.lo > 0 || g->bounds.hi < 0)))
         return form_unknown;
     f.bounds = qdot_interval_product(f.bounds, g->bounds, false);
-    return form_checked(f);
+    return check_growth(f);
 }
 
 static far_form
-form_power(const far_task *t, const far_form *f, const fmpq *exponent)
+growth_of_power(const far_task *t, const far_form *f, const fmpq *exponent)
 {
     far_form g = {.known = f->known};
     long num, den;
@@ -239,12 +239,12 @@ form_power(const far_task *t, const far_form *f, const fmpq *exponent)
                             : qdot_interval_outward((double)num / (double)den,
                                                     (double)num / (double)den));
     g.known = scale_multiply(t->pool, &g.scale, &f->scale, num, den);
-    return form_checked(g);
+    return check_growth(g);
 }
 
-/* The bounds of f + g: the term of smaller growth is a bounded factor times the larger one. */
+/* The growth of f + g: the term that grows less is written as a bounded factor times the other one. */
 static far_form
-form_sum(const far_task *t, const far_form *f, const far_form *g)
+add_growth(const far_task *t, const far_form *f, const far_form *g)
 {
     far_scale ratio = g->scale;
     far_form sum = *f;
@@ -255,18 +255,18 @@ form_sum(const far_task *t, const far_form *f, const far_form *g)
         return form_unknown;
     growth = scale_growth(&ratio);
     if (growth > 0)
-        return form_sum(t, g, f);
-    if (growth < 0 && !is_bounded(g)) /* g may exceed its scale, so only the sign of the ratio is known */
+        return add_growth(t, g, f);
+    if (growth < 0 && !has_finite_bounds(g)) /* g may exceed its scale, so that only the sign of the ratio f/g is known */
         other = other.lo > 0 ? (qdot_interval){0, INFINITY} : (qdot_interval){-INFINITY, 0};
     else if (growth < 0)
-        other = qdot_interval_product(other, scale_range(t, &ratio), false);
+        other = qdot_interval_product(other, range_of_scale(t, &ratio), false);
     sum.bounds = qdot_interval_sum(f->bounds, other);
-    return form_checked(sum);
+    return check_growth(sum);
 }
 
 /* --- exponentials and logarithms of forms ---------------------------------------------------------- */
 
-/* Whether e is K x^p with p > 0; then *rate is K, and *exponent is p in UNITs. */
+/* Whether e is K x^p with a constant K and p > 0; then *rate is K, and *exponent is p in multiples of 1/UNIT. */
 static bool
 is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
 {
@@ -296,9 +296,9 @@ is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
     return *rate != QDOT_NIL && !qdot_expr_contains(pool, *rate, x) && *exponent > 0;
 }
 
-/* The form of exp(u) for u of one sign with |u| >= c x: at least exp(c x), or at most exp(-c x). */
+/* The growth of exp(u) for u of one sign with |u| >= c x: at least that of exp(c x), or at most that of exp(-c x). */
 static far_form
-form_exp_of_fast(const far_task *t, const far_form *u)
+growth_of_fast_exponential(const far_task *t, const far_form *u)
 {
     const far_scale x = {.power = UNIT};
     far_scale slower = {0};
@@ -309,7 +309,7 @@ form_exp_of_fast(const far_task *t, const far_form *u)
     if (!u->known || !(least > 0) || !scale_multiply(t->pool, &slower, &x, 1, 1) ||
         !scale_multiply(t->pool, &slower, &u->scale, -1, 1) || scale_growth(&slower) > 0)
         return form_unknown;
-    most = scale_growth(&slower) == 0 ? 1 : scale_bound(t, &slower); /* bound of x/S */
+    most = scale_growth(&slower) == 0 ? 1 : bound_of_scale(t, &slower); /* bound of x/S */
     rate = least / most * (1 - 1e-9);
     if (!(rate > 0))
         return form_unknown;
@@ -317,12 +317,12 @@ form_exp_of_fast(const far_task *t, const far_form *u)
     f.bounds = u->bounds.lo > 0 ? (qdot_interval){1, INFINITY} : (qdot_interval){0, 1};
     f.known = scale_add_term(t->pool, &f.scale, UNIT,
                              qdot_expr_of_double(t->pool, u->bounds.lo > 0 ? rate : -rate));
-    return form_checked(f);
+    return check_growth(f);
 }
 
-/* The form of exp(by u) for a constant `by`, as a product over the terms of u. */
+/* The growth of exp(by u) for a constant `by`, as a product over the terms of the sum u. */
 static far_form
-form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
+growth_of_exponential_by_terms(const far_task *t, qdot_expr u, qdot_expr by)
 {
     qdot_pool *pool = t->pool;
     bool sum = qdot_expr_kind(pool, u) == QDOT_SUM;
@@ -336,38 +336,38 @@ form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
         qdot_expr c = sum ? qdot_mul(pool, by, qdot_expr_arg(pool, u, i + 1)) : by,
                   e = sum ? qdot_expr_arg(pool, u, i) : u, rate;
         long exponent;
-        const far_form *part = form_at(t, e);
+        const far_form *part = growth_of_node(t, e);
 
         if (is_power_of_x(t, e, &rate, &exponent))
             f.known = scale_add_term(pool, &f.scale, exponent, qdot_mul(pool, c, rate));
         else if (part->known && scale_growth(&part->scale) <= 0)
             rest = qdot_interval_sum(rest,
                                      qdot_interval_product(qdot_ball_bounds(pool, c),
-                                                           form_range(t, part), false));
+                                                           range_of_growth(t, part), false));
         else
             f.known = false;
     }
     f.bounds = qdot_interval_rising(exp, rest);
     f.bounds.lo = fmax(f.bounds.lo, 0);
-    return form_checked(f);
+    return check_growth(f);
 }
 
-/* The form of exp(by u) for a constant `by`. */
+/* The growth of exp(by u) for a constant `by`. */
 static far_form
-form_exp(const far_task *t, qdot_expr u, qdot_expr by)
+growth_of_exponential(const far_task *t, qdot_expr u, qdot_expr by)
 {
-    const far_form f = form_exp_of_parts(t, u, by), factor = form_constant(qdot_ball_bounds(t->pool, by));
+    const far_form f = growth_of_exponential_by_terms(t, u, by), factor = growth_of_constant(qdot_ball_bounds(t->pool, by));
     far_form all;
 
     if (f.known)
         return f;
-    all = form_product(t, *form_at(t, u), &factor);
-    return form_exp_of_fast(t, &all);
+    all = multiply_growth(t, *growth_of_node(t, u), &factor);
+    return growth_of_fast_exponential(t, &all);
 }
 
-/* The form of log u = log m + power log x + sum of rate x^exponent. */
+/* The growth of log u for u = m S(x), which is log m + power log x + sum of rate x^exponent. */
 static far_form
-form_log(const far_task *t, const far_form *u)
+growth_of_logarithm(const far_task *t, const far_form *u)
 {
     far_form sum, log_x = {.known = true, .scale = {.logs = UNIT}};
     double power = (double)u->scale.power / UNIT;
@@ -376,23 +376,23 @@ form_log(const far_task *t, const far_form *u)
         return form_nowhere;
     if (!u->known || !(u->bounds.lo > 0) || u->scale.logs != 0)
         return form_unknown;
-    sum = form_constant(qdot_interval_rising(log, u->bounds));
+    sum = growth_of_constant(qdot_interval_rising(log, u->bounds));
     log_x.bounds = qdot_interval_outward(power, power);
     if (u->scale.power != 0)
-        sum = form_sum(t, &log_x, &sum);
+        sum = add_growth(t, &log_x, &sum);
     for (size_t k = 0; k < u->scale.n; k++) {
         far_form term = {.known = true,
                          .bounds = u->scale.term[k].bounds,
                          .scale = {.power = u->scale.term[k].exponent}};
 
-        sum = form_sum(t, &sum, &term);
+        sum = add_growth(t, &sum, &term);
     }
     return sum;
 }
 
 /* --- forms of other functions ---------------------------------------------------------------------- */
 
-/* Bounds of h(v)/v for 0 < |v| <= most, h odd; empty if unknown. */
+/* Bounds of h(v)/v for 0 < |v| <= most, where h is an odd function; infinite if unknown. */
 static qdot_interval
 bounds_of_quotient(qdot_fun_id h, double most)
 {
@@ -400,7 +400,7 @@ bounds_of_quotient(qdot_fun_id h, double most)
 
     if (!(most < 0.5))
         return qdot_interval_whole;
-    switch (h) { /* error of the series: its next term, enlarged for the terms after it */
+    switch (h) { /* the error of the Taylor series is its next term, enlarged to cover the terms after it */
     case QDOT_SIN:
     case QDOT_ASINH: return (qdot_interval){1 - 0.17 * square, 1};
     case QDOT_TANH:
@@ -414,28 +414,28 @@ bounds_of_quotient(qdot_fun_id h, double most)
 }
 
 static far_form
-form_function(const far_task *t, qdot_expr e)
+growth_of_function(const far_task *t, qdot_expr e)
 {
     qdot_fun_id h = qdot_expr_node(t->pool, e)->op;
     qdot_expr arg = qdot_expr_arg(t->pool, e, 0);
-    const far_form *u = form_at(t, arg);
+    const far_form *u = growth_of_node(t, arg);
     qdot_interval v, quotient;
     far_form f = *u;
 
     if (h == QDOT_SIN || h == QDOT_COS)
-        f = form_constant((qdot_interval){-1, 1});
+        f = growth_of_constant((qdot_interval){-1, 1});
     if (qdot_expr_count(t->pool, e) != 1 || !u->known)
         return h == QDOT_SIN || h == QDOT_COS ? f : form_unknown;
     if (h == QDOT_EXP)
-        return form_exp(t, arg, QDOT_ONE);
+        return growth_of_exponential(t, arg, QDOT_ONE);
     if (h == QDOT_LOG)
-        return form_log(t, u);
-    v = form_range(t, u);
+        return growth_of_logarithm(t, u);
+    v = range_of_growth(t, u);
     quotient = bounds_of_quotient(h, qdot_interval_size(v).hi);
     if (scale_growth(&u->scale) < 0 && isfinite(quotient.lo)) {
         f = *u;
         f.bounds = qdot_interval_product(u->bounds, quotient, false);
-        return form_checked(f);
+        return check_growth(f);
     }
     if ((h == QDOT_ASIN || h == QDOT_ACOS || h == QDOT_ATANH) && (v.lo > 1 || v.hi < -1))
         return form_nowhere;
@@ -443,43 +443,43 @@ form_function(const far_task *t, qdot_expr e)
         return form_nowhere;
     switch (h) {
     case QDOT_SIN:
-        return v.hi - v.lo < 1 ? form_constant(qdot_interval_wave(sin, v, M_PI / 2)) : f;
+        return v.hi - v.lo < 1 ? growth_of_constant(qdot_interval_wave(sin, v, M_PI / 2)) : f;
     case QDOT_COS:
-        return v.hi - v.lo < 1 ? form_constant(qdot_interval_wave(cos, v, 0)) : f;
-    case QDOT_TANH: return form_constant(qdot_interval_rising(tanh, v));
-    case QDOT_ATAN: return form_constant(qdot_interval_rising(atan, v));
-    case QDOT_ERF: return form_constant(qdot_interval_rising(erf, v));
+        return v.hi - v.lo < 1 ? growth_of_constant(qdot_interval_wave(cos, v, 0)) : f;
+    case QDOT_TANH: return growth_of_constant(qdot_interval_rising(tanh, v));
+    case QDOT_ATAN: return growth_of_constant(qdot_interval_rising(atan, v));
+    case QDOT_ERF: return growth_of_constant(qdot_interval_rising(erf, v));
     case QDOT_ABS: f.bounds = qdot_interval_size(f.bounds); return f;
     case QDOT_SIGN:
-        return u->bounds.lo > 0   ? form_constant(qdot_interval_point(1))
-               : u->bounds.hi < 0 ? form_constant(qdot_interval_point(-1))
+        return u->bounds.lo > 0   ? growth_of_constant(qdot_interval_point(1))
+               : u->bounds.hi < 0 ? growth_of_constant(qdot_interval_point(-1))
                                   : form_unknown;
     default: return form_unknown;
     }
 }
 
-/* The form of base^exponent = exp(exponent log base), if both contain x. */
+/* The growth of base^exponent = exp(exponent log base), if both the base and the exponent contain x. */
 static far_form
-form_of_both(const far_task *t, const far_form *base, const far_form *exponent)
+growth_of_general_power(const far_task *t, const far_form *base, const far_form *exponent)
 {
-    const far_form log_base = form_log(t, base);
+    const far_form log_base = growth_of_logarithm(t, base);
     far_form u;
 
     if (log_base.nowhere || !log_base.known || !exponent->known)
         return log_base.nowhere ? form_nowhere : form_unknown;
-    u = form_product(t, *exponent, &log_base);
-    if (u.known && is_bounded(&u) && scale_growth(&u.scale) <= 0)
-        return form_checked(
+    u = multiply_growth(t, *exponent, &log_base);
+    if (u.known && has_finite_bounds(&u) && scale_growth(&u.scale) <= 0)
+        return check_growth(
             (far_form){.known = true, .bounds = qdot_interval_within(
-                                          qdot_interval_rising(exp, form_range(t, &u)), 0, INFINITY)});
-    return form_exp_of_fast(t, &u);
+                                          qdot_interval_rising(exp, range_of_growth(t, &u)), 0, INFINITY)});
+    return growth_of_fast_exponential(t, &u);
 }
 
 static far_form
-form_of_product(const far_task *t, qdot_expr e)
+growth_of_product(const far_task *t, qdot_expr e)
 {
     qdot_pool *pool = t->pool;
-    far_form f = form_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, 0)));
+    far_form f = growth_of_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, 0)));
 
     for (uint32_t i = 1; i < qdot_expr_count(pool, e) && f.known; i += 2) {
         qdot_expr base = qdot_expr_arg(pool, e, i),
@@ -488,74 +488,74 @@ form_of_product(const far_task *t, qdot_expr e)
         far_form factor;
 
         if (rational != NULL)
-            factor = form_power(t, form_at(t, base), rational);
+            factor = growth_of_power(t, growth_of_node(t, base), rational);
         else if (qdot_expr_contains(pool, base, t->x))
-            factor = form_of_both(t, form_at(t, base), form_at(t, exponent));
+            factor = growth_of_general_power(t, growth_of_node(t, base), growth_of_node(t, exponent));
         else if (!(qdot_ball_bounds(pool, base).lo > 0))
             factor = form_unknown;
         else
-            factor = form_exp(t, exponent, qdot_fun1(pool, QDOT_LOG, base));
-        f = form_product(t, f, &factor);
+            factor = growth_of_exponential(t, exponent, qdot_fun1(pool, QDOT_LOG, base));
+        f = multiply_growth(t, f, &factor);
     }
     return f;
 }
 
 static far_form
-form_of_sum(const far_task *t, qdot_expr e)
+growth_of_sum(const far_task *t, qdot_expr e)
 {
     qdot_pool *pool = t->pool;
-    far_form f = form_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, 0)));
+    far_form f = growth_of_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, 0)));
     bool any = qdot_expr_arg(pool, e, 0) != QDOT_ZERO;
 
     for (uint32_t i = 1; i < qdot_expr_count(pool, e) && f.known; i += 2) {
         far_form term =
-            form_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, i + 1)));
+            growth_of_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, i + 1)));
 
-        term = form_product(t, term, form_at(t, qdot_expr_arg(pool, e, i)));
-        f = any ? form_sum(t, &f, &term) : term;
+        term = multiply_growth(t, term, growth_of_node(t, qdot_expr_arg(pool, e, i)));
+        f = any ? add_growth(t, &f, &term) : term;
         any = true;
     }
     return f;
 }
 
-/* Whether an operand is defined nowhere; the branches of if(...) need not be. */
+/* Whether an operand of e is undefined for all large x; the branches of if(...) are not considered. */
 static bool
-is_nowhere(const far_task *t, qdot_expr e)
+is_undefined_far_out(const far_task *t, qdot_expr e)
 {
     bool choice = qdot_expr_kind(t->pool, e) == QDOT_FUN &&
                   qdot_expr_node(t->pool, e)->op == QDOT_IF;
     uint32_t n = choice || e == t->x ? 0 : qdot_expr_count(t->pool, e);
 
     for (uint32_t i = 0; i < n; i++)
-        if (form_at(t, qdot_expr_arg(t->pool, e, i))->nowhere)
+        if (growth_of_node(t, qdot_expr_arg(t->pool, e, i))->nowhere)
             return true;
     return false;
 }
 
 static far_form
-form_of_node(const far_task *t, qdot_expr e)
+find_growth_of_node(const far_task *t, qdot_expr e)
 {
-    if (is_nowhere(t, e))
+    if (is_undefined_far_out(t, e))
         return form_nowhere;
     if (!qdot_expr_contains(t->pool, e, t->x))
         return qdot_expr_is_scalar(t->pool, e)
-                   ? form_constant(qdot_ball_bounds(t->pool, e))
+                   ? growth_of_constant(qdot_ball_bounds(t->pool, e))
                    : form_unknown;
     if (e == t->x)
         return (far_form){.bounds = {1, 1}, .scale = {.power = UNIT}, .known = true};
     switch (qdot_expr_kind(t->pool, e)) {
-    case QDOT_SUM: return form_of_sum(t, e);
-    case QDOT_PROD: return form_of_product(t, e);
-    case QDOT_FUN: return form_function(t, e);
+    case QDOT_SUM: return growth_of_sum(t, e);
+    case QDOT_PROD: return growth_of_product(t, e);
+    case QDOT_FUN: return growth_of_function(t, e);
     default: return form_unknown;
     }
 }
 
 /* --- whether there are zeros far away -------------------------------------------------------------- */
 
-/* exp(u) with u expanded; sinh and cosh written as exponentials. */
+/* The functions sinh and cosh written as exponentials, and exp(u) with u expanded. */
 static qdot_expr
-as_exponentials(qdot_pool *pool, qdot_expr e, void *user)
+write_as_exponentials(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_fun_id h = qdot_expr_node(pool, e)->op;
     qdot_expr u, up, down;
@@ -585,7 +585,7 @@ qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_expr x, int sign, double *R)
     if (qdot_expr_symbol(pool, far)->lo == QDOT_NIL)
         qdot_symbol_domain(pool, far, QDOT_ZERO, true, QDOT_NIL, false);
     to = qdot_mul(pool, qdot_expr_int(pool, sign), far);
-    f = qdot_walk_replace(pool, qdot_subs(pool, f, 1, &x, &to), QDOT_FUN, as_exponentials,
+    f = qdot_walk_replace(pool, qdot_subs(pool, f, 1, &x, &to), QDOT_FUN, write_as_exponentials,
                           NULL);
     status = qdot_pool_check(pool);
     if (status == QDOT_EDOMAIN) { /* undefined for all large x */
@@ -604,7 +604,7 @@ qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_expr x, int sign, double *R)
 
         t.R = ldexp(1, k);
         for (size_t i = 0; i < w.n; i++)
-            t.form[i] = form_of_node(&t, w.at[i]);
+            t.form[i] = find_growth_of_node(&t, w.at[i]);
         status = qdot_pool_check(pool);
         if (status == QDOT_EDOMAIN)
             status = QDOT_OK;

@@ -19,7 +19,7 @@ enum {
     MOST_RELATIONS = 24
 };
 
-/* The default number of evaluations for n unknowns; expressions with more nodes than SHORT count more. */
+/* The default number of evaluations for n unknowns; expressions of more nodes than SHORT count as several. */
 static const uint64_t usual[MOST + 1] = {0, 20000, 80000, 160000, 160000, 160000, 160000};
 enum {
     SHORT = 50,
@@ -47,14 +47,14 @@ read_ranges(qdot_zeros_task *t)
         if (r->turn)
             t->bounds[j] = (qdot_interval){-nextafter(M_PI, 4), nextafter(M_PI, 4)};
         if (!(t->bounds[j].lo <= t->bounds[j].hi))
-            t->bounds[j].hi = t->bounds[j].lo; /* empty range, or a single point */
+            t->bounds[j].hi = t->bounds[j].lo; /* make the range a single point: it is empty, or has equal ends */
     }
     return qdot_pool_check(t->pool);
 }
 
 /* For zeros that fill a range given by relations a < b: prepare enclosures of b - a. */
 static qdot_status
-read_held(qdot_zeros_task *t)
+prepare_ranges_of_zeros(qdot_zeros_task *t)
 {
     qdot_expr held = t->n == 1 ? t->range[0].held : QDOT_NIL;
 
@@ -70,7 +70,7 @@ read_held(qdot_zeros_task *t)
                       right = qdot_expr_arg(t->pool, one, 1);
 
             if ((left == t->range[0].lo && right == t->x[0]) ||
-                (left == t->x[0] && right == t->range[0].hi)) /* the whole range, of which boxes are parts */
+                (left == t->x[0] && right == t->range[0].hi)) /* a bound of the whole range, which holds for every box in it */
                 continue;
             gap[m++] = qdot_sub(t->pool, right, left);
         }
@@ -86,9 +86,9 @@ read_held(qdot_zeros_task *t)
 
 /* --- factors as separate systems -------------------------------------------------------------------- */
 
-/* Form a system for every choice of one factor from each equation. */
+/* Make one system of equations for every choice of one factor from each equation. */
 static qdot_status
-split(qdot_zeros_task *t)
+make_systems_of_factors(qdot_zeros_task *t)
 {
     qdot_expr lists[MOST];
     size_t all = 1;
@@ -119,7 +119,7 @@ split(qdot_zeros_task *t)
 /* --- searching the box and beyond -------------------------------------------------------------------------- */
 
 static qdot_status
-task_search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, uint64_t most)
+search_boxes(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, uint64_t most)
 {
     size_t nodes = qdot_enclosure_size(s->bounds);
     uint64_t weight = nodes > SHORT ? nodes / SHORT : 1;
@@ -137,10 +137,10 @@ task_search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, 
     return status;
 }
 
-/* Whether it is proved that f [n] have no zero in the chart. */
+/* Whether it is proved that the functions f [n] have no common zero in the region that a chart covers. */
 static qdot_status
-is_empty_chart(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_expr *of,
-               bool *empty)
+chart_has_no_zero(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_expr *of,
+                  bool *empty)
 {
     qdot_expr f[MOST];
     qdot_zeros_system s;
@@ -156,7 +156,7 @@ is_empty_chart(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_exp
         return QDOT_OK;
     QDOT_TRY(qdot_zeros_system_begin(&s, t->pool, t->n, f, chart->y));
     s.least = 1e-14;
-    status = task_search(t, &s, &chart->box, NEARBY);
+    status = search_boxes(t, &s, &chart->box, NEARBY);
     *empty = s.found.n == 0 && s.doubt.n == 0 && !s.exhausted;
     qdot_zeros_system_end(&s);
     return status;
@@ -165,8 +165,8 @@ is_empty_chart(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_exp
 /* A place in doubt, in several unknowns: an exact point of it at which f [n] vanish, or F is not defined, and
  * around which there is no zero. */
 static qdot_status
-decide_doubt(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
-             bool *decided, qdot_zero_place *place)
+decide_undecided_box(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
+                     bool *decided, qdot_zero_place *place)
 {
     qdot_expr centre[MOST];
     double reach = 0;
@@ -192,17 +192,17 @@ decide_doubt(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
         qdot_zeros_chart chart;
 
         qdot_zeros_chart_near(t->pool, t->n, centre, 2 * reach, k, &chart);
-        QDOT_TRY(is_empty_chart(t, &chart, f, decided));
+        QDOT_TRY(chart_has_no_zero(t, &chart, f, decided));
     }
     for (size_t j = 0; j < t->n; j++)
         place->alone[j] = (qdot_interval){place->at[j] - reach, place->at[j] + reach};
     return QDOT_OK;
 }
 
-/* Search the zeros of one system within the box of size R. */
+/* Search the zeros of system number k within the box |x| <= R, the core. */
 static qdot_status
-search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
-            const qdot_zero_box *box, bool again)
+search_inside(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
+              const qdot_zero_box *box, bool again)
 {
     bool plain = true;
 
@@ -212,7 +212,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
         QDOT_TRY(qdot_enclosure_new(t->pool, t->n, t->F, t->n, t->x, &core->also));
         core->others = t->n;
     }
-    QDOT_TRY(task_search(t, core, box, UINT64_MAX));
+    QDOT_TRY(search_boxes(t, core, box, UINT64_MAX));
     t->exhausted |= core->exhausted;
     qdot_zeros_join(core);
     if (t->n == 1) {
@@ -226,7 +226,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
         bool decided = false;
 
         if (t->n > 1 && core->doubt.n <= PLACES)
-            QDOT_TRY(decide_doubt(t, t->f[k], &core->doubt.at[i], &decided, &place));
+            QDOT_TRY(decide_undecided_box(t, t->f[k], &core->doubt.at[i], &decided, &place));
         if (decided)
             QDOT_TRY(qdot_zeros_add(t, k, place, again));
         else
@@ -235,7 +235,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     return QDOT_OK;
 }
 
-/* Search the zeros of one system beyond R, in one chart. */
+/* Search the zeros of system number k beyond |x| = R in one chart (with variables such as 1/x). */
 static qdot_status
 search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
              const qdot_zeros_chart *chart, bool wild, bool *beyond)
@@ -262,7 +262,7 @@ search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     s.others = t->n;
     status = qdot_enclosure_new(t->pool, t->n, F, t->n, chart->y, &s.also);
     if (status == QDOT_OK)
-        status = task_search(t, &s, &chart->box, t->budget / (wild ? 40 : 4));
+        status = search_boxes(t, &s, &chart->box, t->budget / (wild ? 40 : 4));
     *beyond |= s.doubt.n > 0 || s.exhausted;
     for (size_t i = 0; i < s.found.n && status == QDOT_OK; i++) {
         double at[MOST];
@@ -278,7 +278,7 @@ search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     return status;
 }
 
-/* Search the zeros beyond R in all charts, with unknowns grouped as given or singly. */
+/* Search the zeros beyond |x| = R in all charts, with the unknowns grouped as given or one by one. */
 static qdot_status
 search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
               const qdot_zeros_range *range, bool *beyond)
@@ -306,8 +306,8 @@ search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
 /* One unknown: search zeros beyond the box up to where growth excludes them; *beyond: growth does
  * not exclude them. */
 static qdot_status
-search_to_growth(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
-                 const qdot_interval *box, bool *beyond)
+search_until_growth_excludes(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
+                             const qdot_interval *box, bool *beyond)
 {
     qdot_zero_box below, above;
     double lo = -t->bounds[0].lo, hi = t->bounds[0].hi;
@@ -324,9 +324,9 @@ search_to_growth(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     above.at[0] = (qdot_interval){box->hi, hi};
     core->found.n = core->doubt.n = 0;
     if (-lo < box->lo)
-        QDOT_TRY(search_core(t, k, core, &below, true));
+        QDOT_TRY(search_inside(t, k, core, &below, true));
     core->found.n = core->doubt.n = 0;
-    return box->hi < hi ? search_core(t, k, core, &above, true) : QDOT_OK;
+    return box->hi < hi ? search_inside(t, k, core, &above, true) : QDOT_OK;
 }
 
 static qdot_status
@@ -342,16 +342,16 @@ search_system(qdot_zeros_task *t, size_t k)
     core.held = t->held.at;
     core.ranges = t->held.n;
     qdot_zeros_chart_at(t->pool, t->n, t->x, t->range, t->bounds, 0, &chart);
-    status = search_core(t, k, &core, &chart.box, false);
+    status = search_inside(t, k, &core, &chart.box, false);
     wild = t->n == 1 && qdot_zeros_is_wild(t->pool, t->n, t->f[k], t->x, t->range);
     if (status == QDOT_OK && wild)
-        status = search_to_growth(t, k, &core, &chart.box.at[0], &beyond);
+        status = search_until_growth_excludes(t, k, &core, &chart.box.at[0], &beyond);
     if (status == QDOT_OK && (!wild || beyond))
         status = search_beyond(t, k, &core, t->range, &beyond);
     if (status == QDOT_OK && !wild && beyond && t->n == 1)
-        status = search_to_growth(t, k, &core, &chart.box.at[0], &beyond);
+        status = search_until_growth_excludes(t, k, &core, &chart.box.at[0], &beyond);
     if (status == QDOT_OK && beyond &&
-        t->n > 1) { /* zeros at infinity of one form may not be zeros of another */
+        t->n > 1) { /* a zero at infinity of one combination of factors may not be one of another */
         for (size_t j = 0; j < t->n; j++) {
             apart[j] = t->range[j];
             apart[j].group = (unsigned)j;
@@ -366,7 +366,7 @@ search_system(qdot_zeros_task *t, size_t k)
 /* --- merging the results ----------------------------------------------------------------------------------- */
 
 static int
-by_place(const void *a, const void *b)
+compare_by_position(const void *a, const void *b)
 {
     const qdot_zeros_member *x = a, *y = b;
 
@@ -377,9 +377,9 @@ by_place(const void *a, const void *b)
     return 0;
 }
 
-/* Find which zeros are simple zeros of F itself. */
+/* Find which zeros are simple, which means that the Jacobian of F itself is regular. */
 static qdot_status
-find_simple(qdot_zeros_task *t)
+find_simple_zeros(qdot_zeros_task *t)
 {
     qdot_enclosure *bounds;
 
@@ -404,9 +404,9 @@ find_simple(qdot_zeros_task *t)
     return QDOT_OK;
 }
 
-/* Take note of a base that is negative somewhere, or everywhere, in the box. */
+/* Record that the base of a power is negative somewhere, or everywhere, in the box. */
 static qdot_status
-look_at_base(qdot_zeros_task *t, qdot_expr base)
+record_negative_base(qdot_zeros_task *t, qdot_expr base)
 {
     qdot_enclosure *bounds;
     const qdot_enclosure_value *v;
@@ -427,20 +427,20 @@ look_at_base(qdot_zeros_task *t, qdot_expr base)
 /* Find the powers with an unknown in their exponent whose base may be negative. There they are real only where the
  * exponent is an integer or has an odd denominator: at single places, of which boxes, and derivatives, know nothing. */
 static qdot_status
-find_single(qdot_zeros_task *t)
+find_powers_at_isolated_points(qdot_zeros_task *t)
 {
     const qdot_expr bases = qdot_expr_bases_of_powers(t->pool, t->n, t->F, t->n, t->x);
 
     QDOT_TRY(qdot_pool_check(t->pool));
     for (uint32_t i = 0; i < qdot_expr_count(t->pool, bases); i++)
-        QDOT_TRY(look_at_base(t, qdot_expr_arg(t->pool, bases, i)));
-    for (size_t i = 0; i < t->n && t->nowhere; i++) /* unless an if(...) chooses another value there */
+        QDOT_TRY(record_negative_base(t, qdot_expr_arg(t->pool, bases, i)));
+    for (size_t i = 0; i < t->n && t->nowhere; i++) /* unless an if(...) chooses another value where the power is undefined */
         t->nowhere = qdot_expr_find_function(t->pool, t->F[i], 1, (qdot_fun_id[]){QDOT_IF}, QDOT_NIL) == QDOT_NIL;
     return qdot_pool_check(t->pool);
 }
 
 static qdot_status
-give(qdot_zeros_task *t, qdot_zeros *out)
+write_result(qdot_zeros_task *t, qdot_zeros *out)
 {
     size_t n = t->n, count = t->found.n, doubts = t->doubt.n;
 
@@ -460,7 +460,7 @@ give(qdot_zeros_task *t, qdot_zeros *out)
     out->doubt = out->radius + n * count;
     out->reach = out->doubt + n * doubts;
     if (count > 1)
-        qsort(t->found.at, count, sizeof *t->found.at, by_place);
+        qsort(t->found.at, count, sizeof *t->found.at, compare_by_position);
     for (size_t k = 0; k < count; k++) {
         const qdot_zero_place *p = &t->found.at[k].place;
 
@@ -468,7 +468,7 @@ give(qdot_zeros_task *t, qdot_zeros *out)
         for (size_t j = 0; j < n; j++) {
             bool nothing = fabs(p->at[j]) <= p->radius[j] && p->radius[j] < 1e-14;
 
-            out->at[k * n + j] = nothing ? 0 : p->at[j]; /* 0 within its error */
+            out->at[k * n + j] = nothing ? 0 : p->at[j]; /* the value is 0 within its error bound */
             out->radius[k * n + j] = p->radius[j] + (nothing ? fabs(p->at[j]) : 0);
         }
     }
@@ -503,17 +503,17 @@ qdot_zeros_find(qdot_pool *pool, size_t n, const qdot_expr *F, const qdot_expr *
     t.budget = budget == 0 ? usual[n] : budget;
     status = read_ranges(&t);
     if (status == QDOT_OK)
-        status = read_held(&t);
+        status = prepare_ranges_of_zeros(&t);
     if (status == QDOT_OK)
-        status = find_single(&t);
+        status = find_powers_at_isolated_points(&t);
     if (status == QDOT_OK && !t.nowhere)
-        status = split(&t);
+        status = make_systems_of_factors(&t);
     for (size_t k = 0; k < t.systems && status == QDOT_OK; k++)
         status = search_system(&t, k);
     if (status == QDOT_OK)
-        status = find_simple(&t);
+        status = find_simple_zeros(&t);
     if (status == QDOT_OK)
-        status = give(&t, out);
+        status = write_result(&t, out);
     for (size_t k = 0; k < t.held.n; k++)
         qdot_enclosure_free(t.held.at[k]);
     qdot_free(t.held.at);

@@ -21,9 +21,9 @@ enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100, M
 
 /* --- guessing exact zeros --------------------------------------------------------------------------- */
 
-/* Whether f is monotonic on either side of c, where it may have a kink. */
+/* Whether f is monotonic on each side of c within X; at c it may have a kink. */
 static bool
-is_monotone_aside(qdot_zeros_system *s, qdot_interval c, qdot_interval X)
+is_monotone_beside(qdot_zeros_system *s, qdot_interval c, qdot_interval X)
 {
     const qdot_interval sides[] = {{X.lo, c.lo}, {c.hi, X.hi}};
     bool yes = c.lo == c.hi;
@@ -40,7 +40,7 @@ is_monotone_aside(qdot_zeros_system *s, qdot_interval c, qdot_interval X)
     return yes;
 }
 
-/* Whether c is proved to be the only zero within X; *k its multiplicity. */
+/* Whether c is proved to be the only zero of f within the interval X; *k: the multiplicity of this zero. */
 static qdot_status
 is_only_zero(qdot_zeros_system *s, qdot_expr c, qdot_interval X, int *k)
 {
@@ -111,7 +111,7 @@ is_only_zero_at_end(qdot_zeros_system *s, qdot_expr c, int side, double reach, b
     return qdot_pool_check(pool);
 }
 
-/* The value of a root, or of the member of its family, nearest to v. */
+/* The value of a root nearest to v; for a periodic root the nearest member of its family. */
 static qdot_expr
 nearest_member(qdot_pool *pool, const qdot_root *root, double v)
 {
@@ -131,8 +131,8 @@ nearest_member(qdot_pool *pool, const qdot_root *root, double v)
 /* The roots known by formulas near X, as a LIST: a zero that is multiple in doubles may have a
  * simple formula. */
 static qdot_status
-roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
-           qdot_expr *list)
+list_roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
+                qdot_expr *list)
 {
     qdot_interval wide = {X.lo - 1e-6 * fmax(fabs(X.lo), 1),
                           X.hi + 1e-6 * fmax(fabs(X.hi), 1)};
@@ -150,7 +150,7 @@ roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
     return qdot_pool_check(s->pool);
 }
 
-/* Find the roots of a short equation by formulas; none if unknown. */
+/* Find the roots of a short equation by formulas; none if no formula is known. */
 static qdot_status
 solve_by_formulas(qdot_zeros_system *s, qdot_solutions *roots)
 {
@@ -166,8 +166,8 @@ solve_by_formulas(qdot_zeros_system *s, qdot_solutions *roots)
 /* Decide an undecided interval X as one exact zero: one of the list, an end of the range, a root by
  * formula, or a simple number. */
 static qdot_status
-decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
-               bool *decided)
+decide_as_exact_zero(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
+                     bool *decided)
 {
     double more = X.hi - X.lo + 1e-9 * fmax(fabs(X.lo), 1e-3);
     qdot_interval wide = {X.lo - more, X.hi + more};
@@ -194,8 +194,8 @@ decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
             QDOT_TRY(qdot_zeros_vanish(s->pool, 1, s->f, 1, s->x, &c, &only));
             if (!only)
                 continue;
-            only = is_monotone_aside(s, at, wide);
-            if (!only && ends && i < n) { /* the range ends at this zero: one side suffices */
+            only = is_monotone_beside(s, at, wide);
+            if (!only && ends && i < n) { /* the search range ends at this zero: it suffices to decide one side */
                 int side = X.hi - at.hi > at.lo - X.lo ? 1 : -1;
 
                 QDOT_TRY(is_only_zero_at_end(
@@ -225,7 +225,7 @@ typedef struct {
 } fine;
 
 static bool
-fine_value(void *user, qdot_expr atom, arb_t value, slong prec)
+value_of_unknown(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     fine *d = user;
 
@@ -236,23 +236,23 @@ fine_value(void *user, qdot_expr atom, arb_t value, slong prec)
     return true;
 }
 
-/* The sign of e[i] on lo .. hi (a point if they are equal); 0 if not known. */
+/* The sign of e[i] (f or f') on the interval lo .. hi, a point if lo = hi; 0 if not known. */
 static int
-sign_over(fine *d, int i, const arf_t lo, const arf_t hi)
+sign_over_interval(fine *d, int i, const arf_t lo, const arf_t hi)
 {
     arb_srcptr v;
 
     d->steps++;
     d->s->evaluations += 4;
     arb_set_interval_arf(d->at, lo, hi, BITS);
-    qdot_ball_eval(&d->ball, BITS, fine_value, d);
+    qdot_ball_eval(&d->ball, BITS, value_of_unknown, d);
     v = qdot_ball_get(&d->ball, d->e[i]);
     return v == NULL ? 0 : arb_is_positive(v) ? 1 : arb_is_negative(v) ? -1 : 0;
 }
 
-/* Find the zero between lo and hi, where f rises or falls, to double precision. */
+/* Find the zero between lo and hi, where f is monotone and changes its sign, to double precision. */
 static qdot_status
-push_zero(fine *d, arf_t lo, arf_t hi, int below)
+append_zero(fine *d, arf_t lo, arf_t hi, int below)
 {
     qdot_zero_place place = {.simple = true};
     arf_t m;
@@ -266,7 +266,7 @@ push_zero(fine *d, arf_t lo, arf_t hi, int below)
 
         arf_add(m, lo, hi, BITS, ARF_RND_NEAR);
         arf_mul_2exp_si(m, m, -1);
-        sign = sign_over(d, 0, m, m);
+        sign = sign_over_interval(d, 0, m, m);
         if (sign == 0)
             break;
         arf_set(sign == below ? lo : hi, m);
@@ -283,14 +283,14 @@ push_zero(fine *d, arf_t lo, arf_t hi, int below)
     return qdot_vec_push(&d->s->found, place);
 }
 
-/* Find zeros in lo .. hi; record the intervals that cannot be decided as undecided. */
+/* Find the zeros in lo .. hi by halving; record intervals that cannot be decided as undecided. */
 static qdot_status
-refine(fine *d, const arf_t lo, const arf_t hi, int depth)
+search_by_halving(fine *d, const arf_t lo, const arf_t hi, int depth)
 {
-    int a = sign_over(d, 0, lo, lo), b = sign_over(d, 0, hi, hi);
+    int a = sign_over_interval(d, 0, lo, lo), b = sign_over_interval(d, 0, hi, hi);
     qdot_status status = QDOT_OK;
 
-    if (sign_over(d, 0, lo, hi) != 0)
+    if (sign_over_interval(d, 0, lo, hi) != 0)
         return QDOT_OK;
     if (d->steps > STEPS || depth > DEPTH || a == 0 || b == 0) {
         qdot_zero_box left = {
@@ -298,7 +298,7 @@ refine(fine *d, const arf_t lo, const arf_t hi, int depth)
 
         return qdot_vec_push(&d->s->doubt, left);
     }
-    if (sign_over(d, 1, lo, hi) != 0) { /* the function is monotone */
+    if (sign_over_interval(d, 1, lo, hi) != 0) { /* the function is monotone */
         arf_t x, y;
 
         if (a == b)
@@ -307,27 +307,27 @@ refine(fine *d, const arf_t lo, const arf_t hi, int depth)
         arf_init(y);
         arf_set(x, lo);
         arf_set(y, hi);
-        status = push_zero(d, x, y, a);
+        status = append_zero(d, x, y, a);
         arf_clear(x);
         arf_clear(y);
     } else {
         arf_t m;
 
-        arf_init(m); /* do not cut in the middle, where zeros often lie */
+        arf_init(m); /* do not cut the interval in the middle, where zeros often lie */
         arf_sub(m, hi, lo, BITS, ARF_RND_NEAR);
         arf_mul_si(m, m, 31, BITS, ARF_RND_NEAR);
         arf_mul_2exp_si(m, m, -6);
         arf_add(m, m, lo, BITS, ARF_RND_NEAR);
-        status = refine(d, lo, m, depth + 1);
+        status = search_by_halving(d, lo, m, depth + 1);
         if (status == QDOT_OK)
-            status = refine(d, m, hi, depth + 1);
+            status = search_by_halving(d, m, hi, depth + 1);
         arf_clear(m);
     }
     return status;
 }
 
 static qdot_status
-decide_by_bits(qdot_zeros_system *s, qdot_interval X)
+decide_with_more_bits(qdot_zeros_system *s, qdot_interval X)
 {
     fine d = {.s = s, .e = {s->f[0], qdot_diff(s->pool, s->f[0], s->x[0])}};
     double more = 0.1 * (X.hi - X.lo) + 1e-13 * fmax(fabs(X.lo), 1e-3);
@@ -345,7 +345,7 @@ decide_by_bits(qdot_zeros_system *s, qdot_interval X)
     arf_init(hi);
     arf_set_d(lo, X.lo - more);
     arf_set_d(hi, X.hi + more);
-    status = refine(&d, lo, hi, 0);
+    status = search_by_halving(&d, lo, hi, 0);
     arf_clear(lo);
     arf_clear(hi);
     arb_clear(d.at);
@@ -355,9 +355,9 @@ decide_by_bits(qdot_zeros_system *s, qdot_interval X)
 
 /* --- places where f or its slope is undefined --- */
 
-/* Whether f(at) is not defined, or another number than 0. */
+/* Whether f is undefined at `at`, or proved to be another number than 0 there. */
 static qdot_status
-is_no_zero(const qdot_zeros_system *s, qdot_expr at, bool *yes)
+is_proved_no_zero(const qdot_zeros_system *s, qdot_expr at, bool *yes)
 {
     qdot_expr value = qdot_subs(s->pool, s->f[0], 1, s->x, &at);
     qdot_interval y;
@@ -388,11 +388,11 @@ exclude_by_growth(const qdot_zeros_system *s, qdot_interval X, bool *excluded)
         return qdot_pool_check(pool);
     at = qdot_ball_bounds(pool, c);
     to = qdot_add(pool, c, qdot_pow_int(pool, s->x[0], -1));
-    /* simplified, because terms that grow near c may cancel */
+    /* simplify, because terms that grow near c may cancel */
     g = qdot_simplify(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), NULL);
     if (g == QDOT_NIL)
         return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_last_error()->status;
-    QDOT_TRY(is_no_zero(s, c, excluded));
+    QDOT_TRY(is_proved_no_zero(s, c, excluded));
     for (int sign = -1; sign <= 1 && *excluded; sign += 2) {
         double width = sign > 0 ? X.hi - at.lo : at.hi - X.lo, R;
 
@@ -419,7 +419,7 @@ qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
 
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = decide_exactly(s, ends, true, X, &decided);
+            status = decide_as_exact_zero(s, ends, true, X, &decided);
         if (status == QDOT_OK && !decided && !solved) {
             status = solve_by_formulas(s, &roots);
             solved = true;
@@ -428,14 +428,14 @@ qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
             isfinite(X.hi)) {
             qdot_expr near;
 
-            status = roots_near(s, &roots, X, &near);
+            status = list_roots_near(s, &roots, X, &near);
             if (status == QDOT_OK)
-                status = decide_exactly(s, near, false, X, &decided);
+                status = decide_as_exact_zero(s, near, false, X, &decided);
         }
         if (status == QDOT_OK && !decided && i < MOST_GROWN && isfinite(X.lo) && isfinite(X.hi))
             status = exclude_by_growth(s, X, &decided);
         if (status == QDOT_OK && !decided && isfinite(X.lo) && isfinite(X.hi))
-            status = decide_by_bits(s, X);
+            status = decide_with_more_bits(s, X);
         else if (status == QDOT_OK && !decided)
             status = qdot_vec_push(&s->doubt, before[i]);
     }

@@ -9,9 +9,9 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, STEPS = 200, HALVINGS = 30 };
 
-/* The size of f at z: its largest component relative to that at the guess; INFINITY if undefined. */
+/* The size of f at z: its largest component, relative to that component at the guess; INFINITY if undefined. */
 static double
-size_at(qdot_zeros_system *s, const double *z, const double *unit, double *f)
+size_of_function(qdot_zeros_system *s, const double *z, const double *unit, double *f)
 {
     qdot_interval X[MOST];
     double most = 0;
@@ -30,7 +30,7 @@ size_at(qdot_zeros_system *s, const double *z, const double *unit, double *f)
     return most;
 }
 
-/* step = -f'^-1 f at the point of the latest evaluation; false where f' is singular. */
+/* Compute Newton's step -f'^-1 f at the point of the latest evaluation; false where the Jacobian f' is singular. */
 static bool
 newton_step(const qdot_zeros_system *s, const double *f, double *step)
 {
@@ -53,18 +53,18 @@ newton_step(const qdot_zeros_system *s, const double *f, double *step)
     return true;
 }
 
-/* Newton's method with steps halved until f becomes smaller; true if it converges. */
+/* Apply Newton's method from z, with steps halved until f becomes smaller; true if it converges. */
 static bool
-descend(qdot_zeros_system *s, double *z)
+iterate_newton(qdot_zeros_system *s, double *z)
 {
     double unit[MOST], f[MOST], step[MOST], next[MOST], size;
 
     for (size_t i = 0; i < s->n; i++)
         unit[i] = 1;
-    size = size_at(s, z, unit, f);
+    size = size_of_function(s, z, unit, f);
     for (size_t i = 0; i < s->n; i++)
         unit[i] = f[i] != 0 && isfinite(f[i]) ? fabs(f[i]) : 1;
-    size = size_at(s, z, unit, f);
+    size = size_of_function(s, z, unit, f);
     for (int k = 0; k < STEPS && isfinite(size) && size > 0; k++) {
         double by = 1, length = 0, after = INFINITY;
 
@@ -73,11 +73,11 @@ descend(qdot_zeros_system *s, double *z)
         for (int h = 0; h < HALVINGS; h++, by /= 2) {
             for (size_t i = 0; i < s->n; i++)
                 next[i] = z[i] + by * step[i];
-            after = size_at(s, next, unit, f);
+            after = size_of_function(s, next, unit, f);
             if (after < size)
                 break;
         }
-        if (!(after < size)) /* rounding, or no direction of descent */
+        if (!(after < size)) /* no step makes f smaller, because of rounding or since f cannot become smaller here: stop */
             return true;
         for (size_t i = 0; i < s->n; i++)
             length = fmax(length, fabs(by * step[i]) / fmax(fabs(next[i]), 1e-300));
@@ -92,7 +92,7 @@ descend(qdot_zeros_system *s, double *z)
 /* A multiple zero, or one at a kink, of one unknown: the nearest in a small box about z, where steps from
  * the guess ended. */
 static qdot_status
-look_around(qdot_pool *pool, const qdot_expr *F, const qdot_expr *x, double guess,
+search_near(qdot_pool *pool, const qdot_expr *F, const qdot_expr *x, double guess,
             double z, qdot_zeros *out)
 {
     double reach = 1e-2 * fabs(guess - z) + 1e-6 * fmax(fabs(z), 1e-3);
@@ -102,7 +102,7 @@ look_around(qdot_pool *pool, const qdot_expr *F, const qdot_expr *x, double gues
 
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_zeros_find(pool, 1, F, x, &range, 0, out));
-    out->complete = out->exhausted = false; /* only a small box was searched */
+    out->complete = out->exhausted = false; /* not complete: only a small box was searched */
     for (size_t k = 1; k < out->count; k++)
         if (fabs(out->at[k] - z) < fabs(out->at[best] - z))
             best = k;
@@ -130,12 +130,12 @@ qdot_zeros_near(qdot_pool *pool, size_t n, const qdot_expr *F, const qdot_expr *
     QDOT_TRY(qdot_interrupt_check());
     memcpy(z, guess, n * sizeof *z);
     QDOT_TRY(qdot_zeros_system_begin(&s, pool, n, F, x));
-    ends = descend(&s, z);
+    ends = iterate_newton(&s, z);
     if (ends)
         proved = qdot_zeros_prove(&s, z, &place);
     qdot_zeros_system_end(&s);
     if (!proved)
-        return ends && n == 1 ? look_around(pool, F, x, guess[0], z[0], out) : QDOT_OK;
+        return ends && n == 1 ? search_near(pool, F, x, guess[0], z[0], out) : QDOT_OK;
     out->at = qdot_calloc(2 * n, sizeof *out->at);
     out->simple = qdot_calloc(1, sizeof *out->simple);
     if (out->at == NULL || out->simple == NULL) {

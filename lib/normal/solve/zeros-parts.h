@@ -9,7 +9,7 @@
 
 enum { QDOT_ZEROS_DOUBTS = 4000 }; /* largest number of undecided boxes, beyond which the search ends */
 
-/* A zero that was proved in one system. */
+/* A zero that was proved to exist in one system of equations. */
 typedef struct {
     double at[QDOT_ZEROS_MOST_UNKNOWNS], radius[QDOT_ZEROS_MOST_UNKNOWNS];
     qdot_interval
@@ -28,11 +28,11 @@ typedef struct {
     const qdot_expr *f, *x; /* [n] the equations' left sides and the unknowns; borrowed */
     qdot_enclosure *bounds; /* enclosures of f over boxes */
     qdot_enclosure
-        *also; /* `others` more expressions that vanish at each zero; NULL: none */
+        *also; /* `others` further expressions that must have a zero there, too; NULL: none */
     size_t others;
     qdot_enclosure **held; /* [ranges] regions of zeros, where all expressions of one enclosure are positive; borrowed */
     size_t ranges;
-    double least; /* smallest width: a smaller box is not halved */
+    double least; /* a box with sides below this width is not halved */
     qdot_isolate isolate;
     uint64_t evaluations, budget;
     qdot_vec(qdot_zero_box) todo, small, doubt; /* boxes to be searched; small ones for later; undecided ones */
@@ -50,10 +50,10 @@ void qdot_zeros_system_end(qdot_zeros_system *s); /* to be called in any case */
 /* Search the boxes of s->todo; zeros go to s->found, undecided boxes to s->doubt. (zeros-box.c) */
 QDOT_MUST_CHECK qdot_status qdot_zeros_search(qdot_zeros_system *s);
 
-/* Newton's method from x0 [n] to a zero, and its proof; false if that fails. */
+/* Find a zero by Newton's method from x0 [n], and prove it; false if that fails. */
 bool qdot_zeros_prove(qdot_zeros_system *s, const double *x0, qdot_zero_place *place);
 
-/* Whether the Jacobian of the latest evaluation, [n] by [n], is regular on the whole box. */
+/* Whether the Jacobian [n x n] is regular on the whole box, judged by the enclosures of the latest evaluation. */
 bool qdot_zeros_is_regular(const qdot_enclosure *bounds, size_t n);
 
 /* Merge boxes of s->doubt that touch each other. */
@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_decide_doubts(qdot_zeros_system *s,
 /* The k-th exact number that may be meant by a value within X: the simplest fraction, the simplest part
  * of pi; nil: there is none. */
 qdot_expr qdot_zeros_candidate(qdot_pool *pool, qdot_interval X, int k);
-/* Whether it is proved that f [m] all vanish at x = value [n]. */
+/* Whether all functions f [m] are proved to be 0 at x = value [n]. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_vanish(qdot_pool *pool, size_t m,
                                               const qdot_expr *f, size_t n,
                                               const qdot_expr *x, const qdot_expr *value,
@@ -80,7 +80,7 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_ex
                                            int sign, double *R);
 
 /* --- systems (zeros-systems.c) ---- */
-/* Find the factors of f's numerator that may vanish, as a LIST; f itself if it does not factor. */
+/* Find those factors of f's numerator that may be 0, as a LIST; only f itself if it does not factor. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n,
                                                const qdot_expr *x, qdot_expr *list);
 
@@ -105,7 +105,7 @@ void qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
 /* Make the k-th chart, k < 2 n, of the neighbourhood of size `reach` of a point. */
 void qdot_zeros_chart_near(qdot_pool *pool, size_t n, const qdot_expr *centre,
                            double reach, size_t k, qdot_zeros_chart *out);
-/* Write f [n] in the chart's unknowns, to [n]. */
+/* Write the functions f [n] in the unknowns of the chart, into the second array [n]. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_chart_put(qdot_pool *pool, const qdot_expr *x,
                                                  const qdot_zeros_chart *chart,
                                                  const qdot_expr *f, qdot_expr *to);
@@ -114,7 +114,7 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_chart_put(qdot_pool *pool, const qdot_exp
 QDOT_MUST_CHECK qdot_status qdot_zeros_chart_clear(qdot_pool *pool,
                                                    const qdot_zeros_chart *chart,
                                                    qdot_expr *f, bool *empty);
-/* Convert the point y of the chart to x. */
+/* Convert a point y in the unknowns of the chart to x. */
 void qdot_zeros_chart_place(const qdot_zeros_chart *chart, const double *y, double *x);
 /* Whether f oscillates or jumps at arbitrarily large values of an unbounded unknown. */
 bool qdot_zeros_is_wild(qdot_pool *pool, size_t n, const qdot_expr *f, const qdot_expr *x,

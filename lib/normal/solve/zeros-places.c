@@ -1,4 +1,4 @@
-/* zeros-places.c -- decides whether a proved zero counts: inside its ranges, defined, and new. */
+/* zeros-places.c -- decides whether a zero that is proved counts: inside its ranges, defined, and not listed before. */
 #include <float.h>
 #include <math.h>
 
@@ -21,7 +21,7 @@ distance(const qdot_zeros_task *t, size_t j, double a, double b)
 }
 
 static bool
-overlap(const qdot_zeros_task *t, const qdot_zero_place *a, const qdot_zero_place *b)
+zeros_overlap(const qdot_zeros_task *t, const qdot_zero_place *a, const qdot_zero_place *b)
 {
     for (size_t j = 0; j < t->n; j++)
         if (distance(t, j, a->at[j], b->at[j]) >
@@ -30,10 +30,10 @@ overlap(const qdot_zeros_task *t, const qdot_zero_place *a, const qdot_zero_plac
     return true;
 }
 
-/* Whether b, with its radius, lies in the box where a is the only zero of its system. */
+/* Whether the zero b, with its error radius, lies in the box in which a is the only zero of its system. */
 static bool
-is_alone_with(const qdot_zeros_task *t, const qdot_zero_place *a,
-              const qdot_zero_place *b)
+lies_in_uniqueness_box_of(const qdot_zeros_task *t, const qdot_zero_place *a,
+                          const qdot_zero_place *b)
 {
     for (size_t j = 0; j < t->n; j++) {
         double reach = fmin(a->alone[j].hi - a->at[j], a->at[j] - a->alone[j].lo);
@@ -70,7 +70,7 @@ qdot_zeros_exact_place(const qdot_zeros_task *t, const qdot_expr *f,
 }
 
 static qdot_status
-add_doubt(qdot_zeros_task *t, const qdot_zero_place *p)
+append_undecided_box(qdot_zeros_task *t, const qdot_zero_place *p)
 {
     qdot_zero_box box;
 
@@ -85,7 +85,7 @@ typedef struct {
 } point;
 
 static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+value_of_unknown_at_zero(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const point *at = user;
     size_t j = qdot_expr_place(at->t->n, at->t->x, atom);
@@ -98,10 +98,10 @@ value_of(void *user, qdot_expr atom, arb_t value, slong prec)
     return true;
 }
 
-/* Whether every F is defined at the zero p of a system. */
+/* Whether every function F of the problem is defined at the zero p of one system of its factors. */
 static qdot_status
-is_defined(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
-           bool *defined, bool *known)
+functions_are_defined(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
+                      bool *defined, bool *known)
 {
     point at = {t, p};
     qdot_expr value[MOST];
@@ -109,7 +109,7 @@ is_defined(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
     bool exact;
 
     QDOT_TRY(qdot_ball_begin(&ball, t->pool, t->n, t->F));
-    qdot_ball_eval(&ball, BITS, value_of, &at);
+    qdot_ball_eval(&ball, BITS, value_of_unknown_at_zero, &at);
     *defined = *known = true;
     for (size_t i = 0; i < t->n; i++)
         *defined &= qdot_ball_get(&ball, t->F[i]) != NULL;
@@ -138,8 +138,8 @@ typedef enum { INSIDE, OUTSIDE, AT_END, NOT_KNOWN } side;
 /* Whether the zero p of f lies on the face x_j = end: an equation vanishes on all of it and the others
  * have a zero there that is p. */
 static qdot_status
-is_on_face(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t j,
-           qdot_expr end, bool *yes)
+lies_on_face(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t j,
+             qdot_expr end, bool *yes)
 {
     qdot_expr left[MOST], x[MOST];
     double at[MOST];
@@ -188,8 +188,8 @@ is_on_face(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, siz
 /* Find on which side of the end the zero p lies, if it is the only one of one unknown, from signs
  * of f there and of f'. */
 static qdot_status
-side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
-             qdot_expr end, bool upper, side *where)
+find_side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
+                  qdot_expr end, bool upper, side *where)
 {
     qdot_expr at_end = qdot_subs(t->pool, f[0], 1, t->x, &end);
     qdot_enclosure *bounds;
@@ -207,10 +207,10 @@ side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
     return QDOT_OK;
 }
 
-/* Find on which side of an end of x_j the zero p of f lies. */
+/* Find on which side of a bound of the unknown x_j the zero p of f lies. */
 static qdot_status
-side_of(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t j,
-        bool upper, side *where)
+find_side(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t j,
+          bool upper, side *where)
 {
     qdot_expr end = upper ? t->range[j].hi : t->range[j].lo, value[MOST];
     qdot_interval e = upper ? t->hi[j] : t->lo[j];
@@ -226,9 +226,9 @@ side_of(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t
     *where = NOT_KNOWN;
     if (e.lo < p->alone[j].lo || e.hi > p->alone[j].hi)
         return QDOT_OK;
-    QDOT_TRY(is_on_face(t, f, p, j, end, &yes));
+    QDOT_TRY(lies_on_face(t, f, p, j, end, &yes));
     if (!yes && t->n == 1)
-        return side_by_sign(t, f, p, end, upper, where);
+        return find_side_by_sign(t, f, p, end, upper, where);
     if (!yes) {
         QDOT_TRY(qdot_zeros_exact_place(t, f, p, value, &yes));
         yes = yes &&
@@ -240,14 +240,14 @@ side_of(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t
     return QDOT_OK;
 }
 
-/* Whether p lies within all ranges: INSIDE, OUTSIDE or NOT_KNOWN. */
+/* Whether the zero p lies within the ranges of all unknowns: INSIDE, OUTSIDE or NOT_KNOWN. */
 static qdot_status
-place_in_ranges(qdot_zeros_task *t, const qdot_expr *f, qdot_zero_place *p, side *where)
+locate_zero_in_ranges(qdot_zeros_task *t, const qdot_expr *f, qdot_zero_place *p, side *where)
 {
     bool unknown = false;
 
     for (size_t j = 0; j < t->n; j++) {
-        if (t->range[j].turn) { /* move x into -pi < x <= pi */
+        if (t->range[j].turn) { /* an angle: shift x into -pi < x <= pi */
             double turns = ceil((p->at[j] - p->radius[j] - M_PI) / (2 * M_PI) - 1e-15);
 
             p->at[j] -= 2 * M_PI * turns;
@@ -260,7 +260,7 @@ place_in_ranges(qdot_zeros_task *t, const qdot_expr *f, qdot_zero_place *p, side
         for (int upper = 0; upper < 2; upper++) {
             bool open = upper ? t->range[j].hi_open : t->range[j].lo_open;
 
-            QDOT_TRY(side_of(t, f, p, j, upper, where));
+            QDOT_TRY(find_side(t, f, p, j, upper, where));
             if (*where == OUTSIDE || (*where == AT_END && open)) {
                 *where = OUTSIDE;
                 return QDOT_OK;
@@ -279,12 +279,12 @@ qdot_zeros_add(qdot_zeros_task *t, size_t system, qdot_zero_place p, bool again)
     bool defined, known;
     side where;
 
-    QDOT_TRY(place_in_ranges(t, f, &p, &where));
+    QDOT_TRY(locate_zero_in_ranges(t, f, &p, &where));
     if (where == OUTSIDE)
         return QDOT_OK;
-    QDOT_TRY(is_defined(t, f, &p, &defined, &known));
+    QDOT_TRY(functions_are_defined(t, f, &p, &defined, &known));
     if (!known || (defined && where == NOT_KNOWN))
-        return add_doubt(t, &p);
+        return append_undecided_box(t, &p);
     if (!defined)
         return QDOT_OK;
     for (size_t k = 0; k < t->found.n; k++) {
@@ -292,7 +292,7 @@ qdot_zeros_add(qdot_zeros_task *t, size_t system, qdot_zero_place p, bool again)
         qdot_expr value[MOST];
         bool same;
 
-        if (!overlap(t, &m->place, &p))
+        if (!zeros_overlap(t, &m->place, &p))
             continue;
         if (m->system == system) {
             bool turns = false;
@@ -301,16 +301,16 @@ qdot_zeros_add(qdot_zeros_task *t, size_t system, qdot_zero_place p, bool again)
                 turns |= t->range[j].turn;
             if (!again && !turns)
                 continue;
-            if (is_alone_with(t, &m->place, &p) || is_alone_with(t, &p, &m->place))
+            if (lies_in_uniqueness_box_of(t, &m->place, &p) || lies_in_uniqueness_box_of(t, &p, &m->place))
                 return QDOT_OK;
-            return add_doubt(t, &p);
+            return append_undecided_box(t, &p);
         }
         QDOT_TRY(qdot_zeros_exact_place(t, f, &p, value, &same));
         if (same)
             QDOT_TRY(qdot_zeros_vanish(t->pool, t->n, t->f[m->system], t->n, t->x, value,
                                        &same));
         m->place.simple = false;
-        return same ? QDOT_OK : add_doubt(t, &p);
+        return same ? QDOT_OK : append_undecided_box(t, &p);
     }
     return qdot_vec_push(&t->found, ((qdot_zeros_member){p, system}));
 }

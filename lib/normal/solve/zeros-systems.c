@@ -1,4 +1,4 @@
-/* zeros-systems.c -- writes equations as products, and in charts that reach to infinity. */
+/* zeros-systems.c -- writes equations as products, and in new variables (charts) that reach to infinity. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,7 @@ enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, SIZE = 4000, FACTORS = 64 };
 /* --- factors of an equation ------------------------------------------------------------------------ */
 
 static bool
-holds_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
+contains_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 {
     for (size_t j = 0; j < n; j++)
         if (qdot_expr_contains(pool, e, x[j]))
@@ -29,7 +29,7 @@ holds_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 /* A factor without powers and without parts that never vanish: b for b^p with p > 0; nil if it
  * never vanishes. */
 static qdot_expr
-factor_that_may_vanish(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
+factor_that_may_be_zero(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 {
     for (;;) {
         const qdot_node *node = qdot_expr_node(pool, e);
@@ -48,7 +48,7 @@ factor_that_may_vanish(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_
         }
         break;
     }
-    if (!holds_unknown(pool, e, n, x)) {
+    if (!contains_unknown(pool, e, n, x)) {
         qdot_interval c = qdot_ball_bounds((qdot_pool *)pool, e);
 
         if (c.lo > 0 || c.hi < 0)
@@ -57,9 +57,9 @@ factor_that_may_vanish(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_
     return e;
 }
 
-/* Whether f/g seems to be a constant, judged at two points. */
+/* Whether f/g seems to be a constant, judged by its values at two points. */
 static bool
-is_multiple(qdot_pool *pool, qdot_expr f, qdot_expr g, size_t n, const qdot_expr *x)
+seems_multiple(qdot_pool *pool, qdot_expr f, qdot_expr g, size_t n, const qdot_expr *x)
 {
     static const double places[2][MOST] = {
         {0.3717, 0.6113, 0.4591, 0.2339, 0.1723, 0.9127},
@@ -106,20 +106,20 @@ qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *x,
 
         if (one == QDOT_ZERO)
             return qdot_fail(QDOT_EDOMAIN, "the equation holds everywhere");
-        one = factor_that_may_vanish(pool, one, n, x);
+        one = factor_that_may_be_zero(pool, one, n, x);
         if (one != QDOT_NIL && qdot_expr_place(count, kept, one) == count)
             kept[count++] = one;
     }
-    if (count == 1 && is_multiple(pool, f, kept[0], n, x))
+    if (count == 1 && seems_multiple(pool, f, kept[0], n, x))
         kept[0] =
-            f; /* f as typed: its enclosures are tighter than those of the expanded form */
+            f; /* keep f as it was typed: its enclosures are tighter than those of the expanded form */
     *list = qdot_list(pool, count, kept);
     return qdot_pool_check(pool);
 }
 
 /* --- charts that reach to infinity ----------------------------------------------------------------------- */
 
-/* The size R of the inner box: beyond every end, and not a round number. */
+/* The size R of the inner box |x| <= R: beyond every finite bound, and not a round number. */
 static double
 size_of_inner_box(size_t n, const qdot_interval *bounds)
 {
@@ -140,7 +140,7 @@ is_unbounded(qdot_interval a)
     return isinf(a.lo) || isinf(a.hi);
 }
 
-/* A symbol of the charts: s > 0, y_i, or y_i > 0. */
+/* A symbol for the new variables of the charts: s > 0, y_i, or y_i > 0. */
 static qdot_expr
 chart_symbol(qdot_pool *pool, char kind, size_t i)
 {
@@ -157,8 +157,8 @@ chart_symbol(qdot_pool *pool, char kind, size_t i)
 /* The k-th of the choices of one group: 0 none is large, then each unknown with each sign. Returns false, with k less
  * the number of choices, if there are fewer. */
 static bool
-choose(size_t n, const qdot_zeros_range *range, const qdot_interval *bounds,
-       unsigned group, size_t *k, qdot_zeros_chart *out)
+choose_large_unknown(size_t n, const qdot_zeros_range *range, const qdot_interval *bounds,
+                     unsigned group, size_t *k, qdot_zeros_chart *out)
 {
     size_t choices = 1, at = *k;
 
@@ -183,17 +183,17 @@ qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
     bool seen[MOST] = {false};
 
     memset(out, 0, sizeof *out);
-    for (size_t j = 0; j < n; j++) { /* digits of k: the choice in each group */
+    for (size_t j = 0; j < n; j++) { /* the digits of k in a mixed base give the choice in each group of unknowns */
         size_t choices = 0, mine;
 
         if (seen[j] || !is_unbounded(bounds[j]))
             continue;
         for (size_t i = j; i < n; i++)
             seen[i] |= range[i].group == range[j].group;
-        (void)choose(n, range, bounds, range[j].group, &choices, &(qdot_zeros_chart){0});
+        (void)choose_large_unknown(n, range, bounds, range[j].group, &choices, &(qdot_zeros_chart){0});
         mine = k % choices;
         k /= choices;
-        (void)choose(n, range, bounds, range[j].group, &mine, out);
+        (void)choose_large_unknown(n, range, bounds, range[j].group, &mine, out);
     }
     if (k > 0)
         return;

@@ -36,12 +36,12 @@
 
 enum { QDOT_ZEROS_MOST_UNKNOWNS = 6 };
 
-/* The range in which an unknown is searched. */
+/* The range in which zeros are searched for one unknown. */
 typedef struct {
     qdot_expr lo, hi;      /* constants; nil: unbounded */
     bool lo_open, hi_open; /* the bound itself is excluded */
-    bool turn;             /* proved: F has period 2 pi in it; searched in -pi < x <= pi */
-    unsigned group;        /* unbounded unknowns of one group grow together */
+    bool turn;             /* proved: F has period 2 pi in this unknown, which is searched in -pi < x <= pi */
+    unsigned group;        /* unbounded unknowns with the same group number become large together */
     qdot_expr held;        /* of one unknown: known ranges of zeros, which are not searched: LISTs of relations
                               that hold there, in a LIST; nil: none */
 } qdot_zeros_range;
@@ -54,10 +54,10 @@ typedef struct {
     size_t count;
     double *doubt, *reach; /* [doubts x n] centre and half width of undecided boxes */
     size_t doubts;
-    bool beyond;    /* zeros at large |x|, where x is unbounded, are not excluded */
+    bool beyond;    /* zeros at large |x|, where an unknown is unbounded, are not excluded */
     bool complete;  /* proved: there are no other zeros in the search box */
     bool exhausted; /* the budget of operations was used up */
-    bool single;    /* a power is real at isolated points of the box, which are not searched */
+    bool single;    /* a power is real only at isolated points of the box, which are not searched */
     uint64_t evaluations;
 } qdot_zeros;
 

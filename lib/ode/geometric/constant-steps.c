@@ -1,4 +1,4 @@
-/* constant-steps.c -- integrates by steps of constant length, found by a trial. */
+/* constant-steps.c -- integrates by steps of constant length, which is found by a trial run. */
 #include "ode/geometric/geometric.h"
 
 #include <float.h>
@@ -15,7 +15,7 @@
 
 enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16, most_undefined = 60 };
 
-/* The trial aims at this fraction of the tolerance; the step is its shortest one times `safe`. */
+/* The trial run aims at this fraction of the tolerance; the step is the shortest one of the trial times `safe`. */
 static const double aim = 0.5, safe = 0.9, most_growth = 5;
 
 /* At a singular place the steps of the trial are so much shorter than others: this part of the longest
@@ -23,10 +23,10 @@ static const double aim = 0.5, safe = 0.9, most_growth = 5;
  * of a window is so much longer than that of the one before. */
 static const double singular = 1e4, of_longest = 0.1, growing = 1.1;
 
-/* A remainder of less than this part of an interval is rounding of times: no step is made for it. */
+/* A remainder of less than this part of an interval is only rounding of times: no step is made for it. */
 static const double sliver = 1e-12;
 
-/* Differences of states below this, relative to max(1, |y_i|), are rounding errors. */
+/* Differences of states below this, relative to max(1, |y_i|), count as rounding errors. */
 static const double rounding = 8 * DBL_EPSILON;
 
 typedef struct {
@@ -36,9 +36,9 @@ typedef struct {
     double tol, t, t_low, t1, direction;
     double h; /* length of a step, positive */
     double *before, *halves, *full; /* [4n] state with its low part; [2n] each: end of two half steps, of a full step, as (q, q') */
-    double work;      /* work already reported to the meter */
-    double length; /* length to which the first steps grow after a singular start; 0: they do not */
-    int undefined;    /* number of attempts in a row from this t at which f was undefined */
+    double work;      /* work already reported to the meter (meter.h) */
+    double length; /* length to which the first steps grow after a start near a singularity; 0: they do not */
+    int undefined;    /* number of attempts in a row from this t at which the forces were undefined */
 } run;
 
 qdot_status
@@ -52,7 +52,7 @@ qdot_geometric_velocity(qdot_geometric *g, double t, const double *q, const doub
     return QDOT_OK;
 }
 
-/* Evaluate the forces without checking that they are finite. */
+/* Evaluate the forces F at (t, q, v) without checking that they are finite. */
 static qdot_status
 forces_evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *F)
 {
@@ -78,7 +78,7 @@ qdot_geometric_force(qdot_geometric *g, double t, const double *q, const double 
                : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
 }
 
-/* Write (q, q') of the state at t into y [2n]. QDOT_EDOMAIN if it is not finite. */
+/* Write the state at t as (q, q') into y [2n]. QDOT_EDOMAIN if it is not finite. */
 static qdot_status
 write_state(qdot_geometric *g, double t, double *y)
 {
@@ -92,7 +92,7 @@ write_state(qdot_geometric *g, double t, double *y)
 /* The state behind a step, into y [2n]. Where the run ends at roots of functions it is looked at, so
  * the force must be defined there: nodes of collocation all lie before the end. */
 static qdot_status
-write_end(run *r, double t, double *y)
+write_end_of_step(run *r, double t, double *y)
 {
     const size_t n = r->g.n;
 
@@ -102,20 +102,20 @@ write_end(run *r, double t, double *y)
 }
 
 static void
-state_keep(run *r)
+save_state(run *r)
 {
     memcpy(r->before, r->g.y, 4 * r->g.n * sizeof *r->before);
 }
 
 static void
-go_back(run *r)
+restore_state(run *r)
 {
     memcpy(r->g.y, r->before, 4 * r->g.n * sizeof *r->before);
     r->g.known = false;
 }
 
 static qdot_status
-kernel_step(run *r, double t, double h)
+make_kernel_step(run *r, double t, double h)
 {
     const qdot_status status = r->g.kernel->step(&r->g, t, h);
 
@@ -126,24 +126,24 @@ kernel_step(run *r, double t, double h)
 /* Measure a step of signed length h from the state, and take it: its end is in r->full. On a failure
  * the state is that of before. */
 static qdot_status
-step_measure(run *r, double h, double *ratio)
+measure_step(run *r, double h, double *ratio)
 {
     qdot_status status;
 
-    state_keep(r);
+    save_state(r);
     r->g.known = false;
-    status = kernel_step(r, r->t, 0.5 * h);
+    status = make_kernel_step(r, r->t, 0.5 * h);
     if (status == QDOT_OK)
-        status = kernel_step(r, r->t + 0.5 * h, 0.5 * h);
+        status = make_kernel_step(r, r->t + 0.5 * h, 0.5 * h);
     if (status == QDOT_OK)
         status = write_state(&r->g, r->t + h, r->halves);
-    go_back(r);
+    restore_state(r);
     if (status == QDOT_OK)
-        status = kernel_step(r, r->t, h);
+        status = make_kernel_step(r, r->t, h);
     if (status == QDOT_OK)
-        status = write_end(r, r->t + h, r->full);
+        status = write_end_of_step(r, r->t + h, r->full);
     if (status != QDOT_OK) {
-        go_back(r);
+        restore_state(r);
         return status;
     }
     *ratio = 0;
@@ -156,9 +156,9 @@ step_measure(run *r, double h, double *ratio)
     return QDOT_OK;
 }
 
-/* The factor by which the step is changed for an error ratio. */
+/* The factor by which the step length is changed for an error ratio (error divided by tolerance). */
 static double
-factor_of(const run *r, double ratio)
+growth_factor(const run *r, double ratio)
 {
     const double f = ratio > 0 ? safe * pow(ratio / aim, -1.0 / (r->g.kernel->order + 1)) : most_growth;
 
@@ -168,7 +168,7 @@ factor_of(const run *r, double ratio)
 /* Choose a step length to try first: one that changes the state by a hundredth, or the whole
  * distance if shorter. */
 static qdot_status
-first_length(run *r, double distance)
+choose_first_length(run *r, double distance)
 {
     const size_t n = r->g.n;
     double size = 0, rate = 0;
@@ -184,7 +184,7 @@ first_length(run *r, double distance)
 }
 
 static qdot_status
-step_too_small(const run *r)
+fail_with_small_step(const run *r)
 {
     return qdot_fail(QDOT_EFAILED,
                      "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g", r->t,
@@ -192,14 +192,14 @@ step_too_small(const run *r)
 }
 
 static double
-least_length(const run *r)
+least_step_length(const run *r)
 {
     return 16 * DBL_EPSILON * fmax(fabs(r->t), DBL_MIN / DBL_EPSILON);
 }
 
-/* End the run at r->t, with the last error as reason. */
+/* End the run at time r->t, with the last error as the reason. */
 static qdot_status
-stop_with_failure(const run *r)
+end_run_with_failure(const run *r)
 {
     const qdot_error why = *qdot_last_error();
 
@@ -207,15 +207,15 @@ stop_with_failure(const run *r)
     return why.hint[0] ? qdot_hint("%s", why.hint) : QDOT_EFAILED;
 }
 
-/* The step lengths of the trial. */
+/* The lengths of the steps made by the trial run. */
 typedef struct {
     double first, shortest, longest;
-    double now, before; /* shortest accepted step in the present window; in the previous one */
+    double now, before; /* shortest accepted step in the present window of the trial; in the previous window */
     bool grows;
 } lengths;
 
 static void
-lengths_note(lengths *l, double h)
+record_length(lengths *l, double h)
 {
     if (l->longest == 0)
         l->first = h;
@@ -224,9 +224,9 @@ lengths_note(lengths *l, double h)
     l->now = fmin(l->now, h);
 }
 
-/* Whether step k of the trial is still to be made. */
+/* Whether step k of the trial run is still to be made. */
 static bool
-goes_on(lengths *l, int k)
+trial_goes_on(lengths *l, int k)
 {
     if (k > 0 && k % window == 0) {
         l->grows = l->grows && (k == window || l->now > growing * l->before);
@@ -236,41 +236,41 @@ goes_on(lengths *l, int k)
     return k < (l->grows ? most_trial : trial_steps);
 }
 
-/* Make steps of variable length from the start, and record their lengths. */
+/* Make steps of variable length from the start for the trial, and record their lengths. */
 static qdot_status
-try_lengths(run *r, lengths *l)
+make_trial_steps(run *r, lengths *l)
 {
     const double distance = fabs(r->t1 - r->t), t0 = r->t;
 
-    for (int k = 0; fabs(r->t - t0) < distance * (1 - sliver) && goes_on(l, k); k++) {
+    for (int k = 0; fabs(r->t - t0) < distance * (1 - sliver) && trial_goes_on(l, k); k++) {
         const double whole = r->h, h = fmin(whole, distance - fabs(r->t - t0));
         double ratio;
-        const qdot_status status = step_measure(r, r->direction * h, &ratio);
+        const qdot_status status = measure_step(r, r->direction * h, &ratio);
 
-        if (qdot_ode_may_be_undefined(status) && h > least_length(r)) {
+        if (qdot_ode_may_be_undefined(status) && h > least_step_length(r)) {
             r->h = 0.25 * h;
             continue;
         }
         QDOT_TRY(status);
-        r->h = h * factor_of(r, ratio);
+        r->h = h * growth_factor(r, ratio);
         if (ratio > 1) {
-            go_back(r);
-            if (!(r->h > least_length(r)))
-                return step_too_small(r);
+            restore_state(r);
+            if (!(r->h > least_step_length(r)))
+                return fail_with_small_step(r);
             continue;
         }
         r->t += r->direction * h;
         if (r->h < most_growth * h) /* the step did not grow by the largest factor: the tolerance limited it */
-            lengths_note(l, r->h);
+            record_length(l, r->h);
         else if (h < whole) /* the step was shortened to end at t1 */
             r->h = fmax(r->h, whole);
     }
     return QDOT_OK;
 }
 
-/* Choose the constant length from the lengths of the trial. */
+/* Choose the constant step length of the run from the lengths of the trial. */
 static void
-choose_length(run *r, const lengths *l)
+choose_constant_length(run *r, const lengths *l)
 {
     const double length = safe * of_longest * l->longest;
 
@@ -283,48 +283,48 @@ choose_length(run *r, const lengths *l)
     r->length = r->h < length ? length : 0;
 }
 
-/* Find the step length by a trial, after which the state is reset to the start. */
+/* Find the step length by a trial run, after which the state is reset to the start. */
 static qdot_status
 find_step_length(run *r)
 {
     const double t0 = r->t;
     double *start = qdot_malloc(4 * r->g.n * sizeof *start);
     lengths l = {.shortest = INFINITY, .now = INFINITY, .grows = true};
-    qdot_status status = start ? first_length(r, fabs(r->t1 - r->t)) : QDOT_ENOMEM;
+    qdot_status status = start ? choose_first_length(r, fabs(r->t1 - r->t)) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         memcpy(start, r->g.y, 4 * r->g.n * sizeof *start);
-        status = try_lengths(r, &l);
+        status = make_trial_steps(r, &l);
     }
-    /* if the trial stops at an error, so does the run, at the same time */
+    /* if the trial stops where f is undefined, so will the run, at the same time */
     if (qdot_ode_may_be_undefined(status))
-        status = r->h > 0 ? QDOT_OK : stop_with_failure(r);
+        status = r->h > 0 ? QDOT_OK : end_run_with_failure(r);
     if (start && status == QDOT_OK) {
         memcpy(r->g.y, start, 4 * r->g.n * sizeof *start);
         r->g.known = false;
         r->t = t0;
-        choose_length(r, &l);
+        choose_constant_length(r, &l);
     }
     qdot_free(start);
     return status;
 }
 
-/* Handle a step in which f is undefined somewhere. */
+/* Handle a step inside which f is undefined somewhere: try a shorter one, or fail. */
 static qdot_status
-step_undefined(run *r, double h, qdot_status status)
+handle_undefined_step(run *r, double h, qdot_status status)
 {
     if (!qdot_ode_may_be_undefined(status))
         return status;
     r->result->stats.rejected++;
     r->h = 0.25 * h;
-    if (++r->undefined <= most_undefined && r->h > least_length(r) && !(r->options->h_fixed > 0))
+    if (++r->undefined <= most_undefined && r->h > least_step_length(r) && !(r->options->h_fixed > 0))
         return QDOT_OK;
-    return stop_with_failure(r);
+    return end_run_with_failure(r);
 }
 
 /* Accept the step just made, unless the caller's callback rejects it. */
 static qdot_status
-step_accept(run *r, double h, bool last, bool *stop)
+accept_step(run *r, double h, bool last, bool *stop)
 {
     double t = r->t, t_low = r->t_low;
 
@@ -338,9 +338,9 @@ step_accept(run *r, double h, bool last, bool *stop)
         const qdot_status status = r->options->accepted(t, r->full, stop, r->options->user);
 
         if (status != QDOT_OK)
-            go_back(r);
+            restore_state(r);
         if (status == QDOT_EDOMAIN)
-            return step_undefined(r, h, status);
+            return handle_undefined_step(r, h, status);
         QDOT_TRY(status);
     }
     r->t = t;
@@ -352,30 +352,30 @@ step_accept(run *r, double h, bool last, bool *stop)
 
 /* Make a step of signed length h without an error estimate. */
 static qdot_status
-step_plainly(run *r, double h)
+make_plain_step(run *r, double h)
 {
     qdot_status status;
 
-    state_keep(r);
-    status = kernel_step(r, r->t, h);
+    save_state(r);
+    status = make_kernel_step(r, r->t, h);
     if (status == QDOT_OK)
-        status = write_end(r, r->t + h, r->full);
+        status = write_end_of_step(r, r->t + h, r->full);
     if (status != QDOT_OK)
-        go_back(r);
+        restore_state(r);
     return status;
 }
 
-/* After a step shortened near a singularity: let steps grow back to the constant length. */
+/* After a step that was shortened near a singularity: let steps grow back to the constant length. */
 static void
-step_grow(run *r, double h, double ratio)
+let_step_grow(run *r, double h, double ratio)
 {
-    r->h = fmin(r->length, h * factor_of(r, ratio));
+    r->h = fmin(r->length, h * growth_factor(r, ratio));
     if (r->h == r->length)
         r->length = 0;
 }
 
 static qdot_status
-constant_steps_advance(run *r, bool *stop)
+make_next_step(run *r, bool *stop)
 {
     const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
     const bool last = r->h >= rest * (1 - sliver);
@@ -389,22 +389,22 @@ constant_steps_advance(run *r, bool *stop)
     if (r->result->stats.steps + r->result->stats.rejected >= qdot_ode_most_steps(r->options))
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                          (unsigned long long)qdot_ode_most_steps(r->options));
-    status = look ? step_measure(r, r->direction * h, &ratio) : step_plainly(r, r->direction * h);
+    status = look ? measure_step(r, r->direction * h, &ratio) : make_plain_step(r, r->direction * h);
     if (status != QDOT_OK)
-        return step_undefined(r, h, status);
+        return handle_undefined_step(r, h, status);
     if (ratio <= 1) {
         if (r->length > 0 && !last)
-            step_grow(r, h, ratio);
-        return step_accept(r, h, last, stop);
+            let_step_grow(r, h, ratio);
+        return accept_step(r, h, last, stop);
     }
-    go_back(r);
+    restore_state(r);
     r->result->stats.rejected++;
-    r->h = h * fmin(safe, factor_of(r, ratio));
-    return r->h > least_length(r) ? QDOT_OK : step_too_small(r);
+    r->h = h * fmin(safe, growth_factor(r, ratio));
+    return r->h > least_step_length(r) ? QDOT_OK : fail_with_small_step(r);
 }
 
 static qdot_status
-constant_steps_count_work(run *r)
+report_work(run *r)
 {
     const qdot_ode_stats stats = {.evaluations = r->g.evaluations};
     const double now = qdot_ode_work(r->g.system, &stats), more = now - r->work;
@@ -413,9 +413,9 @@ constant_steps_count_work(run *r)
     return qdot_ode_meter_add(r->options->meter, r->t, more);
 }
 
-/* Fail if the run would take more steps than allowed. */
+/* Fail if the run would take more steps of this length than allowed. */
 static qdot_status
-step_check_length(const run *r)
+check_number_of_steps(const run *r)
 {
     const double steps = fabs(r->t1 - r->t) / fmax(r->h, r->length);
 
@@ -428,7 +428,7 @@ step_check_length(const run *r)
 }
 
 static qdot_status
-constant_steps_loop(run *r)
+run_steps(run *r)
 {
     const double distance = fabs(r->t1 - r->t);
     bool stop = false;
@@ -439,11 +439,11 @@ constant_steps_loop(run *r)
         r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
     else
         QDOT_TRY(find_step_length(r));
-    QDOT_TRY(step_check_length(r));
+    QDOT_TRY(check_number_of_steps(r));
     while (r->t != r->t1) {
-        QDOT_TRY(constant_steps_advance(r, &stop));
+        QDOT_TRY(make_next_step(r, &stop));
         if (r->options->meter)
-            QDOT_TRY(constant_steps_count_work(r));
+            QDOT_TRY(report_work(r));
         qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;
@@ -456,7 +456,7 @@ constant_steps_loop(run *r)
 /* --- the whole integration ---------------------------------------------------------- */
 
 static qdot_status
-constant_steps_check(const run *r, double t0, const double *y)
+check_arguments(const run *r, double t0, const double *y)
 {
     if (!r->g.system->halves && (!r->g.system->phase || r->g.kernel->separable))
         return qdot_fail(QDOT_EINVAL, "this method is for q' = v, v' = F alone");
@@ -489,9 +489,9 @@ constant_steps_allocate(run *r, double **all)
     return QDOT_OK;
 }
 
-/* Begin at y, converted to momenta if the system has canonical ones. */
+/* Begin at the state y, with velocities converted to momenta if the system has canonical ones. */
 static qdot_status
-constant_steps_begin_at(run *r, const double *y)
+begin_at_state(run *r, const double *y)
 {
     const qdot_ode_phase *phase = r->g.system->phase;
     const size_t n = r->g.n;
@@ -519,7 +519,7 @@ qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *m
     qdot_status status;
 
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    status = constant_steps_check(&r, t0, y);
+    status = check_arguments(&r, t0, y);
     if (status == QDOT_OK)
         status = constant_steps_allocate(&r, &all);
     if (status == QDOT_OK) {
@@ -528,9 +528,9 @@ qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *m
             memcpy(r.g.low, options->carry, system->n * sizeof *y);
         if (r.g.kernel->begin)
             r.g.kernel->begin(&r.g);
-        status = constant_steps_begin_at(&r, y);
+        status = begin_at_state(&r, y);
         if (status == QDOT_OK)
-            status = constant_steps_loop(&r);
+            status = run_steps(&r);
         if (result->stats.steps > 0) {
             const qdot_error why = *qdot_last_error();
 

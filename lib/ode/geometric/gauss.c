@@ -8,7 +8,7 @@
 #include "ode/geometric/stages.h"
 
 static void
-gauss_begin(qdot_geometric *g)
+begin_gauss(qdot_geometric *g)
 {
     const qdot_stages w = qdot_stages_of(g);
     qdot_collocation m;
@@ -17,9 +17,9 @@ gauss_begin(qdot_geometric *g)
     qdot_stages_begin(&w, &m);
 }
 
-/* Iterate once: update P, W, X, F. */
+/* Iterate once for the stages: update their momenta P, velocities W, positions X and forces F. */
 static qdot_status
-gauss_iterate(qdot_geometric *g, const qdot_stages *w, double t, double h, double *change)
+iterate_stages(qdot_geometric *g, const qdot_stages *w, double t, double h, double *change)
 {
     const size_t n = w->n;
 
@@ -44,7 +44,7 @@ gauss(qdot_geometric *g, double t, double h)
 
     QDOT_TRY(qdot_stages_guess(g, &w, t, h));
     g->known = false;
-    QDOT_TRY(qdot_stages_iterate(g, &w, t, h, 1, gauss_iterate));
+    QDOT_TRY(qdot_stages_iterate(g, &w, t, h, 1, iterate_stages));
     for (size_t k = 0; k < n; k++) {
         qdot_stages_advance(&w, &g->y[k], &g->low[k], h, w.W, k);
         qdot_stages_advance(&w, &g->y[n + k], &g->low[n + k], h, w.F, k);
@@ -55,7 +55,7 @@ gauss(qdot_geometric *g, double t, double h)
 
 #define GAUSS(order, s)                                                                  \
     const qdot_geometric_kernel qdot_gauss##order = {                                    \
-        order, false, s, QDOT_STAGES_ROWS(s), QDOT_STAGES_MORE(s), 0, gauss_begin, gauss};
+        order, false, s, QDOT_STAGES_ROWS(s), QDOT_STAGES_MORE(s), 0, begin_gauss, gauss};
 
 GAUSS(4, 2)
 GAUSS(6, 3)

@@ -43,7 +43,7 @@ struct qdot_geometric_kernel {
     bool separable;    /* the method is explicit: the force F must not depend on v */
     int stages;        /* number of stages of a collocation method; 0: another method */
     size_t rows, more; /* size of the work space: rows of n doubles; further doubles */
-    size_t of_bonds; /* further doubles for each constraint; 0: the method cannot hold constraints */
+    size_t of_bonds; /* further doubles for each constraint; 0: the method cannot treat constraints */
     /* Fill the constant part of the work space g->work; NULL: there is no such part. */
     void (*begin)(qdot_geometric *g);
     /* Advance g->y + g->low from t by h; on a failure they are undefined. QDOT_EDOMAIN where an
@@ -52,21 +52,21 @@ struct qdot_geometric_kernel {
 };
 
 struct qdot_geometric {
-    const qdot_ode_system *system; /* the system to be integrated; borrowed */
+    const qdot_ode_system *system; /* the system that is integrated; borrowed */
     const qdot_geometric_kernel *kernel;
     size_t n;        /* number of coordinates */
-    double *y, *low; /* [2n] the state (q, p) is the sum y + low */
-    double *work;    /* [rows x n + more] work space of the kernel */
-    double *state, *rates; /* [2n] the state as (q, q'); its time derivative */
-    bool known;      /* what the kernel stored at the end of the last step is still valid for y */
+    double *y, *low; /* [2n] the state as two doubles: (q, p) is the sum y + low */
+    double *work;    /* [rows x n + more] work space of the method */
+    double *state, *rates; /* [2n] the state as (q, q'); the time derivative of this */
+    bool known;      /* whether what the method stored at the end of the last step is still valid for y */
     double h;        /* length of the last step */
     uint64_t evaluations;
 };
 
-/* Evaluate the velocity v [n] at (t, q, p). Fails like the functions of qdot_ode_system. */
+/* Evaluate the velocity v [n] at (t, q, p). Can fail like the functions of qdot_ode_system. */
 QDOT_MUST_CHECK qdot_status qdot_geometric_velocity(qdot_geometric *g, double t, const double *q,
                                                     const double *p, double *v);
-/* Evaluate the force F [n] at (t, q, v). QDOT_EDOMAIN if it is not finite. */
+/* Evaluate the force F [n] at (t, q, v). QDOT_EDOMAIN if a component is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_geometric_force(qdot_geometric *g, double t, const double *q,
                                                  const double *v, double *F);
 
@@ -78,9 +78,9 @@ QDOT_MUST_CHECK qdot_status qdot_geometric_integrate(const qdot_ode_system *syst
                                                      double t1, double *y,
                                                      qdot_ode_result *result);
 
-/* The kernels of geometric methods, for the table of method.h. */
+/* The functions of geometric (structure-preserving) methods, for the table of method.h. */
 extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* explicit splitting methods, in splitting.c */
-/* Gauss collocation methods, in gauss.c */
+/* Gauss's collocation methods of order 4, 6, 8 and 12, in gauss.c */
 extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12;
 extern const qdot_geometric_kernel qdot_variational; /* the variational integrator, in variational.c */
 

@@ -31,17 +31,17 @@ qdot_composition_lengths(double h, double *length, double *rest)
     *rest = -qdot_sum_value(&sum);
 }
 
-/* Add the terms a d and b d to the sum x + low. */
+/* Add the terms a d and b d to the sum of two doubles x + low, component by component. */
 static void
-advance_by_forces(size_t n, double *x, double *low, double a, double b, const double *d)
+add_scaled_vector(size_t n, double *x, double *low, double a, double b, const double *d)
 {
     for (size_t i = 0; i < n; i++)
         qdot_sum_advance_by(&x[i], &low[i], a * d[i], b * d[i]);
 }
 
-/* Make all stages with their lengths, the middle one longer by `rest`; work: the force F at the state. */
+/* Make all stages with the given lengths, the middle one longer by `rest`; g->work holds the force F at the state. */
 static qdot_status
-splitting_stages(qdot_geometric *g, double t, int stages, const double *length, double rest)
+make_splitting_stages(qdot_geometric *g, double t, int stages, const double *length, double rest)
 {
     const size_t n = g->n;
     double *q = g->y, *p = q + n, *q_low = g->low, *p_low = q_low + n, *F = g->work;
@@ -52,11 +52,11 @@ splitting_stages(qdot_geometric *g, double t, int stages, const double *length, 
     for (int s = 0; s < stages; s++) {
         const double h = length[s], more = s == stages / 2 ? rest : 0;
 
-        advance_by_forces(n, p, p_low, 0.5 * h, 0.5 * more, F);
-        advance_by_forces(n, q, q_low, h, more, p);
+        add_scaled_vector(n, p, p_low, 0.5 * h, 0.5 * more, F);
+        add_scaled_vector(n, q, q_low, h, more, p);
         t += h;
         QDOT_TRY(qdot_geometric_force(g, t, q, p, F));
-        advance_by_forces(n, p, p_low, 0.5 * h, 0.5 * more, F);
+        add_scaled_vector(n, p, p_low, 0.5 * h, 0.5 * more, F);
     }
     g->known = true;
     return QDOT_OK;
@@ -65,17 +65,17 @@ splitting_stages(qdot_geometric *g, double t, int stages, const double *length, 
 static qdot_status
 verlet(qdot_geometric *g, double t, double h)
 {
-    return splitting_stages(g, t, 1, &h, 0);
+    return make_splitting_stages(g, t, 1, &h, 0);
 }
 
 static qdot_status
-composition8(qdot_geometric *g, double t, double h)
+make_composition_step(qdot_geometric *g, double t, double h)
 {
     double length[QDOT_COMPOSITION_STAGES], rest;
 
     qdot_composition_lengths(h, length, &rest);
-    return splitting_stages(g, t, QDOT_COMPOSITION_STAGES, length, rest);
+    return make_splitting_stages(g, t, QDOT_COMPOSITION_STAGES, length, rest);
 }
 
 const qdot_geometric_kernel qdot_verlet = {2, true, 0, 1, 0, 0, NULL, verlet};
-const qdot_geometric_kernel qdot_composition8 = {8, true, 0, 1, 0, 0, NULL, composition8};
+const qdot_geometric_kernel qdot_composition8 = {8, true, 0, 1, 0, 0, NULL, make_composition_step};

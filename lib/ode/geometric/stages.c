@@ -8,7 +8,7 @@
 
 enum { most_iterations = 60, least_iterations = 3 };
 
-/* The iteration does not converge if changes stop decreasing above this, relative to the positions. */
+/* The iteration has failed if changes stop decreasing while above this, relative to the positions. */
 static const double converged = 1e-10;
 
 /* A coordinate that is nothing but rounding of the others never settles: below this fraction of its scale

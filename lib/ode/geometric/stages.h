@@ -16,7 +16,7 @@
 #include "num/sum.h"
 #include "ode/geometric/geometric.h"
 
-/* Work space of the stages; the work space of a method begins with it. */
+/* Work space of the stages of a collocation method, with which the work space of the method begins. */
 typedef struct {
     size_t s, n;
     double *a, *b, *c, *ahead; /* [2 x s x s], [2 x s], [s] the method's a_ij, b_i, c_i; [s x s] L_j(1 + c_i) */
@@ -25,13 +25,13 @@ typedef struct {
     double *rest;              /* the work space after these arrays */
 } qdot_stages;
 
-/* The size of the work space: in rows of n doubles, and in further doubles. */
+/* The size of the work space of s stages: rows of n doubles, and further doubles. */
 #define QDOT_STAGES_ROWS(s) (3 * (s) + 1)
 #define QDOT_STAGES_MORE(s) (3 * (s) * (s) + 3 * (s))
 
 qdot_stages qdot_stages_of(const qdot_geometric *g);
 
-/* Fill the coefficients a, b, c, ahead. */
+/* Fill in the coefficients a, b, c, ahead of the method. */
 void qdot_stages_begin(const qdot_stages *w, const qdot_collocation *m);
 
 /* F and W to begin with, and X of these: from the polynomials of the step before, where it had the
@@ -52,7 +52,7 @@ QDOT_MUST_CHECK qdot_status qdot_stages_iterate(qdot_geometric *g, const qdot_st
                                                 double t, double h, int patience,
                                                 qdot_stages_once *once);
 
-/* Compute the positions X from W; returns the largest relative change of a position. */
+/* Compute the positions X of the stages from their velocities W; returns the largest relative change of a position. */
 double qdot_stages_move(const qdot_geometric *g, const qdot_stages *w, double h);
 
 /* sum_j a_j x_jk over the rows of x [s x n]; *rest the same of the low parts, which may not be added to
@@ -71,7 +71,7 @@ qdot_stages_combine(size_t s, size_t n, const double *a, const double *low,
     return sum;
 }
 
-/* Component k of stage i: (y + low) + h sum_j a_ij x_jk, rounded once; a as w->a. */
+/* Component k of stage i, (y + low) + h sum_j a_ij x_jk, rounded once; the array a is arranged as w->a. */
 static inline double
 qdot_stages_at(const qdot_stages *w, const double *a, size_t i, double y, double low,
                double h, const double *x, size_t k)
@@ -85,7 +85,7 @@ qdot_stages_at(const qdot_stages *w, const double *a, size_t i, double y, double
     return at + (e + (low + h * rest));
 }
 
-/* Advance the sum y + low by h sum_j b_j x_jk. */
+/* Advance the sum of two doubles y + low by h sum_j b_j x_jk. */
 static inline void
 qdot_stages_advance(const qdot_stages *w, double *y, double *low, double h,
                     const double *x, size_t k)

@@ -35,20 +35,20 @@
  * correct each other. */
 enum { stages = 6, patience = 2 };
 
-/* Work space of the method, after that of stages.h; m is the number of constraints. */
+/* Work space of the method, which follows that of stages.h; m is the number of constraints. */
 typedef struct {
     qdot_stages at;
     size_t m;
-    double *ab;          /* [2 x s x s] the coefficients, as double pairs; last column 0 */
+    double *ab;          /* [2 x s x s] the method's coefficients as pairs of doubles; the last column is 0 */
     double *inverse;     /* [(s-1) x (s-1)] inverse of the weight matrix C */
-    double *beyond; /* [(s-1) x (s-1)] extrapolation to the next step, as `ahead`, from the first s - 1 nodes */
+    double *beyond; /* [(s-1) x (s-1)] extrapolation of the first s - 1 nodes to the next step, as `ahead` */
     double *G;           /* [s x n] generalized forces at the nodes */
-    double *lambda, *nu; /* [(s-1) x m] multipliers at the nodes; their corrections */
+    double *lambda, *nu; /* [(s-1) x m] Lagrange multipliers at the nodes; their corrections */
     double *g, *sum;     /* [m] constraint values; [n] a sum of vectors */
 } step_state;
 
 static step_state
-state_of(const qdot_geometric *g)
+work_space_of(const qdot_geometric *g)
 {
     const size_t s = stages, r = s - 1;
     step_state w = {.at = qdot_stages_of(g),
@@ -65,9 +65,9 @@ state_of(const qdot_geometric *g)
     return w;
 }
 
-/* Find the inverse of the matrix C of weights, column by column. */
+/* Find the inverse of the matrix C of weights of the method, column by column. */
 static void
-invert_weights(const step_state *w)
+invert_weight_matrix(const step_state *w)
 {
     enum { r = stages - 1 };
     double C[r * r], column[r];
@@ -90,10 +90,10 @@ invert_weights(const step_state *w)
 }
 
 static void
-variational_begin(qdot_geometric *g)
+begin_variational(qdot_geometric *g)
 {
     const size_t s = stages, r = s - 1;
-    const step_state w = state_of(g);
+    const step_state w = work_space_of(g);
     qdot_collocation m;
 
     qdot_collocation_lobatto(stages, &m);
@@ -115,20 +115,20 @@ variational_begin(qdot_geometric *g)
                 x *= k == j ? 1 : (1 + w.at.c[i] - w.at.c[k]) / (w.at.c[j] - w.at.c[k]);
             w.beyond[i * r + j] = x;
         }
-    invert_weights(&w);
+    invert_weight_matrix(&w);
 }
 
-/* Add the reactions A^T lambda to the forces F at stage i. */
+/* Add the reactions of the constraints, A^T lambda, to the forces F at stage i. */
 static qdot_status
-stage_add_reactions(const qdot_geometric *g, const step_state *w, double t, size_t i,
-                    const double *lambda, double *F)
+add_reactions_at_stage(const qdot_geometric *g, const step_state *w, double t, size_t i,
+                       const double *lambda, double *F)
 {
     const qdot_ode_bonds *bonds = g->system->bonds;
 
     return w->m ? bonds->pull(t, w->at.X + i * w->at.n, lambda, F, bonds->user) : QDOT_OK;
 }
 
-/* Compute multipliers from the constraint residuals at stages 2 .. s, and move these onto the constraints. */
+/* Correct the multipliers by the constraint residuals at stages 2 ... s, so that these positions obey the constraints. */
 static qdot_status
 correct(const qdot_geometric *g, const step_state *w, double t, double h)
 {
@@ -153,23 +153,23 @@ correct(const qdot_geometric *g, const step_state *w, double t, double h)
     return QDOT_OK;
 }
 
-/* Compute the total forces G [s - 1], with constraint reactions. */
+/* Compute the total forces G [s - 1] at the nodes, including the reactions of constraints. */
 static qdot_status
-add_pulls(const qdot_geometric *g, const step_state *w, double t, double h)
+add_constraint_forces(const qdot_geometric *g, const step_state *w, double t, double h)
 {
     const size_t n = w->at.n;
 
     memcpy(w->G, w->at.F, (stages - 1) * n * sizeof *w->G);
     for (size_t i = 0; i + 1 < stages; i++)
-        QDOT_TRY(stage_add_reactions(g, w, t + w->at.c[i] * h, i, w->lambda + i * w->m, w->G + i * n));
+        QDOT_TRY(add_reactions_at_stage(g, w, t + w->at.c[i] * h, i, w->lambda + i * w->m, w->G + i * n));
     return QDOT_OK;
 }
 
-/* Iterate once: update P, W, X, lambda, F, G. */
+/* Iterate once for the stages: update P, W, X, the multipliers lambda, and the forces F, G. */
 static qdot_status
-variational_iterate(qdot_geometric *g, const qdot_stages *at, double t, double h, double *change)
+iterate_variational_stages(qdot_geometric *g, const qdot_stages *at, double t, double h, double *change)
 {
-    const step_state w = state_of(g);
+    const step_state w = work_space_of(g);
     const size_t n = at->n;
 
     for (size_t i = 0; i < stages; i++) {
@@ -184,13 +184,13 @@ variational_iterate(qdot_geometric *g, const qdot_stages *at, double t, double h
     for (size_t i = 0; i + 1 < stages; i++)
         QDOT_TRY(qdot_geometric_force(g, t + at->c[i] * h, at->X + i * n, at->W + i * n,
                                       at->F + i * n));
-    return add_pulls(g, &w, t, h);
+    return add_constraint_forces(g, &w, t, h);
 }
 
 /* The end of p, by the velocities: linear in the last multipliers; the second time corrects what
  * rounding left. S is then that of the next step. */
 static qdot_status
-tie_velocities(qdot_geometric *g, const step_state *w, double t)
+project_end_momenta(qdot_geometric *g, const step_state *w, double t)
 {
     const qdot_ode_bonds *bonds = g->system->bonds;
     const size_t n = w->at.n;
@@ -209,9 +209,9 @@ tie_velocities(qdot_geometric *g, const step_state *w, double t)
     return QDOT_OK;
 }
 
-/* Set the first values of F, W, X, lambda, G. */
+/* Set the first guess of F, W, X, lambda, G at the stages of a step. */
 static qdot_status
-variational_guess(qdot_geometric *g, const step_state *w, double t, double h)
+guess_stages(qdot_geometric *g, const step_state *w, double t, double h)
 {
     const bool on = g->known && h == g->h;
 
@@ -222,18 +222,18 @@ variational_guess(qdot_geometric *g, const step_state *w, double t, double h)
         qdot_stages_go_on(stages - 1, w->m, w->beyond, w->lambda);
     else
         memset(w->lambda, 0, (stages - 1) * w->m * sizeof *w->lambda);
-    return add_pulls(g, w, t, h);
+    return add_constraint_forces(g, w, t, h);
 }
 
 static qdot_status
 variational(qdot_geometric *g, double t, double h)
 {
-    const step_state w = state_of(g);
+    const step_state w = work_space_of(g);
     const size_t n = g->n, last = (stages - 1) * n;
 
-    QDOT_TRY(variational_guess(g, &w, t, h));
+    QDOT_TRY(guess_stages(g, &w, t, h));
     g->known = false;
-    QDOT_TRY(qdot_stages_iterate(g, &w.at, t, h, w.m ? patience : 1, variational_iterate));
+    QDOT_TRY(qdot_stages_iterate(g, &w.at, t, h, w.m ? patience : 1, iterate_variational_stages));
     QDOT_TRY(qdot_geometric_force(g, t + h, w.at.X + last, w.at.W + last, w.at.F + last));
     memcpy(w.G + last, w.at.F + last, n * sizeof *w.G);
     for (size_t k = 0; k < n; k++) {
@@ -241,7 +241,7 @@ variational(qdot_geometric *g, double t, double h)
         qdot_stages_advance(&w.at, &g->y[n + k], &g->low[n + k], h, w.G, k);
     }
     if (w.m)
-        QDOT_TRY(tie_velocities(g, &w, t + h));
+        QDOT_TRY(project_end_momenta(g, &w, t + h));
     g->known = true;
     return QDOT_OK;
 }
@@ -253,6 +253,6 @@ const qdot_geometric_kernel qdot_variational = {
     .more =
         QDOT_STAGES_MORE(stages) + 2 * stages * stages + 2 * (stages - 1) * (stages - 1),
     .of_bonds = 2 * (stages - 1) + 1,
-    .begin = variational_begin,
+    .begin = begin_variational,
     .step = variational,
 };

@@ -19,18 +19,18 @@ typedef struct qdot_bind qdot_bind;
 
 struct qdot_bind {
     const qdot_plan *plan;
-    qdot_tape *tape; /* copy of the plan's tape with shaken constants; NULL: use the plan's own */
+    qdot_tape *tape; /* copy of the plan's tape with slightly perturbed constants; NULL: use the plan's own tape */
     qdot_blocks blocks;
     qdot_constrained *held; /* solves for q'' and multipliers under constraints; NULL: no constraints */
     qdot_motion_series *direct; /* Taylor series of smooth equations without constraints; NULL: none */
     qdot_tree_series *tree;
     qdot_motion_series *tied;      /* Taylor series of equations with constraints; NULL: none */
-    /* other series, in turns with `tied`, for nearly dependent constraints; NULL: none */
+    /* two alternative Taylor series for nearly dependent constraints; NULL: none */
     qdot_guarded *guarded;
-    const qdot_ode_series *series; /* callbacks of the series in use; NULL: no series */
-    qdot_phase *phase;     /* canonical momenta, for geometric methods that need them; else NULL */
-    qdot_ode_bonds bonds;  /* callbacks of holonomic constraints, for geometric methods */
-    qdot_leading *leading; /* first orders of the series in two doubles; NULL: not requested */
+    const qdot_ode_series *series; /* callbacks of the Taylor series in use; NULL: no series */
+    qdot_phase *phase;     /* converts to canonical momenta, for geometric methods that need them; else NULL */
+    qdot_ode_bonds bonds;  /* callbacks of holonomic constraints, for geometric integration methods */
+    qdot_leading *leading; /* the first Taylor coefficients in double-double precision; NULL: not requested */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
     qdot_tree_series *elsewhere;
@@ -42,29 +42,29 @@ struct qdot_bind {
     qdot_ode_mass_form mass_form; /* the equations as M y' = f for implicit methods */
 
     /* The reduced plan of a plan with ignorable coordinates; the reduced plan is the one that is integrated. */
-    qdot_tape *reduced; /* copy of the reduced plan's tape with shaken constants; NULL: its own */
+    qdot_tape *reduced; /* copy of the reduced plan's tape with slightly perturbed constants; NULL: use its own tape */
     qdot_blocks reduced_blocks;
     qdot_momenta *momenta;
 
-    /* For a plan of decoupled parts: the bind and the equations of each part. */
-    qdot_bind **parts;        /* [n_parts] the bind of each part */
-    qdot_ode_system *systems; /* [n_parts] the equations of each part */
-    qdot_ode_part *listed;    /* [n_parts] the parts in the form that the integrator takes */
+    /* For a plan whose equations decouple into parts: the bind and the equations of each part. */
+    qdot_bind **parts;        /* [n_parts] the bind (equations ready for integration) of each decoupled part */
+    qdot_ode_system *systems; /* [n_parts] the system of equations of each decoupled part */
+    qdot_ode_part *listed;    /* [n_parts] the decoupled parts, as the integrator takes them */
     size_t *index;            /* [2n] component indices to which `listed` points */
-    double *part_scales;      /* [2n] scales of the parts, one part after another; NULL: all 1 */
+    double *part_scales;      /* [2n] scales of the states of the parts, one part after another; NULL: all 1 */
     const double *scales;
 
-    qdot_pulses pulses; /* searches steps of methods without series for short forces; made at first use */
+    qdot_pulses pulses; /* searches steps for forces shorter than a step, if the method has no series; made at first use */
 };
 
-/* The tape that computes M and f. */
+/* The tape that computes M and f of M q'' = f. */
 static inline const qdot_tape *
 qdot_bind_equations(const qdot_bind *b)
 {
     return b->tape ? b->tape : b->plan->tape;
 }
 
-/* Set the inputs of the tape to (t, y [2n]). */
+/* Set the inputs of the tape to time t and state y [2n]. */
 static inline void
 qdot_bind_load(const qdot_bind *b, double t, const double *y)
 {
@@ -74,14 +74,14 @@ qdot_bind_load(const qdot_bind *b, double t, const double *y)
     b->in[2 * n] = t;
 }
 
-/* Find q'' at the inputs, into a [n]. */
+/* Find the accelerations q'' at the loaded inputs, into a [n]. */
 QDOT_MUST_CHECK qdot_status qdot_bind_accelerate(qdot_bind *b, double *a);
 
-/* Evaluate the Jacobian of the system (ode/system.h). */
+/* Evaluate the Jacobian of the system of differential equations (ode/system.h). */
 qdot_status qdot_bind_jacobian(double t, const double *y, double *dfdy, double *dfdt,
                                void *user);
 
-/* Allocate work space for Jacobians, and the form with M, if the method or its companion needs a Jacobian. */
+/* Allocate work space for Jacobians if the integration method, or that of its companion run, needs one. */
 QDOT_MUST_CHECK qdot_status qdot_bind_make_slopes(qdot_bind *b);
 
 #endif

@@ -12,7 +12,7 @@
 #include "tape/shake.h"
 
 static const qdot_tape *
-reduced_equations(const qdot_bind *b)
+reduced_equations_tape(const qdot_bind *b)
 {
     return b->reduced ? b->reduced : b->plan->reduced->tape;
 }
@@ -57,7 +57,7 @@ qdot_bind_free(qdot_bind *b)
 /* The accelerations of the blocks, from the outputs that begin at `out`; *end: the first output
  * after these. */
 static qdot_status
-blocks_solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
+solve_blocks(qdot_blocks *blocks, const double *out, double *a, const double **end)
 {
     for (size_t k = 0; k < blocks->plan->structure.blocks; k++) {
         const qdot_plan_block *block = blocks->plan->blocks + k;
@@ -84,7 +84,7 @@ blocks_solve(qdot_blocks *blocks, const double *out, double *a, const double **e
 /* q'' at the inputs for a plan without a mass matrix: from the first coefficients of the series
  * along the tree. */
 static qdot_status
-begin_elsewhere(qdot_bind *b, double *a)
+accelerations_from_separate_series(qdot_bind *b, double *a)
 {
     const qdot_plan *p = b->plan;
     const qdot_ode_series *series;
@@ -98,7 +98,7 @@ begin_elsewhere(qdot_bind *b, double *a)
     return QDOT_OK;
 }
 
-/* Find q'' at the loaded state, into a [n]. */
+/* Find the accelerations q'' at the loaded state, into a [n]. */
 qdot_status
 qdot_bind_accelerate(qdot_bind *b, double *a)
 {
@@ -108,9 +108,9 @@ qdot_bind_accelerate(qdot_bind *b, double *a)
     if (b->held)
         return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
     if (!p->tape)
-        return begin_elsewhere(b, a);
+        return accelerations_from_separate_series(b, a);
     qdot_tape_eval(qdot_bind_equations(b), b->in, b->out, b->work);
-    QDOT_TRY(blocks_solve(&b->blocks, b->out, a, &end));
+    QDOT_TRY(solve_blocks(&b->blocks, b->out, a, &end));
     for (size_t i = 0; i < p->n; i++)
         if (!isfinite(a[i]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -119,7 +119,7 @@ qdot_bind_accelerate(qdot_bind *b, double *a)
 }
 
 static qdot_status
-rhs(double t, const double *y, double *dydt, void *user)
+right_hand_side(double t, const double *y, double *dydt, void *user)
 {
     qdot_bind *b = user;
     size_t n = b->plan->n;
@@ -132,7 +132,7 @@ rhs(double t, const double *y, double *dydt, void *user)
 /* The right-hand side by the reduced plan. For cyclic coordinates, whose momenta are constant, only
  * rates are given. */
 static qdot_status
-reduced_rhs(double t, const double *y, double *dydt, void *user)
+reduced_right_hand_side(double t, const double *y, double *dydt, void *user)
 {
     qdot_bind *b = user;
     const qdot_plan *r = b->plan->reduced;
@@ -143,8 +143,8 @@ reduced_rhs(double t, const double *y, double *dydt, void *user)
     memcpy(b->in + 2 * n + 1, qdot_momenta_hi(b->momenta), r->n_kept * sizeof *y);
     memcpy(dydt, y + n, n * sizeof *y);
     memset(dydt + n, 0, n * sizeof *y);
-    qdot_tape_eval(reduced_equations(b), b->in, b->out, b->work);
-    QDOT_TRY(blocks_solve(&b->reduced_blocks, b->out, dydt + n, &rates));
+    qdot_tape_eval(reduced_equations_tape(b), b->in, b->out, b->work);
+    QDOT_TRY(solve_blocks(&b->reduced_blocks, b->out, dydt + n, &rates));
     for (size_t k = 0; k < r->n_kept; k++)
         dydt[r->kept[k]] = rates[k];
     for (size_t i = 0; i < n; i++)
@@ -169,7 +169,7 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
 /* The rounding error x of f - M a for a block, where the outputs of the tape have the errors `of`.
  * Returns the errors of the outputs after the block's. */
 static const double *
-sum_roundings(const qdot_plan_block *block, const double *of, const double *a, double *x)
+sum_rounding_errors(const qdot_plan_block *block, const double *of, const double *a, double *x)
 {
     const double *M = of + block->n;
 
@@ -184,9 +184,9 @@ sum_roundings(const qdot_plan_block *block, const double *of, const double *a, d
     return M;
 }
 
-/* Find the uncertainty of q'' from the rounding of the equations, or from underflow alone. */
+/* Find the uncertainty e of q'' caused by rounding of the equations, or by underflow alone. */
 static qdot_status
-find_roundings(const qdot_ode_system *system, double t, const double *y, const double *a, bool underflows, double *e)
+find_acceleration_errors(const qdot_ode_system *system, double t, const double *y, const double *a, bool underflows, double *e)
 {
     qdot_bind *b = system->user;
     const qdot_plan *p = b->plan;
@@ -210,7 +210,7 @@ find_roundings(const qdot_ode_system *system, double t, const double *y, const d
         const qdot_plan_block *block = p->blocks + k;
         double *x = b->blocks.at[k].x;
 
-        at = sum_roundings(block, at, a, x);
+        at = sum_rounding_errors(block, at, a, x);
         if (block->n > 1)
             qdot_blocks_solve(&b->blocks, k, x);
         for (size_t i = 0; i < block->n; i++)
@@ -223,17 +223,17 @@ find_roundings(const qdot_ode_system *system, double t, const double *y, const d
 qdot_status
 qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, const double *a, double *e)
 {
-    return find_roundings(system, t, y, a, false, e);
+    return find_acceleration_errors(system, t, y, a, false, e);
 }
 
 qdot_status
 qdot_bind_underflows(const qdot_ode_system *system, double t, const double *y, const double *a, double *e)
 {
-    return find_roundings(system, t, y, a, true, e);
+    return find_acceleration_errors(system, t, y, a, true, e);
 }
 
 static qdot_status
-bind_project(double t, double *y, double *carry, double *moved, void *user)
+project_onto_constraints(double t, double *y, double *carry, double *moved, void *user)
 {
     qdot_constrained *held = ((qdot_bind *)user)->held;
 
@@ -242,14 +242,14 @@ bind_project(double t, double *y, double *carry, double *moved, void *user)
 }
 
 static double
-margin(double t, const double *y, void *user)
+constraint_independence(double t, const double *y, void *user)
 {
     return qdot_constrained_independence(((qdot_bind *)user)->held, t, y);
 }
 
 /* Whether a step passes over forces that act for a shorter time than the step lasts (sim/bind/pulses.h). */
 static qdot_status
-bind_look_at_step(qdot_ode_look *step, void *user)
+inspect_step_for_pulses(qdot_ode_look *step, void *user)
 {
     qdot_bind *b = user;
     qdot_pulses_step s = {.a = step->t,
@@ -268,7 +268,7 @@ bind_look_at_step(qdot_ode_look *step, void *user)
 }
 
 static bool
-bind_may_hide(const qdot_bind *b)
+may_hide_short_forces(const qdot_bind *b)
 {
     return b->plan->tape && qdot_disc_may_hide(b->plan->tape, QDOT_HIDES_QUOTIENTS);
 }
@@ -284,7 +284,7 @@ qdot_bind_system(qdot_bind *b)
 {
     return (qdot_ode_system){
         .n = 2 * b->plan->n,
-        .rhs = b->momenta ? reduced_rhs : rhs,
+        .rhs = b->momenta ? reduced_right_hand_side : right_hand_side,
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? qdot_bind_jacobian : NULL,
         .user = b,
         .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
@@ -294,11 +294,11 @@ qdot_bind_system(qdot_bind *b)
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
-        .look = bind_may_hide(b) ? bind_look_at_step : NULL,
+        .look = may_hide_short_forces(b) ? inspect_step_for_pulses : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
-        .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? bind_project : NULL,
-        .margin = b->held ? margin : NULL,
+        .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project_onto_constraints : NULL,
+        .margin = b->held ? constraint_independence : NULL,
         .scales = b->scales,
     };
 }
@@ -335,14 +335,14 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 
     if (b->held) {
         status = qdot_constrained_start(b->held, t, y, low);
-        return status == QDOT_EDOMAIN ? QDOT_OK : status; /* where f is undefined the run itself will report it */
+        return status == QDOT_EDOMAIN ? QDOT_OK : status; /* the run itself will report an undefined force */
     }
     qdot_bind_load(b, t, y);
     for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
         const qdot_plan_block *block = p->blocks + k;
 
         if (block->n > 1)
-            continue; /* the solver of a larger block tests this itself */
+            continue; /* skip larger blocks: their solver tests for a singular mass matrix itself */
         M = p->M[block->index[0] * (p->n + 1)];
         QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &M, &masses));
         work = qdot_malloc((qdot_tape_work(masses) + 1) * sizeof *work);
@@ -356,7 +356,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
     }
     if (status == QDOT_OK) {
         status = qdot_bind_accelerate(b, b->in + 2 * p->n + 1);
-        if (status == QDOT_EDOMAIN) /* undefined: the run will report the failure with its time */
+        if (status == QDOT_EDOMAIN) /* not an error here: the run reports with its time where the equations are undefined */
             status = QDOT_OK;
     }
     return status;
@@ -395,9 +395,9 @@ qdot_bind_factored(const qdot_bind *b)
            b->reduced_blocks.factored;
 }
 
-/* Make the evaluator that keeps the state on the constraints. */
+/* Make the constraint solver, which keeps the state on the constraints. */
 static qdot_status
-make_held(qdot_bind *b, bool shaken)
+make_constraint_solver(qdot_bind *b, bool shaken)
 {
     const qdot_plan *p = b->plan;
 
@@ -414,9 +414,9 @@ make_held(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* Make one bind for each decoupled part of the plan. */
+/* Make one bind for each part of a plan whose equations decouple. */
 static qdot_status
-make_parts(qdot_bind *b, bool shaken)
+make_part_binds(qdot_bind *b, bool shaken)
 {
     const qdot_plan *p = b->plan;
     qdot_ode_part *listed;
@@ -442,47 +442,47 @@ make_parts(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* Make the first orders of the series of p in two doubles. */
+/* Make the double-double evaluation of the first Taylor coefficients for plan p. */
 static qdot_status
-make_leading(qdot_bind *b, const qdot_plan *p)
+make_leading_coefficients(qdot_bind *b, const qdot_plan *p)
 {
     return b->plan->leading ? qdot_leading_new(p, b->series, &b->leading) : QDOT_OK;
 }
 
 /* Make the system of the reduced plan, in which the momenta of cyclic coordinates are constant. */
 static qdot_status
-make_reduced(qdot_bind *b, bool shaken)
+make_reduced_system(qdot_bind *b, bool shaken)
 {
     const qdot_plan *r = b->plan->reduced;
 
     if (shaken)
         QDOT_TRY(qdot_tape_shake(r->tape, &b->reduced));
     QDOT_TRY(qdot_blocks_init(&b->reduced_blocks, r, shaken));
-    QDOT_TRY(qdot_momenta_new(r, reduced_equations(b), &b->momenta));
+    QDOT_TRY(qdot_momenta_new(r, reduced_equations_tape(b), &b->momenta));
     if (!r->smooth)
         return QDOT_OK;
     QDOT_TRY(qdot_motion_series_new(r, shaken, &b->direct));
     qdot_motion_series_keep(b->direct, qdot_momenta_hi(b->momenta), qdot_momenta_lo(b->momenta));
     b->series = qdot_motion_series_get(b->direct);
-    QDOT_TRY(make_leading(b, r));
+    QDOT_TRY(make_leading_coefficients(b, r));
     if (b->leading)
         qdot_leading_keep(b->leading, qdot_momenta_hi(b->momenta),
                           qdot_momenta_lo(b->momenta));
     return QDOT_OK;
 }
 
-/* Allocate work space for M q'' = f, unless the plan uses only the tree. */
+/* Allocate work space for M q'' = f, unless the plan has only the recursive equations of a tree. */
 static qdot_status
-make_equations(qdot_bind *b, bool shaken)
+make_equation_solvers(qdot_bind *b, bool shaken)
 {
     if (shaken)
         QDOT_TRY(qdot_tape_shake(b->plan->tape, &b->tape));
-    QDOT_TRY(make_parts(b, shaken));
+    QDOT_TRY(make_part_binds(b, shaken));
     return qdot_blocks_init(&b->blocks, b->plan, shaken);
 }
 
 static qdot_status
-bind_make(qdot_bind *b, bool shaken)
+make_bind(qdot_bind *b, bool shaken)
 {
     const qdot_plan *p = b->plan;
     const qdot_tape *tapes[2] = {p->tape, p->reduced ? p->reduced->tape : NULL};
@@ -502,24 +502,24 @@ bind_make(qdot_bind *b, bool shaken)
     if (p->phase_space)
         QDOT_TRY(qdot_phase_new(p->phase_space, &b->phase));
     if (p->constraints)
-        return make_held(b, shaken);
+        return make_constraint_solver(b, shaken);
     if (p->tape)
-        QDOT_TRY(make_equations(b, shaken));
+        QDOT_TRY(make_equation_solvers(b, shaken));
     if (p->reduced)
-        return make_reduced(b, shaken);
+        return make_reduced_system(b, shaken);
     if (!p->smooth)
         return QDOT_OK;
     if (p->form == QDOT_FORM_TREE) {
         QDOT_TRY(qdot_tree_series_new(p, p->residual, shaken, &b->tree));
         b->series = qdot_tree_series_get(b->tree);
-        return make_leading(b, p);
+        return make_leading_coefficients(b, p);
     }
     QDOT_TRY(p->form == QDOT_FORM_RESIDUAL
                  ? qdot_motion_series_of_residual(p, &p->residual->motion, p->residual->masses,
                                                   shaken, &b->direct)
                  : qdot_motion_series_new(p, shaken, &b->direct));
     b->series = qdot_motion_series_get(b->direct);
-    return make_leading(b, p);
+    return make_leading_coefficients(b, p);
 }
 
 qdot_status
@@ -533,7 +533,7 @@ qdot_bind_new(const qdot_plan *plan, bool shaken, qdot_bind **bind)
         return QDOT_ENOMEM;
     b->plan = plan;
     b->shaken = shaken;
-    status = bind_make(b, shaken);
+    status = make_bind(b, shaken);
     if (status != QDOT_OK) {
         qdot_bind_free(b);
         b = NULL;

@@ -54,14 +54,14 @@ QDOT_MUST_CHECK qdot_status qdot_bind_underflows(const qdot_ode_system *system, 
 QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, double *y,
                                             double *low);
 
-/* The evaluator of the constraints (sim/model/constrained.h); NULL without. Borrowed. */
+/* The constraint solver (sim/model/constrained.h); NULL without constraints. Borrowed. */
 qdot_constrained *qdot_bind_held(qdot_bind *bind);
 
 /* Append how the Taylor series are computed, once they are prepared: `machine code for AVX2,
  * 10.3 kB`, or `kernels` and why. */
 void qdot_bind_tell_code(const qdot_bind *bind, qdot_text *to);
 
-/* The number of times that M has been factored so far. */
+/* The number of times that the mass matrix M has been factored so far. */
 size_t qdot_bind_factored(const qdot_bind *bind);
 
 #endif

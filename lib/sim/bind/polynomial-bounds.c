@@ -31,7 +31,7 @@ qdot_polynomial_bounds_clear(qdot_polynomial_bounds *h)
 }
 
 static qdot_status
-find_used(qdot_polynomial_bounds *h, size_t inputs)
+find_inputs_read(qdot_polynomial_bounds *h, size_t inputs)
 {
     bool *reads = qdot_calloc(inputs + 1, sizeof *reads);
     qdot_status status = reads ? qdot_disc_reads(h->tape, reads) : QDOT_ENOMEM;
@@ -53,7 +53,7 @@ qdot_polynomial_bounds_init(qdot_polynomial_bounds *h, const qdot_tape *tape, si
     const size_t inputs = qdot_tape_inputs(tape), m = qdot_tape_outputs(tape);
 
     *h = (qdot_polynomial_bounds){.tape = tape, .time = time};
-    QDOT_TRY(find_used(h, inputs));
+    QDOT_TRY(find_inputs_read(h, inputs));
     h->values = qdot_calloc((2 * MOST + 1) * h->n_used + 2 * inputs + 3 * m
                                 + qdot_disc_work(tape) + 1,
                             sizeof *h->values);
@@ -89,9 +89,9 @@ qdot_polynomial_bounds_sample(qdot_polynomial_bounds *h, int j, const double *in
     }
 }
 
-/* The error of a Chebyshev coefficient from rounding of the input and of the times at which it is read. */
+/* The rounding error of the Chebyshev coefficients of input k on the interval [a, b]. */
 static double
-noise_of(const qdot_polynomial_bounds *h, size_t k, double a, double b)
+chebyshev_rounding_error(const qdot_polynomial_bounds *h, size_t k, double a, double b)
 {
     const double blur = DBL_EPSILON * fmax(fabs(a), fabs(b)) / fabs(b - a);
     const double *c = h->fits + k * MOST;
@@ -100,7 +100,7 @@ noise_of(const qdot_polynomial_bounds *h, size_t k, double a, double b)
 }
 
 static void
-bounds_evaluate(qdot_polynomial_bounds *h)
+evaluate_on_discs(qdot_polynomial_bounds *h)
 {
     qdot_disc_eval(h->tape, h->centre, h->radius, h->out, h->out_radius, h->work);
 }
@@ -110,7 +110,7 @@ qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b)
 {
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = 0.5 * fabs(b - a);
-    bounds_evaluate(h);
+    evaluate_on_discs(h);
 }
 
 void
@@ -148,7 +148,7 @@ qdot_polynomial_bounds_box(qdot_polynomial_bounds *h)
 /* Evaluate the outputs on the ellipse of parameter rho about the interval a ... b; false if an
  * input is not known there. */
 static bool
-go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)
+bound_on_ellipse(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)
 {
     bool known = true;
 
@@ -158,14 +158,14 @@ go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)
 
         h->centre[h->used[k]] = c[0];
         h->radius[h->used[k]] =
-            qdot_chebyshev_ellipse(nodes, c, noise_of(h, k, a, b), rho);
+            qdot_chebyshev_ellipse(nodes, c, chebyshev_rounding_error(h, k, a, b), rho);
         known = known && isfinite(h->radius[h->used[k]]);
         h->resting = h->resting && h->radius[h->used[k]] == 0;
     }
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = 0.25 * fabs(b - a) * (rho + 1 / rho);
     if (known)
-        bounds_evaluate(h);
+        evaluate_on_discs(h);
     return known;
 }
 
@@ -191,7 +191,7 @@ qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, int n
     for (int e = 0; e < ELLIPSES; e++) {
         const double rho = ellipses[row].rho[e];
 
-        if (!go_around(h, a, b, nodes, rho)) {
+        if (!bound_on_ellipse(h, a, b, nodes, rho)) {
             for (size_t i = 0; i < m; i++)
                 h->miss[i] = fmin(h->miss[i], INFINITY);
             continue;
@@ -199,7 +199,7 @@ qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, int n
         for (size_t i = 0; i < m; i++) {
             double most = h->out_radius[i];
 
-            /* over the ellipse, |t - a| is smallest at an end of its major axis */
+            /* for t on the Bernstein ellipse of the time interval, |t - a| is smallest at an end of the major axis */
             if (quotients && quotients[i])
                 most = 2 * (most + fabs(h->out[i] - base[i])) / (0.5 * (rho + 1 / rho) - 1);
             h->miss[i] = fmin(h->miss[i], 4 * most * pow(rho, 1 - nodes) / (rho - 1));
@@ -210,7 +210,7 @@ qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, int n
 bool
 qdot_polynomial_bounds_within(qdot_polynomial_bounds *h, double a, double b, int nodes)
 {
-    return go_around(h, a, b, nodes, 1);
+    return bound_on_ellipse(h, a, b, nodes, 1);
 }
 
 void
@@ -219,7 +219,7 @@ qdot_polynomial_bounds_enclose(qdot_polynomial_bounds *h, double a, double b, in
     fit_inputs(h, nodes);
     for (size_t k = 0; k < h->n_used; k++) {
         const double *c = h->fits + k * MOST;
-        const double r = qdot_chebyshev_ellipse(nodes, c, noise_of(h, k, a, b), 1);
+        const double r = qdot_chebyshev_ellipse(nodes, c, chebyshev_rounding_error(h, k, a, b), 1);
 
         h->span[h->used[k]] = (qdot_interval){nextafter(c[0] - r, -INFINITY),
                                               nextafter(c[0] + r, INFINITY)};
@@ -243,6 +243,6 @@ qdot_polynomial_bounds_rounding(qdot_polynomial_bounds *h, double a, double b)
     }
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = DBL_EPSILON * fabs(h->centre[h->time]);
-    bounds_evaluate(h);
+    evaluate_on_discs(h);
     return isfinite(h->out_radius[0]) ? h->out_radius[0] : 0;
 }

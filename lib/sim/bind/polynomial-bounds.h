@@ -35,11 +35,11 @@ typedef struct {
     bool resting;          /* no input that is read changes by more than rounding on the stretch
                                */
     double *values;        /* [n_used x QDOT_CHEBYSHEV_MOST] values of the inputs at the nodes */
-    double *fits;          /* [as values] Chebyshev coefficients of the inputs */
+    double *fits;          /* [n_used x QDOT_CHEBYSHEV_MOST] Chebyshev coefficients of the inputs */
     double *scale;         /* [n_used] largest value of each input in this step */
     double *centre, *radius;   /* [inputs] discs that contain each input */
-    double *out, *out_radius;  /* [outputs] of the last evaluation */
-    double *miss; /* [outputs] bounds of the distance from the polynomial, set by _look */
+    double *out, *out_radius;  /* [outputs] values and error radii of the outputs, of the last evaluation */
+    double *miss; /* [outputs] bounds of |output - its interpolating polynomial|, set by qdot_polynomial_bounds_look */
     double *work;
     qdot_interval *span, *box; /* [inputs] on the stretch; [outputs] intervals found by _enclose
                                    */
@@ -56,7 +56,7 @@ void qdot_polynomial_bounds_clear(qdot_polynomial_bounds *h);
  * is. */
 void qdot_polynomial_bounds_begin(qdot_polynomial_bounds *h, const double *least);
 
-/* Store the inputs at node j of the next stretch. */
+/* Store the inputs at Chebyshev node j of the next time interval. */
 void qdot_polynomial_bounds_sample(qdot_polynomial_bounds *h, int j, const double *in);
 
 /* After all `nodes` of a ... b are stored: h->miss [outputs] bounds the distance of each output
@@ -72,7 +72,7 @@ void qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, 
 bool qdot_polynomial_bounds_is_hollow(const qdot_polynomial_bounds *h, size_t i,
                                       double part);
 
-/* The fraction at which an interval is cut if the formula may be singular in its middle (0.5). */
+/* The fraction at which an interval is cut, if its middle (0.5) may be a singular point of the formula. */
 #define QDOT_POLYNOMIAL_BOUNDS_BESIDE 0.4867
 
 /* After _look: a bound for the effect of rounding of the inputs on output 0 in the middle of the

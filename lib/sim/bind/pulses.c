@@ -20,10 +20,10 @@ enum {
  * values and in tolerances. */
 static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it = 0.01;
 
-/* The largest exponent u of a force e^u that series and differences can still resolve. */
+/* The largest exponent u of a force e^u whose change power series and differences can still resolve. */
 static const double short_reach = 10;
 
-/* The share of the allowed error that is left to unexamined intervals: for all of them, and for each one. */
+/* The share of the allowed error granted to unexamined intervals: for all of them together, and for each. */
 static const double unknown_in_all = 0.5, unknown_on_one = 0.1;
 
 /* A part begins what is missed if it is that much shorter than the step, and its values change by
@@ -74,14 +74,14 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
     return QDOT_OK;
 }
 
-/* The mean velocity of coordinate i over the step, minus the mean of its velocities at both ends. */
+/* The mean velocity of coordinate i over the step, minus the average of its velocities at both ends of the step. */
 static double
-bend_of(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
+velocity_discrepancy(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {
     return (s->to[i] - s->from[i]) / (s->b - s->a) - 0.5 * (s->from[p->n + i] + s->to[p->n + i]);
 }
 
-/* Interpolate positions and velocities at t by the cubic through both ends of the step. */
+/* Interpolate positions and velocities at t by the cubic polynomial through both ends of the step. */
 static void
 interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y)
 {
@@ -90,7 +90,7 @@ interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y
 
     for (size_t i = 0; i < n; i++) {
         const double v0 = s->from[n + i], v1 = s->to[n + i];
-        const double bend = bend_of(p, s, i);
+        const double bend = velocity_discrepancy(p, s, i);
 
         y[n + i] = v0 * left + v1 * x + 6 * x * left * bend;
         y[i] = s->from[i] +
@@ -98,9 +98,9 @@ interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y
     }
 }
 
-/* Evaluate the state at t: by the interpolation of the step if it has one, else by cubics. */
+/* Evaluate the state at t: by the step's own interpolation if it has one, else by cubic polynomials. */
 static qdot_status
-state_at(qdot_pulses *p, qdot_pulses_step *s, double t, double *y)
+evaluate_state(qdot_pulses *p, qdot_pulses_step *s, double t, double *y)
 {
     if (s->read)
         return s->read(t, y, s->user);
@@ -109,20 +109,20 @@ state_at(qdot_pulses *p, qdot_pulses_step *s, double t, double *y)
 }
 
 static double
-time_at(double a, double b, int nodes, int j)
+chebyshev_time(double a, double b, int nodes, int j)
 {
     return qdot_chebyshev_place(a, b, qdot_chebyshev_node(nodes, j));
 }
 
-/* Evaluate the outputs at the nodes of a ... b; *finite: all are numbers. */
+/* Evaluate the tape's outputs at the Chebyshev nodes of [a, b]; *finite: all are finite numbers. */
 static qdot_status
-sample(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool *finite)
+sample_outputs(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool *finite)
 {
     *finite = true;
     for (int j = 0; j < nodes && *finite; j++) {
-        const double t = time_at(a, b, nodes, j);
+        const double t = chebyshev_time(a, b, nodes, j);
 
-        QDOT_TRY(state_at(p, s, t, p->in));
+        QDOT_TRY(evaluate_state(p, s, t, p->in));
         p->in[2 * p->n] = t;
         qdot_tape_eval(p->tape, p->in, p->out, p->work);
         s->evaluations++;
@@ -142,7 +142,7 @@ sample(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool 
  * these change by nothing more, or by so little over the part that it may be missed. False if a
  * function is singular. */
 static bool
-is_sure(qdot_pulses *p, double a, double b, int nodes)
+shows_no_pulse(qdot_pulses *p, double a, double b, int nodes)
 {
     double c[MOST];
     bool enclosed = false, unknown = false;
@@ -173,7 +173,7 @@ is_sure(qdot_pulses *p, double a, double b, int nodes)
 /* Add the difference between the part's values and the step's polynomials; *peak: its largest yet,
  * at s->t. */
 static void
-add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
+record_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
 {
     double *part = p->parts + p->n_parts++ * (p->m + 1);
 
@@ -183,7 +183,7 @@ add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
         double sum = 0, all = 0, low = v[0], high = v[0];
 
         for (int j = 0; j < FEW; j++) {
-            const double t = time_at(a, b, FEW, j),
+            const double t = chebyshev_time(a, b, FEW, j),
                          x = (2 * t - s->a - s->b) / (s->b - s->a);
             const double d =
                 fabs(v[j] - qdot_chebyshev_at(p->nodes, p->whole + i * MOST, x));
@@ -203,23 +203,23 @@ add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
     }
 }
 
-/* The largest error of output i that is allowed; its integral over the step is `all`. */
+/* The largest allowed error of an output whose integral over the step is `all`. */
 static double
-allowance(const qdot_pulses_step *s, double all)
+allowed_error(const qdot_pulses_step *s, double all)
 {
     return fmax(fmax(tolerances * s->tol, least) * all, floor_of_it * s->tol);
 }
 
-/* Set the error that may remain for each output, from its values at the nodes of the step. */
+/* Set the error allowed for each output, from its values at the Chebyshev nodes of the step. */
 static void
-allow(qdot_pulses *p, const qdot_pulses_step *s)
+set_allowed_errors(qdot_pulses *p, const qdot_pulses_step *s)
 {
     for (size_t i = 0; i < p->m; i++) {
         double all = 0;
 
         for (int j = 0; j < p->nodes; j++)
             all += fabs(p->values[i * MOST + (size_t)j]) / p->nodes;
-        p->allowed[i] = allowance(s, all * fabs(s->b - s->a));
+        p->allowed[i] = allowed_error(s, all * fabs(s->b - s->a));
         p->left[i] = unknown_in_all * p->allowed[i];
     }
 }
@@ -227,7 +227,7 @@ allow(qdot_pulses *p, const qdot_pulses_step *s)
 /* Whether the step is so short that what falls off like an exponential cannot fall off on it: its
  * state within what the ends and their velocities let it be, and as much again. */
 static bool
-step_is_short(qdot_pulses *p, const qdot_pulses_step *s)
+is_short_step(qdot_pulses *p, const qdot_pulses_step *s)
 {
     const size_t n = p->n;
     const double h = fabs(s->b - s->a);
@@ -235,7 +235,7 @@ step_is_short(qdot_pulses *p, const qdot_pulses_step *s)
     size_t last;
 
     for (size_t i = 0; i < n; i++) {
-        const double v0 = s->from[n + i], v1 = s->to[n + i], bend = fabs(bend_of(p, s, i));
+        const double v0 = s->from[n + i], v1 = s->to[n + i], bend = fabs(velocity_discrepancy(p, s, i));
 
         bounds->centre[i] = 0.5 * (s->from[i] + s->to[i]);
         bounds->radius[i] = h * (fmax(fabs(v0), fabs(v1)) + 2 * bend);
@@ -248,22 +248,22 @@ step_is_short(qdot_pulses *p, const qdot_pulses_step *s)
                             &last, bounds->work) == 0;
 }
 
-/* Whether the interval a ... b is so short that no force can rise and fall within it. */
+/* Whether the interval [a, b] is so short that no force can rise and fall within it. */
 static qdot_status
 is_short_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, bool *is)
 {
     const qdot_pulses_step part = {.a = a, .b = b, .from = p->ends, .to = p->ends + 2 * p->n};
 
-    QDOT_TRY(state_at(p, s, a, p->ends));
-    QDOT_TRY(state_at(p, s, b, p->ends + 2 * p->n));
-    *is = step_is_short(p, &part);
+    QDOT_TRY(evaluate_state(p, s, a, p->ends));
+    QDOT_TRY(evaluate_state(p, s, b, p->ends + 2 * p->n));
+    *is = is_short_step(p, &part);
     return QDOT_OK;
 }
 
 /* Examine the parts of a step whose points do not suffice, from left to right; *all: as many as that
  * takes. */
 static qdot_status
-look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
+examine_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
 {
     double ends[DEEPEST + 1], from = s->a, peak = 0;
     bool finite, sure;
@@ -271,15 +271,15 @@ look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
 
     memset(p->beyond, 0, p->m * sizeof *p->beyond);
     memset(p->all, 0, p->m * sizeof *p->all);
-    allow(p, s);
+    set_allowed_errors(p, s);
     p->n_parts = 0;
     ends[0] = s->b;
     for (int depth = 1; depth > 0; looked++) {
         const double to = ends[depth - 1];
 
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(sample(p, s, from, to, FEW, &finite));
-        sure = !finite || is_sure(p, from, to, FEW);
+        QDOT_TRY(sample_outputs(p, s, from, to, FEW, &finite));
+        sure = !finite || shows_no_pulse(p, from, to, FEW);
         if (!sure)
             QDOT_TRY(is_short_part(p, s, from, to, &sure));
         if (!sure && depth < DEEPEST && looked < p->most) {
@@ -287,7 +287,7 @@ look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
             continue;
         }
         if (finite)
-            add_part(p, s, from, to, &peak);
+            record_part(p, s, from, to, &peak);
         from = to;
         depth--;
     }
@@ -299,7 +299,7 @@ look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
 /* The time at which a missed force of output i begins: the first short interval with a change of
  * that output. */
 static void
-find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
+find_pulse_start(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
 {
     const size_t row = p->m + 1;
     const double most = brief * fabs(s->b - s->a), *end = p->parts + p->n_parts * row;
@@ -318,9 +318,9 @@ find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
         }
 }
 
-/* Find the smallest disc about the interval of four numbers, enlarged by rounding. */
+/* Find the smallest disc in the complex plane around an interval of four numbers, enlarged by rounding. */
 static void
-disc_about(const double *x, double *centre, double *radius)
+enclosing_disc(const double *x, double *centre, double *radius)
 {
     const double lo = fmin(fmin(x[0], x[1]), fmin(x[2], x[3])),
                  hi = fmax(fmax(x[0], x[1]), fmax(x[2], x[3]));
@@ -329,7 +329,7 @@ disc_about(const double *x, double *centre, double *radius)
     *radius = 0.5 * (hi - lo) + 4 * DBL_EPSILON * fmax(fabs(lo), fabs(hi));
 }
 
-/* Find discs that enclose the cubics of positions and their slopes, from the control points of the cubics. */
+/* Find discs that enclose the cubics of positions and velocities, from their Bezier control points. */
 static void
 enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
 {
@@ -339,19 +339,19 @@ enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
 
     for (size_t i = 0; i < n; i++) {
         const double x0 = s->from[i], x1 = s->to[i], v0 = s->from[n + i], v1 = s->to[n + i];
-        const double between = 0.5 * (v0 + v1) + 3 * bend_of(p, s, i);
+        const double between = 0.5 * (v0 + v1) + 3 * velocity_discrepancy(p, s, i);
 
-        disc_about((double[]){x0, x0 + third * v0, x1 - third * v1, x1}, bounds->centre + i,
-                   bounds->radius + i);
-        disc_about((double[]){v0, between, between, v1}, bounds->centre + n + i,
-                   bounds->radius + n + i);
+        enclosing_disc((double[]){x0, x0 + third * v0, x1 - third * v1, x1}, bounds->centre + i,
+                       bounds->radius + i);
+        enclosing_disc((double[]){v0, between, between, v1}, bounds->centre + n + i,
+                       bounds->radius + n + i);
     }
 }
 
 /* Whether the polynomial with the Chebyshev coefficients `slope` has one sign, tested on halves to
  * the given depth. */
 static bool
-is_one_way(const double *slope, int depth)
+is_monotonic_polynomial(const double *slope, int depth)
 {
     double parts[2][FEW - 1];
 
@@ -360,30 +360,30 @@ is_one_way(const double *slope, int depth)
     if (depth == 0)
         return false;
     qdot_chebyshev_halves(FEW - 1, slope, parts[0], parts[1]);
-    return is_one_way(parts[0], depth - 1) && is_one_way(parts[1], depth - 1);
+    return is_monotonic_polynomial(parts[0], depth - 1) && is_monotonic_polynomial(parts[1], depth - 1);
 }
 
-/* Whether the argument of instruction k is monotonic in the step. */
+/* Whether the argument of tape instruction k is monotonic in the step. */
 static bool
-goes_one_way(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
+has_monotonic_argument(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
 {
     enum { depth = 4 };
     double values[FEW], c[FEW], slope[FEW], result;
 
     for (int j = 0; j < FEW; j++) {
-        p->in[2 * p->n] = time_at(s->a, s->b, FEW, j);
+        p->in[2 * p->n] = chebyshev_time(s->a, s->b, FEW, j);
         interpolate(p, s, p->in[2 * p->n], p->in);
         values[j] = qdot_disc_argument(p->tape, k, p->in, &result, p->bounds.work);
     }
     qdot_chebyshev_fit(FEW, values, c);
     qdot_chebyshev_derivative(FEW, c, slope);
     return qdot_chebyshev_tail(FEW, c) <= nothing * qdot_chebyshev_spread(FEW, c) &&
-           is_one_way(slope, depth);
+           is_monotonic_polynomial(slope, depth);
 }
 
-/* The argument of instruction k at an end of the step, where the state is y and the time t. */
+/* The argument of tape instruction k at an end of the step, where the state is y and the time is t. */
 static double
-result_at(qdot_pulses *p, size_t k, const double *y, double t)
+argument_at_end(qdot_pulses *p, size_t k, const double *y, double t)
 {
     double result;
 
@@ -397,7 +397,7 @@ result_at(qdot_pulses *p, size_t k, const double *y, double t)
  * argument, of which forces are a multiple, and the argument goes one way: if the function is nearly
  * the same at the step's ends it is so on all of it. */
 static bool
-shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
+forces_show_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
 {
     qdot_polynomial_bounds *bounds = &p->bounds;
     size_t found, k;
@@ -411,17 +411,17 @@ shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
         return found == 0;
     return qdot_disc_is_plain(p->tape, k, bounds->centre, bounds->radius, &most,
                               bounds->work) &&
-           most * fabs(result_at(p, k, s->to, s->b) - result_at(p, k, s->from, s->a)) *
+           most * fabs(argument_at_end(p, k, s->to, s->b) - argument_at_end(p, k, s->from, s->a)) *
                    fabs(s->b - s->a) <=
                floor_of_it * s->tol &&
-           goes_one_way(p, s, k);
+           has_monotonic_argument(p, s, k);
 }
 
-/* The error of output i caused by forces that were missed, divided by its allowed error. */
+/* The error of output i due to forces that the step missed, divided by its allowed error. */
 static double
-missed_error(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
+missed_error_ratio(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {
-    return p->beyond[i] / allowance(s, p->all[i]);
+    return p->beyond[i] / allowed_error(s, p->all[i]);
 }
 
 qdot_status
@@ -431,25 +431,25 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
     bool finite, all;
 
     s->missed = false;
-    if (step_is_short(p, s) || (!s->read && shows_at_ends(p, s)))
+    if (is_short_step(p, s) || (!s->read && forces_show_at_ends(p, s)))
         return QDOT_OK;
     qdot_polynomial_bounds_begin(&p->bounds, NULL);
     memset(p->allowed, 0, 2 * p->m * sizeof *p->allowed);
     for (int nodes = FEW; nodes <= p->nodes; nodes *= 4) {
-        QDOT_TRY(sample(p, s, s->a, s->b, nodes, &finite));
-        if (!finite || is_sure(p, s->a, s->b, nodes))
+        QDOT_TRY(sample_outputs(p, s, s->a, s->b, nodes, &finite));
+        if (!finite || shows_no_pulse(p, s->a, s->b, nodes))
             return QDOT_OK;
     }
     for (size_t i = 0; i < p->m; i++)
         qdot_chebyshev_fit(p->nodes, p->values + i * MOST, p->whole + i * MOST);
-    QDOT_TRY(look_at_parts(p, s, &all));
+    QDOT_TRY(examine_parts(p, s, &all));
     for (size_t i = 1; i < p->m; i++)
-        worst = missed_error(p, s, i) > missed_error(p, s, worst) ? i : worst;
-    s->missed = missed_error(p, s, worst) > 1;
+        worst = missed_error_ratio(p, s, i) > missed_error_ratio(p, s, worst) ? i : worst;
+    s->missed = missed_error_ratio(p, s, worst) > 1;
     if (s->missed) {
-        find_begin(p, worst, s);
+        find_pulse_start(p, worst, s);
         p->most = MOST_PARTS;
-    } else if (!all) { /* even the largest number of parts might not be enough */
+    } else if (!all) { /* examine fewer parts next time: even the largest number might not be enough */
         p->most = p->most > 2 * LEAST_PARTS ? p->most / 2 : LEAST_PARTS;
     }
     return QDOT_OK;

@@ -29,26 +29,26 @@ typedef struct {
     const qdot_tape *tape; /* outputs: M and f; NULL: not made yet */
     size_t n, m;           /* number of coordinates; of outputs that are examined */
     qdot_disc_hiding hiding;
-    int nodes; /* Chebyshev nodes of a part: 16, or 64 for methods that evaluate within steps */
+    int nodes; /* number of Chebyshev nodes on a part of a step: 16, or 64 for methods that evaluate within steps */
     qdot_polynomial_bounds bounds;
     double *in;      /* [2n + 1] inputs of the tape: q, q', t */
     double *out;     /* [outputs] outputs of the tape */
     double *work;    /* scratch of the tape */
     double *largest; /* [m] largest magnitude of each output so far */
-    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] outputs at the nodes of a part */
-    double *whole;   /* [m x QDOT_CHEBYSHEV_MOST] coefficients of the polynomial over the step */
-    double *beyond;  /* [m] integral of |output - polynomial of the step|, from samples */
-    double *all;     /* [m] integral of |output| */
-    double *allowed; /* [m] how large `beyond` may be in this step */
-    double *left;    /* [m] the share of `allowed` left for parts not examined yet */
-    double *ends;    /* [4n] the states at both ends of a part */
+    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] outputs at the Chebyshev nodes of a part of the step */
+    double *whole;   /* [m x QDOT_CHEBYSHEV_MOST] Chebyshev coefficients of the outputs over the step */
+    double *beyond;  /* [m] integral of |output - its interpolating polynomial over the step|, from samples */
+    double *all;     /* [m] integral of |output| over the step */
+    double *allowed; /* [m] allowed value of `beyond` in this step */
+    double *left;    /* [m] what of `allowed` is left for parts not examined yet */
+    double *ends;    /* [4n] the states at both ends of a part of the step */
     double *
-        parts; /* [n_parts x (1 + m)] start of each part; change of the outputs over its length */
+        parts; /* [n_parts x (1 + m)] start time of each part of the step; change of the outputs over its length */
     size_t n_parts;
-    int most; /* largest number of parts; reduced after steps for which it did not suffice */
+    int most; /* largest number of parts of a step; reduced after steps for which it did not suffice */
 } qdot_pulses;
 
-/* A step, and the result of its inspection. */
+/* A step of the integration, and the result of searching it for short forces. */
 typedef struct {
     double a, b, tol;
     const double *from, *to; /* [2n] states at the times a and b */
@@ -57,7 +57,7 @@ typedef struct {
     void *user;
     bool missed;
     double t;            /* time near which most of the force is missed */
-    double begins, part; /* start of that part; longest step that resolves the force */
+    double begins, part; /* start of the missed pulse; longest step that resolves the force */
     uint64_t evaluations;
 } qdot_pulses_step;
 

@@ -42,7 +42,7 @@ qdot_null_vectors(size_t rows, size_t columns, const double *A, size_t count, do
 }
 
 static void
-normalise(const qdot_path *x, double *t)
+normalise_tangent(const qdot_path *x, double *t)
 {
     const double length = sqrt(qdot_path_product(x, t, t));
 
@@ -52,8 +52,8 @@ normalise(const qdot_path *x, double *t)
 
 /* Find the tangents of the two curves at a crossing, into one and two [n + 1]. */
 static void
-directions(const qdot_path *x, const double *c, const double *v, double root, double *one,
-           double *two)
+find_crossing_tangents(const qdot_path *x, const double *c, const double *v, double root, double *one,
+                       double *two)
 {
     const size_t m = x->n + 1;
     const double q = -(c[1] + copysign(root, c[1]));
@@ -62,8 +62,8 @@ directions(const qdot_path *x, const double *c, const double *v, double root, do
         one[i] = q * v[i] + c[0] * v[m + i];
         two[i] = c[2] * v[i] + q * v[m + i];
     }
-    normalise(x, one);
-    normalise(x, two);
+    normalise_tangent(x, one);
+    normalise_tangent(x, two);
 }
 
 bool
@@ -76,7 +76,7 @@ qdot_bifurcation_cross(const qdot_path *x, const double *c, double *v, const dou
 
     if (!(root > least * (c[0] * c[0] + c[1] * c[1] + c[2] * c[2])))
         return false;
-    directions(x, c, v, sqrt(root), one, two);
+    find_crossing_tangents(x, c, v, sqrt(root), one, two);
     *kind = fmin(fabs(one[m - 1]), fabs(two[m - 1])) < upright * unit ? QDOT_PITCHFORK
                                                                       : QDOT_TRANSCRITICAL;
     memcpy(other, fabs(qdot_path_product(x, one, t)) > fabs(qdot_path_product(x, two, t)) ? two : one,

@@ -22,7 +22,7 @@ typedef enum {
     QDOT_HOPF,
     QDOT_COLLISION,   /* two frequencies become equal */
     QDOT_DOUBLING,    /* period doubling of an orbit: a multiplier passes -1 */
-    QDOT_HALVING,     /* period halving: an orbit of twice the period ends at one of the period */
+    QDOT_HALVING,     /* period halving: an orbit of twice the period ends at an orbit of the single period */
     QDOT_TORUS,       /* orbit: a pair of multipliers crosses the unit circle */
     QDOT_KREIN,       /* orbit: two pairs of multipliers meet on the unit circle and leave it */
     QDOT_NOT_SIMPLE /* another bifurcation: located between two points, its branches not followed */
@@ -34,10 +34,10 @@ const char *qdot_bifurcation_name(qdot_bifurcation_kind kind);
 
 typedef struct {
     qdot_bifurcation_kind kind;
-    double *y, *error;                 /* [width] place and its error, one block, owned */
+    double *y, *error;                 /* [width] place of the bifurcation and its error, in one block, owned */
     double frequency, frequency_error; /* Hopf: angular frequency; torus: angle of the multipliers */
     bool reached; /* period doubling: a branch of twice the period begins or ends there */
-    char reason[QDOT_PATH_REASON]; /* why no such branch was followed; "": it was, or it was not tried */
+    char reason[QDOT_PATH_REASON]; /* why no branch of doubled period was followed; "": one was, or none was sought */
 } qdot_bifurcation;
 
 /* The bracket of a bifurcation: it lies between arclengths `from` and `to` from the point a, along
@@ -47,7 +47,7 @@ typedef struct {
     double from, to;
     bool changes; /* the test function has clearly different signs at both ends */
     bool stays;   /* the test function has clearly the same sign at both ends */
-    bool jumps;   /* the test function jumps: the points lie on two curves */
+    bool jumps;   /* the test function jumps: the two end points lie on different curves */
 } qdot_bifurcation_bracket;
 
 typedef enum {

@@ -18,7 +18,7 @@ static const double close_together = 1e-2;
 /* How far apart two bifurcations of a kind may be found that are one: those that are not located better
  * than by their errors, and those of equations with accurate test functions, by these. */
 static double
-tolerance_of_identity(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
+coincidence_tolerance(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
 {
     const double errors = sqrt(qdot_path_product(x, a->error, a->error)) +
                           sqrt(qdot_path_product(x, b->error, b->error));
@@ -28,23 +28,23 @@ tolerance_of_identity(const qdot_path *x, const qdot_bifurcation *a, const qdot_
     return x->dips ? 4 * errors + rounded : together;
 }
 
-/* The index of this bifurcation in the list; the length of the list if it is new. */
+/* The index of a bifurcation in the list of those found; the length of the list if it is new. */
 static size_t
-index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
+index_of_bifurcation(const qdot_branch_search *s, const qdot_bifurcation *b)
 {
     size_t i = 0;
 
     while (i < s->all->bifurcations.n &&
            (s->all->bifurcations.at[i].kind != b->kind ||
             qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) >
-                tolerance_of_identity(s->x, &s->all->bifurcations.at[i], b)))
+                coincidence_tolerance(s->x, &s->all->bifurcations.at[i], b)))
         i++;
     return i;
 }
 
-/* Record the pairs of the latest crossing, at bifurcation `at`, with earlier ones. */
+/* Record with which earlier crossings the latest one, at bifurcation `at`, forms a close pair. */
 static qdot_status
-pair_crossing(qdot_branch_search *s, size_t at)
+record_close_pairs(qdot_branch_search *s, size_t at)
 {
     for (size_t k = 0; k + 1 < s->crossings.n; k++) {
         const size_t other = s->crossings.at[k].at;
@@ -82,7 +82,7 @@ qdot_branch_turn_back(const qdot_path *x, double *y)
 qdot_status
 qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size_t *mark)
 {
-    const size_t i = index_of(s, b);
+    const size_t i = index_of_bifurcation(s, b);
     qdot_status status = QDOT_OK;
 
     *mark = i + 1;
@@ -98,7 +98,7 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
         status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
         other = status == QDOT_OK ? NULL : other;
         if (status == QDOT_OK)
-            status = pair_crossing(s, i);
+            status = record_close_pairs(s, i);
     }
     qdot_free(other);
     return status;
@@ -122,7 +122,7 @@ qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_brack
     same = status == QDOT_OK && found == QDOT_BIFURCATION_FOUND;
     for (size_t i = 0; i <= x->n && same; i++)
         same = fabs(b.y[i] - fold->y[i]) <= fold->error[i] + b.error[i];
-    for (size_t i = 0; i < x->n && same; i++) /* a point at the end of an open domain does not belong to the branch */
+    for (size_t i = 0; i < x->n && same; i++) /* an end point of an open domain does not belong to the branch */
         *outside = *outside || b.y[i] - b.error[i] <= qdot_path_end_of(x, i, false, b.y[x->n]) ||
                    b.y[i] + b.error[i] >= qdot_path_end_of(x, i, true, b.y[x->n]);
     if (same) {
@@ -187,7 +187,7 @@ find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, 
 /* How far y lies behind a point of the curve, along the tangent there. Angles of y are moved by full turns, next to those
  * of that point. */
 static double
-way_from(const qdot_path *x, const qdot_path_point *place, double *y)
+arclength_from(const qdot_path *x, const qdot_path_point *place, double *y)
 {
     double way = 0;
 
@@ -202,15 +202,15 @@ way_from(const qdot_path *x, const qdot_path_point *place, double *y)
 /* Insert a->y, which lies `way` behind the kept point `place`, into the points of the branch in the order of the
  * curve. */
 static qdot_status
-insert(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_point *a, size_t mark,
-       qdot_branch *branch)
+insert_branch_point(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_point *a, size_t mark,
+                    qdot_branch *branch)
 {
     qdot_path *x = s->x;
     size_t at = d->count[0];
 
     QDOT_TRY(x->judge(x, a));
     for (size_t k = 1; k < d->n; k++)
-        if (way_from(x, &d->at[place], d->at[k].y) < way)
+        if (arclength_from(x, &d->at[place], d->at[k].y) < way)
             at = d->count[k];
     QDOT_TRY(qdot_branch_insert(x, branch, at, a->y, a->stability, mark));
     for (size_t k = 0; k < d->n; k++)
@@ -221,11 +221,11 @@ insert(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_
 /* The crossings b [2] and a point between them, which has a stability of its own, become points of the branch. Takes
  * what they own. */
 static qdot_status
-insert_pair(qdot_branch_search *s, qdot_dips *d, size_t place, qdot_bifurcation *b, double **other,
-            qdot_path_point *a, qdot_branch *branch)
+insert_two_bifurcations(qdot_branch_search *s, qdot_dips *d, size_t place, qdot_bifurcation *b, double **other,
+                        qdot_path_point *a, qdot_branch *branch)
 {
     qdot_path *x = s->x;
-    const double way[2] = {way_from(x, &d->at[place], b[0].y), way_from(x, &d->at[place], b[1].y)};
+    const double way[2] = {arclength_from(x, &d->at[place], b[0].y), arclength_from(x, &d->at[place], b[1].y)};
     qdot_status status = QDOT_OK;
     int steps;
 
@@ -237,10 +237,10 @@ insert_pair(qdot_branch_search *s, qdot_dips *d, size_t place, qdot_bifurcation 
         status = qdot_branch_mark(s, &b[k], other[k], &mark);
         b[k].y = other[k] = NULL;
         if (status == QDOT_OK)
-            status = insert(s, d, place, way[k], a, mark, branch);
+            status = insert_branch_point(s, d, place, way[k], a, mark, branch);
     }
     if (status == QDOT_OK && qdot_path_go(x, &d->at[place], (way[0] + way[1]) / 2, a, &steps))
-        status = insert(s, d, place, (way[0] + way[1]) / 2, a, 0, branch);
+        status = insert_branch_point(s, d, place, (way[0] + way[1]) / 2, a, 0, branch);
     return status;
 }
 
@@ -263,9 +263,9 @@ qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d, size_t place, double 
         status = find_crossing_from(s, &d->at[place], k == 0 ? -way : way, &room, &b[k], other[k], both);
     }
     *both = *both && status == QDOT_OK &&
-            qdot_path_distance(x, b[0].y, b[1].y) > tolerance_of_identity(x, &b[0], &b[1]);
+            qdot_path_distance(x, b[0].y, b[1].y) > coincidence_tolerance(x, &b[0], &b[1]);
     if (*both && status == QDOT_OK)
-        status = insert_pair(s, d, place, b, other, &room, branch);
+        status = insert_two_bifurcations(s, d, place, b, other, &room, branch);
     for (int k = 0; k < 2; k++) {
         qdot_free(b[k].y);
         qdot_free(other[k]);

@@ -12,10 +12,10 @@
 #include "sim/branches/branch-parts.h"
 #include "sim/branches/dips.h"
 
-/* Reduce angles to -pi < q <= pi, where the equations are known to have that period. */
+/* Reduce angles to -pi < q <= pi if the equations are known to have the period 2 pi in them. */
 void qdot_branch_turn_back(const qdot_path *x, double *y);
 
-/* The longest step from y that stays on this curve although two crossings lie close together. */
+/* The longest step from y along its curve that does not leap to another curve near two close crossings. */
 double qdot_branch_longest_near(const qdot_branch_search *s, const double *y);
 
 /* Keep the bifurcation b, if it is new, with the direction of the other curve; *mark is 1 + its index. Owns both
@@ -41,7 +41,7 @@ QDOT_MUST_CHECK qdot_status qdot_branch_fold_beside(qdot_branch_search *s, const
 QDOT_MUST_CHECK qdot_status qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d,
                                                   size_t place, double way, qdot_branch *branch,
                                                   bool *both);
-/* Record a point at which several curves meet, which is known with the error `apart`. */
+/* Record a point at which several curves meet; its position is known with the error `apart`. */
 QDOT_MUST_CHECK qdot_status qdot_branch_mark_zero(qdot_branch_search *s, const qdot_dips *d,
                                                   size_t place, double apart, qdot_branch *branch);
 

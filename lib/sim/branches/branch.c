@@ -9,41 +9,41 @@
 #include "sim/branches/branch-marks.h"
 #include "sim/branches/branch-points.h"
 
-/* Lengths along curves, where p's range, a full angle in radians and the size of each coordinate count as 1. */
+/* Lengths along curves: p's range, one radian and the typical size of each coordinate count as 1. */
 static const double first_step = 2e-3, far_away = 100;
-/* The tangents of neighbouring points may differ by an angle of at most acos of this. */
+/* Smallest cosine of the angle between the tangents at neighbouring points of a curve. */
 static const double straight = 0.99;
-/* A point whose distance exceeds the step by more than this factor belongs to another curve. */
+/* A point that is farther away than the step, by more than this factor, belongs to another curve. */
 static const double longer = 1.02;
-/* Multipliers of neighbouring orbits turn and grow by less than this, unless the step is short. */
+/* Between neighbouring orbits, multipliers turn and grow by less than this, unless the step is short. */
 static const double turned = 0.5, grown = 1;
-/* Two bifurcations of different kinds that are closer than this (arclength) are taken for one place. */
+/* Bifurcations of different kinds that are closer than this (in arclength) count as one. */
 static const double together = 1e-6;
-/* The smallest step (arclength) with which two curves that do not cross are told apart. */
+/* The smallest step (arclength) that still tells two curves that do not cross from each other. */
 static const double nearest = 1e-8;
-/* If rounding hides signs within a step, they are evaluated beyond it by this fraction of the step. */
+/* If rounding hides signs at a step's ends, they are evaluated beyond it by this fraction of the step. */
 static const double beyond = 0.05;
 /* A determinant smaller than this, relative to the largest so far, has an uncertain sign. */
 static const double doubtful = 1e-13;
-/* HALVINGS: steps of the bisection for a bifurcation that Newton's method does not find. */
+/* HALVINGS: number of bisections for a bifurcation that Newton's method does not find. */
 enum { MOST_POINTS = 20000, UNKNOWN = 20, HALVINGS = 52 };
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
 /* Whether p is stationary along the curve at a, as at a fold: the tangent has no component along p. */
 static bool
-is_upright(const qdot_path *x, const qdot_path_point *a)
+is_vertical(const qdot_path *x, const qdot_path_point *a)
 {
     return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < x->upright;
 }
 
-/* Whether no bifurcation of that kind lies between the points a and b of the branch. */
+/* Whether no bifurcation of the given kind lies between the points a and b of the branch. */
 static bool
-is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a,
-          const qdot_path_point *b)
+has_no_bifurcation_between(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a,
+                           const qdot_path_point *b)
 {
     if (kind == QDOT_FOLD)
-        return a->t[x->n] * b->t[x->n] > 0 || (is_upright(x, a) && is_upright(x, b));
+        return a->t[x->n] * b->t[x->n] > 0 || (is_vertical(x, a) && is_vertical(x, b));
     if (kind == QDOT_DOUBLING)
         return a->flip == b->flip;
     if (kind == QDOT_HALVING)
@@ -54,8 +54,8 @@ is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
 /* The test function of a bifurcation of that kind at arclength s from a; 0: there is none, or no point. here:
  * room. */
 static double
-branch_value_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a, double s,
-                qdot_path_point *here)
+test_function_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a, double s,
+                 qdot_path_point *here)
 {
     int steps;
 
@@ -67,10 +67,10 @@ branch_value_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
 /* To the errors, how far ahead of a the determinant would vanish if it went on as behind a, up to its
  * fourth power. */
 static void
-add_way_to_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path_point *here,
-                qdot_bifurcation *out)
+add_error_of_extrapolated_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path_point *here,
+                               qdot_bifurcation *out)
 {
-    const double back = 10 * length, before = branch_value_at(x, QDOT_PITCHFORK, a, -back, here),
+    const double back = 10 * length, before = test_function_at(x, QDOT_PITCHFORK, a, -back, here),
                  way = 4 * back * fabs(a->det / (a->det - before));
 
     for (size_t i = 0; i <= x->n; i++)
@@ -80,7 +80,7 @@ add_way_to_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path
 /* Below, the value that changes its sign is rounding at that point: of a tangent that grows as the determinant
  * falls. */
 static double
-rounding(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *here)
+test_function_rounding(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *here)
 {
     if (kind != QDOT_FOLD)
         return doubtful * x->most_det;
@@ -90,8 +90,8 @@ rounding(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *
 /* Where it may lie, as far as signs are beyond rounding: widen in->from and in->to, also beyond the step
  * of `length`; errors by the places there. */
 static void
-bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point *here,
-              qdot_bifurcation *out)
+widen_to_clear_signs(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point *here,
+                     qdot_bifurcation *out)
 {
     const double middle = (in->from + in->to) / 2;
     const double start = in->to - in->from;
@@ -103,10 +103,10 @@ bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_pa
         double d = fmax((in->to - in->from) / 2, 1e-10), s = middle;
 
         for (; sign[side] == 0; d *= 2) {
-            const double f = branch_value_at(x, out->kind, in->a, s = side ? middle + d : middle - d, here);
+            const double f = test_function_at(x, out->kind, in->a, s = side ? middle + d : middle - d, here);
 
             first[side] = first[side] == 0 ? f : first[side];
-            if (fabs(f) > rounding(x, out->kind, here))
+            if (fabs(f) > test_function_rounding(x, out->kind, here))
                 sign[side] = f;
             else if (s < -beyond || s > length + beyond)
                 break;
@@ -119,7 +119,7 @@ bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_pa
             out->error[i] = fmax(out->error[i], sign[side] != 0 ? fabs(here->y[i] - out->y[i])
                                                                 : beyond / sqrt(x->weight[i]));
     }
-    if (out->kind == QDOT_FOLD) /* a fold: p is extremal between the two slopes, not at one of the points */
+    if (out->kind == QDOT_FOLD) /* at a fold p is extremal between the two points, not at one of them */
         out->error[x->n] = fmax(out->error[x->n], fmax(fabs(sign[0]), fabs(sign[1])) * (in->to - in->from) /
                                                       sqrt(x->weight[x->n]));
     in->changes = sign[0] * sign[1] < 0;
@@ -128,12 +128,12 @@ bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_pa
                 (start > 1e-6 * length ||
                  fmin(fabs(first[0]), fabs(first[1])) > 1e-3 * fabs(in->a->det));
     if (in->jumps)
-        add_way_to_zero(x, in->a, length, here, out);
+        add_error_of_extrapolated_zero(x, in->a, length, here, out);
 }
 
-/* Bisect between a and in->to; out->y becomes the middle of the last interval, out->error its length. */
+/* Bisect between the point a and arclength in->to; out->y: the middle of the last interval, out->error: its length. */
 static qdot_status
-enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcation *out)
+bisect_for_bifurcation(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcation *out)
 {
     const qdot_path_point *a = in->a;
     const double unit = 1 / sqrt(x->weight[x->n]);
@@ -149,11 +149,11 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
 
         if (!qdot_path_go(x, a, half, &middle, &steps) ||
             qdot_path_product(x, a->t, middle.t) < straight)
-            break; /* too near to a crossing, or the step has jumped to the other curve */
+            break; /* stop: the point is too near to a crossing, or the step has jumped to another curve */
         memcpy(out->y, middle.y, x->width * sizeof *out->y);
         if (out->kind == QDOT_HOPF || out->kind == QDOT_DOUBLING)
             status = x->judge(x, &middle);
-        if (is_before(x, out->kind, a, &middle))
+        if (has_no_bifurcation_between(x, out->kind, a, &middle))
             from = half;
         else
             s = half;
@@ -165,7 +165,7 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
     for (size_t i = x->n + 1; i < x->width; i++)
         out->error[i] = NAN;
     if (status == QDOT_OK && x->dips && (out->kind == QDOT_FOLD || out->kind == QDOT_PITCHFORK))
-        bracket_widen(x, in, length, &middle, out);
+        widen_to_clear_signs(x, in, length, &middle, out);
     qdot_path_point_end(&middle);
     return status;
 }
@@ -173,7 +173,7 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
 /* Whether the curve has this mark already and has not left its surroundings since: a crossing at which the curve
  * turns is told by either sign. */
 static bool
-is_latest(const qdot_path *x, const qdot_branch *branch, const double *y, size_t mark)
+is_last_point(const qdot_path *x, const qdot_branch *branch, const double *y, size_t mark)
 {
     for (size_t k = branch->n; k-- > 0 && qdot_path_distance(x, branch->y + k * x->width, y) < first_step;)
         if (branch->mark[k] == mark)
@@ -181,9 +181,9 @@ is_latest(const qdot_path *x, const qdot_branch *branch, const double *y, size_t
     return false;
 }
 
-/* Record a bifurcation and add its point to the branch. Takes ownership of b->y and other. */
+/* Record a bifurcation and add its point to the branch. Takes ownership of b->y and of `other`. */
 static qdot_status
-mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
+record_bifurcation(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
 {
     qdot_path *x = s->x;
     qdot_path_point here = {0};
@@ -206,7 +206,7 @@ mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *
     }
     qdot_branch_turn_back(x, b->y);
     status = qdot_branch_mark(s, b, other, &mark);
-    if (status == QDOT_OK && !is_latest(x, branch, here.y, mark))
+    if (status == QDOT_OK && !is_last_point(x, branch, here.y, mark))
         status = qdot_branch_add(x, branch, here.y, here.stability, mark);
     qdot_path_point_end(&here);
     return status;
@@ -215,8 +215,8 @@ mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *
 /* The bifurcation of that kind between a and the point at `length` from it: a point of the branch.
  * beside [n + 1]: of a crossing in this step, at which a fold is none; NULL: none. */
 static qdot_status
-branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifurcation_kind kind,
-              const double *beside, qdot_branch *branch)
+locate_bifurcation(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifurcation_kind kind,
+                   const double *beside, qdot_branch *branch)
 {
     qdot_path *x = s->x;
     const size_t w = x->width;
@@ -224,12 +224,12 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
     qdot_bifurcation_bracket in = {.a = a, .to = length};
     double *guess = qdot_calloc(w, sizeof *guess), *other = qdot_calloc(x->n + 1, sizeof *other);
     qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
-    bool nothing = false, other_curve; /* the points ahead lie on another curve, which does not cross this one */
+    bool nothing = false, other_curve; /* the points ahead lie on another curve, which does not cross the one being followed */
     qdot_status status = b.y && guess && other ? QDOT_OK : QDOT_ENOMEM;
 
     b.error = b.y + w;
     if (status == QDOT_OK)
-        status = enclose(x, &in, x->halvings, &b);
+        status = bisect_for_bifurcation(x, &in, x->halvings, &b);
     if (status == QDOT_OK) {
         memcpy(guess, b.y, w * sizeof *guess);
         status = s->find(s->user, &in, &b, other, &answer);
@@ -239,7 +239,7 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
     if (status == QDOT_OK && answer == QDOT_BIFURCATION_NONE && x->halvings < UNKNOWN) {
         b.kind = kind;
         in = (qdot_bifurcation_bracket){.a = a, .to = length};
-        status = enclose(x, &in, UNKNOWN, &b);
+        status = bisect_for_bifurcation(x, &in, UNKNOWN, &b);
         memcpy(guess, b.y, w * sizeof *guess);
     }
     s->over = kind == QDOT_HALVING                ? QDOT_END_HALF
@@ -253,7 +253,7 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
     if (other_curve && !s->leapt)
         s->over = QDOT_END_LOST;
     if (kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && in.stays)
-        nothing = true; /* the curve is vertical in p there; rounding turned its tangent */
+        nothing = true; /* no fold: the curve is vertical in p there, and only rounding turned its tangent */
     if (status == QDOT_OK && kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && !nothing && x->dips)
         status = qdot_branch_fold_is_crossing(s, &in, &b, other, &answer, &nothing);
     if (status == QDOT_OK && x->dips && kind == QDOT_FOLD && b.kind != QDOT_FOLD && answer == QDOT_BIFURCATION_FOUND)
@@ -266,7 +266,7 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
         }
         if (beside == NULL || (x->dips && answer == QDOT_BIFURCATION_FOUND) ||
             qdot_path_distance(x, beside, b.y) >= 1e-4) {
-            status = mark_it(s, &b, other, branch);
+            status = record_bifurcation(s, &b, other, branch);
             b.y = other = NULL;
         }
     }
@@ -278,8 +278,8 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
 
 /* Find all bifurcations between the points a and b of a curve, which are `length` apart. */
 static qdot_status
-look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_point *b,
-             double length, qdot_branch *branch)
+find_bifurcations_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_point *b,
+                          double length, qdot_branch *branch)
 {
     const size_t w = s->x->width, before = branch->n;
     const bool known = a->growing >= 0 && b->growing >= 0;
@@ -290,31 +290,31 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
         s->leapt = true;
         return QDOT_OK;
     }
-    if (!is_before(s->x, QDOT_HALVING, a, b)) {
+    if (!has_no_bifurcation_between(s->x, QDOT_HALVING, a, b)) {
         s->leapt = length > first_step;
-        return s->leapt ? QDOT_OK : branch_locate(s, a, length, QDOT_HALVING, NULL, branch);
+        return s->leapt ? QDOT_OK : locate_bifurcation(s, a, length, QDOT_HALVING, NULL, branch);
     }
     if (a->flip * b->flip < 0 && length > together &&
-        (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
-        s->leapt = true; /* the step passed two bifurcations */
+        (!has_no_bifurcation_between(s->x, QDOT_PITCHFORK, a, b) || !has_no_bifurcation_between(s->x, QDOT_FOLD, a, b))) {
+        s->leapt = true; /* the step leapt over two bifurcations */
         return QDOT_OK;
     }
-    if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
-        QDOT_TRY(branch_locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
+    if (!has_no_bifurcation_between(s->x, QDOT_PITCHFORK, a, b)) {
+        QDOT_TRY(locate_bifurcation(s, a, length, QDOT_PITCHFORK, NULL, branch));
         if (s->leapt || s->over != QDOT_END_STOPPED)
             return QDOT_OK;
         if (branch->n > before)
             crossing = branch->y + before * w;
     }
-    if (!is_before(s->x, QDOT_FOLD, a, b) && crossing == NULL)
-        return branch_locate(s, a, length, QDOT_FOLD, NULL, branch);
-    if (!is_before(s->x, QDOT_FOLD, a, b)) {
+    if (!has_no_bifurcation_between(s->x, QDOT_FOLD, a, b) && crossing == NULL)
+        return locate_bifurcation(s, a, length, QDOT_FOLD, NULL, branch);
+    if (!has_no_bifurcation_between(s->x, QDOT_FOLD, a, b)) {
         double *const at = qdot_calloc(w, sizeof *at);
         qdot_status status = at ? QDOT_OK : QDOT_ENOMEM;
 
         if (status == QDOT_OK) {
             memcpy(at, crossing, w * sizeof *at);
-            status = branch_locate(s, a, length, QDOT_FOLD, at, branch);
+            status = locate_bifurcation(s, a, length, QDOT_FOLD, at, branch);
         }
         qdot_free(at);
         return status;
@@ -322,20 +322,20 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     if (crossing != NULL)
         return QDOT_OK;
     if (a->flip * b->flip < 0)
-        return branch_locate(s, a, length, QDOT_DOUBLING, NULL, branch);
+        return locate_bifurcation(s, a, length, QDOT_DOUBLING, NULL, branch);
     if (known && s->x->dips && (a->growing - b->growing) % 2 != 0)
-        /* a real eigenvalue passes 0 at a nearby fold or crossing, already reported */
+        /* nothing new: a real eigenvalue passes 0 at a nearby fold or crossing, already reported */
         return QDOT_OK;
     if (known && labs(a->growing - b->growing) >= s->x->least_jump)
-        return branch_locate(s, a, length, QDOT_HOPF, NULL, branch);
+        return locate_bifurcation(s, a, length, QDOT_HOPF, NULL, branch);
     return QDOT_OK;
 }
 
 /* --- steps along a branch ----------------------------------------------------------------- */
 
-/* The bound that y has passed, as the index of its unknown (n for p), *held being the bound; n + 1 if none. */
+/* The index of the unknown (n for p) that has passed its bound, *held being that bound; n + 1 if none has. */
 static size_t
-bound_passed(const qdot_path *x, const double *y, double *held)
+find_passed_bound(const qdot_path *x, const double *y, double *held)
 {
     for (size_t i = 0; i <= x->n; i++) {
         const double lo = i < x->n ? qdot_path_end_of(x, i, false, y[x->n]) : x->least;
@@ -348,10 +348,10 @@ bound_passed(const qdot_path *x, const double *y, double *held)
     return x->n + 1;
 }
 
-/* Move b, on the curve beyond a, to the point at which y_i = held; *length from a. False: not found. */
+/* Move b along the curve beyond a to the point where y_i = held; *length: its distance from a. False: not found. */
 static bool
-end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_point *b,
-       double *length)
+find_point_at_bound(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_point *b,
+                    double *length)
 {
     const double part = (held - a->y[i]) / (b->y[i] - a->y[i]);
     double far = *length;
@@ -369,7 +369,7 @@ end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_
 /* Put b at the last place within all ends, which move with p, on the way of this length from a; *length. False:
  * not found. */
 static bool
-end_by_halving(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, double *length)
+find_end_by_bisection(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, double *length)
 {
     double inside = 0, outside = *length, held;
     int steps;
@@ -379,7 +379,7 @@ end_by_halving(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, doubl
 
         if (!qdot_path_go(x, a, middle, b, &steps))
             return false;
-        *(bound_passed(x, b->y, &held) > x->n ? &inside : &outside) = middle;
+        *(find_passed_bound(x, b->y, &held) > x->n ? &inside : &outside) = middle;
     }
     if (!(inside > 0) || !qdot_path_go(x, a, inside, b, &steps))
         return false;
@@ -390,8 +390,8 @@ end_by_halving(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, doubl
 /* One step from a to b, of a length that it adapts, at most `most`; *last: nothing lies behind b, or
  * behind a if *length is 0. */
 static void
-go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_path_point *b,
-      double *length, qdot_branch_end *why, bool *last)
+make_step(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_path_point *b,
+          double *length, qdot_branch_end *why, bool *last)
 {
     *why = QDOT_END_LOST;
     for (*step = fmin(*step, most); *step > x->shortest && x->failure == QDOT_OK;
@@ -405,11 +405,11 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
         if (!qdot_path_go(x, a, *step, b, &steps) ||
             qdot_path_product(x, a->t, b->t) < straight ||
             qdot_path_distance(x, a->y, b->y) > longer * *step) {
-            if (steps > 1) /* F had values at the next points of the curve */
+            if (steps > 1) /* F was defined at the next points of the curve, so the curve does not end for an undefined F */
                 x->reason[0] = '\0';
             continue;
         }
-        i = bound_passed(x, b->y, &held);
+        i = find_passed_bound(x, b->y, &held);
         if (i > x->n) {
             *step *= steps <= 4 ? 1.5 : 1;
             *last = false;
@@ -417,16 +417,16 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
         }
         *why = i == x->n ? QDOT_END_RANGE : QDOT_END_DOMAIN;
         *last = true;
-        if (x->end != NULL && i < x->n ? end_by_halving(x, a, b, length) : end_at(x, a, i, held, b, length))
+        if (x->end != NULL && i < x->n ? find_end_by_bisection(x, a, b, length) : find_point_at_bound(x, a, i, held, b, length))
             return;
     }
     *length = 0;
     *last = true;
 }
 
-/* The distance of two places in scaled unknowns; angles are not reduced to a turn. */
+/* The scaled distance of two places a and b; angles are not reduced modulo full turns. */
 static double
-scaled_way(const qdot_path *x, const double *a, const double *b)
+unreduced_distance(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;
 
@@ -452,10 +452,10 @@ is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_poin
     return true;
 }
 
-/* Judge the stability of b and find bifurcations between a and b; records if the user interrupted. */
+/* Judge the stability of b and find bifurcations between a and b; notes if the user has interrupted. */
 static qdot_status
-branch_look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
-            qdot_branch *branch)
+examine_step(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
+             qdot_branch *branch)
 {
     qdot_status status = qdot_interrupt_check();
 
@@ -463,15 +463,15 @@ branch_look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b,
     if (status == QDOT_OK)
         status = s->x->judge(s->x, b);
     if (status == QDOT_OK && !b->blurred)
-        status = look_between(s, a, b, length, branch);
+        status = find_bifurcations_between(s, a, b, length, branch);
     s->all->interrupted = status == QDOT_EINTR;
     return status == QDOT_EINTR ? QDOT_OK : status;
 }
 
-/* Inspect the step from a to b; length 0 means that no step could be made. *ends: the branch ends with it. */
+/* Inspect the step from a to b (length 0: no step could be made); *ends: the branch ends with it. */
 static qdot_status
-look_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
-             qdot_branch *branch, bool *ends)
+check_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
+              qdot_branch *branch, bool *ends)
 {
     *ends = true;
     if (s->x->failure == QDOT_EINTR) {
@@ -484,7 +484,7 @@ look_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b
         memcpy(branch->reason[1], s->x->reason, sizeof s->x->reason);
         return QDOT_OK;
     }
-    QDOT_TRY(branch_look(s, a, b, length, branch));
+    QDOT_TRY(examine_step(s, a, b, length, branch));
     if (s->all->interrupted)
         branch->end[1] = QDOT_END_STOPPED;
     else if (b->blurred)
@@ -499,8 +499,8 @@ look_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b
 /* Look whether something dips to 0 between the latest points; *again: a, `gone` and the branch are
  * those of an earlier point, from which the way is gone by shorter steps. */
 static qdot_status
-look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, double length,
-              qdot_path_point *a, double *gone, qdot_branch *branch, bool *again)
+check_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, double length,
+               qdot_path_point *a, double *gone, qdot_branch *branch, bool *again)
 {
     size_t place;
     bool both;
@@ -524,7 +524,7 @@ look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, dou
 
 /* Follow the branch from `start` to its end; a and b are work space for points. */
 static qdot_status
-branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
+follow_branch(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
               qdot_dips *d, qdot_branch *branch)
 {
     qdot_path *x = s->x;
@@ -538,9 +538,9 @@ branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_poi
         const size_t before = branch->n;
         bool again = false, ends;
 
-        go_on(x, a, fmin(fmin(x->longest * fmax(1, far), d->careful), qdot_branch_longest_near(s, a->y)), &step, b,
-              &length, &branch->end[1], &last);
-        QDOT_TRY(look_for_end(s, a, b, length, branch, &ends));
+        make_step(x, a, fmin(fmin(x->longest * fmax(1, far), d->careful), qdot_branch_longest_near(s, a->y)), &step, b,
+                  &length, &branch->end[1], &last);
+        QDOT_TRY(check_for_end(s, a, b, length, branch, &ends));
         if (ends)
             return QDOT_OK;
         if (s->leapt) {
@@ -551,7 +551,7 @@ branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_poi
         if (branch->n > before)
             qdot_dips_forget(d);
         else if (x->dips)
-            QDOT_TRY(look_for_dips(s, d, b, length, a, &gone, branch, &again));
+            QDOT_TRY(check_for_dips(s, d, b, length, a, &gone, branch, &again));
         if (again) {
             step = d->careful;
             last = false;
@@ -564,7 +564,7 @@ branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_poi
         QDOT_TRY(qdot_branch_add(x, branch, b->y, b->stability, 0));
         gone += length;
         qdot_dips_add(x, d, b, gone, branch->n);
-        far = scaled_way(x, start->y, b->y);
+        far = unreduced_distance(x, start->y, b->y);
         if (b->rests || (!last && far > far_away)) {
             branch->end[1] = b->rests ? QDOT_END_REST : QDOT_END_FAR;
             return QDOT_OK;
@@ -589,7 +589,7 @@ qdot_branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_bra
         status = qdot_dips_begin(s->x, &dips);
     if (status == QDOT_OK) {
         qdot_path_point_copy(s->x, start, &a);
-        status = branch_follow(s, start, &a, &b, &dips, branch);
+        status = follow_branch(s, start, &a, &b, &dips, branch);
     }
     qdot_dips_end(&dips);
     qdot_path_point_end(&a);

@@ -88,7 +88,7 @@ qdot_continuation_knows(qdot_branch_search *s, const double *y, bool *known)
 /* One branch of two ways that begin at the same place: the first backwards, `middle` if not NULL, the
  * second. */
 static qdot_status
-branches_join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_stability stability,
+join_branches(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_stability stability,
               size_t mark, const qdot_branch *on)
 {
     const size_t m = s->x->width;
@@ -111,9 +111,9 @@ branches_join(qdot_branch_search *s, const qdot_branch *back, const double *midd
     return status;
 }
 
-/* Shift a closed branch so that it begins, and ends, at its first bifurcation. */
+/* Renumber the points of a closed branch so that it begins and ends at its first bifurcation. */
 static qdot_status
-turn_round(const qdot_path *x, qdot_branch *branch)
+rotate_closed_branch(const qdot_path *x, qdot_branch *branch)
 {
     const size_t m = x->width, last = branch->n - 1;
     double *y = qdot_calloc(m, sizeof *y);
@@ -144,7 +144,7 @@ turn_round(const qdot_path *x, qdot_branch *branch)
 /* Follow the curve in both directions from a point with known tangent; p grows along the second.
  * *alone: no other point was found. */
 static qdot_status
-follow_both(qdot_branch_search *s, qdot_path_point *a, bool *alone)
+follow_in_both_directions(qdot_branch_search *s, qdot_path_point *a, bool *alone)
 {
     const size_t m = s->x->n + 1;
     qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
@@ -164,9 +164,9 @@ follow_both(qdot_branch_search *s, qdot_path_point *a, bool *alone)
     }
     *alone = on.n + back.n == 0 && on.end[1] == QDOT_END_LOST && back.end[1] == QDOT_END_LOST;
     if (status == QDOT_OK && !*alone)
-        status = branches_join(s, &back, a->y, a->stability, 0, &on);
+        status = join_branches(s, &back, a->y, a->stability, 0, &on);
     if (status == QDOT_OK && on.end[1] == QDOT_END_CLOSED)
-        status = turn_round(s->x, &s->all->branches.at[s->all->branches.n - 1]);
+        status = rotate_closed_branch(s->x, &s->all->branches.at[s->all->branches.n - 1]);
     qdot_branch_clear(&back);
     qdot_branch_clear(&on);
     return status;
@@ -190,7 +190,7 @@ largest_residual(qdot_branch_search *s, const double *y, double part, double *ro
 /* From a place y at its p: polished, its curve followed unless it is known; *left: it has no single direction, or
  * nothing is found beside it. */
 static qdot_status
-follow_from(qdot_branch_search *s, const double *y, bool *left)
+follow_from_point(qdot_branch_search *s, const double *y, bool *left)
 {
     qdot_path *x = s->x;
     const size_t m = x->n + 1;
@@ -207,7 +207,7 @@ follow_from(qdot_branch_search *s, const double *y, bool *left)
             qdot_path_distance(x, a.y, y) < 1e-3 && qdot_path_tangent(x, up, &a)) {
             status = qdot_continuation_knows(s, a.y, &known);
             if (status == QDOT_OK && !known)
-                status = follow_both(s, &a, &alone);
+                status = follow_in_both_directions(s, &a, &alone);
             known = false;
         }
         *left = alone || (known && largest_residual(s, y, 0, up) < zero * largest_residual(s, y, 0.3, up));
@@ -219,9 +219,9 @@ follow_from(qdot_branch_search *s, const double *y, bool *left)
 
 /* --- crossings of branches ----------------------------------------------------------------- */
 
-/* Whether dp/ds changes its sign between the crossing `start` and a: then that step has jumped over a fold. */
+/* Whether dp/ds changes its sign between the crossing `start` and a: then the step leapt over a fold. */
 static bool
-turns_between(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a)
+has_fold_between(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a)
 {
     return start->t[x->n] * a->t[x->n] < 0 && fabs(start->t[x->n]) * sqrt(x->weight[x->n]) > upright;
 }
@@ -248,7 +248,7 @@ point_beyond_crossing(qdot_path *x, const double *y, const double *other, double
             along += x->weight[i] * (a->y[i] - y[i]) * start->t[i];
         length = qdot_path_distance(x, a->y, y);
         if (along > 0.9 * length && a->y[m - 1] >= x->least && a->y[m - 1] <= x->most &&
-            (over || !turns_between(x, start, a)))
+            (over || !has_fold_between(x, start, a)))
             return true;
     }
     return false;
@@ -257,7 +257,7 @@ point_beyond_crossing(qdot_path *x, const double *y, const double *other, double
 /* A fold beside the crossing `start` on the curve through a: too near to the crossing for a first step to end before it.
  * To the arm. */
 static qdot_status
-add_fold_beside(qdot_branch_search *s, const qdot_path_point *start, const qdot_path_point *a, qdot_branch *arm)
+add_fold_near_crossing(qdot_branch_search *s, const qdot_path_point *start, const qdot_path_point *a, qdot_branch *arm)
 {
     qdot_path *x = s->x;
     const size_t n = x->n, w = x->width;
@@ -294,8 +294,8 @@ add_fold_beside(qdot_branch_search *s, const qdot_path_point *start, const qdot_
 /* Follow one arm of the curve that crosses at y; `arm` stays empty if there is none or if it is
  * known already. */
 static qdot_status
-follow_arm(qdot_branch_search *s, const double *y, const double *other, double way,
-           qdot_branch *arm)
+follow_one_side_of_crossing(qdot_branch_search *s, const double *y, const double *other, double way,
+                            qdot_branch *arm)
 {
     qdot_path_point start = {0}, a = {0};
     bool known = true, over = false;
@@ -314,7 +314,7 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     if (status == QDOT_OK && !known) {
         status = s->x->judge(s->x, &a);
         if (status == QDOT_OK && over && s->x->dips)
-            status = add_fold_beside(s, &start, &a, arm);
+            status = add_fold_near_crossing(s, &start, &a, arm);
         if (status == QDOT_OK)
             status = qdot_branch_add(s->x, arm, a.y, a.stability, 0);
         if (status == QDOT_OK)
@@ -325,9 +325,9 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     return status;
 }
 
-/* Follow the other curve at a bifurcation, along `other`: as one branch through it, or only one arm of it. */
+/* Follow the second curve at a bifurcation, along the direction `other`: on both sides, or only on one. */
 static qdot_status
-follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
+follow_second_curve(qdot_branch_search *s, size_t at, const double *other, bool both)
 {
     const size_t m = s->x->width;
     qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
@@ -336,14 +336,14 @@ follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
 
     if (status == QDOT_OK) {
         memcpy(middle.y, s->all->bifurcations.at[at].y, m * sizeof *middle.y);
-        status = follow_arm(s, middle.y, other, 1, &on);
+        status = follow_one_side_of_crossing(s, middle.y, other, 1, &on);
     }
     if (status == QDOT_OK && both && on.end[1] != QDOT_END_CLOSED)
-        status = follow_arm(s, middle.y, other, -1, &back);
+        status = follow_one_side_of_crossing(s, middle.y, other, -1, &back);
     if (status == QDOT_OK && on.n + back.n > 0)
         status = s->x->judge(s->x, &middle);
     if (status == QDOT_OK && on.n + back.n > 0)
-        status = branches_join(s, &back, middle.y, middle.stability, at + 1, &on);
+        status = join_branches(s, &back, middle.y, middle.stability, at + 1, &on);
     qdot_branch_clear(&back);
     qdot_branch_clear(&on);
     qdot_path_point_end(&middle);
@@ -361,25 +361,25 @@ follow_crossings(qdot_branch_search *s, size_t *done)
          ++*done) {
         const qdot_branch_crossing one = s->crossings.at[*done];
 
-        status = follow_other(s, one.at, one.other, true);
+        status = follow_second_curve(s, one.at, one.other, true);
     }
     return status;
 }
 
 /* --- the whole continuation ----------------------------------------------------------------- */
 
-/* Append the point y to s->all->left, the points that are not on a curve followed so far. */
+/* Append the point y to s->all->left, the points that lie on no curve followed so far. */
 static qdot_status
-add_left(qdot_branch_search *s, const double *y)
+append_unfollowed_point(qdot_branch_search *s, const double *y)
 {
     for (size_t i = 0; i <= s->x->n; i++)
         QDOT_TRY(qdot_vec_push(&s->all->left, y[i]));
     return QDOT_OK;
 }
 
-/* Remove the points that lie on a curve which has been followed. */
+/* Remove from the list of points to be followed those that lie on a curve already followed. */
 static qdot_status
-leave_out_known(qdot_branch_search *s)
+remove_known_points(qdot_branch_search *s)
 {
     const size_t m = s->x->n + 1, n = s->all->left.n;
     size_t kept = 0;
@@ -408,12 +408,12 @@ qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
 
         if (s->all->branches.n >= MOST_BRANCHES)
             return qdot_fail(QDOT_ELIMIT, "more than %d branches", MOST_BRANCHES);
-        QDOT_TRY(follow_from(s, at + k * m, &left));
+        QDOT_TRY(follow_from_point(s, at + k * m, &left));
         if (left)
-            QDOT_TRY(add_left(s, at + k * m));
+            QDOT_TRY(append_unfollowed_point(s, at + k * m));
         QDOT_TRY(follow_crossings(s, &done));
     }
-    return leave_out_known(s);
+    return remove_known_points(s);
 }
 
 qdot_status
@@ -421,7 +421,7 @@ qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other, boo
 {
     size_t done = 0;
 
-    QDOT_TRY(follow_other(s, at, other, false));
+    QDOT_TRY(follow_second_curve(s, at, other, false));
     return crossings ? follow_crossings(s, &done) : QDOT_OK;
 }
 

@@ -15,7 +15,7 @@
 
 void qdot_continuation_clear(qdot_continuation *x);
 
-/* Follow the curves through the points at [count * (n + 1)]; curves already in s->all are kept. */
+/* Follow the curves through the points at [count * (n + 1)]; curves in s->all already remain there. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_follow(qdot_branch_search *s, const double *at,
                                                      size_t count);
 /* Follow one arm of the curve along `other` [n + 1] at bifurcation number `at`; if `crossings`,

@@ -30,9 +30,9 @@ qdot_dips_forget(qdot_dips *d)
     d->n = 0;
 }
 
-/* The test function: the determinant (0), or the scaled component of the tangent along p (1). */
+/* A test function at a point: the determinant (0), or the tangent's scaled component along p (1). */
 static double
-function(const qdot_path *x, const qdot_path_point *a, int which)
+test_function(const qdot_path *x, const qdot_path_point *a, int which)
 {
     return which == 0 ? a->det : a->t[x->n] * sqrt(x->weight[x->n]);
 }
@@ -58,7 +58,7 @@ qdot_dips_add(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, double
     d->gone[last] = gone;
     d->count[last] = count;
     for (int which = 0; which < 2; which++)
-        d->most[which] = fmax(d->most[which], fabs(function(x, b, which)));
+        d->most[which] = fmax(d->most[which], fabs(test_function(x, b, which)));
     if (gone > d->until)
         d->careful = INFINITY;
 }
@@ -66,11 +66,11 @@ qdot_dips_add(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, double
 /* Whether f dips between z = at[0] and c; *left: the smaller of |f_z|, |f_c|; *place: which of a, b is
  * nearer to 0. */
 static bool
-is_dip(const qdot_path *x, const qdot_dips *d, const qdot_path_point *c, int which, double *left,
-       size_t *place)
+has_dip(const qdot_path *x, const qdot_dips *d, const qdot_path_point *c, int which, double *left,
+        size_t *place)
 {
-    const double z = function(x, &d->at[0], which), a = function(x, &d->at[1], which),
-                 b = function(x, &d->at[2], which), e = function(x, c, which);
+    const double z = test_function(x, &d->at[0], which), a = test_function(x, &d->at[1], which),
+                 b = test_function(x, &d->at[2], which), e = test_function(x, c, which);
 
     *left = fmin(fabs(z), fabs(e));
     *place = fabs(a) < fabs(b) ? 1 : 2;
@@ -86,7 +86,7 @@ qdot_dips_look(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, doubl
         const double step = (gone - d->gone[0]) / 3;
         double left;
 
-        if (!is_dip(x, d, b, which, &left, place))
+        if (!has_dip(x, d, b, which, &left, place))
             continue;
         if (step > 4 * shortest && left > rounding[which] * d->most[which]) {
             d->careful = step / 4;

@@ -6,12 +6,12 @@
 
 enum { POINTS = 4, HALVINGS = 60 };
 
-/* Points are on one curve if the tangents differ by no more than the angle with this cosine. */
+/* Points are on one curve if the angle between their tangents is at most that with this cosine. */
 static const double straight = 0.9;
 
 /* The value at s of the cubic with values f_k at s = -3, -1, 1, 3. */
 static double
-cubic(const double *f, size_t stride, double s)
+evaluate_cubic(const double *f, size_t stride, double s)
 {
     static const double at[POINTS] = {-3, -1, 1, 3};
     double sum = 0;
@@ -27,16 +27,16 @@ cubic(const double *f, size_t stride, double s)
     return sum;
 }
 
-/* The zero of the cubic between the two nodes at its ends, where its values have different signs. */
+/* The zero of a cubic between its outermost nodes, where its values have different signs. */
 static double
-zero_of(const double *f)
+zero_of_cubic(const double *f)
 {
     double lo = -3, hi = 3;
 
     for (int k = 0; k < HALVINGS; k++) {
         const double middle = (lo + hi) / 2;
 
-        if ((cubic(f, 1, middle) > 0) == (f[0] > 0))
+        if ((evaluate_cubic(f, 1, middle) > 0) == (f[0] > 0))
             lo = middle;
         else
             hi = middle;
@@ -64,10 +64,10 @@ qdot_fold_guess(qdot_path *x, const qdot_path_point *a, const double *crossing, 
     }
     *found = *found && slope[0] * slope[POINTS - 1] < 0;
     if (*found) {
-        const double s = zero_of(slope);
+        const double s = zero_of_cubic(slope);
 
         for (size_t i = 0; i < m; i++)
-            y[i] = cubic(places + i, m, s);
+            y[i] = evaluate_cubic(places + i, m, s);
     }
     qdot_path_point_end(&here);
     qdot_free(places);

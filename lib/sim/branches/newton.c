@@ -74,7 +74,7 @@ newton_step_length(qdot_newton *s, double *x)
 }
 
 static qdot_status
-prove(qdot_newton *s, double *x, double *error)
+prove_solution(qdot_newton *s, double *x, double *error)
 {
     qdot_isolate isolate;
 
@@ -113,8 +113,8 @@ iterate(qdot_newton *s, double *x, double *error, bool *found)
         before = length;
     }
     if (*found || length > blurred || s->n > MOST_PROVED)
-        return *found ? prove(s, x, error) : QDOT_OK;
-    QDOT_TRY(prove(s, x, error)); /* two close zeros: doubles cannot separate them, ball arithmetic may */
+        return *found ? prove_solution(s, x, error) : QDOT_OK;
+    QDOT_TRY(prove_solution(s, x, error)); /* doubles cannot separate two close zeros, but ball arithmetic may */
     *found = s->regular;
     return QDOT_OK;
 }
@@ -131,9 +131,9 @@ qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
         memcpy(start, x, n * sizeof *x);
         status = iterate(s, x, error, found);
     }
-    if (status == QDOT_OK && !s->regular && n <= MOST_PROVED) { /* rounding may have led away from a good guess */
+    if (status == QDOT_OK && !s->regular && n <= MOST_PROVED) { /* rounding may have led away from a good guess: test that */
         memset(s->step, 0, n * sizeof *s->step);
-        status = prove(s, start, start_error);
+        status = prove_solution(s, start, start_error);
         if (status == QDOT_OK && s->regular) {
             *found = true;
             memcpy(x, start, n * sizeof *x);

@@ -21,7 +21,7 @@ typedef struct {
     qdot_tape *tape;
     double *f_value, *J, *step, *work; /* values [n], Jacobian [n x n], step and scratch [n] */
     qdot_lu_row *rows;
-    bool regular; /* the latest zero is proved regular, or n is too large for a proof */
+    bool regular; /* it is proved that the latest zero is regular (J not singular), or n is too large for a proof */
 } qdot_newton;
 
 /* Room for n equations; then x and f are filled, then they are lowered. From {0}; ended in any

@@ -13,11 +13,11 @@ static const double wide = 0.1, narrower = 0.3, difference = 1e-4, upright = 1e-
 /* A crossing whose position polynomials determine no better than this, in units of the curve, is none: two curves
  * come near each other. */
 static const double apart = 1e-10;
-/* A relative rounding error common to both runs, which their difference does not show. */
+/* A relative rounding error common to the fine and the coarse run, which their difference does not show. */
 static const double rounding = 4e-15;
-/* A pair of multipliers on the unit circle: ||mu| - 1| is below the first, |sin(arg mu)| above the second. */
+/* Multipliers mu are a pair on the unit circle if ||mu| - 1| < on_circle and |sin(arg mu)| > off_axis. */
 static const double on_circle = 1e-6, off_axis = 1e-3;
-/* The smallest error that is assumed for a crossing, for an orbit of length 1. */
+/* The smallest error assumed for the arclength of a crossing. */
 static const double least_off = 5e-14;
 /* If the states half a period apart differ by less than this (in scaled length), the period is half as long. */
 static const double half = 1e-9;
@@ -29,16 +29,16 @@ typedef struct {
     qdot_path_point point;    /* the latest point computed */
     qdot_bifurcation_kind kind;
     bool krein;
-    bool apart, rests; /* no crossing: two curves come close; the orbit has shrunk to an equilibrium */
+    bool apart, rests; /* two curves come close without crossing; the orbit has shrunk to an equilibrium */
     double *re, *im, *off; /* [c] multipliers re + i im, and their errors */
-    double *none;          /* [K x c x c] zeros: no errors of the segments' matrices */
-    double angle, beside; /* of the pair nearest to the unit circle: its angle, its distance from the circle */
+    double *none;          /* [K x c x c] zeros, passed where no errors of the segments' matrices are known */
+    double angle, beside; /* of the multiplier pair nearest to the unit circle: its angle, its distance from the circle */
 } search;
 
 /* --- test functions of bifurcations -------------------------------------------------------------- */
 
 static double
-of_pairs(search *f, size_t z)
+pair_test_function(search *f, size_t z)
 {
     double product = 1, nearest = INFINITY;
     size_t trivial = f->x->driven ? 0 : 1;
@@ -75,9 +75,9 @@ of_pairs(search *f, size_t z)
     return product;
 }
 
-/* The test function of the bifurcation at f->point; NaN if it is not known. */
+/* The test function of the bifurcation sought, at the point f->point; NaN if it is not known. */
 static double
-test(search *f)
+evaluate_test_function(search *f)
 {
     const size_t z = f->x->c;
     double product = 1;
@@ -86,7 +86,7 @@ test(search *f)
         return f->point.t[f->x->path.n];
     if (f->kind == QDOT_PITCHFORK)
         return f->point.det;
-    if (f->kind == QDOT_HALVING) /* the other test function is 0 along the other curve */
+    if (f->kind == QDOT_HALVING) /* the usual test function is 0 all along the other curve */
         return qdot_path_halves(&f->x->path, f->point.y, f->point.y) > half * half
                    ? qdot_path_halves(&f->x->path, f->a->y, f->point.y)
                    : NAN;
@@ -98,16 +98,16 @@ test(search *f)
             product *= f->im[k] == 0 ? f->re[k] + 1 : hypot(f->re[k] + 1, f->im[k]);
         return product;
     }
-    return of_pairs(f, z);
+    return pair_test_function(f, z);
 }
 
-/* The test function at arclength s from f->a; NaN if no point was found there. */
+/* The test function of the bifurcation at arclength s from f->a; NaN if no point was found there. */
 static double
-test_at(search *f, double s)
+test_function_at(search *f, double s)
 {
     int steps;
 
-    return qdot_path_go(&f->x->path, f->a, s, &f->point, &steps) ? test(f) : NAN;
+    return qdot_path_go(&f->x->path, f->a, s, &f->point, &steps) ? evaluate_test_function(f) : NAN;
 }
 
 /* --- zeros of test functions ------------------------------------------------------------------ */
@@ -115,19 +115,19 @@ test_at(search *f, double s)
 /* The zero between *lo and *hi, whose values are known, to `fine`, by regula falsi with halved values (Illinois). False:
  * the values do not differ in sign, or one is not known. */
 static bool
-close_in(search *f, double *lo, double *hi, double fine)
+narrow_bracket(search *f, double *lo, double *hi, double fine)
 {
     double *const end[2] = {lo, hi};
-    double value[2] = {test_at(f, *lo), test_at(f, *hi)};
-    size_t last = 2; /* the end moved by the last step; 2: none yet */
+    double value[2] = {test_function_at(f, *lo), test_function_at(f, *hi)};
+    size_t last = 2; /* the end of the interval moved by the last step; 2: none yet */
 
     if (!(value[0] * value[1] <= 0))
         return false;
     for (int step = 0; step < STEPS && *hi - *lo > fine; step++) {
         const double guess = (*lo * value[1] - *hi * value[0]) / (value[1] - value[0]);
         const double s = guess > *lo && guess < *hi ? guess : (*lo + *hi) / 2;
-        const double here = test_at(f, s);
-        const size_t k = here * value[0] > 0 ? 0 : 1; /* the end of the interval that moves */
+        const double here = test_function_at(f, s);
+        const size_t k = here * value[0] > 0 ? 0 : 1; /* the end of the interval that this step moves */
 
         if (isnan(here))
             return false;
@@ -135,9 +135,9 @@ close_in(search *f, double *lo, double *hi, double fine)
             *lo = *hi = s;
             return true;
         }
-        if (fabs(s - *end[k]) < fine / 4) { /* always the same end: step past the zero */
+        if (fabs(s - *end[k]) < fine / 4) { /* the same end has moved each time: step past the zero, to move the other end */
             const double over = k == 0 ? fmin(s + fine / 2, *hi) : fmax(s - fine / 2, *lo);
-            const double there = test_at(f, over);
+            const double there = test_function_at(f, over);
 
             if (!isnan(there) && there * here <= 0) {
                 *end[k] = s;
@@ -167,9 +167,9 @@ interpolate_neville(size_t n, const double *x, const double *f, double s)
     return p[0];
 }
 
-/* The zero of the polynomial through (x, f) next to s, by secants. */
+/* The zero near s of the polynomial through the points (x, f), by the secant method. */
 static double
-zero_through(size_t n, const double *x, const double *f, double s, double step)
+zero_of_interpolant(size_t n, const double *x, const double *f, double s, double step)
 {
     double a = s - step, b = s + step, at_a = interpolate_neville(n, x, f, a),
            at_b = interpolate_neville(n, x, f, b);
@@ -187,7 +187,7 @@ zero_through(size_t n, const double *x, const double *f, double s, double step)
     return b;
 }
 
-/* Interpolate by a polynomial through points near *s: its zero *s, y [n + 1] there, and the error *off of s. */
+/* Fit a polynomial through points near *s: finds its zero *s, y [n + 1] there, and the error *off of s. */
 static bool
 fit_crossing(search *f, double *s, double step, double *y, double *off)
 {
@@ -195,15 +195,15 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
     double at[PLACES], value[PLACES], *all = qdot_malloc(PLACES * m * sizeof *all), zero = NAN;
     bool good = all != NULL;
 
-    for (size_t k = 0; k < PLACES && good; k++) { /* at -5, -3, -1, 1, 3, 5 steps from the crossing */
+    for (size_t k = 0; k < PLACES && good; k++) { /* nodes at -5, -3, -1, 1, 3, 5 steps from the crossing */
         at[k] = *s + step * ((double)(2 * k) - (PLACES - 1));
-        value[k] = test_at(f, at[k]);
+        value[k] = test_function_at(f, at[k]);
         good = isfinite(value[k]);
         memcpy(all + k * m, f->point.y, m * sizeof *all);
     }
     if (good) {
-        zero = zero_through(PLACES, at, value, *s, step);
-        *off = fabs(zero - zero_through(PLACES - 2, at + 1, value + 1, *s, step));
+        zero = zero_of_interpolant(PLACES, at, value, *s, step);
+        *off = fabs(zero - zero_of_interpolant(PLACES - 2, at + 1, value + 1, *s, step));
         good = fabs(zero - *s) < 5 * step;
     }
     for (size_t i = 0; i < m && good; i++) {
@@ -221,7 +221,7 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
 /* Fit a polynomial through places next to *s; if a place lies at the crossing and has no solution, through others
  * beside them. */
 static bool
-fit_beside(search *f, double *s, double step, double *y, double *off)
+fit_crossing_with_shifts(search *f, double *s, double step, double *y, double *off)
 {
     const double from = *s;
 
@@ -236,31 +236,31 @@ fit_beside(search *f, double *s, double step, double *y, double *off)
 /* A crossing between lo and hi, from where a line through both ends says: places nearer and nearer to it, as long as that
  * makes it more certain. To f->point. */
 static bool
-find_crossing(search *f, double lo, double hi, double *off)
+find_crossing_by_fits(search *f, double lo, double hi, double *off)
 {
     const size_t m = f->x->path.n + 1;
-    const double at_lo = test_at(f, lo), at_hi = test_at(f, hi);
+    const double at_lo = test_function_at(f, lo), at_hi = test_function_at(f, hi);
     double s = lo + (hi - lo) * at_lo / (at_lo - at_hi), step = wide * (hi - lo), now;
     double *best = qdot_malloc(2 * m * sizeof *best), *const y = best + m;
-    bool found = best != NULL && at_lo * at_hi <= 0 && fit_beside(f, &s, step, best, off);
+    bool found = best != NULL && at_lo * at_hi <= 0 && fit_crossing_with_shifts(f, &s, step, best, off);
 
     for (int k = 0; k < NARROWINGS && found; k++) {
         step *= narrower;
-        if (!fit_beside(f, &s, step, y, &now) || !(now < *off))
+        if (!fit_crossing_with_shifts(f, &s, step, y, &now) || !(now < *off))
             break;
         memcpy(best, y, m * sizeof *y);
         *off = now;
     }
-    *off = fmax(*off, least_off); /* a lower bound, as two polynomials may agree by chance */
+    *off = fmax(*off, least_off); /* assume at least this error, as two polynomials may agree by chance */
     if (found)
         memcpy(f->point.y, best, m * sizeof *best);
     qdot_free(best);
     return found;
 }
 
-/* Halve lo .. hi, between whose ends the number of multipliers outside the unit circle changes. */
+/* Bisect lo .. hi, between which the number of multipliers outside the unit circle changes. */
 static qdot_status
-halve(search *f, double *lo, double *hi, bool *found)
+bisect_by_multiplier_count(search *f, double *lo, double *hi, bool *found)
 {
     qdot_path *path = &f->x->path;
 
@@ -279,50 +279,50 @@ halve(search *f, double *lo, double *hi, bool *found)
         else
             *hi = s;
     }
-    (void)test(f);
+    (void)evaluate_test_function(f);
     return QDOT_OK;
 }
 
 /* Widen lo .. hi: as multipliers count as growing beyond 1 + 1e-6 only, the circle may lie outside
  * by as much. */
 static void
-multipliers_widen(search *f, double *lo, double *hi)
+widen_bracket(search *f, double *lo, double *hi)
 {
-    for (double by = 1e-9; by < 1e-3 && !(test_at(f, *lo) * test_at(f, *hi) <= 0); by *= 10) {
+    for (double by = 1e-9; by < 1e-3 && !(test_function_at(f, *lo) * test_function_at(f, *hi) <= 0); by *= 10) {
         *lo -= by;
         *hi += by;
     }
 }
 
-/* Whether two curves cross at this bifurcation: orbits can be computed next to it, but not at it. */
+/* Whether two curves cross at the bifurcation, where orbits can be computed only next to it. */
 static bool
-crosses(const search *f)
+is_curve_crossing(const search *f)
 {
     return f->kind == QDOT_PITCHFORK || f->kind == QDOT_HALVING;
 }
 
-/* Locate the bifurcation between lo and hi: y [width], and the error *off of its arclength. */
+/* Locate the bifurcation between arclengths lo and hi: y [width] there, and the error *off of its arclength. */
 static qdot_status
-orbit_locate(search *f, double lo, double hi, double *y, double *off, bool *found)
+locate_orbit_bifurcation(search *f, double lo, double hi, double *y, double *off, bool *found)
 {
     qdot_path *path = &f->x->path;
 
     *found = false;
     if (f->kind == QDOT_TORUS && f->krein) {
-        QDOT_TRY(halve(f, &lo, &hi, found));
+        QDOT_TRY(bisect_by_multiplier_count(f, &lo, &hi, found));
         *off = 1e-10 + hi - lo;
-    } else if (crosses(f)) {
-        *found = find_crossing(f, lo, hi, off);
+    } else if (is_curve_crossing(f)) {
+        *found = find_crossing_by_fits(f, lo, hi, off);
     } else {
         if (f->kind == QDOT_TORUS)
-            multipliers_widen(f, &lo, &hi);
-        *found = close_in(f, &lo, &hi, 1e-13);
+            widen_bracket(f, &lo, &hi);
+        *found = narrow_bracket(f, &lo, &hi, 1e-13);
         *off = hi - lo;
     }
     if (path->failure != QDOT_OK)
         return path->failure;
-    if (*found && !crosses(f))
-        *found = !isnan(test_at(f, (lo + hi) / 2));
+    if (*found && !is_curve_crossing(f))
+        *found = !isnan(test_function_at(f, (lo + hi) / 2));
     if (*found) {
         QDOT_TRY(path->judge(path, &f->point));
         memcpy(y, f->point.y, path->width * sizeof *y);
@@ -332,10 +332,10 @@ orbit_locate(search *f, double lo, double hi, double *y, double *off, bool *foun
 
 /* --- the other branch at a crossing --------------------------------------------------------------- */
 
-/* Find the derivative (psi.F)_y at y + h v: out [n + 1]. */
+/* Find the gradient of psi.F with respect to y, at the shifted point y + h v: out [n + 1]. */
 static bool
-slope_beside(qdot_path *x, const double *y, const double *v, double h, const double *psi,
-             double *room, double *out)
+shifted_gradient(qdot_path *x, const double *y, const double *v, double h, const double *psi,
+                 double *room, double *out)
 {
     const size_t m = x->n + 1;
 
@@ -352,9 +352,9 @@ slope_beside(qdot_path *x, const double *y, const double *v, double h, const dou
     return true;
 }
 
-/* Find the matrix of second derivatives v_i.(psi.F)_yy v_j. */
+/* Find the coefficients v_i.(psi.F)_yy v_j of the quadratic form that determines the crossing curves' tangents. */
 static bool
-find_form(qdot_path *x, const double *y, const double *v, const double *psi, double *room, double *c)
+find_quadratic_form(qdot_path *x, const double *y, const double *v, const double *psi, double *room, double *c)
 {
     const size_t m = x->n + 1;
     double *const up = room + m, *const down = up + m;
@@ -363,8 +363,8 @@ find_form(qdot_path *x, const double *y, const double *v, const double *psi, dou
     for (size_t k = 0; k < 2; k++) {
         const double *const along = v + k * m;
 
-        if (!slope_beside(x, y, along, difference, psi, room, up) ||
-            !slope_beside(x, y, along, -difference, psi, room, down))
+        if (!shifted_gradient(x, y, along, difference, psi, room, up) ||
+            !shifted_gradient(x, y, along, -difference, psi, room, down))
             return false;
         for (size_t j = 0; j < m; j++) {
             const double second = (up[j] - down[j]) / (2 * difference);
@@ -400,9 +400,9 @@ find_null_vectors(qdot_path *x, const double *y, double *v, double *psi)
     return qdot_null_vectors(m, n, x->A, 1, psi);
 }
 
-/* Choose the sign of t so that its largest scaled component is positive. */
+/* Choose the sign of the direction t so that its largest scaled component is positive. */
 static void
-point_up(const qdot_path *x, double *t)
+make_largest_component_positive(const qdot_path *x, double *t)
 {
     size_t most = 0;
 
@@ -414,7 +414,7 @@ point_up(const qdot_path *x, double *t)
     t[most] = fabs(t[most]);
 }
 
-/* Find the tangent of the branch of doubled period at y; along it p is constant to first order. */
+/* Find the tangent, at y, of the branch of doubled period; along the tangent p is constant to first order. */
 qdot_status
 qdot_orbit_bifurcation_double(qdot_orbit_path *orbit, const double *y, double *t)
 {
@@ -429,13 +429,13 @@ qdot_orbit_bifurcation_double(qdot_orbit_path *orbit, const double *y, double *t
     for (size_t i = 0; i < m && status == QDOT_OK; i++)
         t[i] /= size;
     if (status == QDOT_OK)
-        point_up(x, t);
+        make_largest_component_positive(x, t);
     qdot_free(v);
     return status;
 }
 
 static qdot_status
-classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other, bool *found)
+classify_orbit_bifurcation(search *f, const double *y, qdot_bifurcation_kind *kind, double *other, bool *found)
 {
     qdot_path *x = &f->x->path;
     const size_t m = x->n + 1;
@@ -443,11 +443,11 @@ classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other,
     qdot_status status = v ? find_null_vectors(x, y, v, psi) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
-        *found = find_form(x, y, v, psi, psi + m, c) &&
+        *found = find_quadratic_form(x, y, v, psi, psi + m, c) &&
                  qdot_bifurcation_cross(x, c, v, f->a->t, upright, 1e-12, kind, other);
         status = x->failure;
         if (*found)
-            point_up(x, other);
+            make_largest_component_positive(x, other);
     }
     qdot_free(v);
     return qdot_grave(status);
@@ -455,9 +455,9 @@ classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other,
 
 /* --- locating a bifurcation of any kind ----------------------------------------------------------- */
 
-/* The point a, recomputed by the run with the coarse tolerance. */
+/* Recompute the point a of the curve by the run with the coarse tolerance. */
 static bool
-as_coarse(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
+recompute_coarsely(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
 {
     qdot_path *path = &x->path;
     int steps;
@@ -466,7 +466,7 @@ as_coarse(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
     return qdot_path_go(path, a, 0, to, &steps);
 }
 
-/* Find the bifurcation once more by the coarse runs, and the errors of y by the difference. */
+/* Find the bifurcation again by runs with the coarse tolerance; the difference gives the errors of y. */
 static qdot_status
 orbit_find_errors(search *f, double lo, double hi, const double *y, const double *t, double off,
                   double *error, bool *found)
@@ -480,10 +480,10 @@ orbit_find_errors(search *f, double lo, double hi, const double *y, const double
 
     *found = false;
     qdot_orbit_path_ask(x, 1);
-    if (status == QDOT_OK && as_coarse(x, a, &start)) {
+    if (status == QDOT_OK && recompute_coarsely(x, a, &start)) {
         start.growing = a->growing;
         f->a = &start;
-        status = orbit_locate(f, lo, hi, other, &coarse_off, found);
+        status = locate_orbit_bifurcation(f, lo, hi, other, &coarse_off, found);
         f->a = a;
     }
     qdot_orbit_path_ask(x, 0);
@@ -500,18 +500,18 @@ orbit_find_errors(search *f, double lo, double hi, const double *y, const double
 }
 
 static qdot_status
-orbit_find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, double *other,
-           bool *found)
+find_orbit_bifurcation(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, double *other,
+                       bool *found)
 {
     const size_t w = f->x->path.width, m = f->x->path.n + 1;
     double *y = qdot_calloc(w + m, sizeof *y), *const t = y + w, off = 0;
-    qdot_status status = y ? orbit_locate(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
+    qdot_status status = y ? locate_orbit_bifurcation(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
     const double angle = f->angle;
-    /* otherwise several real multipliers pass through -1 or 1 at once */
+    /* otherwise several real multipliers pass 1 or -1 at once */
     const bool pair = fabs(sin(angle)) > off_axis && (f->krein || f->beside < on_circle);
 
     if (status == QDOT_OK)
-        memcpy(t, crosses(f) ? in->a->t : f->point.t, m * sizeof *t);
+        memcpy(t, is_curve_crossing(f) ? in->a->t : f->point.t, m * sizeof *t);
     if (*found && f->kind == QDOT_PITCHFORK) {
         f->rests = f->point.rests;
         f->apart = !f->rests && off > apart;
@@ -520,7 +520,7 @@ orbit_find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out,
             memcpy(out->y, y, w * sizeof *out->y);
     }
     if (status == QDOT_OK && *found && f->kind == QDOT_PITCHFORK)
-        status = classify(f, y, &f->kind, other, found);
+        status = classify_orbit_bifurcation(f, y, &f->kind, other, found);
     if (status == QDOT_OK && *found) {
         const qdot_bifurcation_kind kind = f->kind;
 
@@ -560,7 +560,7 @@ qdot_orbit_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot
         f.im = f.re + z;
         f.off = f.im + z;
         f.none = f.off + z;
-        status = orbit_find(&f, in, out, other, &found);
+        status = find_orbit_bifurcation(&f, in, out, other, &found);
     }
     if (status == QDOT_OK && found)
         *answer = QDOT_BIFURCATION_FOUND;

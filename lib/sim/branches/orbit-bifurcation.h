@@ -20,7 +20,7 @@
 #include "sim/branches/bifurcation.h"
 #include "sim/branches/orbit-path.h"
 
-/* Locates a bifurcation of orbits; a qdot_bifurcation_finder whose user pointer is the path. */
+/* Locate a bifurcation of orbits; x is the qdot_orbit_path, passed as the finder's user pointer. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_bifurcation_find(void *x, const qdot_bifurcation_bracket *in,
                                                         qdot_bifurcation *out, double *other,
                                                         qdot_bifurcation_answer *answer);

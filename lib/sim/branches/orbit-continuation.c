@@ -21,7 +21,7 @@ enum { MOST_TURNS = 4, MOST_DOUBLED = 4, MOST_POINTS = 500 };
  * the sizes, plus their errors. */
 static const double alike = 1e-6;
 
-/* Whether the period grows without bound between points `from` and `to`, which lie at one end of the branch. */
+/* Whether the orbit's period grows without bound between points `from` and `to` of a branch, at one of its ends. */
 static bool
 period_grows(const qdot_path *x, const qdot_branch *b, size_t from, size_t to)
 {
@@ -37,7 +37,7 @@ period_grows(const qdot_path *x, const qdot_branch *b, size_t from, size_t to)
 
 /* Mark the ends of branches at which the period grows without bound. */
 static void
-name_ends(const qdot_path *x, qdot_continuation *all)
+mark_ends_of_infinite_period(const qdot_path *x, qdot_continuation *all)
 {
     for (size_t i = 0; i < all->branches.n; i++) {
         qdot_branch *b = &all->branches.at[i];
@@ -51,7 +51,7 @@ name_ends(const qdot_path *x, qdot_continuation *all)
 }
 
 static qdot_status
-check_range(const qdot_orbit_path *x, double p)
+check_parameter_range(const qdot_orbit_path *x, double p)
 {
     const qdot_orbit_of *of = &x->of;
 
@@ -66,7 +66,7 @@ check_range(const qdot_orbit_path *x, double p)
 /* --- branches of doubled period ------------------------------------------------------------------ */
 
 static qdot_status
-open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation *out)
+start_continuation(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation *out)
 {
     const size_t most = qdot_orbit_path_most(of->scene->coordinates.n);
 
@@ -86,16 +86,16 @@ open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation 
 /* Shorten rows y [width] of x to those of a path with fewer segments, by dropping the states
  * between later segments. */
 static void
-rows_shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
+shorten_point_row(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
 {
-    memmove(out, y, to->n * sizeof *out); /* memmove, because merge() shortens rows in place */
+    memmove(out, y, to->n * sizeof *out); /* memmove, as rows are shortened in place */
     memmove(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
 }
 
 /* Whether y, rows of `to`, at which orbits of twice the period end, is that period doubling: of its first state, or of
  * the one after half of it. */
 static bool
-is_doubling(const qdot_path *once, const qdot_continuation *to, const qdot_bifurcation *d, const double *y)
+is_same_doubling(const qdot_path *once, const qdot_continuation *to, const qdot_bifurcation *d, const double *y)
 {
     const size_t n = to->n, z = once->coordinates - 1;
     const double *const error = y + to->width;
@@ -124,9 +124,9 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
 
     if (y == NULL)
         return QDOT_ENOMEM;
-    rows_shorten(x, to, b.y, y);
-    rows_shorten(x, to, b.error, y + w);
-    while (i < to->bifurcations.n && !is_doubling(once, to, &to->bifurcations.at[i], y))
+    shorten_point_row(x, to, b.y, y);
+    shorten_point_row(x, to, b.error, y + w);
+    while (i < to->bifurcations.n && !is_same_doubling(once, to, &to->bifurcations.at[i], y))
         i++;
     *number = i + 1;
     if (i < to->bifurcations.n) {
@@ -134,7 +134,7 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
         qdot_free(y);
         return QDOT_OK;
     }
-    if (b.kind == QDOT_HALVING) { /* the period-halved orbit is on no branch */
+    if (b.kind == QDOT_HALVING) { /* leave it out: the orbit of half the period is on no branch */
         b.kind = QDOT_DOUBLING;
         b.reached = true;
         y[T] /= 2;
@@ -151,7 +151,7 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
 /* Append the branches and bifurcations of `from` to `to`, where the first bifurcation of `from` is
  * number `at`. */
 static qdot_status
-merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t at, qdot_continuation *to)
+merge_branches(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t at, qdot_continuation *to)
 {
     size_t *number = qdot_calloc(from->bifurcations.n, sizeof *number);
     qdot_status status = number ? QDOT_OK : QDOT_ENOMEM;
@@ -164,8 +164,8 @@ merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t
 
         number[0] = at + 1;
         for (size_t k = 0; k < b->n; k++) {
-            /* in this order, as new rows are not longer than old ones */
-            rows_shorten(x, to, b->y + k * from->width, b->y + k * to->width);
+            /* copy in this order, as the shortened rows never overlap later ones */
+            shorten_point_row(x, to, b->y + k * from->width, b->y + k * to->width);
             b->mark[k] = b->mark[k] > 0 ? number[b->mark[k] - 1] : 0;
         }
         status = qdot_vec_push(&to->branches, *b);
@@ -176,12 +176,12 @@ merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t
     return status;
 }
 
-static qdot_status double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first,
-                              qdot_continuation *out);
+static qdot_status follow_all_doublings(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first,
+                                        qdot_continuation *out);
 
-/* Follow the orbits of doubled period from bifurcation number `at` of out. */
+/* Follow the orbits of doubled period from the bifurcation with index `at` in `out`. */
 static qdot_status
-follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns, size_t at, qdot_continuation *out)
+follow_doubled_orbits(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns, size_t at, qdot_continuation *out)
 {
     const size_t z = 2 * once->n, start = z + 1 + once->conserved;
     const double *const from = out->bifurcations.at[at].y;
@@ -198,7 +198,7 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     doubled.T = 2 * from[z];
     doubled.segments = 2 * once->K;
     s.most_points = 2 * turns < MOST_TURNS ? 0 : MOST_POINTS;
-    status = open(&x, &doubled, &y, &found);
+    status = start_continuation(&x, &doubled, &y, &found);
     if (status == QDOT_OK) {
         b.y = qdot_calloc(2 * x.path.width + x.path.n + 1, sizeof *b.y);
         status = b.y ? QDOT_OK : QDOT_ENOMEM;
@@ -220,14 +220,14 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
         status = qdot_continuation_arm(&s, 0, b.error + x.path.width, 2 * turns < MOST_TURNS);
     status = qdot_continuation_finish(&s, status);
     if (status == QDOT_OK && !x.driven)
-        name_ends(&x.path, &found);
+        mark_ends_of_infinite_period(&x.path, &found);
     if (status == QDOT_OK)
-        status = double_all(&doubled, &x, 2 * turns, 1, &found);
+        status = follow_all_doublings(&doubled, &x, 2 * turns, 1, &found);
     if (status == QDOT_OK && found.branches.n == 0 && !found.interrupted)
         status = qdot_fail(QDOT_EFAILED, "none is found within the range");
     if (status == QDOT_OK) {
         out->bifurcations.at[at].reached = true;
-        status = merge(&once->path, &x.path, &found, at, out);
+        status = merge_branches(&once->path, &x.path, &found, at, out);
     }
     qdot_continuation_clear(&found);
     qdot_free(y);
@@ -235,9 +235,9 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     return status;
 }
 
-/* Follow the branches of doubled period at all period doublings from number `first` on. */
+/* Follow the branches of doubled period at all period doublings from bifurcation `first` on. */
 static qdot_status
-double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first, qdot_continuation *out)
+follow_all_doublings(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first, qdot_continuation *out)
 {
     const size_t n = out->bifurcations.n, most = 2 * turns < MOST_TURNS ? n : turns < MOST_TURNS ? MOST_DOUBLED : 0;
     qdot_status status = QDOT_OK;
@@ -250,7 +250,7 @@ double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size
             continue;
         status = 2 * x->K > QDOT_FLOW_MOST_SEGMENTS
                      ? qdot_fail(QDOT_EFAILED, "they would need more than %d segments", QDOT_FLOW_MOST_SEGMENTS)
-                     : follow_double(of, x, turns, i, out);
+                     : follow_doubled_orbits(of, x, turns, i, out);
         b = &out->bifurcations.at[i];
         if (status != QDOT_OK)
             snprintf(b->reason, sizeof b->reason, "%.150s", qdot_last_error()->message);
@@ -269,17 +269,17 @@ qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
     qdot_branch_search s = {
         .x = &x.path, .find = qdot_orbit_bifurcation_find, .user = &x, .all = out};
     double *y = NULL;
-    qdot_status status = open(&x, of, &y, out);
+    qdot_status status = start_continuation(&x, of, &y, out);
 
     if (status == QDOT_OK)
-        status = check_range(&x, y[x.path.n]);
+        status = check_parameter_range(&x, y[x.path.n]);
     if (status == QDOT_OK)
         status = qdot_continuation_follow(&s, y, 1);
     status = qdot_continuation_finish(&s, status);
-    if (status == QDOT_OK && !x.driven) /* not if a drive determines the period */
-        name_ends(&x.path, out);
+    if (status == QDOT_OK && !x.driven) /* search no doublings if a drive determines the period */
+        mark_ends_of_infinite_period(&x.path, out);
     if (status == QDOT_OK)
-        status = double_all(of, &x, 1, 0, out);
+        status = follow_all_doublings(of, &x, 1, 0, out);
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED,
                            "no orbit near the run can be followed: it is not isolated (another "

@@ -21,7 +21,7 @@
  * the first is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
 
-/* A coordinate is constant if its change over an orbit, relative to its size, is below this. */
+/* A coordinate is constant if its change over an orbit, relative to its size, is smaller than this. */
 static const double still = 1e-12;
 
 /* A multiplier grows if |mu| - 1 exceeds this, and three times its error. */
@@ -42,22 +42,22 @@ qdot_orbit_path_most(size_t n)
 
 /* --- one evaluation of F -------------------------------------------------------------------- */
 
-/* The number of variables of the flow: 2n, and p if it is a parameter of the scene. */
+/* The number of variables by which the flow is differentiated: 2n, and p if it is a parameter of the scene. */
 static size_t
-width_of(const qdot_orbit_path *x)
+variable_count(const qdot_orbit_path *x)
 {
     return x->flow[0].z + x->flow[0].p;
 }
 
-/* The index in y of the state between segments k - 1 and k; 0 (the start) also after the last segment. */
+/* The index in y of the state at the start of segment k; 0 (the first state) also after the last segment. */
 static size_t
-segment_place(const qdot_orbit_path *x, size_t k)
+segment_start_index(const qdot_orbit_path *x, size_t k)
 {
     return k % x->K == 0 ? 0 : 2 * x->n + 1 + x->conserved + (k % x->K - 1) * 2 * x->n;
 }
 
 static qdot_flow_orbit
-orbit_of(const qdot_orbit_path *x, const double *y)
+orbit_at_point(const qdot_orbit_path *x, const double *y)
 {
     return (qdot_flow_orbit){.K = x->K,
                              .t0 = x->t0,
@@ -76,18 +76,18 @@ segment_value(const qdot_orbit_path *x, size_t k, size_t end, size_t i)
 }
 
 static double
-slope_of(const qdot_orbit_path *x, size_t k, size_t end, size_t i, size_t j)
+segment_derivative(const qdot_orbit_path *x, size_t k, size_t end, size_t i, size_t j)
 {
-    return x->slopes[((2 * k + end) * x->flow[0].m + i) * width_of(x) + j];
+    return x->slopes[((2 * k + end) * x->flow[0].m + i) * variable_count(x) + j];
 }
 
 /* Integrate the segments of the orbit y, and store their values and derivatives. */
 static qdot_status
 integrate_segments(qdot_orbit_path *x, const double *y)
 {
-    const qdot_flow_orbit o = orbit_of(x, y);
+    const qdot_flow_orbit o = orbit_at_point(x, y);
     qdot_flow *const f = &x->flow[x->by];
-    const size_t two = 2 * f->m, width = width_of(x);
+    const size_t two = 2 * f->m, width = variable_count(x);
 
     if (!(o.T > 0) || !isfinite(o.T))
         return qdot_fail(QDOT_EDOMAIN, "the period is not positive");
@@ -103,26 +103,26 @@ integrate_segments(qdot_orbit_path *x, const double *y)
 /* Write the difference between the end of segment k and the start of the next, and its derivatives,
  * into F and J. */
 static void
-fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
+fill_segment_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 {
-    const size_t z = 2 * x->n, m = x->path.n + 1, from = segment_place(x, k), to = segment_place(x, k + 1);
+    const size_t z = 2 * x->n, m = x->path.n + 1, from = segment_start_index(x, k), to = segment_start_index(x, k + 1);
     const qdot_flow *const f = &x->flow[0];
-    const double *const values = x->values + 2 * k * f->m, *const slopes = x->slopes + 2 * k * f->m * width_of(x);
+    const double *const values = x->values + 2 * k * f->m, *const slopes = x->slopes + 2 * k * f->m * variable_count(x);
 
     for (size_t i = 0; i < z; i++) {
         F[i] = segment_value(x, k, 1, i) - y[to + i];
         for (size_t j = 0; j < z; j++)
-            J[i * m + from + j] = slope_of(x, k, 1, i, j);
-        if (width_of(x) > z)
-            J[i * m + x->path.n] = slope_of(x, k, 1, i, z);
+            J[i * m + from + j] = segment_derivative(x, k, 1, i, j);
+        if (variable_count(x) > z)
+            J[i * m + x->path.n] = segment_derivative(x, k, 1, i, z);
         J[i * m + to + i] -= 1;
         J[i * m + z] = qdot_flow_by_period(f, values, slopes, k, x->K, i);
     }
 }
 
-/* Fill F and F' from the latest evaluation of the segments. */
+/* Fill F (gaps between segments, phase condition) and its Jacobian from the latest evaluation. */
 static void
-orbit_fill(qdot_orbit_path *x, const double *y)
+fill_equations(qdot_orbit_path *x, const double *y)
 {
     qdot_path *path = &x->path;
     const size_t z = 2 * x->n, m = path->n + 1, energy = 3 * x->n, last = (x->K - 1) * z;
@@ -130,10 +130,10 @@ orbit_fill(qdot_orbit_path *x, const double *y)
 
     memset(J, 0, path->n * m * sizeof *J);
     for (size_t k = 0; k < x->K; k++)
-        fill_gap(x, y, k, F + k * z, J + k * z * m);
+        fill_segment_gap(x, y, k, F + k * z, J + k * z * m);
     for (size_t i = 0; i < z && x->conserved; i++) {
-        J[(last + i) * m + z + 1] = slope_of(x, 0, 0, energy, i);
-        F[last + i] += y[z + 1] * slope_of(x, 0, 0, energy, i);
+        J[(last + i) * m + z + 1] = segment_derivative(x, 0, 0, energy, i);
+        F[last + i] += y[z + 1] * segment_derivative(x, 0, 0, energy, i);
     }
     F += last;
     J += last * m;
@@ -164,8 +164,8 @@ orbit_fill(qdot_orbit_path *x, const double *y)
     }
     F[z + 1] = segment_value(x, 0, 0, energy) -
                (x->of.family == QDOT_ORBIT_ENERGY ? y[path->n] : x->energy);
-    for (size_t j = 0; j < width_of(x); j++)
-        J[j < z ? j : path->n] = slope_of(x, 0, 0, energy, j);
+    for (size_t j = 0; j < variable_count(x); j++)
+        J[j < z ? j : path->n] = segment_derivative(x, 0, 0, energy, j);
     if (x->of.family == QDOT_ORBIT_ENERGY)
         J[path->n] = -1;
 }
@@ -173,7 +173,7 @@ orbit_fill(qdot_orbit_path *x, const double *y)
 /* Evaluate F and F' at y, or reuse the last evaluation if y is the same. An orbit whose phase
  * condition has changed sign is rejected. */
 static void
-orbit_evaluate(qdot_path *path, const double *y)
+evaluate_orbit_equations(qdot_path *path, const double *y)
 {
     qdot_orbit_path *x = (qdot_orbit_path *)path;
     qdot_status status;
@@ -191,7 +191,7 @@ orbit_evaluate(qdot_path *path, const double *y)
         snprintf(path->reason, sizeof path->reason, "%.150s", qdot_last_error()->message);
         return;
     }
-    orbit_fill(x, y);
+    fill_equations(x, y);
     if (!(path->gauge > 0))
         path->F[0] = NAN;
     memcpy(x->y, y, (path->n + 1) * sizeof *y);
@@ -200,11 +200,11 @@ orbit_evaluate(qdot_path *path, const double *y)
 
 /* Fill B, the factors of the monodromy matrix, from the latest evaluation. */
 static qdot_status
-fill_factors(qdot_orbit_path *x, const double *y)
+fill_transfer_matrices(qdot_orbit_path *x, const double *y)
 {
-    const qdot_flow_orbit o = orbit_of(x, y);
+    const qdot_flow_orbit o = orbit_at_point(x, y);
     qdot_flow *const f = &x->flow[x->by];
-    const size_t step = f->m * width_of(x);
+    const size_t step = f->m * variable_count(x);
 
     return qdot_flow_factors(f, &o, x->slopes + step, 2 * step, &x->c, x->B);
 }
@@ -212,10 +212,10 @@ fill_factors(qdot_orbit_path *x, const double *y)
 bool
 qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y)
 {
-    orbit_evaluate(&x->path, y);
+    evaluate_orbit_equations(&x->path, y);
     if (!x->known)
         return false;
-    x->path.failure = qdot_grave(fill_factors(x, y));
+    x->path.failure = qdot_grave(fill_transfer_matrices(x, y));
     return x->path.failure == QDOT_OK;
 }
 
@@ -228,12 +228,12 @@ qdot_orbit_path_ask(qdot_orbit_path *x, size_t by)
 
 /* --- judging an orbit ------------------------------------------------------------------------- */
 
-/* Fill B, the monodromy of the selected run (fine or coarse), and E, its difference from the other run's. */
+/* Fill B, the transfer matrices of the run in use (fine or coarse), and E, their difference from the other run's. */
 static bool
-fill_both(qdot_orbit_path *x, const double *y)
+fill_matrices_and_errors(qdot_orbit_path *x, const double *y)
 {
-    const size_t by = x->by, count = x->K * x->c * x->c, step = x->flow[by].m * width_of(x);
-    const qdot_flow_orbit o = orbit_of(x, y);
+    const size_t by = x->by, count = x->K * x->c * x->c, step = x->flow[by].m * variable_count(x);
+    const qdot_flow_orbit o = orbit_at_point(x, y);
     qdot_status status;
     bool good;
 
@@ -251,19 +251,19 @@ fill_both(qdot_orbit_path *x, const double *y)
 
 /* The number of multipliers that are 1 for every orbit: one for a time shift, one more for conserved energy. */
 static size_t
-trivial_of(const qdot_orbit_path *x)
+trivial_multiplier_count(const qdot_orbit_path *x)
 {
     return x->driven ? 0 : x->conserved ? 2 : 1;
 }
 
 static void
-judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
+judge_by_multipliers(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
 {
     double product = 1;
 
     a->growing = 0;
     a->phase = a->growth = 0;
-    a->blurred = f->trivial < trivial_of(x); /* fewer trivial multipliers than expected: one has a large error */
+    a->blurred = f->trivial < trivial_multiplier_count(x); /* fewer trivial multipliers than expected: one has a large error */
     for (size_t k = 0; k < f->n; k++) {
         const double size = hypot(f->re[k], f->im[k]);
 
@@ -283,25 +283,25 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
                                                           : QDOT_STABLE_TO_FIRST_ORDER;
 }
 
-/* A reader for the orbit that was evaluated last. */
+/* A reader of states along the orbit that was evaluated last. */
 static qdot_orbit_read
-read_of(qdot_orbit_path *x, const qdot_flow_orbit *o)
+orbit_reader(qdot_orbit_path *x, const qdot_flow_orbit *o)
 {
     return (qdot_orbit_read){.flow = &x->flow[x->by], .orbit = o, .at = x->K - 1};
 }
 
 static qdot_status
-shape(qdot_orbit_path *x, const double *y, double *most, double *size)
+find_orbit_extent(qdot_orbit_path *x, const double *y, double *most, double *size)
 {
-    const qdot_flow_orbit o = orbit_of(x, y);
-    qdot_orbit_read r = read_of(x, &o);
+    const qdot_flow_orbit o = orbit_at_point(x, y);
+    qdot_orbit_read r = orbit_reader(x, &o);
 
     return qdot_orbit_shape(&r, most, size);
 }
 
 /* Judge an orbit: its stability, the largest values of coordinates, its multipliers. */
 static qdot_status
-orbit_judge(qdot_path *path, qdot_path_point *a)
+judge_orbit(qdot_path *path, qdot_path_point *a)
 {
     qdot_orbit_path *x = (qdot_orbit_path *)path;
     qdot_floquet f = {0};
@@ -314,15 +314,15 @@ orbit_judge(qdot_path *path, qdot_path_point *a)
     for (size_t i = path->n + 1; i < path->width; i++)
         a->y[i] = NAN;
     a->blurred = true;
-    if (!fill_both(x, a->y))
+    if (!fill_matrices_and_errors(x, a->y))
         return path->failure;
-    status = qdot_floquet_of(x->K, x->c, x->B, x->E, trivial_of(x), x->asymptotic, &f);
+    status = qdot_floquet_of(x->K, x->c, x->B, x->E, trivial_multiplier_count(x), x->asymptotic, &f);
     if (status == QDOT_OK)
-        judge_by(x, &f, a);
+        judge_by_multipliers(x, &f, a);
     else
         status = qdot_grave(status);
     if (status == QDOT_OK)
-        status = shape(x, a->y, a->y + path->n + 1, &size);
+        status = find_orbit_extent(x, a->y, a->y + path->n + 1, &size);
     a->rests = !x->driven && size < at_rest * x->size;
     qdot_floquet_clear(&f);
     return status;
@@ -335,20 +335,20 @@ orbit_allocate(qdot_orbit_path *x)
 {
     const size_t two = x->K * 2 * x->flow[0].m, factors = x->K * 4 * x->n * x->n;
 
-    x->values = qdot_calloc(two * (1 + width_of(x)) + 2 * factors + x->path.n + 1 + 2 * x->n, sizeof *x->values);
+    x->values = qdot_calloc(two * (1 + variable_count(x)) + 2 * factors + x->path.n + 1 + 2 * x->n, sizeof *x->values);
     if (!x->values)
         return QDOT_ENOMEM;
     x->slopes = x->values + two;
-    x->B = x->slopes + two * width_of(x);
+    x->B = x->slopes + two * variable_count(x);
     x->E = x->B + factors;
     x->y = x->E + factors;
     x->sizes = x->y + x->path.n + 1;
     return QDOT_OK;
 }
 
-/* Make both flow maps, and find the number of segments that the first orbit needs. */
+/* Make the flow maps with fine and coarse tolerance; find the number of segments that the first orbit needs. */
 static qdot_status
-make_flows(qdot_orbit_path *x)
+make_flow_maps(qdot_orbit_path *x)
 {
     const qdot_orbit_of *of = &x->of;
     const qdot_expr h = x->conserved ? qdot_mech_energy(of->scene) : QDOT_NIL;
@@ -363,17 +363,17 @@ make_flows(qdot_orbit_path *x)
     return qdot_flow_segments_of_orbit(&x->flow[0], of->z, &of->p, x->t0, of->T, NULL, &x->K);
 }
 
-/* Compute the states between segments one after the other, from the start. */
+/* Compute the states between segments one after the other, by integrating from the start of the orbit. */
 static qdot_status
-follow_states(qdot_orbit_path *x, double *y)
+compute_segment_states(qdot_orbit_path *x, double *y)
 {
-    const qdot_flow_orbit o = orbit_of(x, y);
+    const qdot_flow_orbit o = orbit_at_point(x, y);
     qdot_flow *const f = &x->flow[0];
 
     for (size_t k = 0; k + 1 < x->K; k++) {
         QDOT_TRY(qdot_flow_go(f, qdot_flow_state(f, &o, k), o.parameters, qdot_flow_time(&o, k),
                               qdot_flow_time(&o, k + 1), 1));
-        memcpy(y + segment_place(x, k + 1), f->value, f->z * sizeof *y);
+        memcpy(y + segment_start_index(x, k + 1), f->value, f->z * sizeof *y);
     }
     return QDOT_OK;
 }
@@ -386,7 +386,7 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
     double best = 0;
 
     x->phase = z;
-    for (size_t i = 0; i < x->n; i++) { /* hold a velocity that is 0 */
+    for (size_t i = 0; i < x->n; i++) { /* hold a velocity fixed at 0, at a turning point of its coordinate */
         const double rate = fabs(segment_value(x, 0, 0, z + i)) / change[x->n + i];
 
         if (x->flow[0].unknowns[x->n + i] != x->of.parameter && change[i] > 0 && rate > best &&
@@ -401,8 +401,8 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
         return QDOT_OK;
     }
     if (x->of.family != QDOT_ORBIT_START) {
-        const qdot_flow_orbit o = orbit_of(x, y);
-        qdot_orbit_read r = read_of(x, &o);
+        const qdot_flow_orbit o = orbit_at_point(x, y);
+        qdot_orbit_read r = orbit_reader(x, &o);
 
         x->held = 0;
         return qdot_orbit_turn(&r, &x->phase, y);
@@ -428,8 +428,8 @@ static qdot_status
 orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
 {
     const size_t n = x->n;
-    const qdot_flow_orbit o = orbit_of(x, y);
-    qdot_orbit_read r = read_of(x, &o);
+    const qdot_flow_orbit o = orbit_at_point(x, y);
+    qdot_orbit_read r = orbit_reader(x, &o);
     double most[2] = {0, 0}, far = 0;
 
     QDOT_TRY(qdot_orbit_changes(&r, size));
@@ -438,7 +438,7 @@ orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
     for (size_t i = 0; i < n; i++)
         far = fmax(far, fabs(x->of.z[i]));
     if (most[0] <= still * far)
-        most[0] = most[1] = 0; /* the orbit is at rest, away from 0 */
+        most[0] = most[1] = 0; /* the orbit is at rest at coordinates other than 0 */
     x->size = most[0];
     if (!x->driven && !(most[0] > 0 && most[1] > 0)) {
         (void)qdot_fail(QDOT_EINVAL, "the run is at rest");
@@ -451,14 +451,14 @@ orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
     if (x->conserved)
         size[2 * n + 1] = 1;
     for (size_t k = 1; k < x->K; k++)
-        memcpy(size + segment_place(x, k), size, 2 * n * sizeof *size);
+        memcpy(size + segment_start_index(x, k), size, 2 * n * sizeof *size);
     return QDOT_OK;
 }
 
 /* Make the first point of the branch: y with the states between segments, and the typical size of
  * each component. */
 static qdot_status
-make_first(qdot_orbit_path *x, double *size, double *y)
+make_first_point(qdot_orbit_path *x, double *size, double *y)
 {
     const size_t z = 2 * x->n, n = x->path.n;
 
@@ -467,14 +467,14 @@ make_first(qdot_orbit_path *x, double *size, double *y)
     if (x->conserved)
         y[z + 1] = 0;
     y[n] = x->of.p;
-    QDOT_TRY(follow_states(x, y));
+    QDOT_TRY(compute_segment_states(x, y));
     QDOT_TRY(integrate_segments(x, y));
-    QDOT_TRY(fill_factors(x, y)); /* determines the number of multipliers */
+    QDOT_TRY(fill_transfer_matrices(x, y)); /* also determines the number of multipliers */
     QDOT_TRY(orbit_find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));
-    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the start point has been moved */
-        QDOT_TRY(follow_states(x, y));
+    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the held component's rate is 0: the start point has been moved */
+        QDOT_TRY(compute_segment_states(x, y));
         QDOT_TRY(integrate_segments(x, y));
         x->rate = segment_value(x, 0, 0, x->n + x->phase);
     }
@@ -485,7 +485,7 @@ make_first(qdot_orbit_path *x, double *size, double *y)
 }
 
 static qdot_status
-make_period(qdot_orbit_path *x)
+make_period_function(qdot_orbit_path *x)
 {
     const qdot_orbit_of *of = &x->of;
     qdot_expr p = of->family == QDOT_ORBIT_PARAMETER ? of->parameter : QDOT_NIL, period;
@@ -496,7 +496,7 @@ make_period(qdot_orbit_path *x)
     return x->period_work ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Whether it is proved that events leave the energy h unchanged. */
+/* Whether it is proved that the scene's events leave the energy h unchanged. */
 static qdot_status
 events_keep_energy(const qdot_orbit_path *x, bool *keep)
 {
@@ -519,9 +519,9 @@ events_keep_energy(const qdot_orbit_path *x, bool *keep)
     return QDOT_OK;
 }
 
-/* Check the kind of scene, and that p can be used as the parameter of the family. */
+/* Check that the scene is of a kind whose orbits can be followed, and that p can be the family's parameter. */
 static qdot_status
-orbit_check(qdot_orbit_path *x)
+check_family(qdot_orbit_path *x)
 {
     qdot_scene *s = x->of.scene;
 
@@ -547,14 +547,14 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
 
     *x = (qdot_orbit_path){.of = *of, .n = of->scene->coordinates.n};
     x->phase = 2 * x->n;
-    QDOT_TRY(orbit_check(x));
+    QDOT_TRY(check_family(x));
     QDOT_TRY(qdot_constant_double(of->scene->pool, of->request->t0, &x->t0));
     if (x->driven)
-        QDOT_TRY(make_period(x));
-    QDOT_TRY(make_flows(x));
+        QDOT_TRY(make_period_function(x));
+    QDOT_TRY(make_flow_maps(x));
     QDOT_TRY(qdot_path_begin(path, 2 * x->n * x->K + 1 + x->conserved));
     path->coordinates = 2 * x->n + 1;
-    path->half = of->segments > 0 ? segment_place(x, x->K / 2) : 0;
+    path->half = of->segments > 0 ? segment_start_index(x, x->K / 2) : 0;
     path->least = of->least;
     path->most = of->most;
     path->exact = exact;
@@ -562,8 +562,8 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     path->longest = longest;
     path->least_jump = 2;
     path->halvings = 0;
-    path->at = orbit_evaluate;
-    path->judge = orbit_judge;
+    path->at = evaluate_orbit_equations;
+    path->judge = judge_orbit;
     x->domain = qdot_calloc(2 * path->n, sizeof *x->domain);
     x->angle = qdot_calloc(path->n, sizeof *x->angle);
     if (!x->domain || !x->angle)
@@ -576,7 +576,7 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     path->hi = x->domain + path->n;
     path->angle = x->angle;
     QDOT_TRY(orbit_allocate(x));
-    QDOT_TRY(make_first(x, size, y));
+    QDOT_TRY(make_first_point(x, size, y));
     memcpy(x->sizes, size, 2 * x->n * sizeof *size);
     path->width = path->n + 1 + x->n + x->c;
     size[path->n] = of->most - of->least;

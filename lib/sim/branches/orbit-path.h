@@ -41,26 +41,26 @@ typedef struct {
     const qdot_run_request *request;
     qdot_orbit_family family;
     qdot_expr parameter; /* a parameter of the scene, or q, q' of the start; nil: the energy */
-    double p, T;         /* parameter and period of the first orbit; an energy is computed */
+    double p, T;         /* parameter and period of the first orbit; if the parameter is the energy, p is computed */
     const double *z;     /* [2n] start state of the first orbit */
     double least, most;
-    size_t segments;     /* segments of an orbit of doubled period; 0: choose, for other orbits */
+    size_t segments;     /* number of segments, for an orbit of doubled period; 0: choose it */
 } qdot_orbit_of;
 
 typedef struct {
     qdot_path path; /* first member, so a pointer to it can be cast to this type */
     qdot_orbit_of of;
-    size_t n, K, c; /* number of coordinates; of segments; of multipliers, 2n minus those fixed by constraints */
+    size_t n, K, c; /* number of coordinates; of orbit segments; of multipliers: 2n minus those fixed by constraints */
     bool driven, conserved, asymptotic;
-    size_t phase;   /* index of the component of z that is held fixed; 2n: none */
-    double held, rate; /* value of the held component; its time derivative along the first orbit */
+    size_t phase;   /* index of the component of the start state z that is held fixed; 2n: none */
+    double held, rate; /* value of the component held fixed; its time derivative along the first orbit */
     double energy;     /* energy of the first orbit */
     double size;       /* largest change of a coordinate along the first orbit */
     double t0;
     qdot_tape *period; /* the period T as a function of p, for a driven system; NULL: not driven */
     double *period_work;
     qdot_flow flow[2]; /* fine and coarse integration; the additional expression is the energy h */
-    size_t by;                  /* index of the flow in use: 0 fine, 1 coarse */
+    size_t by;                  /* index of the flow map in use: 0 fine, 1 coarse */
     double *values, *slopes; /* latest evaluation: values [K x 2 x m], derivatives [K x 2 x m x (2n + p)] */
     double *y;                  /* [n + 1] point of the latest evaluation */
     bool known;                 /* the latest evaluation succeeded */
@@ -81,9 +81,9 @@ void qdot_orbit_path_end(qdot_orbit_path *x);
  * are of a scene: */
 size_t qdot_orbit_path_most(size_t n);
 
-/* Find the monodromy matrix B at y by the selected run; false if there is none. E is not changed. */
+/* Find the monodromy matrix B at y by the flow map in use; false if there is none. E is not changed. */
 bool qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y);
-/* Use the runs with the fine tolerance (0) or the coarse one (1) from now on. */
+/* Use the flow map with the fine tolerance (0) or the coarse one (1) from now on. */
 void qdot_orbit_path_ask(qdot_orbit_path *x, size_t by);
 
 #endif

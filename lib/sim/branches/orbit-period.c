@@ -22,45 +22,45 @@ enum { ASKED = 8 };
 typedef qdot_vec(qdot_expr) list;
 
 static qdot_status
-period_add(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
+append_with_values(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
 {
     e = qdot_substitute(s->pool, e, r->n_values, r->symbols, r->values);
     QDOT_TRY(qdot_pool_check(s->pool));
     return qdot_vec_push(all, e);
 }
 
-/* Collect the frequencies in all components of e. */
+/* Collect all components of the expression e, with numbers inserted for symbols. */
 static qdot_status
-add_all(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
+append_components(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(s->pool));
     for (uint32_t i = 0; i < qdot_expr_count(s->pool, e); i++)
-        QDOT_TRY(period_add(all, s, r, qdot_expr_arg(s->pool, e, i)));
+        QDOT_TRY(append_with_values(all, s, r, qdot_expr_arg(s->pool, e, i)));
     return QDOT_OK;
 }
 
 /* Collect the frequencies in M, f and events. An event without direction occurs where the square of
  * its function is 0. */
 static qdot_status
-gather(qdot_scene *s, const qdot_run_request *r, list *all)
+collect_equations(qdot_scene *s, const qdot_run_request *r, list *all)
 {
-    QDOT_TRY(add_all(all, s, r, qdot_mech_numeric_mass(s)));
-    QDOT_TRY(add_all(all, s, r, qdot_mech_numeric_forcing(s)));
+    QDOT_TRY(append_components(all, s, r, qdot_mech_numeric_mass(s)));
+    QDOT_TRY(append_components(all, s, r, qdot_mech_numeric_forcing(s)));
     for (size_t k = 0; k < s->events.n; k++) {
         const qdot_event *e = &s->events.at[k];
         qdot_expr g = qdot_sub(s->pool, e->left, e->right);
 
         if (e->targets.n == 0)
             continue;
-        QDOT_TRY(period_add(all, s, r, e->way == 0 ? qdot_mul(s->pool, g, g) : g));
+        QDOT_TRY(append_with_values(all, s, r, e->way == 0 ? qdot_mul(s->pool, g, g) : g));
         for (size_t i = 0; i < e->targets.n; i++)
-            QDOT_TRY(period_add(all, s, r, e->values.at[i]));
+            QDOT_TRY(append_with_values(all, s, r, e->values.at[i]));
     }
     return QDOT_OK;
 }
 
 static bool
-has_time(const qdot_pool *pool, qdot_expr e)
+depends_on_time(const qdot_pool *pool, qdot_expr e)
 {
     return (qdot_expr_node(pool, e)->holds & QDOT_HAS_TIME) != 0;
 }
@@ -69,18 +69,18 @@ qdot_status
 qdot_orbit_is_driven(qdot_scene *s, const qdot_run_request *r, bool *driven)
 {
     list all = {0};
-    const qdot_status status = gather(s, r, &all);
+    const qdot_status status = collect_equations(s, r, &all);
 
     *driven = false;
     for (size_t i = 0; i < all.n; i++)
-        *driven = *driven || has_time(s->pool, all.at[i]);
+        *driven = *driven || depends_on_time(s->pool, all.at[i]);
     qdot_free(all.at);
     return status;
 }
 
-/* Evaluate e with the number `at` for the parameter p. */
+/* Evaluate the expression e where the parameter p has the value `at`. */
 static qdot_status
-number_of(qdot_pool *pool, qdot_expr e, qdot_expr p, double at, double *value)
+evaluate_at_parameter(qdot_pool *pool, qdot_expr e, qdot_expr p, double at, double *value)
 {
     qdot_tape *tape = NULL;
     double work[64], *more;
@@ -101,7 +101,7 @@ number_of(qdot_pool *pool, qdot_expr e, qdot_expr p, double at, double *value)
 /* The rate of a phase in e, the argument of a sine or cosine that goes evenly with time; nil: none. One that holds p
  * before any other. */
 static qdot_status
-find_rate(qdot_pool *pool, qdot_expr e, qdot_expr p, qdot_expr *rate)
+find_drive_frequency(qdot_pool *pool, qdot_expr e, qdot_expr p, qdot_expr *rate)
 {
     qdot_walk w;
 
@@ -111,7 +111,7 @@ find_rate(qdot_pool *pool, qdot_expr e, qdot_expr p, qdot_expr *rate)
         qdot_expr a;
 
         if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN || (op != QDOT_SIN && op != QDOT_COS) ||
-            !has_time(pool, w.at[i]))
+            !depends_on_time(pool, w.at[i]))
             continue;
         a = qdot_diff(pool, qdot_expr_arg(pool, w.at[i], 0), QDOT_T);
         if (a == QDOT_NIL || a == QDOT_ZERO ||
@@ -129,7 +129,7 @@ find_rate(qdot_pool *pool, qdot_expr e, qdot_expr p, qdot_expr *rate)
 /* Evaluate all in one state over a period: how they are at first, how far from it they come, how far they are from what
  * they are after T. value: [5 m] and room: now, later, these three. */
 static void
-ask_times(const qdot_tape *tape, size_t n, size_t m, double T, double *in, double *value)
+compare_after_period(const qdot_tape *tape, size_t n, size_t m, double T, double *in, double *value)
 {
     double *const first = value + 2 * m, *const change = first + m, *const off = change + m;
 
@@ -148,9 +148,9 @@ ask_times(const qdot_tape *tape, size_t n, size_t m, double T, double *in, doubl
 /* Whether all are the same in the same state after T; in: 2n + 2 numbers and room, tape: now, then later. One that has no
  * value in any of these states is not. */
 static bool
-come_back(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
+has_period(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
 {
-    /* of several sizes, so that some lie in the domains of functions */
+    /* values of several sizes, so that some lie in the domains of all functions */
     static const double sizes[] = {1, -0.1, 0.01, -1e-3};
     double *const value = in + 2 * n + 2, *const known = value + 5 * m;
     const double *const first = value + 2 * m, *const change = first + m, *const off = change + m;
@@ -158,7 +158,7 @@ come_back(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
     for (size_t k = 0; k < ASKED; k++) {
         for (size_t i = 0; i < 2 * n; i++) /* irregular values, to avoid points of symmetry */
             in[i] = sizes[k % 4] * (0.3 + 0.17 * (double)((5 * i + 3 * k) % 7));
-        ask_times(tape, n, m, T, in, value);
+        compare_after_period(tape, n, m, T, in, value);
         for (size_t i = 0; i < m; i++) {
             known[i] += isfinite(first[i]) != 0;
             if (off[i] > same * change[i] + rounding * fabs(first[i]))
@@ -172,7 +172,7 @@ come_back(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
 }
 
 static qdot_status
-say_changing(const qdot_pool *pool, qdot_expr p, double at, double T)
+fail_not_periodic(const qdot_pool *pool, qdot_expr p, double at, double T)
 {
     if (p == QDOT_NIL)
         return qdot_fail(QDOT_EINVAL,
@@ -182,9 +182,9 @@ say_changing(const qdot_pool *pool, qdot_expr p, double at, double T)
                      T, qdot_expr_symbol(pool, p)->name, at);
 }
 
-/* Fail unless all forces that depend on the time have the period at a value of p. */
+/* Fail unless all time-dependent forces have the given period, at the value `at` of p. */
 static qdot_status
-period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
+check_period(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
 {
     qdot_pool *pool = s->pool;
     const size_t n = s->coordinates.n, m = all->n, k = 2 * n + (p == QDOT_NIL ? 1 : 2);
@@ -192,7 +192,7 @@ period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr p
     qdot_expr *e = qdot_calloc(2 * m + 2 * n + 2, sizeof *e), *const inputs = e + 2 * m;
     double *in = NULL, T = NAN;
     qdot_tape *tape = NULL;
-    qdot_status status = e ? number_of(pool, period, p, at, &T) : QDOT_ENOMEM;
+    qdot_status status = e ? evaluate_at_parameter(pool, period, p, at, &T) : QDOT_ENOMEM;
 
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         e[i] = all->at[i];
@@ -213,8 +213,8 @@ period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr p
     }
     if (status == QDOT_OK) {
         in[2 * n + 1] = at;
-        if (!come_back(tape, n, m, T, in))
-            status = say_changing(pool, p, at, T);
+        if (!has_period(tape, n, m, T, in))
+            status = fail_not_periodic(pool, p, at, T);
     }
     qdot_tape_free(tape);
     qdot_free(in);
@@ -225,14 +225,14 @@ period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr p
 /* *period is pi k / a if this has the value T at p = at (half the period, which squares have); T
  * itself if no a fits. */
 static qdot_status
-make_period(qdot_pool *pool, qdot_expr rate, qdot_expr p, double at, double T, qdot_expr *period)
+make_period_expression(qdot_pool *pool, qdot_expr rate, qdot_expr p, double at, double T, qdot_expr *period)
 {
     double a, turns;
 
     *period = qdot_expr_of_double(pool, T);
     if (rate == QDOT_NIL)
         return qdot_pool_check(pool);
-    QDOT_TRY(number_of(pool, rate, p, at, &a));
+    QDOT_TRY(evaluate_at_parameter(pool, rate, p, at, &a));
     turns = round(fabs(a) * T / M_PI);
     if (turns >= 1 && fabs(fabs(a) * T / M_PI - turns) < 1e-6 * turns)
         *period = qdot_div(pool,
@@ -248,18 +248,18 @@ qdot_orbit_period(qdot_scene *s, const qdot_run_request *r, qdot_expr p, double 
 {
     list all = {0};
     qdot_expr rate = QDOT_NIL;
-    qdot_status status = gather(s, r, &all);
+    qdot_status status = collect_equations(s, r, &all);
 
     for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
-        status = find_rate(s->pool, all.at[i], p, &rate);
+        status = find_drive_frequency(s->pool, all.at[i], p, &rate);
     if (status == QDOT_OK)
-        status = make_period(s->pool, rate, p, at, T, period);
+        status = make_period_expression(s->pool, rate, p, at, T, period);
     if (status == QDOT_OK)
-        status = period_check(s, &all, p, at, *period);
+        status = check_period(s, &all, p, at, *period);
     if (status == QDOT_OK && p != QDOT_NIL && least < at)
-        status = period_check(s, &all, p, least + 1e-3 * (at - least), *period);
+        status = check_period(s, &all, p, least + 1e-3 * (at - least), *period);
     if (status == QDOT_OK && p != QDOT_NIL && most > at)
-        status = period_check(s, &all, p, most - 1e-3 * (most - at), *period);
+        status = check_period(s, &all, p, most - 1e-3 * (most - at), *period);
     qdot_free(all.at);
     return status;
 }

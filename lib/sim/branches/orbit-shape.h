@@ -16,7 +16,7 @@ typedef struct {
 /* The largest value of each coordinate [n]: q' = 0 within the largest of a few hundred places; *size: the largest half
  * of a change of a coordinate. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_shape(qdot_orbit_read *r, double *most, double *size);
-/* Find half of the range of each component of q and q' over the orbit, [2n]. */
+/* Find half of the range of each component of q and q' over the orbit: change [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_changes(qdot_orbit_read *r, double *change);
 /* The state z [2n] at a turning point of the coordinate that changes most; *phase: the index of its
  * velocity. */

@@ -1,4 +1,4 @@
-/* path.c -- follows curves of zeros: tangents, predictions and corrections. */
+/* path.c -- follows curves of zeros of F(y) = 0: tangents, predictions and corrections. */
 #include "sim/branches/path.h"
 
 #include <math.h>
@@ -117,7 +117,7 @@ qdot_path_halves(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;
 
-    /* all but the last coordinate, which is the period */
+    /* all coordinates but the last, which is the period */
     for (size_t i = 0; i + 1 < x->coordinates && x->half > 0; i++)
         sum += x->weight[i] * (a[x->half + i] - a[i]) * (b[x->half + i] - b[i]);
     return x->half > 0 ? sum : 1;
@@ -138,9 +138,9 @@ qdot_path_distance(const qdot_path *x, const double *a, const double *b)
     return sqrt(sum);
 }
 
-/* Factor the matrix of J, from the latest evaluation, with the row g^T below it. */
+/* Factor the Jacobian J of the latest evaluation, extended by the row g^T below it. */
 static bool
-factor(qdot_path *x, const double *g)
+factor_extended_jacobian(qdot_path *x, const double *g)
 {
     const size_t n = x->n, m = n + 1;
 
@@ -166,7 +166,7 @@ qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps)
             x->b[i] = -x->F[i];
         }
         x->b[n] = 0;
-        if (!factor(x, g))
+        if (!factor_extended_jacobian(x, g))
             return false;
         qdot_lu_solve(n + 1, x->A, x->rows, x->b);
         length = sqrt(qdot_path_product(x, x->b, x->b));
@@ -198,9 +198,9 @@ qdot_path_hold(qdot_path *x, size_t i, double *y)
     return good;
 }
 
-/* The determinant of the matrix that was factored last, from its triangular factor. */
+/* The determinant of the matrix that was factored last, from its triangular factors. */
 static double
-determinant(const qdot_path *x)
+determinant_of_factored(const qdot_path *x)
 {
     const size_t m = x->n + 1;
     double det = 1;
@@ -219,9 +219,9 @@ qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a)
     x->at(x, a->y);
     for (size_t i = 0; i <= n; i++)
         x->b[i] = x->weight[i] * along[i];
-    if (!factor(x, x->b))
+    if (!factor_extended_jacobian(x, x->b))
         return false;
-    a->det = determinant(x) / x->gauge;
+    a->det = determinant_of_factored(x) / x->gauge;
     x->most_det = fmax(x->most_det, fabs(a->det));
     for (size_t i = 0; i <= n; i++)
         x->b[i] = i == n;

@@ -16,9 +16,9 @@
 static const double upright = 1e-8, undamped = 1e-9;
 /* --- systems of equations for bifurcations ------------------------------------------------ */
 
-/* A new symbol for the k-th auxiliary unknown of a kind; it is not a symbol of the scene. */
+/* A new symbol for the k-th auxiliary unknown of a given kind; it is not a symbol of the scene. */
 static qdot_expr
-formal(qdot_pool *pool, const char *kind, size_t k)
+auxiliary_symbol(qdot_pool *pool, const char *kind, size_t k)
 {
     char name[60];
 
@@ -32,9 +32,9 @@ add_to(qdot_pool *pool, qdot_expr *sum, qdot_expr a, qdot_expr b)
     *sum = qdot_add(pool, *sum, qdot_mul(pool, a, b));
 }
 
-/* Begin a system: its first unknowns are always y, `more` others follow. */
+/* Begin an extended system of equations: its first unknowns are always y, `more` others follow. */
 static qdot_status
-begin_system(const qdot_rest_bifurcations *b, size_t more, qdot_newton *s)
+begin_extended_system(const qdot_rest_bifurcations *b, size_t more, qdot_newton *s)
 {
     const qdot_equilibrium_curve *c = b->x->c;
 
@@ -47,16 +47,16 @@ begin_system(const qdot_rest_bifurcations *b, size_t more, qdot_newton *s)
 }
 
 static qdot_status
-make_fold(qdot_rest_bifurcations *b)
+make_fold_system(qdot_rest_bifurcations *b)
 {
     const qdot_equilibrium_curve *c = b->x->c;
     const size_t n = c->n;
     qdot_newton *s = &b->fold;
 
-    QDOT_TRY(begin_system(b, n, s));
+    QDOT_TRY(begin_extended_system(b, n, s));
     s->f[2 * n] = QDOT_MINUS_ONE;
     for (size_t i = 0; i < n; i++)
-        s->x[n + 1 + i] = formal(c->pool, "phi", i);
+        s->x[n + 1 + i] = auxiliary_symbol(c->pool, "phi", i);
     for (size_t i = 0; i < n; i++) {
         s->f[n + i] = QDOT_ZERO;
         for (size_t j = 0; j < n; j++)
@@ -68,18 +68,18 @@ make_fold(qdot_rest_bifurcations *b)
 }
 
 static qdot_status
-make_crossing(qdot_rest_bifurcations *b)
+make_crossing_system(qdot_rest_bifurcations *b)
 {
     const qdot_equilibrium_curve *c = b->x->c;
     const size_t n = c->n;
     qdot_newton *s = &b->crossing;
-    qdot_expr product = QDOT_ZERO, beta = formal(c->pool, "beta", 0);
+    qdot_expr product = QDOT_ZERO, beta = auxiliary_symbol(c->pool, "beta", 0);
 
-    QDOT_TRY(begin_system(b, n + 1, s));
+    QDOT_TRY(begin_extended_system(b, n + 1, s));
     s->f[2 * n + 1] = QDOT_MINUS_ONE;
     s->x[2 * n + 1] = beta;
     for (size_t i = 0; i < n; i++) {
-        const qdot_expr psi = s->x[n + 1 + i] = formal(c->pool, "psi", i);
+        const qdot_expr psi = s->x[n + 1 + i] = auxiliary_symbol(c->pool, "psi", i);
 
         add_to(c->pool, &s->f[i], beta, psi);
         add_to(c->pool, &s->f[2 * n + 1], psi, psi);
@@ -92,7 +92,7 @@ make_crossing(qdot_rest_bifurcations *b)
 
 /* Row i of (K - w^2 M) z, where z are the unknowns of the system from index `z` on. */
 static qdot_expr
-row_of(const qdot_rest_bifurcations *b, const qdot_newton *s, qdot_expr square, size_t i, size_t z)
+eigenvalue_equation(const qdot_rest_bifurcations *b, const qdot_newton *s, qdot_expr square, size_t i, size_t z)
 {
     const qdot_equilibrium_curve *c = b->x->c;
     qdot_expr sum = QDOT_ZERO;
@@ -113,12 +113,12 @@ typedef enum { CROSSES, MEETS, MEETS_TURNING } meeting;
 /* Where two frequencies meet under gyroscopic forces: beta z to the rows, which depend on each other
  * without it, and the derivative of the Hermitian form by w. */
 static void
-add_turning(const qdot_rest_bifurcations *b, qdot_newton *s, qdot_expr w)
+add_gyroscopic_terms(const qdot_rest_bifurcations *b, qdot_newton *s, qdot_expr w)
 {
     const qdot_equilibrium_curve *c = b->x->c;
     const size_t n = c->n, all = c->all, re = n + 1, im = re + all;
     qdot_pool *pool = c->pool;
-    qdot_expr beta = formal(pool, "beta", 0), sum = QDOT_ZERO;
+    qdot_expr beta = auxiliary_symbol(pool, "beta", 0), sum = QDOT_ZERO;
 
     s->x[im + all + 1] = beta;
     for (size_t i = 0; i < all; i++) {
@@ -138,25 +138,25 @@ add_turning(const qdot_rest_bifurcations *b, qdot_newton *s, qdot_expr w)
 /* System for oscillations: unknowns y, a, b, w (w^2 where two frequencies meet without damping),
  * beta; component `one` of z is set to 1. */
 static qdot_status
-make_oscillation(const qdot_rest_bifurcations *b, meeting what, size_t one, qdot_newton *s)
+make_oscillation_system(const qdot_rest_bifurcations *b, meeting what, size_t one, qdot_newton *s)
 {
     const bool collision = what == MEETS;
     const qdot_equilibrium_curve *c = b->x->c;
     const size_t n = c->n, all = c->all, re = n + 1, im = re + all;
     qdot_pool *pool = c->pool;
-    qdot_expr w = formal(pool, "w", 0), square = collision ? w : qdot_mul(pool, w, w);
+    qdot_expr w = auxiliary_symbol(pool, "w", 0), square = collision ? w : qdot_mul(pool, w, w);
 
-    QDOT_TRY(begin_system(b, 2 * all + 1 + (what == MEETS_TURNING), s));
+    QDOT_TRY(begin_extended_system(b, 2 * all + 1 + (what == MEETS_TURNING), s));
     s->x[im + all] = w;
     for (size_t i = 0; i < all; i++) {
-        s->x[re + i] = formal(pool, "a", i);
-        s->x[im + i] = formal(pool, "b", i);
+        s->x[re + i] = auxiliary_symbol(pool, "a", i);
+        s->x[im + i] = auxiliary_symbol(pool, "b", i);
     }
     for (size_t i = 0; i < all; i++) {
         qdot_expr *const first = &s->f[n + i], *const second = &s->f[n + all + i];
 
-        *first = row_of(b, s, square, i, re);
-        *second = row_of(b, s, square, i, im);
+        *first = eigenvalue_equation(b, s, square, i, re);
+        *second = eigenvalue_equation(b, s, square, i, im);
         for (size_t j = 0; j < all; j++) {
             const size_t at = i * all + j;
 
@@ -173,7 +173,7 @@ make_oscillation(const qdot_rest_bifurcations *b, meeting what, size_t one, qdot
     s->f[n + 2 * all] = qdot_sub(pool, s->x[re + one], QDOT_ONE);
     s->f[n + 2 * all + 1] = s->x[im + one];
     if (what == MEETS_TURNING)
-        add_turning(b, s, w);
+        add_gyroscopic_terms(b, s, w);
     return qdot_newton_lower(s);
 }
 
@@ -228,9 +228,9 @@ guess_crossing(qdot_path *x, double *psi)
 
 /* --- kinds of crossings ------------------------------------------------------------------- */
 
-/* The bilinear form v.H w, with H [m * m] stored in rows of length `width`. */
+/* The bilinear form v.H w, where H is m x m, stored in rows of length `width`. */
 static double
-form(size_t m, const double *H, size_t width, const double *v, const double *w)
+bilinear_form(size_t m, const double *H, size_t width, const double *v, const double *w)
 {
     double sum = 0;
 
@@ -240,10 +240,10 @@ form(size_t m, const double *H, size_t width, const double *v, const double *w)
     return sum;
 }
 
-/* Classify the zero z of the system as a kind of bifurcation; v [4 (n + 1)] is work space. */
+/* Classify the zero z of an extended system as a kind of bifurcation; v [4 (n + 1)] is work space. */
 static qdot_status
-classify(qdot_rest_bifurcations *b, const double *z, double beta_error, const double *t, double *v,
-         qdot_bifurcation *out, double *other, qdot_bifurcation_answer *answer)
+classify_rest_bifurcation(qdot_rest_bifurcations *b, const double *z, double beta_error, const double *t, double *v,
+                          qdot_bifurcation *out, double *other, qdot_bifurcation_answer *answer)
 {
     qdot_path *x = &b->x->path;
     const size_t n = x->n, m = n + 1;
@@ -256,9 +256,9 @@ classify(qdot_rest_bifurcations *b, const double *z, double beta_error, const do
     memset(x->A + n * m, 0, m * sizeof *x->A);
     QDOT_TRY(qdot_null_vectors(m, m, x->A, 2, v));
     qdot_derivative_eval(s->tape, z, 0, s->n, s->f_value, s->J, s->work);
-    c[0] = form(m, H, s->n, v, v);
-    c[1] = form(m, H, s->n, v, v + m);
-    c[2] = form(m, H, s->n, v + m, v + m);
+    c[0] = bilinear_form(m, H, s->n, v, v);
+    c[1] = bilinear_form(m, H, s->n, v, v + m);
+    c[2] = bilinear_form(m, H, s->n, v + m, v + m);
     if (fabs(z[2 * n + 1]) > 2 * beta_error)
         *answer = QDOT_BIFURCATION_APART;
     else if (!qdot_bifurcation_cross(x, c, v, t, upright, 1e-22, &out->kind, other))
@@ -331,7 +331,7 @@ guess_vector(const qdot_rest_bifurcations *b, double w, double *z, size_t *one)
 }
 
 static meeting
-what_meets(const qdot_rest_bifurcations *b)
+which_roots_meet(const qdot_rest_bifurcations *b)
 {
     const size_t all = b->x->c->all;
     const double *K = b->value, *Gamma = K + all * all;
@@ -350,7 +350,7 @@ what_meets(const qdot_rest_bifurcations *b)
     return damping <= undamped * most && lopsided <= undamped * size * size ? MEETS_TURNING : CROSSES;
 }
 
-/* Solve for the point at which an oscillation begins; z [n + 1 + 2 all + 2]: y, then work space. */
+/* Solve for the point at which an oscillation begins; z [n + 1 + 2 all + 2]: first y, then work space. */
 static qdot_status
 find_oscillation(qdot_rest_bifurcations *b, qdot_bifurcation *out, double *z, double *error, bool *found)
 {
@@ -366,7 +366,7 @@ find_oscillation(qdot_rest_bifurcations *b, qdot_bifurcation *out, double *z, do
     *found = false;
     QDOT_TRY(qdot_equilibrium_curve_judge(x->c, z, &unused));
     qdot_tape_eval(b->motion, z, b->value, b->work);
-    what = what_meets(b);
+    what = which_roots_meet(b);
     w = guess_frequency(&x->c->roots, what != CROSSES);
     if (w == 0 || !x->c->damped)
         return QDOT_OK;
@@ -374,7 +374,7 @@ find_oscillation(qdot_rest_bifurcations *b, qdot_bifurcation *out, double *z, do
     if (what == MEETS)
         memset(z + n + 1 + all, 0, all * sizeof *z);
     z[n + 1 + 2 * all] = what == MEETS ? w * w : w;
-    status = make_oscillation(b, what, one, &s);
+    status = make_oscillation_system(b, what, one, &s);
     if (status == QDOT_OK)
         status = qdot_newton_solve(&s, z, error, found);
     qdot_newton_end(&s);
@@ -391,8 +391,8 @@ find_oscillation(qdot_rest_bifurcations *b, qdot_bifurcation *out, double *z, do
 /* --- locating a bifurcation of any kind ----------------------------------------------------- */
 
 static qdot_status
-find_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z,
-              double *error, double *other, qdot_bifurcation_answer *answer)
+find_rest_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z,
+                   double *error, double *other, qdot_bifurcation_answer *answer)
 {
     qdot_path *x = &b->x->path;
     const size_t n = x->n;
@@ -401,7 +401,7 @@ find_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out,
     qdot_status status;
 
     if (b->crossing.tape == NULL)
-        QDOT_TRY(make_crossing(b));
+        QDOT_TRY(make_crossing_system(b));
     QDOT_TRY(guess_crossing(x, z + n + 1));
     z[2 * n + 1] = 0;
     QDOT_TRY(qdot_newton_solve(&b->crossing, z, error, &found));
@@ -409,26 +409,26 @@ find_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out,
         return QDOT_OK;
     v = qdot_calloc(4 * (n + 1), sizeof *v);
     *answer = QDOT_BIFURCATION_FOUND;
-    status = v ? classify(b, z, error[2 * n + 1], t, v, out, other, answer) : QDOT_ENOMEM;
+    status = v ? classify_rest_bifurcation(b, z, error[2 * n + 1], t, v, out, other, answer) : QDOT_ENOMEM;
     qdot_free(v);
     return status;
 }
 
 static qdot_status
-rest_find(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z, double *error,
-          double *other, qdot_bifurcation_answer *answer)
+find_rest_bifurcation(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z, double *error,
+                      double *other, qdot_bifurcation_answer *answer)
 {
     qdot_path *x = &b->x->path;
     bool found = false;
 
     x->at(x, z);
     if (out->kind == QDOT_PITCHFORK)
-        return find_crossing(b, t, out, z, error, other, answer);
+        return find_rest_crossing(b, t, out, z, error, other, answer);
     if (out->kind == QDOT_HOPF) {
         QDOT_TRY(find_oscillation(b, out, z, error, &found));
     } else {
         if (b->fold.tape == NULL)
-            QDOT_TRY(make_fold(b));
+            QDOT_TRY(make_fold_system(b));
         QDOT_TRY(guess_fold(x, z + x->n + 1));
         QDOT_TRY(qdot_newton_solve(&b->fold, z, error, &found));
         found = found && b->fold.regular;
@@ -450,7 +450,7 @@ qdot_rest_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot_
     if (z == NULL)
         return QDOT_ENOMEM;
     memcpy(z, out->y, (n + 1) * sizeof *z);
-    status = rest_find(b, in->a->t, out, z, error, other, answer);
+    status = find_rest_bifurcation(b, in->a->t, out, z, error, other, answer);
     if (status == QDOT_OK && *answer == QDOT_BIFURCATION_FOUND) {
         memcpy(out->y, z, (n + 1) * sizeof *z);
         memcpy(out->error, error, (n + 1) * sizeof *z);

@@ -28,7 +28,7 @@
 typedef struct {
     qdot_rest_path *x;
     qdot_newton fold, crossing;
-    qdot_tape *motion; /* outputs K, Gamma, M of the linear motion at y */
+    qdot_tape *motion; /* outputs: stiffness K, damping and gyroscopic matrix Gamma, mass M of the linearised motion at y */
     double *value, *work;
 } qdot_rest_bifurcations;
 

@@ -22,21 +22,21 @@ enum { PARTS = sizeof parts / sizeof *parts };
  * closer than `same` are one. */
 enum { STEPS = 64 };
 static const double same = 1e-6;
-/* Fractions of an interval of p at which an exact curve is compared with the others. */
+/* Fractions of an interval of p at which an exactly known curve is compared with the numerical ones. */
 static const double inner[] = {0.4871, 0.2113, 0.8312, 0.0371, 0.9573};
 enum { INNER = sizeof inner / sizeof *inner };
 /* Intervals of p narrower than this fraction of its range are not searched. */
 static const double narrow = 1e-12;
 
-/* A list of start points: at [count * m], owned. */
+/* A list of points from which curves are followed: at [count * m], owned. */
 typedef struct {
     double *at;
     size_t count, m;
-    size_t plain; /* number of the first points, found at fixed fractions of the range of p */
+    size_t plain; /* number of those points, the first ones, that were found at fixed fractions of the range of p */
 } starts;
 
 static qdot_status
-starts_add(starts *s, const double *y, size_t count)
+append_start_points(starts *s, const double *y, size_t count)
 {
     double *all = qdot_realloc(s->at, (s->count + count + 1) * s->m * sizeof *all);
 
@@ -50,9 +50,9 @@ starts_add(starts *s, const double *y, size_t count)
 
 /* --- points to start from -------------------------------------------------------------------- */
 
-/* Add the equilibria of the exact set at p. `existing`: only those whose conditions hold there. */
+/* Add the equilibria of the exact set at p; `existing`: only those whose conditions of existence hold there. */
 static qdot_status
-add_members(const qdot_equilibrium_set *set, double p, bool existing, double *y, starts *to)
+append_exact_equilibria(const qdot_equilibrium_set *set, double p, bool existing, double *y, starts *to)
 {
     const size_t n = set->c->n;
 
@@ -64,21 +64,21 @@ add_members(const qdot_equilibrium_set *set, double p, bool existing, double *y,
         for (size_t i = 0; i < n; i++)
             finite = finite && isfinite(y[i]);
         if (finite && !set->member.at[k].corner && (exists || !existing))
-            QDOT_TRY(starts_add(to, y, 1));
+            QDOT_TRY(append_start_points(to, y, 1));
     }
     return QDOT_OK;
 }
 
-/* Add the equilibria that a numerical search at p finds. */
+/* Add the equilibria that a numerical search at the parameter value p finds. */
 static qdot_status
-add_searched(qdot_equilibrium_curve *c, double p, starts *to)
+append_searched_equilibria(qdot_equilibrium_curve *c, double p, starts *to)
 {
     double *some;
     size_t n;
     qdot_status status;
 
     QDOT_TRY(qdot_equilibrium_curve_starts(c, p, &some, &n));
-    status = starts_add(to, some, n);
+    status = append_start_points(to, some, n);
     qdot_free(some);
     return status;
 }
@@ -86,22 +86,22 @@ add_searched(qdot_equilibrium_curve *c, double p, starts *to)
 /* Equilibria at some values of p: known exactly where the set is complete, else searched for; and one of each member
  * of the set in each cell. */
 static qdot_status
-find_starts(qdot_equilibrium_curve *c, const qdot_equilibrium_set *set, double *y, starts *to)
+find_start_points(qdot_equilibrium_curve *c, const qdot_equilibrium_set *set, double *y, starts *to)
 {
     const double least = set->wall.at[0], most = set->wall.at[set->wall.n - 1];
 
     for (size_t k = 0; k < PARTS; k++) {
         const double p = k == 1 ? most : least + parts[k] * (most - least);
 
-        QDOT_TRY(set->complete ? add_members(set, p, false, y, to) : add_searched(c, p, to));
+        QDOT_TRY(set->complete ? append_exact_equilibria(set, p, false, y, to) : append_searched_equilibria(c, p, to));
     }
     to->plain = to->count;
     for (size_t k = 1; k < set->wall.n; k++) {
         const double lo = set->wall.at[k - 1], hi = set->wall.at[k], p = lo + (hi - lo) / 2;
 
-        QDOT_TRY(add_members(set, p, true, y, to));
+        QDOT_TRY(append_exact_equilibria(set, p, true, y, to));
         if (!set->complete && set->wall.n > 2 && hi - lo > narrow * (most - least))
-            QDOT_TRY(add_searched(c, p, to));
+            QDOT_TRY(append_searched_equilibria(c, p, to));
     }
     return QDOT_OK;
 }
@@ -109,7 +109,7 @@ find_starts(qdot_equilibrium_curve *c, const qdot_equilibrium_set *set, double *
 /* The size of each unknown: 1 of angles; else how far the places, those of one p on the average, are
  * apart, or from 0. */
 static void
-places_find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, double *size)
+find_typical_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, double *size)
 {
     const size_t m = c->n + 1;
     const double gaps = fmax(1, (double)count / PARTS - 1);
@@ -130,9 +130,9 @@ places_find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t coun
 
 /* --- curves known by formulas ------------------------------------------------------------------ */
 
-/* Remove those points that lie on exact solution k from the list of points without a curve. */
+/* Remove the points that lie on exact solution k from the list of points that are on no curve yet. */
 static qdot_status
-leave_out_member(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y)
+remove_points_on_solution(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y)
 {
     const size_t m = set->c->n + 1;
     size_t kept = 0;
@@ -162,7 +162,7 @@ typedef struct {
 /* The limit of exact solution k at end w of interval i, from values at p ever closer to it, whose
  * differences must shrink. */
 static qdot_status
-limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, size_t w, limit *to)
+find_limit(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, size_t w, limit *to)
 {
     const size_t n = set->c->n;
     const double p = set->wall.at[w], width = set->wall.at[i + 1] - set->wall.at[i], inward = w == i ? 1 : -1,
@@ -186,7 +186,7 @@ limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
     to->finite = finite && (change[1] < fmin(0.6 * change[0], 0.05) || change[1] < 1e-9);
     to->error = 4 * change[1] + 1e-9;
     if (status == QDOT_OK) {
-        to->y[n] = p; /* the value at p itself, if it equals the limit */
+        to->y[n] = p; /* use the value at p itself if it equals the limit */
         status = qdot_equilibrium_set_place(set, k, to->y, &exists);
         for (size_t q = 0; q < n; q++)
             if (!(fabs(to->y[q] - near[q]) <= to->error * s->all->size[q]))
@@ -196,28 +196,28 @@ limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
     return status;
 }
 
-/* Whether exact solution k is continuous from interval i to the next one. y [2 (n + 1)] is work space. */
+/* Whether exact solution k is continuous from parameter interval i to the next. y [2 (n + 1)]: work space. */
 static qdot_status
 is_continuous(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *yes)
 {
     limit left = {.y = y}, right = {.y = y + set->c->n + 1};
 
-    QDOT_TRY(limit_find(s, set, k, i, i + 1, &left));
-    QDOT_TRY(limit_find(s, set, k, i + 1, i + 1, &right));
+    QDOT_TRY(find_limit(s, set, k, i, i + 1, &left));
+    QDOT_TRY(find_limit(s, set, k, i + 1, i + 1, &right));
     *yes = left.finite && right.finite;
     for (size_t q = 0; q < set->c->n; q++)
         *yes = *yes && fabs(left.y[q] - right.y[q]) <= fmax(left.error, right.error) * s->all->size[q];
     return QDOT_OK;
 }
 
-/* Append the limit of exact solution k at end w of interval i to the branch; *finite: the limit exists. */
+/* Append the limit of exact solution k at end w of parameter interval i to the branch; *finite: it exists. */
 static qdot_status
-add_limit(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, size_t w, qdot_stability verdict,
-          double *y, qdot_branch *branch, bool *finite)
+append_limit(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, size_t w, qdot_stability verdict,
+             double *y, qdot_branch *branch, bool *finite)
 {
     limit at = {.y = y};
 
-    QDOT_TRY(limit_find(s, set, k, i, w, &at));
+    QDOT_TRY(find_limit(s, set, k, i, w, &at));
     *finite = at.finite;
     return at.finite ? qdot_branch_add(s->x, branch, y, verdict, 0) : QDOT_OK;
 }
@@ -225,7 +225,7 @@ add_limit(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, 
 /* Append points of exact solution k over interval i, including both ends, to the branch, and how it
  * ends there. */
 static qdot_status
-add_cell(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, double *y, qdot_branch *branch)
+append_interval(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, double *y, qdot_branch *branch)
 {
     const size_t n = set->c->n;
     const double lo = set->wall.at[i], hi = set->wall.at[i + 1];
@@ -234,7 +234,7 @@ add_cell(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, d
 
     QDOT_TRY(qdot_equilibrium_set_judge(set, k, lo + inner[0] * (hi - lo), &verdict));
     if (branch->n == 0) {
-        QDOT_TRY(add_limit(s, set, k, i, i, verdict, y, branch, &finite));
+        QDOT_TRY(append_limit(s, set, k, i, i, verdict, y, branch, &finite));
         branch->end[0] = !finite ? QDOT_END_FAR : i == 0 ? QDOT_END_RANGE : QDOT_END_NO_REST;
     } else if (branch->stability[branch->n - 1] != verdict) {
         branch->stability[branch->n - 1] = QDOT_STABILITY_UNDECIDED;
@@ -245,7 +245,7 @@ add_cell(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, d
         if (exists)
             QDOT_TRY(qdot_branch_add(s->x, branch, y, verdict, 0));
     }
-    QDOT_TRY(add_limit(s, set, k, i, i + 1, verdict, y, branch, &finite));
+    QDOT_TRY(append_limit(s, set, k, i, i + 1, verdict, y, branch, &finite));
     branch->end[1] = !finite ? QDOT_END_FAR : i + 2 == set->wall.n ? QDOT_END_RANGE : QDOT_END_NO_REST;
     return QDOT_OK;
 }
@@ -253,7 +253,7 @@ add_cell(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, d
 /* Whether another member lies so near y, a place of member k, that curves do not tell them apart. y: room for
  * [2 (n + 1)]. */
 static qdot_status
-has_neighbour(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *yes)
+has_close_solution(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *yes)
 {
     const size_t n = set->c->n;
     double *other = y + n + 1;
@@ -277,8 +277,8 @@ has_neighbour(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, 
 /* Whether member k is a place at rest in cell i that no curve holds yet: but for one place, where it may cross a curve.
  * Where that is in doubt, *whole becomes false. */
 static qdot_status
-is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *whole,
-           bool *yes)
+is_missing_in_interval(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *whole,
+                       bool *yes)
 {
     const qdot_equilibrium_member *one = &set->member.at[k];
     size_t exist = 0, inside = 0, known = 0, beside = 0;
@@ -295,7 +295,7 @@ is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
         if (!one->corner)
             QDOT_TRY(qdot_continuation_knows(s, y, &knows));
         if (knows)
-            QDOT_TRY(has_neighbour(s, set, k, y, &near));
+            QDOT_TRY(has_close_solution(s, set, k, y, &near));
         known += knows;
         beside += near;
     }
@@ -307,7 +307,7 @@ is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
 /* Add exact solution k as a branch over each sequence of intervals marked in `missing`: there no
  * followed curve contains it. */
 static qdot_status
-draw_cells(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const bool *missing, double *y)
+add_missing_intervals(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const bool *missing, double *y)
 {
     const size_t cells = set->wall.n - 1;
     qdot_branch branch = {0};
@@ -318,7 +318,7 @@ draw_cells(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const boo
 
         if (!missing[i])
             continue;
-        status = add_cell(s, set, k, i, y, &branch);
+        status = append_interval(s, set, k, i, y, &branch);
         if (status == QDOT_OK && next)
             status = is_continuous(s, set, k, i, y, &next);
         if (status != QDOT_OK || next)
@@ -327,20 +327,20 @@ draw_cells(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const boo
         if (status == QDOT_OK)
             branch = (qdot_branch){0};
         if (status == QDOT_OK)
-            status = leave_out_member(s, set, k, y);
+            status = remove_points_on_solution(s, set, k, y);
     }
     qdot_branch_clear(&branch);
     return status;
 }
 
-/* Find the intervals in which no curve contains exact solution k; *any: there is at least one. */
+/* Find the parameter intervals in which no curve contains exact solution k; *any: there is one at least. */
 static qdot_status
-find_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *missing, bool *whole,
-             bool *any)
+find_missing_intervals(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *missing, bool *whole,
+                       bool *any)
 {
     *any = false;
     for (size_t i = 0; i + 1 < set->wall.n; i++) {
-        QDOT_TRY(is_missing(s, set, k, i, y, whole, &missing[i]));
+        QDOT_TRY(is_missing_in_interval(s, set, k, i, y, whole, &missing[i]));
         *any = *any || missing[i];
     }
     return QDOT_OK;
@@ -349,28 +349,28 @@ find_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, d
 /* Add the missing intervals of exact solution k as branches; its stability changes only at ends of
  * intervals. */
 static qdot_status
-draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *y, bool *whole)
+add_exact_solution(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *y, bool *whole)
 {
     const size_t walls = set->wall.n;
     bool *missing = qdot_calloc(walls, sizeof *missing), any = false;
-    qdot_status status = missing ? find_missing(s, set, k, y, missing, whole, &any) : QDOT_ENOMEM;
+    qdot_status status = missing ? find_missing_intervals(s, set, k, y, missing, whole, &any) : QDOT_ENOMEM;
 
     if (status == QDOT_OK && any)
         status = qdot_equilibrium_set_add_verdicts(set, k);
     if (status == QDOT_OK && any && set->wall.n != walls) {
         qdot_free(missing);
         missing = qdot_calloc(set->wall.n, sizeof *missing);
-        status = missing ? find_missing(s, set, k, y, missing, whole, &any) : QDOT_ENOMEM;
+        status = missing ? find_missing_intervals(s, set, k, y, missing, whole, &any) : QDOT_ENOMEM;
     }
     if (status == QDOT_OK && any)
-        status = draw_cells(s, set, k, missing, y);
+        status = add_missing_intervals(s, set, k, missing, y);
     qdot_free(missing);
     return status;
 }
 
 /* Whether no branch ends at a point where an exact solution of the set continues. */
 static bool
-ends_are_walls(const qdot_branch_search *s, const qdot_equilibrium_set *set)
+ends_only_at_interval_bounds(const qdot_branch_search *s, const qdot_equilibrium_set *set)
 {
     const size_t n = set->c->n;
 
@@ -392,9 +392,9 @@ ends_are_walls(const qdot_branch_search *s, const qdot_equilibrium_set *set)
     return true;
 }
 
-/* Whether a branch leads over the value `at` of p. */
+/* Whether a branch passes through the value `at` of the parameter p. */
 static bool
-is_passed(const qdot_branch_search *s, double at)
+is_parameter_passed(const qdot_branch_search *s, double at)
 {
     const size_t m = s->x->n + 1;
 
@@ -409,16 +409,16 @@ is_passed(const qdot_branch_search *s, double at)
     return false;
 }
 
-/* List expressions that are 0 at single values of p where energy or force is undefined on a branch. */
+/* List expressions that are 0 at isolated values of p where energy or force is undefined on a branch. */
 static qdot_status
-tell_gaps(qdot_branch_search *s, const qdot_equilibrium_set *set)
+list_undefined_parameters(qdot_branch_search *s, const qdot_equilibrium_set *set)
 {
     qdot_pool *pool = set->c->pool;
 
     for (size_t i = 0; i < set->gap.n; i++) {
         const qdot_equilibrium_gap *one = &set->gap.at[i];
 
-        if (is_passed(s, one->at) && !qdot_list_has(pool, s->all->undefined, one->what))
+        if (is_parameter_passed(s, one->at) && !qdot_list_has(pool, s->all->undefined, one->what))
             s->all->undefined = qdot_list_appended(pool, s->all->undefined, 1, &one->what);
     }
     return qdot_pool_check(pool);
@@ -427,35 +427,35 @@ tell_gaps(qdot_branch_search *s, const qdot_equilibrium_set *set)
 /* Draw the exact curves that are not followed: at corners, and of several equilibria that are one.
  * y: room for [2 (n + 1)]. */
 static qdot_status
-draw_exact(qdot_branch_search *s, qdot_equilibrium_set *set, double *y)
+add_exact_curves(qdot_branch_search *s, qdot_equilibrium_set *set, double *y)
 {
-    bool whole = set->complete && ends_are_walls(s, set);
+    bool whole = set->complete && ends_only_at_interval_bounds(s, set);
 
     for (size_t k = 0; k < set->member.n && !s->all->interrupted; k++)
-        QDOT_TRY(draw_member(s, set, k, y, &whole));
+        QDOT_TRY(add_exact_solution(s, set, k, y, &whole));
     s->all->complete = whole && !s->all->interrupted && s->all->left.n == 0;
     s->all->corners = !set->complete;
     s->all->families = set->families;
-    return tell_gaps(s, set);
+    return list_undefined_parameters(s, set);
 }
 
 /* --- the whole continuation -------------------------------------------------------------------- */
 
 static qdot_status
-follow_all(qdot_equilibrium_curve *c, qdot_equilibrium_set *set, qdot_branch_search *s)
+follow_equilibrium_curves(qdot_equilibrium_curve *c, qdot_equilibrium_set *set, qdot_branch_search *s)
 {
     starts from = {.m = c->n + 1};
     double *y = qdot_calloc(2 * (c->n + 1), sizeof *y);
-    qdot_status status = y ? find_starts(c, set, y, &from) : QDOT_ENOMEM;
+    qdot_status status = y ? find_start_points(c, set, y, &from) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
-        places_find_sizes(c, from.at, from.plain > 0 ? from.plain : from.count, s->all->size);
+        find_typical_sizes(c, from.at, from.plain > 0 ? from.plain : from.count, s->all->size);
         s->all->size[c->n] = s->x->most - s->x->least;
         qdot_path_scale(s->x, s->all->size);
         status = qdot_continuation_follow(s, from.at, from.count);
     }
     if (status == QDOT_OK)
-        status = draw_exact(s, set, y);
+        status = add_exact_curves(s, set, y);
     qdot_free(from.at);
     qdot_free(y);
     return status;
@@ -482,9 +482,9 @@ qdot_rest_continuation_find(qdot_equilibrium_curve *c, double least, double most
     if (status == QDOT_OK)
         status = qdot_equilibrium_set_begin(&set, c, least, most);
     if (status == QDOT_OK)
-        status = follow_all(c, &set, &s);
+        status = follow_equilibrium_curves(c, &set, &s);
     status = qdot_continuation_finish(&s, status);
-    if (out->interrupted && qdot_pool_check(c->pool) == QDOT_ENOMEM) /* the interruption is reported */
+    if (out->interrupted && qdot_pool_check(c->pool) == QDOT_ENOMEM) /* the interruption is reported, not this failure */
         status = QDOT_ENOMEM;
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED, out->complete ? "there is no equilibrium in this range, except at single values of %.100s"

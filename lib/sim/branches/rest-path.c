@@ -8,11 +8,11 @@
 #include "expr/walk.h"
 #include "tape/derivative.h"
 
-/* A root counts as growing if its real part exceeds this part of the fastest rate. */
+/* A root counts as growing if its real part exceeds this fraction of the fastest rate. */
 static const double grows = 1e-7;
 
 static void
-rest_evaluate(qdot_path *path, const double *y)
+evaluate_equilibrium_equations(qdot_path *path, const double *y)
 {
     qdot_rest_path *x = (qdot_rest_path *)path;
 
@@ -25,9 +25,9 @@ rest_evaluate(qdot_path *path, const double *y)
     }
 }
 
-/* Make the tape of the energy, where it depends on the unknowns and p alone. */
+/* Make the tape of the energy, if the energy depends on the unknowns and p alone. */
 static qdot_status
-energy_begin(qdot_rest_path *x)
+make_energy_tape(qdot_rest_path *x)
 {
     const qdot_equilibrium_curve *c = x->c;
     const qdot_expr e = c->bind(c->user, c->rest.energy), atoms = e == QDOT_NIL ? QDOT_NIL : qdot_expr_atoms(c->pool, e, true);
@@ -45,7 +45,7 @@ energy_begin(qdot_rest_path *x)
 }
 
 static qdot_status
-rest_path_judge(qdot_path *path, qdot_path_point *a)
+judge_equilibrium(qdot_path *path, qdot_path_point *a)
 {
     qdot_rest_path *x = (qdot_rest_path *)path;
     const qdot_linear_roots *r = &x->c->roots;
@@ -61,7 +61,7 @@ rest_path_judge(qdot_path *path, qdot_path_point *a)
 }
 
 static double
-end(const qdot_path *path, size_t i, bool upper, double p)
+bound_of_unknown(const qdot_path *path, size_t i, bool upper, double p)
 {
     return qdot_equilibrium_curve_end_of(((const qdot_rest_path *)path)->c, i, upper, p);
 }
@@ -77,15 +77,15 @@ qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least,
     x->path.angle = c->angle;
     x->path.lo = c->lo;
     x->path.hi = c->hi;
-    x->path.end = c->moving ? end : NULL;
+    x->path.end = c->moving ? bound_of_unknown : NULL;
     x->path.least = least;
     x->path.most = most;
-    x->path.at = rest_evaluate;
-    x->path.judge = rest_path_judge;
+    x->path.at = evaluate_equilibrium_equations;
+    x->path.judge = judge_equilibrium;
     x->path.upright = 1e-14;
     x->path.dips = true;
     QDOT_TRY(qdot_tape_new(c->pool, c->n + 1, c->unknown, c->n, c->F, &x->tape));
-    QDOT_TRY(energy_begin(x));
+    QDOT_TRY(make_energy_tape(x));
     work = qdot_derivative_work(x->tape);
     if (x->energy != NULL && qdot_tape_work(x->energy) > work)
         work = qdot_tape_work(x->energy);

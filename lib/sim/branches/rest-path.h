@@ -13,7 +13,7 @@ typedef struct {
     qdot_path path; /* first member, so a pointer to it can be cast to this type */
     qdot_equilibrium_curve *c; /* equations of the equilibria; borrowed */
     qdot_tape *tape;           /* outputs: F */
-    qdot_tape *energy; /* energy: no equilibrium where it is undefined; NULL: depends on more than u, p */
+    qdot_tape *energy; /* energy (no equilibrium where it is undefined); NULL: it depends on more than the unknowns and p */
     double *work;
 } qdot_rest_path;
 

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 
 static bool
-is_at(const qdot_course *c, const qdot_course_chatter *x, double t)
+is_chattering_at(const qdot_course *c, const qdot_course_chatter *x, double t)
 {
     return c->early == 0 && (t - x->t) * (t - x->end) <= 0;
 }
@@ -16,7 +16,7 @@ bool
 qdot_chatters_at(const qdot_course *c, double t)
 {
     for (size_t k = 0; k < c->chatters.n; k++)
-        if (is_at(c, &c->chatters.at[k], t))
+        if (is_chattering_at(c, &c->chatters.at[k], t))
             return true;
     return false;
 }
@@ -24,7 +24,7 @@ qdot_chatters_at(const qdot_course *c, double t)
 /* A bound of |u|: v^2/(2 a) with the weaker of the accelerations from both sides, and the effect of
  * v since the start. */
 static double
-place_at(const qdot_course *c, const qdot_course_chatter *x, double t, const double *y)
+oscillation_amplitude_at(const qdot_course *c, const qdot_course_chatter *x, double t, const double *y)
 {
     const size_t n = c->tr.n / 2;
     const double *slopes = x->along + n, most = x->place + x->speed * fabs(t - x->t);
@@ -58,19 +58,19 @@ qdot_chatter_add_state(const qdot_course *c, double t, const double *y, double *
     for (size_t k = 0; k < c->chatters.n; k++) {
         const qdot_course_chatter *x = &c->chatters.at[k];
 
-        const double place = is_at(c, x, t) ? place_at(c, x, t, y) : 0;
+        const double place = is_chattering_at(c, x, t) ? oscillation_amplitude_at(c, x, t, y) : 0;
 
-        for (size_t i = 0; i < n && is_at(c, x, t); i++) {
+        for (size_t i = 0; i < n && is_chattering_at(c, x, t); i++) {
             errors[i] += place * fabs(x->along[i]);
             errors[n + i] += x->speed * fabs(x->along[i]);
         }
     }
 }
 
-/* Find the largest |g(y + fraction of the oscillation) - g(y)|; y [2n] is in the reader. */
+/* Find the largest |g(y + a fraction of the oscillation) - g(y)| over some fractions; the reader holds y [2n]. */
 static qdot_status
-try_parts(const qdot_course_chatter *x, double place, size_t n, qdot_reader *r, double t, const double *y,
-          const double *values, double *g, double *most)
+find_change_by_oscillation(const qdot_course_chatter *x, double place, size_t n, qdot_reader *r, double t, const double *y,
+                           const double *values, double *g, double *most)
 {
     static const double parts[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     double *in = r->courses[0].in;
@@ -98,11 +98,11 @@ qdot_chatter_add(const qdot_course *c, qdot_reader *r, double t, const double *v
         return status;
     memcpy(y, r->courses[0].in, n * sizeof *y);
     for (size_t k = 0; k < c->chatters.n && status == QDOT_OK; k++) {
-        if (!is_at(c, &c->chatters.at[k], t))
+        if (!is_chattering_at(c, &c->chatters.at[k], t))
             continue;
         memset(most, 0, m * sizeof *most);
-        status = try_parts(&c->chatters.at[k], place_at(c, &c->chatters.at[k], t, y), n / 2, r, t, y, values, g,
-                           most);
+        status = find_change_by_oscillation(&c->chatters.at[k], oscillation_amplitude_at(c, &c->chatters.at[k], t, y), n / 2, r, t, y, values, g,
+                                            most);
         for (size_t j = 0; j < m && status == QDOT_OK; j++)
             errors[j] += most[j];
     }

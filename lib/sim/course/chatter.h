@@ -18,10 +18,10 @@
 #include "sim/course/course.h"
 #include "sim/course/reader.h"
 
-/* Whether the motion oscillates too fast about a surface at t to be followed. */
+/* Whether at time t the motion oscillates too fast about a surface to be followed. */
 bool qdot_chatters_at(const qdot_course *course, double t);
 
-/* Add the error that such oscillations cause in the state y [n] at t to errors [n]. */
+/* Add to errors [n] the error that a fast oscillation about a surface causes in the state y [n] at t. */
 void qdot_chatter_add_state(const qdot_course *course, double t, const double *y, double *errors);
 
 /* Add what it makes of the expressions [m] of the reader, along that course alone, to errors [m]; values [m] were

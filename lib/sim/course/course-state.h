@@ -1,4 +1,4 @@
-/* course-state.h -- the data of a course: trajectory, systems by mode, occurrences, ends. */
+/* course-state.h -- the data of a course (one run with its events): trajectory, occurrences, ends of pieces. */
 #ifndef QDOT_SIM_COURSE_STATE_H
 #define QDOT_SIM_COURSE_STATE_H
 
@@ -10,8 +10,8 @@
 typedef struct {
     size_t event;
     double t;
-    int way; /* left - right as t grows: 1 rises, -1 falls, 0 touches 0 */
-    double within, bend, blur; /* if the event only touches: shape of the touch, as in qdot_root */
+    int way; /* sign of d(left - right)/dt of the event: 1 rises, -1 falls; 0: it only touches 0 */
+    double within, bend, blur; /* if the event only touches 0: shape of the touch, as in qdot_root */
 } qdot_occurrence;
 
 /* A stretch of time in which the function of an event was so small that rounding of the run hides its sign: whether the
@@ -23,7 +23,7 @@ typedef struct {
     bool touched;
 } qdot_course_faded;
 
-/* The root of a watched function at which a piece ended. */
+/* The root of a watched function (event or switching surface) at which a piece of the run ended. */
 typedef struct {
     size_t piece, function; /* index of the piece; index of the function among those watched in its mode */
     double t;
@@ -38,25 +38,25 @@ typedef struct {
     double t, after;
 } qdot_course_rest;
 
-/* The motion was taken to slide along a surface about which it oscillates too fast (sim/course/chatter.h). */
+/* A time during which the motion, oscillating too fast about a surface, slides along it (sim/course/chatter.h). */
 typedef struct {
     size_t surface;
     double t, end; /* start and end of the time during which the motion is held on the surface */
-    double unsure; /* error of `end` for a contact, which may have begun with u = 0 only within rounding */
-    double speed;         /* bound of |du/dt| */
-    double place;         /* magnitude |u| at the start */
+    double unsure; /* error of the time `end` for a contact that may have begun with u = 0 only within rounding */
+    double speed;         /* bound of |du/dt|, u being the surface's function */
+    double place;         /* magnitude |u| of the surface's function at the start */
     size_t mode[3];       /* indices of the modes: below the surface, sliding on it, above */
-    double *along;        /* [n] a direction with du = 1, then the slopes du/dq [n]; owned */
+    double *along;        /* [n] a direction in which u changes by 1, then the gradient du/dq [n]; owned */
     bool ended;           /* the motion has left the surface */
-    bool steady; /* no oscillation: rounding error of a moving position, constant until `end` */
+    bool steady; /* not an oscillation but a rounding error of a moving position, constant until `end` */
 } qdot_course_chatter;
 
 typedef struct qdot_course {
     qdot_stage *stage; /* events, bounds and modes of the run; borrowed */
     bool shaken;
     bool no_series;   /* the method does not use Taylor series */
-    bool exact;       /* starts at the requested start, which is known in two doubles */
-    int early; /* for companions +-1: sign of the shift in qdot_piece_make_up; 0: the run itself */
+    bool exact;       /* starts at the user's start state, which is known in double-double precision */
+    int early; /* for the two companion runs, +-1: sign of the time shift in qdot_piece_make_up; 0: the run itself */
     double touch_tol; /* an extremum within this tolerance touches 0: that of the run, or less if
                          the run is more exact (sim/error/touches.h) */
     double passed_over; /* the least tolerance by which a touch of an event with a direction was one,
@@ -64,22 +64,22 @@ typedef struct qdot_course {
     /* evaluations for states within steps, and the number that ends the run with QDOT_ELIMIT;
      * 0: no limit */
     uint64_t looked, most_looked;
-    double left_out; /* velocities omitted by layers so far, relative to their scales (ode/scale.h) */
-    const struct qdot_course *leader; /* for a companion: the run, which decides when a contact lasts; else NULL */
-    size_t most_pieces; /* a companion with more pieces is given up; 0: no limit */
+    double left_out; /* velocities neglected in boundary layers so far, relative to their scales (ode/scale.h) */
+    const struct qdot_course *leader; /* for a companion run: the main run, which decides when a contact lasts; else NULL */
+    size_t most_pieces; /* a companion run with more pieces than this is given up; 0: no limit */
     qdot_trajectory tr;
-    qdot_vec(qdot_bind *) binds;         /* by mode; NULL for modes that have not occurred yet */
-    qdot_vec(qdot_ode_system) systems;   /* [modes] the same as systems of differential equations */
+    qdot_vec(qdot_bind *) binds;         /* equations of each mode; NULL: the mode has not occurred yet */
+    qdot_vec(qdot_ode_system) systems;   /* [modes] the equations of each mode as a system of differential equations */
     qdot_vec(qdot_watch *) watches;      /* [modes] root finders of the modes */
     qdot_vec(qdot_occurrence) occurrences;
-    qdot_vec(qdot_course_faded) faded; /* spans in which an event is lost in rounding, by time for each event */
-    qdot_vec(qdot_course_end) ends; /* roots that ended pieces, by time; one piece may have several at one time */
+    qdot_vec(qdot_course_faded) faded; /* times when rounding hides an event, sorted by time for each event */
+    qdot_vec(qdot_course_end) ends; /* roots that ended pieces, sorted by time; one piece may have several at one time */
     qdot_vec(qdot_course_rest) rests;
     qdot_vec(qdot_course_chatter) chatters;
-    size_t stopped_by; /* index of the event that stopped the run; SIZE_MAX: none */
-    char reason[400];  /* why the course ended early; "": it did not */
+    size_t stopped_by; /* index of the event that stopped the run; SIZE_MAX: no event did */
+    char reason[400];  /* why the run ended early; "": it did not */
     bool failed;       /* `reason` is a failure, not an event's `stop` */
-    bool began_on;     /* a watched function was 0 at the start */
+    bool began_on;     /* the function of an event or surface was 0 at the start */
 } qdot_course;
 
 #endif

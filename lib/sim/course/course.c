@@ -6,9 +6,9 @@
 
 #include "sim/course/piece.h"
 
-/* Allocate arrays for the largest number of functions in any mode. */
+/* Allocate arrays for the largest number of watched functions that any mode has. */
 static qdot_status
-make_room(qdot_piece *x)
+allocate_piece_arrays(qdot_piece *x)
 {
     size_t m = 2 * x->c->stage->switches.surfaces.n + x->c->stage->events.n +
                2 * x->c->stage->domains.n + 1;
@@ -48,7 +48,7 @@ make_room(qdot_piece *x)
     return qdot_vec_push(&x->step.pieces, (qdot_trajectory_piece){0});
 }
 
-/* Whether an event that ends the piece has a `then`. */
+/* Whether an event that ends the piece sets a new state (has a `then`). */
 static bool
 changes_state(const qdot_piece *x)
 {
@@ -64,7 +64,7 @@ changes_state(const qdot_piece *x)
 /* Whether the piece ends on surfaces that depend on positions, which the motion crosses with
  * unchanged velocity. */
 static bool
-crosses_places(const qdot_piece *x)
+crosses_position_surface(const qdot_piece *x)
 {
     bool places = false;
 
@@ -81,7 +81,7 @@ crosses_places(const qdot_piece *x)
 /* Whether the state may jump at the end of this piece of the run: by an event, or coordinates
  * without mass by a switch. */
 static bool
-may_jump(const qdot_piece *x)
+velocity_may_jump(const qdot_piece *x)
 {
     bool switches = false;
 
@@ -90,9 +90,9 @@ may_jump(const qdot_piece *x)
     return switches || changes_state(x);
 }
 
-/* Make the state that an event sets at the end of the run its last point. */
+/* Record the state that an event set at the end of the run as the run's last point. */
 static qdot_status
-resume(qdot_piece *x)
+record_final_state(qdot_piece *x)
 {
     return qdot_trajectory_resume(&x->c->tr, &x->c->systems.at[x->mode], x->mode, true,
                                   x->options, x->start.t, x->start.y);
@@ -101,7 +101,7 @@ resume(qdot_piece *x)
 /* What rests where a piece starts; an event that is met there, *over: one that stops the run, is carried
  * out, and sides are decided anew if it changes the state. */
 static qdot_status
-come_to_rest(qdot_piece *x, bool anew, bool *over)
+stop_resting_bodies(qdot_piece *x, bool anew, bool *over)
 {
     for (;;) {
         QDOT_TRY(qdot_piece_stop_pucks(x, anew));
@@ -119,7 +119,7 @@ come_to_rest(qdot_piece *x, bool anew, bool *over)
     }
 }
 
-/* Integrate the pieces of the run one after another from y0 [n] at x->start.t. */
+/* Integrate the pieces of the run one after another from the state y0 [n] at x->start.t. */
 static qdot_status
 integrate_pieces(qdot_piece *x, const double *y0)
 {
@@ -143,7 +143,7 @@ integrate_pieces(qdot_piece *x, const double *y0)
         status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method, x->options,
                                      x->start.t, x->start.t, y0);
     if (status == QDOT_OK)
-        status = come_to_rest(x, true, &over);
+        status = stop_resting_bodies(x, true, &over);
     if (status == QDOT_OK && qdot_piece_stop_nowhere(x))
         over = true;
     while (status == QDOT_OK && !over) {
@@ -158,7 +158,7 @@ integrate_pieces(qdot_piece *x, const double *y0)
                 x->start.jumped = qdot_piece_end_in_layers(x);
                 status = c->reason[0] == '\0' ? qdot_piece_end_behind(x) : QDOT_OK;
                 if (status == QDOT_OK && x->start.jumped)
-                    status = resume(x);
+                    status = record_final_state(x);
             }
             break;
         }
@@ -169,29 +169,29 @@ integrate_pieces(qdot_piece *x, const double *y0)
         x->start.from = x->mode;
         x->start.jumped = false;
         qdot_piece_find_delay(x);
-        if ((may_jump(x) || crosses_places(x)) && x->has_root)
+        if ((velocity_may_jump(x) || crosses_position_surface(x)) && x->has_root)
             status = qdot_piece_go_to_root(x);
         if (changes_state(x))
             (void)qdot_piece_end_in_layers(x);
         if (status == QDOT_OK)
             status = qdot_piece_keep(x, NULL);
-        if (status == QDOT_OK && may_jump(x) && !x->has_root)
+        if (status == QDOT_OK && velocity_may_jump(x) && !x->has_root)
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);
         if (status == QDOT_OK && !over)
             status = qdot_piece_sides(x, x->start.jumped ? NULL : qdot_piece_mode(x)->side);
         if (status == QDOT_OK && !over)
-            status = come_to_rest(x, x->start.jumped, &over);
+            status = stop_resting_bodies(x, x->start.jumped, &over);
         if (status == QDOT_OK && over && x->start.jumped)
-            status = resume(x);
+            status = record_final_state(x);
         if (status == QDOT_OK && over)
             c->tr.result.outcome = c->failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
         if (status == QDOT_OK && x->start.t == x->t1 && !over)
             status = qdot_piece_end_behind(x);
         if (x->start.t == x->t1 && !over) {
             if (x->start.jumped && status == QDOT_OK)
-                status = resume(x);
+                status = record_final_state(x);
             c->tr.result.outcome = QDOT_ODE_DONE;
             break;
         }
@@ -200,7 +200,7 @@ integrate_pieces(qdot_piece *x, const double *y0)
 }
 
 static void
-forget_chatters(qdot_course *c)
+clear_chatters(qdot_course *c)
 {
     for (size_t i = 0; i < c->chatters.n; i++)
         qdot_free(c->chatters.at[i].along);
@@ -227,11 +227,11 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                     .direction = t1 < t0 ? -1 : 1,
                     .n = 2 * c->stage->modes.at[0]->plan->n,
                     .start.t = t0};
-    qdot_status status = make_room(&x);
+    qdot_status status = allocate_piece_arrays(&x);
 
     /* clear the results of an earlier integration of this course */
     c->occurrences.n = c->faded.n = c->ends.n = c->rests.n = 0;
-    forget_chatters(c);
+    clear_chatters(c);
     c->reason[0] = '\0';
     c->failed = c->began_on = false;
     c->stopped_by = SIZE_MAX;
@@ -317,7 +317,7 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->faded.at);
     qdot_free(c->ends.at);
     qdot_free(c->rests.at);
-    forget_chatters(c);
+    clear_chatters(c);
     qdot_free(c->chatters.at);
     *c = (qdot_course){0};
 }

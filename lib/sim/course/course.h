@@ -29,7 +29,7 @@
 /* Free the contents. A course starts as {.stage} and must be cleared in any case. */
 void qdot_course_clear(qdot_course *c);
 
-/* The text after the time in a reason "stopped at t = TIME: CAUSE"; NULL for other reasons. */
+/* The text after the time in a reason "stopped at t = TIME: CAUSE"; NULL for reasons of another form. */
 const char *qdot_course_cause(const char *reason);
 
 /* Integrate from y [2n] at t0 to t1 by `method`, under options->tol; options->accepted
@@ -46,7 +46,7 @@ QDOT_MUST_CHECK qdot_status qdot_course_prepare(qdot_course *c);
 /* The number of occurrences of an event in the course. */
 size_t qdot_course_count(const qdot_course *c, size_t event);
 
-/* The systems of all modes of the run, for cursors along c->tr. */
+/* The systems of equations of all modes of the run, for cursors along c->tr. */
 const qdot_ode_system *qdot_course_systems(const qdot_course *c);
 
 #endif

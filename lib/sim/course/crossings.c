@@ -12,9 +12,9 @@ typedef struct {
     const double *limits;
     double direction;
     qdot_trajectory_cursor *cursor;
-    qdot_watch **watches; /* [modes] root finders, made when a mode is met */
+    qdot_watch **watches; /* [modes] root finders; each is made when its mode is met */
     size_t piece;
-    int sign;   /* sign of g since the last root */
+    int sign;   /* sign of the function g since the last root */
     int before; /* that at the end of the piece before, which tells whether a zero at the start of the
                    next is a root; 0: unknown, or the state jumped */
     qdot_crossings *out;
@@ -22,7 +22,7 @@ typedef struct {
 } search;
 
 static qdot_status
-read_stored(double t, double *y, void *user)
+read_stored_state(double t, double *y, void *user)
 {
     const search *s = user;
 
@@ -30,7 +30,7 @@ read_stored(double t, double *y, void *user)
 }
 
 static qdot_status
-take(search *s, const qdot_root *root)
+record_root(search *s, const qdot_root *root)
 {
     const double t = root->t;
     const qdot_trajectory *tr = &s->c->tr;
@@ -45,7 +45,7 @@ take(search *s, const qdot_root *root)
     return qdot_vec_push(s->out, ((qdot_crossing){t, -s->direction * root->late, s->piece, way}));
 }
 
-/* Find the roots within the step from stored point k; `last`: the next piece starts from another state. */
+/* Find the roots of g in the step from stored point k; `last`: the next piece starts from another state. */
 static qdot_status
 search_step(search *s, qdot_watch *w, size_t k, bool last)
 {
@@ -56,7 +56,7 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
     const qdot_status status =
         qdot_watch_step(w, tr->t[k + 1], tr->y + (k + 1) * tr->n, last, NULL, &roots, &n);
 
-    if (status == QDOT_EFAILED) { /* only rounding is left */
+    if (status == QDOT_EFAILED) { /* ignore this failure: only rounding is left to be searched */
         s->lost = tr->t[k];
         return QDOT_OK;
     }
@@ -66,20 +66,20 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
     for (size_t i = 0; i < n; i++) {
         s->sign = roots[i].stays ? 0 : roots[i].way != 0 ? roots[i].way : s->sign;
         if (!roots[i].pole)
-            QDOT_TRY(take(s, &roots[i]));
+            QDOT_TRY(record_root(s, &roots[i]));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-search_piece(search *s)
+search_piece_for_roots(search *s)
 {
     const qdot_trajectory *tr = &s->c->tr;
     const size_t mode = tr->pieces.at[s->piece].mode;
     const size_t last = qdot_trajectory_last_of(tr, s->piece);
     const bool final = s->piece + 1 == tr->pieces.n,
                jumps = !final && tr->pieces.at[s->piece + 1].jumped;
-    const qdot_watch_reader reader = {read_stored, NULL, s, true, qdot_course_systems(s->c) + mode,
+    const qdot_watch_reader reader = {read_stored_state, NULL, s, true, qdot_course_systems(s->c) + mode,
                                       NULL};
     size_t k = tr->pieces.at[s->piece].first;
     qdot_watch *w = s->watches[mode];
@@ -130,7 +130,7 @@ qdot_crossings_find(const qdot_course *c, qdot_expr g, const double *limits, qdo
     s.watches = qdot_calloc(c->systems.n + 1, sizeof *s.watches);
     status = s.watches ? qdot_trajectory_open(tr, qdot_course_systems(c), &s.cursor) : QDOT_ENOMEM;
     for (; s.piece < tr->pieces.n && status == QDOT_OK && isnan(s.lost); s.piece++)
-        status = search_piece(&s);
+        status = search_piece_for_roots(&s);
     while (!isnan(s.lost) && out->n > 0 && s.direction * (out->at[out->n - 1].t - s.lost) >= 0)
         out->n--;
     *lost = s.lost;

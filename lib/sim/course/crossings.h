@@ -12,9 +12,9 @@
 
 typedef struct {
     double t; /* first double at which the function has the new sign */
-    double low; /* the root is at t + low */
+    double low; /* small correction: the root is at t + low */
     size_t piece;
-    int way;  /* as t grows: 1 rises, -1 falls, 0 touches 0 */
+    int way;  /* sign of the function's slope at the root: 1 rises, -1 falls, 0: it only touches 0 */
 } qdot_crossing;
 
 typedef qdot_vec(qdot_crossing) qdot_crossings;

@@ -40,7 +40,7 @@ qdot_drifts_set(qdot_drifts *d, const qdot_drift *energy)
 /* Whether the equations switch at a point, which is stored twice: there sign(0) is 0, on
  * neither side. */
 static bool
-is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
+is_switching_interval(const qdot_trajectory *tr, size_t piece, size_t k)
 {
     const qdot_trajectory_piece *at = tr->pieces.at;
 
@@ -49,9 +49,9 @@ is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
                && !at[piece + 1].jumped);
 }
 
-/* Write point k of the trajectory as the inputs of a lane. */
+/* Write point k of the trajectory into one lane of the tape's inputs, for evaluation of several points at once. */
 static void
-put_point(const qdot_trajectory *tr, size_t k, size_t lane, double *in)
+load_lane(const qdot_trajectory *tr, size_t k, size_t lane, double *in)
 {
     const double *y = tr->y + k * tr->n;
 
@@ -67,11 +67,11 @@ drift_evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, d
                double *c, double *work)
 {
     for (size_t l = 0; l < QDOT_LANES; l++)
-        put_point(tr, first + l < tr->count ? first + l : tr->count - 1, l, in);
+        load_lane(tr, first + l < tr->count ? first + l : tr->count - 1, l, in);
     qdot_lanes_eval(tape, in, c, work);
 }
 
-/* Whether the motion is held on a moving surface, which does work. */
+/* Whether a constraint surface that moves, and so does work, holds the motion in this mode. */
 static bool
 is_driven(const qdot_stage *stage, size_t mode)
 {
@@ -81,11 +81,11 @@ is_driven(const qdot_stage *stage, size_t mode)
     return false;
 }
 
-/* An event that changes a quantity c by more than this, relative to max(1, |c|), does not conserve it. */
+/* An event that changes a quantity by more than this, relative to max(1, |quantity|), does not conserve it. */
 static const double of_event = 1e-10;
 
 static qdot_status
-drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_drift *drift)
+measure_drift(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_drift *drift)
 {
     size_t n = tr->n;
     double *in = qdot_malloc(QDOT_LANES * (n + 1) * sizeof *in);
@@ -118,9 +118,9 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qd
             start = change;
             continue;
         }
-        if (piece > 0 && is_switch(tr, piece - 1, k))
+        if (piece > 0 && is_switching_interval(tr, piece - 1, k))
             continue;
-        /* nor is a change by a lasting contact, which has its own mode: its impacts have taken energy, too */
+        /* nor is a change by a lasting contact, which has its own mode: its impacts took energy */
         if (drift->changed && piece > 0 && tr->pieces.at[piece - 1].mode != tr->pieces.at[0].mode) {
             start = change;
             continue;
@@ -138,12 +138,12 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qd
 
 /* Measure the drift of a quantity along the run and append it to the list. */
 static qdot_status
-note(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_expr quantity,
-     const char *name, qdot_drifts *d)
+record_drift(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_expr quantity,
+             const char *name, qdot_drifts *d)
 {
     qdot_drift x = {.quantity = quantity};
 
-    QDOT_TRY(drift_follow_quantity(tape, tr, stage, &x));
+    QDOT_TRY(measure_drift(tape, tr, stage, &x));
     if (!isfinite(x.start)) /* infinite or undefined at the start: no drift can be measured */
         return QDOT_OK;
     if (!(x.name = qdot_strdup(name)))
@@ -153,7 +153,7 @@ note(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, 
 }
 
 static qdot_status
-lower(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
+make_quantity_tape(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
 {
     const qdot_expr e = qdot_plan_substitute(p, quantity);
 
@@ -179,11 +179,11 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     h = p->M ? qdot_mech_numeric_energy(scene) : p->residual->h;
     status = qdot_pool_check(p->pool);
     if (status == QDOT_OK && h != QDOT_NIL && p->M)
-        status = lower(p, h, &made);
+        status = make_quantity_tape(p, h, &made);
     tape = p->M ? made : p->residual->energy;
     if (status != QDOT_OK || h == QDOT_NIL)
         return qdot_grave(status);
-    status = note(tape, tr, stage, h, "energy", d);
+    status = record_drift(tape, tr, stage, h, "energy", d);
     d->energy = d->n == 1;
     if (status == QDOT_OK && p->M)
         status = qdot_absent_find(tape, p->n, absent);
@@ -193,9 +193,9 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     return status;
 }
 
-/* Whether the run, or its part with this coordinate, was integrated with that momentum constant. */
+/* Whether the run, or the part with this coordinate, was integrated with the conjugate momentum kept constant. */
 static bool
-momentum_is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
+is_momentum_constant(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
 {
     for (size_t i = 0; i == 0 || i < tr->n_tracks; i++) {
         const qdot_plan *r = tr->n_tracks > 0 ? p->parts[i]->reduced : p->reduced;
@@ -227,12 +227,12 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
     name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
     if (!name)
         return QDOT_ENOMEM;
-    status = qdot_grave(lower(p, cyclic.momentum, &tape));
+    status = qdot_grave(make_quantity_tape(p, cyclic.momentum, &tape));
     if (tape)
-        status = note(tape, tr, stage, cyclic.momentum, name, d);
+        status = record_drift(tape, tr, stage, cyclic.momentum, name, d);
     qdot_tape_free(tape);
     qdot_free(name);
-    if (status == QDOT_OK && d->n > 0 && momentum_is_kept(p, tr, cyclic.coordinate)
+    if (status == QDOT_OK && d->n > 0 && is_momentum_constant(p, tr, cyclic.coordinate)
         && d->at[d->n - 1].quantity == cyclic.momentum) {
         d->at[d->n - 1].kept = true;
         d->at[d->n - 1].drift = 0;
@@ -240,18 +240,18 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
     return status;
 }
 
-/* Find the largest sum of the magnitudes of a quantity's terms along the run; 0 if not known. */
+/* Find the largest sum, along the run, of the magnitudes of a quantity's terms; 0 if not known. */
 static qdot_status
-measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity, double *most)
+find_largest_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity, double *most)
 {
     const qdot_expr terms = qdot_term_magnitude(p->pool, qdot_plan_substitute(p, quantity));
     qdot_tape *tape = NULL;
     qdot_drift of = {.quantity = terms};
-    qdot_status status = qdot_grave(lower(p, terms, &tape));
+    qdot_status status = qdot_grave(make_quantity_tape(p, terms, &tape));
 
     *most = 0;
     if (status == QDOT_OK && tape)
-        status = drift_follow_quantity(tape, tr, NULL, &of);
+        status = measure_drift(tape, tr, NULL, &of);
     if (tape)
         *most = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
     qdot_tape_free(tape);
@@ -261,15 +261,15 @@ measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
 /* What an error of tol in every component of the state at point k, relative to max(1, |y_i|), changes the
  * quantity by: sum_i |c(y + tol max(1, |y_i|) e_i) - c(y)|; not finite where that leaves its domain. */
 static double
-spread_at(const qdot_tape *tape, const qdot_trajectory *tr, size_t k, double tol, double *in, double *work)
+error_at_point(const qdot_tape *tape, const qdot_trajectory *tr, size_t k, double tol, double *in, double *work)
 {
-    const size_t n = tr->n, moved = QDOT_LANES - 1; /* lanes: one component is changed in each lane, none in the last */
+    const size_t n = tr->n, moved = QDOT_LANES - 1; /* each lane changes one component of the state, the last lane none */
     const double *y = tr->y + k * n;
     double c[QDOT_LANES], sum = 0;
 
     for (size_t first = 0; first < n; first += moved) {
         for (size_t l = 0; l < QDOT_LANES; l++)
-            put_point(tr, k, l, in);
+            load_lane(tr, k, l, in);
         for (size_t l = 0; l < moved && first + l < n; l++)
             in[(first + l) * QDOT_LANES + l] += tol * fmax(1, fabs(y[first + l]));
         qdot_lanes_eval(tape, in, c, work);
@@ -282,7 +282,7 @@ spread_at(const qdot_tape *tape, const qdot_trajectory *tr, size_t k, double tol
 /* What errors of tol in every step change a quantity by; not finite if a state is within tol of the end of
  * its domain. */
 static qdot_status
-spread_along(const qdot_tape *tape, const qdot_trajectory *tr, double tol, double *spread)
+find_largest_error(const qdot_tape *tape, const qdot_trajectory *tr, double tol, double *spread)
 {
     double *in = qdot_malloc(QDOT_LANES * (tr->n + 1) * sizeof *in);
     double *work = qdot_malloc(QDOT_LANES * (qdot_tape_work(tape) + 1) * sizeof *work);
@@ -292,7 +292,7 @@ spread_along(const qdot_tape *tape, const qdot_trajectory *tr, double tol, doubl
     for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
         if (k % 1024 == 0)
             status = qdot_interrupt_check();
-        *spread += spread_at(tape, tr, k, tol, in, work);
+        *spread += error_at_point(tape, tr, k, tol, in, work);
     }
     qdot_free(in);
     qdot_free(work);
@@ -311,16 +311,16 @@ qdot_drifts_contradict(const qdot_drifts *d, const qdot_plan *p, const qdot_traj
     *contradict = false;
     if (!d->energy || !p->M || !(d->at[0].drift > most * tol * (double)tr->result.stats.steps))
         return QDOT_OK;
-    QDOT_TRY(qdot_grave(lower(p, d->at[0].quantity, &tape)));
+    QDOT_TRY(qdot_grave(make_quantity_tape(p, d->at[0].quantity, &tape)));
     if (!tape)
         return QDOT_OK;
-    status = spread_along(tape, tr, tol, &spread);
+    status = find_largest_error(tape, tr, tol, &spread);
     qdot_tape_free(tape);
     *contradict = !(d->at[0].drift * fmax(1, fabs(d->at[0].start)) <= most * spread && isfinite(spread));
     return status;
 }
 
-/* Make drifts of quantities below 1 relative to the sizes of their terms. */
+/* Divide the drifts of quantities that are smaller than 1 by the sizes of the quantities' terms. */
 static qdot_status
 make_relative(const qdot_plan *p, const qdot_trajectory *tr, qdot_drifts *d)
 {
@@ -329,7 +329,7 @@ make_relative(const qdot_plan *p, const qdot_trajectory *tr, qdot_drifts *d)
 
         if (fabs(d->at[i].start) > 1 || !(d->at[i].drift > 0))
             continue;
-        QDOT_TRY(measure_terms(p, tr, d->at[i].quantity, &terms));
+        QDOT_TRY(find_largest_terms(p, tr, d->at[i].quantity, &terms));
         if (terms > 0 && terms < 1)
             d->at[i].drift /= terms;
     }

@@ -1,4 +1,4 @@
-/* multipliers.c -- residuals of constraints at every stored point, multipliers at the last one. */
+/* multipliers.c -- residuals of constraints at every stored point, Lagrange multipliers at the last one. */
 #include "sim/course/multipliers.h"
 
 #include <float.h>
@@ -16,13 +16,13 @@ qdot_multipliers_clear(qdot_multipliers *b)
 }
 
 static void
-widen(double *most, size_t row, double x)
+raise_maximum(double *most, size_t row, double x)
 {
     if (row != SIZE_MAX && !(x <= *most)) /* also true if x is a NaN, which then stays */
         *most = x;
 }
 
-/* Find the multipliers at the last point; NaN if the equations have no value there. */
+/* Find the Lagrange multipliers at the last point of the run; NaN if the equations have no value there. */
 static qdot_status
 find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
                  qdot_multipliers *b)
@@ -55,22 +55,22 @@ find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
 
 /* The constraints in force during a piece of the run; NULL if there are none. */
 static qdot_constrained *
-of_piece(qdot_bind *const *binds, const qdot_trajectory *tr, size_t piece)
+constraints_of_piece(qdot_bind *const *binds, const qdot_trajectory *tr, size_t piece)
 {
     return qdot_bind_held(binds[piece < tr->pieces.n ? tr->pieces.at[piece].mode : 0]);
 }
 
 static qdot_constrained *
-of_end(qdot_bind *const *binds, const qdot_trajectory *tr)
+constraints_at_end(qdot_bind *const *binds, const qdot_trajectory *tr)
 {
-    return of_piece(binds, tr, tr->pieces.n > 0 ? tr->pieces.n - 1 : 0);
+    return constraints_of_piece(binds, tr, tr->pieces.n > 0 ? tr->pieces.n - 1 : 0);
 }
 
 qdot_status
 qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
                          qdot_multipliers *b)
 {
-    qdot_constrained *held = of_piece(binds, tr, 0);
+    qdot_constrained *held = constraints_of_piece(binds, tr, 0);
     size_t piece = 0;
 
     qdot_multipliers_clear(b);
@@ -80,25 +80,25 @@ qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
     for (size_t k = 0; k < tr->count; k++) {
         qdot_constrained_residual r;
 
-        if (k % 1024 == 0 && qdot_interrupt_check() != QDOT_OK) { /* after Ctrl-C only the end is still evaluated */
+        if (k % 1024 == 0 && qdot_interrupt_check() != QDOT_OK) { /* after Ctrl-C only the end of the run is still evaluated */
             b->position = b->velocity = NAN;
             break;
         }
         while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
-            held = of_piece(binds, tr, ++piece);
+            held = constraints_of_piece(binds, tr, ++piece);
         r = qdot_constrained_measure(held, tr->t[k], tr->y + k * tr->n);
-        widen(&b->position, r.worst_position, r.position);
-        widen(&b->velocity, r.worst_velocity, r.velocity);
+        raise_maximum(&b->position, r.worst_position, r.position);
+        raise_maximum(&b->velocity, r.worst_velocity, r.velocity);
     }
-    held = of_end(binds, tr);
+    held = constraints_at_end(binds, tr);
     b->independent = qdot_constrained_rank(held);
     return find_multipliers(held, tr, qdot_constrained_rows(held), b);
 }
 
-/* Find the multipliers lambda at y with component i shifted by h, into `out`; NaN where undefined. */
+/* Find the multipliers lambda at y with component i changed by h, into `out`; NaN where undefined. */
 static void
-multipliers_shifted(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
-                    double *out)
+find_shifted_multipliers(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
+                         double *out)
 {
     qdot_error before = *qdot_last_error();
     double kept = y[i];
@@ -116,7 +116,7 @@ qdot_status
 qdot_multipliers_errors(qdot_bind *const *binds, const qdot_trajectory *tr,
                         const double *difference, qdot_multipliers *b)
 {
-    qdot_constrained *held = of_end(binds, tr);
+    qdot_constrained *held = constraints_at_end(binds, tr);
     const size_t n = tr->n, m = held ? qdot_constrained_rows(held) : 0;
     double t, *y, *a, *up, *down;
 
@@ -136,8 +136,8 @@ qdot_multipliers_errors(qdot_bind *const *binds, const qdot_trajectory *tr,
     for (size_t i = 0; i < n; i++) {
         double h = 0x1p-20 * fmax(1, fabs(y[i]));
 
-        multipliers_shifted(held, t, y, i, h, a, up);
-        multipliers_shifted(held, t, y, i, -h, a, down);
+        find_shifted_multipliers(held, t, y, i, h, a, up);
+        find_shifted_multipliers(held, t, y, i, -h, a, down);
         for (size_t k = 0; k < m; k++)
             b->error[k] += fabs(up[k] - down[k]) / (2 * h) * difference[i];
     }

@@ -13,7 +13,7 @@ typedef struct {
     double position, velocity; /* the largest residuals at stored points; NaN: no such constraints
                                    */
     double *lambda;            /* [m] multipliers at the end of the run */
-    double *error;             /* [m] their absolute errors; NaN: unknown */
+    double *error;             /* [m] absolute errors of the multipliers; NaN: unknown */
     size_t independent;        /* rank of the constraint Jacobian */
 } qdot_multipliers;
 
@@ -31,7 +31,7 @@ QDOT_MUST_CHECK qdot_status qdot_multipliers_errors(qdot_bind *const *binds,
                                                     qdot_multipliers *b);
 void qdot_multipliers_clear(qdot_multipliers *b);
 
-/* Copy the measurements into a report. */
+/* Copy the measured residuals and multipliers into a report. */
 void qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *plan,
                              qdot_run_report *r);
 

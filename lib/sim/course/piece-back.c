@@ -21,17 +21,17 @@ typedef enum {
     PASSES, /* the event did not occur, and the motion continues */
     UNDONE,
     LOST,  /* the event may have occurred, but the state before it cannot be determined */
-    RESTS, /* the motion may have been at rest there for an unknown time */
-    NEVER  /* no forward motion arrives here: the event would have changed it */
+    RESTS, /* the motion may have been at rest at the event for an unknown time */
+    NEVER  /* no motion arrives here forward in time: the event would have changed it */
 } verdict;
 
-/* The rates g' and g'' of the event's function at a state [n], and the rounding errors of g' and g. */
+/* The derivatives g' and g'' of the event's function g at a state [n], and rounding errors of g' and g. */
 typedef struct {
     double rate, bend, noise, size;
 } pace;
 
 static qdot_status
-find_pace(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, pace *to)
+find_event_derivatives(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, pace *to)
 {
     const qdot_plan *p = qdot_piece_mode(x)->plan;
     const size_t n = x->n / 2, inputs = qdot_plan_inputs(p);
@@ -58,9 +58,9 @@ find_pace(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, 
     return status;
 }
 
-/* Whether the bounce that begins or ends with this rate is too low to be distinguished from rest. */
+/* Whether a bounce that begins or ends with the rate g' is too low to be distinguished from rest. */
 static bool
-is_slow(const pace *of)
+is_indistinguishable_from_rest(const pace *of)
 {
     return fabs(of->rate) <= of->noise || (of->bend != 0 && of->rate * of->rate <= 2 * fabs(of->bend) * of->size);
 }
@@ -68,7 +68,7 @@ is_slow(const pace *of)
 /* The state y [n] before the event, from the state `behind` after it; *fits: the event maps y back
  * to `behind`. */
 static qdot_status
-find_before(qdot_piece *x, const qdot_staged_event *e, double t, const double *behind, double *y, bool *fits)
+find_state_before_event(qdot_piece *x, const qdot_staged_event *e, double t, const double *behind, double *y, bool *fits)
 {
     const qdot_staged_event *forward = e->undoing->forward;
     double *again = qdot_malloc(x->n * sizeof *again);
@@ -91,7 +91,7 @@ find_before(qdot_piece *x, const qdot_staged_event *e, double t, const double *b
 /* Where the function of event e is 0, at a state y behind it that its own function crosses the way `plain` as t grows:
  * *way is that before the event. */
 static qdot_status
-judge(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, int plain, int *way, verdict *is)
+judge_event_backwards(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, int plain, int *way, verdict *is)
 {
     const qdot_staged_undoing *u = e->undoing;
     double *before;
@@ -107,15 +107,15 @@ judge(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, int 
         return QDOT_OK;
     }
     before = qdot_malloc(x->n * sizeof *before);
-    status = before ? find_before(x, e, t, y, before, &fits) : QDOT_ENOMEM;
+    status = before ? find_state_before_event(x, e, t, y, before, &fits) : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = find_pace(x, e, t, before, &a);
+        status = find_event_derivatives(x, e, t, before, &a);
     if (status == QDOT_OK)
-        status = find_pace(x, e, t, y, &b);
+        status = find_event_derivatives(x, e, t, y, &b);
     qdot_free(before);
     QDOT_TRY(status);
     *way = fabs(a.rate) <= a.noise ? 0 : a.rate > 0 ? 1 : -1;
-    if (!u->moved && !u->keeps_speed && is_slow(&a) && is_slow(&b)
+    if (!u->moved && !u->keeps_speed && is_indistinguishable_from_rest(&a) && is_indistinguishable_from_rest(&b)
         && (e->way != 0 ? a.bend * e->way > 0 : a.bend * *way >= 0))
         *is = RESTS;
     else if (e->way == 0 || *way == e->way)
@@ -126,7 +126,7 @@ judge(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, int 
 }
 
 static int
-plain_way(const qdot_piece *x, const qdot_root *root)
+direction_of_root(const qdot_piece *x, const qdot_root *root)
 {
     return (int)x->direction * qdot_root_way(root);
 }
@@ -141,9 +141,9 @@ qdot_piece_is_undone(qdot_piece *x, const qdot_root *root, int *way)
 
     *way = e->way;
     if (status == QDOT_OK)
-        status = judge(x, e, root->t, y, plain_way(x, root), way, &is);
+        status = judge_event_backwards(x, e, root->t, y, direction_of_root(x, root), way, &is);
     qdot_free(y);
-    return status != QDOT_OK || is != PASSES; /* a failure here is reported when the event is carried out */
+    return status != QDOT_OK || is != PASSES; /* ignore a failure here: it is reported when the event is carried out */
 }
 
 qdot_status
@@ -157,7 +157,7 @@ qdot_piece_undone_at_start(qdot_piece *x, size_t i, bool *acts)
     *acts = false;
     if (!x->functions_on[i])
         return QDOT_OK;
-    QDOT_TRY(judge(x, e, x->start.t, x->start.y, (int)x->direction * first, &way, &is));
+    QDOT_TRY(judge_event_backwards(x, e, x->start.t, x->start.y, (int)x->direction * first, &way, &is));
     *acts = is == RESTS || (is == UNDONE && e->way != 0 && first != 0 && !e->undoing->keeps_speed);
     return QDOT_OK;
 }
@@ -175,11 +175,11 @@ qdot_piece_check_undone(qdot_piece *x, const qdot_root *root)
     verdict is;
     int way, at;
 
-    QDOT_TRY(judge(x, e, x->t_act, x->start.y, plain_way(x, root), &way, &is));
+    QDOT_TRY(judge_event_backwards(x, e, x->t_act, x->start.y, direction_of_root(x, root), &way, &is));
     if (is != LOST && is != RESTS && is != NEVER)
         return QDOT_OK;
     while (x->c->occurrences.n > 0 && x->c->occurrences.at[x->c->occurrences.n - 1].t == x->t_act)
-        x->c->occurrences.n--; /* remove occurrences at this time: it is not known whether they were ones */
+        x->c->occurrences.n--; /* remove the occurrences at this time: it is not known whether they took place */
     at = snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: ", x->t_act);
     snprintf(x->c->reason + at, sizeof x->c->reason - (size_t)at, words[is], e->name,
              is != LOST         ? ""

@@ -16,39 +16,39 @@
 #include "sim/course/piece.h"
 #include "sim/model/contact.h"
 
-/* The largest number of simultaneous impacts that are computed. */
+/* The largest number of simultaneous impacts that are computed one after another. */
 enum { MOST_BLOWS = 200000 };
-/* A sequence of impacts ends by itself if the last reversed a speed above this many rounding errors of it. */
+/* A sequence of impacts has ended by itself if the last reversed speed exceeded its rounding error by this factor. */
 static const double seen = 0x1p14;
-/* Remaining speeds of other contacts count as rounding up to this many rounding errors. */
+/* The approach speeds that remain at other contacts count as rounding up to this multiple of their errors. */
 static const double left_over = 64;
 
-/* Factor from the rounding of the largest velocity so far to the uncertainty of a velocity. */
+/* Factor from the rounding error of the largest velocity so far to the uncertainty of a velocity. */
 static const double hidden = 4;
 
 /* A contact whose bodies touch at this instant. */
 typedef struct {
     size_t event, surface;
     int way;   /* sign of du/dt when the bodies meet, in the direction of the run */
-    bool lasted; /* the contact lasted in the mode of the piece that ended */
-    bool held;   /* the contact lasts: its blow comes first, and alone */
+    bool lasted; /* the contact lasted (its bodies stayed together) in the mode of the piece that ended */
+    bool held;   /* the contact lasts: its impact comes first, and not together with others */
     bool due;
-    double rate, noise; /* present du/dt times `way`; its rounding error */
+    double rate, noise; /* present speed of approach (du/dt times `way`); its rounding error */
 } touch;
 
 typedef struct {
     qdot_piece *x;
     qdot_vec(touch) at;
-    double *y, *low;         /* [2n] the state y + low */
-    double *old, *old_low;   /* [2n] the state before a blow */
+    double *y, *low;         /* [2n] the state is the sum y + low (double-double) */
+    double *old, *old_low;   /* [2n] the state before an impact */
     double *rates, *fast, *slopes; /* [2n] scratch */
     size_t blows;
-    double last;   /* approach speed at the last blow, divided by its rounding error */
+    double last;   /* approach speed at the last impact, divided by its rounding error */
 } blows;
 
-/* The sign of du/dt with which event i is reached. */
+/* The sign of du/dt with which the motion reaches event i, u being the event's function. */
 static int
-way_met(const qdot_piece *x, size_t i)
+sign_of_approach(const qdot_piece *x, size_t i)
 {
     const int asked = qdot_piece_way_asked(x, i);
 
@@ -56,13 +56,13 @@ way_met(const qdot_piece *x, size_t i)
 }
 
 static qdot_status
-find_touches(blows *b)
+find_touching_contacts(blows *b)
 {
     qdot_piece *x = b->x;
     const qdot_switches *s = &x->c->stage->switches;
 
     for (size_t i = 0; i < x->c->stage->events.n; i++) {
-        const int way = way_met(x, i);
+        const int way = sign_of_approach(x, i);
         touch new = {.event = i, .surface = qdot_contacts_surface(s, i, way), .way = way};
 
         if (way == 0 || new.surface == SIZE_MAX)
@@ -74,9 +74,9 @@ find_touches(blows *b)
     return QDOT_OK;
 }
 
-/* Find du/dt of a contact at the state of the trial. */
+/* Find the approach speed du/dt of a contact in the state reached by the impacts so far. */
 static qdot_status
-touch_measure(blows *b, touch *c)
+measure_approach_speed(blows *b, touch *c)
 {
     qdot_piece *x = b->x;
     const size_t n = x->n / 2;
@@ -101,21 +101,21 @@ touch_measure(blows *b, touch *c)
 }
 
 static qdot_status
-touch_measure_all(blows *b)
+measure_approach_speeds(blows *b)
 {
     for (size_t k = 0; k < b->at.n; k++)
-        QDOT_TRY(touch_measure(b, &b->at.at[k]));
+        QDOT_TRY(measure_approach_speed(b, &b->at.at[k]));
     return QDOT_OK;
 }
 
 static bool
-touch_approaches(const touch *c)
+is_approaching(const touch *c)
 {
     return c->rate > c->noise;
 }
 
 static qdot_status
-blows_strike(blows *b, touch *c)
+apply_impact(blows *b, touch *c)
 {
     qdot_piece *x = b->x;
 
@@ -133,29 +133,29 @@ blows_strike(blows *b, touch *c)
 /* The next blows, as pieces without length have them: a contact that lasts and is pushed into first, and alone; else all
  * that approach, one after the other, but for those that one before them has turned back. *any: there were some. */
 static qdot_status
-try_next(blows *b, bool *any)
+apply_next_impact(blows *b, bool *any)
 {
     bool pushed = false;
 
     *any = false;
-    QDOT_TRY(touch_measure_all(b));
+    QDOT_TRY(measure_approach_speeds(b));
     for (size_t k = 0; k < b->at.n; k++)
-        pushed |= b->at.at[k].held && touch_approaches(&b->at.at[k]);
+        pushed |= b->at.at[k].held && is_approaching(&b->at.at[k]);
     for (size_t k = 0; k < b->at.n; k++) {
         touch *c = &b->at.at[k];
 
-        c->due = touch_approaches(c) && (c->held || !pushed);
-        c->held = c->held && fabs(c->rate) <= c->noise; /* otherwise the contact separates */
+        c->due = is_approaching(c) && (c->held || !pushed);
+        c->held = c->held && fabs(c->rate) <= c->noise; /* keep the contact closed only if it does not separate */
     }
     for (size_t k = 0; k < b->at.n; k++) {
         touch *c = &b->at.at[k];
 
         if (!c->due)
             continue;
-        QDOT_TRY(touch_measure(b, c));
-        if (!touch_approaches(c))
+        QDOT_TRY(measure_approach_speed(b, c));
+        if (!is_approaching(c))
             continue;
-        QDOT_TRY(blows_strike(b, c));
+        QDOT_TRY(apply_impact(b, c));
         *any = true;
     }
     return QDOT_OK;
@@ -164,7 +164,7 @@ try_next(blows *b, bool *any)
 /* The contacts that the blows leave without speed last from here on, if they may. What speed rounding hides there is shown
  * by companions, whose bodies are moved by it together. */
 static qdot_status
-let_rest(blows *b)
+record_state_after_impacts(blows *b)
 {
     qdot_piece *x = b->x;
 
@@ -201,7 +201,7 @@ qdot_piece_try_blows(qdot_piece *x, bool *endless, bool *known)
     b.rates = b.old_low + x->n;
     b.fast = b.rates + x->n;
     b.slopes = b.fast + x->n;
-    status = b.y ? find_touches(&b) : QDOT_ENOMEM;
+    status = b.y ? find_touching_contacts(&b) : QDOT_ENOMEM;
     if (status == QDOT_OK) {
         memcpy(b.y, x->start.y, x->n * sizeof *b.y);
         qdot_piece_low(x, b.low);
@@ -209,12 +209,12 @@ qdot_piece_try_blows(qdot_piece *x, bool *endless, bool *known)
     while (status == QDOT_OK && any && b.blows < MOST_BLOWS) {
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = try_next(&b, &any);
+            status = apply_next_impact(&b, &any);
     }
     *known = !any;
     *endless = !any && b.blows > 0 && b.last <= seen;
     if (status == QDOT_OK && *endless)
-        status = let_rest(&b);
+        status = record_state_after_impacts(&b);
     qdot_free(b.y);
     qdot_free(b.at.at);
     return status;

@@ -10,7 +10,7 @@
 
 #include "ode/scale.h"
 
-/* The rounding error of u, in units of that of its coordinates. */
+/* The rounding error of the surface's function u, in units of the rounding of its coordinates. */
 static const double ulps = 4;
 /* Where u is near 0 by the size of its coordinates there is no such rounding. A motion that would cross more often than
  * that until the end is not followed if it is as slow, and as near, in parts of the sizes of the state. */
@@ -18,7 +18,7 @@ static const double most_crossings = 2e4, slow = 1e-4, near = 1e-8;
 /* Read in doubles, each crossing changes the swings by the rounding of u over their width: where that comes to more until
  * the end they are not followed, if they are as slow in parts of the state. */
 static const double most_lost = 0.01, slow_in_doubles = 1e-3;
-/* The factor by which the speed of an oscillation that is not followed may grow until the end. */
+/* The factor by which the speed of an oscillation that is not followed may grow until the end of the run. */
 static const double most_growth = 10;
 
 /* The motion held on surface i, where u = 0, at the start of a piece of the run. */
@@ -26,17 +26,17 @@ typedef struct {
     qdot_piece *x;
     size_t i, n, mode[3]; /* index of the surface; number of coordinates; modes for sides -1, 0 (sliding), 1 */
     double *y;            /* [2n] the state, moved onto the surface */
-    double *slopes;       /* [n] slopes du/dq */
+    double *slopes;       /* [n] gradient du/dq */
     double *along; /* [n] direction in which the forces of both sides push, scaled to du/dq . along = 1 */
     double *rates, *moved; /* [4n], [2n] scratch */
-    double u, v;           /* u and du/dt before the state was moved onto the surface */
+    double u, v;           /* u and du/dt before the state was moved onto the surface u = 0 */
     double square;         /* the squared length |du/dq|^2 */
 } held_motion;
 
 /* How fast the motion on the side `way` is pulled back, at y + by rates and a speed `more`: *a; its acceleration less
  * that held, into rates [n] behind. */
 static qdot_status
-pull(held_motion *h, int way, const double *flow, double by, double more, double *a)
+find_acceleration_to_surface(held_motion *h, int way, const double *flow, double by, double more, double *a)
 {
     const size_t n = h->n;
     const qdot_ode_system *held = h->x->c->systems.at + h->mode[1],
@@ -56,9 +56,9 @@ pull(held_motion *h, int way, const double *flow, double by, double more, double
     return QDOT_OK;
 }
 
-/* Make the modes of the three sides (below, sliding, above), and move the start onto the surface. */
+/* Make the modes below, on and above the surface, and move the start state onto the surface. */
 static qdot_status
-hold(held_motion *h)
+make_three_modes(held_motion *h)
 {
     static const long sides[] = {-1, QDOT_SIDE_SLIDES, 1};
     qdot_piece *x = h->x;
@@ -80,12 +80,12 @@ hold(held_motion *h)
     return QDOT_OK;
 }
 
-/* Find the accelerations towards the surface from below and above, and the direction of their difference. */
+/* Find the accelerations towards the surface from below and from above, and their difference's direction. */
 static qdot_status
-find_pulls(held_motion *h, double a[2])
+find_accelerations_to_surface(held_motion *h, double a[2])
 {
     for (size_t k = 0; k < 2; k++) {
-        QDOT_TRY(pull(h, k ? 1 : -1, NULL, 0, 0, &a[k]));
+        QDOT_TRY(find_acceleration_to_surface(h, k ? 1 : -1, NULL, 0, 0, &a[k]));
         for (size_t j = 0; j < h->n; j++)
             h->along[j] += (k ? -1 : 1) * h->rates[3 * h->n + j];
     }
@@ -94,9 +94,9 @@ find_pulls(held_motion *h, double a[2])
     return QDOT_OK;
 }
 
-/* Find the rate d(log v)/dt at which the speed v of the oscillation about the surface grows. */
+/* Find the rate d(log v)/dt of growth of the speed v with which the motion oscillates about the surface. */
 static qdot_status
-find_growth(held_motion *h, const double a[2], double *growth)
+find_growth_rate(held_motion *h, const double a[2], double *growth)
 {
     const size_t n = h->n;
     const double step = 0x1p-20 * (h->x->t1 - h->x->start.t), speed = 0x1p-20 * fmax(1, fabs(h->v));
@@ -109,11 +109,11 @@ find_growth(held_motion *h, const double a[2], double *growth)
         double later = a[k], faster = a[k], slower = a[k];
 
         if (step != 0)
-            status = pull(h, way, flow, step, 0, &later);
+            status = find_acceleration_to_surface(h, way, flow, step, 0, &later);
         if (status == QDOT_OK)
-            status = pull(h, way, NULL, 0, speed, &faster);
+            status = find_acceleration_to_surface(h, way, NULL, 0, speed, &faster);
         if (status == QDOT_OK)
-            status = pull(h, way, NULL, 0, -speed, &slower);
+            status = find_acceleration_to_surface(h, way, NULL, 0, -speed, &slower);
         sum += ((step != 0 ? (later - a[k]) / step / a[k] : 0) - way * (faster - slower) / (2 * speed)) / (3 * a[k]);
         weights += 1 / a[k];
     }
@@ -125,7 +125,7 @@ find_growth(held_motion *h, const double a[2], double *growth)
 /* Whether an oscillation of amplitude `place` and this period is too fast to be followed until the
  * end of the run. */
 static bool
-is_too_fast(const held_motion *h, double place, double period)
+is_oscillation_too_fast(const held_motion *h, double place, double period)
 {
     const double *scales = h->x->c->stage->scales, *y = h->x->start.y;
     const bool in_two = h->x->method->series && !h->x->options->alternates;
@@ -142,24 +142,24 @@ is_too_fast(const held_motion *h, double place, double period)
            || (place <= places && fabs(h->v) <= slow * speeds && crossings > most_crossings);
 }
 
-/* Whether the motion that has the side x->side[i] may be taken to slide from here; if so it is set to slide. */
+/* Whether the motion may be taken to slide on the surface from here; if so, sliding is set as its side. */
 static qdot_status
-may_slide(held_motion *h, bool *may)
+start_sliding_if_allowed(held_motion *h, bool *may)
 {
     qdot_piece *x = h->x;
     double a[2] = {0}, growth = 0, v, place, period;
     qdot_course_chatter chatter;
 
-    QDOT_TRY(hold(h));
-    QDOT_TRY(find_pulls(h, a));
+    QDOT_TRY(make_three_modes(h));
+    QDOT_TRY(find_accelerations_to_surface(h, a));
     if (!(a[0] > 0 && a[1] > 0 && isfinite(a[0]) && isfinite(a[1])))
         return QDOT_OK;
     place = fabs(h->u) + h->v * h->v / (2 * fmin(a[0], a[1]));
     v = sqrt(h->v * h->v + 2 * fmax(a[0], a[1]) * fabs(h->u));
     period = v / a[0] + v / a[1];
-    if (!is_too_fast(h, place, period))
+    if (!is_oscillation_too_fast(h, place, period))
         return QDOT_OK;
-    QDOT_TRY(find_growth(h, a, &growth));
+    QDOT_TRY(find_growth_rate(h, a, &growth));
     growth = fmax(0, growth * x->direction) * fabs(x->t1 - x->start.t);
     if (!(growth <= log(most_growth)))
         return QDOT_OK;
@@ -180,7 +180,7 @@ may_slide(held_motion *h, bool *may)
 }
 
 static qdot_status
-slide(qdot_piece *x, size_t i, bool *may)
+try_to_slide(qdot_piece *x, size_t i, bool *may)
 {
     const size_t n = x->n / 2, mode = x->mode;
     const long side = x->side[i];
@@ -193,7 +193,7 @@ slide(qdot_piece *x, size_t i, bool *may)
     h.along = h.slopes + n;
     h.rates = h.along + n;
     h.moved = h.rates + 4 * n;
-    status = h.y ? may_slide(&h, may) : QDOT_ENOMEM;
+    status = h.y ? start_sliding_if_allowed(&h, may) : QDOT_ENOMEM;
     x->side[i] = *may ? QDOT_SIDE_SLIDES : side;
     x->mode = *may ? h.mode[1] : mode;
     qdot_free(h.y);
@@ -203,7 +203,7 @@ slide(qdot_piece *x, size_t i, bool *may)
 /* Those that have left their surface end; one companion leaves it faster than that by twice what is not known, to the
  * side to which the run leaves. */
 static void
-end_chatters(qdot_piece *x)
+end_finished_chatters(qdot_piece *x)
 {
     const size_t n = x->n / 2;
 
@@ -236,7 +236,7 @@ qdot_piece_stop_chatter(qdot_piece *x, bool anew)
 {
     const size_t own = qdot_switches_own(&x->c->stage->switches);
 
-    end_chatters(x);
+    end_finished_chatters(x);
     if (x->t1 == x->start.t)
         return QDOT_OK;
     for (size_t i = 0; i < own; i++) {
@@ -245,9 +245,9 @@ qdot_piece_stop_chatter(qdot_piece *x, bool anew)
         for (size_t k = 0; k < x->crossed.n && !crossed; k++)
             crossed = x->crossed.at[k] == i;
         if (!crossed || (x->side[i] != 1 && x->side[i] != -1) || !qdot_piece_is_of_places(x, i)
-            || qdot_piece_holds_massless(x, i)) /* the surface contains a massless coordinate: it cannot oscillate */
+            || qdot_piece_holds_massless(x, i)) /* a massless coordinate cannot oscillate about its surface */
             continue;
-        QDOT_TRY(slide(x, i, &may));
+        QDOT_TRY(try_to_slide(x, i, &may));
     }
     return QDOT_OK;
 }

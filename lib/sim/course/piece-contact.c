@@ -8,12 +8,12 @@
 #include "sim/course/piece-impact.h"
 #include "sim/model/contact.h"
 
-/* Positions count as equal up to this relative difference; so do velocities, for methods without series. */
+/* Largest relative difference of positions taken as equal; also of velocities, for methods without series. */
 static const double alike = 1e-9;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides
  * them. */
 static const double least_height = DBL_EPSILON / 8;
-/* As least_height, for a surface that moves with time, as its position at a root is rounded, too. */
+/* Least height of a bounce off a surface that moves with time: positions at roots are rounded, too. */
 static const double least_moving = 0x1p10 * DBL_EPSILON;
 /* This part for methods without series, from which a state within a step is known only to that part of its size. The
  * search of a step tells heights above a sixth of that from rounding. */
@@ -24,13 +24,13 @@ static const double multistep_tolerances = 64;
 /* A companion must rest where the run does: it may leave out bounces up to this many times as high
  * as the run may. */
 static const double led = 16;
-/* The top of a flight must be this high, relative to the positions, to be seen as off the wall. */
+/* A flight must rise this high, relative to the positions, to be seen to leave the wall. */
 static const double apart = 64 * DBL_EPSILON;
-/* No contact begins if it would change a component of the state by more than this, relative to its size. */
+/* No lasting contact begins if it changes a component of the state by more than this, relative to its size. */
 static const double fastest = 1e-4;
-/* No contact begins if the acceleration towards the wall is below this fraction of its terms. */
+/* No contact begins if the acceleration towards the wall is smaller than this fraction of its terms. */
 static const double rounded = 32 * DBL_EPSILON;
-/* A bounce is not low if its initial speed exceeds this part of the largest speed so far. */
+/* A bounce is not low if its initial speed exceeds this fraction of the largest speed so far. */
 static const double slow = 1e-2;
 
 /* --- how fast the motion leaves a surface ---------------------------------------------- */
@@ -70,19 +70,19 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
 
 /* --- how a lasting contact begins ----------------------------------------------------- */
 
-/* The bounces left out when a lasting contact begins, and how the start is moved onto the contact. */
+/* The bounces left out when a lasting contact begins, and the move of the start state onto the contact. */
 typedef struct {
-    double off[2]; /* u and u' of the original start */
-    double pull;   /* u'' without contact force, towards the wall; 0: nothing presses against it */
-    double share;  /* ratio of |du/dt| after an impact to before */
-    double size;   /* size of the terms of u */
+    double off[2]; /* distance u from the contact, and u', in the original start state */
+    double pull;   /* acceleration u'' towards the wall without contact force; 0: nothing presses against the wall */
+    double share;  /* ratio of the speeds |du/dt| after and before an impact (restitution) */
+    double size;   /* size of the terms of u (the distance from the contact) */
     double moved;  /* change of the start state, relative to max(1, |component|) */
-    double *along; /* [n] M^-1 du/dq scaled to du = 1, then du/dq [n] */
+    double *along; /* [n] M^-1 du/dq, scaled so that u changes by 1, then the gradient du/dq [n] */
 } skipped;
 
-/* The change of u if each coordinate changed by its largest value so far; it gives the size of u's terms. */
+/* The change of u if each coordinate changed by its largest value so far: the size of the terms of u. */
 static double
-size_of_place(const qdot_piece *x, const skipped *s)
+size_of_terms(const qdot_piece *x, const skipped *s)
 {
     const size_t n = x->n / 2;
     double size = 0;
@@ -95,13 +95,13 @@ size_of_place(const qdot_piece *x, const skipped *s)
 /* How high the next flight is; how long it and all that follow take: flights of 2 |u'|/pull, each shorter by
  * `share`. */
 static double
-height(const skipped *s)
+bounce_height(const skipped *s)
 {
     return fabs(s->off[0]) + (s->off[1] != 0 && s->pull > 0 ? s->off[1] * s->off[1] / (2 * s->pull) : 0);
 }
 
 static double
-duration(const skipped *s)
+duration_of_bounces(const skipped *s)
 {
     return s->off[1] != 0 && s->pull > 0 ? 2 * fabs(s->off[1]) / (s->pull * fmax(0, 1 - s->share)) : 0;
 }
@@ -109,7 +109,7 @@ duration(const skipped *s)
 /* The start moves along s->along until the row of that order of the surface is kept: an impulse of the contact, so that
  * what other forces conserve stays. */
 static qdot_status
-move_onto(qdot_piece *x, size_t surface, int order, skipped *s)
+move_onto_contact(qdot_piece *x, size_t surface, int order, skipped *s)
 {
     const size_t n = x->n / 2;
     double *slopes = s->along + n, *y = x->start.y + (size_t)order * n;
@@ -128,7 +128,7 @@ move_onto(qdot_piece *x, size_t surface, int order, skipped *s)
 /* Fill s->along and s->pull from d [n], the difference of q'' with and without the contact; `size` is its length,
  * 0 if no force presses. */
 static qdot_status
-find_pull(qdot_piece *x, size_t surface, const double *d, double size, skipped *s)
+find_contact_acceleration(qdot_piece *x, size_t surface, const double *d, double size, skipped *s)
 {
     const size_t n = x->n / 2;
     double value, rise = 0;
@@ -149,7 +149,7 @@ find_pull(qdot_piece *x, size_t surface, const double *d, double size, skipped *
 /* The contacts that last beside it, which the impulse of the event has pushed into: by theirs. None of them moves
  * another. */
 static qdot_status
-keep_others(qdot_piece *x, size_t surface, double *d, skipped *s)
+keep_other_contacts(qdot_piece *x, size_t surface, double *d, skipped *s)
 {
     const qdot_switches *switches = &x->c->stage->switches;
     double *along = qdot_malloc((x->n + 1) * sizeof *along), size;
@@ -162,16 +162,16 @@ keep_others(qdot_piece *x, size_t surface, double *d, skipped *s)
             continue;
         status = qdot_piece_reaction(x, i, d, &size);
         if (status == QDOT_OK && size > 0 && isfinite(size))
-            status = find_pull(x, i, d, size, &other);
+            status = find_contact_acceleration(x, i, d, size, &other);
         if (status == QDOT_OK && size > 0 && isfinite(size))
-            status = move_onto(x, i, 1, &other);
+            status = move_onto_contact(x, i, 1, &other);
         s->moved = fmax(s->moved, other.moved);
     }
     qdot_free(along);
     return status;
 }
 
-/* Enter the lasting contact: set x->side and x->start.y, and record in s what that leaves out. */
+/* Enter the lasting contact: set x->side and move x->start.y onto it; record in s what is left out. */
 static qdot_status
 enter_contact(qdot_piece *x, size_t surface, skipped *s, bool *can)
 {
@@ -187,15 +187,15 @@ enter_contact(qdot_piece *x, size_t surface, skipped *s, bool *can)
     if (status == QDOT_OK)
         status = qdot_piece_reaction(x, surface, d, &size);
     if (status == QDOT_OK && isfinite(size))
-        status = find_pull(x, surface, d, size, s);
+        status = find_contact_acceleration(x, surface, d, size, s);
     for (int order = 0; order < 2 && status == QDOT_OK && isfinite(size); order++)
-        status = move_onto(x, surface, order, s);
+        status = move_onto_contact(x, surface, order, s);
     if (status == QDOT_OK && isfinite(s->moved))
-        status = keep_others(x, surface, d, s);
+        status = keep_other_contacts(x, surface, d, s);
     if (status == QDOT_OK)
         status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y, &rest);
     s->moved = fmax(s->moved, rest);
-    /* other contacts are still satisfied after the move */
+    /* check that other contacts are still satisfied after the move */
     if (status == QDOT_OK && isfinite(s->moved) && rest <= fastest)
         status = qdot_piece_is_smooth_wall(x, surface, &s->share, can);
     x->mode = mode;
@@ -207,7 +207,7 @@ enter_contact(qdot_piece *x, size_t surface, skipped *s, bool *can)
  * at the top of a flight, a piece starts there, which must see that it is off the wall: so the flights before were higher
  * than this. */
 static double
-lowest(const qdot_piece *x, size_t surface)
+lowest_visible_flight(const qdot_piece *x, size_t surface)
 {
     const qdot_piece_repeat *own =
         qdot_piece_repeat_of(x, QDOT_WATCH_EVENT, x->c->stage->switches.surfaces.at[surface].event);
@@ -218,9 +218,9 @@ lowest(const qdot_piece *x, size_t surface)
     return qdot_contacts_moves(&x->c->stage->switches, surface) ? least_moving : least_height;
 }
 
-/* The height of the highest bounces that the accompanied run has left out at this surface. */
+/* The height of the highest bounces at this surface that the main run has left out. */
 static double
-skipped_in_run(const qdot_piece *x, size_t surface)
+skipped_height_in_main_run(const qdot_piece *x, size_t surface)
 {
     double most = 0;
 
@@ -230,9 +230,9 @@ skipped_in_run(const qdot_piece *x, size_t surface)
     return most;
 }
 
-/* The height below which a method without series cannot distinguish a bounce from its own error. */
+/* The height below which a method without series cannot tell a bounce from its own errors. */
 static double
-least_told(const qdot_piece *x, const skipped *s)
+least_visible_height(const qdot_piece *x, const skipped *s)
 {
     const size_t n = x->n / 2;
     double size = 0;
@@ -245,23 +245,23 @@ least_told(const qdot_piece *x, const skipped *s)
 /* Whether the bounces to come, within the time `left`, may be left out: where the place hides them; for a companion,
  * where the run has left out such ones; for a method without series, where it does not tell the next one from rounding. */
 static bool
-may_rest(const qdot_piece *x, size_t surface, double left, const skipped *s)
+may_begin_contact(const qdot_piece *x, size_t surface, double left, const skipped *s)
 {
     const bool by_points = !x->reader.read_two && !x->c->leader;
-    const double place = size_of_place(x, s);
+    const double place = size_of_terms(x, s);
 
-    if (s->pull == 0) /* nothing presses: the body would move on; only a series shows that the reaction stays 0 */
+    if (s->pull == 0) /* without pressure the body would move on; only a series shows that the contact force stays 0 */
         return x->reader.read_two && s->moved <= rounded;
     if (s->moved <= fastest
-        && (by_points && left == 0 ? height(s) <= least_height * place /* the motion does not leave the surface */
-                                   : isfinite(left) && s->moved * left <= lowest(x, surface) * place))
+        && (by_points && left == 0 ? bounce_height(s) <= least_height * place /* the motion does not leave the surface */
+                                   : isfinite(left) && s->moved * left <= lowest_visible_flight(x, surface) * place))
         return true;
-    return (x->c->leader || by_points) && isfinite(duration(s))
-           && height(s) <= (by_points ? least_told(x, s) : led * skipped_in_run(x, surface));
+    return (x->c->leader || by_points) && isfinite(duration_of_bounces(s))
+           && bounce_height(s) <= (by_points ? least_visible_height(x, s) : led * skipped_height_in_main_run(x, surface));
 }
 
 static qdot_status
-note_error(qdot_piece *x, qdot_course_chatter chatter, const skipped *s)
+append_chatter(qdot_piece *x, qdot_course_chatter chatter, const skipped *s)
 {
     chatter.along = qdot_malloc((x->n + 1) * sizeof *chatter.along);
     if (!chatter.along)
@@ -276,7 +276,7 @@ note_error(qdot_piece *x, qdot_course_chatter chatter, const skipped *s)
 /* What rests on a place that moves is where that is at a rounding of t before or later, in all companions alike; this
  * counts as an error until the run ends, for it goes on when the contact is left. */
 static qdot_status
-note_rounding(qdot_piece *x, size_t surface, const skipped *s)
+record_rounding_of_contact(qdot_piece *x, size_t surface, const skipped *s)
 {
     const size_t n = x->n / 2;
     const double by = DBL_EPSILON * fmax(fabs(x->start.t), fabs(x->t1));
@@ -294,27 +294,27 @@ note_rounding(qdot_piece *x, size_t surface, const skipped *s)
     }
     qdot_free(rates);
     QDOT_TRY(status);
-    return note_error(x,
-                      (qdot_course_chatter){.surface = surface, .t = x->start.t, .end = x->t1,
+    return append_chatter(x,
+                          (qdot_course_chatter){.surface = surface, .t = x->start.t, .end = x->t1,
                                             .place = by * (speed + pull), .speed = by * pull,
                                             .mode = {x->mode, x->mode, x->mode}, .ended = true, .steady = true},
-                      s);
+                          s);
 }
 
 /* Count the bounces that are left out as an error of the motion, until the time at which they would
  * have ended. */
 static qdot_status
-note_skipped(qdot_piece *x, size_t surface, const skipped *s)
+record_skipped_bounces(qdot_piece *x, size_t surface, const skipped *s)
 {
-    qdot_course_chatter chatter = {.surface = surface, .t = x->start.t, .place = height(s),
+    qdot_course_chatter chatter = {.surface = surface, .t = x->start.t, .place = bounce_height(s),
                                    .speed = fabs(s->off[1]),
-                                   .unsure = s->off[1] != 0 ? fmin(fabs(s->off[0] / s->off[1]), duration(s)) : 0,
+                                   .unsure = s->off[1] != 0 ? fmin(fabs(s->off[0] / s->off[1]), duration_of_bounces(s)) : 0,
                                    .mode = {x->mode, x->mode, x->mode}, .ended = true};
 
     if (qdot_contacts_moves(&x->c->stage->switches, surface) && isfinite(s->pull))
-        QDOT_TRY(note_rounding(x, surface, s));
-    chatter.end = x->start.t + x->direction * fmin(duration(s), fabs(x->t1 - x->start.t));
-    return chatter.end == chatter.t ? QDOT_OK : note_error(x, chatter, s);
+        QDOT_TRY(record_rounding_of_contact(x, surface, s));
+    chatter.end = x->start.t + x->direction * fmin(duration_of_bounces(s), fabs(x->t1 - x->start.t));
+    return chatter.end == chatter.t ? QDOT_OK : append_chatter(x, chatter, s);
 }
 
 qdot_status
@@ -334,7 +334,7 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
     s.along = kept + x->n;
     memcpy(kept, x->start.y, x->n * sizeof *kept);
     status = enter_contact(x, surface, &s, lasts);
-    if (status == QDOT_OK && *lasts && !may_rest(x, surface, left, &s)) {
+    if (status == QDOT_OK && *lasts && !may_begin_contact(x, surface, left, &s)) {
         *lasts = false;
         *soon = s.moved <= fastest || left > 0;
     }
@@ -343,7 +343,7 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
         memcpy(x->start.y, kept, x->n * sizeof *kept);
     }
     if (status == QDOT_OK && *lasts)
-        status = note_skipped(x, surface, &s);
+        status = record_skipped_bounces(x, surface, &s);
     qdot_free(kept);
     return status;
 }
@@ -363,9 +363,9 @@ qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may)
 
 /* --- where a run starts ---------------------------------------------------------------- */
 
-/* Whether the event changes only velocities and stops nothing. */
+/* Whether the event changes only velocities and does not stop the run. */
 static bool
-sets_velocities(const qdot_piece *x, const qdot_staged_event *e)
+sets_only_velocities(const qdot_piece *x, const qdot_staged_event *e)
 {
     bool only = e->then && !e->stop;
 
@@ -392,7 +392,7 @@ qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets)
     qdot_status status;
 
     *meets = false;
-    if (e->way == 0 || !x->functions_on[i] || first != qdot_piece_way_asked(x, i) || !sets_velocities(x, e))
+    if (e->way == 0 || !x->functions_on[i] || first != qdot_piece_way_asked(x, i) || !sets_only_velocities(x, e))
         return QDOT_OK;
     QDOT_TRY(qdot_piece_way(x, i, &way));
     if (way != first)
@@ -425,7 +425,7 @@ qdot_piece_meets_again(const qdot_piece *x, size_t i)
 /* The rate of a contact that lasts where an event has changed velocities; *noise: what is left of it by rounding, and by
  * the error of a method without series. */
 static qdot_status
-rate_beside(const qdot_piece *x, size_t surface, double *rate, double *noise)
+find_separation_rate(const qdot_piece *x, size_t surface, double *rate, double *noise)
 {
     const size_t n = x->n / 2;
     double *slopes = qdot_malloc((n + 1) * sizeof *slopes);
@@ -458,7 +458,7 @@ qdot_piece_keep_contacts(qdot_piece *x)
             continue;
         QDOT_TRY(
             qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 0, &place, NULL));
-        QDOT_TRY(rate_beside(x, i, &rate, &noise));
+        QDOT_TRY(find_separation_rate(x, i, &rate, &noise));
         place *= reaction;
         rate *= reaction;
         if (fabs(place) <= alike && fabs(rate) <= noise)

@@ -41,7 +41,7 @@ qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
 }
 
 static void
-say_left(qdot_piece *x, const qdot_watched *w)
+report_domain_left(qdot_piece *x, const qdot_watched *w)
 {
     const qdot_domain *d = &x->c->stage->domains.at[w->index];
 
@@ -54,8 +54,8 @@ say_left(qdot_piece *x, const qdot_watched *w)
 /* `then` of an event in two doubles, from its inputs and what these leave out [n], into out and
  * rest [changes]. */
 static qdot_status
-change_in_two(qdot_piece *x, const qdot_staged_event *e, const double *in, const double *low,
-              double *out, double *rest)
+evaluate_then_in_double_double(qdot_piece *x, const qdot_staged_event *e, const double *in, const double *low,
+                               double *out, double *rest)
 {
     const size_t at = (size_t)(e - x->c->stage->events.at);
     qdot_tape_two *two;
@@ -102,7 +102,7 @@ qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const dou
 
         qdot_tape_eval(e->then, in, out, left + e->changes + 1);
         if (low && rest && !e->accelerations)
-            status = change_in_two(x, e, in, low, out, left);
+            status = evaluate_then_in_double_double(x, e, in, low, out, left);
         for (size_t i = 0; i < e->changes; i++) {
             if (!isfinite(out[i]))
                 status = qdot_fail(
@@ -138,7 +138,7 @@ qdot_piece_repeat_of(const qdot_piece *x, qdot_watched_kind kind, size_t index)
 /* For intervals that shrink by a constant ratio, with the next end at t: the sum of all following
  * ones; infinite if they do not shrink so. */
 static double
-remaining(qdot_piece_repeat *r, double t)
+remaining_time_of_repeats(qdot_piece_repeat *r, double t)
 {
     double interval = fabs(t - r->last), ratio = interval / r->interval;
 
@@ -154,7 +154,7 @@ remaining(qdot_piece_repeat *r, double t)
 /* Whether occurrences accumulate: too many within a moment, or at intervals that shrink by a
  * constant ratio towards a near time. *left: the time until then. */
 static qdot_status
-accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
+is_accumulating(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
 {
     const double since = fabs(t - x->c->tr.t[0]), reach = since > 0 ? since : fabs(t);
     qdot_piece_repeat *r = qdot_piece_repeat_of(x, w->kind, w->index);
@@ -172,7 +172,7 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
         r->since = t;
         r->n = 0;
     }
-    *left = remaining(r, t);
+    *left = remaining_time_of_repeats(r, t);
     *yes = ++r->n > MOST_REPEATS || *left <= NEAR * reach || r->soon;
     *left = isfinite(*left) ? *left : 0;
     return QDOT_OK;
@@ -181,7 +181,7 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
 /* Whether the blows of event w all came at one instant; *look: it is time to try those that follow, at ever longer
  * intervals. */
 static bool
-is_at_one_instant(const qdot_piece *x, const qdot_watched *w, int way, bool *look)
+is_repeated_at_one_instant(const qdot_piece *x, const qdot_watched *w, int way, bool *look)
 {
     const qdot_piece_repeat *r = qdot_piece_repeat_of(x, w->kind, w->index);
     size_t n = r ? r->at_once : 0;
@@ -216,7 +216,7 @@ is_between_contacts(const qdot_piece *x, const qdot_watched *w, double t)
 
 /* Append a description of the event or switch that ended the piece to a message. */
 static void
-name_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
+describe_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
 {
     if (w->kind == QDOT_WATCH_EVENT)
         qdot_text_format(to, "the event %.100s", x->c->stage->events.at[w->index].name);
@@ -226,11 +226,11 @@ name_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
 }
 
 static void
-say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
+report_accumulation(qdot_piece *x, const qdot_watched *w, double t, double left)
 {
     qdot_text text = {0};
 
-    name_end(x, w, &text);
+    describe_end(x, w, &text);
     snprintf(
         x->c->reason, sizeof x->c->reason,
         "stopped at t = %.15g: %.200s comes ever faster there, without end before t = "
@@ -239,9 +239,9 @@ say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
     qdot_text_clear(&text);
 }
 
-/* Whether too many pieces of this length would follow; then c->reason says so. */
+/* Whether pieces as short as the last one would make too many of them; then c->reason says so. */
 static bool
-has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
+would_need_too_many_pieces(qdot_piece *x, const qdot_watched *w, double t)
 {
     const qdot_trajectory *tr = &x->c->tr;
     double since, to_come;
@@ -251,9 +251,9 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
         return false;
     since = t - tr->t[tr->pieces.at[tr->pieces.n - LOOKED_AT].first];
     to_come = LOOKED_AT * ((x->t1 - t) / since);
-    if (to_come <= qdot_piece_most_to_come) /* false for a NaN, or if time does not advance */
+    if (to_come <= qdot_piece_most_to_come) /* the comparison is false if time does not advance */
         return false;
-    name_end(x, w, &text);
+    describe_end(x, w, &text);
     snprintf(x->c->reason, sizeof x->c->reason,
              "stopped at t = %.15g: %.200s came %d times within %.3g; %.1e more would follow until "
              "t = %.10g",
@@ -262,9 +262,9 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
     return true;
 }
 
-/* For a companion: whether the run has event w, which was just recorded, again at the same instant. */
+/* For a companion run: whether in the main run event w, just recorded, occurs again at the same instant. */
 static bool
-comes_again_in_run(const qdot_piece *x, const qdot_watched *w)
+recurs_in_main_run(const qdot_piece *x, const qdot_watched *w)
 {
     const qdot_course *run = x->c->leader;
     const size_t k = x->c->ends.n;
@@ -278,20 +278,20 @@ comes_again_in_run(const qdot_piece *x, const qdot_watched *w)
 /* Of a companion: whether the motion of the run comes to rest on the event that ended this piece; *led: the run says
  * that, for it has a piece behind this one. What the bounces to come are left out for is the same in both then. */
 static bool
-rests_in_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
+rests_in_main_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
 {
     const qdot_course *run = x->c->leader;
     const size_t next = x->c->tr.pieces.n, surface = qdot_contacts_surface(&x->c->stage->switches, w->index, way);
 
     *led = run && w->kind == QDOT_WATCH_EVENT && surface != SIZE_MAX && next < run->tr.pieces.n
-           && !comes_again_in_run(x, w);
+           && !recurs_in_main_run(x, w);
     return *led && x->c->stage->modes.at[run->tr.pieces.at[next].mode]->side[surface] == QDOT_SIDE_SLIDES;
 }
 
 /* The event w comes ever faster (*fast), or its next bounce is low: see whether its contact lasts from here on or will
  * soon. If either, *fast becomes false: the run goes on. */
 static qdot_status
-come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *fast)
+try_to_begin_contact(qdot_piece *x, const qdot_watched *w, int way, double left, bool *fast)
 {
     qdot_piece_repeat *r = qdot_piece_repeat_of(x, w->kind, w->index);
     bool lasts, soon;
@@ -299,7 +299,7 @@ come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *f
     QDOT_TRY(qdot_piece_rest(x, w->index, way, left, &lasts, &soon));
     if (r && *fast)
         r->soon = soon;
-    if (r && lasts) /* further bounces may follow later */
+    if (r && lasts) /* lower bounces may follow later, so reset their counter */
         *r = x->repeats.at[--x->repeats.n];
     *fast = *fast && !lasts && !soon;
     return QDOT_OK;
@@ -348,23 +348,23 @@ qdot_piece_find_delay(qdot_piece *x)
  * the start. */
 static const double counted = 0x1p11;
 
-/* Record the signs and values of all watched functions before the state is changed. */
+/* Record the signs and values of all watched functions before an event changes the state. */
 static qdot_status
-look_before(qdot_piece *x, double t, double *g)
+record_functions_before(qdot_piece *x, double t, double *g)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     const int *first = qdot_watch_first(qdot_piece_watch(x));
     const qdot_trajectory *tr = &x->c->tr;
     const bool instant = tr->t[tr->pieces.at[tr->pieces.n - 1].first] == t;
 
-    /* a rounding error of t changes positions by the velocity times it */
+    /* the effect of a rounding error of t: each position errs by its velocity times that */
     memcpy(x->y, x->largest, x->n * sizeof *x->y);
     for (size_t i = 0; i < x->n / 2; i++)
         x->y[i] = fmax(x->y[i], fabs(t) * x->largest[x->n / 2 + i]);
     QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), t, x->start.y, x->y, x->signs, g, x->touching));
     for (size_t i = 0; i < m->m; i++) {
         x->untouched[i] = true;
-        if (instant && x->turned[i]) /* this contact's rebound has not moved yet */
+        if (instant && x->turned[i]) /* this contact's rebound has just begun: its function is still 0 */
             continue;
         x->left[i] = first[i];
         x->turned[i] = false;
@@ -373,7 +373,7 @@ look_before(qdot_piece *x, double t, double *g)
         qdot_root *root = &x->fired.at[i];
 
         x->untouched[root->function] = false;
-        if (instant) /* the event is counted at the start of the next piece: its zero there is not a new one */
+        if (instant) /* the event was counted at the start of the piece: its zero there is no new occurrence */
             root->residual = fmax(root->residual, counted * fabs(g[root->function]));
     }
     return QDOT_OK;
@@ -384,7 +384,7 @@ look_before(qdot_piece *x, double t, double *g)
 static const double whole = 0x1p12;
 
 static qdot_status
-widen_touches(qdot_piece *x, double t)
+widen_touching_roots(qdot_piece *x, double t)
 {
     for (size_t i = 0; i < x->fired.n; i++) {
         qdot_root *root = &x->fired.at[i];
@@ -399,9 +399,9 @@ widen_touches(qdot_piece *x, double t)
     return QDOT_OK;
 }
 
-/* Evaluate the watched functions just after the end of the piece. */
+/* Evaluate the watched functions just after the end of the piece, in the new state. */
 static qdot_status
-look_behind(qdot_piece *x, double t, double *g)
+evaluate_functions_behind(qdot_piece *x, double t, double *g)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     double *now = g + m->m;
@@ -419,7 +419,7 @@ look_behind(qdot_piece *x, double t, double *g)
 /* The way that event i is met behind the change; 0 also where it is the only one and the motion has no rates there: the
  * run says so where it goes on. */
 static qdot_status
-way_behind(qdot_piece *x, size_t i, bool alone, int *way)
+direction_behind_event(qdot_piece *x, size_t i, bool alone, int *way)
 {
     qdot_status status = qdot_piece_way(x, i, way);
 
@@ -433,7 +433,7 @@ way_behind(qdot_piece *x, size_t i, bool alone, int *way)
  * it has turned back does nothing if it would turn it about once more. An event that turns its own crossing back may
  * be met again, by what the others do. */
 static qdot_status
-change_state(qdot_piece *x, size_t k, double *old)
+apply_event(qdot_piece *x, size_t k, double *old)
 {
     const qdot_root *root = &x->roots.at[k];
     const qdot_staged_event *e = &x->c->stage->events.at[qdot_piece_mode(x)->watched[root->function].index];
@@ -448,7 +448,7 @@ change_state(qdot_piece *x, size_t k, double *old)
     memcpy(x->start.low, low, x->n * sizeof *low);
     QDOT_TRY(qdot_piece_change(x, e, x->t_act, old, low, y, x->start.low));
     memcpy(x->start.low_of, y, x->n * sizeof *y);
-    QDOT_TRY(way_behind(x, root->function, alone, &behind));
+    QDOT_TRY(direction_behind_event(x, root->function, alone, &behind));
     if (root->way != 0 && before == -root->way && behind == root->way) {
         memcpy(y, old, x->n * sizeof *y);
         memcpy(x->start.low_of, old, x->n * sizeof *y);
@@ -468,18 +468,18 @@ change_state(qdot_piece *x, size_t k, double *old)
     return QDOT_OK;
 }
 
-/* Carry out the impacts that follow at this instant if they never end; c->reason if that is not possible. */
+/* Carry out the impacts that follow at this instant if they never end; c->reason: why that failed. */
 static qdot_status
-follow_blows(qdot_piece *x)
+resolve_endless_impacts(qdot_piece *x)
 {
     bool endless, known;
 
     QDOT_TRY(qdot_piece_try_blows(x, &endless, &known));
-    if (endless) /* the events without end have been carried out */
+    if (endless) /* the endless sequence of events has been carried out */
         x->pushed.n = 0;
     if (!known)
-        say_accumulated(x, &qdot_piece_mode(x)->watched[x->roots.at[0].function], x->t_act, 0);
-    for (size_t i = x->repeats.n; i-- > 0 && endless;) /* similar blows may follow later: reset the counters */
+        report_accumulation(x, &qdot_piece_mode(x)->watched[x->roots.at[0].function], x->t_act, 0);
+    for (size_t i = x->repeats.n; i-- > 0 && endless;) /* similar impacts may follow later: reset the counters */
         if (x->repeats.at[i].kind == QDOT_WATCH_EVENT && x->repeats.at[i].last == x->t_act)
             x->repeats.at[i] = x->repeats.at[--x->repeats.n];
     return QDOT_OK;
@@ -507,9 +507,9 @@ qdot_piece_act(qdot_piece *x, bool *over)
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)
-        status = look_before(x, t, g);
+        status = record_functions_before(x, t, g);
     if (status == QDOT_OK)
-        status = widen_touches(x, t);
+        status = widen_touching_roots(x, t);
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
@@ -524,12 +524,12 @@ qdot_piece_act(qdot_piece *x, bool *over)
         if (status != QDOT_OK)
             break;
         if (w->kind == QDOT_WATCH_DOMAIN) {
-            say_left(x, w);
+            report_domain_left(x, w);
             *over = true;
             qdot_piece_stop(x, true);
             break;
         }
-        if (w->kind == QDOT_WATCH_SURFACE && root->way == 0) /* u only touches 0: side-search.c compares both sides */
+        if (w->kind == QDOT_WATCH_SURFACE && root->way == 0) /* u touches 0: side-search.c compares both sides */
             continue;
         if (w->kind == QDOT_WATCH_SURFACE) {
             x->side[w->index] = w->inside == 0 ? root->way : w->beyond;
@@ -550,7 +550,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
                 break;
             }
             if (e->then && status == QDOT_OK)
-                status = change_state(x, i, old);
+                status = apply_event(x, i, old);
             if (e->stop && status == QDOT_OK) {
                 x->c->stopped_by = w->index;
                 *over = true;
@@ -560,19 +560,19 @@ qdot_piece_act(qdot_piece *x, bool *over)
                 continue;
         }
         if (status == QDOT_OK)
-            status = accumulates(x, w, t, &fast, &left);
-        once = fast && is_at_one_instant(x, w, qdot_root_way(root), &at_once);
+            status = is_accumulating(x, w, t, &fast, &left);
+        once = fast && is_repeated_at_one_instant(x, w, qdot_root_way(root), &at_once);
         fast = fast && !once;
-        rests = rests_in_run(x, w, qdot_root_way(root), &led) && !once;
+        rests = rests_in_main_run(x, w, qdot_root_way(root), &led) && !once;
         led = led && !once;
         if (status == QDOT_OK && !led && !fast && !*over && w->kind == QDOT_WATCH_EVENT)
             status = qdot_piece_may_be_low(x, w->index, qdot_root_way(root), &low);
         if (status == QDOT_OK && (led ? rests : fast || low) && !*over && w->kind == QDOT_WATCH_EVENT)
-            status = come_to_rest(x, w, qdot_root_way(root), led ? 0 : low ? INFINITY : left, &fast);
+            status = try_to_begin_contact(x, w, qdot_root_way(root), led ? 0 : low ? INFINITY : left, &fast);
         fast = fast && !led && !is_between_contacts(x, w, t);
         if (fast && !*over)
-            say_accumulated(x, w, t, left);
-        if (status == QDOT_OK && !*over && (fast || has_too_many_to_come(x, w, t))) {
+            report_accumulation(x, w, t, left);
+        if (status == QDOT_OK && !*over && (fast || would_need_too_many_pieces(x, w, t))) {
             *over = true;
             qdot_piece_stop(x, true);
         }
@@ -580,11 +580,11 @@ qdot_piece_act(qdot_piece *x, bool *over)
     if (x->start.jumped)
         x->crossed.n = 0;
     if (x->start.jumped && status == QDOT_OK)
-        status = look_behind(x, t, g);
+        status = evaluate_functions_behind(x, t, g);
     if (x->start.jumped && status == QDOT_OK && !*over) {
         status = qdot_piece_keep_contacts(x);
         if (status == QDOT_OK && at_once && x->c->reason[0] == '\0')
-            status = follow_blows(x);
+            status = resolve_endless_impacts(x);
         *over = x->c->reason[0] != '\0';
         if (*over)
             qdot_piece_stop(x, true);

@@ -45,13 +45,13 @@ qdot_piece_enter(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* A start with |u| larger than this (relative) is not on the surface. */
+/* A start with |u| larger than this (relative to the terms of u) is not on the surface u = 0. */
 static const double away = 1e-9;
 
 /* The largest speed at which friction is regularised: of discs that come to rest, twice their
  * radius; of layers. */
 static double
-slowest(const qdot_piece *x)
+largest_layer_width(const qdot_piece *x)
 {
     double most = 0;
 
@@ -70,7 +70,7 @@ qdot_piece_keep(qdot_piece *x, bool *near)
     QDOT_TRY(qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y,
                                     &moved));
     if (near)
-        *near = moved <= fmax(away, slowest(x));
+        *near = moved <= fmax(away, largest_layer_width(x));
     return QDOT_OK;
 }
 
@@ -91,7 +91,7 @@ qdot_piece_just_noted(const qdot_piece *x, size_t event)
 }
 
 static bool
-slides(const qdot_mode *m, size_t surface)
+is_sliding_mode(const qdot_mode *m, size_t surface)
 {
     return m->side[surface] == QDOT_SIDE_SLIDES;
 }
@@ -111,31 +111,31 @@ qdot_piece_carry(qdot_piece *x)
                            : x->signs[i];
         x->residual[i] = -1;
     }
-    for (size_t i = 0; i < next->m; i++) { /* while sliding, u was held at 0 */
+    for (size_t i = 0; i < next->m; i++) { /* while the motion slid along a surface, its u was held at 0 */
         const qdot_watched *w = &next->watched[i];
 
         if (w->kind == QDOT_WATCH_SURFACE && x->c->stage->switches.surfaces.at[w->index].puck > 0) {
-            /* a motion leaves the friction cone just where it is reached */
-            if (slides(old, w->index) && w->beyond == QDOT_SIDE_SLIDES
+            /* a disc's motion leaves the friction cone exactly where it reaches it */
+            if (is_sliding_mode(old, w->index) && w->beyond == QDOT_SIDE_SLIDES
                 && next->side[w->index] == QDOT_SIDE_CREEPS && !x->start.jumped) {
                 x->residual[i] = 0;
                 x->put_aside = true;
             }
             continue;
         }
-        if (w->kind == QDOT_WATCH_SURFACE && slides(old, w->index) && !slides(next, w->index)
+        if (w->kind == QDOT_WATCH_SURFACE && is_sliding_mode(old, w->index) && !is_sliding_mode(next, w->index)
             && !x->start.jumped && x->c->stage->switches.surfaces.at[w->index].layer == 0) {
             x->residual[i] = 0;
             x->put_aside = true;
         }
     }
-    /* it slips, then sticks: the friction share begins at its limit */
+    /* after slipping the body sticks: the friction force begins at its limit */
     for (size_t i = 0; i < next->m && x->start.slipped; i++)
-        if (next->watched[i].kind == QDOT_WATCH_SURFACE && slides(next, next->watched[i].index))
+        if (next->watched[i].kind == QDOT_WATCH_SURFACE && is_sliding_mode(next, next->watched[i].index))
             x->residual[i] = 0;
     for (size_t i = 0; i < x->c->stage->switches.surfaces.n; i++)
         /* the end of a lasting contact is not an occurrence of the event */
-        if (x->c->stage->switches.surfaces.at[i].contact && slides(old, i))
+        if (x->c->stage->switches.surfaces.at[i].contact && is_sliding_mode(old, i))
             x->before[x->c->stage->switches.surfaces.at[i].event] = 0;
     for (size_t k = 0; k < x->fired.n; k++) {
         const qdot_root *root = &x->fired.at[k];
@@ -148,27 +148,27 @@ qdot_piece_carry(qdot_piece *x)
         }
         for (size_t i = 0; i < next->m && qdot_piece_has_massless(x); i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE && next->watched[i].index == w->index
-                /* it begins to slide: the friction share begins at its limit */
-                && slides(next, w->index) && !slides(old, w->index))
+                /* where sliding begins, the friction force begins at its limit */
+                && is_sliding_mode(next, w->index) && !is_sliding_mode(old, w->index))
                 x->residual[i] = 0;
         for (size_t i = 0; i < next->m; i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE &&
                 x->c->stage->switches.surfaces.at[w->index].puck == 0 &&
-                next->watched[i].index == w->index && !slides(old, w->index) &&
-                !slides(next, w->index) &&
+                next->watched[i].index == w->index && !is_sliding_mode(old, w->index) &&
+                !is_sliding_mode(next, w->index) &&
                 (next->watched[i].beyond == old->side[w->index] ||
                  old->side[w->index] == next->side[w->index]))
                 x->residual[i] = root->residual;
     }
 }
 
-/* The start of a piece may be moved by less than this part of its components' sizes. */
+/* The start of a piece may be moved by less than this, relative to its components' sizes. */
 static const double most_aside = 1e-9;
 
 /* The sizes [n] of the state's components at the start of the piece: the largest so far, or |t|
  * times the rate. */
 static qdot_status
-find_sizes(qdot_piece *x, double *size)
+find_component_sizes(qdot_piece *x, double *size)
 {
     QDOT_TRY(qdot_piece_rates(x, x->mode, size));
     for (size_t i = 0; i < x->n; i++)
@@ -183,11 +183,11 @@ qdot_piece_widen_residuals(qdot_piece *x)
 
     if (!x->put_aside)
         return QDOT_OK;
-    QDOT_TRY(find_sizes(x, x->y));
+    QDOT_TRY(find_component_sizes(x, x->y));
     for (size_t i = 0; i < qdot_piece_mode(x)->m; i++) {
         double off, noise;
 
-        /* move positions onto their surfaces, except those of massless coordinates */
+        /* move positions onto their surfaces, except positions of massless coordinates */
         if (!(x->residual[i] >= 0) || !(qdot_piece_mode(x)->watched[i].velocity || qdot_piece_has_massless(x)))
             continue;
         QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));
@@ -201,13 +201,13 @@ qdot_piece_widen_residuals(qdot_piece *x)
 
 /* --- corners of constraints ---------------------------------------------------------- */
 
-/* If the residual is larger than this, a state cannot satisfy the constraints of both sides. */
+/* If the residual of the constraints is larger than this, no state satisfies those of both sides. */
 static const double corner = 1e-6;
 
 /* If constraints switch, the state at the end of the piece before must keep those of the new
  * side. At a corner the velocity does not, and the equations do not determine how it changes. */
 static qdot_status
-turns_a_corner(qdot_piece *x, bool *corners)
+turns_at_constraint_corner(qdot_piece *x, bool *corners)
 {
     qdot_constrained *held = qdot_bind_held(x->c->binds.at[x->mode]);
     const qdot_mode *old = x->c->stage->modes.at[x->start.from], *now = qdot_piece_mode(x);
@@ -241,10 +241,10 @@ turns_a_corner(qdot_piece *x, bool *corners)
 
 /* --- jumps of T - V ------------------------------------------------------------------ */
 
-/* Evaluate the level function of a mode at the state y with component k shifted by a fraction of itself. */
+/* Evaluate the level function of a mode at the state y with component k changed by a fraction of itself. */
 static double
-level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
-         double *work)
+level_with_shift(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
+                 double *work)
 {
     double level;
 
@@ -259,7 +259,7 @@ level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, doub
 /* Whether a surface between two modes depends on the state. The rim of a layer (sim/model/layer.h)
  * is none of them: there T - V jumps by what the layer leaves out. */
 static bool
-is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
+is_wall_between_modes(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 {
     const qdot_switches *s = &x->c->stage->switches;
 
@@ -275,7 +275,7 @@ is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 /* At a surface that depends on time alone T - V may jump, but not the momenta dL/dq', whose rates
  * dL/dq are finite: set c->reason if one jumps by more than differences of T - V err by. */
 static void
-check_momenta(qdot_piece *x, const qdot_mode *a, const qdot_mode *b, double *in)
+check_momenta_are_continuous(qdot_piece *x, const qdot_mode *a, const qdot_mode *b, double *in)
 {
     const size_t n = x->n / 2;
     const double *y = x->start.followed ? x->bare : x->start.y;
@@ -285,8 +285,8 @@ check_momenta(qdot_piece *x, const qdot_mode *a, const qdot_mode *b, double *in)
 
         for (int side = 0; side < 2; side++) {
             const qdot_mode *m = side ? b : a;
-            const double here = level_at(m, x->start.t, y, x->n, SIZE_MAX, in, in + x->n + 1);
-            const double there = level_at(m, x->start.t, y, x->n, k, in, in + x->n + 1);
+            const double here = level_with_shift(m, x->start.t, y, x->n, SIZE_MAX, in, in + x->n + 1);
+            const double there = level_with_shift(m, x->start.t, y, x->n, k, in, in + x->n + 1);
 
             p[side] = (there - here) / (in[k] - y[k]);
             size = fmax(size, fmax(fabs(p[side]), fabs(here)));
@@ -304,7 +304,7 @@ check_momenta(qdot_piece *x, const qdot_mode *a, const qdot_mode *b, double *in)
 /* Set c->reason if T - V jumps across a surface at (t, y) by more than a small change of the
  * state changes it, or a momentum across one in time. */
 static qdot_status
-check_level(qdot_piece *x)
+check_level_is_continuous(qdot_piece *x)
 {
     const qdot_mode *a = x->c->stage->modes.at[x->start.from], *b = qdot_piece_mode(x);
     const size_t n = x->n;
@@ -318,19 +318,19 @@ check_level(qdot_piece *x)
     in = qdot_calloc(n + 1 + work, sizeof *in);
     if (!in)
         return QDOT_ENOMEM;
-    if (!is_wall(x, a, b)) {
-        check_momenta(x, a, b, in);
+    if (!is_wall_between_modes(x, a, b)) {
+        check_momenta_are_continuous(x, a, b, in);
         qdot_free(in);
         return QDOT_OK;
     }
-    jump = level_at(b, t, y, n, SIZE_MAX, in, in + n + 1)
-           - level_at(a, t, y, n, SIZE_MAX, in, in + n + 1);
+    jump = level_with_shift(b, t, y, n, SIZE_MAX, in, in + n + 1)
+           - level_with_shift(a, t, y, n, SIZE_MAX, in, in + n + 1);
     for (size_t k = 0; k <= n; k++)
         for (int side = 0; side < 2; side++) {
             const qdot_mode *m = side ? b : a;
 
-            least += fabs(level_at(m, t, y, n, k, in, in + n + 1)
-                          - level_at(m, t, y, n, SIZE_MAX, in, in + n + 1));
+            least += fabs(level_with_shift(m, t, y, n, k, in, in + n + 1)
+                          - level_with_shift(m, t, y, n, SIZE_MAX, in, in + n + 1));
         }
     qdot_free(in);
     if (fabs(jump) > least)
@@ -341,9 +341,9 @@ check_level(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* Record the delay with which the end of the last piece was found. */
+/* Record the delay with which the end of the last piece was found, for each root there. */
 static void
-leave_late(qdot_piece *x)
+record_delay(qdot_piece *x)
 {
     for (size_t k = x->c->ends.n; k-- > 0 && x->c->ends.at[k].piece + 1 == x->c->tr.pieces.n;)
         x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, x->late);
@@ -370,9 +370,9 @@ qdot_piece_low(const qdot_piece *x, double *low)
         low[i] = x->start.y[i] == x->start.low_of[i] ? x->start.low[i] : 0;
 }
 
-/* Whether the piece ends because surface i is reached. */
+/* Whether the piece ends because the motion reaches surface i. */
 static bool
-is_met(const qdot_piece *x, size_t i)
+is_surface_reached(const qdot_piece *x, size_t i)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     bool met = false;
@@ -385,9 +385,9 @@ is_met(const qdot_piece *x, size_t i)
     return met;
 }
 
-/* Whether all other switches have the same sides in the state y [n] as at the start of the piece. */
+/* Whether in the state y [n] all other switches have the same sides as at the start of the piece. */
 static qdot_status
-has_sides(qdot_piece *x, const double *y, bool *alike)
+keeps_other_sides(qdot_piece *x, const double *y, bool *alike)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
@@ -399,14 +399,14 @@ has_sides(qdot_piece *x, const double *y, bool *alike)
         status = qdot_stage_sides(x->c->stage, x->start.t, y, NULL, sides + surfaces);
     *alike = status == QDOT_OK;
     for (size_t i = 0; i < surfaces && *alike; i++)
-        *alike = sides[i] == sides[surfaces + i] || is_met(x, i);
+        *alike = sides[i] == sides[surfaces + i] || is_surface_reached(x, i);
     qdot_free(sides);
     return status;
 }
 
-/* Move the start to a state in two doubles [n]; *moved: false if another switch would change its side. */
+/* Move the start to a double-double state [n]; *moved: false if another switch would change its side. */
 static qdot_status
-start_at(qdot_piece *x, const qdot_two *state, bool *moved)
+move_start_to(qdot_piece *x, const qdot_two *state, bool *moved)
 {
     double *y = qdot_malloc((x->n + 1) * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
@@ -415,20 +415,20 @@ start_at(qdot_piece *x, const qdot_two *state, bool *moved)
     for (size_t i = 0; i < x->n && y; i++)
         y[i] = state[i].hi;
     if (status == QDOT_OK)
-        status = has_sides(x, y, moved);
+        status = keeps_other_sides(x, y, moved);
     for (size_t i = 0; i < x->n && *moved; i++) {
         x->start.y[i] = x->start.low_of[i] = state[i].hi;
         x->start.low[i] = state[i].lo;
     }
     if (status == QDOT_OK && !*moved)
-        leave_late(x);
+        record_delay(x);
     qdot_free(y);
     return status;
 }
 
-/* Move x->start by `time` along the rates of a mode; the result is added to moved [n]. */
+/* Move the start for a time `time` along the rates of change of a mode; add the result to moved [n]. */
 static qdot_status
-move_along(qdot_piece *x, size_t mode, double time, qdot_two *moved)
+move_start_along_rates(qdot_piece *x, size_t mode, double time, qdot_two *moved)
 {
     double *rate = qdot_malloc((x->n + 1) * sizeof *rate);
     qdot_status status = rate ? qdot_piece_rates(x, mode, rate) : QDOT_ENOMEM;
@@ -443,7 +443,7 @@ move_along(qdot_piece *x, size_t mode, double time, qdot_two *moved)
  * `moved` [n] of a companion is moved by a rounding. That of places may be a drift over many events, for they are always
  * the same; it is up or down without a pattern, in one companion opposite to the other. That of velocities is drawn. */
 static void
-move_by_rounding(const qdot_piece *x, qdot_two *moved)
+move_by_rounding_error(const qdot_piece *x, qdot_two *moved)
 {
     const size_t places = x->n / 2;
 
@@ -470,14 +470,14 @@ qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind)
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
         moved[i] = (qdot_two){x->start.y[i], low[i]};
     if (status == QDOT_OK && before != SIZE_MAX)
-        status = move_along(x, before, -late, moved);
+        status = move_start_along_rates(x, before, -late, moved);
     if (status == QDOT_OK && behind != SIZE_MAX)
-        status = move_along(x, behind, late, moved);
+        status = move_start_along_rates(x, behind, late, moved);
     if (status == QDOT_OK && behind == SIZE_MAX && !x->has_root &&
         (!x->method->series || x->options->alternates) && !x->c->systems.at[x->mode].project)
-        move_by_rounding(x, moved);
+        move_by_rounding_error(x, moved);
     if (status == QDOT_OK)
-        status = start_at(x, moved, &done);
+        status = move_start_to(x, moved, &done);
     if (status == QDOT_OK && behind == SIZE_MAX)
         x->start.on_root = done;
     if (status == QDOT_OK)
@@ -495,7 +495,7 @@ qdot_piece_go_to_root(qdot_piece *x)
     const qdot_ode_system *system = &x->c->systems.at[x->mode];
     double by;
 
-    QDOT_TRY(start_at(x, x->root, &x->start.on_root));
+    QDOT_TRY(move_start_to(x, x->root, &x->start.on_root));
     if (!system->project) {
         x->start.t_low = x->start.on_root ? -x->direction * x->late : 0;
         return QDOT_OK;
@@ -514,12 +514,12 @@ qdot_piece_cross(qdot_piece *x)
 {
     bool corners;
 
-    QDOT_TRY(turns_a_corner(x, &corners));
+    QDOT_TRY(turns_at_constraint_corner(x, &corners));
     if (corners)
         return QDOT_OK;
-    /* at the start of the run the state may be on no definite side */
+    /* at the start of the run the motion may be on no definite side of a surface */
     if (!x->start.jumped && !(qdot_piece_has_massless(x) && x->start.t == x->c->tr.t[0]))
-        QDOT_TRY(check_level(x));
+        QDOT_TRY(check_level_is_continuous(x));
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
     QDOT_TRY(qdot_piece_check_layers(x));

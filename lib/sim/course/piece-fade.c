@@ -11,7 +11,7 @@ qdot_piece_let_fade(qdot_piece *x)
 {
     const qdot_stage *s = x->c->stage;
     const qdot_mode *m = qdot_piece_mode(x);
-    /* while sliding, u = 0 is held by constraints: it does not decay */
+    /* while the motion slides along a surface, u = 0 is held exactly: u does not decay into rounding */
     const bool held = qdot_sliding_is(&s->switches, x->side);
 
     for (size_t i = 0; i < m->m; i++) {
@@ -30,9 +30,9 @@ qdot_piece_let_fade(qdot_piece *x)
     }
 }
 
-/* The latest time span in which an event was lost in rounding, if it began at `since`; else NULL. */
+/* The latest time span in which rounding hides an event, if it began at `since`; else NULL. */
 static qdot_course_faded *
-stretch_since(qdot_course *c, size_t event, double since)
+hidden_span_since(qdot_course *c, size_t event, double since)
 {
     for (size_t k = c->faded.n; k-- > 0;)
         if (c->faded.at[k].event == event && !c->faded.at[k].touched)
@@ -40,9 +40,9 @@ stretch_since(qdot_course *c, size_t event, double since)
     return NULL;
 }
 
-/* Drop the occurrences of an event from `since` on: these zeros were caused by rounding. */
+/* Remove the occurrences of an event from the time `since` on: those zeros were caused by rounding. */
 static void
-forget_since(qdot_piece *x, size_t event, double since)
+remove_occurrences_since(qdot_piece *x, size_t event, double since)
 {
     size_t n = 0, n_faded = 0;
 
@@ -61,7 +61,7 @@ forget_since(qdot_piece *x, size_t event, double since)
 
 /* Note that rounding hides whether event `event` occurs at the root. */
 static qdot_status
-add_faded(qdot_piece *x, size_t event, const qdot_root *root)
+append_hidden_occurrence(qdot_piece *x, size_t event, const qdot_root *root)
 {
     const double blur = x->direction * root->blur;
 
@@ -75,17 +75,17 @@ qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
 
     if (root->way != 0 || root->pole || w->kind != QDOT_WATCH_EVENT)
         return QDOT_OK;
-    if (root->within > 0) { /* with a tighter tolerance there may be two crossings, or none */
+    if (root->within > 0) { /* a run with a tighter tolerance may find two crossings here, or none */
         x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY, root->within);
         return QDOT_OK;
     }
-    return x->c->stage->events.at[w->index].undoing ? QDOT_OK : add_faded(x, w->index, root);
+    return x->c->stage->events.at[w->index].undoing ? QDOT_OK : append_hidden_occurrence(x, w->index, root);
 }
 
 /* Whether a root lies within what rounding hides about the occurrence of the event before it; one within the tolerance of a
  * touch may be its other crossing, but no second touch. */
 static bool
-is_hidden_by_earlier(const qdot_piece *x, size_t event, const qdot_root *root)
+merges_with_earlier_occurrence(const qdot_piece *x, size_t event, const qdot_root *root)
 {
     for (size_t k = x->c->occurrences.n; k-- > 0;) {
         const qdot_occurrence *o = &x->c->occurrences.at[k];
@@ -102,9 +102,9 @@ qdot_piece_doubt_root(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     const bool doubtful =
-        w->kind == QDOT_WATCH_EVENT && (root->several || is_hidden_by_earlier(x, w->index, root));
+        w->kind == QDOT_WATCH_EVENT && (root->several || merges_with_earlier_occurrence(x, w->index, root));
 
-    return doubtful ? add_faded(x, w->index, root) : QDOT_OK;
+    return doubtful ? append_hidden_occurrence(x, w->index, root) : QDOT_OK;
 }
 
 qdot_status
@@ -119,12 +119,12 @@ qdot_piece_take_faded(qdot_piece *x, double t)
 
         if (isnan(since))
             continue;
-        known = stretch_since(x->c, event, since);
+        known = hidden_span_since(x->c, event, since);
         if (known) {
             known->to = t;
             continue;
         }
-        forget_since(x, event, since);
+        remove_occurrences_since(x, event, since);
         QDOT_TRY(qdot_vec_push(&x->c->faded, ((qdot_course_faded){event, since, t, false})));
     }
     x->noted = x->c->occurrences.n;

@@ -7,15 +7,15 @@
 #include "sim/course/piece-impact.h"
 #include "sim/model/contact.h"
 
-/* Two velocities count as equal up to this relative difference. */
+/* Two velocities count as equal if they differ relatively by no more than this. */
 static const double alike = 1e-9;
-/* The values that an event's `then` sets may contain this many rounding errors of the velocities. */
+/* Values set by an event's `then` may err by this multiple of the rounding errors of the velocities. */
 static const double roundings = 32;
-/* The speed of a trial impact, over that of the motion where this is above 1. */
+/* The speed of a trial impact, relative to the speed of the motion (or to 1, if that is larger). */
 static const double trial = 1e-3;
 
 static double
-length_of(size_t n, const double *d)
+vector_length(size_t n, const double *d)
 {
     double length = 0;
 
@@ -34,9 +34,9 @@ dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* Find q'' of the present mode minus q'' of mode `other`, into d [n]. */
+/* Find q'' of the present mode minus q'' of the mode `other`, into d [n]. */
 static qdot_status
-find_difference(qdot_piece *x, size_t other, double *d, double *size)
+find_acceleration_difference(qdot_piece *x, size_t other, double *d, double *size)
 {
     const size_t n = x->n / 2;
     double *rates = qdot_malloc(2 * x->n * sizeof *rates), most = 0;
@@ -50,8 +50,8 @@ find_difference(qdot_piece *x, size_t other, double *d, double *size)
         d[i] = rates[n + i] - rates[x->n + n + i];
         most = fmax(most, fmax(fabs(rates[n + i]), fabs(rates[x->n + n + i])));
     }
-    if (status == QDOT_OK && length_of(n, d) > roundings * DBL_EPSILON * most)
-        *size = length_of(n, d);
+    if (status == QDOT_OK && vector_length(n, d) > roundings * DBL_EPSILON * most)
+        *size = vector_length(n, d);
     qdot_free(rates);
     return status;
 }
@@ -69,19 +69,19 @@ qdot_piece_reaction(qdot_piece *x, size_t surface, double *d, double *size)
     without = x->mode;
     x->side[surface] = QDOT_SIDE_SLIDES;
     x->mode = mode;
-    return status == QDOT_OK ? find_difference(x, without, d, size) : status;
+    return status == QDOT_OK ? find_acceleration_difference(x, without, d, size) : status;
 }
 
 /* A trial impact: the `then` of a contact applied with a velocity reduced by `speed` along `aside`
  * [n], and the change of velocities. */
 typedef struct {
-    const double *slopes; /* [n] slopes du/dq */
+    const double *slopes; /* [n] gradient du/dq of the contact's distance u */
     double *old, *y;      /* [2n] states before and after the impact */
     double rate;          /* du/dt before the impact */
 } blow;
 
 static qdot_status
-strike(qdot_piece *x, size_t surface, const double *aside, double speed, blow *b)
+apply_trial_impact(qdot_piece *x, size_t surface, const double *aside, double speed, blow *b)
 {
     const qdot_surface *s = &x->c->stage->switches.surfaces.at[surface];
     const size_t n = x->n / 2;
@@ -97,7 +97,7 @@ strike(qdot_piece *x, size_t surface, const double *aside, double speed, blow *b
 /* Whether it leaves the place where it is; and by how much it changes velocities at most, *most, which are as
  * large as *size. */
 static bool
-stays_there(const qdot_piece *x, const blow *b, double *most, double *size)
+changes_only_velocities(const qdot_piece *x, const blow *b, double *most, double *size)
 {
     const size_t n = x->n / 2;
     bool yes = true;
@@ -122,13 +122,13 @@ find_impulse(qdot_piece *x, size_t surface, const double *slopes, const double *
     const size_t n = x->n / 2;
     double *room = qdot_malloc(2 * x->n * sizeof *room), most, size, speed = trial, back = 0;
     blow b = {.slopes = slopes, .old = room, .y = room + x->n};
-    qdot_status status = room ? strike(x, surface, aside, 0, &b) : QDOT_ENOMEM;
+    qdot_status status = room ? apply_trial_impact(x, surface, aside, 0, &b) : QDOT_ENOMEM;
 
-    *yes = status == QDOT_OK && stays_there(x, &b, &most, &size) && most <= roundings * DBL_EPSILON * size;
+    *yes = status == QDOT_OK && changes_only_velocities(x, &b, &most, &size) && most <= roundings * DBL_EPSILON * size;
     if (*yes) {
         speed = trial * size;
-        status = strike(x, surface, aside, speed / length_of(n, aside), &b);
-        *yes = status == QDOT_OK && stays_there(x, &b, &most, &size);
+        status = apply_trial_impact(x, surface, aside, speed / vector_length(n, aside), &b);
+        *yes = status == QDOT_OK && changes_only_velocities(x, &b, &most, &size);
     }
     for (size_t i = 0; i < n && *yes; i++) {
         along[i] = b.y[n + i] - b.old[n + i];
@@ -147,7 +147,7 @@ find_impulse(qdot_piece *x, size_t surface, const double *slopes, const double *
 /* M along [n] of the equations of a mode without what the contacts do, compared with the slopes of u: whether it is along
  * them. No mode with constraints, or whose equations are solved for q'', tells that. */
 static qdot_status
-is_along_slopes(qdot_piece *x, const double *along, const double *slopes, bool *yes)
+is_along_gradient(qdot_piece *x, const double *along, const double *slopes, bool *yes)
 {
     const size_t n = x->n / 2, mode = x->mode;
     const qdot_plan *p;
@@ -176,7 +176,7 @@ is_along_slopes(qdot_piece *x, const double *along, const double *slopes, bool *
         memcpy(room, x->start.y, x->n * sizeof *room);
         room[2 * n] = x->start.t;
         qdot_tape_eval(masses, room, M, M + n * n);
-        for (size_t i = 0; i < n; i++) /* scale so that slopes . along = 1 */
+        for (size_t i = 0; i < n; i++) /* scale `along` so that its product with the gradient is 1 */
             part += dot(n, M + i * n, along) * along[i];
         for (size_t i = 0; i < n; i++) {
             most = fmax(most, fabs(part * slopes[i]));
@@ -193,9 +193,9 @@ is_along_slopes(qdot_piece *x, const double *along, const double *slopes, bool *
     return status;
 }
 
-/* Remove the components of d [n] along the k orthogonal unit vectors e [k x n]. */
+/* Subtract from d [n] its components along the k orthonormal vectors e [k x n]. */
 static void
-take_parts(size_t n, size_t k, const double *e, double *d)
+remove_components(size_t n, size_t k, const double *e, double *d)
 {
     for (size_t pass = 0; pass < 2; pass++)
         for (size_t j = 0; j < k; j++) {
@@ -238,7 +238,7 @@ qdot_piece_is_smooth_wall(qdot_piece *x, size_t surface, double *share, bool *ye
     if (status == QDOT_OK)
         status = find_impulse_in_mode(x, surface, d, &size, slopes, along, share, yes);
     if (status == QDOT_OK && *yes && size == 0) { /* no force presses the body against the wall */
-        status = is_along_slopes(x, along, slopes, yes);
+        status = is_along_gradient(x, along, slopes, yes);
         qdot_free(room);
         return qdot_grave(status);
     }
@@ -254,18 +254,18 @@ qdot_piece_is_smooth_wall(qdot_piece *x, size_t surface, double *share, bool *ye
             memcpy(e + k * n, along, n * sizeof *along);
         if (status != QDOT_OK || !impact)
             continue;
-        part = length_of(n, e + k * n);
+        part = vector_length(n, e + k * n);
         for (size_t j = 0; j < n; j++)
             e[k * n + j] /= part;
-        take_parts(n, k, e, e + k * n);
-        part = length_of(n, e + k * n);
+        remove_components(n, k, e, e + k * n);
+        part = vector_length(n, e + k * n);
         for (size_t j = 0; j < n; j++)
             e[k * n + j] /= part;
         k += part > alike;
     }
     if (status == QDOT_OK && *yes) {
-        take_parts(n, k, e, d);
-        *yes = length_of(n, d) <= alike * size;
+        remove_components(n, k, e, d);
+        *yes = vector_length(n, d) <= alike * size;
     }
     qdot_free(room);
     return qdot_grave(status);

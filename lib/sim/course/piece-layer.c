@@ -16,14 +16,14 @@
 static const double least_left_out = 16 * DBL_EPSILON;
 
 static const qdot_surface *
-surface(const qdot_piece *x, size_t i)
+surface_of(const qdot_piece *x, size_t i)
 {
     return &x->c->stage->switches.surfaces.at[i];
 }
 
-/* Whether the piece before the one in the layer held the motion at u = 0 of surface i. */
+/* Whether the piece before the one in the layer held the motion on surface i, at u = 0. */
 static bool
-was_held(const qdot_piece *x, size_t i)
+was_held_on_surface(const qdot_piece *x, size_t i)
 {
     const qdot_trajectory *tr = &x->c->tr;
     const size_t n = tr->pieces.n;
@@ -33,36 +33,36 @@ was_held(const qdot_piece *x, size_t i)
 }
 
 static bool
-is_in_time(const qdot_piece *x, size_t i)
+depends_on_time_only(const qdot_piece *x, size_t i)
 {
-    return qdot_layers_in_time(x->c->stage->switches.pool, surface(x, i));
+    return qdot_layers_in_time(x->c->stage->switches.pool, surface_of(x, i));
 }
 
-/* The signed duration of the piece that ends, divided by 1 + power: the factor of C w^p at the rim. */
+/* The time spent in the layer divided by 1 + power, the factor of C w^p at the layer's boundary |u| = w. */
 static double
-time_within(const qdot_piece *x, size_t i)
+weighted_time_in_layer(const qdot_piece *x, size_t i)
 {
     const qdot_trajectory *tr = &x->c->tr;
 
-    return (x->start.t - tr->t[tr->pieces.at[tr->pieces.n - 1].first]) / (1 + surface(x, i)->power);
+    return (x->start.t - tr->t[tr->pieces.at[tr->pieces.n - 1].first]) / (1 + surface_of(x, i)->power);
 }
 
 static bool
-holds_velocities(const qdot_piece *x, size_t i)
+contains_velocities(const qdot_piece *x, size_t i)
 {
-    return (qdot_expr_node(x->c->stage->switches.pool, surface(x, i)->u)->holds
+    return (qdot_expr_node(x->c->stage->switches.pool, surface_of(x, i)->u)->holds
             & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
            != 0;
 }
 
-/* Closer to the middle of a layer than this fraction of its half width the power law is negligible. */
+/* Closer to the middle of a layer than this fraction of its half width, its power law is negligible. */
 static const double beside_middle = 0x1p-10;
 
 /* What else than the power switches at u = 0, as a dashpot that acts in contact alone: the rates of a mode beyond the layer
  * less those of the mode inside, jump [n], at the time `back` before the start, by its velocities. 0 where the power has no
  * value there. */
 static qdot_status
-find_jump(qdot_piece *x, size_t beyond, size_t inside, double back, double *jump)
+find_force_jump(qdot_piece *x, size_t beyond, size_t inside, double back, double *jump)
 {
     const size_t n = x->n / 2;
     const qdot_ode_system *in = x->c->systems.at + inside, *out = x->c->systems.at + beyond;
@@ -87,7 +87,7 @@ find_jump(qdot_piece *x, size_t beyond, size_t inside, double back, double *jump
 /* The time from the rim of the layer of surface i, where the motion enters it, to its middle, with its sign; 0:
  * not known. */
 static qdot_status
-find_half(qdot_piece *x, size_t i, double *half)
+find_time_to_middle(qdot_piece *x, size_t i, double *half)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     double *rates = qdot_malloc(2 * x->n * sizeof *rates), rate = 0, noise = 0;
@@ -99,7 +99,7 @@ find_half(qdot_piece *x, size_t i, double *half)
         if (m->watched[k].kind == QDOT_WATCH_SURFACE && m->watched[k].index == i)
             status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, NULL, rates, rates + x->n, k, &rate,
                                      &noise);
-    *half = fabs(rate) > noise ? x->direction * surface(x, i)->layer / fabs(rate) : 0;
+    *half = fabs(rate) > noise ? x->direction * surface_of(x, i)->layer / fabs(rate) : 0;
     qdot_free(rates);
     return status;
 }
@@ -108,18 +108,18 @@ find_half(qdot_piece *x, size_t i, double *half)
  * middle; where it is left on its other side, from there on. jumps [2 x n], of the side before and of that behind, where it is
  * left. */
 static qdot_status
-make_jumps_good(qdot_piece *x, size_t i, bool leaves, double *jumps)
+correct_for_force_jumps(qdot_piece *x, size_t i, bool leaves, double *jumps)
 {
     const qdot_trajectory *tr = &x->c->tr;
     const size_t pieces = tr->pieces.n, n = x->n;
     size_t before;
     double half;
 
-    if (is_in_time(x, i) || holds_velocities(x, i))
+    if (depends_on_time_only(x, i) || contains_velocities(x, i))
         return QDOT_OK;
     if (!leaves) {
-        QDOT_TRY(find_half(x, i, &half));
-        QDOT_TRY(find_jump(x, x->start.from, x->mode, -half * (1 - beside_middle), jumps));
+        QDOT_TRY(find_time_to_middle(x, i, &half));
+        QDOT_TRY(find_force_jump(x, x->start.from, x->mode, -half * (1 - beside_middle), jumps));
         for (size_t k = 0; k < n; k++)
             x->start.y[k] += half * jumps[k];
         return QDOT_OK;
@@ -128,8 +128,8 @@ make_jumps_good(qdot_piece *x, size_t i, bool leaves, double *jumps)
     if (!x->entered || x->c->stage->modes.at[before]->side[i] != -qdot_piece_mode(x)->side[i])
         return QDOT_OK;
     half = (x->start.t - tr->t[tr->pieces.at[pieces - 1].first]) / 2;
-    QDOT_TRY(find_jump(x, before, x->start.from, half * (1 + beside_middle), jumps));
-    QDOT_TRY(find_jump(x, x->mode, x->start.from, half * (1 - beside_middle), jumps + n));
+    QDOT_TRY(find_force_jump(x, before, x->start.from, half * (1 + beside_middle), jumps));
+    QDOT_TRY(find_force_jump(x, x->mode, x->start.from, half * (1 - beside_middle), jumps + n));
     for (size_t k = 0; k < n; k++)
         x->start.y[k] += half * jumps[n + k];
     return QDOT_OK;
@@ -138,10 +138,10 @@ make_jumps_good(qdot_piece *x, size_t i, bool leaves, double *jumps)
 /* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what its power has left
  * out of velocities since, relative to its size. */
 static qdot_status
-pass_rim(qdot_piece *x, size_t i, bool leaves)
+pass_layer_boundary(qdot_piece *x, size_t i, bool leaves)
 {
     qdot_course *c = x->c;
-    const double time = time_within(x, i);
+    const double time = weighted_time_in_layer(x, i);
     double *inside = qdot_calloc(4 * x->n, sizeof *inside), *beyond = inside + x->n, *jumps = beyond + x->n,
            most = 0;
     qdot_status status = inside ? QDOT_OK : QDOT_ENOMEM;
@@ -151,19 +151,19 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     if (status == QDOT_OK)
         status = qdot_piece_rates(x, leaves ? x->mode : x->start.from, beyond);
     if (status == QDOT_OK)
-        status = make_jumps_good(x, i, leaves, jumps);
+        status = correct_for_force_jumps(x, i, leaves, jumps);
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
         const double out = beyond[k] - inside[k],
                      mean = x->entered ? (x->rim[k] - jumps[k] + out - jumps[x->n + k]) / 2 : out;
 
         most = fmax(most, fabs(mean) / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
         x->rim[k] = out;
-        if (leaves && is_in_time(x, i)) /* the displacement within the layer is added */
+        if (leaves && depends_on_time_only(x, i)) /* add the displacement within the layer */
             x->start.y[k] += mean * time;
     }
     qdot_free(inside);
     x->entered = !leaves;
-    if (leaves && !is_in_time(x, i) && !was_held(x, i)) /* friction corrects this error itself on leaving the layer */
+    if (leaves && !depends_on_time_only(x, i) && !was_held_on_surface(x, i)) /* friction corrects this error itself */
         c->left_out += most * fabs(time);
     if (status == QDOT_OK && c->left_out > fmax(x->options->tol, least_left_out))
         qdot_piece_stop_at(x, i, 0, "a power of what passes 0 so slowly cannot be followed at", "");
@@ -177,10 +177,10 @@ qdot_piece_end_in_layers(qdot_piece *x)
     bool any = false;
 
     for (size_t i = 0; i < x->c->stage->switches.surfaces.n && x->entered; i++) {
-        if (surface(x, i)->layer == 0 || mode->side[i] != 0 || !is_in_time(x, i))
+        if (surface_of(x, i)->layer == 0 || mode->side[i] != 0 || !depends_on_time_only(x, i))
             continue;
         for (size_t k = 0; k < x->n; k++)
-            x->start.y[k] += x->rim[k] * time_within(x, i);
+            x->start.y[k] += x->rim[k] * weighted_time_in_layer(x, i);
         x->entered = false;
         any = true;
     }
@@ -190,7 +190,7 @@ qdot_piece_end_in_layers(qdot_piece *x)
 /* In the layer of surface i: whether the motion, by its velocities and accelerations now, is there
  * still when the run ends. */
 static qdot_status
-rests(qdot_piece *x, size_t i, bool *yes)
+comes_to_rest(qdot_piece *x, size_t i, bool *yes)
 {
     const size_t n = x->n / 2;
     const double h = x->t1 - x->start.t;
@@ -214,7 +214,7 @@ rests(qdot_piece *x, size_t i, bool *yes)
 
 /* --- coming to rest -------------------------------------------------------------------------------- */
 
-/* The friction force is compared at the rim of the layer and at this fraction of the way to it. */
+/* The friction force is compared at the layer's boundary and this fraction of the half width inside it. */
 static const double deeper = 0x1p-10;
 
 /* The motion held at u = 0 of a surface at the start of a piece: y and its rates [n], the slopes of u by
@@ -227,7 +227,7 @@ typedef struct {
 /* How fast |u|, of order 0 |du/dt|, falls at u = way `at` with the equations of that side, more than in the
  * motion held: *a. */
 static qdot_status
-decelerate(qdot_piece *x, size_t i, const held_motion *held, int way, double at, double *a)
+find_deceleration(qdot_piece *x, size_t i, const held_motion *held, int way, double at, double *a)
 {
     const size_t n = x->n / 2;
     const qdot_ode_system *system;
@@ -253,7 +253,7 @@ decelerate(qdot_piece *x, size_t i, const held_motion *held, int way, double at,
     return status;
 }
 
-/* The time until rest, its uncertainty, and the distance until rest (time times velocity). */
+/* The time until the motion comes to rest, its uncertainty, and its mean velocity until then. */
 typedef struct {
     double time, doubt, mean;
 } remainder_of_motion;
@@ -261,14 +261,14 @@ typedef struct {
 /* u falls as c u^p from u0, p < 1: u0/(a(w) (1 - p)) (u0/w)^-p, and the mean of u until then is u0 (1 - p)/(2 -
  * p). */
 static double
-time_by(double u0, double w, double rim, double p)
+time_to_rest_by_power_law(double u0, double w, double rim, double p)
 {
     return w / (rim * (1 - p)) * pow(u0 / w, 1 - p);
 }
 
-/* The uncertainty of u' caused by rounding of the velocities. */
+/* The uncertainty of du/dt caused by rounding of the velocities. */
 static double
-noise_of(const qdot_piece *x, const double *slopes)
+velocity_rounding(const qdot_piece *x, const double *slopes)
 {
     const size_t n = x->n / 2;
     double sum = 0;
@@ -282,37 +282,37 @@ noise_of(const qdot_piece *x, const double *slopes)
 /* How friction brings u at the start to rest, a = c u^p on either side: an infinite time if that never ends,
  * or if there is a side on which it does not. */
 static qdot_status
-find_rest(qdot_piece *x, size_t i, const held_motion *held, remainder_of_motion *left)
+find_remaining_motion(qdot_piece *x, size_t i, const held_motion *held, remainder_of_motion *left)
 {
-    const double w = surface(x, i)->layer, u0 = fmin(fabs(held->u), w);
+    const double w = surface_of(x, i)->layer, u0 = fmin(fabs(held->u), w);
 
     *left = (remainder_of_motion){0};
     for (int way = -1; way <= 1; way += 2) {
         double rim, half, inside, p, q;
 
-        QDOT_TRY(decelerate(x, i, held, way, w, &rim));
-        QDOT_TRY(decelerate(x, i, held, way, sqrt(deeper) * w, &half));
-        QDOT_TRY(decelerate(x, i, held, way, deeper * w, &inside));
+        QDOT_TRY(find_deceleration(x, i, held, way, w, &rim));
+        QDOT_TRY(find_deceleration(x, i, held, way, sqrt(deeper) * w, &half));
+        QDOT_TRY(find_deceleration(x, i, held, way, deeper * w, &inside));
         p = inside > 0 ? log(inside / rim) / log(deeper) : 0;
         q = half > 0 ? log(half / rim) / (log(deeper) / 2) : 0;
         if (!(rim > 0 && p < 1))
             left->time = INFINITY;
         if (!(way * held->u > 0) || isinf(left->time))
             continue;
-        left->time = time_by(u0, w, rim, p);
-        left->doubt = fabs(time_by(u0, w, rim, q) - left->time)
-                      + noise_of(x, held->slopes) / (rim * pow(u0 / w, p));
+        left->time = time_to_rest_by_power_law(u0, w, rim, p);
+        left->doubt = fabs(time_to_rest_by_power_law(u0, w, rim, q) - left->time)
+                      + velocity_rounding(x, held->slopes) / (rim * pow(u0 / w, p));
         left->mean = (1 - p) / (2 - p);
     }
     return QDOT_OK;
 }
 
-/* The distance until rest is known except for the change of the forces meanwhile; it may err by this much. */
+/* Allowed error of the distance until rest, which neglects the change of the forces meanwhile. */
 static const double way_left_out = 1e-12;
 
-/* Whether the distance that the held motion would still cover is small enough to be ignored. */
+/* Whether the distance that the motion held on the surface would still cover is small enough to be ignored. */
 static bool
-may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *left)
+is_distance_negligible(const qdot_piece *x, const held_motion *held, const remainder_of_motion *left)
 {
     const size_t n = x->n / 2;
     const double duration = fabs(x->t1 - x->c->tr.t[0]);
@@ -325,7 +325,7 @@ may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *
     return may;
 }
 
-/* Advance the held motion to the time of rest, at its mean velocity until then. */
+/* Advance the motion held on the surface to the time of its rest, with its mean velocity until then. */
 static qdot_status
 go_to_rest(qdot_piece *x, size_t i, const held_motion *held, const remainder_of_motion *left)
 {
@@ -349,9 +349,9 @@ go_to_rest(qdot_piece *x, size_t i, const held_motion *held, const remainder_of_
     return QDOT_OK;
 }
 
-/* Hold the motion on surface i at the start of a piece, in a mode of its own; the caller frees held->slopes. */
+/* Hold the motion on surface i from the start of a piece, in its own mode; the caller frees held->slopes. */
 static qdot_status
-hold(qdot_piece *x, size_t i, int order, held_motion *held)
+hold_on_surface(qdot_piece *x, size_t i, int order, held_motion *held)
 {
     const qdot_sliding_rows *rows;
     const qdot_ode_system *system;
@@ -374,16 +374,16 @@ hold(qdot_piece *x, size_t i, int order, held_motion *held)
 /* Whether the motion comes to rest on surface i, in whose layer it is, and what is left of its way is
  * next to nothing; then it goes there, and x->mode is the one that holds it. */
 static qdot_status
-may_hold(qdot_piece *x, size_t i, bool *may)
+may_hold_on_surface(qdot_piece *x, size_t i, bool *may)
 {
     held_motion held;
     remainder_of_motion left = {.time = INFINITY};
-    qdot_status status = hold(x, i, 1, &held);
+    qdot_status status = hold_on_surface(x, i, 1, &held);
     const size_t mode = x->mode;
 
     if (status == QDOT_OK)
-        status = find_rest(x, i, &held, &left);
-    *may = status == QDOT_OK && may_go(x, &held, &left);
+        status = find_remaining_motion(x, i, &held, &left);
+    *may = status == QDOT_OK && is_distance_negligible(x, &held, &left);
     x->side[i] = QDOT_SIDE_SLIDES;
     x->mode = mode;
     if (*may)
@@ -400,12 +400,12 @@ is_driven_back(qdot_piece *x, size_t i, bool *yes)
     const size_t mode = x->mode;
     held_motion held;
     double up = 0, down = 0;
-    qdot_status status = hold(x, i, 0, &held);
+    qdot_status status = hold_on_surface(x, i, 0, &held);
 
     if (status == QDOT_OK)
-        status = decelerate(x, i, &held, 1, surface(x, i)->layer, &up);
+        status = find_deceleration(x, i, &held, 1, surface_of(x, i)->layer, &up);
     if (status == QDOT_OK)
-        status = decelerate(x, i, &held, -1, surface(x, i)->layer, &down);
+        status = find_deceleration(x, i, &held, -1, surface_of(x, i)->layer, &down);
     *yes = status == QDOT_OK && up > 0 && down > 0;
     qdot_free(held.slopes);
     x->side[i] = 0;
@@ -415,7 +415,7 @@ is_driven_back(qdot_piece *x, size_t i, bool *yes)
 
 /* Record events whose function becomes 0 where the motion has come to rest. */
 static qdot_status
-meet_events(qdot_piece *x)
+record_events_at_rest(qdot_piece *x)
 {
     const size_t m = qdot_piece_mode(x)->m;
     int *signs = qdot_calloc(m + 1, sizeof *signs);
@@ -449,17 +449,17 @@ qdot_piece_stop_in_layers(qdot_piece *x)
     for (size_t i = 0; i < x->c->stage->switches.surfaces.n && status == QDOT_OK; i++) {
         bool may = false;
 
-        if (surface(x, i)->layer == 0 || x->side[i] != 0
+        if (surface_of(x, i)->layer == 0 || x->side[i] != 0
             || (old->side[i] == QDOT_SIDE_SLIDES && !x->start.jumped)
-            || !holds_velocities(x, i))
+            || !contains_velocities(x, i))
             continue;
-        status = may_hold(x, i, &may);
+        status = may_hold_on_surface(x, i, &may);
         x->side[i] = may ? QDOT_SIDE_SLIDES : 0;
         mode = may ? x->mode : mode;
         x->mode = mode;
         any |= may;
     }
-    return status == QDOT_OK && any ? meet_events(x) : status;
+    return status == QDOT_OK && any ? record_events_at_rest(x) : status;
 }
 
 /* --- passing through a layer ---------------------------------------------------------------------------- */
@@ -474,16 +474,16 @@ qdot_piece_check_layers(qdot_piece *x)
     for (size_t i = 0; i < surfaces && x->c->reason[0] == '\0'; i++) {
         bool stays = false, back = false;
 
-        if (surface(x, i)->layer == 0)
+        if (surface_of(x, i)->layer == 0)
             continue;
         if (x->start.jumped)
             x->entered = false;
         else if ((old->side[i] == 0) != (now->side[i] == 0))
-            QDOT_TRY(pass_rim(x, i, old->side[i] == 0));
-        /* with a power of less than 1, the motion may leave the surface at any time */
-        if (now->side[i] == 0 && surface(x, i)->power < 1 && !is_in_time(x, i))
-            QDOT_TRY(rests(x, i, &stays));
-        if (stays && !holds_velocities(x, i))
+            QDOT_TRY(pass_layer_boundary(x, i, old->side[i] == 0));
+        /* a power less than 1 lets the motion leave the surface at any time */
+        if (now->side[i] == 0 && surface_of(x, i)->power < 1 && !depends_on_time_only(x, i))
+            QDOT_TRY(comes_to_rest(x, i, &stays));
+        if (stays && !contains_velocities(x, i))
             QDOT_TRY(is_driven_back(x, i, &back));
         if (stays && !back)
             qdot_piece_stop_at(x, i, 0, "nothing says when the motion, at rest, leaves", "");

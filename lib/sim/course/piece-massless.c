@@ -18,9 +18,9 @@
 #include "sim/model/constrained.h"
 #include "sim/model/massless.h"
 
-/* A change below this, relative to the sizes of components, is rounding. */
+/* Changes smaller than this, relative to the sizes of components, are rounding. */
 static const double rounding = 64 * DBL_EPSILON;
-/* A position does not jump if it moves by less than this: projected states err by the tolerance. */
+/* Positions that move by less than this do not jump: projected states err by the tolerance. */
 static const double least_jump = 1e-9;
 /* The velocity that represents a jump of length 1. */
 static const double very_fast = 0x1p60;
@@ -46,7 +46,7 @@ qdot_piece_holds_massless(const qdot_piece *x, size_t surface)
 /* Mark q [n], q' [n] that the equations of the mode leave undetermined: they keep their values.
  * *some: positions are determined. */
 static void
-mark_kept(const qdot_plan *p, bool *kept, bool *some)
+mark_kept_components(const qdot_plan *p, bool *kept, bool *some)
 {
     *some = false;
     for (size_t i = 0; i < p->n; i++) {
@@ -58,9 +58,9 @@ mark_kept(const qdot_plan *p, bool *kept, bool *some)
     }
 }
 
-/* Write jumps of positions from `old` to now as very large velocities into y [2n]; whether there are any. */
+/* Write jumps from the positions `old` to the present ones into y [2n] as huge velocities; true: there is one. */
 static bool
-write_jump(const qdot_piece *x, const double *old, double *y)
+write_jump_velocities(const qdot_piece *x, const double *old, double *y)
 {
     const size_t n = x->n / 2;
     bool some = false;
@@ -80,7 +80,7 @@ write_jump(const qdot_piece *x, const double *old, double *y)
 /* Whether u' stays 0 during the jump y [2n] for a surface along which the motion slides; a surface
  * of positions never hinders. */
 static qdot_status
-slides_on(const qdot_piece *x, size_t surface, const double *y, bool *keeps)
+slides_through_jump(const qdot_piece *x, size_t surface, const double *y, bool *keeps)
 {
     double value;
 
@@ -94,12 +94,12 @@ slides_on(const qdot_piece *x, size_t surface, const double *y, bool *keeps)
 /* Whether the positions that jump from old [2n], if any, go the way that switches of velocities say; fast [2n], g [2m] and
  * signs [m] are room. */
 static qdot_status
-check_ways(qdot_piece *x, const double *old, double *fast, double *g, int *signs, bool *can)
+check_jump_directions(qdot_piece *x, const double *old, double *fast, double *g, int *signs, bool *can)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     bool decided = false;
 
-    if (!write_jump(x, old, fast))
+    if (!write_jump_velocities(x, old, fast))
         return QDOT_OK;
     QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), x->start.t, x->start.y, NULL, signs, g, NULL));
     QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), x->start.t, fast, NULL, signs, g + m->m, NULL));
@@ -110,7 +110,7 @@ check_ways(qdot_piece *x, const double *old, double *fast, double *g, int *signs
         if (w->kind != QDOT_WATCH_SURFACE || !w->velocity)
             continue;
         if (m->side[w->index] == QDOT_SIDE_SLIDES)
-            QDOT_TRY(slides_on(x, w->index, fast, &fits));
+            QDOT_TRY(slides_through_jump(x, w->index, fast, &fits));
         else
             fits = g[i] == g[m->m + i] || signs[i] == w->inside;
         decided = decided || g[i] != g[m->m + i];
@@ -119,7 +119,7 @@ check_ways(qdot_piece *x, const double *old, double *fast, double *g, int *signs
         *can = *can && fits;
     }
     if (*can && decided) {
-        x->tried.n = x->start.slipped ? x->tried.n : 0; /* sides that were rejected may fit the new state */
+        x->tried.n = x->start.slipped ? x->tried.n : 0; /* sides of switches that were rejected before may fit the new state */
         x->start.slipped = true;
         memcpy(x->bare, x->start.y, x->n * sizeof *x->bare);
     }
@@ -129,7 +129,7 @@ check_ways(qdot_piece *x, const double *old, double *fast, double *g, int *signs
 /* Set x->jumps for the watched functions whose values differ from those at old [2n]; g [2m], signs
  * [m] are work space. */
 static qdot_status
-find_jumps(qdot_piece *x, const double *old, double *g, int *signs)
+find_function_jumps(qdot_piece *x, const double *old, double *g, int *signs)
 {
     const size_t m = qdot_piece_mode(x)->m;
 
@@ -140,9 +140,9 @@ find_jumps(qdot_piece *x, const double *old, double *g, int *signs)
     return QDOT_OK;
 }
 
-/* Note that the equations have no solution: list every switch whose side has changed as uncertain. */
+/* Note that the equations have no solution: mark each switch whose side has changed as uncertain. */
 static qdot_status
-doubt_all(qdot_piece *x)
+doubt_changed_switches(qdot_piece *x)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     const long *old = x->c->stage->modes.at[x->start.from]->side;
@@ -153,9 +153,9 @@ doubt_all(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* Move the start onto the equations of the mode; kept [2n], low [2n]. *can: a solution exists. */
+/* Move the start onto the equations of the mode; kept, low: [2n]. *can: whether a solution exists. */
 static qdot_status
-massless_move(qdot_piece *x, bool begins, const bool *kept, bool positions, double *low, bool *can)
+solve_massless_equations(qdot_piece *x, bool begins, const bool *kept, bool positions, double *low, bool *can)
 {
     const qdot_ode_system *from = &x->c->systems.at[x->start.from];
     qdot_constrained *held = qdot_bind_held(x->c->binds.at[x->mode]);
@@ -164,7 +164,7 @@ massless_move(qdot_piece *x, bool begins, const bool *kept, bool positions, doub
     qdot_status status;
 
     qdot_piece_low(x, low);
-    if (!begins && !x->has_root && from->project) /* remove the constraint error that a step of the method leaves */
+    if (!begins && !x->has_root && from->project) /* remove the constraint error that a step of the integration method leaves */
         QDOT_TRY(from->project(x->start.t, x->start.y, low, &by, from->user));
     status = qdot_constrained_put(held, x->start.t, x->start.t_low, x->start.y, low, positions ? kept : NULL, kept + n,
                                   "a switch");
@@ -181,7 +181,7 @@ qdot_piece_follow_massless(qdot_piece *x, bool *can)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     const size_t n = x->n;
-    const bool begins = x->start.t == x->c->tr.t[0]; /* at the start of the run, whose values the user may have given */
+    const bool begins = x->start.t == x->c->tr.t[0]; /* the start of the run, where the user may have given the values */
     double *old;
     int *signs;
     bool *kept, positions;
@@ -197,17 +197,17 @@ qdot_piece_follow_massless(qdot_piece *x, bool *can)
     status = old && signs && kept ? QDOT_OK : QDOT_ENOMEM;
     if (status == QDOT_OK) {
         memcpy(old, x->start.y, n * sizeof *old);
-        mark_kept(m->plan, kept, &positions);
-        status = massless_move(x, begins, kept, positions, old + n, can);
+        mark_kept_components(m->plan, kept, &positions);
+        status = solve_massless_equations(x, begins, kept, positions, old + n, can);
     }
     if (status == QDOT_OK && !*can)
-        status = doubt_all(x);
+        status = doubt_changed_switches(x);
     else if (status == QDOT_OK && m->m > 0)
-        status = check_ways(x, old, old + n, old + 3 * n, signs, can);
+        status = check_jump_directions(x, old, old + n, old + 3 * n, signs, can);
     for (size_t i = 0; i < n && status == QDOT_OK && !begins; i++)
         x->start.followed |= fabs(x->start.y[i] - old[i]) > rounding * fmax(x->largest[i], fabs(x->start.y[i]));
     if (status == QDOT_OK && x->start.followed && m->m > 0)
-        status = find_jumps(x, old, old + 3 * n, signs);
+        status = find_function_jumps(x, old, old + 3 * n, signs);
     if (status == QDOT_OK && !*can) {
         memcpy(x->start.y, old, n * sizeof *old);
         snprintf(x->hindrance, sizeof x->hindrance, ", and coordinates without mass have nowhere to go there");
@@ -218,9 +218,9 @@ qdot_piece_follow_massless(qdot_piece *x, bool *can)
     return status;
 }
 
-/* Whether u of a surface is a function of time alone. */
+/* Whether a surface's function u depends on time alone. */
 static bool
-is_of_time(const qdot_piece *x, size_t surface)
+depends_on_time(const qdot_piece *x, size_t surface)
 {
     const qdot_switches *s = &x->c->stage->switches;
 
@@ -240,7 +240,7 @@ qdot_piece_end_behind(qdot_piece *x)
         return QDOT_OK;
     QDOT_TRY(qdot_piece_sides(x, NULL));
     for (size_t i = 0; i < own; i++) {
-        x->side[i] = is_of_time(x, i) ? x->side[i] : old[i];
+        x->side[i] = depends_on_time(x, i) ? x->side[i] : old[i];
         switches = switches || x->side[i] != old[i];
     }
     if (!switches)

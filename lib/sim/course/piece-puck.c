@@ -10,11 +10,11 @@
 
 /* A disc starts with the speed that it would have after this fraction of the time t, */
 static const double behind = 64 * DBL_EPSILON;
-/* As `behind`, as a fraction of the duration of the run; the longer of the two times counts. */
+/* Like `behind`, but as a fraction of the duration of the run; the longer of the two times counts. */
 static const double little = 0x1p-60;
 /* Two directions count as equal if the cosine of the angle between them exceeds this. */
 static const double straight = 0.999;
-/* or, if that speed is 0, with its speed after this fraction of the run's duration. */
+/* If that speed is 0: the disc starts with its speed after this fraction of the run's duration. */
 static const double least = 0x1p-85;
 
 /* The acceleration of a disc near rest depends on its direction e: d' = P + K e, with K s = -P for
@@ -31,7 +31,7 @@ puck_at(const qdot_piece *x, size_t i)
     return &x->c->stage->switches.pucks.at[i];
 }
 
-/* Change velocity a of a disc by `by`, and the velocities tied to it in proportion. */
+/* Change the velocity with index a of a disc by `by`, and the velocities tied to it in proportion. */
 static void
 puck_change_velocity(const qdot_puck *puck, size_t a, double by, double *velocities)
 {
@@ -43,8 +43,8 @@ puck_change_velocity(const qdot_puck *puck, size_t a, double by, double *velocit
 /* The acceleration d' in the present mode at the state y [n], with component a of the disc's motion
  * changed by `by`. */
 static qdot_status
-accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
-           qdot_puck_state *s, double *out)
+accelerations_with_velocity_change(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
+                                   qdot_puck_state *s, double *out)
 {
     const qdot_puck *puck = puck_at(x, i);
     const qdot_ode_system *system = x->c->systems.at + x->mode;
@@ -68,7 +68,7 @@ accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
     return status;
 }
 
-/* Find the response of the disc, in the mode in which it moves, about its state of rest, rest [x->n]. */
+/* Find how the forces on disc i respond to small velocities about its state of rest, rest [x->n]. */
 static qdot_status
 find_response(qdot_piece *x, size_t i, double *rest, response *r)
 {
@@ -89,9 +89,9 @@ find_response(qdot_piece *x, size_t i, double *rest, response *r)
     for (size_t a = 0; a < k && status == QDOT_OK; a++) {
         const double size = sqrt(r->G[a * k + a]);
 
-        status = accelerate(x, i, rest, a, puck->radius / size, &s, plus);
+        status = accelerations_with_velocity_change(x, i, rest, a, puck->radius / size, &s, plus);
         if (status == QDOT_OK)
-            status = accelerate(x, i, rest, a, -puck->radius / size, &s, minus);
+            status = accelerations_with_velocity_change(x, i, rest, a, -puck->radius / size, &s, minus);
         for (size_t c = 0; c < k && status == QDOT_OK; c++) {
             r->K[c * k + a] = (plus[c] - minus[c]) / 2 * size;
             if (a == 0)
@@ -102,9 +102,9 @@ find_response(qdot_piece *x, size_t i, double *rest, response *r)
     return status;
 }
 
-/* Whether friction decelerates motion in every direction, e G K e < 0, tested by a Cholesky factorisation. */
+/* Whether friction brakes the disc in every direction e of motion (e G K e < 0), by Cholesky factorisation. */
 static bool
-friction_brakes(const response *r)
+friction_brakes_all_motion(const response *r)
 {
     const size_t k = r->k;
     double A[QDOT_PUCK_MOST * QDOT_PUCK_MOST];
@@ -126,9 +126,9 @@ friction_brakes(const response *r)
     return true;
 }
 
-/* Solve (a - K) e = P for the direction e at acceleration a; returns its length, infinite if there is none. */
+/* Solve (a - K) e = P for the direction e in which the disc starts; returns |e|, infinite if there is none. */
 static double
-direction(const response *r, double a, double *e)
+find_start_direction(const response *r, double a, double *e)
 {
     const size_t k = r->k;
     double A[QDOT_PUCK_MOST * QDOT_PUCK_MOST], square = 0;
@@ -146,24 +146,24 @@ direction(const response *r, double a, double *e)
     return sqrt(square);
 }
 
-/* The acceleration a >= 0 with which the disc starts, and its direction e, with e G e = 1. */
+/* Find the acceleration a >= 0 with which the disc starts, and its direction e, normalised by e G e = 1. */
 static double
-start_of(const response *r, double *e)
+find_start_acceleration(const response *r, double *e)
 {
     double low = 0, high = DBL_MIN, length;
 
     for (size_t i = 0; i < r->k * r->k; i++)
         high = fmax(high, fabs(r->K[i]));
-    while (isfinite(high) && direction(r, high, e) > 1)
+    while (isfinite(high) && find_start_direction(r, high, e) > 1)
         high *= 2;
     for (int i = 0; i < 200 && low < high; i++) {
         const double middle = low + (high - low) / 2;
 
         if (middle == low || middle == high)
             break;
-        *(direction(r, middle, e) > 1 ? &low : &high) = middle;
+        *(find_start_direction(r, middle, e) > 1 ? &low : &high) = middle;
     }
-    length = direction(r, low, e);
+    length = find_start_direction(r, low, e);
     for (size_t i = 0; i < r->k; i++)
         e[i] /= length;
     return low;
@@ -171,16 +171,16 @@ start_of(const response *r, double *e)
 
 /* Raise the uncertainty of the times at which the last piece of the run ended to at least `late`. */
 static void
-leave_late(qdot_piece *x, double late)
+raise_delay(qdot_piece *x, double late)
 {
     for (size_t k = x->c->ends.n;
          k-- > 0 && x->c->ends.at[k].piece + 1 == x->c->tr.pieces.n;)
         x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, late);
 }
 
-/* Whether disc i already moves in the direction e relative to rest, as after a start by creeping. */
+/* Whether disc i already moves in the direction e relative to its state of rest, as after starting by creeping. */
 static bool
-moves_along(const qdot_piece *x, const qdot_puck *puck, const double *rest, const double *e)
+moves_in_direction(const qdot_piece *x, const qdot_puck *puck, const double *rest, const double *e)
 {
     double along = 0, d2 = 0, e2 = 0;
 
@@ -197,7 +197,7 @@ moves_along(const qdot_piece *x, const qdot_puck *puck, const double *rest, cons
 
 /* Start disc i from rest, in the direction of the force that exceeds static friction. */
 static qdot_status
-start_one(qdot_piece *x, size_t i, double speed)
+start_disc(qdot_piece *x, size_t i, double speed)
 {
     const qdot_puck *puck = puck_at(x, i);
     const double duration = fabs(x->t1 - x->c->tr.t[0]);
@@ -207,17 +207,17 @@ start_one(qdot_piece *x, size_t i, double speed)
     qdot_status status = rest ? find_response(x, i, rest, &r) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
-        a = start_of(&r, e);
+        a = find_start_acceleration(&r, e);
         for (size_t c = 0; c < r.k * r.k; c++)
             friction = fmax(friction, fabs(r.K[c]));
         from = fmax(a * fmax(behind * fabs(x->start.t), little * duration),
                     friction * least * duration);
-        if (!(speed > from && moves_along(x, puck, rest, e))) {
+        if (!(speed > from && moves_in_direction(x, puck, rest, e))) {
             memcpy(x->start.y, rest, x->n * sizeof *rest);
             for (size_t c = 0; c < puck->k; c++)
                 puck_change_velocity(puck, c, from * e[c], x->start.y + x->n / 2);
             if (a > 0)
-                leave_late(x, (speed + from) / a);
+                raise_delay(x, (speed + from) / a);
         }
     }
     qdot_free(rest);
@@ -227,7 +227,7 @@ start_one(qdot_piece *x, size_t i, double speed)
 /* Puck i, near rest, comes to rest in the mode `behind`: within the time u = |w|/(its deceleration). The
  * motion goes on as if it had: q' + u (q'' - q''_rest), q - u^2/2 (q'' - q''_rest). */
 static qdot_status
-stop_one(qdot_piece *x, size_t i, const response *r, size_t behind)
+stop_disc(qdot_piece *x, size_t i, const response *r, size_t behind)
 {
     const size_t n = x->n / 2, k = r->k;
     double *rates = qdot_malloc(2 * x->n * sizeof *rates), *rest = rates + x->n;
@@ -263,9 +263,9 @@ stop_one(qdot_piece *x, size_t i, const response *r, size_t behind)
     return status;
 }
 
-/* Whether the present mode can hold disc i, because its friction decelerates it; if so, stop it. */
+/* Whether static friction can hold disc i in the present mode, as friction decelerates it; if so, stop it. */
 static qdot_status
-may_rest(qdot_piece *x, size_t i, bool *may)
+stop_disc_if_held(qdot_piece *x, size_t i, bool *may)
 {
     const size_t mode = x->mode, surface = puck_at(x, i)->surface;
     double *rest = qdot_malloc(x->n * sizeof *rest);
@@ -278,9 +278,9 @@ may_rest(qdot_piece *x, size_t i, bool *may)
         status = qdot_piece_enter(x);
     if (status == QDOT_OK)
         status = find_response(x, i, rest, &r);
-    *may = status == QDOT_OK && friction_brakes(&r);
+    *may = status == QDOT_OK && friction_brakes_all_motion(&r);
     if (*may && side == QDOT_SIDE_SLIDES)
-        status = stop_one(x, i, &r, mode);
+        status = stop_disc(x, i, &r, mode);
     x->side[surface] = side;
     x->mode = mode;
     qdot_free(rest);
@@ -296,12 +296,12 @@ qdot_piece_pucks(qdot_piece *x, bool *can)
         qdot_puck_state now = {0};
 
         if (x->side[puck->surface] != 1) {
-            QDOT_TRY(may_rest(x, i, can));
+            QDOT_TRY(stop_disc_if_held(x, i, can));
             continue;
         }
         QDOT_TRY(qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &now));
         if (now.speed <= puck->radius)
-            QDOT_TRY(start_one(x, i, now.speed));
+            QDOT_TRY(start_disc(x, i, now.speed));
     }
     return QDOT_OK;
 }

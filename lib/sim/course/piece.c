@@ -10,7 +10,7 @@
 /* --- reading within a step ----------------------------------------------------------- */
 
 static qdot_status
-read_series(double t, double *y, void *user)
+read_state_from_series(double t, double *y, void *user)
 {
     const qdot_piece *x = user;
     const qdot_ode_expanded *s = x->expanded;
@@ -20,7 +20,7 @@ read_series(double t, double *y, void *user)
 }
 
 static qdot_status
-read_series_two(double t, qdot_two *y, void *user)
+read_double_double_from_series(double t, qdot_two *y, void *user)
 {
     const qdot_piece *x = user;
 
@@ -29,7 +29,7 @@ read_series_two(double t, qdot_two *y, void *user)
 }
 
 static qdot_status
-read_step(double t, double *y, void *user)
+read_state_in_step(double t, double *y, void *user)
 {
     const qdot_piece *x = user;
     const uint64_t before = qdot_trajectory_evaluations(x->cursor);
@@ -46,23 +46,23 @@ read_step(double t, double *y, void *user)
 }
 
 static bool
-is_by_series(const qdot_piece *x)
+uses_series(const qdot_piece *x)
 {
     return (x->now ? x->now : x->method)->series;
 }
 
-/* Read the state at t within the step, for a method that changes between series and others. */
+/* Read the state at t within the step, for a run that changes between methods with and without series. */
 static qdot_status
-read_either(double t, double *y, void *user)
+read_state_by_either_method(double t, double *y, void *user)
 {
-    return is_by_series(user) ? read_series(t, y, user) : read_step(t, y, user);
+    return uses_series(user) ? read_state_from_series(t, y, user) : read_state_in_step(t, y, user);
 }
 
 /* --- events and surfaces within a step ----------------------------------------------- */
 
-/* The direction of a root as t grows: 1 rising, -1 falling, 0 a touch. */
+/* The direction of a root as t grows: 1 rising, -1 falling, 0 a touch of 0 without crossing. */
 static int
-way_of(qdot_piece *x, const qdot_root *root)
+direction_of_root(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     int way;
@@ -77,7 +77,7 @@ way_of(qdot_piece *x, const qdot_root *root)
 /* Whether the motion only touches a surface of places: if the equations jump there, with what they are on the other side
  * it might go on as well. */
 static bool
-touches_place(const qdot_piece *x, const qdot_watched *w, const qdot_root *root)
+touches_position_surface(const qdot_piece *x, const qdot_watched *w, const qdot_root *root)
 {
     return root->way == 0 && root->within == 0 && w->kind == QDOT_WATCH_SURFACE && w->inside != 0
            && w->index < qdot_switches_own(&x->c->stage->switches) && qdot_piece_is_of_places(x, w->index);
@@ -91,15 +91,15 @@ is_occurrence(qdot_piece *x, const qdot_root *root)
 
     if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].undoing)
         return !root->pole && qdot_piece_is_undone(x, root, &way);
-    way = way_of(x, root);
+    way = direction_of_root(x, root);
     if (w->kind == QDOT_WATCH_EVENT)
         return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
                                x->c->stage->events.at[w->index].way == way);
-    return (root->way != 0 && root->way != w->inside && !root->stays) || touches_place(x, w, root);
+    return (root->way != 0 && root->way != w->inside && !root->stays) || touches_position_surface(x, w, root);
 }
 
 static bool
-is_action(const qdot_piece *x, const qdot_root *root)
+has_action(const qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
 
@@ -109,13 +109,13 @@ is_action(const qdot_piece *x, const qdot_root *root)
 static bool
 ends_piece(const qdot_root *root, void *user)
 {
-    return is_occurrence(user, root) && is_action(user, root);
+    return is_occurrence(user, root) && has_action(user, root);
 }
 
 /* Companions of a run in two doubles share the rounding of the states that are looked at: by how much that
  * moves the root, in its blur. */
 static qdot_status
-add_rounding(qdot_piece *x, const qdot_root *root, qdot_occurrence *o)
+add_rounding_to_error(qdot_piece *x, const qdot_root *root, qdot_occurrence *o)
 {
     const qdot_ode_system *system = &x->c->systems.at[x->mode];
     double *y = qdot_malloc(3 * x->n * sizeof *y), *rates = y + x->n, *size = rates + x->n, rate = 0, noise = 0;
@@ -134,16 +134,16 @@ add_rounding(qdot_piece *x, const qdot_root *root, qdot_occurrence *o)
 }
 
 static qdot_status
-note(qdot_piece *x, const qdot_root *root)
+record_occurrence(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    qdot_occurrence o = {w->index, root->t, way_of(x, root),
+    qdot_occurrence o = {w->index, root->t, direction_of_root(x, root),
                          root->within, root->bend, (root->way == 0 || root->stays ? root->blur : 0) + root->moved + root->flat};
 
     if (w->kind != QDOT_WATCH_EVENT || root->rests)
         return QDOT_OK;
     if (x->options->leading && root->way != 0)
-        QDOT_TRY(add_rounding(x, root, &o));
+        QDOT_TRY(add_rounding_to_error(x, root, &o));
     return qdot_vec_push(&x->c->occurrences, o);
 }
 
@@ -152,15 +152,15 @@ qdot_piece_meet(qdot_piece *x, const qdot_root *root)
 {
     if (!is_occurrence(x, root))
         return QDOT_OK;
-    QDOT_TRY(note(x, root));
+    QDOT_TRY(record_occurrence(x, root));
     if (qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_EVENT)
         x->c->occurrences.at[x->c->occurrences.n - 1].blur = root->blur + root->moved;
     return qdot_vec_push(&x->roots, *root);
 }
 
-/* The bound of a domain that the motion would leave at the start of the piece; NULL if none. */
+/* Find a bound of a coordinate's domain that the motion passes at once at the start of the piece; NULL: none. */
 static const qdot_watched *
-leaves_domain(qdot_piece *x)
+find_bound_passed_at_start(qdot_piece *x)
 {
     const int *first = qdot_watch_first(qdot_piece_watch(x));
     const qdot_mode *m = qdot_piece_mode(x);
@@ -172,13 +172,13 @@ leaves_domain(qdot_piece *x)
     return NULL;
 }
 
-/* If a run ends within this fraction of t after the start of a piece, a function cannot leave 0 in it. */
+/* If the run ends within this fraction of t after the start of a piece, a watched function cannot leave 0. */
 static const double no_time = 64 * DBL_EPSILON;
 
 /* Whether the motion stays on the zero of event i with a `then`: it leaves it so slowly that rounding
  * decides when, and to the side `way`, to which the event occurs. */
 static bool
-rests_on(const qdot_piece *x, size_t i, int way)
+stays_at_zero(const qdot_piece *x, size_t i, int way)
 {
     const qdot_watched *w =
         i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
@@ -192,19 +192,19 @@ rests_on(const qdot_piece *x, size_t i, int way)
  * has been on it from the start of the run or all through that piece, or where blows at one instant have left it, and
  * would leave it now in the way of its statement. */
 static bool
-stays_on_event(qdot_piece *x)
+stays_in_contact(qdot_piece *x)
 {
     const bool begins = x->c->tr.count == 1;
 
     for (size_t k = 0; k < x->fired.n; k++)
-        if (rests_on(x, x->fired.at[k].function, x->fired.at[k].way)) {
+        if (stays_at_zero(x, x->fired.at[k].function, x->fired.at[k].way)) {
             x->resting = qdot_piece_mode(x)->watched[x->fired.at[k].function].index;
             x->resting_way = qdot_root_way(&x->fired.at[k]);
             return true;
         }
     for (size_t i = 0; i < x->c->stage->events.n; i++)
         if ((begins || ((x->start.jumped || x->left[i] == 0) && x->touching[i]))
-            && rests_on(x, i, qdot_piece_way_asked(x, i))) {
+            && stays_at_zero(x, i, qdot_piece_way_asked(x, i))) {
             x->resting = i;
             x->resting_way = (int)x->direction * x->c->stage->events.at[i].way;
             return true;
@@ -215,7 +215,7 @@ stays_on_event(qdot_piece *x)
 /* The piece ends where it starts, by an event, whose function is 0 there but for rounding of the places: in two doubles
  * that is more than rounding of the function. */
 static qdot_status
-end_at_once(qdot_piece *x, double t0, const qdot_root *root)
+end_piece_at_start(qdot_piece *x, double t0, const qdot_root *root)
 {
     qdot_root met = *root;
 
@@ -223,7 +223,7 @@ end_at_once(qdot_piece *x, double t0, const qdot_root *root)
     x->t_act = t0;
     if (x->reader.read_two)
         QDOT_TRY(qdot_watch_noise_of(qdot_piece_watch(x), t0, x->start.y, x->largest, root->function, &met.residual));
-    QDOT_TRY(note(x, root));
+    QDOT_TRY(record_occurrence(x, root));
     return qdot_vec_push(&x->roots, met);
 }
 
@@ -232,7 +232,7 @@ end_at_once(qdot_piece *x, double t0, const qdot_root *root)
  * changed the state: bodies that touch, or roots that only rounding separates. A zero onto which the change has put the
  * motion does not count. Where a run starts: impacts on what it touches. */
 static qdot_status
-acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
+occurs_at_start(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
 {
     const qdot_staged_event *e = &x->c->stage->events.at[i];
     int way;
@@ -247,7 +247,7 @@ acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
     if (!qdot_staged_event_acts(e) || !x->untouched[i] || !x->touching[i] || root->way == 0
         || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, root))
         return QDOT_OK;
-    /* for a rising or falling event the sign before may be wrong by rounding: take the opposite sign */
+    /* the sign before a rising or falling event may be wrong by rounding: take the opposite sign */
     if (root->way == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
         return QDOT_OK;
     QDOT_TRY(qdot_piece_way(x, i, &way));
@@ -258,12 +258,12 @@ acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
 /* Contacts into which the motion has been pushed are treated first, one at a time; else the events
  * at the start. */
 static qdot_status
-follow_at_once(qdot_piece *x, double t0)
+carry_out_events_at_start(qdot_piece *x, double t0)
 {
     for (size_t k = 0; k < x->pushed.n; k++) {
         const qdot_surface *contact = &x->c->stage->switches.surfaces.at[x->pushed.at[k]];
 
-        QDOT_TRY(end_at_once(x, t0, &(qdot_root){.function = contact->event,
+        QDOT_TRY(end_piece_at_start(x, t0, &(qdot_root){.function = contact->event,
                                                  .t = t0,
                                                  .way = -contact->reaction,
                                                  .exact = true,
@@ -278,16 +278,16 @@ follow_at_once(qdot_piece *x, double t0)
                                 .late = x->start.late};
         bool acts;
 
-        QDOT_TRY(acts_at_once(x, i, &root, &acts));
+        QDOT_TRY(occurs_at_start(x, i, &root, &acts));
         if (acts)
-            QDOT_TRY(end_at_once(x, t0, &root));
+            QDOT_TRY(end_piece_at_start(x, t0, &root));
     }
     return QDOT_OK;
 }
 
 /* Judge after the first step whether the piece can continue with the sides it has assumed. */
 static qdot_status
-judge_sides(qdot_piece *x)
+check_assumed_sides(qdot_piece *x)
 {
     if (x->search == QDOT_SIDES_KNOWN)
         return QDOT_OK;
@@ -297,9 +297,9 @@ judge_sides(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* Follow surfaces on which u was 0 until this step and no longer is. */
+/* Begin to follow the surfaces whose function u was 0 until this step and no longer is. */
 static qdot_status
-leave_zero(qdot_piece *x, double t0)
+watch_surfaces_left(qdot_piece *x, double t0)
 {
     const int *first = qdot_watch_first(qdot_piece_watch(x));
     const qdot_mode *m = qdot_piece_mode(x);
@@ -322,7 +322,7 @@ leave_zero(qdot_piece *x, double t0)
 static const double same_time = 4 * DBL_EPSILON;
 
 static bool
-is_switch(const qdot_piece *x, const qdot_root *root)
+is_surface_root(const qdot_piece *x, const qdot_root *root)
 {
     return qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_SURFACE;
 }
@@ -330,23 +330,23 @@ is_switch(const qdot_piece *x, const qdot_root *root)
 /* The end of the piece that root k of [n] ends: the last simultaneous switch, if no other root
  * lies between. */
 static double
-end_of(qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
+end_of_simultaneous_switches(qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
 {
     double t = roots[k].t;
 
-    if (!is_switch(x, &roots[k]))
+    if (!is_surface_root(x, &roots[k]))
         return t;
     for (size_t i = k + 1; i < n && fabs(roots[i].t - roots[k].t) <= same_time * fabs(t)
-                           && is_switch(x, &roots[i]);
+                           && is_surface_root(x, &roots[i]);
          i++)
         if (is_occurrence(x, &roots[i]))
             t = roots[i].t;
     return t;
 }
 
-/* Drop the results of a step that is searched again or was rejected. */
+/* Discard the results of a step that is searched again or was rejected. */
 static void
-forget_step(qdot_piece *x)
+discard_step_results(qdot_piece *x)
 {
     x->c->occurrences.n = x->noted;
     x->c->faded.n = x->noted_faded;
@@ -354,13 +354,13 @@ forget_step(qdot_piece *x)
 
 /* Record the roots of the step, up to the first one that ends the piece. */
 static qdot_status
-take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
+record_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
 {
     x->roots.n = 0;
-    forget_step(x);
+    discard_step_results(x);
     x->intent = QDOT_PIECE_GOES_ON;
     if (x->first_step) {
-        const qdot_watched *w = leaves_domain(x);
+        const qdot_watched *w = find_bound_passed_at_start(x);
 
         if (w) {
             qdot_root root = {.function = (size_t)(w - qdot_piece_mode(x)->watched),
@@ -372,16 +372,16 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
             x->t_act = t0;
             return qdot_vec_push(&x->roots, root);
         }
-        QDOT_TRY(judge_sides(x));
+        QDOT_TRY(check_assumed_sides(x));
         if (x->intent == QDOT_PIECE_RETRIED)
             return QDOT_OK;
-        if (stays_on_event(x)) { /* side-search.c decides how the motion continues */
+        if (stays_in_contact(x)) { /* end here: side-search.c decides how the motion continues */
             x->intent = QDOT_PIECE_RETRIED;
             return QDOT_OK;
         }
-        QDOT_TRY(follow_at_once(x, t0));
+        QDOT_TRY(carry_out_events_at_start(x, t0));
     } else {
-        QDOT_TRY(leave_zero(x, t0));
+        QDOT_TRY(watch_surfaces_left(x, t0));
     }
     if (x->intent == QDOT_PIECE_ENDS)
         return QDOT_OK;
@@ -392,30 +392,30 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
             QDOT_TRY(qdot_piece_pass_touch(x, &roots[i]));
             continue;
         }
-        if (x->intent != QDOT_PIECE_ENDS && is_action(x, &roots[i])) {
+        if (x->intent != QDOT_PIECE_ENDS && has_action(x, &roots[i])) {
             x->intent = QDOT_PIECE_ENDS;
-            x->t_act = end_of(x, roots, n, i);
+            x->t_act = end_of_simultaneous_switches(x, roots, n, i);
             for (; x->c->occurrences.n > x->noted &&
                    x->c->occurrences.at[x->c->occurrences.n - 1].t == x->t_act;
-                 x->c->occurrences.n--) /* removed here, they are recorded again in order */
+                 x->c->occurrences.n--) /* removed here; they are recorded again, in their order */
                 ;
             for (size_t k = 0; k < i; k++)
                 if (roots[k].t == x->t_act && is_occurrence(x, &roots[k])) {
-                    QDOT_TRY(note(x, &roots[k]));
+                    QDOT_TRY(record_occurrence(x, &roots[k]));
                     QDOT_TRY(qdot_vec_push(&x->roots, roots[k]));
                 }
         }
         QDOT_TRY(qdot_piece_doubt_root(x, &roots[i]));
-        QDOT_TRY(note(x, &roots[i]));
+        QDOT_TRY(record_occurrence(x, &roots[i]));
         if (x->intent == QDOT_PIECE_ENDS)
             QDOT_TRY(qdot_vec_push(&x->roots, roots[i]));
     }
     return QDOT_OK;
 }
 
-/* If a bound of a domain is passed at t_act, end the piece one double before it. */
+/* If the motion leaves a coordinate's domain at t_act, end the piece one double earlier. */
 static void
-stay_inside(qdot_piece *x, double t0)
+end_inside_domain(qdot_piece *x, double t0)
 {
     for (size_t i = 0; i < x->roots.n; i++)
         if (qdot_piece_mode(x)->watched[x->roots.at[i].function].kind ==
@@ -426,7 +426,7 @@ stay_inside(qdot_piece *x, double t0)
 
 /* Stop the integration of this piece; the run continues with another piece. */
 static qdot_status
-break_off(qdot_piece *x)
+stop_piece(qdot_piece *x)
 {
     x->broken_off = true;
     return qdot_fail(QDOT_ELIMIT, "the piece is over");
@@ -438,7 +438,7 @@ enum { LOOKED_AT = 20000, ORDINARY_PARTS = 8 };
 static const double most_to_come = 4e6;
 
 static qdot_status
-count_parts(qdot_piece *x, double t, size_t parts)
+check_number_of_parts(qdot_piece *x, double t, size_t parts)
 {
     const double passed = fabs(t - x->searched.since);
     const double to_come = LOOKED_AT * (fabs(x->t1 - t) / passed);
@@ -448,7 +448,7 @@ count_parts(qdot_piece *x, double t, size_t parts)
         return QDOT_OK;
     x->searched.parts = 0;
     x->searched.since = t;
-    if (to_come <= most_to_come) /* false if time does not advance */
+    if (to_come <= most_to_come) /* the comparison is false if time does not advance */
         return QDOT_OK;
     return qdot_fail(QDOT_ELIMIT,
                      "stopped at t = %.15g: an event or switch changes so fast that %d parts of "
@@ -456,18 +456,18 @@ count_parts(qdot_piece *x, double t, size_t parts)
                      t, LOOKED_AT, passed, to_come, x->t1);
 }
 
-/* Search a step for roots, and shorten it if it holds too many of them. */
+/* Search a step known as a Taylor series for roots; shorten the step if it has too many. */
 static qdot_status
-search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
+search_series_step(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
 {
     for (;;) {
         const size_t before = qdot_watch_looked_at(qdot_piece_watch(x));
         double reached;
 
-        QDOT_TRY(read_series(step->t_end, x->y, x));
+        QDOT_TRY(read_state_from_series(step->t_end, x->y, x));
         QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), step->t_end, x->y, step->t_end == x->t1,
                                  step, roots, n));
-        QDOT_TRY(count_parts(x, step->t, qdot_watch_looked_at(qdot_piece_watch(x)) - before));
+        QDOT_TRY(check_number_of_parts(x, step->t, qdot_watch_looked_at(qdot_piece_watch(x)) - before));
         reached = qdot_watch_reached(qdot_piece_watch(x));
         if (reached == step->t_end)
             return QDOT_OK;
@@ -488,7 +488,7 @@ static const double unseen = 0x1p-64;
 /* The state at the root that ends the piece; with constraints, which the series leaves by its error and which hold at
  * doubles of t, at its end. Each companion is moved by its rounding, one either way. */
 static void
-read_root(qdot_piece *x)
+read_state_at_root(qdot_piece *x)
 {
     x->has_root = x->reader.read_two != NULL;
     if (!x->has_root)
@@ -503,7 +503,7 @@ read_root(qdot_piece *x)
 }
 
 static qdot_status
-look_at_expanded(qdot_ode_expanded *step, void *user)
+inspect_series_step(qdot_ode_expanded *step, void *user)
 {
     qdot_piece *x = user;
     const qdot_root *roots;
@@ -512,28 +512,28 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     x->far = !x->first_step &&
              qdot_watch_is_far(qdot_piece_watch(x), step);
     if (x->far) {
-        x->intent = QDOT_PIECE_GOES_ON; /* discard what was found in a longer step that was not taken */
-        forget_step(x);
+        x->intent = QDOT_PIECE_GOES_ON; /* discard what was found in a longer step, which was rejected */
+        discard_step_results(x);
         return QDOT_OK;
     }
     x->expanded = step;
-    QDOT_TRY(search_expanded(x, step, &roots, &n));
-    QDOT_TRY(take_roots(x, step->t, roots, n));
+    QDOT_TRY(search_series_step(x, step, &roots, &n));
+    QDOT_TRY(record_roots(x, step->t, roots, n));
     if (x->intent == QDOT_PIECE_ENDS)
-        stay_inside(x, step->t);
+        end_inside_domain(x, step->t);
     if (x->intent == QDOT_PIECE_RETRIED ||
         (x->intent == QDOT_PIECE_ENDS && x->t_act == step->t))
-        return break_off(x);
+        return stop_piece(x);
     if (x->intent == QDOT_PIECE_ENDS) {
         step->t_end = x->t_act;
-        read_root(x);
+        read_state_at_root(x);
     }
     return QDOT_OK;
 }
 
-/* Search a step by its end points, for methods without series. */
+/* Search a step for roots from the states at its ends, for methods without series. */
 static qdot_status
-look_at_step(qdot_piece *x, double t, const double *y)
+inspect_step_ends(qdot_piece *x, double t, const double *y)
 {
     const qdot_root *roots;
     size_t n;
@@ -543,17 +543,17 @@ look_at_step(qdot_piece *x, double t, const double *y)
     memcpy(x->step.y + x->n, y, x->n * sizeof *y);
     qdot_trajectory_renew(x->cursor);
     QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), t, y, t == x->t1, NULL, &roots, &n));
-    QDOT_TRY(take_roots(x, x->step.t[0], roots, n));
+    QDOT_TRY(record_roots(x, x->step.t[0], roots, n));
     if (x->intent == QDOT_PIECE_RETRIED)
-        return break_off(x);
+        return stop_piece(x);
     if (x->intent == QDOT_PIECE_ENDS) {
-        stay_inside(x, x->step.t[0]);
+        end_inside_domain(x, x->step.t[0]);
         return qdot_trajectory_read(x->cursor, x->t_act, x->y_act);
     }
     return QDOT_OK;
 }
 
-/* Check constraints on accelerations unless a projection after each step enforces them. */
+/* Check constraints on accelerations, unless they are enforced by projecting the state after each step. */
 static qdot_status
 check_accelerations(const qdot_piece *x, double t, const double *y)
 {
@@ -566,7 +566,7 @@ check_accelerations(const qdot_piece *x, double t, const double *y)
 }
 
 static qdot_status
-accepted(double t, const double *y, bool *stop, void *user)
+inspect_accepted_step(double t, const double *y, bool *stop, void *user)
 {
     qdot_piece *x = user;
 
@@ -579,16 +579,16 @@ accepted(double t, const double *y, bool *stop, void *user)
         return QDOT_OK;
     for (size_t i = 0; i < x->n; i++)
         x->largest[i] = fmax(x->largest[i], fabs(y[i]));
-    if (!is_by_series(x))
-        QDOT_TRY(look_at_step(x, t, y));
+    if (!uses_series(x))
+        QDOT_TRY(inspect_step_ends(x, t, y));
     x->first_step = false;
     if (x->intent == QDOT_PIECE_ENDS && !x->far) {
         *stop = true;
-        if (x->beyond && is_by_series(x))
+        if (x->beyond && uses_series(x))
             memcpy(x->end_low, x->beyond, x->n * sizeof *x->end_low);
         return QDOT_OK;
     }
-    if (!x->method->series) { /* the next step starts from this state */
+    if (!x->method->series) { /* the next step starts from the state just accepted */
         x->step.t[0] = t;
         memcpy(x->step.y, y, x->n * sizeof *y);
     }
@@ -602,7 +602,7 @@ accepted(double t, const double *y, bool *stop, void *user)
 
 /* --- integrating a piece -------------------------------------------------------------- */
 
-/* Start watching the functions of the mode at the start of a piece. */
+/* Start to watch the functions of the mode (events, bounds, surfaces) at the start of a piece. */
 qdot_status
 qdot_piece_begin(qdot_piece *x)
 {
@@ -612,10 +612,10 @@ qdot_piece_begin(qdot_piece *x)
 
     qdot_trajectory_close(x->cursor);
     x->cursor = NULL;
-    x->reader = (qdot_watch_reader){x->options->alternates ? read_either
-                                    : x->method->series    ? read_series
-                                                           : read_step,
-                                    by_series_alone ? read_series_two : NULL, x, true,
+    x->reader = (qdot_watch_reader){x->options->alternates ? read_state_by_either_method
+                                    : x->method->series    ? read_state_from_series
+                                                           : read_state_in_step,
+                                    by_series_alone ? read_double_double_from_series : NULL, x, true,
                                     &x->c->systems.at[x->mode], ends_piece};
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
@@ -652,10 +652,10 @@ qdot_piece_integrate(qdot_piece *x)
     qdot_status status;
     const qdot_ode_system *system = &c->systems.at[x->mode];
 
-    options.accepted = accepted;
+    options.accepted = inspect_accepted_step;
     options.expanded =
         qdot_piece_mode(x)->m > 0 && (x->method->series || x->options->alternates)
-            ? look_at_expanded
+            ? inspect_series_step
             : NULL;
     options.now = &x->now;
     options.user = x;
@@ -669,7 +669,7 @@ qdot_piece_integrate(qdot_piece *x)
     x->beyond = NULL;
     x->has_root = false;
     memset(x->end_low, 0, x->n * sizeof *x->end_low);
-    if (x->reader.read_two) /* the piece may end at its start */
+    if (x->reader.read_two) /* search the start, too: the piece may end there */
         qdot_piece_low(x, x->end_low);
     x->intent = QDOT_PIECE_GOES_ON;
     x->resting = SIZE_MAX;
@@ -687,7 +687,7 @@ qdot_piece_integrate(qdot_piece *x)
         c->tr.result.reason[0] = '\0';
         return QDOT_OK;
     }
-    if (status == QDOT_OK && x->intent == QDOT_PIECE_ENDS && !is_by_series(x))
+    if (status == QDOT_OK && x->intent == QDOT_PIECE_ENDS && !uses_series(x))
         qdot_trajectory_shorten(&c->tr, x->t_act, x->y_act);
     return status;
 }

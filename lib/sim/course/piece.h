@@ -16,23 +16,23 @@
 
 typedef enum {
     QDOT_PIECE_GOES_ON,
-    QDOT_PIECE_RETRIED, /* stopped after the first step; x->well tells why */
+    QDOT_PIECE_RETRIED, /* stopped after the first step, for other sides to be tried; see x->well */
     QDOT_PIECE_ENDS     /* the piece ends at time t_act */
 } qdot_piece_intent;
 
 /* How often an event, bound or surface was met: used to detect accumulation. */
 typedef struct {
     qdot_watched_kind kind;
-    size_t index, n; /* index of the event, bound or surface; n: times met since `since` */
+    size_t index, n; /* index of the event, bound or surface; n: number of times met since the time `since` */
     double since;
     double last, interval, ratio; /* time of the last one; the interval before it; that over the
                                      interval before */
-    size_t steady;                /* how many times in a row the ratio was the same */
-    bool soon;                    /* the contact was about to last (qdot_piece_rest) */
+    size_t steady;                /* how many times in a row the ratio of successive intervals was the same */
+    bool soon;                    /* its contact was about to last when last met (qdot_piece_rest) */
     size_t at_once;               /* how many times it was met at the same t */
 } qdot_piece_repeat;
 
-/* A surface for which another side must be tried. */
+/* A surface for which other sides (values of its switch) may have to be tried. */
 typedef struct {
     size_t surface, n;
     long sides[4]; /* [n] candidate sides, the present one first */
@@ -43,7 +43,7 @@ typedef struct {
     qdot_course *c;
     const qdot_ode_options *options;
     const qdot_ode_method *method;
-    const qdot_ode_method *now; /* the method of the present step if the run changes methods; else NULL */
+    const qdot_ode_method *now; /* the method of the present step, if the run alternates between methods; else NULL */
     double t1, direction;
     size_t n;           /* number of components of y */
     size_t mode;        /* index of the mode of this piece */
@@ -51,71 +51,71 @@ typedef struct {
         double t, *y; /* time and state [n] at the start */
         /* The low part of the state (exact minus y) of components that still equal low_of; other
          * components are exact. */
-        double *low, *low_of; /* [n] each: low part of a component; the value for which it is valid */
-        double t_low; /* time of the state minus t, if the start is at a root */
+        double *low, *low_of; /* [n] low parts of components; values of the components for which the low parts are valid */
+        double t_low; /* difference between the time of the state and t, if the start is at a root */
         bool on_root; /* y is the state at the root that ended the previous piece */
-        double late;  /* and was then advanced by this time */
+        double late;  /* time by which the state at that root was then advanced */
         size_t from;  /* index of the mode of the previous piece */
-        bool jumped;  /* an event has changed the state */
+        bool jumped;  /* an event has changed the state at the start */
         bool followed; /* massless coordinates jumped, because their equations changed */
-        bool slipped; /* their positions jumped against dry friction: `bare` is the state after the jump */
+        bool slipped; /* massless coordinates slipped against dry friction; `bare` is the state after that */
     } start;
     long *side;         /* [surfaces] side of each surface in this piece */
-    bool *functions_on; /* [functions] the function is 0 at the start */
-    int *before;        /* [functions] sign just before the start; 0: unknown */
-    int *signs;         /* [functions] of the previous mode: sign where its piece ended */
-    int *left; /* [functions] sign just after the start of the step that ended the previous piece */
-    bool *touching; /* [functions] the value was 0 within rounding where the previous piece ended */
+    bool *functions_on; /* [functions] whether the function is 0 at the start of the piece */
+    int *before;        /* [functions] sign of the function just before the start; 0: unknown */
+    int *signs;         /* [functions] of the previous mode: sign of the function where its piece ended */
+    int *left; /* [functions] sign of the function just after the start of the previous piece's last step */
+    bool *touching; /* [functions] the function was 0 within rounding where the previous piece ended */
     bool *untouched;    /* [functions] what ended that piece left its value as it was; it did not end it, or an event
                            behind it changed the state once more */
-    bool *jumps; /* [functions] a jump of massless coordinates at the start changes its value */
-    bool *turned; /* [functions] its event ended the previous piece, and `then` reversed its motion */
-    bool put_aside;     /* by rounding the start may lie slightly off the surfaces */
-    double *residual;   /* [functions] a smaller |g| counts as 0 at the start */
-    double *bare;  /* [n] the start before an attempt moved it; then its low parts, start.low and start.low_of */
-    double *rim;   /* [n] part of dy/dt that the layer entered last leaves out at its boundary */
-    bool entered;  /* the layer of `rim` was entered in this piece; false: the piece began inside */
+    bool *jumps; /* [functions] a jump of massless coordinates at the start changes the function's value */
+    bool *turned; /* [functions] an event that ended the previous piece reversed the function's rate of change */
+    bool put_aside;     /* due to rounding the start may lie slightly off the surfaces */
+    double *residual;   /* [functions] magnitude below which the function counts as 0 at the start */
+    double *bare;  /* [n] start state before an attempt changed it; then its low parts, start.low and start.low_of */
+    double *rim;   /* [n] part of dy/dt neglected in the friction layer entered last, at its boundary */
+    bool entered;  /* the layer to which `rim` belongs was entered in this piece; false: the piece began inside it */
     bool first_step;
-    /* Stages of the search for sides of switches: one set is tried, then alternatives; then they are known. */
+    /* The search for the sides of switches: sides are being tried, compared with alternatives, or known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
     char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "": it can */
-    bool well; /* RETRIED: the sides agree with the first step, but others may do so, too */
-    bool far; /* no watched bound is near this step, so no roots were searched */
+    bool well; /* if RETRIED: the sides agree with the first step, but other sides may agree, too */
+    bool far; /* no watched function is near 0 in this step, so no roots were searched */
 
-    /* Results of the present step. */
+    /* Results of searching the present step for roots. */
     qdot_piece_intent intent;
     double t_act;
     double late, blur; /* the piece ends at t_act - late; uncertainty of this time */
     double *y_act;             /* [n] state at t_act, for methods without series */
     const double *beyond;      /* [n] exact state minus y while a step is accepted; NULL: unknown */
     double *end_low;           /* [n] exact state minus y at the end of the piece */
-    qdot_two *root; /* [n] state at the root that ends the piece; with constraints at t_act */
+    qdot_two *root; /* [n] state at the root that ends the piece; if there are constraints, state at t_act */
     bool has_root;             /* `root` has been computed, from a series */
     bool broken_off;           /* the integration was stopped on purpose, not by a failure */
     qdot_vec(qdot_root) roots; /* the roots of watched functions at t_act */
     qdot_vec(qdot_root) fired; /* the roots that ended the previous piece */
-    qdot_vec(size_t) pushed; /* lasting contacts into which the event at the start has pushed the motion */
+    qdot_vec(size_t) pushed; /* lasting contacts against which the event at the start has pushed the motion */
     qdot_vec(size_t) crossed;  /* surfaces among `fired`, if no event changed the state */
-    /* number of occurrences, and of spans in which events are lost in rounding, before this step */
+    /* numbers of occurrences and of time spans of hidden events that were recorded before this step */
     size_t noted, noted_faded;
     struct {
-        double since; /* time of the start of the piece, or of a later step */
-        size_t parts; /* parts of steps that were searched since then */
+        double since; /* the start of the piece, or of a later step: start of the counting of parts */
+        size_t parts; /* number of parts of steps that were searched since the time `since` */
     } searched;
 
-    /* Data with which the state within the step is read. */
+    /* The data from which the state at any time within the step is read. */
     qdot_watch_reader reader;
     const qdot_ode_expanded *expanded;
     qdot_trajectory step; /* the stored ends of the present step */
     qdot_trajectory_cursor *cursor;
     double *y;      /* [n] scratch */
-    size_t resting; /* index of the event whose contact persists; SIZE_MAX: none in this piece */
+    size_t resting; /* index of the event whose contact persists in this piece; SIZE_MAX: none */
     int resting_way; /* sign of u on the side to which the motion would leave that contact */
 
-    /* the sets of sides tried from one start, [tries x surfaces]; the surfaces with other possible sides */
+    /* all sides tried so far from one start, [tries x surfaces]; surfaces for which others are possible */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
-    qdot_tape_two **thens; /* [events] assignments `then` in two doubles; NULL: not needed yet */
+    qdot_tape_two **thens; /* [events] assignments `then` in double-double precision; NULL: not needed yet */
     double *largest;       /* [n] largest |y| at the ends of steps so far */
     /* How often each event, bound or surface was met recently. */
     qdot_vec(qdot_piece_repeat) repeats;
@@ -141,7 +141,7 @@ qdot_piece_sides(qdot_piece *x, const long *old)
     return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
 }
 
-/* Evaluate the rates [n] of the state at the start of the piece, in a mode that has been entered. */
+/* Evaluate dy/dt [n] at the start of the piece, in the equations of a mode that has been entered. */
 QDOT_MUST_CHECK static inline qdot_status
 qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
 {
@@ -150,7 +150,7 @@ qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
     return system->rhs(x->start.t, x->start.y, rates, system->user);
 }
 
-/* Make the mode with the sides x->side, its bind and its watch, and make it the present mode x->mode. */
+/* Make the mode with the sides x->side, its equations and its root finder; it becomes the mode x->mode. */
 QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 
 /* Integrate one piece from its start, the last point, with sides towards which the motion leaves;
@@ -169,7 +169,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_doubt_side(qdot_piece *x, const qdot_watc
  * them to what its equations say at the start: x->start.followed. *can: not, and x->hindrance says so, where these have no
  * solution or positions would jump against a switch of velocities. */
 bool qdot_piece_has_massless(const qdot_piece *x);
-/* Whether u of a surface determines the position of a coordinate without mass. */
+/* Whether the function u of a surface determines the position of a coordinate without mass. */
 bool qdot_piece_holds_massless(const qdot_piece *x, size_t surface);
 QDOT_MUST_CHECK qdot_status qdot_piece_follow_massless(qdot_piece *x, bool *can);
 
@@ -185,10 +185,10 @@ void qdot_piece_carry(qdot_piece *x);
  * elsewhere, by an event or by another switch inside u, is not. After x->reader is set. */
 QDOT_MUST_CHECK qdot_status qdot_piece_widen_residuals(qdot_piece *x);
 
-/* Whether an event was recorded within about one double of t before the end of the piece. */
+/* Whether an event was recorded at the end of the piece, or within about one double of t before it. */
 bool qdot_piece_just_noted(const qdot_piece *x, size_t event);
 
-/* Check a mode before it is integrated; c->reason says why if it cannot be entered. */
+/* Check a mode before it is integrated; if it cannot be entered, c->reason says why. */
 QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x);
 
 /* Part of it: what the layers that are left have left out, and whether one is entered for good where
@@ -200,7 +200,7 @@ bool qdot_piece_end_in_layers(qdot_piece *x);
 /* In x->side: surfaces of velocities in whose layers friction brings the motion to rest. Where a piece
  * starts it goes there, to a start of its own, with the events that it meets then in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_in_layers(qdot_piece *x);
-/* Whether u of a surface depends on positions only, and the surface has no layer. */
+/* Whether the function u of a surface depends on positions only, and the surface has no friction layer. */
 bool qdot_piece_is_of_places(const qdot_piece *x, size_t surface);
 /* In x->side: surfaces of places about which the motion goes too fast to be followed (sim/course/chatter.h) where a
  * piece starts; not `anew`: only those that were crossed there. It slides along them, from a start on them. */
@@ -213,9 +213,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_take_faded(qdot_piece *x, double t);
 /* A root that is no occurrence, for it only touches where the event is to rise or fall: it may be two crossings that a
  * tighter tolerance (c->passed_over), or nothing in this run (c->faded), tells from a touch. */
 QDOT_MUST_CHECK qdot_status qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root);
-/* An occurrence so near others that rounding hides how many there are: c->faded has it, and the error is unknown. */
+/* Record an occurrence so near others that rounding hides how many there are: in c->faded, its error unknown. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_root(qdot_piece *x, const qdot_root *root);
-/* Record an event that is met at the start of a piece if its direction fits; also in x->roots. */
+/* Record an event that occurs at the start of a piece, if its direction fits; also in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 
 /* A piece ends at the first double after its root, x->late behind it. The motion goes on as if it
@@ -224,15 +224,15 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root
  * companion takes the root for earlier by that, the other for later. If other switches are on other
  * sides then, nothing is done. */
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
-/* Move the state to the root itself, projected onto the constraints, if x->has_root. */
+/* If x->has_root, move the state to the root that ends the piece, projected onto the constraints. */
 QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
-/* Start the next piece at the last point of this one, with the low part of its state. */
+/* Start the next piece at the last point of this one, with the low part of its double-double state. */
 void qdot_piece_start_at_end(qdot_piece *x);
-/* Find the exact state at the start of the piece minus y [n], into low [n]. */
+/* Find the low part of the double-double state at the start of the piece, low [n]. */
 void qdot_piece_low(const qdot_piece *x, double *low);
-/* (piece-end.c) Whether the last piece ended where function i crosses 0 flatly: such a motion goes on, it does not rest. */
+/* (piece-end.c) Whether function i crosses 0 with slope 0 at the piece's start: motion goes on, not at rest. */
 bool qdot_piece_has_crossed_flatly(const qdot_piece *x, size_t i);
-/* Set x->late and x->blur, the delay of the end of the piece and its uncertainty, from its roots. */
+/* Set x->late and x->blur, the delay with which the piece ends and its uncertainty, from the piece's roots. */
 void qdot_piece_find_delay(qdot_piece *x);
 
 /* Begin the watch of x->mode at the start of a piece, from x->before and x->residual; fills
@@ -244,7 +244,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_begin(qdot_piece *x);
  * contact. Errors as qdot_trajectory_resume. */
 QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 
-/* A run ends if more events than this would follow at the present rate. */
+/* The run ends if, at the present rate, more events than this would still follow. */
 extern const double qdot_piece_most_to_come;
 
 /* The record of how often an event, bound or surface was met; NULL if not yet. */
@@ -296,7 +296,7 @@ bool qdot_piece_is_undone(qdot_piece *x, const qdot_root *root, int *way);
 /* *acts: at the start of a run back in time event i has just occurred: the motion rests on it, or starts behind an
  * impact. */
 QDOT_MUST_CHECK qdot_status qdot_piece_undone_at_start(qdot_piece *x, size_t i, bool *acts);
-/* Call before an event is undone: c->reason says if the state before it is not known. */
+/* Call before undoing an event (backward run): c->reason says if the state before the event is unknown. */
 QDOT_MUST_CHECK qdot_status qdot_piece_check_undone(qdot_piece *x, const qdot_root *root);
 /* End the run where it starts, with c->reason, if there is an event of which not even the time can be known; whether there
  * is. */
@@ -313,7 +313,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_rate(qdot_piece *x, size_t i, double *rat
  * rate may be the rounding of velocities. */
 QDOT_MUST_CHECK qdot_status qdot_piece_way(qdot_piece *x, size_t i, int *way);
 
-/* End the run at this point, as failed or as stopped. */
+/* End the run at this point, either as failed or as stopped by an event. */
 void qdot_piece_stop(qdot_piece *x, bool failed);
 /* End the run here as failed. c->reason becomes `before`, a description of the surface on that
  * side, `behind`. */
@@ -324,9 +324,9 @@ void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *be
  * If not, x->side gets other sides and x->doubts the surfaces. */
 QDOT_MUST_CHECK qdot_status qdot_piece_leaves_well(qdot_piece *x, bool *well);
 
-/* Whether other sides might fit as well, if the motion leaves to the sides that are assumed. */
+/* Whether other sides than the assumed ones might agree equally well with the motion after the start. */
 bool qdot_piece_is_open(const qdot_piece *x);
-/* Set x->doubts to the surfaces for which other sides might fit. */
+/* Set x->doubts to the surfaces that might also be on other sides. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_open(qdot_piece *x);
 
 #endif

@@ -28,7 +28,7 @@ qdot_reader_clear(qdot_reader *r)
 }
 
 static const qdot_plan *
-plan_of(const qdot_reading *of, size_t k)
+plan_of_course(const qdot_reading *of, size_t k)
 {
     return k == 0 ? of->plan : of->more[k - 1];
 }
@@ -46,10 +46,10 @@ qdot_reader_init_along(qdot_reader *r, const qdot_reading *of, const qdot_course
         const size_t k = r->n_courses;
 
         r->courses[k] = (qdot_reader_course){
-            .course = courses[k], .n = plan_of(of, k)->n, .in = r->in + begin};
+            .course = courses[k], .n = plan_of_course(of, k)->n, .in = r->in + begin};
         QDOT_TRY(qdot_trajectory_open(&courses[k]->tr, qdot_course_systems(courses[k]),
                                       &r->courses[k].cursor));
-        begin += qdot_plan_inputs(plan_of(of, k));
+        begin += qdot_plan_inputs(plan_of_course(of, k));
     }
     return QDOT_OK;
 }
@@ -103,8 +103,8 @@ qdot_reader_evaluate(qdot_reader *r, double t, double *out)
         r->courses[k].in[2 * r->courses[k].n] = t;
         if (r->of.accelerations)
             QDOT_TRY(read_accelerations(r->courses + k, t));
-        if (plan_of(&r->of, k)->read_side)
-            QDOT_TRY(read_sides(plan_of(&r->of, k), r->courses + k));
+        if (plan_of_course(&r->of, k)->read_side)
+            QDOT_TRY(read_sides(plan_of_course(&r->of, k), r->courses + k));
     }
     qdot_tape_eval(r->of.tape, r->in, out, r->work);
     return QDOT_OK;
@@ -181,7 +181,7 @@ qdot_reader_lower_beside(const qdot_reading *other, size_t m, const qdot_expr *e
     of->exprs = exprs;
     of->tape = NULL;
     for (size_t k = 0; k <= of->n_more; k++)
-        inputs += qdot_plan_inputs(plan_of(of, k));
+        inputs += qdot_plan_inputs(plan_of_course(of, k));
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {
         e[j] = of->n_more == 0 ? qdot_plan_reading(p, exprs[j]) : exprs[j];
         status = qdot_pool_check(p->pool);

@@ -21,7 +21,7 @@ typedef struct {
     const qdot_expr *inputs;      /* inputs of the tape over all courses */
 } qdot_reading;
 
-/* Whether e holds q'' or a multiplier. */
+/* Whether the expression e contains an acceleration q'' or a Lagrange multiplier. */
 bool qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e);
 
 /* The state of one course (stored run): where it is read, and its position among the inputs of the tape. */
@@ -29,7 +29,7 @@ typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
     size_t n;   /* number of coordinates */
-    double *in; /* its part of the reader's inputs: q, q', t, q'', lambda, sides */
+    double *in; /* this course's part of the reader's inputs: q, q', t, q'', lambda, sides of surfaces */
 } qdot_reader_course;
 
 /* Evaluates the expressions of a reading at times of its courses. */
@@ -37,7 +37,7 @@ typedef struct {
     qdot_reading of;
     size_t n_courses;
     qdot_reader_course *courses; /* [n_courses] the courses */
-    int moved; /* k = 1, 2: change states by one double, like the start of companion k - 1; 0: do not */
+    int moved; /* k = 1, 2: change states by one double, as at the start of companion run k - 1; 0: leave them */
     double *in; /* [inputs] inputs of the tape */
     double *work;
 } qdot_reader;
@@ -45,7 +45,7 @@ typedef struct {
 /* Compile exprs [m] to a tape, which the caller frees; NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
                                               const qdot_expr *exprs, qdot_reading *of);
-/* Compile exprs [m] along the same courses as another reading, which may have no tape. */
+/* Compile exprs [m], evaluated along the same runs as another reading (which may have no tape). */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, size_t m,
                                                      const qdot_expr *exprs, qdot_reading *of);
 
@@ -62,7 +62,7 @@ void qdot_reader_clear(qdot_reader *r);
  * piece that contains t. */
 QDOT_MUST_CHECK qdot_status qdot_reader_read(qdot_reader *r, const size_t *pieces, double t,
                                              double *out);
-/* Evaluate along one course at t, in that piece of it; SIZE_MAX: in the piece that contains t. */
+/* Evaluate along one run at t, in the given piece of it; SIZE_MAX: in the piece that contains t. */
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 

@@ -27,7 +27,7 @@ typedef struct {
     double tol, t0, t1;            /* tolerance; start time; time at which the run ended */
     size_t steps, rejected, evals, jacobians, factorizations;
     double cpu;                    /* CPU seconds of the integration itself */
-    double cpu_total; /* CPU seconds including derivation, compilation and error estimate */
+    double cpu_total; /* CPU seconds including derivation of the equations, compilation and error estimate */
     double work, estimate_work;    /* counted (ode/meter.h), of the integration, and of all that tells
                                       its error */
     double error;                  /* estimate of the end state's error, max over components relative
@@ -51,7 +51,7 @@ typedef struct {
     int digits;                    /* requested number of digits; 0: a run in doubles */
     const qdot_expr *exact;        /* [2n + m] with `digits`: q, v, multipliers (nil: unknown) at
                                       t1 as rational numbers; else NULL */
-    const char *notice;            /* notices about the start, one a line; NULL: none */
+    const char *notice;            /* notices about the start of the run, one a line; NULL: none */
     /* Fields for scenes with constraints: */
     size_t m;                      /* number of multipliers; 0: no constraints */
     const qdot_expr *multipliers;  /* [m] symbols of the multipliers */
@@ -75,7 +75,7 @@ typedef struct {
 static inline bool
 qdot_run_report_is_beyond(const qdot_run_report *r, double t)
 {
-    return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* false if horizon is NaN */
+    return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* the comparison is false if horizon is NaN */
 }
 
 /* A stretch of time in which the function of an event, having decayed, is not known to differ from 0: whether the event

@@ -1,4 +1,4 @@
-/* run-state.c -- records why a run ended or why its error is unknown. */
+/* run-state.c -- records in a run why it ended, and why its error is unknown. */
 #include "sim/course/run-state.h"
 
 qdot_text *

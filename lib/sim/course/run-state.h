@@ -1,4 +1,4 @@
-/* run-state.h -- the fields of a qdot_run. */
+/* run-state.h -- the fields of a qdot_run, the results of one integration of a scene's motion. */
 #ifndef QDOT_SIM_RUN_STATE_H
 #define QDOT_SIM_RUN_STATE_H
 
@@ -15,8 +15,8 @@ struct qdot_run {
     qdot_multipliers multipliers;
     double *start;        /* [2n] start state y at t0 */
     double *start_low;    /* [2n] exact start state minus y */
-    double *units; /* [2n] units in which companions' starts are shifted (sim/model/still.h) */
-    double *apart; /* [2 x 2n] two shifted starts from the request; NULL: the start is exact */
+    double *units; /* [2n] units in which the starts of the companion runs are shifted (sim/model/still.h) */
+    double *apart; /* [2 x 2n] two shifted starts given in the request; NULL: the start is exact */
     double *difference;   /* [2n] estimated errors of the end state; NaN: unknown */
     size_t factored;      /* number of matrices factored during the integration */
     double t0, t1;        /* requested start and end time */
@@ -25,9 +25,9 @@ struct qdot_run {
      * origin is 0. */
     double origin;
     double *times;            /* [points] times t at the stored points */
-    qdot_run_report *told;    /* the report with times t instead of s = t - origin */
-    bool turns;           /* the method may change to series and back, as requested */
-    bool leading;         /* first orders of series are sums of two doubles (ode/leading.h) */
+    qdot_run_report *told;    /* the report with the user's times t instead of s = t - origin */
+    bool turns;           /* as requested, the method may change to Taylor series and back */
+    bool leading;         /* first Taylor coefficients are computed in double-double precision (ode/leading.h) */
     int t0_side, t1_side; /* signs of (exact requested time - t0), (... - t1) */
     char *reason;
     qdot_text notice;     /* notices of the run, a line each; the report takes them over */
@@ -36,26 +36,26 @@ struct qdot_run {
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     qdot_vec(qdot_run_faded) faded;
-    bool occurrence_errors; /* `occurrences` and `faded` contain error estimates */
-    bool by_clock, no_drifts; /* as in the request */
+    bool occurrence_errors; /* the errors of `occurrences` and `faded` have been estimated */
+    bool by_clock, no_drifts; /* t is a coordinate of the scene; no drifts are measured (as requested) */
     bool hidden;            /* the run may have missed something: its error is unknown */
     bool singular;          /* failed at a singularity: no step was small enough */
     char *doubt;            /* why the error is unknown; NULL: it is known */
 
-    qdot_ode_meter meter;   /* counts the run's work, with which that of companions is compared */
-    double of_point;        /* work of reading both companions at one time */
-    qdot_companion_way way; /* method by which a companion has succeeded before */
+    qdot_ode_meter meter;   /* counts the run's work, to compare it with the work of its companion runs */
+    double of_point;        /* work of reading both companion runs at one time */
+    qdot_companion_way way; /* method by which a companion run has succeeded before */
 
     /* The run whose distance from this one is the error along the way: made together with it if
      * the run has pieces, else when errors are first needed. */
     bool has_companion;
     qdot_course companion;
-    bool has_twin; /* there is a second companion, used where the first is close by chance */
+    bool has_twin; /* there is a second companion run, used where the first is close to the run by chance */
     qdot_course twin;
 
     struct qdot_run_chart *chart; /* data of a run in other coordinates (sim/run/chart-run.h); NULL: none */
-    bool limited;     /* compare companions only between the times `within` */
-    double within[2]; /* outside of these times angles of the chart jump */
+    bool limited;     /* compare the companion runs with the run only between the two times `within` */
+    double within[2]; /* start and end of the comparison; outside of them angles of the chart jump */
     struct qdot_precise_pair *precise; /* with `digits`: the run itself; course.tr holds its
                                           points as doubles */
     qdot_expr *exact;                  /* [2n] exact end state of a run with `digits` */
@@ -70,7 +70,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *r
 /* Set why the error is unknown; the text is copied. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_doubt(struct qdot_run *run, const char *doubt);
 
-/* Set the reason of the run from that of its course, if an event, a bound or a switch ended the run. */
+/* Set the reason why the run ended, if an event, a bound or a switch ended its course early. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_course(struct qdot_run *run);
 
 #endif

@@ -18,7 +18,7 @@ qdot_run_time_told(const qdot_run *run, double s)
 }
 
 static qdot_status
-tell_anew(double origin, char **text)
+convert_times_in_text(double origin, char **text)
 {
     qdot_text told = {0};
     char *copy = NULL;
@@ -53,8 +53,8 @@ qdot_run_time_begin(qdot_run *run, double origin)
         return QDOT_ENOMEM;
     for (n = 0; n < run->course.tr.count; n++)
         run->times[n] = qdot_run_time_told(run, run->course.tr.t[n]);
-    QDOT_TRY(tell_anew(origin, &run->reason));
-    QDOT_TRY(tell_anew(origin, &run->doubt));
+    QDOT_TRY(convert_times_in_text(origin, &run->reason));
+    QDOT_TRY(convert_times_in_text(origin, &run->doubt));
     run->report.reason = run->reason;
     run->report.doubt = run->doubt;
     qdot_run_time_tell(origin, qdot_text_str(&run->notice), &notice);
@@ -83,9 +83,9 @@ qdot_run_time_points(const qdot_run *run, size_t *n)
     return run->times ? run->times : run->course.tr.t;
 }
 
-/* The point of the run just after a jump of the state, whose time in t is rounded to `t`; SIZE_MAX: none. */
+/* The point of the run just after a jump of the state at s, whose time t rounds to `t`; SIZE_MAX: none. */
 static size_t
-jump_at(const qdot_run *run, double t, double s)
+point_after_jump(const qdot_run *run, double t, double s)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const size_t at = qdot_trajectory_locate(tr, s, 0), last = tr->pieces.n > 0 ? tr->pieces.n - 1 : 0;
@@ -121,7 +121,7 @@ qdot_run_time_own(const qdot_run *run, double t, double low, double *s, double *
     }
     if (low != 0 || *s < least || *s > most || tr->n_tracks > 0)
         return;
-    k = jump_at(run, t, *s);
+    k = point_after_jump(run, t, *s);
     if (k != SIZE_MAX) {
         *s = tr->t[k];
         *rest = 0;
@@ -153,7 +153,7 @@ qdot_run_time_express(const qdot_run *run, size_t m, const qdot_expr *given, con
 /* Copy a number in a text at `at`, converted to t, to out; returns the text after it, or `at` if
  * there is no number. */
 static const char *
-tell_number(double origin, const char *at, qdot_text *out)
+convert_number(double origin, const char *at, qdot_text *out)
 {
     char *end;
     const double s = strtod(at, &end);
@@ -179,7 +179,7 @@ qdot_run_time_tell(double origin, const char *text, qdot_text *out)
             range = strncmp(text, before[i], n) == 0;
             if (range) {
                 qdot_text_add_n(out, text, n);
-                text = tell_number(origin, text + n, out);
+                text = convert_number(origin, text + n, out);
             }
         }
         for (size_t i = 0; i < sizeof between / sizeof *between && range; i++) {
@@ -188,7 +188,7 @@ qdot_run_time_tell(double origin, const char *text, qdot_text *out)
             if (strncmp(text, between[i], n) != 0)
                 continue;
             qdot_text_add_n(out, text, n);
-            text = tell_number(origin, text + n, out);
+            text = convert_number(origin, text + n, out);
             break;
         }
         if (!range)

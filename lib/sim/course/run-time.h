@@ -14,14 +14,14 @@
 
 #include "sim/course/run-state.h"
 
-/* The time t that corresponds to a time s counted from the run's origin. */
+/* The user's time t that corresponds to a time s counted from the run's origin. */
 double qdot_run_time_told(const qdot_run *run, double s);
 
 /* From here on the run, which is finished, tells its times from that origin: its texts are written anew. Errors:
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_time_begin(qdot_run *run, double origin);
 
-/* The report with its times as t; the times t of the stored points [*n]. Both borrowed. */
+/* The report with the user's times t; also the times t of the stored points, [*n]. Both borrowed. */
 const qdot_run_report *qdot_run_time_report(const qdot_run *run);
 const double *qdot_run_time_points(const qdot_run *run, size_t *n);
 
@@ -38,7 +38,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_time_express(const qdot_run *run, size_t m,
  * that begin so. */
 void qdot_run_time_tell(double origin, const char *text, qdot_text *out);
 
-/* If `status` is a failure, convert the times in the last error's text to t; returns `status`. */
+/* If `status` is a failure, convert the times in the error message to the user's t; returns `status`. */
 qdot_status qdot_run_time_fail(double origin, qdot_status status);
 
 #endif

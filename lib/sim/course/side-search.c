@@ -23,14 +23,14 @@ enum { MOST_DOUBTS = 4 };
 
 /* --- texts of failures --------------------------------------------------------------- */
 
-/* Let the run fail at a surface; c->reason is `before`, the surface's description, and `behind`. */
+/* End the run as failed at a surface; c->reason becomes `before`, the surface's description, `behind`. */
 static void
-set_reason_at(qdot_piece *x, size_t surface, const char *before, const char *behind)
+fail_at_surface(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     long side = m->side[surface];
 
-    /* for floor(u): the integer u at which the piece starts */
+    /* for a switch floor(u): the integer u at which the piece starts */
     for (size_t i = 0; i < m->m; i++)
         if (m->watched[i].kind == QDOT_WATCH_SURFACE && m->watched[i].index == surface
             && x->functions_on[i])
@@ -38,9 +38,9 @@ set_reason_at(qdot_piece *x, size_t surface, const char *before, const char *beh
     qdot_piece_stop_at(x, surface, side, before, behind);
 }
 
-/* The surface of the first disc that is about to come to rest; surface 0 if there is none. */
+/* The surface of the first disc about to come to rest; 0 if there is no such disc. */
 static size_t
-held_surface(const qdot_piece *x)
+surface_of_resting_disc(const qdot_piece *x)
 {
     const qdot_switches *s = &x->c->stage->switches;
 
@@ -51,33 +51,33 @@ held_surface(const qdot_piece *x)
 }
 
 static void
-say_slides(qdot_piece *x)
+report_cannot_slide(qdot_piece *x)
 {
     char why[200];
-    const size_t surface = x->doubts.n > 0 ? x->doubts.at[0].surface : held_surface(x);
+    const size_t surface = x->doubts.n > 0 ? x->doubts.at[0].surface : surface_of_resting_disc(x);
 
     if (x->c->stage->switches.surfaces.at[surface].puck > 0) {
-        set_reason_at(x, surface, "the motion cannot be followed at", x->hindrance);
+        fail_at_surface(x, surface, "the motion cannot be followed at", x->hindrance);
         return;
     }
     snprintf(why, sizeof why, ", where the equations switch: both sides lead back to it%s",
              x->hindrance);
-    set_reason_at(x, surface, "the motion would slide along", why);
+    fail_at_surface(x, surface, "the motion would slide along", why);
 }
 
 static void
-say_open(qdot_piece *x, size_t surface)
+report_ambiguous_sides(qdot_piece *x, size_t surface)
 {
-    set_reason_at(x, surface, "on",
-                  ", where the equations switch, the motion may continue in more than one way, and "
-                  "they do not say which");
+    fail_at_surface(x, surface, "on",
+                    ", where the equations switch, the motion may continue in more than one way, and "
+                    "they do not say which");
 }
 
 /* --- the search for the right sides -------------------------------------------------- */
 
-/* Whether the present sides have been tried from this start already; they count as tried from now on. */
+/* Whether the present sides have been tried from this start already; either way they are marked as tried. */
 static qdot_status
-was_tried(qdot_piece *x, bool *again)
+mark_sides_tried(qdot_piece *x, bool *again)
 {
     size_t surfaces = x->c->stage->switches.surfaces.n;
 
@@ -93,7 +93,7 @@ was_tried(qdot_piece *x, bool *again)
 /* Set x->side to the k-th combination for the surfaces in doubt, beginning with the sides tried
  * first; *over: there is none. */
 static qdot_status
-combine(qdot_piece *x, size_t k, bool *over)
+set_side_combination(qdot_piece *x, size_t k, bool *over)
 {
     size_t surfaces = x->c->stage->switches.surfaces.n;
 
@@ -111,19 +111,19 @@ combine(qdot_piece *x, size_t k, bool *over)
     return qdot_piece_sides(x, x->tried.at);
 }
 
-/* Choose the next combination of sides that was not tried from here; *over: there is none. */
+/* Choose the next combination of sides that has not been tried from this start; *over: all have been. */
 static qdot_status
-next_sides(qdot_piece *x, size_t *k, bool *over)
+choose_next_sides(qdot_piece *x, size_t *k, bool *over)
 {
     bool again;
 
     *over = false;
-    QDOT_TRY(was_tried(x, &again));
+    QDOT_TRY(mark_sides_tried(x, &again));
     while (again && !*over) {
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(combine(x, (*k)++, over));
+        QDOT_TRY(set_side_combination(x, (*k)++, over));
         if (!*over)
-            QDOT_TRY(was_tried(x, &again));
+            QDOT_TRY(mark_sides_tried(x, &again));
     }
     return QDOT_OK;
 }
@@ -131,7 +131,7 @@ next_sides(qdot_piece *x, size_t *k, bool *over)
 /* Enter the mode with x->side; *can: where the motion would slide it may be that it cannot, and
  * x->hindrance says why. */
 static qdot_status
-side_enter(qdot_piece *x, bool *can)
+enter_sides(qdot_piece *x, bool *can)
 {
     const size_t n = x->n;
     double *kept;
@@ -168,7 +168,7 @@ side_enter(qdot_piece *x, bool *can)
 /* Copy the start of the piece to y [3n]: the state, its low part, and the state to which the low
  * part belongs. */
 static void
-copy_start(const qdot_piece *x, double *y)
+save_start(const qdot_piece *x, double *y)
 {
     memcpy(y, x->start.y, x->n * sizeof *y);
     memcpy(y + x->n, x->start.low, x->n * sizeof *y);
@@ -176,14 +176,14 @@ copy_start(const qdot_piece *x, double *y)
 }
 
 static void
-put_start(qdot_piece *x, const double *y)
+restore_start(qdot_piece *x, const double *y)
 {
     memcpy(x->start.y, y, x->n * sizeof *y);
     memcpy(x->start.low, y + x->n, x->n * sizeof *y);
     memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
 }
 
-/* Integrate this piece of the run with the sides x->side of the surfaces, or only its first step. */
+/* Integrate this piece of the run with the sides x->side of the surfaces, perhaps only its first step. */
 static qdot_status
 integrate_on_sides(qdot_piece *x)
 {
@@ -194,7 +194,7 @@ integrate_on_sides(qdot_piece *x)
 /* Whether the motion leaves to `side` of a surface as well as to the sides found; a mode that
  * cannot be integrated does not count. */
 static qdot_status
-holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
+other_side_fits(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     qdot_status status;
@@ -204,9 +204,9 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     memcpy(x->side, held, surfaces * sizeof *x->side);
     x->side[surface] = side;
     QDOT_TRY(qdot_piece_sides(x, held));
-    if (qdot_piece_has_massless(x)) /* massless coordinates take the values that belong to the sides found */
-        put_start(x, x->bare);
-    status = side_enter(x, &can);
+    if (qdot_piece_has_massless(x)) /* massless coordinates take the values that belong to the sides that were found */
+        restore_start(x, x->bare);
+    status = enter_sides(x, &can);
     if (status == QDOT_OK && can) {
         qdot_piece_carry(x);
         status = integrate_on_sides(x);
@@ -216,16 +216,16 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     return qdot_grave(status);
 }
 
-/* Whether u stays 0 with either of the two sides, so that both give the same motion. */
+/* Whether u stays 0 with either of two sides of a surface, so that both give the same motion. */
 static bool
-stays_alike(long side, long other)
+give_same_motion(long side, long other)
 {
     return (side == 0 && other == QDOT_SIDE_SLIDES) || (side == QDOT_SIDE_SLIDES && other == 0);
 }
 
-/* Whether the present sides, in held [surfaces], are the only right ones; if not, c->reason is set. */
+/* Whether the present sides, held [surfaces], are the only ones that fit; if not, c->reason is set. */
 static qdot_status
-sides_compare(qdot_piece *x, const long *held)
+check_sides_are_unique(qdot_piece *x, const long *held)
 {
     qdot_vec(qdot_piece_doubt) others = {0};
     qdot_status status = qdot_piece_doubt_open(x);
@@ -238,19 +238,19 @@ sides_compare(qdot_piece *x, const long *held)
             const size_t surface = others.at[i].surface;
             bool too;
 
-            if (stays_alike(held[surface], others.at[i].sides[k]))
+            if (give_same_motion(held[surface], others.at[i].sides[k]))
                 continue;
-            status = holds_too(x, held, surface, others.at[i].sides[k], &too);
+            status = other_side_fits(x, held, surface, others.at[i].sides[k], &too);
             if (status == QDOT_OK && too && x->c->reason[0] == '\0')
-                say_open(x, surface);
+                report_ambiguous_sides(x, surface);
         }
     qdot_free(others.at);
     return status;
 }
 
-/* Compare the sides found with alternatives, then integrate with them. */
+/* Compare the sides found with alternatives, then integrate the piece with them. */
 static qdot_status
-go_by(qdot_piece *x)
+integrate_with_found_sides(qdot_piece *x)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     long *held = qdot_malloc((surfaces + 1) * sizeof *held);
@@ -260,11 +260,11 @@ go_by(qdot_piece *x)
 
     if (status == QDOT_OK) {
         memcpy(held, x->side, surfaces * sizeof *held);
-        copy_start(x, y);
-        status = sides_compare(x, held);
+        save_start(x, y);
+        status = check_sides_are_unique(x, held);
         memcpy(x->side, held, surfaces * sizeof *held);
         if (massless) {
-            put_start(x, y);
+            restore_start(x, y);
             x->start.followed = followed;
         }
     }
@@ -281,7 +281,7 @@ go_by(qdot_piece *x)
 /* Whether a surface in doubt is one of places that the motion crosses, or one that it leaves after it has slid along it
  * as far as its share goes: it goes on to the side to which it led, tried first. */
 static bool
-is_decided(const qdot_piece *x, size_t surface)
+is_side_decided(const qdot_piece *x, size_t surface)
 {
     const qdot_surface *s = &x->c->stage->switches.surfaces.at[surface];
     const bool slid = x->c->stage->modes.at[x->start.from]->side[surface] == QDOT_SIDE_SLIDES;
@@ -297,19 +297,19 @@ is_decided(const qdot_piece *x, size_t surface)
 /* No sides fit by the first step, which may be lost in the rounding of what decides: where what is known of the
  * crossing decides, go on by that. *decided: it does. */
 static qdot_status
-go_by_crossing(qdot_piece *x, bool *decided)
+take_side_by_crossing(qdot_piece *x, bool *decided)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     bool can;
 
     *decided = x->doubts.n > 0 && !x->start.jumped && x->tried.n >= surfaces;
     for (size_t i = 0; i < x->doubts.n && *decided; i++)
-        *decided = is_decided(x, x->doubts.at[i].surface);
+        *decided = is_side_decided(x, x->doubts.at[i].surface);
     if (!*decided)
         return QDOT_OK;
     memcpy(x->side, x->tried.at, surfaces * sizeof *x->side);
-    put_start(x, x->bare);
-    QDOT_TRY(side_enter(x, &can));
+    restore_start(x, x->bare);
+    QDOT_TRY(enter_sides(x, &can));
     *decided = can;
     if (!can)
         return QDOT_OK;
@@ -321,7 +321,7 @@ go_by_crossing(qdot_piece *x, bool *decided)
 }
 
 static qdot_status
-search(qdot_piece *x)
+search_sides(qdot_piece *x)
 {
     size_t combinations = 0;
 
@@ -330,22 +330,22 @@ search(qdot_piece *x)
     x->search = QDOT_SIDES_TRIED;
     x->hindrance[0] = '\0';
     x->put_aside = x->start.slipped = false;
-    copy_start(x, x->bare);
+    save_start(x, x->bare);
     for (;;) {
         bool over, can;
 
         QDOT_TRY(qdot_interrupt_check());
-        put_start(x, x->bare);
-        QDOT_TRY(next_sides(x, &combinations, &over));
+        restore_start(x, x->bare);
+        QDOT_TRY(choose_next_sides(x, &combinations, &over));
         if (over) {
             bool decided;
 
-            QDOT_TRY(go_by_crossing(x, &decided));
+            QDOT_TRY(take_side_by_crossing(x, &decided));
             if (!decided)
-                say_slides(x);
+                report_cannot_slide(x);
             return QDOT_OK;
         }
-        QDOT_TRY(side_enter(x, &can));
+        QDOT_TRY(enter_sides(x, &can));
         if (!can)
             continue;
         QDOT_TRY(qdot_piece_cross(x));
@@ -355,14 +355,14 @@ search(qdot_piece *x)
         if (x->intent != QDOT_PIECE_RETRIED || x->resting != SIZE_MAX)
             return QDOT_OK;
         if (x->well)
-            return go_by(x);
+            return integrate_with_found_sides(x);
         QDOT_TRY(qdot_piece_sides(x, qdot_piece_mode(x)->side));
     }
 }
 
-/* Set c->reason: the motion stays in the contact x->resting, which is not declared as one that lasts. */
+/* Set c->reason: the motion stays in the contact x->resting, which was not declared as a lasting contact. */
 static void
-say_resting(qdot_piece *x)
+report_resting(qdot_piece *x)
 {
     snprintf(x->c->reason, sizeof x->c->reason,
              "stopped at t = %.15g: %s the event %.100s the motion does not leave it: a contact that "
@@ -375,22 +375,22 @@ say_resting(qdot_piece *x)
 qdot_status
 qdot_piece_search(qdot_piece *x)
 {
-    /* allow one more lasting contact in each round */
+    /* in each round one more contact may last */
     for (size_t k = 0; k <= x->c->stage->switches.contacts; k++) {
         bool lasts, soon;
         const size_t surfaces = x->c->stage->switches.surfaces.n;
 
-        QDOT_TRY(search(x));
+        QDOT_TRY(search_sides(x));
         if (x->intent != QDOT_PIECE_RETRIED || x->resting == SIZE_MAX)
             return QDOT_OK;
         if (surfaces > 0)
             memcpy(x->side, qdot_piece_mode(x)->side, surfaces * sizeof *x->side);
-        if (!qdot_piece_has_massless(x)) /* restore the start: remove what the rejected piece added */
-            put_start(x, x->bare);
+        if (!qdot_piece_has_massless(x)) /* restore the start: undo the changes by the rejected piece */
+            restore_start(x, x->bare);
         QDOT_TRY(qdot_piece_rest(x, x->resting, x->resting_way, 0, &lasts, &soon));
         if (!lasts)
             break;
     }
-    say_resting(x);
+    report_resting(x);
     return QDOT_OK;
 }

@@ -26,9 +26,9 @@ qdot_staged_event_clear(qdot_staged_event *e)
     qdot_tape_free(e->then);
 }
 
-/* Find whether a new value of component k of the state may break constraints. */
+/* Find whether setting component k of the state by an event may violate constraints. */
 static qdot_status
-find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
+may_violate_constraints(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
 {
     const bool parameter = k >= p->n - p->n_states && k < p->n;
 
@@ -50,10 +50,10 @@ find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_e
     return QDOT_OK;
 }
 
-/* Stage the changes of an event: `then` sets targets [n] to values [n]. */
+/* Prepare the changes made by an event: its `then` sets targets [n] to values [n]. */
 static qdot_status
-stage_changes(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr *targets, const qdot_expr *values,
-              qdot_staged_event *e)
+prepare_changes(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr *targets, const qdot_expr *values,
+                qdot_staged_event *e)
 {
     bool changes = false;
 
@@ -65,10 +65,10 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_
         e->targets[i] = qdot_expr_place(2 * p->n, p->inputs, targets[i]);
         e->accelerations |=
             (qdot_expr_node(p->pool, values[i])->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)) != 0;
-        QDOT_TRY(find_broken(scene, p, e->targets[i], e));
+        QDOT_TRY(may_violate_constraints(scene, p, e->targets[i], e));
         changes |= values[i] != targets[i];
     }
-    if (!changes) { /* no change, as in x' = x': the event is only recorded */
+    if (!changes) { /* if nothing changes, as in x' = x', the event is only recorded */
         e->changes = 0;
         e->positions = e->velocities = false;
         return QDOT_OK;
@@ -94,7 +94,7 @@ simplify_zeros(qdot_pool *pool, qdot_staged_event *e)
 /* --- events of runs backwards in time ------------------------------------------------ */
 
 static qdot_status
-lower_rates(const qdot_plan *p, qdot_expr g, qdot_staged_undoing *u)
+make_rate_tape(const qdot_plan *p, qdot_expr g, qdot_staged_undoing *u)
 {
     qdot_expr *out = qdot_calloc(p->n + 2, sizeof *out);
     qdot_status status = QDOT_OK;
@@ -112,9 +112,9 @@ lower_rates(const qdot_plan *p, qdot_expr g, qdot_staged_undoing *u)
     return status;
 }
 
-/* Whether an event with function g leaves g' unchanged when it sets these targets. */
+/* Whether an event with function g leaves g' unchanged when it sets the given targets. */
 static bool
-keeps_speed(const qdot_plan *p, qdot_expr g, size_t n, const qdot_expr *targets)
+leaves_rate_unchanged(const qdot_plan *p, qdot_expr g, size_t n, const qdot_expr *targets)
 {
     const qdot_expr rate = qdot_ddt(p->pool, g);
 
@@ -124,10 +124,10 @@ keeps_speed(const qdot_plan *p, qdot_expr g, size_t n, const qdot_expr *targets)
     return true;
 }
 
-/* Change e, which has the function and the `then` of an event, to the event that undoes it. */
+/* Change e, which has an event's function and `then`, into the event that undoes it (for a backward run). */
 static qdot_status
-turn_back(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr *targets, const qdot_expr *values,
-          qdot_staged_event *e)
+make_inverse_event(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr *targets, const qdot_expr *values,
+                   qdot_staged_event *e)
 {
     const qdot_expr g = e->function;
     qdot_staged_event *forward = qdot_calloc(1, sizeof *forward);
@@ -149,11 +149,11 @@ turn_back(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr
     e->accelerations = e->positions = e->velocities = false;
     status = forward->name ? qdot_undone_find(p->pool, g, n, targets, values, &undone) : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = lower_rates(p, g, e->undoing);
+        status = make_rate_tape(p, g, e->undoing);
     if (status == QDOT_OK && !undone.why)
-        status = stage_changes(scene, p, n, targets, undone.values, e);
+        status = prepare_changes(scene, p, n, targets, undone.values, e);
     e->undoing->why = undone.why;
-    e->undoing->keeps_speed = keeps_speed(p, g, n, targets);
+    e->undoing->keeps_speed = leaves_rate_unchanged(p, g, n, targets);
     e->undoing->nowhere = undone.function == QDOT_NIL;
     e->undoing->moved = undone.function != g;
     if (undone.function != QDOT_NIL)
@@ -165,7 +165,7 @@ turn_back(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr
 /* --- all events of a scene ----------------------------------------------------------- */
 
 static qdot_status
-stage_event(const qdot_stage *s, const qdot_plan *p, const qdot_event *event, qdot_staged_event *e)
+prepare_event(const qdot_stage *s, const qdot_plan *p, const qdot_event *event, qdot_staged_event *e)
 {
     const size_t n = event->targets.n;
     qdot_expr *targets = qdot_calloc(2 * n + 1, sizeof *targets), *values = targets + n;
@@ -181,9 +181,9 @@ stage_event(const qdot_stage *s, const qdot_plan *p, const qdot_event *event, qd
     e->name = qdot_strdup(event->name);
     status = e->name ? qdot_pool_check(p->pool) : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = stage_changes(s->scene, p, n, targets, values, e);
+        status = prepare_changes(s->scene, p, n, targets, values, e);
     if (status == QDOT_OK && s->back && e->then)
-        status = turn_back(s->scene, p, n, targets, values, e);
+        status = make_inverse_event(s->scene, p, n, targets, values, e);
     if (status == QDOT_OK)
         status = simplify_zeros(p->pool, e);
     qdot_free(targets);
@@ -196,7 +196,7 @@ qdot_stage_events(qdot_stage *s, const qdot_plan *p)
     for (size_t i = 0; i < s->scene->events.n; i++) {
         const qdot_event *event = &s->scene->events.at[i];
         qdot_staged_event e = {.way = event->way, .stop = event->stop};
-        qdot_status status = stage_event(s, p, event, &e);
+        qdot_status status = prepare_event(s, p, event, &e);
 
         if (status == QDOT_OK)
             status = qdot_vec_push(&s->events, e);

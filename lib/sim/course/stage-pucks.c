@@ -1,4 +1,4 @@
-/* stage-pucks.c -- evaluates the quantities of sliding discs at a state, and how slow a disc at rest is. */
+/* stage-pucks.c -- evaluates the quantities of sliding discs, and how slow a disc must be to count as resting. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -9,25 +9,25 @@
 #include "sim/course/stage.h"
 #include "sim/model/puck.h"
 
-/* The time in which a disc at its regularisation radius stops, relative to the largest |t|: 64 doubles. */
+/* Time in which a disc at its regularisation radius stops, relative to the largest |t|: 64 rounding errors. */
 static const double stop = 0x1p-46;
 /* A radius in local errors of velocities; and the time to stop for a method without series, which does
  * not come nearer to rest. */
 static const double errors = 4, errors_without_series = 1000;
 static const double stop_without_series = 0x1p-24;
 
-/* The distance to rest that may be left out, in units of the local error. */
+/* The distance to rest that may be neglected, in units of the local error of the integration. */
 static const double way_left_out = 1;
 
 static size_t
-outputs_of(const qdot_puck *puck, size_t n)
+output_count(const qdot_puck *puck, size_t n)
 {
     return puck->k * (2 + puck->k + n);
 }
 
-/* Write the expressions d_i, rate of d_i without its q'' terms, G_ij and dd_i/dq'_j of a disc into out. */
+/* Write a disc's expressions into out: velocities d_i, their rates without q'' terms, G_ij, dd_i/dq'_j. */
 static void
-lower_one(const qdot_stage *s, const qdot_puck *puck, const qdot_expr *in, qdot_expr *out)
+write_disc_expressions(const qdot_stage *s, const qdot_puck *puck, const qdot_expr *in, qdot_expr *out)
 {
     qdot_pool *pool = s->switches.pool;
     const size_t n = s->n, k = puck->k;
@@ -64,7 +64,7 @@ qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y,
     if (!in)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < puck; i++)
-        at += outputs_of(&s->switches.pucks.at[i], n);
+        at += output_count(&s->switches.pucks.at[i], n);
     memcpy(in, y, 2 * n * sizeof *in);
     in[2 * n] = t;
     qdot_tape_eval(s->pucks, in, out, out + all);
@@ -83,10 +83,10 @@ qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y,
     return QDOT_OK;
 }
 
-/* Find the largest |B_ij|/M_ii of a disc at the start: how much its friction can change q'_i. */
+/* Find the largest |B_ij|/M_ii of a disc at the start, which tells how much its friction can change q'_i. */
 static qdot_status
-friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
-            const double *in, double *most)
+find_friction_at_start(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
+                       const double *in, double *most)
 {
     const qdot_switches *w = &s->switches;
     const qdot_facts facts = qdot_scene_facts(s->scene);
@@ -124,11 +124,11 @@ friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
     qdot_free(out);
     qdot_tape_free(tape);
     qdot_free(e);
-    return qdot_grave(status); /* other failures are reported where the value is needed */
+    return qdot_grave(status); /* ignore other failures here: they are reported where the value is needed */
 }
 
 static qdot_status
-lower(qdot_stage *s, qdot_expr *in)
+make_disc_tape(qdot_stage *s, qdot_expr *in)
 {
     const size_t n = s->n;
     size_t all = 0, at = 0;
@@ -136,13 +136,13 @@ lower(qdot_stage *s, qdot_expr *in)
     qdot_status status;
 
     for (size_t i = 0; i < s->switches.pucks.n; i++)
-        all += outputs_of(&s->switches.pucks.at[i], n);
+        all += output_count(&s->switches.pucks.at[i], n);
     out = qdot_calloc(all, sizeof *out);
     if (!out)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < s->switches.pucks.n; i++) {
-        lower_one(s, &s->switches.pucks.at[i], in, out + at);
-        at += outputs_of(&s->switches.pucks.at[i], n);
+        write_disc_expressions(s, &s->switches.pucks.at[i], in, out + at);
+        at += output_count(&s->switches.pucks.at[i], n);
     }
     status = qdot_pool_check(s->switches.pool);
     if (status == QDOT_OK)
@@ -152,7 +152,7 @@ lower(qdot_stage *s, qdot_expr *in)
 }
 
 static bool
-has_series(const qdot_run_request *request)
+method_has_series(const qdot_run_request *request)
 {
     return !request->method || strcmp(request->method, "auto") == 0 ||
            strcmp(request->method, "taylor") == 0;
@@ -164,21 +164,21 @@ qdot_stage_pucks(qdot_stage *s, double t, const double *y, double latest)
     const size_t n = s->n;
     qdot_expr *symbols = qdot_calloc(2 * n + 1, sizeof *symbols);
     double *in = qdot_calloc(2 * n + 1, sizeof *in);
-    const bool series = has_series(s->request);
+    const bool series = method_has_series(s->request);
     qdot_status status = symbols && in ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         qdot_stage_inputs(s, symbols);
         memcpy(in, y, 2 * n * sizeof *in);
         in[2 * n] = t;
-        status = lower(s, symbols);
+        status = make_disc_tape(s, symbols);
     }
     for (size_t i = 0; i < s->switches.pucks.n && status == QDOT_OK; i++) {
         qdot_puck *puck = &s->switches.pucks.at[i];
         qdot_puck_state now = {0};
         double friction, fast, radius;
 
-        status = friction_at(s, puck, symbols, in, &friction);
+        status = find_friction_at_start(s, puck, symbols, in, &friction);
         if (status == QDOT_OK)
             status = qdot_stage_puck(s, i, t, y, &now);
         if (status != QDOT_OK)
@@ -188,10 +188,10 @@ qdot_stage_pucks(qdot_stage *s, double t, const double *y, double latest)
                  (fast > 0 ? fmin(fast, 1) : 1);
         if (!series)
             radius = fmax(radius, stop_without_series * friction * latest);
-        if (friction > 0) /* so that the path omitted at the end is well below tol */
+        if (friction > 0) /* choose the radius so small that the path omitted at the end is well below tol */
             radius = fmin(radius, sqrt(2 * friction * way_left_out * s->request->tol));
         radius = fmax(stop * friction * latest, radius);
-        if (isnormal(radius * radius)) /* round to a power of two, which is exact */
+        if (isnormal(radius * radius)) /* round the radius to a power of two, so that multiplying by it is exact */
             puck->radius = exp2(ilogb(radius));
     }
     qdot_free(in);

@@ -17,7 +17,7 @@ static const double rounding = 4 * DBL_EPSILON;
  * sines of whole numbers are linearly independent over the rationals: a change by c/(i + 1) would leave 3 y_2 - 4 y_3
  * as it is. */
 static double
-aside(size_t which, size_t i)
+test_displacement(size_t which, size_t i)
 {
     return ldexp(sin((double)(2 * i + which + 1)), -8);
 }
@@ -25,16 +25,16 @@ aside(size_t which, size_t i)
 /* The largest value of a floor: beyond it all doubles are integers. */
 static const double most_steps = 0x1p53;
 
-/* The values u of all surfaces with their rounding errors, for the present sides. */
+/* The function values u of all surfaces with their rounding errors, for the present sides. */
 typedef struct {
     const qdot_stage *s;
-    size_t m, n; /* number of surfaces; of components of the state */
+    size_t m, n; /* number of surfaces; number of components of the state */
     double t;
     const double *y;
-    double *u, *noise; /* [m] values u; their change by rounding of the state and of u */
+    double *u, *noise; /* [m] values of the surfaces' functions u; their uncertainty by rounding of the state and of u */
     bool *flat;        /* [m] small changes of the state change u only by rounding */
     double *before;    /* [m] u with the sides of the previous pass */
-    uint8_t *open; /* whether each gate, then each surface [m], is evaluated (sim/model/gates.h) */
+    uint8_t *open; /* whether each gate, then each surface [m], has to be evaluated (sim/model/gates.h) */
     double *out, *in, *work;
 } decision;
 
@@ -80,7 +80,7 @@ qdot_stage_lower_sides(qdot_stage *s)
 }
 
 static void
-end(decision *d)
+free_decision(decision *d)
 {
     qdot_free(d->u);
     qdot_free(d->flat);
@@ -88,7 +88,7 @@ end(decision *d)
 }
 
 static qdot_status
-decision_begin(decision *d, const qdot_stage *s, double t, const double *y)
+begin_decision(decision *d, const qdot_stage *s, double t, const double *y)
 {
     size_t m = qdot_switches_own(&s->switches);
     const size_t n = 2 * s->n;
@@ -109,9 +109,9 @@ decision_begin(decision *d, const qdot_stage *s, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Evaluate the tape of surfaces at the state d->in for the given sides, into d->out. */
+/* Evaluate the functions of all surfaces at the state d->in, for the given sides, into d->out. */
 static void
-decision_evaluate(decision *d, const long *side)
+evaluate_surfaces(decision *d, const long *side)
 {
     for (size_t i = 0; i < d->m; i++)
         d->in[d->n + 1 + i] =
@@ -128,11 +128,11 @@ is_parameter(const decision *d, size_t i)
     return i < d->n && i % d->s->n >= d->s->n - d->s->n_states;
 }
 
-/* Compute u, noise and flat of all surfaces for the given sides. */
+/* Compute u, its error and whether u is flat, of all surfaces, for the given sides. */
 static void
-measure(decision *d, const long *side)
+measure_surfaces(decision *d, const long *side)
 {
-    decision_evaluate(d, side);
+    evaluate_surfaces(d, side);
     for (size_t i = 0; i < d->m; i++) {
         d->u[i] = d->out[i];
         d->noise[i] = rounding * d->out[d->m + i];
@@ -140,24 +140,24 @@ measure(decision *d, const long *side)
     }
     for (size_t k = 0; k <= d->n; k++) {
         d->in[k] *= 1 + 2 * DBL_EPSILON;
-        decision_evaluate(d, side);
+        evaluate_surfaces(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->noise[i] += isfinite(d->out[i]) ? fabs(d->out[i] - d->u[i]) : 0;
     }
     for (size_t k = 0; k < 2; k++) {
         for (size_t i = 0; i <= d->n; i++)
             if (!is_parameter(d, i))
-                d->in[i] += aside(k, i) * fmax(1, fabs(d->in[i]));
-        decision_evaluate(d, side);
+                d->in[i] += test_displacement(k, i) * fmax(1, fabs(d->in[i]));
+        evaluate_surfaces(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->flat[i] = d->flat[i] && fabs(d->out[i] - d->u[i]) <=
                                            fmax(d->noise[i], rounding * d->out[d->m + i]);
     }
 }
 
-/* Find the surfaces that matter for the equations when the others have these sides. */
+/* Find the surfaces that affect the equations if the other surfaces have the given sides. */
 static void
-find_open(decision *d, const long *side)
+find_relevant_surfaces(decision *d, const long *side)
 {
     const qdot_gates *gates = &d->s->switches.gates;
 
@@ -168,14 +168,14 @@ find_open(decision *d, const long *side)
 }
 
 static bool
-is_open(const decision *d, size_t i)
+is_surface_evaluated(const decision *d, size_t i)
 {
     return d->open[d->s->switches.gates.gates.n + i] != 0;
 }
 
-/* Decide the side of surface i from u; on the surface itself it keeps `kept` unless `anew`. */
+/* Decide the side of surface i from u; if u = 0, it keeps the side `kept`, unless `anew` is set. */
 static qdot_status
-side_decide(const decision *d, size_t i, bool anew, long kept, long *side)
+decide_side(const decision *d, size_t i, bool anew, long kept, long *side)
 {
     const bool steps = d->s->switches.surfaces.at[i].steps;
     const double u = d->u[i], near = steps ? round(u) : 0;
@@ -198,9 +198,9 @@ side_decide(const decision *d, size_t i, bool anew, long kept, long *side)
     return QDOT_OK;
 }
 
-/* Find f_i/M_ii at the start, into a [n]; 0 if it is not finite or contains multipliers. */
+/* Find the accelerations f_i/M_ii at the start, into a [n]; 0 if not finite or with multipliers. */
 static qdot_status
-start_accelerations(const decision *d, double *a)
+find_start_accelerations(const decision *d, double *a)
 {
     const qdot_switches *s = &d->s->switches;
     const size_t n = d->s->n - d->s->n_states;
@@ -233,15 +233,15 @@ start_accelerations(const decision *d, double *a)
     return status;
 }
 
-/* Find how fast all u change, rate [m], if each coordinate i changes at the rate w[i]. */
+/* Find du/dt of all surfaces, rate [m], if each coordinate q_i changes at the rate w[i]. */
 static void
-rates_of(decision *d, const long *side, const double *w, double *rate)
+surface_rates(decision *d, const long *side, const double *w, double *rate)
 {
     const double h = 0x1p-20;
 
     for (size_t i = 0; i < d->s->n - d->s->n_states; i++)
         d->in[i] += h * w[i];
-    decision_evaluate(d, side);
+    evaluate_surfaces(d, side);
     for (size_t i = 0; i < d->m; i++)
         rate[i] = fabs(d->out[i] - d->u[i]) / h;
 }
@@ -264,30 +264,30 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
     a = qdot_calloc(s->n + 2 * m, sizeof *a);
     speed = a + s->n;
     bend = speed + m;
-    status = decision_begin(&d, s, t, y);
+    status = begin_decision(&d, s, t, y);
     if (!side || !a)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = start_accelerations(&d, a);
+        status = find_start_accelerations(&d, a);
     if (status == QDOT_OK) {
-        decision_evaluate(&d, side);
+        evaluate_surfaces(&d, side);
         memcpy(d.u, d.out, m * sizeof *d.u);
-        rates_of(&d, side, y + s->n, speed);
-        rates_of(&d, side, a, bend);
+        surface_rates(&d, side, y + s->n, speed);
+        surface_rates(&d, side, a, bend);
         for (size_t i = 0; i < m; i++)
             speed[i] = fmax(fmax(speed[i], sqrt(2 * bend[i] * fabs(d.u[i]))), fabs(d.u[i]));
         qdot_layers_measure(s->switches.pool, m, s->switches.surfaces.at, speed, latest, tol);
     }
     qdot_free(side);
     qdot_free(a);
-    end(&d);
+    free_decision(&d);
     return status;
 }
 
 qdot_status
 qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old, long *side)
 {
-    /* surfaces without contacts, which keep their side */
+    /* surfaces other than contacts; contacts keep their side */
     const size_t m = qdot_switches_own(&s->switches);
     long *kept;
     decision d;
@@ -297,13 +297,13 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
     if (m == 0)
         return QDOT_OK;
     kept = qdot_calloc(m, sizeof *kept);
-    status = decision_begin(&d, s, t, y);
+    status = begin_decision(&d, s, t, y);
     if (!kept)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK) {
         if (old) {
             memcpy(kept, side, m * sizeof *kept);
-            measure(&d, old);
+            measure_surfaces(&d, old);
             memcpy(d.before, d.u, m * sizeof *d.before);
         } else {
             memset(side, 0, m * sizeof *side);
@@ -311,14 +311,14 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
     }
     /* repeat at most as often as surfaces and branches can be nested */
     for (size_t pass = 0; pass <= 2 * m && changed && status == QDOT_OK; pass++) {
-        measure(&d, side);
-        find_open(&d, side);
+        measure_surfaces(&d, side);
+        find_relevant_surfaces(&d, side);
         changed = false;
         for (size_t i = 0; i < m && status == QDOT_OK; i++) {
             const long was = side[i];
 
-            if (is_open(&d, i))
-                status = side_decide(&d, i, !old || old[i] == QDOT_SIDE_IDLE || kept[i] == QDOT_SIDE_IDLE,
+            if (is_surface_evaluated(&d, i))
+                status = decide_side(&d, i, !old || old[i] == QDOT_SIDE_IDLE || kept[i] == QDOT_SIDE_IDLE,
                                      kept[i] == QDOT_SIDE_IDLE ? 0 : kept[i], &side[i]);
             else
                 side[i] = QDOT_SIDE_IDLE;
@@ -326,7 +326,7 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
         }
     }
     qdot_free(kept);
-    end(&d);
+    free_decision(&d);
     return status;
 }
 

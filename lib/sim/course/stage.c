@@ -53,7 +53,7 @@ qdot_stage_clear(qdot_stage *s)
 /* --- functions watched in a mode ----------------------------------------------------- */
 
 static void
-watch_function(qdot_mode *m, qdot_expr g, qdot_watched watched)
+append_watched_function(qdot_mode *m, qdot_expr g, qdot_watched watched)
 {
     m->functions[m->m] = g;
     m->watched[m->m++] = watched;
@@ -75,8 +75,8 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
 
             if (ends[k] == QDOT_NIL)
                 continue;
-            watch_function(m, qdot_sub(p->pool, q, qdot_plan_substitute(p, ends[k])),
-                           (qdot_watched){.kind = QDOT_WATCH_DOMAIN,
+            append_watched_function(m, qdot_sub(p->pool, q, qdot_plan_substitute(p, ends[k])),
+                                    (qdot_watched){.kind = QDOT_WATCH_DOMAIN,
                                           .index = i,
                                           .inside = k ? -1 : 1,
                                           .coordinate = d->coordinate,
@@ -86,9 +86,9 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether the number u of a surface lies on that side. */
+/* Whether the value u of a surface's function lies on the given side. */
 static bool
-is_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
+is_on_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
 {
     qdot_expr k = qdot_expr_int(pool, side);
 
@@ -104,13 +104,13 @@ is_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
 /* Two functions of a surface, e less each of two values, between which e has to stay; `beyond` them
  * are the sides [2]. */
 static void
-watch_between(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const long *values,
-              const long *beyond)
+watch_interval(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const long *values,
+               const long *beyond)
 {
     for (int k = 0; k < 2; k++) {
         w.inside = k ? -1 : 1;
         w.beyond = beyond[k];
-        watch_function(m, qdot_sub(pool, e, qdot_expr_int(pool, values[k])), w);
+        append_watched_function(m, qdot_sub(pool, e, qdot_expr_int(pool, values[k])), w);
     }
 }
 
@@ -127,14 +127,14 @@ watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watch
             continue;
         watched.inside = side == 0 ? -rim : rim;
         watched.beyond = side == 0 ? rim : 0;
-        watch_function(m, rim > 0 ? qdot_sub(pool, u, w) : qdot_add(pool, u, w), watched);
+        append_watched_function(m, rim > 0 ? qdot_sub(pool, u, w) : qdot_add(pool, u, w), watched);
     }
 }
 
 /* A puck that moves: |w|^2 above its radius; at rest: s G s below 1; that creeps: between 1 and a little
  * more. */
 static void
-watch_puck(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
+watch_disc(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
 {
     qdot_pool *pool = m->plan->pool;
     const long side = m->side[w.index];
@@ -146,15 +146,15 @@ watch_puck(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
     w.velocity = true;
     w.beyond = side == QDOT_SIDE_SLIDES ? QDOT_SIDE_CREEPS : QDOT_SIDE_SLIDES;
     if (side == QDOT_SIDE_SLIDES) {
-        watch_function(m, qdot_sub(pool, QDOT_ONE, share), w);
+        append_watched_function(m, qdot_sub(pool, QDOT_ONE, share), w);
     } else if (side == QDOT_SIDE_CREEPS) {
-        watch_function(m, qdot_sub(pool, share, QDOT_ONE), w);
+        append_watched_function(m, qdot_sub(pool, share, QDOT_ONE), w);
         w.beyond = 1;
-        watch_function(m, qdot_sub(pool, qdot_add(pool, QDOT_ONE, creep), share), w);
+        append_watched_function(m, qdot_sub(pool, qdot_add(pool, QDOT_ONE, creep), share), w);
     } else if (puck->radius > 0) {
-        watch_function(m, qdot_sub(pool, puck->square,
-                                   qdot_pow_int(pool, two, 2 * ilogb(puck->radius))),
-                       w);
+        append_watched_function(m, qdot_sub(pool, puck->square,
+                                            qdot_pow_int(pool, two, 2 * ilogb(puck->radius))),
+                                w);
     }
 }
 
@@ -173,25 +173,25 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
         qdot_expr u;
 
         if (x->puck > 0) {
-            watch_puck(m, qdot_puck_of(&s->switches, i), w);
+            watch_disc(m, qdot_puck_of(&s->switches, i), w);
             continue;
         }
         if (m->side[i] == QDOT_SIDE_SLIDES) {
             w.velocity = true;
             if (!x->contact)
-                watch_between(pool, m, w,
-                              x->layer > 0 ? qdot_layers_share(pool, m->plan->share[i])
+                watch_interval(pool, m, w,
+                               x->layer > 0 ? qdot_layers_share(pool, m->plan->share[i])
                                            : m->plan->share[i],
-                              ends, x->layer > 0 ? layer : ends);
+                               ends, x->layer > 0 ? layer : ends);
             w.inside = 1;
-            if (x->contact) /* a contact reaction can only push */
-                watch_function(m, m->plan->share[i], w);
+            if (x->contact) /* a lasting contact ends when its reaction no longer pushes */
+                append_watched_function(m, m->plan->share[i], w);
             continue;
         }
         if (x->contact || m->side[i] == QDOT_SIDE_IDLE)
             continue;
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1, &x->u, &u));
-        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, x, u, m->side[i]))
+        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_on_side(pool, x, u, m->side[i]))
             return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
         QDOT_TRY(qdot_parameter_states_occur(m->plan, u, &some, &moves));
         if (!moves)
@@ -204,19 +204,19 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
             continue;
         }
         if (x->steps) {
-            watch_between(pool, m, w, u, (long[]){m->side[i], m->side[i] + 1},
-                          (long[]){m->side[i] - 1, m->side[i] + 1});
+            watch_interval(pool, m, w, u, (long[]){m->side[i], m->side[i] + 1},
+                           (long[]){m->side[i] - 1, m->side[i] + 1});
             continue;
         }
         w.inside = (int)m->side[i];
         w.beyond = -m->side[i];
-        watch_function(m, u, w);
+        append_watched_function(m, u, w);
     }
     return qdot_pool_check(s->switches.pool);
 }
 
 static qdot_status
-lower_level(const qdot_stage *s, qdot_mode *m)
+make_level_tape(const qdot_stage *s, qdot_mode *m)
 {
     qdot_expr level;
 
@@ -228,18 +228,18 @@ lower_level(const qdot_stage *s, qdot_mode *m)
                          &m->level);
 }
 
-/* A contact that lasts is no event: replace the event's function by the constant 1, which has no roots. */
+/* Replace the function of a lasting contact's event by the constant 1, which has no roots: no events meanwhile. */
 static void
-watch_contacts(const qdot_stage *s, qdot_mode *m)
+disable_lasting_contacts(const qdot_stage *s, qdot_mode *m)
 {
     for (size_t i = qdot_switches_own(&s->switches); i < s->switches.surfaces.n; i++)
         if (s->switches.surfaces.at[i].contact && m->side[i] == QDOT_SIDE_SLIDES)
             m->functions[s->switches.surfaces.at[i].event] = QDOT_ONE;
 }
 
-/* Evaluate the symbols of discs in a mode, after those of surfaces, into out. */
+/* Write the values of the symbols of discs in a mode, after those of surfaces, into out. */
 static void
-value_pucks(const qdot_stage *s, const qdot_mode *m, qdot_expr *out)
+write_disc_values(const qdot_stage *s, const qdot_mode *m, qdot_expr *out)
 {
     const qdot_switches *x = &s->switches;
 
@@ -256,7 +256,7 @@ value_pucks(const qdot_stage *s, const qdot_mode *m, qdot_expr *out)
 }
 
 static qdot_status
-find_held(const qdot_stage *s, qdot_mode *m)
+find_sliding_rows(const qdot_stage *s, qdot_mode *m)
 {
     const size_t surfaces = s->switches.surfaces.n, all = surfaces + s->switches.n_puck_symbols;
     qdot_expr *u;
@@ -275,7 +275,7 @@ find_held(const qdot_stage *s, qdot_mode *m)
         status = qdot_sliding_rows_make(m->plan, &s->switches, m->side, u, &m->held);
     for (size_t i = 0; i < surfaces; i++)
         u[i] = m->side[i] == QDOT_SIDE_SLIDES ? m->plan->share[i] : QDOT_ZERO;
-    value_pucks(s, m, u + surfaces);
+    write_disc_values(s, m, u + surfaces);
     if (status == QDOT_OK)
         status = qdot_pool_check(s->switches.pool);
     if (status == QDOT_OK)
@@ -315,12 +315,12 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
     if (!m->functions || !m->watched)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < s->events.n; i++)
-        watch_function(m, s->events.at[i].function,
-                       (qdot_watched){.kind = QDOT_WATCH_EVENT, .index = i});
+        append_watched_function(m, s->events.at[i].function,
+                                (qdot_watched){.kind = QDOT_WATCH_EVENT, .index = i});
     QDOT_TRY(watch_domains(s, m));
-    QDOT_TRY(lower_level(s, m));
-    QDOT_TRY(find_held(s, m));
-    watch_contacts(s, m);
+    QDOT_TRY(make_level_tape(s, m));
+    QDOT_TRY(find_sliding_rows(s, m));
+    disable_lasting_contacts(s, m);
     return watch_surfaces(s, m);
 }
 
@@ -354,9 +354,9 @@ qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
 
 /* --- the start of the run ------------------------------------------------------------ */
 
-/* Whether the requested run goes backwards in time. */
+/* Whether the requested run goes backward in time. */
 static qdot_status
-runs_back(const qdot_stage *s, bool *back)
+is_backward_run(const qdot_stage *s, bool *back)
 {
     const qdot_run_request *r = s->request;
     const qdot_expr ends[] = {r->t0, r->t1};
@@ -372,9 +372,9 @@ runs_back(const qdot_stage *s, bool *back)
     return QDOT_OK;
 }
 
-/* Write the request's start as doubles, y [2n]. */
+/* Write the start state of the request as doubles, y [2n]. */
 static qdot_status
-start_numbers(const qdot_stage *s, double *t, double *y)
+find_start_state(const qdot_stage *s, double *t, double *y)
 {
     const qdot_run_request *r = s->request;
     qdot_pool *pool = s->scene->pool;
@@ -393,7 +393,7 @@ start_numbers(const qdot_stage *s, double *t, double *y)
 /* The tolerance for series in doubles, with which steps may pass their radius of convergence; 0
  * without such series. */
 static double
-tol_of_series(const qdot_run_request *r)
+series_tolerance(const qdot_run_request *r)
 {
     const qdot_ode_method *method = qdot_ode_method_find(r->method); /* NULL for "auto" */
 
@@ -403,7 +403,7 @@ tol_of_series(const qdot_run_request *r)
 /* Lower expressions that decide about a power with a layer: what counts as 0 in the layer is 0 for
  * them, too. */
 static qdot_status
-lower_with_layers(qdot_stage *s)
+make_side_tape_with_layers(qdot_stage *s)
 {
     bool some = false;
 
@@ -419,18 +419,18 @@ lower_with_layers(qdot_stage *s)
 /* The sides at y, or at the start before there is a mode: side [surfaces]. Layers are measured
  * first, once. */
 static qdot_status
-start_sides(qdot_stage *s, const double *settled, long *side)
+find_start_sides(qdot_stage *s, const double *settled, long *side)
 {
     const size_t n = s->n;
     double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0, t1 = 0;
-    qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+    qdot_status status = y ? find_start_state(s, &t, y) : QDOT_ENOMEM;
 
     if (status == QDOT_OK && s->modes.n == 0)
         status = qdot_constant_double(s->scene->pool, s->request->t1, &t1);
     if (status == QDOT_OK && s->modes.n == 0)
-        status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)), tol_of_series(s->request));
+        status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)), series_tolerance(s->request));
     if (status == QDOT_OK && s->modes.n == 0)
-        status = lower_with_layers(s);
+        status = make_side_tape_with_layers(s);
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);
     if (status == QDOT_OK)
@@ -439,12 +439,12 @@ start_sides(qdot_stage *s, const double *settled, long *side)
     return status;
 }
 
-/* Choose the radii of discs from their state at the start. */
+/* Choose the regularisation radii of discs from their state at the start of the run. */
 static qdot_status
-start_pucks(qdot_stage *s, const double *settled)
+choose_disc_radii(qdot_stage *s, const double *settled)
 {
     double *y = qdot_calloc(2 * s->n + 1, sizeof *y), t = 0, t1 = 0;
-    qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+    qdot_status status = y ? find_start_state(s, &t, y) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = qdot_constant_double(s->scene->pool, s->request->t1, &t1);
@@ -456,9 +456,9 @@ start_pucks(qdot_stage *s, const double *settled)
     return status;
 }
 
-/* Copy the scales given in the request; parameters that events set have scale 1. */
+/* Copy the scales of the state from the request; parameters that events set have scale 1. */
 static qdot_status
-take_scales(qdot_stage *s, size_t n)
+copy_scales(qdot_stage *s, size_t n)
 {
     const double *said = s->request->scales;
 
@@ -476,8 +476,8 @@ take_scales(qdot_stage *s, size_t n)
 }
 
 static qdot_status
-begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
-      const double *settled)
+begin_stage(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
+            const double *settled)
 {
     size_t mode;
     long *side;
@@ -487,15 +487,15 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     s->request = request;
     s->n = qdot_parameter_states_coordinates(scene, request);
     s->n_states = request->n_states;
-    QDOT_TRY(take_scales(s, scene->coordinates.n));
+    QDOT_TRY(copy_scales(s, scene->coordinates.n));
     QDOT_TRY(qdot_plan_check(scene));
     s->kept = qdot_kept_find(scene, request);
-    if (s->kept) /* such plans have no switches */
+    if (s->kept) /* plans kept from an earlier run have no switches */
         s->switches.pool = scene->pool;
     else
         QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
-    QDOT_TRY(runs_back(s, &s->back));
-    if (!s->back) /* backwards in time, a motion at rest has no unique past */
+    QDOT_TRY(is_backward_run(s, &s->back));
+    if (!s->back) /* not backward in time: a motion at rest has no unique past */
         QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
     if (!s->kept)
         QDOT_TRY(qdot_pucks_find(scene, request, &s->switches));
@@ -505,11 +505,11 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     for (size_t i = 0; i < s->switches.pucks.n; i++)
         side[s->switches.pucks.at[i].surface] = 1;
     if (s->switches.pucks.n > 0)
-        status = start_pucks(s, settled);
+        status = choose_disc_radii(s, settled);
     if (qdot_switches_own(&s->switches) > 0 && status == QDOT_OK)
         status = qdot_stage_lower_sides(s);
     if (qdot_switches_own(&s->switches) > 0 && status == QDOT_OK)
-        status = start_sides(s, settled, side);
+        status = find_start_sides(s, settled, side);
     if (status == QDOT_OK)
         status = qdot_stage_mode(s, side, &mode);
     qdot_free(side);
@@ -519,7 +519,7 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
 qdot_status
 qdot_stage_begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request)
 {
-    return begin(s, scene, request, NULL);
+    return begin_stage(s, scene, request, NULL);
 }
 
 qdot_status
@@ -537,12 +537,12 @@ qdot_stage_settle(qdot_stage *s, const double *y, bool *anew)
     side = qdot_calloc(s->switches.surfaces.n, sizeof *side);
     if (!side)
         return QDOT_ENOMEM;
-    status = start_sides(s, y, side);
+    status = find_start_sides(s, y, side);
     *anew = status == QDOT_OK &&
             memcmp(side, s->modes.at[0]->side, m * sizeof *side) != 0;
     qdot_free(side);
     if (!*anew)
         return status;
     qdot_stage_clear(s);
-    return begin(s, scene, request, y);
+    return begin_stage(s, scene, request, y);
 }

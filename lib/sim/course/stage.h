@@ -17,9 +17,9 @@
  * (sim/model/undone.h). */
 typedef struct {
     const char *why;  /* why the event cannot be undone; NULL: it can */
-    bool nowhere;     /* not even the place where the event occurred can be determined */
-    bool keeps_speed; /* `then` does not change the rate of the event's function */
-    bool moved; /* the function differs from the event's, because `then` changes positions or parameters */
+    bool nowhere;     /* not even the position at which the event occurred can be determined */
+    bool keeps_speed; /* the event's `then` does not change the rate of change of the event's function */
+    bool moved; /* the inverse's function differs from the event's, as `then` changes positions or parameters */
     qdot_tape *rates; /* from q, q', t, q'': g', g'' (0 if g contains q'), dg/dq [n] of the event's function g */
     /* the event as declared, with the targets of its inverse */
     struct qdot_staged_event *forward;
@@ -27,18 +27,18 @@ typedef struct {
 
 typedef struct qdot_staged_event {
     char *name;
-    qdot_expr function; /* left - right, with parameter values; u for conditions |u| = 0 and u^2 = 0 */
+    qdot_expr function; /* left - right of the event, with parameter values; u if the condition is |u| = 0 or u^2 = 0 */
     bool touches;       /* the function is u: where u changes sign, |u| or u^2 only touches 0 */
-    qdot_expr turn; /* left - right changes as function * turn (sim/model/repeated-zeros.h); nil: as function */
+    qdot_expr turn; /* left - right changes its sign where function * turn does (sim/model/repeated-zeros.h); nil: turn = 1 */
     bool half;          /* a zero of the function counts as the event only if turn > 0 there */
-    int way;            /* as t grows: 1 rising, -1 falling, 0 either */
+    int way;            /* direction in which the function passes 0 as t grows: 1 rising, -1 falling, 0 either */
     bool stop;
-    size_t changes;  /* number of assignments in `then`, to q, q' and parameters */
+    size_t changes;  /* number of assignments in the event's `then`, to q, q' and parameters */
     size_t *targets; /* [changes] index in y of each assigned value */
     qdot_tape *then; /* new values from q, q', t, q''; NULL: no assignments */
     bool accelerations; /* `then` reads q'' */
-    bool positions, velocities; /* `then` may violate constraints on positions; on velocities */
-    qdot_staged_undoing *undoing; /* for runs backwards in time; NULL: forwards, or `then` changes nothing */
+    bool positions, velocities; /* `then` may violate constraints on positions; it may violate constraints on velocities */
+    qdot_staged_undoing *undoing; /* the inverse event, for a backward run; NULL: forward run, or `then` changes nothing */
 } qdot_staged_event;
 
 /* Whether the event changes or stops the motion, or may do so. */
@@ -50,7 +50,7 @@ qdot_staged_event_acts(const qdot_staged_event *e)
 
 typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_watched_kind;
 
-/* A function whose roots are watched for in a mode. */
+/* A function whose roots are searched for while the motion is in a mode. */
 typedef struct {
     qdot_watched_kind kind;
     size_t index;   /* index of the event, domain or surface */
@@ -69,8 +69,8 @@ typedef struct {
     qdot_tape *level; /* from q, q', t: the terms of T - V that switch (sim/model/switch.h); NULL:
                          none */
     qdot_expr *functions;  /* [m] watched functions: events, then domains, then surfaces */
-    qdot_watched *watched; /* [m] what each function belongs to */
-    qdot_tape *shares; /* from q, q', t: sliding shares [surfaces], 0 if not sliding; NULL: none slides */
+    qdot_watched *watched; /* [m] the event, domain or surface to which each function belongs */
+    qdot_tape *shares; /* from q, q', t: values in place of sign(u) while sliding [surfaces], else 0; NULL: no sliding */
     qdot_sliding_rows held; /* conditions kept while sliding along surfaces; no rows: not sliding */
 } qdot_mode;
 
@@ -90,7 +90,7 @@ typedef struct {
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;
                          NULL: no surface */
-    qdot_tape *pucks; /* from q, q', t: qdot_stage_puck of each puck; NULL: no pucks */
+    qdot_tape *pucks; /* from q, q', t: quantities qdot_stage_puck of each sliding disc; NULL: no discs */
 } qdot_stage;
 
 /* Make the stage and its first mode, that of the start. A surface that the start lies on gets its
@@ -115,7 +115,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
 /* Write the symbols of q, q', t to in [2n + 1]; returns their number. */
 size_t qdot_stage_inputs(const qdot_stage *stage, qdot_expr *in);
 
-/* Make stage->sides, the tape of the functions of all surfaces. Errors: as qdot_tape_new. */
+/* Make stage->sides, the tape that evaluates the functions of all surfaces. Errors: as qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
 
 /* The sides of all surfaces at a state, the inner ones first, into side [surfaces].
@@ -139,13 +139,13 @@ QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const
  * `latest`. Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_pucks(qdot_stage *stage, double t, const double *y,
                                              double latest);
-/* Quantities of sliding disc i at a state, from the tape stage->pucks. */
+/* Quantities of sliding disc i at a state, evaluated by the tape stage->pucks. */
 typedef struct {
     size_t k;
     double speed;                                         /* speed |w| of the disc */
-    double d[QDOT_PUCK_MOST], rate[QDOT_PUCK_MOST]; /* [k] velocities d; their time derivatives without the terms of q'' */
+    double d[QDOT_PUCK_MOST], rate[QDOT_PUCK_MOST]; /* [k] velocities d; their derivatives without the terms of q'' */
     double G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];      /* [k x k] the matrix G of |w|^2 = d.G d */
-    double *slopes; /* [k x n] slopes dd/dq', memory of the caller; NULL: not needed */
+    double *slopes; /* [k x n] derivatives dd/dq', memory of the caller; NULL: not needed */
 } qdot_puck_state;
 QDOT_MUST_CHECK qdot_status qdot_stage_puck(const qdot_stage *stage, size_t i, double t,
                                             const double *y, qdot_puck_state *of);

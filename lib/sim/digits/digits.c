@@ -1,4 +1,4 @@
-/* digits.c -- presents a pair of runs in MPFR as a run: its report, end state and events. */
+/* digits.c -- presents a run in MPFR with its companion run as a qdot_run: report, end state, events. */
 #include "sim/digits/digits.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ enum { MOST_NAMES = 8 };
 /* Record the failure of a run with `digits` as a run in doubles would, with the end state rounded
  * to doubles. */
 static qdot_status
-say_failure(qdot_run *run, const qdot_ode_result *result)
+record_failure(qdot_run *run, const qdot_ode_result *result)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_text reason = {0};
@@ -31,13 +31,13 @@ say_failure(qdot_run *run, const qdot_ode_result *result)
 }
 
 static qdot_status
-how_it_ended(qdot_run *run, const qdot_domains *domains)
+record_reason_of_end(qdot_run *run, const qdot_domains *domains)
 {
     const qdot_ode_result *result = qdot_precise_pair_result(run->precise);
     char reason[400];
 
     if (result->outcome == QDOT_ODE_FAILED)
-        return say_failure(run, result);
+        return record_failure(run, result);
     if (run->course.stopped_by != SIZE_MAX || run->course.reason[0] != '\0')
         return qdot_run_say_course(run);
     if (!domains->left)
@@ -50,12 +50,12 @@ how_it_ended(qdot_run *run, const qdot_domains *domains)
 /* The largest |f| over the points of the run, of the holonomic rows or of those of
  * velocities. */
 static qdot_status
-follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, double *most)
+find_largest_residual(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, double *most)
 {
     const qdot_constraints *c = run->plan->constraints;
 
     for (size_t k = 0; k < c->m; k++) {
-        /* if the equations switch do not use the row's own f, which holds for one side only */
+        /* leave it out: the row's f holds for one side only, if the equations do not switch */
         /* an equation of a massless coordinate; such equations have no switches */
         const bool massless = c->rows[k].multiplier == QDOT_NIL;
         qdot_drift f = {
@@ -65,7 +65,7 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
         if (c->rows[k].kind != kind)
             continue;
         QDOT_TRY(qdot_precise_pair_drifts(run->precise, &one));
-        *most = fmax(*most, f.drift); /* also replaced by a NaN */
+        *most = fmax(*most, f.drift); /* this comparison also replaces a NaN */
     }
     return QDOT_OK;
 }
@@ -73,7 +73,7 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
 /* Multipliers of the end state as doubles have it; how far the constraints were left in
  * all digits. */
 static qdot_status
-measure_constraints(qdot_run *run, const qdot_scene *scene)
+measure_constraint_drift(qdot_run *run, const qdot_scene *scene)
 {
     const size_t n = 2 * run->plan->n;
     const qdot_trajectory *tr = &run->course.tr;
@@ -92,12 +92,12 @@ measure_constraints(qdot_run *run, const qdot_scene *scene)
     qdot_free(difference);
     QDOT_TRY(status);
     run->multipliers.position = run->multipliers.velocity = NAN;
-    QDOT_TRY(follow_rows(run, scene, QDOT_HOLONOMIC, &run->multipliers.position));
-    return follow_rows(run, scene, QDOT_VELOCITY, &run->multipliers.velocity);
+    QDOT_TRY(find_largest_residual(run, scene, QDOT_HOLONOMIC, &run->multipliers.position));
+    return find_largest_residual(run, scene, QDOT_VELOCITY, &run->multipliers.velocity);
 }
 
 static qdot_status
-keep_end(qdot_run *run)
+keep_end_state(qdot_run *run)
 {
     const qdot_plan *p = run->plan;
     const size_t n = 2 * p->n, m = p->m;
@@ -114,14 +114,14 @@ keep_end(qdot_run *run)
     status = qdot_precise_pair_values(run->precise, m, p->multipliers, QDOT_NIL,
                                       run->exact + n, run->multipliers.error);
     for (size_t k = 0; k < m; k++)
-        if (!isfinite(run->multipliers.lambda[k])) /* not finite in doubles: no digits are given */
+        if (!isfinite(run->multipliers.lambda[k])) /* infinite or undefined in doubles: no digits are given */
             run->exact[n + k] = QDOT_NIL;
-    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* undefined: the exact end state stays nil */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* not a failure: the exact end state stays nil where it is undefined */
 }
 
-/* Tell of each event that a companion of the guide met more often: all digits are looked for where the guide met it. */
+/* Note each event that occurs more often in a companion run than in the run in doubles, which tells where to search. */
 static qdot_status
-say_missed(qdot_run *run)
+note_missed_events(qdot_run *run)
 {
     for (size_t i = 0; i < run->stage.events.n; i++) {
         const size_t own = qdot_course_count(&run->course, i), other = qdot_course_count(&run->companion, i),
@@ -136,9 +136,9 @@ say_missed(qdot_run *run)
     return qdot_text_status(&run->notice);
 }
 
-/* The guide must not be one of several ways in which rounding of the start leads: its companions go the same one. */
+/* Check that rounding of the start does not change the course of events of the run in doubles. */
 static qdot_status
-check_guide(qdot_run *run)
+check_guiding_run(qdot_run *run)
 {
     double t;
 
@@ -146,7 +146,7 @@ check_guide(qdot_run *run)
         return QDOT_OK;
     QDOT_TRY(qdot_run_twin(run));
     t = qdot_run_time_of_parting(run);
-    QDOT_TRY(say_missed(run));
+    QDOT_TRY(note_missed_events(run));
     qdot_run_drop_companions(run);
     return isnan(t) ? QDOT_OK : qdot_precise_beyond_doubles(t);
 }
@@ -154,7 +154,7 @@ check_guide(qdot_run *run)
 /* The guide: a run in doubles that finds the sequence of events and switches and their times. What
  * follows its end is not known: if it did not arrive, its reason becomes that of the run. */
 static qdot_status
-find_guide(qdot_run *run, const qdot_run_request *request)
+make_guiding_run(qdot_run *run, const qdot_run_request *request)
 {
     qdot_course *c = &run->course;
     qdot_ode_options options = {
@@ -210,7 +210,7 @@ qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
     return qdot_text_status(&run->notice);
 }
 
-/* Refuse friction layers: what they leave out exceeds the error that `digits` allows. */
+/* Refuse scenes with friction layers, whose approximation errs by more than `digits` allows. */
 static qdot_status
 refuse_layers(const qdot_run *run)
 {
@@ -234,8 +234,8 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
 
     QDOT_TRY(refuse_layers(run));
     if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {
-        QDOT_TRY(find_guide(run, request));
-        QDOT_TRY(check_guide(run));
+        QDOT_TRY(make_guiding_run(run, request));
+        QDOT_TRY(check_guiding_run(run));
         guide = &run->course;
     }
     status = qdot_precise_pair_new(run->plan, request, run->start, domains, guide,
@@ -253,7 +253,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
         run->course.stopped_by = stopped_by;
     }
     if (status == QDOT_OK)
-        status = how_it_ended(run, domains);
+        status = record_reason_of_end(run, domains);
     if (status == QDOT_OK && !*interrupted)
         status =
             qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->stage, &run->drifts);
@@ -262,9 +262,9 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     if (status == QDOT_OK && run->plan->constraints)
         status = *interrupted ? qdot_multipliers_measure(run->course.binds.at, &run->course.tr,
                                                          &run->multipliers)
-                              : measure_constraints(run, scene);
+                              : measure_constraint_drift(run, scene);
     if (status == QDOT_OK)
-        status = keep_end(run);
+        status = keep_end_state(run);
     if (status == QDOT_OK && *interrupted)
         qdot_fail_again(&failure);
     run->report.digits = request->digits;

@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_digits_carry_out(qdot_run *run, qdot_scene *sce
                                                   qdot_domains *domains,
                                                   bool *interrupted);
 
-/* Fill the report of a run with digits as for a run in doubles. */
+/* Fill the report of a run with `digits` as for a run in doubles. */
 void qdot_digits_fill_report(qdot_run *run);
 
 /* Compute the occurrences of events of a run with `digits`, into run->occurrences. Errors:

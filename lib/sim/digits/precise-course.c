@@ -15,12 +15,12 @@
 
 #define RN MPFR_RNDN
 
-/* The largest distance of a root from the root in doubles, as a fraction of the piece's duration. */
+/* Largest distance of a root from the same root in doubles, as a fraction of the piece's duration. */
 static const double pad = 0x1p-8;
 
 enum { MOST_BOUNCES = 1000000 };
 
-/* A function whose root is sought has this many times the digits of the state: one of that multiplicity is no less exact. */
+/* Functions are computed with this many times the state's digits: even a multiple root keeps the accuracy. */
 enum { FLAT = 8 };
 
 /* --- preparing a course in MPFR ------------------------------------------------------ */
@@ -44,13 +44,13 @@ qdot_precise_course_clear(qdot_precise_side *s)
 }
 
 static const qdot_mode *
-mode_of(const qdot_precise_side *s, size_t mode)
+mode_at_index(const qdot_precise_side *s, size_t mode)
 {
     return s->guide->stage->modes.at[mode];
 }
 
 static qdot_precise_formula *
-formula_find(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
+find_formula(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
 {
     for (size_t i = 0; i < s->course->formulas.n; i++) {
         qdot_precise_formula *f = &s->course->formulas.at[i];
@@ -63,16 +63,16 @@ formula_find(const qdot_precise_side *s, size_t mode, size_t function, size_t ev
 }
 
 static qdot_status
-formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
+add_formula(qdot_precise_side *s, size_t mode, size_t function, size_t event)
 {
-    const qdot_mode *m = mode_of(s, mode);
+    const qdot_mode *m = mode_at_index(s, mode);
     const qdot_plan *p = m->plan;
     qdot_precise_formula f = {.mode = mode, .function = function, .event = event};
     qdot_tape *own = NULL;
     const qdot_tape *tape;
     qdot_status status = QDOT_OK;
 
-    if (formula_find(s, mode, function, event))
+    if (find_formula(s, mode, function, event))
         return QDOT_OK;
     if (function == SIZE_MAX) {
         tape = s->guide->stage->events.at[event].then;
@@ -95,20 +95,20 @@ formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
     return status;
 }
 
-/* Prepare the projection that brings states of a mode onto its constraints after an event. */
+/* Prepare the projection that brings states of a mode onto its constraints after an event changed them. */
 static qdot_status
-add_hold(qdot_precise_side *s, size_t mode)
+add_projection(qdot_precise_side *s, size_t mode)
 {
     while (s->course->holds.n <= mode)
         QDOT_TRY(qdot_vec_push(&s->course->holds, NULL));
     return s->course->holds.at[mode] != NULL
                ? QDOT_OK
-               : qdot_precise_hold_new(mode_of(s, mode)->plan, s->start.bits,
+               : qdot_precise_hold_new(mode_at_index(s, mode)->plan, s->start.bits,
                                        &s->course->holds.at[mode]);
 }
 
 static size_t
-piece_of(const qdot_course *g, double t)
+piece_at_time(const qdot_course *g, double t)
 {
     return qdot_trajectory_piece_of(&g->tr, qdot_trajectory_locate(&g->tr, t, 0));
 }
@@ -116,7 +116,7 @@ piece_of(const qdot_course *g, double t)
 /* Among the ends [n] of piece k the one at which a lasting contact begins; NULL: none. *many:
  * several contacts begin. */
 static const qdot_course_end *
-begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size_t n, bool *many)
+find_start_of_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size_t n, bool *many)
 {
     const qdot_switches *x = &g->stage->switches;
     const qdot_course_end *found = NULL;
@@ -171,7 +171,7 @@ qdot_precise_course_init(qdot_precise_side *s)
         size_t mode = g->tr.pieces.at[i].mode;
 
         if (!s->binds[mode])
-            QDOT_TRY(qdot_precise_bind_new(mode_of(s, mode)->plan, s->order,
+            QDOT_TRY(qdot_precise_bind_new(mode_at_index(s, mode)->plan, s->order,
                                            s->start.bits, &s->binds[mode]));
     }
     for (size_t i = 0; i < g->faded.n; i++)
@@ -182,17 +182,17 @@ qdot_precise_course_init(qdot_precise_side *s)
         bool many;
         size_t mode = g->tr.pieces.at[e->piece].mode;
 
-        QDOT_TRY(formula_add(s, mode, e->function, SIZE_MAX));
-        if (begins_contact(g, e->piece, e, 1, &many))
-            QDOT_TRY(formula_add(s, mode, e->function, QDOT_PRECISE_RATE));
+        QDOT_TRY(add_formula(s, mode, e->function, SIZE_MAX));
+        if (find_start_of_contact(g, e->piece, e, 1, &many))
+            QDOT_TRY(add_formula(s, mode, e->function, QDOT_PRECISE_RATE));
         if (e->what.kind == QDOT_WATCH_EVENT
             && g->stage->events.at[e->what.index].then) {
-            QDOT_TRY(formula_add(s, mode, SIZE_MAX, e->what.index));
-            QDOT_TRY(add_hold(s, mode));
+            QDOT_TRY(add_formula(s, mode, SIZE_MAX, e->what.index));
+            QDOT_TRY(add_projection(s, mode));
         }
     }
     for (size_t i = 0; i < g->occurrences.n; i++)
-        QDOT_TRY(formula_add(s, g->tr.pieces.at[piece_of(g, g->occurrences.at[i].t)].mode,
+        QDOT_TRY(add_formula(s, g->tr.pieces.at[piece_at_time(g, g->occurrences.at[i].t)].mode,
                              g->occurrences.at[i].event, SIZE_MAX));
     return QDOT_OK;
 }
@@ -200,7 +200,7 @@ qdot_precise_course_init(qdot_precise_side *s)
 /* --- pieces -------------------------------------------------------------------------- */
 
 static double
-length_of(const qdot_course *g, size_t piece)
+piece_duration(const qdot_course *g, size_t piece)
 {
     const qdot_trajectory *tr = &g->tr;
 
@@ -210,8 +210,8 @@ length_of(const qdot_course *g, size_t piece)
 /* Carry out the changes at the ends [n] of a piece, each on what those before it have made: s->course->y becomes the
  * state after. */
 static qdot_status
-state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
-             mpfr_srcptr t)
+apply_changes(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
+              mpfr_srcptr t)
 {
     const qdot_stage *stage = s->guide->stage;
     const size_t mode = s->segments.at[segment].mode, size = s->guide->tr.n;
@@ -224,7 +224,7 @@ state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, 
             continue;
         for (size_t i = 0; i < size; i++)
             mpfr_set(s->course->old[i], s->course->y[i], RN);
-        f = formula_find(s, mode, SIZE_MAX, ends[k].what.index);
+        f = find_formula(s, mode, SIZE_MAX, ends[k].what.index);
         QDOT_TRY(qdot_precise_formula_evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
         memset(s->course->set, 0, size * sizeof *s->course->set);
         for (size_t i = 0; i < e->changes; i++) {
@@ -258,33 +258,33 @@ shorten_segment(qdot_precise_side *s, size_t segment, mpfr_srcptr t)
     return QDOT_OK;
 }
 
-/* End the piece where the function of its first end vanishes: shorten the segment to that time. */
+/* End the piece at the root of the function that ended it in doubles: shorten the segment to that time. */
 static qdot_status
-end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end *ends, size_t n)
+end_piece_at_root(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end *ends, size_t n)
 {
     const size_t mode = s->segments.at[segment].mode;
     mpfr_t *at = s->course->at;
     mpfr_ptr t = s->course->numbers.at[0];
     bool found;
 
-    QDOT_TRY(qdot_precise_locate(s, segment, formula_find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
-                    2 * pad * length_of(s->guide, k), &found));
+    QDOT_TRY(qdot_precise_locate(s, segment, find_formula(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
+                    2 * pad * piece_duration(s->guide, k), &found));
     if (!found)
         return qdot_precise_beyond_doubles(ends[0].t);
     mpfr_set(t, at[X], RN);
     for (size_t k = 1; k < n; k++) { /* further events at the same time are carried out at this root, too */
-        const qdot_precise_formula *f = formula_find(s, mode, ends[k].function, SIZE_MAX);
+        const qdot_precise_formula *f = find_formula(s, mode, ends[k].function, SIZE_MAX);
 
         QDOT_TRY(qdot_precise_formula_at(s, segment, f, t, at[F_X]));
         if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
             return qdot_precise_beyond_doubles(ends[0].t);
     }
     QDOT_TRY(shorten_segment(s, segment, t));
-    return state_change(s, segment, ends, n, t);
+    return apply_changes(s, segment, ends, n, t);
 }
 
 static void
-count_result(qdot_precise_side *s, const qdot_ode_result *r)
+add_to_result(qdot_precise_side *s, const qdot_ode_result *r)
 {
     qdot_ode_stats sum = s->result.stats;
 
@@ -307,7 +307,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
     qdot_status status;
 
-    if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* the piece ended without a known root */
+    if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* the piece ended in doubles without a root that is known */
         return qdot_precise_beyond_doubles(tr->t[last]);
     s->course->segment_of[k] = segment;
     QDOT_TRY(qdot_vec_push(&s->segments, ((qdot_precise_segment){
@@ -316,11 +316,11 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
         double way = s->guide->tr.t[tr->count - 1] < s->guide->tr.t[0] ? -1 : 1;
 
         mpfr_set_d(goal, ends[0].t, RN);
-        mpfr_set_d(s->course->at[W], way * pad * length_of(s->guide, k), RN);
+        mpfr_set_d(s->course->at[W], way * pad * piece_duration(s->guide, k), RN);
         mpfr_add(goal, goal, s->course->at[W], RN);
     } else if (piece->first == last) {
         mpfr_set(goal, t, RN);
-    } else if (s->guide->failed) { /* what follows the failure is not known */
+    } else if (s->guide->failed) { /* what follows the failure of the run in doubles is not known */
         mpfr_set_d(goal, tr->t[last], RN);
     } else {
         mpfr_set(goal, s->start.at[1], RN);
@@ -329,9 +329,9 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[piece->mode]),
                                     &options, t, goal, (const mpfr_t *)s->course->y,
                                     &s->segments.at[segment].run);
-    count_result(s, &s->segments.at[segment].run.result);
+    add_to_result(s, &s->segments.at[segment].run.result);
     QDOT_TRY(status);
-    return n > 0 ? end_piece(s, k, segment, ends, n) : QDOT_OK;
+    return n > 0 ? end_piece_at_root(s, k, segment, ends, n) : QDOT_OK;
 }
 
 /* --- coming to rest at a contact ----------------------------------------------------- */
@@ -339,7 +339,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
 /* The rate of u after the impact, at the state y, into at[SPEED], and before the impact into
  * at[SPEED_BEFORE]. */
 static qdot_status
-find_speeds(qdot_precise_side *s, size_t mode, const qdot_precise_formula *rate, mpfr_srcptr t)
+find_impact_speeds(qdot_precise_side *s, size_t mode, const qdot_precise_formula *rate, mpfr_srcptr t)
 {
     mpfr_t *at = s->course->at;
 
@@ -352,9 +352,9 @@ find_speeds(qdot_precise_side *s, size_t mode, const qdot_precise_formula *rate,
                : qdot_fail(QDOT_EDOMAIN, "the velocity at a contact has no value");
 }
 
-/* Whether the next flight is so low that it is lost in the rounding of positions. */
+/* Whether the next flight is so low that the rounding of positions hides it. */
 static bool
-is_low(const qdot_precise_side *s)
+is_flight_lost_in_rounding(const qdot_precise_side *s)
 {
     const size_t n = s->guide->tr.n / 2;
     const mpfr_t *at = (const mpfr_t *)s->course->at;
@@ -367,7 +367,7 @@ is_low(const qdot_precise_side *s)
 }
 
 static qdot_status
-does_not_rest(double t)
+fail_does_not_rest(double t)
 {
     qdot_fail(QDOT_ELIMIT, "`digits` does not follow the bounces that come to rest at t = %.10g", t);
     return qdot_hint("a run in doubles rests there; digits are right until before t = %.6g", t);
@@ -392,17 +392,17 @@ integrate_flight(qdot_precise_side *s, size_t mode, const qdot_precise_formula *
     s->near = SIZE_MAX;
     status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[mode]), &options, t, at[X],
                                     (const mpfr_t *)s->course->y, &s->segments.at[segment].run);
-    count_result(s, &s->segments.at[segment].run.result);
+    add_to_result(s, &s->segments.at[segment].run.result);
     QDOT_TRY(status);
     mpfr_mul_d(at[LO], at[FLIGHT], 0.75, RN);
     mpfr_add(at[LO], at[LO], t, RN);
     mpfr_set(at[HI], at[X], RN);
     QDOT_TRY(qdot_precise_find_root(s, segment, f, &found));
     if (!found)
-        return does_not_rest(end->t);
+        return fail_does_not_rest(end->t);
     mpfr_set(t, at[X], RN);
     QDOT_TRY(shorten_segment(s, segment, t));
-    QDOT_TRY(state_change(s, segment, end, 1, t));
+    QDOT_TRY(apply_changes(s, segment, end, 1, t));
     mpfr_sub(at[FLIGHT], t, at[BEGAN], RN);
     return QDOT_OK;
 }
@@ -410,16 +410,16 @@ integrate_flight(qdot_precise_side *s, size_t mode, const qdot_precise_formula *
 /* Piece k ended with an impact behind which the run in doubles rests: the bounces that are too low for doubles
  * follow, until all digits hide them too. Then the impulse that the last one takes up leaves the contact at rest. */
 static qdot_status
-piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
+bounce_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
 {
     const size_t mode = s->guide->tr.pieces.at[k].mode, n = s->guide->tr.n;
-    const qdot_precise_formula *f = formula_find(s, mode, end->function, SIZE_MAX),
-                  *rate = formula_find(s, mode, end->function, QDOT_PRECISE_RATE);
+    const qdot_precise_formula *f = find_formula(s, mode, end->function, SIZE_MAX),
+                  *rate = find_formula(s, mode, end->function, QDOT_PRECISE_RATE);
     const qdot_precise_run *flight = &s->segments.at[s->course->segment_of[k]].run;
     mpfr_t *at = s->course->at;
     mpfr_ptr t = s->course->numbers.at[0];
 
-    QDOT_TRY(find_speeds(s, mode, rate, t));
+    QDOT_TRY(find_impact_speeds(s, mode, rate, t));
     mpfr_sub(at[FLIGHT], t, qdot_precise_point(flight, 0)[0], RN);
     for (size_t count = 0;; count++) {
         QDOT_TRY(qdot_interrupt_check());
@@ -427,14 +427,14 @@ piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
             break;
         mpfr_div(at[W], at[SPEED], at[SPEED_BEFORE], RN);
         mpfr_abs(at[W], at[W], RN);
-        /* duration of the last flights: proportional to the impact speed W */
+        /* the duration of the last flights is proportional to the impact speed W */
         mpfr_mul(at[FLIGHT], at[FLIGHT], at[W], RN);
-        if (is_low(s))
+        if (is_flight_lost_in_rounding(s))
             break;
         if (count == MOST_BOUNCES || mpfr_cmp_d(at[W], 1) >= 0)
-            return does_not_rest(end->t);
+            return fail_does_not_rest(end->t);
         QDOT_TRY(integrate_flight(s, mode, f, end));
-        QDOT_TRY(find_speeds(s, mode, rate, t));
+        QDOT_TRY(find_impact_speeds(s, mode, rate, t));
     }
     mpfr_sub(at[W], at[SPEED_BEFORE], at[SPEED], RN);
     if (mpfr_zero_p(at[W]))
@@ -447,15 +447,15 @@ piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
     return QDOT_OK;
 }
 
-/* Find the times of the occurrences that the run in doubles has found. */
+/* Find, in all digits, the times of the occurrences that the run in doubles has found. */
 static qdot_status
-time_occurrences(qdot_precise_side *s)
+find_occurrence_times(qdot_precise_side *s)
 {
     const qdot_course *g = s->guide;
 
     for (size_t i = 0; i < g->occurrences.n; i++) {
         const qdot_occurrence *o = &g->occurrences.at[i];
-        const size_t piece = piece_of(g, o->t), segment = s->course->segment_of[piece];
+        const size_t piece = piece_at_time(g, o->t), segment = s->course->segment_of[piece];
         const qdot_course_end *end = NULL;
         bool found = false;
 
@@ -470,12 +470,12 @@ time_occurrences(qdot_precise_side *s)
             mpfr_set(s->times.at[i], qdot_precise_point(run, run->count - 1)[0], RN);
             continue;
         }
-        /* a function that touches 0 near its recorded root is located there as a crossing */
+        /* search a crossing near the recorded root, although the function only touches 0 there */
         if ((o->way == 0 && (o->within > 0 || !g->stage->events.at[o->event].touches)) || segment >= s->segments.n)
             continue;
         QDOT_TRY(qdot_precise_locate(s, segment,
-                        formula_find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
-                        pad * pad * length_of(g, piece), &found));
+                        find_formula(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
+                        pad * pad * piece_duration(g, piece), &found));
         if (found)
             mpfr_set(s->times.at[i], s->course->at[X], RN);
     }
@@ -483,7 +483,7 @@ time_occurrences(qdot_precise_side *s)
 }
 
 static qdot_status
-pieces_follow(qdot_precise_side *s)
+follow_pieces(qdot_precise_side *s)
 {
     const qdot_course *g = s->guide;
     const qdot_course_end *rest;
@@ -503,20 +503,20 @@ pieces_follow(qdot_precise_side *s)
         while (at < g->ends.n && g->ends.at[at].piece == k)
             at++;
         QDOT_TRY(run_piece(s, k, g->ends.at + first, at - first));
-        rest = begins_contact(g, k, g->ends.at + first, at - first, &many);
+        rest = find_start_of_contact(g, k, g->ends.at + first, at - first, &many);
         if (rest && many)
             return qdot_fail(QDOT_ELIMIT, "`digits` does not come to rest at several contacts at once, as "
                                           "at t = %.15g", rest->t);
         if (rest)
-            QDOT_TRY(piece_come_to_rest(s, k, rest));
+            QDOT_TRY(bounce_to_rest(s, k, rest));
     }
-    return time_occurrences(s);
+    return find_occurrence_times(s);
 }
 
 void
 qdot_precise_course_run(qdot_precise_side *s)
 {
-    s->status = pieces_follow(s);
+    s->status = follow_pieces(s);
     if (s->status != QDOT_OK && s->result.outcome != QDOT_ODE_FAILED) {
         s->result.outcome = QDOT_ODE_FAILED;
         memcpy(s->result.reason, qdot_last_error()->message, sizeof s->result.reason);

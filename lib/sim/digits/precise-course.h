@@ -31,7 +31,7 @@ void qdot_precise_course_clear(qdot_precise_side *s);
  * s->times (NaN: g only touches 0). Sets s->status. */
 void qdot_precise_course_run(qdot_precise_side *s);
 
-/* Fail with QDOT_ELIMIT: doubles do not decide what happens at time t. */
+/* Fail with QDOT_ELIMIT: double precision does not decide what happens at time t. */
 QDOT_MUST_CHECK qdot_status qdot_precise_beyond_doubles(double t);
 
 #endif

@@ -17,9 +17,9 @@ static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };
 
-/* Find log10 of the distance max_i |a_i - b_i| / max(1, |b_i|). */
+/* Find log10 of the distance of two states a and b, max_i |a_i - b_i| / max(1, |b_i|). */
 static double
-distance(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
+log10_distance_of_states(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
 {
     double most = -INFINITY;
 
@@ -33,13 +33,13 @@ distance(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
 /* The companion's state at the end t of the run. Both may have ended on t1, which is not
  * the same number in both to the last bit. */
 static qdot_status
-end_of_companion(const qdot_precise_side *a, qdot_precise_side *b, mpfr_srcptr t, mpfr_t *y)
+find_end_of_companion(const qdot_precise_side *a, qdot_precise_side *b, mpfr_srcptr t, mpfr_t *y)
 {
     const mpfr_t *end = (const mpfr_t *)qdot_precise_last(b);
     const bool there = a->guide && a->guide->reason[0] == '\0'
                        && a->guide->stopped_by == SIZE_MAX;
 
-    if (a->guide && !there) { /* an event or a failure ended both runs: compare their end states, at different times */
+    if (a->guide && !there) { /* an event or a failure ended both runs: compare their end states, although at different times */
         for (size_t i = 0; i < a->guide->tr.n; i++)
             mpfr_set(y[i], end[1 + i], RN);
         return QDOT_OK;
@@ -67,13 +67,13 @@ qdot_precise_compare(qdot_precise_pair *pair)
     pair->log10_error = NAN;
     QDOT_TRY(qdot_reals_init(&w, 2 * n + 2, b->start.bits));
     ya = w.at + 2, yb = ya + n;
-    status = end_of_companion(a, b, end[0], yb);
+    status = find_end_of_companion(a, b, end[0], yb);
     if (status == QDOT_OK) {
-        pair->log10_error = distance(n, end + 1, (const mpfr_t *)yb, w.at[0]);
+        pair->log10_error = log10_distance_of_states(n, end + 1, (const mpfr_t *)yb, w.at[0]);
         if (a->guide && a->guide->stopped_by != SIZE_MAX)
             pair->log10_error =
                 fmax(pair->log10_error,
-                     distance(1, end, (const mpfr_t *)qdot_precise_last(b), w.at[0]));
+                     log10_distance_of_states(1, end, (const mpfr_t *)qdot_precise_last(b), w.at[0]));
         for (size_t k = 0; k < PLACES && status == QDOT_OK; k++) {
             mpfr_sub(w.at[1], end[0], t0, RN);
             mpfr_mul_d(w.at[1], w.at[1], places[k], RN);
@@ -83,7 +83,7 @@ qdot_precise_compare(qdot_precise_pair *pair)
                 status = qdot_precise_state(b, w.at[1], yb);
             if (status == QDOT_OK)
                 between[known++] =
-                    distance(n, (const mpfr_t *)ya, (const mpfr_t *)yb, w.at[0]);
+                    log10_distance_of_states(n, (const mpfr_t *)ya, (const mpfr_t *)yb, w.at[0]);
         }
         qdot_sort(known, between);
         if (known > 0)
@@ -96,9 +96,9 @@ qdot_precise_compare(qdot_precise_pair *pair)
 
 /* --- whether more digits help -------------------------------------------------------- */
 
-/* Find log10 of the distance of run and companion at the fraction `part` of the run's duration. */
+/* Find log10 of the distance of the run from its companion run at the fraction `part` of the run's duration. */
 static qdot_status
-distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_distance)
+find_distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_distance)
 {
     mpfr_t *ya = w->at + 2, *yb = ya + pair->n;
     mpfr_srcptr t0 = qdot_precise_first(&pair->run)[0];
@@ -108,13 +108,13 @@ distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_d
     mpfr_add(w->at[1], w->at[1], t0, RN);
     QDOT_TRY(qdot_precise_state(&pair->run, w->at[1], ya));
     QDOT_TRY(qdot_precise_state(&pair->companion, w->at[1], yb));
-    *log10_distance = distance(pair->n, (const mpfr_t *)ya, (const mpfr_t *)yb, w->at[0]);
+    *log10_distance = log10_distance_of_states(pair->n, (const mpfr_t *)ya, (const mpfr_t *)yb, w->at[0]);
     return QDOT_OK;
 }
 
-/* Find the time *t at which run and companion have separated, tested at times 9 % apart; NaN: not known. */
+/* Find the time *t at which the run and its companion run have separated, tested at times 9 % apart; NaN: unknown. */
 static qdot_status
-parting(qdot_precise_pair *pair, double *t)
+find_time_of_separation(qdot_precise_pair *pair, double *t)
 {
     int together = 97, apart = 0;
     qdot_reals w;
@@ -126,11 +126,11 @@ parting(qdot_precise_pair *pair, double *t)
         const int middle = (together + apart + 1) / 2;
         double d = 0;
 
-        status = distance_at(pair, exp2(-middle / 8.0), &w, &d);
+        status = find_distance_at(pair, exp2(-middle / 8.0), &w, &d);
         *(d > qdot_precise_parted ? &apart : &together) = middle;
     } while (together - apart > 1 && status == QDOT_OK);
     if (status == QDOT_OK && together < 97) {
-        status = distance_at(pair, exp2(-apart / 8.0), &w, t);
+        status = find_distance_at(pair, exp2(-apart / 8.0), &w, t);
         *t = mpfr_get_d(w.at[1], RN);
     }
     qdot_reals_clear(&w);
@@ -148,7 +148,7 @@ qdot_precise_check_progress(qdot_precise_pair *pair, qdot_precise_progress *p)
     if (pair->log10_error > qdot_precise_parted) {
         const double t0 = mpfr_get_d(qdot_precise_first(&pair->run)[0], RN);
 
-        QDOT_TRY(parting(pair, &t));
+        QDOT_TRY(find_time_of_separation(pair, &t));
         if (fabs(t - t0) < 1.2 * fabs(p->t - t0)) {
             qdot_fail(QDOT_EFAILED,
                       "carrying %.0f digits the motion is lost about t = %.4g, as with half as "

@@ -1,4 +1,4 @@
-/* precise-hold.c -- projects states onto the constraints in all digits. */
+/* precise-hold.c -- projects states onto the constraints with all requested digits. */
 #include "sim/digits/precise-hold.h"
 
 #include <math.h>
@@ -17,18 +17,18 @@ enum { MOST_ITERATIONS = 60, SCRATCH = 4 };
 struct qdot_precise_hold {
     const qdot_plan *plan;
     mpfr_prec_t bits;
-    qdot_precise *metric, *rows[2]; /* programs for M and A; for F of position and of velocity constraints */
-    size_t count[2];                /* number of these F */
-    /* Fields of the level (positions or velocities) and the equations in use: */
+    qdot_precise *metric, *rows[2]; /* programs for M, A; for position, velocity constraints F */
+    size_t count[2];                /* number of constraints F in each of the two programs */
+    /* The constraints in use (on positions or on velocities), and their unknowns: */
     bool velocities;
-    size_t m, kept; /* number of equations of the level; of those that contain a free value */
+    size_t m, kept; /* number of constraints in use; of those that contain a free value */
     size_t *free;   /* [f] indices of the free unknowns */
     size_t f;
-    size_t *row;   /* [kept] indices of these equations */
+    size_t *row;   /* [kept] indices of the constraints that contain a free value */
     size_t *order; /* [n + m] pivot order of the factors */
     double *scale; /* [n + m] scale factors of the rows */
     qdot_reals numbers;
-    mpfr_t *x0;                 /* [n] the values as given */
+    mpfr_t *x0;                 /* [n] the given values, before the projection */
     mpfr_t *W, *A, *A_moved;    /* weights W [n x n]; A and A at the moved point [m x n] */
     mpfr_t *K, *b, *y, *lambda; /* linear system K [(n + m)^2]; b, y [n + m]; lambda [m] */
     mpfr_t *w;                  /* [SCRATCH] numbers for intermediate results */
@@ -51,7 +51,7 @@ qdot_precise_hold_free(qdot_precise_hold *h)
 }
 
 static qdot_status
-prepare(qdot_precise_hold *h)
+allocate_projection(qdot_precise_hold *h)
 {
     const qdot_constraints *c = h->plan->constraints;
     const qdot_tape *const tapes[] = {c->positions, c->velocities};
@@ -99,7 +99,7 @@ qdot_precise_hold_new(const qdot_plan *plan, mpfr_prec_t bits, qdot_precise_hold
         return QDOT_ENOMEM;
     h->plan = plan;
     h->bits = bits;
-    status = prepare(h);
+    status = allocate_projection(h);
     if (status == QDOT_OK)
         *hold = h;
     else
@@ -110,8 +110,8 @@ qdot_precise_hold_new(const qdot_plan *plan, mpfr_prec_t bits, qdot_precise_hold
 /* --- matrices at a state ------------------------------------------------------------- */
 
 static void
-hold_evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
-              const mpfr_t *y)
+evaluate_program(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
+                 const mpfr_t *y)
 {
     const size_t n = 2 * h->plan->n;
 
@@ -121,15 +121,15 @@ hold_evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
     qdot_precise_order(program, 0);
 }
 
-/* Evaluate the mass matrix into W (unless NULL), and the constraint rows of the present level into A. */
+/* Evaluate the mass matrix into W (unless NULL), and the matrix of the constraints in use into A. */
 static void
-take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpfr_t *A)
+evaluate_matrices(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpfr_t *A)
 {
     const qdot_constraints *c = h->plan->constraints;
     const size_t n = h->plan->n;
     size_t at = 0;
 
-    hold_evaluate(h, h->metric, t, y);
+    evaluate_program(h, h->metric, t, y);
     for (size_t i = 0; W && i < n * n; i++)
         mpfr_set_si(W[i], 0, RN);
     for (size_t k = 0; W && k < c->n_masses; k++) {
@@ -138,7 +138,7 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
 
         mpfr_set(W[i * n + j], value[0], RN);
         mpfr_set(W[j * n + i], value[0], RN);
-        /* massless coordinates alone are moved, in all digits */
+        /* move massless coordinates only, with all digits */
         if (i == j && h->plan->massless && h->plan->massless[i])
             mpfr_set_ui_2exp(W[i * n + i], 1, -2 * (mpfr_exp_t)h->bits, RN);
     }
@@ -158,7 +158,7 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
 
 /* Find log2 of the largest violation |F| among the constraints in use. */
 static double
-log2_violation(const qdot_precise_hold *h)
+log2_largest_violation(const qdot_precise_hold *h)
 {
     double log2 = -INFINITY;
 
@@ -171,9 +171,9 @@ log2_violation(const qdot_precise_hold *h)
     return log2;
 }
 
-/* Use those constraint rows that contain a free coordinate. */
+/* Use only the constraints that contain a free coordinate. */
 static void
-choose_rows(qdot_precise_hold *h)
+choose_constraints(qdot_precise_hold *h)
 {
     const size_t n = h->plan->n;
 
@@ -191,7 +191,7 @@ choose_rows(qdot_precise_hold *h)
 /* Choose the coordinates that may be changed: those whose flag equals `free`; not parameters that
  * events set. */
 static void
-choose_level(qdot_precise_hold *h, bool velocities, const bool *flag, bool free)
+choose_level_and_unknowns(qdot_precise_hold *h, bool velocities, const bool *flag, bool free)
 {
     h->velocities = velocities;
     h->m = h->count[velocities];
@@ -203,9 +203,9 @@ choose_level(qdot_precise_hold *h, bool velocities, const bool *flag, bool free)
 
 /* --- the linear system --------------------------------------------------------------- */
 
-/* Assemble K = [W A^T; A 0] for the free coordinates and the rows in use. */
+/* Assemble the matrix K = [W A^T; A 0] for the free coordinates and the constraints in use. */
 static void
-assemble(qdot_precise_hold *h)
+assemble_matrix(qdot_precise_hold *h)
 {
     const size_t n = h->plan->n, f = h->f, all = f + h->kept;
 
@@ -223,9 +223,9 @@ assemble(qdot_precise_hold *h)
         }
 }
 
-/* Solve K x = b; the solution x replaces b. */
+/* Solve the linear system K x = b; the solution x replaces b. */
 static qdot_status
-hold_solve(qdot_precise_hold *h)
+solve_linear_system(qdot_precise_hold *h)
 {
     const size_t all = h->f + h->kept;
     size_t failed;
@@ -238,9 +238,9 @@ hold_solve(qdot_precise_hold *h)
     return QDOT_OK;
 }
 
-/* Copy -F into b, after the free coordinates. */
+/* Copy the constraint violations as -F into b, after the entries of the free coordinates. */
 static void
-take_residual(qdot_precise_hold *h)
+copy_violations(qdot_precise_hold *h)
 {
     for (size_t k = 0; k < h->kept; k++)
         mpfr_neg(h->b[h->f + k],
@@ -250,7 +250,7 @@ take_residual(qdot_precise_hold *h)
 /* --- projection after an event ------------------------------------------------------- */
 
 static qdot_status
-hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
+project_onto_constraints(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
 {
     mpfr_t *x = y + (h->velocities ? h->plan->n : 0);
     double before = INFINITY;
@@ -258,21 +258,21 @@ hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
     for (int k = 0; k < MOST_ITERATIONS; k++) {
         double now;
 
-        take_metric(h, t, (const mpfr_t *)y, h->W, h->A);
-        choose_rows(h);
-        hold_evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
-        now = log2_violation(h);
+        evaluate_matrices(h, t, (const mpfr_t *)y, h->W, h->A);
+        choose_constraints(h);
+        evaluate_program(h, h->rows[h->velocities], t, (const mpfr_t *)y);
+        now = log2_largest_violation(h);
         if (now <= 16 - (double)h->bits ||
             (now < 48 - (double)h->bits && now >= before - 1))
             return QDOT_OK;
         if (h->kept == 0 || now == INFINITY || (k > 8 && now >= before))
             break;
         before = now;
-        assemble(h);
+        assemble_matrix(h);
         for (size_t i = 0; i < h->f; i++)
             mpfr_set_si(h->b[i], 0, RN);
-        take_residual(h);
-        QDOT_TRY(hold_solve(h));
+        copy_violations(h);
+        QDOT_TRY(solve_linear_system(h));
         for (size_t i = 0; i < h->f; i++)
             mpfr_add(x[h->free[i]], x[h->free[i]], h->b[i], RN);
     }
@@ -289,17 +289,17 @@ qdot_precise_hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, const bool
     for (size_t k = 0; k < 2; k++) {
         if (!set[k] || !h->rows[k])
             continue;
-        choose_level(h, k == 1, set[k], false);
-        QDOT_TRY(hold_put(h, t, y));
+        choose_level_and_unknowns(h, k == 1, set[k], false);
+        QDOT_TRY(project_onto_constraints(h, t, y));
     }
     return QDOT_OK;
 }
 
 /* --- projection of a start ----------------------------------------------------------- */
 
-/* Add sum_k lambda_k d(A_k)/dx, computed by differences, to the upper left block of K. */
+/* Add sum_k lambda_k d(A_k)/dx, the constraints' curvature, by finite differences, to the upper left of K. */
 static void
-add_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
+add_constraint_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
 {
     const size_t n = h->plan->n, all = h->f + h->kept;
     mpfr_t *x = y + (h->velocities ? n : 0);
@@ -311,7 +311,7 @@ add_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
         mpfr_set_si_2exp(step, 1, -(long)(h->bits / 2), RN);
         mpfr_add(x[h->free[j]], old, step, RN);
         mpfr_sub(step, x[h->free[j]], old, RN);
-        take_metric(h, t, (const mpfr_t *)y, NULL, h->A_moved);
+        evaluate_matrices(h, t, (const mpfr_t *)y, NULL, h->A_moved);
         mpfr_set(x[h->free[j]], old, RN);
         for (size_t i = 0; i < h->f; i++) {
             mpfr_set_si(sum, 0, RN);
@@ -328,9 +328,9 @@ add_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
     }
 }
 
-/* Compute the right side b = -(W (x - a) + A^T lambda) for the free values. */
+/* Compute the right-hand side b = -(W (x - a) + A^T lambda) for the free values (a: the given values). */
 static void
-take_gradient(qdot_precise_hold *h, const mpfr_t *x)
+compute_gradient(qdot_precise_hold *h, const mpfr_t *x)
 {
     const size_t n = h->plan->n;
 
@@ -352,18 +352,18 @@ take_gradient(qdot_precise_hold *h, const mpfr_t *x)
 
 /* Make one Newton step towards the nearest state on the constraints; *moved: log2 of its length. */
 static qdot_status
-step_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, double *moved)
+make_newton_step(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, double *moved)
 {
     mpfr_t *x = y + (h->velocities ? h->plan->n : 0);
 
-    take_metric(h, t, (const mpfr_t *)y, NULL, h->A);
-    choose_rows(h);
-    assemble(h);
-    hold_evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
-    take_residual(h);
-    take_gradient(h, (const mpfr_t *)x);
-    add_curvature(h, t, y);
-    QDOT_TRY(hold_solve(h));
+    evaluate_matrices(h, t, (const mpfr_t *)y, NULL, h->A);
+    choose_constraints(h);
+    assemble_matrix(h);
+    evaluate_program(h, h->rows[h->velocities], t, (const mpfr_t *)y);
+    copy_violations(h);
+    compute_gradient(h, (const mpfr_t *)x);
+    add_constraint_curvature(h, t, y);
+    QDOT_TRY(solve_linear_system(h));
     *moved = -INFINITY;
     for (size_t i = 0; i < h->f; i++) {
         const double log2 = qdot_real_log2(h->b[i]);
@@ -387,8 +387,8 @@ qdot_precise_hold_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, bool v
 
     if (!h->rows[velocities])
         return QDOT_OK;
-    choose_level(h, velocities, free, true);
-    take_metric(h, t, (const mpfr_t *)y, h->W, h->A);
+    choose_level_and_unknowns(h, velocities, free, true);
+    evaluate_matrices(h, t, (const mpfr_t *)y, h->W, h->A);
     for (size_t i = 0; !massive && i < n * n; i++)
         mpfr_set_si(h->W[i], i % (n + 1) == 0, RN);
     for (size_t i = 0; i < n; i++)
@@ -400,7 +400,7 @@ qdot_precise_hold_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, bool v
     for (int k = 0; k < MOST_ITERATIONS; k++) {
         double moved;
 
-        status = step_nearest(h, t, y, &moved);
+        status = make_newton_step(h, t, y, &moved);
         if (status != QDOT_OK)
             break;
         if (moved <= 24 - (double)h->bits ||

@@ -92,7 +92,7 @@ qdot_precise_evaluate(qdot_precise_side *s, size_t mode, const qdot_plan *plan,
 double
 qdot_precise_power(double x)
 {
-    mpfr_t power; /* computed by MPFR, so that every C library gives the same digits */
+    mpfr_t power; /* computed by MPFR, as the C libraries' results differ */
     double r;
 
     if (isnan(x))

@@ -28,9 +28,9 @@ qdot_precise_formula_at(qdot_precise_side *s, size_t segment, const qdot_precise
     return mpfr_number_p(out) ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "it has no value there");
 }
 
-/* at[LO] and at[HI]: around t, within the segment. */
+/* Set a bracket around t, from at[LO] to at[HI], within the segment of the run. */
 static void
-bracket(const qdot_precise_side *s, size_t segment, double t, double by)
+set_bracket(const qdot_precise_side *s, size_t segment, double t, double by)
 {
     const qdot_precise_run *run = &s->segments.at[segment].run;
     mpfr_t *at = s->course->at;
@@ -49,9 +49,9 @@ bracket(const qdot_precise_side *s, size_t segment, double t, double by)
         mpfr_set(at[HI], last, RN);
 }
 
-/* Whether f, which has other signs at at[LO] and at[HI], changes its sign within 2^log2_by of at[X]. */
+/* Whether f, whose sign differs at at[LO] and at[HI], changes its sign within 2^log2_by of at[X]. */
 static qdot_status
-crosses_near(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f, double log2_by, bool *is)
+has_sign_change_near(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f, double log2_by, bool *is)
 {
     mpfr_t *at = s->course->at;
     int sign[2];
@@ -111,7 +111,7 @@ find_sign_change(qdot_precise_side *s, size_t segment, const qdot_precise_formul
             bool within = halves;
 
             if (!halves)
-                QDOT_TRY(crosses_near(s, segment, f, least, &within));
+                QDOT_TRY(has_sign_change_near(s, segment, f, least, &within));
             if (within)
                 return QDOT_OK;
             halves = true;
@@ -135,9 +135,9 @@ find_sign_change(qdot_precise_side *s, size_t segment, const qdot_precise_formul
     return QDOT_OK;
 }
 
-/* What rounding of the state at at[X] makes of f, into at[NOISE]. */
+/* Find how much rounding of the state at time at[X] changes f, into at[NOISE]. */
 static qdot_status
-find_noise(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f)
+find_rounding_effect(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f)
 {
     mpfr_t *at = s->course->at, *y = s->course->y;
     const size_t mode = s->segments.at[segment].mode;
@@ -167,7 +167,7 @@ qdot_precise_find_root(qdot_precise_side *s, size_t segment, const qdot_precise_
     QDOT_TRY(find_sign_change(s, segment, f, found));
     if (!*found || s->domains)
         return QDOT_OK;
-    QDOT_TRY(find_noise(s, segment, f));
+    QDOT_TRY(find_rounding_effect(s, segment, f));
     mpfr_set(at[BEFORE], at[X], RN);
     for (; by < 0; by++) {
         mpfr_set_ui_2exp(at[X], 1, by, RN);
@@ -187,6 +187,6 @@ qdot_status
 qdot_precise_locate(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f, double t, double by,
        bool *found)
 {
-    bracket(s, segment, t, by);
+    set_bracket(s, segment, t, by);
     return qdot_precise_find_root(s, segment, f, found);
 }

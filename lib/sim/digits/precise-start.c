@@ -1,4 +1,4 @@
-/* precise-start.c -- solves the constraints of a start by Newton's method with residuals in MPFR. */
+/* precise-start.c -- solves the constraints of a start state by Newton's method with residuals in MPFR. */
 #include "sim/digits/precise-start.h"
 
 #include <math.h>
@@ -12,26 +12,26 @@
 
 #define RN MPFR_RNDN
 
-/* A constraint row is independent if at least this fraction of its length is orthogonal to the other rows. */
+/* A constraint is independent if this fraction, at least, of its gradient is orthogonal to the other gradients. */
 static const double dependent = 1e-9;
 
-/* The equations of positions or of velocities. */
+/* The constraint equations for the positions, or for the velocities, of a start state. */
 typedef struct {
     const qdot_plan *plan;
     const double *y;   /* [2n] the start in doubles */
     const bool *named; /* [n] the user gave this value; NULL: all were given */
     bool velocities;
-    mpfr_t *start;  /* [2 + 2n] t0, t1 and the start in all digits */
-    mpfr_t *x;      /* [n] the part of `start` that is changed: positions or velocities */
+    mpfr_t *start;  /* [2 + 2n] t0, t1 and the start state with all digits */
+    mpfr_t *x;      /* [n] the part of the start state that is changed: positions or velocities */
     size_t m;       /* number of equations */
     qdot_precise *program;
     double *A, *b, *dx, *work; /* scratch: A [m x n], b [m], dx [n] */
     qdot_row_space space;
 } level;
 
-/* Find log2 of the largest residual of the equations at the start. */
+/* Find log2 of the largest residual of the constraint equations at the start. */
 static double
-start_evaluate(level *l)
+find_residual(level *l)
 {
     const size_t n = 2 * l->plan->n;
     double log2 = -INFINITY;
@@ -51,7 +51,7 @@ start_evaluate(level *l)
 /* Find the derivatives of the equations by the free values at y; returns whether they determine
  * these values. */
 static bool
-take_slopes(level *l, double *in, double *out)
+evaluate_jacobian(level *l, double *in, double *out)
 {
     const qdot_constraints *c = l->plan->constraints;
     const size_t n = l->plan->n;
@@ -89,8 +89,8 @@ iterate(level *l, mpfr_prec_t bits)
 {
     double before = INFINITY;
 
-    for (double now = start_evaluate(l); now < before - 4 && now > -(double)bits; now = start_evaluate(l)) {
-        const long scale = (long)floor(now); /* scaled by 2^-now, because doubles end at 2^-1074 */
+    for (double now = find_residual(l); now < before - 4 && now > -(double)bits; now = find_residual(l)) {
+        const long scale = (long)floor(now); /* scale residuals by 2^-now: doubles end at 2^-1074 */
 
         QDOT_TRY(qdot_interrupt_check());
         for (size_t k = 0; k < l->m; k++) {
@@ -103,7 +103,7 @@ iterate(level *l, mpfr_prec_t bits)
         for (size_t i = 0; i < l->plan->n; i++) {
             mpfr_t step;
 
-            if (l->named[i]) /* given by the user: its part of dx is only rounding */
+            if (l->named[i]) /* keep what the user gave: its part of dx is only rounding */
                 continue;
             mpfr_init2(step, 64);
             mpfr_set_d(step, l->dx[i], RN);
@@ -117,7 +117,7 @@ iterate(level *l, mpfr_prec_t bits)
 }
 
 static qdot_status
-start_solve(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
+solve_constraints(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
 {
     const qdot_tape *metric = l->plan->constraints->metric;
     const size_t n = l->plan->n, outputs = qdot_tape_outputs(metric);
@@ -130,12 +130,12 @@ start_solve(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
     status = in ? qdot_row_space_init(&l->space, l->m, n) : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_precise_new(l->plan->pool, tape, 0, bits, &l->program);
-    if (status == QDOT_OK && start_evaluate(l) > enough) {
+    if (status == QDOT_OK && find_residual(l) > enough) {
         l->A = in + 2 * n + 1 + outputs;
         l->b = l->A + l->m * n;
         l->dx = l->b + l->m;
         l->work = l->dx + n;
-        if (take_slopes(l, in, in + 2 * n + 1))
+        if (evaluate_jacobian(l, in, in + 2 * n + 1))
             status = iterate(l, bits);
     }
     qdot_precise_free(l->program);
@@ -161,7 +161,7 @@ qdot_precise_start_solve(const qdot_plan *plan, const qdot_run_request *request,
                    .x = start + 2 + k * plan->n};
 
         if (tapes[k] && qdot_tape_outputs(tapes[k]) > 0 && named[k])
-            QDOT_TRY(start_solve(&l, tapes[k], enough, bits));
+            QDOT_TRY(solve_constraints(&l, tapes[k], enough, bits));
     }
     return QDOT_OK;
 }

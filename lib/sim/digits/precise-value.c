@@ -1,4 +1,4 @@
-/* precise-value.c -- evaluates any expression along a run with `digits`, with its error from the companion. */
+/* precise-value.c -- evaluates any expression along a run with `digits`; the companion run gives its error. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -12,12 +12,12 @@
 
 #define RN MPFR_RNDN
 
-/* Evaluates expressions at states of one of the two runs. */
+/* Evaluates expressions at states of the run, or of its companion run. */
 typedef struct {
     const qdot_reading *of;
     qdot_precise_side *side;
     qdot_precise *program;
-    size_t segment;     /* the segment of the side that is read */
+    size_t segment;     /* the segment of the run that is read */
     qdot_reals numbers; /* memory for t and y [2n] */
 } reader;
 
@@ -36,7 +36,7 @@ reader_init(reader *r, const qdot_reading *of, qdot_precise_side *side)
     return qdot_precise_new(of->plan->pool, of->tape, 0, side->start.bits, &r->program);
 }
 
-/* Evaluate the program at the time t and the state y. */
+/* Evaluate the program of the expressions at the time t and the state y. */
 static qdot_status
 reader_evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 {
@@ -44,7 +44,7 @@ reader_evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
                                  r->program, r->of->accelerations, t, y);
 }
 
-/* Evaluate at the time in numbers.at[0]; it may exceed an end of the run by rounding. */
+/* Evaluate at the time numbers.at[0]; because of rounding it may lie slightly outside the run. */
 static qdot_status
 reader_read_at(reader *r)
 {
@@ -68,9 +68,9 @@ reader_read_at(reader *r)
     return reader_evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
 }
 
-/* Evaluate at the first or last point of a piece. */
+/* Evaluate the expressions at the first or last point of a piece of the run. */
 static qdot_status
-read_end(reader *r, size_t piece, bool last)
+evaluate_at_piece_end(reader *r, size_t piece, bool last)
 {
     const qdot_precise_side *s = r->side;
     const mpfr_t *point;
@@ -88,7 +88,7 @@ read_end(reader *r, size_t piece, bool last)
 
 /* --- reading run and companion ------------------------------------------------------- */
 
-/* Readers of the same expressions along the run and along its companion. */
+/* Evaluates the same expressions along the run and along its companion run. */
 typedef struct {
     qdot_precise_pair *pair;
     qdot_reading of;
@@ -118,7 +118,7 @@ readers_init(readers *r, qdot_precise_pair *pair, size_t m, const qdot_expr *exp
 }
 
 static qdot_status
-undefined(const readers *r, size_t j)
+fail_undefined(const readers *r, size_t j)
 {
     qdot_text text = {0};
     qdot_status status = qdot_print(r->pair->plan->pool, r->of.exprs[j], QDOT_PLAIN, &text);
@@ -131,37 +131,37 @@ undefined(const readers *r, size_t j)
     return status;
 }
 
-/* The places where both runs are read: the times stored in the readers, or an end of a piece. */
+/* Where both runs are evaluated: the time stored in the readers, or an end of a piece. */
 typedef struct {
     bool end, last;
     size_t piece;
 } place;
 
 static qdot_status
-read_place(reader *r, place at)
+evaluate_at_place(reader *r, place at)
 {
-    return at.end ? read_end(r, at.piece, at.last) : reader_read_at(r);
+    return at.end ? evaluate_at_piece_end(r, at.piece, at.last) : reader_read_at(r);
 }
 
-/* Evaluate along the run; the distances from the companion's values go to errors [m] (may be NULL). */
+/* Evaluate along the run; distances from the companion run's values go to errors [m] (may be NULL). */
 static qdot_status
-read_both(readers *r, place at, double *errors)
+evaluate_on_both_runs(readers *r, place at, double *errors)
 {
     const qdot_precise_pair *pair = r->pair;
     qdot_status status;
 
-    QDOT_TRY(read_place(&r->run, at));
+    QDOT_TRY(evaluate_at_place(&r->run, at));
     for (size_t j = 0; j < r->of.m; j++)
         if (!mpfr_number_p(qdot_precise_output(r->run.program, j)[0]))
-            return undefined(r, j);
+            return fail_undefined(r, j);
     if (!errors)
         return QDOT_OK;
-    status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_place(&r->companion, at);
+    status = isnan(pair->log10_error) ? QDOT_EDOMAIN : evaluate_at_place(&r->companion, at);
     if (qdot_grave(status) != QDOT_OK)
         return status;
     for (size_t j = 0; j < r->of.m; j++) {
         mpfr_srcptr x = qdot_precise_output(r->run.program, j)[0];
-        mpfr_ptr w = r->companion.numbers.at[0]; /* numbers of the companion, which has been read already */
+        mpfr_ptr w = r->companion.numbers.at[0]; /* borrow numbers of the companion run, which has been evaluated already */
         double size = fmax(0, qdot_real_log2(x));
 
         errors[j] = NAN;
@@ -174,9 +174,9 @@ read_both(readers *r, place at, double *errors)
     return QDOT_OK;
 }
 
-/* Set the exact time at which r is read; nil: the end of the run. */
+/* Set the exact time at which the reader r evaluates; nil: the end of the run. */
 static qdot_status
-take_time(const qdot_plan *plan, qdot_expr time, reader *r)
+set_time(const qdot_plan *plan, qdot_expr time, reader *r)
 {
     if (time != QDOT_NIL)
         return qdot_precise_constant(plan, time, r->numbers.at[0]);
@@ -186,12 +186,12 @@ take_time(const qdot_plan *plan, qdot_expr time, reader *r)
     return QDOT_OK;
 }
 
-/* Evaluate along both runs: values [m] of the run, and errors [m] from the difference. */
+/* Evaluate on both runs: values [m] of the run, and errors [m] by the difference of the two. */
 static qdot_status
-give_values(readers *r, size_t m, place at, qdot_expr *values, double *errors)
+evaluate_with_errors(readers *r, size_t m, place at, qdot_expr *values, double *errors)
 {
     qdot_pool *pool = r->pair->plan->pool;
-    qdot_status status = read_both(r, at, errors);
+    qdot_status status = evaluate_on_both_runs(r, at, errors);
 
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {
         values[j] = qdot_constant_of_real(pool, qdot_precise_output(r->run.program, j)[0]);
@@ -208,11 +208,11 @@ qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exp
     qdot_status status = readers_init(&r, pair, m, exprs);
 
     if (status == QDOT_OK)
-        status = take_time(pair->plan, time, &r.run);
+        status = set_time(pair->plan, time, &r.run);
     if (status == QDOT_OK)
-        status = take_time(pair->plan, time, &r.companion);
+        status = set_time(pair->plan, time, &r.companion);
     if (status == QDOT_OK)
-        status = give_values(&r, m, (place){0}, values, errors);
+        status = evaluate_with_errors(&r, m, (place){0}, values, errors);
     readers_clear(&r);
     return status;
 }
@@ -225,7 +225,7 @@ qdot_precise_pair_end_values(qdot_precise_pair *pair, size_t m, const qdot_expr 
     qdot_status status = readers_init(&r, pair, m, exprs);
 
     if (status == QDOT_OK)
-        status = give_values(&r, m, (place){true, last, piece}, values, errors);
+        status = evaluate_with_errors(&r, m, (place){true, last, piece}, values, errors);
     readers_clear(&r);
     return status;
 }
@@ -243,7 +243,7 @@ qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_ex
         mpfr_set_d(r.run.numbers.at[0], times[i], RN);
         mpfr_set_d(r.companion.numbers.at[0], times[i], RN);
         if (status == QDOT_OK)
-            status = read_both(&r, (place){0}, errors ? errors + i * m : NULL);
+            status = evaluate_on_both_runs(&r, (place){0}, errors ? errors + i * m : NULL);
         for (size_t j = 0; j < m && status == QDOT_OK; j++) {
             double x = mpfr_get_d(qdot_precise_output(r.run.program, j)[0], RN);
 
@@ -261,7 +261,7 @@ qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_ex
 /* A segment: the drift from w[0], which is what it starts with where `anew`. Where the
  * equations switch its ends are on neither side. */
 static qdot_status
-follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
+measure_drift_in_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
 {
     const qdot_precise_run *run = &r->side->segments.at[r->segment].run;
 
@@ -283,7 +283,7 @@ follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
 }
 
 static qdot_status
-drift_follow(reader *r, qdot_drift *drift)
+measure_drift_of_run(reader *r, qdot_drift *drift)
 {
     const qdot_precise_side *s = r->side;
     qdot_status status = QDOT_OK;
@@ -296,7 +296,7 @@ drift_follow(reader *r, qdot_drift *drift)
 
         r->segment = k;
         if (s->segments.at[k].run.count > 0)
-            status = follow_segment(r, k == 0 || s->segments.at[k].jumped, cut, w.at, drift);
+            status = measure_drift_in_segment(r, k == 0 || s->segments.at[k].jumped, cut, w.at, drift);
     }
     qdot_reals_clear(&w);
     return status;
@@ -314,7 +314,7 @@ qdot_precise_pair_drifts(qdot_precise_pair *pair, qdot_drifts *drifts)
         if (status == QDOT_OK)
             status = reader_init(&r, &of, &pair->run);
         if (status == QDOT_OK)
-            status = drift_follow(&r, drifts->at + i);
+            status = measure_drift_of_run(&r, drifts->at + i);
         reader_clear(&r);
         qdot_tape_free(of.tape);
         QDOT_TRY(status);

@@ -1,4 +1,4 @@
-/* precise.c -- a run and its companion in MPFR, and the number of digits they need. */
+/* precise.c -- makes a run and its companion run in MPFR, with as many digits as they need. */
 #include "sim/digits/precise.h"
 
 #include <math.h>
@@ -17,13 +17,13 @@
 
 #define RN MPFR_RNDN
 
-/* The change of a preserved value that rounding to doubles may cause, relative to max(1, |x|). */
+/* Change that rounding to doubles may cause in a start value to be preserved, relative to max(1, |x|). */
 static const double moved_by = 1e-13;
 
 enum {
     first_digits = 19,    /* digits of the first pass, which measures how errors grow */
     guard_digits = 3,
-    companion_digits = 3, /* how many more digits the companion has */
+    companion_digits = 3, /* number of extra digits that the companion run has */
     companion_orders = 5,
     guard_bits = 32,
     most_passes = 8
@@ -58,14 +58,14 @@ qdot_precise_request(const qdot_run_request *request)
     qdot_run_request r = *request;
 
     r.method = "taylor";
-    r.tol = 1e-15; /* tolerance of the trajectory in doubles that accompanies it */
+    r.tol = 1e-15; /* tolerance of the guiding run in doubles */
     return r;
 }
 
 /* --- one run of the pair ------------------------------------------------------------- */
 
 static void
-side_clear(qdot_precise_side *s)
+clear_side(qdot_precise_side *s)
 {
     qdot_precise_course_clear(s);
     for (size_t i = 0; i < s->n_binds; i++)
@@ -80,9 +80,9 @@ side_clear(qdot_precise_side *s)
     *s = (qdot_precise_side){.near = SIZE_MAX};
 }
 
-/* Find a bound *log2 of the largest residual of a tape at the start, in all digits. */
+/* Find a bound *log2 of the largest residual of a tape of constraints at the start, with all digits. */
 static qdot_status
-residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tape, double *log2)
+find_largest_residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tape, double *log2)
 {
     const size_t n = 2 * plan->n;
     qdot_precise *program;
@@ -100,9 +100,9 @@ residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tap
     return QDOT_OK;
 }
 
-/* Whether a named value (a position, or with `velocities` a velocity) had to change in doubles. */
+/* Whether a start value that the user gave (position or velocity) was changed by the solution in doubles. */
 static bool
-has_moved(const qdot_precise_side *s, const qdot_precise_pair *pair, bool velocities)
+has_given_value_moved(const qdot_precise_side *s, const qdot_precise_pair *pair, bool velocities)
 {
     const bool *named = velocities ? pair->request->v_named : pair->request->q_named;
     const size_t first = velocities ? pair->plan->n : 0;
@@ -117,10 +117,10 @@ has_moved(const qdot_precise_side *s, const qdot_precise_pair *pair, bool veloci
     return false;
 }
 
-/* Find the positions, or the velocities, on the constraints that are nearest to those found in doubles. */
+/* Find the positions (or velocities) on the constraints nearest to those found in doubles. */
 static qdot_status
-find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_precise_hold *hold,
-             bool velocities)
+find_nearest_start(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_precise_hold *hold,
+                   bool velocities)
 {
     const qdot_plan *plan = pair->plan;
     const bool *named = velocities ? pair->request->v_named : pair->request->q_named;
@@ -131,7 +131,7 @@ find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_pre
 
     for (size_t i = 0; free && i < plan->n; i++)
         any = (free[i] = named && !named[i]) || any;
-    if (free && any && !has_moved(s, pair, velocities))
+    if (free && any && !has_given_value_moved(s, pair, velocities))
         status = qdot_precise_hold_nearest(hold, s->start.at[0], s->start.at + 2, velocities,
                                            free, false, near);
     for (size_t i = 0; free && i < plan->n; i++)
@@ -140,7 +140,7 @@ find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_pre
         status = qdot_precise_hold_nearest(hold, s->start.at[0], s->start.at + 2, velocities,
                                            free, true, near);
     qdot_free(free);
-    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* undefined: the caller checks the constraints */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* undefined values are no failure: the caller checks the constraints */
 }
 
 /* Bring the start onto the constraints in all digits. Values that these determine are solved for;
@@ -163,16 +163,16 @@ precise_settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, 
             k == 0 ? plan->constraints->positions : plan->constraints->velocities;
 
         log2 = -INFINITY;
-        status = residual(s, plan, tape, &log2);
+        status = find_largest_residual(s, plan, tape, &log2);
         if (status != QDOT_OK || log2 <= enough)
             continue;
         if (!hold)
             status = qdot_precise_hold_new(plan, s->start.bits, &hold);
         if (status == QDOT_OK)
-            status = find_nearest(s, pair, hold, k == 1);
+            status = find_nearest_start(s, pair, hold, k == 1);
         log2 = -INFINITY;
         if (status == QDOT_OK)
-            status = residual(s, plan, tape, &log2);
+            status = find_largest_residual(s, plan, tape, &log2);
         if (status == QDOT_OK && !(log2 <= enough))
             break;
     }
@@ -185,9 +185,9 @@ precise_settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, 
     return qdot_hint("start with every value exact, as x = sin(2), y = -cos(2)");
 }
 
-/* Prepare one run with `digits`: everything for which the pool is needed. */
+/* Prepare one run with `digits`: all that needs the pool of expressions, which threads must not share. */
 static qdot_status
-side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, int orders_more)
+prepare_side(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, int orders_more)
 {
     const qdot_run_request *request = pair->request;
     const size_t n = pair->plan->n;
@@ -195,7 +195,7 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
     double cost[3];
     size_t modes;
 
-    side_clear(s);
+    clear_side(s);
     s->digits = digits;
     s->log2_tol = -digits * QDOT_LOG2_10;
     s->guide = pair->guide;
@@ -221,9 +221,9 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
     return s->guide ? qdot_precise_course_init(s) : QDOT_OK;
 }
 
-/* After each step: stop if the state has left a domain. */
+/* Called after each step: stop if a coordinate has left its domain. */
 static qdot_status
-watch(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
+stop_outside_domain(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
 {
     qdot_precise_side *s = user;
 
@@ -234,7 +234,7 @@ watch(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
 }
 
 static void
-side_run(qdot_precise_side *s)
+integrate_side(qdot_precise_side *s)
 {
     qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
     qdot_precise_run *run;
@@ -246,7 +246,7 @@ side_run(qdot_precise_side *s)
     }
     if (s->domains && s->domains->n > 0) {
         s->domains->left = NULL;
-        options.accepted = watch;
+        options.accepted = stop_outside_domain;
         options.user = s;
     }
     s->status = qdot_vec_push(&s->segments, (qdot_precise_segment){0});
@@ -262,12 +262,12 @@ side_run(qdot_precise_side *s)
 static void *
 side_thread(void *user)
 {
-    side_run(user);
+    integrate_side(user);
     mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);
     return NULL;
 }
 
-/* Whether the points computed so far are kept after a run with this status. */
+/* Whether a run that ended with this status keeps the points computed so far. */
 static bool
 run_is_kept(qdot_status status)
 {
@@ -275,14 +275,14 @@ run_is_kept(qdot_status status)
            || status == QDOT_ESINGULAR;
 }
 
-/* Whether a run of the pair has points. */
+/* Whether a run of the pair (the run or its companion run) has any points. */
 static bool
-is_there(const qdot_precise_side *s)
+has_points(const qdot_precise_side *s)
 {
     return s->segments.n > 0 && s->segments.at[s->segments.n - 1].run.count > 0;
 }
 
-/* If the last step ended outside a domain, shorten it to the last double of t inside. */
+/* If the last step ended outside the domain of a coordinate, shorten it to the last double of t inside. */
 static qdot_status
 cut_at_domain(qdot_precise_side *s)
 {
@@ -318,47 +318,47 @@ cut_at_domain(qdot_precise_side *s)
 /* Carry out both runs of the pair with `digits` and compare them. QDOT_OK if there is a run, even
  * an incomplete one. */
 static qdot_status
-precise_carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
+integrate_pair(qdot_precise_pair *pair, double digits, qdot_domains *domains)
 {
     qdot_precise_side *a = &pair->run, *b = &pair->companion;
     pthread_t thread;
     bool running;
 
     pair->log10_error = NAN;
-    QDOT_TRY(side_init(a, pair, digits, 0));
-    QDOT_TRY(side_init(b, pair, digits + companion_digits, companion_orders));
+    QDOT_TRY(prepare_side(a, pair, digits, 0));
+    QDOT_TRY(prepare_side(b, pair, digits + companion_digits, companion_orders));
     a->domains = domains;
     qdot_progress_begin(mpfr_get_d(a->start.at[0], RN), mpfr_get_d(a->start.at[1], RN),
                         "run in %.0f digits", digits);
     running = pthread_create(&thread, NULL, side_thread, b) == 0;
-    side_run(a);
+    integrate_side(a);
     if (running)
         pthread_join(thread, NULL);
     else
-        side_run(b);
+        integrate_side(b);
     if (!run_is_kept(a->status))
         return a->status;
     if (!a->guide && domains->left)
         QDOT_TRY(cut_at_domain(a));
-    if (is_there(a) && is_there(b))
+    if (has_points(a) && has_points(b))
         QDOT_TRY(qdot_precise_compare(pair));
     return b->status == QDOT_EINTR || b->status == QDOT_ENOMEM ? b->status : QDOT_OK;
 }
 
-/* The number of digits with which the pair must be run next; 0: the result is accurate enough. */
+/* The number of digits with which both runs must be repeated; 0: the result is accurate enough. */
 static double
-digits_wanted(const qdot_precise_pair *pair)
+digits_needed(const qdot_precise_pair *pair)
 {
     const double wanted = -pair->digits - log10(2);
     double digits = pair->run.digits, more;
 
-    if (isnan(pair->log10_error)) /* it failed before the end: no estimate of the digits needed */
+    if (isnan(pair->log10_error)) /* the run failed before its end, so nothing tells how many digits are needed */
         return digits >= pair->digits + 2 * guard_digits
                    ? 0
                    : pair->digits + 2 * guard_digits;
     if (pair->log10_error <= wanted)
         return 0;
-    /* run and companion differ entirely: even the error growth is unknown */
+    /* run and companion run differ entirely: not even the growth of errors is known */
     if (pair->log10_error > qdot_precise_parted)
         return fmax(2 * digits, pair->digits + guard_digits);
     more = pair->digits + guard_digits + (pair->log10_error + digits);
@@ -366,7 +366,7 @@ digits_wanted(const qdot_precise_pair *pair)
 }
 
 static qdot_status
-settle(qdot_precise_pair *pair, qdot_domains *domains)
+repeat_until_accurate(qdot_precise_pair *pair, qdot_domains *domains)
 {
     qdot_precise_progress progress = {.t = NAN};
     double digits = first_digits;
@@ -377,12 +377,12 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
                              "%d digits were not reached: carrying %.0f left an error of "
                              "10^%.1f",
                              pair->digits, pair->run.digits, pair->log10_error);
-        QDOT_TRY(precise_carry_out(pair, digits, domains));
+        QDOT_TRY(integrate_pair(pair, digits, domains));
         QDOT_TRY(qdot_precise_check_progress(pair, &progress));
-        /* double the digits as long as the runs separate; that does not count as a pass */
+        /* double the digits while the runs still separate; such attempts do not count as passes */
         if (!(pair->log10_error > qdot_precise_parted))
             passes++;
-        digits = digits_wanted(pair);
+        digits = digits_needed(pair);
         if (digits > 4 * QDOT_PRECISE_MOST_DIGITS)
             return qdot_fail(QDOT_ELIMIT,
                              "the scene amplifies errors beyond what %d digits hold",
@@ -408,11 +408,11 @@ qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
     pair->request = request;
     pair->guide = guide;
     pair->settled = start;
-    status = settle(pair, domains);
+    status = repeat_until_accurate(pair, domains);
     pair->request = NULL;
     pair->settled = NULL;
-    if (status == QDOT_EINTR && is_there(&pair->run))
-        pair->log10_error = NAN; /* may have been interrupted before it had enough digits */
+    if (status == QDOT_EINTR && has_points(&pair->run))
+        pair->log10_error = NAN; /* the run may have been interrupted before it had enough digits */
     else if (status != QDOT_OK) {
         qdot_precise_pair_free(pair);
         return status;
@@ -426,8 +426,8 @@ qdot_precise_pair_free(qdot_precise_pair *pair)
 {
     if (!pair)
         return;
-    side_clear(&pair->run);
-    side_clear(&pair->companion);
+    clear_side(&pair->run);
+    clear_side(&pair->companion);
     qdot_free(pair);
 }
 
@@ -487,9 +487,9 @@ qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error)
     return qdot_constant_of_real(pair->plan->pool, a->times.at[i]);
 }
 
-/* Append a point to the trajectory in doubles if its time lies after the last point. */
+/* Append a point to the trajectory in doubles, unless its time equals that of the last point. */
 static qdot_status
-push(qdot_trajectory *tr, bool first, double t, double t_end, const double *y)
+append_point(qdot_trajectory *tr, bool first, double t, double t_end, const double *y)
 {
     if (!first && tr->count > 0
         && !((t_end - t) * (t - tr->t[tr->count - 1]) >= 0 && t != tr->t[tr->count - 1]))
@@ -519,11 +519,11 @@ sample_segment(const qdot_precise_pair *pair, const qdot_precise_segment *segmen
         for (size_t i = 0; k > 0 && i < QDOT_PRECISE_INSIDE; i++) {
             const double *row = qdot_precise_inside(run, k - 1) + i * (pair->n + 1);
 
-            QDOT_TRY(push(tr, false, row[0], t_end, row + 1));
+            QDOT_TRY(append_point(tr, false, row[0], t_end, row + 1));
         }
         for (size_t i = 0; i < pair->n; i++)
             y[i] = mpfr_get_d(point[1 + i], RN);
-        QDOT_TRY(push(tr, k == 0, mpfr_get_d(point[0], RN), t_end, y));
+        QDOT_TRY(append_point(tr, k == 0, mpfr_get_d(point[0], RN), t_end, y));
     }
     return QDOT_OK;
 }

@@ -39,11 +39,11 @@ enum { QDOT_PRECISE_MOST_DIGITS = 10000 };
 
 typedef struct qdot_precise_pair qdot_precise_pair;
 
-/* QDOT_EINVAL if request->digits, its method or its treatment of constraints is not allowed. */
+/* Check that request->digits, its method and its treatment of constraints are allowed; QDOT_EINVAL if not. */
 QDOT_MUST_CHECK qdot_status qdot_precise_check(const qdot_scene *scene,
                                                const qdot_run_request *request);
 
-/* The request for the plan and for qdot_precise_pair_new: with the method taylor. */
+/* The request, changed to the method taylor, for making the plan and for qdot_precise_pair_new. */
 qdot_run_request qdot_precise_request(const qdot_run_request *request);
 
 /* Carry out both runs of a request, whose plan has the method taylor; plan borrowed. start [2n]:
@@ -58,13 +58,13 @@ QDOT_MUST_CHECK qdot_status qdot_precise_pair_new(const qdot_plan *plan,
                                                   qdot_precise_pair **pair);
 void qdot_precise_pair_free(qdot_precise_pair *pair);
 
-/* The result, error, tolerance and number of factorisations of the run itself. */
+/* The integration result of the run itself; further functions: its error, tolerance, factorisations. */
 const qdot_ode_result *qdot_precise_pair_result(const qdot_precise_pair *pair);
 double qdot_precise_pair_error(const qdot_precise_pair *pair); /* estimated log10 of the error; NaN: unknown */
 double qdot_precise_pair_tol(const qdot_precise_pair *pair);
 size_t qdot_precise_pair_factored(const qdot_precise_pair *pair);
 
-/* Component i of the end state (q, q'), as the exact rational number that was computed. */
+/* Component i of the end state (q, q') as an exact rational number: the binary number that was computed. */
 qdot_expr qdot_precise_pair_end(const qdot_precise_pair *pair, size_t i);
 
 /* The time of occurrence i, in the order of the run in doubles, and its error; nil and NaN if unknown. */
@@ -89,12 +89,12 @@ QDOT_MUST_CHECK qdot_status qdot_precise_pair_end_values(qdot_precise_pair *pair
                                                          bool last, qdot_expr *values,
                                                          double *errors);
 
-/* As qdot_precise_pair_values at times [k] in doubles, values [k x m] rounded to doubles. */
+/* Like qdot_precise_pair_values, at times [k] in doubles; values [k x m] are rounded to doubles. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_sample_values(
     qdot_precise_pair *pair, size_t m, const qdot_expr *exprs, size_t k,
     const double *times, double *values, double *errors);
 
-/* Measure the drifts that were measured in doubles again, at the points of the precise run. */
+/* Measure again, at the points of the run with `digits`, the drifts that were measured in doubles. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_drifts(qdot_precise_pair *pair,
                                                      qdot_drifts *drifts);
 

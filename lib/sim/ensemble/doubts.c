@@ -40,7 +40,7 @@ qdot_ensemble_doubts_new(const qdot_plan *plan, qdot_ensemble_doubts **doubts)
 }
 
 static void
-doubts_forget(qdot_ensemble_doubts *d)
+clear_checks(qdot_ensemble_doubts *d)
 {
     qdot_pulses_clear(&d->pulses);
     qdot_constrained_free(d->held);
@@ -52,14 +52,14 @@ qdot_ensemble_doubts_free(qdot_ensemble_doubts *d)
 {
     if (!d)
         return;
-    doubts_forget(d);
+    clear_checks(d);
     qdot_free(d);
 }
 
 qdot_status
 qdot_ensemble_doubts_begin(qdot_ensemble_doubts *d)
 {
-    doubts_forget(d);
+    clear_checks(d);
     if (d->plan->constraints)
         QDOT_TRY(qdot_constrained_new(d->plan, false, &d->held));
     return d->hides ? qdot_pulses_init(&d->pulses, d->plan, d->plan->tape,

@@ -11,7 +11,7 @@
 
 #include "sim/bind/pulses.h"
 
-/* The inspection of the steps of one ensemble member. */
+/* The inspection of the steps of one ensemble member, to decide whether it must be repeated as a single run. */
 typedef struct qdot_ensemble_doubts qdot_ensemble_doubts;
 
 /* Make the inspection for a plan, borrowed; *doubts is NULL if there is nothing to inspect. Errors:
@@ -19,7 +19,7 @@ typedef struct qdot_ensemble_doubts qdot_ensemble_doubts;
 QDOT_MUST_CHECK qdot_status qdot_ensemble_doubts_new(const qdot_plan *plan,
                                                      qdot_ensemble_doubts **doubts);
 void qdot_ensemble_doubts_free(qdot_ensemble_doubts *doubts);
-/* Call before the first step of a member. QDOT_ENOMEM. */
+/* Call before the first step of an ensemble member. Error: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_doubts_begin(qdot_ensemble_doubts *doubts);
 /* Whether the step {.a, .b, .tol, .from, .to, .read, .user} is such a one. Errors: QDOT_EINTR, those of
  * .read. */

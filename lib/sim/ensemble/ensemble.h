@@ -18,13 +18,13 @@
 #include "sim/run/run.h"
 #include "sim/ensemble/steps.h"
 
-enum { QDOT_ENSEMBLE_PASSES = 3 }; /* largest number of passes: the runs, and two companions of each */
+enum { QDOT_ENSEMBLE_PASSES = 3 }; /* largest number of passes: the runs, and two companion runs of each */
 
 typedef struct qdot_ensemble qdot_ensemble;
 
 typedef struct {
     qdot_run_status status; /* QDOT_RUN_DONE or QDOT_RUN_FAILED */
-    const char *reason;     /* why it failed; NULL when done; valid until the next _run or _free */
+    const char *reason;     /* why the run failed; NULL when done; valid until the next qdot_ensemble_run or _free */
     double t;               /* the time at which the member ended */
     size_t steps, rejected;
     double error; /* error of the end state, relative to max(1, |value|); NaN: unknown or not requested */
@@ -107,7 +107,7 @@ int qdot_ensemble_order(const qdot_ensemble *e, size_t pass);
 double qdot_ensemble_tolerance(const qdot_ensemble *e, size_t pass);
 void qdot_ensemble_limits(const qdot_ensemble *e, double *t0, double *t1, double *tol);
 
-/* Whether the equations depend on varied parameter number k. */
+/* Whether the equations of motion depend on the varied parameter number k. */
 bool qdot_ensemble_reads(const qdot_ensemble *e, size_t k);
 
 #endif

@@ -1,4 +1,4 @@
-/* fit.c -- whether a scene can be run as an ensemble in vector lanes, judged by the plan of one run. */
+/* fit.c -- whether a scene can be run as an ensemble in vector lanes (SIMD), judged by the plan of one run. */
 #include "sim/ensemble/fit.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "sim/plan/plan.h"
 
 static qdot_status
-take_bounds(const qdot_domains *domains, qdot_ensemble_bounds *bounds)
+copy_domain_bounds(const qdot_domains *domains, qdot_ensemble_bounds *bounds)
 {
     for (size_t i = 0; i < domains->n; i++) {
         const double ends[] = {domains->at[i].lo, domains->at[i].hi};
@@ -25,10 +25,10 @@ take_bounds(const qdot_domains *domains, qdot_ensemble_bounds *bounds)
 /* The reason of the system of a plan, or of a part of it. Where constraints lose their directions lanes
  * leave a member to a run alone. */
 static const char *
-reason_of_system(const qdot_ode_system *system, bool constrained)
+why_system_unsuitable(const qdot_ode_system *system, bool constrained)
 {
     for (size_t k = 0; k < system->n_parts; k++) {
-        const char *reason = reason_of_system(system->parts[k].system, constrained);
+        const char *reason = why_system_unsuitable(system->parts[k].system, constrained);
 
         if (reason)
             return reason;
@@ -41,7 +41,7 @@ reason_of_system(const qdot_ode_system *system, bool constrained)
 }
 
 static qdot_status
-look_at_plan(const qdot_plan *plan, qdot_text *why)
+check_plan(const qdot_plan *plan, qdot_text *why)
 {
     qdot_bind *bind = NULL;
     const char *reason;
@@ -59,7 +59,7 @@ look_at_plan(const qdot_plan *plan, qdot_text *why)
     status = qdot_bind_new(plan, false, &bind);
     if (status == QDOT_OK) {
         system = qdot_bind_system(bind);
-        reason = reason_of_system(&system, plan->constraints != NULL);
+        reason = why_system_unsuitable(&system, plan->constraints != NULL);
         if (reason)
             qdot_text_add(why, reason);
     }
@@ -89,9 +89,9 @@ qdot_ensemble_fit(qdot_scene *scene, const qdot_run_request *request,
     if (status == QDOT_OK && stage.switches.surfaces.n > 0)
         qdot_text_add(why, "the equations switch");
     else if (status == QDOT_OK)
-        status = look_at_plan(stage.modes.at[0]->plan, why);
+        status = check_plan(stage.modes.at[0]->plan, why);
     if (status == QDOT_OK)
-        status = take_bounds(&stage.domains, bounds);
+        status = copy_domain_bounds(&stage.domains, bounds);
     qdot_stage_clear(&stage);
     return status == QDOT_OK ? qdot_text_status(why) : status;
 }

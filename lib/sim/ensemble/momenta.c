@@ -1,4 +1,4 @@
-/* momenta.c -- momenta from velocities by a tape in two doubles; velocities from momenta by the equations. */
+/* momenta.c -- finds momenta from velocities by a double-double tape, velocities from momenta by the equations. */
 #include "sim/ensemble/momenta.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ struct qdot_ensemble_momenta {
 };
 
 static qdot_status
-momenta_make(qdot_ensemble_momenta *x)
+make_conversion(qdot_ensemble_momenta *x)
 {
     const qdot_plan *p = x->plan;
 
@@ -32,7 +32,7 @@ qdot_ensemble_momenta_new(const qdot_plan *reduced, qdot_ensemble_momenta **out)
     if (!x)
         return QDOT_ENOMEM;
     x->plan = reduced;
-    status = momenta_make(x);
+    status = make_conversion(x);
     if (status != QDOT_OK) {
         qdot_ensemble_momenta_free(x);
         return status;

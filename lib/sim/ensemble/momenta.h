@@ -18,7 +18,7 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_momenta_new(const qdot_plan *reduced,
                                                       qdot_ensemble_momenta **out);
 void qdot_ensemble_momenta_free(qdot_ensemble_momenta *x);
 
-/* Find the conserved momenta p [n_kept] of the state y [2n]; false if one is not finite. */
+/* Find the conserved momenta p [n_kept] at the state y [2n]; false if one is not finite. */
 QDOT_MUST_CHECK bool qdot_ensemble_momenta_enter(qdot_ensemble_momenta *x, double t,
                                                  const double *y, double *p);
 /* Compute the velocities in y that follow from p and its other components; not finite if they are

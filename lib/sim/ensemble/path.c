@@ -12,7 +12,7 @@
 /* Make the stage of a single run in which the varied parameters are states, so that its plan can
  * expand each step. */
 static qdot_status
-make_stage(const qdot_ensemble_path_of *of, qdot_stage *stage)
+make_stage_of_plan(const qdot_ensemble_path_of *of, qdot_stage *stage)
 {
     qdot_mode *mode = qdot_calloc(1, sizeof *mode);
     qdot_parameter_states states;
@@ -35,20 +35,20 @@ make_stage(const qdot_ensemble_path_of *of, qdot_stage *stage)
 }
 
 static qdot_course *
-course_of(qdot_run *run, size_t pass)
+course_of_pass(qdot_run *run, size_t pass)
 {
     return pass == 0 ? &run->course : pass == 1 ? &run->companion : &run->twin;
 }
 
 static qdot_status
-path_make(const qdot_ensemble_path_of *of, qdot_run *run)
+make_run_of_ensemble(const qdot_ensemble_path_of *of, qdot_run *run)
 {
     qdot_run_report *report = &run->report;
 
-    QDOT_TRY(make_stage(of, &run->stage));
+    QDOT_TRY(make_stage_of_plan(of, &run->stage));
     run->plan = run->stage.modes.at[0]->plan;
     for (size_t pass = 0; pass < QDOT_ENSEMBLE_PASSES; pass++) {
-        qdot_course *c = course_of(run, pass);
+        qdot_course *c = course_of_pass(run, pass);
 
         c->stage = &run->stage;
         c->shaken = pass == 1;
@@ -66,7 +66,7 @@ qdot_status
 qdot_ensemble_path_new(const qdot_ensemble_path_of *of, qdot_run **out)
 {
     qdot_run *run = qdot_calloc(1, sizeof *run);
-    qdot_status status = run ? path_make(of, run) : QDOT_ENOMEM;
+    qdot_status status = run ? make_run_of_ensemble(of, run) : QDOT_ENOMEM;
 
     *out = NULL;
     if (status != QDOT_OK)
@@ -76,7 +76,7 @@ qdot_ensemble_path_new(const qdot_ensemble_path_of *of, qdot_run **out)
     return status;
 }
 
-/* Copy the points that a pass stored for the member into its course. */
+/* Copy the points that a pass stored for an ensemble member into that member's course. */
 static qdot_status
 course_fill(const qdot_ensemble *e, size_t pass, size_t member, qdot_course *c)
 {
@@ -108,7 +108,7 @@ qdot_ensemble_path_take(const qdot_ensemble *e, size_t member, qdot_run *run, bo
     for (size_t pass = 0; pass < QDOT_ENSEMBLE_PASSES && *there; pass++) {
         *there = qdot_ensemble_points(e, pass, member) > 0;
         if (*there)
-            QDOT_TRY(course_fill(e, pass, member, course_of(run, pass)));
+            QDOT_TRY(course_fill(e, pass, member, course_of_pass(run, pass)));
     }
     run->has_companion = run->has_twin = *there;
     return QDOT_OK;

@@ -1,4 +1,4 @@
-/* runs.c -- lowers a scene with some parameters left open; runs the members and their companions. */
+/* runs.c -- compiles a scene with some parameters left open; runs the members and their companion runs. */
 #include "expr/symbol.h"
 #include "sim/ensemble/ensemble.h"
 
@@ -24,7 +24,7 @@ pass_clear(qdot_ensemble_pass *p)
 }
 
 static void
-forget_reasons(qdot_ensemble *e)
+free_reasons(qdot_ensemble *e)
 {
     for (size_t m = 0; m < e->n_reasons; m++)
         qdot_free(e->reasons[m]);
@@ -38,7 +38,7 @@ qdot_ensemble_free(qdot_ensemble *e)
 {
     if (!e)
         return;
-    forget_reasons(e);
+    free_reasons(e);
     for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
         pass_clear(e->passes + k);
         qdot_ensemble_series_free(e->passes[k].series);
@@ -53,8 +53,8 @@ qdot_ensemble_free(qdot_ensemble *e)
 /* --- making the ensemble ------------------------------------------------------------ */
 
 static qdot_status
-ensemble_check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
-               const qdot_expr *varied)
+check_request(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
+              const qdot_expr *varied)
 {
     const qdot_event *acting = qdot_scene_acting_event(scene);
 
@@ -88,8 +88,8 @@ ensemble_check(const qdot_scene *scene, const qdot_run_request *request, size_t 
 }
 
 static qdot_status
-make_plan(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
-          const qdot_expr *varied)
+make_open_plan(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
+               const qdot_expr *varied)
 {
     qdot_parameter_states states;
     qdot_status status = qdot_parameter_states_open(&states, scene, request, e->varied, varied);
@@ -103,7 +103,7 @@ make_plan(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
 }
 
 static qdot_status
-ensemble_make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
+make_ensemble(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
               const qdot_expr *varied)
 {
     qdot_pool *pool = scene->pool;
@@ -112,7 +112,7 @@ ensemble_make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *reque
 
     QDOT_TRY(qdot_constant_split(pool, request->t0, &e->t0, &side, &low));
     QDOT_TRY(qdot_constant_split(pool, request->t1, &e->t1, &e->t1_side, &e->t1_low));
-    QDOT_TRY(make_plan(e, scene, request, varied));
+    QDOT_TRY(make_open_plan(e, scene, request, varied));
     if (e->plan->reduced)
         QDOT_TRY(qdot_ensemble_momenta_new(e->plan->reduced, &e->momenta));
     return qdot_ensemble_series_new(qdot_ensemble_equations(e), false, e->tol, &e->order,
@@ -127,7 +127,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     qdot_status status;
 
     *ensemble = NULL;
-    QDOT_TRY(ensemble_check(scene, request, n_varied, varied));
+    QDOT_TRY(check_request(scene, request, n_varied, varied));
     e = qdot_calloc(1, sizeof *e);
     if (!e)
         return QDOT_ENOMEM;
@@ -135,7 +135,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     e->varied = n_varied;
     e->tol = request->tol;
     e->companions = QDOT_ENSEMBLE_PASSES - 1;
-    status = ensemble_make(e, scene, request, varied);
+    status = make_ensemble(e, scene, request, varied);
     if (status != QDOT_OK) {
         qdot_ensemble_free(e);
         return status;
@@ -146,9 +146,9 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* --- running one pass --------------------------------------------------------------- */
 
-/* Write a state y [n] and parameters [varied] to `to`; for companion 1 or 2 slightly shifted. */
+/* Write a state y [n] and parameters [varied] to `to`; for companion run 1 or 2 slightly shifted. */
 static void
-member_put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
+write_member(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
 {
     if (companion)
         qdot_companion_beside(NULL, n, y, companion - 1, false, 0, to, NULL);
@@ -159,10 +159,10 @@ member_put(size_t n, const double *y, size_t varied, const double *parameters, s
                               : parameters[i];
 }
 
-/* Initialise a pass; p starts as {.run.order, .run.tol}. */
+/* Initialise a pass over all members; p starts as {.run.order, .run.tol}. */
 static qdot_status
-pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const double *y,
-          const double *parameters)
+begin_pass(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const double *y,
+           const double *parameters)
 {
     const size_t n = 2 * e->n, kept = qdot_ensemble_kept(e);
     const double t1 = p->number == 1 ? qdot_shake_double(e->t1, e->t1_side) : e->t1;
@@ -185,7 +185,7 @@ pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const d
 
         t0[m] = e->t0;
         t1s[m] = t1;
-        member_put(n, y + m * n, e->varied, e->varied > 0 ? parameters + m * e->varied : NULL, p->number, to);
+        write_member(n, y + m * n, e->varied, e->varied > 0 ? parameters + m * e->varied : NULL, p->number, to);
     }
     p->run.members = members;
     p->run.t0 = t0;
@@ -194,7 +194,7 @@ pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const d
 }
 
 static void *
-pass_run(void *user)
+run_pass(void *user)
 {
     qdot_ensemble_pass *p = user;
     qdot_ode_batch system = qdot_ensemble_series_system(p->series);
@@ -207,9 +207,9 @@ pass_run(void *user)
     return NULL;
 }
 
-/* Set the order and the tolerance of a pass. */
+/* Set the order of the Taylor series and the tolerance of a pass over all members. */
 static void
-pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
+set_pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
 
@@ -223,9 +223,9 @@ pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
     p->run.term_tol = qdot_companion_term_tol(e->tol, p->number - 1);
 }
 
-/* Make the Taylor series of a companion run, with slightly perturbed constants if it is `shaken`. */
+/* Make the Taylor series of a pass, unless made; the first companion run's has slightly perturbed constants. */
 static qdot_status
-make_series(const qdot_ensemble *e, qdot_ensemble_pass *p)
+make_pass_series(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     int order = p->run.order;
 
@@ -237,7 +237,7 @@ make_series(const qdot_ensemble *e, qdot_ensemble_pass *p)
 /* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
  * does not run. */
 static void
-members_enter_velocities(const qdot_ensemble *e, qdot_ensemble_pass *p)
+replace_velocities_by_momenta(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const size_t n = e->n, kept = qdot_ensemble_kept(e);
 
@@ -257,9 +257,9 @@ members_enter_velocities(const qdot_ensemble *e, qdot_ensemble_pass *p)
     }
 }
 
-/* Convert the momenta back to velocities. */
+/* Convert the conserved momenta in all end states of a pass back to velocities. */
 static void
-come_back(const qdot_ensemble *e, qdot_ensemble_pass *p)
+restore_velocities(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const size_t n = e->n, kept = qdot_ensemble_kept(e);
 
@@ -285,7 +285,7 @@ come_back(const qdot_ensemble *e, qdot_ensemble_pass *p)
 /* Whether a member may start at y, which is brought to its constraints; as of a single run, whose
  * states are `whole` [2 (n + varied)]. */
 static qdot_status
-start(const qdot_ensemble *e, bool shaken, double *whole, double *y)
+project_start_state(const qdot_ensemble *e, bool shaken, double *whole, double *y)
 {
     const size_t n = e->n, all = n + e->varied, bytes = sizeof *y;
     qdot_constrained *held;
@@ -310,10 +310,10 @@ start(const qdot_ensemble *e, bool shaken, double *whole, double *y)
 /* Prepare the start of every member. Those that cannot start do not run, and `reasons` [members]
  * (may be NULL) says why. */
 static qdot_status
-start_all(const qdot_ensemble *e, qdot_ensemble_pass *p, char **reasons, double *whole)
+project_start_states(const qdot_ensemble *e, qdot_ensemble_pass *p, char **reasons, double *whole)
 {
     for (size_t m = 0; m < p->run.members; m++) {
-        const qdot_status status = start(e, p->number == 1, whole, p->run.y + m * qdot_ensemble_width(e));
+        const qdot_status status = project_start_state(e, p->number == 1, whole, p->run.y + m * qdot_ensemble_width(e));
 
         if (qdot_grave(status) != QDOT_OK)
             return status;
@@ -329,7 +329,7 @@ start_all(const qdot_ensemble *e, qdot_ensemble_pass *p, char **reasons, double 
     return QDOT_OK;
 }
 
-/* Start the runs, then the companions of those members that have a run. */
+/* Prepare the starts of the runs, then those of the companion runs of members whose run could start. */
 static qdot_status
 start_passes(qdot_ensemble *e, size_t passes)
 {
@@ -337,7 +337,7 @@ start_passes(qdot_ensemble *e, size_t passes)
     double *whole;
     qdot_status status = QDOT_OK;
 
-    forget_reasons(e);
+    free_reasons(e);
     e->reasons = qdot_calloc(runs->run.members + 1, sizeof *e->reasons);
     if (!e->reasons)
         return QDOT_ENOMEM;
@@ -348,7 +348,7 @@ start_passes(qdot_ensemble *e, size_t passes)
     if (!whole)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        status = start_all(e, e->passes + k, k == 0 ? e->reasons : NULL, whole);
+        status = project_start_states(e, e->passes + k, k == 0 ? e->reasons : NULL, whole);
     qdot_free(whole);
     return status;
 }
@@ -358,14 +358,14 @@ start_passes(qdot_ensemble *e, size_t passes)
 /* The first pass here; its companions beside it, or after it where somebody looks: beside no member
  * that was left. */
 static qdot_status
-run_passes(qdot_ensemble *e, size_t passes)
+run_passes_in_threads(qdot_ensemble *e, size_t passes)
 {
     pthread_t thread[QDOT_ENSEMBLE_PASSES];
     bool threaded[QDOT_ENSEMBLE_PASSES] = {false};
 
     for (size_t k = 1; k < passes && !e->watching; k++)
-        threaded[k] = pthread_create(&thread[k], NULL, pass_run, e->passes + k) == 0;
-    pass_run(e->passes);
+        threaded[k] = pthread_create(&thread[k], NULL, run_pass, e->passes + k) == 0;
+    run_pass(e->passes);
     for (size_t m = 0; m < e->passes->run.members && e->watching; m++)
         for (size_t k = 1; k < passes && qdot_ensemble_left(e, m); k++)
             e->passes[k].t1[m] = e->t0;
@@ -373,30 +373,30 @@ run_passes(qdot_ensemble *e, size_t passes)
         if (threaded[k])
             pthread_join(thread[k], NULL);
         else if (e->passes->status == QDOT_OK)
-            pass_run(e->passes + k);
+            run_pass(e->passes + k);
     for (size_t k = 0; k < passes; k++)
         if (e->passes[k].status != QDOT_OK)
             return qdot_fail(e->passes[k].status, "%s", e->passes[k].error.message);
     return QDOT_OK;
 }
 
-/* Whether the companion of member m has reached the end of its run. */
+/* Whether the companion run of member m has reached the end time of the member's run. */
 static bool
-arrived(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
+has_reached_end(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
 {
     return companions->run.results[m].outcome == QDOT_BATCH_DONE &&
            (companions->t1[m] != e->t0 || e->t1 == e->t0);
 }
 
-/* Estimate the error of member m's end state from its companions. */
+/* Estimate the error of member m's end state from its companion runs. */
 static double
-end_error(const qdot_ensemble *e, size_t m)
+estimate_end_error(const qdot_ensemble *e, size_t m)
 {
     const double *y[QDOT_ENSEMBLE_PASSES];
     double error = 0x1p-53;
 
     for (size_t k = 0; k <= e->companions; k++) {
-        if (k > 0 && !arrived(e, e->passes + k, m))
+        if (k > 0 && !has_reached_end(e, e->passes + k, m))
             return NAN;
         y[k] = e->passes[k].run.y + m * qdot_ensemble_width(e);
     }
@@ -410,7 +410,7 @@ end_error(const qdot_ensemble *e, size_t m)
 }
 
 static void
-report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *results)
+fill_results(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *results)
 {
     static const char *const reasons[] = {
         [QDOT_BATCH_DONE] = NULL,
@@ -440,13 +440,13 @@ report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *res
             .t = r->t,
             .steps = r->steps,
             .rejected = r->rejected,
-            .error = errors && !why ? end_error(e, m) : NAN};
+            .error = errors && !why ? estimate_end_error(e, m) : NAN};
     }
 }
 
-/* Begin to inspect the steps of a pass: events, states at given times, doubts. */
+/* Begin to inspect the steps of a pass for events, for states at given times, and for short forces. */
 static qdot_status
-follow_pass(const qdot_ensemble *e, qdot_ensemble_pass *p)
+begin_inspection(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const qdot_ensemble_steps_of of = {.plan = e->plan,
                                        .watching = e->watching,
@@ -471,22 +471,22 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
         qdot_ensemble_pass *p = e->passes + k;
 
         p->number = k;
-        pass_options(e, p);
-        status = make_series(e, p);
+        set_pass_options(e, p);
+        status = make_pass_series(e, p);
         if (status == QDOT_OK && e->watching && !p->steps)
-            status = follow_pass(e, p);
+            status = begin_inspection(e, p);
         if (status == QDOT_OK)
-            status = pass_init(p, e, members, y, parameters);
+            status = begin_pass(p, e, members, y, parameters);
     }
     if (status == QDOT_OK)
         status = start_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        members_enter_velocities(e, e->passes + k);
+        replace_velocities_by_momenta(e, e->passes + k);
     if (status == QDOT_OK)
-        status = run_passes(e, passes);
+        status = run_passes_in_threads(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        come_back(e, e->passes + k);
+        restore_velocities(e, e->passes + k);
     if (status == QDOT_OK)
-        report(e, errors, y, results);
+        fill_results(e, errors, y, results);
     return status;
 }

@@ -1,4 +1,4 @@
-/* seen.c -- returns the events and intermediate states of ensemble members, with their errors. */
+/* seen.c -- returns the observed events and intermediate states of ensemble members, with their errors. */
 #include <math.h>
 #include <string.h>
 
@@ -8,9 +8,9 @@
 #include "sim/ensemble/parts.h"
 #include "tape/disc.h"
 
-/* Whether an event depends on a velocity that is not part of the integrated state (its momentum is). */
+/* Whether an event's function g depends on a velocity that a conserved momentum replaces in the state. */
 static bool
-reads_kept(const qdot_ensemble *e, qdot_expr g)
+depends_on_replaced_velocity(const qdot_ensemble *e, qdot_expr g)
 {
     for (size_t c = 0; c < qdot_ensemble_kept(e); c++)
         if (qdot_expr_contains(e->plan->pool, g, e->plan->inputs[e->plan->n + qdot_ensemble_equations(e)->kept[c]]))
@@ -26,7 +26,7 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
     const double *part = qdot_companion_places(&places);
 
     for (size_t i = 0; i < watching->n_events; i++)
-        if (reads_kept(e, watching->events[i].function))
+        if (depends_on_replaced_velocity(e, watching->events[i].function))
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with an event that reads a "
                                              "velocity whose momentum is kept");
     if (qdot_ensemble_kept(e) > 0 && e->plan->tape
@@ -63,7 +63,7 @@ qdot_ensemble_left(const qdot_ensemble *e, size_t m)
 /* The batch's state y as q, parameters, q', 0 for the rates of parameters; `raw`: y has momenta for the
  * velocities. */
 static void
-write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole)
+write_whole_state(const qdot_ensemble *e, double t, double *y, bool raw, double *whole)
 {
     const size_t n = e->n, kept = qdot_ensemble_kept(e), bytes = sizeof *y;
 
@@ -77,12 +77,12 @@ write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole
         e->passes[0].momenta[c] = y[n + qdot_ensemble_equations(e)->kept[c]];
     qdot_ensemble_momenta_derive(e->momenta, t, e->passes[0].momenta, y);
     memcpy(whole + n + e->varied, y + n, n * bytes);
-    for (size_t c = 0; c < kept; c++) /* restore the momenta */
+    for (size_t c = 0; c < kept; c++) /* put the conserved momenta back in the place of velocities */
         y[n + qdot_ensemble_equations(e)->kept[c]] = e->passes[0].momenta[c];
 }
 
 static bool
-went_all_the_way(const qdot_ensemble_pass *p, const qdot_ensemble *e, size_t m)
+reached_end_time(const qdot_ensemble_pass *p, const qdot_ensemble *e, size_t m)
 {
     return p->run.results[m].outcome == QDOT_BATCH_DONE && p->t1[m] != e->t0;
 }
@@ -95,12 +95,12 @@ qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, do
     if (place < e->n_times) {
         if (qdot_ensemble_steps_passed(p->steps, m) <= place)
             return false;
-        write_whole(e, e->times[place], qdot_ensemble_steps_state(p->steps, m, place), true, whole);
+        write_whole_state(e, e->times[place], qdot_ensemble_steps_state(p->steps, m, place), true, whole);
         return true;
     }
-    if (!went_all_the_way(p, e, m))
+    if (!reached_end_time(p, e, m))
         return false;
-    write_whole(e, e->t1, p->run.y + m * qdot_ensemble_width(e), false, whole);
+    write_whole_state(e, e->t1, p->run.y + m * qdot_ensemble_width(e), false, whole);
     return true;
 }
 
@@ -109,7 +109,7 @@ qdot_ensemble_points(const qdot_ensemble *e, size_t k, size_t m)
 {
     const qdot_ensemble_pass *p = e->passes + k;
 
-    return went_all_the_way(p, e, m)
+    return reached_end_time(p, e, m)
                ? qdot_ensemble_steps_starts(p->steps, m)->n / (1 + qdot_ensemble_width(e)) + 1
                : 0;
 }
@@ -123,11 +123,11 @@ qdot_ensemble_point(const qdot_ensemble *e, size_t k, size_t m, size_t i, double
 
     if (i * (1 + qdot_ensemble_width(e)) < starts->n) {
         *t = at[0];
-        write_whole(e, *t, at + 1, true, whole);
+        write_whole_state(e, *t, at + 1, true, whole);
         return;
     }
-    *t = e->t1; /* for a companion, too, whose end time differs only by rounding */
-    write_whole(e, *t, p->run.y + m * qdot_ensemble_width(e), false, whole);
+    *t = e->t1; /* also for a companion run, whose end time differs only by rounding */
+    write_whole_state(e, *t, p->run.y + m * qdot_ensemble_width(e), false, whole);
 }
 
 int

@@ -1,4 +1,4 @@
-/* steps.c -- reads the steps of lanes: states at given times, events, bounds. */
+/* steps.c -- inspects the steps of vector lanes for states at given times, events and bounds. */
 #include "sim/ensemble/steps.h"
 
 #include <math.h>
@@ -16,8 +16,8 @@ enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
 typedef struct {
     size_t member;
     bool begun; /* `watch` has been started for this member */
-    size_t passed, next;       /* number of requested times before the step; and up to its end */
-    bool doubtful;             /* the step shows something that lanes cannot treat */
+    size_t passed, next;       /* number of requested times before the step; number of them up to the step's end */
+    bool doubtful;             /* the step shows something that vector lanes cannot compute reliably */
     qdot_vec(qdot_root) roots; /* roots of event functions in the step */
     double *end;               /* [2N] state at the end of the step */
     double *x;                 /* [2N x STRIDE] Taylor coefficients of the step */
@@ -32,7 +32,7 @@ typedef struct {
 struct qdot_ensemble_steps {
     qdot_ensemble_steps_of of;
     size_t n, varied, N;  /* number of coordinates; of varied parameters; their sum */
-    size_t stride;        /* distance of two rows of the system's series, in groups */
+    size_t stride;        /* distance of two rows of the system's Taylor coefficients, in groups of lanes */
     size_t asked;         /* number of occurrences stored for a member, over all events */
     qdot_repeated *zeros; /* [events] smooth functions with the same zeros as the events' */
     size_t *first;        /* [events] index of the first stored occurrence of each event */
@@ -50,7 +50,7 @@ struct qdot_ensemble_steps {
 /* --- making the lanes ----------------------------------------------------------------- */
 
 static void
-steps_forget(qdot_ensemble_steps *s)
+clear_steps(qdot_ensemble_steps *s)
 {
     for (size_t m = 0; s->starts && m < s->members; m++)
         qdot_free(s->starts[m].at);
@@ -72,7 +72,7 @@ qdot_ensemble_steps_free(qdot_ensemble_steps *s)
 {
     if (!s)
         return;
-    steps_forget(s);
+    clear_steps(s);
     for (size_t l = 0; l < L; l++) {
         qdot_free(s->lanes[l].roots.at);
         qdot_free(s->lanes[l].end);
@@ -98,7 +98,7 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
     a->member = SIZE_MAX;
     a->series = (qdot_ode_series){.most = QDOT_SERIES_MOST, .x = a->x, .stride = STRIDE};
     a->system = (qdot_ode_system){.n = n, .series = &a->series};
-    if (!s->of.moved) /* only for the runs: companions start from moved states */
+    if (!s->of.moved) /* only for the runs themselves: companion runs begin from shifted states */
         QDOT_TRY(qdot_ensemble_doubts_new(s->of.plan, &a->doubts));
     if (events)
         QDOT_TRY(qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch));
@@ -108,7 +108,7 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
 }
 
 static qdot_status
-steps_make(qdot_ensemble_steps *s)
+make_step_inspection(qdot_ensemble_steps *s)
 {
     const qdot_ensemble_watching *w = s->of.watching;
     qdot_expr *g = qdot_calloc(w->n_events + 1, sizeof *g);
@@ -144,7 +144,7 @@ qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of, qdot_ensemble_steps **
     s->N = of->plan->n;
     s->varied = of->plan->n_states;
     s->n = s->N - s->varied;
-    status = steps_make(s);
+    status = make_step_inspection(s);
     if (status == QDOT_OK)
         *steps = s;
     else
@@ -157,7 +157,7 @@ qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
 {
     const size_t width = 2 * s->n + s->varied;
 
-    steps_forget(s);
+    clear_steps(s);
     s->members = members;
     s->seen = qdot_calloc(members * s->of.n_times * width + 1, sizeof *s->seen);
     s->occurred = qdot_calloc(members * s->asked + 1, sizeof *s->occurred);
@@ -189,7 +189,7 @@ read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, 
     enum { SIDE_BY_SIDE = 4 };
     const double at = (t - step->t) / step->unit, square = at * at;
     const size_t n = 2 * s->n, row = s->stride * L;
-    const int odd = (step->order - 1) | 1; /* the highest odd order below p: start of the sum */
+    const int odd = (step->order - 1) | 1; /* the highest odd order below p, at which the summation starts */
 
     for (size_t i = 0; i < n + s->varied; i++)
         to[i] = step->y[i * L];
@@ -211,9 +211,9 @@ read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, 
     }
 }
 
-/* Evaluate the state at t within the step of a lane, for the watch. */
+/* Evaluate the state at t within the step of a lane, for the root finder. */
 static qdot_status
-read_lane(double t, double *y, void *user)
+read_lane_state(double t, double *y, void *user)
 {
     const lane *a = user;
 
@@ -221,33 +221,33 @@ read_lane(double t, double *y, void *user)
     return QDOT_OK;
 }
 
-/* The index of component i of a batch in a state with parameters. */
+/* The index, in a state followed by parameters, of component i of a batch. */
 static size_t
-state_place(const qdot_ensemble_steps *s, size_t i)
+index_in_state(const qdot_ensemble_steps *s, size_t i)
 {
     return i < s->n ? i : i < 2 * s->n ? i + s->varied : i - s->n;
 }
 
-/* Copy the series of the step and its start into the lane. */
+/* Copy the Taylor coefficients of the step, and its start state, into the lane. */
 static void
 copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     for (size_t i = 0; i < 2 * s->n + s->varied; i++) {
         const double *from = step->x + i * s->stride * L;
-        double *to = a->x + state_place(s, i) * STRIDE;
+        double *to = a->x + index_in_state(s, i) * STRIDE;
 
-        a->y[state_place(s, i)] = to[0] = step->y[i * L];
+        a->y[index_in_state(s, i)] = to[0] = step->y[i * L];
         for (int k = 1; k <= step->order && i < 2 * s->n; k++)
             to[k] = from[(size_t)k * L];
     }
     a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y, NULL};
 }
 
-/* Start watching the events of the member at its start. */
+/* Start the search for an ensemble member's events, at the start of the member. */
 static qdot_status
-begin_watch(const qdot_ensemble_steps *s, lane *a)
+begin_event_search(const qdot_ensemble_steps *s, lane *a)
 {
-    const qdot_watch_reader reader = {read_lane, NULL, a, false, &a->system, NULL};
+    const qdot_watch_reader reader = {read_lane_state, NULL, a, false, &a->system, NULL};
     const size_t m = s->of.watching->n_events;
     int *before = qdot_calloc(m + 1, sizeof *before);
     bool *on = qdot_calloc(m + 1, sizeof *on);
@@ -262,13 +262,13 @@ begin_watch(const qdot_ensemble_steps *s, lane *a)
     return status;
 }
 
-/* Search the step for events. If that fails the member is repeated as a single run. */
+/* Search the step for events; if that fails, the member is marked to be repeated as a single run. */
 static qdot_status
-lane_search_roots(const qdot_ensemble_steps *s, bool last, lane *a)
+search_events_in_step(const qdot_ensemble_steps *s, bool last, lane *a)
 {
     const qdot_root *roots;
     size_t n = 0;
-    qdot_status status = a->begun ? QDOT_OK : begin_watch(s, a);
+    qdot_status status = a->begun ? QDOT_OK : begin_event_search(s, a);
 
     a->roots.n = 0;
     if (status == QDOT_OK)
@@ -283,9 +283,9 @@ lane_search_roots(const qdot_ensemble_steps *s, bool last, lane *a)
     return QDOT_OK;
 }
 
-/* Whether the step may reach a bound of some event's function. */
+/* Whether a coordinate may come near a bound of its domain within the step. */
 static bool
-is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+may_reach_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 {
     const qdot_ensemble_watching *w = s->of.watching;
     const double h = fabs((step->t_end - step->t) / step->unit);
@@ -303,23 +303,23 @@ is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
     return false;
 }
 
-/* Inspect the step for hidden forces, and search it for events. */
+/* Inspect the step for forces shorter than the step, and search it for events. */
 static qdot_status
-lane_look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+inspect_lane_step(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     qdot_pulses_step seen = {.a = step->t,
                              .b = step->t_end,
                              .tol = s->of.tol,
                              .from = a->y,
                              .to = a->end,
-                             .read = read_lane,
+                             .read = read_lane_state,
                              .user = a};
 
     copy_series(s, step, a);
-    QDOT_TRY(read_lane(step->t_end, a->end, a));
+    QDOT_TRY(read_lane_state(step->t_end, a->end, a));
     if (a->doubts && !a->doubtful)
         QDOT_TRY(qdot_ensemble_doubts_look(a->doubts, &seen, &a->doubtful));
-    return a->watch ? lane_search_roots(s, step->last, a) : QDOT_OK;
+    return a->watch ? search_events_in_step(s, step->last, a) : QDOT_OK;
 }
 
 /* Put the lane at the start of its next member. */
@@ -334,9 +334,9 @@ lane_enter_member(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     return a->doubts ? qdot_ensemble_doubts_begin(a->doubts) : QDOT_OK;
 }
 
-/* Store the start of a step, unless it is stored already. */
+/* Store the start of a step of an ensemble member, unless it is stored already. */
 static qdot_status
-member_keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+store_step_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 {
     const size_t width = 2 * s->n + s->varied;
     qdot_ensemble_starts *starts = s->starts + step->member;
@@ -350,7 +350,7 @@ member_keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 }
 
 static qdot_status
-tried(const qdot_batch_step *step, void *user)
+inspect_tried_step(const qdot_batch_step *step, void *user)
 {
     qdot_ensemble_steps *s = user;
     lane *a = s->lanes + step->lane;
@@ -360,7 +360,7 @@ tried(const qdot_batch_step *step, void *user)
     if (a->member != step->member)
         QDOT_TRY(lane_enter_member(s, step, a));
     if (s->starts)
-        QDOT_TRY(member_keep_start(s, step));
+        QDOT_TRY(store_step_start(s, step));
     a->next = a->passed;
     a->step.t_end = step->t_end;
     while (a->next < s->of.n_times
@@ -370,19 +370,19 @@ tried(const qdot_batch_step *step, void *user)
                    s->seen + (step->member * s->of.n_times + a->next) * width);
         a->next++;
     }
-    a->doubtful = is_near_bound(s, step);
+    a->doubtful = may_reach_bound(s, step);
     for (size_t i = 0; i < 2 * s->n; i++) {
         const double size = fabs(step->y[i * L]);
 
         if (size > sizes[i])
             sizes[i] = size;
     }
-    return a->watch || a->doubts ? lane_look(s, step, a) : QDOT_OK;
+    return a->watch || a->doubts ? inspect_lane_step(s, step, a) : QDOT_OK;
 }
 
-/* Count the events of the step; returns whether all that were requested of this member have been found. */
+/* Count the events found in the step; returns whether all events requested of this member have occurred. */
 static bool
-lane_note_roots(qdot_ensemble_steps *s, lane *a)
+count_events(qdot_ensemble_steps *s, lane *a)
 {
     const qdot_ensemble_watching *w = s->of.watching;
     size_t *count = s->count + a->member * w->n_events;
@@ -408,7 +408,7 @@ lane_note_roots(qdot_ensemble_steps *s, lane *a)
 }
 
 static bool
-taken(size_t l, void *user)
+finish_accepted_step(size_t l, void *user)
 {
     qdot_ensemble_steps *s = user;
     lane *a = s->lanes + l;
@@ -420,14 +420,14 @@ taken(size_t l, void *user)
     if (!a->watch)
         return false;
     qdot_watch_take(a->watch);
-    return lane_note_roots(s, a) && s->of.watching->leave;
+    return count_events(s, a) && s->of.watching->leave;
 }
 
 void
 qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system)
 {
-    system->tried = tried;
-    system->taken = taken;
+    system->tried = inspect_tried_step;
+    system->taken = finish_accepted_step;
     system->looker = s;
     s->stride = system->stride;
 }

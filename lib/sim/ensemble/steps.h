@@ -31,7 +31,7 @@ typedef struct {
     size_t n_events, n_bounds;
     const qdot_ensemble_event *events;
     const qdot_ensemble_bound *bounds;
-    bool leave; /* a member ends as soon as all requested event occurrences are found */
+    bool leave; /* a member ends as soon as the requested number of event occurrences is found */
     bool keep;  /* store the start of every step (sim/ensemble/path.h) */
 } qdot_ensemble_watching;
 
@@ -45,15 +45,15 @@ typedef struct {
     size_t n_times;
     const double *times;
     double tol;
-    bool shaken, moved, backward; /* constants are shaken; starts are those of companions; time runs backwards */
+    bool shaken, moved, backward; /* constants are perturbed; starts are those of companion runs; time runs backward */
 } qdot_ensemble_steps_of;
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of,
                                                     qdot_ensemble_steps **steps);
 void qdot_ensemble_steps_free(qdot_ensemble_steps *s);
 
-/* Call before a run of `members` members. Errors: QDOT_ENOMEM. */
+/* Call before running a pass of `members` ensemble members. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members);
-/* Set the callbacks of a system so that each step is inspected. */
+/* Set the callbacks of an ensemble's system so that each of its steps is inspected. */
 void qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system);
 
 /* For one member: the starts of its steps, if stored: t and the state, [1 + 2n + varied] each. */

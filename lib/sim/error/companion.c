@@ -1,4 +1,4 @@
-/* companion.c -- repeats a run as its companion, slightly disturbed, and compares the two. */
+/* companion.c -- repeats a run slightly disturbed, as its companion run, and compares the two. */
 #include "sim/error/companion.h"
 
 #include <float.h>
@@ -21,7 +21,7 @@
 /* The time at which the companion ends: the end of the run, or the requested end if an event
  * stopped the run. */
 static double
-companion_end(const qdot_run *run)
+end_time_of_companion(const qdot_run *run)
 {
     return run->course.stopped_by != SIZE_MAX
                ? qdot_shake_double(run->t1, run->t1_side)
@@ -33,9 +33,9 @@ companion_end(const qdot_run *run)
 /* A last piece of the run shorter than this, relative to t, may be caused by rounding of t. */
 static const double no_length = 8 * DBL_EPSILON;
 
-/* Whether the last piece has no duration, as at a switch where the motion would slide. */
+/* Whether the last piece of a run has no duration, as at a switch where the motion would slide. */
 static bool
-ends_in_point(const qdot_trajectory *tr)
+last_piece_is_empty(const qdot_trajectory *tr)
 {
     const qdot_trajectory_piece *last = tr->pieces.at + tr->pieces.n - 1;
     const double end = tr->t[tr->count - 1];
@@ -47,12 +47,12 @@ ends_in_point(const qdot_trajectory *tr)
 /* A last piece without length decides nothing: moved a little the companion may go on there,
  * or end before it, and one that has it may be the companion's. */
 static bool
-went_alike(const qdot_course *run, const qdot_course *other)
+have_same_pieces(const qdot_course *run, const qdot_course *other)
 {
     const qdot_trajectory *a = &run->tr, *b = &other->tr;
-    const size_t n = a->pieces.n - (ends_in_point(a) ? 1 : 0);
+    const size_t n = a->pieces.n - (last_piece_is_empty(a) ? 1 : 0);
 
-    if (b->pieces.n < n || b->pieces.n > a->pieces.n + (ends_in_point(b) ? 1 : 0))
+    if (b->pieces.n < n || b->pieces.n > a->pieces.n + (last_piece_is_empty(b) ? 1 : 0))
         return false;
     for (size_t i = 0; i < n; i++)
         if (a->pieces.at[i].mode != b->pieces.at[i].mode)
@@ -63,23 +63,23 @@ went_alike(const qdot_course *run, const qdot_course *other)
 bool
 qdot_run_comparable(const qdot_run *run)
 {
-    return !run->hidden && run->has_companion && went_alike(&run->course, &run->companion)
-           && (!run->has_twin || went_alike(&run->course, &run->twin));
+    return !run->hidden && run->has_companion && have_same_pieces(&run->course, &run->companion)
+           && (!run->has_twin || have_same_pieces(&run->course, &run->twin));
 }
 
-/* Pieces begin at one time if they do within so much of the time since the start. */
+/* Pieces of two runs begin at the same time if the times differ by less than this part of the time elapsed. */
 static const double near_enough = 1e-3;
 
 /* The time from which on a course is another one than the run: its piece there has other equations, or begins at another
  * time. NaN: it is the same. */
 static double
-time_of_parting(const qdot_course *run, const qdot_course *other)
+time_of_separation(const qdot_course *run, const qdot_course *other)
 {
     const qdot_trajectory *a = &run->tr, *b = &other->tr;
     const size_t n = a->pieces.n < b->pieces.n ? a->pieces.n : b->pieces.n;
     const double direction = a->t[a->count - 1] < a->t[0] ? -1 : 1;
 
-    if (went_alike(run, other))
+    if (have_same_pieces(run, other))
         return NAN;
     for (size_t i = 0; i < n; i++) {
         const double t = a->t[a->pieces.at[i].first], theirs = b->t[b->pieces.at[i].first];
@@ -93,14 +93,14 @@ time_of_parting(const qdot_course *run, const qdot_course *other)
 double
 qdot_run_time_of_parting(const qdot_run *run)
 {
-    const double first = run->has_companion ? time_of_parting(&run->course, &run->companion) : NAN,
-                 second = run->has_twin ? time_of_parting(&run->course, &run->twin) : NAN;
+    const double first = run->has_companion ? time_of_separation(&run->course, &run->companion) : NAN,
+                 second = run->has_twin ? time_of_separation(&run->course, &run->twin) : NAN;
 
     return run->t1 < run->t0 ? fmax(first, second) : fmin(first, second);
 }
 
 static bool
-covers(const qdot_course *c, double t)
+reaches_time(const qdot_course *c, double t)
 {
     const qdot_trajectory *tr = &c->tr;
     double start = tr->t[0], end = tr->t[tr->count - 1];
@@ -112,19 +112,19 @@ covers(const qdot_course *c, double t)
 bool
 qdot_run_covered(const qdot_run *run, double t)
 {
-    return run->has_companion && covers(&run->companion, t)
-           && (!run->has_twin || covers(&run->twin, t));
+    return run->has_companion && reaches_time(&run->companion, t)
+           && (!run->has_twin || reaches_time(&run->twin, t));
 }
 
 /* --- making the companion ------------------------------------------------------------ */
 
-/* The fraction of the run's work after which the progress of a companion is judged. */
+/* The fraction of the run's work after which the progress of a companion run is judged. */
 static const double of_whole = 0.1;
 
 /* Move y + low [2n], where a companion starts, by `by` times the error of the start: what run->apart has for this
  * companion. */
 static void
-move_by_error(const qdot_run *run, size_t number, double by, double *y, double *low)
+shift_by_given_error(const qdot_run *run, size_t number, double by, double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
 
@@ -155,7 +155,7 @@ project_start(const qdot_run *run, const qdot_ode_system *system, double t0, dou
 
 /* Whether the function of an event is 0 at the start of the run, to within rounding. */
 static qdot_status
-starts_on(const qdot_run *run, const qdot_staged_event *e, double t0, bool *on)
+starts_on_event(const qdot_run *run, const qdot_staged_event *e, double t0, bool *on)
 {
     const size_t n = 2 * run->plan->n;
     qdot_reading of = {0};
@@ -184,7 +184,7 @@ starts_on(const qdot_run *run, const qdot_staged_event *e, double t0, bool *on)
 /* Bodies that touch at the start, as the function of an event that acts has it, touch in the companion: where they stand is
  * not moved, for the crossing might be behind them and a blow be missed. */
 static qdot_status
-keep_contacts(const qdot_run *run, double t0, double *y, double *low)
+keep_contacts_touching(const qdot_run *run, double t0, double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
 
@@ -194,7 +194,7 @@ keep_contacts(const qdot_run *run, double t0, double *y, double *low)
 
         if (!e->then || e->way == 0 || e->undoing)
             continue;
-        QDOT_TRY(starts_on(run, e, t0, &on));
+        QDOT_TRY(starts_on_event(run, e, t0, &on));
         for (size_t i = 0; i < n && on; i++)
             if (qdot_expr_contains(run->plan->pool, e->function, run->plan->inputs[i])) {
                 y[i] = run->start[i];
@@ -204,10 +204,10 @@ keep_contacts(const qdot_run *run, double t0, double *y, double *low)
     return QDOT_OK;
 }
 
-/* How the start of a companion is moved. */
+/* How the start state of a companion run is shifted from that of the run. */
 typedef enum {
-    EACH,  /* each component is shifted with its own sign */
-    ALIKE, /* components of equal size are shifted alike, so that simultaneous events stay so */
+    EACH,  /* each component of the state is shifted with its own sign */
+    ALIKE, /* components of equal size are shifted alike, so that simultaneous events remain simultaneous */
     NOT,
     MOVES
 } move;
@@ -215,15 +215,15 @@ typedef enum {
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
  * the start is on is kept. */
 static qdot_status
-begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, move how, double t0,
-             double *y, double *low)
+begin_shifted(const qdot_run *run, const qdot_ode_system *system, size_t number, move how, double t0,
+              double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
 
     if (how == NOT) {
         memcpy(y, run->start, n * sizeof *y);
         memcpy(low, run->start_low, n * sizeof *low);
-        move_by_error(run, number, 1, y, low);
+        shift_by_given_error(run, number, 1, y, low);
         return QDOT_OK;
     }
     QDOT_TRY(qdot_still_find(run->plan, system, t0, run->start, run->start_low, run->units));
@@ -231,15 +231,15 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     qdot_companion_beside(run->units, n, run->start, number, how == ALIKE, run->report.tol, y,
                           run->leading ? low : NULL);
     if (!run->leading)
-        QDOT_TRY(keep_contacts(run, t0, y, low));
-    move_by_error(run, number, 1, y, low);
-    if (system->project) /* only in directions that the constraints allow */
+        QDOT_TRY(keep_contacts_touching(run, t0, y, low));
+    shift_by_given_error(run, number, 1, y, low);
+    if (system->project) /* only shifts that the constraints allow */
         QDOT_TRY(project_start(run, system, t0, y));
-    /* a start on a bound of a domain must not be moved outside */
+    /* a start on a bound of a coordinate's domain must not be moved outside */
     if (qdot_domains_outside(&run->stage.domains, y)) {
         memcpy(y, run->start, n * sizeof *y);
         memcpy(low, run->start_low, n * sizeof *low);
-        move_by_error(run, number, -1, y, low);
+        shift_by_given_error(run, number, -1, y, low);
     }
     return QDOT_OK;
 }
@@ -247,7 +247,7 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
 /* Whether the course has as many events and the same switches as the run; `acting`: ignore events
  * that change nothing. */
 static bool
-met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
+has_same_events(const qdot_run *run, const qdot_course *c, bool acting)
 {
     for (size_t i = 0; i < run->stage.events.n; i++) {
         const qdot_staged_event *e = run->stage.events.at + i;
@@ -255,12 +255,12 @@ met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
         if ((!acting || qdot_staged_event_acts(e)) && qdot_course_count(&run->course, i) != qdot_course_count(c, i))
             return false;
     }
-    return went_alike(&run->course, c);
+    return have_same_pieces(&run->course, c);
 }
 
-/* An empty course with the same settings as c. */
+/* An empty course (data of a run) with the same settings as c. */
 static qdot_course
-course_like(const qdot_course *c)
+empty_course_like(const qdot_course *c)
 {
     return (qdot_course){.stage = c->stage,
                          .shaken = c->shaken,
@@ -272,9 +272,9 @@ course_like(const qdot_course *c)
 }
 
 static void
-begin_anew(qdot_course *c)
+clear_course_results(qdot_course *c)
 {
-    const qdot_course empty = course_like(c);
+    const qdot_course empty = empty_course_like(c);
 
     qdot_course_clear(c);
     *c = empty;
@@ -283,23 +283,23 @@ begin_anew(qdot_course *c)
 void
 qdot_run_drop_companions(qdot_run *run)
 {
-    begin_anew(&run->companion);
-    begin_anew(&run->twin);
+    clear_course_results(&run->companion);
+    clear_course_results(&run->twin);
     run->has_companion = run->has_twin = false;
     if (run->way == QDOT_COMPANION_WAYS)
         run->way = QDOT_COMPANION_SERIES;
 }
 
-/* Compute companion 0 or 1 by the given plan into c; *has: it exists. */
+/* Compute companion run 0 or 1 by the given plan into c; *has: whether that succeeded. */
 static qdot_status
-follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_meter *meter,
-          qdot_course *c, bool *has, double *spent)
+compute_companion_by_plan(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_meter *meter,
+                          qdot_course *c, bool *has, double *spent)
 {
     qdot_ode_options options = {.tol = by->tol,
                                 .first_share = qdot_companion_first_share(number),
                                 .order_more = qdot_companion_orders(number),
                                 .term_tol = qdot_companion_term_tol(run->report.tol, number),
-                                .t1_low = companion_end(run) == run->t1 ? run->t1_low : 0,
+                                .t1_low = end_time_of_companion(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .alternates = run->turns,
                                 .stiff_work = INFINITY};
@@ -324,36 +324,36 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
      * switch that is crossed here and not there is doubt of the run. */
     for (move how = EACH; how < MOVES; how++) {
         if (how == ALIKE && !qdot_companion_has_alike(n, run->start))
-            continue; /* a further attempt would give the same result */
+            continue; /* a further attempt in another way would give the same result */
         if (how != EACH)
             options.carry = y + n;
         c->exact = how == NOT && run->course.exact;
-        status = begin_beside(run, &system, number, how, t0, y, y + n);
+        status = begin_shifted(run, &system, number, how, t0, y, y + n);
         if (status != QDOT_OK) {
             status = status == QDOT_ENOMEM ? status : QDOT_OK;
             *has = false;
             break;
         }
-        qdot_progress_begin(t0, companion_end(run), "error of the run");
-        qdot_ode_meter_begin(meter, t0, companion_end(run));
-        status = qdot_course_run(c, by->method, &options, t0, companion_end(run), y);
+        qdot_progress_begin(t0, end_time_of_companion(run), "error of the run");
+        qdot_ode_meter_begin(meter, t0, end_time_of_companion(run));
+        status = qdot_course_run(c, by->method, &options, t0, end_time_of_companion(run), y);
         if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
-        if (!*has || met_the_same(run, c, false) || (!run->course.began_on && run->stage.events.n == 0) || how == NOT)
+        if (!*has || has_same_events(run, c, false) || (!run->course.began_on && run->stage.events.n == 0) || how == NOT)
             break;
-        if (first.tr.count == 0 && met_the_same(run, c, true)) {
+        if (first.tr.count == 0 && has_same_events(run, c, true)) {
             first = *c;
-            *c = course_like(c);
+            *c = empty_course_like(c);
         } else {
-            begin_anew(c);
+            clear_course_results(c);
         }
         *spent += meter->work;
         meter->spent = *spent;
     }
     qdot_free(y);
     if (first.tr.count > 0 && qdot_grave(status) == QDOT_OK
-        && !(*has && met_the_same(run, c, false))) {
+        && !(*has && has_same_events(run, c, false))) {
         qdot_course_clear(c);
         *c = first;
         first = (qdot_course){0};
@@ -366,7 +366,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
 /* Whether an extremum counts as a touch by the tolerance. Where none does, none should in a companion,
  * which may see the same two crossings a little nearer to each other. */
 static bool
-has_touches(const qdot_course *c)
+has_touching_occurrence(const qdot_course *c)
 {
     for (size_t i = 0; i < c->occurrences.n; i++)
         if (c->occurrences.at[i].within > 0)
@@ -375,7 +375,7 @@ has_touches(const qdot_course *c)
 }
 
 static qdot_status
-follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
+compute_companion(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
     const qdot_ode_method *method = run->plan->method;
     const qdot_ode_system system = qdot_bind_system(run->course.binds.at[0]);
@@ -390,7 +390,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
     c->leader = &run->course;
-    c->touch_tol = has_touches(&run->course) ? run->course.touch_tol : 0;
+    c->touch_tol = has_touching_occurrence(&run->course) ? run->course.touch_tol : 0;
     /* limit the pieces: a companion moved off a surface on which the run rests might cross it endlessly */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
     for (;; way++) {
@@ -400,9 +400,9 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
         qdot_companion_meter(meter, &run->meter, &system, method, way, number, spent);
         meter->early = fmax(meter->early, of_whole * run->meter.work);
         c->no_series = way == QDOT_COMPANION_PARTNER;
-        begin_anew(c);
+        clear_course_results(c);
         *has = false;
-        status = follow_so(run, number, &by, meter, c, has, &spent);
+        status = compute_companion_by_plan(run, number, &by, meter, c, has, &spent);
         if (status != QDOT_OK
             || !qdot_companion_leads_nowhere(method,
                                              !*has || c->tr.result.outcome == QDOT_ODE_FAILED,
@@ -416,25 +416,25 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     return status;
 }
 
-/* Make the companion's trajectory over the whole run. */
+/* Make the trajectory of the companion run over the whole time of the run. */
 static qdot_status
-make_companion(qdot_run *run)
+make_first_companion(qdot_run *run)
 {
     if (run->has_companion || run->course.tr.count == 0)
         return QDOT_OK;
-    return follow(run, 0, &run->companion, &run->has_companion);
+    return compute_companion(run, 0, &run->companion, &run->has_companion);
 }
 
 qdot_status
 qdot_run_twin(qdot_run *run)
 {
-    QDOT_TRY(make_companion(run));
+    QDOT_TRY(make_first_companion(run));
     if (!run->has_companion || run->has_twin)
         return QDOT_OK;
-    QDOT_TRY(follow(run, 1, &run->twin, &run->has_twin));
-    if (run->has_twin && !covers(&run->twin, run->course.tr.t[run->course.tr.count - 1])) {
-        /* the second companion was abandoned: use only the first one */
-        begin_anew(&run->twin);
+    QDOT_TRY(compute_companion(run, 1, &run->twin, &run->has_twin));
+    if (run->has_twin && !reaches_time(&run->twin, run->course.tr.t[run->course.tr.count - 1])) {
+        /* the second companion run was given up: use only the first one */
+        clear_course_results(&run->twin);
         run->has_twin = false;
         run->way = QDOT_COMPANION_WAYS;
     }
@@ -443,9 +443,9 @@ qdot_run_twin(qdot_run *run)
 
 /* --- the error of the run ------------------------------------------------------------ */
 
-/* Record how the pieces of the companion differ from those of the run, as a reason to distrust the run. */
+/* Record how the pieces of the companion run differ from those of the run, as a reason to distrust the run. */
 static qdot_status
-find_doubt(qdot_run *run, const qdot_course *c)
+record_difference_of_pieces(qdot_run *run, const qdot_course *c)
 {
     char text[300];
 
@@ -465,7 +465,7 @@ find_doubt(qdot_run *run, const qdot_course *c)
 /* A piece ends just after its root, in all runs alike: add the motion by the other system in that
  * time to floor [n], for each end of a piece. */
 static qdot_status
-add_delays(const qdot_course *c, double *floor)
+add_effect_of_delays(const qdot_course *c, double *floor)
 {
     const qdot_trajectory *tr = &c->tr;
     double *before = qdot_malloc(2 * tr->n * sizeof *before), *behind = before + tr->n;
@@ -483,7 +483,7 @@ add_delays(const qdot_course *c, double *floor)
         next = qdot_course_systems(c) + tr->pieces.at[end->piece + 1].mode;
         if (old->rhs(end->t, tr->y + (first - 1) * tr->n, before, old->user) != QDOT_OK
             || next->rhs(end->t, tr->y + first * tr->n, behind, next->user) != QDOT_OK)
-            continue; /* undefined there: this part is missing in the error bound */
+            continue; /* leave out this part of the error bound: the equations are undefined there */
         for (size_t i = 0; i < tr->n; i++)
             floor[i] += end->late * fabs(behind[i] - before[i]);
     }
@@ -494,16 +494,16 @@ add_delays(const qdot_course *c, double *floor)
 /* The state y [n] of a companion at the end of the run, or, if an event stopped both, at its own
  * end *t. *known: the states can be compared. */
 static qdot_status
-end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *known)
+find_end_of_companion(qdot_run *run, const qdot_course *other, double *t, double *y, bool *known)
 {
     const qdot_trajectory *b = &other->tr;
     qdot_trajectory_cursor *cursor = NULL;
     qdot_status status;
 
     *t = run->course.tr.t[run->course.tr.count - 1];
-    *known = went_alike(&run->course, other) && run->course.stopped_by == other->stopped_by;
+    *known = have_same_pieces(&run->course, other) && run->course.stopped_by == other->stopped_by;
     if (!*known)
-        return find_doubt(run, other);
+        return record_difference_of_pieces(run, other);
     if (run->course.stopped_by != SIZE_MAX) {
         *t = b->t[b->count - 1];
         memcpy(y, b->y + (b->count - 1) * b->n, b->n * sizeof *y);
@@ -535,11 +535,11 @@ qdot_run_end_apart(qdot_run *run, double *apart, bool *known)
     for (size_t c = 0; c < (run->has_twin ? 2u : 1u) && *known; c++) {
         *known = others[c]->stopped_by == run->course.stopped_by;
         if (*known)
-            QDOT_TRY(end_of(run, others[c], &t, apart + c * n, known));
+            QDOT_TRY(find_end_of_companion(run, others[c], &t, apart + c * n, known));
         for (size_t i = 0; i < n && *known; i++)
             apart[c * n + i] -= tr->y[(tr->count - 1) * n + i];
     }
-    for (size_t i = 0; i < n && !run->has_twin; i++) /* with one companion the second shift is the mirror image */
+    for (size_t i = 0; i < n && !run->has_twin; i++) /* for one companion run: mirror the shift */
         apart[n + i] = -apart[i];
     return QDOT_OK;
 }
@@ -559,13 +559,13 @@ qdot_run_end_error(qdot_run *run, double *difference)
 
     run->report.error = run->report.scaled_error = NAN;
     if (!known)
-        return find_doubt(run, &run->companion);
-    of = qdot_calloc(3 * tr->n, sizeof *of); /* end states of both companions; effect of delayed events */
-    status = of ? end_of(run, &run->companion, ends, of, &known) : QDOT_ENOMEM;
+        return record_difference_of_pieces(run, &run->companion);
+    of = qdot_calloc(3 * tr->n, sizeof *of); /* end states of both companion runs; effect of delayed events */
+    status = of ? find_end_of_companion(run, &run->companion, ends, of, &known) : QDOT_ENOMEM;
     if (status == QDOT_OK && known && run->has_twin)
-        status = end_of(run, &run->twin, ends + 1, of + tr->n, &known);
+        status = find_end_of_companion(run, &run->twin, ends + 1, of + tr->n, &known);
     if (status == QDOT_OK && known)
-        status = add_delays(&run->course, of + 2 * tr->n);
+        status = add_effect_of_delays(&run->course, of + 2 * tr->n);
     if (status == QDOT_OK && known)
         qdot_chatter_add_state(&run->course, t, y, of + 2 * tr->n);
     for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {

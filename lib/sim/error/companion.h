@@ -12,7 +12,7 @@
  * that ends early errors are unknown. QDOT_OK also if there are none: see has_companion. */
 QDOT_MUST_CHECK qdot_status qdot_run_twin(qdot_run *run);
 
-/* Free the companions of the run. */
+/* Free the companion runs (slightly disturbed repetitions) of a run. */
 void qdot_run_drop_companions(qdot_run *run);
 
 /* The errors of the end state of a run with pieces into its report; NaN with run->doubt if run and
@@ -23,10 +23,10 @@ QDOT_MUST_CHECK qdot_status qdot_run_end_error(qdot_run *run, double *difference
  * states can be compared. */
 bool qdot_run_comparable(const qdot_run *run);
 
-/* The time from which on a companion went through other pieces than the run; NaN: none did. */
+/* The time from which a companion run passed through other pieces than the run; NaN: none did. */
 double qdot_run_time_of_parting(const qdot_run *run);
 
-/* Whether the companions did not fail and reach t. */
+/* Whether the companion runs did not fail and reached the time t. */
 bool qdot_run_covered(const qdot_run *run, double t);
 
 #endif

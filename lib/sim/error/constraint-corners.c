@@ -24,7 +24,7 @@ typedef struct {
 } piece;
 
 static double
-remains(const piece *p, size_t k, size_t *row)
+remaining_independence(const piece *p, size_t k, size_t *row)
 {
     return qdot_constrained_remains(p->held, p->tr->t[k], p->tr->y + k * p->tr->n, row);
 }
@@ -32,11 +32,11 @@ remains(const piece *p, size_t k, size_t *row)
 /* From point k in the direction `way`: the first point with more than `left` of each row; else the
  * end of the piece. */
 static size_t
-where_left(const piece *p, size_t k, int way, double left)
+find_independent_point(const piece *p, size_t k, int way, double left)
 {
     size_t row;
 
-    while (k != (way > 0 ? p->last : p->first) && remains(p, k, &row) <= left)
+    while (k != (way > 0 ? p->last : p->first) && remaining_independence(p, k, &row) <= left)
         k = way > 0 ? k + 1 : k - 1;
     return k;
 }
@@ -56,11 +56,11 @@ velocities_product(const piece *p, size_t a, size_t b)
 /* Whether the direction of motion changes abruptly at point k, where constraint rows have the
  * fraction `least` left. */
 static bool
-is_corner(const piece *p, size_t k, double least)
+is_constraint_corner(const piece *p, size_t k, double least)
 {
     const double near = beside * fmax(least, DBL_MIN);
-    const size_t before = where_left(p, k, -1, near), after = where_left(p, k, 1, near);
-    const size_t far = where_left(p, k, -1, apart);
+    const size_t before = find_independent_point(p, k, -1, near), after = find_independent_point(p, k, 1, near);
+    const size_t far = find_independent_point(p, k, -1, apart);
     const double speed = sqrt(velocities_product(p, before, before)), on = sqrt(velocities_product(p, after, after));
 
     return velocities_product(p, before, after) < turned * speed * on
@@ -68,20 +68,20 @@ is_corner(const piece *p, size_t k, double least)
 }
 
 static qdot_status
-look_at_piece(const piece *p, bool *found, double *t, size_t *row)
+find_corner_in_piece(const piece *p, bool *found, double *t, size_t *row)
 {
     double last = INFINITY, now = INFINITY;
     size_t of = 0;
 
     for (size_t k = p->first; k <= p->last && !*found; k++) {
-        const double next = remains(p, k, &of);
+        const double next = remaining_independence(p, k, &of);
 
         if (k % 1024 == 0)
             QDOT_TRY(qdot_interrupt_check());
-        if (now < nothing && now <= last && now < next && is_corner(p, k - 1, now)) {
+        if (now < nothing && now <= last && now < next && is_constraint_corner(p, k - 1, now)) {
             *found = true;
             *t = p->tr->t[k - 1];
-            (void)remains(p, k - 1, row);
+            (void)remaining_independence(p, k - 1, row);
         }
         last = now;
         now = next;
@@ -104,7 +104,7 @@ qdot_constraint_corners_find(const qdot_course *c, bool *found, double *t, size_
                          .last = qdot_trajectory_last_of(tr, i)};
 
         if (p.held && tr->n_tracks == 0)
-            QDOT_TRY(look_at_piece(&p, found, t, row));
+            QDOT_TRY(find_corner_in_piece(&p, found, t, row));
     }
     return QDOT_OK;
 }

@@ -12,23 +12,23 @@
 #include "sim/error/oscillations.h"
 #include "sim/course/chatter.h"
 
-/* Angle in radians by which the path must turn before and after t. */
+/* Angle in radians by which the path must turn both before and after t to count as turning. */
 static const double least_turn = 0.5;
 
-/* A component that moves by fewer tolerances than this seems to turn because of rounding. */
+/* A component that moves by less than this many tolerances turns only because of rounding. */
 static const double tolerances = 1000;
 
-/* A jump in time: the distance to the companions grows by this factor from one point to the next. */
+/* Factor by which the distance to the companion runs grows from one point to the next at a jump in time. */
 static const double jump = 32;
 
-/* The number of stored points that give the error of the companions near t. */
+/* The number of stored points near t from which the error of the companion runs at t is found. */
 enum { near_points = 3 };
 
 /* Where the companions are off nearby by more than so many times what they are off by at t, and by more than so large a
  * part of the value, the expression may be singular nearby: its error is found from that of the states. */
 static const double poor = 1e3, poor_part = 1e-8;
 
-/* The smallest error assumed for a companion, as a fraction of the error of the run. */
+/* The smallest error assumed for a companion run, as a fraction of the error of the run. */
 static const double least_share = 1.0 / 32;
 
 struct qdot_distance {
@@ -36,13 +36,13 @@ struct qdot_distance {
     size_t m;
     qdot_reader own, others[2];
     size_t n_others;
-    double share; /* part of D that may be the companions' own truncation error */
+    double share; /* fraction of the distance that may be the companion runs' own truncation error */
     double *at;   /* [points x m] estimated errors at the stored points */
     bool *known;  /* [points] the error at this point has been computed */
-    double *unit; /* [n] 1/span of each component; 0: not counted */
+    double *unit; /* [n] 1/range of each component of the state; 0: component left out */
     double *work; /* [4m] scratch */
     double *aside; /* [3m] scratch */
-    qdot_oscillations *over; /* fast oscillations that steps may have missed; NULL: none */
+    qdot_oscillations *over; /* fast oscillations that the run's steps may have missed; NULL: none */
 };
 
 void
@@ -63,7 +63,7 @@ qdot_distance_free(qdot_distance *d)
 }
 
 static void
-find_units(qdot_distance *d)
+find_component_units(qdot_distance *d)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
 
@@ -107,13 +107,13 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
     for (size_t k = 0; k < (run->has_twin ? 2 : 1) && status == QDOT_OK; k++) {
         d->n_others = k + 1;
         status = qdot_reader_init(d->others + k, of, courses[k]);
-        /* companions of a run in two doubles share the rounding of the states that are read */
+        /* the companion runs of a double-double run share the rounding of the states that are read */
         d->others[k].moved = run->leading ? (int)k + 1 : 0;
     }
     if (status == QDOT_OK && d->own.n_courses == 1)
         status = qdot_oscillations_new(&run->course, &d->over);
     if (status == QDOT_OK)
-        find_units(d);
+        find_component_units(d);
     else
         qdot_distance_free(d);
     if (status != QDOT_OK)
@@ -126,15 +126,15 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
 /* At t in a piece: the distance of `values` from the middle of the companions' into out [m], what these
  * may be off by themselves into own [m]. NaN where one has no values. */
 static qdot_status
-distance_compare(qdot_distance *d, size_t piece, double t, const double *values, double *out,
-                 double *own)
+compare_with_companions(qdot_distance *d, size_t piece, double t, const double *values, double *out,
+                        double *own)
 {
     double *first = d->work, *theirs = first;
     bool there = qdot_run_covered(d->run, t);
 
     for (size_t k = 0; k < d->n_others && there; k++, theirs += d->m) {
         const size_t pieces = (k == 0 ? &d->run->companion : &d->run->twin)->tr.pieces.n;
-        const size_t same = piece < pieces ? piece : pieces - 1; /* a piece without length */
+        const size_t same = piece < pieces ? piece : pieces - 1; /* a piece of the run without duration */
         qdot_status status = qdot_reader_at(d->others + k, same, t, theirs);
 
         if (status != QDOT_OK && !qdot_reader_has_nothing(status))
@@ -150,9 +150,9 @@ distance_compare(qdot_distance *d, size_t piece, double t, const double *values,
     return QDOT_OK;
 }
 
-/* Find the difference of run and companions at stored point k; 0 if unknown. */
+/* Find the difference of the run and its companion runs at stored point k; 0 if unknown. */
 static qdot_status
-at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
+find_difference_at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     double *values = d->work + 2 * d->m, *by = values + d->m, *at = d->at + k * d->m;
@@ -163,7 +163,7 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
         return QDOT_OK;
     status = qdot_reader_at(&d->own, piece, tr->t[k], values);
     if (status == QDOT_OK)
-        status = distance_compare(d, piece, tr->t[k], values, by, at);
+        status = compare_with_companions(d, piece, tr->t[k], values, by, at);
     if (status != QDOT_OK && !qdot_reader_has_nothing(status))
         return status;
     for (size_t j = 0; j < d->m; j++)
@@ -175,7 +175,7 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 
 /* --- windows of time around a point -------------------------------------------------- */
 
-/* The angle at point k between the chords of the path before and after it. */
+/* The angle at stored point k between the chords of the path before and after it. */
 static double
 angle_of_path(const qdot_distance *d, size_t k)
 {
@@ -196,7 +196,7 @@ angle_of_path(const qdot_distance *d, size_t k)
 }
 
 static bool
-is_beyond(const qdot_run *run, double t)
+is_outside_compared_times(const qdot_run *run, double t)
 {
     return run->limited
            && !(fmin(run->within[0], run->within[1]) <= t
@@ -206,7 +206,7 @@ is_beyond(const qdot_run *run, double t)
 /* Whether the clock of a run that is timed by one goes twice as fast, or half as fast, at point k as
  * at another: values that are singular where it stands still are not alike there. */
 static bool
-is_unlike(const qdot_trajectory *tr, size_t k, size_t other)
+has_other_clock_rate(const qdot_trajectory *tr, size_t k, size_t other)
 {
     const double *rate = tr->y + tr->clock + tr->n / 2;
     const double ratio = tr->s ? fabs(rate[k * tr->n] / rate[other * tr->n]) : 1;
@@ -219,7 +219,7 @@ is_unlike(const qdot_trajectory *tr, size_t k, size_t other)
  * there a little before the other. Beside a zero of order n they differ as k^n, from each point to the next
  * beyond the first few at most by (4/3)^n. */
 static bool
-is_apart(double at, double near, double between, int k)
+is_distant_difference(double at, double near, double between, int k)
 {
     return k >= near_points && (at > near * pow(2 * k, 3) || at > jump * between);
 }
@@ -227,7 +227,7 @@ is_apart(double at, double near, double between, int k)
 /* The largest over the points on one side, from k on in steps of `way`, into out [m];
  * *cut: a neighbouring piece, or what may be compared, ends it early. */
 static qdot_status
-look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool *cut)
+find_largest_on_one_side(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool *cut)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     const size_t first = tr->pieces.at[piece].first, last = qdot_trajectory_last_of(tr, piece);
@@ -240,18 +240,18 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
     for (int points = 0; points < QDOT_DISTANCE_POINTS && turned < least_turn; points++) {
         const double *at;
 
-        *cut = is_beyond(d->run, tr->t[k]);
-        if (*cut || is_unlike(tr, k, begin))
+        *cut = is_outside_compared_times(d->run, tr->t[k]);
+        if (*cut || has_other_clock_rate(tr, k, begin))
             return QDOT_OK;
-        QDOT_TRY(at_point(d, piece, k, &at));
+        QDOT_TRY(find_difference_at_point(d, piece, k, &at));
         for (size_t j = 0; j < d->m; j++) {
             if (points < near_points)
                 near[j] = fmax(near[j], at[j]);
-            if (!is_apart(at[j], near[j], out[j], points))
+            if (!is_distant_difference(at[j], near[j], out[j], points))
                 out[j] = fmax(out[j], at[j]);
         }
         if (k == (way > 0 ? last : first)) {
-            *cut = k > 0; /* at the start of the run there is nothing before */
+            *cut = k > 0; /* at the start of the run there is nothing before the point */
             return QDOT_OK;
         }
         if (k > first && k < last)
@@ -261,16 +261,16 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
     return QDOT_OK;
 }
 
-/* Find the difference of run and companions near t, a time after point k. */
+/* Find the difference of the run and its companion runs near t, which lies after point k. */
 static qdot_status
-look_around(qdot_distance *d, size_t piece, size_t k, double *own)
+find_difference_near(qdot_distance *d, size_t piece, size_t k, double *own)
 {
     double *left = d->aside, *right = left + d->m;
     bool left_cut, right_cut = true;
 
-    QDOT_TRY(look_aside(d, piece, k, -1, left, &left_cut));
+    QDOT_TRY(find_largest_on_one_side(d, piece, k, -1, left, &left_cut));
     if (k < qdot_trajectory_last_of(&d->run->course.tr, piece))
-        QDOT_TRY(look_aside(d, piece, k + 1, 1, right, &right_cut));
+        QDOT_TRY(find_largest_on_one_side(d, piece, k + 1, 1, right, &right_cut));
     else
         memcpy(right, left, d->m * sizeof *right);
     for (size_t j = 0; j < d->m; j++) {
@@ -286,7 +286,7 @@ look_around(qdot_distance *d, size_t piece, size_t k, double *own)
 /* At time s: the state of the run less the middle of the companions into apart [n], that of one companion less the other
  * into between [n]. *there: all three have a state. y [n] is room. */
 static qdot_status
-compare_states(qdot_distance *d, size_t piece, double s, double *y, double *apart, double *between, bool *there)
+compare_states_with_companions(qdot_distance *d, size_t piece, double s, double *y, double *apart, double *between, bool *there)
 {
     const size_t n = 2 * d->own.courses->n;
     qdot_status status = qdot_reader_at(&d->own, piece, s, d->work);
@@ -310,8 +310,8 @@ compare_states(qdot_distance *d, size_t piece, double s, double *y, double *apar
 /* How much the expressions at t change if `by` [n] is added to the state y there, times `part`, where that is more than
  * most [m] so far. */
 static qdot_status
-move_state(qdot_distance *d, double t, const double *y, const double *by, double part, const double *values,
-           double *most)
+find_change_by_state_shift(qdot_distance *d, double t, const double *y, const double *by, double part, const double *values,
+                           double *most)
 {
     const size_t n = 2 * d->own.courses->n;
     double *in = d->own.courses->in, *moved = d->work;
@@ -324,11 +324,11 @@ move_state(qdot_distance *d, double t, const double *y, const double *by, double
     return QDOT_OK;
 }
 
-/* The same as look_around by what the companions' states are off by nearby, carried over to t: of an expression that is
+/* The same as find_difference_near by what the companions' states are off by nearby, carried over to t: of an expression that is
  * singular at a point nearby, such as 1/y at a bounce, own [m] is that at most. here [m]: what they are off by at t. */
 static qdot_status
-limit_by_states(qdot_distance *d, size_t piece, size_t k, double t, const double *values, const double *here,
-                double *own)
+limit_error_by_states(qdot_distance *d, size_t piece, size_t k, double t, const double *values, const double *here,
+                      double *own)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     const size_t first = tr->pieces.at[piece].first, last = qdot_trajectory_last_of(tr, piece);
@@ -351,14 +351,14 @@ limit_by_states(qdot_distance *d, size_t piece, size_t k, double t, const double
     for (size_t s = from; s <= last && s <= k + QDOT_DISTANCE_POINTS && status == QDOT_OK; s++) {
         bool there;
 
-        status = compare_states(d, piece, tr->t[s], room, apart, between, &there);
+        status = compare_states_with_companions(d, piece, tr->t[s], room, apart, between, &there);
         if (status == QDOT_OK)
             status = qdot_reader_at(&d->own, piece, t, d->work);
         memcpy(y, d->own.courses->in, n * sizeof *y);
         if (status == QDOT_OK && there)
-            status = move_state(d, t, y, between, 2.0 / 3, values, most);
+            status = find_change_by_state_shift(d, t, y, between, 2.0 / 3, values, most);
         if (status == QDOT_OK && there)
-            status = move_state(d, t, y, apart, d->share, values, most);
+            status = find_change_by_state_shift(d, t, y, apart, d->share, values, most);
     }
     for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
         own[j] = fmin(own[j], fmax(here[j], most[j]));
@@ -378,13 +378,13 @@ qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK)
-        status = distance_compare(d, piece, t, values, out, own);
+        status = compare_with_companions(d, piece, t, values, out, own);
     if (status == QDOT_OK) {
         memcpy(here, own, d->m * sizeof *here);
-        status = look_around(d, piece, k, own);
+        status = find_difference_near(d, piece, k, own);
     }
     if (status == QDOT_OK)
-        status = limit_by_states(d, piece, k, t, values, here, own);
+        status = limit_error_by_states(d, piece, k, t, values, here, own);
     for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
         out[j] = isnan(out[j]) ? NAN : qdot_companion_bound(out[j], own[j]);
     if (status == QDOT_OK && (d->over || chatters))

@@ -1,4 +1,4 @@
-/* faded.c -- finds the time from which an event's function stays within its error of 0. */
+/* faded.c -- finds the time from which an event's function cannot be told from 0 within its error. */
 #include "sim/error/faded.h"
 
 #include <math.h>
@@ -14,13 +14,13 @@ typedef struct {
     qdot_distance *distance;
     size_t n;  /* number of occurrences of the event */
     double *t; /* [n + 2] start of the run, times of the occurrences, end of the search */
-    double *errors; /* [n + 2] errors of the times; NaN: the event does not occur in the companions */
-    double size;      /* largest |g| seen along the run */
+    double *errors; /* [n + 2] errors of the times; NaN: the event does not occur in the companion runs */
+    double size;      /* largest |g| seen along the run, g being the event's function */
     double tol, end;  /* tolerance and end time of the run */
 } look;
 
 static void
-close_look(look *l)
+clear_look(look *l)
 {
     qdot_distance_free(l->distance);
     qdot_reader_clear(&l->reader);
@@ -31,7 +31,7 @@ close_look(look *l)
 
 /* Prepare to evaluate an event's function with its error up to the time `end`. */
 static qdot_status
-open_look(qdot_run *run, size_t event, double end, look *l)
+prepare_evaluation(qdot_run *run, size_t event, double end, look *l)
 {
     const qdot_course *c = &run->course;
 
@@ -57,7 +57,7 @@ open_look(qdot_run *run, size_t event, double end, look *l)
 /* Whether g(t) differs from 0 by more than its error and by more than `least`; true also if the
  * error is unknown. */
 static qdot_status
-is_seen(look *l, double t, double least, bool *seen)
+differs_from_zero(look *l, double t, double least, bool *seen)
 {
     double g, error = NAN;
     qdot_status status = qdot_reader_at(&l->reader, SIZE_MAX, t, &g);
@@ -68,9 +68,9 @@ is_seen(look *l, double t, double least, bool *seen)
     return qdot_reader_has_nothing(status) ? QDOT_OK : status;
 }
 
-/* Find l->size, the largest |g|, from some times along the run. */
+/* Find l->size, the largest |g| of the event's function at some times along the run. */
 static qdot_status
-find_size(look *l)
+find_function_size(look *l)
 {
     enum { PLACES = 64 };
 
@@ -90,7 +90,7 @@ find_size(look *l)
 /* Whether the error of occurrence k is at most that part of the time to its neighbours: run and companions agree about it.
  * They do about the start and the end of the run. */
 static bool
-is_met(const look *l, size_t k, double part)
+is_time_certain(const look *l, size_t k, double part)
 {
     const double before = k > 0 ? fabs(l->t[k] - l->t[k - 1]) : INFINITY,
                  behind = k < l->n ? fabs(l->t[k + 1] - l->t[k]) : before;
@@ -101,16 +101,16 @@ is_met(const look *l, size_t k, double part)
 /* The least |g| that counts as seen between occurrences k - 1 and k, even if companions say that its error is less: where
  * they do not agree about these, that within the tolerance. */
 static double
-least_seen(const look *l, size_t k)
+least_visible_value(const look *l, size_t k)
 {
     static const double near = 0.1;
 
-    return is_met(l, k - 1, near) && is_met(l, k, near) ? 0 : l->tol * l->size;
+    return is_time_certain(l, k - 1, near) && is_time_certain(l, k, near) ? 0 : l->tol * l->size;
 }
 
 /* Find the last of eight times between occurrences k - 1 and k at which g clearly differs from 0; NaN: none. */
 static qdot_status
-last_seen(look *l, size_t k, double *t)
+find_last_visible_time(look *l, size_t k, double *t)
 {
     enum { PLACES = 8 };
     const double a = l->t[k - 1], b = l->t[k];
@@ -120,7 +120,7 @@ last_seen(look *l, size_t k, double *t)
         const double at = a + (b - a) * i / PLACES;
         bool seen;
 
-        QDOT_TRY(is_seen(l, at, least_seen(l, k), &seen));
+        QDOT_TRY(differs_from_zero(l, at, least_visible_value(l, k), &seen));
         if (seen)
             *t = at;
     }
@@ -130,7 +130,7 @@ last_seen(look *l, size_t k, double *t)
 /* Bisect between *a, where g clearly differs from 0, and *b, from which on it does not, until they
  * are `small` apart. */
 static qdot_status
-faded_narrow(look *l, double least, double small, double *a, double *b)
+bisect_time_of_fading(look *l, double least, double small, double *a, double *b)
 {
     while (fabs(*b - *a) > small) {
         const double middle = *a + (*b - *a) / 2;
@@ -138,32 +138,32 @@ faded_narrow(look *l, double least, double small, double *a, double *b)
 
         if (middle == *a || middle == *b)
             break;
-        QDOT_TRY(is_seen(l, middle, least, &seen));
+        QDOT_TRY(differs_from_zero(l, middle, least, &seen));
         *(seen ? a : b) = middle;
     }
     return QDOT_OK;
 }
 
 static qdot_status
-faded_find(look *l, double *from)
+find_time_of_fading(look *l, double *from)
 {
     static const double sure = 1e-3;
-    size_t k = l->n + 1; /* index of the interval t[k - 1] ... t[k] */
+    size_t k = l->n + 1; /* index of the time interval from t[k - 1] to t[k] */
     double seen = NAN, start, left;
 
-    QDOT_TRY(find_size(l));
+    QDOT_TRY(find_function_size(l));
     for (; k > 0; k--) {
-        QDOT_TRY(last_seen(l, k, &seen));
-        if (isnan(seen) && k > 1 && is_met(l, k - 1, sure))
+        QDOT_TRY(find_last_visible_time(l, k, &seen));
+        if (isnan(seen) && k > 1 && is_time_certain(l, k - 1, sure))
             seen = l->t[k - 1];
         if (!isnan(seen))
             break;
     }
-    if (k == 0 || k > l->n) /* g never leaves its error, or does so until the end */
+    if (k == 0 || k > l->n) /* g always, or at the end still, differs from 0 by more than its error */
         return QDOT_OK;
     start = l->t[k];
     left = fabs(l->end - start);
-    QDOT_TRY(faded_narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
+    QDOT_TRY(bisect_time_of_fading(l, least_visible_value(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
     /* for a crossing at the end of the run: before it g is within its error for as long as it would
      * be after it */
     if (left > 2 * fabs(l->t[k] - seen))
@@ -189,9 +189,9 @@ qdot_faded_find(qdot_run *run, size_t event, double *from)
     QDOT_TRY(qdot_run_twin(run));
     if (!qdot_run_comparable(run))
         return QDOT_OK;
-    status = open_look(run, event, isnan(*from) ? end : *from, &l);
+    status = prepare_evaluation(run, event, isnan(*from) ? end : *from, &l);
     if (status == QDOT_OK && l.n > 0)
-        status = faded_find(&l, from);
-    close_look(&l);
+        status = find_time_of_fading(&l, from);
+    clear_look(&l);
     return status;
 }

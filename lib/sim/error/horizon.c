@@ -1,4 +1,4 @@
-/* horizon.c -- compares run and companions until they have become independent: the horizon of the run. */
+/* horizon.c -- finds a run's horizon: the time at which run and companion runs have become independent. */
 #include "sim/error/horizon.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "sim/error/companion.h"
 #include "sim/error/standstill.h"
 
-/* The error at the end of a run, relative to the variation of the state, from which the horizon is searched. */
+/* The horizon is searched if the error at the end, relative to the state's variation, exceeds this. */
 static const double worth_looking = 0.02;
 
 /* A motion smaller than this many tolerances counts as rounding. */
@@ -20,27 +20,27 @@ static const double least_part = 0.01;
 /* The number of times beyond the horizon at which expressions are compared. */
 enum { LOOKS = 32 };
 
-/* SAMPLES: points for a first estimate of the variation; MOST_POINTS, LEAST_POINTS bound the number compared. */
+/* SAMPLES: points for estimating the variation first; at most MOST_POINTS, at least LEAST_POINTS are compared. */
 enum { SAMPLES = 64, MOST_POINTS = 4096, LEAST_POINTS = 32 };
 
 typedef struct {
     const qdot_run *run;
-    const qdot_course *other; /* course of a companion of the run */
+    const qdot_course *other; /* the companion run with which the run is compared */
     qdot_trajectory_cursor *companion;
-    double *y;      /* [n] state of the companion */
+    double *y;      /* [n] state of the companion run */
     size_t *point;  /* [points] indices of the run's points that are compared, in order */
-    double *t, *d;  /* [points] times; distance of run and companion at these times */
+    double *t, *d;  /* [points] times; distance of run and companion run at these times */
     size_t points, most; /* number of points compared; largest number compared at first */
-    size_t read;         /* number of companion states read so far */
+    size_t read;         /* number of states of the companion run read so far */
     size_t *pieces; /* [points] index of the piece in which each point lies */
     double threshold;
 } search;
 
 /* --- variation of the state ---------------------------------------------------------- */
 
-/* Find the least and the largest value of component i, at every `stride`-th point. */
+/* Find the least and the largest value of component i over every `stride`-th stored point. */
 static void
-component_range(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
+find_component_range(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
 {
     for (size_t k = 0; k < tr->count; k += stride) {
         const double y = tr->y[k * tr->n + i];
@@ -51,17 +51,17 @@ component_range(const qdot_trajectory *tr, size_t i, size_t stride, double *low,
 }
 
 static double
-variation(const double *scales, const qdot_trajectory *a, const qdot_trajectory *b,
-          size_t stride)
+state_variation(const double *scales, const qdot_trajectory *a, const qdot_trajectory *b,
+                size_t stride)
 {
     double most = 0;
 
     for (size_t i = 0; i < a->n; i++) {
         double low = INFINITY, high = -INFINITY;
 
-        component_range(a, i, stride, &low, &high);
+        find_component_range(a, i, stride, &low, &high);
         if (b)
-            component_range(b, i, stride, &low, &high);
+            find_component_range(b, i, stride, &low, &high);
         most = fmax(most, 0.5 * (high - low)
                                / qdot_ode_size(scales, i, fmax(fabs(low), fabs(high))));
     }
@@ -73,22 +73,22 @@ variation(const double *scales, const qdot_trajectory *a, const qdot_trajectory 
 static bool
 varies_by_more(const double *scales, const qdot_trajectory *tr, double x)
 {
-    if (x < 0.5 && variation(scales, tr, NULL, tr->count / SAMPLES + 1) > x)
+    if (x < 0.5 && state_variation(scales, tr, NULL, tr->count / SAMPLES + 1) > x)
         return true;
-    return variation(scales, tr, NULL, 1) > x;
+    return state_variation(scales, tr, NULL, 1) > x;
 }
 
 double
 qdot_horizon_variation(const qdot_trajectory *tr)
 {
-    return variation(NULL, tr, NULL, 1);
+    return state_variation(NULL, tr, NULL, 1);
 }
 
 /* --- distances of run and companion -------------------------------------------------- */
 
-/* The number of initial pieces in which both trajectories have the same modes. */
+/* The number of initial pieces in which both trajectories have the same modes (equations). */
 static size_t
-common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
+count_common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
 {
     size_t n = 0;
 
@@ -99,7 +99,7 @@ common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
 }
 
 static double
-search_distance_at(const search *s, size_t k)
+distance_at_point(const search *s, size_t k)
 {
     const qdot_trajectory *tr = &s->run->course.tr;
     double most = 0;
@@ -117,7 +117,7 @@ search_distance_at(const search *s, size_t k)
 /* The distance at point k of the run, which is of that piece; where the companion has no
  * state the one before stays. */
 static qdot_status
-measure_at(search *s, size_t k, size_t piece, double *d)
+measure_distance(search *s, size_t k, size_t piece, double *d)
 {
     qdot_status status;
 
@@ -127,18 +127,18 @@ measure_at(search *s, size_t k, size_t piece, double *d)
     if (qdot_grave(status) != QDOT_OK)
         return status;
     if (status == QDOT_OK)
-        *d = search_distance_at(s, k);
+        *d = distance_at_point(s, k);
     return QDOT_OK;
 }
 
 /* d at points of the run, as far as the companion goes the same way: at all of them, or at
  * one of every so many, without a pattern that a period could share. */
 static qdot_status
-search_measure(search *s)
+measure_distances(search *s)
 {
     const qdot_trajectory *a = &s->run->course.tr, *b = &s->other->tr;
     const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
-    const size_t pieces = common_pieces(a, b);
+    const size_t pieces = count_common_pieces(a, b);
     const size_t end = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
     const size_t stride = end / s->most + 1;
     size_t piece = 0;
@@ -151,8 +151,8 @@ search_measure(search *s)
         while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)
             piece++;
         if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n)
-            break; /* the companion ended earlier */
-        QDOT_TRY(measure_at(s, k, piece, &d));
+            break; /* stop: the companion run ended earlier */
+        QDOT_TRY(measure_distance(s, k, piece, &d));
         s->point[s->points] = k;
         s->pieces[s->points] = piece;
         s->t[s->points] = a->t[k];
@@ -164,7 +164,7 @@ search_measure(search *s)
 /* Of the points that were left out before place k, in its piece, the first over the
  * threshold takes that place, with the last below it before. */
 static qdot_status
-look_between(search *s, size_t k)
+measure_between_points(search *s, size_t k)
 {
     const size_t piece = s->pieces[k];
 
@@ -173,7 +173,7 @@ look_between(search *s, size_t k)
     for (size_t i = s->point[k - 1] + 1; i < s->point[k]; i++) {
         double d = s->d[k - 1];
 
-        QDOT_TRY(measure_at(s, i, piece, &d));
+        QDOT_TRY(measure_distance(s, i, piece, &d));
         if (d >= s->threshold) {
             s->t[k] = s->run->course.tr.t[i];
             s->d[k] = d;
@@ -190,7 +190,7 @@ look_between(search *s, size_t k)
 /* The first point above the threshold after which d is above it for at least half of the time;
  * SIZE_MAX: none. */
 static size_t
-first_lost(const search *s)
+first_unreliable_point(const search *s)
 {
     const double *t = s->t;
     double over = 0, all = 0;
@@ -209,9 +209,9 @@ first_lost(const search *s)
     return first;
 }
 
-/* The mean over time of d from point k on. */
+/* The mean over time, from point k on, of the distance d between run and companion run. */
 static double
-mean_from(const search *s, size_t k)
+mean_distance_from(const search *s, size_t k)
 {
     const double *t = s->t;
     double sum = 0, all = 0;
@@ -226,7 +226,7 @@ mean_from(const search *s, size_t k)
 }
 
 static double
-crossing(const search *s, size_t k)
+time_of_threshold(const search *s, size_t k)
 {
     const double *t = s->t;
     double low, high;
@@ -238,14 +238,14 @@ crossing(const search *s, size_t k)
     return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
 }
 
-/* Find the time from which on this companion no longer follows the run, if earlier than the horizon so far. */
+/* Find the time from which a companion run no longer follows the run; record it if earlier than the horizon so far. */
 static qdot_status
-horizon_find(qdot_run *run, search *s)
+find_horizon_of_companion(qdot_run *run, search *s)
 {
     const qdot_trajectory *a = &run->course.tr, *b = &s->other->tr;
     const double way = run->t1 < run->t0 ? -1 : 1;
     qdot_run_report *report = &run->report;
-    double size = variation(run->stage.scales, a, b, 1);
+    double size = state_variation(run->stage.scales, a, b, 1);
     const double length = fabs(a->t[a->count - 1] - a->t[0]);
     const size_t room = (a->count < s->most ? a->count : s->most) + 1;
     size_t first;
@@ -261,17 +261,17 @@ horizon_find(qdot_run *run, search *s)
     s->d = s->t + room;
     s->pieces = s->point + room;
     QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(s->other), &s->companion));
-    QDOT_TRY(search_measure(s));
-    first = first_lost(s);
+    QDOT_TRY(measure_distances(s));
+    first = first_unreliable_point(s);
     if (first == SIZE_MAX || size < tolerances * fmax(report->tol, 0x1p-53)
         || fabs(a->t[a->count - 1] - s->t[first]) < least_part * length)
         return QDOT_OK;
-    QDOT_TRY(look_between(s, first));
-    if (!(way * (crossing(s, first) - report->horizon) > 0))
-        report->horizon = crossing(s, first);
-    qdot_free(run->doubt); /* with a horizon no doubt about the end needs to be stated */
+    QDOT_TRY(measure_between_points(s, first));
+    if (!(way * (time_of_threshold(s, first) - report->horizon) > 0))
+        report->horizon = time_of_threshold(s, first);
+    qdot_free(run->doubt); /* the horizon already says that the end is unreliable */
     run->doubt = NULL;
-    mean = mean_from(s, first);
+    mean = mean_distance_from(s, first);
     report->error = fmax(report->error, mean); /* also replaces a NaN by the mean */
     report->scaled_error = fmax(report->scaled_error, mean);
     return QDOT_OK;
@@ -287,10 +287,10 @@ affordable_points(const qdot_run *run)
 }
 
 static qdot_status
-find_by(qdot_run *run, const qdot_course *other, size_t most)
+find_horizon_by(qdot_run *run, const qdot_course *other, size_t most)
 {
     search s = {.other = other, .most = most};
-    qdot_status status = horizon_find(run, &s);
+    qdot_status status = find_horizon_of_companion(run, &s);
 
     run->report.estimate_work += 0.5 * run->of_point * (double)s.read;
     qdot_trajectory_close(s.companion);
@@ -313,14 +313,14 @@ qdot_horizon_find(qdot_run *run)
     if (report->scaled_error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
         || varies_by_more(run->stage.scales, tr, report->scaled_error / worth_looking))
         return QDOT_OK;
-    /* use both companions: one of them may stay near the run for a while by chance */
+    /* use both companion runs: one may stay near the run for a while by chance */
     if (run->way != QDOT_COMPANION_WAYS)
         QDOT_TRY(qdot_run_twin(run));
     most = affordable_points(run);
     if (run->has_companion)
-        QDOT_TRY(find_by(run, &run->companion, most));
+        QDOT_TRY(find_horizon_by(run, &run->companion, most));
     if (run->has_twin)
-        QDOT_TRY(find_by(run, &run->twin, most));
+        QDOT_TRY(find_horizon_by(run, &run->twin, most));
     return isnan(report->horizon) ? QDOT_OK : qdot_standstill_find(run, &report->standstill);
 }
 
@@ -333,7 +333,7 @@ qdot_horizon_passed(const qdot_run *run, double t)
 /* --- expressions beyond the horizon -------------------------------------------------- */
 
 static qdot_status
-companions_compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)
+compare_values_of_companions(qdot_reader *readers, double t, size_t m, double *values, double *spread)
 {
     for (int which = 0; which < 2; which++)
         QDOT_TRY(qdot_reader_read(readers + which, NULL, t, values + (size_t)which * m));
@@ -369,10 +369,10 @@ qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
     }
     for (int k = 0; k < LOOKS && status == QDOT_OK; k++) {
         status =
-            companions_compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
+            compare_values_of_companions(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
         if (status == QDOT_OK)
             count++;
-        /* skip times at which a companion is undefined or has ended */
+        /* skip times at which a companion run is undefined or has ended */
         if (qdot_reader_has_nothing(status))
             status = QDOT_OK;
     }

@@ -1,4 +1,4 @@
-/* noise.c -- estimates rounding noise from third differences along a short line of states. */
+/* noise.c -- estimates rounding errors of expressions from third differences along a short line of states. */
 #include "sim/error/noise.h"
 
 #include <float.h>
@@ -8,13 +8,13 @@
 
 #include "base/interrupt.h"
 
-/* Errors rarely exceed this multiple of the noise. */
+/* Rounding errors rarely exceed this multiple of the estimated noise. */
 static const double levels = 4;
 
 enum { POINTS = 7, ORDER = 3 };
 static const double spacing = 0x1p-38;
 
-/* (ORDER!)^2 / (2 ORDER)!: converts the variance of a difference of that order to the variance of one value. */
+/* (ORDER!)^2 / (2 ORDER)!: converts the variance of a difference of that order into that of a single value. */
 static const double factor = 1.0 / 20;
 
 /* A pseudo-random sign, +1 or -1, for component i. */
@@ -25,7 +25,7 @@ pseudo_random_sign(size_t i)
 }
 
 static double
-level(const double *g, size_t m)
+noise_level(const double *g, size_t m)
 {
     double d[POINTS], sum = 0;
 
@@ -41,7 +41,7 @@ level(const double *g, size_t m)
 
 /* Shift each state from the inputs y to point s of a short line of states. */
 static void
-move_along(qdot_reader *r, const double *y, int s)
+shift_states(qdot_reader *r, const double *y, int s)
 {
     size_t count = 0;
 
@@ -54,9 +54,9 @@ move_along(qdot_reader *r, const double *y, int s)
     }
 }
 
-/* Estimate noise [m], and slopes dg/dh [m] along the line (NULL: not wanted). */
+/* Estimate the noise [m] of expressions, and their slopes dg/dh [m] along the line (NULL: not wanted). */
 static qdot_status
-look_along(qdot_reader *r, const size_t *pieces, double t, double *noise, double *slopes)
+estimate_along_line(qdot_reader *r, const size_t *pieces, double t, double *noise, double *slopes)
 {
     const size_t n = qdot_tape_inputs(r->of.tape), m = r->of.m;
     double *y = qdot_malloc((n + POINTS * m + 1) * sizeof *y), *g = y + n;
@@ -65,11 +65,11 @@ look_along(qdot_reader *r, const size_t *pieces, double t, double *noise, double
     if (status == QDOT_OK)
         memcpy(y, r->in, n * sizeof *y);
     for (int s = 1; s < POINTS && status == QDOT_OK; s++) {
-        move_along(r, y, s);
+        shift_states(r, y, s);
         status = qdot_reader_evaluate(r, t, g + (size_t)s * m);
     }
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {
-        noise[j] = level(g + j, m);
+        noise[j] = noise_level(g + j, m);
         if (slopes)
             slopes[j] = (g[(POINTS - 1) * m + j] - g[j]) / ((POINTS - 1) * spacing);
     }
@@ -80,19 +80,19 @@ look_along(qdot_reader *r, const size_t *pieces, double t, double *noise, double
 qdot_status
 qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
 {
-    return look_along(r, pieces, t, noise, NULL);
+    return estimate_along_line(r, pieces, t, noise, NULL);
 }
 
-/* Estimate rounding errors [m] at t; noise [2 m] is work space. */
+/* Estimate rounding errors [m] of expressions at time t; noise [2 m] is work space. */
 static qdot_status
-noise_find(qdot_reader *r, double t, double *noise, double *roundings)
+estimate_rounding_errors(qdot_reader *r, double t, double *noise, double *roundings)
 {
     double *slopes = noise + r->of.m;
     qdot_status status;
 
     QDOT_TRY(qdot_reader_read(r, NULL, t, roundings));
     QDOT_TRY(qdot_reader_roundings(r, t, roundings));
-    status = look_along(r, NULL, t, noise, slopes);
+    status = estimate_along_line(r, NULL, t, noise, slopes);
     for (size_t j = 0; j < r->of.m && status == QDOT_OK; j++)
         if (isfinite(noise[j]))
             roundings[j] = fmax(roundings[j], fmax(levels * noise[j],
@@ -112,7 +112,7 @@ qdot_noise_roundings(const qdot_reading *of, const qdot_course *const *courses, 
     if (status == QDOT_OK)
         status = qdot_reader_init_along(&r, of, courses);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
-        status = noise_find(&r, times[i], noise, roundings + i * m);
+        status = estimate_rounding_errors(&r, times[i], noise, roundings + i * m);
     qdot_reader_clear(&r);
     qdot_free(noise);
     return status;

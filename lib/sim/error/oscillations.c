@@ -1,4 +1,4 @@
-/* oscillations.c -- modes of the linearised motion that are faster than the steps of the run. */
+/* oscillations.c -- finds oscillations of the linearised motion that are faster than the steps of the run. */
 #include "sim/error/oscillations.h"
 
 #include <complex.h>
@@ -12,23 +12,23 @@
 
 static const double period = 6.283185307179586;
 
-/* The numbers of points compared: at first, and before and after the end of the first step that is too long. */
+/* How many points are compared: early in the run; before and after the end of the first step that is too long. */
 enum { early = 2, before = 2, behind = 2 };
 
-/* If the fast mode was resolved for more steps than this, its error is in the companions. */
+/* If the fast oscillation was resolved for more steps than this, the companion runs show its error. */
 enum { soon = 50 };
 
-/* Velocities above this many tolerances appear in the error estimate of a step. */
+/* Velocities of more than this many tolerances appear in the integrator's error estimate of a step. */
 static const double unseen = 100;
 
-/* Safety factor: amplitudes change along the run because frequencies do. */
+/* Safety factor: amplitudes change along the run as frequencies change. */
 static const double at_most = 2;
 
 struct qdot_oscillations {
     const qdot_course *course;
     double longest; /* length of the longest step */
-    double lost;    /* amplitude already lost at the start */
-    double damping; /* smallest |Re lambda| at this point */
+    double lost;    /* amplitude of unresolved oscillations already at the start */
+    double damping; /* smallest damping rate |Re lambda| at this point */
     double *J, *f;  /* Jacobian [n x n]; scratch [2n] */
     double complex *lambda, *v, *c; /* eigenvalues [n]; eigenvectors [n x n]; coefficients [n] */
 };
@@ -58,9 +58,9 @@ longest_step(const qdot_trajectory *tr)
     return h;
 }
 
-/* Whether mode k oscillates faster than steps of length h resolve; true for one mode of a conjugate pair. */
+/* Whether mode k oscillates too fast for steps of length h; of a conjugate pair, true for one mode only. */
 static bool
-is_gone_over(const qdot_oscillations *o, size_t k, double h)
+is_unresolved_mode(const qdot_oscillations *o, size_t k, double h)
 {
     const double complex l = o->lambda[k];
 
@@ -70,7 +70,7 @@ is_gone_over(const qdot_oscillations *o, size_t k, double h)
 /* The modes of the linearised motion at a state, scaled so that the largest velocity is 1; *there:
  * they were found. */
 static qdot_status
-find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *there)
+find_linear_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *there)
 {
     const qdot_ode_system *system = qdot_course_systems(o->course) + mode;
     const size_t n = system->n;
@@ -96,9 +96,9 @@ find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *t
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* Find the amplitude A at point j of the course, the fastest mode and the least damping there. */
+/* Find the amplitude A of unresolved oscillations at stored point j, the fastest rate and the least damping. */
 static qdot_status
-oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest, double *damping)
+measure_oscillations(qdot_oscillations *o, size_t j, double *A, double *fastest, double *damping)
 {
     const qdot_trajectory *tr = &o->course->tr;
     const size_t mode = tr->pieces.at[qdot_trajectory_piece_of(tr, j)].mode;
@@ -107,9 +107,9 @@ oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest,
 
     *fastest = 0;
     *damping = INFINITY;
-    QDOT_TRY(find_modes(o, mode, tr->t[j], tr->y + j * tr->n, &there));
+    QDOT_TRY(find_linear_modes(o, mode, tr->t[j], tr->y + j * tr->n, &there));
     for (size_t k = 0; k < tr->n && there; k++)
-        if (is_gone_over(o, k, o->longest)) {
+        if (is_unresolved_mode(o, k, o->longest)) {
             sum += 4 * creal(o->c[k] * conj(o->c[k]));
             *fastest = fmax(*fastest, cabs(o->lambda[k]));
             *damping = fmin(*damping, fabs(creal(o->lambda[k])));
@@ -118,9 +118,9 @@ oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest,
     return QDOT_OK;
 }
 
-/* The first point after a step that is too long for a mode of that rate. */
+/* The first stored point after a step that is too long for an oscillation of the given rate. */
 static size_t
-first_too_long(const qdot_trajectory *tr, double rate)
+first_point_after_long_step(const qdot_trajectory *tr, double rate)
 {
     size_t k = 1;
 
@@ -130,21 +130,21 @@ first_too_long(const qdot_trajectory *tr, double rate)
 }
 
 static qdot_status
-find_lost(qdot_oscillations *o)
+find_lost_amplitude(qdot_oscillations *o)
 {
     const qdot_trajectory *tr = &o->course->tr;
     double A, fastest, unused, low, high;
     size_t from, to;
 
-    QDOT_TRY(oscillations_measure(o, 0, &A, &fastest, &o->damping));
-    from = fastest > 0 ? first_too_long(tr, fastest) : SIZE_MAX;
+    QDOT_TRY(measure_oscillations(o, 0, &A, &fastest, &o->damping));
+    from = fastest > 0 ? first_point_after_long_step(tr, fastest) : SIZE_MAX;
     if (from > soon)
         return QDOT_OK;
     low = high = A;
     to = from + behind < tr->count ? from + behind : tr->count - 1;
     from = from > early + before ? from - before : early + 1;
     for (size_t j = 1; j <= to; j = j == early && from > early ? from : j + 1) {
-        QDOT_TRY(oscillations_measure(o, j, &A, &fastest, &unused));
+        QDOT_TRY(measure_oscillations(o, j, &A, &fastest, &unused));
         low = fmin(low, A);
         high = fmax(high, A);
     }
@@ -174,7 +174,7 @@ qdot_oscillations_new(const qdot_course *course, qdot_oscillations **out)
     o->lambda = qdot_calloc(n, sizeof *o->lambda);
     o->v = qdot_calloc(n * n, sizeof *o->v);
     o->c = qdot_calloc(n, sizeof *o->c);
-    status = o->J && o->f && o->lambda && o->v && o->c ? find_lost(o) : QDOT_ENOMEM;
+    status = o->J && o->f && o->lambda && o->v && o->c ? find_lost_amplitude(o) : QDOT_ENOMEM;
     if (status == QDOT_OK && o->lost > 0) {
         *out = o;
         return QDOT_OK;
@@ -183,10 +183,10 @@ qdot_oscillations_new(const qdot_course *course, qdot_oscillations **out)
     return status;
 }
 
-/* Add |g(y + amplitude `by` times mode v_k) - g(y)|^2 to sums [m]; y [n] is in the reader. */
+/* Add |g(y + `by` times mode v_k) - g(y)|^2 to sums [m]; the reader holds the state y [n]. */
 static qdot_status
-try(qdot_oscillations *o, qdot_reader *r, double t, const double *y, size_t k, double by,
-    const double *values, double *g, double *sums)
+add_change_by_mode(qdot_oscillations *o, qdot_reader *r, double t, const double *y, size_t k, double by,
+                   const double *values, double *g, double *sums)
 {
     const size_t n = o->course->tr.n;
     double *in = r->courses[0].in;
@@ -209,7 +209,7 @@ qdot_oscillations_add(qdot_oscillations *o, qdot_reader *r, double t, const doub
     const size_t n = tr->n, m = r->of.m;
     const double a = at_most * o->lost * exp(-o->damping * fabs(t - tr->t[0]));
     const double *scales = qdot_course_systems(o->course)->scales;
-    double most = 0; /* largest velocity */
+    double most = 0; /* largest velocity in the mode */
     double *y = qdot_malloc((n + 2 * m) * sizeof *y), *g = y + n, *sums = g + m;
     qdot_status status;
     bool there;
@@ -219,12 +219,12 @@ qdot_oscillations_add(qdot_oscillations *o, qdot_reader *r, double t, const doub
     memcpy(y, r->courses[0].in, n * sizeof *y);
     for (size_t i = n / 2; i < n; i++)
         most = fmax(most, unseen * tr->tol * qdot_ode_size(scales, i, y[i]));
-    status = find_modes(o, qdot_trajectory_mode_read(r->courses[0].cursor), t, y, &there);
+    status = find_linear_modes(o, qdot_trajectory_mode_read(r->courses[0].cursor), t, y, &there);
     for (size_t k = 0; k < n && status == QDOT_OK && there; k++) {
-        if (!is_gone_over(o, k, o->longest))
+        if (!is_unresolved_mode(o, k, o->longest))
             continue;
         memset(sums, 0, m * sizeof *sums);
-        status = try(o, r, t, y, k, fmin(a / cabs(o->lambda[k]), most), values, g, sums);
+        status = add_change_by_mode(o, r, t, y, k, fmin(a / cabs(o->lambda[k]), most), values, g, sums);
         for (size_t j = 0; j < m && status == QDOT_OK; j++)
             errors[j] += sqrt(sums[j]);
     }

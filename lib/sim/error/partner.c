@@ -1,13 +1,13 @@
-/* partner.c -- finds the root of a companion that corresponds to the k-th root of the run. */
+/* partner.c -- finds the root (time of an event) of a companion run that corresponds to the run's k-th root. */
 #include "sim/error/partner.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The index of the time nearest to t; SIZE_MAX if n is 0. */
+/* The index of the time nearest to t in at [n]; SIZE_MAX if n is 0. */
 static size_t
-nearest(const double *at, size_t n, double t)
+index_of_nearest(const double *at, size_t n, double t)
 {
     const bool down = n > 1 && at[n - 1] < at[0];
     size_t low = 0, high = n;
@@ -33,7 +33,7 @@ qdot_partner_of(const double *own, size_t n, size_t k, const double *other, size
 
     if (n == m)
         return k;
-    best = nearest(other, m, own[k]);
+    best = index_of_nearest(other, m, own[k]);
     if (best == SIZE_MAX)
         return SIZE_MAX;
     away = fabs(other[best] - own[k]);

@@ -27,30 +27,30 @@ enum { sections = 60, closed_in = 12, most_told = 60 };
  * too. */
 enum { few_steps = 100, parts_of_a_step = 4, most_parts = 64 };
 
-/* A set of constraint rows (none if unknown) that become dependent, and the times at which they do. */
+/* Constraints that become dependent on each other (none if unknown), and the times at which they do. */
 typedef struct {
     const qdot_constraints *of;
-    bool *rows; /* [of->m] the rows of the set, owned */
+    bool *rows; /* [of->m] which constraints belong to the set, owned */
     qdot_vec(double) times;
 } group;
 
 typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
-    qdot_constrained *held; /* constraints in the mode of the present piece */
+    qdot_constrained *held; /* the constraint solver in the mode of the present piece */
     size_t piece, end; /* index of the present piece; of the first point after it */
     double *y; /* [2n] scratch state */
-    size_t step; /* index of the step, which ends at stored point `step`, to which `between` belongs */
+    size_t step; /* index of the stored point at which the step ends to which `between` belongs */
     double *between; /* [4n] dy/dt at both ends of this step, for methods without series */
-    bool sloped;     /* `between` is known; otherwise slopes come from cubics */
-    double enough; /* values of q below this count as 0 */
-    double t[3], q[3]; /* time and quality q of the last three points of the piece */
-    size_t taken;      /* the number of places evaluated */
+    bool sloped;     /* `between` is known; otherwise derivatives come from interpolating cubics */
+    double enough; /* values of the measure q of independence below this count as 0 */
+    double t[3], q[3]; /* time and independence q at the last three points that were evaluated in the piece */
+    size_t taken;      /* the number of points evaluated */
     double most;       /* largest q since the last reported singular place */
     qdot_vec(group) groups;
 } search;
 
-/* Prepare to read the step that ends at stored point k. */
+/* Prepare to read states in the step that ends at stored point k. */
 static void
 search_enter_step(search *s, size_t k)
 {
@@ -97,7 +97,7 @@ interpolate(search *s, double t)
 }
 
 static qdot_status
-search_look_at(search *s, double t, double *q)
+measure_independence(search *s, double t, double *q)
 {
     if (s->between)
         interpolate(s, t);
@@ -110,7 +110,7 @@ search_look_at(search *s, double t, double *q)
 /* The minimum about t[1] between t[0] and t[2], where q is more, by golden sections; s->y is a
  * state within rounding of it. */
 static qdot_status
-search_descend(search *s, const double *t, const double *q, double *at, double *least)
+minimise_independence(search *s, const double *t, const double *q, double *at, double *least)
 {
     static const double golden = 0.3819660112501051;
     const double start = fmin(q[0], q[2]);
@@ -124,7 +124,7 @@ search_descend(search *s, const double *t, const double *q, double *at, double *
         QDOT_TRY(qdot_interrupt_check());
         if (k == closed_in && qm > floor_of_minimum * start)
             break;
-        QDOT_TRY(search_look_at(s, u, &qu));
+        QDOT_TRY(measure_independence(s, u, &qu));
         if (qu < qm) {
             *(right ? &a : &b) = m;
             m = u;
@@ -134,12 +134,12 @@ search_descend(search *s, const double *t, const double *q, double *at, double *
         }
     }
     *at = m;
-    return search_look_at(s, *at, least);
+    return measure_independence(s, *at, least);
 }
 
-/* Whether two modes have the same constraints. */
+/* Whether the constraints of two modes are the same. */
 static bool
-are_same(const qdot_constraints *a, const qdot_constraints *b)
+are_same_constraints(const qdot_constraints *a, const qdot_constraints *b)
 {
     bool same = a->m == b->m;
 
@@ -148,9 +148,9 @@ are_same(const qdot_constraints *a, const qdot_constraints *b)
     return same;
 }
 
-/* Whether the rows of group g are all among `rows`; an empty group only matches an empty set. */
+/* Whether all constraints of group g are among `rows`; an empty group matches only an empty set. */
 static bool
-rows_are_among(const group *g, const bool *rows)
+is_subset_of_rows(const group *g, const bool *rows)
 {
     bool some = false, others = false;
 
@@ -173,14 +173,14 @@ clear_group(group *g)
 /* Give the places of all groups whose rows are among those of group i to it, in the order of time; to whom
  * *i points then. */
 static qdot_status
-groups_gather(search *s, size_t *i)
+merge_subsets(search *s, size_t *i)
 {
     const double way = s->course->tr.t[s->course->tr.count - 1] < s->course->tr.t[0] ? -1 : 1;
 
     for (size_t j = s->groups.n; j-- > 0;) {
         group *to = s->groups.at + *i, *from = s->groups.at + j;
 
-        if (j == *i || !are_same(from->of, to->of) || !rows_are_among(from, to->rows))
+        if (j == *i || !are_same_constraints(from->of, to->of) || !is_subset_of_rows(from, to->rows))
             continue;
         for (size_t k = 0; k < from->times.n; k++) {
             QDOT_TRY(qdot_vec_push(&to->times, from->times.at[k]));
@@ -202,14 +202,14 @@ groups_gather(search *s, size_t *i)
 /* Find the group to which the rows `mine` belong: its rows are a subset or a superset; else make a
  * new group. Takes `mine`. */
 static qdot_status
-find_group(search *s, group *mine, size_t *i)
+find_or_add_group(search *s, group *mine, size_t *i)
 {
     qdot_status status;
 
     for (*i = 0; *i < s->groups.n; ++*i) {
         const group *g = s->groups.at + *i;
 
-        if (are_same(g->of, mine->of) && rows_are_among(mine, g->rows))
+        if (are_same_constraints(g->of, mine->of) && is_subset_of_rows(mine, g->rows))
             break;
     }
     if (*i < s->groups.n) {
@@ -218,13 +218,13 @@ find_group(search *s, group *mine, size_t *i)
     }
     status = qdot_vec_push(&s->groups, *mine);
     if (status == QDOT_OK)
-        return groups_gather(s, i);
+        return merge_subsets(s, i);
     clear_group(mine);
     return status;
 }
 
 static qdot_status
-groups_note(search *s, double t)
+record_singular_time(search *s, double t)
 {
     group mine = {.of = qdot_constrained_of(s->held)};
     size_t i;
@@ -232,8 +232,8 @@ groups_note(search *s, double t)
     mine.rows = qdot_calloc(mine.of->m, sizeof *mine.rows);
     if (!mine.rows)
         return QDOT_ENOMEM;
-    (void)qdot_constrained_near(s->held, t, s->y, mine.rows); /* on failure no row is marked */
-    QDOT_TRY(find_group(s, &mine, &i));
+    (void)qdot_constrained_near(s->held, t, s->y, mine.rows); /* if this fails, no constraint is marked */
+    QDOT_TRY(find_or_add_group(s, &mine, &i));
     if (s->groups.at[i].times.n > 0 && s->most < away * s->enough)
         return QDOT_OK;
     s->most = 0;
@@ -243,14 +243,14 @@ groups_note(search *s, double t)
 /* Whether q [3], at three points in a row, may come down to 0 about the middle one: it is
  * least there, and not by little. */
 static bool
-comes_down(const double *q)
+is_deep_minimum(const double *q)
 {
     return q[1] <= q[0] && q[1] < q[2] && q[1] < shallow * fmax(q[0], q[2]);
 }
 
-/* Record a singular point at time t, where the measure of independence is q. */
+/* Take the independence q at time t as the newest point; record a singular point if q had a minimum before. */
 static qdot_status
-search_take_place(search *s, double t, double q)
+take_point(search *s, double t, double q)
 {
     double at, least;
 
@@ -259,16 +259,16 @@ search_take_place(search *s, double t, double q)
     s->t[2] = t;
     s->q[2] = q;
     s->most = fmax(s->most, s->q[1]); /* the newest value may lie after the minimum that will be reported */
-    if (++s->taken < 3 || !comes_down(s->q))
+    if (++s->taken < 3 || !is_deep_minimum(s->q))
         return QDOT_OK;
-    QDOT_TRY(search_descend(s, s->t, s->q, &at, &least));
-    return least < s->enough ? groups_note(s, at) : QDOT_OK;
+    QDOT_TRY(minimise_independence(s, s->t, s->q, &at, &least));
+    return least < s->enough ? record_singular_time(s, at) : QDOT_OK;
 }
 
 /* The number of intervals into which the step that ends at stored point k is divided, by its
  * neighbours' length. */
 static int
-parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
+parts_of_step(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
 {
     const double *t = tr->t + k, h = fabs(t[0] - t[-1]);
     double beside = h;
@@ -282,9 +282,9 @@ parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
     return (int)fmin(most_parts, parts_of_a_step * h / fmax(beside, h / most_parts));
 }
 
-/* Measure the independence at the inner points of the step that ends at stored point k. */
+/* Measure the constraints' independence at inner points of the step that ends at stored point k. */
 static qdot_status
-take_inner(search *s, size_t k, int parts)
+take_inner_points(search *s, size_t k, int parts)
 {
     const double *t = s->course->tr.t + k - 1;
 
@@ -292,14 +292,14 @@ take_inner(search *s, size_t k, int parts)
         const double inner = t[0] + (t[1] - t[0]) * j / parts;
         double q;
 
-        QDOT_TRY(search_look_at(s, inner, &q));
-        QDOT_TRY(search_take_place(s, inner, q));
+        QDOT_TRY(measure_independence(s, inner, &q));
+        QDOT_TRY(take_point(s, inner, q));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-go_through(search *s)
+search_whole_run(search *s)
 {
     const qdot_trajectory *tr = &s->course->tr;
 
@@ -315,17 +315,17 @@ go_through(search *s)
             if (k % 1024 == 0)
                 QDOT_TRY(qdot_interrupt_check());
             if (k > p->first)
-                QDOT_TRY(take_inner(s, k, parts_of(tr, p->first, k, end)));
-            QDOT_TRY(search_take_place(s, tr->t[k],
-                                       qdot_constrained_independence(s->held, tr->t[k],
-                                                                     tr->y + k * tr->n)));
+                QDOT_TRY(take_inner_points(s, k, parts_of_step(tr, p->first, k, end)));
+            QDOT_TRY(take_point(s, tr->t[k],
+                                qdot_constrained_independence(s->held, tr->t[k],
+                                                              tr->y + k * tr->n)));
         }
     }
     return QDOT_OK;
 }
 
 static void
-group_tell(const group *g, qdot_text *to)
+describe_group(const group *g, qdot_text *to)
 {
     const size_t told = g->times.n < most_told ? g->times.n : most_told;
 
@@ -363,10 +363,10 @@ qdot_singular_places_tell(const qdot_course *course, qdot_text *to)
                  ? qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor)
                  : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = go_through(&s);
+        status = search_whole_run(&s);
     for (size_t i = 0; i < s.groups.n; i++) {
         if (status == QDOT_OK)
-            group_tell(s.groups.at + i, to);
+            describe_group(s.groups.at + i, to);
         clear_group(s.groups.at + i);
     }
     qdot_free(s.groups.at);

@@ -1,17 +1,17 @@
-/* standstill.c -- finds where a run is at rest: rates at its stored points, their sizes and least values. */
+/* standstill.c -- finds where a run is at rest, by the rates of change of the state at its stored points. */
 #include "sim/error/standstill.h"
 
 #include <math.h>
 
-/* The motion counts as at rest if its rates are below this fraction of their largest values. */
+/* The motion counts as at rest if its rates of change are below this fraction of their largest values. */
 static const double little = 1e-2;
 
-/* The most points that are inspected. */
+/* The largest number of stored points that are inspected. */
 enum { MOST = 4096 };
 
-/* The rates f [n] of the state at stored point k of a run that has one piece; false if undefined. */
+/* The rates dy/dt [n] at stored point k of a run that has one piece; false if undefined. */
 static bool
-slopes_at(const qdot_run *run, size_t k, double *f)
+find_rates_at_point(const qdot_run *run, size_t k, double *f)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const qdot_ode_system *system =
@@ -35,7 +35,7 @@ qdot_standstill_find(const qdot_run *run, double *t)
         return QDOT_ENOMEM;
     most = f + n;
     for (size_t k = 0; k < tr->count; k += stride) {
-        if (!slopes_at(run, k, f))
+        if (!find_rates_at_point(run, k, f))
             continue;
         for (size_t i = 0; i < n; i++)
             most[i] = fmax(most[i], fabs(f[i]));
@@ -45,7 +45,7 @@ qdot_standstill_find(const qdot_run *run, double *t)
 
         if (way * (tr->t[k] - run->report.horizon) > 0)
             break;
-        if (!slopes_at(run, k, f))
+        if (!find_rates_at_point(run, k, f))
             continue;
         for (size_t i = 0; i < n; i++)
             if (most[i] > 0)

@@ -12,11 +12,11 @@ typedef struct {
     qdot_expr function;
     qdot_reading of;
     qdot_reader reader;
-    qdot_distance *distance; /* distance of run and companions; NULL: errors are unknown */
+    qdot_distance *distance; /* distance of the run from its companion runs; NULL: errors are unknown */
 } look;
 
 static qdot_status
-open_look(qdot_run *run, size_t event, look *l)
+begin_evaluation(qdot_run *run, size_t event, look *l)
 {
     l->function = run->stage.events.at[event].function;
     QDOT_TRY(qdot_reader_lower(run->plan, 1, &l->function, &l->of));
@@ -26,16 +26,16 @@ open_look(qdot_run *run, size_t event, look *l)
 }
 
 static void
-close_look(look *l)
+clear_evaluation(look *l)
 {
     qdot_distance_free(l->distance);
     qdot_reader_clear(&l->reader);
     qdot_tape_free(l->of.tape);
 }
 
-/* Evaluate the function g of an event at t, and its error; NaN if unknown. */
+/* Evaluate the event's function g at time t, and its error; NaN if unknown. */
 static qdot_status
-touch_look_at(look *l, double t, double *g, double *error)
+evaluate_with_error(look *l, double t, double *g, double *error)
 {
     qdot_status status = qdot_reader_at(&l->reader, SIZE_MAX, t, g);
 
@@ -49,21 +49,21 @@ touch_look_at(look *l, double t, double *g, double *error)
 }
 
 static bool
-is_doubtful(const qdot_occurrence *o, size_t event)
+is_touching_occurrence(const qdot_occurrence *o, size_t event)
 {
     return o->event == event && o->within > 0;
 }
 
 static qdot_status
-look_at_all(qdot_run *run, size_t event, look *l, double *widths, double *tol)
+examine_touches(qdot_run *run, size_t event, look *l, double *widths, double *tol)
 {
     for (size_t i = 0; i < run->course.occurrences.n; i++) {
         const qdot_occurrence *o = &run->course.occurrences.at[i];
         double g, error;
 
-        if (!is_doubtful(o, event))
+        if (!is_touching_occurrence(o, event))
             continue;
-        QDOT_TRY(touch_look_at(l, o->t, &g, &error));
+        QDOT_TRY(evaluate_with_error(l, o->t, &g, &error));
         if (widths)
             widths[i] = sqrt(2 * (fabs(g) + error) / fabs(o->bend));
         if (tol && fabs(g) > 2 * error)
@@ -80,23 +80,23 @@ qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
     qdot_status status;
     size_t first = 0;
 
-    while (first < n && !is_doubtful(&run->course.occurrences.at[first], event))
+    while (first < n && !is_touching_occurrence(&run->course.occurrences.at[first], event))
         first++;
     if (first == n)
         return QDOT_OK;
-    status = open_look(run, event, &l);
+    status = begin_evaluation(run, event, &l);
     if (status == QDOT_OK)
-        status = look_at_all(run, event, &l, widths, tol);
-    close_look(&l);
+        status = examine_touches(run, event, &l, widths, tol);
+    clear_evaluation(&l);
     return status;
 }
 
-/* The slope of g at t is taken from there to this part of the way back to the start of the run. */
+/* The slope of g at t is taken between t and this fraction of the time back to the start of the run. */
 static const double near_by = 0x1p-24;
 
-/* How fast g changes just before t; NaN: unknown. */
+/* Find how fast the event's function g changes just before t, |dg/dt|; NaN: unknown. */
 static qdot_status
-look_at_slope(look *l, const qdot_trajectory *tr, double t, double g, double *slope)
+find_slope_before(look *l, const qdot_trajectory *tr, double t, double g, double *slope)
 {
     const double by = near_by * (tr->t[0] - t);
     double before;
@@ -111,7 +111,7 @@ qdot_touches_crossings(qdot_run *run, size_t event, double *errors)
 {
     const size_t n = run->course.occurrences.n;
     look l = {0};
-    qdot_status status = open_look(run, event, &l);
+    qdot_status status = begin_evaluation(run, event, &l);
 
     for (size_t i = 0; i < n && status == QDOT_OK && l.distance; i++) {
         const qdot_occurrence *o = &run->course.occurrences.at[i];
@@ -121,19 +121,19 @@ qdot_touches_crossings(qdot_run *run, size_t event, double *errors)
             continue;
         if (i > 0 && o[-1].t == o->t) /* a blow that another one hands on: what meets did not approach before */
             continue;
-        status = touch_look_at(&l, o->t, &g, &error);
+        status = evaluate_with_error(&l, o->t, &g, &error);
         if (status == QDOT_OK)
-            status = look_at_slope(&l, &run->course.tr, o->t, g, &slope);
+            status = find_slope_before(&l, &run->course.tr, o->t, g, &slope);
         if (status == QDOT_OK && error <= slope * fabs(o->t - run->course.tr.t[0]))
             errors[i] = error / slope;
     }
-    close_look(&l);
+    clear_evaluation(&l);
     return status;
 }
 
 /* Whether the event last occurred at the end t of the run. */
 static bool
-ends_on(const qdot_run *run, size_t event, double t)
+ends_at_event(const qdot_run *run, size_t event, double t)
 {
     if (run->course.stopped_by == event)
         return true;
@@ -143,9 +143,9 @@ ends_on(const qdot_run *run, size_t event, double t)
     return false;
 }
 
-/* Find the size of g: its largest |value| at eight times of the run. */
+/* Find the size of the event's function g: its largest magnitude at eight times of the run. */
 static qdot_status
-find_size(look *l, const qdot_trajectory *tr, double *size)
+find_function_size(look *l, const qdot_trajectory *tr, double *size)
 {
     enum { PLACES = 8 };
     const double t0 = tr->t[0], t1 = tr->t[tr->count - 1];
@@ -175,15 +175,15 @@ qdot_touches_end(qdot_run *run, size_t event, bool *undecided)
     qdot_status status = QDOT_OK;
 
     *undecided = false;
-    if (tr->count < 2 || ends_on(run, event, t))
+    if (tr->count < 2 || ends_at_event(run, event, t))
         return QDOT_OK;
-    status = open_look(run, event, &l);
+    status = begin_evaluation(run, event, &l);
     if (status == QDOT_OK)
-        status = touch_look_at(&l, t, &g, &error);
+        status = evaluate_with_error(&l, t, &g, &error);
     if (status == QDOT_OK)
-        status = find_size(&l, tr, &size);
+        status = find_function_size(&l, tr, &size);
     if (status == QDOT_OK)
         *undecided = g != 0 && fabs(g) <= 2 * error && fabs(g) <= small * size;
-    close_look(&l);
+    clear_evaluation(&l);
     return status;
 }

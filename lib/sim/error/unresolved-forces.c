@@ -6,14 +6,14 @@
 
 typedef struct {
     qdot_disc_hiding hiding; /* kinds of forces that the method may have missed */
-    const qdot_plan *plan;   /* plan whose tape is examined; NULL: none yet */
+    const qdot_plan *plan;   /* plan whose tape is examined for such forces; NULL: none yet */
     qdot_trajectory_cursor *cursor;
     qdot_pulses pulses;
     size_t piece;
 } search;
 
 static qdot_status
-forces_read_run(double t, double *y, void *user)
+read_stored_state(double t, double *y, void *user)
 {
     search *s = user;
 
@@ -21,7 +21,7 @@ forces_read_run(double t, double *y, void *user)
 }
 
 static qdot_status
-take_plan(search *s, const qdot_plan *plan)
+begin_plan(search *s, const qdot_plan *plan)
 {
     s->plan = plan;
     qdot_pulses_clear(&s->pulses);
@@ -30,7 +30,7 @@ take_plan(search *s, const qdot_plan *plan)
 }
 
 static qdot_status
-go_through(search *s, const qdot_course *course, bool *found, double *t)
+search_steps(search *s, const qdot_course *course, bool *found, double *t)
 {
     const qdot_trajectory *tr = &course->tr;
 
@@ -42,7 +42,7 @@ go_through(search *s, const qdot_course *course, bool *found, double *t)
         if (!plan->tape || !qdot_disc_may_hide(plan->tape, s->hiding))
             continue;
         if (plan != s->plan)
-            QDOT_TRY(take_plan(s, plan));
+            QDOT_TRY(begin_plan(s, plan));
         s->piece = k;
         for (size_t j = p->first; j + 1 < end && !*found; j++) {
             qdot_pulses_step step = {.a = tr->t[j],
@@ -50,7 +50,7 @@ go_through(search *s, const qdot_course *course, bool *found, double *t)
                                      .tol = tr->tol,
                                      .from = tr->y + j * tr->n,
                                      .to = tr->y + (j + 1) * tr->n,
-                                     .read = tr->method->geometric ? NULL : forces_read_run,
+                                     .read = tr->method->geometric ? NULL : read_stored_state,
                                      .user = s};
 
             QDOT_TRY(qdot_pulses_look(&s->pulses, &step));
@@ -75,7 +75,7 @@ qdot_unresolved_forces_find(const qdot_course *course, bool *found, double *t)
     s.hiding = by_series ? QDOT_HIDES_EXPONENTIALS : QDOT_HIDES_QUOTIENTS;
     status = qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor);
     if (status == QDOT_OK)
-        status = go_through(&s, course, found, t);
+        status = search_steps(&s, course, found, t);
     qdot_trajectory_close(s.cursor);
     qdot_pulses_clear(&s.pulses);
     return qdot_grave(status);

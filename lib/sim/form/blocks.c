@@ -10,7 +10,7 @@
 #include "sim/model/constraints.h"
 #include "tape/shake.h"
 
-/* Squared sine below which a row of constraints depends on those before it. */
+/* Squared sine below which a constraint's gradient counts as dependent on those before it. */
 static const double least_sine = 0.1;
 
 qdot_status
@@ -27,9 +27,9 @@ qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block, size_t
                      row == 1 ? " does" : " do");
 }
 
-/* Invert the bordered matrix [M A^T; A 0]; it is solved by its inverse only. */
+/* Invert the matrix [M A^T; A 0] of the equations with constraints; systems are solved by its inverse. */
 static qdot_status
-invert_bordered(const qdot_blocks *b, const qdot_solver *s)
+invert_constrained_matrix(const qdot_blocks *b, const qdot_solver *s)
 {
     double(*K)[QDOT_BORDERED_MOST] = (double(*)[QDOT_BORDERED_MOST])s->inverse;
     const size_t n = b->plan->n, m = s->n - n;
@@ -54,7 +54,7 @@ qdot_blocks_factor(qdot_blocks *b, size_t k)
 
     b->factored++;
     if (p->constraints)
-        return invert_bordered(b, s);
+        return invert_constrained_matrix(b, s);
     status = p->indefinite ? qdot_ldlt_factor(&s->ldlt, s->a, &failed)
                            : qdot_cholesky_factor(s->a, s->n, NULL, &failed);
     return status == QDOT_OK ? QDOT_OK : qdot_blocks_singular(p, p->blocks + k, failed);
@@ -115,7 +115,7 @@ qdot_blocks_invert(qdot_blocks *b, size_t k)
         kernels->multiply(m, i, s->lower, s->x, row);
         row[i] = scale;
     }
-    /* row j of L^-T L^-1 from column j of L^-1, whose first non-zero entry is on the diagonal */
+    /* row j of L^-T L^-1 from column j of L^-1, which is 0 above the diagonal */
     for (size_t j = 0; j < n; j++) {
         for (size_t i = j; i < n; i++)
             s->x[i - j] = s->lower[i * m + j];
@@ -157,7 +157,7 @@ qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from)
 }
 
 static qdot_status
-prepare_bordered(qdot_blocks *b, qdot_solver *s)
+prepare_constrained_solver(qdot_blocks *b, qdot_solver *s)
 {
     const qdot_constraints *c = b->plan->constraints;
 
@@ -184,7 +184,7 @@ make_solver(qdot_blocks *b, size_t k, bool shaken)
     if (!s->a || !s->x)
         return QDOT_ENOMEM;
     if (b->plan->constraints)
-        return prepare_bordered(b, s);
+        return prepare_constrained_solver(b, s);
     if (b->plan->indefinite)
         QDOT_TRY(qdot_ldlt_init(&s->ldlt, n));
     if (!s->constant)

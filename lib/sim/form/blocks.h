@@ -1,4 +1,4 @@
-/* blocks.h -- the blocks of M, factored and solved with numbers; or M bordered by constraints. */
+/* blocks.h -- solvers for the blocks of the mass matrix M, or for the matrix of M and constraints. */
 #ifndef QDOT_SIM_BLOCKS_H
 #define QDOT_SIM_BLOCKS_H
 
@@ -9,7 +9,7 @@ typedef struct {
     size_t n; /* number of unknowns: q'' of one block; with constraints all q'', then multipliers */
     bool constant;   /* M is constant here and factored only once */
     double *a;       /* [n x n] M, then its factors; with constraints [M A^T; A 0] */
-    double *x;       /* [n] right side and solution of the caller; scratch of _invert */
+    double *x;       /* [n] right-hand side and then solution, for the caller; scratch of qdot_blocks_invert */
     qdot_ldlt ldlt;  /* LDL^T factors, if M is not positive definite */
     size_t m;        /* n rounded up to full vectors */
     double *inverse; /* [m x n] inverse of M, if requested; else NULL */
@@ -20,7 +20,7 @@ typedef struct {
     const qdot_plan *plan;
     qdot_solver *at; /* [n] a solver for each block */
     size_t n;        /* number of blocks, plan->structure.blocks; with constraints 1 */
-    bool diagonal;   /* with constraints: M is diagonal */
+    bool diagonal;   /* with constraints: M is a diagonal matrix */
     size_t factored; /* number of factorisations so far */
 } qdot_blocks;
 
@@ -51,10 +51,10 @@ QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);
 void qdot_blocks_apply(const qdot_blocks *b, size_t k, double *x);
 
-/* Copy a lower triangle, stored by rows, into block k. Returns the address after the numbers read. */
+/* Copy a lower triangle, stored by rows, into block k of M. Returns the address after the numbers read. */
 const double *qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from);
 
-/* Report that M is singular because the coordinate of that row has no mass. */
+/* Report that M is singular because the coordinate of the given row has no mass. */
 qdot_status qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block,
                                  size_t row);
 

@@ -1,4 +1,4 @@
-/* bordered.c -- makes the equations of motion with constraints as one bordered system. */
+/* bordered.c -- makes the equations with constraints as one linear system for q'' and multipliers. */
 #include "sim/form/bordered.h"
 
 #include "base/memory.h"

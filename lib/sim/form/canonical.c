@@ -1,4 +1,4 @@
-/* canonical.c -- lowers the derivatives of H and makes the series program of Hamilton's equations. */
+/* canonical.c -- compiles derivatives of H and makes the Taylor series program of Hamilton's equations. */
 #include "sim/form/canonical.h"
 
 #include "base/memory.h"
@@ -10,7 +10,7 @@
 #include "mech/study/hamilton.h"
 #include "sim/model/switch.h"
 
-/* The largest systems for Hamilton's equations: beyond them the inverse of M costs more than is saved. */
+/* The largest systems for which Hamilton's equations are used: beyond, the inverse of M costs too much. */
 enum { most_coordinates = 6, most_coupled = 2 };
 
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
 /* Whether Hamilton's equations are worthwhile; not if M is constant, as momenta are then velocities
  * up to factors. */
 static bool
-canonical_fits(const qdot_plan *p)
+is_suitable_plan(const qdot_plan *p)
 {
     bool moves = false;
 
@@ -41,7 +41,7 @@ canonical_fits(const qdot_plan *p)
 
 /* Derive H and the forces; *there: the velocities can be expressed by momenta. */
 static qdot_status
-canonical_derive(builder *b, bool *there)
+derive_hamiltonian(builder *b, bool *there)
 {
     qdot_pool *pool = b->plan->pool;
     const qdot_expr H = qdot_plan_substitute(b->plan, qdot_hamilton_hamiltonian(b->scene));
@@ -74,7 +74,7 @@ moves(const builder *b, size_t i)
 
 /* Order the coordinates: first those whose momenta change, then those with constant momenta. */
 static qdot_status
-order(builder *b)
+order_momenta(builder *b)
 {
     qdot_canonical *c = b->c;
     size_t at = 0;
@@ -93,7 +93,7 @@ order(builder *b)
 }
 
 static qdot_status
-canonical_lower(builder *b)
+make_tapes(builder *b)
 {
     const qdot_plan *p = b->plan;
     qdot_canonical *c = b->c;
@@ -129,9 +129,9 @@ canonical_lower(builder *b)
     return status;
 }
 
-/* Add the rows of the program: q [n], q' [n], t, p [n]; the rows of q' are those of dH/dp. */
+/* Add the program's inputs: q [n], q' [n], t, p [n]; the rows of q' are those that compute dH/dp. */
 static qdot_status
-add_rows(qdot_canonical *c, qdot_program_builder *b, qdot_program_row *in, qdot_program_row *out)
+add_input_rows(qdot_canonical *c, qdot_program_builder *b, qdot_program_row *in, qdot_program_row *out)
 {
     const qdot_program_row n = (qdot_program_row)c->n, moving = (qdot_program_row)c->moving;
     qdot_program_row *Q = out + 2 * n;
@@ -162,7 +162,7 @@ add_rows(qdot_canonical *c, qdot_program_builder *b, qdot_program_row *in, qdot_
 }
 
 static qdot_status
-make_motion(qdot_canonical *c)
+make_series_program(qdot_canonical *c)
 {
     const size_t inputs = 3 * c->n + 1, moving = 2 * c->n + 1 + c->moving;
     qdot_program_row *rows = qdot_calloc(inputs + 3 * c->n, sizeof *rows);
@@ -173,13 +173,13 @@ make_motion(qdot_canonical *c)
         return QDOT_ENOMEM;
     status = qdot_program_begin(inputs, moving, false, &c->motion.program, &b);
     if (status == QDOT_OK)
-        status = qdot_motion_complete(&c->motion, b, add_rows(c, b, rows, rows + inputs));
+        status = qdot_motion_complete(&c->motion, b, add_input_rows(c, b, rows, rows + inputs));
     qdot_free(rows);
     return status;
 }
 
 static qdot_status
-canonical_build(builder *b, bool *there)
+build_canonical_form(builder *b, bool *there)
 {
     const size_t n = b->plan->n;
 
@@ -190,12 +190,12 @@ canonical_build(builder *b, bool *there)
     b->pull = b->slope + n;
     b->Q = b->pull + n;
     b->before = b->Q + n;
-    QDOT_TRY(canonical_derive(b, there));
+    QDOT_TRY(derive_hamiltonian(b, there));
     if (!*there)
         return QDOT_OK;
-    QDOT_TRY(order(b));
-    QDOT_TRY(canonical_lower(b));
-    return make_motion(b->c);
+    QDOT_TRY(order_momenta(b));
+    QDOT_TRY(make_tapes(b));
+    return make_series_program(b->c);
 }
 
 qdot_status
@@ -206,12 +206,12 @@ qdot_canonical_new(qdot_scene *scene, const qdot_plan *plan, qdot_canonical **ca
     qdot_status status;
 
     *canonical = NULL;
-    if (!canonical_fits(plan))
+    if (!is_suitable_plan(plan))
         return QDOT_OK;
     b.c = qdot_calloc(1, sizeof *b.c);
     if (!b.c)
         return QDOT_ENOMEM;
-    status = canonical_build(&b, &there);
+    status = build_canonical_form(&b, &there);
     qdot_free(b.p);
     if (status != QDOT_OK || !there) {
         qdot_canonical_free(b.c);

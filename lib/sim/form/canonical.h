@@ -21,9 +21,9 @@
 struct qdot_canonical {
     size_t n, moving;   /* number of coordinates; how many of their momenta are not constant */
     size_t *place;      /* [n] coordinates in the order of momenta: first those whose p varies */
-    qdot_tape *momenta; /* from q, q', t: momenta p [n] in this order */
-    qdot_tape *rates; /* from q, t, p in this order: dH/dp [n], then -dH/dq of the varying momenta */
-    qdot_tape *forces;  /* from q, q', t: forces Q on the varying momenta; NULL: none */
+    qdot_tape *momenta; /* tape from q, q', t to the momenta p [n], in this order */
+    qdot_tape *rates; /* tape from q, t, p (in this order) to dH/dp [n], then -dH/dq of the varying momenta */
+    qdot_tape *forces;  /* tape from q, q', t to the forces Q on the varying momenta; NULL: none */
     qdot_motion motion; /* series program with the inputs q, q', t, p in this order */
 };
 

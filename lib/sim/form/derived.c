@@ -1,4 +1,4 @@
-/* derived.c -- makes the series program of a plan, and frees plans. */
+/* derived.c -- makes the Taylor series program of a plan, and frees plans. */
 #include "sim/form/derived.h"
 
 #include "sim/form/canonical.h"

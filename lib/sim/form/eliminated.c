@@ -13,12 +13,12 @@
 #include "sim/model/constraints.h"
 #include "sim/model/quotient.h"
 
-/* The most constraints that are eliminated symbolically; more are cheaper in numbers. */
+/* The most constraints whose multipliers are eliminated symbolically; with more, numbers are cheaper. */
 enum { most_rows = 3 };
 
 /* --- expressions of the elimination ------------------------------------------------- */
 
-/* S = A M^-1 A^T, later its factors (D on the diagonal, L below); the right-hand side; the diagonal of S. */
+/* S = A M^-1 A^T, then its factors (D on the diagonal, L below); the right-hand side; the old diagonal of S. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_constraints *c;
@@ -27,14 +27,14 @@ typedef struct {
 } elimination;
 
 static qdot_expr
-mass(const qdot_plan *p, size_t i)
+diagonal_mass(const qdot_plan *p, size_t i)
 {
     return p->M[i * (p->n + 1)];
 }
 
-/* The entry of constraint row `row` at a coordinate, 0 if the row does not contain it. */
+/* The element of constraint k's gradient for a coordinate, 0 if the constraint does not contain it. */
 static qdot_expr
-slope(const qdot_constraints *c, size_t row, size_t coordinate)
+constraint_gradient(const qdot_constraints *c, size_t row, size_t coordinate)
 {
     for (size_t s = 0; s < c->n_slopes; s++)
         if (c->slopes[s].row == row && c->slopes[s].column == coordinate)
@@ -45,7 +45,7 @@ slope(const qdot_constraints *c, size_t row, size_t coordinate)
 /* A row's S where the row is held: of a rod, a circle or a sphere S = r f + c with numbers r
  * and c, and f is 0. */
 static qdot_expr
-where_held(const elimination *e, size_t k, qdot_expr S)
+value_on_constraint(const elimination *e, size_t k, qdot_expr S)
 {
     const qdot_constraints_row *row = e->c->rows + k;
     qdot_pool *pool = e->plan->pool;
@@ -68,7 +68,7 @@ where_held(const elimination *e, size_t k, qdot_expr S)
 }
 
 static void
-form(elimination *e)
+form_multiplier_equations(elimination *e)
 {
     const qdot_plan *p = e->plan;
     qdot_pool *pool = p->pool;
@@ -78,17 +78,17 @@ form(elimination *e)
         for (size_t l = 0; l <= k; l++)
             e->S[k][l] = QDOT_ZERO;
         for (size_t i = 0; i < p->n; i++) {
-            const qdot_expr a = slope(e->c, k, i);
-            const qdot_expr part = qdot_quotient(pool, a, mass(p, i));
+            const qdot_expr a = constraint_gradient(e->c, k, i);
+            const qdot_expr part = qdot_quotient(pool, a, diagonal_mass(p, i));
 
             if (a == QDOT_ZERO)
                 continue;
             e->b[k] = qdot_sub(pool, e->b[k], qdot_mul(pool, part, p->f[i]));
             for (size_t l = 0; l <= k; l++)
                 e->S[k][l] = qdot_add(pool, e->S[k][l],
-                                      qdot_mul(pool, part, slope(e->c, l, i)));
+                                      qdot_mul(pool, part, constraint_gradient(e->c, l, i)));
         }
-        e->S[k][k] = where_held(e, k, e->S[k][k]);
+        e->S[k][k] = value_on_constraint(e, k, e->S[k][k]);
         e->b[k] = qdot_hold(pool, e->b[k]);
         for (size_t l = 0; l <= k; l++)
             e->S[k][l] = qdot_hold(pool, e->S[k][l]);
@@ -99,7 +99,7 @@ form(elimination *e)
 /* S = L D L^T in its place; whether it has an inverse, as far as can be seen: constraints that
  * repeat each other leave none. */
 static bool
-elimination_factor(elimination *e)
+factor_symbolically(elimination *e)
 {
     qdot_pool *pool = e->plan->pool;
     const size_t m = e->c->m;
@@ -121,9 +121,9 @@ elimination_factor(elimination *e)
     return true;
 }
 
-/* Solve S lambda = b by the factors of S; b becomes lambda. */
+/* Solve S lambda = b by the symbolic factors of S; b becomes lambda. */
 static void
-elimination_solve(elimination *e)
+solve_symbolically(elimination *e)
 {
     qdot_pool *pool = e->plan->pool;
     const size_t m = e->c->m;
@@ -141,9 +141,9 @@ elimination_solve(elimination *e)
     }
 }
 
-/* Add the constraint forces: f becomes f + A^T lambda. */
+/* Add the constraint forces to the applied forces: f becomes f + A^T lambda. */
 static void
-add_reactions(const elimination *e, qdot_expr *f)
+add_constraint_forces(const elimination *e, qdot_expr *f)
 {
     qdot_pool *pool = e->plan->pool;
 
@@ -157,7 +157,7 @@ add_reactions(const elimination *e, qdot_expr *f)
 /* --- the plan of the eliminated equations ------------------------------------------- */
 
 static bool
-elimination_fits(const qdot_plan *p, double tol)
+is_elimination_suitable(const qdot_plan *p, double tol)
 {
     const qdot_constraints *c = p->constraints;
 
@@ -170,9 +170,9 @@ elimination_fits(const qdot_plan *p, double tol)
     return true;
 }
 
-/* Write q'' of each coordinate, then d_k and S_kk of each constraint, as outputs; *there: that was possible. */
+/* Write q'' of each coordinate, then d_k and S_kk of each constraint, as outputs; *there: it was possible. */
 static qdot_status
-elimination_fill(qdot_plan *r, const qdot_plan *p, bool *there)
+write_outputs(qdot_plan *r, const qdot_plan *p, bool *there)
 {
     elimination e = {.plan = p, .c = p->constraints};
     qdot_expr pivots[2 * most_rows];
@@ -186,12 +186,12 @@ elimination_fill(qdot_plan *r, const qdot_plan *p, bool *there)
     memcpy(r->inputs, p->inputs, (3 * n + 1) * sizeof *r->inputs);
     memcpy(r->M, p->M, n * n * sizeof *r->M);
     memcpy(r->f, p->f, n * sizeof *r->f);
-    form(&e);
-    *there = elimination_factor(&e);
+    form_multiplier_equations(&e);
+    *there = factor_symbolically(&e);
     if (!*there)
         return qdot_pool_check(p->pool);
-    elimination_solve(&e);
-    add_reactions(&e, r->f);
+    solve_symbolically(&e);
+    add_constraint_forces(&e, r->f);
     for (size_t k = 0; k < m; k++) {
         pivots[k] = e.S[k][k];
         pivots[m + k] = e.diagonal[k];
@@ -208,11 +208,11 @@ qdot_eliminated_make(const qdot_plan *p, double tol, qdot_plan **eliminated)
     qdot_status status;
 
     *eliminated = NULL;
-    if (!elimination_fits(p, tol))
+    if (!is_elimination_suitable(p, tol))
         return QDOT_OK;
     status = qdot_plan_of_part(p, p->n, 0, eliminated);
     if (status == QDOT_OK)
-        status = elimination_fill(*eliminated, p, &there);
+        status = write_outputs(*eliminated, p, &there);
     if (status != QDOT_OK || !there) {
         qdot_plan_free(*eliminated);
         *eliminated = NULL;

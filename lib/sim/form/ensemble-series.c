@@ -1,4 +1,4 @@
-/* ensemble-series.c -- expands the motion of eight members in vector lanes, order by order. */
+/* ensemble-series.c -- expands the motion of eight ensemble members in vector lanes, order by order. */
 #include "sim/form/ensemble-series.h"
 
 #include <math.h>
@@ -14,29 +14,29 @@
 
 enum { L = QDOT_LANES, most_order = 44 };
 
-/* A block of unknowns coupled by K. */
+/* A block of unknowns that are coupled by the matrix K. */
 typedef struct {
-    size_t first, n, positive; /* first unknown; number of unknowns; how many, the first, are accelerations */
-    double *A, *inverse;       /* [n x n groups] the matrix K, factored; its inverse */
-    double *x;                 /* [n groups] right side and solution */
+    size_t first, n, positive; /* first unknown; number of unknowns; how many of them, from the first on, are accelerations */
+    double *A, *inverse;       /* [n x n groups of lanes] the matrix K, then its factors; its inverse */
+    double *x;                 /* [n groups of lanes] right-hand side and solution */
 } solver;
 
 struct qdot_ensemble_series {
     const qdot_plan *plan;
-    size_t n, numbers; /* number of coordinates that move; of parameters that differ between members */
+    size_t n, numbers; /* number of coordinates that move; number of parameters that differ between members */
     const qdot_batch_kernels *kernels;
     const qdot_motion *motion; /* series program of the plan, or of its residual */
     qdot_lanes *lanes;
-    qdot_constrained_lanes *held; /* holds the constraints; NULL: there are none */
-    size_t stride;                /* distance of two rows, in groups */
-    double *q, *v, *t;            /* rows of the inputs; after t follow constant inputs: parameters and momenta */
+    qdot_constrained_lanes *held; /* constraint solver; NULL: there are no constraints */
+    size_t stride;                /* distance of two rows of coefficients, in groups of lanes */
+    double *q, *v, *t;            /* Taylor coefficients of the inputs; after t those of constants */
     solver *solvers;              /* [blocks] a solver for each block of K */
     size_t blocks;
-    double *by; /* [solved groups] corrections of the unknowns */
+    double *by; /* [solved groups of lanes] corrections of the unknowns */
     double unit[L];
     bool shaken;
-    qdot_tape *shaken_masses; /* tape of M with shaken constants, for a residual; NULL: the plan's own tape */
-    double *in, *out, *work;  /* inputs, outputs and scratch of the tape of M, in groups */
+    qdot_tape *shaken_masses; /* tape of M with slightly perturbed constants, for a residual; NULL: the plan's own tape */
+    double *in, *out, *work;  /* inputs, outputs and scratch of the tape of M, in groups of lanes */
     qdot_lanes_motion *code;  /* generated machine code; NULL: the compiled kernels are used */
 };
 
@@ -44,13 +44,13 @@ struct qdot_ensemble_series {
 
 /* Whether the block has two unknowns; then its matrix is inverted by a formula. */
 static bool
-is_pair(const solver *s)
+is_pair_of_unknowns(const solver *s)
 {
     return s->n == 2 && s->positive == 2;
 }
 
 static bool
-is_by_residual(const qdot_plan *p)
+uses_residual(const qdot_plan *p)
 {
     return p->residual && p->residual->masses && !p->constraints && !p->indefinite;
 }
@@ -58,7 +58,7 @@ is_by_residual(const qdot_plan *p)
 /* Read the lower triangle of block b of K from a tape's outputs, *at, where the program has no rows
  * for it; advances *at. */
 static void
-take_masses(const qdot_ensemble_series *e, size_t b, const double **at)
+copy_mass_entries(const qdot_ensemble_series *e, size_t b, const double **at)
 {
     const qdot_plan_block *block = e->plan->blocks + b;
     const size_t n = block->n;
@@ -76,7 +76,7 @@ take_masses(const qdot_ensemble_series *e, size_t b, const double **at)
 }
 
 static void
-evaluate_masses(const qdot_ensemble_series *e, const double *t, const double *y)
+evaluate_mass_tape(const qdot_ensemble_series *e, const double *t, const double *y)
 {
     const double *at = e->out;
 
@@ -85,11 +85,11 @@ evaluate_masses(const qdot_ensemble_series *e, const double *t, const double *y)
     qdot_lanes_eval_near(e->shaken ? e->shaken_masses : e->plan->residual->masses, e->in,
                          e->out, e->work);
     for (size_t b = 0; b < e->blocks; b++)
-        take_masses(e, b, &at);
+        copy_mass_entries(e, b, &at);
 }
 
 static void
-lanes_factor(const qdot_ensemble_series *e, const solver *s)
+factor_block(const qdot_ensemble_series *e, const solver *s)
 {
     const qdot_motion *m = e->motion;
 
@@ -104,15 +104,15 @@ lanes_factor(const qdot_ensemble_series *e, const solver *s)
             memcpy(s->A + (i * s->n + j) * L, qdot_lanes_series(e->lanes, x->at),
                    L * sizeof *s->A);
     }
-    if (is_pair(s))
+    if (is_pair_of_unknowns(s))
         e->kernels->invert_two(s->A, s->inverse);
     else
         e->kernels->factor(s->n, s->positive, s->A);
 }
 
-/* Compute order k: evaluate the program, then solve for the unknowns with the factor of K or its inverse. */
+/* Compute order k of the series: evaluate the program, then solve for the unknowns (factors or inverse of K). */
 static void
-stage(qdot_ensemble_series *e, int k)
+compute_order(qdot_ensemble_series *e, int k)
 {
     const qdot_motion *m = e->motion;
 
@@ -121,7 +121,7 @@ stage(qdot_ensemble_series *e, int k)
         return;
     for (size_t b = 0; b < e->blocks; b++) {
         const solver *s = e->solvers + b;
-        const bool inverted = k > 0 || is_pair(s);
+        const bool inverted = k > 0 || is_pair_of_unknowns(s);
         double *by = e->by + s->first * L, *x = inverted ? s->x : by;
 
         for (size_t i = 0; i < s->n; i++) {
@@ -131,7 +131,7 @@ stage(qdot_ensemble_series *e, int k)
                 x[i * L + l] = -E[l];
         }
         if (k == 0)
-            lanes_factor(e, s);
+            factor_block(e, s);
         if (inverted)
             e->kernels->multiply(s->n, s->inverse, x, by);
         else
@@ -141,7 +141,7 @@ stage(qdot_ensemble_series *e, int k)
 }
 
 static void
-lanes_begin(const double *t, const double *y, const double *unit, void *user)
+begin_member_series(const double *t, const double *y, const double *unit, void *user)
 {
     qdot_ensemble_series *e = user;
     const qdot_plan *p = e->plan;
@@ -164,18 +164,18 @@ lanes_begin(const double *t, const double *y, const double *unit, void *user)
     qdot_lanes_set_unit(e->lanes, unit);
     qdot_lanes_draw(e->lanes, t);
     if (e->out)
-        evaluate_masses(e, t, y);
+        evaluate_mass_tape(e, t, y);
     for (int k = qdot_motion_first(e->motion); k <= 0; k++)
-        stage(e, k);
+        compute_order(e, k);
 }
 
 static void
-lanes_extend(int p, void *user)
+extend_member_series(int p, void *user)
 {
     qdot_ensemble_series *e = user;
 
     for (size_t b = 0; b < e->blocks; b++)
-        if (!is_pair(e->solvers + b))
+        if (!is_pair_of_unknowns(e->solvers + b))
             e->kernels->invert(e->solvers[b].n, e->solvers[b].positive, e->solvers[b].A,
                                e->solvers[b].inverse);
     if (e->code && p == qdot_lanes_motion_orders(e->code) + 1) {
@@ -186,17 +186,17 @@ lanes_extend(int p, void *user)
         return;
     }
     for (int k = 1; k < p; k++)
-        stage(e, k);
+        compute_order(e, k);
 }
 
 static void
-lanes_project(const double *t, double *y, double *carry, double *moved, void *user)
+project_members(const double *t, double *y, double *carry, double *moved, void *user)
 {
     qdot_constrained_lanes_project(((qdot_ensemble_series *)user)->held, t, y, carry, moved);
 }
 
 static void
-lanes_near(int p, const double *s, const double *least, double *to, void *user)
+find_safe_steps(int p, const double *s, const double *least, double *to, void *user)
 {
     qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, p - 2, s, least, to);
 }
@@ -204,7 +204,7 @@ lanes_near(int p, const double *s, const double *least, double *to, void *user)
 /* --- making the series --------------------------------------------------------------- */
 
 static qdot_status
-make_solver(qdot_ensemble_series *e, size_t b)
+make_block_solver(qdot_ensemble_series *e, size_t b)
 {
     const qdot_motion *m = e->motion;
     solver *s = e->solvers + b;
@@ -221,7 +221,7 @@ make_solver(qdot_ensemble_series *e, size_t b)
 }
 
 static int
-best_order(const qdot_plan *plan, double tol)
+choose_order(const qdot_plan *plan, double tol)
 {
     const qdot_ode_series series = {.most = most_order - 4, .cost = plan->expansions};
 
@@ -231,7 +231,7 @@ best_order(const qdot_plan *plan, double tol)
 }
 
 static qdot_status
-lanes_make_masses(qdot_ensemble_series *e)
+make_mass_tape(qdot_ensemble_series *e)
 {
     const qdot_tape *masses = e->plan->residual->masses;
 
@@ -244,17 +244,17 @@ lanes_make_masses(qdot_ensemble_series *e)
 }
 
 static qdot_status
-ensemble_series_make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
+make_ensemble_series(qdot_ensemble_series *e, bool shaken, double tol, int *order)
 {
     qdot_lanes_rows rows;
 
     e->shaken = shaken;
-    e->motion = is_by_residual(e->plan) ? &e->plan->residual->motion : e->plan->motion;
+    e->motion = uses_residual(e->plan) ? &e->plan->residual->motion : e->plan->motion;
     if (*order == 0)
-        *order = best_order(e->plan, tol);
+        *order = choose_order(e->plan, tol);
     QDOT_TRY(qdot_lanes_of_motion(e->motion, shaken, *order, &e->lanes));
-    if (is_by_residual(e->plan))
-        QDOT_TRY(lanes_make_masses(e));
+    if (uses_residual(e->plan))
+        QDOT_TRY(make_mass_tape(e));
     if (e->plan->constraints)
         QDOT_TRY(qdot_constrained_lanes_new(e->plan, shaken, &e->held));
     e->stride = qdot_lanes_stride(e->lanes);
@@ -267,7 +267,7 @@ ensemble_series_make(qdot_ensemble_series *e, bool shaken, double tol, int *orde
     if (!e->solvers || !e->by)
         return QDOT_ENOMEM;
     for (size_t b = 0; b < e->blocks; b++)
-        QDOT_TRY(make_solver(e, b));
+        QDOT_TRY(make_block_solver(e, b));
     rows = qdot_lanes_get_rows(e->lanes);
     return qdot_lanes_motion_new(&rows, e->motion, *order - 1, 0, &e->code);
 }
@@ -286,7 +286,7 @@ qdot_ensemble_series_new(const qdot_plan *plan, bool shaken, double tol, int *or
     e->numbers = plan->n_states;
     e->n = plan->n - e->numbers;
     e->kernels = qdot_batch_kernels_get();
-    status = ensemble_series_make(e, shaken, tol, order);
+    status = make_ensemble_series(e, shaken, tol, order);
     if (status != QDOT_OK) {
         qdot_ensemble_series_free(e);
         return status;
@@ -318,7 +318,7 @@ qdot_ensemble_series_free(qdot_ensemble_series *e)
 }
 
 static bool
-momentum_is_kept(const qdot_plan *p, size_t i)
+is_momentum_kept(const qdot_plan *p, size_t i)
 {
     for (size_t c = 0; c < p->n_kept; c++)
         if (p->kept[c] == i)
@@ -326,13 +326,13 @@ momentum_is_kept(const qdot_plan *p, size_t i)
     return false;
 }
 
-/* The number of components at the end of a state that stay constant: momenta and parameters. */
+/* The number of components, at the end of a state, that stay constant: momenta and parameters. */
 static size_t
-still(const qdot_ensemble_series *e)
+count_constant_components(const qdot_ensemble_series *e)
 {
     size_t k = 0;
 
-    while (k < e->n && momentum_is_kept(e->plan, e->n - 1 - k))
+    while (k < e->n && is_momentum_kept(e->plan, e->n - 1 - k))
         k++;
     return e->numbers + k;
 }
@@ -341,13 +341,13 @@ qdot_ode_batch
 qdot_ensemble_series_system(qdot_ensemble_series *e)
 {
     return (qdot_ode_batch){.n = 2 * e->n + e->numbers,
-                            .still = still(e),
+                            .still = count_constant_components(e),
                             .checked = e->n,
                             .x = e->q,
                             .stride = e->stride,
-                            .begin = lanes_begin,
-                            .extend = lanes_extend,
-                            .near = qdot_lanes_may_hide(e->lanes) ? lanes_near : NULL,
-                            .project = e->held ? lanes_project : NULL,
+                            .begin = begin_member_series,
+                            .extend = extend_member_series,
+                            .near = qdot_lanes_may_hide(e->lanes) ? find_safe_steps : NULL,
+                            .project = e->held ? project_members : NULL,
                             .user = e};
 }

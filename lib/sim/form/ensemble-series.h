@@ -29,7 +29,7 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_series_new(const qdot_plan *plan, bool
                                                      qdot_ensemble_series **series);
 void qdot_ensemble_series_free(qdot_ensemble_series *series);
 
-/* The callbacks of a series for `ode`; `series` is their user. */
+/* The callbacks of the members' series for the integrator (ode); `series` is their user pointer. */
 qdot_ode_batch qdot_ensemble_series_system(qdot_ensemble_series *series);
 
 #endif

@@ -3,25 +3,25 @@
 #include "sim/form/expansion.h"
 
 static qdot_status
-write_code(int p, int most, void *user)
+write_machine_code(int p, int most, void *user)
 {
     return qdot_taylor_prepare(user, p - 1, most - 1);
 }
 
 static bool
-take_code(int p, int most, void *user)
+take_stored_code(int p, int most, void *user)
 {
     return qdot_taylor_take_kept(user, p - 1, most - 1);
 }
 
 static bool
-is_code(int p, void *user)
+has_machine_code(int p, void *user)
 {
     return qdot_taylor_is_code(user, p - 1);
 }
 
 static void
-drop_code(void *user)
+drop_machine_code(void *user)
 {
     qdot_taylor_drop_code(user);
 }
@@ -29,9 +29,9 @@ drop_code(void *user)
 qdot_ode_code
 qdot_expansion_code(qdot_taylor *taylor)
 {
-    return (qdot_ode_code){.write = write_code,
-                           .take = take_code,
-                           .there = is_code,
-                           .drop = drop_code,
+    return (qdot_ode_code){.write = write_machine_code,
+                           .take = take_stored_code,
+                           .there = has_machine_code,
+                           .drop = drop_machine_code,
                            .user = taylor};
 }

@@ -14,7 +14,7 @@
 
 typedef struct {
     qdot_taylor *taylor; /* the series program; owned by the object that contains this */
-    size_t n, stride;    /* number of coordinates; distance of two rows, in doubles */
+    size_t n, stride;    /* number of coordinates; distance of two rows of coefficients, in doubles */
     double *q, *v, *t;   /* Taylor coefficients of the inputs q, q', t */
 } qdot_expansion;
 
@@ -30,7 +30,7 @@ qdot_expansion_of(qdot_taylor *taylor, size_t n)
                             .t = qdot_taylor_input(taylor, 2 * n)};
 }
 
-/* Set the state y [2n] at time t; constants are drawn (series/taylor.h). */
+/* Set the state y [2n] at time t; inexact constants are rounded at random (series/taylor.h). */
 static inline void
 qdot_expansion_begin(const qdot_expansion *e, double t, const double *y, double unit)
 {
@@ -46,7 +46,7 @@ qdot_expansion_begin(const qdot_expansion *e, double t, const double *y, double 
     qdot_taylor_draw(e->taylor, t);
 }
 
-/* The machine code of a program, borrowed, as an integrator calls it; its costs are set to 0. */
+/* The machine code of a series program, as callbacks for an integrator; borrowed; costs are set to 0. */
 qdot_ode_code qdot_expansion_code(qdot_taylor *taylor);
 
 #endif

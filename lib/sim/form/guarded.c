@@ -1,27 +1,27 @@
-/* guarded.c -- chooses between a fast series for independent constraints and one for nearly dependent ones. */
+/* guarded.c -- chooses between a fast Taylor series for independent constraints and a safe one for others. */
 #include "sim/form/guarded.h"
 
 #include "base/memory.h"
 #include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 
-/* The fast elimination without pivoting is used if the squared sine between constraint rows is above this. */
+/* The elimination without pivoting is used if the squared sine between constraint gradients exceeds this. */
 static const double least_sine = 0.1;
 
 struct qdot_guarded {
     qdot_motion_series *fast;
-    const qdot_ode_series *own, *other, *now; /* series of `fast`; the safer one; the one that was begun last */
+    const qdot_ode_series *own, *other, *now; /* the fast series; the safer one; the one that was begun last */
     size_t n, m;
-    bool as_code; /* `own` is faster only as machine code */
+    bool as_code; /* the fast series `own` is faster only as machine code */
     int p;        /* order: `other` is used until `own` has machine code for this order */
-    bool looked;  /* `own` has measured the constraint rows at the first state */
+    bool looked;  /* `own` has measured the constraints' independence at the first state */
     qdot_ode_series series;
 };
 
 /* Whether the constraints are independent: compares the pivots of the eliminated multipliers, then diagonal
  * entries, the last outputs. */
 static bool
-is_independent(const qdot_guarded *g)
+are_constraints_independent(const qdot_guarded *g)
 {
     for (size_t k = 0; k < g->m; k++) {
         const double pivot = qdot_motion_series_output(g->fast, g->n + k)[0];
@@ -34,7 +34,7 @@ is_independent(const qdot_guarded *g)
 }
 
 static qdot_status
-guarded_prepare(int p, void *user)
+prepare_code(int p, void *user)
 {
     qdot_guarded *g = user;
 
@@ -44,9 +44,9 @@ guarded_prepare(int p, void *user)
     return g->own->prepare ? g->own->prepare(p, g->own->user) : QDOT_OK;
 }
 
-/* Begin with a test of the first state: where the fast series may not be used, no machine code is written for it. */
+/* Begin with a test of the first state; where the fast series may not be used, no machine code is written. */
 static qdot_status
-guarded_begin(double t, const double *y, double unit, void *user)
+begin_chosen_series(double t, const double *y, double unit, void *user)
 {
     qdot_guarded *g = user;
     const qdot_ode_code *code = &g->own->code;
@@ -58,14 +58,14 @@ guarded_begin(double t, const double *y, double unit, void *user)
     if (status != QDOT_OK && status != QDOT_EDOMAIN)
         return status;
     g->looked = true;
-    g->now = ready && status == QDOT_OK && (g->as_code || is_independent(g)) ? g->own : g->other;
+    g->now = ready && status == QDOT_OK && (g->as_code || are_constraints_independent(g)) ? g->own : g->other;
     g->series.x = g->now->x;
     g->series.stride = g->now->stride;
     return g->now == g->own ? QDOT_OK : g->other->begin(t, y, unit, g->other->user);
 }
 
 static qdot_status
-guarded_extend(int p, void *user)
+extend_chosen_series(int p, void *user)
 {
     const qdot_guarded *g = user;
 
@@ -73,7 +73,7 @@ guarded_extend(int p, void *user)
 }
 
 static double
-noise(void *user)
+noise_of_chosen_series(void *user)
 {
     const qdot_guarded *g = user;
 
@@ -81,7 +81,7 @@ noise(void *user)
 }
 
 static double
-ahead(void *user)
+look_ahead_in_chosen_series(void *user)
 {
     const qdot_guarded *g = user;
 
@@ -89,7 +89,7 @@ ahead(void *user)
 }
 
 static double
-guarded_near(int p, double s, double least, void *user)
+step_of_chosen_series(int p, double s, double least, void *user)
 {
     const qdot_guarded *g = user;
 
@@ -97,7 +97,7 @@ guarded_near(int p, double s, double least, void *user)
 }
 
 static void
-guarded_make(qdot_guarded *g, const qdot_ode_cost *cost)
+make_callbacks(qdot_guarded *g, const qdot_ode_cost *cost)
 {
     const qdot_ode_series *own = g->own, *other = g->other;
 
@@ -106,13 +106,13 @@ guarded_make(qdot_guarded *g, const qdot_ode_cost *cost)
                                   .stride = own->stride,
                                   .checked = own->checked,
                                   .cost = *cost,
-                                  .prepare = guarded_prepare,
+                                  .prepare = prepare_code,
                                   .code = own->code,
-                                  .begin = guarded_begin,
-                                  .extend = guarded_extend,
-                                  .noise = other->noise ? noise : NULL,
-                                  .ahead = other->ahead ? ahead : NULL,
-                                  .near = own->near || other->near ? guarded_near : NULL,
+                                  .begin = begin_chosen_series,
+                                  .extend = extend_chosen_series,
+                                  .noise = other->noise ? noise_of_chosen_series : NULL,
+                                  .ahead = other->ahead ? look_ahead_in_chosen_series : NULL,
+                                  .near = own->near || other->near ? step_of_chosen_series : NULL,
                                   .user = g};
 }
 
@@ -136,7 +136,7 @@ qdot_guarded_new(const qdot_plan *plan, const qdot_plan *fast, bool shaken,
     g->as_code = fast == plan;
     g->n = plan->n;
     g->m = plan->constraints->m;
-    guarded_make(g, &plan->expansions);
+    make_callbacks(g, &plan->expansions);
     *guarded = g;
     return QDOT_OK;
 }

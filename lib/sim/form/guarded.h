@@ -22,10 +22,10 @@ QDOT_MUST_CHECK qdot_status qdot_guarded_new(const qdot_plan *plan, const qdot_p
                                              qdot_guarded **guarded);
 void qdot_guarded_free(qdot_guarded *guarded);
 
-/* The callbacks of the series for `ode`; borrowed. */
+/* The callbacks of the guarded series for the integrator (ode); borrowed. */
 const qdot_ode_series *qdot_guarded_series(const qdot_guarded *guarded);
 
-/* The length of the machine code in bytes; 0 if there is none, and *why says why. */
+/* The length of the machine code in bytes; 0 if there is none, and then *why is the reason. */
 size_t qdot_guarded_code(const qdot_guarded *guarded, const char **why);
 
 #endif

@@ -10,7 +10,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/residual.h"
 
-/* The most corrections of an order; no further one is made after one smaller than `enough`. */
+/* The largest number of corrections of one order; a correction smaller than `enough` is the last. */
 enum { most_corrections = 4 };
 static const double enough = 0x1p-36;
 
@@ -26,25 +26,25 @@ struct qdot_leading {
     qdot_two *q, *v, *t; /* Taylor coefficients of q, q', t; rows are `stride` apart */
     size_t stride;
     double unit;
-    double *newest, *by;     /* [solved] first guess of the accelerations' coefficient; its error */
-    double *in, *out, *work; /* inputs, outputs and scratch of the tape of M of a residual */
-    const double *hi, *lo;   /* [n_kept] kept momenta hi + lo; borrowed */
+    double *newest, *by;     /* [solved] first guess of the accelerations' coefficients; its error */
+    double *in, *out, *work; /* inputs, outputs and scratch of the tape of M (plans with a residual) */
+    const double *hi, *lo;   /* [n_kept] conserved momenta, hi + lo; borrowed */
 };
 
 /* --- the mass matrix ----------------------------------------------------------------- */
 
-/* The block of the plan that is number k among those solved for; the search starts at *b. */
+/* The k-th block among those blocks of the plan that are solved for; the search starts at index *b. */
 static const qdot_plan_block *
-block_of(const qdot_leading *l, size_t *b)
+find_solved_block(const qdot_leading *l, size_t *b)
 {
     while (!l->plan->residual && l->plan->blocks[*b].n == 1)
         ++*b;
     return l->plan->blocks + *b;
 }
 
-/* Fill block k of M from the rows of the program that are its entries. */
+/* Fill block k of M with its entries, which rows of the series program have computed. */
 static void
-take_entries(const qdot_leading *l, size_t k, size_t b)
+copy_block_entries(const qdot_leading *l, size_t k, size_t b)
 {
     const qdot_motion *m = l->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1], n = end - first;
@@ -60,19 +60,19 @@ take_entries(const qdot_leading *l, size_t k, size_t b)
 }
 
 static qdot_status
-leading_factor(qdot_leading *l, const double *masses)
+factor_blocks(qdot_leading *l, const double *masses)
 {
     size_t b = 0;
 
     for (size_t k = 0; k + 1 < l->motion->blocks.n; k++, b++) {
-        const qdot_plan_block *block = block_of(l, &b);
+        const qdot_plan_block *block = find_solved_block(l, &b);
 
         if (block->constant)
             continue;
         if (masses)
             masses = qdot_blocks_unpack(&l->solvers, b, masses);
         else
-            take_entries(l, k, b);
+            copy_block_entries(l, k, b);
         if (block->n > 1)
             QDOT_TRY(qdot_blocks_factor(&l->solvers, b));
     }
@@ -81,19 +81,19 @@ leading_factor(qdot_leading *l, const double *masses)
 
 /* For d'Alembert's residual: evaluate the tape of M at a state and factor M. */
 static qdot_status
-factor_residual(qdot_leading *l, const qdot_ode_place *at)
+factor_masses_of_residual(qdot_leading *l, const qdot_ode_place *at)
 {
     const size_t n = l->plan->n;
 
     memcpy(l->in, at->y, 2 * n * sizeof *l->in);
     l->in[2 * n] = at->t;
     qdot_tape_eval(l->plan->residual->masses, l->in, l->out, l->work);
-    return leading_factor(l, l->out);
+    return factor_blocks(l, l->out);
 }
 
 /* --- one order of the series --------------------------------------------------------- */
 
-/* Solve for the correction of the accelerations at order k. Returns its relative size. */
+/* Solve for the correction of the accelerations' coefficients of order k. Returns its relative size. */
 static double
 correct_accelerations(qdot_leading *l, int k)
 {
@@ -103,7 +103,7 @@ correct_accelerations(qdot_leading *l, int k)
 
     for (size_t at = 0; at + 1 < m->blocks.n; at++, b++) {
         const uint32_t first = m->blocks.at[at];
-        const size_t n = block_of(l, &b)->n;
+        const size_t n = find_solved_block(l, &b)->n;
         double *x = l->by + first;
 
         for (size_t i = 0; i < n; i++)
@@ -120,7 +120,7 @@ correct_accelerations(qdot_leading *l, int k)
     return most / size;
 }
 
-/* Set the accelerations of order k, in doubles, from the coefficients of the velocities. */
+/* Set the accelerations' coefficients of order k, in doubles, from those of the velocities. */
 static void
 guess_accelerations(qdot_leading *l, int k)
 {
@@ -134,7 +134,7 @@ guess_accelerations(qdot_leading *l, int k)
 }
 
 static qdot_status
-leading_begin(const qdot_ode_place *at, double unit, void *user)
+begin_double_double_series(const qdot_ode_place *at, double unit, void *user)
 {
     qdot_leading *l = user;
     const size_t n = l->plan->n;
@@ -151,20 +151,20 @@ leading_begin(const qdot_ode_place *at, double unit, void *user)
         l->t[(c + 1) * l->stride] = (qdot_two){l->hi[c], l->lo[c]};
     for (int k = qdot_motion_first(l->motion); k < 0; k++)
         qdot_tape_two_stage(l->two, k, NULL);
-    return l->plan->residual ? factor_residual(l, at) : QDOT_OK;
+    return l->plan->residual ? factor_masses_of_residual(l, at) : QDOT_OK;
 }
 
 /* Compute coefficients k of q and v from order k - 1 of the accelerations. */
 static qdot_status
-next(int k, void *user)
+compute_next_order(int k, void *user)
 {
     qdot_leading *l = user;
-    double nothing = 0; /* sum of 0 times each value: 0 if all are finite, else NaN */
+    double nothing = 0; /* sum of 0 times each value: 0 if all values are finite, else NaN */
 
     guess_accelerations(l, k - 1);
     qdot_tape_two_stage(l->two, k - 1, l->newest);
     if (k == 1 && !l->plan->residual)
-        QDOT_TRY(leading_factor(l, NULL));
+        QDOT_TRY(factor_blocks(l, NULL));
     for (int tries = 0; tries < most_corrections && l->motion->solved.n > 0; tries++) {
         const double share = correct_accelerations(l, k - 1);
 
@@ -185,7 +185,7 @@ next(int k, void *user)
 /* --- making the series --------------------------------------------------------------- */
 
 static qdot_status
-leading_make_masses(qdot_leading *l)
+make_mass_tape(qdot_leading *l)
 {
     const qdot_tape *masses = l->plan->residual->masses;
 
@@ -196,13 +196,13 @@ leading_make_masses(qdot_leading *l)
 }
 
 static qdot_status
-leading_make(qdot_leading *l)
+make_leading_series(qdot_leading *l)
 {
     const size_t n = l->plan->n;
 
     if (l->plan->residual) {
         l->motion = &l->plan->residual->motion;
-        QDOT_TRY(leading_make_masses(l));
+        QDOT_TRY(make_mass_tape(l));
     } else {
         l->motion = l->plan->motion;
     }
@@ -217,7 +217,7 @@ leading_make(qdot_leading *l)
     if (!l->newest || !l->by)
         return QDOT_ENOMEM;
     l->leading =
-        (qdot_ode_leading){.x = l->q, .stride = l->stride, .begin = leading_begin, .next = next, .user = l};
+        (qdot_ode_leading){.x = l->q, .stride = l->stride, .begin = begin_double_double_series, .next = compute_next_order, .user = l};
     return QDOT_OK;
 }
 
@@ -232,7 +232,7 @@ qdot_leading_new(const qdot_plan *plan, const qdot_ode_series *series, qdot_lead
         return QDOT_ENOMEM;
     l->plan = plan;
     l->series = series;
-    status = leading_make(l);
+    status = make_leading_series(l);
     if (status != QDOT_OK) {
         qdot_leading_free(l);
         return status;

@@ -27,7 +27,7 @@ void qdot_leading_free(qdot_leading *l);
 /* Set the conserved momenta of a reduced plan to hi + lo [n_kept]; borrowed. */
 void qdot_leading_keep(qdot_leading *l, const double *hi, const double *lo);
 
-/* The callbacks for `leading` of qdot_ode_system; borrowed. */
+/* The callbacks for the member `leading` of qdot_ode_system; borrowed. */
 const qdot_ode_leading *qdot_leading_get(const qdot_leading *l);
 
 #endif

@@ -16,26 +16,26 @@ typedef struct qdot_momentum qdot_momentum;
 typedef struct {
     const qdot_plan *plan;
     qdot_expansion at;
-    const double *hi, *lo; /* [n_kept] kept momenta hi + lo, borrowed; NULL: 0 */
-    qdot_momentum *drawn;  /* [n_kept] the momenta, rounded at random as in the latest step */
+    const double *hi, *lo; /* [n_kept] conserved momenta hi + lo, borrowed; NULL: 0 */
+    qdot_momentum *drawn;  /* [n_kept] the conserved momenta, rounded at random as in the latest step */
     const double **rates; /* [n_kept] Taylor coefficients of the velocities that follow from the momenta */
-    bool shaken;           /* use only the part hi of the momenta */
+    bool shaken;           /* use only the high part hi of the momenta */
 } qdot_momentum_rows;
 
-/* Make the rows of conserved momenta for a plan, borrowed, whose program exists. Errors: QDOT_ENOMEM. */
+/* Make the rows of conserved momenta for a plan (borrowed) that has a series program. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_momentum_rows_init(qdot_momentum_rows *m,
                                                     const qdot_plan *plan,
                                                     qdot_expansion at, bool shaken);
 void qdot_momentum_rows_clear(qdot_momentum_rows *m);
 
-/* Set the momenta from time t on: hi + lo rounded randomly to one of the two neighbouring doubles. */
+/* Set the conserved momenta from time t on: hi + lo rounded at random to one of the neighbouring doubles. */
 void qdot_momentum_rows_draw(qdot_momentum_rows *m, double t);
 
 /* Copy coefficients of orders below p of velocities that follow from momenta to the rows where
  * others read them. */
 void qdot_momentum_rows_show(const qdot_momentum_rows *m, int p);
 
-/* Check that the velocities are finite; the message of QDOT_EDOMAIN names one that is not. */
+/* Check that the velocities are finite; QDOT_EDOMAIN: the message names one that is not. */
 QDOT_MUST_CHECK qdot_status qdot_momentum_rows_check(const qdot_momentum_rows *m);
 
 #endif

@@ -1,4 +1,4 @@
-/* motion-matrix.c -- the matrix K of the equations for the unknowns of a motion: its entries and factors. */
+/* motion-matrix.c -- the matrix K of the linear equations for accelerations and multipliers: entries, factors. */
 #include "sim/form/motion-matrix.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 /* --- while a series is expanded ---------------------------------------------------------- */
 
 static qdot_status
-matrix_factor(qdot_motion_matrix *K)
+factor_varying_blocks(qdot_motion_matrix *K)
 {
     if (K->saddle)
         return qdot_saddle_solver_factor(K->saddle);
@@ -22,9 +22,9 @@ matrix_factor(qdot_motion_matrix *K)
     return QDOT_OK;
 }
 
-/* Evaluate the matrix K of a d'Alembert residual at the state y. */
+/* Evaluate the matrix K (masses) of a d'Alembert residual at the state y. */
 static void
-evaluate_masses(qdot_motion_matrix *K, double t, const double *y)
+evaluate_mass_matrix(qdot_motion_matrix *K, double t, const double *y)
 {
     const double *out = K->out;
 
@@ -41,8 +41,8 @@ qdot_motion_matrix_begin(qdot_motion_matrix *K, double t, const double *y)
 {
     K->refined = QDOT_SADDLE_REFINED;
     if (K->masses) {
-        evaluate_masses(K, t, y);
-        QDOT_TRY(matrix_factor(K));
+        evaluate_mass_matrix(K, t, y);
+        QDOT_TRY(factor_varying_blocks(K));
     }
     return K->saddle ? qdot_saddle_solver_look(K->saddle, t, y) : QDOT_OK;
 }
@@ -54,7 +54,7 @@ qdot_motion_matrix_take_rows(qdot_motion_matrix *K)
         return QDOT_OK;
     for (size_t i = 0; i < K->n_entries; i++)
         *K->entries[i].to = *K->entries[i].from;
-    return matrix_factor(K);
+    return factor_varying_blocks(K);
 }
 
 void
@@ -148,9 +148,9 @@ qdot_motion_matrix_clear(qdot_motion_matrix *K)
     *K = (qdot_motion_matrix){0};
 }
 
-/* Find the blocks that are solved for, and invert the constant ones. */
+/* Find the blocks of K for which equations are solved, and invert the constant ones. */
 static qdot_status
-make_solvers(qdot_motion_matrix *K, bool shaken)
+make_block_solvers(qdot_motion_matrix *K, bool shaken)
 {
     const qdot_motion *m = K->motion;
 
@@ -160,7 +160,7 @@ make_solvers(qdot_motion_matrix *K, bool shaken)
     if (!K->block)
         return QDOT_ENOMEM;
     for (size_t b = 0, k = 0; b < K->blocks; b++, k++) {
-        while (!K->masses && K->solvers.at[k].n == 1) /* a block of one unknown is given by its own row */
+        while (!K->masses && K->solvers.at[k].n == 1) /* skip single unknowns: each is given by its own row of the program */
             k++;
         K->block[b] = k;
         QDOT_TRY(qdot_blocks_prepare(&K->solvers, k));
@@ -170,9 +170,9 @@ make_solvers(qdot_motion_matrix *K, bool shaken)
     return QDOT_OK;
 }
 
-/* List where the entries (lower triangles) of blocks that are not constant come from. */
+/* List the program rows from which the entries (lower triangles) of varying blocks are copied. */
 static qdot_status
-make_entries(qdot_motion_matrix *K, qdot_taylor *taylor)
+list_varying_entries(qdot_motion_matrix *K, qdot_taylor *taylor)
 {
     const qdot_motion *m = K->motion;
     size_t k = 0;
@@ -198,7 +198,7 @@ make_entries(qdot_motion_matrix *K, qdot_taylor *taylor)
 }
 
 static qdot_status
-make_saddle(qdot_motion_matrix *K, qdot_taylor *taylor)
+make_constraint_solver(qdot_motion_matrix *K, qdot_taylor *taylor)
 {
     K->saddle = qdot_calloc(1, sizeof *K->saddle);
     if (!K->saddle)
@@ -209,7 +209,7 @@ make_saddle(qdot_motion_matrix *K, qdot_taylor *taylor)
 }
 
 static qdot_status
-matrix_make_masses(qdot_motion_matrix *K, bool shaken)
+make_residual_mass_tape(qdot_motion_matrix *K, bool shaken)
 {
     if (shaken)
         QDOT_TRY(qdot_tape_shake(K->masses, &K->shaken));
@@ -225,8 +225,8 @@ make_blocks(qdot_motion_matrix *K, qdot_taylor *taylor, bool shaken)
     K->by = qdot_calloc(K->motion->solved.n + 1, sizeof *K->by);
     if (!K->by)
         return QDOT_ENOMEM;
-    QDOT_TRY(make_solvers(K, shaken));
-    return K->masses ? matrix_make_masses(K, shaken) : make_entries(K, taylor);
+    QDOT_TRY(make_block_solvers(K, shaken));
+    return K->masses ? make_residual_mass_tape(K, shaken) : list_varying_entries(K, taylor);
 }
 
 qdot_status
@@ -236,5 +236,5 @@ qdot_motion_matrix_init(qdot_motion_matrix *K, const qdot_plan *plan, const qdot
     const bool constrained = plan->constraints && motion == &plan->constraints->motion;
 
     *K = (qdot_motion_matrix){.plan = plan, .motion = motion, .masses = masses};
-    return constrained ? make_saddle(K, taylor) : make_blocks(K, taylor, shaken);
+    return constrained ? make_constraint_solver(K, taylor) : make_blocks(K, taylor, shaken);
 }

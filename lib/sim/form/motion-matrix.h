@@ -17,7 +17,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/saddle-solver.h"
 
-/* An entry of K: the address of its value, and where it is copied. */
+/* An entry of the matrix K: the address of its value, and where it is copied. */
 typedef struct {
     double *to;
     const double *from;
@@ -26,17 +26,17 @@ typedef struct {
 typedef struct {
     const qdot_plan *plan;
     const qdot_motion *motion;
-    qdot_saddle_solver *saddle; /* solver for constraints by their own coefficients; NULL: not used */
+    qdot_saddle_solver *saddle; /* solver that eliminates multipliers by the constraints' own coefficients; NULL: not used */
     int refined;                /* with `saddle`: orders up to this one are refined by iteration */
     qdot_blocks solvers;
     size_t blocks; /* number of blocks of the motion */
     size_t *block; /* [blocks] index in `solvers` of each block */
-    qdot_motion_matrix_entry *entries; /* [n_entries] entries of K that vary; none: K comes from `masses` */
+    qdot_motion_matrix_entry *entries; /* [n_entries] entries of K that vary; none if the tape `masses` gives K */
     size_t n_entries;
     const qdot_tape *masses; /* tape that gives K; NULL: K comes from `entries` */
-    qdot_tape *shaken;       /* copy of `masses` with shaken constants; NULL: none */
+    qdot_tape *shaken;       /* copy of `masses` with slightly perturbed constants; NULL: none */
     double *in, *out, *work; /* inputs, outputs and scratch of `masses` */
-    double *by;              /* [solved] the coefficient of order k of the unknowns */
+    double *by;              /* [solved] the Taylor coefficients of order k of the unknowns */
 } qdot_motion_matrix;
 
 /* For a series of the motion; all is borrowed. masses: M as lower triangles of the blocks that are
@@ -54,17 +54,17 @@ QDOT_MUST_CHECK qdot_status qdot_motion_matrix_begin(qdot_motion_matrix *K, doub
                                                      const double *y);
 QDOT_MUST_CHECK qdot_status qdot_motion_matrix_take_rows(qdot_motion_matrix *K);
 
-/* Prepare for solving orders 1 ... p - 1: invert blocks that are not constant. */
+/* Prepare to solve at the orders 1 ... p - 1: invert the blocks of K that are not constant. */
 void qdot_motion_matrix_prepare(qdot_motion_matrix *K, int p);
 
-/* Solve K d = -E at order k: K->by is replaced by the coefficients of the unknowns. */
+/* Solve K d = -E at order k (E: the residual); K->by becomes the unknowns' coefficients. */
 void qdot_motion_matrix_solve(qdot_motion_matrix *K, int k);
 
-/* Call after _prepare: pass the factors and inverses of K to machine code. */
+/* Call after qdot_motion_matrix_prepare: pass the factors and inverses of K to machine code. */
 void qdot_motion_matrix_hand_over(const qdot_motion_matrix *K, qdot_taylor *taylor);
 void qdot_motion_matrix_hand_to_lanes(const qdot_motion_matrix *K, qdot_lanes_motion *code);
 
-/* How many times K was factored. */
+/* The number of times that the matrix K was factored. */
 size_t qdot_motion_matrix_factored(const qdot_motion_matrix *K);
 
 #endif

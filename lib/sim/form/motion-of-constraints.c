@@ -10,25 +10,25 @@ typedef struct {
     const qdot_constraints *c;
     qdot_motion *motion;
     qdot_program_builder *program;
-    qdot_program_row *inputs;          /* [2n + 1] rows of the inputs q, q', t */
-    qdot_program_row *f, *M, *A, *row; /* rows of the tape's outputs: f [n], M [n_masses], A [n_slopes], constraint rows [m] */
+    qdot_program_row *inputs;          /* [2n + 1] program rows of the inputs q, q', t */
+    qdot_program_row *f, *M, *A, *row; /* program rows of outputs f [n], M [n_masses], A [n_slopes], constraints [m] */
     qdot_motion_line *lines; /* [n + m] equations of the accelerations a, then of the multipliers mu */
 } builder;
 
 static qdot_program_row
-operation(const builder *b, qdot_op op, qdot_program_row x, qdot_program_row y,
-          qdot_program_row z)
+add_operation(const builder *b, qdot_op op, qdot_program_row x, qdot_program_row y,
+              qdot_program_row z)
 {
     return qdot_program_operation(b->program, op, x, y, z);
 }
 
-/* Add the row of sum + factor * x. */
+/* Add the program row that computes sum + factor * x. */
 static qdot_program_row
-damp(const builder *b, double factor, qdot_program_row x, qdot_program_row sum)
+add_scaled_row(const builder *b, double factor, qdot_program_row x, qdot_program_row sum)
 {
     const qdot_program_constant c = {.value = factor, .exact = QDOT_NIL};
 
-    return operation(b, QDOT_OP_MADD, qdot_program_number(b->program, c), x, sum);
+    return add_operation(b, QDOT_OP_MADD, qdot_program_number(b->program, c), x, sum);
 }
 
 static void
@@ -43,18 +43,18 @@ add_constraint(const builder *b, size_t k)
     }
     *E = qdot_program_rate(b->program, b->row[k]);
     if (b->c->rows[k].kind == QDOT_VELOCITY) {
-        *E = r > 0 ? damp(b, r, b->row[k], *E) : *E;
+        *E = r > 0 ? add_scaled_row(b, r, b->row[k], *E) : *E;
         return;
     }
     if (r > 0)
-        *E = damp(b, 2 * r, b->row[k], *E);
+        *E = add_scaled_row(b, 2 * r, b->row[k], *E);
     *E = qdot_program_rate(b->program, *E);
     if (r > 0)
-        *E = damp(b, r * r, b->row[k], *E);
+        *E = add_scaled_row(b, r * r, b->row[k], *E);
 }
 
 static qdot_status
-couple(const builder *b, size_t i, size_t j, qdot_program_row K)
+set_matrix_entry(const builder *b, size_t i, size_t j, qdot_program_row K)
 {
     return qdot_vec_push(&b->motion->entries,
                          ((qdot_motion_entry){(uint32_t)i, (uint32_t)j, K}));
@@ -71,11 +71,11 @@ add_equations(builder *b)
         b->lines[i] =
             (qdot_motion_line){qdot_program_unknown(b->program), QDOT_NO_ROW, QDOT_NO_ROW};
     for (size_t k = 0; k < c->n_masses; k++)
-        QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, b->M[k]));
+        QDOT_TRY(set_matrix_entry(b, c->masses[k].row, c->masses[k].column, b->M[k]));
     for (size_t k = 0; k < c->n_slopes; k++) {
         if (c->sign[k] < 0)
-            b->A[k] = operation(b, QDOT_OP_NEG, b->A[k], 0, 0);
-        QDOT_TRY(couple(b, n + c->slopes[k].row, c->slopes[k].column, b->A[k]));
+            b->A[k] = add_operation(b, QDOT_OP_NEG, b->A[k], 0, 0);
+        QDOT_TRY(set_matrix_entry(b, n + c->slopes[k].row, c->slopes[k].column, b->A[k]));
     }
     for (size_t k = 0; k < c->m; k++)
         add_constraint(b, k);

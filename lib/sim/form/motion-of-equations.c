@@ -1,31 +1,31 @@
-/* motion-of-equations.c -- writes M q'' = f, perhaps bordered by constraints, as rows of a series program. */
+/* motion-of-equations.c -- writes M q'' = f, perhaps with constraints, as rows of a Taylor series program. */
 #include "sim/form/motion-of-equations.h"
 
 #include "base/memory.h"
 #include "expr/constant.h"
 #include "sim/model/constraints.h"
 
-/* The unknowns in their order: q'' of the coordinates, then the multipliers of the constraints. */
+/* Builds the equations for the unknowns: first q'' of the coordinates, then the constraints' multipliers. */
 typedef struct {
     const qdot_plan *plan;
-    const qdot_tape *tape; /* the plan's tape, or for machine code the one with constraints (bordered) */
-    size_t n; /* coordinates that move; later ones of the plan are constant */
+    const qdot_tape *tape; /* the plan's tape, or for machine code the one with constraints (plan->bordered) */
+    size_t n; /* number of coordinates that move; those after them in the plan are constant */
     qdot_motion *motion;
     qdot_program_builder *program;
-    qdot_program_row *outputs; /* rows of the outputs of `tape` */
-    qdot_motion_line *lines;   /* [n + m] equations in the motion's order; right sides f, gamma */
+    qdot_program_row *outputs; /* program rows of the outputs of `tape` */
+    qdot_motion_line *lines;   /* [n + m] equations in the motion's order; right-hand sides f, gamma */
     uint32_t *place; /* [n + m] index among the unknowns of each coordinate and multiplier */
 } builder;
 
 static bool
-input_is_number(const builder *b, size_t i)
+is_input_constant(const builder *b, size_t i)
 {
     return i >= b->n && i < b->plan->n;
 }
 
-/* Set K_ij = K_ji to the row `at`. */
+/* Set the matrix entries K_ij = K_ji to the program row `at`. */
 static qdot_status
-couple(builder *b, size_t i, size_t j, qdot_program_row at)
+set_symmetric_entry(builder *b, size_t i, size_t j, qdot_program_row at)
 {
     return qdot_vec_push(&b->motion->entries, ((qdot_motion_entry){b->place[i], b->place[j], at}));
 }
@@ -33,7 +33,7 @@ couple(builder *b, size_t i, size_t j, qdot_program_row at)
 /* The k-th of the next equations determines the acceleration of coordinate i and has the right-hand
  * side `right`. */
 static void
-expect(builder *b, size_t i, size_t k, qdot_program_row right)
+set_equation(builder *b, size_t i, size_t k, qdot_program_row right)
 {
     b->place[i] = (uint32_t)(b->motion->solved.n + k);
     b->lines[b->place[i]] =
@@ -41,7 +41,7 @@ expect(builder *b, size_t i, size_t k, qdot_program_row right)
 }
 
 static qdot_status
-solve_for(builder *b, size_t i)
+add_unknown_acceleration(builder *b, size_t i)
 {
     const qdot_motion_line *line = b->lines + b->place[i];
     qdot_motion_unknown u = {.row = line->u, .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
@@ -54,9 +54,9 @@ solve_for(builder *b, size_t i)
     return qdot_motion_solve(b->motion, u, line->E);
 }
 
-/* Find the row of a constant entry of M; *row is QDOT_NO_ROW if the entry is 0. */
+/* Find the program row of a constant entry of M; *row is QDOT_NO_ROW if the entry is 0. */
 static qdot_status
-number(builder *b, qdot_expr e, qdot_program_row *row)
+find_constant_row(builder *b, qdot_expr e, qdot_program_row *row)
 {
     qdot_program_constant c = {.exact = e};
     int side;
@@ -75,27 +75,27 @@ add_block(builder *b, const qdot_plan_block *block, size_t *at)
     const size_t n = block->n, entries = b->motion->entries.n, first = b->motion->solved.n;
 
     for (size_t i = 0; i < n; i++)
-        expect(b, block->index[i], i, b->outputs[(*at)++]);
+        set_equation(b, block->index[i], i, b->outputs[(*at)++]);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) {
             const size_t row = block->index[i], column = block->index[j];
             qdot_program_row M;
 
             if (block->constant)
-                QDOT_TRY(number(b, p->M[row * p->n + column], &M));
+                QDOT_TRY(find_constant_row(b, p->M[row * p->n + column], &M));
             else
                 M = b->outputs[(*at)++];
             if (M != QDOT_NO_ROW)
-                QDOT_TRY(couple(b, row, column, M));
+                QDOT_TRY(set_symmetric_entry(b, row, column, M));
         }
     qdot_motion_write(b->motion, b->program, entries, b->lines, first, first + n);
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(solve_for(b, block->index[i]));
+        QDOT_TRY(add_unknown_acceleration(b, block->index[i]));
     return qdot_motion_end_block(b->motion);
 }
 
 static qdot_status
-add_blocks(builder *b)
+add_all_blocks(builder *b)
 {
     const qdot_plan *p = b->plan;
     size_t at = 0;
@@ -106,7 +106,7 @@ add_blocks(builder *b)
 
         if (block->n > 1)
             QDOT_TRY(add_block(b, block, &at));
-        else if (input_is_number(b, i))
+        else if (is_input_constant(b, i))
             at++;
         else
             QDOT_TRY(qdot_motion_give(b->motion, b->outputs[at++],
@@ -119,7 +119,7 @@ add_blocks(builder *b)
 }
 
 static qdot_status
-add_constrained(builder *b)
+add_constrained_equations(builder *b)
 {
     const qdot_constraints *c = b->plan->constraints;
     const size_t n = b->plan->n;
@@ -128,23 +128,23 @@ add_constrained(builder *b)
     size_t count = 0;
 
     for (size_t i = 0; i < n + c->m; i++)
-        if (!input_is_number(b, i))
-            expect(b, i, count++, i < n ? b->outputs[i] : gamma[i - n]);
+        if (!is_input_constant(b, i))
+            set_equation(b, i, count++, i < n ? b->outputs[i] : gamma[i - n]);
     for (size_t k = 0; k < c->n_masses; k++)
-        if (!input_is_number(b, c->masses[k].row))
-            QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, M[k]));
+        if (!is_input_constant(b, c->masses[k].row))
+            QDOT_TRY(set_symmetric_entry(b, c->masses[k].row, c->masses[k].column, M[k]));
     for (size_t k = 0; k < c->n_slopes; k++)
-        QDOT_TRY(couple(b, n + c->slopes[k].row, c->slopes[k].column, A[k]));
+        QDOT_TRY(set_symmetric_entry(b, n + c->slopes[k].row, c->slopes[k].column, A[k]));
     qdot_motion_write(b->motion, b->program, 0, b->lines, 0, count);
     for (size_t i = 0; i < n + c->m; i++)
-        if (!input_is_number(b, i))
-            QDOT_TRY(solve_for(b, i));
+        if (!is_input_constant(b, i))
+            QDOT_TRY(add_unknown_acceleration(b, i));
     return qdot_motion_end_block(b->motion);
 }
 
 /* The program row of input i of the plan's tape; parameters treated as coordinates have velocity 0. */
 static qdot_program_row
-input(const builder *b, size_t i)
+row_of_input(const builder *b, size_t i)
 {
     const size_t n = b->n, all = b->plan->n, numbers = all - n;
     const qdot_program_constant zero = {.exact = QDOT_ZERO};
@@ -153,7 +153,7 @@ input(const builder *b, size_t i)
         return (qdot_program_row)(i < n ? i : n + 1 + i);
     if (i < 2 * all && i - all >= n)
         return qdot_program_number(b->program, zero);
-    return (qdot_program_row)(i == 2 * all ? i - 2 * numbers : i - numbers); /* input 2 `all` is t */
+    return (qdot_program_row)(i == 2 * all ? i - 2 * numbers : i - numbers); /* the input with index 2 `all` is t */
 }
 
 static qdot_status
@@ -170,18 +170,18 @@ build_explicit_motion(builder *b)
     if (!b->outputs || !b->lines || !b->place)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < inputs; i++)
-        b->outputs[outputs + i] = input(b, i);
+        b->outputs[outputs + i] = row_of_input(b, i);
     qdot_program_append(b->program, tape, b->outputs + outputs, b->outputs);
     for (size_t i = 0; i < outputs; i++)
         QDOT_TRY(qdot_vec_push(&b->motion->program.outputs, b->outputs[i]));
     steps = b->motion->program.steps.n;
-    QDOT_TRY(b->plan->constraints ? add_constrained(b) : add_blocks(b));
+    QDOT_TRY(b->plan->constraints ? add_constrained_equations(b) : add_all_blocks(b));
     b->motion->written = b->motion->program.steps.n - steps;
     return QDOT_OK;
 }
 
 static qdot_status
-motion_make(const qdot_plan *plan, size_t n, qdot_motion *motion)
+make_motion(const qdot_plan *plan, size_t n, qdot_motion *motion)
 {
     const qdot_tape *tape = plan->bordered ? plan->bordered : plan->tape;
     const size_t inputs = qdot_tape_inputs(tape) - (plan->n - n);
@@ -200,11 +200,11 @@ motion_make(const qdot_plan *plan, size_t n, qdot_motion *motion)
 qdot_status
 qdot_motion_of_equations(const qdot_plan *plan, qdot_motion *motion)
 {
-    return motion_make(plan, plan->n, motion);
+    return make_motion(plan, plan->n, motion);
 }
 
 qdot_status
 qdot_motion_of_members(const qdot_plan *plan, qdot_motion *motion)
 {
-    return motion_make(plan, plan->n - plan->n_states, motion);
+    return make_motion(plan, plan->n - plan->n_states, motion);
 }

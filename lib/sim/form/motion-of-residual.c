@@ -9,14 +9,14 @@ typedef struct {
     const qdot_residual *residual;
     qdot_motion *motion;
     qdot_program_builder *program;
-    qdot_program_row *inputs;         /* [2n + 1] rows of the inputs q, q', t */
-    qdot_program_row *places, *forces; /* rows of the outputs of the tapes `places` and `forces` */
-    qdot_program_row *x, *F; /* [functions] rows of x'' and of the force F of each function */
-    qdot_program_row *E;              /* [n] rows of the residuals E_i */
+    qdot_program_row *inputs;         /* [2n + 1] program rows of the inputs q, q', t */
+    qdot_program_row *places, *forces; /* program rows of the outputs of the tapes `places` and `forces` */
+    qdot_program_row *x, *F; /* [functions] program rows of x'' and of the force F of each function x */
+    qdot_program_row *E;              /* [n] program rows of the residuals E_i of the equations */
 } builder;
 
 static void
-row_add(builder *b, qdot_program_row *sum, qdot_program_row more)
+add_row_to_sum(builder *b, qdot_program_row *sum, qdot_program_row more)
 {
     *sum = *sum == QDOT_NO_ROW
                ? more
@@ -30,16 +30,16 @@ add_product(builder *b, qdot_program_row *sum, qdot_program_row x, qdot_program_
                                   x, y, *sum == QDOT_NO_ROW ? y : *sum);
 }
 
-/* Add the rows of the tree: functions from the root down, forces from the leaves up. */
+/* Add the program rows of the tree of functions: values from the root down, forces from the leaves up. */
 static void
-add_tree(builder *b)
+add_tree_rows(builder *b)
 {
     const qdot_residual *r = b->residual;
 
     for (size_t f = 0; f < r->functions; f++) {
         b->x[f] = qdot_program_rate(b->program, qdot_program_rate(b->program, b->places[f]));
         if (r->parent[f] != UINT32_MAX)
-            row_add(b, &b->x[f], b->x[r->parent[f]]);
+            add_row_to_sum(b, &b->x[f], b->x[r->parent[f]]);
         b->F[f] = QDOT_NO_ROW;
     }
     for (size_t w = 0; w < r->n_weights; w++) {
@@ -47,14 +47,14 @@ add_tree(builder *b)
         const qdot_program_constant c = {weight->w, weight->low, weight->side, weight->exact};
 
         if (weight->exact == QDOT_ONE)
-            row_add(b, &b->F[weight->to], b->x[weight->from]);
+            add_row_to_sum(b, &b->F[weight->to], b->x[weight->from]);
         else
             add_product(b, &b->F[weight->to], qdot_program_number(b->program, c),
                         b->x[weight->from]);
     }
     for (size_t f = r->functions; f-- > 0;)
         if (r->parent[f] != UINT32_MAX && b->F[f] != QDOT_NO_ROW)
-            row_add(b, &b->F[r->parent[f]], b->F[f]);
+            add_row_to_sum(b, &b->F[r->parent[f]], b->F[f]);
 }
 
 static void
@@ -124,7 +124,7 @@ build_residual_motion(builder *b)
     qdot_program_append(b->program, r->places, b->inputs, b->places);
     if (r->forces)
         qdot_program_append(b->program, r->forces, b->inputs, b->forces);
-    add_tree(b);
+    add_tree_rows(b);
     add_equations(b);
     return add_unknowns(b);
 }

@@ -1,4 +1,4 @@
-/* motion-series.c -- expands a single run order by order: program, linear solve, integration. */
+/* motion-series.c -- expands a single run in Taylor series order by order: program, linear solve, integration. */
 #include "sim/form/motion-series.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 enum { most_order = 47, highest = most_order - 3 };
 
-/* For blocks with more unknowns than this no machine code is written. */
+/* Machine code is written only for blocks of at most this many unknowns. */
 enum { most_coded = 6 };
 
 struct qdot_motion_series {
@@ -20,8 +20,8 @@ struct qdot_motion_series {
     qdot_expansion at; /* the series program of the motion in doubles */
     qdot_motion_matrix K;
     qdot_momentum_rows momenta;
-    qdot_lanes_motion *code; /* machine code from the lanes' generator; NULL: none */
-    const char *why; /* why there is no machine code; NULL: ask the program */
+    qdot_lanes_motion *code; /* vector machine code, as for ensembles; NULL: none */
+    const char *why; /* why there is no machine code; NULL: the program tells */
     bool begun;      /* an expansion has been begun at least once */
     qdot_ode_series series;
     double unit;
@@ -45,15 +45,15 @@ stage(qdot_motion_series *s, int k)
     return QDOT_OK;
 }
 
-/* Whether the program already computes all accelerations, so that no linear system is solved. */
+/* Whether the program itself computes all accelerations, so that no linear system has to be solved. */
 static bool
-is_given(const qdot_motion_series *s)
+gives_all_accelerations(const qdot_motion_series *s)
 {
     return s->motion->solved.n == 0;
 }
 
 static qdot_status
-accelerations_check(const qdot_motion_series *s)
+check_accelerations(const qdot_motion_series *s)
 {
     for (size_t i = 0; i < s->plan->n; i++)
         if (!isfinite(s->at.v[i * s->at.stride + 1]))
@@ -63,9 +63,9 @@ accelerations_check(const qdot_motion_series *s)
 }
 
 static qdot_status
-expand_zero(qdot_motion_series *s, double t, const double *y)
+begin_expansion(qdot_motion_series *s, double t, const double *y)
 {
-    if (is_given(s)) {
+    if (gives_all_accelerations(s)) {
         qdot_taylor_begin(s->at.taylor, s->unit);
     } else {
         QDOT_TRY(qdot_motion_matrix_begin(&s->K, t, y));
@@ -74,7 +74,7 @@ expand_zero(qdot_motion_series *s, double t, const double *y)
     }
     if (s->plan->n_kept > 0)
         qdot_momentum_rows_show(&s->momenta, 1);
-    return accelerations_check(s);
+    return check_accelerations(s);
 }
 
 static qdot_status
@@ -88,7 +88,7 @@ motion_series_begin(double t, const double *y, double unit, void *user)
     qdot_expansion_begin(&s->at, t, y, unit);
     if (s->plan->n_kept > 0)
         qdot_momentum_rows_draw(&s->momenta, t);
-    status = expand_zero(s, t, y);
+    status = begin_expansion(s, t, y);
     if (status == QDOT_EDOMAIN && !s->begun && s->plan->constraints)
         qdot_taylor_refuse_code(s->at.taylor,
                                 "constraints depend on each other at the start");
@@ -99,7 +99,7 @@ motion_series_begin(double t, const double *y, double unit, void *user)
 /* --- orders of the expansion ----------------------------------------------------------- */
 
 static bool
-is_code_of_lanes(int p, void *user)
+has_lanes_code(int p, void *user)
 {
     const qdot_motion_series *s = user;
 
@@ -115,9 +115,9 @@ motion_series_extend(int p, void *user)
     qdot_motion_matrix_prepare(&s->K, p);
     if (as_code)
         qdot_motion_matrix_hand_over(&s->K, s->at.taylor);
-    if (as_code || is_given(s)) {
+    if (as_code || gives_all_accelerations(s)) {
         qdot_taylor_extend(s->at.taylor, 1, p - 1);
-    } else if (is_code_of_lanes(p, s)) {
+    } else if (has_lanes_code(p, s)) {
         qdot_motion_matrix_hand_to_lanes(&s->K, s->code);
         qdot_taylor_set_inverses(s->at.taylor);
         qdot_lanes_motion_run(s->code, &s->unit);
@@ -130,22 +130,22 @@ motion_series_extend(int p, void *user)
     return QDOT_OK;
 }
 
-/* Bound a step by negligible terms: forces have orders two less than q. */
+/* Find a step so short that the series' last terms are negligible; forces have two orders less than q. */
 static double
-motion_series_near(int p, double step, double least, void *user)
+find_negligible_step(int p, double step, double least, void *user)
 {
     return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step,
                             least);
 }
 
 static double
-noise(void *user)
+noise_of_series(void *user)
 {
     return qdot_saddle_solver_noise(((const qdot_motion_series *)user)->K.saddle);
 }
 
 static double
-ahead(void *user)
+look_ahead(void *user)
 {
     const qdot_motion_series *s = user;
 
@@ -155,7 +155,7 @@ ahead(void *user)
 /* --- machine code by lanes -------------------------------------------------------------- */
 
 static void
-drop_lanes(void *user)
+drop_lanes_code(void *user)
 {
     qdot_motion_series *s = user;
 
@@ -164,22 +164,22 @@ drop_lanes(void *user)
 }
 
 static qdot_status
-write_lanes(int p, int most, void *user)
+write_lanes_code(int p, int most, void *user)
 {
     qdot_motion_series *s = user;
     const qdot_lanes_rows rows = qdot_taylor_get_rows(s->at.taylor);
 
     (void)most; /* not needed: code is generated for each order by itself */
-    if (is_code_of_lanes(p, s))
+    if (has_lanes_code(p, s))
         return QDOT_OK;
-    drop_lanes(s);
+    drop_lanes_code(s);
     s->why = "blocks are large, or the system does not run what was written";
     return qdot_lanes_motion_new(&rows, s->motion, p - 1, QDOT_BLOCKS_SOLVED, &s->code);
 }
 
-/* Use no vector code: no such code of earlier runs is stored. */
+/* Take no stored vector machine code: earlier runs store none. */
 static bool
-take_lanes(int p, int most, void *user)
+take_no_lanes_code(int p, int most, void *user)
 {
     (void)most;
     (void)p;
@@ -189,9 +189,9 @@ take_lanes(int p, int most, void *user)
 
 /* --- making the series ----------------------------------------------------------------- */
 
-/* Whether all blocks are definite and have at most `most` unknowns. */
+/* Whether machine code may be written: all blocks are definite and have at most `most` unknowns. */
 static bool
-may_be_code(const qdot_plan *p, const qdot_motion *m, size_t most)
+may_have_code(const qdot_plan *p, const qdot_motion *m, size_t most)
 {
     for (size_t b = 0; b + 1 < m->blocks.n; b++)
         if (m->blocks.at[b + 1] - m->blocks.at[b] > most)
@@ -200,29 +200,29 @@ may_be_code(const qdot_plan *p, const qdot_motion *m, size_t most)
 }
 
 static bool
-may_be_lanes(const qdot_plan *p, const qdot_motion *m)
+may_have_lanes_code(const qdot_plan *p, const qdot_motion *m)
 {
-    return qdot_lanes_may_be_code() && may_be_code(p, m, QDOT_LANES_SOLVED);
+    return qdot_lanes_may_be_code() && may_have_code(p, m, QDOT_LANES_SOLVED);
 }
 
 static bool
-may_be_whole(const qdot_plan *p, const qdot_motion *m)
+may_have_whole_code(const qdot_plan *p, const qdot_motion *m)
 {
-    return p->constraints || may_be_code(p, m, most_coded);
+    return p->constraints || may_have_code(p, m, most_coded);
 }
 
 static void
-choose_code(qdot_motion_series *s)
+choose_machine_code(qdot_motion_series *s)
 {
     if (s->K.saddle)
         return;
     s->why = "machine code is not asked for";
     if (s->K.masses) {
         s->series.code = (qdot_ode_code){
-            .take = take_lanes, .there = is_code_of_lanes, .drop = drop_lanes, .user = s};
-        if (may_be_lanes(s->plan, s->motion))
-            s->series.code.write = write_lanes;
-    } else if (may_be_whole(s->plan, s->motion)) {
+            .take = take_no_lanes_code, .there = has_lanes_code, .drop = drop_lanes_code, .user = s};
+        if (may_have_lanes_code(s->plan, s->motion))
+            s->series.code.write = write_lanes_code;
+    } else if (may_have_whole_code(s->plan, s->motion)) {
         s->series.code = qdot_expansion_code(s->at.taylor);
     } else {
         s->why = "machine code solves for few unknowns, with M definite";
@@ -230,7 +230,7 @@ choose_code(qdot_motion_series *s)
 }
 
 static qdot_status
-motion_series_make(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
+make_motion_series(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const bool has_factor = !p->constraints;
@@ -248,11 +248,11 @@ motion_series_make(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
         .cost = p->expansions,
         .begin = motion_series_begin,
         .extend = motion_series_extend,
-        .noise = s->K.saddle ? noise : NULL,
-        .ahead = s->K.saddle ? ahead : NULL,
-        .near = qdot_taylor_may_hide(s->at.taylor) ? motion_series_near : NULL,
+        .noise = s->K.saddle ? noise_of_series : NULL,
+        .ahead = s->K.saddle ? look_ahead : NULL,
+        .near = qdot_taylor_may_hide(s->at.taylor) ? find_negligible_step : NULL,
         .user = s};
-    choose_code(s);
+    choose_machine_code(s);
     return QDOT_OK;
 }
 
@@ -269,7 +269,7 @@ qdot_motion_series_of_residual(const qdot_plan *plan, const qdot_motion *motion,
         return QDOT_ENOMEM;
     s->plan = plan;
     s->motion = motion;
-    status = motion_series_make(s, masses, shaken);
+    status = make_motion_series(s, masses, shaken);
     if (status != QDOT_OK) {
         qdot_motion_series_free(s);
         return status;
@@ -326,7 +326,7 @@ qdot_motion_series_work(const qdot_plan *p)
 {
     qdot_work w = qdot_work_of_motion(p, p->motion, p->bordered ? p->bordered : p->tape);
 
-    w.code = may_be_whole(p, p->motion);
+    w.code = may_have_whole_code(p, p->motion);
     return w;
 }
 
@@ -336,7 +336,7 @@ qdot_motion_series_work_of_residual(const qdot_plan *p, const qdot_motion *m,
 {
     qdot_work w = qdot_work_of_motion(p, m, masses);
 
-    w.code = may_be_lanes(p, m);
+    w.code = may_have_lanes_code(p, m);
     return w;
 }
 

@@ -37,10 +37,10 @@ void qdot_motion_series_free(qdot_motion_series *series);
  * an expansion begins. */
 void qdot_motion_series_keep(qdot_motion_series *series, const double *hi, const double *lo);
 
-/* The callbacks of the series for `ode`; borrowed. */
+/* The callbacks of the Taylor series for the integrator (ode); borrowed. */
 const qdot_ode_series *qdot_motion_series_get(const qdot_motion_series *series);
 
-/* Coefficients of output i of the program. */
+/* The Taylor coefficients of output i of the series program. */
 const double *qdot_motion_series_output(const qdot_motion_series *series, size_t i);
 
 /* The counts of operations in an expansion of the motion. */
@@ -50,7 +50,7 @@ qdot_work qdot_motion_series_work_of_residual(const qdot_plan *plan, const qdot_
 /* The counts of operations in an expansion with constraints. */
 qdot_work qdot_motion_series_work_of_constraints(const qdot_motion_series *series);
 
-/* The number of times K was factored; _code: bytes of machine code, 0 if there is none, and *why says why. */
+/* The number of times K was factored; qdot_motion_series_code: bytes of machine code, 0 and *why if none. */
 size_t qdot_motion_series_factored(const qdot_motion_series *series);
 size_t qdot_motion_series_code(const qdot_motion_series *series, const char **why);
 

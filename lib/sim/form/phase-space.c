@@ -1,4 +1,4 @@
-/* phase-space.c -- canonical momenta and their rates as tapes; q' from p by the factors of M. */
+/* phase-space.c -- canonical momenta p and their rates as tapes; q' from p by the factors of M. */
 #include "sim/form/phase-space.h"
 
 #include <string.h>
@@ -34,7 +34,7 @@ qdot_phase_space_free(qdot_phase_space *s)
 /* Write the momenta p [n] with the plan's parameter values; switching functions stay as they are in
  * every mode. */
 static qdot_status
-momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
+find_momenta(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
 {
     const size_t states = plan->n_states;
     const qdot_expr all = qdot_mech_momenta(scene);
@@ -47,9 +47,9 @@ momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
     return qdot_pool_check(plan->pool);
 }
 
-/* The rate of p without accelerations: sum_j dp/dq_j q_j' + dp/dt. */
+/* The time derivative of p without the terms of accelerations: sum_j dp/dq_j q_j' + dp/dt. */
 static qdot_expr
-transported(const qdot_plan *plan, qdot_expr p)
+rate_without_accelerations(const qdot_plan *plan, qdot_expr p)
 {
     qdot_pool *pool = plan->pool;
     qdot_expr sum = qdot_diff(pool, p, QDOT_T);
@@ -61,25 +61,25 @@ transported(const qdot_plan *plan, qdot_expr p)
 }
 
 static bool
-holds_velocity(const qdot_plan *plan, qdot_expr e)
+contains_velocity(const qdot_plan *plan, qdot_expr e)
 {
     return (qdot_expr_node(plan->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
-/* Form the expressions for lower_all: p [n], p' [n], b [n] and M. */
+/* Write the expressions for the tapes of make_phase_tapes: p [n], p' [n], b [n] and M. */
 static qdot_status
-write_down(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
+write_expressions(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
 {
     const size_t n = plan->n;
     qdot_pool *pool = plan->pool;
     qdot_expr *force = p + n, *b = force + n, *M = b + n, *zero = M + n * (n + 1) / 2;
 
     *needed = scene->constraints.n > 0;
-    QDOT_TRY(momenta_of(scene, plan, p));
+    QDOT_TRY(find_momenta(scene, plan, p));
     for (size_t i = 0; i < n; i++)
         zero[i] = QDOT_ZERO;
     for (size_t i = 0; i < n; i++) {
-        const qdot_expr moved = transported(plan, p[i]);
+        const qdot_expr moved = rate_without_accelerations(plan, p[i]);
 
         *needed = *needed || moved != QDOT_ZERO;
         force[i] = qdot_add(pool, plan->f[i], moved);
@@ -87,7 +87,7 @@ write_down(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
         for (size_t j = 0; j <= i; j++) {
             *M = plan->M[i * n + j];
             QDOT_TRY(qdot_pool_check(pool));
-            if (holds_velocity(plan, *M++))
+            if (contains_velocity(plan, *M++))
                 return qdot_fail(QDOT_ENOTBUILT, "%s needs momenta that are linear in velocities",
                                  plan->method->name);
         }
@@ -96,7 +96,7 @@ write_down(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
 }
 
 static qdot_status
-lower_all(const qdot_plan *plan, const qdot_expr *p, qdot_phase_space *s)
+make_phase_tapes(const qdot_plan *plan, const qdot_expr *p, qdot_phase_space *s)
 {
     const size_t n = plan->n, inputs = 2 * n + 1;
 
@@ -113,12 +113,12 @@ qdot_phase_space_new(qdot_scene *scene, const qdot_plan *plan, qdot_phase_space 
     qdot_expr *p = qdot_calloc(4 * n + n * (n + 1) / 2, sizeof *p);
     qdot_phase_space *s = qdot_calloc(1, sizeof *s);
     bool needed = false;
-    qdot_status status = p && s ? write_down(scene, plan, p, &needed) : QDOT_ENOMEM;
+    qdot_status status = p && s ? write_expressions(scene, plan, p, &needed) : QDOT_ENOMEM;
 
     *space = NULL;
     if (status == QDOT_OK && needed) {
         s->n = n;
-        status = lower_all(plan, p, s);
+        status = make_phase_tapes(plan, p, s);
     }
     qdot_free(p);
     if (status == QDOT_OK && needed)
@@ -131,8 +131,8 @@ qdot_phase_space_new(qdot_scene *scene, const qdot_plan *plan, qdot_phase_space 
 /* --- evaluating momenta and forces -------------------------------------------------- */
 
 static void
-phase_evaluate(qdot_phase *x, const qdot_tape *tape, double t, const double *q, const double *v,
-               double *out)
+evaluate_tape(qdot_phase *x, const qdot_tape *tape, double t, const double *q, const double *v,
+              double *out)
 {
     const size_t n = x->space->n;
 
@@ -144,23 +144,23 @@ phase_evaluate(qdot_phase *x, const qdot_tape *tape, double t, const double *q, 
 }
 
 static qdot_status
-momenta(double t, const double *q, const double *v, double *p, void *user)
+find_momenta_of_state(double t, const double *q, const double *v, double *p, void *user)
 {
     qdot_phase *x = user;
 
-    phase_evaluate(x, x->space->momenta, t, q, v, p);
+    evaluate_tape(x, x->space->momenta, t, q, v, p);
     return QDOT_OK;
 }
 
 static qdot_status
-velocity(double t, const double *q, const double *p, double *v, void *user)
+find_velocities(double t, const double *q, const double *p, double *v, void *user)
 {
     qdot_phase *x = user;
     const size_t n = x->space->n;
     const double *M = x->out + n;
     size_t failed;
 
-    phase_evaluate(x, x->space->masses, t, q, NULL, x->out);
+    evaluate_tape(x, x->space->masses, t, q, NULL, x->out);
     for (size_t i = 0; i < n; i++) {
         v[i] = p[i] - x->out[i];
         for (size_t j = 0; j <= i; j++)
@@ -173,16 +173,16 @@ velocity(double t, const double *q, const double *p, double *v, void *user)
 }
 
 static qdot_status
-force(double t, const double *q, const double *v, double *F, void *user)
+find_momentum_rates(double t, const double *q, const double *v, double *F, void *user)
 {
     qdot_phase *x = user;
 
-    phase_evaluate(x, x->space->forces, t, q, v, F);
+    evaluate_tape(x, x->space->forces, t, q, v, F);
     return QDOT_OK;
 }
 
 static size_t
-most_work(const qdot_phase_space *s)
+largest_tape_work(const qdot_phase_space *s)
 {
     const qdot_tape *tapes[] = {s->momenta, s->masses, s->forces};
     size_t most = 0;
@@ -202,8 +202,8 @@ qdot_phase_new(const qdot_phase_space *space, qdot_phase **phase)
     if (!x)
         return QDOT_ENOMEM;
     x->space = space;
-    x->callbacks = (qdot_ode_phase){momenta, velocity, force, x};
-    x->in = qdot_calloc(2 * n + 1 + outputs + n * n + most_work(space) + 1, sizeof *x->in);
+    x->callbacks = (qdot_ode_phase){find_momenta_of_state, find_velocities, find_momentum_rates, x};
+    x->in = qdot_calloc(2 * n + 1 + outputs + n * n + largest_tape_work(space) + 1, sizeof *x->in);
     if (!x->in)
         return QDOT_ENOMEM;
     x->out = x->in + 2 * n + 1;

@@ -16,12 +16,12 @@
 #include "ode/system.h"
 #include "sim/model/equations.h"
 
-/* Tapes from q [n], q' [n], t. */
+/* Tapes of a plan from q [n], q' [n], t to canonical momenta, masses and forces. */
 struct qdot_phase_space {
     size_t n;
     qdot_tape *momenta; /* outputs: momenta p [n] */
-    qdot_tape *masses; /* outputs: b [n], then the lower triangle of M by rows, p = M q' + b; both independent of q' */
-    qdot_tape *forces;  /* outputs: p' [n] */
+    qdot_tape *masses; /* outputs: b [n], then the lower triangle of M by rows; p = M q' + b; neither depends on q' */
+    qdot_tape *forces;  /* outputs: time derivatives p' [n] of the momenta */
 };
 
 /* Of a plan with M and f; *space NULL where q' itself will do. QDOT_ENOTBUILT:
@@ -30,11 +30,11 @@ QDOT_MUST_CHECK qdot_status qdot_phase_space_new(qdot_scene *scene, const qdot_p
                                                  qdot_phase_space **space);
 void qdot_phase_space_free(qdot_phase_space *space);
 
-/* A phase space with work space of its own, for one thread. */
+/* A phase space with work space of its own, to be used by one thread. */
 typedef struct qdot_phase qdot_phase;
 QDOT_MUST_CHECK qdot_status qdot_phase_new(const qdot_phase_space *space, qdot_phase **phase);
 void qdot_phase_free(qdot_phase *phase);
-/* The callbacks for `ode`; valid as long as the phase exists. */
+/* The callbacks for the integrator (ode); valid as long as the phase exists. */
 const qdot_ode_phase *qdot_phase_get(const qdot_phase *phase);
 
 #endif

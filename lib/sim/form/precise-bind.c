@@ -1,4 +1,4 @@
-/* precise-bind.c -- expands the motion in MPFR numbers, order by order. */
+/* precise-bind.c -- expands the motion in Taylor series of MPFR numbers, order by order. */
 #include "sim/form/precise-bind.h"
 
 #include <math.h>
@@ -16,11 +16,11 @@
 
 static const double most_bytes = 2e9;
 
-/* A block of unknowns coupled by K. */
+/* A block of unknowns that are coupled by the matrix K. */
 typedef struct {
     size_t first, n;
-    mpfr_t *lu;    /* [n x n] LU factors of K */
-    mpfr_t *x, *y; /* [n] right side, solution */
+    mpfr_t *lu;    /* [n x n] LU factors of the block's matrix K */
+    mpfr_t *x, *y; /* [n] right-hand side, solution */
     size_t *order; /* [n] pivot order of the rows */
     double *scale; /* [n] scale factors of the rows */
 } solver;
@@ -28,10 +28,10 @@ typedef struct {
 struct qdot_precise_bind {
     const qdot_plan *plan;
     qdot_motion own;
-    const qdot_motion *motion; /* series program of the motion, or of Hamilton's equations */
+    const qdot_motion *motion; /* series program of the equations of motion, or of Hamilton's equations */
     qdot_precise *series;
-    qdot_precise *momenta; /* with Hamilton's equations: the momenta from q, q', t */
-    int late;              /* 1: velocities have order k at stage k; 0: order k + 1 */
+    qdot_precise *momenta; /* with Hamilton's equations: program for the momenta from q, q', t */
+    int late;              /* 1: stage k of the series gives velocities of order k; 0: of order k + 1 */
     qdot_precise_system system;
     mpfr_t *q, *v, *t; /* Taylor coefficients of the inputs; rows are `stride` apart */
     size_t stride;
@@ -39,18 +39,18 @@ struct qdot_precise_bind {
     size_t blocks;
     bool fixed;         /* K is constant */
     bool is_factored;   /* K is constant and has been factored */
-    qdot_reals numbers; /* memory: 2 scratch numbers; `by` [solved]; the arrays of the solvers */
+    qdot_reals numbers; /* memory of 2 scratch numbers, `by` [solved], and the arrays of the solvers */
     mpfr_t *w, *by;
-    double *widest; /* [constraints] largest squared norm of each row of A so far */
-    qdot_precise *held[2]; /* residuals of position and of velocity constraints; NULL: no such rows */
+    double *widest; /* [constraints] largest squared norm of each constraint's gradient so far */
+    qdot_precise *held[2]; /* residuals of position and of velocity constraints; NULL: no such constraints */
     size_t factored;
 };
 
 /* --- constraints in MPFR ------------------------------------------------------------- */
 
-/* Entry k of the constraint matrix A, read from an output of the plan's tape. */
+/* The k-th stored element of the constraint matrix A, read from an output of the plan's tape. */
 static const mpfr_t *
-slope(const qdot_precise_bind *e, size_t k)
+constraint_matrix_element(const qdot_precise_bind *e, size_t k)
 {
     return qdot_precise_output(e->series, e->plan->n + e->plan->constraints->n_masses + k);
 }
@@ -58,7 +58,7 @@ slope(const qdot_precise_bind *e, size_t k)
 /* A row that has shrunk far below the largest that it was has no direction left that the error
  * of the run did not make, of whose size it is when a velocity in it is its root. */
 static qdot_status
-find_faded(qdot_precise_bind *e)
+check_for_vanishing_gradient(qdot_precise_bind *e)
 {
     const qdot_constraints *c = e->plan->constraints;
     const double faded = ldexp(1, -(int)e->system.bits / 2);
@@ -69,7 +69,7 @@ find_faded(qdot_precise_bind *e)
 
         for (; s < c->n_slopes && c->slopes[s].row == k; s++) {
             const double x =
-                mpfr_get_d(slope(e, s)[0], MPFR_RNDN);
+                mpfr_get_d(constraint_matrix_element(e, s)[0], MPFR_RNDN);
 
             sum += x * x;
         }
@@ -84,14 +84,14 @@ find_faded(qdot_precise_bind *e)
 /* log2 of the largest |A_ki u_i|, or of 1; u: a row of inputs. *at: the first of the slopes of
  * row k, then that of the next row. */
 static double
-log2_terms(const qdot_precise_bind *e, size_t k, const mpfr_t *u, size_t *at)
+log2_largest_term(const qdot_precise_bind *e, size_t k, const mpfr_t *u, size_t *at)
 {
     const qdot_constraints *c = e->plan->constraints;
     double most = 0;
 
     for (; *at < c->n_slopes && c->slopes[*at].row == k; ++*at)
         most = fmax(most,
-                    qdot_real_log2(slope(e, *at)[0])
+                    qdot_real_log2(constraint_matrix_element(e, *at)[0])
                         + qdot_real_log2(u[c->slopes[*at].column * e->stride]));
     return most;
 }
@@ -100,7 +100,7 @@ log2_terms(const qdot_precise_bind *e, size_t k, const mpfr_t *u, size_t *at)
  * a quarter of them can tell, a step has passed a place behind which q'' = ... is not what they say,
  * as y = sqrt(x) is left at y = 0. */
 static qdot_status
-find_left(qdot_precise_bind *e, const mpfr_t *y)
+check_residuals(qdot_precise_bind *e, const mpfr_t *y)
 {
     const qdot_constraints *c = e->plan->constraints;
     const size_t inputs = 2 * e->plan->n;
@@ -117,11 +117,11 @@ find_left(qdot_precise_bind *e, const mpfr_t *y)
         mpfr_set(qdot_precise_input(e->held[order], inputs)[0], e->t[0], MPFR_RNDN);
         qdot_precise_order(e->held[order], 0);
         for (size_t k = 0; k < c->m; k++) {
-            const double terms = log2_terms(e, k, u, &at);
+            const double terms = log2_largest_term(e, k, u, &at);
 
             if (c->rows[k].kind > (order ? QDOT_VELOCITY : QDOT_HOLONOMIC))
                 continue;
-            /* this test also rejects NaN */
+            /* this form of the test also rejects a NaN */
             if (!(qdot_real_log2(qdot_precise_output(e->held[order], out++)[0]) - terms
                   <= allowed))
                 return qdot_fail(QDOT_EDOMAIN, "constraint %s does not hold beyond it",
@@ -132,7 +132,7 @@ find_left(qdot_precise_bind *e, const mpfr_t *y)
 }
 
 static qdot_status
-make_held(qdot_precise_bind *e)
+make_residual_programs(qdot_precise_bind *e)
 {
     const qdot_constraints *c = e->plan->constraints;
     const qdot_tape *tapes[] = {c->positions, c->velocities};
@@ -146,9 +146,9 @@ make_held(qdot_precise_bind *e)
 
 /* --- accelerations order by order ---------------------------------------------------- */
 
-/* Read K of a block from its entries, or column by column from the program. */
+/* Read the matrix K of a block from its entries, or column by column from the program. */
 static void
-take_matrix(const qdot_precise_bind *e, const solver *s)
+copy_matrix(const qdot_precise_bind *e, const solver *s)
 {
     const qdot_motion *m = e->motion;
 
@@ -158,7 +158,7 @@ take_matrix(const qdot_precise_bind *e, const solver *s)
         mpfr_set_zero(s->lu[i], 1);
     for (size_t k = 0; k < m->entries.n; k++) {
         const qdot_motion_entry *x = m->entries.at + k;
-        /* an index below the block's first wraps and is larger than n */
+        /* the difference wraps around and exceeds n if the index lies before the block */
         const size_t i = x->i - s->first, j = x->j - s->first;
         const mpfr_t *value = qdot_precise_row(e->series, x->at);
 
@@ -169,9 +169,9 @@ take_matrix(const qdot_precise_bind *e, const solver *s)
     }
 }
 
-/* Report the coordinate in whose row the block is singular. */
+/* Report that the matrix K of a block is singular, and the coordinate in whose row that shows. */
 static qdot_status
-say_singular(const qdot_precise_bind *e, const solver *s, size_t failed)
+report_singular(const qdot_precise_bind *e, const solver *s, size_t failed)
 {
     const qdot_plan *p = e->plan;
     const size_t at = e->motion->unknowns.at[e->motion->solved.at[s->first + failed]].twice;
@@ -184,34 +184,34 @@ say_singular(const qdot_precise_bind *e, const solver *s, size_t failed)
 }
 
 static qdot_status
-precise_factor(qdot_precise_bind *e)
+factor_matrices(qdot_precise_bind *e)
 {
     if (e->fixed && e->is_factored)
         return QDOT_OK;
     if (e->plan->constraints)
-        QDOT_TRY(find_faded(e));
+        QDOT_TRY(check_for_vanishing_gradient(e));
     for (size_t b = 0; b < e->blocks; b++) {
         solver *s = e->solvers + b;
         size_t failed;
 
-        take_matrix(e, s);
+        copy_matrix(e, s);
         e->factored++;
         if (qdot_real_lu(s->n, s->lu, s->order, s->scale, &failed, e->w) != QDOT_OK)
-            return say_singular(e, s, failed);
+            return report_singular(e, s, failed);
     }
     e->is_factored = true;
     return QDOT_OK;
 }
 
-/* Compute order k: the accelerations of all coordinates from lower orders, and their integrals. */
+/* Compute the accelerations of order k from the lower orders, then integrate them to velocities and coordinates. */
 static qdot_status
-accelerations(qdot_precise_bind *e, int k)
+compute_accelerations_order(qdot_precise_bind *e, int k)
 {
     qdot_precise_stage(e->series, k);
     if (k < 0)
         return QDOT_OK;
     if (k == 0)
-        QDOT_TRY(precise_factor(e));
+        QDOT_TRY(factor_matrices(e));
     for (size_t b = 0; b < e->blocks; b++) {
         solver *s = e->solvers + b;
 
@@ -227,7 +227,7 @@ accelerations(qdot_precise_bind *e, int k)
     return QDOT_OK;
 }
 
-/* Compute the momenta of the state in the inputs. */
+/* Compute the canonical momenta of the state that was put into the inputs. */
 static void
 find_momenta(qdot_precise_bind *e)
 {
@@ -242,7 +242,7 @@ find_momenta(qdot_precise_bind *e)
 }
 
 static qdot_status
-precise_begin(mpfr_srcptr t, const mpfr_t *y, void *user)
+begin_precise_series(mpfr_srcptr t, const mpfr_t *y, void *user)
 {
     qdot_precise_bind *e = user;
     size_t n = e->plan->n;
@@ -257,22 +257,22 @@ precise_begin(mpfr_srcptr t, const mpfr_t *y, void *user)
     if (e->momenta)
         find_momenta(e);
     for (int k = qdot_motion_first(e->motion); k <= e->late; k++)
-        QDOT_TRY(accelerations(e, k));
+        QDOT_TRY(compute_accelerations_order(e, k));
     for (size_t i = 0; i < n; i++)
         if (!mpfr_number_p(qdot_precise_bind_acceleration(e, i)))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
                              e->plan->names[i]);
-    return e->plan->constraints ? find_left(e, y) : QDOT_OK;
+    return e->plan->constraints ? check_residuals(e, y) : QDOT_OK;
 }
 
 static qdot_status
-precise_extend(int p, void *user)
+extend_precise_series(int p, void *user)
 {
     qdot_precise_bind *e = user;
 
     for (int k = 1 + e->late; k < p + e->late; k++) {
-        QDOT_TRY(qdot_interrupt_check()); /* one order may take long */
-        QDOT_TRY(accelerations(e, k));
+        QDOT_TRY(qdot_interrupt_check()); /* check here, too: one order may take long */
+        QDOT_TRY(compute_accelerations_order(e, k));
     }
     return QDOT_OK;
 }
@@ -318,15 +318,15 @@ make_solvers(qdot_precise_bind *e)
     return QDOT_OK;
 }
 
-/* Bound a step by negligible terms: forces have orders two less than q. */
+/* Find a step so short that the last terms are negligible (log2 of it); forces have two orders less than q. */
 static double
-precise_near(int p, double log2_h, void *user)
+find_log2_of_step(int p, double log2_h, void *user)
 {
     return qdot_precise_near(((const qdot_precise_bind *)user)->series, p - 2, log2_h);
 }
 
 static qdot_status
-precise_make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
+make_precise_series(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 {
     const qdot_plan *p = e->plan;
 
@@ -354,15 +354,15 @@ precise_make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
                                       .most = most,
                                       .x = (const mpfr_t *)e->q,
                                       .stride = e->stride,
-                                      .begin = precise_begin,
-                                      .extend = precise_extend,
-                                      .near = precise_near,
+                                      .begin = begin_precise_series,
+                                      .extend = extend_precise_series,
+                                      .near = find_log2_of_step,
                                       .user = e};
     QDOT_TRY(make_solvers(e));
     if (!p->constraints)
         return QDOT_OK;
     e->widest = qdot_calloc(p->constraints->m, sizeof *e->widest);
-    return e->widest ? make_held(e) : QDOT_ENOMEM;
+    return e->widest ? make_residual_programs(e) : QDOT_ENOMEM;
 }
 
 qdot_status
@@ -376,7 +376,7 @@ qdot_precise_bind_new(const qdot_plan *plan, int most, mpfr_prec_t bits,
     if (!e)
         return QDOT_ENOMEM;
     e->plan = plan;
-    status = precise_make(e, most, bits);
+    status = make_precise_series(e, most, bits);
     if (status != QDOT_OK) {
         qdot_precise_bind_free(e);
         return status;

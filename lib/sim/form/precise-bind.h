@@ -24,16 +24,16 @@ QDOT_MUST_CHECK qdot_status qdot_precise_bind_new(const qdot_plan *plan, int mos
                                                   qdot_precise_bind **bind);
 void qdot_precise_bind_free(qdot_precise_bind *bind);
 
-/* The system of ode/precise.h, with n = 2 plan->n; valid while the bind lives. */
+/* The system of equations for ode/precise.h, with n = 2 plan->n; valid while the bind lives. */
 const qdot_precise_system *qdot_precise_bind_system(const qdot_precise_bind *bind);
 
 /* The acceleration q''_i at the state last passed to `begin`. */
 mpfr_srcptr qdot_precise_bind_acceleration(const qdot_precise_bind *bind, size_t i);
 
-/* Read the multiplier of constraint k at the state last passed to `begin`. */
+/* Read the Lagrange multiplier of constraint k at the state last passed to `begin`. */
 void qdot_precise_bind_multiplier(const qdot_precise_bind *bind, size_t k, mpfr_ptr lambda);
 
-/* How many times M was factored. */
+/* The number of times that the mass matrix M was factored. */
 size_t qdot_precise_bind_factored(const qdot_precise_bind *bind);
 
 #endif

@@ -1,4 +1,4 @@
-/* residual-energy.c -- the energy from the functions of the residual's tree, and terms outside of the tree. */
+/* residual-energy.c -- the energy from the functions in the residual's tree, and from terms outside the tree. */
 #include "sim/form/residual-energy.h"
 
 #include "expr/build.h"
@@ -9,9 +9,9 @@
 #include "mech/dynamics/dalembert.h"
 #include "sim/model/absent.h"
 
-/* Add to each function, or to its rate, that of its parent, from the root down. */
+/* Add to each function (or its rate) that of its parent, from the root down: differences become values. */
 static void
-sum_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
+sum_from_root_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
 {
     for (size_t f = 0; f < r->functions; f++) {
         qdot_expr d = rates ? qdot_ddt(pool, r->difference[f]) : r->difference[f];
@@ -24,17 +24,17 @@ sum_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
 
 /* Add up the energy T + V from its terms; x [functions + 2n] is work space. */
 static qdot_expr
-add_up(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms,
-       qdot_expr *x)
+sum_energy(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms,
+           qdot_expr *x)
 {
     qdot_pool *pool = scene->pool;
     qdot_expr *places = x + r->functions, *kinetic = places + n, V;
 
-    sum_down(pool, r, false, x);
+    sum_from_root_down(pool, r, false, x);
     for (size_t k = 0; k < n; k++)
         places[k] = x[r->weights[k].to];
     V = qdot_mech_dalembert_potential(scene, n, terms, places);
-    sum_down(pool, r, true, x);
+    sum_from_root_down(pool, r, true, x);
     for (size_t k = 0; k < n; k++)
         kinetic[k] = qdot_mul(pool, terms[k].w,
                               qdot_mul(pool, x[r->weights[k].to], x[r->weights[k].from]));
@@ -53,7 +53,7 @@ qdot_residual_add_energy(qdot_scene *scene, const qdot_plan *p, qdot_residual *r
             return QDOT_OK;
     QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
     x = qdot_calloc(r->functions + 2 * n, sizeof *x);
-    r->h = x ? qdot_plan_substitute(p, add_up(scene, r, n, terms, x)) : QDOT_NIL;
+    r->h = x ? qdot_plan_substitute(p, sum_energy(scene, r, n, terms, x)) : QDOT_NIL;
     qdot_free(x);
     qdot_free(terms);
     if (!x)

@@ -19,13 +19,13 @@ struct qdot_residual_sweeps {
     qdot_taylor_wide *places;
     qdot_articulated *system;
     size_t n, nodes, m, c, slots;
-    size_t *lane; /* [n] lane of each coordinate: the k-th coordinate of a node is in slots k ... */
+    size_t *lane; /* [n] vector lane of each coordinate: a node's k-th coordinate is in the slots from k on */
     size_t d[components]; /* first lane of the position differences d, for each component */
-    size_t J[unknowns * components]; /* [c x m] first lane of each slope J = dd/dq */
-    size_t applied[unknowns];        /* first lane of the applied forces; SIZE_MAX: none */
+    size_t J[unknowns * components]; /* [c x m] first lane of each derivative J = dd/dq */
+    size_t applied[unknowns];        /* first lane of the applied forces; SIZE_MAX: no applied forces */
     size_t forces;         /* number of doubles for one order of F, an odd multiple of 8 */
-    double *allocated, *F; /* allocated block; forces [orders x forces], m components for each slot */
-    double *r, *q;         /* [c x slots] right sides; accelerations */
+    double *allocated, *F; /* allocated block; forces F [orders x forces], m components for each slot */
+    double *r, *q;         /* [c x slots] right-hand sides; accelerations */
 };
 
 /* --- sorting lanes by nodes --------------------------------------------------------- */
@@ -35,13 +35,13 @@ typedef struct {
     const qdot_residual *r;
     const qdot_residual_tree *tree;
     const qdot_taylor *t;
-    size_t *at; /* [slots] the node in each slot */
+    size_t *at; /* [slots] index of the tree's node in each slot */
 } builder;
 
 /* Where the outputs [nodes x step] of the program at `from` lie by slots; *to SIZE_MAX:
  * there are none. */
 static qdot_status
-align(const builder *b, const uint32_t *from, size_t step, size_t *to)
+align_outputs(const builder *b, const uint32_t *from, size_t step, size_t *to)
 {
     const qdot_residual_sweeps *s = b->s;
     bool some = false;
@@ -67,7 +67,7 @@ align(const builder *b, const uint32_t *from, size_t step, size_t *to)
     return qdot_taylor_wide_align(s->places, s->slots, b->at, to);
 }
 
-/* Find the output of the program that is the applied force on each coordinate, in the order of the tree. */
+/* Find, in the order of the tree, which program output is the applied force on each coordinate. */
 static qdot_status
 align_applied(const builder *b)
 {
@@ -82,13 +82,13 @@ align_applied(const builder *b)
             i == NONE || b->r->force[i] & QDOT_RESIDUAL_FORCES ? NONE : b->r->force[i];
     }
     for (size_t k = 0; k < t->c && status == QDOT_OK; k++)
-        status = align(b, output + k, t->c, b->s->applied + k);
+        status = align_outputs(b, output + k, t->c, b->s->applied + k);
     qdot_free(output);
     return status;
 }
 
 static qdot_status
-sweeps_make_room(qdot_residual_sweeps *s, size_t orders)
+allocate_sweeps(qdot_residual_sweeps *s, size_t orders)
 {
     const size_t eights = s->m * s->slots / lanes;
     const size_t few = s->c * s->slots;
@@ -117,24 +117,24 @@ sweeps_build(builder *b)
     b->at = qdot_calloc(s->slots, sizeof *b->at);
     if (!b->at)
         return QDOT_ENOMEM;
-    /* the functions are the first outputs of `places`, in their order */
+    /* the functions are the first outputs of the program `places`, in their order */
     for (size_t i = 0; i < s->m; i++)
-        QDOT_TRY(align(b, t->function + i, t->m, s->d + i));
+        QDOT_TRY(align_outputs(b, t->function + i, t->m, s->d + i));
     for (size_t e = 0; e < s->c * s->m; e++) {
-        QDOT_TRY(align(b, t->slope + e, t->c * t->m, s->J + e));
-        if (s->J[e] == SIZE_MAX) { /* slope 0 everywhere: use a row of zeros */
+        QDOT_TRY(align_outputs(b, t->slope + e, t->c * t->m, s->J + e));
+        if (s->J[e] == SIZE_MAX) { /* a derivative that is 0 everywhere: use a row of zeros */
             for (size_t k = 0; k < s->slots; k++)
                 b->at[k] = SIZE_MAX;
             QDOT_TRY(qdot_taylor_wide_align(s->places, s->slots, b->at, s->J + e));
         }
     }
     QDOT_TRY(align_applied(b));
-    QDOT_TRY(sweeps_make_room(s, qdot_taylor_stride(b->t)));
+    QDOT_TRY(allocate_sweeps(s, qdot_taylor_stride(b->t)));
     return qdot_taylor_wide_settle(s->places);
 }
 
 static qdot_status
-sweeps_make(builder *b, const double *w, bool *made)
+make_sweeps(builder *b, const double *w, bool *made)
 {
     qdot_residual_sweeps *s = b->s;
     const qdot_residual_tree *t = b->tree;
@@ -176,7 +176,7 @@ qdot_residual_sweeps_new(const qdot_residual *r, size_t n, const qdot_taylor *pl
     b.s = qdot_calloc(1, sizeof *b.s);
     if (b.s) {
         b.s->n = n;
-        status = sweeps_make(&b, w, &made);
+        status = make_sweeps(&b, w, &made);
     } else {
         status = QDOT_ENOMEM;
     }
@@ -204,10 +204,10 @@ qdot_residual_sweeps_free(qdot_residual_sweeps *s)
 
 /* --- computing one order ------------------------------------------------------------ */
 
-/* Set pointers to order k of the lanes at [count]. */
+/* Set pointers to[count] to the coefficients of order k in the lanes at[count]. */
 static void
-point(const qdot_residual_sweeps *s, int k, size_t count, const size_t *at,
-      const double **to)
+set_order_pointers(const qdot_residual_sweeps *s, int k, size_t count, const size_t *at,
+                   const double **to)
 {
     const double *now = qdot_taylor_wide_at(s->places, k);
 
@@ -227,14 +227,14 @@ qdot_residual_sweeps_begin(qdot_residual_sweeps *s, const qdot_taylor *places,
     for (size_t i = 0; i < s->n; i++)
         s->q[s->lane[i]] = first[i];
     qdot_taylor_wide_correct(s->places, 1, s->q, 1);
-    point(s, 0, s->c * s->m, s->J, S);
+    set_order_pointers(s, 0, s->c * s->m, s->J, S);
     return qdot_articulated_factor(s->system, S, lost, &node, &unknown);
 }
 
 /* Compute r: the applied force minus the convolution of slopes (orders 1 ... k) with forces (orders
  * k - 1 ... 0). */
 static void
-right_side(qdot_residual_sweeps *s, int k, double scale, const double *more)
+compute_right_side(qdot_residual_sweeps *s, int k, double scale, const double *more)
 {
     const size_t width = qdot_taylor_wide_width(s->places);
     const double *J = qdot_taylor_wide_at(s->places, 1);
@@ -269,10 +269,10 @@ qdot_residual_sweeps_order(qdot_residual_sweeps *s, int m, double scale,
     const double *S[unknowns * components], *d[components], *r[unknowns];
     double *found[unknowns], *F[components];
 
-    right_side(s, k, scale, more);
+    compute_right_side(s, k, scale, more);
     qdot_taylor_wide_order(s->places, m);
-    point(s, 0, s->c * s->m, s->J, S);
-    point(s, m, s->m, s->d, d);
+    set_order_pointers(s, 0, s->c * s->m, s->J, S);
+    set_order_pointers(s, m, s->m, s->d, d);
     for (size_t u = 0; u < s->c; u++) {
         r[u] = s->r + u * s->slots;
         found[u] = s->q + u * s->slots;

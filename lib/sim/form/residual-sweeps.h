@@ -40,7 +40,7 @@ void qdot_residual_sweeps_order(qdot_residual_sweeps *tree, int m, double scale,
 void qdot_residual_sweeps_rows(const qdot_residual_sweeps *tree, int last,
                                double per_unit, double *q, double *v, size_t stride);
 
-/* Count operations as qdot_residual_vectors_count does; `products` are those of the sweeps. */
+/* Count operations like qdot_residual_vectors_count; `products` are those of sweeps along the tree. */
 void qdot_residual_sweeps_count(const qdot_residual_sweeps *tree, double *convolutions,
                                 double *products, double *begun);
 size_t qdot_residual_sweeps_nodes(const qdot_residual_sweeps *tree);

@@ -12,12 +12,12 @@ typedef struct {
     qdot_residual_tree *t;
     size_t n;
     uint32_t
-        *group; /* [functions] the previous function of the same node; itself for the first one */
+        *group; /* [functions] another function of the same node (links to its first one); itself for the first */
     uint32_t *first; /* [n] a function that depends on each coordinate */
 } builder;
 
 static uint32_t
-first_of(builder *b, uint32_t f)
+first_function_of_node(builder *b, uint32_t f)
 {
     while (b->group[f] != f)
         f = b->group[f] = b->group[b->group[f]];
@@ -25,19 +25,19 @@ first_of(builder *b, uint32_t f)
 }
 
 static bool
-frames_join(builder *b, uint32_t f, uint32_t g)
+join_nodes(builder *b, uint32_t f, uint32_t g)
 {
-    f = first_of(b, f);
-    g = first_of(b, g);
+    f = first_function_of_node(b, f);
+    g = first_function_of_node(b, g);
     if (f == g)
         return false;
     b->group[f > g ? f : g] = f > g ? g : f;
     return true;
 }
 
-/* Join the functions that must be in one node; then their parents must be in one node, too. */
+/* Join functions into nodes: those of one coordinate, then those whose children share a node, repeatedly. */
 static void
-join_all(builder *b)
+join_functions(builder *b)
 {
     const qdot_residual *r = b->r;
     bool changed = true;
@@ -47,20 +47,20 @@ join_all(builder *b)
     for (size_t i = 0; i < b->n; i++)
         b->first[i] = NONE;
     for (size_t w = 0; w < r->n_weights; w++)
-        frames_join(b, r->weights[w].to, r->weights[w].from);
+        join_nodes(b, r->weights[w].to, r->weights[w].from);
     for (size_t j = 0; j < r->n_slopes; j++) {
         uint32_t *first = b->first + r->slopes[j].coordinate;
 
         if (*first == NONE)
             *first = r->slopes[j].function;
-        frames_join(b, *first, r->slopes[j].function);
+        join_nodes(b, *first, r->slopes[j].function);
     }
     while (changed) {
         changed = false;
         for (uint32_t f = 0; f < r->functions; f++)
             for (uint32_t g = f; r->parent[f] != NONE && g-- > 0;)
-                if (r->parent[g] != NONE && first_of(b, f) == first_of(b, g))
-                    changed = frames_join(b, r->parent[f], r->parent[g]) || changed;
+                if (r->parent[g] != NONE && first_function_of_node(b, f) == first_function_of_node(b, g))
+                    changed = join_nodes(b, r->parent[f], r->parent[g]) || changed;
     }
 }
 
@@ -74,7 +74,7 @@ number_nodes(builder *b)
     size_t c = 0;
 
     for (uint32_t f = 0; f < r->functions; f++) {
-        const uint32_t first = first_of(b, f);
+        const uint32_t first = first_function_of_node(b, f);
         size_t size = 1;
 
         t->node[f] = first == f ? (uint32_t)t->nodes++ : t->node[first];
@@ -98,9 +98,9 @@ number_nodes(builder *b)
     return t->m <= QDOT_ARTICULATED_COMPONENTS && c > 0 && c <= QDOT_ARTICULATED_UNKNOWNS;
 }
 
-/* The first component of the node to which no function has been assigned. */
+/* The first component of a node to which no function has been assigned. */
 static uint32_t
-free_place(const qdot_residual_tree *t, uint32_t node)
+free_component(const qdot_residual_tree *t, uint32_t node)
 {
     uint32_t place = 0;
 
@@ -110,15 +110,15 @@ free_place(const qdot_residual_tree *t, uint32_t node)
 }
 
 static void
-put_function(qdot_residual_tree *t, uint32_t f, uint32_t place)
+assign_function(qdot_residual_tree *t, uint32_t f, uint32_t place)
 {
     t->function[t->node[f] * t->m + place] = f;
     t->place[f] = place;
 }
 
-/* Assign each function to the component that its parent has, if that is free. */
+/* Assign each function to the same component as its parent has, if that is free in its node. */
 static void
-place_functions(builder *b)
+assign_functions(builder *b)
 {
     const qdot_residual *r = b->r;
     qdot_residual_tree *t = b->t;
@@ -129,10 +129,10 @@ place_functions(builder *b)
         const uint32_t parent = r->parent[f];
         const uint32_t same = parent == NONE ? NONE : t->place[parent];
 
-        put_function(t, f,
-                     same != NONE && t->function[t->node[f] * t->m + same] == NONE
+        assign_function(t, f,
+                        same != NONE && t->function[t->node[f] * t->m + same] == NONE
                          ? same
-                         : free_place(t, t->node[f]));
+                         : free_component(t, t->node[f]));
         if (parent != NONE)
             t->parent[t->node[f] * t->m + t->place[f]] =
                 (uint32_t)(t->node[parent] * t->m + t->place[parent]);
@@ -140,7 +140,7 @@ place_functions(builder *b)
 }
 
 static void
-place_coordinates(builder *b)
+assign_coordinates(builder *b)
 {
     const qdot_residual *r = b->r;
     qdot_residual_tree *t = b->t;
@@ -178,7 +178,7 @@ tree_build(builder *b, bool *is_tree)
     t->place = qdot_calloc(r->functions + 1, sizeof *t->place);
     if (!b->group || !b->first || !t->node || !t->place)
         return QDOT_ENOMEM;
-    join_all(b);
+    join_functions(b);
     if (!number_nodes(b))
         return QDOT_OK;
     t->function = qdot_calloc(t->nodes * t->m, sizeof *t->function);
@@ -188,8 +188,8 @@ tree_build(builder *b, bool *is_tree)
     t->unknowns = qdot_calloc(t->nodes, sizeof *t->unknowns);
     if (!t->function || !t->parent || !t->coordinate || !t->slope || !t->unknowns)
         return QDOT_ENOMEM;
-    place_functions(b);
-    place_coordinates(b);
+    assign_functions(b);
+    assign_coordinates(b);
     *is_tree = true;
     return QDOT_OK;
 }

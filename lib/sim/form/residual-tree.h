@@ -14,12 +14,12 @@
 #include "sim/form/residual.h"
 
 typedef struct {
-    size_t nodes, m, c; /* number of nodes; largest number of components, of coordinates of a node */
+    size_t nodes, m, c; /* number of nodes; largest number of components (functions) and of coordinates of a node */
     uint32_t *function;     /* [nodes x m] function of each component; UINT32_MAX: none */
     uint32_t *coordinate;   /* [nodes x c] the node's coordinates; UINT32_MAX: fewer than c */
-    uint32_t *slope; /* [nodes x c x m] output of `places` that is the slope; UINT32_MAX: 0 */
+    uint32_t *slope; /* [nodes x c x m] output of `places` that is the derivative by a coordinate; UINT32_MAX: 0 */
     uint32_t *node, *place; /* [functions] node and component to which a function belongs */
-    uint32_t *parent;       /* [nodes x m] component of the parent, as in num/articulated.h */
+    uint32_t *parent;       /* [nodes x m] component of the parent node, as in num/articulated.h */
     uint8_t *unknowns;      /* [nodes] number of coordinates of the node */
 } qdot_residual_tree;
 
@@ -29,7 +29,7 @@ QDOT_MUST_CHECK qdot_status qdot_residual_tree_new(const qdot_residual *r, size_
                                                    qdot_residual_tree **tree);
 void qdot_residual_tree_free(qdot_residual_tree *tree);
 
-/* Make the linear system along the tree, with weights w [n_weights]. Errors: QDOT_ENOMEM. */
+/* Make the linear system of the tree, with the weights w [n_weights]. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_residual_tree_system(const qdot_residual_tree *tree,
                                                       const qdot_residual *r,
                                                       const double *w,

@@ -1,4 +1,4 @@
-/* residual.c -- the functions of d'Alembert's residual as a tree, with slopes, weights and tapes. */
+/* residual.c -- the functions of d'Alembert's residual as a tree, with derivatives, weights and tapes. */
 #include "sim/form/residual.h"
 
 #include <string.h>
@@ -16,14 +16,14 @@
 #include "tape/keymap.h"
 #include "tape/rounding.h"
 
-/* The numbers of earlier functions among which the parent of a function is searched. */
+/* Among how many earlier functions the parent of a function is searched: closely, and at most. */
 enum { near = 8, looked_at = 64 };
 
 typedef struct {
     const qdot_plan *plan;
     qdot_residual *r;
     qdot_vec(qdot_expr) functions, outputs, forces;
-    qdot_keymap place; /* maps (term, function + 1) to its position in that function's sum */
+    qdot_keymap place; /* maps (term, function + 1) to the term's position in the sum that is the function */
     qdot_vec(qdot_expr) terms; /* the terms of a difference of two positions */
 } builder;
 
@@ -49,9 +49,9 @@ qdot_residual_free(qdot_residual *r)
     qdot_free(r);
 }
 
-/* Find the index of function e in the list; e is appended if it is new. */
+/* Find the index of function e in the list of functions; a new function is appended. */
 static qdot_status
-function_of(builder *b, qdot_expr e, uint32_t *f)
+find_or_add_function(builder *b, qdot_expr e, uint32_t *f)
 {
     for (size_t i = b->functions.n; i-- > 0;)
         if (b->functions.at[i] == e) {
@@ -62,15 +62,15 @@ function_of(builder *b, qdot_expr e, uint32_t *f)
     return qdot_vec_push(&b->functions, e);
 }
 
-/* Add a term: the functions x, y and the weight w of their product, with parameter values. */
+/* Add a term of d'Alembert's principle: functions x, y, and the weight w of their product. */
 static qdot_status
 add_term(builder *b, qdot_expr x, qdot_expr y, qdot_expr w)
 {
     qdot_residual_weight *weight = b->r->weights + b->r->n_weights++;
     int side;
 
-    QDOT_TRY(function_of(b, x, &weight->from));
-    QDOT_TRY(function_of(b, y, &weight->to));
+    QDOT_TRY(find_or_add_function(b, x, &weight->from));
+    QDOT_TRY(find_or_add_function(b, y, &weight->to));
     weight->exact = w;
     QDOT_TRY(qdot_constant_split(b->plan->pool, w, &weight->w, &side, &weight->low));
     weight->side = (signed char)side;
@@ -120,9 +120,9 @@ factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i)
     return qdot_expr_arg(pool, e, 2 * i + 2);
 }
 
-/* Record the positions of the terms of a sum. */
+/* Record the position of each term of the sum e. */
 static qdot_status
-note_places(builder *b, qdot_expr e)
+record_term_positions(builder *b, qdot_expr e)
 {
     const uint32_t n = terms_of(b->plan->pool, e);
 
@@ -133,7 +133,7 @@ note_places(builder *b, qdot_expr e)
 }
 
 static uint32_t
-term_place(const builder *b, qdot_expr term)
+position_of_term(const builder *b, qdot_expr term)
 {
     return qdot_keymap_get(&b->place, term, 0, 0, 0);
 }
@@ -141,16 +141,16 @@ term_place(const builder *b, qdot_expr term)
 /* Terms that the difference of two sums has at least, but for those that differ by a factor; the
  * places of those of e are noted. More than `most`: some number beyond it. */
 static size_t
-terms_apart(const builder *b, qdot_expr e, qdot_expr g, size_t most)
+least_different_terms(const builder *b, qdot_expr e, qdot_expr g, size_t most)
 {
     const qdot_pool *pool = b->plan->pool;
     const uint32_t n = terms_of(pool, e), m = terms_of(pool, g);
-    size_t apart = n > m ? n - m : 0; /* the number of different terms if all terms of g are common */
+    size_t apart = n > m ? n - m : 0; /* the number of different terms if all terms of g are also terms of e */
 
     if (qdot_expr_kind(pool, g) != QDOT_SUM)
         return n - 1;
     for (uint32_t k = 0, common = 0; k < m && apart <= most; k++) {
-        const uint32_t i = term_place(b, term_at(pool, g, k));
+        const uint32_t i = position_of_term(b, term_at(pool, g, k));
 
         common += i != QDOT_KEYMAP_NONE && factor_at(pool, e, i) == factor_at(pool, g, k);
         apart = n + m > 2 * (common + (m - 1 - k)) ? n + m - 2 * (common + (m - 1 - k)) : 0;
@@ -159,14 +159,14 @@ terms_apart(const builder *b, qdot_expr e, qdot_expr g, size_t most)
 }
 
 static qdot_status
-push_term(builder *b, qdot_expr term, qdot_expr factor)
+append_term(builder *b, qdot_expr term, qdot_expr factor)
 {
     return qdot_vec_push(&b->terms, qdot_mul(b->plan->pool, factor, term));
 }
 
-/* Find the difference e - g of two sums in canonical order: *d gets the terms that they do not share. */
+/* Find the difference *d = e - g of two sums in canonical order, from the terms that they do not share. */
 static qdot_status
-difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
+find_difference(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
 {
     qdot_pool *pool = b->plan->pool;
     const uint32_t n = terms_of(pool, e), m = terms_of(pool, g);
@@ -177,22 +177,22 @@ difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
         return qdot_pool_check(pool);
     }
     b->terms.n = 0;
-    QDOT_TRY(push_term(b, qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, g, 0)),
-                       QDOT_ONE));
+    QDOT_TRY(append_term(b, qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, g, 0)),
+                         QDOT_ONE));
     for (uint32_t k = 0; k < m; k++) {
         const qdot_expr term = term_at(pool, g, k);
         qdot_expr factor = qdot_neg(pool, factor_at(pool, g, k));
-        const uint32_t at = term_place(b, term);
+        const uint32_t at = position_of_term(b, term);
 
         for (; at != QDOT_KEYMAP_NONE && i < at; i++)
-            QDOT_TRY(push_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
+            QDOT_TRY(append_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
         if (at != QDOT_KEYMAP_NONE)
             factor = qdot_add(pool, factor_at(pool, e, i++), factor);
         if (factor != QDOT_ZERO)
-            QDOT_TRY(push_term(b, term, factor));
+            QDOT_TRY(append_term(b, term, factor));
     }
     for (; i < n; i++)
-        QDOT_TRY(push_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
+        QDOT_TRY(append_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
     *d = qdot_sum(pool, b->terms.n, b->terms.at);
     return qdot_pool_check(pool);
 }
@@ -200,7 +200,7 @@ difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
 /* The parent that leaves the fewest terms, of those the shortest; far ones are looked at where
  * no near one leaves a single term. */
 static qdot_status
-find_parent(builder *b, size_t f)
+choose_parent(builder *b, size_t f)
 {
     qdot_pool *pool = b->plan->pool;
     qdot_expr e = b->functions.at[f], best = e;
@@ -210,16 +210,16 @@ find_parent(builder *b, size_t f)
 
     b->r->parent[f] = UINT32_MAX;
     if (qdot_expr_kind(pool, e) == QDOT_SUM)
-        QDOT_TRY(note_places(b, e));
+        QDOT_TRY(record_term_positions(b, e));
     for (size_t i = f; i-- > first && qdot_expr_kind(pool, e) == QDOT_SUM;) {
         qdot_expr d;
         size_t terms;
 
         if (i + near < f && fewest == 1)
             break;
-        if (terms_apart(b, e, b->functions.at[i], fewest) > fewest)
+        if (least_different_terms(b, e, b->functions.at[i], fewest) > fewest)
             continue;
-        QDOT_TRY(difference_of(b, e, b->functions.at[i], &d));
+        QDOT_TRY(find_difference(b, e, b->functions.at[i], &d));
         terms = terms_of(pool, d);
         if (terms > fewest || (terms == fewest && qdot_expr_size(pool, d) >= shortest))
             continue;
@@ -233,7 +233,7 @@ find_parent(builder *b, size_t f)
 }
 
 static qdot_status
-add_slopes(builder *b, size_t f)
+add_function_derivatives(builder *b, size_t f)
 {
     const qdot_plan *p = b->plan;
     size_t capacity = b->r->n_slopes;
@@ -262,7 +262,7 @@ add_slopes(builder *b, size_t f)
 }
 
 static qdot_status
-add_forces(builder *b, qdot_expr Q)
+add_applied_forces(builder *b, qdot_expr Q)
 {
     const qdot_plan *p = b->plan;
 
@@ -285,7 +285,7 @@ add_forces(builder *b, qdot_expr Q)
 }
 
 static qdot_status
-lower_masses(builder *b)
+make_mass_tape_of_plan(builder *b)
 {
     const qdot_plan *p = b->plan;
     qdot_vec(qdot_expr) out = {0};
@@ -328,12 +328,12 @@ residual_build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr
     if (!r->parent || !r->difference)
         return QDOT_ENOMEM;
     for (size_t f = 0; f < r->functions; f++)
-        QDOT_TRY(find_parent(b, f));
+        QDOT_TRY(choose_parent(b, f));
     for (size_t f = 0; f < r->functions; f++)
         QDOT_TRY(qdot_vec_push(&b->outputs, b->r->difference[f]));
     for (size_t f = 0; f < r->functions; f++)
-        QDOT_TRY(add_slopes(b, f));
-    QDOT_TRY(add_forces(b, Q));
+        QDOT_TRY(add_function_derivatives(b, f));
+    QDOT_TRY(add_applied_forces(b, Q));
     QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, b->outputs.n, b->outputs.at,
                            &r->places));
     QDOT_TRY(qdot_rounding_show(r->places));
@@ -342,7 +342,7 @@ residual_build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr
                                b->forces.at, &r->forces));
         QDOT_TRY(qdot_rounding_show(r->forces));
     }
-    return lower_masses(b);
+    return make_mass_tape_of_plan(b);
 }
 
 qdot_status

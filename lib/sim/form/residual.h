@@ -26,7 +26,7 @@
 #include "sim/model/equations.h"
 
 typedef struct {
-    uint32_t to, from; /* indices of functions: F_to += w x''_from */
+    uint32_t to, from; /* indices of two functions: F_to has the term w x''_from */
     double w;
     signed char side; /* sign of (exact w - w) */
     double low;       /* exact w - w, rounded */
@@ -34,7 +34,7 @@ typedef struct {
 } qdot_residual_weight;
 
 typedef struct {
-    /* indices of function f, coordinate i, and output of `places` for the slope dd_f/dq_i */
+    /* indices: function f, coordinate i, and the output of `places` that is the derivative dd_f/dq_i */
     uint32_t function, coordinate, output;
 } qdot_residual_slope;
 
@@ -44,13 +44,13 @@ struct qdot_residual {
     uint32_t *parent;      /* [functions] parent function, earlier in the list; UINT32_MAX: none */
     qdot_residual_weight *weights;
     size_t n_weights;
-    qdot_residual_slope *slopes; /* the slopes dd_f/dq_i that are not identically 0 */
+    qdot_residual_slope *slopes; /* the derivatives dd_f/dq_i that are not identically 0 */
     size_t n_slopes;
     qdot_expr *applied; /* [n] applied forces Q_i, with parameter values */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
-    /* Tapes with the inputs q, q' and t: */
-    qdot_tape *places; /* outputs: the d_f in their order, their slopes, and the parts of Q_i without velocities */
+    /* Tapes from q, q' and t to the functions' differences and the applied forces: */
+    qdot_tape *places; /* outputs: differences d_f in their order, their derivatives, and Q_i's parts without velocities */
     qdot_tape *forces; /* outputs: Q_i that depend on velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
                           plan without M (sim/plan/tree-alone.h) */
@@ -62,7 +62,7 @@ struct qdot_residual {
      * (sim/form/residual-energy.h). */
     qdot_expr h;
     qdot_tape *energy;
-    bool *absent; /* [n] coordinates of which h may be independent, as found at sample points */
+    bool *absent; /* [n] whether h may be independent of the coordinate, as found at sample points */
 };
 
 #define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)
@@ -71,7 +71,7 @@ struct qdot_residual {
  * not apply. */
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
-/* Make the series programs of the residual's tapes unless they exist. Errors: those of series. */
+/* Make the Taylor series programs of the residual's tapes, unless they exist. Errors: those of series. */
 QDOT_MUST_CHECK qdot_status qdot_residual_programs(qdot_residual *residual);
 void qdot_residual_free(qdot_residual *residual);
 

@@ -1,4 +1,4 @@
-/* saddle-solver.c -- solves [M A^T; A 0]; measures how independent the constraints are, also along the step. */
+/* saddle-solver.c -- solves [M A^T; A 0]; measures the constraints' independence, also along the step. */
 #include "sim/form/saddle-solver.h"
 
 #include <float.h>
@@ -9,14 +9,14 @@
 #include "series/taylor-motion.h"
 #include "sim/model/constrained.h"
 
-/* Constraints are nearly dependent if their independence falls below this part of its best value. */
+/* Constraints are nearly dependent if their independence falls below this fraction of its largest value. */
 static const double nearly = 0.3;
 
 /* Of what is left of their independence now, where a place ahead at which nothing is is believed:
  * what Newton's method leaves there, and the highest of the orders it looks at. */
 static const double settled = 1e-6, shown = 0.5;
 
-/* Prepare the solver; the entries of the motion are those of M, followed by those of A. */
+/* Prepare the solver; the motion's matrix entries are those of M, followed by those of A. */
 qdot_status
 qdot_saddle_solver_init(qdot_saddle_solver *s, const qdot_plan *plan, const qdot_taylor *series)
 {
@@ -45,7 +45,7 @@ qdot_saddle_solver_clear(qdot_saddle_solver *s)
 }
 
 static double
-value(const qdot_saddle_series *entry)
+value_of_entry(const qdot_saddle_series *entry)
 {
     return entry->sign * entry->series[0];
 }
@@ -59,10 +59,10 @@ qdot_saddle_solver_factor(qdot_saddle_solver *s)
     for (size_t k = 0; k < c->n_masses; k++) {
         const size_t i = c->masses[k].row, j = c->masses[k].column;
 
-        s->matrix.M[i * n + j] = s->matrix.M[j * n + i] = value(s->M + k);
+        s->matrix.M[i * n + j] = s->matrix.M[j * n + i] = value_of_entry(s->M + k);
     }
     for (size_t k = 0; k < c->n_slopes; k++)
-        s->matrix.A[c->slopes[k].row * n + c->slopes[k].column] = value(s->A + k);
+        s->matrix.A[c->slopes[k].row * n + c->slopes[k].column] = value_of_entry(s->A + k);
     return qdot_constrained_factor(s->plan, &s->matrix);
 }
 

@@ -17,7 +17,7 @@
  * tolerances at which no rounding counts. */
 enum { QDOT_SADDLE_REFINED = 3, QDOT_SADDLE_LEAST_REFINED = 18 };
 
-/* An entry of M or A. */
+/* An entry of the mass matrix M or of the constraint matrix A. */
 typedef struct {
     const double *series; /* Taylor coefficients of the entry, up to the sign; borrowed */
     double sign;          /* the entry is `sign` times the series */
@@ -25,9 +25,9 @@ typedef struct {
 
 typedef struct {
     const qdot_plan *plan;
-    qdot_saddle matrix;        /* the system for q'' and -lambda */
+    qdot_saddle matrix;        /* the linear system for q'' and -lambda */
     qdot_saddle_series *M, *A; /* entries of M [n_masses] and of A [n_slopes] */
-    double best;               /* best independence of the constraints in factorisations so far */
+    double best;               /* largest measure of the constraints' independence in factorisations so far */
     double *weak;              /* [m + n] scratch */
 } qdot_saddle_solver;
 
@@ -41,7 +41,7 @@ void qdot_saddle_solver_clear(qdot_saddle_solver *s);
  * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_solver_look(qdot_saddle_solver *s, double t, const double *y);
 
-/* Factor the matrix; order 0 of its entries must be known. Errors: those of qdot_constrained_factor. */
+/* Factor the matrix; its entries must be known to order 0. Errors: those of qdot_constrained_factor. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_solver_factor(qdot_saddle_solver *s);
 
 /* Relative noise of coefficients, of a series whose matrix is factored; how far ahead constraints

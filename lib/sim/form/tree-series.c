@@ -1,4 +1,4 @@
-/* tree-series.c -- computes each order of q'' by one sweep up the tree and one down. */
+/* tree-series.c -- computes each Taylor order of q'' by one sweep up the tree of bodies and one down. */
 #include "sim/form/tree-series.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { most_order = 44, lanes = 8 };
 
-/* M counts as singular if a pivot, relative to its mass, is below this: four digits are then lost. */
+/* M counts as singular if a pivot, relative to its mass, is smaller: four digits are lost then. */
 static const double least_pivot = 1e-4;
 
 struct qdot_tree_series {
@@ -28,15 +28,15 @@ struct qdot_tree_series {
     double unit, force_scale; /* unit of time; its square, by which forces are multiplied */
     const double *
         *applied; /* [n] Taylor coefficients of velocity-dependent Q_i; NULL: zero, or in `places` */
-    const double **slope;   /* [n_slopes] Taylor coefficients of the slopes */
-    double *x, *F;          /* [functions] coefficient of x'' and of F at the present order */
-    size_t eliminated;      /* how many times M has been eliminated */
-    double *R;              /* [n] right sides of the equations */
+    const double **slope;   /* [n_slopes] Taylor coefficients of the derivatives dd_f/dq_i */
+    double *x, *F;          /* [functions] Taylor coefficients of x'' and of the forces F, at the present order */
+    size_t eliminated;      /* number of times that M has been eliminated so far */
+    double *R;              /* [n] right-hand sides of the equations */
 };
 
 /* --- along the tree --------------------------------------------------------------------- */
 
-/* Evaluate order k of the forces that depend on velocities. */
+/* Evaluate the Taylor coefficients of order k of the forces that depend on velocities. */
 static void
 evaluate_forces(qdot_tree_series *s, int k)
 {
@@ -51,28 +51,28 @@ evaluate_forces(qdot_tree_series *s, int k)
         s->R[i] = s->applied[i] ? s->force_scale * s->applied[i][k] : 0;
 }
 
-/* Store the coefficients of q up to order m, and of v up to order m - 1. */
+/* Store the Taylor coefficients of q up to order m, and of v up to order m - 1. */
 static void
-fill_rows(const qdot_tree_series *s, int m)
+store_coefficients(const qdot_tree_series *s, int m)
 {
     qdot_residual_sweeps_rows(s->tree, m, 1 / s->unit, s->places.q, s->places.v,
                               s->places.stride);
 }
 
-/* Compute coefficients m >= 2 of q. */
+/* Compute the Taylor coefficients of order m >= 2 of the coordinates q. */
 static void
-order(qdot_tree_series *s, int m)
+compute_coordinates_order(qdot_tree_series *s, int m)
 {
     evaluate_forces(s, m - 2);
     qdot_residual_sweeps_order(s->tree, m, s->force_scale,
                                s->forces.taylor ? s->R : NULL);
     if (s->forces.taylor)
-        fill_rows(s, m);
+        store_coefficients(s, m);
 }
 
-/* Factor M by Cholesky's method; fails if M is singular. */
+/* Factor the mass matrix M by Cholesky's method; fails if M is singular. */
 static qdot_status
-tree_factor(qdot_tree_series *s)
+factor_mass_matrix(qdot_tree_series *s)
 {
     const size_t n = s->plan->n;
     double *M = qdot_calloc(n * n, sizeof *M);
@@ -88,9 +88,9 @@ tree_factor(qdot_tree_series *s)
                                     : status;
 }
 
-/* Set orders 0 and 1 of the series, and eliminate M along the tree. */
+/* Set the orders 0 and 1 of the Taylor series, and eliminate M along the tree. */
 static qdot_status
-tree_eliminate(qdot_tree_series *s, const double *y)
+begin_elimination(qdot_tree_series *s, const double *y)
 {
     double lost;
     bool good;
@@ -102,14 +102,14 @@ tree_eliminate(qdot_tree_series *s, const double *y)
     s->eliminated++;
     if (good && lost >= least_pivot)
         return QDOT_OK;
-    QDOT_TRY(tree_factor(s));
+    QDOT_TRY(factor_mass_matrix(s));
     return good
                ? QDOT_OK
                : qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular within rounding");
 }
 
 static qdot_status
-tree_begin(double t, const double *y, double unit, void *user)
+begin_tree_series(double t, const double *y, double unit, void *user)
 {
     qdot_tree_series *s = user;
     size_t n = s->plan->n;
@@ -119,9 +119,9 @@ tree_begin(double t, const double *y, double unit, void *user)
     qdot_expansion_begin(&s->places, t, y, unit);
     if (s->forces.taylor)
         qdot_expansion_begin(&s->forces, t, y, unit);
-    QDOT_TRY(tree_eliminate(s, y));
-    order(s, 2);
-    fill_rows(s, 2);
+    QDOT_TRY(begin_elimination(s, y));
+    compute_coordinates_order(s, 2);
+    store_coefficients(s, 2);
     for (size_t i = 0; i < n; i++)
         if (!isfinite(s->places.v[i * s->places.stride + 1]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -130,19 +130,19 @@ tree_begin(double t, const double *y, double unit, void *user)
 }
 
 static qdot_status
-tree_extend(int p, void *user)
+extend_tree_series(int p, void *user)
 {
     qdot_tree_series *s = user;
 
     for (int m = 3; m <= p + 1; m++)
-        order(s, m);
-    fill_rows(s, p + 1);
+        compute_coordinates_order(s, m);
+    store_coefficients(s, p + 1);
     return QDOT_OK;
 }
 
-/* Bound a step by negligible terms: forces have orders two less than q. */
+/* Find a step so short that the series' last terms are negligible; forces have two orders less than q. */
 static double
-tree_near(int p, double step, double least, void *user)
+find_negligible_step(int p, double step, double least, void *user)
 {
     const qdot_tree_series *s = user;
 
@@ -153,7 +153,7 @@ tree_near(int p, double step, double least, void *user)
 /* --- making the series ------------------------------------------------------------------ */
 
 static qdot_status
-make_tapes(qdot_tree_series *s, bool shaken)
+make_series_of_tapes(qdot_tree_series *s, bool shaken)
 {
     const qdot_residual *r = s->residual;
     const size_t n = s->plan->n;
@@ -168,12 +168,12 @@ make_tapes(qdot_tree_series *s, bool shaken)
 }
 
 static qdot_status
-tree_make(qdot_tree_series *s, bool shaken)
+make_tree_series(qdot_tree_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const qdot_residual *r = s->residual;
 
-    QDOT_TRY(make_tapes(s, shaken));
+    QDOT_TRY(make_series_of_tapes(s, shaken));
     s->weight = qdot_calloc(r->n_weights, sizeof *s->weight);
     s->x = qdot_calloc(r->functions, sizeof *s->x);
     s->F = qdot_calloc(r->functions, sizeof *s->F);
@@ -199,12 +199,12 @@ tree_make(qdot_tree_series *s, bool shaken)
                                   .stride = s->places.stride,
                                   .checked = p->n,
                                   .cost = p->expansions,
-                                  .begin = tree_begin,
-                                  .extend = tree_extend,
+                                  .begin = begin_tree_series,
+                                  .extend = extend_tree_series,
                                   .user = s};
     if (qdot_taylor_may_hide(s->places.taylor) ||
         (s->forces.taylor && qdot_taylor_may_hide(s->forces.taylor)))
-        s->series.near = tree_near;
+        s->series.near = find_negligible_step;
     return QDOT_OK;
 }
 
@@ -220,7 +220,7 @@ qdot_tree_series_new(const qdot_plan *plan, const qdot_residual *residual, bool 
         return QDOT_ENOMEM;
     s->plan = plan;
     s->residual = residual;
-    status = tree_make(s, shaken);
+    status = make_tree_series(s, shaken);
     if (status == QDOT_OK && s->tree)
         *series = s;
     else

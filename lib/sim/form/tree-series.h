@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_tree_series_new(const qdot_plan *plan,
                                                  qdot_tree_series **series);
 void qdot_tree_series_free(qdot_tree_series *series);
 
-/* The callbacks of the series for `ode`; borrowed. */
+/* The callbacks of the tree's Taylor series for the integrator (ode); borrowed. */
 const qdot_ode_series *qdot_tree_series_get(const qdot_tree_series *series);
 
 /* Convolutions an order. What its expansions consist of; whether the tree is one path; how

@@ -23,7 +23,7 @@ qdot_work_of_motion(const qdot_plan *plan, const qdot_motion *motion,
         w.unknowns += n;
         w.squares += n * n;
         w.cubes += n * n * n;
-        while (!plan->constraints && plan->blocks[k].n == 1) /* skip unknowns that are given explicitly */
+        while (!plan->constraints && plan->blocks[k].n == 1) /* skip blocks of one unknown, which are given explicitly */
             k++;
         if (!plan->constraints && plan->blocks[k].constant)
             continue;

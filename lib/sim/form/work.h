@@ -13,7 +13,7 @@
 typedef struct {
     double coordinates;
     double length; /* number of program steps executed by compiled kernels, repetitions counted */
-    double convolutions; /* products of two series in these steps, for each order */
+    double convolutions; /* products of two series in the program, each evaluated anew at every order */
     double calls;        /* calls of elementary functions, once for each expansion */
     double operations;   /* operations of the tape that computes K */
     /* Of blocks of n >= 2 unknowns that are solved for together: sums of n, n^2, n^3; of

@@ -7,7 +7,7 @@
 #include "sim/model/constrained-parts.h"
 
 static void
-load(qdot_constrained *h, double t, const double *q, const double *v)
+load_state(qdot_constrained *h, double t, const double *q, const double *v)
 {
     const size_t n = h->plan->n;
 
@@ -18,35 +18,35 @@ load(qdot_constrained *h, double t, const double *q, const double *v)
 }
 
 static qdot_status
-positions(double t, const double *q, double *g, void *user)
+position_residuals(double t, const double *q, double *g, void *user)
 {
     qdot_constrained *h = user;
 
-    load(h, t, q, NULL);
+    load_state(h, t, q, NULL);
     qdot_tape_eval(qdot_constrained_tape(h->positions, h->c->positions), h->in, g,
                    h->work);
     return QDOT_OK;
 }
 
 static qdot_status
-velocities(double t, const double *q, const double *v, double *w, void *user)
+velocity_residuals(double t, const double *q, const double *v, double *w, void *user)
 {
     qdot_constrained *h = user;
 
-    load(h, t, q, v);
+    load_state(h, t, q, v);
     qdot_tape_eval(qdot_constrained_tape(h->velocities, h->c->velocities), h->in, w,
                    h->work);
     return QDOT_OK;
 }
 
 static qdot_status
-pull(double t, const double *q, const double *lambda, double *F, void *user)
+constraint_forces(double t, const double *q, const double *lambda, double *F, void *user)
 {
     qdot_constrained *h = user;
     const qdot_constraints *c = h->c;
     const double *slope;
 
-    load(h, t, q, NULL);
+    load_state(h, t, q, NULL);
     qdot_tape_eval(qdot_constrained_tape(h->metric, c->metric), h->in, h->out, h->work);
     slope = h->out + c->n_masses;
     for (size_t k = 0; k < c->n_slopes; k++)
@@ -55,16 +55,16 @@ pull(double t, const double *q, const double *lambda, double *F, void *user)
 }
 
 static qdot_status
-bonds_prepare(double t, const double *q, void *user)
+factor_at_positions(double t, const double *q, void *user)
 {
     qdot_constrained *h = user;
 
-    load(h, t, q, NULL);
+    load_state(h, t, q, NULL);
     return qdot_constrained_factor_metric(h, h->at[QDOT_HOLONOMIC]);
 }
 
 static void
-bonds_solve(double *c, double *nu, double *x, void *user)
+solve_for_correction(double *c, double *nu, double *x, void *user)
 {
     qdot_constrained *h = user;
     qdot_constrained_level *l = h->at[QDOT_HOLONOMIC];
@@ -86,5 +86,5 @@ bonds_solve(double *c, double *nu, double *x, void *user)
 qdot_ode_bonds
 qdot_constrained_bonds(qdot_constrained *h)
 {
-    return (qdot_ode_bonds){h->c->m, positions, velocities, pull, bonds_prepare, bonds_solve, h};
+    return (qdot_ode_bonds){h->c->m, position_residuals, velocity_residuals, constraint_forces, factor_at_positions, solve_for_correction, h};
 }

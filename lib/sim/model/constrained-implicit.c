@@ -9,7 +9,7 @@
 /* Whether constraint k is used as a condition on velocities; the others are used as conditions on
  * accelerations. */
 static bool
-is_of_velocities(const qdot_constrained *h, size_t k)
+is_velocity_constraint(const qdot_constrained *h, size_t k)
 {
     return h->plan->treatment == QDOT_RUN_PROJECT &&
            h->c->rows[k].kind != QDOT_ACCELERATION;
@@ -18,7 +18,7 @@ is_of_velocities(const qdot_constrained *h, size_t k)
 /* Which rows are not redundant; the multipliers of others are 0. Once chosen they stay while they are
  * as many, since multipliers are predicted from step to step. */
 static void
-find_used(qdot_constrained *h)
+find_independent_rows(qdot_constrained *h)
 {
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
     size_t count = 0;
@@ -61,14 +61,14 @@ qdot_constrained_implicit(qdot_constrained *h, double t, const double *y, const 
         r[n + k] -= *out * a[i];
     }
     for (size_t k = 0; k < c->m; k++)
-        r[n + k] = !h->used[k] ? -z[k] : is_of_velocities(h, k) ? h->w[k] : r[n + k];
+        r[n + k] = !h->used[k] ? -z[k] : is_velocity_constraint(h, k) ? h->w[k] : r[n + k];
     return QDOT_OK;
 }
 
 /* The derivatives of the constraint equations that are conditions on velocities, and rows for
  * redundant ones. */
 static void
-put_rows(qdot_constrained *h, double *dq, double *dv, double *M)
+write_constraint_rows(qdot_constrained *h, double *dq, double *dv, double *M)
 {
     const size_t n = h->plan->n, m = h->c->m, columns = 2 * n + 1, all = n + m;
     const double *from = h->slopes;
@@ -78,14 +78,14 @@ put_rows(qdot_constrained *h, double *dq, double *dv, double *M)
     for (size_t k = 0; k < m; k++) {
         const size_t at = (n + k) * all;
 
-        if (is_of_velocities(h, k) || !h->used[k]) {
+        if (is_velocity_constraint(h, k) || !h->used[k]) {
             memset(M + at, 0, n * sizeof *M);
             memset(dq + at, 0, n * sizeof *dq);
             memset(dv + at, 0, n * sizeof *dv);
         }
         if (!h->used[k]) {
             dv[at + n + k] = -1;
-        } else if (is_of_velocities(h, k)) {
+        } else if (is_velocity_constraint(h, k)) {
             memcpy(dq + at, from, n * sizeof *dq);
             memcpy(dv + at, from + n, n * sizeof *dv);
         }
@@ -102,7 +102,7 @@ qdot_constrained_implicit_slopes(qdot_constrained *h, double t, const double *y,
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
 
     QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, h->a + n));
-    find_used(h);
+    find_independent_rows(h);
     memcpy(z, h->a + n, m * sizeof *z);
     qdot_constrained_gains(h);
     memset(dq, 0, all * all * sizeof *dq);
@@ -116,6 +116,6 @@ qdot_constrained_implicit_slopes(qdot_constrained *h, double t, const double *y,
     for (size_t k = 0; k < m; k++)
         for (size_t i = 0; i < n; i++)
             dv[i * all + n + k] = s->A[k * n + i];
-    put_rows(h, dq, dv, M);
+    write_constraint_rows(h, dq, dv, M);
     return QDOT_OK;
 }

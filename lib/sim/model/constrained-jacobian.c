@@ -5,9 +5,9 @@
 #include "sim/model/constrained.h"
 #include "tape/derivative.h"
 
-/* Add c times row `from` of the derivatives to row `row` of the gains. */
+/* Add c times row `from` of a tape's derivatives to row `row` of h->gains (derivatives of the equations). */
 static void
-gain(qdot_constrained *h, size_t row, double c, size_t from)
+add_to_gains(qdot_constrained *h, size_t row, double c, size_t from)
 {
     const size_t columns = 2 * h->plan->n + 1;
 
@@ -15,9 +15,9 @@ gain(qdot_constrained *h, size_t row, double c, size_t from)
         h->gains[row * columns + j] += c * h->slopes[from * columns + j];
 }
 
-/* Find the derivatives of the equations at constant q'' and lambda. */
+/* Find the derivatives of the equations by q, q', t at constant q'' and lambda, into h->gains. */
 static void
-find_gains(qdot_constrained *h)
+find_explicit_derivatives(qdot_constrained *h)
 {
     const qdot_constraints *c = h->c;
     const size_t n = h->plan->n, columns = 2 * n + 1;
@@ -28,23 +28,23 @@ find_gains(qdot_constrained *h)
     qdot_derivative_eval(qdot_constrained_tape(h->equations, h->plan->tape), h->in, 0,
                          columns, h->out, h->slopes, h->slopes_work);
     for (size_t i = 0; i < n; i++)
-        gain(h, i, 1, i);
+        add_to_gains(h, i, 1, i);
     for (size_t k = 0; k < c->n_masses; k++, from++) {
-        gain(h, c->masses[k].row, -a[c->masses[k].column], from);
+        add_to_gains(h, c->masses[k].row, -a[c->masses[k].column], from);
         if (c->masses[k].row != c->masses[k].column)
-            gain(h, c->masses[k].column, -a[c->masses[k].row], from);
+            add_to_gains(h, c->masses[k].column, -a[c->masses[k].row], from);
     }
     for (size_t s = 0; s < c->n_slopes; s++, from++) {
-        gain(h, c->slopes[s].column, lambda[c->slopes[s].row], from);
-        gain(h, n + c->slopes[s].row, -a[c->slopes[s].column], from);
+        add_to_gains(h, c->slopes[s].column, lambda[c->slopes[s].row], from);
+        add_to_gains(h, n + c->slopes[s].row, -a[c->slopes[s].column], from);
     }
     for (size_t k = 0; k < c->m; k++)
-        gain(h, n + k, 1, from++);
+        add_to_gains(h, n + k, 1, from++);
 }
 
-/* Find the contribution of Baumgarte's damping to the derivatives (see damp). */
+/* Add what Baumgarte's damping contributes to the derivatives (see qdot_constrained_damp). */
 static void
-find_damped_gains(qdot_constrained *h)
+add_damping_derivatives(qdot_constrained *h)
 {
     const qdot_constraints *c = h->c;
     const size_t n = h->plan->n, columns = 2 * n + 1;
@@ -55,21 +55,21 @@ find_damped_gains(qdot_constrained *h)
                          columns, h->out, h->slopes, h->slopes_work);
     for (size_t k = 0; k < c->m; k++)
         if (c->rows[k].kind == QDOT_HOLONOMIC)
-            gain(h, n + k, -a * a, from++);
+            add_to_gains(h, n + k, -a * a, from++);
     qdot_derivative_eval(qdot_constrained_tape(h->velocities, c->velocities), h->in, 0,
                          columns, h->out, h->slopes, h->slopes_work);
     from = 0;
     for (size_t k = 0; k < c->m; k++)
         if (c->rows[k].kind != QDOT_ACCELERATION)
-            gain(h, n + k, c->rows[k].kind == QDOT_HOLONOMIC ? -2 * a : -a, from++);
+            add_to_gains(h, n + k, c->rows[k].kind == QDOT_HOLONOMIC ? -2 * a : -a, from++);
 }
 
 void
 qdot_constrained_gains(qdot_constrained *h)
 {
-    find_gains(h);
+    find_explicit_derivatives(h);
     if (h->plan->treatment == QDOT_RUN_BAUMGARTE)
-        find_damped_gains(h);
+        add_damping_derivatives(h);
 }
 
 qdot_status

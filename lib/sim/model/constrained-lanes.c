@@ -9,29 +9,29 @@
 #include "series/lanes.h"
 #include "tape/shake.h"
 
-/* Components below this size count as this large in the rounding of residuals (constrained-project.c). */
+/* Components smaller than this count as this large when rounding of residuals is estimated. */
 static const double least_size = 0x1p-10;
 
 enum { L = QDOT_LANES, most_iterations = 6, LEVELS = 2 };
 
-/* The constraint rows that restrict positions, or those that restrict velocities. */
+/* The constraints on positions, or those on velocities, that a projection satisfies. */
 typedef struct {
     const qdot_tape *tape; /* tape whose outputs are the residuals of these rows */
     size_t m;
-    size_t *place; /* [rows of all constraints] index among these rows; SIZE_MAX: not one of them */
+    size_t *place; /* [all constraints] index among the constraints of this kind; SIZE_MAX: another kind */
 } level;
 
 struct qdot_constrained_lanes {
     const qdot_constraints *c;
     size_t n, numbers; /* number of coordinates; of parameters, which follow the coordinates in the state */
     const qdot_batch_kernels *kernels;
-    qdot_tape *copies[3]; /* copies of the tapes with shaken constants; NULL: use the constraints' own */
+    qdot_tape *copies[3]; /* copies of the tapes with slightly perturbed constants; NULL: use the original tapes */
     const qdot_tape *metric;
     level levels[LEVELS];
     double *in;              /* inputs of the tapes: q, parameters, q', rates of parameters, t */
-    double *M, *A, *work;    /* outputs of `metric` M, A, and its scratch */
-    double *K, *x; /* factored matrix [(n + m) x (n + m)]; right side, then solution [n + m] */
-    double *residual, *size; /* [m] residuals, and their scale sum_i |A_ki| max(|x_i|, least) */
+    double *M, *A, *work;    /* outputs of the tape `metric`, M and A; its scratch */
+    double *K, *x; /* factored matrix [(n + m) x (n + m)]; right-hand side, then solution [n + m] */
+    double *residual, *size; /* [m] residuals, and the sizes by which they are judged: sum_i |A_ki| max(|x_i|, least) */
 };
 
 void
@@ -50,7 +50,7 @@ qdot_constrained_lanes_free(qdot_constrained_lanes *h)
 /* --- making the projection ----------------------------------------------------------- */
 
 static qdot_status
-make_level(qdot_constrained_lanes *h, level *l, const qdot_tape *tape, qdot_constraint_kind kind)
+make_constraints_of_kind(qdot_constrained_lanes *h, level *l, const qdot_tape *tape, qdot_constraint_kind kind)
 {
     l->tape = tape;
     l->place = qdot_calloc(h->c->m, sizeof *l->place);
@@ -62,7 +62,7 @@ make_level(qdot_constrained_lanes *h, level *l, const qdot_tape *tape, qdot_cons
 }
 
 static qdot_status
-constrained_lanes_make(qdot_constrained_lanes *h, bool shaken)
+make_projection(qdot_constrained_lanes *h, bool shaken)
 {
     const qdot_constraints *c = h->c;
     const qdot_tape *tapes[] = {c->positions, c->velocities, c->metric};
@@ -77,8 +77,8 @@ constrained_lanes_make(qdot_constrained_lanes *h, bool shaken)
         if (qdot_tape_work(tapes[i]) > work)
             work = qdot_tape_work(tapes[i]);
     }
-    QDOT_TRY(make_level(h, &h->levels[0], tapes[0], QDOT_HOLONOMIC));
-    QDOT_TRY(make_level(h, &h->levels[1], tapes[1], QDOT_VELOCITY));
+    QDOT_TRY(make_constraints_of_kind(h, &h->levels[0], tapes[0], QDOT_HOLONOMIC));
+    QDOT_TRY(make_constraints_of_kind(h, &h->levels[1], tapes[1], QDOT_VELOCITY));
     h->metric = tapes[2];
     h->in = qdot_calloc((inputs + c->n_masses + c->n_slopes + work + size * (size + 1) +
                          2 * c->m) * L + 1, sizeof *h->in);
@@ -107,7 +107,7 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
     h->numbers = plan->n_states;
     h->n = plan->n - h->numbers;
     h->kernels = qdot_batch_kernels_get();
-    status = constrained_lanes_make(h, shaken);
+    status = make_projection(h, shaken);
     if (status != QDOT_OK) {
         qdot_constrained_lanes_free(h);
         return status;
@@ -121,13 +121,13 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
 /* The variables that a projection moves (q or q'), their low parts, and their position in the tapes' inputs. */
 typedef struct {
     const level *l;
-    double *x, *carry, *loaded; /* [n] the variables, their low parts, their place in the inputs */
+    double *x, *carry, *loaded; /* [n] the variables, their low parts, their addresses in the inputs */
     bool open[L];               /* lanes whose projection has not converged yet */
     double before[L];
 } newton;
 
 static void
-lanes_factor_saddle(qdot_constrained_lanes *h, const level *l)
+factor_projection_matrix(qdot_constrained_lanes *h, const level *l)
 {
     const qdot_constraints *c = h->c;
     const size_t size = h->n + l->m;
@@ -147,9 +147,9 @@ lanes_factor_saddle(qdot_constrained_lanes *h, const level *l)
     h->kernels->factor(size, h->n, h->K);
 }
 
-/* Find the rounding error of the rows caused by that of x; components below `least` count as `least`. */
+/* Find the rounding error of the residuals due to that of x; components below `least` count as `least`. */
 static void
-residuals_find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
+find_residual_rounding(qdot_constrained_lanes *h, const newton *p, double least)
 {
     const qdot_constraints *c = h->c;
 
@@ -179,9 +179,9 @@ residuals_look(qdot_constrained_lanes *h, const newton *p)
     }
 }
 
-/* The largest ratio in a lane of a residual to its rounding error, at least 1. */
+/* The largest ratio, in one lane, of a residual to its rounding error; at least 1. */
 static double
-residual_excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
+largest_residual_ratio(const qdot_constrained_lanes *h, const newton *p, size_t lane)
 {
     double most = 1;
 
@@ -200,16 +200,16 @@ residual_excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
 /* Decide by the residuals of iteration k which lanes are done and which fail. Returns whether a
  * lane goes on. */
 static bool
-newton_judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
+check_convergence(qdot_constrained_lanes *h, newton *p, int k, double *moved)
 {
     bool some = false, failed[L] = {false}, any_failed = false;
 
     for (size_t l = 0; l < L; l++) {
-        const double now = p->open[l] ? residual_excess(h, p, l) : 0;
+        const double now = p->open[l] ? largest_residual_ratio(h, p, l) : 0;
 
         if (!p->open[l])
             continue;
-        /* a residual that no longer shrinks consists of rounding errors */
+        /* a residual that no longer shrinks consists of rounding errors: stop */
         if (now <= 1 || (k > 0 && !(now < 0.5 * p->before[l]) && now < 1e4))
             p->open[l] = false;
         else if (k == most_iterations || isnan(now) || (k > 2 && !(now < p->before[l])))
@@ -219,17 +219,17 @@ newton_judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
     }
     if (!any_failed)
         return some;
-    residuals_find_sizes(h, p, 1);
+    find_residual_rounding(h, p, 1);
     for (size_t l = 0; l < L; l++)
-        if (failed[l] && !(residual_excess(h, p, l) <= 1))
+        if (failed[l] && !(largest_residual_ratio(h, p, l) <= 1))
             moved[l] = NAN;
-    residuals_find_sizes(h, p, least_size);
+    find_residual_rounding(h, p, least_size);
     return some;
 }
 
-/* Add x to hi + lo (num/sum.h). */
+/* Add x to the double-double number hi + lo (num/sum.h). */
 static inline void
-two_sum_advance(double *hi, double *lo, double x)
+add_to_double_double(double *hi, double *lo, double x)
 {
     const double a = *hi, b = *lo + x, s = a + b, bb = s - a;
 
@@ -238,7 +238,7 @@ two_sum_advance(double *hi, double *lo, double x)
 }
 
 static void
-newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
+make_newton_step(qdot_constrained_lanes *h, newton *p, double *moved)
 {
     const size_t n = h->n, m = p->l->m;
 
@@ -254,7 +254,7 @@ newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
             continue;
         if (!(fabs(h->x[i]) <= moved[l] * size))
             moved[l] = fabs(h->x[i]) / size;
-        two_sum_advance(&p->x[i], &p->carry[i], h->x[i]);
+        add_to_double_double(&p->x[i], &p->carry[i], h->x[i]);
         p->loaded[i] = p->x[i];
     }
 }
@@ -262,21 +262,21 @@ newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
 /* Project by Newton's method in vector lanes onto the rows of one level. *factored: K is factored
  * for these rows. */
 static void
-newton_hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
+iterate_until_on_constraints(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
 {
     for (size_t l = 0; l < L; l++) {
         p->open[l] = !isnan(moved[l]);
         p->before[l] = INFINITY;
     }
-    residuals_find_sizes(h, p, least_size);
+    find_residual_rounding(h, p, least_size);
     for (int k = 0; k <= most_iterations; k++) {
         residuals_look(h, p);
-        if (!newton_judge(h, p, k, moved))
+        if (!check_convergence(h, p, k, moved))
             return;
         if (!*factored)
-            lanes_factor_saddle(h, p->l);
+            factor_projection_matrix(h, p->l);
         *factored = true;
-        newton_lanes_step(h, p, moved);
+        make_newton_step(h, p, moved);
     }
 }
 
@@ -303,6 +303,6 @@ qdot_constrained_lanes_project(qdot_constrained_lanes *h, const double *t, doubl
             continue;
         if (k > 0 && p.l->m != h->levels[0].m)
             factored = false;
-        newton_hold(h, &p, &factored, moved);
+        iterate_until_on_constraints(h, &p, &factored, moved);
     }
 }

@@ -13,9 +13,9 @@ length_of_name(const char *name, bool label)
     return comma ? (size_t)(comma - name) : strlen(name);
 }
 
-/* Append a name: "rod", or for component 1 of a vector constraint pin[1]; if `label`, without the component. */
+/* Append a constraint's name: "rod", or for component 1 of a vector pin[1]; if `label`, without the component. */
 static void
-constraint_add_name(qdot_text *to, const char *name, size_t length, bool label)
+append_constraint_name(qdot_text *to, const char *name, size_t length, bool label)
 {
     const char *comma = strrchr(name, ',');
 
@@ -52,16 +52,16 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
             names += pass == 0;
             if (pass == 1) {
                 qdot_text_add(to, said == 0 ? "" : said + 1 == names ? " and " : ", ");
-                constraint_add_name(to, name, n, count > many);
+                append_constraint_name(to, name, n, count > many);
             }
             said++;
         }
     }
 }
 
-/* Append the names of dependent constraints; returns `is` or `are`, by their number. */
+/* Append the names of dependent constraints; returns `is` or `are`, depending on their number. */
 static const char *
-name_dependent(const qdot_constraints *c, const bool *rows, qdot_text *names)
+append_dependent_names(const qdot_constraints *c, const bool *rows, qdot_text *names)
 {
     size_t count = 0;
 
@@ -77,7 +77,7 @@ name_dependent(const qdot_constraints *c, const bool *rows, qdot_text *names)
 void
 qdot_constrained_say_dependent(const qdot_constraints *c, const bool *rows, qdot_text *to)
 {
-    const char *became = name_dependent(c, rows, to);
+    const char *became = append_dependent_names(c, rows, to);
 
     qdot_text_format(to, " %s", became);
 }
@@ -86,7 +86,7 @@ qdot_status
 qdot_constrained_fail_dependent(const qdot_constraints *c, const bool *rows)
 {
     qdot_text names = {0};
-    const char *became = name_dependent(c, rows, &names);
+    const char *became = append_dependent_names(c, rows, &names);
 
     if (qdot_text_status(&names) == QDOT_OK)
         qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names), became);

@@ -1,4 +1,4 @@
-/* constrained-near.c -- measures how near constraints are to being dependent at a state. */
+/* constrained-near.c -- measures how near constraints are to being dependent on each other at a state. */
 #include <math.h>
 
 #include "sim/model/constrained-parts.h"

@@ -8,7 +8,7 @@
 
 #include "sim/model/constrained-parts.h"
 
-/* Components below this size count as this large when rounding errors are estimated: at rest all would be 0. */
+/* Smaller components count as this large when rounding is estimated: near 0 the estimate would vanish. */
 static const double least_size = 0x1p-10;
 
 /* If a step is predicted to leave less than this fraction of a bound, the residual is not
@@ -19,7 +19,7 @@ enum { most_iterations = 6 };
 
 typedef qdot_constrained_level level;
 
-/* Raise the bounds to at least the rounding error of the rows caused by x (q or q'); A must be evaluated. */
+/* Raise the bounds to at least the rounding error of the residuals due to x (q or q'); A must be known. */
 void
 qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
 {
@@ -32,7 +32,7 @@ qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
     }
 }
 
-/* Evaluate and factor M and A at the loaded state. */
+/* Evaluate and factor the matrices M and A of a level at the loaded state. */
 qdot_status
 qdot_constrained_factor_metric(qdot_constrained *h, level *l)
 {
@@ -59,12 +59,12 @@ typedef struct {
  * state, as far as it is known. */
 typedef struct {
     bool factored;
-    double rate; /* factor by which a step reduces the residual; INFINITY: not known */
+    double rate; /* factor by which a Newton step reduces the residual; INFINITY: not known */
 } convergence;
 
-/* Add the effect of the low part of the state on the residuals, by A, if A is evaluated. */
+/* Add the effect of the low part of the state on the residuals, by A, if A has been evaluated. */
 static void
-add_carry(const part *p)
+add_effect_of_low_part(const part *p)
 {
     for (size_t k = 0; p->carry && p->l->filled && k < p->l->m; k++)
         p->l->residual[k] += qdot_saddle_row(&p->l->saddle, k, p->carry);
@@ -73,7 +73,7 @@ add_carry(const part *p)
 /* The largest ratio of a residual to its bound; INFINITY if there are no bounds yet, or if it is
  * not finite. */
 static double
-part_excess(const part *p)
+largest_residual_ratio(const part *p)
 {
     double most = 0;
 
@@ -89,18 +89,18 @@ part_excess(const part *p)
     return most;
 }
 
-/* Evaluate the residuals at the loaded state; returns the largest one, relative to its bound. */
+/* Evaluate the residuals at the loaded state; returns the largest ratio of a residual to its bound. */
 static double
 part_look(qdot_constrained *h, const part *p)
 {
     qdot_tape_eval(p->tape, h->in, p->l->residual, h->work);
-    add_carry(p);
-    return part_excess(p);
+    add_effect_of_low_part(p);
+    return largest_residual_ratio(p);
 }
 
-/* Add x to hi + lo in two doubles (as qdot_sum_advance, whose header has the same name as one of expr/). */
+/* Add x to hi + lo in double-double arithmetic (a copy of qdot_sum_advance, because headers collide). */
 static inline void
-carry_advance(double *hi, double *lo, double x)
+add_to_double_double(double *hi, double *lo, double x)
 {
     double a = *hi, b = *lo + x, s = a + b, bb = s - a;
 
@@ -108,9 +108,9 @@ carry_advance(double *hi, double *lo, double x)
     *hi = s;
 }
 
-/* Make one Newton step, and load the moved state. */
+/* Make one Newton step of the projection, and load the state that it reaches. */
 static void
-projection_step(const part *p, size_t n, double *moved)
+make_projection_step(const part *p, size_t n, double *moved)
 {
     level *l = p->l;
     double *change = l->saddle.x, most = *moved;
@@ -129,7 +129,7 @@ projection_step(const part *p, size_t n, double *moved)
         if (!(by <= most * (size > 1 ? size : 1)))
             most = by / (size > 1 ? size : 1);
         if (p->carry)
-            carry_advance(&p->x[i], &p->carry[i], change[i]);
+            add_to_double_double(&p->x[i], &p->carry[i], change[i]);
         else
             p->x[i] += change[i];
         p->loaded[i] = p->x[i];
@@ -140,7 +140,7 @@ projection_step(const part *p, size_t n, double *moved)
 /* The level's noise: how much the residuals of the loaded state change where every input does by about
  * one rounding of max(1, |x|), in a few directions. Writes h->out. */
 static void
-measure_noise(qdot_constrained *h, const part *p)
+measure_residual_rounding(qdot_constrained *h, const part *p)
 {
     static const double far = 0x1p-30;
     const size_t inputs = 2 * h->plan->n + 1, m = p->l->m;
@@ -168,15 +168,15 @@ measure_noise(qdot_constrained *h, const part *p)
  * bounds, and cannot be met. Nothing is moved for a redundant row: it also has what
  * rounding makes of the slopes of all rows, of which it is a combination. */
 static bool
-projection_is_rounding(qdot_constrained *h, const part *p)
+is_correction_rounding(qdot_constrained *h, const part *p)
 {
     const qdot_saddle *s = &p->l->saddle;
     const size_t m = p->l->m;
     const bool redundant = !p->l->moves && s->rank < m;
-    double noise = 0; /* rounding error of all rows, in the scales of the system */
+    double noise = 0; /* rounding error of all residuals together, in the scales of the linear system */
 
     if (redundant)
-        measure_noise(h, p);
+        measure_residual_rounding(h, p);
     for (size_t k = 0; redundant && k < m; k++)
         noise += s->e[k] * p->l->noise[k];
     for (size_t j = 0; j < m; j++) {
@@ -195,7 +195,7 @@ projection_is_rounding(qdot_constrained *h, const part *p)
  * that state, the faster Newton's method converges. The residual after the last step is predicted
  * from the steps before, not evaluated. */
 static qdot_status
-project(qdot_constrained *h, const part *p, convergence *c, double *moved)
+iterate_projection(qdot_constrained *h, const part *p, convergence *c, double *moved)
 {
     double before = INFINITY;
     bool bounded = false;
@@ -207,7 +207,7 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
             c->rate = now / before;
         if (now <= 1)
             return QDOT_OK;
-        /* a residual that no longer shrinks consists of rounding errors */
+        /* a residual that no longer shrinks consists of rounding errors: stop */
         if (bounded && !(now < 0.5 * before) && now < 1e4)
             return QDOT_OK;
         if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))
@@ -220,17 +220,17 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
             c->factored = bounded = true;
             qdot_constrained_raise_bounds(p->l, p->x, p->bound);
             if (!filled)
-                add_carry(p);
-            now = part_excess(p);
+                add_effect_of_low_part(p);
+            now = largest_residual_ratio(p);
             if (now <= 1)
                 return QDOT_OK;
         }
         before = now;
-        projection_step(p, h->plan->n, moved);
+        make_projection_step(p, h->plan->n, moved);
         if (c->rate * now <= sure)
             return QDOT_OK;
     }
-    return bounded && projection_is_rounding(h, p)
+    return bounded && is_correction_rounding(h, p)
                ? QDOT_OK
                : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
 }
@@ -270,8 +270,8 @@ qdot_constrained_project(double t, double *y, double *carry, double *moved, void
         return QDOT_OK;
     qdot_constrained_load(h, t, y);
     if (q.l->m > 0)
-        QDOT_TRY(project(h, &q, &c, moved));
+        QDOT_TRY(iterate_projection(h, &q, &c, moved));
     if (v.l != q.l)
         c = (convergence){.rate = INFINITY};
-    return v.l->m > 0 ? project(h, &v, &c, moved) : QDOT_OK;
+    return v.l->m > 0 ? iterate_projection(h, &v, &c, moved) : QDOT_OK;
 }

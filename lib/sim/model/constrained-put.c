@@ -10,22 +10,22 @@
 
 enum { most_iterations = 30 };
 
-/* Components below this size count as this large when rounding errors are estimated. */
+/* Smaller components count as this large when rounding errors are estimated. */
 static const double least_size = 0x1p-10;
 
 /* The variables q or q' of a state, their constraint rows, and the system with a further row for
  * each value set. */
 typedef struct {
     const qdot_constrained_level *level;
-    double *x, *low; /* [n] the values are x + low; low NULL: 0 */
-    const bool *set; /* [n] the event has set this value */
+    double *x, *low; /* [n] low parts: the values are x + low; low NULL: 0 */
+    const bool *set; /* [n] which values the event has set */
     const double *residual;
-    const qdot_tape *tape; /* tape whose outputs are the residuals of the level's rows */
+    const qdot_tape *tape; /* tape whose outputs are the residuals of this level's constraints */
     void (*find)(qdot_constrained *h);
     qdot_saddle saddle;
 } part;
 
-/* The state y + low at time t + t_low that must satisfy the constraints; who: the event that set its values. */
+/* The state y + low at time t + t_low, to be moved onto the constraints; who: the event that set values. */
 typedef struct {
     double t, t_low;
     const double *y, *low; /* [2n] state y + low; low NULL: 0 */
@@ -35,7 +35,7 @@ typedef struct {
 /* Fill the system: M and A at the loaded state, a unit row for each value that was set; right-hand
  * side -f and zeros. */
 static void
-fill(qdot_constrained *h, part *p)
+evaluate_level(qdot_constrained *h, part *p)
 {
     const qdot_constraints *c = h->c;
     const size_t n = h->plan->n;
@@ -64,7 +64,7 @@ fill(qdot_constrained *h, part *p)
 /* What the terms of row k may be near the state: slopes and values of it, each at its largest. (The
  * slopes at a located event are uncertain by the rounding of its time.) */
 static double
-size_near(const qdot_constrained *h, const part *p, size_t k)
+residual_rounding(const qdot_constrained *h, const part *p, size_t k)
 {
     const qdot_constraints *c = h->c;
     double slope = 0, value = 0;
@@ -77,15 +77,15 @@ size_near(const qdot_constrained *h, const part *p, size_t k)
     return slope * value;
 }
 
-/* Find the largest ratio of a residual to its rounding error, and the row in which it occurs. */
+/* Find the largest ratio of a residual to its rounding error, and for which constraint it occurs. */
 static double
-worst_residual(const qdot_constrained *h, const part *p, size_t *worst)
+find_worst_residual(const qdot_constrained *h, const part *p, size_t *worst)
 {
     double most = 0;
 
     for (size_t k = 0; k < p->level->m; k++) {
         const double size = fmax(qdot_saddle_row_size(&p->saddle, k, p->x, least_size),
-                                 size_near(h, p, k));
+                                 residual_rounding(h, p, k));
         const double now = fabs(p->residual[p->level->row[k]]) / (DBL_EPSILON * size);
 
         if (!(now <= most)) {
@@ -97,7 +97,7 @@ worst_residual(const qdot_constrained *h, const part *p, size_t *worst)
 }
 
 static qdot_status
-refuse(const qdot_constrained *h, size_t row, const char *who)
+fail_violated_by_event(const qdot_constrained *h, size_t row, const char *who)
 {
     return qdot_fail(QDOT_EDOMAIN,
                      "the event %.100s sets values that constraint %.200s does not allow",
@@ -107,7 +107,7 @@ refuse(const qdot_constrained *h, size_t row, const char *who)
 /* Add to noise [m] the change of the residuals r [m] if component k of the state, or t, changes by
  * 4 rounding errors. */
 static void
-add_noise(qdot_constrained *h, const part *p, const place *at, double *y, size_t k, const double *r, double *noise)
+add_rounding_of_state(qdot_constrained *h, const part *p, const place *at, double *y, size_t k, const double *r, double *noise)
 {
     const size_t n = h->plan->n;
     const double more = 1 + 4 * DBL_EPSILON, kept = k < 2 * n ? y[k] : at->t;
@@ -125,7 +125,7 @@ add_noise(qdot_constrained *h, const part *p, const place *at, double *y, size_t
 /* Whether residuals are what rounding of the state and of t makes of them: terms cancel that hold none of the unknowns, as
  * in the equation of a coordinate without mass whose velocity becomes 0. */
 static qdot_status
-is_rounding(qdot_constrained *h, const part *p, const place *at, bool *is)
+is_violation_rounding(qdot_constrained *h, const part *p, const place *at, bool *is)
 {
     const size_t n = h->plan->n, m = p->level->m;
     double *y = qdot_calloc(2 * n + 2 * m + 1, sizeof *y), *r = y + 2 * n, *noise = r + m;
@@ -138,7 +138,7 @@ is_rounding(qdot_constrained *h, const part *p, const place *at, bool *is)
     for (size_t i = 0; i < m; i++)
         r[i] = p->residual[p->level->row[i]];
     for (size_t k = 0; k <= 2 * n; k++)
-        add_noise(h, p, at, y, k, r, noise);
+        add_rounding_of_state(h, p, at, y, k, r, noise);
     *is = true;
     for (size_t i = 0; i < m; i++)
         *is = *is && fabs(r[i]) <= noise[i];
@@ -162,8 +162,8 @@ project_state(qdot_constrained *h, part *p, const place *at)
 
         qdot_constrained_load(h, at->t, at->y);
         p->find(h);
-        fill(h, p);
-        now = worst_residual(h, p, &worst);
+        evaluate_level(h, p);
+        now = find_worst_residual(h, p, &worst);
         if (now <= 1 || (now < 1e3 && !(now < 0.5 * before)))
             return QDOT_OK;
         if (!isfinite(now) || (k > 5 && !(now < before)))
@@ -171,7 +171,7 @@ project_state(qdot_constrained *h, part *p, const place *at)
         before = now;
         if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) {
             QDOT_TRY(qdot_interrupt_check());
-            if (now < 1e3) /* all values are set by the event, and only rounding errors remain */
+            if (now < 1e3) /* the event has set all values, and only rounding errors remain */
                 return QDOT_OK;
             break;
         }
@@ -180,13 +180,13 @@ project_state(qdot_constrained *h, part *p, const place *at)
             if (!p->set[i])
                 p->x[i] += p->saddle.x[i];
     }
-    QDOT_TRY(is_rounding(h, p, at, &rounding));
-    return rounding ? QDOT_OK : refuse(h, worst, at->who);
+    QDOT_TRY(is_violation_rounding(h, p, at, &rounding));
+    return rounding ? QDOT_OK : fail_violated_by_event(h, worst, at->who);
 }
 
-/* Evaluate the residuals of the level in two doubles; they become the right-hand side of the linear system. */
+/* Evaluate the level's residuals in double-double precision, as right-hand side of the linear system. */
 static qdot_status
-measure_in_two(const qdot_constrained *h, part *p, const place *at)
+evaluate_residuals_in_double_double(const qdot_constrained *h, part *p, const place *at)
 {
     const size_t n = h->plan->n;
     qdot_saddle *s = &p->saddle;
@@ -210,12 +210,12 @@ measure_in_two(const qdot_constrained *h, part *p, const place *at)
 /* One step of Newton's method more, with residuals in two doubles: y + low then keeps the constraints to the places of
  * low. Else each of many impacts would leave a rounding of y, and these add up. */
 static qdot_status
-bring_in_two(qdot_constrained *h, part *p, const place *at)
+project_in_double_double(qdot_constrained *h, part *p, const place *at)
 {
     size_t failed;
 
-    QDOT_TRY(measure_in_two(h, p, at));
-    if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) /* singular if the event has set all values */
+    QDOT_TRY(evaluate_residuals_in_double_double(h, p, at));
+    if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) /* the matrix is singular if the event has set all values */
         return qdot_interrupt_check();
     qdot_saddle_solve_refined(&p->saddle);
     for (size_t i = 0; i < h->plan->n; i++) {
@@ -230,7 +230,7 @@ bring_in_two(qdot_constrained *h, part *p, const place *at)
 }
 
 static qdot_status
-put(qdot_constrained *h, part *p, const place *at)
+put_on_constraints(qdot_constrained *h, part *p, const place *at)
 {
     size_t count = 0;
     qdot_status status;
@@ -244,7 +244,7 @@ put(qdot_constrained *h, part *p, const place *at)
     if (status == QDOT_OK)
         status = project_state(h, p, at);
     if (status == QDOT_OK && p->low)
-        status = bring_in_two(h, p, at);
+        status = project_in_double_double(h, p, at);
     qdot_saddle_clear(&p->saddle);
     return status;
 }
@@ -270,6 +270,6 @@ qdot_constrained_put(qdot_constrained *h, double t, double t_low, double *y, dou
               .tape = qdot_constrained_tape(h->velocities, h->c->velocities),
               .find = qdot_constrained_velocities};
 
-    QDOT_TRY(put(h, &q, &at));
-    return put(h, &v, &at);
+    QDOT_TRY(put_on_constraints(h, &q, &at));
+    return put_on_constraints(h, &v, &at);
 }

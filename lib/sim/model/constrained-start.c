@@ -7,14 +7,14 @@
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 
-/* A start may violate a constraint by this much: users type rounded decimals. */
+/* A start state may violate a constraint by this much: users type rounded decimals. */
 static const double start_tolerance = 1e-9;
 
 /* How far beside a start its constraints are looked at, and what is left of a row there
  * that was dependent upon the others only at the start. */
 static const double beside = 1e-3, independent = 1e-7;
 
-/* Rows are redundant near the start if a velocity leaves a residual below this. */
+/* Constraints are redundant near the start if a velocity leaves a residual smaller than this. */
 static const double hidden = 1e-9;
 
 enum { tries = 4, iterations = 12 };
@@ -24,15 +24,15 @@ enum { tries = 4, iterations = 12 };
 typedef struct {
     qdot_constrained *h;
     double t;
-    double *y; /* [2n] a state near the start */
-    double *A; /* [m x n] gradients of holonomic constraints, others 0; or of all */
+    double *y; /* [2n] another state near the start */
+    double *A; /* [m x n] gradients of the holonomic constraints (0 for others), or of all constraints */
     double *b, *x;
     qdot_row_space rows;
 } place;
 
-/* Evaluate A at p->y: the holonomic rows, or all rows. */
+/* Evaluate the constraint gradients A at p->y: of the holonomic constraints, or of all. */
 static void
-take_slopes(place *p, bool all)
+evaluate_gradients(place *p, bool all)
 {
     const size_t n = p->h->plan->n, m = p->h->c->m;
     qdot_constrained_level *l = p->h->at[QDOT_ACCELERATION];
@@ -45,16 +45,16 @@ take_slopes(place *p, bool all)
             memset(p->A + k * n, 0, n * sizeof *p->A);
 }
 
-/* Find another state on the constraints near y, in a random direction; returns whether one was found. */
+/* Find another state on the constraints near y, in a random direction; returns whether it was found. */
 static bool
-step_aside(place *p, const double *y, int which)
+find_nearby_state(place *p, const double *y, int which)
 {
     const size_t n = p->h->plan->n, m = p->h->c->m;
     unsigned long seed = 12345 + (unsigned long)which;
     double length = 0, size = 1, most = INFINITY;
 
     memcpy(p->y, y, 2 * n * sizeof *y);
-    take_slopes(p, false);
+    evaluate_gradients(p, false);
     qdot_row_space_factor(&p->rows, p->A, start_tolerance, false);
     for (size_t i = 0; i < n; i++) {
         seed = seed * 1103515245 + 12345;
@@ -77,7 +77,7 @@ step_aside(place *p, const double *y, int which)
         }
         if (!(most > 1e-13 * size))
             break;
-        take_slopes(p, false);
+        evaluate_gradients(p, false);
         qdot_row_space_factor(&p->rows, p->A, start_tolerance, false);
         qdot_row_space_shortest(&p->rows, p->b, p->x, NULL);
         for (size_t i = 0; i < n; i++)
@@ -89,7 +89,7 @@ step_aside(place *p, const double *y, int which)
 /* The constraints of which `row` is a combination at the start, and itself, into `names`; their
  * number. */
 static size_t
-name_dependent(place *p, const double *y, size_t row, qdot_text *names)
+append_dependent_constraints(place *p, const double *y, size_t row, qdot_text *names)
 {
     const size_t n = p->h->plan->n, m = p->h->c->m;
     bool *in = qdot_calloc(m + 1, sizeof *in);
@@ -98,7 +98,7 @@ name_dependent(place *p, const double *y, size_t row, qdot_text *names)
 
     if (in && part) {
         memcpy(p->y, y, 2 * n * sizeof *y);
-        take_slopes(p, true);
+        evaluate_gradients(p, true);
         for (size_t k = 0; k < m; k++) {
             p->b[k] = 0;
             for (size_t i = 0; i < n && k != row; i++)
@@ -121,10 +121,10 @@ name_dependent(place *p, const double *y, size_t row, qdot_text *names)
 }
 
 static qdot_status
-start_refuse(place *p, const double *y, size_t row)
+fail_dependent_constraints(place *p, const double *y, size_t row)
 {
     qdot_text names = {0};
-    const size_t count = name_dependent(p, y, row, &names);
+    const size_t count = append_dependent_constraints(p, y, row, &names);
 
     if (qdot_text_status(&names) == QDOT_OK)
         qdot_fail(QDOT_ESINGULAR,
@@ -145,10 +145,10 @@ start_refuse(place *p, const double *y, size_t row)
 /* x = t and x' = y have one direction, and the second is no repetition: y = 1. One alone that stands
  * in for nothing has none. */
 static qdot_status
-refuse_hidden(place *p, const double *y, size_t row, const char *of)
+fail_hidden_condition(place *p, const double *y, size_t row, const char *of)
 {
     qdot_text names = {0};
-    const size_t count = name_dependent(p, y, row, &names);
+    const size_t count = append_dependent_constraints(p, y, row, &names);
 
     if (count == 1) {
         if (qdot_text_status(&names) == QDOT_OK)
@@ -173,7 +173,7 @@ refuse_hidden(place *p, const double *y, size_t row, const char *of)
 /* No position was found a little later: x = t^2 and x = t^2 + t^3 separate after the start. Names
  * rows that do not hold although the independent ones do. */
 static qdot_status
-check_parted(place *p, const double *y, double t)
+check_not_separated(place *p, const double *y, double t)
 {
     const size_t m = p->h->c->m;
     double met = 0, most = 0, before;
@@ -192,28 +192,28 @@ check_parted(place *p, const double *y, double t)
     qdot_constrained_load(p->h, t, y);
     qdot_constrained_positions(p->h);
     before = fabs(p->h->f[worst]);
-    return most > 1e-10 && most > 1e3 * (met + before) ? refuse_hidden(p, y, worst, "time")
+    return most > 1e-10 && most > 1e3 * (met + before) ? fail_hidden_condition(p, y, worst, "time")
                                                        : QDOT_OK;
 }
 
 /* Change the velocities at p->y so that the independent rows hold; *worst: the other row that is
  * broken most, and by how much. Returns whether there are such velocities. */
 static bool
-move_velocities(place *p, size_t *worst, double *by)
+choose_nearby_velocities(place *p, size_t *worst, double *by)
 {
     const size_t n = p->h->plan->n, m = p->h->c->m;
     double *v = p->y + n, size = 1, most = INFINITY;
 
     for (size_t i = 0; i < n; i++)
         size = fmax(size, fabs(v[i]));
-    for (size_t i = 0; i < n; i++) /* irregular changes, so that no symmetry of the scene is kept */
+    for (size_t i = 0; i < n; i++) /* irregular changes, so that they break all symmetries of the scene */
         v[i] += beside * size * sin(1.0 + 7.0 * (double)i);
     for (int k = 0; k < iterations && most > 1e-12 * size; k++) {
         qdot_constrained_load(p->h, p->t, p->y);
         qdot_constrained_velocities(p->h);
         for (size_t r = 0; r < m; r++)
             p->b[r] = -p->h->w[r];
-        take_slopes(p, true);
+        evaluate_gradients(p, true);
         for (size_t r = 0; r < m; r++)
             if (p->h->c->rows[r].kind == QDOT_ACCELERATION)
                 memset(p->A + r * n, 0, n * sizeof *p->A);
@@ -237,31 +237,31 @@ move_velocities(place *p, size_t *worst, double *by)
     return most < 1e-9 * size;
 }
 
-/* Check for a hidden condition of the constraints at a state near the start, or if `later` shortly after it. */
+/* Check for a hidden condition implied by the constraints, at a state near the start, or if `later` just after it. */
 static qdot_status
-check_hidden(place *p, const double *y, bool later)
+check_hidden_condition(place *p, const double *y, bool later)
 {
     size_t worst = 0;
     double by = 0;
 
-    if (!move_velocities(p, &worst, &by))
+    if (!choose_nearby_velocities(p, &worst, &by))
         return QDOT_OK;
     if (by > hidden)
-        return refuse_hidden(p, y, worst, later ? "time" : "positions");
+        return fail_hidden_condition(p, y, worst, later ? "time" : "positions");
     if (qdot_constrained_solve(p->h, p->t, p->y, p->h->a, NULL) != QDOT_OK ||
         qdot_constrained_check_repeated(p->h, QDOT_EINVAL) == QDOT_OK)
         return QDOT_OK;
     worst = qdot_constrained_contradicting(p->h);
-    return refuse_hidden(p, y, worst,
-                         later                                              ? "time"
-                         : p->h->c->rows[worst].kind == QDOT_ACCELERATION ? "positions or velocities"
+    return fail_hidden_condition(p, y, worst,
+                                 later                                              ? "time"
+                                 : p->h->c->rows[worst].kind == QDOT_ACCELERATION ? "positions or velocities"
                                                                           : "velocities");
 }
 
 /* Rows that are redundant at the start must be so near it, too: else the rank, which is kept,
  * would hold at the start only. */
 static qdot_status
-check_place(qdot_constrained *h, double t, const double *y)
+check_start_independence(qdot_constrained *h, double t, const double *y)
 {
     const size_t n = h->plan->n, m = h->c->m;
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
@@ -272,7 +272,7 @@ check_place(qdot_constrained *h, double t, const double *y)
 
     if (rank == m)
         return QDOT_OK;
-    /* false if constraints contradict each other at the start itself */
+    /* false if constraints contradict each other already at the start */
     holds = qdot_constrained_contradicting(h) == SIZE_MAX;
     p.y = qdot_calloc(3 * n + m * n + m, sizeof *p.y);
     if (!p.y)
@@ -285,22 +285,22 @@ check_place(qdot_constrained *h, double t, const double *y)
         const bool later = k + 1 == tries; /* the last try is at a slightly later time */
 
         p.t = later ? t + beside : t;
-        if (!step_aside(&p, y, k)) {
+        if (!find_nearby_state(&p, y, k)) {
             if (later && holds)
-                status = check_parted(&p, y, t);
+                status = check_not_separated(&p, y, t);
             continue;
         }
-        take_slopes(&p, true);
+        evaluate_gradients(&p, true);
         qdot_row_space_factor(&p.rows, p.A, independent, false);
         if (p.rows.rank <= rank && holds)
-            status = check_hidden(&p, y, later);
+            status = check_hidden_condition(&p, y, later);
         else if (p.rows.rank > rank && !later)
-            status = start_refuse(&p, y, repeated);
+            status = fail_dependent_constraints(&p, y, repeated);
     }
     p.t = t;
-    if (status == QDOT_OK) { /* restore the state for the next reader */
+    if (status == QDOT_OK) { /* restore the state at which the tapes are evaluated */
         memcpy(p.y, y, 2 * n * sizeof *y);
-        take_slopes(&p, true);
+        evaluate_gradients(&p, true);
         status = qdot_constrained_solve(h, t, y, h->a, NULL);
     }
     qdot_row_space_clear(&p.rows);
@@ -311,7 +311,7 @@ check_place(qdot_constrained *h, double t, const double *y)
 /* --- checking a start --------------------------------------------------------------- */
 
 static qdot_status
-broken(const qdot_constrained *h, size_t row, double residual, const char *what)
+fail_violated_at_start(const qdot_constrained *h, size_t row, double residual, const char *what)
 {
     qdot_fail(QDOT_EINVAL, "the start breaks the %s%s: %s is %.3g, not 0",
               h->c->rows[row].multiplier == QDOT_NIL ? "" : "constraint ", h->c->rows[row].name, what, residual);
@@ -329,11 +329,11 @@ qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
     qdot_constrained_residuals(h);
     for (size_t k = 0; k < h->c->m; k++)
         if (!(fabs(h->f[k]) <= start_tolerance))
-            return broken(h, k, h->f[k], "left - right");
+            return fail_violated_at_start(h, k, h->f[k], "left - right");
     for (size_t k = 0; k < h->c->m; k++)
         if (!(fabs(h->w[k]) <= start_tolerance))
-            return broken(h, k, h->w[k],
-                          h->c->rows[k].kind == QDOT_HOLONOMIC
+            return fail_violated_at_start(h, k, h->w[k],
+                                          h->c->rows[k].kind == QDOT_HOLONOMIC
                               ? "the time derivative of left - right"
                               : "left - right");
     /* first set the bounds by which residuals are judged */
@@ -348,6 +348,6 @@ qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
     }
     QDOT_TRY(qdot_constrained_project(t, y, low, &moved, h));
     QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
-    QDOT_TRY(check_place(h, t, y));
+    QDOT_TRY(check_start_independence(h, t, y));
     return qdot_constrained_check_repeated(h, QDOT_EINVAL);
 }

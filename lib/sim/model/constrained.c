@@ -51,7 +51,7 @@ qdot_constrained_load(qdot_constrained *h, double t, const double *y)
     h->in[2 * h->plan->n] = t;
 }
 
-/* Find residuals of position constraints at the loaded state, by row; other rows get 0. */
+/* Find the residuals of the position constraints at the loaded state; other constraints get 0. */
 void
 qdot_constrained_positions(qdot_constrained *h)
 {
@@ -81,9 +81,9 @@ qdot_constrained_residuals(qdot_constrained *h)
     qdot_constrained_velocities(h);
 }
 
-/* Copy M and A from the tape's outputs into a level. Returns the address of the next output. */
+/* Copy the matrices M and A of a level from the tape's outputs. Returns the address of the next output. */
 static const double *
-unpack(qdot_constrained *h, level *l, const double *from)
+copy_matrices(qdot_constrained *h, level *l, const double *from)
 {
     const qdot_constraints *c = h->c;
     const size_t n = h->plan->n;
@@ -107,7 +107,7 @@ void
 qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *l)
 {
     qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
-    unpack(h, l, h->out);
+    copy_matrices(h, l, h->out);
 }
 
 qdot_status
@@ -149,9 +149,9 @@ qdot_constrained_look_first(const qdot_constrained *h, qdot_constrained_level *l
 }
 
 static qdot_status
-dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
+fail_dependent_constraint(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
-    /* a row is dependent if less than this part of its length is independent of other rows */
+    /* a constraint is dependent if less than this fraction of its gradient is independent of the others */
     static const double lost = 1e-9;
     bool *rows = qdot_calloc(c->m, sizeof *rows);
     qdot_status status = rows ? QDOT_ESINGULAR : QDOT_ENOMEM;
@@ -162,9 +162,9 @@ dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
     return status;
 }
 
-/* Fail if a row in use has shrunk to its rounding error; redundant rows may. */
+/* Fail if a constraint's gradient in use has shrunk to its rounding error; redundant ones may. */
 static qdot_status
-without_others(const qdot_constraints *c, const qdot_saddle *s, const size_t *row)
+check_vanishing_gradients(const qdot_constraints *c, const qdot_saddle *s, const size_t *row)
 {
     for (size_t j = 0; j < s->rank; j++)
         if (qdot_saddle_has_faded(s, s->pivot[j]))
@@ -183,11 +183,11 @@ qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *r
         return qdot_constrained_without_direction(p->constraints, row ? row[faded] : faded);
     status = qdot_saddle_factor(s, &failed);
     if (status == QDOT_OK && faded < s->m)
-        return without_others(p->constraints, s, row);
+        return check_vanishing_gradients(p->constraints, s, row);
     if (status != QDOT_ESINGULAR)
         return status;
     if (failed >= p->n)
-        return dependent(p->constraints, s, row);
+        return fail_dependent_constraint(p->constraints, s, row);
     return qdot_fail(status, "the mass matrix is singular: no mass moves with %s",
                      p->names[failed]);
 }
@@ -212,7 +212,7 @@ qdot_constrained_damp(const qdot_constrained *h, double *gamma)
 /* Whether the loaded state is far off the constraints, as a method may try with a long step: the sizes
  * of their slopes there are none that the motion meets. Writes h->out. */
 static bool
-is_off(qdot_constrained *h, const level *l, const double *y)
+is_off_constraints(qdot_constrained *h, const level *l, const double *y)
 {
     qdot_constrained_positions(h);
     for (size_t k = 0; k < l->m; k++)
@@ -221,26 +221,26 @@ is_off(qdot_constrained *h, const level *l, const double *y)
     return false;
 }
 
-/* Evaluate the equations at the loaded state y. Returns A q'' of the constraints. */
+/* Evaluate the equations of motion at the loaded state y. Returns the left sides A q'' of the constraints. */
 static const double *
-constrained_evaluate(qdot_constrained *h, level *all, const double *y)
+evaluate_equations(qdot_constrained *h, level *all, const double *y)
 {
     const qdot_plan *p = h->plan;
     const double *gamma;
 
     qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
-    gamma = unpack(h, all, h->out + p->n);
+    gamma = copy_matrices(h, all, h->out + p->n);
     all->saddle.aside = false;
     if (qdot_saddle_widens(&all->saddle)) {
-        all->saddle.aside = is_off(h, all, y);
+        all->saddle.aside = is_off_constraints(h, all, y);
         qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
     }
     return gamma;
 }
 
-/* Weigh the rows so that multipliers of least norm are those of the scene: c->scale times those of the rows. */
+/* Scale the rows so that the least-norm multipliers are those of the scene: c->scale times the rows'. */
 static void
-weigh_multipliers(qdot_constrained *h)
+scale_multipliers(qdot_constrained *h)
 {
     static const double most = 0x1p400;
     const size_t m = h->c->m;
@@ -264,13 +264,13 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     qdot_constrained_load(h, t, y);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         qdot_constrained_residuals(h);
-    gamma = constrained_evaluate(h, all, y);
+    gamma = evaluate_equations(h, all, y);
     memcpy(x, h->out, n * sizeof *x);
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         qdot_constrained_damp(h, x + n);
     if (lambda && h->weight)
-        weigh_multipliers(h);
+        scale_multipliers(h);
     QDOT_TRY(qdot_constrained_look_first(h, all));
     QDOT_TRY(qdot_constrained_factor_rows(p, &all->saddle, all->row));
     qdot_saddle_solve_refined(&all->saddle);
@@ -295,9 +295,9 @@ qdot_constrained_accelerate(qdot_constrained *h, double t, const double *y, doub
     return QDOT_OK;
 }
 
-/* The residual A q'' - gamma of row k; *size: its largest term. */
+/* The residual A q'' - gamma of constraint k; *size: its largest term. */
 static double
-left_of(const qdot_constrained *h, size_t k, double *size)
+acceleration_residual(const qdot_constrained *h, size_t k, double *size)
 {
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
     const size_t n = h->plan->n;
@@ -312,9 +312,9 @@ left_of(const qdot_constrained *h, size_t k, double *size)
     return sum;
 }
 
-/* How much drift off the constraints changes q'', estimated from the terms that would damp the drift. */
+/* How much a violation of the constraints (drift) changes q'', estimated from the terms that would damp it. */
 static double
-by_drift(qdot_constrained *h)
+error_by_drift(qdot_constrained *h)
 {
     const double a = QDOT_CONSTRAINED_RATE;
     double sum = 0;
@@ -331,12 +331,12 @@ size_t
 qdot_constrained_contradicting(qdot_constrained *h)
 {
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
-    const double drift = by_drift(h);
+    const double drift = error_by_drift(h);
 
     for (size_t j = s->rank; j < s->m; j++) {
         double size;
 
-        if (fabs(left_of(h, s->pivot[j], &size)) > 1e-6 * fmax(1, size) + drift)
+        if (fabs(acceleration_residual(h, s->pivot[j], &size)) > 1e-6 * fmax(1, size) + drift)
             return s->pivot[j];
     }
     return SIZE_MAX;
@@ -352,7 +352,7 @@ qdot_constrained_check_repeated(qdot_constrained *h, qdot_status broken)
                          : qdot_fail(broken,
                                      "constraint %s contradicts the others: they leave it a "
                                      "second derivative of %.3g",
-                                     h->c->rows[k].name, left_of(h, k, &size));
+                                     h->c->rows[k].name, acceleration_residual(h, k, &size));
 }
 
 qdot_constrained_residual
@@ -425,7 +425,7 @@ qdot_constrained_factored(const qdot_constrained *h)
 /* --- making the evaluator ----------------------------------------------------------- */
 
 static qdot_status
-find_pattern(const qdot_constraints *c, level *l)
+find_matrix_pattern(const qdot_constraints *c, level *l)
 {
     qdot_saddle_entry *slopes = qdot_calloc(c->n_slopes + 1, sizeof *slopes);
     size_t count = 0, at = 0;
@@ -445,7 +445,7 @@ find_pattern(const qdot_constraints *c, level *l)
 }
 
 static qdot_status
-make_level(qdot_constrained *h, qdot_constraint_kind kind)
+make_constraint_level(qdot_constrained *h, qdot_constraint_kind kind)
 {
     const qdot_constraints *c = h->c;
     level *l = h->levels + kind;
@@ -472,11 +472,11 @@ make_level(qdot_constrained *h, qdot_constraint_kind kind)
         if (c->rows[k].kind <= kind)
             l->row[at++] = k;
     QDOT_TRY(qdot_saddle_init(&l->saddle, h->plan->n, l->m, h->plan->indefinite));
-    return find_pattern(c, l);
+    return find_matrix_pattern(c, l);
 }
 
 static qdot_status
-shake(qdot_constrained *h)
+perturb_tapes(qdot_constrained *h)
 {
     QDOT_TRY(qdot_tape_shake(h->c->positions, &h->positions));
     QDOT_TRY(qdot_tape_shake(h->c->velocities, &h->velocities));
@@ -484,9 +484,9 @@ shake(qdot_constrained *h)
     return qdot_tape_shake(h->plan->tape, &h->equations);
 }
 
-/* Allocate work space for a Jacobian; `outputs`: the most outputs of a tape. */
+/* Allocate work space for a Jacobian; `outputs` is the largest number of outputs of a tape. */
 static qdot_status
-make_slopes(qdot_constrained *h, size_t outputs)
+allocate_jacobian_work(qdot_constrained *h, size_t outputs)
 {
     const qdot_tape *tapes[] = {h->plan->tape, h->c->positions, h->c->velocities};
     const size_t columns = 2 * h->plan->n + 1;
@@ -529,7 +529,7 @@ constrained_make(qdot_constrained *h, bool shaken)
         !h->w_bound)
         return QDOT_ENOMEM;
     for (int kind = 0; kind < 3; kind++)
-        QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
+        QDOT_TRY(make_constraint_level(h, (qdot_constraint_kind)kind));
     if (h->c->scale) {
         h->weight = qdot_calloc(2 * m + qdot_tape_work(h->c->scale) + 1, sizeof *h->weight);
         if (!h->weight)
@@ -539,8 +539,8 @@ constrained_make(qdot_constrained *h, bool shaken)
         h->at[QDOT_ACCELERATION]->saddle.weight = h->weight;
     }
     if (qdot_plan_needs_jacobian(h->plan))
-        QDOT_TRY(make_slopes(h, out));
-    return shaken ? shake(h) : QDOT_OK;
+        QDOT_TRY(allocate_jacobian_work(h, out));
+    return shaken ? perturb_tapes(h) : QDOT_OK;
 }
 
 qdot_status

@@ -143,7 +143,7 @@ double qdot_constrained_remains(qdot_constrained *constrained, double t, const d
  * which. false also if that cannot be found out. */
 bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y, bool *rows);
 
-/* A row is named in messages if its share in a linear dependency (qdot_saddle_parts) is at least this. */
+/* A constraint is named in messages if its part in a linear dependency (qdot_saddle_parts) reaches this. */
 #define QDOT_CONSTRAINED_PART 1e-6
 /* Append the names of the rows marked in rows [m]: "constraint a", "constraints a, b and c"; if
  * these are many, a vector constraint is named once for all its components. */
@@ -160,12 +160,12 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_fail_dependent(const qdot_constrain
 QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constraints *c,
                                                                size_t row);
 
-/* Convert multipliers lambda [m] of the rows at t, y = (q, q') [2n] to those of the scene's constraints. */
+/* Convert multipliers lambda [m] of the rows, at t and y = (q, q') [2n], to those of the scene's constraints. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_rescale(const qdot_constrained *constrained, double t,
                                                      const double *y, double *lambda);
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* number m of constraint rows */
 const qdot_constraints *qdot_constrained_of(const qdot_constrained *constrained);
-/* The number of independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
+/* The number of independent constraints; QDOT_SADDLE_UNKNOWN before the first factorisation. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);
 /* The number of times that a matrix was factored. */
 size_t qdot_constrained_factored(const qdot_constrained *constrained);

@@ -1,4 +1,4 @@
-/* constraints.c -- lowers f, its time derivatives and its gradient for every constraint. */
+/* constraints.c -- compiles f, its time derivatives and its gradient for every constraint f = 0. */
 #include "sim/model/constraints.h"
 
 #include <string.h>
@@ -47,9 +47,9 @@ qdot_constraints_free(qdot_constraints *c)
 
 /* --- equations of one constraint ---------------------------------------------------- */
 
-/* The symbol of coordinate i, its velocity or its acceleration, as the kind of the constraint says. */
+/* Coordinate i, its velocity or acceleration: the variable that a constraint of the given kind restricts. */
 static qdot_expr
-constraint_jet(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
+restricted_variable(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
 {
     static const size_t block[] = {[QDOT_HOLONOMIC] = 0, [QDOT_VELOCITY] = 1};
 
@@ -59,7 +59,7 @@ constraint_jet(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
 }
 
 static qdot_status
-add_slopes(builder *b, size_t k)
+add_gradient(builder *b, size_t k)
 {
     const qdot_plan *p = b->plan;
     const qdot_constraints_row *row = b->c->rows + k;
@@ -68,7 +68,7 @@ add_slopes(builder *b, size_t k)
 
     QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < p->n - p->n_states; i++) {
-        qdot_expr x = constraint_jet(p, i, row->kind), slope;
+        qdot_expr x = restricted_variable(p, i, row->kind), slope;
         bool there = false;
 
         for (uint32_t a = 0; a < qdot_expr_count(p->pool, atoms) && !there; a++)
@@ -88,9 +88,9 @@ add_slopes(builder *b, size_t k)
     return QDOT_OK;
 }
 
-/* Replace the rates of parameters that events set by 0 in e. */
+/* In e, replace by 0 the time derivatives of parameters that events set. */
 static qdot_expr
-without_rates(const qdot_plan *p, qdot_expr e)
+without_parameter_rates(const qdot_plan *p, qdot_expr e)
 {
     for (size_t i = p->n - p->n_states; i < p->n && e != QDOT_NIL; i++) {
         const qdot_expr zero = QDOT_ZERO;
@@ -100,7 +100,7 @@ without_rates(const qdot_plan *p, qdot_expr e)
     return e;
 }
 
-/* Add the residuals of row k, and gamma = -(its last time derivative at q'' = 0). */
+/* Add the residuals of constraint k, and gamma = -(its last time derivative at q'' = 0). */
 static qdot_status
 add_derivatives(builder *b, size_t k)
 {
@@ -110,12 +110,12 @@ add_derivatives(builder *b, size_t k)
 
     if (row->kind == QDOT_HOLONOMIC) {
         QDOT_TRY(qdot_vec_push(&b->positions, f));
-        f = without_rates(p, qdot_ddt(p->pool, f));
+        f = without_parameter_rates(p, qdot_ddt(p->pool, f));
     }
     if (row->kind != QDOT_ACCELERATION) {
         QDOT_TRY(qdot_pool_check(p->pool));
         QDOT_TRY(qdot_vec_push(&b->velocities, f));
-        f = without_rates(p, qdot_ddt(p->pool, f));
+        f = without_parameter_rates(p, qdot_ddt(p->pool, f));
     }
     QDOT_TRY(qdot_pool_check(p->pool));
     zeros = qdot_calloc(p->n, sizeof *zeros);
@@ -130,7 +130,7 @@ add_derivatives(builder *b, size_t k)
 
         QDOT_TRY(qdot_rates_second(p->pool, row->f, &shared));
         if (shared != QDOT_NIL)
-            rest = without_rates(p, shared);
+            rest = without_parameter_rates(p, shared);
     }
     rest = qdot_neg(p->pool, rest);
     QDOT_TRY(qdot_pool_check(p->pool));
@@ -138,7 +138,7 @@ add_derivatives(builder *b, size_t k)
 }
 
 static qdot_status
-read_rows(builder *b, qdot_scene *scene)
+read_constraints(builder *b, qdot_scene *scene)
 {
     const qdot_plan *p = b->plan;
     qdot_constraints *c = b->c;
@@ -162,16 +162,16 @@ read_rows(builder *b, qdot_scene *scene)
         QDOT_TRY(qdot_pool_check(p->pool));
         if (p->mode)
             QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, &row->f, &row->f));
-        QDOT_TRY(add_slopes(b, k));
+        QDOT_TRY(add_gradient(b, k));
         QDOT_TRY(add_derivatives(b, k));
         QDOT_TRY(qdot_vec_push(&b->scale, qdot_plan_substitute(p, mu)));
     }
     return QDOT_OK;
 }
 
-/* Add the equations of coordinates without mass. */
+/* Add the equations of massless coordinates as constraints. */
 static qdot_status
-read_massless(builder *b)
+add_massless_equations(builder *b)
 {
     const qdot_plan *p = b->plan;
     qdot_constraints *c = b->c;
@@ -193,7 +193,7 @@ read_massless(builder *b)
         row->f = p->f[i];
         if (!row->name)
             return QDOT_ENOMEM;
-        QDOT_TRY(add_slopes(b, k));
+        QDOT_TRY(add_gradient(b, k));
         QDOT_TRY(add_derivatives(b, k));
     }
     return QDOT_OK;
@@ -202,7 +202,7 @@ read_massless(builder *b)
 /* Give massless coordinates so little mass in the metric that a projection moves only them onto
  * their equations. */
 static qdot_status
-read_masses(builder *b)
+list_mass_entries(builder *b)
 {
     const qdot_plan *p = b->plan;
     const qdot_expr light = qdot_expr_ratio(p->pool, 1, 1L << 60);
@@ -228,7 +228,7 @@ read_masses(builder *b)
 /* --- lowering to tapes -------------------------------------------------------------- */
 
 static qdot_status
-push_all(expressions *to, size_t n, const qdot_expr *from)
+append_all(expressions *to, size_t n, const qdot_expr *from)
 {
     for (size_t i = 0; i < n; i++)
         QDOT_TRY(qdot_vec_push(to, from[i]));
@@ -236,33 +236,33 @@ push_all(expressions *to, size_t n, const qdot_expr *from)
 }
 
 static qdot_status
-expressions_lower(const qdot_plan *p, const expressions *out, qdot_tape **tape)
+make_tape(const qdot_plan *p, const expressions *out, qdot_tape **tape)
 {
     return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out->n, out->at, tape);
 }
 
 static qdot_status
-lower_index_1(builder *b)
+make_acceleration_tape(builder *b)
 {
     const qdot_plan *p = b->plan;
     expressions out = {0};
-    qdot_status status = push_all(&out, b->metric.n, b->metric.at);
+    qdot_status status = append_all(&out, b->metric.n, b->metric.at);
 
     if (status == QDOT_OK)
-        status = push_all(&out, b->slopes.n, b->slopes.at);
+        status = append_all(&out, b->slopes.n, b->slopes.at);
     if (status == QDOT_OK)
-        status = expressions_lower(p, &out, &b->c->metric);
+        status = make_tape(p, &out, &b->c->metric);
     out.n = 0;
     if (status == QDOT_OK)
-        status = push_all(&out, p->n, p->f);
+        status = append_all(&out, p->n, p->f);
     if (status == QDOT_OK)
-        status = push_all(&out, b->masses.n, b->masses.at);
+        status = append_all(&out, b->masses.n, b->masses.at);
     if (status == QDOT_OK)
-        status = push_all(&out, b->slopes.n, b->slopes.at);
+        status = append_all(&out, b->slopes.n, b->slopes.at);
     if (status == QDOT_OK)
-        status = push_all(&out, b->gamma.n, b->gamma.at);
+        status = append_all(&out, b->gamma.n, b->gamma.at);
     if (status == QDOT_OK)
-        status = expressions_lower(p, &out, &b->c->equations);
+        status = make_tape(p, &out, &b->c->equations);
     if (status == QDOT_OK)
         status = qdot_rounding_show(b->c->equations);
     qdot_free(out.at);
@@ -272,7 +272,7 @@ lower_index_1(builder *b)
 /* A slope that is an earlier one of its row, negated, is that one: where both are
  * multiplied by the row's multiplier it is done once. */
 static qdot_status
-find_signs(builder *b)
+find_signs_of_gradients(builder *b)
 {
     qdot_constraints *c = b->c;
 
@@ -292,28 +292,28 @@ find_signs(builder *b)
     return qdot_pool_check(b->plan->pool);
 }
 
-/* Lower the tape from which series are made; call after find_signs. */
+/* Compile the tape from which Taylor series are made; call after find_signs_of_gradients. */
 static qdot_status
-lower_series(builder *b)
+make_series_tape(builder *b)
 {
     expressions out = {0};
-    qdot_status status = push_all(&out, b->plan->n, b->plan->f);
+    qdot_status status = append_all(&out, b->plan->n, b->plan->f);
 
     if (status == QDOT_OK)
-        status = push_all(&out, b->masses.n, b->masses.at);
+        status = append_all(&out, b->masses.n, b->masses.at);
     if (status == QDOT_OK)
-        status = push_all(&out, b->slopes.n, b->slopes.at);
+        status = append_all(&out, b->slopes.n, b->slopes.at);
     for (size_t k = 0; k < b->c->m && status == QDOT_OK; k++)
         status = qdot_vec_push(&out, b->c->rows[k].kind == QDOT_ACCELERATION
                                          ? b->gamma.at[k]
                                          : b->c->rows[k].f);
     if (status == QDOT_OK)
-        status = expressions_lower(b->plan, &out, &b->c->series);
+        status = make_tape(b->plan, &out, &b->c->series);
     qdot_free(out.at);
     return status;
 }
 
-/* Keep A and gamma as expressions, for other forms of the equations. */
+/* Keep A and gamma as expressions, for symbolic elimination and other forms of the equations. */
 static qdot_status
 keep_expressions(builder *b)
 {
@@ -332,17 +332,17 @@ keep_expressions(builder *b)
 static qdot_status
 constraints_build(builder *b, qdot_scene *scene)
 {
-    QDOT_TRY(read_rows(b, scene));
-    QDOT_TRY(read_massless(b));
+    QDOT_TRY(read_constraints(b, scene));
+    QDOT_TRY(add_massless_equations(b));
     QDOT_TRY(keep_expressions(b));
-    QDOT_TRY(read_masses(b));
-    QDOT_TRY(expressions_lower(b->plan, &b->positions, &b->c->positions));
-    QDOT_TRY(expressions_lower(b->plan, &b->velocities, &b->c->velocities));
+    QDOT_TRY(list_mass_entries(b));
+    QDOT_TRY(make_tape(b->plan, &b->positions, &b->c->positions));
+    QDOT_TRY(make_tape(b->plan, &b->velocities, &b->c->velocities));
     if (b->plan->rescaled)
-        QDOT_TRY(expressions_lower(b->plan, &b->scale, &b->c->scale));
-    QDOT_TRY(lower_index_1(b));
-    QDOT_TRY(find_signs(b)); /* must be last: it negates slopes, which only lower_series expects */
-    return lower_series(b);
+        QDOT_TRY(make_tape(b->plan, &b->scale, &b->c->scale));
+    QDOT_TRY(make_acceleration_tape(b));
+    QDOT_TRY(find_signs_of_gradients(b)); /* must be last: it negates gradients, which only make_series_tape expects */
+    return make_series_tape(b);
 }
 
 qdot_status

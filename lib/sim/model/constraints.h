@@ -22,7 +22,7 @@
 #include "sim/model/equations.h"
 
 typedef struct {
-    char *name;           /* name of the row: "rod", "pin, 1"; owned */
+    char *name;           /* name of the constraint (with component): "rod", "pin, 1"; owned */
     qdot_constraint_kind kind;
     qdot_expr f;          /* left side of f = 0, with parameter values */
     qdot_expr multiplier; /* the symbol lambda[name]; nil: the equation of a massless coordinate */
@@ -33,23 +33,23 @@ typedef struct {
 typedef qdot_saddle_entry qdot_constraints_entry;
 
 struct qdot_constraints {
-    size_t m; /* number of rows: constraints of the scene, then n_massless equations */
+    size_t m; /* number of constraint rows: constraints of the scene, then n_massless equations */
     size_t count[3]; /* number of rows of each kind: on positions, velocities, accelerations */
     qdot_constraints_row *rows;
-    qdot_constraints_entry *masses; /* [n_masses] non-zero entries of M, and the diagonal of massless coordinates */
+    qdot_constraints_entry *masses; /* [n_masses] non-zero entries of M, and diagonal of massless ones */
     size_t n_masses;
     qdot_constraints_entry *slopes; /* [n_slopes] entries of A = df/dq (or df/dq', df/dq''), row by row */
     size_t n_slopes;
-    signed char *sign; /* [n_slopes] entry of A = this sign times the series row */
+    signed char *sign; /* [n_slopes] entry of A = this sign times the corresponding row of the series program */
     qdot_expr *A;      /* [n_slopes] entries of A as expressions */
-    qdot_expr *gamma;  /* [m] right sides: A q'' = gamma */
+    qdot_expr *gamma;  /* [m] right-hand sides of A q'' = gamma */
 
-    /* Tapes with the inputs q [n], q' [n] and t, where n is that of the plan. Residuals: */
-    qdot_tape *positions;  /* outputs: f of the holonomic rows, in their order */
+    /* Tapes from q [n], q' [n] and t (n: coordinates of the plan); outputs are residuals: */
+    qdot_tape *positions;  /* outputs: f of the holonomic constraints, in their order */
     qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
                               order of all rows without those on accelerations */
-    qdot_tape *metric; /* outputs: M [n_masses] with 2^-60 for massless coordinates, then A [n_slopes] */
-    qdot_tape *scale; /* outputs: mu [m]; multiplier of the scene = mu * multiplier of the row; NULL: all 1 */
+    qdot_tape *metric; /* outputs: M [n_masses], with 2^-60 for massless coordinates, then A [n_slopes] */
+    qdot_tape *scale; /* outputs: mu [m]; the scene's multiplier = mu * multiplier of the row; NULL: all mu are 1 */
     qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; moved to plan->tape,
                               then NULL */
 

@@ -1,4 +1,4 @@
-/* contact.c -- makes switching surfaces for events whose contacts may last. */
+/* contact.c -- makes switching surfaces for events whose contacts may last (bodies that stay together). */
 #include "sim/model/contact.h"
 
 #include <stdio.h>
@@ -9,9 +9,9 @@
 #include "expr/symbol.h"
 #include "sim/model/substitute.h"
 
-/* Whether u depends on t with a velocity that jumps: there the motion would hit the surface again. */
+/* Whether u depends on t with a velocity that jumps: a moving wall that would hit the body again. */
 static qdot_status
-find_jerk(qdot_pool *pool, qdot_expr u, bool *jerks)
+has_velocity_jumps(qdot_pool *pool, qdot_expr u, bool *jerks)
 {
     *jerks = false;
     if (!(qdot_expr_node(pool, u)->holds & QDOT_HAS_TIME))
@@ -23,10 +23,10 @@ find_jerk(qdot_pool *pool, qdot_expr u, bool *jerks)
 /* Whether the contact at an event may last: it sets velocities, at most coordinates too, and u
  * depends on q and t only. */
 static bool
-may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
+may_contact_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 {
     const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER;
-    bool changes = false; /* the event changes some velocity; x' = x' does not */
+    bool changes = false; /* the event changes some velocity; an assignment like x' = x' does not */
 
     if (event->stop || event->targets.n == 0
         || !(qdot_expr_node(scene->pool, u)->holds & QDOT_HAS_COORD)
@@ -43,7 +43,7 @@ may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 }
 
 static qdot_status
-add(qdot_switches *s, size_t event, qdot_expr u, int way)
+append_contact_surface(qdot_switches *s, size_t event, qdot_expr u, int way)
 {
     qdot_surface x = {.u = u, .contact = true, .event = event, .reaction = -way};
     char name[32];
@@ -65,14 +65,14 @@ qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *r, qdot_swit
         bool jerks;
 
         QDOT_TRY(qdot_pool_check(s->pool));
-        if (!may_last(scene, event, u))
+        if (!may_contact_last(scene, event, u))
             continue;
-        QDOT_TRY(find_jerk(s->pool, u, &jerks));
+        QDOT_TRY(has_velocity_jumps(s->pool, u, &jerks));
         if (jerks)
             continue;
         for (int way = -1; way <= 1; way += 2)
             if (event->way == 0 || event->way == way)
-                QDOT_TRY(add(s, i, u, way));
+                QDOT_TRY(append_contact_surface(s, i, u, way));
     }
     return QDOT_OK;
 }

@@ -20,11 +20,11 @@
 #include "mech/scene/scene.h"
 #include "sim/model/switch.h"
 
-/* Append the surfaces of lasting contacts to the switches of a run. Errors: those of the pool, QDOT_ENOMEM. */
+/* Append the surfaces of lasting contacts to a run's switches. Errors: those of the pool, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *request,
                                                qdot_switches *switches);
 
-/* The surface of an event whose contact prevents du/dt of the sign `way`; SIZE_MAX: none. */
+/* The surface of the event's contact that prevents du/dt of the sign `way`; SIZE_MAX: none. */
 size_t qdot_contacts_surface(const qdot_switches *switches, size_t event, int way);
 /* Whether the wall of a contact moves with time, and so does work. */
 bool qdot_contacts_moves(const qdot_switches *switches, size_t surface);

@@ -1,4 +1,4 @@
-/* domain.c -- the domains of the coordinates, and whether a state is inside. */
+/* domain.c -- the declared domains of the coordinates, and whether a state lies inside. */
 #include "sim/model/domain.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ domain_describe(const qdot_plan *p, const qdot_symbol *s, const char *name, char
 }
 
 static qdot_status
-bound(const qdot_plan *p, const char *name, qdot_expr e, double none, double *value)
+evaluate_bound(const qdot_plan *p, const char *name, qdot_expr e, double none, double *value)
 {
     bool some, moves;
 
@@ -77,8 +77,8 @@ qdot_domains_find(const qdot_plan *p, qdot_domains *d)
         if (s.lo == QDOT_NIL && s.hi == QDOT_NIL)
             continue;
         *x = (qdot_domain){.coordinate = i, .lo_open = s.lo_open, .hi_open = s.hi_open};
-        QDOT_TRY(bound(p, p->names[i], s.lo, -INFINITY, &x->lo));
-        QDOT_TRY(bound(p, p->names[i], s.hi, INFINITY, &x->hi));
+        QDOT_TRY(evaluate_bound(p, p->names[i], s.lo, -INFINITY, &x->lo));
+        QDOT_TRY(evaluate_bound(p, p->names[i], s.hi, INFINITY, &x->hi));
         QDOT_TRY(domain_describe(p, &s, p->names[i], &x->text));
         d->n++;
     }

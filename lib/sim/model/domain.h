@@ -25,7 +25,7 @@ QDOT_MUST_CHECK qdot_status qdot_domains_find(const qdot_plan *plan,
                                               qdot_domains *domains);
 void qdot_domains_clear(qdot_domains *domains);
 
-/* The first domain that does not contain the state y [n ...]; NULL if all of them do. */
+/* The first domain that does not contain its coordinate in the state y [n ...]; NULL if all do. */
 const qdot_domain *qdot_domains_outside(const qdot_domains *domains, const double *y);
 
 /* For qdot_ode_options.accepted: stop at the first accepted step that ends outside, in a run with

@@ -1,4 +1,4 @@
-/* equations.c -- finds the blocks of M, and lowers both sides of the equations block by block. */
+/* equations.c -- finds the blocks of the mass matrix M, and compiles the equations block by block. */
 #include "sim/model/equations.h"
 
 #include "expr/calculus.h"
@@ -63,7 +63,7 @@ qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more, qdot_plan **plan)
 
 /* --- blocks of the mass matrix ------------------------------------------------------ */
 
-/* Find the blocks among the coordinates index [n]. */
+/* Find the blocks of M (coordinates that it couples) among the coordinates index [n]. */
 static qdot_status
 find_blocks(qdot_plan *p, size_t n, const size_t *index)
 {
@@ -92,7 +92,7 @@ find_blocks(qdot_plan *p, size_t n, const size_t *index)
 }
 
 static qdot_expr
-mass_entry(const qdot_plan *p, const qdot_plan_block *b, size_t i, size_t j)
+mass_matrix_entry(const qdot_plan *p, const qdot_plan_block *b, size_t i, size_t j)
 {
     return p->M[b->index[i] * p->n + b->index[j]];
 }
@@ -105,7 +105,7 @@ fill_block(qdot_plan *p, qdot_plan_block *b)
     b->constant = n > 1;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++)
-            b->constant = b->constant && qdot_constant_is(p->pool, mass_entry(p, b, i, j));
+            b->constant = b->constant && qdot_constant_is(p->pool, mass_matrix_entry(p, b, i, j));
     if (!b->constant)
         return QDOT_OK;
     b->M = qdot_calloc(n * n, sizeof *b->M);
@@ -116,7 +116,7 @@ fill_block(qdot_plan *p, qdot_plan_block *b)
         for (size_t j = 0; j <= i; j++) {
             int side;
 
-            QDOT_TRY(qdot_constant_round(p->pool, mass_entry(p, b, i, j), &b->M[i * n + j],
+            QDOT_TRY(qdot_constant_round(p->pool, mass_matrix_entry(p, b, i, j), &b->M[i * n + j],
                                          &side));
             b->side[i * n + j] = (signed char)side;
         }
@@ -154,16 +154,16 @@ qdot_plan_structure(qdot_plan *p, const bool *in)
 typedef qdot_vec(qdot_expr) expressions;
 
 static qdot_status
-push_mass(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
+append_masses(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
 {
     for (size_t i = 0; i < b->n; i++)
         for (size_t j = 0; j <= i; j++)
-            QDOT_TRY(qdot_vec_push(out, mass_entry(p, b, i, j)));
+            QDOT_TRY(qdot_vec_push(out, mass_matrix_entry(p, b, i, j)));
     return QDOT_OK;
 }
 
 static qdot_status
-push_blocks(const qdot_plan *p, expressions *out)
+append_blocks(const qdot_plan *p, expressions *out)
 {
     qdot_status status = QDOT_OK;
 
@@ -172,13 +172,13 @@ push_blocks(const qdot_plan *p, expressions *out)
 
         if (b->n == 1) {
             status = qdot_vec_push(
-                out, qdot_quotient(p->pool, p->f[b->index[0]], mass_entry(p, b, 0, 0)));
+                out, qdot_quotient(p->pool, p->f[b->index[0]], mass_matrix_entry(p, b, 0, 0)));
             continue;
         }
         for (size_t i = 0; i < b->n && status == QDOT_OK; i++)
             status = qdot_vec_push(out, p->f[b->index[i]]);
         if (!b->constant && status == QDOT_OK)
-            status = push_mass(p, b, out);
+            status = append_masses(p, b, out);
     }
     return status;
 }
@@ -187,7 +187,7 @@ qdot_status
 qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *others)
 {
     expressions out = {0};
-    qdot_status status = push_blocks(p, &out);
+    qdot_status status = append_blocks(p, &out);
 
     for (size_t i = 0; i < more && status == QDOT_OK; i++)
         status = qdot_vec_push(&out, others[i]);
@@ -206,7 +206,7 @@ qdot_plan_lower_for_series(qdot_plan *p)
 {
     expressions out = {0};
     qdot_tape *tape = NULL;
-    qdot_status status = push_blocks(p, &out);
+    qdot_status status = append_blocks(p, &out);
 
     if (status == QDOT_OK)
         status = qdot_pool_check(p->pool);

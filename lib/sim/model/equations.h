@@ -47,26 +47,26 @@ typedef enum {
     QDOT_FORM_BORDERED /* q'' and multipliers from one linear system, as machine code: plan->bordered */
 } qdot_form;
 
-/* All decisions about a run: made in sim/plan, then constant, and read everywhere else. */
+/* All decisions about how a run is computed: made in sim/plan, then constant, and read everywhere else. */
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
     unsigned uses;   /* number of users besides the first (sim/plan/kept.h) */
     qdot_pool *pool; /* pool of the expressions; borrowed */
     size_t n;        /* number of coordinates */
-    size_t m; /* number of constraint equations of the scene; each component of a vector counts */
+    size_t m; /* number of constraints of the scene; each component of a vector counts */
     size_t n_states; /* the last coordinates: parameters that events set
                         (sim/model/parameter-states.h) */
-    size_t n_sides;  /* number of switching surfaces and of symbols of pucks (sim/model/puck.h) */
+    size_t n_sides;  /* number of switching surfaces and of symbols of sliding discs (sim/model/puck.h) */
     qdot_expr *inputs; /* [3n + 1 + m + n_sides] q, q', t, q'', lambda of m constraints, the symbols of
                           the sides (sim/model/switch.h), of which only what is read along a run
                           may hold some */
     /* [m] the scene's lambda of each constraint, and what it is of those among the inputs: mu times
      * it where a run keeps mu f in place of f (mech/dynamics/integrated.h). */
     qdot_expr *multipliers, *scaled;
-    bool rescaled;     /* some `scaled` differs from its multiplier */
+    bool rescaled;     /* some multiplier differs from its `scaled` form */
     char **names;      /* [n] names of the coordinates; owned */
     qdot_expr *M;      /* [n x n] mass matrix; M, f and tape are NULL if only the tree is used */
-    qdot_expr *f;      /* [n] right sides f of M q'' = f (sim/plan/tree-alone.h) */
+    qdot_expr *f;      /* [n] right-hand sides f of M q'' = f (sim/plan/tree-alone.h) */
     bool *massless; /* [n] coordinates without mass, whose equations stand among the constraints
                        behind those of the scene (sim/model/massless.h); NULL: there are none */
     size_t n_massless;
@@ -85,9 +85,9 @@ struct qdot_plan {
     qdot_constraints *constraints;
     qdot_run_treatment treatment;
     qdot_plan *eliminated; /* plan of equations without multipliers (sim/form/eliminated.h); NULL: none */
-    qdot_tape *bordered; /* form of `tape` for machine code (sim/form/bordered.h); NULL: none */
+    qdot_tape *bordered; /* `tape` as one linear system for machine code (sim/form/bordered.h); NULL: none */
 
-    /* The values given in the request, for expressions that are read later; owned copies. */
+    /* Parameter values given in the request, for expressions that are read later; owned copies. */
     size_t n_values;
     qdot_expr *symbols, *values;
 
@@ -99,8 +99,8 @@ struct qdot_plan {
      * that of `bordered`. */
     qdot_motion *motion;
 
-    bool leading; /* compute the first orders of series in two doubles (sim/form/leading.h) */
-    bool smooth; /* the equations have Taylor series, for the method or its companion */
+    bool leading; /* compute the first Taylor coefficients in double-double precision (sim/form/leading.h) */
+    bool smooth; /* the equations have Taylor series, for the method of the run or of its companion run */
     /* The equations as d'Alembert's residual if that form is taken, else NULL; convolutions an order
      * of either form, 0 if not counted. */
     qdot_residual *residual;
@@ -122,7 +122,7 @@ struct qdot_plan {
      * the steps (sim/plan/parts.h). */
     qdot_plan **parts; /* [n_parts] a plan for each decoupled group of coordinates */
     size_t n_parts;
-    size_t *place; /* [n] in the plan of a part: index of each coordinate in the whole scene */
+    size_t *place; /* [n] in the plan of a decoupled part: index of each coordinate in the whole scene */
 
     /* The equations that are integrated instead of these, if cyclic coordinates leave shorter
      * ones (sim/plan/routh.h); else NULL. */
@@ -131,12 +131,12 @@ struct qdot_plan {
      * solved for; the momenta are the inputs after t. Their rates are the last outputs of the
      * tape; the blocks are those of the other coordinates. */
     size_t n_kept;
-    size_t *kept;      /* [n_kept] indices of the coordinates whose momenta are kept */
-    bool subtracts;    /* velocities from kept momenta are sums in which terms may cancel */
-    bool by_start;     /* whether there is a reduced plan depends on start and tolerance */
-    qdot_tape *momenta; /* from q, q', t: the kept momenta [n_kept] */
+    size_t *kept;      /* [n_kept] indices of the coordinates whose momenta are kept constant */
+    bool subtracts;    /* velocities from kept momenta are sums whose terms may cancel */
+    bool by_start;     /* whether there is a reduced plan depends on the start state and the tolerance */
+    qdot_tape *momenta; /* from q, q', t: the conserved momenta that are kept [n_kept] */
 
-    /* The mode in which switches are frozen while the plan is made; NULL later. */
+    /* The mode (sides of all switches) for which the plan is being made; NULL later. */
     const struct qdot_switches *mode;
     const long *side;
     /* [surfaces] of that mode: the shares of the surfaces along which the motion slides, functions
@@ -154,7 +154,7 @@ struct qdot_plan {
 QDOT_MUST_CHECK qdot_status qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more,
                                               qdot_plan **plan);
 
-/* Whether the method of the run, or that of its companion, needs a Jacobian. */
+/* Whether the method of the run, or that of its companion run, needs a Jacobian. */
 bool qdot_plan_needs_jacobian(const qdot_plan *plan);
 
 /* For rooms that fill a plan of their own: find the blocks of M [n x n] over the coordinates
@@ -164,7 +164,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_structure(qdot_plan *plan, const bool *in)
 QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size_t more,
                                             const qdot_expr *others);
 
-/* Lower p->tape anew for series in lanes (qdot_tape_new_for_series). */
+/* Compile p->tape anew, in the form used for series in vector lanes (qdot_tape_new_for_series). */
 QDOT_MUST_CHECK qdot_status qdot_plan_lower_for_series(qdot_plan *plan);
 
 /* The number of inputs of the plan's tapes: 3n + 1 + m + n_sides. */

@@ -1,4 +1,4 @@
-/* gates.c -- finds the switching functions in equations, and those whose value matters. */
+/* gates.c -- finds the switching functions in equations, and which of them affect the equations at present. */
 #include "sim/model/gates.h"
 
 #include <string.h>
@@ -31,7 +31,7 @@ qdot_gates_moves(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_gate_kind
-kind_of(const qdot_pool *pool, qdot_expr e)
+kind_of_gate(const qdot_pool *pool, qdot_expr e)
 {
     if (!qdot_gates_moves(pool, e))
         return QDOT_GATE_PASSES;
@@ -56,7 +56,7 @@ kind_of(const qdot_pool *pool, qdot_expr e)
 bool
 qdot_gates_is_switch(const qdot_pool *pool, qdot_expr e)
 {
-    const qdot_gate_kind kind = kind_of(pool, e);
+    const qdot_gate_kind kind = kind_of_gate(pool, e);
 
     return kind == QDOT_GATE_RELATION || kind == QDOT_GATE_EXTREME || kind == QDOT_GATE_VALUE;
 }
@@ -75,11 +75,11 @@ typedef struct {
     size_t m;
     const qdot_surface *at;
     qdot_gates *g;
-    qdot_walk *walk; /* value of each node: index of its gate + 1; 0: not a gate */
+    qdot_walk *walk; /* for each node of the expression: index of its gate + 1; 0: the node is no gate */
 } finder;
 
 static size_t
-gate_of(const finder *f, qdot_expr e)
+gate_of_node(const finder *f, qdot_expr e)
 {
     const size_t k = (size_t)qdot_walk_get(f->walk, e);
 
@@ -87,7 +87,7 @@ gate_of(const finder *f, qdot_expr e)
 }
 
 static qdot_status
-add_pair(finder *f, qdot_expr u, bool steps)
+append_comparison(finder *f, qdot_expr u, bool steps)
 {
     qdot_gate_pair pair = {.surface = SIZE_MAX, .turned = 1, .u = u};
     bool turned = false;
@@ -104,43 +104,43 @@ add_pair(finder *f, qdot_expr u, bool steps)
 }
 
 static qdot_status
-add_pairs(finder *f, qdot_expr e, qdot_gate_kind kind)
+append_comparisons(finder *f, qdot_expr e, qdot_gate_kind kind)
 {
     qdot_pool *pool = f->pool;
     const uint32_t n = qdot_expr_count(pool, e);
     const qdot_expr a = n > 0 ? qdot_expr_arg(pool, e, 0) : QDOT_NIL;
 
     if (kind == QDOT_GATE_RELATION)
-        return add_pair(f, qdot_sub(pool, a, qdot_expr_arg(pool, e, 1)), false);
+        return append_comparison(f, qdot_sub(pool, a, qdot_expr_arg(pool, e, 1)), false);
     if (kind == QDOT_GATE_VALUE && qdot_expr_is_function(pool, e, QDOT_MOD))
-        return add_pair(f, qdot_div(pool, a, qdot_expr_arg(pool, e, 1)), true);
+        return append_comparison(f, qdot_div(pool, a, qdot_expr_arg(pool, e, 1)), true);
     if (kind == QDOT_GATE_VALUE)
-        return add_pair(f, a, qdot_expr_is_function(pool, e, QDOT_FLOOR));
+        return append_comparison(f, a, qdot_expr_is_function(pool, e, QDOT_FLOOR));
     for (uint32_t i = 0; i < n && kind == QDOT_GATE_EXTREME; i++)
         for (uint32_t j = i + 1; j < n; j++)
-            QDOT_TRY(add_pair(f, qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, j)),
-                              false));
+            QDOT_TRY(append_comparison(f, qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, j)),
+                                       false));
     return QDOT_OK;
 }
 
-/* Add a node to the list if it is a switching function. */
+/* Add a node of the expression to the list of gates if it is a switching function. */
 static qdot_status
-gates_add(finder *f, qdot_expr e)
+add_gate(finder *f, qdot_expr e)
 {
     qdot_gates *g = f->g;
     const uint32_t n = qdot_expr_kind(f->pool, e) == QDOT_SYM ? 0 : qdot_expr_count(f->pool, e);
-    const qdot_gate_kind kind = kind_of(f->pool, e);
+    const qdot_gate_kind kind = kind_of_gate(f->pool, e);
     const qdot_gate gate = {.node = e, .kind = kind, .op = qdot_expr_node(f->pool, e)->op, .n = n,
                             .first = g->arguments.n, .pair = g->pairs.n};
     bool some = kind != QDOT_GATE_PASSES && kind != QDOT_GATE_IF && kind != QDOT_GATE_LOGIC;
 
     for (uint32_t k = 0; k < n && !some; k++)
-        some = gate_of(f, qdot_expr_arg(f->pool, e, k)) != SIZE_MAX;
+        some = gate_of_node(f, qdot_expr_arg(f->pool, e, k)) != SIZE_MAX;
     if (!some && !qdot_layers_hold(f->pool, f->m, f->at, e))
         return QDOT_OK;
     for (uint32_t k = 0; k < n; k++)
-        QDOT_TRY(qdot_vec_push(&g->arguments, gate_of(f, qdot_expr_arg(f->pool, e, k))));
-    QDOT_TRY(add_pairs(f, e, kind));
+        QDOT_TRY(qdot_vec_push(&g->arguments, gate_of_node(f, qdot_expr_arg(f->pool, e, k))));
+    QDOT_TRY(append_comparisons(f, e, kind));
     g->branches |= kind == QDOT_GATE_IF || kind == QDOT_GATE_LOGIC || kind == QDOT_GATE_EXTREME;
     QDOT_TRY(qdot_vec_push(&g->gates, gate));
     qdot_walk_set(f->walk, e, g->gates.n);
@@ -171,12 +171,12 @@ qdot_gates_find(qdot_pool *pool, size_t m, const qdot_surface *at, size_t n, con
         status = qdot_walk_begin_n(pool, count, roots, &walk);
     if (status == QDOT_OK) {
         for (size_t i = 0; i < walk.n && status == QDOT_OK; i++)
-            status = gates_add(&f, walk.at[i]);
+            status = add_gate(&f, walk.at[i]);
         for (size_t i = 0; i < n && status == QDOT_OK; i++)
-            if (e[i] != QDOT_NIL && gate_of(&f, e[i]) != SIZE_MAX)
-                status = qdot_vec_push(&g->roots, gate_of(&f, e[i]));
+            if (e[i] != QDOT_NIL && gate_of_node(&f, e[i]) != SIZE_MAX)
+                status = qdot_vec_push(&g->roots, gate_of_node(&f, e[i]));
         for (size_t i = 0; i < m && status == QDOT_OK; i++)
-            g->decides[i] = deciding ? gate_of(&f, at[i].u) : SIZE_MAX;
+            g->decides[i] = deciding ? gate_of_node(&f, at[i].u) : SIZE_MAX;
         qdot_walk_end(&walk);
     }
     qdot_free(roots);
@@ -218,7 +218,7 @@ typedef struct {
 } opening;
 
 static void
-find_truth(const opening *o, size_t i)
+find_truth_value(const opening *o, size_t i)
 {
     enum { either = QDOT_GATE_FALSE | QDOT_GATE_TRUE };
     const qdot_gate *gate = &o->g->gates.at[i];
@@ -233,7 +233,7 @@ find_truth(const opening *o, size_t i)
         if (known)
             truth = holds ? QDOT_GATE_TRUE : QDOT_GATE_FALSE;
     } else if (gate->kind == QDOT_GATE_LOGIC) {
-        /* the value of one argument that decides the result of `and` or `or` */
+        /* the truth value of one argument that decides the result of `and` or `or` */
         const uint8_t decisive = op == QDOT_AND ? QDOT_GATE_FALSE : QDOT_GATE_TRUE;
 
         truth = op == QDOT_NOT ? 0 : (uint8_t)(either - decisive);
@@ -253,7 +253,7 @@ find_truth(const opening *o, size_t i)
 }
 
 static void
-open_gate(opening *o, size_t of, size_t argument)
+mark_gate_evaluated(opening *o, size_t of, size_t argument)
 {
     if (argument == SIZE_MAX || o->open[argument] & QDOT_GATE_OPEN)
         return;
@@ -262,17 +262,17 @@ open_gate(opening *o, size_t of, size_t argument)
 }
 
 static void
-open_pair(opening *o, size_t of, const qdot_gate_pair *pair)
+mark_comparison_evaluated(opening *o, size_t of, const qdot_gate_pair *pair)
 {
     if (pair->surface == SIZE_MAX)
         return;
     o->open[o->g->gates.n + pair->surface] = QDOT_GATE_OPEN;
-    open_gate(o, of, o->g->decides[pair->surface]);
+    mark_gate_evaluated(o, of, o->g->decides[pair->surface]);
 }
 
-/* Mark the arguments that may be the largest, and the comparisons that decide which one is. */
+/* Mark the arguments of max or min that may be the extreme one, and the comparisons that decide which is. */
 static void
-open_extreme(opening *o, size_t i, const size_t *arguments)
+mark_extreme_arguments(opening *o, size_t i, const size_t *arguments)
 {
     const qdot_gate *gate = &o->g->gates.at[i];
     const int way = gate->op == QDOT_MAX ? 1 : -1;
@@ -290,51 +290,51 @@ open_extreme(opening *o, size_t i, const size_t *arguments)
             if (!may)
                 continue;
             if (pair->surface != SIZE_MAX && o->side && o->side[pair->surface] == QDOT_SIDE_SLIDES) {
-                sign = 0; /* both sides are equal on a surface along which the motion slides */
+                sign = 0; /* both arguments are equal on a surface along which the motion slides */
                 known = true;
             }
-            open_pair(o, i, pair);
+            mark_comparison_evaluated(o, i, pair);
             won &= known && sign >= 0;
             may = !known || sign >= 0;
         }
         if (may)
-            open_gate(o, i, arguments[a]);
+            mark_gate_evaluated(o, i, arguments[a]);
     }
 }
 
 static void
-open_arguments(opening *o, size_t i)
+mark_arguments(opening *o, size_t i)
 {
     const qdot_gate *gate = &o->g->gates.at[i];
     const size_t *arguments = o->g->arguments.at + gate->first;
     bool goes_on = true;
 
     switch (gate->kind) {
-    case QDOT_GATE_EXTREME: open_extreme(o, i, arguments); return;
+    case QDOT_GATE_EXTREME: mark_extreme_arguments(o, i, arguments); return;
     case QDOT_GATE_IF: {
         const uint8_t truth = arguments[0] == SIZE_MAX ? QDOT_GATE_FALSE | QDOT_GATE_TRUE
                                                        : o->open[arguments[0]];
 
-        open_gate(o, i, arguments[0]);
+        mark_gate_evaluated(o, i, arguments[0]);
         if (truth & QDOT_GATE_TRUE)
-            open_gate(o, i, arguments[1]);
+            mark_gate_evaluated(o, i, arguments[1]);
         if (truth & QDOT_GATE_FALSE)
-            open_gate(o, i, arguments[2]);
+            mark_gate_evaluated(o, i, arguments[2]);
         return;
     }
-    case QDOT_GATE_LOGIC: /* operands are evaluated in order, up to the first that decides */
+    case QDOT_GATE_LOGIC: /* operands of `and`, `or` are evaluated in order, up to the first that decides */
         for (uint32_t k = 0; k < gate->n && goes_on; k++) {
-            open_gate(o, i, arguments[k]);
+            mark_gate_evaluated(o, i, arguments[k]);
             if (gate->op != QDOT_NOT && arguments[k] != SIZE_MAX)
                 goes_on = o->open[arguments[k]] & (gate->op == QDOT_AND ? QDOT_GATE_TRUE : QDOT_GATE_FALSE);
         }
         return;
     case QDOT_GATE_RELATION:
-    case QDOT_GATE_VALUE: open_pair(o, i, &o->g->pairs.at[gate->pair]); break;
+    case QDOT_GATE_VALUE: mark_comparison_evaluated(o, i, &o->g->pairs.at[gate->pair]); break;
     case QDOT_GATE_PASSES: break;
     }
     for (uint32_t k = 0; k < gate->n; k++)
-        open_gate(o, i, arguments[k]);
+        mark_gate_evaluated(o, i, arguments[k]);
 }
 
 void
@@ -344,13 +344,13 @@ qdot_gates_open(const qdot_gates *g, const long *side, const long *corner, uint8
 
     memset(open, 0, g->gates.n + g->surfaces);
     for (size_t i = 0; i < g->gates.n; i++)
-        find_truth(&o, i);
+        find_truth_value(&o, i);
     for (size_t i = 0; i < g->roots.n; i++)
         open[g->roots.at[i]] |= QDOT_GATE_OPEN;
     while (o.again) {
         o.again = false;
         for (size_t i = g->gates.n; i-- > 0;)
             if (open[i] & QDOT_GATE_OPEN)
-                open_arguments(&o, i);
+                mark_arguments(&o, i);
     }
 }

@@ -1,4 +1,4 @@
-/* layer.c -- finds non-integer powers of switching functions, and the width of a layer for each. */
+/* layer.c -- finds non-integer powers of switching functions, which need a layer around u = 0; the layers' widths. */
 #include "sim/model/layer.h"
 
 #include <math.h>
@@ -11,16 +11,16 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* The shortest time that a motion spends in a layer, relative to the largest |t|: 1024 spacings of doubles. */
+/* The shortest time in which a motion crosses a layer, relative to the largest |t|: 1024 spacings of doubles. */
 static const double passage = 0x1p-42;
 
-/* The width of a layer in units of a step's error; the fraction of the tolerance that a layer may leave out. */
+/* The width of a layer in units of a step's error; the fraction of the tolerance that a layer may neglect. */
 static const double beyond_steps = 16, share = 0.01;
 
 /* Whether `base` is 0 where u is 0: u, -u, |u|, or the larger or smaller of u and 0; *only: the sign of u
  * on the one side where it is not 0, else 0. */
 static bool
-is_base(qdot_pool *pool, qdot_expr base, qdot_expr u, int *only)
+is_base_of_surface(qdot_pool *pool, qdot_expr base, qdot_expr u, int *only)
 {
     const bool function = qdot_expr_kind(pool, base) == QDOT_FUN;
     const qdot_fun_id id =
@@ -53,7 +53,7 @@ qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, doub
 }
 
 static void
-note_power(qdot_surface *x, double p)
+record_power(qdot_surface *x, double p)
 {
     if (p < 0 || x->power < 0)
         x->power = -1;
@@ -62,7 +62,7 @@ note_power(qdot_surface *x, double p)
 }
 
 static void
-look_at_product(qdot_pool *pool, size_t m, qdot_surface *surfaces, qdot_expr product)
+record_powers_in_product(qdot_pool *pool, size_t m, qdot_surface *surfaces, qdot_expr product)
 {
     double p;
     int only;
@@ -72,8 +72,8 @@ look_at_product(qdot_pool *pool, size_t m, qdot_surface *surfaces, qdot_expr pro
             continue;
         for (size_t i = 0; i < m; i++)
             if (!surfaces[i].steps
-                && is_base(pool, qdot_expr_arg(pool, product, k), surfaces[i].u, &only))
-                note_power(&surfaces[i], p);
+                && is_base_of_surface(pool, qdot_expr_arg(pool, product, k), surfaces[i].u, &only))
+                record_power(&surfaces[i], p);
     }
 }
 
@@ -88,7 +88,7 @@ qdot_layers_find(qdot_pool *pool, size_t m, qdot_surface *surfaces, size_t n,
     QDOT_TRY(qdot_walk_begin_n(pool, n, e, &walk));
     for (size_t i = 0; i < walk.n; i++)
         if (qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD)
-            look_at_product(pool, m, surfaces, walk.at[i]);
+            record_powers_in_product(pool, m, surfaces, walk.at[i]);
     qdot_walk_end(&walk);
     for (size_t i = 0; i < m; i++)
         surfaces[i].power = fmax(surfaces[i].power, 0);
@@ -106,7 +106,7 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
 /* The least width of a layer, in units of U, that exceeds the errors of a method by series; 0 if it
  * needs none. */
 static double
-beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
+layer_width_for_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {
     /* friction laws need no layer, nor do functions u(t) of time alone, whose zeros are located exactly */
     if (surface->power < 1 || qdot_layers_in_time(pool, surface))
@@ -125,9 +125,9 @@ qdot_layers_measure(const qdot_pool *pool, size_t m, qdot_surface *surfaces, con
             largest = fmax(largest, speed[i]);
     largest = largest > 0 ? largest : 1;
     for (size_t i = 0; i < m; i++) {
-        const double width = fmax(passage * latest, beyond_series(pool, &surfaces[i], tol)) * (speed[i] > 0 ? speed[i] : largest);
+        const double width = fmax(passage * latest, layer_width_for_series(pool, &surfaces[i], tol)) * (speed[i] > 0 ? speed[i] : largest);
 
-        if (surfaces[i].power > 0 && isnormal(width)) /* round to a power of two, so that layer boundaries are exact */
+        if (surfaces[i].power > 0 && isnormal(width)) /* a power of two makes layer boundaries exact */
             surfaces[i].layer = exp2(ilogb(width));
     }
 }
@@ -164,7 +164,7 @@ qdot_layers_has(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_ex
             return false;
         broken = true;
         *surface = i;
-        if (is_base(pool, qdot_expr_arg(pool, product, k), surfaces[i].u, only))
+        if (is_base_of_surface(pool, qdot_expr_arg(pool, product, k), surfaces[i].u, only))
             return true;
     }
     return false;

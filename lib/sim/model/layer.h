@@ -25,7 +25,7 @@
 
 #include "sim/model/surface.h"
 
-/* Whether factor k of a product is a power with a non-integer exponent; *p: the exponent. */
+/* Whether factor k of a product is a power with a non-integer exponent; *p receives the exponent. */
 bool qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p);
 
 /* Set `power` of every surface [m] whose u stands under such a power in e [n], to the least of its
@@ -39,20 +39,20 @@ QDOT_MUST_CHECK qdot_status qdot_layers_find(qdot_pool *pool, size_t m, qdot_sur
 void qdot_layers_measure(const qdot_pool *pool, size_t m, qdot_surface *surfaces, const double *speed,
                          double latest, double tol);
 
-/* The half width of the layer of a surface, as an exact number. */
+/* The half width of the layer around a surface u = 0, as an exact number. */
 qdot_expr qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface);
 
-/* The share of a motion held in a layer; the motion leaves the layer when it passes -1 or 1. */
+/* For a motion held in a layer: the force ratio (share) that reaches -1 or 1 when the motion leaves the layer. */
 qdot_expr qdot_layers_share(qdot_pool *pool, qdot_expr share);
 
-/* Whether u depends on t only, so that the effect of its layer is known. */
+/* Whether a surface's function u depends on t only, so that the effect of its layer is known. */
 bool qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface);
 
 /* Whether factor k of a product is a power of a u that has a layer: *surface; *only: the sign of u on the one
  * side where the power is not 0, else 0. */
 bool qdot_layers_has(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr product,
                      uint32_t k, size_t *surface, int *only);
-/* Whether a node is a product in which one factor is a power of some u with a layer. */
+/* Whether a node is a product with a factor that is a power of some surface's function u with a layer. */
 bool qdot_layers_hold(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr node);
 
 #endif

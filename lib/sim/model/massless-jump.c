@@ -15,21 +15,21 @@ typedef struct {
     const qdot_massless_rows *rows;
     qdot_pool *pool;
     size_t n_from;
-    qdot_expr *from, *to; /* [n_from] replace q, q' and parameters set by the event, by their values after it */
-    qdot_expr *R, *x;      /* [w] equations R = 0 and their unknowns x */
+    qdot_expr *from, *to; /* [n_from] q, q' and parameters set by the event (from) are replaced by their values after it (to) */
+    qdot_expr *R, *x;      /* [w] equations R = 0 of the massless coordinates, and their unknowns x */
     size_t *place;         /* [w] index of each unknown in (q, q') */
     qdot_expr *A, *b, *at; /* linear system A x = b: A [w x w], b [w], evaluation point [w] */
 } jump;
 
 static qdot_expr
-behind(const jump *j, qdot_expr e)
+value_after_event(const jump *j, qdot_expr e)
 {
     return e == QDOT_NIL ? e : qdot_subs(j->pool, e, j->n_from, j->from, j->to);
 }
 
-/* Write A and b of A x = b, the first n equations R = 0 for the first n unknowns after the jump. */
+/* Write A and b of A x = b, which are the first n equations R = 0, for the first n unknowns. */
 static qdot_status
-write_linear(const jump *j, size_t n)
+write_linear_system(const jump *j, size_t n)
 {
     for (size_t c = 0; c < n; c++) {
         qdot_expr rest = j->R[c];
@@ -52,17 +52,17 @@ write_linear(const jump *j, size_t n)
                                              .at[j->place[i] % j->scene->coordinates.n])
                             ->name,
                         j->place[i] < j->scene->coordinates.n ? "" : "'");
-            j->A[c * n + k] = behind(j, slope);
+            j->A[c * n + k] = value_after_event(j, slope);
             rest = rest == QDOT_NIL ? rest : qdot_subs(j->pool, rest, 1, &j->x[k], &zero);
         }
-        j->b[c] = qdot_neg(j->pool, behind(j, rest));
+        j->b[c] = qdot_neg(j->pool, value_after_event(j, rest));
     }
     return qdot_pool_check(j->pool);
 }
 
-/* Solve the first n equations for the first n unknowns. */
+/* Solve the first n equations R = 0 for the first n unknowns. */
 static qdot_status
-solve_for(const jump *j, size_t n)
+solve_unknowns(const jump *j, size_t n)
 {
     const qdot_facts facts = qdot_scene_facts(j->scene);
     bool same = true;
@@ -70,10 +70,10 @@ solve_for(const jump *j, size_t n)
     qdot_status status;
 
     for (size_t c = 0; c < n; c++)
-        same = same && behind(j, j->R[c]) == j->R[c];
+        same = same && value_after_event(j, j->R[c]) == j->R[c];
     if (same)
         return qdot_pool_check(j->pool);
-    QDOT_TRY(write_linear(j, n));
+    QDOT_TRY(write_linear_system(j, n));
     status = qdot_solve_linear(j->pool, (uint32_t)n, j->A, j->b, j->at, &pivot, &facts);
     if (status == QDOT_ESINGULAR)
         return qdot_fail(status,
@@ -87,7 +87,7 @@ solve_for(const jump *j, size_t n)
 }
 
 static size_t
-add_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
+append_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
 {
     j->R[n] = R;
     j->place[n] = place;
@@ -95,9 +95,9 @@ add_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
     return n + 1;
 }
 
-/* Replace q and q' by the values that the event's `then` sets. */
+/* Replace q and q' by the values to which the event's `then` sets them. */
 static void
-put_event(jump *j)
+insert_event_values(jump *j)
 {
     const size_t n = j->scene->coordinates.n;
     const qdot_event *event = j->event;
@@ -118,25 +118,25 @@ put_event(jump *j)
 }
 
 static qdot_status
-jump_follow(jump *j)
+find_values_after_event(jump *j)
 {
     const qdot_massless_rows *rows = j->rows;
     const size_t n = j->scene->coordinates.n;
     size_t count = 0;
 
-    put_event(j);
+    insert_event_values(j);
     QDOT_TRY(qdot_pool_check(j->pool));
     for (size_t c = 0; c < rows->w; c++)
         if (rows->of_positions[c])
-            count = add_unknown(j, count, rows->G[c], rows->coordinate[c]);
-    QDOT_TRY(solve_for(j, count));
+            count = append_unknown(j, count, rows->G[c], rows->coordinate[c]);
+    QDOT_TRY(solve_unknowns(j, count));
     count = 0;
     for (size_t c = 0; c < rows->w; c++)
-        count = add_unknown(
+        count = append_unknown(
             j, count, rows->of_positions[c] ? qdot_ddt(j->pool, rows->G[c]) : rows->G[c],
             n + rows->coordinate[c]);
     QDOT_TRY(qdot_pool_check(j->pool));
-    return solve_for(j, count);
+    return solve_unknowns(j, count);
 }
 
 qdot_status
@@ -157,7 +157,7 @@ qdot_massless_jump(const qdot_scene *scene, const qdot_event *event,
         j.b = j.x + w;
         j.at = j.b + w;
         j.A = j.at + w;
-        status = jump_follow(&j);
+        status = find_values_after_event(&j);
     }
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
         after[i] = j.to[i];

@@ -16,9 +16,9 @@
 
 typedef struct {
     size_t w;
-    const qdot_expr *G;       /* [w] left sides of the equations of massless coordinates */
+    const qdot_expr *G;       /* [w] left sides G of the equations G = 0 of massless coordinates */
     const size_t *coordinate; /* [w] index of the massless coordinate of each unknown */
-    const bool *of_positions; /* [w] the equation determines a position; else a velocity */
+    const bool *of_positions; /* [w] whether the equation determines a position; else it determines a velocity */
 } qdot_massless_rows;
 
 /* q, q' behind an event from those before it, into after [2n]. QDOT_ENOTBUILT: an equation that is not linear in what it

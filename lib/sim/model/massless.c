@@ -19,7 +19,7 @@ has_mass(const qdot_plan *p, size_t i)
 
 /* Whether a constraint of the scene acts on coordinate i. */
 static bool
-is_held(const qdot_scene *scene, const qdot_plan *p, size_t i)
+is_constrained(const qdot_scene *scene, const qdot_plan *p, size_t i)
 {
     for (size_t k = 0; k < scene->constraints.n; k++)
         for (size_t order = 0; order < 3; order++)
@@ -32,12 +32,12 @@ is_held(const qdot_scene *scene, const qdot_plan *p, size_t i)
 bool
 qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i)
 {
-    return !has_mass(p, i) && !is_held(scene, p, i);
+    return !has_mass(p, i) && !is_constrained(scene, p, i);
 }
 
-/* How many of the n symbols from input `first` on occur in f_i: of massless coordinates only, or of all. */
+/* Count how many of the n symbols from input `first` on occur in f_i: those of massless coordinates, or all. */
 static size_t
-count_massless_in(const qdot_plan *p, size_t i, size_t first, bool massless)
+count_symbols_in_force(const qdot_plan *p, size_t i, size_t first, bool massless)
 {
     size_t count = 0;
 
@@ -50,16 +50,16 @@ count_massless_in(const qdot_plan *p, size_t i, size_t first, bool massless)
 qdot_constraint_kind
 qdot_massless_kind(const qdot_plan *p, size_t i)
 {
-    return count_massless_in(p, i, p->n, true) > 0 ? QDOT_VELOCITY : QDOT_HOLONOMIC;
+    return count_symbols_in_force(p, i, p->n, true) > 0 ? QDOT_VELOCITY : QDOT_HOLONOMIC;
 }
 
 /* Fail if the equation f_i determines no massless coordinate. */
 static qdot_status
-check(const qdot_plan *p, size_t i)
+check_massless_equation(const qdot_plan *p, size_t i)
 {
-    const bool velocities = count_massless_in(p, i, p->n, false) > 0;
+    const bool velocities = count_symbols_in_force(p, i, p->n, false) > 0;
 
-    if (count_massless_in(p, i, p->n, true) > 0 || (!velocities && count_massless_in(p, i, 0, true) > 0))
+    if (count_symbols_in_force(p, i, p->n, true) > 0 || (!velocities && count_symbols_in_force(p, i, 0, true) > 0))
         return QDOT_OK;
     (void)qdot_fail(QDOT_ESINGULAR,
                     "the mass matrix is singular: no mass moves with %s%s", p->names[i],
@@ -86,7 +86,7 @@ qdot_massless_find(const qdot_scene *scene, qdot_plan *p)
     }
     for (size_t i = 0; i < n && p->n_massless > 0; i++)
         if (p->massless[i])
-            QDOT_TRY(check(p, i));
+            QDOT_TRY(check_massless_equation(p, i));
     return QDOT_OK;
 }
 
@@ -102,9 +102,9 @@ qdot_massless_switch(const qdot_plan *p, const qdot_switches *s)
     return false;
 }
 
-/* Whether e, with parameter values, contains this time derivative of a massless coordinate. */
+/* Whether e, with parameter values, contains the given time derivative of any massless coordinate. */
 static bool
-holds_any(qdot_scene *scene, qdot_expr e, const bool *massless, uint32_t order)
+contains_massless(qdot_scene *scene, qdot_expr e, const bool *massless, uint32_t order)
 {
     for (size_t i = 0; i < scene->coordinates.n; i++)
         if (massless[i]
@@ -114,7 +114,7 @@ holds_any(qdot_scene *scene, qdot_expr e, const bool *massless, uint32_t order)
 }
 
 static bool
-constraints_hold(const qdot_scene *scene, size_t i)
+constraints_contain(const qdot_scene *scene, size_t i)
 {
     for (size_t c = 0; c < scene->constraints.n; c++)
         for (uint32_t order = 0; order < 3; order++)
@@ -139,7 +139,7 @@ qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_
         return QDOT_ENOMEM;
     }
     for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
-        massless[i] = !constraints_hold(scene, i);
+        massless[i] = !constraints_contain(scene, i);
         for (size_t j = 0; j < n && massless[i]; j++)
             massless[i] = qdot_substitute(pool, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)), request->n_values,
                                           request->symbols, request->values) == QDOT_ZERO;
@@ -149,7 +149,7 @@ qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_
             const qdot_expr own = qdot_substitute(pool, qdot_expr_arg(pool, f, (uint32_t)i), request->n_values,
                                                   request->symbols, request->values);
 
-            x->of_positions[x->n] = own != QDOT_NIL && !holds_any(scene, own, massless, 1);
+            x->of_positions[x->n] = own != QDOT_NIL && !contains_massless(scene, own, massless, 1);
             x->equations[x->n++] = own;
         }
     qdot_free(massless);

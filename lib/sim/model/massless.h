@@ -26,7 +26,7 @@
  * determines nothing. */
 QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
 
-/* Whether coordinate i has no mass, judged by p->M. */
+/* Whether coordinate i has no mass: its row of the mass matrix p->M is 0. */
 bool qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i);
 
 /* Whether what these equations determine decides a switch, as the velocity of a slider: by which side that starts is for
@@ -38,16 +38,16 @@ bool qdot_massless_switch(const qdot_plan *p, const qdot_switches *s);
 typedef struct {
     size_t n;
     qdot_expr *equations; /* [n] left sides G of G = 0 */
-    bool *of_positions;   /* [n] the equation contains positions only; else a massless velocity */
+    bool *of_positions;   /* [n] whether the equation contains positions only; else it contains a massless velocity */
 } qdot_massless;
 
-/* Find the massless coordinates before there is a plan; derives M and f. x is cleared on failure. */
+/* Find the massless coordinates before a plan exists; derives M and f. x is cleared on failure. */
 QDOT_MUST_CHECK qdot_status qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_massless *x);
 /* The number of start values q, q' [2n] that the equations of massless coordinates determine. */
 size_t qdot_massless_determines(const qdot_massless *x);
 void qdot_massless_clear(qdot_massless *x);
 
-/* The kind of constraint (on positions, velocities ...) that the equation of massless coordinate i imposes. */
+/* The kind of constraint (on positions, velocities ...) that a massless coordinate's equation amounts to. */
 qdot_constraint_kind qdot_massless_kind(const qdot_plan *p, size_t i);
 
 #endif

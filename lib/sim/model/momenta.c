@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "series/precise.h"
 
-/* The precision of momenta in MPFR: two doubles, plus the digits that their terms may cancel. */
+/* The precision of momenta in MPFR, in bits: two doubles, plus the digits that their terms may cancel. */
 enum { bits = 256 };
 
 struct qdot_momenta {
@@ -17,13 +17,13 @@ struct qdot_momenta {
     qdot_precise *precise;
     qdot_ode_following following;
     size_t *index;   /* [n_kept] indices of the velocities in a state */
-    double *hi, *lo; /* [n_kept] the kept momenta are hi + lo */
+    double *hi, *lo; /* [n_kept] conserved momenta, kept as hi + lo */
     bool entered;
-    double t, *y; /* time and state [2n] at which the solution was entered */
+    double t, *y; /* time and state [2n] from which the conserved momenta were computed */
 };
 
 static qdot_status
-momenta_enter(double t, const double *y, const double *carry, void *user)
+compute_momenta_of_start(double t, const double *y, const double *carry, void *user)
 {
     qdot_momenta *m = user;
     const size_t n = 2 * m->plan->n;
@@ -95,7 +95,7 @@ qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y, const double
 }
 
 static qdot_status
-derive(double t, double *y, void *user)
+compute_velocities(double t, double *y, void *user)
 {
     qdot_momenta *m = user;
     const qdot_plan *p = m->plan;
@@ -111,7 +111,7 @@ derive(double t, double *y, void *user)
 }
 
 static qdot_status
-momenta_conversion_make(qdot_momenta *m, const qdot_tape *tape)
+make_conversion(qdot_momenta *m, const qdot_tape *tape)
 {
     const qdot_plan *p = m->plan;
 
@@ -127,8 +127,8 @@ momenta_conversion_make(qdot_momenta *m, const qdot_tape *tape)
         m->index[k] = p->n + p->kept[k];
     m->following = (qdot_ode_following){.n = p->n_kept,
                                         .index = m->index,
-                                        .enter = momenta_enter,
-                                        .derive = derive,
+                                        .enter = compute_momenta_of_start,
+                                        .derive = compute_velocities,
                                         .user = m};
     return QDOT_OK;
 }
@@ -143,7 +143,7 @@ qdot_momenta_new(const qdot_plan *reduced, const qdot_tape *tape, qdot_momenta *
     if (!m)
         return QDOT_ENOMEM;
     m->plan = reduced;
-    status = momenta_conversion_make(m, tape);
+    status = make_conversion(m, tape);
     if (status != QDOT_OK) {
         qdot_momenta_free(m);
         return status;

@@ -11,12 +11,12 @@
 
 typedef struct qdot_momenta qdot_momenta; /* must not be shared between threads */
 
-/* Make the conserved momenta of a reduced plan, borrowed. `tape`: its own tape or a shaken one, borrowed. */
+/* Make the conserved momenta of a reduced plan (borrowed); `tape`: its own or a perturbed one, borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_momenta_new(const qdot_plan *reduced,
                                              const qdot_tape *tape, qdot_momenta **momenta);
 void qdot_momenta_free(qdot_momenta *m);
 
-/* A tape of a reduced plan (its own or a shaken one) with work space to evaluate it. */
+/* A tape of a reduced plan (its own, or one with perturbed constants) with work space to evaluate it. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_tape *tape;
@@ -35,7 +35,7 @@ const double *qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y
 /* Callbacks that compute the momenta of a start, and velocities from momenta; borrowed. */
 const qdot_ode_following *qdot_momenta_following(const qdot_momenta *m);
 
-/* The momenta are hi + lo, [n_kept] each: borrowed, changed by the callback `enter`. */
+/* The conserved momenta hi + lo, [n_kept] each: borrowed; the callback `enter` changes them. */
 const double *qdot_momenta_hi(const qdot_momenta *m);
 const double *qdot_momenta_lo(const qdot_momenta *m);
 

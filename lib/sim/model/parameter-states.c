@@ -16,9 +16,9 @@
 
 typedef qdot_vec(qdot_expr) expressions;
 
-/* List the parameters that events set, without repetition. */
+/* List, without repetition, the parameters that the scene's events set. */
 static qdot_status
-parameters_find(const qdot_scene *scene, expressions *found)
+list_parameters_set(const qdot_scene *scene, expressions *found)
 {
     for (size_t i = 0; i < scene->events.n; i++)
         for (size_t k = 0; k < scene->events.at[i].targets.n; k++) {
@@ -35,8 +35,8 @@ parameters_find(const qdot_scene *scene, expressions *found)
 
 /* Find the value of a parameter in the request; an error if it has none. */
 static qdot_status
-parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter,
-                qdot_expr *value)
+find_parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter,
+                     qdot_expr *value)
 {
     for (size_t i = 0; i < r->n_values; i++)
         if (r->symbols[i] == parameter) {
@@ -46,10 +46,10 @@ parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr pa
     return qdot_constant_unset(scene->pool, parameter);
 }
 
-/* Fill the arrays one after another in the memory of s. open: the parameters have no values yet. */
+/* Fill the arrays of s, one after another in its memory; open: the parameters have no values yet. */
 static qdot_status
-parameter_states_fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *asked,
-                      const expressions *found, bool open)
+fill_states(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *asked,
+            const expressions *found, bool open)
 {
     const size_t n = scene->coordinates.n, m = found->n, v = asked->n_values;
     qdot_pool *pool = scene->pool;
@@ -66,7 +66,7 @@ parameter_states_fill(qdot_parameter_states *s, const qdot_scene *scene, const q
     v0 = q0 + n + m;
     for (size_t k = 0; k < m; k++) {
         if (!open)
-            QDOT_TRY(parameter_value(scene, asked, found->at[k], &q0[n + k]));
+            QDOT_TRY(find_parameter_value(scene, asked, found->at[k], &q0[n + k]));
         v0[n + k] = QDOT_ZERO;
         states[k] = qdot_symbol_get(pool, QDOT_COORD,
                                     qdot_expr_symbol(pool, found->at[k])->name);
@@ -111,9 +111,9 @@ qdot_parameter_states_init(qdot_parameter_states *s, const qdot_scene *scene,
     *s = (qdot_parameter_states){.request = *asked};
     if (asked->n_states > 0)
         return QDOT_OK;
-    status = parameters_find(scene, &found);
+    status = list_parameters_set(scene, &found);
     if (status == QDOT_OK && found.n > 0)
-        status = parameter_states_fill(s, scene, asked, &found, false);
+        status = fill_states(s, scene, asked, &found, false);
     qdot_free(found.at);
     if (status != QDOT_OK)
         qdot_parameter_states_clear(s);
@@ -131,7 +131,7 @@ qdot_parameter_states_open(qdot_parameter_states *s, const qdot_scene *scene,
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         status = qdot_vec_push(&found, parameters[i]);
     if (status == QDOT_OK && n > 0)
-        status = parameter_states_fill(s, scene, asked, &found, true);
+        status = fill_states(s, scene, asked, &found, true);
     qdot_free(found.at);
     if (status != QDOT_OK)
         qdot_parameter_states_clear(s);
@@ -205,7 +205,7 @@ typedef struct {
 
 /* The sign of a relation, "<" or ">=", in the direction in which it was typed. */
 static const char *
-sign_of(int op, bool turned)
+sign_of_relation(int op, bool turned)
 {
     static const char *const signs[2][2] = {{"<=", "<"}, {">=", ">"}};
 
@@ -214,7 +214,7 @@ sign_of(int op, bool turned)
 
 /* Add the condition `left OP right` if an event may violate it. */
 static qdot_status
-condition_add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condition condition)
+add_condition_if_breakable(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condition condition)
 {
     qdot_pool *pool = b->plan->pool;
     const qdot_expr said[] = {left, right};
@@ -238,7 +238,7 @@ condition_add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condit
         return QDOT_OK;
     for (int k = 0; k < 2 && status == QDOT_OK; k++) {
         if (k)
-            qdot_text_format(&text, " %s ", sign_of(condition.op, condition.turned));
+            qdot_text_format(&text, " %s ", sign_of_relation(condition.op, condition.turned));
         status = qdot_print(pool, said[k ^ condition.turned], QDOT_PLAIN, &text);
     }
     if (status == QDOT_OK)
@@ -257,7 +257,7 @@ condition_add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condit
 }
 
 static qdot_status
-conditions_add_all(builder *b, const qdot_scene *scene)
+add_all_conditions(builder *b, const qdot_scene *scene)
 {
     qdot_pool *pool = scene->pool;
 
@@ -269,13 +269,13 @@ conditions_add_all(builder *b, const qdot_scene *scene)
             continue;
         s = *qdot_expr_symbol(pool, x);
         if (s.lo != QDOT_NIL)
-            QDOT_TRY(condition_add(b, s.lo, x,
-                                   (qdot_parameter_condition){.op = s.lo_open ? QDOT_LT : QDOT_LE,
+            QDOT_TRY(add_condition_if_breakable(b, s.lo, x,
+                                                (qdot_parameter_condition){.op = s.lo_open ? QDOT_LT : QDOT_LE,
                                                     .turned = true,
                                                     .why = "declared"}));
         if (s.hi != QDOT_NIL)
-            QDOT_TRY(condition_add(b, x, s.hi,
-                                   (qdot_parameter_condition){.op = s.hi_open ? QDOT_LT : QDOT_LE,
+            QDOT_TRY(add_condition_if_breakable(b, x, s.hi,
+                                                (qdot_parameter_condition){.op = s.hi_open ? QDOT_LT : QDOT_LE,
                                                     .why = "declared"}));
     }
     for (size_t i = 0; i < scene->assumed.n; i++) {
@@ -283,14 +283,14 @@ conditions_add_all(builder *b, const qdot_scene *scene)
         const int op = qdot_expr_node(pool, said->relation)->op;
 
         if (op == QDOT_EQ || op == QDOT_LT || op == QDOT_LE)
-            QDOT_TRY(condition_add(b, qdot_expr_arg(pool, said->relation, 0),
-                                   qdot_expr_arg(pool, said->relation, 1),
-                                   (qdot_parameter_condition){
+            QDOT_TRY(add_condition_if_breakable(b, qdot_expr_arg(pool, said->relation, 0),
+                                                qdot_expr_arg(pool, said->relation, 1),
+                                                (qdot_parameter_condition){
                              .op = op, .turned = said->turned, .why = "assumed"}));
     }
     for (size_t i = 0; i < scene->springs.n; i++)
-        QDOT_TRY(condition_add(b, QDOT_ZERO, scene->springs.at[i].rest,
-                               (qdot_parameter_condition){
+        QDOT_TRY(add_condition_if_breakable(b, QDOT_ZERO, scene->springs.at[i].rest,
+                                            (qdot_parameter_condition){
                          .op = QDOT_LE, .turned = true, .why = "what a spring's rest length is"}));
     return QDOT_OK;
 }
@@ -300,7 +300,7 @@ qdot_parameter_conditions_find(const qdot_plan *plan, const qdot_scene *scene,
                                qdot_parameter_conditions *c)
 {
     builder b = {.plan = plan, .c = c};
-    qdot_status status = plan->n_states > 0 ? conditions_add_all(&b, scene) : QDOT_OK;
+    qdot_status status = plan->n_states > 0 ? add_all_conditions(&b, scene) : QDOT_OK;
 
     if (status == QDOT_OK && b.sides.n > 0)
         status = qdot_tape_new(plan->pool, 2 * plan->n + 1, plan->inputs, b.sides.n,
@@ -344,7 +344,7 @@ qdot_parameter_conditions_check(const qdot_parameter_conditions *c, const char *
                                "at the event %.100s, t = %.15g: %.150s is %s, and %.10g %s "
                                "%.10g does not hold",
                                event, t, x->text, x->why,
-                               side[x->turned], sign_of(x->op, x->turned), side[!x->turned]);
+                               side[x->turned], sign_of_relation(x->op, x->turned), side[!x->turned]);
     }
     qdot_free(in);
     return status;

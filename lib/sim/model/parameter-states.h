@@ -18,8 +18,8 @@
 
 /* A request in which parameters that events set are further coordinates. Start from {0}. */
 typedef struct {
-    qdot_run_request request; /* the new request; borrows from the original one and from `expressions` */
-    qdot_expr *expressions;   /* memory of the lists states, symbols, values, q0, v0 */
+    qdot_run_request request; /* the new request; it borrows from the original request and from `expressions` */
+    qdot_expr *expressions;   /* memory for the request's lists states, symbols, values, q0, v0 */
     bool *named;
 } qdot_parameter_states;
 
@@ -51,14 +51,14 @@ QDOT_MUST_CHECK qdot_status qdot_parameter_states_occur(const qdot_plan *plan, q
 typedef struct {
     char *text;   /* the condition as text: "al > 0" */
     int op;       /* relation between left and right, a qdot_rel_op */
-    bool turned;  /* messages print it with its sides exchanged */
+    bool turned;  /* messages print the relation with its two sides exchanged */
     const char *why; /* where the condition comes from: "declared", "assumed" ... */
 } qdot_parameter_condition;
 
 typedef struct {
     size_t n;
     qdot_parameter_condition *at;
-    qdot_tape *sides; /* outputs: left and right side of each, from q, q', t; NULL: no conditions */
+    qdot_tape *sides; /* outputs: left and right side of each condition, from q, q', t; NULL: no conditions */
 } qdot_parameter_conditions;
 
 /* Find the declared domains of parameters, the assumptions and the rest lengths of springs that
@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_find(const qdot_plan *plan
                                                            qdot_parameter_conditions *c);
 void qdot_parameter_conditions_clear(qdot_parameter_conditions *c);
 
-/* Check the conditions at t and y [2n], after `event`; QDOT_EDOMAIN names the first that is violated. */
+/* Check the conditions on parameters at t and y [2n] after an event; QDOT_EDOMAIN names the first violated. */
 QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_check(
     const qdot_parameter_conditions *c, const char *event, double t, const double *y, size_t n);
 

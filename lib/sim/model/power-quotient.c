@@ -1,4 +1,4 @@
-/* power-quotient.c -- divides sums c + k b^p in products by b^p, so that only powers of one sign remain. */
+/* power-quotient.c -- writes (c + k b^p)/b^p as c b^-p + k, so that only powers of b of one sign remain. */
 #include "sim/model/power-quotient.h"
 
 #include "expr/build.h"
@@ -6,9 +6,9 @@
 #include "expr/node.h"
 #include "expr/walk.h"
 
-/* Whether a sum is c + k b^p; parts: k, c, and b^-p. */
+/* Whether a sum has the form c + k b^p; then parts: k, c, and the power b^-p. */
 static bool
-is_power_and_number(qdot_pool *pool, qdot_expr sum, qdot_expr parts[3])
+is_constant_plus_power(qdot_pool *pool, qdot_expr sum, qdot_expr parts[3])
 {
     if (qdot_expr_kind(pool, sum) != QDOT_SUM || qdot_expr_count(pool, sum) != 3 ||
         qdot_expr_arg(pool, sum, 0) == QDOT_ZERO)
@@ -21,7 +21,7 @@ is_power_and_number(qdot_pool *pool, qdot_expr sum, qdot_expr parts[3])
 
 /* Whether the power b^p is one of the factors of a product. */
 static bool
-has(const qdot_pool *pool, qdot_expr product, qdot_expr power)
+has_factor(const qdot_pool *pool, qdot_expr product, qdot_expr power)
 {
     qdot_expr b = power, p = QDOT_ONE;
 
@@ -38,7 +38,7 @@ has(const qdot_pool *pool, qdot_expr product, qdot_expr power)
 }
 
 static qdot_expr
-over(qdot_pool *pool, qdot_expr product, void *user)
+divide_sum_by_power(qdot_pool *pool, qdot_expr product, void *user)
 {
     qdot_expr e = product, parts[3];
 
@@ -47,8 +47,8 @@ over(qdot_pool *pool, qdot_expr product, void *user)
         const qdot_expr sum = qdot_expr_arg(pool, product, i);
 
         if (qdot_expr_arg(pool, product, i + 1) != QDOT_ONE ||
-            !is_power_and_number(pool, sum, parts) || qdot_pool_failed(pool) ||
-            !has(pool, product, parts[2]))
+            !is_constant_plus_power(pool, sum, parts) || qdot_pool_failed(pool) ||
+            !has_factor(pool, product, parts[2]))
             continue;
         e = qdot_div(pool, qdot_div(pool, e, sum), parts[2]);
         return qdot_mul(pool, e,
@@ -61,5 +61,5 @@ over(qdot_pool *pool, qdot_expr product, void *user)
 qdot_expr
 qdot_power_quotient(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_replace(pool, e, QDOT_PROD, over, NULL);
+    return qdot_walk_replace(pool, e, QDOT_PROD, divide_sum_by_power, NULL);
 }

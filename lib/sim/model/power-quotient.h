@@ -11,7 +11,7 @@
 
 #include "expr/id.h"
 
-/* e with each (c + k b^p)/b^p written as k + c b^-p. Nil: the pool keeps the failure. */
+/* Rewrite e: each (c + k b^p)/b^p becomes k + c b^-p. Nil: failed, the pool keeps the failure. */
 qdot_expr qdot_power_quotient(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* puck.c -- finds discs that slide on rough planes: directions w/|w| of velocities, and their mean at rest. */
+/* puck.c -- finds discs sliding on rough planes: the directions w/|w| of their velocities, also at rest. */
 #include "sim/model/puck.h"
 
 #include <stdio.h>
@@ -18,7 +18,7 @@
 
 /* Find twice the exponent of factor i of a product; false if that is no integer. */
 static bool
-twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
+find_twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
 {
     const qdot_expr exponent = qdot_expr_arg(pool, product, i + 1);
 
@@ -28,29 +28,29 @@ twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
 }
 
 static bool
-holds(const qdot_pool *pool, qdot_expr e, uint32_t what)
+contains_kind(const qdot_pool *pool, qdot_expr e, uint32_t what)
 {
     return e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & what) != 0;
 }
 
 static qdot_expr
-half_slope(qdot_pool *pool, qdot_expr e, qdot_expr v)
+half_derivative(qdot_pool *pool, qdot_expr e, qdot_expr v)
 {
     return qdot_mul(pool, QDOT_HALF, qdot_diff(pool, e, v));
 }
 
-/* The expression e with velocities that constraints relate to others replaced by these. */
+/* In e, replace the velocities that constraints relate to others by expressions in those others. */
 static qdot_expr
-untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
+replace_dependent_velocities(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
 {
     return puck->n_tied == 0
                ? e
                : qdot_subs(pool, e, puck->n_tied, puck->tied_symbol, puck->to);
 }
 
-/* Solve the constraint f = 0 for a velocity of w: the last one whose coefficient is a number. */
+/* Solve the constraint f = 0 for a velocity contained in w: the last one with a constant coefficient. */
 static qdot_status
-tie_velocity(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
+solve_for_velocity(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
 {
     qdot_pool *pool = scene->pool;
     const size_t k = puck->n_tied;
@@ -62,7 +62,7 @@ tie_velocity(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
         qdot_expr to;
 
         QDOT_TRY(qdot_pool_check(pool));
-        if (slope == QDOT_ZERO || holds(pool, slope, ~0u)
+        if (slope == QDOT_ZERO || contains_kind(pool, slope, ~0u)
             || !qdot_expr_contains(pool, puck->square, v))
             continue;
         to = qdot_neg(pool, qdot_div(pool, qdot_subs(pool, f, 1, &v, &zero), slope));
@@ -75,9 +75,9 @@ tie_velocity(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
     return qdot_pool_check(pool);
 }
 
-/* Find the velocities in w that constraints relate to others. */
+/* Find the velocities contained in w that constraints relate to others. */
 static qdot_status
-find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *puck)
+find_dependent_velocities(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *puck)
 {
     qdot_pool *pool = scene->pool;
 
@@ -89,14 +89,14 @@ find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *p
         if (from->kind == QDOT_HOLONOMIC && f != QDOT_NIL)
             f = qdot_ddt(pool, f);
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(tie_velocity(scene, untie(pool, puck, f), puck));
+        QDOT_TRY(solve_for_velocity(scene, replace_dependent_velocities(pool, puck, f), puck));
     }
     return qdot_pool_check(pool);
 }
 
-/* Find the derivatives of the related velocities by the free ones. */
+/* Find the derivatives of the dependent velocities by the independent ones. */
 static qdot_status
-find_follow(qdot_pool *pool, qdot_puck *puck)
+find_velocity_ratios(qdot_pool *pool, qdot_puck *puck)
 {
     for (size_t j = 0; j < puck->n_tied; j++)
         for (size_t a = 0; a < puck->k; a++) {
@@ -111,23 +111,23 @@ find_follow(qdot_pool *pool, qdot_puck *puck)
 /* Choose the velocities that rest determines: one after another |w|^2 is at its least by each, and it
  * is 0 in the end. *fits: whether |w|^2 is a square in this sense. */
 static qdot_status
-choose_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck,
-                  bool *fits)
+choose_independent_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck,
+                              bool *fits)
 {
     qdot_pool *pool = scene->pool;
-    qdot_expr left = untie(pool, puck, puck->square);
+    qdot_expr left = replace_dependent_velocities(pool, puck, puck->square);
 
     *fits = false;
     puck->k = 0;
     for (size_t j = 0; j < scene->coordinates.n && left != QDOT_NIL; j++) {
         const qdot_expr v = qdot_symbol_jet(pool, scene->coordinates.at[j], 1);
-        const qdot_expr slope = half_slope(pool, left, v);
+        const qdot_expr slope = half_derivative(pool, left, v);
         const qdot_expr bend = qdot_diff(pool, slope, v);
 
         QDOT_TRY(qdot_pool_check(pool));
         if (slope == QDOT_ZERO)
             continue;
-        if (holds(pool, bend, QDOT_HAS_VELOCITY) || puck->k == QDOT_PUCK_MOST)
+        if (contains_kind(pool, bend, QDOT_HAS_VELOCITY) || puck->k == QDOT_PUCK_MOST)
             return QDOT_OK;
         if (bend == QDOT_ZERO || qdot_is_zero(pool, bend, facts))
             continue;
@@ -140,20 +140,20 @@ choose_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *p
     return qdot_pool_check(pool);
 }
 
-/* Find G and d, where G d is half the gradient of |w|^2 by the free velocities. */
+/* Find G and d of |w|^2 = d.G d, where G d is half the gradient of |w|^2 by the independent velocities. */
 static qdot_status
-find_rest(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
+find_quadratic_form(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
 {
     qdot_pool *pool = scene->pool;
     const size_t k = puck->k;
     qdot_expr *v = puck->symbol, h[QDOT_PUCK_MOST];
-    const qdot_expr square = untie(pool, puck, puck->square);
+    const qdot_expr square = replace_dependent_velocities(pool, puck, puck->square);
     uint32_t pivot;
 
     for (size_t a = 0; a < k; a++)
         v[a] = qdot_symbol_jet(pool, scene->coordinates.at[puck->velocity[a]], 1);
     for (size_t a = 0; a < k; a++) {
-        h[a] = half_slope(pool, square, v[a]);
+        h[a] = half_derivative(pool, square, v[a]);
         for (size_t b = 0; b < k; b++)
             puck->metric[a * k + b] = qdot_expand(pool, qdot_diff(pool, h[a], v[b]));
     }
@@ -166,14 +166,14 @@ find_rest(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
 }
 
 static qdot_status
-switches_add_puck(qdot_switches *s, qdot_puck *puck)
+append_disc(qdot_switches *s, qdot_puck *puck)
 {
     qdot_surface x = {.u = puck->square, .puck = s->pucks.n + 1};
     char name[40];
 
     puck->surface = s->surfaces.n;
     puck->first = s->n_puck_symbols;
-    for (size_t a = 0; a <= puck->k; a++) { /* symbol names with a space, which no user's name contains */
+    for (size_t a = 0; a <= puck->k; a++) { /* give the symbols names with a space, which no user's name contains */
         qdot_expr *to = a < puck->k ? &puck->share[a] : &puck->inverse;
 
         snprintf(name, sizeof name, "puck %zu %zu", s->pucks.n + 1, a);
@@ -188,8 +188,8 @@ switches_add_puck(qdot_switches *s, qdot_puck *puck)
 }
 
 static qdot_status
-puck_look_at(const qdot_scene *scene, const qdot_run_request *request, qdot_switches *s,
-             qdot_expr square)
+add_disc_if_suitable(const qdot_scene *scene, const qdot_run_request *request, qdot_switches *s,
+                     qdot_expr square)
 {
     const qdot_facts of = qdot_scene_facts(scene), *facts = &of;
     qdot_puck puck = {.square = square};
@@ -199,16 +199,16 @@ puck_look_at(const qdot_scene *scene, const qdot_run_request *request, qdot_swit
     for (size_t i = 0; i < s->pucks.n; i++)
         if (s->pucks.at[i].square == square)
             return QDOT_OK;
-    QDOT_TRY(find_tied(scene, request, &puck));
-    QDOT_TRY(choose_velocities(scene, facts, &puck, &fits));
+    QDOT_TRY(find_dependent_velocities(scene, request, &puck));
+    QDOT_TRY(choose_independent_velocities(scene, facts, &puck, &fits));
     if (!fits)
         return QDOT_OK;
-    status = find_rest(scene, facts, &puck);
+    status = find_quadratic_form(scene, facts, &puck);
     if (status == QDOT_ESINGULAR)
         return QDOT_OK;
     if (status == QDOT_OK)
-        status = find_follow(scene->pool, &puck);
-    return status == QDOT_OK ? switches_add_puck(s, &puck) : status;
+        status = find_velocity_ratios(scene->pool, &puck);
+    return status == QDOT_OK ? append_disc(s, &puck) : status;
 }
 
 qdot_status
@@ -232,10 +232,10 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
             long twice;
 
             if (qdot_expr_kind(pool, base) == QDOT_SUM &&
-                holds(pool, base, QDOT_HAS_VELOCITY) &&
-                !holds(pool, base, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER) &&
-                twice_exponent(pool, e, k, &twice) && twice == -1)
-                status = puck_look_at(scene, request, s, base);
+                contains_kind(pool, base, QDOT_HAS_VELOCITY) &&
+                !contains_kind(pool, base, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER) &&
+                find_twice_exponent(pool, e, k, &twice) && twice == -1)
+                status = add_disc_if_suitable(scene, request, s, base);
         }
     }
     qdot_walk_end(&walk);
@@ -244,21 +244,21 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
 
 /* --- expressions near rest ----------------------------------------------------------- */
 
-/* The forms in which powers of |w| are written, except for even positive ones. */
+/* How powers of the speed |w| are rewritten, except even positive powers. */
 typedef struct {
     const qdot_puck *puck;
     enum {
-        AT_REST,     /* 1/|w| as the symbol `inverse`, positive powers as 0 */
+        AT_REST,     /* disc at rest: 1/|w| becomes the symbol `inverse`, positive powers become 0 */
         AS_INVERSES, /* all powers by the symbol `inverse` and |w|^2 */
         AS_LENGTHS   /* all powers by the symbol `length` */
     } by;
-    bool refused; /* AT_REST: the expression contains a negative power other than 1/|w| */
+    bool refused; /* if AT_REST: the expression contains a negative power other than 1/|w| */
 } replacement;
 
-static qdot_expr replace(qdot_pool *pool, qdot_expr e, replacement *r);
+static qdot_expr rewrite_speed(qdot_pool *pool, qdot_expr e, replacement *r);
 
 static qdot_expr
-replace_leaf(qdot_pool *pool, qdot_expr node, void *user)
+replace_speed_powers(qdot_pool *pool, qdot_expr node, void *user)
 {
     replacement *r = user;
     const qdot_expr square = r->puck->square;
@@ -270,15 +270,15 @@ replace_leaf(qdot_pool *pool, qdot_expr node, void *user)
         return QDOT_NIL;
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node); k += 2)
         if (qdot_expr_arg(pool, node, k) == square &&
-            twice_exponent(pool, node, k, &twice) && (twice % 2 != 0 || twice < 0))
+            find_twice_exponent(pool, node, k, &twice) && (twice % 2 != 0 || twice < 0))
             at = k;
     if (at == 0)
         return QDOT_NIL;
-    (void)twice_exponent(pool, node, at, &twice);
+    (void)find_twice_exponent(pool, node, at, &twice);
     r->refused |= twice < -1;
     rest =
         qdot_div(pool, node, qdot_pow(pool, square, qdot_expr_arg(pool, node, at + 1)));
-    rest = replace(pool, rest, r);
+    rest = rewrite_speed(pool, rest, r);
     if (r->by == AS_LENGTHS)
         return qdot_mul(pool, rest, qdot_pow_int(pool, r->puck->length, twice));
     if (twice > 0 && r->by == AT_REST)
@@ -290,20 +290,20 @@ replace_leaf(qdot_pool *pool, qdot_expr node, void *user)
 }
 
 static qdot_expr
-replace(qdot_pool *pool, qdot_expr e, replacement *r)
+rewrite_speed(qdot_pool *pool, qdot_expr e, replacement *r)
 {
-    return e == QDOT_NIL ? e : qdot_walk_map(pool, e, replace_leaf, r);
+    return e == QDOT_NIL ? e : qdot_walk_map(pool, e, replace_speed_powers, r);
 }
 
 static bool
-contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
+contains_expression(const qdot_pool *pool, qdot_expr e, qdot_expr x)
 {
     return e != QDOT_NIL && qdot_expr_contains(pool, e, x);
 }
 
-/* The mean at rest, sum B_j s_j, of C/|w|, where C is the coefficient of 1/|w|. */
+/* The force at rest in place of C/|w|, sum B_j s_j, where s is a direction to be found; C: the coefficient. */
 static qdot_expr
-mean(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
+force_at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 {
     qdot_expr sum = QDOT_ZERO;
 
@@ -314,9 +314,9 @@ mean(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
     return sum;
 }
 
-/* The coefficient C of 1/|w|, evaluated at w = 0. */
+/* The coefficient C of 1/|w|, evaluated at w = 0 (disc at rest). */
 static qdot_expr
-at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
+coefficient_at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 {
     qdot_expr to[QDOT_PUCK_MOST];
 
@@ -326,25 +326,25 @@ at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 }
 
 static qdot_status
-hold_one(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, qdot_expr *e)
+rewrite_at_rest(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, qdot_expr *e)
 {
     replacement r = {.puck = puck, .by = AT_REST};
-    const qdot_expr zero = QDOT_ZERO, all = replace(pool, *e, &r);
+    const qdot_expr zero = QDOT_ZERO, all = rewrite_speed(pool, *e, &r);
     qdot_expr C, left;
 
     QDOT_TRY(qdot_pool_check(pool));
-    C = untie(pool, puck, qdot_diff(pool, all, puck->inverse));
+    C = replace_dependent_velocities(pool, puck, qdot_diff(pool, all, puck->inverse));
     QDOT_TRY(qdot_pool_check(pool));
-    if (r.refused || contains(pool, C, puck->inverse))
+    if (r.refused || contains_expression(pool, C, puck->inverse))
         return qdot_fail(
             QDOT_EFAILED,
             "a force there is not proportional to the direction of the motion");
-    left = at_rest(pool, puck, C);
+    left = coefficient_at_rest(pool, puck, C);
     QDOT_TRY(qdot_pool_check(pool));
     if (left != QDOT_ZERO && !qdot_is_zero(pool, left, facts))
         return qdot_fail(QDOT_EFAILED, "a force there is infinite");
     *e = qdot_add(pool, qdot_subs(pool, all, 1, &puck->inverse, &zero),
-                  mean(pool, puck, C));
+                  force_at_rest(pool, puck, C));
     return qdot_pool_check(pool);
 }
 
@@ -353,7 +353,7 @@ qdot_puck_hold(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, 
                qdot_expr *e)
 {
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(hold_one(pool, puck, facts, &e[i]));
+        QDOT_TRY(rewrite_at_rest(pool, puck, facts, &e[i]));
     return QDOT_OK;
 }
 
@@ -376,7 +376,7 @@ qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square)
     const qdot_expr more = qdot_sub(pool, square, QDOT_ONE);
     qdot_expr sum = QDOT_ONE;
 
-    for (long n = 5; n >= 1; n--) { /* Horner: 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
+    for (long n = 5; n >= 1; n--) { /* evaluate the series by Horner's rule: 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
         const qdot_expr c =
             qdot_div(pool, qdot_expr_int(pool, 2 * n - 1), qdot_expr_int(pool, 2 * n));
 
@@ -387,7 +387,7 @@ qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square)
 
 /* Whether e contains a negative power of x. */
 static bool
-divides(const qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_status *status)
+contains_negative_power(const qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_status *status)
 {
     bool found = false;
     qdot_walk walk;
@@ -412,7 +412,7 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
                 moving = {.puck = puck, .by = AS_INVERSES};
     const qdot_expr zeros[QDOT_PUCK_MOST] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO,
                                              QDOT_ZERO, QDOT_ZERO, QDOT_ZERO};
-    qdot_expr to[QDOT_PUCK_MOST], rest = replace(pool, *e, &near);
+    qdot_expr to[QDOT_PUCK_MOST], rest = rewrite_speed(pool, *e, &near);
     qdot_status status;
 
     if (rest == *e) /* the expression does not contain the direction w/|w| */
@@ -420,10 +420,10 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
     for (size_t a = 0; a < puck->k; a++)
         to[a] = qdot_add(pool, qdot_sub(pool, puck->symbol[a], puck->rest[a]),
                          qdot_mul(pool, puck->length, puck->share[a]));
-    rest = untie(pool, puck, rest);
+    rest = replace_dependent_velocities(pool, puck, rest);
     rest = qdot_expand(pool, qdot_subs(pool, rest, puck->k, puck->symbol, to));
     QDOT_TRY(qdot_pool_check(pool));
-    if (divides(pool, rest, puck->length, &status))
+    if (contains_negative_power(pool, rest, puck->length, &status))
         return qdot_fail(
             QDOT_EFAILED,
             "it has no value where the motion rests: it is no function of the direction "
@@ -431,7 +431,7 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
     QDOT_TRY(status);
     rest = qdot_subs(pool, rest, 1, &puck->length, zeros);
     *e = qdot_add(
-        pool, replace(pool, *e, &moving),
+        pool, rewrite_speed(pool, *e, &moving),
         qdot_sub(pool, rest, qdot_subs(pool, rest, puck->k, puck->share, zeros)));
     return qdot_pool_check(pool);
 }

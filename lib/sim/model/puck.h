@@ -33,7 +33,7 @@
 #include "sim/model/equations.h"
 #include "sim/model/switch.h"
 
-/* The binary exponent of the largest value of s G s - 1 at which a disc creeps. */
+/* The binary exponent of the largest s G s - 1 at which a disc still creeps (s: direction, G: metric). */
 enum { QDOT_PUCK_CREEP_EXPONENT = -12 };
 
 /* Append the pucks in M q'' = f of the switches, and their surfaces. Errors: those of the pool,
@@ -42,7 +42,7 @@ QDOT_MUST_CHECK qdot_status qdot_pucks_find(const qdot_scene *scene,
                                             const qdot_run_request *request,
                                             qdot_switches *switches);
 
-/* The disc of a surface; NULL if the surface belongs to none. */
+/* The sliding disc to which a surface belongs; NULL if it belongs to none. */
 static inline const qdot_puck *
 qdot_puck_of(const qdot_switches *s, size_t surface)
 {
@@ -51,7 +51,7 @@ qdot_puck_of(const qdot_switches *s, size_t surface)
     return k > 0 ? &s->pucks.at[k - 1] : NULL;
 }
 
-/* Whether a disc on this side has the direction given by its shares: it rests or creeps. */
+/* Whether a disc on this side of its surface moves in the direction of its static friction: rests or creeps. */
 static inline bool
 qdot_puck_is_held(long side)
 {
@@ -64,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_puck_hold(qdot_pool *pool, const qdot_puck *puc
                                            const qdot_facts *facts, size_t n,
                                            qdot_expr *e);
 
-/* The square sum_ij s_i G_ij s_j of the shares s [k], where G is the puck's metric. */
+/* The square sum_ij s_i G_ij s_j of the direction s [k] of a disc's friction, G being the disc's metric. */
 qdot_expr qdot_puck_square(qdot_pool *pool, const qdot_puck *puck,
                            const qdot_expr *share);
 

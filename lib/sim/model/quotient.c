@@ -5,9 +5,9 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 
-/* The integer exponent of `base` in a term; 0 if it is not a factor. */
+/* The integer exponent of `base` as a factor of a term; 0 if it is no factor. */
 static long
-exponent(const qdot_pool *pool, qdot_expr term, qdot_expr base)
+exponent_of_factor(const qdot_pool *pool, qdot_expr term, qdot_expr base)
 {
     long n;
 
@@ -24,15 +24,15 @@ exponent(const qdot_pool *pool, qdot_expr term, qdot_expr base)
 /* f without base^n in front, n at most what M has of it and what all terms of f share;
  * *M without it too. */
 static qdot_expr
-cancel(qdot_pool *pool, qdot_expr f, qdot_expr base, qdot_expr *M)
+cancel_common_factor(qdot_pool *pool, qdot_expr f, qdot_expr base, qdot_expr *M)
 {
-    long shared = exponent(pool, *M, base);
+    long shared = exponent_of_factor(pool, *M, base);
     qdot_expr sum = QDOT_ZERO, common;
 
     if (shared <= 0 || qdot_expr_arg(pool, f, 0) != QDOT_ZERO)
         return f;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, f) && shared > 0; i += 2) {
-        long n = exponent(pool, qdot_expr_arg(pool, f, i), base);
+        long n = exponent_of_factor(pool, qdot_expr_arg(pool, f, i), base);
 
         shared = n < shared ? n : shared;
     }
@@ -55,11 +55,11 @@ qdot_quotient(qdot_pool *pool, qdot_expr f, qdot_expr M)
     if (qdot_pool_failed(pool) || qdot_expr_kind(pool, f) != QDOT_SUM)
         return qdot_div(pool, f, M);
     if (qdot_expr_kind(pool, whole) != QDOT_PROD) {
-        f = cancel(pool, f, whole, &M);
+        f = cancel_common_factor(pool, f, whole, &M);
     } else {
         for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, whole); i += 2)
             if (!qdot_pool_failed(pool) && qdot_expr_kind(pool, f) == QDOT_SUM)
-                f = cancel(pool, f, qdot_expr_arg(pool, whole, i), &M);
+                f = cancel_common_factor(pool, f, qdot_expr_arg(pool, whole, i), &M);
     }
     return qdot_div(pool, f, M);
 }

@@ -17,11 +17,11 @@ typedef struct {
     qdot_pool *pool;
     const qdot_walk *w;
     rates *of;  /* [w->n] first and second rate of each node */
-    bool gains; /* an exponent was not a positive integer */
+    bool gains; /* set if an exponent was not a positive integer */
 } differentiation;
 
 static rates
-of(const differentiation *d, qdot_expr e)
+rates_of_node(const differentiation *d, qdot_expr e)
 {
     return d->of[qdot_walk_index(d->w, e)];
 }
@@ -35,19 +35,19 @@ rates_hold(qdot_pool *pool, rates r)
 }
 
 static qdot_expr
-times(qdot_pool *pool, qdot_expr a, qdot_expr b)
+multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     return qdot_mul(pool, a, b);
 }
 
 static qdot_expr
-scaled(qdot_pool *pool, long n, qdot_expr a)
+multiply_by_integer(qdot_pool *pool, long n, qdot_expr a)
 {
     return qdot_mul(pool, qdot_expr_int(pool, n), a);
 }
 
 static rates
-of_symbol(qdot_pool *pool, qdot_expr e)
+rates_of_symbol(qdot_pool *pool, qdot_expr e)
 {
     rates r = {e, QDOT_ZERO, QDOT_ZERO};
 
@@ -61,36 +61,36 @@ of_symbol(qdot_pool *pool, qdot_expr e)
 }
 
 static rates
-of_sum(const differentiation *d, qdot_expr e)
+rates_of_sum(const differentiation *d, qdot_expr e)
 {
     qdot_pool *pool = d->pool;
     rates r = {e, QDOT_ZERO, QDOT_ZERO};
 
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
-        const rates part = of(d, qdot_expr_arg(pool, e, i));
+        const rates part = rates_of_node(d, qdot_expr_arg(pool, e, i));
         const qdot_expr factor = qdot_expr_arg(pool, e, i + 1);
 
-        r.first = qdot_add(pool, r.first, times(pool, factor, part.first));
-        r.second = qdot_add(pool, r.second, times(pool, factor, part.second));
+        r.first = qdot_add(pool, r.first, multiply(pool, factor, part.first));
+        r.second = qdot_add(pool, r.second, multiply(pool, factor, part.second));
     }
     return rates_hold(pool, r);
 }
 
 static rates
-of_product_of(qdot_pool *pool, rates a, rates b)
+rates_of_two_factors(qdot_pool *pool, rates a, rates b)
 {
-    rates r = {times(pool, a.e, b.e), QDOT_ZERO, QDOT_ZERO};
+    rates r = {multiply(pool, a.e, b.e), QDOT_ZERO, QDOT_ZERO};
 
-    r.first = qdot_add(pool, times(pool, a.first, b.e), times(pool, a.e, b.first));
-    r.second = qdot_add(pool, scaled(pool, 2, times(pool, a.first, b.first)),
-                        qdot_add(pool, times(pool, a.second, b.e),
-                                 times(pool, a.e, b.second)));
+    r.first = qdot_add(pool, multiply(pool, a.first, b.e), multiply(pool, a.e, b.first));
+    r.second = qdot_add(pool, multiply_by_integer(pool, 2, multiply(pool, a.first, b.first)),
+                        qdot_add(pool, multiply(pool, a.second, b.e),
+                                 multiply(pool, a.e, b.second)));
     return rates_hold(pool, r);
 }
 
-/* The rates of P = b^r: P'' = (r b'' P + (r - 1) b' P')/b; a root P is itself used as a divisor. */
+/* The time derivatives of P = b^r: P'' = (r b'' P + (r - 1) b' P')/b; for roots the divisor is P itself. */
 static rates
-of_power(differentiation *d, rates b, qdot_expr r)
+rates_of_power(differentiation *d, rates b, qdot_expr r)
 {
     qdot_pool *pool = d->pool;
     rates p = {qdot_pow(pool, b.e, r), QDOT_ZERO, QDOT_ZERO};
@@ -102,28 +102,28 @@ of_power(differentiation *d, rates b, qdot_expr r)
         rates whole = b;
 
         for (; n > 1 && !qdot_pool_failed(pool); n--)
-            whole = of_product_of(pool, whole, b);
+            whole = rates_of_two_factors(pool, whole, b);
         return whole;
     }
     d->gains = true;
     if (b.first == QDOT_ZERO && b.second == QDOT_ZERO)
         return p;
     if (r == QDOT_HALF) {
-        p.first = qdot_hold(pool, qdot_div(pool, times(pool, r, b.first), P));
-        p.second = qdot_sub(pool, times(pool, r, b.second), qdot_pow_int(pool, p.first, 2));
+        p.first = qdot_hold(pool, qdot_div(pool, multiply(pool, r, b.first), P));
+        p.second = qdot_sub(pool, multiply(pool, r, b.second), qdot_pow_int(pool, p.first, 2));
         p.second = qdot_div(pool, qdot_hold(pool, p.second), P);
         return rates_hold(pool, p);
     }
     over = qdot_hold(pool, b.e);
-    p.first = qdot_hold(pool, qdot_div(pool, times(pool, r, times(pool, b.first, P)), over));
-    p.second = qdot_add(pool, times(pool, r, times(pool, b.second, P)),
-                        times(pool, qdot_sub(pool, r, QDOT_ONE), times(pool, b.first, p.first)));
+    p.first = qdot_hold(pool, qdot_div(pool, multiply(pool, r, multiply(pool, b.first, P)), over));
+    p.second = qdot_add(pool, multiply(pool, r, multiply(pool, b.second, P)),
+                        multiply(pool, qdot_sub(pool, r, QDOT_ONE), multiply(pool, b.first, p.first)));
     p.second = qdot_div(pool, qdot_hold(pool, p.second), over);
     return rates_hold(pool, p);
 }
 
 static bool
-of_product(differentiation *d, qdot_expr e, rates *to)
+rates_of_product(differentiation *d, qdot_expr e, rates *to)
 {
     qdot_pool *pool = d->pool;
     rates r = {qdot_expr_arg(pool, e, 0), QDOT_ZERO, QDOT_ZERO};
@@ -133,20 +133,20 @@ of_product(differentiation *d, qdot_expr e, rates *to)
 
         if (qdot_expr_kind(pool, exponent) != QDOT_NUM)
             return false;
-        r = of_product_of(pool, r, of_power(d, of(d, qdot_expr_arg(pool, e, i)), exponent));
+        r = rates_of_two_factors(pool, r, rates_of_power(d, rates_of_node(d, qdot_expr_arg(pool, e, i)), exponent));
     }
     *to = (rates){e, r.first, r.second};
     return true;
 }
 
-/* The rates of sine and cosine: f(u)'' = f_u u'' - f u'^2. */
+/* The time derivatives of f = sine or cosine of u: f'' = f_u u'' - f u'^2. */
 static bool
-of_function(const differentiation *d, qdot_expr e, rates *to)
+rates_of_function(const differentiation *d, qdot_expr e, rates *to)
 {
     qdot_pool *pool = d->pool;
     const uint32_t f = qdot_expr_node(pool, e)->op;
     const qdot_expr argument = qdot_expr_arg(pool, e, 0);
-    const rates u = of(d, argument);
+    const rates u = rates_of_node(d, argument);
     qdot_expr slope;
 
     if (f == QDOT_HOLD) {
@@ -158,22 +158,22 @@ of_function(const differentiation *d, qdot_expr e, rates *to)
     slope = f == QDOT_SIN ? qdot_fun1(pool, QDOT_COS, argument)
                           : qdot_neg(pool, qdot_fun1(pool, QDOT_SIN, argument));
     to->e = e;
-    to->first = times(pool, slope, u.first);
-    to->second = qdot_sub(pool, times(pool, slope, u.second),
-                          times(pool, e, qdot_pow_int(pool, u.first, 2)));
+    to->first = multiply(pool, slope, u.first);
+    to->second = qdot_sub(pool, multiply(pool, slope, u.second),
+                          multiply(pool, e, qdot_pow_int(pool, u.first, 2)));
     *to = rates_hold(pool, *to);
     return true;
 }
 
 static bool
-of_node(differentiation *d, qdot_expr e, rates *to)
+find_rates_of_node(differentiation *d, qdot_expr e, rates *to)
 {
     switch (qdot_expr_kind(d->pool, e)) {
     case QDOT_NUM: *to = (rates){e, QDOT_ZERO, QDOT_ZERO}; return true;
-    case QDOT_SYM: *to = of_symbol(d->pool, e); return true;
-    case QDOT_SUM: *to = of_sum(d, e); return true;
-    case QDOT_PROD: return of_product(d, e, to);
-    case QDOT_FUN: return of_function(d, e, to);
+    case QDOT_SYM: *to = rates_of_symbol(d->pool, e); return true;
+    case QDOT_SUM: *to = rates_of_sum(d, e); return true;
+    case QDOT_PROD: return rates_of_product(d, e, to);
+    case QDOT_FUN: return rates_of_function(d, e, to);
     default: return false;
     }
 }
@@ -189,9 +189,9 @@ qdot_rates_second(qdot_pool *pool, qdot_expr e, qdot_expr *second)
     QDOT_TRY(qdot_walk_begin(pool, e, &w));
     d.of = qdot_calloc(w.n + 1, sizeof *d.of);
     for (size_t i = 0; d.of && i < w.n && known && !qdot_pool_failed(pool); i++)
-        known = of_node(&d, w.at[i], d.of + i);
+        known = find_rates_of_node(&d, w.at[i], d.of + i);
     if (d.of && known && d.gains && !qdot_pool_failed(pool))
-        *second = of(&d, e).second;
+        *second = rates_of_node(&d, e).second;
     qdot_walk_end(&w);
     qdot_free(d.of);
     return d.of ? qdot_pool_check(pool) : QDOT_ENOMEM;

@@ -1,4 +1,4 @@
-/* repeated-zeros.c -- the zeros of mod, floor, tan and atan2 minus a number, as zeros of smooth functions. */
+/* repeated-zeros.c -- finds smooth functions with the zeros of mod, floor, tan and atan2 minus a number. */
 #include "sim/model/repeated-zeros.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "sim/model/simple-zeros.h"
 
 static bool
-jumps(const qdot_pool *pool, qdot_expr e)
+is_jumping_function(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_function(pool, e, QDOT_MOD) || qdot_expr_is_function(pool, e, QDOT_FLOOR)
            || qdot_expr_is_function(pool, e, QDOT_TAN) || qdot_expr_is_function(pool, e, QDOT_ATAN2);
@@ -22,25 +22,25 @@ jumps(const qdot_pool *pool, qdot_expr e)
 /* The outermost jumping function in e; nil if there is none. Whether e depends on it only, its
  * derivative tells. */
 static qdot_status
-find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
+find_outermost_jump(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
 {
     qdot_walk walk;
     qdot_status status = qdot_walk_begin(pool, e, &walk);
 
     *f = QDOT_NIL;
-    /* arguments before functions, so that the last found is the outermost */
+    /* arguments come before functions, so the last one found is the outermost */
     for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
-        if (jumps(pool, walk.at[i]))
+        if (is_jumping_function(pool, walk.at[i]))
             *f = walk.at[i];
     qdot_walk_end(&walk);
     return status;
 }
 
-/* Write g = c f + k' with numbers c and k'; returns c, and k = -k'/c. c is nil if g has another form. */
+/* Write g = c f + k' with numbers c and k'; returns c and k = -k'/c. c is nil if g has no such form. */
 static qdot_status
 split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
 {
-    /* a name with a space, which no user's name contains */
+    /* the symbol's name has a space, which no user's name contains */
     const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "jumping function");
     const qdot_expr with = qdot_subs(pool, g, 1, &f, &s), slope = qdot_diff(pool, with, s);
     qdot_expr rest;
@@ -58,16 +58,16 @@ split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr 
     return qdot_pool_check(pool);
 }
 
-/* Set u = sin(phase), which has the direction of g at even multiples of pi if `forward` is positive. */
+/* Set u = sin(phase); at even multiples of pi it passes 0 in the direction of g if `forward` > 0. */
 static void
-put_sine(qdot_pool *pool, qdot_expr phase, qdot_expr forward, qdot_repeated *out)
+set_sine(qdot_pool *pool, qdot_expr phase, qdot_expr forward, qdot_repeated *out)
 {
     out->u = qdot_fun1(pool, QDOT_SIN, phase);
     out->turn = out->touches ? QDOT_NIL : qdot_mul(pool, forward, qdot_fun1(pool, QDOT_COS, phase));
 }
 
 static qdot_status
-of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr k, qdot_repeated *out)
+find_zeros_of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr k, qdot_repeated *out)
 {
     double part, period;
 
@@ -77,17 +77,17 @@ of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr k, qdot
     if (period == 0)
         return QDOT_OK;
     QDOT_TRY(qdot_constant_double(pool, qdot_div(pool, k, b), &part));
-    if (!(part >= 0 && part < 1)) { /* no zeros; for k = b mod(a, b) comes arbitrarily near to k */
+    if (!(part >= 0 && part < 1)) { /* there are no zeros; for k = b, mod(a, b) comes arbitrarily near to k */
         out->u = QDOT_ONE;
         return QDOT_OK;
     }
     out->touches = part == 0;
-    put_sine(pool, qdot_mul(pool, QDOT_PI, qdot_div(pool, qdot_sub(pool, a, k), b)), qdot_div(pool, c, b), out);
+    set_sine(pool, qdot_mul(pool, QDOT_PI, qdot_div(pool, qdot_sub(pool, a, k), b)), qdot_div(pool, c, b), out);
     return QDOT_OK;
 }
 
 static qdot_status
-of_floor(qdot_pool *pool, qdot_expr a, qdot_expr c, qdot_expr k, qdot_repeated *out)
+find_zeros_of_floor(qdot_pool *pool, qdot_expr a, qdot_expr c, qdot_expr k, qdot_repeated *out)
 {
     const qdot_expr over = qdot_sub(pool, a, k);
     qdot_expr ends[] = {over, QDOT_ZERO}, beyond[] = {qdot_sub(pool, over, QDOT_ONE), QDOT_ZERO};
@@ -103,7 +103,7 @@ of_floor(qdot_pool *pool, qdot_expr a, qdot_expr c, qdot_expr k, qdot_repeated *
 }
 
 static qdot_status
-of_angle(qdot_pool *pool, qdot_expr y, qdot_expr x, qdot_expr c, qdot_expr k, qdot_repeated *out)
+find_zeros_of_angle(qdot_pool *pool, qdot_expr y, qdot_expr x, qdot_expr c, qdot_expr k, qdot_repeated *out)
 {
     const qdot_expr sine = qdot_fun1(pool, QDOT_SIN, k), cosine = qdot_fun1(pool, QDOT_COS, k);
     double angle, forward;
@@ -134,8 +134,8 @@ qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
 
     *out = (qdot_repeated){.u = g, .turn = QDOT_NIL};
     if (g == QDOT_NIL || (qdot_expr_node(pool, g)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)) != 0)
-        return QDOT_OK; /* because `turn` must depend on the state only */
-    QDOT_TRY(find_outermost(pool, g, &f));
+        return QDOT_OK; /* give up: the direction `turn` must depend on the state only */
+    QDOT_TRY(find_outermost_jump(pool, g, &f));
     if (f == QDOT_NIL)
         return QDOT_OK;
     QDOT_TRY(split_linear(pool, g, f, &c, &k));
@@ -143,13 +143,13 @@ qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
         return QDOT_OK;
     a = qdot_expr_arg(pool, f, 0);
     if (qdot_expr_is_function(pool, f, QDOT_TAN))
-        put_sine(pool, qdot_sub(pool, a, qdot_fun1(pool, QDOT_ATAN, k)), c, out);
+        set_sine(pool, qdot_sub(pool, a, qdot_fun1(pool, QDOT_ATAN, k)), c, out);
     else if (qdot_expr_is_function(pool, f, QDOT_MOD))
-        QDOT_TRY(of_mod(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
+        QDOT_TRY(find_zeros_of_mod(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
     else if (qdot_expr_is_function(pool, f, QDOT_FLOOR))
-        QDOT_TRY(of_floor(pool, a, c, k, out));
+        QDOT_TRY(find_zeros_of_floor(pool, a, c, k, out));
     else
-        QDOT_TRY(of_angle(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
+        QDOT_TRY(find_zeros_of_angle(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
     return qdot_pool_check(pool);
 }
 

@@ -19,13 +19,13 @@
 #include "expr/id.h"
 
 typedef struct {
-    qdot_expr u; /* smooth function; g itself if g has no such form, or contains accelerations or multipliers */
-    qdot_expr turn; /* sign of dg/du at a zero of u, never 0; nil: u changes like g */
+    qdot_expr u; /* smooth function with the zeros of g; g itself if there is none, or g has accelerations or multipliers */
+    qdot_expr turn; /* sign of dg/du at a zero of u, never 0; nil: g rises and falls with u */
     bool half;      /* zeros of u with turn < 0 are not zeros of g */
     bool touches;   /* g does not change sign: f reaches k by a jump, or g is v^2 */
 } qdot_repeated;
 
-/* Find u for the function g with parameter values. Errors: of the pool; of a constant that is not real. */
+/* Find u (and `turn`) for the function g with parameter values. Errors: of the pool; a constant is not real. */
 QDOT_MUST_CHECK qdot_status qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out);
 
 /* What is watched for the zeros of g: first v in place of |v|, v^2 or a product of such (`touches`), simple factors in

@@ -7,7 +7,7 @@
 
 #include "mech/dynamics/quantity.h"
 
-/* Treatment of drift off the constraints (sim/model/constrained.h). */
+/* How a drift of the state off the constraints is treated (sim/model/constrained.h). */
 typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;
 
 typedef struct {
@@ -17,8 +17,8 @@ typedef struct {
     const bool *q_named, *v_named; /* [n] which of them were named: the others may be solved for
                                      from the constraints; NULL: all */
     bool exactly; /* refuse a start that violates a constraint, instead of moving it */
-    qdot_expr t0, t1;             /* start and end time, exact constants; t1 < t0 runs backwards */
-    qdot_expr said[2]; /* the limits as they were written, with symbols that have values; nil: t0, t1 */
+    qdot_expr t0, t1;             /* start and end time, exact constants; t1 < t0: the run goes backward */
+    qdot_expr said[2]; /* the time limits as the user wrote them, with symbols that have values; nil: t0, t1 */
     double tol;                   /* local error of each component in each step, relative to
                                      max(s, |value|) */
     const double *scales;         /* [2n] s of q, then of q', in order of the coordinates; 0: found
@@ -26,7 +26,7 @@ typedef struct {
     const char *method;           /* "auto" or the name of a method (ode/method.h) */
     bool turns;                   /* a method for stiff scenes may change to series and back
                                      (ode/alternate.h) */
-    qdot_run_treatment treatment; /* how constraints are treated */
+    qdot_run_treatment treatment; /* how a drift of the state off the constraints is treated */
     size_t n_states;              /* set by the run itself, leave it 0: parameters that events
                                      set, as further coordinates (sim/model/parameter-states.h); */
     const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... include

@@ -1,4 +1,4 @@
-/* simple-zeros.c -- removes repeated zeros of a product by lowering its exponents. */
+/* simple-zeros.c -- removes repeated zeros of a product by reducing the exponents of its factors. */
 #include "sim/model/simple-zeros.h"
 
 #include "expr/build.h"
@@ -6,7 +6,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 
-/* Whether the exponent is an integer. *n: 1 if odd, 2 if even, with the sign of the exponent. */
+/* Whether an exponent is an integer; *n: 1 if it is odd, 2 if even, with the sign of the exponent. */
 static bool
 exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
 {
@@ -18,9 +18,9 @@ exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
     return true;
 }
 
-/* The binary exponent of a number that is very large or very small; 0 for other numbers. */
+/* The binary exponent of a number if it is extremely large or small; 0 for other numbers. */
 static long
-far_exponent(const qdot_pool *pool, qdot_expr number)
+extreme_exponent(const qdot_pool *pool, qdot_expr number)
 {
     enum { FAR = 500 };
     const fmpq *q = qdot_expr_rational(pool, number);
@@ -30,21 +30,21 @@ far_exponent(const qdot_pool *pool, qdot_expr number)
     return e > FAR || e < -FAR ? e : 0;
 }
 
-/* Multiply a sum by a power of 2 if all its coefficients are far from 1 in the same direction. */
+/* Multiply a sum by a power of 2 if all its coefficients are extremely large, or all extremely small. */
 static qdot_expr
-scaled(qdot_pool *pool, qdot_expr sum)
+scale_extreme_sum(qdot_pool *pool, qdot_expr sum)
 {
-    long most = far_exponent(pool, qdot_expr_arg(pool, sum, 0));
+    long most = extreme_exponent(pool, qdot_expr_arg(pool, sum, 0));
     qdot_expr by, e;
 
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, sum); k += 2) {
-        const long here = far_exponent(pool, qdot_expr_arg(pool, sum, k + 1));
+        const long here = extreme_exponent(pool, qdot_expr_arg(pool, sum, k + 1));
 
         if (here == 0)
             return sum;
         most = most == 0 || here > most ? here : most;
     }
-    if (qdot_expr_arg(pool, sum, 0) != QDOT_ZERO && far_exponent(pool, qdot_expr_arg(pool, sum, 0)) == 0)
+    if (qdot_expr_arg(pool, sum, 0) != QDOT_ZERO && extreme_exponent(pool, qdot_expr_arg(pool, sum, 0)) == 0)
         return sum;
     by = qdot_pow_int(pool, qdot_expr_int(pool, 2), -most);
     e = qdot_mul(pool, by, qdot_expr_arg(pool, sum, 0));
@@ -60,11 +60,11 @@ qdot_simple_zeros(qdot_pool *pool, qdot_expr g)
     qdot_expr e;
 
     if (qdot_expr_kind(pool, g) == QDOT_SUM)
-        return scaled(pool, g);
+        return scale_extreme_sum(pool, g);
     if (qdot_expr_kind(pool, g) != QDOT_PROD)
         return g;
     e = qdot_expr_arg(pool, g, 0);
-    if (far_exponent(pool, e) != 0)
+    if (extreme_exponent(pool, e) != 0)
         e = qdot_expr_is_negative(pool, e) ? qdot_neg(pool, QDOT_ONE) : QDOT_ONE;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, g); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, g, i), exponent = qdot_expr_arg(pool, g, i + 1);

@@ -10,7 +10,7 @@
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
-/* The most passes over the rows [Kaczmarz 1937]; one is enough for linear rows that share no coordinate. */
+/* Most passes of Kaczmarz's method over the conditions; one suffices if linear ones share no coordinate. */
 enum { MOST_SWEEPS = 100 };
 
 void
@@ -22,10 +22,10 @@ qdot_sliding_rows_clear(qdot_sliding_rows *rows)
     *rows = (qdot_sliding_rows){0};
 }
 
-/* Append a row to out [rows x (1 + n)]: the function's value, and its derivatives. */
+/* Append a condition to out [rows x (1 + n)]: the value of its function, and its derivatives. */
 static void
-add_row(const qdot_plan *p, qdot_sliding_rows *rows, int order, qdot_expr h, qdot_expr *values,
-        qdot_expr *slopes)
+append_condition(const qdot_plan *p, qdot_sliding_rows *rows, int order, qdot_expr h, qdot_expr *values,
+                 qdot_expr *slopes)
 {
     const size_t r = rows->rows++;
 
@@ -61,15 +61,15 @@ qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *s, const long *s
             continue;
         for (size_t c = 0; puck && c < puck->k; c++) {
             rows->surface[rows->rows] = i;
-            add_row(p, rows, 1, puck->rest[c], out, out + most);
+            append_condition(p, rows, 1, puck->rest[c], out, out + most);
         }
         if (puck)
             continue;
         rows->surface[rows->rows] = i;
         rows->surface[rows->rows + 1] = i;
-        add_row(p, rows, velocity, u[i], out, out + most);
+        append_condition(p, rows, velocity, u[i], out, out + most);
         if (!velocity)
-            add_row(p, rows, 1, qdot_ddt(p->pool, u[i]), out, out + most);
+            append_condition(p, rows, 1, qdot_ddt(p->pool, u[i]), out, out + most);
     }
     memmove(out + rows->rows, out + most, rows->rows * p->n * sizeof *out);
     status = qdot_pool_check(p->pool);
@@ -110,7 +110,7 @@ qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t, const
 /* Move y along the gradient of row r towards the zero of the row, by one Newton step. Returns
  * whether y changed. */
 static bool
-keep_row(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, double *y)
+correct_by_condition(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, double *y)
 {
     const double *slope = out + rows->rows + r * n;
     double *x = y + (size_t)rows->order[r] * n, square = 0;
@@ -150,7 +150,7 @@ qdot_sliding_rows_keep(const qdot_sliding_rows *rows, size_t n, double t, double
         moves = false;
         for (size_t r = 0; r < rows->rows; r++) {
             qdot_tape_eval(rows->tape, in, out, out + outputs);
-            moves = keep_row(rows, n, r, out, in) || moves;
+            moves = correct_by_condition(rows, n, r, out, in) || moves;
         }
     }
     for (size_t i = 0; i < 2 * n; i++) {

@@ -29,46 +29,46 @@ qdot_sliding_is(const qdot_switches *s, const long *side)
     return false;
 }
 
-/* An unknown share: of a surface, or of component c of a puck. */
+/* An unknown friction ratio s (in place of sign u) of a surface u = 0, or of component c of a disc. */
 typedef struct {
     size_t surface, c;
-    const qdot_puck *puck; /* the puck to which the surface belongs; NULL: none */
+    const qdot_puck *puck; /* the sliding disc to which the surface belongs; NULL: none */
 } unknown;
 
-/* The linear system while it is filled: unknowns q'', then multipliers, then sliding shares. */
+/* The linear system being filled; unknowns: q'', then multipliers, then friction ratios of surfaces. */
 typedef struct {
     qdot_plan *p;
     qdot_scene *scene;
     size_t n, m, k, size;
-    unknown *of; /* [k] the unknown shares */
+    unknown *of; /* [k] the unknown friction ratios */
     qdot_expr *A, *b, *x;
-    bool *massless; /* [n] the coordinate is massless */
+    bool *massless; /* [n] whether the coordinate is massless */
     bool some_massless;
-    /* Shares that are known from equations of massless coordinates: their surfaces, symbols and values. */
+    /* Friction ratios already known from massless coordinates' equations: their surfaces, symbols, values. */
     size_t n_settled, *settled;
     qdot_expr *symbols, *values;
 } sliding;
 
 static qdot_expr
-share_symbol(const sliding *s, size_t j)
+symbol_of_ratio(const sliding *s, size_t j)
 {
     const unknown *u = &s->of[j];
 
     return u->puck ? u->puck->share[u->c] : s->p->mode->surfaces.at[u->surface].side;
 }
 
-/* The address of the share of component c of a disc, in p->share. */
+/* The address, in p->share, of the friction ratio of component c of a disc. */
 static qdot_expr *
-place_of(const qdot_plan *p, const qdot_puck *puck, size_t c)
+address_of_ratio(const qdot_plan *p, const qdot_puck *puck, size_t c)
 {
     return p->share + p->mode->surfaces.n + puck->first + c;
 }
 
 static bool
-holds_share(const sliding *s, qdot_expr e)
+contains_ratio(const sliding *s, qdot_expr e)
 {
     for (size_t j = 0; j < s->k; j++)
-        if (qdot_expr_contains(s->p->pool, e, share_symbol(s, j)))
+        if (qdot_expr_contains(s->p->pool, e, symbol_of_ratio(s, j)))
             return true;
     for (size_t j = 0; j < s->n_settled; j++)
         if (qdot_expr_contains(s->p->pool, e, s->symbols[j]))
@@ -77,14 +77,14 @@ holds_share(const sliding *s, qdot_expr e)
 }
 
 static qdot_status
-cannot(const char *why)
+fail_sliding(const char *why)
 {
     return qdot_fail(QDOT_EFAILED, "%s", why);
 }
 
-/* The time derivative df/dt along the motion; parameters that events set have rate 0. */
+/* The time derivative df/dt along the motion; parameters that events set are constant. */
 static qdot_expr
-rate(const qdot_plan *p, qdot_expr f)
+time_derivative(const qdot_plan *p, qdot_expr f)
 {
     const qdot_expr zero = QDOT_ZERO;
 
@@ -95,12 +95,12 @@ rate(const qdot_plan *p, qdot_expr f)
 }
 
 static bool
-holds(const qdot_plan *p, qdot_expr e, uint32_t what)
+contains_kind(const qdot_plan *p, qdot_expr e, uint32_t what)
 {
     return e != QDOT_NIL && (qdot_expr_node(p->pool, e)->holds & what) != 0;
 }
 
-/* Fill row r of the system with the equation that f, differentiated `times` by t, is 0. */
+/* Fill row r of the system with the equation that the time derivative of f (of order `times`) is 0. */
 static qdot_status
 fill_row(sliding *s, size_t r, qdot_expr f, int times)
 {
@@ -110,7 +110,7 @@ fill_row(sliding *s, size_t r, qdot_expr f, int times)
     if (!zeros)
         return QDOT_ENOMEM;
     for (; times > 0; times--)
-        f = rate(p, f);
+        f = time_derivative(p, f);
     for (size_t i = 0; i < s->n && f != QDOT_NIL; i++) {
         zeros[i] = QDOT_ZERO;
         if (i < s->n - p->n_states)
@@ -124,9 +124,9 @@ fill_row(sliding *s, size_t r, qdot_expr f, int times)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether f holds a velocity of a massless coordinate. */
+/* Whether f contains a velocity of a massless coordinate. */
 static bool
-holds_rates(const sliding *s, qdot_expr f)
+contains_massless_velocity(const sliding *s, qdot_expr f)
 {
     for (size_t i = 0; i < s->n; i++)
         if (s->massless[i] && qdot_expr_contains(s->p->pool, f, s->p->inputs[s->p->n + i]))
@@ -137,32 +137,32 @@ holds_rates(const sliding *s, qdot_expr f)
 /* Fill the rows M q'' - sum B s = f0; an equation of a massless coordinate is differentiated until
  * it contains q''. */
 static qdot_status
-fill_forces(sliding *s)
+fill_force_rows(sliding *s)
 {
     const qdot_plan *p = s->p;
     qdot_expr *symbols = qdot_calloc(2 * s->k, sizeof *symbols), *zeros = symbols + s->k;
     qdot_status status = symbols ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t j = 0; j < s->k && symbols; j++) {
-        symbols[j] = share_symbol(s, j);
+        symbols[j] = symbol_of_ratio(s, j);
         zeros[j] = QDOT_ZERO;
     }
     for (size_t i = 0; i < s->n && status == QDOT_OK; i++) {
         if (s->massless[i]) {
-            status = fill_row(s, i, p->f[i], holds_rates(s, p->f[i]) ? 1 : 2);
+            status = fill_row(s, i, p->f[i], contains_massless_velocity(s, p->f[i]) ? 1 : 2);
             continue;
         }
         for (size_t j = 0; j < s->n && status == QDOT_OK; j++) {
             s->A[i * s->size + j] = p->M[i * s->n + j];
-            if (holds_share(s, p->M[i * s->n + j]))
-                status = cannot("a mass switches there");
+            if (contains_ratio(s, p->M[i * s->n + j]))
+                status = fail_sliding("a mass switches there");
         }
         for (size_t j = 0; j < s->k && status == QDOT_OK; j++) {
             qdot_expr B = qdot_diff(p->pool, p->f[i], symbols[j]);
 
             status = qdot_pool_check(p->pool);
-            if (status == QDOT_OK && holds_share(s, B))
-                status = cannot("forces contain products of expressions that switch there");
+            if (status == QDOT_OK && contains_ratio(s, B))
+                status = fail_sliding("forces contain products of expressions that switch there");
             s->A[i * s->size + s->n + s->m + j] = qdot_neg(p->pool, B);
         }
         s->b[i] = qdot_subs(p->pool, p->f[i], s->k, symbols, zeros);
@@ -172,7 +172,7 @@ fill_forces(sliding *s)
 }
 
 static qdot_status
-fill_constraints(sliding *s)
+fill_constraint_rows(sliding *s)
 {
     const qdot_plan *p = s->p;
 
@@ -183,8 +183,8 @@ fill_constraints(sliding *s)
 
         QDOT_TRY(qdot_pool_check(p->pool));
         QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, &f, &f));
-        if (holds_share(s, f))
-            return cannot("a constraint switches there");
+        if (contains_ratio(s, f))
+            return fail_sliding("a constraint switches there");
         QDOT_TRY(fill_row(s, r, f, QDOT_ACCELERATION - (int)from->kind));
         for (size_t i = 0; i < s->n; i++)
             s->A[i * s->size + r] = qdot_neg(p->pool, s->A[r * s->size + i]);
@@ -195,33 +195,33 @@ fill_constraints(sliding *s)
 /* The function that an unknown share keeps at 0: u of its surface, with the other switches frozen,
  * or a component of w. */
 static qdot_status
-held(const qdot_plan *p, const unknown *of, qdot_expr *u)
+find_held_function(const qdot_plan *p, const unknown *of, qdot_expr *u)
 {
     const size_t i = of->surface;
     const qdot_expr *from = of->puck ? &of->puck->rest[of->c] : &p->mode->surfaces.at[i].u;
 
     QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, from, u));
-    if (p->mode->surfaces.at[i].steps || holds(p, *u, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
-        || !holds(p, *u, QDOT_HAS_VELOCITY | QDOT_HAS_COORD))
-        return cannot("no motion can be held there");
+    if (p->mode->surfaces.at[i].steps || contains_kind(p, *u, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
+        || !contains_kind(p, *u, QDOT_HAS_VELOCITY | QDOT_HAS_COORD))
+        return fail_sliding("no motion can be held there");
     return QDOT_OK;
 }
 
 static qdot_status
-fill(sliding *s)
+fill_system(sliding *s)
 {
-    QDOT_TRY(fill_forces(s));
-    QDOT_TRY(fill_constraints(s));
+    QDOT_TRY(fill_force_rows(s));
+    QDOT_TRY(fill_constraint_rows(s));
     for (size_t j = 0; j < s->k; j++) {
         const qdot_surface *x = &s->p->mode->surfaces.at[s->of[j].surface];
         const size_t r = s->n + s->m + j;
         qdot_expr u;
 
-        QDOT_TRY(held(s->p, &s->of[j], &u));
-        if (holds_share(s, u))
-            return cannot("one switch is inside another");
-        QDOT_TRY(fill_row(s, r, u, holds(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
-        for (size_t i = 0; i < s->n && x->contact; i++) { /* add the reaction force of the contact */
+        QDOT_TRY(find_held_function(s->p, &s->of[j], &u));
+        if (contains_ratio(s, u))
+            return fail_sliding("one switch is inside another");
+        QDOT_TRY(fill_row(s, r, u, contains_kind(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
+        for (size_t i = 0; i < s->n && x->contact; i++) { /* add the reaction force of the contact to the equations */
             const qdot_expr slope = s->A[r * s->size + i];
 
             s->A[i * s->size + r] =
@@ -232,7 +232,7 @@ fill(sliding *s)
 }
 
 static bool
-creeps(const sliding *s, size_t j)
+is_creeping(const sliding *s, size_t j)
 {
     return s->p->side[s->of[j].surface] == QDOT_SIDE_CREEPS;
 }
@@ -240,14 +240,14 @@ creeps(const sliding *s, size_t j)
 /* Keep the shares of a mode; of a puck s G s for its surface, which is watched, and where it creeps
  * the direction s/|s| for its shares. */
 static void
-keep_shares(sliding *s)
+store_ratios(sliding *s)
 {
     qdot_plan *p = s->p;
 
     for (size_t j = 0; j < s->k; j++) {
         const unknown *u = &s->of[j];
 
-        *(u->puck ? place_of(p, u->puck, u->c) : &p->share[u->surface]) =
+        *(u->puck ? address_of_ratio(p, u->puck, u->c) : &p->share[u->surface]) =
             s->x[s->n + s->m + j];
     }
     for (size_t j = 0; j < s->k; j++) {
@@ -256,17 +256,17 @@ keep_shares(sliding *s)
 
         if (!puck || s->of[j].c > 0)
             continue;
-        square = qdot_puck_square(p->pool, puck, place_of(p, puck, 0));
+        square = qdot_puck_square(p->pool, puck, address_of_ratio(p, puck, 0));
         p->share[puck->surface] = square;
-        for (size_t c = 0; c < puck->k && creeps(s, j); c++)
-            *place_of(p, puck, c) = qdot_mul(p->pool, *place_of(p, puck, c),
-                                             qdot_puck_inverse_root(p->pool, square));
+        for (size_t c = 0; c < puck->k && is_creeping(s, j); c++)
+            *address_of_ratio(p, puck, c) = qdot_mul(p->pool, *address_of_ratio(p, puck, c),
+                                                     qdot_puck_inverse_root(p->pool, square));
     }
 }
 
 /* Add the reactions of the contacts to f[i], which does not contain them. */
 static void
-add_reactions(sliding *s, size_t i)
+add_contact_reactions(sliding *s, size_t i)
 {
     qdot_plan *p = s->p;
 
@@ -281,7 +281,7 @@ add_reactions(sliding *s, size_t i)
 /* Put the shares found into f, or take q'' itself. Where pucks creep only their shares: the others are
  * to be found anew. */
 static qdot_status
-put_in(sliding *s, bool all)
+insert_ratios(sliding *s, bool all)
 {
     qdot_plan *p = s->p;
     qdot_expr *symbols = qdot_calloc(2 * s->k, sizeof *symbols), *to = symbols + s->k;
@@ -289,14 +289,14 @@ put_in(sliding *s, bool all)
 
     if (!symbols)
         return QDOT_ENOMEM;
-    keep_shares(s);
+    store_ratios(s);
     for (size_t j = 0; j < s->k; j++) {
         const unknown *u = &s->of[j];
 
-        if (!all && !creeps(s, j))
+        if (!all && !is_creeping(s, j))
             continue;
-        symbols[k] = share_symbol(s, j);
-        to[k++] = u->puck ? *place_of(p, u->puck, u->c) : p->share[u->surface];
+        symbols[k] = symbol_of_ratio(s, j);
+        to[k++] = u->puck ? *address_of_ratio(p, u->puck, u->c) : p->share[u->surface];
     }
     for (size_t i = 0; i < s->n; i++) {
         if (all && s->m == 0 && s->n <= MOST_SOLVED && !s->some_massless) {
@@ -305,17 +305,17 @@ put_in(sliding *s, bool all)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
         } else {
             p->f[i] = qdot_subs(p->pool, p->f[i], k, symbols, to);
-            if (all) /* otherwise they are among the other rows */
-                add_reactions(s, i);
+            if (all) /* otherwise these equations are among the other rows */
+                add_contact_reactions(s, i);
         }
     }
     qdot_free(symbols);
     return qdot_pool_check(p->pool);
 }
 
-/* Solve the system for the unknowns it now has; it also determines the shares of creeping discs. */
+/* Solve the system for its present unknowns; this also determines the friction ratios of creeping discs. */
 static qdot_status
-solve(sliding *s)
+solve_system(sliding *s)
 {
     qdot_facts facts = qdot_scene_facts(s->scene);
     uint32_t pivot = 0;
@@ -327,22 +327,22 @@ solve(sliding *s)
     s->x = s->b + s->size;
     for (size_t i = 0; i < s->size * s->size; i++)
         s->A[i] = QDOT_ZERO;
-    QDOT_TRY(fill(s));
+    QDOT_TRY(fill_system(s));
     status = qdot_solve_linear(s->p->pool, (uint32_t)s->size, s->A, s->b, s->x, &pivot, &facts);
     if (status == QDOT_ESINGULAR)
-        return cannot("the forces that switch there do not determine the motion along it");
+        return fail_sliding("the forces that switch there do not determine the motion along it");
     QDOT_TRY(status);
     for (size_t j = 0; j < s->k; j++)
-        held_on += !creeps(s, j);
-    QDOT_TRY(put_in(s, held_on == s->k));
+        held_on += !is_creeping(s, j);
+    QDOT_TRY(insert_ratios(s, held_on == s->k));
     if (held_on == s->k)
         return QDOT_OK;
     held_on = 0;
     for (size_t j = 0; j < s->k; j++)
-        if (!creeps(s, j))
+        if (!is_creeping(s, j))
             s->of[held_on++] = s->of[j];
     s->k = held_on;
-    return s->k > 0 ? solve(s) : QDOT_OK;
+    return s->k > 0 ? solve_system(s) : QDOT_OK;
 }
 
 /* --- coordinates without mass --------------------------------------------------------- */
@@ -350,18 +350,18 @@ solve(sliding *s)
 /* Share j, whose slope in equation i of a massless coordinate is B, from that equation. Then u = 0 stands in its
  * place. */
 static qdot_status
-sliding_settle(sliding *s, size_t i, size_t j, qdot_expr B)
+determine_ratio(sliding *s, size_t i, size_t j, qdot_expr B)
 {
     qdot_plan *p = s->p;
-    const qdot_expr symbol = share_symbol(s, j), zero = QDOT_ZERO;
+    const qdot_expr symbol = symbol_of_ratio(s, j), zero = QDOT_ZERO;
     qdot_expr value, u;
 
-    if (s->of[j].puck || holds_share(s, B))
-        return cannot(s->of[j].puck ? "friction in a plane acts on a coordinate without mass"
+    if (s->of[j].puck || contains_ratio(s, B))
+        return fail_sliding(s->of[j].puck ? "friction in a plane acts on a coordinate without mass"
                                     : "forces contain products of expressions that switch there");
-    QDOT_TRY(held(p, &s->of[j], &u));
-    if (holds_share(s, u))
-        return cannot("one switch is inside another");
+    QDOT_TRY(find_held_function(p, &s->of[j], &u));
+    if (contains_ratio(s, u))
+        return fail_sliding("one switch is inside another");
     value = qdot_neg(p->pool, qdot_div(p->pool, qdot_subs(p->pool, p->f[i], 1, &symbol, &zero), B));
     for (size_t k = 0; k < s->n; k++)
         p->f[k] = k == i ? u : qdot_subs(p->pool, p->f[k], 1, &symbol, &value);
@@ -376,9 +376,9 @@ sliding_settle(sliding *s, size_t i, size_t j, qdot_expr B)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether u of share j contains coordinate i or its velocity. */
+/* Whether the surface function u of unknown ratio j contains coordinate i or its velocity. */
 static bool
-is_own(const sliding *s, size_t i, size_t j)
+depends_on_coordinate(const sliding *s, size_t i, size_t j)
 {
     const qdot_plan *p = s->p;
     const qdot_expr u = s->p->mode->surfaces.at[s->of[j].surface].u;
@@ -389,24 +389,24 @@ is_own(const sliding *s, size_t i, size_t j)
 /* Solve the equations of massless coordinates for the shares in them, first where a share holds the coordinate
  * itself. */
 static qdot_status
-settle_massless(sliding *s)
+determine_massless_ratios(sliding *s)
 {
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < s->n; i++)
             for (size_t j = 0; j < s->k && s->massless[i]; j++) {
-                const qdot_expr B = qdot_diff(s->p->pool, s->p->f[i], share_symbol(s, j));
+                const qdot_expr B = qdot_diff(s->p->pool, s->p->f[i], symbol_of_ratio(s, j));
 
                 QDOT_TRY(qdot_pool_check(s->p->pool));
-                if (B == QDOT_ZERO || (pass == 0 && !is_own(s, i, j)))
+                if (B == QDOT_ZERO || (pass == 0 && !depends_on_coordinate(s, i, j)))
                     continue;
-                QDOT_TRY(sliding_settle(s, i, j, B));
+                QDOT_TRY(determine_ratio(s, i, j, B));
                 break;
             }
     return QDOT_OK;
 }
 
 static qdot_status
-find_massless(sliding *s)
+find_massless_coordinates(sliding *s)
 {
     const size_t surfaces = s->p->mode->surfaces.n;
 
@@ -423,9 +423,9 @@ find_massless(sliding *s)
     return QDOT_OK;
 }
 
-/* Insert the shares found last into the values of those found before. */
+/* Insert the friction ratios found last into the values of those found before. */
 static qdot_status
-keep_settled(sliding *s)
+insert_into_earlier_ratios(sliding *s)
 {
     qdot_plan *p = s->p;
 
@@ -440,7 +440,7 @@ keep_settled(sliding *s)
 }
 
 static qdot_status
-add_unknown(sliding *s, size_t surface)
+append_unknown(sliding *s, size_t surface)
 {
     const qdot_puck *puck = qdot_puck_of(s->p->mode, surface);
     const qdot_facts facts = qdot_scene_facts(s->scene);
@@ -472,18 +472,18 @@ qdot_sliding_freeze(qdot_plan *p, qdot_scene *scene)
     for (size_t i = 0; i < surfaces && p->share && s.of && status == QDOT_OK; i++)
         if (p->side[i] == QDOT_SIDE_SLIDES
             || (mode->surfaces.at[i].puck > 0 && qdot_puck_is_held(p->side[i])))
-            status = add_unknown(&s, i);
+            status = append_unknown(&s, i);
     if (status == QDOT_OK && s.k > 0) {
         const size_t size = n + s.m + s.k;
 
-        status = find_massless(&s);
+        status = find_massless_coordinates(&s);
         if (status == QDOT_OK)
-            status = settle_massless(&s);
+            status = determine_massless_ratios(&s);
         s.A = qdot_calloc(size * (size + 2), sizeof *s.A);
         if (status == QDOT_OK && s.k > 0)
-            status = s.A ? solve(&s) : QDOT_ENOMEM;
+            status = s.A ? solve_system(&s) : QDOT_ENOMEM;
         if (status == QDOT_OK)
-            status = keep_settled(&s);
+            status = insert_into_earlier_ratios(&s);
     }
     qdot_free(s.A);
     qdot_free(s.massless);

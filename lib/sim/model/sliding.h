@@ -46,9 +46,9 @@ qdot_expr qdot_plan_reading(const qdot_plan *plan, qdot_expr e);
  * row by row, `order` 0 for rows of q, 1 for rows of q'. */
 typedef struct {
     size_t rows;
-    int *order;      /* [rows] 0: a condition on q; 1: a condition on q' */
-    size_t *surface; /* [rows] index of the surface */
-    qdot_tape *tape; /* from q, q', t: values [rows], then derivatives by q or q' [rows x n]; owned */
+    int *order;      /* [rows] what the condition restricts: 0: coordinates q; 1: velocities q' */
+    size_t *surface; /* [rows] index of the surface on which the condition keeps the motion */
+    qdot_tape *tape; /* from q, q', t: functions of the conditions [rows], then derivatives by q or q' [rows x n]; owned */
 } qdot_sliding_rows;
 
 /* Of a plan and a mode whose surfaces have the u [surfaces] frozen to it; a puck at rest has a row for

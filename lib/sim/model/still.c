@@ -1,4 +1,4 @@
-/* still.c -- finds the largest set of coordinates that stay at 0, by dropping those that do not. */
+/* still.c -- finds the largest set of coordinates that stay at 0, by removing those that do not stay. */
 #include "sim/model/still.h"
 
 #include <string.h>
@@ -13,11 +13,11 @@ typedef struct {
     const qdot_plan *plan;
     bool *still;         /* [n] the coordinate stays at 0 */
     size_t n_zeros;
-    qdot_expr *of, *to;  /* [2n] substitution: q and q' of still coordinates (of) by 0 (to) */
+    qdot_expr *of, *to;  /* [2n] substitution: q and q' of coordinates that stay at 0 (of) become 0 (to) */
 } set;
 
 static qdot_expr
-on(const set *z, qdot_expr e)
+insert_zeros(const set *z, qdot_expr e)
 {
     return qdot_subs(z->plan->pool, e, z->n_zeros, z->of, z->to);
 }
@@ -28,17 +28,17 @@ coordinate_stays(const set *z, size_t i)
     const size_t n = z->plan->n;
 
     for (size_t j = 0; j < n; j++)
-        if (!z->still[j] && on(z, z->plan->M[i * n + j]) != QDOT_ZERO)
+        if (!z->still[j] && insert_zeros(z, z->plan->M[i * n + j]) != QDOT_ZERO)
             return false;
-    return on(z, z->plan->f[i]) == QDOT_ZERO;
+    return insert_zeros(z, z->plan->f[i]) == QDOT_ZERO;
 }
 
-/* Whether M does not depend on coordinates as long as those of the set are 0. */
+/* Whether M does not depend on other coordinates as long as those of the set are 0. */
 static bool
-is_regular(const set *z)
+has_constant_masses(const set *z)
 {
     for (size_t k = 0; k < z->plan->n * z->plan->n; k++) {
-        const qdot_expr e = on(z, z->plan->M[k]);
+        const qdot_expr e = insert_zeros(z, z->plan->M[k]);
 
         if (e == QDOT_NIL || (qdot_expr_node(z->plan->pool, e)->holds & QDOT_HAS_COORD))
             return false;
@@ -46,9 +46,9 @@ is_regular(const set *z)
     return true;
 }
 
-/* Drop coordinates whose equations do not hold at 0, until all that are left hold. */
+/* Remove coordinates whose equations are violated at 0, until the equations of all those left hold. */
 static qdot_status
-reduce(set *z)
+remove_moving_coordinates(set *z)
 {
     const qdot_plan *p = z->plan;
     bool dropped = true;
@@ -67,15 +67,15 @@ reduce(set *z)
                 dropped = true;
             }
     }
-    if (!is_regular(z))
+    if (!has_constant_masses(z))
         memset(z->still, 0, p->n * sizeof *z->still);
-    return qdot_grave(qdot_pool_check(p->pool)); /* the expression may be undefined there */
+    return qdot_grave(qdot_pool_check(p->pool)); /* ignore this failure: the expression may be undefined at 0 */
 }
 
-/* Find the coordinates that are 0, at rest, and not accelerated. */
+/* Find the coordinates that are 0 at the start, with velocity and acceleration 0. */
 static bool
-still_begin(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
-            double *rate)
+find_coordinates_at_rest(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
+                         double *rate)
 {
     const size_t n = z->plan->n;
     bool any = false, known = false;
@@ -112,8 +112,8 @@ qdot_still_find(const qdot_plan *plan, const qdot_ode_system *system, double t0,
     rate = qdot_malloc(2 * n * sizeof *rate);
     status = z.still && z.of && rate ? QDOT_OK : QDOT_ENOMEM;
     z.to = z.of + 2 * n;
-    if (status == QDOT_OK && still_begin(&z, system, t0, y, low, rate))
-        status = reduce(&z);
+    if (status == QDOT_OK && find_coordinates_at_rest(&z, system, t0, y, low, rate))
+        status = remove_moving_coordinates(&z);
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
         if (z.still[i % n])
             units[i] = 0;

@@ -1,4 +1,4 @@
-/* substitute.c -- substitutes values: first for functions, until none is left, then for symbols. */
+/* substitute.c -- substitutes values: first for functions until none is left, then for symbols. */
 #include "sim/model/substitute.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@ typedef struct {
     const qdot_expr *symbols, *values;
 } table;
 
-/* The value given for the user function that `node` applies; nil if none is given. */
+/* The value given for the user-defined function that `node` applies; nil if none is given. */
 static qdot_expr
 function_value(qdot_pool *pool, const table *t, qdot_expr node)
 {
@@ -26,7 +26,7 @@ function_value(qdot_pool *pool, const table *t, qdot_expr node)
     return QDOT_NIL;
 }
 
-/* The derivative of the given orders of a function's value, at the arguments of the application. */
+/* The derivative, of the orders in `node`, of the value given for a function, at the node's arguments. */
 static qdot_expr
 apply_derivative(qdot_pool *pool, qdot_expr node, void *user)
 {
@@ -70,7 +70,7 @@ qdot_substitute(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols
     size_t count = 0;
 
     if (e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & ~constant) == 0)
-        return e; /* a constant, as most start values are */
+        return e; /* a constant contains nothing to be substituted */
     for (size_t i = 0; i < n; i++)
         functions |= qdot_expr_kind(pool, symbols[i]) == QDOT_UFUN;
     for (int round = 0; functions && e != QDOT_NIL; round++) {

@@ -1,4 +1,4 @@
-/* switch-freeze.c -- rewrites expressions for a given side of every surface. */
+/* switch-freeze.c -- rewrites expressions for a given side of every switching surface. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -12,16 +12,16 @@
 
 typedef struct {
     const qdot_switches *s;
-    const long *side;   /* [surfaces] the sides; NULL: keep symbols */
+    const long *side;   /* [surfaces] the sides; NULL: the symbols of sides stay */
     const long *corner; /* [surfaces] the side to use where `side` is QDOT_SIDE_SLIDES */
     qdot_gates gates;   /* gates of the expressions that are rewritten */
     uint8_t *open;
     qdot_expr *to; /* [gates] replacement of each gate */
 } freezer;
 
-/* Argument k of a gate, with its switches frozen. */
+/* Argument k of a switching function, rewritten for the given sides. */
 static qdot_expr
-argument(const freezer *f, const qdot_gate *gate, uint32_t k)
+frozen_argument(const freezer *f, const qdot_gate *gate, uint32_t k)
 {
     const size_t of = f->gates.arguments.at[gate->first + k];
 
@@ -29,50 +29,50 @@ argument(const freezer *f, const qdot_gate *gate, uint32_t k)
 }
 
 static long
-side_at(const freezer *f, size_t surface)
+side_of_surface(const freezer *f, size_t surface)
 {
     return f->side[surface] == QDOT_SIDE_SLIDES ? f->corner[surface] : f->side[surface];
 }
 
-/* Whether the surface is one along which the motion slides, so that u is 0. */
+/* Whether the motion slides along the surface of a comparison, so that u = 0. */
 static bool
-surface_is_held(const freezer *f, const qdot_gate_pair *pair)
+is_sliding_comparison(const freezer *f, const qdot_gate_pair *pair)
 {
     return pair->surface != SIZE_MAX && f->side && f->side[pair->surface] == QDOT_SIDE_SLIDES;
 }
 
-/* The side of u as a number or a symbol; for a constant u, its sign or floor. */
+/* The side of a comparison's u as a number or a symbol; for a constant u, its sign or floor. */
 static qdot_expr
-side_of(const freezer *f, const qdot_gate_pair *pair, bool steps)
+side_of_comparison(const freezer *f, const qdot_gate_pair *pair, bool steps)
 {
     qdot_pool *pool = f->s->pool;
     qdot_expr side;
 
     if (pair->surface == SIZE_MAX)
         return qdot_fun1(pool, steps ? QDOT_FLOOR : QDOT_SIGN, pair->u);
-    side = f->side ? qdot_expr_int(pool, side_at(f, pair->surface))
+    side = f->side ? qdot_expr_int(pool, side_of_surface(f, pair->surface))
                    : f->s->surfaces.at[pair->surface].side;
     return pair->turned < 0 ? qdot_neg(pool, side) : side;
 }
 
 static qdot_expr
-rebuild(const freezer *f, const qdot_gate *gate)
+rebuild_with_frozen_arguments(const freezer *f, const qdot_gate *gate)
 {
     qdot_expr few[32], *args = gate->n > 32 ? qdot_malloc(gate->n * sizeof *args) : few, e;
 
     if (!args)
         return qdot_pool_fail(f->s->pool);
     for (uint32_t k = 0; k < gate->n; k++)
-        args[k] = argument(f, gate, k);
+        args[k] = frozen_argument(f, gate, k);
     e = qdot_rebuild(f->s->pool, gate->node, args);
     if (args != few)
         qdot_free(args);
     return e;
 }
 
-/* A power with a layer at surface i (sim/model/layer.h): 0 inside, or its value at the rim if held there. */
+/* A power with a layer at surface i (sim/model/layer.h): 0 inside; if held there, its value at the boundary. */
 static qdot_expr
-layered(const freezer *f, size_t i, int only, qdot_expr power, qdot_expr exponent)
+freeze_layer_power(const freezer *f, size_t i, int only, qdot_expr power, qdot_expr exponent)
 {
     qdot_pool *pool = f->s->pool;
     const qdot_surface *surface = &f->s->surfaces.at[i];
@@ -88,34 +88,34 @@ layered(const freezer *f, size_t i, int only, qdot_expr power, qdot_expr exponen
 /* Argument k of a product, frozen. |u| as a divisor is u or -u even where u is held at 0: then u/|u| is the sign of u on
  * the side of this mode. */
 static qdot_expr
-factor(const freezer *f, const qdot_gate *gate, uint32_t k)
+freeze_factor(const freezer *f, const qdot_gate *gate, uint32_t k)
 {
     const size_t of = f->gates.arguments.at[gate->first + k];
     const qdot_gate *base = of == SIZE_MAX ? NULL : &f->gates.gates.at[of];
     long power;
 
     if (base && base->kind == QDOT_GATE_VALUE && base->op == QDOT_ABS
-        && surface_is_held(f, &f->gates.pairs.at[base->pair])
-        && qdot_expr_to_int(f->s->pool, argument(f, gate, k + 1), &power) && power < 0)
-        return qdot_mul(f->s->pool, side_of(f, &f->gates.pairs.at[base->pair], false),
-                        argument(f, base, 0));
-    return argument(f, gate, k);
+        && is_sliding_comparison(f, &f->gates.pairs.at[base->pair])
+        && qdot_expr_to_int(f->s->pool, frozen_argument(f, gate, k + 1), &power) && power < 0)
+        return qdot_mul(f->s->pool, side_of_comparison(f, &f->gates.pairs.at[base->pair], false),
+                        frozen_argument(f, base, 0));
+    return frozen_argument(f, gate, k);
 }
 
 static qdot_expr
 freeze_product(const freezer *f, const qdot_gate *gate)
 {
     qdot_pool *pool = f->s->pool;
-    qdot_expr product = argument(f, gate, 0);
+    qdot_expr product = frozen_argument(f, gate, 0);
 
     for (uint32_t k = 1; k + 1 < gate->n; k += 2) {
-        const qdot_expr exponent = argument(f, gate, k + 1);
-        qdot_expr power = qdot_pow(pool, factor(f, gate, k), exponent);
+        const qdot_expr exponent = frozen_argument(f, gate, k + 1);
+        qdot_expr power = qdot_pow(pool, freeze_factor(f, gate, k), exponent);
         size_t surface;
         int only;
 
         if (qdot_layers_has(pool, f->gates.surfaces, f->s->surfaces.at, gate->node, k, &surface, &only))
-            power = layered(f, surface, only, power, exponent);
+            power = freeze_layer_power(f, surface, only, power, exponent);
         product = qdot_mul(pool, product, power);
     }
     return product;
@@ -126,24 +126,24 @@ freeze_relation(const freezer *f, const qdot_gate *gate)
 {
     qdot_pool *pool = f->s->pool;
 
-    return qdot_rel(pool, gate->op, side_of(f, &f->gates.pairs.at[gate->pair], false), QDOT_ZERO);
+    return qdot_rel(pool, gate->op, side_of_comparison(f, &f->gates.pairs.at[gate->pair], false), QDOT_ZERO);
 }
 
-/* The argument that min or max selects on these sides, the first one among equals. */
+/* The argument that min or max selects on the given sides; of equal ones the first. */
 static qdot_expr
 freeze_extreme(const freezer *f, const qdot_gate *gate)
 {
     qdot_pool *pool = f->s->pool;
     const qdot_gate_pair *pair = f->gates.pairs.at + gate->pair + gate->n * (gate->n - 1) / 2;
-    qdot_expr best = argument(f, gate, gate->n - 1);
+    qdot_expr best = frozen_argument(f, gate, gate->n - 1);
 
     for (uint32_t i = gate->n - 1; i-- > 0;) {
-        qdot_expr kept = argument(f, gate, i);
+        qdot_expr kept = frozen_argument(f, gate, i);
 
         pair -= gate->n - 1 - i;
         for (uint32_t j = i + 1; j < gate->n; j++) {
             const qdot_gate_pair *p = pair + j - i - 1;
-            qdot_expr side = surface_is_held(f, p) ? QDOT_ZERO : side_of(f, p, false), first;
+            qdot_expr side = is_sliding_comparison(f, p) ? QDOT_ZERO : side_of_comparison(f, p, false), first;
 
             if (gate->op == QDOT_MIN)
                 side = qdot_neg(pool, side);
@@ -165,18 +165,18 @@ freeze_value(const freezer *f, const qdot_gate *gate)
 
     switch (gate->op) {
     case QDOT_ABS:
-        return surface_is_held(f, pair) ? QDOT_ZERO : qdot_mul(pool, side_of(f, pair, false), argument(f, gate, 0));
-    case QDOT_SIGN: return side_of(f, pair, false);
-    case QDOT_FLOOR: return side_of(f, pair, true);
-    default: /* case mod */
-        return qdot_sub(pool, argument(f, gate, 0),
-                        qdot_mul(pool, argument(f, gate, 1), side_of(f, pair, true)));
+        return is_sliding_comparison(f, pair) ? QDOT_ZERO : qdot_mul(pool, side_of_comparison(f, pair, false), frozen_argument(f, gate, 0));
+    case QDOT_SIGN: return side_of_comparison(f, pair, false);
+    case QDOT_FLOOR: return side_of_comparison(f, pair, true);
+    default: /* the remaining case is mod */
+        return qdot_sub(pool, frozen_argument(f, gate, 0),
+                        qdot_mul(pool, frozen_argument(f, gate, 1), side_of_comparison(f, pair, true)));
     }
 }
 
-/* Whether a switch is left unchanged, because one of its surfaces has no side in this mode. */
+/* Whether a switching function stays unchanged because one of its surfaces has no side in this mode. */
 static bool
-stays(const freezer *f, const qdot_gate *gate)
+stays_unfrozen(const freezer *f, const qdot_gate *gate)
 {
     const size_t pairs = gate->kind == QDOT_GATE_EXTREME ? gate->n * (gate->n - 1) / 2
                          : gate->kind == QDOT_GATE_RELATION || gate->kind == QDOT_GATE_VALUE;
@@ -199,29 +199,29 @@ freeze_gate(const freezer *f, size_t i)
                                   : f->open[i];
     const uint8_t truth = condition & (QDOT_GATE_FALSE | QDOT_GATE_TRUE);
 
-    if (stays(f, gate))
+    if (stays_unfrozen(f, gate))
         return gate->node;
     switch (gate->kind) {
     case QDOT_GATE_IF:
         if (truth == QDOT_GATE_TRUE || truth == QDOT_GATE_FALSE)
-            return argument(f, gate, truth == QDOT_GATE_TRUE ? 1 : 2);
-        return rebuild(f, gate);
+            return frozen_argument(f, gate, truth == QDOT_GATE_TRUE ? 1 : 2);
+        return rebuild_with_frozen_arguments(f, gate);
     case QDOT_GATE_LOGIC:
     case QDOT_GATE_RELATION:
         if (truth == QDOT_GATE_TRUE || truth == QDOT_GATE_FALSE)
             return truth == QDOT_GATE_TRUE ? QDOT_TRUE : QDOT_FALSE;
-        return gate->kind == QDOT_GATE_LOGIC ? rebuild(f, gate) : freeze_relation(f, gate);
+        return gate->kind == QDOT_GATE_LOGIC ? rebuild_with_frozen_arguments(f, gate) : freeze_relation(f, gate);
     case QDOT_GATE_EXTREME: return freeze_extreme(f, gate);
     case QDOT_GATE_VALUE: return freeze_value(f, gate);
     case QDOT_GATE_PASSES: break;
     }
-    return qdot_expr_kind(f->s->pool, gate->node) == QDOT_PROD ? freeze_product(f, gate) : rebuild(f, gate);
+    return qdot_expr_kind(f->s->pool, gate->node) == QDOT_PROD ? freeze_product(f, gate) : rebuild_with_frozen_arguments(f, gate);
 }
 
 /* With one side of every surface: that of `corner` where the motion slides. What is closed is left out: it may
  * be undefined. */
 static qdot_status
-freeze_corner(freezer *f, size_t n, const qdot_expr *e, qdot_expr *frozen)
+freeze_at_corner(freezer *f, size_t n, const qdot_expr *e, qdot_expr *frozen)
 {
     size_t root = 0;
 
@@ -236,9 +236,9 @@ freeze_corner(freezer *f, size_t n, const qdot_expr *e, qdot_expr *frozen)
     return qdot_pool_check(f->s->pool);
 }
 
-/* The weighted mean (1 + share)/2 a + (1 - share)/2 b. */
+/* The weighted mean (1 + share)/2 a + (1 - share)/2 b; share = 1 gives a, share = -1 gives b. */
 static qdot_expr
-mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
+weighted_mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
 {
     if (a == b)
         return a;
@@ -250,8 +250,8 @@ mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
 /* The mean over both sides of every surface along which the motion slides, from surface `from`
  * on. */
 static qdot_status
-freeze_means(freezer *f, long *corner, const qdot_expr *share, size_t from, size_t n,
-             const qdot_expr *e, qdot_expr *frozen)
+freeze_sliding_means(freezer *f, long *corner, const qdot_expr *share, size_t from, size_t n,
+                     const qdot_expr *e, qdot_expr *frozen)
 {
     size_t i = from;
     qdot_expr *low;
@@ -260,17 +260,17 @@ freeze_means(freezer *f, long *corner, const qdot_expr *share, size_t from, size
     while (i < f->gates.surfaces && f->side && f->side[i] != QDOT_SIDE_SLIDES)
         i++;
     if (!f->side || i == f->gates.surfaces)
-        return freeze_corner(f, n, e, frozen);
+        return freeze_at_corner(f, n, e, frozen);
     low = qdot_malloc((n + 1) * sizeof *low);
     if (!low)
         return QDOT_ENOMEM;
     corner[i] = -1;
-    status = freeze_means(f, corner, share, i + 1, n, e, low);
+    status = freeze_sliding_means(f, corner, share, i + 1, n, e, low);
     corner[i] = 1;
     if (status == QDOT_OK)
-        status = freeze_means(f, corner, share, i + 1, n, e, frozen);
+        status = freeze_sliding_means(f, corner, share, i + 1, n, e, frozen);
     for (size_t k = 0; k < n && status == QDOT_OK; k++)
-        frozen[k] = mean(f->s->pool, share[i], frozen[k], low[k]);
+        frozen[k] = weighted_mean(f->s->pool, share[i], frozen[k], low[k]);
     qdot_free(low);
     return status == QDOT_OK ? qdot_pool_check(f->s->pool) : status;
 }
@@ -303,7 +303,7 @@ qdot_switches_freeze(const qdot_switches *s, const long *side, const qdot_expr *
         status = f.open && f.to ? QDOT_OK : QDOT_ENOMEM;
     }
     if (status == QDOT_OK)
-        status = freeze_means(&f, corner, share, 0, n, copy, frozen);
+        status = freeze_sliding_means(&f, corner, share, 0, n, copy, frozen);
     qdot_gates_clear(&f.gates);
     qdot_free(f.open);
     qdot_free(f.to);

@@ -30,7 +30,7 @@ qdot_switches_clear(qdot_switches *s)
     *s = (qdot_switches){0};
 }
 
-static qdot_status switches_collect(qdot_switches *s, qdot_expr e);
+static qdot_status collect_switching_functions(qdot_switches *s, qdot_expr e);
 
 /* Add a surface after those inside it, which may be new; a difference is put in canonical order.
  *  */
@@ -44,13 +44,13 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     if (!steps)
         u = qdot_gates_upright(s->pool, u, &turned);
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (!qdot_gates_moves(s->pool, u)) /* the parts of u that vary along a run have cancelled */
+    if (!qdot_gates_moves(s->pool, u)) /* the parts of u that vary along a run may have cancelled */
         return QDOT_OK;
-    QDOT_TRY(switches_collect(s, u));
+    QDOT_TRY(collect_switching_functions(s, u));
     for (size_t i = 0; i < s->surfaces.n; i++)
         if (s->surfaces.at[i].u == u && s->surfaces.at[i].steps == steps)
             return QDOT_OK;
-    /* use a space, which no name of a user contains */
+    /* use a space in the symbol's name, which no user's name contains */
     snprintf(name, sizeof name, "side %zu", s->surfaces.n + 1);
     side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
     QDOT_TRY(qdot_pool_check(s->pool));
@@ -58,7 +58,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
 }
 
 static qdot_status
-add_atom(qdot_switches *s, qdot_expr e)
+append_atom(qdot_switches *s, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -85,30 +85,30 @@ add_atom(qdot_switches *s, qdot_expr e)
     return QDOT_OK;
 }
 
-/* Collect all switching functions in e. */
+/* Collect all switching functions that occur in the expression e. */
 static qdot_status
-switches_collect(qdot_switches *s, qdot_expr e)
+collect_switching_functions(qdot_switches *s, qdot_expr e)
 {
     qdot_walk walk;
     qdot_status status = qdot_walk_begin(s->pool, e, &walk);
 
     for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
         if (qdot_gates_is_switch(s->pool, walk.at[i]))
-            status = add_atom(s, walk.at[i]);
+            status = append_atom(s, walk.at[i]);
     qdot_walk_end(&walk);
     return status;
 }
 
-/* Collect the switches of an expression of the equations. */
+/* Collect the switching functions of an expression of the equations, and the expression itself. */
 static qdot_status
-collect_root(qdot_switches *s, qdot_expr e)
+collect_from_equation(qdot_switches *s, qdot_expr e)
 {
-    QDOT_TRY(switches_collect(s, e));
+    QDOT_TRY(collect_switching_functions(s, e));
     return qdot_vec_push(&s->roots, e);
 }
 
 static bool
-switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
+has_switching_function(const qdot_switches *s, qdot_expr e, qdot_status *status)
 {
     bool found = false;
     qdot_walk walk;
@@ -125,24 +125,24 @@ switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
 /* Make s->level, the energy that must not jump: from T if M switches, and from potentials or a
  * Lagrangian that switch or depend on t. */
 static qdot_status
-find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request, qdot_expr mass)
+find_level_function(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request, qdot_expr mass)
 {
     qdot_pool *pool = s->pool;
     qdot_status status = QDOT_OK;
     qdot_expr sum = scene->lagrangian;
-    bool moved = false; /* T contains terms of first degree in velocities */
+    bool moved = false; /* the kinetic energy T contains terms of first degree in velocities */
 
-    if (sum == QDOT_NIL && (switches(s, mass, &status) || !qdot_lagrangian_has(scene, QDOT_T, &moved) || moved))
+    if (sum == QDOT_NIL && (has_switching_function(s, mass, &status) || !qdot_lagrangian_has(scene, QDOT_T, &moved) || moved))
         sum = qdot_mech_numeric_kinetic(scene);
-    if (!switches(s, sum, &status))
+    if (!has_switching_function(s, sum, &status))
         sum = QDOT_ZERO;
     for (size_t i = 0; i < scene->potentials.n; i++)
-        if (switches(s, scene->potentials.at[i].e, &status))
+        if (has_switching_function(s, scene->potentials.at[i].e, &status))
             sum = qdot_sub(pool, sum, scene->potentials.at[i].e);
     if (status == QDOT_OK && sum != QDOT_ZERO) {
         sum = qdot_substitute(pool, sum, request->n_values, request->symbols,
                               request->values);
-        s->level = switches(s, sum, &status) ? sum : QDOT_NIL;
+        s->level = has_switching_function(s, sum, &status) ? sum : QDOT_NIL;
     }
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
@@ -165,7 +165,7 @@ may_switch(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_status
-exprs_look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
+check_smoothness(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
 {
     qdot_walk walk;
     qdot_status status = qdot_walk_begin_n(pool, n, e, &walk);
@@ -179,7 +179,7 @@ exprs_look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
 /* Whether nothing switches in the ingredients of the equations: positions and applied forces. So
  * M and f need not be derived, which takes long for many coordinates. */
 static qdot_status
-see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
+find_whether_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
 {
     qdot_pool *pool = scene->pool;
     qdot_dalembert_term *terms;
@@ -207,16 +207,16 @@ see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
             e[count++] = scene->potentials.at[i].e;
         e[count++] = Q;
         *smooth = true;
-        status = exprs_look_at(pool, count, e, smooth);
+        status = check_smoothness(pool, count, e, smooth);
     }
     qdot_free(e);
     qdot_free(terms);
     return status;
 }
 
-/* Whether `base` is a linear function of t only that is 0 at a time of the run. */
+/* Whether `base` is a linear function of t alone that is 0 at some time of the run. */
 static bool
-vanishes_in_time(qdot_pool *pool, const qdot_run_request *request, qdot_expr base)
+vanishes_during_run(qdot_pool *pool, const qdot_run_request *request, qdot_expr base)
 {
     const qdot_expr slope = qdot_diff(pool, base, QDOT_T), now = QDOT_T;
     qdot_expr ends[2];
@@ -233,9 +233,9 @@ vanishes_in_time(qdot_pool *pool, const qdot_run_request *request, qdot_expr bas
     return at[0] * at[1] <= 0;
 }
 
-/* Collect non-integer powers of t - a for times a of the run (sim/model/layer.h), as surfaces |t - a|. */
+/* Collect non-integer powers of t - a for times a of the run (sim/model/layer.h): each a surface |t - a|. */
 static qdot_status
-collect_times(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
+collect_powers_of_time(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     qdot_walk walk;
@@ -248,9 +248,9 @@ collect_times(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
                              && k + 1 < qdot_expr_count(pool, walk.at[i]);
              k += 2)
             if (qdot_layers_is_broken(pool, walk.at[i], k, &p) && p > 0
-                && vanishes_in_time(pool, request, qdot_expr_arg(pool, walk.at[i], k))) {
+                && vanishes_during_run(pool, request, qdot_expr_arg(pool, walk.at[i], k))) {
                 distance = qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, walk.at[i], k));
-                status = add_atom(s, distance);
+                status = append_atom(s, distance);
                 if (status == QDOT_OK)
                     status = qdot_vec_push(&s->roots, distance);
             }
@@ -267,7 +267,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
 
     s->pool = pool;
     if (scene->coordinates.n >= QDOT_MANY_COORDINATES)
-        QDOT_TRY(see_smooth(scene, request, &smooth));
+        QDOT_TRY(find_whether_smooth(scene, request, &smooth));
     if (smooth)
         return QDOT_OK;
     e[0] = qdot_mech_numeric_mass(scene);
@@ -277,8 +277,8 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
             e[i] = qdot_substitute(pool, e[i], request->n_values, request->symbols,
                                    request->values);
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(collect_root(s, e[i]));
-        QDOT_TRY(collect_times(s, request, e[i]));
+        QDOT_TRY(collect_from_equation(s, e[i]));
+        QDOT_TRY(collect_powers_of_time(s, request, e[i]));
     }
     s->mass = e[0];
     s->forcing = e[1];
@@ -288,11 +288,11 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
                                       request->symbols, request->values);
 
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(collect_root(s, f));
+        QDOT_TRY(collect_from_equation(s, f));
     }
-    QDOT_TRY(find_level(s, scene, request, e[0]));
+    QDOT_TRY(find_level_function(s, scene, request, e[0]));
     if (s->level != QDOT_NIL)
-        QDOT_TRY(collect_root(s, s->level));
+        QDOT_TRY(collect_from_equation(s, s->level));
     return s->atoms.n == 0 ? QDOT_OK
                            : qdot_gates_find(pool, s->surfaces.n, s->surfaces.at, s->roots.n, s->roots.at, true, &s->gates);
 }

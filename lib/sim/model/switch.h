@@ -36,14 +36,14 @@
 
 typedef struct qdot_switches {
     qdot_pool *pool; /* pool of the expressions; borrowed */
-    qdot_vec(qdot_surface) surfaces; /* nested ones first, then contacts, then pucks */
+    qdot_vec(qdot_surface) surfaces; /* surfaces: nested ones first, then those of contacts, then those of discs */
     size_t contacts;
-    qdot_vec(qdot_puck) pucks; /* pucks; their surfaces come after the contacts' */
-    size_t n_puck_symbols;     /* number of symbols of all pucks, k + 1 for each */
+    qdot_vec(qdot_puck) pucks; /* sliding discs; their surfaces come after those of contacts */
+    size_t n_puck_symbols;     /* number of symbols of all discs, k + 1 for each */
     qdot_vec(qdot_expr) atoms; /* the functions that switch (abs, sign ...), nested ones first */
     qdot_vec(qdot_expr) roots; /* the expressions that contain switching functions */
-    qdot_gates gates; /* gates of `roots` and of the functions u of the surfaces */
-    qdot_expr mass, forcing; /* M and f of M q'' = f with their switching functions and parameter values */
+    qdot_gates gates; /* gates (switching functions) of `roots` and of the functions u of the surfaces */
+    qdot_expr mass, forcing; /* M and f of M q'' = f, with their switching functions, parameter values inserted */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
                         NIL: none */
 } qdot_switches;
@@ -53,7 +53,7 @@ typedef struct qdot_switches {
  * milliseconds. */
 enum { QDOT_MANY_COORDINATES = 32 };
 
-/* The number of surfaces at which the equations switch, without those of contacts and discs. */
+/* The number of surfaces at which the equations themselves switch, not counting contacts and discs. */
 static inline size_t
 qdot_switches_own(const qdot_switches *s)
 {

@@ -14,7 +14,7 @@
 #include "normal/solve/linear.h"
 #include "sim/model/substitute.h"
 
-/* Symbols for the values of the targets before the event, which are the unknowns. */
+/* The unknowns: symbols for the values that an event's targets had before the event. */
 typedef struct {
     qdot_pool *pool;
     size_t n;
@@ -22,7 +22,7 @@ typedef struct {
     qdot_expr *unknown; /* [n] symbols for the values before the event */
     qdot_expr *after;   /* [n] values after the event, in terms of `unknown` */
     qdot_expr *before;  /* [n] the solution: values before the event; nil: not found yet */
-    qdot_expr f;        /* the event's function in terms of the unknowns, 0 before the event */
+    qdot_expr f;        /* the event's function in terms of the unknowns; it was 0 before the event */
     bool forgot;        /* f = 0 was used to determine one of the unknowns */
     qdot_expr image;    /* an expression that is 0 at every state after the event */
 } undoing;
@@ -39,7 +39,7 @@ undone_holds_unknown(const undoing *x, qdot_expr e)
 /* Write a linear equation as row [m] of coefficients of the unknowns `of` [m] and a rest; returns
  * whether it is linear. */
 static bool
-is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *row, qdot_expr *rest)
+is_linear_system(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *row, qdot_expr *rest)
 {
     qdot_pool *pool = x->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -58,9 +58,9 @@ is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *
            && qdot_normal(pool, qdot_sub(pool, qdot_sub(pool, e, *rest), sum), NULL) == QDOT_ZERO;
 }
 
-/* Insert the values before the event that are already known into the other equations. */
+/* Insert the values before the event that are known already into the other equations. */
 static void
-put_known(undoing *x)
+insert_known_values(undoing *x)
 {
     for (size_t k = 0; k < x->n; k++) {
         if (x->before[k] == QDOT_NIL)
@@ -73,9 +73,9 @@ put_known(undoing *x)
     }
 }
 
-/* Solve equations number `of` [m] for the unknowns of the same numbers; *found: linear, with one solution. */
+/* Solve the m equations with indices `of` for the unknowns of the same indices; *found: unique linear solution. */
 static qdot_status
-undone_solve(undoing *x, size_t m, const size_t *of, bool *found)
+solve_for_values_before(undoing *x, size_t m, const size_t *of, bool *found)
 {
     qdot_expr *A = qdot_calloc(m * m + 2 * m + 1, sizeof *A), *b = A + m * m, *out = b + m;
     uint32_t pivot;
@@ -87,7 +87,7 @@ undone_solve(undoing *x, size_t m, const size_t *of, bool *found)
     for (size_t i = 0; i < m; i++) {
         qdot_expr rest;
 
-        if (!is_linear(x, x->after[of[i]], m, of, A + i * m, &rest)) {
+        if (!is_linear_system(x, x->after[of[i]], m, of, A + i * m, &rest)) {
             qdot_free(A);
             return qdot_grave(qdot_pool_check(x->pool));
         }
@@ -104,7 +104,7 @@ undone_solve(undoing *x, size_t m, const size_t *of, bool *found)
 /* List the targets whose values before the event are still unknown but occur in the equations;
  * returns their number. */
 static size_t
-list_open(const undoing *x, size_t *open)
+list_unknown_values(const undoing *x, size_t *open)
 {
     size_t m = 0;
 
@@ -117,7 +117,7 @@ list_open(const undoing *x, size_t *open)
 /* Find a value that no equation of `then` contains from the event's own equation f = 0, if it is
  * linear in that value. */
 static qdot_status
-find_forgotten_value(undoing *x)
+find_lost_value(undoing *x)
 {
     for (size_t k = 0; k < x->n && !x->forgot; k++) {
         bool read = x->before[k] != QDOT_NIL || !qdot_expr_contains(x->pool, x->f, x->unknown[k]);
@@ -125,36 +125,36 @@ find_forgotten_value(undoing *x)
 
         for (size_t i = 0; i < x->n && !read; i++)
             read = qdot_expr_contains(x->pool, x->after[i], x->unknown[k]);
-        if (read || !is_linear(x, x->f, 1, &k, &slope, &rest) || slope == QDOT_ZERO)
+        if (read || !is_linear_system(x, x->f, 1, &k, &slope, &rest) || slope == QDOT_ZERO)
             continue;
         value = qdot_normal(x->pool, qdot_neg(x->pool, qdot_div(x->pool, rest, slope)), NULL);
         QDOT_TRY(qdot_pool_check(x->pool));
         x->forgot = true;
         if (qdot_normal(x->pool, qdot_sub(x->pool, value, x->after[k]), NULL) == QDOT_ZERO) {
-            /* the event sets y to 0 where y is 0 already: the value before is the value after */
+            /* y was 0 already when the event set it to 0: its value before the event is that after */
             x->before[k] = x->targets[k];
         } else {
             x->before[k] = value;
             x->image = qdot_sub(x->pool, x->targets[k], x->after[k]);
         }
-        put_known(x);
+        insert_known_values(x);
     }
     return qdot_pool_check(x->pool);
 }
 
 static qdot_status
-undone_find(undoing *x, size_t *open, qdot_undone *out)
+find_values_before(undoing *x, size_t *open, qdot_undone *out)
 {
     bool found = true;
     size_t m;
 
-    QDOT_TRY(find_forgotten_value(x));
-    while ((m = list_open(x, open)) > 0 && found) {
-        QDOT_TRY(undone_solve(x, m, open, &found));
+    QDOT_TRY(find_lost_value(x));
+    while ((m = list_unknown_values(x, open)) > 0 && found) {
+        QDOT_TRY(solve_for_values_before(x, m, open, &found));
         for (size_t i = 0; i < m && !found; i++)
-            QDOT_TRY(undone_solve(x, 1, open + i, &found));
+            QDOT_TRY(solve_for_values_before(x, 1, open + i, &found));
         if (found)
-            put_known(x);
+            insert_known_values(x);
     }
     if (m > 0)
         out->why = "its `then` has no inverse";
@@ -165,9 +165,9 @@ undone_find(undoing *x, size_t *open, qdot_undone *out)
     return qdot_pool_check(x->pool);
 }
 
-/* Write the event's function f and its new values in terms of the unknown state before the event. */
+/* Write the event's function f and its new values in terms of the unknown values before the event. */
 static qdot_status
-begin(undoing *x, qdot_expr f, const qdot_expr *values)
+begin_inversion(undoing *x, qdot_expr f, const qdot_expr *values)
 {
     char name[32];
 
@@ -197,7 +197,7 @@ qdot_undone_find(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *target
     if (status == QDOT_OK) {
         x.after = x.unknown + n;
         x.before = x.after + n;
-        status = begin(&x, f, values);
+        status = begin_inversion(&x, f, values);
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         if (qdot_expr_node(pool, values[i])->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
@@ -205,7 +205,7 @@ qdot_undone_find(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *target
     if (status == QDOT_OK && out->why)
         out->function = undone_holds_unknown(&x, x.f) ? QDOT_NIL : f;
     else if (status == QDOT_OK)
-        status = undone_find(&x, open, out);
+        status = find_values_before(&x, open, out);
     qdot_free(open);
     qdot_free(x.unknown);
     if (status != QDOT_OK)

@@ -21,12 +21,12 @@ enum {
 };
 
 typedef struct {
-    double start[FEATURES]; /* coefficients of c[0], the cost independent of the order */
-    double order[FEATURES]; /* coefficients of c[1], the cost proportional to the order */
-    double pair[FEATURES];  /* coefficients of c[2], the cost proportional to the order squared */
+    double start[FEATURES]; /* coefficients of the cost c[0], which is independent of the order of the series */
+    double order[FEATURES]; /* coefficients of the cost c[1] per order of the series */
+    double pair[FEATURES];  /* coefficients of the cost c[2] per square of the order */
 } model;
 
-/* The cost of M q'' = f by kernels, which was measured first; costs of other forms are relative to it. */
+/* The cost of M q'' = f by compiled kernels, measured first; costs of other forms are relative to it. */
 static const model explicit_kernels = {
     .start = {[ONE] = 60, [CALLS] = 15, [LENGTH] = 2, [COORDINATES] = 10, [FACTORED] = 5,
               [FACTORED_CUBES] = 0.2},
@@ -49,7 +49,7 @@ static const struct {
     double order, pair, vector;
 } kinds[] = {{1.8, 0.15, 0}, {1, 0.03, 16}, {1, 0.03, 0}};
 
-/* The cost of equations bordered by constraints, as code: measured with the car axis of bench/constraints. */
+/* The cost of the linear system for q'' and multipliers, as machine code: measured with bench/constraints. */
 static const model bordered_code = {
     .start = {[ONE] = 160, [CALLS] = 20, [LENGTH] = 3, [UNKNOWNS] = 20, [CUBES] = 0.5},
     .order = {[ONE] = 3, [LENGTH] = 0.4, [CONVOLUTIONS] = 0.6, [SQUARES] = 1},
@@ -101,7 +101,7 @@ static const model lanes_code = {
     .order = {[COORDINATES] = 10},
     .pair = {[CONVOLUTIONS] = 0.123}};
 
-/* A projection costs three evaluations of residuals and derivatives on either level, and one of the metric. */
+/* A projection costs three evaluations of residuals and gradients, for positions and for velocities, and one of M. */
 enum { PROJECTIONS = 3 };
 static const double of_projection = 150, of_call = 10, of_row = 60, of_slope = 15,
                     of_coordinate = 10;
@@ -110,7 +110,7 @@ static const double of_projection = 150, of_call = 10, of_row = 60, of_slope = 1
  * looked at. */
 static const double of_pivots = 200;
 
-/* Machine code is worth writing if this many expansions, divided by p, follow: writing takes 40 to 300 us. */
+/* Machine code is worth writing if this many expansions (divided by p) follow: writing takes 40 to 300 us. */
 static const struct {
     double of_explicit, by_length, of_implicit, of_eliminated, of_bordered;
 } worth = {800, 5000, 1500, 500, 400};
@@ -127,7 +127,7 @@ static const double middle_tol = 1e-9;
 /* --- costs of forms of the equations -------------------------------------------------- */
 
 static double
-features_sum(const double *by, const double *features)
+sum_of_features(const double *by, const double *features)
 {
     double s = 0;
 
@@ -137,7 +137,7 @@ features_sum(const double *by, const double *features)
 }
 
 static void
-model_apply(const model *m, const qdot_work *w, double *c)
+apply_cost_model(const model *m, const qdot_work *w, double *c)
 {
     const double features[FEATURES] = {
         [ONE] = 1, [CALLS] = w->calls, [OPERATIONS] = w->operations, [LENGTH] = w->length,
@@ -147,9 +147,9 @@ model_apply(const model *m, const qdot_work *w, double *c)
         [FILLING] = w->filled > 0 ? w->filled * w->filled / w->unknowns : 0,
         [VECTORS] = w->vectors, [PRODUCTS] = w->products, [BEGUN] = w->begun};
 
-    c[0] = features_sum(m->start, features);
-    c[1] = features_sum(m->order, features);
-    c[2] = features_sum(m->pair, features);
+    c[0] = sum_of_features(m->start, features);
+    c[1] = sum_of_features(m->order, features);
+    c[2] = sum_of_features(m->pair, features);
 }
 
 qdot_ode_cost
@@ -159,13 +159,13 @@ qdot_cost_explicit(const qdot_work *w)
     const bool solves = w->unknowns > 0;
     qdot_ode_cost c = {0};
 
-    model_apply(&explicit_kernels, w, c.kernels);
+    apply_cost_model(&explicit_kernels, w, c.kernels);
     if (!w->code)
         return c;
     c.worth = worth.of_explicit + worth.by_length / (w->length + 1);
     if (!qdot_taylor_may_be_code())
         return c;
-    model_apply(&explicit_code, w, c.code);
+    apply_cost_model(&explicit_code, w, c.code);
     c.code[1] = kinds[kind].order * c.code[1] + w->squares;
     c.code[2] *= kinds[kind].pair;
     c.wider = kinds[kind].vector * w->convolutions;
@@ -181,9 +181,9 @@ qdot_cost_implicit(const qdot_work *w)
 {
     qdot_ode_cost c = {.worth = worth.of_implicit};
 
-    model_apply(&implicit_kernels, w, c.kernels);
+    apply_cost_model(&implicit_kernels, w, c.kernels);
     if (w->code && qdot_lanes_may_be_code())
-        model_apply(&implicit_code, w, c.code);
+        apply_cost_model(&implicit_code, w, c.code);
     return c;
 }
 
@@ -193,7 +193,7 @@ qdot_cost_tree(const qdot_work *w)
     const bool one = w->nodes == w->coordinates && w->nodes <= 8;
     qdot_ode_cost c = {0};
 
-    model_apply(&tree_vectors, w, c.kernels);
+    apply_cost_model(&tree_vectors, w, c.kernels);
     for (int k = 0; k < 3 && !one && !qdot_kind_is_here(2); k++)
         c.kernels[k] *= by_halves;
     return c;
@@ -219,8 +219,8 @@ qdot_cost_constrained(const qdot_plan *p, const qdot_work *w)
 {
     qdot_ode_cost c = {0};
 
-    model_apply(w->inverted ? &constrained_inverse : &constrained_factor, w, c.kernels);
-    if (w->inverted) /* the inverse costs one solution for each column */
+    apply_cost_model(w->inverted ? &constrained_inverse : &constrained_factor, w, c.kernels);
+    if (w->inverted) /* computing the inverse costs one solution of the linear system for each column */
         c.kernels[0] += 2.5 * w->filled * w->unknowns;
     c.kernels[0] += qdot_cost_projection(p);
     return c;
@@ -252,7 +252,7 @@ qdot_cost_bordered(const qdot_work *w, const qdot_ode_cost *other)
                        .of_vector = 16,
                        .wider = loops * instructions > decoded ? 0.3 * instructions : 0};
 
-    model_apply(&bordered_code, w, c.code);
+    apply_cost_model(&bordered_code, w, c.code);
     memcpy(c.kernels, other->kernels, sizeof c.kernels);
     return c;
 }
@@ -265,7 +265,7 @@ qdot_cost_least(size_t n, double convolutions)
                          .factored_cubes = m * m * m};
     qdot_ode_cost c = {0};
 
-    model_apply(&explicit_kernels, &w, c.kernels);
+    apply_cost_model(&explicit_kernels, &w, c.kernels);
     return c;
 }
 
@@ -274,9 +274,9 @@ qdot_cost_lanes(const qdot_work *w)
 {
     qdot_ode_cost c = {0};
 
-    model_apply(&lanes_kernels, w, c.kernels);
+    apply_cost_model(&lanes_kernels, w, c.kernels);
     if (qdot_lanes_may_be_code())
-        model_apply(&lanes_code, w, c.code);
+        apply_cost_model(&lanes_code, w, c.code);
     return c;
 }
 

@@ -31,20 +31,20 @@ qdot_ode_cost qdot_cost_bordered(const qdot_work *work, const qdot_ode_cost *oth
 /* At least, of M q'' = f with a full block of n coordinates and no more than so many
  * convolutions. */
 qdot_ode_cost qdot_cost_least(size_t n, double convolutions);
-/* The cost of a motion in vector lanes, for eight members together. */
+/* The cost of expanding a motion in vector lanes, for eight ensemble members together. */
 qdot_ode_cost qdot_cost_lanes(const qdot_work *work);
-/* Estimate the cost of a plan with `digits` at that precision, in MPFR. */
+/* Estimate the cost of a plan's steps in MPFR (option `digits`) with that precision. */
 void qdot_cost_precise(const qdot_plan *plan, mpfr_prec_t bits, double cost[3]);
 
-/* The cost of projecting the state after every step with constraints. */
+/* The cost of projecting the state onto the constraints after a step. */
 double qdot_cost_projection(const qdot_plan *plan);
 
-/* The cost without machine code, by kernels only. */
+/* The cost of the same steps without machine code, by compiled kernels only. */
 qdot_ode_cost qdot_cost_of_kernels(const qdot_ode_cost *cost);
 /* Steps of a way as long as the radius of convergence, at a middling tolerance: forms are
  * compared at one, for a plan is kept for runs under any. */
 double qdot_cost_steps(const qdot_ode_cost *cost);
-/* The cost of steps with constraints at a tolerance, including the projection after every step. */
+/* The cost of steps with constraints at a given tolerance, including the projection after every step. */
 double qdot_cost_constrained_steps(const qdot_plan *plan, const qdot_ode_cost *cost, double tol);
 /* The cost of one evaluation of a tape. */
 double qdot_cost_evaluation(const qdot_tape *tape);

@@ -1,4 +1,4 @@
-/* form.c -- compares the costs of several forms of the equations and chooses the cheapest. */
+/* form.c -- compares the costs of several forms of the equations of motion and chooses the cheapest. */
 #include "sim/plan/form.h"
 
 #include "base/memory.h"
@@ -15,11 +15,11 @@
 #include "sim/model/switch.h"
 #include "sim/plan/cost.h"
 
-/* Hamilton's equations are used if they need at most this fraction of the convolutions of other forms. */
+/* Hamilton's equations are used if they need at most this fraction of the series products of other forms. */
 static const double canonical_saves = 0.85;
 
 static void
-plan_take_form(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
+take_form(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
 {
     p->form = form;
     p->expansions = *cost;
@@ -28,9 +28,9 @@ plan_take_form(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
 
 /* --- M q'' = f ------------------------------------------------------------------------ */
 
-/* Fail if a constant block of M has no inverse. */
+/* Fail if a constant block of the mass matrix M has no inverse. */
 static qdot_status
-check_blocks(const qdot_plan *p)
+check_constant_blocks(const qdot_plan *p)
 {
     qdot_blocks blocks;
     const qdot_status status = qdot_blocks_init(&blocks, p, false);
@@ -46,11 +46,11 @@ qdot_plan_measure(qdot_plan *p)
     qdot_work work;
 
     QDOT_TRY(qdot_plan_make_motion(p));
-    QDOT_TRY(check_blocks(p));
+    QDOT_TRY(check_constant_blocks(p));
     work = qdot_motion_series_work(p);
     p->convolutions_derived = work.convolutions;
     cost = qdot_cost_explicit(&work);
-    plan_take_form(p, QDOT_FORM_EXPLICIT, &cost);
+    take_form(p, QDOT_FORM_EXPLICIT, &cost);
     return QDOT_OK;
 }
 
@@ -62,14 +62,14 @@ typedef struct {
     qdot_ode_cost cost;
     qdot_work work;
     double convolutions;
-    size_t nodes; /* number of nodes of the tree, for QDOT_FORM_TREE */
+    size_t nodes; /* for QDOT_FORM_TREE: number of nodes of the tree */
     bool is_path;
 } candidate;
 
 /* By its program, or along its tree if that is cheaper and there may be one: lanes and
  * numbers of many digits have programs only. */
 static qdot_status
-measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
+measure_residual_form(const qdot_plan *p, bool may_be_tree, candidate *c)
 {
     qdot_residual *r = c->residual;
     qdot_tree_series *tree;
@@ -118,7 +118,7 @@ is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *reque
 /* Whether there may be a cheaper form than M q'' = f: not where M is diagonal or constant.
  * d'Alembert's is made of the scene, which switches, and of constant masses. */
 static bool
-has_others(const qdot_plan *p)
+has_alternative_forms(const qdot_plan *p)
 {
     if ((p->mode && p->mode->atoms.n > 0) || p->share || p->n_states > 0)
         return false;
@@ -135,16 +135,16 @@ qdot_plan_choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *r
     qdot_status status;
 
     QDOT_TRY(qdot_plan_measure(p));
-    if (!has_others(p))
+    if (!has_alternative_forms(p))
         return QDOT_OK;
     QDOT_TRY(qdot_residual_new(scene, p, &c.residual));
     if (!c.residual)
         return QDOT_OK;
-    status = measure_residual(p, request->digits == 0 && !request->lanes, &c);
+    status = measure_residual_form(p, request->digits == 0 && !request->lanes, &c);
     if (status == QDOT_OK)
         p->convolutions_residual = c.convolutions;
     if (status == QDOT_OK && is_cheaper(p, &c, request)) {
-        plan_take_form(p, c.form, &c.cost);
+        take_form(p, c.form, &c.cost);
         p->residual = c.residual;
         p->tree_nodes = c.nodes;
         p->tree_is_path = c.is_path;
@@ -174,7 +174,7 @@ qdot_plan_make_lanes(qdot_plan *p)
 
 /* Measure the cost of the form in which constraints are expanded in series; it is always possible. */
 static qdot_status
-measure_constrained(qdot_plan *p)
+measure_constrained_form(qdot_plan *p)
 {
     qdot_motion_series *series;
     qdot_ode_cost cost;
@@ -184,14 +184,14 @@ measure_constrained(qdot_plan *p)
     work = qdot_motion_series_work_of_constraints(series);
     p->convolutions_derived = work.convolutions;
     cost = qdot_cost_constrained(p, &work);
-    plan_take_form(p, QDOT_FORM_CONSTRAINED, &cost);
+    take_form(p, QDOT_FORM_CONSTRAINED, &cost);
     qdot_motion_series_free(series);
     return QDOT_OK;
 }
 
-/* Choose the form with multipliers eliminated symbolically if it is cheaper than the best so far. */
+/* Choose the form with symbolically eliminated multipliers, if it is cheaper than the best form so far. */
 static qdot_status
-offer_eliminated(qdot_plan *p, double tol, double *least)
+choose_eliminated_if_cheaper(qdot_plan *p, double tol, double *least)
 {
     qdot_plan *e;
     qdot_ode_cost cost;
@@ -214,7 +214,7 @@ offer_eliminated(qdot_plan *p, double tol, double *least)
         qdot_plan_free(e);
         return QDOT_OK;
     }
-    plan_take_form(p, QDOT_FORM_ELIMINATED, &cost);
+    take_form(p, QDOT_FORM_ELIMINATED, &cost);
     p->eliminated = e;
     *least = steps;
     return QDOT_OK;
@@ -223,7 +223,7 @@ offer_eliminated(qdot_plan *p, double tol, double *least)
 /* Take the bordered form, in which machine code solves for multipliers, if its steps cost less than *least.
  * kernels: the cost before there is code. */
 static qdot_status
-offer_bordered(qdot_plan *p, double tol, const qdot_ode_cost *kernels, double *least)
+choose_bordered_if_cheaper(qdot_plan *p, double tol, const qdot_ode_cost *kernels, double *least)
 {
     qdot_ode_cost cost;
     qdot_work work;
@@ -240,7 +240,7 @@ offer_bordered(qdot_plan *p, double tol, const qdot_ode_cost *kernels, double *l
         qdot_plan_drop_bordered(p);
         return QDOT_OK;
     }
-    plan_take_form(p, QDOT_FORM_BORDERED, &cost);
+    take_form(p, QDOT_FORM_BORDERED, &cost);
     qdot_plan_free(p->eliminated);
     p->eliminated = NULL;
     *least = steps;
@@ -253,13 +253,13 @@ qdot_plan_choose_constrained(qdot_plan *p, const qdot_run_request *request)
     qdot_ode_cost own;
     double least;
 
-    QDOT_TRY(measure_constrained(p));
-    if (request->digits > 0 || p->n_massless > 0) /* digits or massless coordinates: other forms need an invertible M */
+    QDOT_TRY(measure_constrained_form(p));
+    if (request->digits > 0 || p->n_massless > 0) /* with digits or massless coordinates, other forms need an invertible M */
         return QDOT_OK;
     own = p->expansions;
     least = qdot_cost_constrained_steps(p, &own, request->tol);
-    QDOT_TRY(offer_eliminated(p, request->tol, &least));
-    return offer_bordered(p, request->tol, &own, &least);
+    QDOT_TRY(choose_eliminated_if_cheaper(p, request->tol, &least));
+    return choose_bordered_if_cheaper(p, request->tol, &own, &least);
 }
 
 /* --- Hamilton's equations for many digits ---------------------------------------------- */

@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_choose_constrained(qdot_plan *plan,
 /* The program and the costs of a plan for lanes: of its residual if it has one, else of
  * members, which becomes plan->motion. */
 QDOT_MUST_CHECK qdot_status qdot_plan_make_lanes(qdot_plan *plan);
-/* Whether Hamilton's equations are taken with `digits`. */
+/* Choose whether Hamilton's equations are used for a run with `digits`. */
 QDOT_MUST_CHECK qdot_status qdot_plan_choose_canonical(qdot_plan *plan,
                                                        qdot_scene *scene);
 

@@ -1,4 +1,4 @@
-/* geometric.c -- tests whether momenta are constants times q', and forces independent of q'. */
+/* geometric.c -- tests whether geometric methods apply: constant M, and forces independent of velocities. */
 #include "sim/plan/geometric.h"
 
 #include "expr/constant.h"
@@ -7,9 +7,9 @@
 #include "ode/geometric/geometric.h"
 #include "sim/form/phase-space.h"
 
-/* The first coordinate whose row of M is not constant; n if all are. */
+/* The first coordinate whose row of the mass matrix M is not constant; n if all are. */
 static size_t
-varying_mass(const qdot_plan *p)
+first_varying_mass(const qdot_plan *p)
 {
     size_t i = 0;
 
@@ -20,7 +20,7 @@ varying_mass(const qdot_plan *p)
 
 /* The first coordinate whose force depends on velocities; n if none does. */
 static size_t
-velocity_force(const qdot_plan *p)
+first_velocity_force(const qdot_plan *p)
 {
     size_t i = 0;
 
@@ -30,7 +30,7 @@ velocity_force(const qdot_plan *p)
 }
 
 static qdot_status
-geometric_refuse(const qdot_plan *p, const char *why, const char *name, const char *instead)
+fail_not_applicable(const qdot_plan *p, const char *why, const char *name, const char *instead)
 {
     qdot_fail(QDOT_ENOTBUILT, "%s %s%s", p->method->name, why, name);
     return qdot_hint("method %s", instead);
@@ -45,11 +45,11 @@ check_constraints(const qdot_plan *p, const qdot_scene *scene, qdot_run_treatmen
 
     for (size_t k = 0; k < scene->constraints.n; k++)
         if (scene->constraints.at[k].kind != QDOT_HOLONOMIC)
-            return geometric_refuse(p, holds ? "needs constraints on positions, but velocities are in "
+            return fail_not_applicable(p, holds ? "needs constraints on positions, but velocities are in "
                                    : "is for scenes without constraints, unlike ",
                                     scene->constraints.at[k].name, "taylor");
     if (scene->constraints.n > 0 && !holds)
-        return geometric_refuse(p, "is for scenes without constraints", "", "variational");
+        return fail_not_applicable(p, "is for scenes without constraints", "", "variational");
     if (scene->constraints.n > 0 && treatment != QDOT_RUN_PROJECT)
         return qdot_fail(QDOT_ENOTBUILT, "%s satisfies the constraints in every step: no drift has "
                                          "to be treated", p->method->name);
@@ -65,14 +65,14 @@ qdot_plan_check_geometric(qdot_plan *p, qdot_scene *scene, qdot_run_treatment tr
         return QDOT_OK;
     QDOT_TRY(check_constraints(p, scene, treatment));
     if (p->method->geometric->separable) {
-        i = varying_mass(p);
+        i = first_varying_mass(p);
         if (i < p->n)
-            return geometric_refuse(p, "needs constant masses, but the mass matrix varies in the row of ",
-                                    p->names[i], "gauss8");
-        i = velocity_force(p);
+            return fail_not_applicable(p, "needs constant masses, but the mass matrix varies in the row of ",
+                                       p->names[i], "gauss8");
+        i = first_velocity_force(p);
         if (i < p->n)
-            return geometric_refuse(p, "needs forces without velocities, but there are some along ",
-                                    p->names[i], "gauss8");
+            return fail_not_applicable(p, "needs forces without velocities, but there are some along ",
+                                       p->names[i], "gauss8");
     } else {
         QDOT_TRY(qdot_phase_space_new(scene, p, &p->phase_space));
     }

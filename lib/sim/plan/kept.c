@@ -1,4 +1,4 @@
-/* kept.c -- caches the latest plans of a scene, newest first. */
+/* kept.c -- caches the latest plans of a scene (how its runs are computed), newest first. */
 #include "sim/plan/kept.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ typedef struct {
     qdot_plan *plan;
     qdot_run_treatment treatment; /* treatment of constraints that was requested */
     double tol;
-    qdot_expr *start; /* [2n + 1] start q0, v0, t0 for which the plan was made */
+    qdot_expr *start; /* [2n + 1] start q0, v0, t0 of the request for which the plan was made */
 } kept_plan;
 
 typedef struct {
@@ -21,7 +21,7 @@ typedef struct {
 } kept_plans;
 
 static void
-release(kept_plan *k)
+release_plan(kept_plan *k)
 {
     qdot_plan_free(k->plan);
     qdot_free(k->start);
@@ -29,21 +29,21 @@ release(kept_plan *k)
 }
 
 static void
-kept_forget(kept_plans *all)
+clear_cache(kept_plans *all)
 {
     while (all->n > 0)
-        release(&all->at[--all->n]);
+        release_plan(&all->at[--all->n]);
 }
 
 static void
-free_all(void *user)
+free_cache(void *user)
 {
-    kept_forget(user);
+    clear_cache(user);
     qdot_free(user);
 }
 
 static bool
-is_same_start(const kept_plan *k, const qdot_run_request *r)
+has_same_start(const kept_plan *k, const qdot_run_request *r)
 {
     const size_t n = k->plan->n;
 
@@ -52,7 +52,7 @@ is_same_start(const kept_plan *k, const qdot_run_request *r)
 }
 
 static bool
-is_by_start(const qdot_plan *p)
+depends_on_start(const qdot_plan *p)
 {
     bool by_start = p->by_start;
 
@@ -62,7 +62,7 @@ is_by_start(const qdot_plan *p)
 }
 
 static bool
-kept_fits(const kept_plan *k, const qdot_run_request *r)
+fits_request(const kept_plan *k, const qdot_run_request *r)
 {
     const qdot_plan *p = k->plan;
     const bool chosen = !r->method || strcmp(r->method, "auto") == 0;
@@ -71,9 +71,9 @@ kept_fits(const kept_plan *k, const qdot_run_request *r)
         || k->treatment != r->treatment || p->n_values != r->n_values
         || (r->tol <= QDOT_ODE_LEADING_TOL) != (k->tol <= QDOT_ODE_LEADING_TOL))
         return false;
-    if (r->tol != k->tol && (p->constraints || is_by_start(p)))
+    if (r->tol != k->tol && (p->constraints || depends_on_start(p)))
         return false;
-    if (is_by_start(p) && !is_same_start(k, r))
+    if (depends_on_start(p) && !has_same_start(k, r))
         return false;
     return r->n_values == 0
            || (memcmp(p->symbols, r->symbols, r->n_values * sizeof *r->symbols) == 0
@@ -81,7 +81,7 @@ kept_fits(const kept_plan *k, const qdot_run_request *r)
 }
 
 static bool
-may_be_kept(const qdot_run_request *r)
+is_cacheable(const qdot_run_request *r)
 {
     return r->digits == 0 && r->n_states == 0 && r->q0 && r->v0;
 }
@@ -91,10 +91,10 @@ qdot_kept_find(const qdot_scene *scene, const qdot_run_request *r)
 {
     kept_plans *all = scene->kept;
 
-    if (!all || all->version != scene->version || !may_be_kept(r))
+    if (!all || all->version != scene->version || !is_cacheable(r))
         return NULL;
     for (size_t i = 0; i < all->n; i++)
-        if (kept_fits(&all->at[i], r)) {
+        if (fits_request(&all->at[i], r)) {
             all->at[i].plan->uses++;
             return all->at[i].plan;
         }
@@ -108,11 +108,11 @@ qdot_kept_add(qdot_scene *scene, const qdot_run_request *r, qdot_plan *plan)
     kept_plan k = {.plan = plan, .treatment = r->treatment, .tol = r->tol};
     kept_plans *all;
 
-    if (!may_be_kept(r))
+    if (!is_cacheable(r))
         return;
     if (!scene->kept) {
         scene->kept = qdot_calloc(1, sizeof *all);
-        scene->kept_free = free_all;
+        scene->kept_free = free_cache;
     }
     all = scene->kept;
     k.start = all ? qdot_calloc(2 * n + 1, sizeof *k.start) : NULL;
@@ -122,10 +122,10 @@ qdot_kept_add(qdot_scene *scene, const qdot_run_request *r, qdot_plan *plan)
     memcpy(k.start + n, r->v0, n * sizeof *r->v0);
     k.start[2 * n] = r->t0;
     if (all->version != scene->version)
-        kept_forget(all);
+        clear_cache(all);
     all->version = scene->version;
     if (all->n == MOST)
-        release(&all->at[--all->n]);
+        release_plan(&all->at[--all->n]);
     memmove(all->at + 1, all->at, all->n * sizeof *all->at);
     all->at[0] = k;
     all->n++;

@@ -1,4 +1,4 @@
-/* parts.c -- finds groups of coordinates whose equations share no variable. */
+/* parts.c -- finds groups of coordinates that are decoupled: their equations share no variable. */
 #include "sim/plan/parts.h"
 
 #include <string.h>
@@ -13,9 +13,9 @@
  * factor, the scene is not divided. */
 static const double worth = 2;
 
-/* Unite the groups of i and j. group [n]: the first coordinate of the group of each. */
+/* Unite the groups of coordinates i and j; group [n] is the first coordinate of each coordinate's group. */
 static void
-groups_join(size_t *group, size_t n, size_t i, size_t j)
+unite_groups(size_t *group, size_t n, size_t i, size_t j)
 {
     const size_t low = group[i] < group[j] ? group[i] : group[j];
     const size_t high = group[i] < group[j] ? group[j] : group[i];
@@ -27,7 +27,7 @@ groups_join(size_t *group, size_t n, size_t i, size_t j)
 
 /* Merge the group of coordinate i with those of all coordinates that occur in e. */
 static qdot_status
-join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
+unite_with_coordinates_in(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
 {
     qdot_expr atoms = qdot_expr_atoms(p->pool, e, false);
 
@@ -37,7 +37,7 @@ join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
             qdot_expr x = qdot_expr_arg(p->pool, atoms, k);
 
             if (x == p->inputs[j] || x == p->inputs[p->n + j])
-                groups_join(group, p->n, i, j);
+                unite_groups(group, p->n, i, j);
         }
     return QDOT_OK;
 }
@@ -53,16 +53,16 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
             if (p->M[i * n + j] != QDOT_ZERO)
-                groups_join(group, n, i, j);
+                unite_groups(group, n, i, j);
     *groups = 1;
     for (size_t i = 1; i < n; i++)
         *groups += group[i] == i;
     /* test M first: in most scenes it already couples all coordinates */
     for (size_t i = 0; i < n && *groups > 1; i++) {
-        QDOT_TRY(join_all(p, group, i, p->f[i]));
+        QDOT_TRY(unite_with_coordinates_in(p, group, i, p->f[i]));
         for (size_t j = 0; j <= i; j++)
             if (p->M[i * n + j] != QDOT_ZERO)
-                QDOT_TRY(join_all(p, group, i, p->M[i * n + j]));
+                QDOT_TRY(unite_with_coordinates_in(p, group, i, p->M[i * n + j]));
         *groups = 1;
         for (size_t k = 1; k < n; k++)
             *groups += group[k] == k;
@@ -70,9 +70,9 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     return QDOT_OK;
 }
 
-/* Fill r with the equations of the n coordinates `index` of p. */
+/* Fill the plan r with the equations of the n coordinates `index` of the plan p. */
 static qdot_status
-part_fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
+fill_part(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 {
     r->place = qdot_calloc(n, sizeof *r->place);
     r->symbols = qdot_calloc(p->n_values + 1, sizeof *r->symbols);
@@ -99,7 +99,7 @@ part_fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 }
 
 static qdot_status
-part_finish(qdot_plan *r, qdot_scene *scene, const qdot_run_request *request)
+finish_part(qdot_plan *r, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(qdot_plan_structure(r, NULL));
     QDOT_TRY(qdot_plan_lower(r, 2 * r->n + 1, 0, NULL));
@@ -124,14 +124,14 @@ make_part(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request,
     if (r)
         p->parts[p->n_parts++] = r;
     if (status == QDOT_OK)
-        status = part_fill(p, n, index, r);
+        status = fill_part(p, n, index, r);
     qdot_free(index);
-    return status == QDOT_OK ? part_finish(r, scene, request) : status;
+    return status == QDOT_OK ? finish_part(r, scene, request) : status;
 }
 
-/* The cost of one step of every decoupled part. */
+/* The computing cost of one step of every decoupled part together. */
 static double
-cost(const qdot_plan *p)
+cost_of_parts(const qdot_plan *p)
 {
     double sum = 0;
 
@@ -155,7 +155,7 @@ qdot_parts_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request
                 status = make_part(p, scene, request, group, i);
     }
     qdot_free(group);
-    if (status == QDOT_OK && p->residual && !p->reduced && cost(p) > worth * p->cost) {
+    if (status == QDOT_OK && p->residual && !p->reduced && cost_of_parts(p) > worth * p->cost) {
         for (size_t k = 0; k < p->n_parts; k++)
             qdot_plan_free(p->parts[k]);
         p->n_parts = 0;

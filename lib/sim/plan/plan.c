@@ -1,4 +1,4 @@
-/* plan.c -- derives M and f with parameter values; chooses the method and the form that integrate them. */
+/* plan.c -- makes a run's plan: derives M and f, chooses the integration method and the form of equations. */
 #include "sim/plan/plan.h"
 
 #include <string.h>
@@ -84,7 +84,7 @@ copy_values(qdot_plan *p, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* For a constraint used as mu f: its multiplier lambda' becomes an input, and lambda = mu lambda'. */
+/* For a constraint used as mu f = 0: its multiplier lambda' becomes an input, and lambda = mu lambda'. */
 static qdot_status
 name_multiplier(qdot_plan *p, qdot_scene *scene, size_t k)
 {
@@ -146,9 +146,9 @@ name_coordinates(qdot_plan *p, qdot_scene *scene, const qdot_run_request *reques
     return qdot_pool_check(p->pool);
 }
 
-/* Derive M and f of the scene, with parameter values inserted. */
+/* Derive M and f of M q'' = f for the scene, with parameter values inserted. */
 static qdot_status
-plan_derive(qdot_plan *p, qdot_scene *scene)
+derive_equations(qdot_plan *p, qdot_scene *scene)
 {
     const size_t n = p->n, m = n - p->n_states;
     qdot_expr M = qdot_mech_numeric_mass(scene), f = qdot_mech_numeric_forcing(scene);
@@ -181,9 +181,9 @@ plan_derive(qdot_plan *p, qdot_scene *scene)
 
 /* --- Taylor series and constraints -------------------------------------------------- */
 
-/* Refuse Taylor series if the equations switch. */
+/* Refuse the method of Taylor series if the equations switch. */
 static qdot_status
-check_series(qdot_plan *p, const char *hindrance)
+check_series_possible(qdot_plan *p, const char *hindrance)
 {
     p->smooth = !hindrance;
     if (!p->method->series || p->smooth)
@@ -199,7 +199,7 @@ check_series(qdot_plan *p, const char *hindrance)
 
 /* Fill the constraints of the plan (sim/model/constraints.h). */
 static qdot_status
-constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+make_constraints(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     const char *hindrance;
 
@@ -211,7 +211,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     hindrance = qdot_program_hindrance(p->tape);
     if (!hindrance)
         hindrance = qdot_program_hindrance(p->constraints->positions);
-    QDOT_TRY(check_series(p, hindrance));
+    QDOT_TRY(check_series_possible(p, hindrance));
     /* a multistep method cannot continue from a state that a projection has moved */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
@@ -221,9 +221,9 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
 }
 
-/* Refuse ensembles with an uncertain start: the companions of their members begin at exact values. */
+/* Refuse ensembles with an uncertain start, as companion runs of their members start at exact values. */
 static qdot_status
-check_exact(const qdot_run_request *request)
+check_start_is_exact(const qdot_run_request *request)
 {
     return request->lanes && request->apart != NULL
                ? qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles from a start with an error")
@@ -266,7 +266,7 @@ is_indefinite(const qdot_plan *p)
 /* Momenta that are kept, where lanes can do that: with none whose velocities may cancel, of which a
  * plan without a start does not know; else d'Alembert's residual, or M q'' = f. */
 static qdot_status
-choose_in_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+choose_for_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     if (p->n_states == 0)
         QDOT_TRY(qdot_routh_reduce(p, scene, request));
@@ -285,7 +285,7 @@ choose_in_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request
 }
 
 static qdot_status
-plan_make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+make_plan(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(find_method(p, request->method));
     QDOT_TRY(copy_values(p, request));
@@ -293,27 +293,27 @@ plan_make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(qdot_tree_alone_find(p, scene, request));
     if (p->residual)
         return QDOT_OK;
-    QDOT_TRY(plan_derive(p, scene));
+    QDOT_TRY(derive_equations(p, scene));
     QDOT_TRY(qdot_massless_find(scene, p));
     QDOT_TRY(check_massless(p, scene, request));
-    QDOT_TRY(check_exact(request));
+    QDOT_TRY(check_start_is_exact(request));
     QDOT_TRY(qdot_plan_check_geometric(p, scene, request->treatment));
     if (scene->constraints.n + p->n_massless > 0)
-        return constrain(p, scene, request);
+        return make_constraints(p, scene, request);
     QDOT_TRY(qdot_plan_structure(p, NULL));
     QDOT_TRY(qdot_plan_lower(p, 2 * p->n + 1, 0, NULL));
-    QDOT_TRY(check_series(p, qdot_program_hindrance(p->tape)));
+    QDOT_TRY(check_series_possible(p, qdot_program_hindrance(p->tape)));
     p->leading = p->smooth && p->method->series && request->tol <= QDOT_ODE_LEADING_TOL;
     if (p->smooth)
         QDOT_TRY(qdot_plan_choose_form(p, scene, request));
     if (request->digits > 0)
         return qdot_plan_choose_canonical(p, scene);
     if (request->lanes)
-        return choose_in_lanes(p, scene, request);
+        return choose_for_lanes(p, scene, request);
     if (qdot_plan_needs_jacobian(p) || p->share || p->method->geometric)
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
-    /* do not divide the equations if events set parameters, as these affect all of them */
+    /* if events set parameters, which affect all equations, do not divide these */
     return p->n_states > 0 ? QDOT_OK : qdot_parts_find(p, scene, request);
 }
 
@@ -340,7 +340,7 @@ qdot_plan_in_mode(qdot_scene *scene, const qdot_run_request *request,
     p->n_states = request->n_states;
     p->mode = switches;
     p->side = side;
-    status = plan_make(p, scene, request);
+    status = make_plan(p, scene, request);
     p->mode = NULL;
     p->side = NULL;
     if (status != QDOT_OK) {

@@ -7,10 +7,10 @@
 
 #include "sim/form/derived.h"
 
-/* Whether a scene can be integrated at all: QDOT_EINVAL, QDOT_ENOTBUILT. */
+/* Check that a scene can be integrated at all. Errors: QDOT_EINVAL, QDOT_ENOTBUILT. */
 QDOT_MUST_CHECK qdot_status qdot_plan_check(const qdot_scene *scene);
 
-/* Make the plan of a run. Errors: those of qdot_run_new before integration, except errors of the start. */
+/* Make the plan of a run. Errors: those of qdot_run_new before integration, except for the start state. */
 QDOT_MUST_CHECK qdot_status qdot_plan_new(qdot_scene *scene,
                                           const qdot_run_request *request,
                                           qdot_plan **plan);

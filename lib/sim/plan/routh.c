@@ -1,4 +1,4 @@
-/* routh.c -- eliminates the velocities of cyclic coordinates (Routh) if that makes the equations cheaper. */
+/* routh.c -- eliminates the velocities of cyclic coordinates (Routh) if that reduces the computing cost. */
 #include "sim/plan/routh.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ enum { SHORT = 120, SHORT_ENTRY = 60 };
  * max(1, |velocity|). Above, the rounding of a term counts `roundings` times over a run. */
 static const double harmless = 4, roundings = 64;
 
-/* Three ways to insert the eliminated velocities into the other equations. */
+/* Three ways of inserting the eliminated velocities into the other equations. */
 typedef enum { PUT_IN, HELD, SIMPLIFIED, WAYS } way;
 
 typedef struct {
@@ -35,15 +35,15 @@ typedef struct {
     qdot_pool *pool;
     qdot_facts facts;
     size_t n, h;
-    bool *cyclic;         /* [n] the coordinate is cyclic */
-    bool *gone;           /* [n] the velocity of the coordinate is eliminated */
+    bool *cyclic;         /* [n] whether the coordinate is cyclic */
+    bool *gone;           /* [n] whether the coordinate's velocity is eliminated */
     size_t *order;        /* [h] coordinates in the order of elimination */
     qdot_expr *M, *f;     /* M [n x n] and f [n] after the eliminations so far */
-    qdot_expr *kept;      /* [n] the symbol of the momentum p_c */
-    qdot_expr *momentum;  /* [n] dL/dq_c' */
-    qdot_expr *rest;      /* [n] p_c - b_c after the eliminations so far */
-    qdot_expr *above;     /* [n] pivot q_c' in p and in velocities not eliminated before it */
-    qdot_expr *rate;      /* [n] q_c' in the same variables */
+    qdot_expr *kept;      /* [n] symbol of the conserved momentum p_c of cyclic coordinate c */
+    qdot_expr *momentum;  /* [n] the momentum dL/dq_c' as an expression */
+    qdot_expr *rest;      /* [n] p_c - b_c after the eliminations so far (b_c: velocity-free part of p_c) */
+    qdot_expr *above;     /* [n] pivot * q_c' in terms of momenta and velocities not eliminated before it */
+    qdot_expr *rate;      /* [n] q_c' in terms of momenta and velocities not eliminated before it */
     double *in, *out, *work;
 } routh;
 
@@ -58,7 +58,7 @@ sample_place(size_t i)
 
 /* Whether M and f seem to be independent of q_i, tested at a few values. */
 static bool
-may_be_absent(const routh *e, size_t i)
+seems_independent_of(const routh *e, size_t i)
 {
     const qdot_tape *tape = e->p->tape;
     const size_t inputs = 2 * e->n + 1, outputs = qdot_tape_outputs(tape);
@@ -77,9 +77,9 @@ may_be_absent(const routh *e, size_t i)
     return true;
 }
 
-/* Whether row i of M contains no velocities, so that the momentum p_i is linear in them. */
+/* Whether row i of the mass matrix M contains no velocities, so that p_i is linear in them. */
 static bool
-is_linear(const routh *e, size_t i)
+is_momentum_linear(const routh *e, size_t i)
 {
     for (size_t j = 0; j < e->n; j++)
         if (qdot_expr_node(e->pool, e->M[i * e->n + j])->holds & QDOT_HAS_VELOCITY)
@@ -87,23 +87,23 @@ is_linear(const routh *e, size_t i)
     return true;
 }
 
-/* The index in the scene of the plan's coordinate i. */
+/* The index in the scene of the coordinate with index i in the plan. */
 static size_t
-in_scene(const routh *e, size_t i)
+index_in_scene(const routh *e, size_t i)
 {
     return e->p->place ? e->p->place[i] : i;
 }
 
 /* Whether coordinate i stands for a parameter that events set (sim/model/parameter-states.h). */
 static bool
-is_state(const routh *e, size_t i)
+is_parameter_coordinate(const routh *e, size_t i)
 {
-    return in_scene(e, i) >= e->scene->coordinates.n;
+    return index_in_scene(e, i) >= e->scene->coordinates.n;
 }
 
 /* The number of other coordinates that M couples with coordinate i. */
 static size_t
-coupled(const routh *e, size_t i)
+count_coupled(const routh *e, size_t i)
 {
     size_t n = 0;
 
@@ -113,18 +113,18 @@ coupled(const routh *e, size_t i)
 }
 
 static qdot_status
-find_cyclic(routh *e, bool *some)
+find_cyclic_coordinates(routh *e, bool *some)
 {
     *some = false;
     for (size_t i = 0; i < e->n; i++) {
         qdot_cyclic c;
         bool is, applied;
 
-        if (is_state(e, i) || !may_be_absent(e, i) || !is_linear(e, i) ||
-            coupled(e, i) >= QDOT_ROUTH_COUPLED)
+        if (is_parameter_coordinate(e, i) || !seems_independent_of(e, i) || !is_momentum_linear(e, i) ||
+            count_coupled(e, i) >= QDOT_ROUTH_COUPLED)
             continue;
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(qdot_mech_cyclic_at(e->scene, in_scene(e, i), &c, &is));
+        QDOT_TRY(qdot_mech_cyclic_at(e->scene, index_in_scene(e, i), &c, &is));
         if (!is || c.rate != QDOT_NIL)
             continue;
         QDOT_TRY(qdot_mech_applied_holds(e->scene, c.coordinate, &applied));
@@ -141,13 +141,13 @@ find_cyclic(routh *e, bool *some)
 /* --- eliminating velocities ---------------------------------------------------------- */
 
 static qdot_expr
-velocity(const routh *e, size_t i)
+velocity_symbol(const routh *e, size_t i)
 {
     return e->p->inputs[e->n + i];
 }
 
 static qdot_expr
-tidy(routh *e, qdot_expr x, unsigned most)
+simplify_if_short(routh *e, qdot_expr x, unsigned most)
 {
     if (qdot_pool_failed(e->pool) || qdot_expr_size(e->pool, x) > most)
         return x;
@@ -157,7 +157,7 @@ tidy(routh *e, qdot_expr x, unsigned most)
 /* M and f do not depend on a cyclic coordinate, but it may still appear in their expressions: put 0
  * in its place. */
 static void
-take_out(routh *e)
+remove_cyclic_coordinates(routh *e)
 {
     qdot_pool *pool = e->pool;
 
@@ -180,7 +180,7 @@ take_out(routh *e)
         if (!e->cyclic[c])
             continue;
         for (size_t i = 0; i < e->n; i++) {
-            const qdot_expr v = velocity(e, i), zero = QDOT_ZERO;
+            const qdot_expr v = velocity_symbol(e, i), zero = QDOT_ZERO;
 
             b = qdot_subs(pool, b, 1, &v, &zero);
         }
@@ -190,7 +190,7 @@ take_out(routh *e)
 
 /* Solve equation c for q_c' and eliminate q_c' from the remaining equations. */
 static void
-routh_eliminate(routh *e, size_t c)
+eliminate_velocity(routh *e, size_t c)
 {
     qdot_pool *pool = e->pool;
     const size_t n = e->n;
@@ -203,11 +203,11 @@ routh_eliminate(routh *e, size_t c)
 
         if (e->gone[i] || e->M[i * n + c] == QDOT_ZERO)
             continue;
-        rate = qdot_sub(pool, rate, qdot_mul(pool, e->M[c * n + i], velocity(e, i)));
+        rate = qdot_sub(pool, rate, qdot_mul(pool, e->M[c * n + i], velocity_symbol(e, i)));
         factor = qdot_div(pool, e->M[i * n + c], pivot);
         for (size_t j = i; j < n; j++)
             if (!e->gone[j] && e->M[c * n + j] != QDOT_ZERO)
-                e->M[i * n + j] = e->M[j * n + i] = tidy(
+                e->M[i * n + j] = e->M[j * n + i] = simplify_if_short(
                     e,
                     qdot_sub(pool, e->M[i * n + j],
                              qdot_mul(pool, factor, e->M[c * n + j])),
@@ -227,12 +227,12 @@ may_be_pivot(const routh *e, size_t i)
 {
     const uint8_t sign = qdot_expr_node(e->pool, e->M[i * e->n + i])->sign;
 
-    return !e->p->indefinite || coupled(e, i) == 0 || (sign & (QDOT_GE0 | QDOT_LE0));
+    return !e->p->indefinite || count_coupled(e, i) == 0 || (sign & (QDOT_GE0 | QDOT_LE0));
 }
 
-/* The remaining cyclic coordinate with the shortest pivot; SIZE_MAX: none. */
+/* The cyclic coordinate, of those not yet eliminated, with the shortest pivot; SIZE_MAX: none. */
 static size_t
-shortest(const routh *e)
+choose_shortest_pivot(const routh *e)
 {
     size_t best = SIZE_MAX;
     uint64_t least = UINT64_MAX;
@@ -249,7 +249,7 @@ shortest(const routh *e)
 /* --- the plan for the remaining coordinates -------------------------------------------- */
 
 static qdot_status
-begin_plan(const routh *e, qdot_plan **out)
+begin_reduced_plan(const routh *e, qdot_plan **out)
 {
     const qdot_plan *p = e->p;
     const size_t n = e->n;
@@ -279,16 +279,16 @@ begin_plan(const routh *e, qdot_plan **out)
 /* Replace the eliminated velocities in the equations of r, one after the other, by their
  * expressions, which are left in `rates` [h]. */
 static void
-routh_put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
+insert_velocities(routh *e, qdot_plan *r, way how, qdot_expr *rates)
 {
     qdot_pool *pool = e->pool;
     const size_t n = e->n;
 
     for (size_t k = 0; k < e->h; k++)
-        rates[k] = how == SIMPLIFIED ? tidy(e, e->rate[e->order[k]], SHORT)
+        rates[k] = how == SIMPLIFIED ? simplify_if_short(e, e->rate[e->order[k]], SHORT)
                                      : e->rate[e->order[k]];
     for (size_t k = 0; k < e->h && !qdot_pool_failed(pool); k++) {
-        const qdot_expr v = velocity(e, e->order[k]);
+        const qdot_expr v = velocity_symbol(e, e->order[k]);
         const qdot_expr rate = how == HELD ? qdot_hold(pool, rates[k]) : rates[k];
 
         for (size_t j = 0; j < k; j++)
@@ -298,7 +298,7 @@ routh_put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
                 continue;
             r->f[i] = qdot_subs(pool, r->f[i], 1, &v, &rate);
             if (how == SIMPLIFIED)
-                r->f[i] = tidy(e, r->f[i], SHORT);
+                r->f[i] = simplify_if_short(e, r->f[i], SHORT);
             for (size_t j = 0; j < n; j++)
                 if (!e->gone[j])
                     r->M[i * n + j] =
@@ -307,7 +307,7 @@ routh_put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
     }
 }
 
-/* Find the cost of a step of r, or of one evaluation if there is no series. */
+/* Find the computing cost of a step of plan r, or of one evaluation if it has no Taylor series. */
 static qdot_status
 find_cost(qdot_plan *r)
 {
@@ -319,7 +319,7 @@ find_cost(qdot_plan *r)
 }
 
 static qdot_status
-fill_plan(routh *e, way how, qdot_plan *r)
+fill_reduced_plan(routh *e, way how, qdot_plan *r)
 {
     const size_t n = e->n;
     bool *left = qdot_calloc(n, sizeof *left);
@@ -329,7 +329,7 @@ fill_plan(routh *e, way how, qdot_plan *r)
     for (size_t i = 0; left && i < n; i++)
         left[i] = !e->gone[i];
     if (status == QDOT_OK) {
-        routh_put_in(e, r, how, rates);
+        insert_velocities(e, r, how, rates);
         status = qdot_pool_check(e->pool);
     }
     if (status == QDOT_OK)
@@ -348,9 +348,9 @@ fill_plan(routh *e, way how, qdot_plan *r)
     return status == QDOT_OK ? find_cost(r) : status;
 }
 
-/* Whether an eliminated velocity is a sum: products with it may then be multiplied out. */
+/* Whether an eliminated velocity is a sum, so that products with it may be multiplied out. */
 static bool
-has_sum(const routh *e)
+has_sum_velocity(const routh *e)
 {
     for (size_t k = 0; k < e->h; k++) {
         qdot_expr x = e->rate[e->order[k]];
@@ -367,17 +367,17 @@ has_sum(const routh *e)
 }
 
 static double
-cost_of_all(const qdot_plan *p)
+cost_of_full_plan(const qdot_plan *p)
 {
     return p->method->series ? p->cost : qdot_cost_evaluation(p->tape);
 }
 
-/* Compare the ways of insertion; the plan uses the cheapest if it is cheaper than the full equations. */
+/* Compare the ways of inserting eliminated velocities; use the cheapest, if cheaper than the full equations. */
 static qdot_status
-routh_choose(routh *e)
+choose_insertion(routh *e)
 {
-    double least = cost_of_all(e->p);
-    const bool sums = has_sum(e);
+    double least = cost_of_full_plan(e->p);
+    const bool sums = has_sum_velocity(e);
     qdot_status status = QDOT_OK;
 
     for (way how = PUT_IN; how < WAYS && status == QDOT_OK; how++) {
@@ -385,9 +385,9 @@ routh_choose(routh *e)
 
         if (how == SIMPLIFIED && !sums)
             continue;
-        status = begin_plan(e, &r);
+        status = begin_reduced_plan(e, &r);
         if (status == QDOT_OK)
-            status = fill_plan(e, how, r);
+            status = fill_reduced_plan(e, how, r);
         if (status == QDOT_OK && r->smooth == e->p->smooth && r->cost < least) {
             least = r->cost;
             r->subtracts = sums;
@@ -406,7 +406,7 @@ routh_choose(routh *e)
 typedef qdot_vec(qdot_expr) expressions;
 
 static qdot_status
-list_terms(const routh *e, expressions *out)
+list_velocity_terms(const routh *e, expressions *out)
 {
     for (size_t k = 0; k < e->h; k++) {
         qdot_expr x = e->above[e->order[k]];
@@ -422,17 +422,17 @@ list_terms(const routh *e, expressions *out)
     return qdot_pool_check(e->pool);
 }
 
-/* Set the inputs in [2n + 1 + h]: the start of the run and the momenta there. */
+/* Set the tape's inputs in [2n + 1 + h]: the start state of the run and the momenta there. */
 static qdot_status
-find_start(routh *e, const qdot_plan *r, double *in)
+find_start_inputs(routh *e, const qdot_plan *r, double *in)
 {
     const qdot_run_request *q = e->request;
     const size_t n = e->n;
     double *work;
 
     for (size_t i = 0; i < 2 * n + 1; i++) {
-        qdot_expr x = i < n       ? q->q0[in_scene(e, i)]
-                      : i < 2 * n ? q->v0[in_scene(e, i - n)]
+        qdot_expr x = i < n       ? q->q0[index_in_scene(e, i)]
+                      : i < 2 * n ? q->v0[index_in_scene(e, i - n)]
                                   : q->t0;
 
         x = qdot_plan_substitute(e->p, x);
@@ -450,7 +450,7 @@ find_start(routh *e, const qdot_plan *r, double *in)
 /* By how much rounding errors grow: the largest, over c, of sum |terms| / (|pivot| max(1, |q_c'|)),
  * where q_c' = sum of terms / pivot. */
 static double
-largest_sum(const routh *e, const double *in, const double *out)
+largest_term_sum(const routh *e, const double *in, const double *out)
 {
     double most = 0;
 
@@ -472,17 +472,17 @@ largest_sum(const routh *e, const double *in, const double *out)
 /* *too_far: the terms of a velocity cancel so far that rounding exceeds the tolerance. A spinning
  * top's p_phi - p_psi cos(theta) does that. */
 static qdot_status
-find_cancellation(routh *e, bool *too_far)
+check_cancellation(routh *e, bool *too_far)
 {
     const qdot_plan *r = e->p->reduced;
     const size_t inputs = 2 * e->n + 1 + e->h;
     expressions terms = {0};
     qdot_tape *tape = NULL;
     double *in = qdot_calloc(inputs, sizeof *in), *out = NULL, most = 0;
-    qdot_status status = in ? list_terms(e, &terms) : QDOT_ENOMEM;
+    qdot_status status = in ? list_velocity_terms(e, &terms) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = find_start(e, r, in);
+        status = find_start_inputs(e, r, in);
     if (status == QDOT_OK)
         status = qdot_tape_new(e->pool, inputs, r->inputs, terms.n, terms.at, &tape);
     if (status == QDOT_OK
@@ -490,7 +490,7 @@ find_cancellation(routh *e, bool *too_far)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK) {
         qdot_tape_eval(tape, in, out, out + terms.n);
-        most = largest_sum(e, in, out);
+        most = largest_term_sum(e, in, out);
     }
     *too_far = !(most <= harmless || most * roundings * 0x1p-53 <= e->request->tol);
     qdot_tape_free(tape);
@@ -538,24 +538,24 @@ routh_init(routh *e)
 }
 
 static qdot_status
-routh_reduce(routh *e)
+reduce_plan(routh *e)
 {
     bool some, too_far = false;
 
-    QDOT_TRY(find_cyclic(e, &some));
+    QDOT_TRY(find_cyclic_coordinates(e, &some));
     if (!some)
         return QDOT_OK;
-    take_out(e);
-    for (size_t c; !qdot_pool_failed(e->pool) && (c = shortest(e)) != SIZE_MAX;) {
+    remove_cyclic_coordinates(e);
+    for (size_t c; !qdot_pool_failed(e->pool) && (c = choose_shortest_pivot(e)) != SIZE_MAX;) {
         e->order[e->h++] = c;
-        routh_eliminate(e, c);
+        eliminate_velocity(e, c);
     }
     QDOT_TRY(qdot_pool_check(e->pool));
     if (e->h > 0)
-        QDOT_TRY(routh_choose(e));
-    if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0) {
+        QDOT_TRY(choose_insertion(e));
+    if (e->p->reduced && has_sum_velocity(e) && e->request->q0 && e->request->v0) {
         e->p->by_start = true;
-        QDOT_TRY(find_cancellation(e, &too_far));
+        QDOT_TRY(check_cancellation(e, &too_far));
     }
     if (too_far) {
         qdot_plan_free(e->p->reduced);
@@ -576,7 +576,7 @@ qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene, const qdot_run_request *re
     qdot_status status = request->by_clock ? QDOT_OK : routh_init(&e);
 
     if (status == QDOT_OK && !request->by_clock)
-        status = routh_reduce(&e);
+        status = reduce_plan(&e);
     routh_clear(&e);
     /* a pivot vanishes, or an expression is undefined at the start: keep the full equations */
     if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_ELIMIT) {

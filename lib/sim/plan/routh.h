@@ -25,7 +25,7 @@
 
 #include "sim/model/equations.h"
 
-/* A coordinate is eliminated only if M couples it with fewer others than this, because elimination fills M. */
+/* A coordinate is eliminated only if M couples it with fewer others than this: elimination fills M with entries. */
 enum { QDOT_ROUTH_COUPLED = 6 };
 
 /* Into plan->reduced; NULL where nothing is cyclic or nothing is gained, or by a clock. The plan is made

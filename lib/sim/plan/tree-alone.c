@@ -17,7 +17,7 @@
 #include "tape/disc.h"
 
 static bool
-may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
+may_use_tree_alone(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
     return p->mode && p->mode->atoms.n == 0 && !qdot_sliding_is(p->mode, p->side)
            && p->n >= QDOT_MANY_COORDINATES && p->n_states == 0
@@ -28,7 +28,7 @@ may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *requ
 /* Mark pairs of coordinates that M may couple: of one node, or of a node and one of its ancestors;
  * pattern [n x n]. */
 static void
-find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
+find_mass_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
 {
     for (size_t node = 0; node < t->nodes; node++)
         for (size_t above = node;;) {
@@ -50,9 +50,9 @@ find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
         }
 }
 
-/* Find a lower bound of the cost of steps by M q'' = f, if M has `entries` entries off the diagonal. */
+/* Find a lower bound of the computing cost of steps by M q'' = f, if M has `entries` entries off the diagonal. */
 static double
-least_cost(size_t n, size_t entries)
+least_cost_of_steps(size_t n, size_t entries)
 {
     const qdot_ode_cost least = qdot_cost_least(n, (double)entries);
 
@@ -61,7 +61,7 @@ least_cost(size_t n, size_t entries)
 
 /* Whether M is constant: no partial derivative of a position depends on the motion. */
 static bool
-is_constant(const qdot_plan *p)
+is_mass_matrix_constant(const qdot_plan *p)
 {
     const qdot_residual *r = p->residual;
 
@@ -78,13 +78,13 @@ is_constant(const qdot_plan *p)
 /* *suits: M is one coupled block, and no coordinate of it should be eliminated first. A coordinate
  * should be if it does not appear in h and is coupled with few others. */
 static qdot_status
-tree_judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
+check_mass_structure(qdot_plan *p, const bool *pattern, bool *suits, double *least)
 {
     const size_t n = p->n;
     size_t entries = 0;
 
     QDOT_TRY(qdot_structure_find(pattern, n, &p->structure));
-    *suits = p->structure.blocks == 1 && !is_constant(p);
+    *suits = p->structure.blocks == 1 && !is_mass_matrix_constant(p);
     for (size_t i = 0; i < n; i++) {
         size_t coupled = 0;
 
@@ -93,12 +93,12 @@ tree_judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
         entries += coupled;
         *suits = *suits && (coupled >= QDOT_ROUTH_COUPLED || !p->residual->absent[i]);
     }
-    *least = least_cost(n, entries);
+    *least = least_cost_of_steps(n, entries);
     return QDOT_OK;
 }
 
 static qdot_status
-find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double *least)
+find_mass_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double *least)
 {
     bool *pattern = qdot_calloc(p->n * p->n, sizeof *pattern);
     qdot_status status;
@@ -106,8 +106,8 @@ find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double
     *suits = false;
     if (!pattern)
         return QDOT_ENOMEM;
-    find_pattern(tree, p->n, pattern);
-    status = tree_judge(p, pattern, suits, least);
+    find_mass_pattern(tree, p->n, pattern);
+    status = check_mass_structure(p, pattern, suits, least);
     qdot_free(pattern);
     if (status != QDOT_OK || !*suits)
         return status;
@@ -119,21 +119,21 @@ find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double
 }
 
 static bool
-residual_may_hide(const qdot_residual *r)
+tree_may_hide_forces(const qdot_residual *r)
 {
     return qdot_disc_may_hide(r->places, QDOT_HIDES_EXPONENTIALS)
            || (r->forces && qdot_disc_may_hide(r->forces, QDOT_HIDES_EXPONENTIALS));
 }
 
 static qdot_status
-tree_decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
+decide_by_cost(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
 {
     qdot_tree_series *series;
     qdot_work work;
     double least;
 
     *taken = false;
-    QDOT_TRY(find_structure(p, tree, taken, &least));
+    QDOT_TRY(find_mass_structure(p, tree, taken, &least));
     if (!*taken)
         return QDOT_OK;
     QDOT_TRY(qdot_residual_programs(p->residual));
@@ -160,16 +160,16 @@ qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *re
     bool taken = false;
     qdot_status status;
 
-    if (!may_be(p, scene, request))
+    if (!may_use_tree_alone(p, scene, request))
         return QDOT_OK;
     QDOT_TRY(qdot_residual_new(scene, p, &p->residual));
     if (!p->residual)
         return QDOT_OK;
-    status = residual_may_hide(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
+    status = tree_may_hide_forces(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
     if (tree)
         status = qdot_residual_add_energy(scene, p, p->residual);
     if (tree && status == QDOT_OK && p->residual->energy)
-        status = tree_decide(p, tree, &taken);
+        status = decide_by_cost(p, tree, &taken);
     qdot_residual_tree_free(tree);
     if (status == QDOT_OK && taken) {
         p->smooth = true;

@@ -14,7 +14,7 @@ qdot_in_chart_clear(qdot_in_chart *in)
     *in = (qdot_in_chart){0};
 }
 
-/* Refuse expressions with a root if the motion has left the region in which that root is valid. */
+/* Refuse expressions with a square root, if the motion left the region in which the root's sign is valid. */
 static qdot_status
 check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
 {
@@ -43,7 +43,7 @@ check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
 /* Express them in the coordinates of the run; `quarters` counts turns of the angles, 0 if no angle
  * occurs by itself. */
 static qdot_status
-chart_express(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
+express_in_chart(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
 {
     const qdot_run_chart *x = in->run->chart;
 
@@ -68,12 +68,12 @@ qdot_in_chart_express(qdot_in_chart *in, qdot_run *run, size_t m, const qdot_exp
     in->exprs = qdot_calloc(m + 1, sizeof *in->exprs);
     if (!in->exprs)
         return QDOT_ENOMEM;
-    QDOT_TRY(chart_express(in, exprs, NULL));
+    QDOT_TRY(express_in_chart(in, exprs, NULL));
     qdot_run_chart_limit(run);
     if (!in->turns)
         return QDOT_OK;
     QDOT_TRY(qdot_run_chart_quarters(run, t, &in->quarters));
-    QDOT_TRY(chart_express(in, exprs, in->quarters));
+    QDOT_TRY(express_in_chart(in, exprs, in->quarters));
     return check_branches(in, exprs);
 }
 

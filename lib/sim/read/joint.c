@@ -17,9 +17,9 @@ qdot_joint_clear(qdot_joint *j)
     *j = (qdot_joint){0};
 }
 
-/* Make new symbols for the inputs of run k; the first run keeps its own. */
+/* Make new symbols for the inputs of the k-th run's tape; the first run keeps its own symbols. */
 static qdot_status
-make_inputs(const qdot_plan *plan, size_t k, qdot_expr *own)
+make_input_symbols(const qdot_plan *plan, size_t k, qdot_expr *own)
 {
     qdot_text name = {0};
     qdot_status status = QDOT_OK;
@@ -38,9 +38,9 @@ make_inputs(const qdot_plan *plan, size_t k, qdot_expr *own)
     return status == QDOT_OK ? qdot_pool_check(plan->pool) : status;
 }
 
-/* Express the value of member m by its run's inputs `own` and by t, which all runs have in common. */
+/* Express the value of member m by the inputs `own` of its run, and by t, which all runs share. */
 static qdot_expr
-member_express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
+express_member(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 {
     const qdot_plan *plan = j->plans[m->run];
     const size_t time = 2 * plan->n, behind = time + 1;
@@ -55,15 +55,15 @@ member_express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 
 /* Make the inputs of all runs, and replace the members in the expression by their values. */
 static qdot_status
-joint_put_together(qdot_joint *j, const qdot_run_expression *x, size_t *begin, qdot_expr *from, qdot_expr *to)
+combine_inputs_and_expression(qdot_joint *j, const qdot_run_expression *x, size_t *begin, qdot_expr *from, qdot_expr *to)
 {
     for (size_t k = 0; k < x->n; k++) {
-        QDOT_TRY(make_inputs(j->plans[k], k, j->inputs + begin[k]));
+        QDOT_TRY(make_input_symbols(j->plans[k], k, j->inputs + begin[k]));
         begin[k + 1] = begin[k] + qdot_plan_inputs(j->plans[k]);
     }
     for (size_t i = 0; i < x->m; i++) {
         from[i] = x->members[i].symbol;
-        to[i] = member_express(j, x->members + i, j->inputs + begin[x->members[i].run]);
+        to[i] = express_member(j, x->members + i, j->inputs + begin[x->members[i].run]);
     }
     j->e = qdot_subs(j->plans[0]->pool, x->e, x->m, from, to);
     return qdot_pool_check(j->plans[0]->pool);
@@ -89,7 +89,7 @@ qdot_joint_init(qdot_joint *j, const qdot_run_expression *x)
     j->inputs = qdot_calloc(inputs, sizeof *j->inputs);
     begin = qdot_calloc(x->n + 1, sizeof *begin);
     from = qdot_calloc(2 * x->m + 1, sizeof *from);
-    status = j->inputs && begin && from ? joint_put_together(j, x, begin, from, from + x->m) : QDOT_ENOMEM;
+    status = j->inputs && begin && from ? combine_inputs_and_expression(j, x, begin, from, from + x->m) : QDOT_ENOMEM;
     qdot_free(begin);
     qdot_free(from);
     j->of.plan = j->plans[0];

@@ -16,8 +16,8 @@ typedef struct {
     qdot_expr e;
     const qdot_plan **plans;    /* [n] plans of the runs; borrowed */
     const qdot_course **courses; /* [n] courses of the runs; borrowed */
-    qdot_expr *inputs;          /* inputs of the tape of e over all runs */
-    qdot_reading of;            /* reads e along the runs */
+    qdot_expr *inputs;          /* inputs, over all runs, of the tape that evaluates the expression e */
+    qdot_reading of;            /* evaluates the expression along the runs */
 } qdot_joint;
 
 /* Combine the runs of an expression. Errors: QDOT_ENOMEM, those of qdot_reader_lower. Clear j in any case. */

@@ -1,4 +1,4 @@
-/* occurrences.c -- the events of a run, with errors of their times estimated from its companions. */
+/* occurrences.c -- the events of a run, with errors of their times estimated from its companion runs. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -29,7 +29,7 @@ typedef struct {
 } by_event;
 
 static qdot_status
-sort_by_event(const qdot_course *c, size_t events, by_event *out)
+sort_times_by_event(const qdot_course *c, size_t events, by_event *out)
 {
     size_t n = c->occurrences.n, *next;
 
@@ -52,7 +52,7 @@ sort_by_event(const qdot_course *c, size_t events, by_event *out)
 /* Find the time of the companion's occurrence that corresponds to occurrence k of the run's event;
  * NaN: none. */
 static double
-time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
+corresponding_time(const by_event *own, const by_event *other, size_t event, size_t k)
 {
     const double *of = other->t + other->first[event];
     const size_t i = qdot_partner_of(own->t + own->first[event],
@@ -62,9 +62,9 @@ time_of_partner(const by_event *own, const by_event *other, size_t event, size_t
     return i == SIZE_MAX ? NAN : of[i];
 }
 
-/* widths [occurrences]: how uncertain their times are beside what run and companions differ by. `least`: at least that. */
+/* Compare event times with companion runs'; widths [occurrences]: further uncertainty; `least`: least errors. */
 static qdot_status
-compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
+compare_event_times(qdot_run *run, const by_event *own, const by_event *others,
                     const double *widths, const double *least)
 {
     size_t events = run->stage.events.n, n = run->course.occurrences.n;
@@ -79,7 +79,7 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
         double by = NAN, theirs[2];
 
         for (size_t j = 0; j < companions; j++)
-            theirs[j] = time_of_partner(own, others + j, o->event, k);
+            theirs[j] = corresponding_time(own, others + j, o->event, k);
         if (companions > 0)
             by = qdot_companion_bound_of(o->t, companions, theirs);
         if (by < least[i])
@@ -94,9 +94,9 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
     return status;
 }
 
-/* Drop the occurrences and touches of an event after the time `from`, up to which they are known. */
+/* Remove the occurrences and touches of an event after the time `from`, up to which they are known. */
 static void
-drop_from(qdot_run *run, const char *event, double from)
+remove_occurrences_after(qdot_run *run, const char *event, double from)
 {
     const double direction = run->t1 < run->t0 ? -1 : 1;
     size_t n = 0, n_faded = 0;
@@ -114,7 +114,7 @@ drop_from(qdot_run *run, const char *event, double from)
 /* Fill run->faded. Where the function of an event stays within its error of 0 to the end of the run, occurrences there are
  * none that is known: they are left out. */
 static qdot_status
-leave_out_faded(qdot_run *run)
+remove_unknown_occurrences(qdot_run *run)
 {
     const qdot_course *c = &run->course;
     const double end = c->tr.count > 0 ? c->tr.t[c->tr.count - 1] : 0;
@@ -131,15 +131,15 @@ leave_out_faded(qdot_run *run)
         QDOT_TRY(qdot_faded_find(run, e, &from));
         if (isnan(from))
             continue;
-        drop_from(run, run->stage.events.at[e].name, from);
+        remove_occurrences_after(run, run->stage.events.at[e].name, from);
         QDOT_TRY(qdot_vec_push(&run->faded, ((qdot_run_faded){run->stage.events.at[e].name, from, end, false})));
     }
     return QDOT_OK;
 }
 
-/* Fill run->occurrences, with errors from the companions. */
+/* Fill run->occurrences, with errors of the times estimated from the companion runs. */
 static qdot_status
-find_errors(qdot_run *run)
+find_time_errors(qdot_run *run)
 {
     const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
     by_event sorted[3] = {{0}};
@@ -150,19 +150,19 @@ find_errors(qdot_run *run)
     if (n > 0 && status == QDOT_OK)
         status = qdot_run_twin(run);
     for (size_t i = 0; i < 3 && status == QDOT_OK; i++)
-        status = sort_by_event(courses[i], run->stage.events.n, sorted + i);
+        status = sort_times_by_event(courses[i], run->stage.events.n, sorted + i);
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
         status = qdot_touches_look(run, i, widths, NULL);
-    /* companions by the method of the run, not by series, take steps that are like its own, and agree with it more often */
+    /* companion runs by the same method take steps like those of the run, and agree with it more often */
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK && run->plan->method->stiff; i++)
         status = qdot_touches_crossings(run, i, least);
     for (size_t i = 1; i < n && status == QDOT_OK; i++) /* of one instant */
         if (run->course.occurrences.at[i].t == run->course.occurrences.at[i - 1].t)
             least[i] = fmax(least[i], least[i - 1]);
     if (status == QDOT_OK)
-        status = compare_occurrences(run, sorted, sorted + 1, widths, least);
+        status = compare_event_times(run, sorted, sorted + 1, widths, least);
     if (status == QDOT_OK)
-        status = leave_out_faded(run);
+        status = remove_unknown_occurrences(run);
     qdot_free(widths);
     for (size_t i = 0; i < 3; i++) {
         qdot_free(sorted[i].first);
@@ -182,7 +182,7 @@ qdot_run_event_at_end(qdot_run *run, size_t k, const char **name, bool *undecide
 /* For a run that counts its times from an origin: convert the times of occurrences to t, with
  * rounding error. */
 static void
-tell_in_t(qdot_run *run)
+convert_times_to_t(qdot_run *run)
 {
     for (size_t i = 0; i < run->occurrences.n; i++) {
         qdot_run_occurrence *o = &run->occurrences.at[i];
@@ -200,9 +200,9 @@ qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
     if (!run->occurrence_errors) {
-        QDOT_TRY(qdot_run_time_fail(run->origin, run->precise ? qdot_digits_occurrences(run) : find_errors(run)));
+        QDOT_TRY(qdot_run_time_fail(run->origin, run->precise ? qdot_digits_occurrences(run) : find_time_errors(run)));
         if (run->origin != 0)
-            tell_in_t(run);
+            convert_times_to_t(run);
     }
     run->occurrence_errors = true;
     *list = run->occurrences.at;

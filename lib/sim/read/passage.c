@@ -9,7 +9,7 @@
 
 enum { NODES = 16, TRIES = 4 };
 
-/* Half of the length of the first interval about a singularity, as a fraction of the step there. */
+/* Half the length of the first interval about a singularity, as a fraction of the integration step there. */
 static const double part = 0.1;
 
 /* A function is smooth if its last Chebyshev coefficients are below this fraction of the largest. */
@@ -29,7 +29,7 @@ qdot_passage_at(const qdot_run *run, double t)
 /* The expression e as valid on one side of the singularity, to be evaluated on the side `before` or
  * after it. */
 static qdot_expr
-expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, bool before)
+expression_beside_singularity(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, bool before)
 {
     const qdot_chart *c = &x->chart;
     const size_t n = c->moved.n + c->signs.n;
@@ -48,9 +48,9 @@ expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, boo
     return now;
 }
 
-/* Evaluate e at Chebyshev nodes on one side of t, the side given by `sign`. */
+/* Evaluate e at Chebyshev nodes on one side of the singularity at t: before it (sign -1) or after it. */
 static qdot_status
-read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *values, double *error)
+evaluate_on_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *values, double *error)
 {
     double times[NODES], errors[NODES], read[NODES];
     const long *quarters;
@@ -62,7 +62,7 @@ read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *valu
             at[n] = j;
             times[n++] = qdot_chebyshev_place(t - h, t + h, qdot_chebyshev_node(NODES, j));
         }
-    /* full turns of the chart's angles on this side of the singularity */
+    /* number of quarter turns of the chart's angles on this side of the singularity */
     QDOT_TRY(qdot_run_chart_quarters(run, times[0], &quarters));
     QDOT_TRY(qdot_in_chart_values(run, 1, &e, &(qdot_exact_times){n, times, NULL}, read, errors));
     for (size_t i = 0; i < n; i++) {
@@ -72,7 +72,7 @@ read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *valu
     return QDOT_OK;
 }
 
-/* Find the extrema of the polynomial between x = middle and x = sign. */
+/* Find the extrema, between x = middle and x = sign, of the polynomial with Chebyshev coefficients c. */
 static void
 find_extrema(const double *c, double middle, int sign, qdot_passage *p)
 {
@@ -81,7 +81,7 @@ find_extrema(const double *c, double middle, int sign, qdot_passage *p)
 
     qdot_chebyshev_derivative(NODES, c, slope);
     n = qdot_chebyshev_crossings(NODES - 1, slope, roots);
-    n = n > 0 ? n : 0; /* none if a value is not finite */
+    n = n > 0 ? n : 0; /* no roots if a value is not finite */
     p->most = -INFINITY;
     p->least = INFINITY;
     for (int i = 0; i < n + 2; i++) {
@@ -95,28 +95,28 @@ find_extrema(const double *c, double middle, int sign, qdot_passage *p)
     }
 }
 
-/* Evaluate e on both sides of the singularity and fit a polynomial. */
+/* Evaluate e on both sides of the singularity, and fit a polynomial on each side. */
 static qdot_status
-fit_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c, double *error)
+fit_both_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c, double *error)
 {
     const qdot_run_chart *x = run->chart;
     const double place = x->stretches.at[k].t;
     const int own = before == qdot_trajectory_is_backward(&run->course.tr) ? 1 : -1;
-    const qdot_expr here = expression_on_side(x, e, k, true, before),
-                    there = expression_on_side(x, e, k, false, before);
+    const qdot_expr here = expression_beside_singularity(x, e, k, true, before),
+                    there = expression_beside_singularity(x, e, k, false, before);
     double values[NODES];
 
     *error = 0;
     QDOT_TRY(qdot_pool_check(x->chart.pool));
-    QDOT_TRY(read_side(run, here, place, h, own, values, error));
-    QDOT_TRY(read_side(run, there, place, h, -own, values, error));
+    QDOT_TRY(evaluate_on_side(run, here, place, h, own, values, error));
+    QDOT_TRY(evaluate_on_side(run, there, place, h, -own, values, error));
     qdot_chebyshev_fit(NODES, values, c);
     return QDOT_OK;
 }
 
-/* Find where in the interval the distance from the singularity is 0: stretches begin just after that time. */
+/* Find where in the interval the distance from the singularity is 0: a new stretch of angles begins just after. */
 static qdot_status
-find_middle(qdot_run *run, size_t k, bool before, double h, double *middle)
+find_time_of_passage(qdot_run *run, size_t k, bool before, double h, double *middle)
 {
     const qdot_run_chart *x = run->chart;
     double c[NODES], roots[NODES], error;
@@ -127,15 +127,15 @@ find_middle(qdot_run *run, size_t k, bool before, double h, double *middle)
         i++;
     if (i == x->chart.signs.n)
         return QDOT_OK;
-    QDOT_TRY(fit_sides(run, x->chart.signs.at[i].distance, k, before, h, c, &error));
+    QDOT_TRY(fit_both_sides(run, x->chart.signs.at[i].distance, k, before, h, c, &error));
     if (qdot_chebyshev_crossings(NODES, c, roots) == 1)
         *middle = roots[0];
     return QDOT_OK;
 }
 
-/* Find how far the interval may reach: not to neighbouring stretches, nor to t. */
+/* Find how far the interval may extend: neither to neighbouring changes of the chart's angles, nor to t. */
 static double
-largest_part(const qdot_run *run, size_t k, double t)
+largest_half_length(const qdot_run *run, size_t k, double t)
 {
     const qdot_run_chart *x = run->chart;
     const qdot_trajectory *tr = &run->course.tr;
@@ -155,18 +155,18 @@ qdot_passage_extrema(qdot_run *run, qdot_expr e, size_t k, bool before, double t
 {
     const double place = run->chart->stretches.at[k].t;
     const int own = before == qdot_trajectory_is_backward(&run->course.tr) ? 1 : -1;
-    double h = largest_part(run, k, t);
+    double h = largest_half_length(run, k, t);
 
     *found = false;
     for (int i = 0; i < TRIES && !*found && h > 0; i++, h /= 4) {
         double c[NODES], tail, middle;
 
-        QDOT_TRY(fit_sides(run, e, k, before, h, c, &p->error));
+        QDOT_TRY(fit_both_sides(run, e, k, before, h, c, &p->error));
         tail = qdot_chebyshev_tail(NODES, c);
         if (!(tail <= fmax(smooth * qdot_chebyshev_size(NODES, c), p->error)))
             continue;
         *found = true;
-        QDOT_TRY(find_middle(run, k, before, h, &middle));
+        QDOT_TRY(find_time_of_passage(run, k, before, h, &middle));
         p->beyond = place + own * h;
         p->error = 2 * p->error + NODES * tail;
         find_extrema(c, middle, own, p);

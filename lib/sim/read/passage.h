@@ -13,7 +13,7 @@
 #include "sim/read/in-chart.h"
 
 typedef struct {
-    double beyond; /* end of the covered interval on the other side of the singularity */
+    double beyond; /* end of the covered interval on the far side of the singularity */
     double most, least, error;
 } qdot_passage;
 
@@ -23,7 +23,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_passage_extrema(qdot_run *run, qdot_expr e, size_t k, bool before,
                                                  double t, qdot_passage *p, bool *found);
 
-/* The index of the stretch that begins at t if the motion passes a singularity there; SIZE_MAX: none. */
+/* The index of the stretch of angles that begins at t, if a singularity is passed there; SIZE_MAX: none. */
 size_t qdot_passage_at(const qdot_run *run, double t);
 
 #endif

@@ -17,48 +17,48 @@
 #include "sim/course/run-state.h"
 #include "sim/run/run.h"
 
-/* Coefficients below this multiple of the evaluation noise count as noise. */
+/* Chebyshev coefficients below this multiple of the evaluation noise count as noise. */
 #define QDOT_RANGE_NOISES 8
 
 typedef struct {
     qdot_reader reader;
     qdot_polynomial_bounds bounds;
     qdot_range_kind kind;
-    const size_t *pieces;     /* index of the present piece of each course */
+    const size_t *pieces;     /* index of the present piece of each run */
     int nodes;
-    double first;             /* the value at the start of the range */
+    double first;             /* value of the expression at the start of the time range */
     double largest, smallest; /* the extrema found so far */
     long double integral;
-    double highest, lowest;   /* bounds for values that were not evaluated */
-    double rough;             /* error bound of the values */
-    double sure[2];           /* the maximum is at least sure[0], the minimum at most sure[1] */
-    double left;              /* bound for the integral over parts that no polynomial fits */
-    double noise;             /* evaluation noise of the expression in this step */
-    double blur;              /* change of the expression by errors of the state in this step */
-    double *least;            /* [inputs] inputs smaller than this are rounding errors */
+    double highest, lowest;   /* largest and smallest possible value where the expression was not evaluated */
+    double rough;             /* error bound of the values of the expression */
+    double sure[2];           /* certain values: the maximum is at least sure[0], the minimum at most sure[1] */
+    double left;              /* error bound of the integral over intervals that no polynomial fits */
+    double noise;             /* rounding noise of evaluating the expression in this step */
+    double blur;              /* change of the expression by errors of the state within this step */
+    double *least;            /* [inputs] smaller changes of inputs are rounding errors */
     size_t parts;             /* number of parts into which this step has been divided */
     size_t most_parts;        /* limit of `parts`: lowered after a step that exceeded it */
-    double typical;           /* size of the values in this step */
-    double length;            /* length of this step */
+    double typical;           /* typical size of the expression's values in this step */
+    double length;            /* duration of this step */
     bool above, below;        /* the expression is unbounded above, below, at the time `pole` */
-    bool diverges;            /* its integral is infinite, too */
+    bool diverges;            /* the integral of the expression is infinite, too */
     double pole;
     bool sought; /* qdot_range_seek was called in this step */
     bool begun;
-    bool open;   /* the expression is nowhere bounded in some interval */
-    bool odd[2]; /* equations switch at the step's start, end: sign(0) there is not the limit */
+    bool open;   /* no bound of the expression is known in some interval */
+    bool odd[2]; /* equations switch at the start, at the end of the step: there sign(0) is not the limit of sign */
     double ends[2]; /* start and end of this step */
 } qdot_range_scan;
 
 typedef struct {
     double a, b;
     int n;
-    double tail; /* size of the last coefficients; INFINITY: not computed */
-    bool rough;  /* accepted although its coefficients do not vanish */
+    double tail; /* size of the last Chebyshev coefficients; INFINITY: not computed */
+    bool rough;  /* the interval was accepted although its coefficients do not decrease to noise */
     double values[QDOT_CHEBYSHEV_MOST], c[QDOT_CHEBYSHEV_MOST];
 } qdot_range_part;
 
-/* The rounding error of the nodes, relative to the length of the interval. */
+/* The rounding error of the nodes' times, relative to the duration of the interval. */
 static inline double
 qdot_range_blur(const qdot_range_part *p)
 {
@@ -79,7 +79,7 @@ qdot_range_time(const qdot_range_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* Whether the interval is so short that rounding dominates the differences of its nodes. */
+/* Whether the interval is so short that rounding dominates the differences of its nodes' times. */
 static inline bool
 qdot_range_is_short(const qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -95,14 +95,14 @@ qdot_range_is_beside_switch(const qdot_range_scan *s, const qdot_range_part *p)
     return (s->odd[0] && p->a == s->ends[0]) || (s->odd[1] && p->b == s->ends[1]);
 }
 
-/* How far the polynomial of an interval may be from the values at its nodes, by the bounds in s->bounds. */
+/* How far an interval's polynomial may be from the true values, by the bounds in s->bounds. */
 static inline double
 qdot_range_miss(const qdot_range_scan *s, const qdot_range_part *p)
 {
     return 4 * p->tail + (isnan(s->bounds.miss[0]) ? 0 : s->bounds.miss[0]);
 }
 
-/* Include a value of the expression among the extremes found so far. */
+/* Include a value of the expression among the largest and smallest found so far. */
 static inline void
 qdot_range_meet(qdot_range_scan *s, double x)
 {
@@ -114,7 +114,7 @@ qdot_range_meet(qdot_range_scan *s, double x)
 
 /* --- one step (range-step.c) ---------------------------------------------------------- */
 
-/* Evaluate the expression at t; QDOT_EDOMAIN if it is undefined. */
+/* Evaluate the expression at time t; QDOT_EDOMAIN if it is undefined there. */
 QDOT_MUST_CHECK qdot_status qdot_range_at(qdot_range_scan *s, double t, double *x);
 
 /* All that lies between a and b, where no course begins another step. s->most_parts limits the

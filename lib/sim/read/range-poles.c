@@ -1,4 +1,4 @@
-/* range-poles.c -- finds poles: intervals that no polynomial fits however short they are. */
+/* range-poles.c -- finds poles of an expression along a run: intervals, however short, that no polynomial fits. */
 #include "sim/read/range-parts.h"
 
 /* A part that no polynomial fits however short it is holds a jump, or a pole where values are
@@ -12,22 +12,22 @@ enum { NEAREST = 4, INCREMENTS = 10, LEAST_INCREMENTS = 4 };
 static const double far_beside = 1024, grown = 8;
 static const double slow = 0.994;
 
-/* Whether the values in the interval have finite bounds, so that it contains no pole. */
+/* Whether the expression has finite bounds in the interval, so that there is no pole. */
 static bool
-has_bounds(const qdot_range_scan *s)
+has_finite_bounds(const qdot_range_scan *s)
 {
     return isfinite(s->bounds.box->lo) && isfinite(s->bounds.box->hi);
 }
 
-/* The largest |value| near a short interval that does not indicate a pole. */
+/* The largest magnitude, near a short interval, of values that do not yet indicate a pole. */
 static double
-bounded(qdot_range_scan *s, const qdot_range_part *p)
+largest_value_without_pole(qdot_range_scan *s, const qdot_range_part *p)
 {
     double most = 0;
 
     if (s->typical > 0)
         return beyond_bounds * s->typical;
-    for (int side = -1; side <= 1; side += 2) { /* near the pole, growth towards it; elsewhere 0 */
+    for (int side = -1; side <= 1; side += 2) { /* near a pole this includes the growth towards it; elsewhere the growth is 0 */
         double t = p->a + side * far_beside * (p->b - p->a), v;
 
         if (fmin(s->ends[0], s->ends[1]) <= t && t <= fmax(s->ends[0], s->ends[1])
@@ -37,18 +37,18 @@ bounded(qdot_range_scan *s, const qdot_range_part *p)
     return most;
 }
 
-/* Decide whether an interval that cannot be halved contains a pole. */
+/* Decide whether an interval that cannot be halved any more contains a pole of the expression. */
 void
 qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p)
 {
-    const double most = bounded(s, p);
+    const double most = largest_value_without_pole(s, p);
     double low = INFINITY, high = -INFINITY;
 
     for (int j = 0; j < p->n; j++) {
         low = fmin(low, p->values[j]);
         high = fmax(high, p->values[j]);
     }
-    if (has_bounds(s) || (high <= most && low >= -most))
+    if (has_finite_bounds(s) || (high <= most && low >= -most))
         return;
     s->above = s->above || high > most;
     s->below = s->below || low < -most;
@@ -61,7 +61,7 @@ qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p)
 /* Values at lengths 2^NEAREST, 2^(NEAREST + 2) ... of the part beside its middle, as far as the step
  * goes, as increments [..] towards it and the nearest value; how many. */
 static int
-increments_beside(qdot_range_scan *s, const qdot_range_part *p, int side, double *d, double *nearest)
+find_increments(qdot_range_scan *s, const qdot_range_part *p, int side, double *d, double *nearest)
 {
     const double w = fabs(p->b - p->a), middle = 0.5 * (p->a + p->b);
     double before = 0;
@@ -82,9 +82,9 @@ increments_beside(qdot_range_scan *s, const qdot_range_part *p, int side, double
     return n - 1;
 }
 
-/* Whether increments change by about the same factor throughout, unlike noise. */
+/* Whether successive increments change by about the same factor, unlike those of noise. */
 static bool
-is_regular(const double *d, int n, double *ratio)
+is_geometric(const double *d, int n, double *ratio)
 {
     *ratio = n > 1 ? pow(d[0] / d[n - 1], 1.0 / (n - 1)) : NAN;
     for (int k = 0; k + 1 < n; k++) {
@@ -99,7 +99,7 @@ is_regular(const double *d, int n, double *ratio)
 /* The sum of the increments after d[0]: they fall by a ratio each time, or ever more slowly, as
  * those of 1/log, for which as many more are assumed as there were. */
 static double
-left_of(const double *d, int n, double ratio, double before)
+remaining_growth(const double *d, int n, double ratio, double before)
 {
     const double late = d[0] / d[1], early = d[n - 2] / d[n - 1];
 
@@ -111,15 +111,15 @@ left_of(const double *d, int n, double ratio, double before)
 /* The limit of the values towards the part from one side: increments that fall as a power add up
  * to a limit, others have none. */
 static void
-look_towards(qdot_range_scan *s, const qdot_range_part *p, int side)
+extrapolate_from_side(qdot_range_scan *s, const qdot_range_part *p, int side)
 {
     double d[INCREMENTS + 1], nearest = 0, ratio, limit;
-    const int n = increments_beside(s, p, side, d, &nearest);
+    const int n = find_increments(s, p, side, d, &nearest);
 
-    if (n < LEAST_INCREMENTS || !is_regular(d, n, &ratio)
+    if (n < LEAST_INCREMENTS || !is_geometric(d, n, &ratio)
         || !(fabs(d[0]) > fmax(4 * DBL_EPSILON * fabs(nearest), QDOT_RANGE_NOISES * s->noise)))
         return;
-    limit = nearest + left_of(d, n, ratio, 0.5 * log2(s->length / fabs(p->b - p->a)));
+    limit = nearest + remaining_growth(d, n, ratio, 0.5 * log2(s->length / fabs(p->b - p->a)));
     s->highest = fmax(s->highest, limit);
     s->lowest = fmin(s->lowest, limit);
     if (isinf(limit)) {
@@ -132,8 +132,8 @@ look_towards(qdot_range_scan *s, const qdot_range_part *p, int side)
 void
 qdot_range_look_towards(qdot_range_scan *s, const qdot_range_part *p)
 {
-    if (has_bounds(s))
+    if (has_finite_bounds(s))
         return;
-    look_towards(s, p, 1);
-    look_towards(s, p, -1);
+    extrapolate_from_side(s, p, 1);
+    extrapolate_from_side(s, p, -1);
 }

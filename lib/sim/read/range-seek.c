@@ -10,22 +10,22 @@ enum { NODES = 16, MOST = 256 };
 static const double slack = 0x1p-46, closer = 0x1p-52, nothing = 0x1p-80;
 
 static double
-size_of(const qdot_range_scan *s)
+size_of_extrema(const qdot_range_scan *s)
 {
     const double size = fmax(fabs(s->largest), fabs(s->smallest));
 
-    return isfinite(size) ? size : 0; /* no value has been found yet */
+    return isfinite(size) ? size : 0; /* 0: no value has been found yet */
 }
 
 static double
-slack_of(const qdot_range_scan *s, double x)
+tolerated_excess(const qdot_range_scan *s, double x)
 {
     return fmax(slack * fabs(x), QDOT_RANGE_NOISES * s->noise);
 }
 
-/* Enclose a step; an end at which the values are a point by themselves is left out by one double. */
+/* Enclose the values in a step, but for an end (one double) where equations switch, whose value is isolated. */
 static void
-step_enclose(qdot_range_scan *s, double a, double b, int nodes)
+enclose_values(qdot_range_scan *s, double a, double b, int nodes)
 {
     if (a == s->ends[0])
         a = nextafter(a, b);
@@ -36,13 +36,13 @@ step_enclose(qdot_range_scan *s, double a, double b, int nodes)
 
 /* --- searching for extrema ----------------------------------------------------------- */
 
-/* An interval of the step with an upper bound of the values; values are negated when the minimum is sought. */
+/* An interval of the step with an upper bound of the values (of their negatives, to find the minimum). */
 typedef struct {
     double a, b, most;
 } stretch;
 
 static qdot_status
-stretch_look(qdot_range_scan *s, double sign, stretch *x)
+bound_interval(qdot_range_scan *s, double sign, stretch *x)
 {
     const qdot_range_part p = {.a = x->a, .b = x->b};
     double best = NAN;
@@ -56,7 +56,7 @@ stretch_look(qdot_range_scan *s, double sign, stretch *x)
         if (isfinite(v) && t != s->ends[0] && t != s->ends[1])
             best = fmax(best, sign * v);
     }
-    step_enclose(s, p.a, p.b, NODES);
+    enclose_values(s, p.a, p.b, NODES);
     x->most = sign > 0 ? s->bounds.box->hi : -s->bounds.box->lo;
     if (!isnan(best))
         qdot_range_meet(s, sign * best);
@@ -64,7 +64,7 @@ stretch_look(qdot_range_scan *s, double sign, stretch *x)
 }
 
 static size_t
-farthest(const stretch *at, size_t n)
+interval_with_largest_bound(const stretch *at, size_t n)
 {
     size_t k = 0;
 
@@ -77,13 +77,13 @@ farthest(const stretch *at, size_t n)
 }
 
 static qdot_status
-seek(qdot_range_scan *s, double sign)
+search_extremum(qdot_range_scan *s, double sign)
 {
     stretch at[MOST] = {{s->ends[0], s->ends[1], INFINITY}};
     size_t n = 1;
 
     for (size_t looked = 0; n > 0 && looked < 2 * MOST;) {
-        const size_t k = farthest(at, n);
+        const size_t k = interval_with_largest_bound(at, n);
         const double best = sign > 0 ? s->largest : -s->smallest;
         const qdot_range_part p = {.a = at[k].a, .b = at[k].b};
         const double middle = qdot_range_time(&p, 0);
@@ -95,7 +95,7 @@ seek(qdot_range_scan *s, double sign)
             continue;
         for (int half = 0; half < 2 && n < MOST; half++, looked++, n++) {
             at[n] = half == 0 ? (stretch){p.a, middle, 0} : (stretch){middle, p.b, 0};
-            QDOT_TRY(stretch_look(s, sign, &at[n]));
+            QDOT_TRY(bound_interval(s, sign, &at[n]));
         }
         QDOT_TRY(qdot_interrupt_check());
     }
@@ -108,16 +108,16 @@ qdot_range_seek(qdot_range_scan *s)
     qdot_status status = QDOT_OK;
 
     if (s->kind != QDOT_RANGE_MIN)
-        status = seek(s, 1);
+        status = search_extremum(s, 1);
     if (status == QDOT_OK && s->kind != QDOT_RANGE_MAX)
-        status = seek(s, -1);
+        status = search_extremum(s, -1);
     return qdot_grave(status);
 }
 
 /* --- intervals left undecided -------------------------------------------------------- */
 
 static void
-range_note(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
+record_bounds(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
 {
     s->highest = fmax(s->highest, hi);
     s->lowest = fmin(s->lowest, lo);
@@ -130,15 +130,15 @@ qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
     const qdot_interval *box = s->bounds.box;
     bool below, above;
 
-    step_enclose(s, p->a, p->b, p->n);
-    below = box->hi <= s->largest + slack_of(s, s->largest);
-    above = box->lo >= s->smallest - slack_of(s, s->smallest);
-    if (s->kind == QDOT_RANGE_MEAN ? !(box->hi - box->lo <= nothing * size_of(s))
+    enclose_values(s, p->a, p->b, p->n);
+    below = box->hi <= s->largest + tolerated_excess(s, s->largest);
+    above = box->lo >= s->smallest - tolerated_excess(s, s->smallest);
+    if (s->kind == QDOT_RANGE_MEAN ? !(box->hi - box->lo <= nothing * size_of_extrema(s))
         : s->kind == QDOT_RANGE_MAX ? !below
         : s->kind == QDOT_RANGE_MIN ? !above
                                     : !below || !above)
         return false;
-    range_note(s, p, box->lo, box->hi);
+    record_bounds(s, p, box->lo, box->hi);
     return true;
 }
 
@@ -147,7 +147,7 @@ qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double lo
 {
     double off;
 
-    step_enclose(s, p->a, p->b, p->n);
+    enclose_values(s, p->a, p->b, p->n);
     off = fmin(qdot_range_miss(s, p), s->bounds.box->hi - s->bounds.box->lo);
     s->highest = fmax(s->highest, fmin(s->bounds.box->hi, high + off));
     s->lowest = fmin(s->lowest, fmax(s->bounds.box->lo, low - off));
@@ -160,10 +160,10 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     qdot_polynomial_bounds *h = &s->bounds;
     double lo, hi;
 
-    step_enclose(s, p->a, p->b, p->n);
+    enclose_values(s, p->a, p->b, p->n);
     lo = h->box->lo;
     hi = h->box->hi;
-    /* near a pole, in sin(x)/x at 0, or at a switch: use only the values */
+    /* use only the values at nodes near a pole, at a removable singularity as of sin(x)/x, or at a switch */
     if (shortest
         && (!isfinite(lo) || !isfinite(hi) || qdot_range_is_beside_switch(s, p)))
         return;
@@ -175,5 +175,5 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     if ((s->kind != QDOT_RANGE_MIN && isinf(hi)) || (s->kind != QDOT_RANGE_MAX && isinf(lo)))
         s->open = true;
     else
-        range_note(s, p, lo, hi);
+        record_bounds(s, p, lo, hi);
 }

@@ -19,17 +19,17 @@ enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, LEAST_PARTS = 64 };
  * possibly rounding. */
 enum { SEEKING = 16, MANY_PARTS = 512 };
 
-/* The last coefficients relative to the largest in a good fit, if rounding of times is negligible. */
+/* Ratio of the last Chebyshev coefficients to the largest in a good fit, if rounding of times is negligible. */
 static const double tight = 0x1p-44;
 
 /* If the last coefficients keep this fraction of those with half as many nodes, the fit has not
  * converged. */
 static const double no_progress = 0.25;
 
-/* An interval is extrapolated if it is shorter than this fraction of its step, or has this much rounding. */
+/* An interval is extrapolated if it is shorter than this fraction of its step, or its nodes err by this much. */
 static const double deep = 0x1p-24, blurred = 0x1p-14;
 
-/* At an end of the range a value jumps if it differs from the limit from inside by this fraction. */
+/* A value at an end of the range is off its limit (a jump) if it differs from it relatively by more than this. */
 static const double jump = 0x1p-30;
 
 typedef qdot_range_scan scan;
@@ -39,10 +39,10 @@ typedef qdot_range_part part;
 typedef enum {
     ROUGH,     /* no polynomial fits the values at the nodes */
     UNSURE,    /* a polynomial fits, but a peak may hide between the nodes */
-    SINGULAR,  /* a polynomial fits, but a part of the expression may be singular */
-    HOLLOW,    /* as SINGULAR, on an interval so short that it may be rounding */
+    SINGULAR,  /* a polynomial fits, but some function within the expression may be singular */
+    HOLLOW,    /* like SINGULAR, but the interval is so short that rounding may be the cause */
     SURE,
-    SURPASSED, /* no value on the part exceeds those found elsewhere */
+    SURPASSED, /* no value in the interval exceeds those found elsewhere */
 } verdict;
 
 qdot_status
@@ -53,9 +53,9 @@ qdot_range_at(scan *s, double t, double *x)
                         : qdot_fail(QDOT_EDOMAIN, "it is undefined at t = %.15g", t);
 }
 
-/* Include values between low and high, at unknown times, among the extremes found so far. */
+/* Include values between low and high, at unknown times, among the largest and smallest found so far. */
 static void
-meet_roughly(scan *s, double low, double high)
+include_value_range(scan *s, double low, double high)
 {
     s->largest = fmax(s->largest, high);
     s->smallest = fmin(s->smallest, low);
@@ -64,7 +64,7 @@ meet_roughly(scan *s, double low, double high)
 }
 
 static qdot_status
-fit(scan *s, part *p, int nodes, bool *good)
+fit_polynomial(scan *s, part *p, int nodes, bool *good)
 {
     const double before = p->tail;
     double tail;
@@ -91,7 +91,7 @@ fit(scan *s, part *p, int nodes, bool *good)
     return QDOT_OK;
 }
 
-/* Judge an interval by the polynomial through the values at its nodes. */
+/* Judge an interval by the Chebyshev polynomial through the values at its nodes. */
 static verdict
 judge_fit(scan *s, const part *p, bool *good)
 {
@@ -127,7 +127,7 @@ judge_fit(scan *s, const part *p, bool *good)
 }
 
 static verdict
-part_judge(scan *s, const part *p, bool *good)
+judge_interval(scan *s, const part *p, bool *good)
 {
     const verdict v = judge_fit(s, p, good);
 
@@ -135,7 +135,7 @@ part_judge(scan *s, const part *p, bool *good)
         return v;
     if (qdot_range_is_beneath(s, p))
         return s->kind == QDOT_RANGE_MEAN ? SURE : SURPASSED;
-    /* where values are certainly bounded do not use the polynomial near an edge */
+    /* do not use a polynomial near a singular edge, where values are certainly bounded */
     if (v == HOLLOW)
         return s->kind == QDOT_RANGE_MEAN || s->bounds.resting ||
                        qdot_range_is_beside_switch(s, p) || isinf(s->bounds.box->lo) ||
@@ -145,9 +145,9 @@ part_judge(scan *s, const part *p, bool *good)
     return v;
 }
 
-/* The value at an end of an interval: x as evaluated, or the limit from inside if the function jumps there. */
+/* The value at an end of an interval: x as evaluated, or the limit from inside if the expression jumps there. */
 static double
-from_within(scan *s, const part *p, int end, double x)
+value_from_inside(scan *s, const part *p, int end, double x)
 {
     double limit = qdot_chebyshev_at(p->n, p->c, end == 0 ? -1 : 1);
     double size = qdot_chebyshev_size(p->n, p->c);
@@ -158,9 +158,9 @@ from_within(scan *s, const part *p, int end, double x)
     return limit;
 }
 
-/* Whether values low ... high, uncertain by `off`, may exceed the extremes found so far. */
+/* Whether values from low to high, with the error `off`, may exceed the extremes found so far. */
 static bool
-may_surpass(const scan *s, double low, double high, double off)
+may_exceed_extremes(const scan *s, double low, double high, double off)
 {
     return (s->kind != QDOT_RANGE_MIN && high + off > s->largest) ||
            (s->kind != QDOT_RANGE_MAX && low - off < s->smallest);
@@ -169,20 +169,20 @@ may_surpass(const scan *s, double low, double high, double off)
 /* Bound a part in which rounding of times shows, with values low ... high. Where the polynomial may
  * miss more than the extrema found so far, one through more nodes misses less. */
 static qdot_status
-bound_blurred(scan *s, const part *p, double low, double high)
+bound_by_finer_fit(scan *s, const part *p, double low, double high)
 {
     const double off = qdot_range_miss(s, p);
     part finer = *p;
     bool good;
 
     if (p->n < MOST_NODES && off > 16 * DBL_EPSILON * qdot_chebyshev_size(p->n, p->c) &&
-        may_surpass(s, low, high, off)) {
-        const qdot_status status = fit(s, &finer, 2 * p->n, &good);
+        may_exceed_extremes(s, low, high, off)) {
+        const qdot_status status = fit_polynomial(s, &finer, 2 * p->n, &good);
 
         if (status != QDOT_OK && !qdot_reader_has_nothing(status))
             return status;
-        if (status != QDOT_OK || !good) /* undefined at one of the states */
-            QDOT_TRY(fit(s, &finer, p->n, &good));
+        if (status != QDOT_OK || !good) /* stop: the expression is undefined at one of the changed states */
+            QDOT_TRY(fit_polynomial(s, &finer, p->n, &good));
         qdot_polynomial_bounds_look(&s->bounds, p->a, p->b, finer.n, NULL, NULL);
     }
     qdot_range_bound_blurred(s, &finer, low, high);
@@ -192,21 +192,21 @@ bound_blurred(scan *s, const part *p, double low, double high)
 /* Whether the values of a part differ by no more than its polynomial may be off: extrema of that say
  * nothing. */
 static bool
-is_level(const scan *s, const part *p)
+is_constant_within_noise(const scan *s, const part *p)
 {
     return s->kind != QDOT_RANGE_MEAN
            && qdot_chebyshev_spread(p->n, p->c)
                   <= fmax(QDOT_RANGE_NOISES * s->noise, tight * qdot_chebyshev_size(p->n, p->c));
 }
 
-/* Add the values at the ends, the extrema and the integral of an interval. */
+/* Take the results of an interval: values at its ends, extrema and integral. */
 static qdot_status
-take_part(scan *s, const part *p, bool good, bool sure)
+take_interval(scan *s, const part *p, bool good, bool sure)
 {
     double x, d[MOST_NODES], at[MOST_NODES], low = INFINITY, high = -INFINITY;
     int n = 0;
 
-    if (good && !is_level(s, p)) {
+    if (good && !is_constant_within_noise(s, p)) {
         qdot_chebyshev_derivative(p->n, p->c, d);
         if (qdot_chebyshev_size(p->n - 1, d) > 0)
             n = qdot_chebyshev_crossings(p->n - 1, d, at);
@@ -221,7 +221,7 @@ take_part(scan *s, const part *p, bool good, bool sure)
         } else {
             QDOT_TRY(qdot_range_at(s, t, &x));
             if (good)
-                x = from_within(s, p, end, x);
+                x = value_from_inside(s, p, end, x);
         }
         low = fmin(low, x);
         high = fmax(high, x);
@@ -230,7 +230,7 @@ take_part(scan *s, const part *p, bool good, bool sure)
             s->first = x;
         s->begun = true;
     }
-    if (good && is_level(s, p)) {
+    if (good && is_constant_within_noise(s, p)) {
         for (int j = 0; j < p->n; j++)
             qdot_range_meet(s, p->values[j]);
         s->rough = fmax(s->rough, qdot_chebyshev_spread(p->n, p->c));
@@ -242,7 +242,7 @@ take_part(scan *s, const part *p, bool good, bool sure)
             qdot_range_meet(s, x);
         }
         if (sure && 8 * qdot_range_blur(p) > tight)
-            QDOT_TRY(bound_blurred(s, p, low, high));
+            QDOT_TRY(bound_by_finer_fit(s, p, low, high));
     } else {
         low = INFINITY;
         high = -INFINITY;
@@ -250,7 +250,7 @@ take_part(scan *s, const part *p, bool good, bool sure)
             low = fmin(low, p->values[j]);
             high = fmax(high, p->values[j]);
         }
-        meet_roughly(s, low, high);
+        include_value_range(s, low, high);
         s->left += (high - low) * fabs(p->b - p->a);
     }
     s->integral += 0.5L * (p->b - p->a) * qdot_chebyshev_integral(p->n, p->c);
@@ -258,7 +258,7 @@ take_part(scan *s, const part *p, bool good, bool sure)
 }
 
 static qdot_status
-find_blur(scan *s, double t)
+find_effect_of_state_errors(scan *s, double t)
 {
     qdot_reader *r = &s->reader;
     double value, other;
@@ -276,16 +276,16 @@ find_blur(scan *s, double t)
     return QDOT_OK;
 }
 
-/* Find the rounding noise of the values in the step, and of its nodes; 0 if unknown. */
+/* Find the rounding noise of the expression's values in the step, and that of the nodes' times; 0 if unknown. */
 static qdot_status
-find_noise(scan *s, double a, double b)
+find_rounding_noise(scan *s, double a, double b)
 {
     const double middle = 0.5 * (a + b);
     qdot_status status = qdot_noise_at(&s->reader, s->pieces, middle, &s->noise);
 
     s->parts = 0;
     if (status == QDOT_OK)
-        status = find_blur(s, middle);
+        status = find_effect_of_state_errors(s, middle);
     if (status != QDOT_OK || !isfinite(s->noise))
         s->noise = 0;
     if (status != QDOT_OK || !isfinite(s->blur))
@@ -293,7 +293,7 @@ find_noise(scan *s, double a, double b)
     return qdot_grave(status);
 }
 
-/* The mean size of the values in an interval, without the largest one. */
+/* The mean magnitude of the values in an interval, leaving out the largest one. */
 static double
 mean_without_largest(const part *p)
 {
@@ -306,9 +306,9 @@ mean_without_largest(const part *p)
     return (sum - largest) / (p->n - 1);
 }
 
-/* Whether bounds by the step's series exclude that the expression exceeds the extremes found so far. */
+/* Whether bounds from the step's Taylor series exclude that the expression exceeds the extremes so far. */
 static qdot_status
-is_surpassed(scan *s, double a, double b, bool *surpassed)
+is_below_extremes(scan *s, double a, double b, bool *surpassed)
 {
     const qdot_reader *r = &s->reader;
     const qdot_ode_system *system;
@@ -338,7 +338,7 @@ qdot_range_step(scan *s, double a, double b)
     int depth = 1;
     bool surpassed;
 
-    QDOT_TRY(is_surpassed(s, a, b, &surpassed));
+    QDOT_TRY(is_below_extremes(s, a, b, &surpassed));
     if (surpassed)
         return QDOT_OK;
     ends[0] = b;
@@ -346,7 +346,7 @@ qdot_range_step(scan *s, double a, double b)
     s->ends[1] = b;
     s->length = fabs(b - a);
     s->sought = false;
-    QDOT_TRY(find_noise(s, a, b));
+    QDOT_TRY(find_rounding_noise(s, a, b));
     qdot_polynomial_bounds_begin(&s->bounds, s->least);
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1], .tail = INFINITY};
@@ -356,13 +356,13 @@ qdot_range_step(scan *s, double a, double b)
 
         QDOT_TRY(qdot_interrupt_check());
         for (;; nodes *= 2) {
-            QDOT_TRY(fit(s, &p, nodes, &good));
+            QDOT_TRY(fit_polynomial(s, &p, nodes, &good));
             if (good || nodes == MOST_NODES || short_one)
                 break;
         }
         if (!short_one)
-            v = part_judge(s, &p, &good);
-        /* if the inputs are constant, jumps between values are rounding */
+            v = judge_interval(s, &p, &good);
+        /* with constant inputs, jumps between values are rounding */
         short_one = short_one || (v == ROUGH && s->bounds.resting);
         if (s->parts == 0 && depth == 1)
             s->typical = mean_without_largest(&p);
@@ -370,13 +370,13 @@ qdot_range_step(scan *s, double a, double b)
             s->nodes = p.rough ? nodes / 2 : nodes;
         if (v == SURPASSED) {
             if (!s->begun)
-                QDOT_TRY(take_part(s, &p, good, false));
+                QDOT_TRY(take_interval(s, &p, good, false));
             from = p.b;
             depth--;
             continue;
         }
         if (v == SURE || short_one || depth == DEEPEST || ++s->parts > s->most_parts) {
-            QDOT_TRY(take_part(s, &p, good, v == SURE));
+            QDOT_TRY(take_interval(s, &p, good, v == SURE));
             if (v != SURE)
                 qdot_range_leave_open(s, &p, short_one);
             if (short_one)
@@ -394,7 +394,7 @@ qdot_range_step(scan *s, double a, double b)
             QDOT_TRY(qdot_range_seek(s));
         s->sought = s->sought || s->parts >= SEEKING;
         s->nodes = 16;
-        /* cut beside the middle, where the expression may be undefined, as sin(x)/x at 0 */
+        /* cut beside the middle, as the expression may be undefined exactly there, as sin(x)/x at 0 */
         ends[depth++] =
             p.a + (v == SINGULAR ? QDOT_POLYNOMIAL_BOUNDS_BESIDE : 0.5) * (p.b - p.a);
     }

@@ -21,24 +21,24 @@
 #include "sim/read/range-parts.h"
 #include "sim/read/stretches.h"
 
-/* A step is given up after this many intervals. */
+/* The search of a step for extrema is given up after this many intervals. */
 enum { MOST_PARTS = 8192 };
 
 typedef qdot_range_scan scan;
 
-/* The arguments of qdot_run_range_along. */
+/* The arguments of qdot_run_range_along: an extremum or mean over a time range. */
 typedef struct {
     const qdot_run_expression *x;
     qdot_range_kind kind;
-    double from, to; /* limits of the range, in the direction of the runs */
+    double from, to; /* start and end of the time range, in the direction of the runs */
     qdot_joint joint;
 } question;
 
 /* --- the extremum or mean along given courses ----------------------------------------- */
 
-/* Include the value at a single time t, as at an end of the range or if the range has no length. */
+/* Include the value at a single time t: an end of the time range, or a range without length. */
 static qdot_status
-meet_point(scan *s, double t)
+include_value_at(scan *s, double t)
 {
     double x;
 
@@ -51,7 +51,7 @@ meet_point(scan *s, double t)
 }
 
 static qdot_status
-scan_courses(scan *s, const question *q, const qdot_course *const *courses)
+scan_runs(scan *s, const question *q, const qdot_course *const *courses)
 {
     qdot_stretches steps;
     qdot_status status =
@@ -65,7 +65,7 @@ scan_courses(scan *s, const question *q, const qdot_course *const *courses)
     s->pieces = steps.pieces;
     while (status == QDOT_OK && qdot_stretches_next(&steps)) {
         memcpy(s->odd, steps.odd, sizeof s->odd);
-        status = q->from == q->to ? meet_point(s, q->from)
+        status = q->from == q->to ? include_value_at(s, q->from)
                                   : qdot_range_step(s, steps.a, steps.b);
     }
     s->pieces = NULL;
@@ -74,7 +74,7 @@ scan_courses(scan *s, const question *q, const qdot_course *const *courses)
 }
 
 static double
-result(const scan *s, qdot_range_kind kind, double from, double to)
+extremum_or_mean(const scan *s, qdot_range_kind kind, double from, double to)
 {
     switch (kind) {
     case QDOT_RANGE_MAX: return s->largest;
@@ -91,7 +91,7 @@ result(const scan *s, qdot_range_kind kind, double from, double to)
 /* The open part of a result: limits may lie beyond the values found, rough parts may not reach
  * theirs. */
 static double
-open_of(const scan *s, qdot_range_kind kind, double from, double to)
+uncertainty_of_unevaluated(const scan *s, qdot_range_kind kind, double from, double to)
 {
     double above = fmax(0, s->highest - s->largest) + (s->largest - s->sure[0]);
     double below = fmax(0, s->smallest - s->lowest) + (s->sure[1] - s->smallest);
@@ -108,7 +108,7 @@ open_of(const scan *s, qdot_range_kind kind, double from, double to)
 }
 
 static qdot_status
-check_bounds(const scan *s, qdot_range_kind kind)
+check_bounded(const scan *s, qdot_range_kind kind)
 {
     if (kind == QDOT_RANGE_MEAN ? !s->diverges
         : kind == QDOT_RANGE_MAX ? !s->above
@@ -122,9 +122,9 @@ check_bounds(const scan *s, qdot_range_kind kind)
                      s->pole);
 }
 
-/* Find for each input the size below which its changes are ignored, as no force can hide in them. */
+/* Find, for each input, the size below which its changes are ignored, as no force can hide in them. */
 static qdot_status
-find_least(scan *s)
+find_negligible_changes(scan *s)
 {
     const qdot_reader *r = &s->reader;
 
@@ -143,7 +143,7 @@ find_least(scan *s)
 }
 
 static qdot_status
-over_courses(const question *q, const qdot_course *const *courses, double *value, double *rough)
+evaluate_over_runs(const question *q, const qdot_course *const *courses, double *value, double *rough)
 {
     const qdot_reading *of = &q->joint.of;
     scan s = {.kind = q->kind, .most_parts = MOST_PARTS};
@@ -152,16 +152,16 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
     if (status == QDOT_OK)
         status = qdot_polynomial_bounds_init(&s.bounds, of->tape, 2 * of->plan->n);
     if (status == QDOT_OK)
-        status = find_least(&s);
+        status = find_negligible_changes(&s);
     if (status == QDOT_OK)
-        status = scan_courses(&s, q, courses);
+        status = scan_runs(&s, q, courses);
     if (status == QDOT_OK && !s.begun)
         status = qdot_fail(QDOT_EDOMAIN, "the range contains no part of the run");
     if (status == QDOT_OK)
-        status = check_bounds(&s, q->kind);
+        status = check_bounded(&s, q->kind);
     if (status == QDOT_OK) {
-        *value = result(&s, q->kind, q->from, q->to);
-        *rough = s.rough + open_of(&s, q->kind, q->from, q->to);
+        *value = extremum_or_mean(&s, q->kind, q->from, q->to);
+        *rough = s.rough + uncertainty_of_unevaluated(&s, q->kind, q->from, q->to);
     }
     qdot_free(s.least);
     qdot_polynomial_bounds_clear(&s.bounds);
@@ -171,9 +171,9 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
 
 /* --- error of the result -------------------------------------------------------------- */
 
-/* Find the rounding error of e, evaluated at the ends of the range. */
+/* Find the rounding error of the expression e, evaluated at the ends of the time range. */
 static qdot_status
-rounding(const question *q, double *error)
+find_rounding_at_ends(const question *q, double *error)
 {
     const qdot_course *const *own = q->joint.courses;
     double ends[] = {q->from, q->to}, values[2], errors[2];
@@ -197,7 +197,7 @@ rounding(const question *q, double *error)
 /* What the error of run k makes of x, the value of the runs: the values with its companions in
  * its place are that far from x. */
 static qdot_status
-range_compare(const question *q, size_t k, double x, double *error)
+compare_with_companions(const question *q, size_t k, double x, double *error)
 {
     qdot_run *run = q->x->runs[k];
     const qdot_course *companions[] = {&run->companion, &run->twin};
@@ -211,7 +211,7 @@ range_compare(const question *q, size_t k, double x, double *error)
         qdot_status status;
 
         q->joint.courses[k] = companions[i];
-        status = over_courses(q, q->joint.courses, &theirs[i], &rough);
+        status = evaluate_over_runs(q, q->joint.courses, &theirs[i], &rough);
         q->joint.courses[k] = &run->course;
         QDOT_TRY(status);
     }
@@ -224,7 +224,7 @@ range_compare(const question *q, size_t k, double x, double *error)
 /* The error of x: its distance from the companions of all runs, and its own error `rough`. It stays NaN if a run
  * has no companion. */
 static qdot_status
-find_error(const question *q, double x, double rough, double *error)
+find_error_of_result(const question *q, double x, double rough, double *error)
 {
     double sum = 0, one = NAN, rounded;
 
@@ -232,10 +232,10 @@ find_error(const question *q, double x, double rough, double *error)
         if (!qdot_run_comparable(q->x->runs[k]))
             return QDOT_OK;
     for (size_t k = 0; k < q->x->n; k++) {
-        QDOT_TRY(range_compare(q, k, x, &one));
+        QDOT_TRY(compare_with_companions(q, k, x, &one));
         sum += one;
     }
-    QDOT_TRY(rounding(q, &rounded));
+    QDOT_TRY(find_rounding_at_ends(q, &rounded));
     *error = rounded + (sum + rough + DBL_EPSILON * fabs(x));
     return QDOT_OK;
 }
@@ -245,7 +245,7 @@ find_error(const question *q, double x, double rough, double *error)
 /* The range in the direction of the runs, or forward where they go both ways; given [2], NULL: all
  * that they have in common. */
 static qdot_status
-find_range(const qdot_run_expression *x, const double *given, double *from, double *to)
+find_time_limits(const qdot_run_expression *x, const double *given, double *from, double *to)
 {
     const qdot_trajectory *first = &x->runs[0]->course.tr;
     double low = -INFINITY, high = INFINITY, ends[2];
@@ -277,7 +277,7 @@ find_range(const qdot_run_expression *x, const double *given, double *from, doub
 }
 
 static qdot_status
-range_of(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+evaluate_range(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
                      double *value, double *error)
 {
     question q = {.x = x, .kind = kind};
@@ -285,14 +285,14 @@ range_of(const qdot_run_expression *x, qdot_range_kind kind, const double *range
     qdot_status status;
 
     *error = NAN;
-    QDOT_TRY(find_range(x, range, &q.from, &q.to));
+    QDOT_TRY(find_time_limits(x, range, &q.from, &q.to));
     status = qdot_joint_init(&q.joint, x);
     if (status == QDOT_OK)
-        status = over_courses(&q, q.joint.courses, value, &rough);
+        status = evaluate_over_runs(&q, q.joint.courses, value, &rough);
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++)
         status = qdot_run_twin(x->runs[k]);
     if (status == QDOT_OK) {
-        status = find_error(&q, *value, rough, error);
+        status = find_error_of_result(&q, *value, rough, error);
         if (qdot_reader_has_nothing(status))
             status = QDOT_OK;
     }
@@ -303,24 +303,24 @@ range_of(const qdot_run_expression *x, qdot_range_kind kind, const double *range
 /* Of expressions in the coordinates of the runs. The largest |u| is the reach of u: |u| has corners
  * where u is 0, and if u is all rounding it has nothing else. */
 static qdot_status
-range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
-            double *error)
+evaluate_range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
+                     double *error)
 {
     const qdot_pool *pool = x->runs[0]->plan->pool;
     qdot_run_expression inner = *x;
 
     if (kind != QDOT_RANGE_MAX || qdot_expr_kind(pool, x->e) != QDOT_FUN
         || qdot_expr_node(pool, x->e)->op != QDOT_ABS)
-        return range_of(x, kind, range, value, error);
+        return evaluate_range(x, kind, range, value, error);
     inner.e = qdot_expr_arg(pool, x->e, 0);
-    return range_of(&inner, QDOT_RANGE_REACH, range, value, error);
+    return evaluate_range(&inner, QDOT_RANGE_REACH, range, value, error);
 }
 
 /* If run k was made in other coordinates: the expression along it, written in those for the
  * stretch of time t. */
 static qdot_status
-express(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdot_expr *e,
-        qdot_run_member *members)
+express_in_run_coordinates(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdot_expr *e,
+                           qdot_run_member *members)
 {
     qdot_run *run = x->runs[k];
     qdot_expr *given = qdot_calloc(x->m + 1, sizeof *given);
@@ -341,14 +341,14 @@ express(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdo
     return status;
 }
 
-/* The result over the earlier stretches, which is then combined with that over one more stretch. */
+/* The result over the earlier intervals, to be combined with that over one more interval. */
 typedef struct {
     double length, sum, most, least, first, error, sum_error;
     bool begun;
 } gathered;
 
 static void
-meet_extrema(gathered *g, double most, double least, double error)
+include_extrema(gathered *g, double most, double least, double error)
 {
     g->most = g->begun ? fmax(g->most, most) : most;
     g->least = g->begun ? fmin(g->least, least) : least;
@@ -359,7 +359,7 @@ meet_extrema(gathered *g, double most, double least, double error)
 /* The extrema next to places at the ends of range [2], which is narrowed to what is left. Not of
  * several runs. */
 static qdot_status
-meet_places(const qdot_run_expression *given, double *range, gathered *g)
+include_singular_places(const qdot_run_expression *given, double *range, gathered *g)
 {
     qdot_run *run = given->runs[0];
     const double whole[] = {range[0], range[1]};
@@ -376,41 +376,41 @@ meet_places(const qdot_run_expression *given, double *range, gathered *g)
         QDOT_TRY(qdot_passage_extrema(run, given->e, k, end == 1, whole[!end], &p, &found));
         if (!found)
             continue;
-        meet_extrema(g, p.most, p.least, p.error);
+        include_extrema(g, p.most, p.least, p.error);
         range[end] = p.beyond;
     }
     return QDOT_OK;
 }
 
 static qdot_status
-gather(const qdot_run_expression *x, const qdot_run_expression *given, qdot_range_kind kind,
-       double *range, gathered *g)
+evaluate_and_combine(const qdot_run_expression *x, const qdot_run_expression *given, qdot_range_kind kind,
+                     double *range, gathered *g)
 {
     double value, error, most = NAN;
 
     if (kind == QDOT_RANGE_MEAN) {
         const double length = range[0] == range[1] ? 1 : fabs(range[1] - range[0]);
 
-        QDOT_TRY(range_along(x, kind, range, &value, &error));
+        QDOT_TRY(evaluate_range_along(x, kind, range, &value, &error));
         g->sum += length * value;
         g->sum_error += length * error;
         g->length += length;
         return QDOT_OK;
     }
     if (!g->begun)
-        QDOT_TRY(range_along(x, QDOT_RANGE_MEAN, (double[]){range[0], range[0]}, &g->first,
-                             &error));
-    QDOT_TRY(meet_places(given, range, g));
+        QDOT_TRY(evaluate_range_along(x, QDOT_RANGE_MEAN, (double[]){range[0], range[0]}, &g->first,
+                                      &error));
+    QDOT_TRY(include_singular_places(given, range, g));
     for (int way = 0; way < 2; way++) {
-        QDOT_TRY(range_along(x, way ? QDOT_RANGE_MIN : QDOT_RANGE_MAX, range, &value, &error));
+        QDOT_TRY(evaluate_range_along(x, way ? QDOT_RANGE_MIN : QDOT_RANGE_MAX, range, &value, &error));
         most = way ? most : value;
-        meet_extrema(g, most, way ? value : most, error);
+        include_extrema(g, most, way ? value : most, error);
     }
     return QDOT_OK;
 }
 
 static void
-result_of(const gathered *g, qdot_range_kind kind, double *value, double *error)
+result_of_gathered(const gathered *g, qdot_range_kind kind, double *value, double *error)
 {
     const double size = fmax(1, fabs(g->first));
 
@@ -431,14 +431,14 @@ result_of(const gathered *g, qdot_range_kind kind, double *value, double *error)
 /* Of runs of which some were made in other coordinates. Where an angle stands by itself the range
  * is gone over stretch by stretch. */
 static qdot_status
-range_in_chart(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
-               double *value, double *error)
+evaluate_in_chart(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+                  double *value, double *error)
 {
     qdot_run_member *members = qdot_calloc(x->m + 1, sizeof *members);
     qdot_run_expression own = *x;
     gathered g = {0};
     double from, to;
-    qdot_status status = members ? find_range(x, range, &from, &to) : QDOT_ENOMEM;
+    qdot_status status = members ? find_time_limits(x, range, &from, &to) : QDOT_ENOMEM;
 
     own.members = members;
     for (bool more = true; more && status == QDOT_OK;) {
@@ -451,36 +451,36 @@ range_in_chart(const qdot_run_expression *x, qdot_range_kind kind, const double 
             qdot_in_chart in = {0};
 
             if (x->runs[k]->chart)
-                status = express(x, k, from, &in, &own.e, members);
+                status = express_in_run_coordinates(x, k, from, &in, &own.e, members);
             if (status == QDOT_OK && in.turns)
                 end = qdot_in_chart_end(&in, from, end);
             qdot_in_chart_clear(&in);
         }
         if (status == QDOT_OK && end == to && !g.begun
             && g.length == 0) {
-            status = range_along(&own, kind, range, value, error);
+            status = evaluate_range_along(&own, kind, range, value, error);
             qdot_free(members);
             return status;
         }
         if (status == QDOT_OK)
-            status = gather(&own, x, kind, (double[]){from, end}, &g);
+            status = evaluate_and_combine(&own, x, kind, (double[]){from, end}, &g);
         more = end != to;
         from = end;
     }
     qdot_free(members);
     if (status == QDOT_OK)
-        result_of(&g, kind, value, error);
+        result_of_gathered(&g, kind, value, error);
     return status;
 }
 
 static qdot_status
-range_by_chart(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
-               double *error)
+evaluate_by_chart(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
+                  double *error)
 {
     for (size_t k = 0; k < x->n; k++)
         if (x->runs[k]->chart)
-            return range_in_chart(x, kind, range, value, error);
-    return range_along(x, kind, range, value, error);
+            return evaluate_in_chart(x, kind, range, value, error);
+    return evaluate_range_along(x, kind, range, value, error);
 }
 
 /* Find an extremum or mean over runs that count their times from the same origin. */
@@ -510,7 +510,7 @@ range_from_origin(const qdot_run_expression *x, qdot_range_kind kind, const doub
     for (int i = 0; i < 2 && range; i++)
         qdot_run_time_own(x->runs[0], range[i], 0, &limits[i], &rest);
     if (status == QDOT_OK)
-        status = range_by_chart(&own, kind, range ? limits : NULL, value, error);
+        status = evaluate_by_chart(&own, kind, range ? limits : NULL, value, error);
     qdot_free(members);
     return qdot_run_time_fail(x->runs[0]->origin, status);
 }
@@ -523,7 +523,7 @@ qdot_run_range_along(const qdot_run_expression *x, qdot_range_kind kind, const d
         if (x->runs[k]->origin != x->runs[0]->origin)
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: extrema and means of several runs far from t = 0, "
                                              "unless they begin at one time");
-    return (x->runs[0]->origin != 0 ? range_from_origin : range_by_chart)(x, kind, range, value, error);
+    return (x->runs[0]->origin != 0 ? range_from_origin : evaluate_by_chart)(x, kind, range, value, error);
 }
 
 qdot_status

@@ -1,4 +1,4 @@
-/* section.c -- Poincaré sections: the crossings of a run, the values there, and their errors. */
+/* section.c -- Poincaré sections: the times when a function of the motion crosses 0, values then, and errors. */
 #include "sim/read/section.h"
 
 #include <float.h>
@@ -16,10 +16,10 @@
 #include "sim/error/partner.h"
 #include "sim/read/in-chart.h"
 
-/* The difference of t for numerical derivatives, relative to t and to the duration of the run. */
+/* Time difference for numerical derivatives, relative to t and to the duration of the run. */
 static const double slope_over = 0x1p-28;
 
-/* The crossings of the run, or of one of its companions. */
+/* The crossings along the run, or along one of its companion runs. */
 typedef struct {
     const qdot_course *course;
     qdot_crossings at;
@@ -31,8 +31,8 @@ typedef struct {
 typedef struct {
     qdot_run *run;
     const qdot_section_of *of;
-    qdot_reading reading; /* reads the expressions along the runs */
-    side sides[3];        /* crossings of the run and of its companions */
+    qdot_reading reading; /* evaluates the expressions along the runs */
+    side sides[3];        /* crossings along the run and along its companion runs */
     size_t n_sides;
     double *work; /* [3 m] scratch */
 } section;
@@ -67,9 +67,9 @@ find_crossings(section *x, side *s, const double *limits)
     return qdot_reader_init(&s->reader, &x->reading, s->course);
 }
 
-/* Evaluate the expressions at a crossing: out [m]. */
+/* Evaluate the expressions of the section at a crossing: out [m]. */
 static qdot_status
-read_at(section *x, side *s, const qdot_crossing *at, double *out)
+evaluate_at_crossing(section *x, side *s, const qdot_crossing *at, double *out)
 {
     const qdot_trajectory *tr = &s->course->tr;
     const double from = tr->t[tr->pieces.at[at->piece].first],
@@ -89,7 +89,7 @@ read_at(section *x, side *s, const qdot_crossing *at, double *out)
 /* The errors of row k from those of the companions: of the time into *t_error, of the numbers into
  * errors [m]; NaN where one has not that crossing. */
 static qdot_status
-crossing_compare(section *x, size_t k, const double *values, double *t_error, double *errors)
+find_errors_of_crossing(section *x, size_t k, const double *values, double *t_error, double *errors)
 {
     const size_t m = x->of->m, others = x->n_sides - 1;
     const side *own = x->sides;
@@ -105,7 +105,7 @@ crossing_compare(section *x, size_t k, const double *values, double *t_error, do
         if (p == SIZE_MAX)
             return QDOT_OK;
         times[i] = other->t[p];
-        QDOT_TRY(read_at(x, other, &other->at.at[p], read + i * m));
+        QDOT_TRY(evaluate_at_crossing(x, other, &other->at.at[p], read + i * m));
     }
     if (others == 0)
         return QDOT_OK;
@@ -121,7 +121,7 @@ crossing_compare(section *x, size_t k, const double *values, double *t_error, do
 /* At one crossing the companions may be near by chance: a row has the largest error of those beside
  * it, too. errors [n x m] */
 static qdot_status
-widen(size_t n, size_t m, double *errors)
+take_largest_neighbouring_error(size_t n, size_t m, double *errors)
 {
     double *own = qdot_malloc((n * m + 1) * sizeof *own);
 
@@ -143,9 +143,9 @@ widen(size_t n, size_t m, double *errors)
     return QDOT_OK;
 }
 
-/* Find the errors of rows [n] of the run, stored in s from row `first` on. */
+/* Find the errors of the last n rows of the section, which are stored in s from row `first` on. */
 static qdot_status
-section_find_errors(section *x, qdot_section *s, size_t first)
+find_errors_of_rows(section *x, qdot_section *s, size_t first)
 {
     const qdot_course *const course = x->sides[0].course;
     const size_t n = s->n - first, m = s->m;
@@ -159,9 +159,9 @@ section_find_errors(section *x, qdot_section *s, size_t first)
     if (status == QDOT_OK)
         status = qdot_noise_roundings(&x->reading, &course, n, t, roundings);
     for (size_t k = 0; k < n && status == QDOT_OK; k++)
-        status = crossing_compare(x, k, values + k * m, &s->t_errors[first + k], errors + k * m);
+        status = find_errors_of_crossing(x, k, values + k * m, &s->t_errors[first + k], errors + k * m);
     if (status == QDOT_OK)
-        status = widen(n, m, errors);
+        status = take_largest_neighbouring_error(n, m, errors);
     for (size_t k = 0; k < n && status == QDOT_OK; k++) {
         const bool beyond = qdot_horizon_passed(x->run, t[k]);
 
@@ -182,7 +182,7 @@ section_find_errors(section *x, qdot_section *s, size_t first)
 /* --- rows of the section -------------------------------------------------------------- */
 
 static bool
-grow(double **at, size_t n)
+enlarge_array(double **at, size_t n)
 {
     double *more = qdot_realloc(*at, (n + 1) * sizeof **at);
 
@@ -193,29 +193,29 @@ grow(double **at, size_t n)
 
 /* Append a row to the section for each crossing of the run. */
 static qdot_status
-add_rows(section *x, qdot_section *s)
+append_rows(section *x, qdot_section *s)
 {
     side *own = x->sides;
     const size_t m = s->m, first = s->n, n = first + own->at.n;
 
-    if (!grow(&s->t, n) || !grow(&s->t_errors, n) || !grow(&s->values, n * m)
-        || !grow(&s->errors, n * m))
+    if (!enlarge_array(&s->t, n) || !enlarge_array(&s->t_errors, n) || !enlarge_array(&s->values, n * m)
+        || !enlarge_array(&s->errors, n * m))
         return QDOT_ENOMEM;
     for (size_t k = 0; k < own->at.n; k++, s->n++) {
         double *out = s->values + s->n * m;
 
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(read_at(x, own, &own->at.at[k], out));
+        QDOT_TRY(evaluate_at_crossing(x, own, &own->at.at[k], out));
         s->t[s->n] = own->t[k];
         for (size_t j = 0; j < m; j++)
             out[j] = isfinite(out[j]) ? out[j] : NAN;
     }
-    return section_find_errors(x, s, first);
+    return find_errors_of_rows(x, s, first);
 }
 
 /* Find the section from limits[0] to limits[1], for expressions in the coordinates of the run. */
 static qdot_status
-find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
+find_section_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
 {
     const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
     section x = {.run = run, .of = of};
@@ -230,7 +230,7 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
         x.sides[i].course = courses[i];
         x.n_sides = i + 1;
         status = find_crossings(&x, &x.sides[i], limits);
-        /* the companion has no value here, so it gives no error estimate */
+        /* the companion run has no value at this crossing, so it gives no error estimate */
         if (i > 0 && qdot_reader_has_nothing(status)) {
             x.n_sides = 1;
             status = QDOT_OK;
@@ -240,7 +240,7 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
     if (status == QDOT_OK && !isnan(x.sides[0].lost))
         s->lost = x.sides[0].lost;
     if (status == QDOT_OK)
-        status = add_rows(&x, s);
+        status = append_rows(&x, s);
     for (size_t i = 0; i < 3; i++) {
         qdot_reader_clear(&x.sides[i].reader);
         qdot_free(x.sides[i].at.at);
@@ -251,9 +251,9 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
     return status;
 }
 
-/* For a run in other coordinates: find the crossings in one stretch of its angles after the other. */
+/* For a run in other coordinates: find the crossings in one interval of constant chart after the other. */
 static qdot_status
-find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
+find_section_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
 {
     qdot_expr *given = qdot_calloc(of->m + 1, sizeof *given);
     qdot_in_chart in = {0};
@@ -269,8 +269,8 @@ find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qd
         if (status != QDOT_OK)
             break;
         end = in.turns ? qdot_in_chart_end(&in, from, limits[1]) : limits[1];
-        status = find_between(run, &(qdot_section_of){in.exprs[of->m], of->way, of->m, in.exprs, NULL},
-                              (double[]){from, end}, s);
+        status = find_section_between(run, &(qdot_section_of){in.exprs[of->m], of->way, of->m, in.exprs, NULL},
+                                      (double[]){from, end}, s);
         if (end == limits[1] || !isnan(s->lost))
             break;
         from = end;
@@ -280,9 +280,9 @@ find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qd
     return status;
 }
 
-/* Find the crossings, in the times of the run. */
+/* Find the crossings; their times are those of the run, counted from its origin. */
 static qdot_status
-find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
+find_section(qdot_run *run, const qdot_section_of *of, qdot_section *s)
 {
     const qdot_trajectory *tr = &run->course.tr;
     double limits[2], rest;
@@ -306,7 +306,7 @@ find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
         limits[0] = limits[1];
         limits[1] = last;
     }
-    return (run->chart ? find_in_chart : find_between)(run, of, limits, s);
+    return (run->chart ? find_section_in_chart : find_section_between)(run, of, limits, s);
 }
 
 qdot_status
@@ -325,7 +325,7 @@ qdot_section_find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
     }
     s->lost = NAN;
     if (status == QDOT_OK)
-        status = find(run, &(qdot_section_of){own[of->m], of->way, of->m, own, of->limits}, s);
+        status = find_section(run, &(qdot_section_of){own[of->m], of->way, of->m, own, of->limits}, s);
     for (size_t k = first; k < s->n && run->origin != 0; k++) {
         s->t[k] = qdot_run_time_told(run, s->t[k]);
         s->t_errors[k] += DBL_EPSILON * fabs(s->t[k]);

@@ -15,14 +15,14 @@
 
 typedef struct {
     qdot_expr g;
-    int way; /* as t grows g 1 rises, -1 falls; 0: both, and touches */
+    int way; /* as t grows: 1: g rises through 0, -1: falls; 0: both, and touches of 0 */
     size_t m;
     const qdot_expr *exprs; /* [m] expressions to evaluate at the crossings */
     const double *limits;   /* [2] limits of time; NULL: the whole run */
 } qdot_section_of;
 
 typedef struct {
-    size_t n, m;     /* number of crossings, in the order of the run; of expressions */
+    size_t n, m;     /* number of crossings, in the order of the run; number of expressions */
     double *t, *t_errors;    /* [n] times of the crossings and their errors */
     double *values, *errors; /* [n x m] values and their errors; NaN: undefined, error unknown */
     double lost; /* time from which crossings are unknown (sim/course/crossings.h); NaN: all are known */

@@ -1,4 +1,4 @@
-/* stretches.c -- divides a time range at the points of several courses. */
+/* stretches.c -- divides a time range at the stored points of several runs. */
 #include "sim/read/stretches.h"
 
 #include <float.h>
@@ -38,7 +38,7 @@ qdot_stretches_init(qdot_stretches *s, size_t n, const qdot_course *const *cours
     return QDOT_OK;
 }
 
-/* Whether the equations switch at the end t of a piece. */
+/* Whether the equations of a run switch at t, the end of one of its pieces. */
 static bool
 switches_at(const qdot_trajectory *tr, size_t piece, double t)
 {
@@ -49,9 +49,9 @@ switches_at(const qdot_trajectory *tr, size_t piece, double t)
     return false;
 }
 
-/* Find the pieces that contain a ... b, an interval inside which no course has a point. */
+/* Find the pieces of the runs that contain the interval a ... b, inside which no run has a stored point. */
 static void
-stretches_enter(qdot_stretches *s)
+find_pieces_of_interval(qdot_stretches *s)
 {
     s->odd[0] = s->odd[1] = false;
     for (size_t k = 0; k < s->n; k++) {
@@ -68,7 +68,7 @@ stretches_enter(qdot_stretches *s)
 /* Of a range of no length: of each course the piece of this rank among those with that time, or
  * its last; false: none has so many. */
 static bool
-enter_at_once(qdot_stretches *s, size_t rank)
+enter_interval_without_length(qdot_stretches *s, size_t rank)
 {
     bool found = false;
 
@@ -92,17 +92,17 @@ qdot_stretches_next(qdot_stretches *s)
     const size_t n = s->times.n;
 
     if (n > 0 && s->from == s->to)
-        return enter_at_once(s, s->next++);
+        return enter_interval_without_length(s, s->next++);
     while (s->next + 1 < n) {
         const size_t k = s->next++;
 
         s->a = s->from < s->to ? t[k] : t[n - 1 - k];
         s->b = s->from < s->to ? t[k + 1] : t[n - 2 - k];
-        /* treat points of two courses that differ only by rounding as one point */
+        /* treat stored points of two runs that differ only by rounding as one */
         if (s->a == s->b || (s->n > 1 && k + 2 < n &&
                              fabs(s->b - s->a) <= 16 * DBL_EPSILON * fabs(s->b)))
             continue;
-        stretches_enter(s);
+        find_pieces_of_interval(s);
         return true;
     }
     return false;

@@ -12,22 +12,22 @@
 
 typedef struct {
     size_t n;
-    const qdot_course *const *courses; /* [n] the courses; borrowed */
+    const qdot_course *const *courses; /* [n] the stored runs (courses); borrowed */
     double from, to;
-    qdot_vec(double) times; /* boundaries of all stretches, ascending */
+    qdot_vec(double) times; /* times at which the intervals begin and end, ascending */
     size_t next;
-    double a, b;    /* the present stretch a ... b, in the direction of the range */
-    bool odd[2];    /* at a, at b: equations of a course switch while its state is continuous */
-    size_t *pieces; /* [n] index of the piece of each course that contains the stretch */
+    double a, b;    /* the present interval a ... b, in the direction of the time range */
+    bool odd[2];    /* at a, at b: the equations of some run switch while its state is continuous */
+    size_t *pieces; /* [n] for each run, the index of the piece that contains the interval */
 } qdot_stretches;
 
-/* Prepare to go through the intervals between points in from ... to. QDOT_ENOMEM; clear s in any case. */
+/* Prepare to go through the intervals between stored points in from ... to. QDOT_ENOMEM; clear s in any case. */
 QDOT_MUST_CHECK qdot_status qdot_stretches_init(qdot_stretches *s, size_t n,
                                                 const qdot_course *const *courses,
                                                 double from, double to);
 void qdot_stretches_clear(qdot_stretches *s);
 
-/* Go to the first interval, or the next; false if none is left. */
+/* Go to the first interval between stored points, or to the next one; false if none is left. */
 bool qdot_stretches_next(qdot_stretches *s);
 
 #endif

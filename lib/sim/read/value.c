@@ -1,4 +1,4 @@
-/* value.c -- evaluates any expression along a run, with its error. */
+/* value.c -- evaluates any expression along a run, with an estimate of its error. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -15,13 +15,13 @@
 #include "sim/read/in-chart.h"
 #include "sim/run/run.h"
 
-/* The difference of t for numerical derivatives, relative to t. */
+/* Time difference for numerical derivatives, relative to t. */
 static const double slope_over = 0x1p-28;
 
 /* --- evaluation at times ------------------------------------------------------------ */
 
 static qdot_status
-undefined(const qdot_run *run, qdot_expr e, double t)
+fail_undefined(const qdot_run *run, qdot_expr e, double t)
 {
     qdot_text text = {0};
     qdot_status status = qdot_print(run->plan->pool, e, QDOT_PLAIN, &text);
@@ -34,8 +34,8 @@ undefined(const qdot_run *run, qdot_expr e, double t)
 }
 
 static qdot_status
-read_errors(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
-            const double *values, double *errors)
+find_errors_of_values(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
+                      const double *values, double *errors)
 {
     const qdot_course *const course = &run->course;
     size_t m = of->m;
@@ -76,8 +76,8 @@ read_errors(qdot_run *run, const qdot_reading *of, size_t k, const double *times
 }
 
 static qdot_status
-read_values(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
-            double *values)
+evaluate_at_times(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
+                  double *values)
 {
     size_t m = of->m;
     qdot_reader r = {0};
@@ -89,7 +89,7 @@ read_values(qdot_run *run, const qdot_reading *of, size_t k, const double *times
             status = qdot_reader_at(&r, SIZE_MAX, times[i], values + i * m);
         for (size_t j = 0; j < m && status == QDOT_OK; j++)
             if (!isfinite(values[i * m + j]))
-                status = undefined(run, of->exprs[j], times[i]);
+                status = fail_undefined(run, of->exprs[j], times[i]);
     }
     qdot_reader_clear(&r);
     return status;
@@ -97,7 +97,7 @@ read_values(qdot_run *run, const qdot_reading *of, size_t k, const double *times
 
 /* The piece of the run that contains t; at a time between two pieces the later one. */
 static size_t
-piece_at(const qdot_trajectory *tr, double t)
+piece_at_time(const qdot_trajectory *tr, double t)
 {
     return qdot_trajectory_piece_of(tr, qdot_trajectory_locate(tr, t, 0));
 }
@@ -105,22 +105,22 @@ piece_at(const qdot_trajectory *tr, double t)
 /* Add the change of the values from t to t + low, by slopes over h within the piece. The ends of
  * a run are its exact limits already. */
 static qdot_status
-go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, double *more,
-          double *values)
+shift_state_beyond_end(const qdot_run *run, qdot_reader *r, double t, double low, double *more,
+                       double *values)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const double end = tr->t[tr->count - 1], h = (end > t ? slope_over : -slope_over) * fabs(t);
 
     if (low == 0 || t == tr->t[0] || (t == end && t == run->t1)
         || !(fmin(tr->t[0], end) <= t + h && t + h <= fmax(tr->t[0], end))
-        || piece_at(tr, t) != piece_at(tr, t + h))
+        || piece_at_time(tr, t) != piece_at_time(tr, t + h))
         return QDOT_OK;
     return qdot_reader_go_on(r, SIZE_MAX, t, h, low, more, values);
 }
 
 static qdot_status
-add_lows(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
-         const double *lows, double *values)
+add_effect_of_low_parts(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
+                        const double *lows, double *values)
 {
     size_t m = of->m;
     double *more = qdot_malloc((m + 1) * sizeof *more);
@@ -130,7 +130,7 @@ add_lows(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
     if (status == QDOT_OK)
         status = qdot_reader_init(&r, of, &run->course);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
-        status = go_beyond(run, &r, times[i], lows[i], more, values + i * m);
+        status = shift_state_beyond_end(run, &r, times[i], lows[i], more, values + i * m);
     qdot_reader_clear(&r);
     qdot_free(more);
     return status;
@@ -154,19 +154,19 @@ qdot_in_chart_values(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot
     qdot_status status;
 
     QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &of));
-    status = read_values(run, &of, k, times->at, values);
+    status = evaluate_at_times(run, &of, k, times->at, values);
     if (status == QDOT_OK && errors)
-        status = read_errors(run, &of, k, times->at, values, errors);
+        status = find_errors_of_values(run, &of, k, times->at, values, errors);
     if (status == QDOT_OK && times->low)
-        status = add_lows(run, &of, k, times->at, times->low, values);
+        status = add_effect_of_low_parts(run, &of, k, times->at, times->low, values);
     qdot_tape_free(of.tape);
     return status;
 }
 
-/* Evaluate at times group by group, each within one stretch of the angles. */
+/* Evaluate expressions group by group, each at times in one interval of constant chart. */
 static qdot_status
-values_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
-                double *values, double *errors)
+evaluate_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
+                  double *values, double *errors)
 {
     qdot_in_chart in = {0};
     qdot_status status = QDOT_OK;
@@ -187,16 +187,16 @@ values_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exac
 }
 
 static qdot_status
-values_along(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times, double *values,
-             double *errors)
+evaluate_along_run(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times, double *values,
+                   double *errors)
 {
-    return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
+    return (run->chart ? evaluate_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
 }
 
-/* Evaluate along a run that counts its times from an origin. */
+/* Evaluate expressions along a run that counts its times from an origin. */
 static qdot_status
-values_from_origin(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
-                   double *values, double *errors)
+evaluate_from_origin(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
+                     double *values, double *errors)
 {
     double *at = qdot_malloc(2 * (times->n + 1) * sizeof *at), *low = at + times->n + 1;
     const qdot_expr *own;
@@ -206,7 +206,7 @@ values_from_origin(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_e
     for (size_t i = 0; i < times->n && status == QDOT_OK; i++)
         qdot_run_time_own(run, times->at[i], times->low ? times->low[i] : 0, &at[i], &low[i]);
     if (status == QDOT_OK)
-        status = values_along(run, m, own, &(qdot_exact_times){times->n, at, low}, values, errors);
+        status = evaluate_along_run(run, m, own, &(qdot_exact_times){times->n, at, low}, values, errors);
     qdot_free(made);
     qdot_free(at);
     return status;
@@ -220,8 +220,8 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
         return qdot_precise_pair_sample_values(run->precise, m, exprs, times->n, times->at, values,
                                                errors);
     if (run->origin != 0)
-        return qdot_run_time_fail(run->origin, values_from_origin(run, m, exprs, times, values, errors));
-    return values_along(run, m, exprs, times, values, errors);
+        return qdot_run_time_fail(run->origin, evaluate_from_origin(run, m, exprs, times, values, errors));
+    return evaluate_along_run(run, m, exprs, times, values, errors);
 }
 
 bool
@@ -233,7 +233,7 @@ qdot_run_is_before_event(const qdot_run *run, size_t k)
 }
 
 static qdot_status
-read_point(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k, double *values)
+evaluate_at_stored_point(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k, double *values)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_reading of;
@@ -246,7 +246,7 @@ read_point(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k, double *va
         status = qdot_reader_at(&r, qdot_trajectory_piece_of(tr, k), tr->t[k], values);
     for (size_t j = 0; j < m && status == QDOT_OK; j++)
         if (!isfinite(values[j]))
-            status = undefined(run, exprs[j], tr->t[k]);
+            status = fail_undefined(run, exprs[j], tr->t[k]);
     qdot_reader_clear(&r);
     qdot_tape_free(of.tape);
     return status;
@@ -263,7 +263,7 @@ qdot_run_point_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
     if (run->chart && status == QDOT_OK)
         status = qdot_in_chart_express(&in, run, m, own, run->course.tr.t[k]);
     if (status == QDOT_OK)
-        status = read_point(run, m, run->chart ? in.exprs : own, k, values);
+        status = evaluate_at_stored_point(run, m, run->chart ? in.exprs : own, k, values);
     qdot_in_chart_clear(&in);
     qdot_free(made);
     return qdot_run_time_fail(run->origin, status);

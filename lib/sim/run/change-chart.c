@@ -1,4 +1,4 @@
-/* change-chart.c -- decides which runs are repeated in other coordinates, and makes the request for them. */
+/* change-chart.c -- decides which runs are repeated in other coordinates (charts), and makes those requests. */
 #include "sim/run/change-chart.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@
  * value, or of 1. */
 static const double near_place = 0.05;
 
-/* The number of points within each step at which a distance is inspected. */
+/* The number of points within each integration step at which a distance from a singular place is computed. */
 enum { parts = 8 };
 
 /* Rounding held the steps so far above their tolerance, or the error is so large, that other
@@ -26,32 +26,32 @@ static const double poor = 100, poor_error = 1000, least_poor = 1e-9;
 
 /* --- choosing groups of coordinates ---------------------------------------------------------- */
 
-/* The sign of a distance at the start, its smallest and its largest absolute value along a run. */
+/* A distance from a singular place: its sign at the start, its least and largest magnitude along a run. */
 typedef struct {
     int sign;
     double least, most;
 } nearness;
 
 static qdot_status
-measure_start(const qdot_scene *s, const qdot_run_request *request, const qdot_run *run,
-              qdot_expr distance, nearness *x)
+measure_at_start(const qdot_scene *s, const qdot_run_request *request, const qdot_run *run,
+                 qdot_expr distance, nearness *x)
 {
     double value;
 
     QDOT_TRY(qdot_chart_start_sign(s, request, distance, &x->sign, &value));
     x->least = fabs(value);
-    x->most = run ? x->least : 1; /* no run: M was singular in doubles, so the place is near */
+    x->most = run ? x->least : 1; /* without a run M was singular at the start in doubles, so the singular place is near */
     return QDOT_OK;
 }
 
 static qdot_status
-measure_at(qdot_reader *r, double t, double *before, nearness *x)
+measure_at_time(qdot_reader *r, double t, double *before, nearness *x)
 {
     double value;
     const qdot_status status = qdot_reader_at(r, SIZE_MAX, t, &value);
 
     if (qdot_reader_has_nothing(status)) {
-        x->least = 0; /* undefined: the run is at a place where M is singular */
+        x->least = 0; /* the distance is undefined: the run is at a place where M is singular */
         return QDOT_OK;
     }
     QDOT_TRY(status);
@@ -61,9 +61,9 @@ measure_at(qdot_reader *r, double t, double *before, nearness *x)
     return QDOT_OK;
 }
 
-/* Measure a distance along a run; if its sign changes it is 0 between two points. */
+/* Measure the distance from a singular place along a run; if its sign changes, it is 0 between two points. */
 static qdot_status
-measure_run(const qdot_run *run, qdot_expr distance, nearness *x)
+measure_along_run(const qdot_run *run, qdot_expr distance, nearness *x)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_reader r = {0};
@@ -74,10 +74,10 @@ measure_run(const qdot_run *run, qdot_expr distance, nearness *x)
     if (status == QDOT_OK)
         status = qdot_reader_init(&r, &of, &run->course);
     if (status == QDOT_OK)
-        status = measure_at(&r, tr->t[0], &before, x);
+        status = measure_at_time(&r, tr->t[0], &before, x);
     for (size_t k = 1; k < tr->count; k++)
         for (int j = 1; j <= parts && status == QDOT_OK; j++)
-            status = measure_at(
+            status = measure_at_time(
                 &r, j == parts ? tr->t[k] : tr->t[k - 1] + (tr->t[k] - tr->t[k - 1]) * j / parts,
                 &before, x);
     qdot_reader_clear(&r);
@@ -88,17 +88,17 @@ measure_run(const qdot_run *run, qdot_expr distance, nearness *x)
 /* Put the groups whose singular place was near before the others: *near of them; and the signs
  * [groups] of their distances. *at_place: the start, of which no run could be made, is one. */
 static qdot_status
-choose_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run *run,
-              qdot_chart_groups *groups, int *sign, size_t *near, bool *at_place)
+choose_coordinate_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run *run,
+                         qdot_chart_groups *groups, int *sign, size_t *near, bool *at_place)
 {
     *near = 0;
     for (size_t i = 0; i < groups->n; i++) {
         const qdot_chart_group g = groups->at[i];
         nearness x;
 
-        QDOT_TRY(measure_start(s, request, run, g.distance, &x));
+        QDOT_TRY(measure_at_start(s, request, run, g.distance, &x));
         if (run)
-            QDOT_TRY(measure_run(run, g.distance, &x));
+            QDOT_TRY(measure_along_run(run, g.distance, &x));
         sign[i] = x.sign;
         if (!(x.least <= near_place * fmin(1, x.most)))
             continue;
@@ -113,10 +113,10 @@ choose_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run *ru
 
 /* --- the run in the chart ---------------------------------------------------------------------- */
 
-/* Write the start in new coordinates: exact constants, in the order of the chart's scene. */
+/* Write the start in the new coordinates: exact constants, in the order of the coordinates of the chart's scene. */
 static qdot_status
-chart_put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr *q0,
-                qdot_expr *v0)
+write_start_in_chart(const qdot_chart *c, const qdot_run_request *request, qdot_expr *q0,
+                     qdot_expr *v0)
 {
     const qdot_scene *to = c->scene, *s = c->of;
 
@@ -132,15 +132,15 @@ chart_put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr 
     return qdot_pool_check(s->pool);
 }
 
-/* Make the run in other coordinates; *run is NULL if it does not reach its end. */
+/* Make the run in other coordinates; *run is NULL if that run does not reach its end. */
 static qdot_status
-run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker *by,
-       qdot_run **run)
+make_run_in_chart(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker *by,
+                  qdot_run **run)
 {
     qdot_run_request other = *request;
     const size_t n = x->chart.scene->coordinates.n;
     qdot_expr *q0 = qdot_calloc(2 * n + 1, sizeof *q0);
-    qdot_status status = q0 ? chart_put_start(&x->chart, request, q0, q0 + n) : QDOT_ENOMEM;
+    qdot_status status = q0 ? write_start_in_chart(&x->chart, request, q0, q0 + n) : QDOT_ENOMEM;
 
     *run = NULL;
     other.q0 = q0;
@@ -157,9 +157,9 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     return status;
 }
 
-/* Add a notice of the times at which the run leaves the region where a root of the scene is valid. */
+/* Add a notice of the times at which the run leaves the region where a square root's sign is valid. */
 static qdot_status
-say_branches(qdot_run *run)
+add_notice_of_branches(qdot_run *run)
 {
     const qdot_run_chart *x = run->chart;
     const qdot_chart *c = &x->chart;
@@ -183,20 +183,20 @@ say_branches(qdot_run *run)
 }
 
 static qdot_status
-say_chart(qdot_run *run)
+add_notice_of_chart(qdot_run *run)
 {
     qdot_text_format(
         qdot_run_next_notice(run),
         "the coordinates become singular on the way: the run is in %s, and values "
         "are given in the coordinates of the scene",
         qdot_text_str(&run->chart->chart.names));
-    QDOT_TRY(say_branches(run));
+    QDOT_TRY(add_notice_of_branches(run));
     return qdot_text_status(&run->notice);
 }
 
-/* Whether the run is valid only as long as certain signs or roots do not change. */
+/* Whether the run is valid only as long as the signs of certain square roots do not change. */
 static bool
-depends_on_signs(const qdot_chart *c)
+depends_on_root_signs(const qdot_chart *c)
 {
     bool depends = c->signed_events;
 
@@ -208,7 +208,7 @@ depends_on_signs(const qdot_chart *c)
 /* Whether an event used a sign that has changed, or the motion passed a point where its direction
  * is undefined. */
 static bool
-is_lost(const qdot_run_chart *x)
+is_chart_invalid(const qdot_run_chart *x)
 {
     return x->crosses || (x->chart.signed_events && x->changes);
 }
@@ -216,27 +216,27 @@ is_lost(const qdot_run_chart *x)
 /* Make the run with these groups replaced; *out NULL where it does not arrive. at_place: it begins
  * at a singular place. */
 static qdot_status
-run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
-            const qdot_chart_groups *groups, const int *sign, bool at_place,
-            qdot_run **out)
+run_with_replaced_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
+                         const qdot_chart_groups *groups, const int *sign, bool at_place,
+                         qdot_run **out)
 {
     qdot_run_chart *x = NULL;
     qdot_status status = qdot_run_chart_new(s, request, groups, sign, false, &x);
 
     if (status == QDOT_OK && x->chart.scene)
-        status = run_in(x, request, by, out);
+        status = make_run_in_chart(x, request, by, out);
     if (*out) {
         x->at_place = at_place;
         (*out)->chart = x;
         x = NULL;
         status = qdot_run_chart_report(*out, by);
-        if (status == QDOT_OK && depends_on_signs(&(*out)->chart->chart))
+        if (status == QDOT_OK && depends_on_root_signs(&(*out)->chart->chart))
             status = qdot_run_chart_follow(*out);
-        if (status == QDOT_OK && is_lost((*out)->chart)) {
+        if (status == QDOT_OK && is_chart_invalid((*out)->chart)) {
             by->free(*out);
             *out = NULL;
         } else if (status == QDOT_OK) {
-            status = say_chart(*out);
+            status = add_notice_of_chart(*out);
         }
     }
     qdot_run_chart_free(x);
@@ -247,7 +247,7 @@ run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker
  * groups that were not near may come to be so later: if the run without those that were fails, all
  * are replaced. */
 static qdot_status
-chart_change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
+change_chart(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
              const qdot_run *run, qdot_run **out)
 {
     qdot_chart_groups groups = {0};
@@ -260,14 +260,14 @@ chart_change(qdot_scene *s, const qdot_run_request *request, const qdot_run_make
     if (status == QDOT_OK && groups.n > 0) {
         sign = qdot_calloc(groups.n, sizeof *sign);
         status =
-            sign ? choose_groups(s, request, run, &groups, sign, &near, &at_place) : QDOT_ENOMEM;
+            sign ? choose_coordinate_groups(s, request, run, &groups, sign, &near, &at_place) : QDOT_ENOMEM;
     }
     if (status == QDOT_OK && near > 0) {
         const qdot_chart_groups first = {.n = near, .at = groups.at};
 
-        status = run_without(s, request, by, &first, sign, at_place, out);
+        status = run_with_replaced_groups(s, request, by, &first, sign, at_place, out);
         if (!*out && near < groups.n && status != QDOT_ENOMEM && status != QDOT_EINTR)
-            status = run_without(s, request, by, &groups, sign, at_place, out);
+            status = run_with_replaced_groups(s, request, by, &groups, sign, at_place, out);
     }
     qdot_free(groups.at);
     qdot_free(sign);
@@ -277,7 +277,7 @@ chart_change(qdot_scene *s, const qdot_run_request *request, const qdot_run_make
 /* Whether other coordinates may be worth while: too of a run that was made under a tighter tolerance than asked for
  * (tighter-run.h), and errs by 10^-6 nevertheless. */
 static bool
-is_poor(const qdot_run *run, double tol)
+has_poor_accuracy(const qdot_run *run, double tol)
 {
     return run->report.status == QDOT_RUN_FAILED || isnan(run->report.error) ||
            run->course.tr.result.stats.raised > poor * tol ||
@@ -288,7 +288,7 @@ is_poor(const qdot_run *run, double tol)
  * and (-theta, phi + pi) are one point, and its own coordinates may take the other way. Where no digit
  * of its end is right, that tells nothing. */
 static bool
-takes_another_way(const qdot_run *other, const qdot_run *run)
+has_other_events(const qdot_run *other, const qdot_run *run)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const double *own = tr->y + (tr->count - 1) * tr->n;
@@ -300,20 +300,20 @@ takes_another_way(const qdot_run *other, const qdot_run *run)
 }
 
 static bool
-is_better(const qdot_run *other, const qdot_run *run)
+is_better_run(const qdot_run *other, const qdot_run *run)
 {
     if (!run || run->report.status == QDOT_RUN_FAILED)
         return true;
-    if (!isnan(run->report.error) && takes_another_way(other, run))
+    if (!isnan(run->report.error) && has_other_events(other, run))
         return false;
     return other->report.error < run->report.error ||
            (isnan(run->report.error) && !isnan(other->report.error));
 }
 
-/* Apply `chart_change` to the start that the run has projected onto the constraints, if it has one. */
+/* Apply change_chart to the start that the run has projected onto the constraints, if it has such a start. */
 static qdot_status
-change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
-               qdot_run *run, qdot_run **out)
+change_chart_at_projected_start(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
+                                qdot_run *run, qdot_run **out)
 {
     const size_t n = s->coordinates.n;
     qdot_run_request settled = *request;
@@ -321,7 +321,7 @@ change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_ma
     qdot_status status;
 
     if (s->constraints.n == 0 || !run || !run->start)
-        return chart_change(s, request, by, run, out);
+        return change_chart(s, request, by, run, out);
     start = qdot_calloc(2 * n + 1, sizeof *start);
     if (!start)
         return QDOT_ENOMEM;
@@ -332,18 +332,18 @@ change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_ma
     settled.v0 = start + n;
     status = qdot_pool_check(s->pool);
     if (status == QDOT_OK)
-        status = chart_change(s, &settled, by, run, out);
+        status = change_chart(s, &settled, by, run, out);
     qdot_free(start);
     return status;
 }
 
-/* Replace *run by `other` if that is better; free the worse one. */
+/* Replace *run by `other` if that is the better run; free the worse one. */
 static void
-take_better(const qdot_run_maker *by, qdot_run *other, qdot_run **run)
+keep_better_run(const qdot_run_maker *by, qdot_run *other, qdot_run **run)
 {
     qdot_run *worse = other;
 
-    if (other && is_better(other, *run)) {
+    if (other && is_better_run(other, *run)) {
         worse = *run;
         *run = other;
     }
@@ -356,16 +356,16 @@ qdot_run_change_chart(qdot_scene *s, const qdot_run_request *request,
 {
     const qdot_error before = *qdot_last_error();
 
-    if (request->n_states > 0 || (*run ? began != QDOT_OK || !is_poor(*run, request->tol)
+    if (request->n_states > 0 || (*run ? began != QDOT_OK || !has_poor_accuracy(*run, request->tol)
                                        : began != QDOT_ESINGULAR))
         return began;
-    for (int way = 0; way < 2 && (way == 0 || (*run && is_poor(*run, request->tol))); way++) {
+    for (int way = 0; way < 2 && (way == 0 || (*run && has_poor_accuracy(*run, request->tol))); way++) {
         qdot_run *other = NULL;
         const qdot_status status =
-            (way == 0 ? change_settled : qdot_run_collide)(s, request, by, *run, &other);
+            (way == 0 ? change_chart_at_projected_start : qdot_run_collide)(s, request, by, *run, &other);
 
         if (status == QDOT_OK)
-            take_better(by, other, run);
+            keep_better_run(by, other, run);
         else
             by->free(other);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)

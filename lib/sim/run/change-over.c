@@ -1,11 +1,11 @@
-/* change-over.c -- repeats a stiff run with an implicit method, and takes that if it is as accurate. */
+/* change-over.c -- repeats a stiff run with an implicit method; keeps that run if it is as accurate. */
 #include "sim/run/change-over.h"
 
 #include <math.h>
 
 #include "sim/course/run-state.h"
 
-/* The method for stiff scenes, and the tolerance below which rounding dominates its errors. */
+/* The method for stiff scenes, and the tolerance below which rounding dominates that method's errors. */
 static const char stiff_method[] = "radau";
 static const double tightest = 1e-13;
 
@@ -14,14 +14,14 @@ static const double tightest = 1e-13;
 static const double rather_wait = 100;
 
 static bool
-is_accurate(const qdot_run *run, double tol)
+is_as_accurate_as(const qdot_run *run, double tol)
 {
     return run->report.scaled_error <= fmax(rather_wait * tol, 1e-10);
 }
 
 /* Replace *run by `other`, unless that is NULL. */
 static void
-run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
+replace_run(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
 {
     if (!other)
         return;
@@ -33,7 +33,7 @@ run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
 enum { most_told = 4 };
 
 static qdot_status
-say_changed(qdot_run *run, const char *before, double t)
+add_notice_of_change(qdot_run *run, const char *before, double t)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_text *notice = qdot_run_next_notice(run);
@@ -52,7 +52,7 @@ say_changed(qdot_run *run, const char *before, double t)
 }
 
 static bool
-has_arrived(qdot_status status, const qdot_run *run)
+has_reached_end(qdot_status status, const qdot_run *run)
 {
     return status == QDOT_OK && run->course.tr.result.outcome != QDOT_ODE_FAILED;
 }
@@ -60,8 +60,8 @@ has_arrived(qdot_status status, const qdot_run *run)
 /* Make the run by the stiff method, with series where they are faster; without these where nothing
  * is known of the error then, since the companions did not change with it. */
 static qdot_status
-make_stiff(qdot_scene *scene, const qdot_run_request *request, const qdot_run_maker *by,
-           qdot_run **out)
+make_stiff_run(qdot_scene *scene, const qdot_run_request *request, const qdot_run_maker *by,
+               qdot_run **out)
 {
     qdot_run_request stiff = *request;
     qdot_run *turning;
@@ -71,7 +71,7 @@ make_stiff(qdot_scene *scene, const qdot_run_request *request, const qdot_run_ma
     stiff.turns = true;
     QDOT_TRY(by->make(scene, &stiff, out));
     if ((*out)->course.tr.turns.n == 0 || !isnan((*out)->report.scaled_error)
-        || !has_arrived(QDOT_OK, *out))
+        || !has_reached_end(QDOT_OK, *out))
         return QDOT_OK;
     turning = *out;
     stiff.turns = false;
@@ -92,20 +92,20 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
 
     if (!(*run)->course.tr.result.stiff || !(*run)->plan->chosen)
         return QDOT_OK;
-    status = make_stiff(scene, request, by, &other);
+    status = make_stiff_run(scene, request, by, &other);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
-        run_replace(by, run, other);
+        replace_run(by, run, other);
         return status;
     }
-    if (has_arrived(status, other) && is_accurate(other, request->tol)) {
-        run_replace(by, run, other);
-        return say_changed(*run, before, t);
+    if (has_reached_end(status, other) && is_as_accurate_as(other, request->tol)) {
+        replace_run(by, run, other);
+        return add_notice_of_change(*run, before, t);
     }
     series.method = before;
     status = by->make(scene, &series, &patient);
-    if (has_arrived(status, patient) || status == QDOT_EINTR || status == QDOT_ENOMEM) {
+    if (has_reached_end(status, patient) || status == QDOT_EINTR || status == QDOT_ENOMEM) {
         by->free(other);
-        run_replace(by, run, patient);
+        replace_run(by, run, patient);
         return status;
     }
     by->free(patient);
@@ -113,6 +113,6 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
         by->free(other);
         return QDOT_OK;
     }
-    run_replace(by, run, other);
-    return say_changed(*run, before, t);
+    replace_run(by, run, other);
+    return add_notice_of_change(*run, before, t);
 }

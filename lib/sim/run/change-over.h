@@ -12,7 +12,7 @@
 #include "sim/course/report.h"
 #include "sim/model/request.h"
 
-/* The functions with which runs are made (qdot_run_new), read (qdot_run_values) and freed. */
+/* Callbacks that make runs (qdot_run_new), read them (qdot_run_values) and free them. */
 typedef struct {
     qdot_status (*make)(qdot_scene *scene, const qdot_run_request *request,
                         qdot_run **run);

@@ -1,4 +1,4 @@
-/* chart-run.c -- follows angles continuously along a run; converts the end state to the given coordinates. */
+/* chart-run.c -- follows angles continuously along a run in other coordinates; converts its end state back. */
 #include "sim/run/chart-run.h"
 
 #include <float.h>
@@ -56,27 +56,27 @@ qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarter
 typedef struct {
     qdot_run_chart *x;
     qdot_reader reader;
-    size_t m, n;  /* number of replaced coordinates; of signs */
+    size_t m, n;  /* number of replaced coordinates; number of signs of square roots */
     double *xy;   /* [4 m + 2 n] x, y of the angles with all signs 1, -1; then the roots w, and
                      the squares of their slopes */
     double *now;  /* [m] the angles at time t, continued without jumps */
-    double *next; /* [m] the angles at the next point */
-    double *most; /* [m + n] largest distance so far; largest slope of each root */
-    long *signs;  /* [n] the signs at time t */
-    uint64_t passed; /* bits: signs whose singular place is passed at the next point */
+    double *next; /* [m] the angles at the next point that is inspected */
+    double *most; /* [m + n] largest distance from a singular place so far; largest gradient of each square root */
+    long *signs;  /* [n] the signs of the square roots at time t */
+    uint64_t passed; /* bits: signs whose singular place is passed exactly at the next point */
     double t;
 } following;
 
-/* Whether the coordinate m is followed along the run because it is an angle. */
+/* Whether the replaced coordinate m is an angle, which has to be followed along the run. */
 static bool
 turns(const qdot_chart_moved *m)
 {
     return m->bare != QDOT_NIL;
 }
 
-/* Compute angle i from the values x and y that were read. */
+/* Compute angle i of the point from the values x and y that were read along the run. */
 static void
-turn_to(following *f, size_t i)
+compute_angle(following *f, size_t i)
 {
     const qdot_chart_moved *m = f->x->chart.moved.at + i;
     const bool minus = m->sign > 0 && f->signs[m->sign - 1] < 0;
@@ -95,9 +95,9 @@ turn_to(following *f, size_t i)
         f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
 }
 
-/* Whether the sign of a root at t differs from its sign before t. */
+/* Whether the sign of a square root at t differs from its sign before t. */
 static bool
-changes_branch(const following *f)
+has_root_changed_sign(const following *f)
 {
     for (size_t i = 0; i < f->n; i++)
         if (f->x->chart.signs.at[i].branch && f->xy[4 * f->m + i] * (double)f->signs[i] < 0)
@@ -105,24 +105,24 @@ changes_branch(const following *f)
     return false;
 }
 
-/* Continue each angle from its last value to the one just read; returns the largest change. */
+/* Continue each angle without a jump from its last value to the one just read; returns the largest change. */
 static double
-turn_all(following *f)
+continue_angles(following *f)
 {
     double change = 0;
 
     for (size_t i = 0; i < f->m; i++) {
-        turn_to(f, i);
+        compute_angle(f, i);
         change = fmax(change, fabs(f->next[i] - f->now[i]));
     }
     return change;
 }
 
 static qdot_status
-angles_look(following *f, double t, double *change)
+read_angles(following *f, double t, double *change)
 {
     QDOT_TRY(qdot_reader_at(&f->reader, SIZE_MAX, t, f->xy));
-    *change = turn_all(f);
+    *change = continue_angles(f);
     for (size_t i = 0; i < f->n; i++)
         f->most[f->m + i] = fmax(f->most[f->m + i], f->xy[4 * f->m + f->n + i]);
     return QDOT_OK;
@@ -143,7 +143,7 @@ begin_stretch(following *f, double t, const double *angles)
 /* Go to t with the angles read there. They, or signs, jump where a singular place is passed
  * exactly. */
 static qdot_status
-angles_go(following *f, double t, bool jumps)
+advance_angles(following *f, double t, bool jumps)
 {
     const qdot_chart_stretch *s = &f->x->stretches.at[f->x->stretches.n - 1];
     const long *quarters = f->x->quarters.at + s->quarters;
@@ -166,7 +166,7 @@ angles_go(following *f, double t, bool jumps)
  * turns that by up to 10^-16 over no_direction and more: what is nearer to half a turn than to none is
  * one. */
 static void
-change_signs(following *f)
+change_passed_signs(following *f)
 {
     const qdot_chart *c = &f->x->chart;
 
@@ -181,12 +181,12 @@ change_signs(following *f)
             continue;
         f->signs[k - 1] = -f->signs[k - 1];
         f->x->changes = true;
-        (void)turn_all(f);
+        (void)continue_angles(f);
     }
 }
 
 static void
-change_branches(following *f)
+change_root_signs(following *f)
 {
     for (size_t i = 0; i < f->n; i++) {
         const int now = f->xy[4 * f->m + i] < 0 ? -1 : 1;
@@ -199,18 +199,18 @@ change_branches(following *f)
     }
 }
 
-/* Turn angles that still jump by about half a turn upwards, so that rounding does not decide. */
+/* Turn those angles upwards that jump by about half a turn, so that rounding does not decide the direction. */
 static void
-half_turns(following *f)
+resolve_half_turns(following *f)
 {
     for (size_t i = 0; i < f->m; i++)
         if (!f->x->chart.moved.at[i].cut && f->next[i] - f->now[i] < -turn / 4)
             f->next[i] += turn;
 }
 
-/* Follow the angles to the time `end`, in as many intervals as needed. */
+/* Follow the angles up to the time `end`, in as many intervals as are needed for small changes. */
 static qdot_status
-follow_to(following *f, double end)
+follow_angles_to(following *f, double end)
 {
     double t = end;
 
@@ -219,18 +219,18 @@ follow_to(following *f, double end)
         double change;
         bool jumps;
 
-        QDOT_TRY(angles_look(f, t, &change));
-        jumps = change > sure || changes_branch(f);
+        QDOT_TRY(read_angles(f, t, &change));
+        jumps = change > sure || has_root_changed_sign(f);
         if (jumps && fabs(t - f->t) > least) {
             t = f->t + 0.5 * (t - f->t);
             continue;
         }
         if (jumps) {
-            change_branches(f);
-            change_signs(f);
-            half_turns(f);
+            change_root_signs(f);
+            change_passed_signs(f);
+            resolve_half_turns(f);
         }
-        QDOT_TRY(angles_go(f, t, jumps));
+        QDOT_TRY(advance_angles(f, t, jumps));
         f->passed = 0;
         t = end;
     }
@@ -238,13 +238,13 @@ follow_to(following *f, double end)
 }
 
 static qdot_status
-follow_run(following *f, const qdot_trajectory *tr)
+follow_angles_along(following *f, const qdot_trajectory *tr)
 {
     double change;
 
     f->t = tr->t[0];
     memcpy(f->now, f->x->angles, f->m * sizeof *f->now);
-    QDOT_TRY(angles_look(f, f->t, &change));
+    QDOT_TRY(read_angles(f, f->t, &change));
     memcpy(f->now, f->next, f->m * sizeof *f->now);
     QDOT_TRY(begin_stretch(f, f->t, f->now));
     for (size_t k = 1; k < tr->count; k++)
@@ -252,14 +252,14 @@ follow_run(following *f, const qdot_trajectory *tr)
             const double h = tr->t[k] - tr->t[k - 1];
 
             QDOT_TRY(qdot_interrupt_check());
-            QDOT_TRY(follow_to(f, j == parts ? tr->t[k] : tr->t[k - 1] + h * j / parts));
+            QDOT_TRY(follow_angles_to(f, j == parts ? tr->t[k] : tr->t[k - 1] + h * j / parts));
         }
     return QDOT_OK;
 }
 
-/* Write the expressions of angle i for signs +1 and -1: x, and y or the factor of the sine of half an angle. */
+/* Write the expressions of angle i for signs +1 and -1: x and y, or the factor of the sine of half the angle. */
 static void
-express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr *xy)
+write_angle_expressions(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr *xy)
 {
     const qdot_chart_moved *m = x->chart.moved.at + i;
 
@@ -269,9 +269,9 @@ express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr
                                                quarters, NULL);
 }
 
-/* The squared gradient of P, the square of a root. */
+/* The squared gradient of P, where the square root w has w^2 = P. */
 static qdot_expr
-slope_of(const qdot_chart *c, const qdot_chart_sign *s)
+squared_gradient(const qdot_chart *c, const qdot_chart_sign *s)
 {
     qdot_expr sum = QDOT_ZERO;
 
@@ -284,7 +284,7 @@ slope_of(const qdot_chart *c, const qdot_chart_sign *s)
 
 /* Write the expressions read along the run, exprs [4 m + 2 n], in the order of the array following.xy. */
 static qdot_status
-express_all(const qdot_run_chart *x, qdot_expr *exprs)
+write_all_expressions(const qdot_run_chart *x, qdot_expr *exprs)
 {
     const qdot_chart *c = &x->chart;
     const size_t m = c->moved.n, n = c->signs.n;
@@ -296,20 +296,20 @@ express_all(const qdot_run_chart *x, qdot_expr *exprs)
         for (size_t i = 0; i < n; i++)
             quarters[m + i] = minus ? -1 : 1;
         for (size_t i = 0; i < m; i++)
-            express_angle(x, i, quarters, exprs + 4 * i + 2 * minus);
+            write_angle_expressions(x, i, quarters, exprs + 4 * i + 2 * minus);
     }
     for (size_t i = 0; i < n; i++) {
         const qdot_chart_sign *s = c->signs.at + i;
 
         exprs[4 * m + i] = s->branch ? s->symbol : QDOT_ONE;
-        exprs[4 * m + n + i] = s->branch ? slope_of(c, s) : QDOT_ONE;
+        exprs[4 * m + n + i] = s->branch ? squared_gradient(c, s) : QDOT_ONE;
     }
     qdot_free(quarters);
     return qdot_pool_check(c->pool);
 }
 
 static qdot_status
-angles_follow(qdot_run *run)
+follow_all_angles(qdot_run *run)
 {
     qdot_run_chart *x = run->chart;
     following f = {.x = x, .m = x->chart.moved.n, .n = x->chart.signs.n};
@@ -320,7 +320,7 @@ angles_follow(qdot_run *run)
 
     f.xy = qdot_calloc(size + 3 * f.m + f.n + 1, sizeof *f.xy);
     f.signs = qdot_calloc(f.n + 1, sizeof *f.signs);
-    status = f.xy && f.signs && exprs ? express_all(x, exprs) : QDOT_ENOMEM;
+    status = f.xy && f.signs && exprs ? write_all_expressions(x, exprs) : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_reader_lower(run->plan, size, exprs, &of);
     if (status == QDOT_OK)
@@ -331,7 +331,7 @@ angles_follow(qdot_run *run)
         f.most = f.next + f.m;
         for (size_t i = 0; i < f.n; i++)
             f.signs[i] = x->chart.signs.at[i].start;
-        status = follow_run(&f, &run->course.tr);
+        status = follow_angles_along(&f, &run->course.tr);
     }
     qdot_reader_clear(&f.reader);
     qdot_tape_free(of.tape);
@@ -342,7 +342,7 @@ angles_follow(qdot_run *run)
     return status;
 }
 
-/* The first time at which the given coordinates have values. */
+/* The first time of the run at which the given coordinates have values. */
 static double
 first_time(const qdot_run *run)
 {
@@ -367,7 +367,7 @@ qdot_run_chart_follow(qdot_run *run)
     if (x->followed)
         return QDOT_OK;
     x->stretches.n = x->quarters.n = 0;
-    return angles_follow(run);
+    return follow_all_angles(run);
 }
 
 qdot_status
@@ -397,9 +397,9 @@ qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
 
 /* --- the end state in the report ----------------------------------------------------------- */
 
-/* Read end value i (of q or q') with its error; a velocity may be undefined at a singularity. */
+/* Read component i of the end state (q or q') with its error; velocities may be undefined at a singularity. */
 static qdot_status
-chart_read_end(qdot_run *run, const qdot_run_maker *by, size_t i, double *error)
+read_end_value(qdot_run *run, const qdot_run_maker *by, size_t i, double *error)
 {
     qdot_run_chart *x = run->chart;
     const qdot_expr q = x->coordinates[i % x->n];
@@ -426,14 +426,14 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     for (size_t i = 0; i < 2 * x->n; i++) {
         double error = NAN;
 
-        QDOT_TRY(chart_read_end(run, by, i, &error));
+        QDOT_TRY(read_end_value(run, by, i, &error));
         error /= fmax(1, fabs(x->end[i]));
         largest = isnan(error) || isnan(largest) ? NAN : fmax(largest, error);
     }
     if (!isnan(r->error))
         r->error = largest;
     r->scaled_error = r->error;
-    r->scales = NULL; /* the scales belong to coordinates of the chart */
+    r->scales = NULL; /* no scales: they belong to the coordinates of the chart */
     r->n = x->n;
     r->coordinates = x->coordinates;
     r->q = x->end;
@@ -441,7 +441,7 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     r->drifts = run->drifts.at;
     r->n_drifts = run->drifts.energy ? 1 : 0;
     r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
-    r->m = r->independent = 0; /* these constraints exist only in the chart */
+    r->m = r->independent = 0; /* no multipliers: the constraints exist only in the chart */
     r->constraint_drift = r->velocity_drift = NAN;
     return QDOT_OK;
 }

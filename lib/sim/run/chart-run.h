@@ -17,27 +17,27 @@
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 
-/* A time from which on angles are counted from a given number of quarter turns, with constant signs. */
+/* A time from which the angles are counted from given numbers of quarter turns, with constant signs of roots. */
 typedef struct {
     double t;
-    uint64_t passed; /* bits: signs whose singular place is passed exactly at t */
+    uint64_t passed; /* bits: the signs whose singular place is passed exactly at t */
     size_t quarters; /* index in qdot_run_chart.quarters of the first number of quarter turns; signs follow */
 } qdot_chart_stretch;
 
 typedef struct qdot_run_chart {
     qdot_chart chart;         /* its scene is that of the run, without a collision; else it may be one in
                                  which nothing is moved */
-    qdot_collision collision; /* a regularised collision; its scene, if any, is that of the run */
-    qdot_expr energy;       /* energy in the given scene, equal to collision.energy; nil: none */
+    qdot_collision collision; /* a regularised collision; if it has a scene, that is the scene of the run */
+    qdot_expr energy;       /* energy in the given scene, which equals collision.energy; nil: none */
     size_t n;               /* number of coordinates of the given scene */
     qdot_expr *coordinates; /* [n] coordinates of the given scene */
     double *angles;         /* [moved] angles at the start, as given */
     double *end;   /* [2n] end state in the given coordinates; NaN: undefined there */
     bool at_place;         /* the run starts at a singular place */
     bool followed; /* `stretches` has been computed */
-    bool crosses;  /* a root passed a place where its surface w^2 = P crosses itself */
-    bool changes;  /* a sign has changed at a singular place passed exactly */
-    qdot_vec(qdot_chart_stretch) stretches; /* intervals of time with constant signs and quarter turns, in order of the run */
+    bool crosses;  /* a square root w with w^2 = P passed a place where this surface crosses itself */
+    bool changes;  /* the sign of a root has changed at a singular place that was passed exactly */
+    qdot_vec(qdot_chart_stretch) stretches; /* time intervals with constant signs and quarter turns, in the order of the run */
     qdot_vec(long) quarters;
 } qdot_run_chart;
 
@@ -47,7 +47,7 @@ void qdot_run_chart_free(qdot_run_chart *x);
 qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
                                  bool *turns);
 
-/* Follow the angles and signs of the run, unless that was done before. */
+/* Follow the angles and the signs of roots along the run, unless that was done before. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
 
 /* The quarters [moved], and the signs behind them, for the stretch of time t; follows the run if that was not done yet, and
@@ -55,7 +55,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
 QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
                                                     const long **quarters);
 
-/* Limit the comparison of companions to the whole run, except for a start at a singularity. */
+/* Limit the comparison with companion runs to the whole run, except for a start at a singularity. */
 void qdot_run_chart_limit(qdot_run *run);
 
 /* Put the end state in the given coordinates, with its error, into the report of a run made in others. */

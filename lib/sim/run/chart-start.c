@@ -1,4 +1,4 @@
-/* chart-start.c -- converts the start of a run to other coordinates. */
+/* chart-start.c -- converts the start state of a run to other coordinates. */
 #include "sim/run/chart-start.h"
 
 #include <string.h>
@@ -32,7 +32,7 @@ qdot_chart_start_sign(const qdot_scene *s, const qdot_run_request *request, qdot
 }
 
 static qdot_status
-find_angles(const qdot_run_request *request, qdot_run_chart *x)
+find_start_angles(const qdot_run_request *request, qdot_run_chart *x)
 {
     const qdot_chart *c = &x->chart;
 
@@ -41,7 +41,7 @@ find_angles(const qdot_run_request *request, qdot_run_chart *x)
             c->of->pool, qdot_chart_at_start(c->of, request, c->moved.at[i].given), x->angles + i);
 
         if (status == QDOT_EDOMAIN)
-            x->angles[i] = 0; /* the angle is undefined at the singular place */
+            x->angles[i] = 0; /* an angle is undefined at the singular place: any value will do */
         else
             QDOT_TRY(status);
     }
@@ -66,7 +66,7 @@ qdot_run_chart_new(qdot_scene *s, const qdot_run_request *request,
     if (!x->coordinates || !x->angles)
         return QDOT_ENOMEM;
     memcpy(x->coordinates, s->coordinates.at, x->n * sizeof *x->coordinates);
-    return find_angles(request, x);
+    return find_start_angles(request, x);
 }
 
 qdot_status

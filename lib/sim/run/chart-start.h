@@ -1,15 +1,15 @@
-/* chart-start.h -- converts the start of a run to other coordinates. */
+/* chart-start.h -- converts the start state of a run to other coordinates. */
 #ifndef QDOT_SIM_CHART_START_H
 #define QDOT_SIM_CHART_START_H
 
 #include "sim/model/request.h"
 #include "sim/run/chart-run.h"
 
-/* The value of e, given in coordinates and velocities of s, at the start of the request: an exact constant. */
+/* The value at the request's start of e, an expression in coordinates and velocities of s: an exact constant. */
 qdot_expr qdot_chart_at_start(const qdot_scene *s, const qdot_run_request *request,
                               qdot_expr e);
 
-/* Find the value of e at the start and its sign, 1 or -1. Errors: as qdot_constant_double. */
+/* Find the value of the expression e at the start, and its sign, 1 or -1. Errors: as qdot_constant_double. */
 QDOT_MUST_CHECK qdot_status qdot_chart_start_sign(const qdot_scene *s,
                                             const qdot_run_request *request, qdot_expr e,
                                             int *sign, double *value);

@@ -43,7 +43,7 @@ static const double lengths[] = {8, 1e5};
 
 /* --- choosing the pair ------------------------------------------------------------------------- */
 
-/* A scene without polar coordinates, in which colliding pairs are sought. */
+/* A scene without polar coordinates, in which pairs of bodies that collide are searched for. */
 typedef struct {
     qdot_run_chart *x;
     qdot_scene *scene; /* x->chart.scene, or the given scene */
@@ -54,9 +54,9 @@ typedef struct {
 
 typedef qdot_vec(qdot_expr) causes;
 
-/* List potentials and forces of a scene, with numbers for parameters. */
+/* List the potentials and forces of a scene, with numbers in place of parameters. */
 static qdot_status
-list_causes(const ground *g, const qdot_scene *s, causes *list)
+list_potentials_and_forces(const ground *g, const qdot_scene *s, causes *list)
 {
     const qdot_run_request *r = g->request;
 
@@ -74,14 +74,14 @@ list_causes(const ground *g, const qdot_scene *s, causes *list)
     return qdot_pool_check(s->pool);
 }
 
-/* Whether anything is divided by coordinates; if not, no collision has to be looked for. */
+/* Whether a potential or force divides by an expression in coordinates; if not, no collision is searched for. */
 static qdot_status
 may_collide(const ground *g, const qdot_scene *s, bool *may)
 {
     const qdot_collision_equations of = {
         .pool = s->pool, .n = s->coordinates.n, .q = s->coordinates.at};
     causes list = {0};
-    qdot_status status = list_causes(g, s, &list);
+    qdot_status status = list_potentials_and_forces(g, s, &list);
 
     *may = false;
     for (size_t i = 0; i < list.n && status == QDOT_OK && !*may; i++)
@@ -91,7 +91,7 @@ may_collide(const ground *g, const qdot_scene *s, bool *may)
 }
 
 static qdot_expr
-release(qdot_pool *pool, qdot_expr node, void *user)
+release_held_node(qdot_pool *pool, qdot_expr node, void *user)
 {
     (void)user;
     return qdot_expr_node(pool, node)->op == QDOT_HOLD ? qdot_expr_arg(pool, node, 0)
@@ -99,18 +99,18 @@ release(qdot_pool *pool, qdot_expr node, void *user)
 }
 
 static qdot_expr
-with_numbers(const ground *g, qdot_expr e)
+insert_numbers(const ground *g, qdot_expr e)
 {
     qdot_pool *pool = g->scene->pool;
 
     e = qdot_substitute(pool, e, g->request->n_values, g->request->symbols,
                         g->request->values);
-    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, release, NULL);
+    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, release_held_node, NULL);
 }
 
-/* Solve M q'' = f with constant M for symbols in the place of f, whose expressions may be long. */
+/* Solve M q'' = f with constant M for symbols in place of f, as the expressions f may be long. */
 static qdot_status
-accelerations_solve_for(const ground *g, qdot_expr M, qdot_expr f)
+solve_for_accelerations(const ground *g, qdot_expr M, qdot_expr f)
 {
     qdot_pool *pool = g->scene->pool;
     const uint32_t n = (uint32_t)g->of.n;
@@ -141,7 +141,7 @@ find_equations(ground *g)
 {
     qdot_scene *s = g->scene;
     const size_t n = s->coordinates.n;
-    const qdot_expr M = with_numbers(g, qdot_mech_numeric_mass(s));
+    const qdot_expr M = insert_numbers(g, qdot_mech_numeric_mass(s));
     bool numbers = true, conserved = false;
 
     g->accels = qdot_calloc(n + 1, sizeof *g->accels);
@@ -152,22 +152,22 @@ find_equations(ground *g)
     QDOT_TRY(qdot_pool_check(s->pool));
     QDOT_TRY(qdot_mech_energy_conserved(g->x->chart.of, &conserved));
     if (conserved)
-        g->of.energy = with_numbers(g, qdot_mech_numeric_energy(s));
+        g->of.energy = insert_numbers(g, qdot_mech_numeric_energy(s));
     for (uint32_t i = 0; i < n * n; i++)
         numbers =
             numbers && qdot_expr_kind(s->pool, qdot_expr_arg(s->pool, M, i)) == QDOT_NUM;
     if (numbers)
-        return accelerations_solve_for(g, M, with_numbers(g, qdot_mech_numeric_forcing(s)));
+        return solve_for_accelerations(g, M, insert_numbers(g, qdot_mech_numeric_forcing(s)));
     for (size_t i = 0; i < n; i++)
-        g->accels[i] = with_numbers(g, qdot_mech_accel(s, s->coordinates.at[i]));
+        g->accels[i] = insert_numbers(g, qdot_mech_accel(s, s->coordinates.at[i]));
     return qdot_pool_check(s->pool);
 }
 
 /* The least R along the run, of its largest; where no digit of the run is right, only to the end of an
  * approach that began before: that may be what took them. */
 static qdot_status
-pair_measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
-             double *near)
+measure_pair_distance(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
+                      double *near)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const qdot_expr e = qdot_chart_given(&g->x->chart, distance);
@@ -187,14 +187,14 @@ pair_measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr
     qdot_free(values);
     *near = status == QDOT_EDOMAIN
                 ? 0
-                : least / most; /* undefined at the singular place itself */
+                : least / most; /* the distance is undefined at the singular place itself */
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* Choose the pair whose distance became smallest in the run; *found: there is one. */
+/* Choose the pair of bodies that came closest in the run, relative to its largest distance; *found: there is one. */
 static qdot_status
-pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
-            qdot_collision_pair *pair, bool *found)
+choose_closest_pair(const ground *g, qdot_run *run, const qdot_run_maker *by,
+                    qdot_collision_pair *pair, bool *found)
 {
     const qdot_scene *s = g->scene;
     const qdot_collision_equations of = {
@@ -202,7 +202,7 @@ pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
     qdot_collision_pairs pairs = {0};
     causes list = {0};
     double nearest = run->report.status == QDOT_RUN_FAILED ? near_place : nearly;
-    qdot_status status = list_causes(g, s, &list);
+    qdot_status status = list_potentials_and_forces(g, s, &list);
 
     if (status == QDOT_OK)
         status = qdot_collision_find(&of, list.n, list.at, &pairs);
@@ -210,7 +210,7 @@ pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
     for (size_t i = 0; i < pairs.n && status == QDOT_OK; i++) {
         double near;
 
-        status = pair_measure(g, run, by, pairs.at[i].distance, &near);
+        status = measure_pair_distance(g, run, by, pairs.at[i].distance, &near);
         if (status != QDOT_OK || !(near < nearest))
             continue;
         nearest = near;
@@ -226,7 +226,7 @@ pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
 
 /* Add the end time of the run as an event of the regularised scene, whose independent variable is s. */
 static qdot_status
-add_end(const ground *g)
+add_end_event(const ground *g)
 {
     const qdot_collision *c = &g->x->collision;
     const qdot_event end = {.name = (char *)(uintptr_t)at_end,
@@ -237,9 +237,9 @@ add_end(const ground *g)
     return qdot_scene_event(c->scene, &end);
 }
 
-/* The value at the start, an exact constant, of an expression in coordinates of g->scene and t. */
+/* The value at the run's start, an exact constant, of an expression in coordinates of g->scene and t. */
 static qdot_expr
-at_start(const ground *g, qdot_expr e)
+value_at_start(const ground *g, qdot_expr e)
 {
     const qdot_expr now = QDOT_T;
 
@@ -249,11 +249,11 @@ at_start(const ground *g, qdot_expr e)
                                          &g->request->t0));
 }
 
-/* A run with independent variable s: its length, start and scales. */
+/* A run with the regularising variable s in place of time: its length, start and scales. */
 typedef struct {
     size_t n;         /* number of coordinates */
-    double T, R, k;   /* duration T; distance R at the start; strength k */
-    double length;    /* length of the run in s */
+    double T, R, k;   /* duration T; distance R of the pair at the start; strength k of the attraction */
+    double length;    /* length of the run in the variable s */
     qdot_expr *start; /* [2n] start q, then q' */
     double *scales;   /* [2n] scales of q, then q' */
 } attempt;
@@ -261,7 +261,7 @@ typedef struct {
 /* What the motion is about: u at the start and at the collision, the times, velocities and energies of
  * an orbit of size R. Coordinates that are integrals alone are as large as they become. */
 static qdot_status
-find_scales(const ground *g, attempt *a)
+find_regularised_scales(const ground *g, attempt *a)
 {
     const qdot_collision *c = &g->x->collision;
     const size_t n = a->n, m = c->parts;
@@ -293,7 +293,7 @@ find_scales(const ground *g, attempt *a)
 }
 
 static qdot_status
-collision_make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
+make_regularised_run(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
 {
     const qdot_collision *c = &g->x->collision;
     const bool by_series = strcmp(g->request->method, "auto") == 0 ||
@@ -301,7 +301,7 @@ collision_make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run *
     qdot_run_request other = *g->request;
     char text[40];
 
-    QDOT_TRY(find_scales(g, a));
+    QDOT_TRY(find_regularised_scales(g, a));
     snprintf(text, sizeof text, "%.3g", fabs(a->length));
     other.t0 = QDOT_ZERO;
     other.t1 = qdot_expr_decimal(c->pool, text, strlen(text));
@@ -320,14 +320,14 @@ collision_make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run *
 
 /* Whether the run over s reached its end, or was stopped by an event of the given scene. */
 static bool
-arrives(const qdot_run *run)
+reaches_end(const qdot_run *run)
 {
     return run->report.status == QDOT_RUN_STOPPED && run->course.stopped_by != SIZE_MAX &&
            run->has_companion && run->has_twin;
 }
 
 static qdot_status
-attempt_prepare(const ground *g, attempt *a)
+prepare_regularised_run(const ground *g, attempt *a)
 {
     const qdot_collision *c = &g->x->collision;
     double t0, t1;
@@ -337,27 +337,27 @@ attempt_prepare(const ground *g, attempt *a)
     if (!a->start || !a->scales)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < a->n; i++) {
-        a->start[i] = at_start(g, c->q0.at[i]);
-        a->start[a->n + i] = at_start(g, c->v0.at[i]);
+        a->start[i] = value_at_start(g, c->q0.at[i]);
+        a->start[a->n + i] = value_at_start(g, c->v0.at[i]);
     }
     QDOT_TRY(qdot_constant_double(c->pool, g->request->t0, &t0));
     QDOT_TRY(qdot_constant_double(c->pool, g->request->t1, &t1));
     QDOT_TRY(qdot_constant_double(c->pool, c->strength, &a->k));
     a->T = t1 - t0;
-    return qdot_constant_double(c->pool, at_start(g, c->pair.distance), &a->R);
+    return qdot_constant_double(c->pool, value_at_start(g, c->pair.distance), &a->R);
 }
 
 static qdot_status
-run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
+run_in_regularised_time(const ground *g, const qdot_run_maker *by, qdot_run **out)
 {
     attempt a = {.n = g->x->collision.scene->coordinates.n};
-    qdot_status status = attempt_prepare(g, &a);
+    qdot_status status = prepare_regularised_run(g, &a);
 
     for (size_t k = 0; status == QDOT_OK && !*out && k < sizeof lengths / sizeof *lengths;
          k++) {
         a.length = lengths[k] * 2 * a.T / a.R;
-        status = collision_make(g, by, &a, out);
-        if (status == QDOT_OK && arrives(*out))
+        status = make_regularised_run(g, by, &a, out);
+        if (status == QDOT_OK && reaches_end(*out))
             break;
         by->free(*out);
         *out = NULL;
@@ -370,7 +370,7 @@ run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
 /* --- the run as a function of t ---------------------------------------------------------------- */
 
 static qdot_status
-time_occurrences(qdot_course *c, size_t clock, size_t end)
+convert_occurrence_times(qdot_course *c, size_t clock, size_t end)
 {
     qdot_trajectory_cursor *cursor;
     size_t left = 0;
@@ -396,13 +396,13 @@ time_occurrences(qdot_course *c, size_t clock, size_t end)
     return status;
 }
 
-/* Convert a course over s to t, which is its component `clock`; `end` is the event at t1. */
+/* Convert a run over s to times t, which are its component `clock`; `end` is the event at t1. */
 static qdot_status
-time_course(qdot_course *c, size_t clock, size_t end, double t1)
+convert_course_times(qdot_course *c, size_t clock, size_t end, double t1)
 {
     if (c->tr.count == 0)
         return QDOT_OK;
-    QDOT_TRY(time_occurrences(c, clock, end));
+    QDOT_TRY(convert_occurrence_times(c, clock, end));
     if (c->tr.count < most_refined)
         QDOT_TRY(qdot_trajectory_refine(&c->tr, qdot_course_systems(c), parts));
     QDOT_TRY(qdot_trajectory_by_clock(&c->tr, clock));
@@ -411,9 +411,9 @@ time_course(qdot_course *c, size_t clock, size_t end, double t1)
     return QDOT_OK;
 }
 
-/* Replace a value of s in the report, such as the horizon, by the time t. */
+/* Replace a value of s in the report, such as the horizon, by the time t that corresponds to it. */
 static qdot_status
-time_of(const qdot_run *run, size_t clock, double *t)
+convert_to_time(const qdot_run *run, size_t clock, double *t)
 {
     double *y;
     qdot_status status;
@@ -430,9 +430,9 @@ time_of(const qdot_run *run, size_t clock, double *t)
     return status;
 }
 
-/* Write that an event of the given scene stopped the run, with its time in t. */
+/* Set the reason that an event of the given scene stopped the run, with the time t. */
 static qdot_status
-say_stop(qdot_run *run, double t)
+record_stop(qdot_run *run, double t)
 {
     const char *cause = run->reason ? qdot_course_cause(run->reason) : NULL;
     qdot_text text = {0};
@@ -448,9 +448,9 @@ say_stop(qdot_run *run, double t)
     return status;
 }
 
-/* Convert the times and the horizon of a run over the regular variable s to t. */
+/* Convert the event times and the horizon of a run over the regularising variable s to times t. */
 static qdot_status
-put_in_time(const ground *g, qdot_run *run)
+convert_run_times(const ground *g, qdot_run *run)
 {
     const qdot_collision *c = &g->x->collision;
     qdot_run_report *r = &run->report;
@@ -462,27 +462,27 @@ put_in_time(const ground *g, qdot_run *run)
         end++;
     QDOT_TRY(qdot_constant_double(c->pool, g->request->t0, &run->t0));
     QDOT_TRY(qdot_constant_double(c->pool, g->request->t1, &run->t1));
-    QDOT_TRY(time_of(run, clock, &r->horizon));
-    QDOT_TRY(time_of(run, clock, &r->standstill));
-    QDOT_TRY(time_course(&run->course, clock, end, run->t1));
-    QDOT_TRY(time_course(&run->companion, clock, end, run->t1));
-    QDOT_TRY(time_course(&run->twin, clock, end, run->t1));
+    QDOT_TRY(convert_to_time(run, clock, &r->horizon));
+    QDOT_TRY(convert_to_time(run, clock, &r->standstill));
+    QDOT_TRY(convert_course_times(&run->course, clock, end, run->t1));
+    QDOT_TRY(convert_course_times(&run->companion, clock, end, run->t1));
+    QDOT_TRY(convert_course_times(&run->twin, clock, end, run->t1));
     run->t0_low = run->t1_low = 0;
     run->t0_side = run->t1_side = 0;
     r->tol = g->request->tol;
     r->t0 = run->t0;
     r->t1 = run->course.tr.t[run->course.tr.count - 1];
     if (run->course.stopped_by != end)
-        return say_stop(run, r->t1);
+        return record_stop(run, r->t1);
     r->status = QDOT_RUN_DONE;
     r->reason = NULL;
     run->course.tr.result.outcome = QDOT_ODE_DONE;
     return QDOT_OK;
 }
 
-/* Measure the drift of the energy, if it is conserved. */
+/* Measure the drift of the energy of the given scene, if the energy is conserved. */
 static qdot_status
-measure_energy(const ground *g, const qdot_run_maker *by, qdot_run *run)
+measure_energy_drift(const ground *g, const qdot_run_maker *by, qdot_run *run)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_drift drift = {.name = "energy", .quantity = g->x->collision.energy};
@@ -505,7 +505,7 @@ measure_energy(const ground *g, const qdot_run_maker *by, qdot_run *run)
 }
 
 static qdot_status
-say_collision(const ground *g, qdot_run *run)
+add_notice_of_collision(const ground *g, qdot_run *run)
 {
     static const char *const names[] = {"u, R = u^2", "Levi-Civita's coordinates",
                                         "Kustaanheimo and Stiefel's coordinates"};
@@ -530,7 +530,7 @@ say_collision(const ground *g, qdot_run *run)
 /* Add a notice why the collision in the failed run is not passed. Without a force like 1/R^2 there
  * is no collision. */
 static qdot_status
-say_hindrance(const ground *g, qdot_run *run)
+add_notice_of_hindrance(const ground *g, qdot_run *run)
 {
     if (run->report.status != QDOT_RUN_FAILED || g->x->collision.strength == QDOT_ZERO)
         return QDOT_OK;
@@ -543,8 +543,8 @@ say_hindrance(const ground *g, qdot_run *run)
 
 /* Make the run with the given pair regularised; *out is NULL if it does not reach its end. */
 static qdot_status
-collision_pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
-               qdot_run **out)
+try_regularised_run(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
+                    qdot_run **out)
 {
     qdot_run_chart *x = g->x;
     double first;
@@ -554,18 +554,18 @@ collision_pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *p
                              qdot_chart_given(&x->chart, pair->x[0]), &sign, &first));
     QDOT_TRY(qdot_collision_make(g->scene, &g->of, pair, sign, &x->collision));
     if (!x->collision.scene)
-        return say_hindrance(g, run);
+        return add_notice_of_hindrance(g, run);
     if (x->collision.energy != QDOT_NIL)
         x->energy = qdot_mech_energy(x->chart.of);
-    QDOT_TRY(add_end(g));
-    QDOT_TRY(run_in_s(g, by, out));
+    QDOT_TRY(add_end_event(g));
+    QDOT_TRY(run_in_regularised_time(g, by, out));
     if (!*out)
         return QDOT_OK;
-    QDOT_TRY(put_in_time(g, *out));
+    QDOT_TRY(convert_run_times(g, *out));
     (*out)->chart = x;
-    QDOT_TRY(measure_energy(g, by, *out));
+    QDOT_TRY(measure_energy_drift(g, by, *out));
     QDOT_TRY(qdot_run_chart_report(*out, by));
-    return say_collision(g, *out);
+    return add_notice_of_collision(g, *out);
 }
 
 qdot_status
@@ -586,12 +586,12 @@ qdot_run_collide(qdot_scene *s, const qdot_run_request *request, const qdot_run_
     status = qdot_run_chart_open(s, request, &g.x);
     if (status == QDOT_OK) {
         g.scene = g.x->chart.scene ? g.x->chart.scene : s;
-        status = pair_choose(&g, run, by, &pair, &found);
+        status = choose_closest_pair(&g, run, by, &pair, &found);
     }
     if (status == QDOT_OK && found)
         status = find_equations(&g);
     if (status == QDOT_OK && found)
-        status = collision_pass(&g, by, &pair, run, out);
+        status = try_regularised_run(&g, by, &pair, run, out);
     if (!*out || (*out)->chart != g.x)
         qdot_run_chart_free(g.x);
     qdot_free(g.accels);

@@ -13,16 +13,16 @@
 #include "sim/model/constraints.h"
 #include "sim/run/run.h"
 
-/* The plan that is integrated: the reduced one if there is one. */
+/* The plan that is integrated: the reduced plan if there is one, otherwise p. */
 static const qdot_plan *
-moving(const qdot_plan *p)
+integrated_plan(const qdot_plan *p)
 {
     return p->reduced ? p->reduced : p;
 }
 
-/* List the coordinates whose momenta are conserved. */
+/* List the coordinates whose momenta are conserved, in the description of a plan. */
 static void
-say_kept(const qdot_plan *r, qdot_text *out)
+describe_kept_momenta(const qdot_plan *r, qdot_text *out)
 {
     const bool one = r->n_kept == 1;
 
@@ -37,10 +37,10 @@ say_kept(const qdot_plan *r, qdot_text *out)
 }
 
 static void
-say_mass(const qdot_plan *p, qdot_text *out)
+describe_mass_matrix(const qdot_plan *p, qdot_text *out)
 {
     const char *when = p->method->series ? "once a step" : "at every evaluation";
-    const size_t n = p->n - p->n_kept - p->n_states; /* without parameters, each of which is a block of its own */
+    const size_t n = p->n - p->n_kept - p->n_states; /* do not count parameters, each of which is a block of its own */
     const size_t blocks = p->structure.blocks - p->n_states;
     size_t single = 0, constant = 0, largest = 0;
 
@@ -51,7 +51,7 @@ say_mass(const qdot_plan *p, qdot_text *out)
             largest = p->blocks[k].n;
     }
     if (p->n_kept > 0)
-        say_kept(p, out);
+        describe_kept_momenta(p, out);
     if (blocks == 0)
         return;
     single -= p->n_states;
@@ -92,12 +92,12 @@ holds_time(const qdot_plan *p, qdot_expr e)
 }
 
 static void
-say_time(const qdot_plan *p, qdot_text *out)
+describe_time_dependence(const qdot_plan *p, qdot_text *out)
 {
     bool time = false;
 
     for (size_t i = 0; i < p->n && !p->M; i++)
-        time |= holds_time(p, p->residual->applied[i]); /* positions do not depend on t */
+        time |= holds_time(p, p->residual->applied[i]); /* only forces need a test: positions do not depend on t */
     for (size_t i = 0; i < p->n && p->M; i++) {
         time |= holds_time(p, p->f[i]);
         for (size_t j = 0; j < p->n; j++)
@@ -109,7 +109,7 @@ say_time(const qdot_plan *p, qdot_text *out)
 
 /* Describe the constraints, how they are solved, and how the state is kept on them. */
 static void
-say_constraints(const qdot_plan *p, qdot_text *out)
+describe_constraints(const qdot_plan *p, qdot_text *out)
 {
     static const char *const kinds[] = {"holonomic", "of velocities", "of accelerations"};
     static const char *const treatments[] = {
@@ -146,7 +146,7 @@ say_constraints(const qdot_plan *p, qdot_text *out)
 }
 
 static void
-say_blocks(const qdot_plan *p, qdot_text *out)
+describe_blocks(const qdot_plan *p, qdot_text *out)
 {
     const size_t blocks = p->structure.blocks - p->n_states;
 
@@ -162,9 +162,9 @@ say_blocks(const qdot_plan *p, qdot_text *out)
     }
 }
 
-/* Describe the machine code that expands to order p in a run with tolerance tol. */
+/* Describe the machine code that expands the motion to order p, in a run with tolerance tol. */
 static qdot_status
-say_code(qdot_bind *bind, double tol, int p, qdot_text *out)
+describe_machine_code(qdot_bind *bind, double tol, int p, qdot_text *out)
 {
     const qdot_ode_system system = qdot_bind_system(bind);
     const qdot_ode_series *series = system.series;
@@ -181,9 +181,9 @@ say_code(qdot_bind *bind, double tol, int p, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Describe Taylor series: the order, the form of the equations, the cost of an order. */
+/* Describe the Taylor series of a plan: the order, the form of the equations, the cost of an order. */
 static qdot_status
-say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
+describe_series(const qdot_plan *p, double tol, qdot_text *out)
 {
     qdot_bind *bind;
     qdot_ode_system system;
@@ -198,7 +198,7 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
     qdot_text_format(out, "order: %d, chosen by the cost of an expansion at tol %g\n", order, tol);
 
     qdot_text_add(out, "recurrences: ");
-    status = say_code(bind, tol, order, out);
+    status = describe_machine_code(bind, tol, order, out);
     qdot_text_char(out, '\n');
     if (system.leading)
         qdot_text_add(out, "rounding: state, parameters and the first orders as sums of two "
@@ -255,7 +255,7 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
 }
 
 static void
-name_all(const qdot_plan *p, qdot_text *out)
+list_coordinate_names(const qdot_plan *p, qdot_text *out)
 {
     for (size_t i = 0; i < p->n; i++)
         qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
@@ -263,7 +263,7 @@ name_all(const qdot_plan *p, qdot_text *out)
 
 /* List the events, domains and switches that are searched for in every step. */
 static void
-say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
+describe_watched_functions(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
 {
     size_t found = 0;
 
@@ -279,25 +279,25 @@ say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
 
 /* Describe the groups of decoupled coordinates that are integrated separately, or would be without events. */
 static qdot_status
-say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
+describe_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
 {
     if (s->modes.at[0]->m > 0) {
         qdot_text_add(out, "decoupled parts, integrated together, as each step is searched for ");
-        say_watched(s, p, out);
+        describe_watched_functions(s, p, out);
         qdot_text_char(out, ':');
         for (size_t k = 0; k < p->n_parts; k++) {
             qdot_text_add(out, k ? ";" : "");
-            name_all(p->parts[k], out);
+            list_coordinate_names(p->parts[k], out);
         }
         qdot_text_char(out, '\n');
-        return say_series_of_all(p, tol, out);
+        return describe_series(p, tol, out);
     }
     qdot_text_add(out, "decoupled parts, each with its own steps:\n");
     for (size_t k = 0; k < p->n_parts; k++) {
-        const qdot_plan *r = moving(p->parts[k]);
+        const qdot_plan *r = integrated_plan(p->parts[k]);
 
         qdot_text_add(out, " ");
-        name_all(p->parts[k], out);
+        list_coordinate_names(p->parts[k], out);
         if (p->method->series) {
             qdot_ode_system system;
             qdot_bind *bind;
@@ -309,7 +309,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
             order = qdot_ode_taylor_order(system.series, tol, system.leading, 0);
             qdot_text_format(out, ": order %d, %g convolutions an order; ", order,
                              r->convolutions_derived);
-            status = say_code(bind, tol, order, out);
+            status = describe_machine_code(bind, tol, order, out);
             if (system.leading)
                 qdot_text_add(out, "; first orders as sums of two doubles");
             qdot_bind_free(bind);
@@ -317,7 +317,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
         }
         if (r->n_kept > 0) {
             qdot_text_add(out, "; ");
-            say_kept(r, out);
+            describe_kept_momenta(r, out);
         } else {
             qdot_text_char(out, '\n');
         }
@@ -327,7 +327,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
 
 /* List the surfaces at which the equations switch, and other reasons to divide the run. */
 static qdot_status
-say_switches(const qdot_stage *s, qdot_text *out)
+describe_switches(const qdot_stage *s, qdot_text *out)
 {
     for (size_t i = 0; i < qdot_switches_own(&s->switches); i++) {
         qdot_text_add(out, i ? ", " : "switches: located, a plan for each side; at ");
@@ -344,9 +344,9 @@ say_switches(const qdot_stage *s, qdot_text *out)
     return QDOT_OK;
 }
 
-/* List the components of the run: coordinates, and parameters that events set. */
+/* List the components of the state of a run: coordinates, and parameters that events set. */
 static void
-say_coordinates(const qdot_plan *p, qdot_text *out)
+describe_coordinates(const qdot_plan *p, qdot_text *out)
 {
     const size_t n = p->n - p->n_states;
 
@@ -359,7 +359,7 @@ say_coordinates(const qdot_plan *p, qdot_text *out)
 }
 
 static qdot_status
-plan_describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
+describe_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
 {
     qdot_stage stage = {0};
     qdot_status status = qdot_stage_begin(&stage, scene, request);
@@ -370,18 +370,18 @@ plan_describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
         qdot_stage_clear(&stage);
         return status;
     }
-    say_coordinates(p, out);
+    describe_coordinates(p, out);
     qdot_text_add(out, p->constraints
                            ? "\nequations: M q'' = f + A^T lambda with the constraints, as "
                              "y = (q, q')\n"
                            : "\nequations: M(q, t) q'' = f(q, q', t), as y = (q, q')\n");
     if (p->constraints) {
-        say_constraints(p, out);
+        describe_constraints(p, out);
     } else {
-        say_mass(moving(p), out);
-        say_blocks(moving(p), out);
+        describe_mass_matrix(integrated_plan(p), out);
+        describe_blocks(integrated_plan(p), out);
     }
-    say_time(p, out);
+    describe_time_dependence(p, out);
     operations = qdot_plan_operations(p, &calls);
     qdot_text_format(out,
                      "tape: %zu operations for %s, of them %zu call%s of elementary "
@@ -393,9 +393,9 @@ plan_describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,
                      p->chosen ? "chosen" : "asked for", p->method->fits);
     if (p->n_parts > 0)
-        status = say_parts(&stage, p, request->tol, out);
+        status = describe_parts(&stage, p, request->tol, out);
     else
-        status = say_series_of_all(p, request->tol, out);
+        status = describe_series(p, request->tol, out);
     qdot_text_format(out,
                      "error: two further runs by %s, at a tighter tolerance, on threads of "
                      "their own\n",
@@ -403,7 +403,7 @@ plan_describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
                      : p->method->stiff                                  ? "radau"
                                                                          : p->method->partner);
     if (status == QDOT_OK)
-        status = say_switches(&stage, out);
+        status = describe_switches(&stage, out);
     qdot_stage_clear(&stage);
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }
@@ -415,7 +415,7 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
-    status = plan_describe(scene, &states.request, out);
+    status = describe_plan(scene, &states.request, out);
     qdot_parameter_states_clear(&states);
     return status;
 }

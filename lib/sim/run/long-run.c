@@ -7,18 +7,18 @@
 #include "base/memory.h"
 #include "ode/integrate.h"
 
-/* The default tolerance of a run. */
+/* The default tolerance of a run, if the request gives none. */
 static const double tol_unsaid = 1e-12;
 
-/* The number of steps used for a prediction; `first_steps` if the first few make a long run likely. */
+/* The number of steps from which the length of a run is predicted: `few_steps`, or more if it seems long. */
 enum { few_steps = 2, first_steps = 64 };
 static const double unlikely = QDOT_LONG_STEPS / 50;
 
-/* Stored points may take 2 GB; half is reserved for their low parts and for the companions' points. */
+/* Stored points may take 2 GB: half for the points, half for their low parts and the companion runs' points. */
 static const double most_bytes = 1e9;
 
 static qdot_status
-count(double t, const double *y, bool *stop, void *user)
+count_step(double t, const double *y, bool *stop, void *user)
 {
     int *left = user;
 
@@ -28,13 +28,13 @@ count(double t, const double *y, bool *stop, void *user)
     return QDOT_OK;
 }
 
-/* Predict the number of steps of the whole run from the first `looked` ones; 0 if that is not possible. */
+/* Predict the number of steps of the whole run from its first `looked` steps; 0 if that is not possible. */
 static qdot_status
-foresee(const qdot_long_run *run, int looked, double *steps)
+predict_steps(const qdot_long_run *run, int looked, double *steps)
 {
     int left = looked;
     qdot_ode_options options = {
-        .tol = run->tol, .carry = run->low, .accepted = count, .user = &left};
+        .tol = run->tol, .carry = run->low, .accepted = count_step, .user = &left};
     double *y = qdot_malloc(run->system->n * sizeof *y);
     qdot_ode_result result;
     qdot_status status;
@@ -64,10 +64,10 @@ qdot_long_run_tolerance(const qdot_long_run *run, double *tol)
     if (!p->chosen || !p->method->series || !p->smooth || p->constraints || p->n_states > 0
         || fabs(run->tol / tol_unsaid - 1) > 1e-9)
         return QDOT_OK;
-    QDOT_TRY(foresee(run, few_steps, &steps));
+    QDOT_TRY(predict_steps(run, few_steps, &steps));
     if (!(steps > unlikely))
         return QDOT_OK;
-    QDOT_TRY(foresee(run, first_steps, &steps));
+    QDOT_TRY(predict_steps(run, first_steps, &steps));
     if (steps > QDOT_LONG_STEPS && steps * bytes < most_bytes)
         *tol = QDOT_LONG_TOL;
     return QDOT_OK;

@@ -21,7 +21,7 @@
 typedef struct {
     const qdot_plan *plan;
     const qdot_ode_system *system;
-    const double *start, *low; /* [2n] the exact start is start + low */
+    const double *start, *low; /* [2n] the exact start state is start + low */
     double t0, t1, tol;
 } qdot_long_run;
 

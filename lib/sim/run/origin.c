@@ -11,17 +11,17 @@
 #include "expr/exact.h"
 #include "expr/walk.h"
 
-/* A run counts times from its start if that is farther from t = 0 than this many durations of the run. */
+/* A run counts times from its start if this is farther from t = 0 than this many durations of the run. */
 static const double far = 1024;
 
 typedef struct {
     qdot_pool *pool;
-    qdot_expr time; /* the expression for t in terms of s */
+    qdot_expr time; /* the expression t0 + s, which replaces t */
     bool found;
 } writing;
 
 static qdot_expr
-write_in_s(qdot_expr e, void *user)
+replace_time(qdot_expr e, void *user)
 {
     const writing *w = user;
     const qdot_expr t = QDOT_T;
@@ -31,7 +31,7 @@ write_in_s(qdot_expr e, void *user)
 
 /* Whether the scene, or the value of a parameter, depends explicitly on t. */
 static bool
-origin_has_time(qdot_scene *s, const qdot_run_request *r)
+is_time_dependent(qdot_scene *s, const qdot_run_request *r)
 {
     bool found = qdot_scene_contains(s, QDOT_T);
 
@@ -47,9 +47,9 @@ origin_has_time(qdot_scene *s, const qdot_run_request *r)
     return found;
 }
 
-/* Rewrite the scene in terms of s; what events set is stored after the values of the request. */
+/* Rewrite the scene in terms of s; assignments of events are stored after the request's values. */
 static qdot_status
-write_scene(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
+rewrite_scene(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
 {
     writing w = {.pool = scene->pool,
                  .time = qdot_add(scene->pool, QDOT_T, qdot_expr_of_double(scene->pool, o->origin))};
@@ -64,19 +64,19 @@ write_scene(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
     o->scene = scene;
     n = 0;
     for (; n < asked->n_values; n++)
-        o->values[n] = write_in_s(asked->values[n], &w);
+        o->values[n] = replace_time(asked->values[n], &w);
     o->request.values = o->values;
     for (size_t i = 0; i < scene->events.n; i++) {
         qdot_event *e = &scene->events.at[i];
 
         for (size_t k = 0; k < e->values.n; k++) {
             o->values[n++] = e->values.at[k];
-            e->values.at[k] = write_in_s(e->values.at[k], &w);
+            e->values.at[k] = replace_time(e->values.at[k], &w);
         }
-        e->left = write_in_s(e->left, &w);
-        e->right = write_in_s(e->right, &w);
+        e->left = replace_time(e->left, &w);
+        e->right = replace_time(e->right, &w);
     }
-    return qdot_scene_map(scene, write_in_s, &w);
+    return qdot_scene_map(scene, replace_time, &w);
 }
 
 qdot_status
@@ -100,7 +100,7 @@ qdot_origin_begin(qdot_origin *o, qdot_scene *scene, const qdot_run_request *ask
     o->request.t0 = qdot_sub(pool, asked->t0, origin);
     o->request.t1 = qdot_sub(pool, asked->t1, origin);
     QDOT_TRY(qdot_pool_check(pool));
-    return origin_has_time(scene, asked) ? write_scene(o, scene, asked) : QDOT_OK;
+    return is_time_dependent(scene, asked) ? rewrite_scene(o, scene, asked) : QDOT_OK;
 }
 
 void

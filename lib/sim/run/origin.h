@@ -11,16 +11,16 @@
 #include "mech/scene/saved.h"
 #include "sim/model/request.h"
 
-/* A request that counts time from the start, as s. Start from {0}. */
+/* A request that counts time as s = t - origin, from near the start. Start from {0}. */
 typedef struct {
-    qdot_run_request request; /* the request in s; borrows from the given one */
+    qdot_run_request request; /* the request with times s; it borrows from the given one */
     double origin;            /* the time at s = 0; 0: nothing was changed */
-    qdot_scene *scene;        /* the scene in terms of s; NULL: t does not occur in it */
+    qdot_scene *scene;        /* the scene in terms of s; NULL: t does not occur in the scene */
     qdot_scene_saved saved;
-    qdot_expr *values; /* the original values of parameters and of assignments of events */
+    qdot_expr *values; /* the original values of parameters, and those of assignments by events */
 } qdot_origin;
 
-/* Rewrite scene and request; call _end in any case. Errors: those of constants, QDOT_ENOMEM. */
+/* Rewrite scene and request in s; call qdot_origin_end in any case. Errors: those of constants, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_origin_begin(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked);
 void qdot_origin_end(qdot_origin *o);
 

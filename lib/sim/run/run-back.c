@@ -1,4 +1,4 @@
-/* run-back.c -- reports the assumptions that a run backwards in time has made. */
+/* run-back.c -- reports the assumptions that a backward run has made about events. */
 #include "sim/run/run-back.h"
 
 static bool

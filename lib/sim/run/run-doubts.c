@@ -1,4 +1,4 @@
-/* run-doubts.c -- reasons for which the error of a run is unknown even if its companions agree. */
+/* run-doubts.c -- finds reasons why a run's error is unknown even if its companion runs agree with it. */
 #include "sim/run/run-doubts.h"
 
 #include <fenv.h>
@@ -11,18 +11,18 @@
 #include "sim/error/touches.h"
 #include "sim/error/unresolved-forces.h"
 
-/* Make the error of the run unknown, for the reason given. */
+/* Mark the error of the run as unknown, for the given reason. */
 static qdot_status
-lose_error_estimate(qdot_run *run, const char *doubt)
+mark_error_unknown(qdot_run *run, const char *doubt)
 {
     run->hidden = true;
     run->report.error = run->report.scaled_error = run->report.horizon = NAN;
     return qdot_run_say_doubt(run, doubt);
 }
 
-/* Make the error unknown if a step missed a force. */
+/* Mark the error of the run as unknown if a step missed a short force. */
 static qdot_status
-find_hidden(qdot_run *run)
+check_missed_forces(qdot_run *run)
 {
     const qdot_error before = *qdot_last_error();
     char text[200];
@@ -37,13 +37,13 @@ find_hidden(qdot_run *run)
              "a force acts about t = %.6g for less than a step, which went over it: %s", t,
              run->plan->method->series ? "end a run just before, and go on from there"
                                        : "method taylor looks for such places");
-    return lose_error_estimate(run, text);
+    return mark_error_unknown(run, text);
 }
 
 /* Make the error unknown if the motion reversed at a cusp of a constraint, after which its course
  * is unknown. */
 static qdot_status
-find_corner(qdot_run *run)
+check_constraint_corners(qdot_run *run)
 {
     bool found;
     char text[300];
@@ -59,13 +59,13 @@ find_corner(qdot_run *run)
              "constraint %.100s has no direction about t = %.6g, a cusp of it, and what the motion is "
              "from there is not determined",
              run->plan->constraints->rows[row].name, t);
-    return lose_error_estimate(run, text);
+    return mark_error_unknown(run, text);
 }
 
 /* Make the error unknown if an event with a direction touches 0 within rounding, so that it may not
  * occur there. */
 static qdot_status
-find_touch(qdot_run *run)
+check_touching_events(qdot_run *run)
 {
     const qdot_course *c = &run->course;
     char text[300];
@@ -78,7 +78,7 @@ find_touch(qdot_run *run)
         snprintf(text, sizeof text,
                  "about t = %.6g the event %.100s touches within rounding, so that whether it acts there is not known",
                  c->faded.at[k].from, e->name);
-        return lose_error_estimate(run, text);
+        return mark_error_unknown(run, text);
     }
     return QDOT_OK;
 }
@@ -90,7 +90,7 @@ static const double of_series = 0x1p80;
 /* Whether an acceleration that is off by so much all along the run may move coordinate i, of so many, by more than its
  * rounding. */
 static bool
-acceleration_moves(const qdot_trajectory *tr, size_t i, double off)
+acceleration_exceeds(const qdot_trajectory *tr, size_t i, double off)
 {
     const double size = fmax(fabs(tr->y[i]), fabs(tr->y[(tr->count - 1) * tr->n + i])),
                  length = fabs(tr->t[tr->count - 1] - tr->t[0]);
@@ -101,12 +101,12 @@ acceleration_moves(const qdot_trajectory *tr, size_t i, double off)
 /* Whether the run is so long that what a series of accelerations loses near the least double would move a coordinate:
  * x = 1 in a span of 1e142. */
 static bool
-least_acceleration_moves(const qdot_trajectory *tr)
+least_acceleration_exceeds(const qdot_trajectory *tr)
 {
     bool moves = false;
 
     for (size_t i = 0; i < tr->n / 2; i++)
-        moves = moves || acceleration_moves(tr, i, of_series * DBL_TRUE_MIN);
+        moves = moves || acceleration_exceeds(tr, i, of_series * DBL_TRUE_MIN);
     return moves;
 }
 
@@ -114,7 +114,7 @@ least_acceleration_moves(const qdot_trajectory *tr)
  * run so `long_` that any such loss does, underflows at all or has an acceleration so small that its series does.
  *   a [n]  room for q'' and for what it loses */
 static qdot_status
-point_underflows(const qdot_course *course, const qdot_ode_system *system, size_t k, bool is_long, double *a, bool *found)
+check_underflow_at_point(const qdot_course *course, const qdot_ode_system *system, size_t k, bool is_long, double *a, bool *found)
 {
     const qdot_trajectory *tr = &course->tr;
     const size_t n = tr->n / 2;
@@ -130,19 +130,19 @@ point_underflows(const qdot_course *course, const qdot_ode_system *system, size_
     *found = is_long;
     QDOT_TRY(qdot_bind_underflows(system, tr->t[k], y, a, a + n));
     for (size_t j = 0; j < n; j++)
-        *found = *found || acceleration_moves(tr, j, a[n + j]);
+        *found = *found || acceleration_exceeds(tr, j, a[n + j]);
     return QDOT_OK;
 }
 
-/* Make the error unknown if forces too small for a double would matter in the run. */
+/* Mark the error as unknown if forces too small for a double would change the run. */
 static qdot_status
-find_underflow(qdot_run *run)
+check_underflow(qdot_run *run)
 {
     enum { PLACES = 32 };
     const qdot_course *course = &run->course;
     const qdot_trajectory *tr = &course->tr;
     const qdot_error before = *qdot_last_error();
-    const bool is_long = tr->count > 0 && least_acceleration_moves(tr);
+    const bool is_long = tr->count > 0 && least_acceleration_exceeds(tr);
     const size_t step = is_long || tr->count < PLACES ? 1 : (tr->count + PLACES - 1) / PLACES;
     double *a;
     qdot_status status = QDOT_OK;
@@ -156,13 +156,13 @@ find_underflow(qdot_run *run)
     for (size_t k = 0; k < tr->count && !found && status == QDOT_OK; k += step) {
         const size_t mode = tr->pieces.at[qdot_trajectory_piece_of(tr, k)].mode;
 
-        status = point_underflows(course, qdot_course_systems(course) + mode, k, is_long, a, &found);
+        status = check_underflow_at_point(course, qdot_course_systems(course) + mode, k, is_long, a, &found);
     }
     qdot_free(a);
     if (status == QDOT_OK)
         qdot_fail_again(&before);
     return status == QDOT_OK && found
-               ? lose_error_estimate(run, "forces are as small as the least double or smaller, and their rounding errors matter in this run: "
+               ? mark_error_unknown(run, "forces are as small as the least double or smaller, and their rounding errors matter in this run: "
                                           "other units, or `digits 20`")
                : status;
 }
@@ -170,10 +170,10 @@ find_underflow(qdot_run *run)
 qdot_status
 qdot_run_doubt_places(qdot_run *run)
 {
-    QDOT_TRY(find_hidden(run));
-    QDOT_TRY(find_corner(run));
-    QDOT_TRY(find_touch(run));
-    return find_underflow(run);
+    QDOT_TRY(check_missed_forces(run));
+    QDOT_TRY(check_constraint_corners(run));
+    QDOT_TRY(check_touching_events(run));
+    return check_underflow(run);
 }
 
 qdot_status
@@ -195,7 +195,7 @@ qdot_run_doubt_energy(qdot_run *run, double tol)
                                     fmax(tol, tr->result.stats.raised), &contradict));
     if (!contradict)
         return QDOT_OK;
-    return lose_error_estimate(run, "the energy, which is conserved, has not been kept: a step came within tol of a "
+    return mark_error_unknown(run, "the energy, which is conserved, has not been kept: a step came within tol of a "
                                     "place where the equations are singular, or went over it");
 }
 

@@ -6,9 +6,9 @@
 
 #include "sim/form/derived.h"
 
-/* Report the steps of each part that was integrated separately. */
+/* Report the numbers of steps of each part that was integrated separately. */
 static qdot_status
-say_apart(qdot_run *run)
+report_parts(qdot_run *run)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_text *names = &run->part_names;
@@ -66,5 +66,5 @@ qdot_run_fill_report(qdot_run *run, double tol)
     r->drifts = run->drifts.at;
     r->projections = stats->projections;
     qdot_multipliers_report(&run->multipliers, p, r);
-    return say_apart(run);
+    return report_parts(run);
 }

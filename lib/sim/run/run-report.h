@@ -7,7 +7,7 @@
 
 #include "sim/course/run-state.h"
 
-/* Fill run->report, except the error, from a run made with tolerance `tol`. QDOT_ENOMEM. */
+/* Fill run->report, all but the error estimate, for a run made with tolerance `tol`. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_fill_report(qdot_run *run, double tol);
 
 #endif

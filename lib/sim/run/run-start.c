@@ -11,9 +11,9 @@
 #include "sim/start/start.h"
 #include "tape/shake.h"
 
-/* Refuse different time limits that round to the same double. */
+/* Refuse time limits that differ but round to the same double. */
 static qdot_status
-check_length(qdot_run *run, const qdot_run_request *request)
+check_time_limits(qdot_run *run, const qdot_run_request *request)
 {
     qdot_pool *pool = run->plan->pool;
     double length, low;
@@ -41,7 +41,7 @@ read_start(qdot_run *run, const qdot_run_request *request)
     QDOT_TRY(qdot_plan_number(run->plan, request->t0, &run->t0, &run->t0_side, &run->t0_low));
     QDOT_TRY(qdot_plan_number(run->plan, request->t1, &run->t1, &run->t1_side, &run->t1_low));
     if (run->t0 == run->t1 && request->t0 != request->t1)
-        QDOT_TRY(check_length(run, request));
+        QDOT_TRY(check_time_limits(run, request));
     for (size_t i = 0; i < n; i++) {
         QDOT_TRY(qdot_plan_number(run->plan, request->q0[i], &run->start[i], &side,
                           &run->start_low[i]));
@@ -51,9 +51,9 @@ read_start(qdot_run *run, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* Read run->apart, the errors of the start; parameters that events set have none. */
+/* Read run->apart, the given errors of the start; parameters that events set have none. */
 static qdot_status
-read_apart(qdot_run *run, const qdot_run_request *request)
+read_start_errors(qdot_run *run, const qdot_run_request *request)
 {
     const size_t n = run->plan->n, named = n - request->n_states;
 
@@ -69,7 +69,7 @@ read_apart(qdot_run *run, const qdot_run_request *request)
 }
 
 static qdot_status
-check_springs(const qdot_run *run, const qdot_scene *scene)
+check_spring_lengths(const qdot_run *run, const qdot_scene *scene)
 {
     for (size_t i = 0; i < scene->springs.n; i++) {
         const qdot_link *spring = &scene->springs.at[i];
@@ -86,10 +86,10 @@ check_springs(const qdot_run *run, const qdot_scene *scene)
     return QDOT_OK;
 }
 
-/* Move the start onto the constraints. */
+/* Move the start state onto the constraints. */
 static qdot_status
-settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
-             const qdot_domains *domains)
+project_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
+              const qdot_domains *domains)
 {
     bool anew;
 
@@ -105,7 +105,7 @@ settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
 }
 
 static qdot_status
-check_start(qdot_run *run)
+check_start_in_domains(qdot_run *run)
 {
     const qdot_domain *d = qdot_domains_outside(&run->stage.domains, run->start);
 
@@ -116,7 +116,7 @@ check_start(qdot_run *run)
                   run->start[d->coordinate], d->text);
         return qdot_hint("start %s = ...", name);
     }
-    /* use the bind of the run itself, as it remembers what it finds about the constraints */
+    /* make the equations of the run itself now, as they remember what is found about the constraints */
     QDOT_TRY(qdot_course_prepare(&run->course));
     return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
 }
@@ -124,7 +124,7 @@ check_start(qdot_run *run)
 /* Project the start onto the constraints and check it. A massless coordinate that decides a switch
  * keeps its given value. */
 static qdot_status
-settle_and_check(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
+project_and_check_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
 {
     const size_t n = run->plan->n;
     double *said = qdot_malloc((4 * n + 1) * sizeof *said);
@@ -134,9 +134,9 @@ settle_and_check(qdot_run *run, qdot_scene *scene, const qdot_run_request *reque
     if (status == QDOT_OK) {
         memcpy(said, run->start, 2 * n * sizeof *said);
         memcpy(said + 2 * n, run->start_low, 2 * n * sizeof *said);
-        status = settle_start(run, scene, request, &run->stage.domains);
+        status = project_start(run, scene, request, &run->stage.domains);
     }
-    /* for the sides of switches at the start */
+    /* keep the given start if the first piece has to find the sides of switches */
     if (status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches)) {
         qdot_text_truncate(&run->notice, words);
         memcpy(run->start, said, 2 * n * sizeof *said);
@@ -144,7 +144,7 @@ settle_and_check(qdot_run *run, qdot_scene *scene, const qdot_run_request *reque
         qdot_text_truncate(&run->notice, words);
     }
     if (status == QDOT_OK)
-        status = check_start(run);
+        status = check_start_in_domains(run);
     for (size_t i = 0; i < 2 * n && status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches); i++)
         if (run->plan->massless[i % n]) {
             run->start[i] = said[i];
@@ -158,9 +158,9 @@ qdot_status
 qdot_run_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(read_start(run, request));
-    QDOT_TRY(read_apart(run, request));
-    QDOT_TRY(check_springs(run, scene));
-    return settle_and_check(run, scene, request);
+    QDOT_TRY(read_start_errors(run, request));
+    QDOT_TRY(check_spring_lengths(run, scene));
+    return project_and_check_start(run, scene, request);
 }
 
 qdot_status

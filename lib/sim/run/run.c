@@ -81,22 +81,22 @@ qdot_run_free(qdot_run *run)
 }
 
 static size_t
-bytes_of(const qdot_trajectory *tr)
+bytes_of_points(const qdot_trajectory *tr)
 {
     size_t bytes = (tr->t_capacity + tr->y_capacity + tr->low_capacity) * sizeof *tr->t;
 
     for (size_t i = 0; i < tr->n_tracks; i++)
-        bytes += bytes_of(&tr->tracks[i]);
+        bytes += bytes_of_points(&tr->tracks[i]);
     return bytes;
 }
 
 size_t
 qdot_run_bytes(const qdot_run *run)
 {
-    const size_t points = bytes_of(&run->course.tr) + bytes_of(&run->companion.tr) +
-                          bytes_of(&run->twin.tr);
+    const size_t points = bytes_of_points(&run->course.tr) + bytes_of_points(&run->companion.tr) +
+                          bytes_of_points(&run->twin.tr);
 
-    /* with `digits`, add the points of the run and of its companion in MPFR */
+    /* with `digits`, add the points of the run and of its companion run in MPFR */
     return sizeof *run +
            points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
 }
@@ -117,9 +117,9 @@ check_tolerance(double tol)
 
 /* --- integration and its error ------------------------------------------------------ */
 
-/* Whether an incomplete run with this status is kept. */
+/* Whether an incomplete run that ended with this status is kept. */
 static bool
-is_kept(qdot_status status)
+is_run_kept(qdot_status status)
 {
     return status == QDOT_OK || status == QDOT_EFAILED || status == QDOT_ELIMIT
            || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EINTR;
@@ -128,7 +128,7 @@ is_kept(qdot_status status)
 /* Add places passed where the constraints depend on each other to the notice. If the search
  * fails, the run does not. */
 static qdot_status
-say_crossings(qdot_run *run, bool *interrupted)
+add_notice_of_singular_places(qdot_run *run, bool *interrupted)
 {
     const qdot_error before = *qdot_last_error();
     qdot_text lines = {0};
@@ -146,7 +146,7 @@ say_crossings(qdot_run *run, bool *interrupted)
 
 /* Add a notice that the tolerance is below the rounding error of the equations. */
 static qdot_status
-say_raised(qdot_run *run, double tol)
+add_notice_of_tolerance(qdot_run *run, double tol)
 {
     const double raised = run->course.tr.result.stats.raised;
 
@@ -168,7 +168,7 @@ last_state(const qdot_run *run)
 /* Append to the reason the constraints that are nearly dependent where the run stopped; whether
  * there are any. */
 static bool
-say_dependent(const qdot_run *run, qdot_text *reason)
+append_dependent_constraints(const qdot_run *run, qdot_text *reason)
 {
     qdot_constrained *held =
         run->course.binds.at[0] ? qdot_bind_held(run->course.binds.at[0]) : NULL;
@@ -187,9 +187,9 @@ say_dependent(const qdot_run *run, qdot_text *reason)
     return found;
 }
 
-/* Write the reason why the integration failed. */
+/* Set the run's reason: why the integration failed. */
 static qdot_status
-say_failure(qdot_run *run, qdot_status status)
+record_failure(qdot_run *run, qdot_status status)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const qdot_trajectory_piece *piece = tr->pieces.at + tr->pieces.n - 1;
@@ -197,7 +197,7 @@ say_failure(qdot_run *run, qdot_status status)
     qdot_text reason = {0};
 
     qdot_text_add(&reason, why);
-    if (!say_dependent(run, &reason) && status == QDOT_EFAILED) {
+    if (!append_dependent_constraints(run, &reason) && status == QDOT_EFAILED) {
         const size_t said = reason.n;
 
         status = qdot_failure_explain(run->plan,
@@ -214,7 +214,7 @@ say_failure(qdot_run *run, qdot_status status)
     return status;
 }
 
-/* Integrate the run; QDOT_OK if any part of it is kept, *interrupted if Ctrl-C ended it. */
+/* Integrate the run; QDOT_OK if any part of it is kept. *interrupted: Ctrl-C ended it. */
 static qdot_status
 integrate(qdot_run *run, double tol, bool *interrupted)
 {
@@ -239,18 +239,18 @@ integrate(qdot_run *run, double tol, bool *interrupted)
     for (size_t i = 0; i < run->course.binds.n; i++)
         if (run->course.binds.at[i])
             run->factored += qdot_bind_factored(run->course.binds.at[i]);
-    if (!is_kept(status) || run->course.tr.count == 0)
+    if (!is_run_kept(status) || run->course.tr.count == 0)
         return status;
     if (!*interrupted)
-        QDOT_TRY(say_crossings(run, interrupted));
+        QDOT_TRY(add_notice_of_singular_places(run, interrupted));
     if (status != QDOT_OK)
-        return say_failure(run, status);
+        return record_failure(run, status);
     return qdot_run_say_course(run);
 }
 
-/* Give a companion the states of the run at the times at which it compares. */
+/* Give a companion run the states of the run at the times at which it compares the two. */
 static qdot_status
-show_states(qdot_run *run, qdot_companion *companion)
+give_states_to_companion(qdot_run *run, qdot_companion *companion)
 {
     qdot_trajectory_cursor *cursor;
     size_t count, n = run->course.tr.n;
@@ -271,18 +271,18 @@ show_states(qdot_run *run, qdot_companion *companion)
     }
     qdot_free(y);
     qdot_trajectory_close(cursor);
-    /* without the states the error is only that of the end */
+    /* without those states, only the error at the end is known */
     return qdot_grave(status);
 }
 
-/* Whether the run has an exact start and nothing divides it: no events, no switches. */
+/* Whether the run has an exact start and neither events nor switches divide it. */
 static bool
-is_alone(const qdot_run *run)
+is_undivided(const qdot_run *run)
 {
     return run->apart == NULL && run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
-/* Whether nothing changes the motion suddenly: no switches, and no event with an effect. */
+/* Whether nothing changes the motion suddenly: there are no switches, and no event has an effect. */
 static bool
 is_undisturbed(const qdot_run *run)
 {
@@ -298,7 +298,7 @@ measure_multipliers(qdot_run *run)
     return qdot_multipliers_measure(run->course.binds.at, &run->course.tr, &run->multipliers);
 }
 
-/* Start the companions that run in parallel; their courses record their motion. */
+/* Start the companion runs that run in parallel; their courses record their motion. */
 static qdot_status
 start_companion(qdot_run *run, double tol, qdot_companion **out)
 {
@@ -331,9 +331,9 @@ start_companion(qdot_run *run, double tol, qdot_companion **out)
     return qdot_companion_start(&request, out);
 }
 
-/* Record the reason why the error is unknown. */
+/* Record the reason why the error of the run is unknown. */
 static qdot_status
-say_lost(qdot_run *run, const char *reason)
+record_doubt(qdot_run *run, const char *reason)
 {
     char text[400];
 
@@ -343,9 +343,9 @@ say_lost(qdot_run *run, const char *reason)
     return qdot_run_say_doubt(run, text);
 }
 
-/* Integrate, with two companions on parallel threads that estimate the error. */
+/* Integrate the run, with two companion runs on parallel threads, which estimate its error. */
 static qdot_status
-run_beside(qdot_run *run, double tol, bool *interrupted)
+integrate_with_parallel_companions(qdot_run *run, double tol, bool *interrupted)
 {
     qdot_companion_estimate estimate = {.error = 0, .plain = 0};
     qdot_companion *companion = NULL;
@@ -366,7 +366,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
         qdot_companion_limit(companion, run->course.tr.result.stats.steps);
     if (companion && status == QDOT_OK && !*interrupted
         && run->course.tr.result.outcome == QDOT_ODE_DONE)
-        status = show_states(run, companion);
+        status = give_states_to_companion(run, companion);
     if (status == QDOT_OK)
         status = measure_multipliers(run);
     if (companion) {
@@ -389,7 +389,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
         run->report.estimate_work += estimate.work;
         run->of_point = estimate.of_point;
         if (status == QDOT_OK && !estimate.known)
-            status = say_lost(run, estimate.result.reason);
+            status = record_doubt(run, estimate.result.reason);
         if (status != QDOT_OK || *interrupted)
             qdot_fail_again(&failure);
     }
@@ -398,9 +398,9 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* Integrate, then estimate the error by a companion with events of its own. */
+/* Integrate the run, then estimate its error by a companion run that finds events by itself. */
 static qdot_status
-run_after(qdot_run *run, double tol, bool *interrupted)
+integrate_then_run_companion(qdot_run *run, double tol, bool *interrupted)
 {
     qdot_status status;
 
@@ -419,17 +419,17 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* Integrate, and estimate the error: by parallel companions where possible, else by later ones. */
+/* Integrate and estimate the error: by parallel companion runs if possible, else by later ones. */
 static qdot_status
 integrate_with_error(qdot_run *run, double tol, bool *interrupted)
 {
-    return is_alone(run) ? run_beside(run, tol, interrupted) : run_after(run, tol, interrupted);
+    return is_undivided(run) ? integrate_with_parallel_companions(run, tol, interrupted) : integrate_then_run_companion(run, tol, interrupted);
 }
 
 /* Make a run whose first orders in two doubles did not fit once more, without them; of its notice as
  * much stays as was said before it. */
 static qdot_status
-run_in_doubles(qdot_run *run, double tol, size_t notice, bool *interrupted)
+make_run_in_doubles(qdot_run *run, double tol, size_t notice, bool *interrupted)
 {
     qdot_free(run->reason);
     qdot_free(run->doubt);
@@ -442,9 +442,9 @@ run_in_doubles(qdot_run *run, double tol, size_t notice, bool *interrupted)
     return integrate_with_error(run, tol, interrupted);
 }
 
-/* Integrate, then find the error and the drift of conserved quantities. */
+/* Integrate the run, then find its error and the drifts of conserved quantities. */
 static qdot_status
-carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
+integrate_and_measure(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
 {
     const size_t notice = run->notice.n;
     qdot_status status;
@@ -455,14 +455,14 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < 2 * run->plan->n; i++)
         run->difference[i] = NAN;
-    /* run in two doubles only if no event has an effect, because the time of an event is a double */
+    /* double-double precision needs undisturbed motion, because the time of an event is a double */
     run->leading = run->plan->leading && is_undisturbed(run);
     status = integrate_with_error(run, tol, interrupted);
     if (status == QDOT_OK && run->course.tr.result.unfit)
-        status = run_in_doubles(run, tol, notice, interrupted);
+        status = make_run_in_doubles(run, tol, notice, interrupted);
     run->report.tol = tol;
     if (status == QDOT_OK && !run->by_clock)
-        status = say_raised(run, tol);
+        status = add_notice_of_tolerance(run, tol);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_places(run);
     if (status == QDOT_OK && run->singular)
@@ -473,16 +473,16 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->stage, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_energy(run, tol);
-    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* interrupted: report the part of the run that exists */
+    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* report the part that exists */
         *interrupted = true;
         status = QDOT_OK;
     }
     return status;
 }
 
-/* Find a tolerance *better that a run of many steps should use instead of tol. */
+/* Find a tolerance *better, to be used instead of tol if the run has many steps. */
 static qdot_status
-foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
+choose_tolerance_for_long_run(qdot_scene *scene, const qdot_run *run, double tol, double *better)
 {
     const qdot_long_run it = {.plan = run->plan,
                               .system = qdot_course_systems(&run->course),
@@ -499,14 +499,14 @@ foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
     QDOT_TRY(qdot_long_run_tolerance(&it, better));
     if (*better != tol)
         QDOT_TRY(qdot_mech_energy_conserved(scene, &conserved));
-    if (!conserved) /* energy is not conserved: nothing to preserve */
+    if (!conserved) /* energy is not conserved, so it need not be preserved */
         *better = tol;
     return QDOT_OK;
 }
 
-/* Add a notice that a tighter tolerance than tol was used. */
+/* Add a notice that a tighter tolerance than the default, tol, was used. */
 static qdot_status
-say_tighter(qdot_run *run, double tol)
+add_notice_of_tighter_tolerance(qdot_run *run, double tol)
 {
     qdot_text_format(qdot_run_next_notice(run),
                      "more than %g steps were foreseen: under tol %.3g, not %.3g, the energy errs by "
@@ -518,8 +518,8 @@ say_tighter(qdot_run *run, double tol)
 /* touch_tol: of the course; *better: the tolerance that it should have, before anything was
  * integrated. */
 static qdot_status
-make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double *better,
-     qdot_run **out)
+make_run_once(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double *better,
+              qdot_run **out)
 {
     const qdot_run_request precise = qdot_precise_request(asked);
     const qdot_run_request *request = asked->digits ? &precise : asked;
@@ -545,7 +545,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
     *better = request->tol;
     qdot_progress_begin(run->t0, run->t1, "run");
     if (status == QDOT_OK && !request->digits)
-        status = foresee(scene, run, request->tol, better);
+        status = choose_tolerance_for_long_run(scene, run, request->tol, better);
     if (status == QDOT_OK && *better != request->tol) {
         qdot_run_free(run);
         return QDOT_OK;
@@ -554,7 +554,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
         status = request->digits
                      ? qdot_digits_carry_out(run, scene, request, &run->stage.domains,
                                              &interrupted)
-                     : carry_out(run, scene, request->tol, &interrupted);
+                     : integrate_and_measure(run, scene, request->tol, &interrupted);
     if (status == QDOT_OK)
         status = qdot_slides_tell(run);
     if (status == QDOT_OK)
@@ -581,7 +581,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
 
 /* Make the run; repeat it if it is long (tighter), or until it is decided whether an event touches. */
 static qdot_status
-make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+make_run_with_decided_events(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
     qdot_run_request request = *asked;
 
@@ -589,13 +589,13 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         const double before = touch_tol;
         double better;
 
-        QDOT_TRY(make(scene, &request, touch_tol, &better, out));
+        QDOT_TRY(make_run_once(scene, &request, touch_tol, &better, out));
         if (!*out) {
             request.tol = better;
             continue;
         }
         if (request.tol != asked->tol)
-            QDOT_TRY(say_tighter(*out, asked->tol));
+            QDOT_TRY(add_notice_of_tighter_tolerance(*out, asked->tol));
         if (asked->digits)
             return QDOT_OK;
         QDOT_TRY(qdot_run_decide_touches(*out, &touch_tol));
@@ -608,20 +608,20 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 
 /* Make the run; repeat it with a stiff method if `auto` finds it stiff, or with a tighter tolerance. */
 static qdot_status
-make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
+make_best_run(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {
-    const qdot_run_maker by = {make_decided, qdot_run_values, qdot_run_free};
+    const qdot_run_maker by = {make_run_with_decided_events, qdot_run_values, qdot_run_free};
 
-    QDOT_TRY(make_decided(scene, request, out));
+    QDOT_TRY(make_run_with_decided_events(scene, request, out));
     if (request->digits)
         return QDOT_OK;
     QDOT_TRY(qdot_run_change_over(scene, request, &by, out));
     return qdot_run_tighten(scene, request, &by, out);
 }
 
-/* Repeat the run with the scales found in it; keep the first run if that fails. */
+/* Repeat the run with the scales of its components; keep the first run if that fails. */
 static qdot_status
-make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **run)
+repeat_with_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **run)
 {
     qdot_run_request scaled = *request;
     double *scales = qdot_calloc(2 * (*run)->plan->n, sizeof *scales);
@@ -633,7 +633,7 @@ make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **ru
     if (status == QDOT_OK)
         status = qdot_run_find_scales(*run, request, scales, &found);
     if (status == QDOT_OK && found) {
-        status = make_whole(scene, &scaled, &other);
+        status = make_best_run(scene, &scaled, &other);
         if (status == QDOT_OK && other->course.tr.result.outcome != QDOT_ODE_FAILED) {
             qdot_run_free(*run);
             *run = other;
@@ -650,18 +650,18 @@ make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **ru
 
 static const char start_as_exact[] = "the error of this run does not include that of the run from which the start was taken";
 
-/* Make a run in which parameters that events set are further coordinates. */
+/* Make a run in which the parameters that events set are treated as further coordinates. */
 static qdot_status
-make_in_states(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+make_run_with_parameter_states(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
-    const qdot_run_maker by = {make_whole, qdot_run_values, qdot_run_free};
+    const qdot_run_maker by = {make_best_run, qdot_run_values, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
-    status = make_whole(scene, &states.request, out);
+    status = make_best_run(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
-        status = make_in_scales(scene, &states.request, out);
+        status = repeat_with_scales(scene, &states.request, out);
     if (!asked->digits)
         status = qdot_run_change_chart(scene, &states.request, &by, status, out);
     qdot_parameter_states_clear(&states);
@@ -677,7 +677,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 
     *out = NULL;
     if (status == QDOT_OK)
-        status = qdot_run_time_fail(origin.origin, make_in_states(scene, &origin.request, out));
+        status = qdot_run_time_fail(origin.origin, make_run_with_parameter_states(scene, &origin.request, out));
     if (status == QDOT_OK && asked->apart && (!(*out)->apart || asked->digits)) {
         qdot_text_add(qdot_run_next_notice(*out), start_as_exact);
         status = qdot_text_status(&(*out)->notice);
@@ -686,7 +686,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         && qdot_run_time_begin(*out, origin.origin) == QDOT_ENOMEM)
         status = QDOT_ENOMEM;
     qdot_origin_end(&origin);
-    if (status == QDOT_ENOMEM) { /* also for memory that ran out during a repetition */
+    if (status == QDOT_ENOMEM) { /* this includes memory that ran out while the run was repeated */
         qdot_run_free(*out);
         *out = NULL;
     }

@@ -4,25 +4,25 @@
 #include <float.h>
 #include <math.h>
 
-/* Coordinates whose largest value is below this get scales of their own. */
+/* Coordinates whose largest magnitude is below this get scales of their own. */
 static const double small = 1e-3;
 
 /* A is no rounding if its error is below this part of it, and it is above that part of the largest
  * coordinate. */
 static const double sure = 0.1, least_part = 1e-12;
 
-/* Two states without motion between them may differ in a position by this fraction of it, by rounding. */
+/* Positions of two states without motion between them may differ by this fraction, because of rounding. */
 static const double rounding = 8 * DBL_EPSILON;
 
-/* A run with more work than this (about ns) is not repeated. */
+/* A run with more work than this (in units of about 1 ns) is not repeated. */
 static const double most_work = 3e8;
 
 /* The most coordinates that a notice names. */
 enum { MOST_NAMES = 4 };
 
-/* The largest |y_i| at the stored points of the run. */
+/* The largest magnitude |y_i| at the stored points of the run. */
 static double
-size_along(const qdot_trajectory *tr, size_t i)
+largest_magnitude(const qdot_trajectory *tr, size_t i)
 {
     double most = 0;
 
@@ -34,9 +34,9 @@ size_along(const qdot_trajectory *tr, size_t i)
 /* The largest |y_i| of a velocity, i >= n/2, at the stored points and between: it is somewhere its mean from one to the
  * next. (All may be where the motion turns back.) */
 static double
-speed_along(const qdot_trajectory *tr, size_t i)
+largest_speed(const qdot_trajectory *tr, size_t i)
 {
-    double most = size_along(tr, i);
+    double most = largest_magnitude(tr, i);
 
     for (size_t k = 1; k < tr->count; k++) {
         const double *y = tr->y + k * tr->n + i - tr->n / 2, before = *(y - tr->n);
@@ -48,9 +48,9 @@ speed_along(const qdot_trajectory *tr, size_t i)
     return most;
 }
 
-/* The largest power of ten that is not above x > 0. */
+/* The largest power of ten that does not exceed x > 0. */
 static double
-decade(double x)
+power_of_ten_below(double x)
 {
     return pow(10, floor(log10(x)));
 }
@@ -58,37 +58,37 @@ decade(double x)
 /* Whether component i of the state is more than rounding: A is its largest size, `of` that of any
  * like it. */
 static bool
-is_resolved(const qdot_run *run, size_t i, double A, double of)
+is_value_reliable(const qdot_run *run, size_t i, double A, double of)
 {
     return A > least_part * of && run->difference[i] < sure * A;
 }
 
-/* The largest size of components [first, first + n). */
+/* The largest magnitude of the components with indices first ... first + n - 1. */
 static double
-largest_of(const qdot_trajectory *tr, size_t first, size_t n)
+largest_of_components(const qdot_trajectory *tr, size_t first, size_t n)
 {
     double most = 0;
 
     for (size_t i = 0; i < n; i++)
-        most = fmax(most, size_along(tr, first + i));
+        most = fmax(most, largest_magnitude(tr, first + i));
     return most;
 }
 
-/* Find scales of coordinates, into found [n]; 0 for coordinates that need none. */
+/* Find the scales of coordinates, found [n]; 0 for coordinates that need none. */
 static void
-find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
-                 double *found)
+find_coordinate_scales(const qdot_run *run, const qdot_run_request *request, size_t n,
+                       double *found)
 {
     const qdot_trajectory *tr = &run->course.tr;
-    const double most = largest_of(tr, 0, n);
+    const double most = largest_of_components(tr, 0, n);
     const bool all = most < small;
     double largest = 0;
 
     for (size_t i = 0; i < n; i++) {
-        const double A = size_along(tr, i);
+        const double A = largest_magnitude(tr, i);
         const bool shown = A < small && (all || run->start[i] != 0);
 
-        found[i] = shown && is_resolved(run, i, A, most) ? decade(A) : 0;
+        found[i] = shown && is_value_reliable(run, i, A, most) ? power_of_ten_below(A) : 0;
         if (request->scales && request->scales[i] > 0)
             found[i] = request->scales[i];
         largest = fmax(largest, found[i]);
@@ -98,23 +98,23 @@ find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
             found[i] = largest;
 }
 
-/* Find scales of velocities: of coordinates that have a scale, or of all if every velocity is small. */
+/* Find the scales of velocities: for coordinates that have a scale, or for all if every velocity is small. */
 static void
-find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
-                double *found)
+find_velocity_scales(const qdot_run *run, const qdot_run_request *request, size_t n,
+                     double *found)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const size_t N = tr->n / 2;
-    double most = largest_of(tr, N, n), largest = 0, least_asked = INFINITY;
+    double most = largest_of_components(tr, N, n), largest = 0, least_asked = INFINITY;
     bool slow;
 
     for (size_t i = 0; i < n && most < small; i++)
-        most = fmax(most, speed_along(tr, N + i));
+        most = fmax(most, largest_speed(tr, N + i));
     slow = most < small;
     for (size_t i = 0; i < n; i++) {
-        const double A = found[i] > 0 || slow ? speed_along(tr, N + i) : 0;
+        const double A = found[i] > 0 || slow ? largest_speed(tr, N + i) : 0;
 
-        found[n + i] = is_resolved(run, N + i, A, most) ? decade(A) : 0;
+        found[n + i] = is_value_reliable(run, N + i, A, most) ? power_of_ten_below(A) : 0;
         if (request->scales && request->scales[n + i] > 0) {
             found[n + i] = request->scales[n + i];
             least_asked = fmin(least_asked, found[n + i]);
@@ -122,7 +122,7 @@ find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
             largest = fmax(largest, found[n + i]);
         }
     }
-    if (largest == 0 && least_asked < INFINITY) /* zero velocity at rest says little about other scales */
+    if (largest == 0 && least_asked < INFINITY) /* at rest, zero velocities say little about the scales of others */
         largest = fmin(least_asked, 1);
     for (size_t i = 0; i < n; i++)
         if ((found[i] > 0 || slow) && found[n + i] == 0)
@@ -139,8 +139,8 @@ qdot_run_find_scales(qdot_run *run, const qdot_run_request *request, double *sca
     *found = false;
     if (run->course.tr.result.outcome == QDOT_ODE_FAILED || !run->difference)
         return QDOT_OK;
-    find_coordinates(run, request, n, scales);
-    find_velocities(run, request, n, scales);
+    find_coordinate_scales(run, request, n, scales);
+    find_velocity_scales(run, request, n, scales);
     for (size_t i = 0; i < 2 * n; i++) {
         const size_t at = i < n ? i : N + i - n;
         const double now = run->stage.scales ? run->stage.scales[at] : 1;
@@ -155,7 +155,7 @@ qdot_run_find_scales(qdot_run *run, const qdot_run_request *request, double *sca
 
 /* Whether all scales [n] are equal. */
 static bool
-are_alike(const double *scales, size_t n)
+are_equal_scales(const double *scales, size_t n)
 {
     for (size_t i = 1; i < n; i++)
         if (scales[i] != scales[0])
@@ -171,7 +171,7 @@ qdot_run_say_scales(qdot_run *run, const double *scales, bool hold)
     size_t named = 0, first = 0;
 
     qdot_text_add(line, "scales found: ");
-    if (n > 1 && are_alike(scales, n) && are_alike(scales + n, n)) {
+    if (n > 1 && are_equal_scales(scales, n) && are_equal_scales(scales + n, n)) {
         qdot_text_format(line, "%g for coordinates, %g for velocities", scales[0],
                          scales[n]);
     } else {

@@ -23,7 +23,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_find_scales(qdot_run *run,
                                                  const qdot_run_request *request,
                                                  double *scales, bool *found);
 
-/* Name the scales [2n] in a notice. hold: the run used them; otherwise they were only found. */
+/* Add a notice with the scales [2n]. hold: the run used them; otherwise they were only found. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_scales(qdot_run *run, const double *scales,
                                                 bool hold);
 

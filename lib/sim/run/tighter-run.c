@@ -1,4 +1,4 @@
-/* tighter-run.c -- repeats a run with a tighter tolerance if digits then remain at its end. */
+/* tighter-run.c -- repeats a run with a tighter tolerance if some digits are then correct at its end. */
 #include "sim/run/tighter-run.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 static const double tightest = 1e-15;
 
-/* A run with more work than this (about ns) is not repeated. */
+/* A run with more work than this (in units of about 1 ns) is not repeated. */
 static const double most_work = 1e9;
 
 /* Power law of the error growth: its exponent is at most `most_power`, the same within `alike` at
@@ -16,9 +16,9 @@ static const double most_work = 1e9;
 static const double most_power = 4, alike = 1.5, few = 1e-2;
 enum { looked_at = 16 };
 
-/* The largest scaled distance of any component of the run from its companion at t; NAN: unknown. */
+/* The largest scaled distance, over all components, of the run from its companion run at t; NAN: unknown. */
 static double
-distance_at(const qdot_run *run, double t)
+distance_from_companion(const qdot_run *run, double t)
 {
     const size_t n = run->course.tr.n;
     double *y = qdot_calloc(2 * n, sizeof *y), most = NAN;
@@ -33,30 +33,30 @@ distance_at(const qdot_run *run, double t)
     return most;
 }
 
-/* The largest distance between t and 2 t, as the distance oscillates along an orbit. */
+/* The largest distance between run and companion run at times t to 2 t, as it oscillates along an orbit. */
 static double
-most_between(const qdot_run *run, double t)
+largest_distance_after(const qdot_run *run, double t)
 {
     double most = NAN;
 
     for (int k = 1; k <= looked_at; k++)
-        most = fmax(most, distance_at(run, run->t0 + t * (1 + (double)k / looked_at)));
+        most = fmax(most, distance_from_companion(run, run->t0 + t * (1 + (double)k / looked_at)));
     return most;
 }
 
 /* The power of t with which the distance of neighbouring motions grows before the horizon; INFINITY: it grows
  * faster. */
 static double
-power_of_growth(const qdot_run *run)
+exponent_of_error_growth(const qdot_run *run)
 {
     const double h = run->report.horizon - run->t0;
-    const double of[] = {most_between(run, h / 8), most_between(run, h / 4), most_between(run, h / 2)};
+    const double of[] = {largest_distance_after(run, h / 8), largest_distance_after(run, h / 4), largest_distance_after(run, h / 2)};
     const double early = log2(of[1] / of[0]), late = log2(of[2] / of[1]);
 
     return late < most_power && fabs(late - early) < alike ? fmax(late, early) : INFINITY;
 }
 
-/* Whether a run can be made under the tightest tolerance. */
+/* Whether the run can be repeated with the tightest tolerance. */
 static bool
 can_be_tighter(const qdot_run *run, const qdot_run_request *request)
 {
@@ -68,16 +68,16 @@ can_be_tighter(const qdot_run *run, const qdot_run_request *request)
 /* Whether a tighter tolerance probably keeps digits to the end, if errors grow exponentially, or as
  * a power of t. */
 static bool
-is_likely(const qdot_run *run, const qdot_run_request *request)
+is_repetition_promising(const qdot_run *run, const qdot_run_request *request)
 {
     const double known = (run->report.horizon - run->t0) / (run->t1 - run->t0);
 
     return known * log(tightest) / log(request->tol) > 1
-           || tightest / request->tol * pow(known, -power_of_growth(run)) < few;
+           || tightest / request->tol * pow(known, -exponent_of_error_growth(run)) < few;
 }
 
 static qdot_status
-say_tighter(qdot_run *run, const qdot_run_request *request, double lost)
+add_notice_of_tighter_run(qdot_run *run, const qdot_run_request *request, double lost)
 {
     qdot_text *to = qdot_run_next_notice(run);
 
@@ -100,7 +100,7 @@ qdot_run_tighten(qdot_scene *scene, const qdot_run_request *request, const qdot_
     qdot_status status;
 
     if (!can_be_tighter(*run, request)
-        || (isnan(lost) ? !isnan((*run)->report.error) : !is_likely(*run, request)))
+        || (isnan(lost) ? !isnan((*run)->report.error) : !is_repetition_promising(*run, request)))
         return QDOT_OK;
     tighter.tol = tightest;
     status = by->make(scene, &tighter, &other);
@@ -108,7 +108,7 @@ qdot_run_tighten(qdot_scene *scene, const qdot_run_request *request, const qdot_
         && other->report.status != QDOT_RUN_FAILED) {
         by->free(*run);
         *run = other;
-        return say_tighter(*run, request, lost);
+        return add_notice_of_tighter_run(*run, request, lost);
     }
     by->free(other);
     return qdot_grave(status);

@@ -14,9 +14,9 @@ qdot_given_clear(qdot_given *g)
     *g = (qdot_given){0};
 }
 
-/* Set x to a ball about y + low, whose radius is the rounding error of two doubles. */
+/* Set x to a ball (number with error bound) about y + low, whose radius is the double-double rounding error. */
 static void
-set_moved(arb_t x, double y, double low)
+set_ball(arb_t x, double y, double low)
 {
     arb_t rest;
 
@@ -29,9 +29,9 @@ set_moved(arb_t x, double y, double low)
     arb_clear(rest);
 }
 
-/* Set x to the exact requested value if the start still has that value; otherwise to y + low. */
+/* Set x to the exact value in the request, if the start still has that value; otherwise to y + low. */
 static qdot_status
-set_one(const qdot_given *g, qdot_expr asked, double y, double low, arb_t x)
+set_start_value(const qdot_given *g, qdot_expr asked, double y, double low, arb_t x)
 {
     qdot_expr e = qdot_plan_substitute(g->plan, asked);
     qdot_ball ball;
@@ -39,7 +39,7 @@ set_one(const qdot_given *g, qdot_expr asked, double y, double low, arb_t x)
     int side;
 
     QDOT_TRY(qdot_plan_number(g->plan, asked, &value, &side, &beyond));
-    set_moved(x, y, low);
+    set_ball(x, y, low);
     if (value != y || beyond != low)
         return QDOT_OK;
     QDOT_TRY(qdot_ball_begin(&ball, g->plan->pool, 1, &e));
@@ -61,7 +61,7 @@ qdot_given_init(qdot_given *g, const qdot_plan *plan, const qdot_run_request *re
     if (!g->at)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
-        status = set_one(g, i < n ? request->q0[i] : request->v0[i - n], y[i], low[i], g->at + i);
+        status = set_start_value(g, i < n ? request->q0[i] : request->v0[i - n], y[i], low[i], g->at + i);
     return status;
 }
 

@@ -15,12 +15,12 @@
 enum { QDOT_GIVEN_BITS = 256 };
 
 typedef struct {
-    size_t n; /* length of the state: 2n for n coordinates */
+    size_t n; /* length of the state y: 2n for n coordinates */
     const qdot_plan *plan;
-    arb_ptr at; /* [n] start values of q, q' as balls */
+    arb_ptr at; /* [n] start values of q, q' as balls (numbers with error bounds) */
 } qdot_given;
 
-/* Set up the start y + low [2n] of a request as balls. Clear g in any case. */
+/* Set up the start state y + low [2n] of a request as balls. Clear g in any case. */
 QDOT_MUST_CHECK qdot_status qdot_given_init(qdot_given *g, const qdot_plan *plan,
                                             const qdot_run_request *request, const double *y,
                                             const double *low);
@@ -31,7 +31,7 @@ void qdot_given_clear(qdot_given *g);
 QDOT_MUST_CHECK qdot_status qdot_given_evaluate(const qdot_given *g, size_t m,
                                                 const qdot_expr *e, double *out);
 
-/* A ball as a double: 0 if it contains 0, NAN if it is NULL or not finite. */
+/* The midpoint of a ball as a double: 0 if the ball contains 0, NAN if it is NULL or not finite. */
 double qdot_given_double(arb_srcptr b);
 
 #endif

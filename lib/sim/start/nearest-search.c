@@ -1,4 +1,4 @@
-/* nearest-search.c -- finds points on F = 0 and moves along that surface towards a centre. */
+/* nearest-search.c -- finds points with F = 0, and moves along that surface to the one nearest to a centre. */
 #include <math.h>
 #include <string.h>
 
@@ -14,11 +14,11 @@
 enum { MOST_NEWTON = 100, MOST_SLIDES = 200, MOST_POLISH = 12 };
 
 /* Distances below are relative to 1 + |x|. */
-static const double on_it = 1e-8;   /* F = 0 is met within this; the exact test uses balls */
+static const double on_it = 1e-8;   /* points with |F| below this count as on F = 0; the exact test uses balls */
 static const double alike = 1e-6;   /* points nearer to each other than this are the same */
 static const double as_near = 1e-9; /* distances that differ by less than this are equal */
 
-/* A gradient below this fraction of the largest one that its row has had is rounding. */
+/* A gradient smaller than this fraction of its row's largest one so far is rounding. */
 static const double rounding = 1e-13;
 
 typedef struct {
@@ -26,30 +26,30 @@ typedef struct {
     size_t n;         /* number of free unknowns */
     size_t *index;    /* [n] index of each free unknown */
     const double *W;  /* weights of all unknowns; NULL: all 1 */
-    double *C; /* [n x n] Cholesky factor of the weights, W = C C^T, of free unknowns; NULL: 1 */
+    double *C; /* [n x n] Cholesky factor C of the weights of the free unknowns, W = C C^T; NULL: 1 */
     qdot_row_space rows;
-    double *B;        /* [m x n] rows C^-1 A_k */
-    double *size;     /* [m] |A_k| */
-    double *widest;   /* [m] largest |A_k| so far, of nonlinear rows */
-    double *b;        /* [m] right sides */
+    double *B;        /* [m x n] rows C^-1 A_k, the gradients in the metric */
+    double *size;     /* [m] lengths |A_k| of the gradients */
+    double *widest;   /* [m] largest |A_k| so far, for nonlinear rows */
+    double *b;        /* [m] right-hand sides */
     double *lambda;   /* [m] Lagrange multipliers */
     double *centre;   /* [inputs] the given point, from which distances are measured */
     double *step;     /* [n] Newton step */
-    double *away;     /* [n] C^T (x - centre) */
-    double *from, *slid, *kept; /* [inputs] scratch: saved points */
+    double *away;     /* [n] C^T (x - centre), the distance vector in the metric */
+    double *from, *slid, *kept; /* [inputs] scratch: points that are saved */
     double *curvature; /* [curves] values of the second derivatives */
     double *curved_work;
 } search;
 
 static size_t
-unknown_place(const search *s, size_t i)
+index_of_unknown(const search *s, size_t i)
 {
     return s->p->first + s->index[i];
 }
 
-/* Set the size of row k: its length, or the largest length so far if the present one is rounding. */
+/* Set the size of row k: the length of its gradient, or the largest length so far if the present is rounding. */
 static void
-measure_row(search *s, size_t k, double length)
+set_row_size(search *s, size_t k, double length)
 {
     if (!s->p->linear[k] && isfinite(length)) {
         s->widest[k] = fmax(s->widest[k], length);
@@ -72,8 +72,8 @@ search_evaluate(search *s, const double *at, bool measure)
         double F = p->value[k];
 
         if (measure)
-            measure_row(s, k, qdot_nearest_length(A + k * p->n, p->n));
-        if (!isfinite(s->size[k])) /* the gradient is not finite: no zero nearby */
+            set_row_size(s, k, qdot_nearest_length(A + k * p->n, p->n));
+        if (!isfinite(s->size[k])) /* a gradient that is not finite: there is no zero nearby */
             sum = INFINITY;
         else if (F != 0)
             sum += (F / s->size[k]) * (F / s->size[k]);
@@ -81,9 +81,9 @@ search_evaluate(search *s, const double *at, bool measure)
     return isnan(sum) ? INFINITY : sum;
 }
 
-/* Compute B = A C^-T, the rows of A for the free unknowns in the metric. */
+/* Compute B = A C^-T, the gradients by the free unknowns in the metric W = C C^T. */
 static void
-factor_rows(search *s)
+transform_to_metric(search *s)
 {
     const qdot_nearest *p = s->p;
 
@@ -107,9 +107,9 @@ factor_rows(search *s)
     qdot_row_space_factor(&s->rows, s->B, 1e-10, false);
 }
 
-/* Transform x back from the metric: x becomes C^-T x. */
+/* Transform a vector x back from the metric W = C C^T: x becomes C^-T x. */
 static void
-from_metric(const search *s, double *x)
+transform_from_metric(const search *s, double *x)
 {
     for (size_t i = s->n; s->C && i-- > 0;) {
         for (size_t j = i + 1; j < s->n; j++)
@@ -118,41 +118,41 @@ from_metric(const search *s, double *x)
     }
 }
 
-/* The distance of a point from a in the metric C C^T; sets away = C^T (x - a). */
+/* The distance of a point from the centre a in the metric W = C C^T; sets away = C^T (x - a). */
 static double
-search_distance(search *s, const double *at)
+distance_from_centre(search *s, const double *at)
 {
     for (size_t i = 0; i < s->n; i++) {
         s->away[i] = 0;
         for (size_t j = s->C ? i : 0; s->C && j < s->n; j++)
             s->away[i] +=
-                s->C[j * s->n + i] * (at[unknown_place(s, j)] - s->centre[unknown_place(s, j)]);
+                s->C[j * s->n + i] * (at[index_of_unknown(s, j)] - s->centre[index_of_unknown(s, j)]);
         if (!s->C)
-            s->away[i] = at[unknown_place(s, i)] - s->centre[unknown_place(s, i)];
+            s->away[i] = at[index_of_unknown(s, i)] - s->centre[index_of_unknown(s, i)];
     }
     return qdot_nearest_length(s->away, s->n);
 }
 
 static void
-search_move(const search *s, const double *from, double scale, const double *step, double *to)
+move_free_unknowns(const search *s, const double *from, double scale, const double *step, double *to)
 {
     for (size_t i = 0; i < s->n; i++)
-        to[unknown_place(s, i)] = from[unknown_place(s, i)] + scale * step[i];
+        to[index_of_unknown(s, i)] = from[index_of_unknown(s, i)] + scale * step[i];
 }
 
 static double
-relative(const search *s, const double *at, const double *step)
+relative_step_length(const search *s, const double *at, const double *step)
 {
     double most = 0;
 
     for (size_t i = 0; i < s->n; i++)
-        most = fmax(most, fabs(step[i]) / (1 + fabs(at[unknown_place(s, i)])));
+        most = fmax(most, fabs(step[i]) / (1 + fabs(at[index_of_unknown(s, i)])));
     return most;
 }
 
-/* Whether every F_k is 0 within rounding; after search_evaluate(at, true). */
+/* Whether every F_k is 0 within rounding; call after search_evaluate(at, true). */
 static bool
-search_holds(const search *s, const double *at)
+is_on_constraints(const search *s, const double *at)
 {
     double size = 0;
 
@@ -166,7 +166,7 @@ search_holds(const search *s, const double *at)
     return true;
 }
 
-/* Take Newton steps of least length, halved until they reduce the residual, to reach F = 0. */
+/* Reach F = 0 by Newton steps of least length, each halved until it reduces the residual. */
 static bool
 restore_constraints(search *s, double *at)
 {
@@ -177,17 +177,17 @@ restore_constraints(search *s, double *at)
 
         if (!isfinite(before) || qdot_interrupt_flag)
             return false;
-        factor_rows(s);
+        transform_to_metric(s);
         for (size_t i = 0; i < p->m; i++)
             s->b[i] = -p->value[i];
         qdot_row_space_shortest(&s->rows, s->b, s->step, NULL);
-        from_metric(s, s->step);
-        left = relative(s, at, s->step);
+        transform_from_metric(s, s->step);
+        left = relative_step_length(s, at, s->step);
         if (left < 1e-15)
             break;
         memcpy(s->from, at, p->inputs * sizeof *at);
         for (int half = 0; half < 12; half++, scale /= 2) {
-            search_move(s, s->from, scale, s->step, at);
+            move_free_unknowns(s, s->from, scale, s->step, at);
             after = search_evaluate(s, at, false);
             if (after < before)
                 break;
@@ -198,7 +198,7 @@ restore_constraints(search *s, double *at)
         }
     }
     (void)search_evaluate(s, at, true);
-    return search_holds(s, at);
+    return is_on_constraints(s, at);
 }
 
 /* Move along F = 0 against the gradient of the distance; each step is projected back onto F = 0. */
@@ -212,24 +212,24 @@ descend_on_constraints(search *s, double *at)
         bool nearer = false;
 
         (void)search_evaluate(s, at, true);
-        factor_rows(s);
+        transform_to_metric(s);
         if (s->rows.rank >= s->n || qdot_interrupt_flag)
             return;
-        near = search_distance(s, at);
+        near = distance_from_centre(s, at);
         qdot_row_space_tangent(&s->rows, s->away);
         slope = qdot_nearest_length(s->away, s->n);
         if (!(slope > 1e-9 * (1 + near)))
             return;
-        from_metric(s, s->away);
+        transform_from_metric(s, s->away);
         memcpy(s->slid, s->away, s->n * sizeof *s->slid);
         memcpy(s->kept, at, p->inputs * sizeof *at);
         for (; scale > 1e-5 && !nearer; scale /= 2) {
             double now;
 
-            search_move(s, s->kept, -scale, s->slid, at);
+            move_free_unknowns(s, s->kept, -scale, s->slid, at);
             if (!restore_constraints(s, at))
                 continue;
-            now = search_distance(s, at);
+            now = distance_from_centre(s, at);
             nearer = now * now < near * near - 0.1 * scale * slope * slope;
         }
         if (!nearer) {
@@ -242,7 +242,7 @@ descend_on_constraints(search *s, double *at)
 /* --- using second derivatives ------------------------------------------------------- */
 
 static qdot_status
-find_curves(qdot_nearest *p)
+make_second_derivatives(qdot_nearest *p)
 {
     qdot_vec(qdot_expr) out = {0};
     qdot_vec(uint32_t) where = {0};
@@ -284,7 +284,7 @@ find_curves(qdot_nearest *p)
 /* K = [W + sum lambda_k d2F_k, A^T; A, 0] over the independent rows, and r = -(W (x - a)
  * + A^T lambda, F); lower triangle. */
 static void
-newton_system(search *s, const double *at, double *K, double *r)
+assemble_newton_system(search *s, const double *at, double *K, double *r)
 {
     const qdot_nearest *p = s->p;
     size_t n = s->n, rank = s->rows.rank, size = n + rank;
@@ -299,7 +299,7 @@ newton_system(search *s, const double *at, double *K, double *r)
                                 : 0;
 
             K[i * size + j] += w;
-            r[i] -= w * (at[unknown_place(s, j)] - s->centre[unknown_place(s, j)]);
+            r[i] -= w * (at[index_of_unknown(s, j)] - s->centre[index_of_unknown(s, j)]);
         }
     for (size_t c = 0; c < p->curves; c++) {
         double h = s->lambda[p->place[3 * c]] * s->curvature[c];
@@ -327,19 +327,19 @@ newton_system(search *s, const double *at, double *K, double *r)
     }
 }
 
-/* Find, by Newton's method, where the distance is stationary on F = 0, while the steps shrink. */
+/* Find, by Newton's method, a point of F = 0 with stationary distance from the centre, while steps shrink. */
 static qdot_status
-newton_to_nearest(search *s, double *at)
+find_stationary_distance(search *s, double *at)
 {
     qdot_nearest *p = s->p;
     double last = 1e-2, *K, *r;
     qdot_status status = QDOT_OK;
 
     (void)search_evaluate(s, at, true);
-    factor_rows(s);
+    transform_to_metric(s);
     if (s->rows.rank >= s->n)
         return QDOT_OK;
-    (void)search_distance(s, at);
+    (void)distance_from_centre(s, at);
     for (size_t k = 0; k < p->m; k++) {
         s->b[k] = 0;
         for (size_t i = 0; i < s->n; i++)
@@ -361,7 +361,7 @@ newton_to_nearest(search *s, double *at)
             break;
         if (p->curved)
             qdot_tape_eval(p->curved, at, s->curvature, s->curved_work);
-        newton_system(s, at, K, r);
+        assemble_newton_system(s, at, K, r);
         status = qdot_ldlt_init(&f, size);
         if (status != QDOT_OK)
             break;
@@ -371,17 +371,17 @@ newton_to_nearest(search *s, double *at)
         }
         qdot_ldlt_solve(&f, K, r);
         qdot_ldlt_clear(&f);
-        step = relative(s, at, r);
+        step = relative_step_length(s, at, r);
         if (!(step < last))
             break;
         last = step;
-        search_move(s, at, 1, r, at);
+        move_free_unknowns(s, at, 1, r, at);
         for (size_t i = 0; i < s->rows.rank; i++)
             s->lambda[s->rows.order[i]] += r[s->n + i];
         if (!isfinite(search_evaluate(s, at, true)) || step < 1e-16)
             break;
     }
-    if (last > 1e-6 && last < 1e-2) /* converged to another point */
+    if (last > 1e-6 && last < 1e-2) /* Newton's method has converged to another point */
         memcpy(at, s->kept, p->inputs * sizeof *at);
     qdot_free(K);
     return status;
@@ -396,9 +396,9 @@ random_sign(uint64_t *seed)
     return ((double)(*seed >> 11) * 0x1p-53) * 2 - 1;
 }
 
-/* Choose the k-th start of the search: the centre, then pairs of points about it at different distances. */
+/* Choose the k-th start of the search: the centre, then pairs of points at different distances from it. */
 static void
-choose_point(const search *s, int k, double *at)
+choose_starting_point(const search *s, int k, double *at)
 {
     static const double reach[] = {1, 0.3, 3};
     double size = 0;
@@ -412,20 +412,20 @@ choose_point(const search *s, int k, double *at)
     size = (size > 0 ? size : 1) * reach[(k + 1) / 2 % 3] * (k % 2 ? 1 : -1);
     (void)random_sign(&seed);
     for (size_t i = 0; i < s->n; i++)
-        at[unknown_place(s, i)] += size * random_sign(&seed);
+        at[index_of_unknown(s, i)] += size * random_sign(&seed);
 }
 
 static bool
-is_another(const search *s, const double *x, const double *y)
+is_different_point(const search *s, const double *x, const double *y)
 {
     for (size_t i = 0; i < s->n; i++)
-        if (fabs(x[unknown_place(s, i)] - y[i]) > alike * (1 + fabs(y[i])))
+        if (fabs(x[index_of_unknown(s, i)] - y[i]) > alike * (1 + fabs(y[i])))
             return true;
     return false;
 }
 
 static qdot_status
-search_look_around(search *s, double *at, double *best, double *other, qdot_nearest_outcome *outcome)
+search_from_many_points(search *s, double *at, double *best, double *other, qdot_nearest_outcome *outcome)
 {
     const qdot_nearest *p = s->p;
     int points = !p->bent ? 1 : s->n <= 8 ? 33 : s->n <= 32 ? 17 : 9;
@@ -436,37 +436,37 @@ search_look_around(search *s, double *at, double *best, double *other, qdot_near
         double far;
 
         QDOT_TRY(qdot_interrupt_check());
-        choose_point(s, k, at);
+        choose_starting_point(s, k, at);
         if (!restore_constraints(s, at))
             continue;
         descend_on_constraints(s, at);
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(newton_to_nearest(s, at));
+        QDOT_TRY(find_stationary_distance(s, at));
         (void)search_evaluate(s, at, true);
-        if (!search_holds(s, at) || (p->domains && qdot_domains_outside(p->domains, at)))
+        if (!is_on_constraints(s, at) || (p->domains && qdot_domains_outside(p->domains, at)))
             continue;
-        far = search_distance(s, at);
+        far = distance_from_centre(s, at);
         if (far > nearest + as_near * (1 + nearest))
             continue;
         if (far < nearest - as_near * (1 + nearest) || !isfinite(nearest)) {
             nearest = far;
             *outcome = QDOT_NEAREST_FOUND;
             for (size_t i = 0; i < s->n; i++)
-                best[i] = at[unknown_place(s, i)];
-        } else if (is_another(s, at, best)) {
+                best[i] = at[index_of_unknown(s, i)];
+        } else if (is_different_point(s, at, best)) {
             *outcome = QDOT_NEAREST_SEVERAL;
             memcpy(other, at + p->first, p->n * sizeof *other);
         }
     }
     memcpy(at, s->centre, p->inputs * sizeof *at);
     for (size_t i = 0; i < s->n && *outcome != QDOT_NEAREST_NONE; i++)
-        at[unknown_place(s, i)] = best[i];
+        at[index_of_unknown(s, i)] = best[i];
     return QDOT_OK;
 }
 
-/* Factor W over the free unknowns as C C^T; C stays unset if W is not positive definite. */
+/* Factor the weights W of the free unknowns as C C^T; C stays unset if W is not positive definite. */
 static qdot_status
-factor_metric(search *s)
+factor_weights(search *s)
 {
     size_t n = s->n;
 
@@ -528,7 +528,7 @@ search_init(search *s, const bool *free, const double *at)
     s->slid = s->from + p->inputs;
     s->kept = s->slid + p->inputs;
     memcpy(s->centre, at, p->inputs * sizeof *at);
-    return s->W ? factor_metric(s) : QDOT_OK;
+    return s->W ? factor_weights(s) : QDOT_OK;
 }
 
 qdot_status
@@ -537,7 +537,7 @@ qdot_nearest_find(qdot_nearest *p, const bool *free, const double *W, double *at
 {
     search s = {.p = p, .W = W};
     double *best;
-    qdot_status status = p->curves_known ? QDOT_OK : find_curves(p);
+    qdot_status status = p->curves_known ? QDOT_OK : make_second_derivatives(p);
 
     *outcome = QDOT_NEAREST_NONE;
     if (status == QDOT_OK)
@@ -546,7 +546,7 @@ qdot_nearest_find(qdot_nearest *p, const bool *free, const double *W, double *at
     if (status == QDOT_OK && !best)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK && s.n > 0)
-        status = search_look_around(&s, at, best, other, outcome);
+        status = search_from_many_points(&s, at, best, other, outcome);
     qdot_free(best);
     search_clear(&s);
     return status;

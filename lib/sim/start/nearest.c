@@ -28,7 +28,7 @@ qdot_nearest_end(qdot_nearest *p)
 
 /* --- evaluation in ball arithmetic -------------------------------------------------- */
 
-/* A point at which F and A are evaluated: exact given values of the unknowns, or at + low, or all 0. */
+/* A point at which F and A are evaluated; its unknowns have the exact given values, or at + low, or are 0. */
 typedef struct {
     const qdot_nearest *p;
     enum { AS_GIVEN, MOVED, AT_ZERO } unknowns;
@@ -62,7 +62,7 @@ point_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
     return true;
 }
 
-/* Evaluate expressions [m], each rounded once. */
+/* Evaluate the expressions e [m] at a point, each rounded only once. */
 static qdot_status
 point_evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
 {
@@ -79,7 +79,7 @@ point_evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
 /* --- evaluating F and A ------------------------------------------------------------- */
 
 static bool
-has_unknowns(const qdot_nearest *p, qdot_expr e)
+contains_unknowns(const qdot_nearest *p, qdot_expr e)
 {
     const qdot_expr atoms = qdot_expr_atoms(p->pool, e, false);
 
@@ -90,9 +90,9 @@ has_unknowns(const qdot_nearest *p, qdot_expr e)
     return false;
 }
 
-/* Find the linear rows of F and their constant coefficients; `out` [m + m*n]: F and A. */
+/* Find the equations F_k that are linear, and their constant coefficients; `out` [m + m*n]: F and A. */
 static qdot_status
-find_linear(qdot_nearest *p, const qdot_expr *out)
+find_linear_equations(qdot_nearest *p, const qdot_expr *out)
 {
     const size_t m = p->m, n = p->n;
     const point zero = {.p = p, .unknowns = AT_ZERO};
@@ -105,7 +105,7 @@ find_linear(qdot_nearest *p, const qdot_expr *out)
     for (size_t k = 0; k < m; k++) {
         p->linear[k] = isfinite(p->constant[k]);
         for (size_t e = m + k * n; e < m + (k + 1) * n && p->linear[k]; e++)
-            p->linear[k] = isfinite(p->constant[e]) && !has_unknowns(p, out[e]);
+            p->linear[k] = isfinite(p->constant[e]) && !contains_unknowns(p, out[e]);
     }
     return qdot_pool_check(p->pool);
 }
@@ -133,7 +133,7 @@ qdot_nearest_begin(qdot_nearest *p)
         status = p->value && p->work ? QDOT_OK : QDOT_ENOMEM;
     }
     if (status == QDOT_OK)
-        status = find_linear(p, out);
+        status = find_linear_equations(p, out);
     p->A = NULL;
     if (status == QDOT_OK) {
         p->A = out;
@@ -203,7 +203,7 @@ typedef struct {
 } refinement;
 
 static qdot_status
-nearest_refine(qdot_nearest *p, refinement *r, double *at, double *low)
+refine_solution(qdot_nearest *p, refinement *r, double *at, double *low)
 {
     const point moved = {.p = p, .unknowns = MOVED, .at = at, .low = low};
 
@@ -254,7 +254,7 @@ qdot_nearest_refine(qdot_nearest *p, const bool *free, double *at, double *low)
         status = qdot_row_space_init(&r.rows, m, r.n);
     }
     if (status == QDOT_OK && r.n > 0)
-        status = nearest_refine(p, &r, at, low);
+        status = refine_solution(p, &r, at, low);
     qdot_row_space_clear(&r.rows);
     qdot_free(r.index);
     qdot_free(r.F);

@@ -26,22 +26,22 @@
 typedef struct {
     qdot_pool *pool;         /* pool of the expressions; borrowed, as the fields below */
     size_t inputs;           /* number of symbols in F: unknowns and given values */
-    const qdot_expr *symbol; /* [inputs] these symbols */
+    const qdot_expr *symbol; /* [inputs] the symbols that occur in F */
     size_t first, n;         /* the unknowns are symbol[first] ... symbol[first + n - 1] */
     size_t m;
     const qdot_expr *F; /* [m] equations F = 0 */
     const qdot_domains *domains; /* domains of the unknowns; NULL: none */
-    const qdot_given *given;     /* [inputs] the requested start */
+    const qdot_given *given;     /* [inputs] the given values: the requested start */
 
-    /* Fields set by _begin: */
-    qdot_tape *tape, *curved; /* outputs: F and A = dF/dx; second derivatives, if there are any */
-    qdot_expr *A;             /* [m x n] Jacobian A */
+    /* Fields set by qdot_nearest_begin: */
+    qdot_tape *tape, *curved; /* outputs: F and A = dF/dx; second derivatives of F, if there are any */
+    qdot_expr *A;             /* [m x n] Jacobian A = dF/dx */
     uint32_t *place;          /* [3 x curves] k, i, j of each second derivative d2F_k/dx_i dx_j */
     size_t curves;
     bool curves_known; /* the tape `curved` has been made */
-    bool bent; /* A depends on the unknowns */
-    bool *linear;  /* [m] F_k is linear in the unknowns */
-    double *constant; /* [m + m*n] for linear rows: F_k at x = 0, and A */
+    bool bent; /* F is nonlinear: A depends on the unknowns */
+    bool *linear;  /* [m] whether F_k is linear in the unknowns */
+    double *constant; /* [m + m*n] for linear equations: F_k at x = 0, and A */
     double *value; /* [m + m*n] F and A at the latest point */
     double *work;
 } qdot_nearest;
@@ -52,11 +52,11 @@ typedef enum {
     QDOT_NEAREST_SEVERAL /* two different points are equally near */
 } qdot_nearest_outcome;
 
-/* Derive A and lower F and A. QDOT_EUNSET names a symbol without a value. */
+/* Derive A and compile F and A. Error QDOT_EUNSET names a symbol without a value. */
 QDOT_MUST_CHECK qdot_status qdot_nearest_begin(qdot_nearest *p);
 void qdot_nearest_end(qdot_nearest *p);
 
-/* Evaluate F and A at a point, into p->value. */
+/* Evaluate F and A at a given point, into p->value. */
 void qdot_nearest_evaluate(qdot_nearest *p, const double *at);
 
 /* distance [m] to F_k = 0 at the start that is given, whose doubles are at [inputs], by balls:
@@ -71,11 +71,11 @@ QDOT_MUST_CHECK qdot_status qdot_nearest_find(qdot_nearest *p, const bool *free,
                                               const double *W, double *at, double *other,
                                               qdot_nearest_outcome *outcome);
 
-/* Solve F = 0 at at + low to the precision of two doubles, moving the free unknowns as little as possible. */
+/* Solve F = 0 at at + low in double-double precision, moving the free unknowns as little as possible. */
 QDOT_MUST_CHECK qdot_status qdot_nearest_refine(qdot_nearest *p, const bool *free,
                                                 double *at, double *low);
 
-/* The length sqrt(x . x) of x [n], without overflow; for nearest-search.c too. */
+/* The length sqrt(x . x) of the vector x [n], without overflow; also for nearest-search.c. */
 double qdot_nearest_length(const double *x, size_t n);
 
 #endif

@@ -17,7 +17,7 @@ static const double breaks = 1e-14; /* a constraint is violated beyond this erro
 
 enum { MOST_LISTED = 24, MOST_ANSWERED = 4 };
 
-/* One level of a start, positions or velocities, with the equations that hold on it. */
+/* A level of a start state, positions or velocities, with the equations that restrict it. */
 typedef struct {
     qdot_scene *scene;
     const qdot_plan *plan;
@@ -29,18 +29,18 @@ typedef struct {
     size_t m;
     qdot_expr *F;        /* [m] left sides of the equations */
     size_t *constraint;  /* [m] index of the constraint to which each F belongs */
-    double *distance;    /* [m] |F| at the requested start */
-    bool *free;          /* [n] may be changed by the solution */
+    double *distance;    /* [m] violation |F| at the requested start */
+    bool *free;          /* [n] whether the solution may change the value */
     qdot_nearest near;
-    const double *before; /* [2n] the requested start */
+    const double *before; /* [2n] the start state as requested */
     const qdot_given *given;
 } level;
 
 /* --- the equations of a level ------------------------------------------------------- */
 
-/* Constraint k: first those of the scene as declared, after them the equations of the plan. */
+/* Constraint k: first those of the scene as declared, then equations of the plan (massless coordinates). */
 static qdot_constraints_row
-row_at(const level *l, size_t k)
+constraint_at(const level *l, size_t k)
 {
     const qdot_constraint *of_scene = l->scene->constraints.at + k;
 
@@ -54,7 +54,7 @@ row_at(const level *l, size_t k)
 }
 
 static qdot_status
-level_push(level *l, size_t k, qdot_expr F)
+append_equation(level *l, size_t k, qdot_expr F)
 {
     qdot_expr t = QDOT_T;
 
@@ -68,7 +68,7 @@ level_push(level *l, size_t k, qdot_expr F)
 }
 
 static qdot_status
-level_init(level *l)
+begin_level(level *l)
 {
     const qdot_scene *scene = l->scene;
     size_t c = scene->constraints.n + l->plan->n_massless;
@@ -80,20 +80,20 @@ level_init(level *l)
     if (!l->F || !l->constraint || !l->distance || !l->free)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < c; k++) {
-        const qdot_constraints_row row = row_at(l, k);
+        const qdot_constraints_row row = constraint_at(l, k);
 
         if (l->massless != (k >= scene->constraints.n))
             continue;
         if (row.kind == QDOT_HOLONOMIC)
-            QDOT_TRY(level_push(l, k, l->velocities ? qdot_ddt(scene->pool, row.f) : row.f));
+            QDOT_TRY(append_equation(l, k, l->velocities ? qdot_ddt(scene->pool, row.f) : row.f));
         else if (row.kind == QDOT_VELOCITY && l->velocities)
-            QDOT_TRY(level_push(l, k, row.f));
+            QDOT_TRY(append_equation(l, k, row.f));
     }
     return QDOT_OK;
 }
 
 static void
-level_clear(level *l)
+clear_level(level *l)
 {
     qdot_free(l->F);
     qdot_free(l->constraint);
@@ -101,23 +101,23 @@ level_clear(level *l)
     qdot_free(l->free);
 }
 
-/* Whether coordinate i belongs to this level: those without mass and those with mass have separate levels. */
+/* Whether coordinate i belongs to this level; massless coordinates and others have separate levels. */
 static bool
-is_own(const level *l, size_t i)
+belongs_to_level(const level *l, size_t i)
 {
     return l->massless == (l->plan->massless && l->plan->massless[i]);
 }
 
-/* Whether i is a coordinate of this level, not a parameter that events set. */
+/* Whether i is a coordinate of this level and not a parameter that events set. */
 static bool
-is_moving(const level *l, size_t i)
+is_coordinate_of_level(const level *l, size_t i)
 {
-    return i < l->n - l->plan->n_states && is_own(l, i);
+    return i < l->n - l->plan->n_states && belongs_to_level(l, i);
 }
 
-/* Set up the search for a solution of the equations F [m]. */
+/* Set up the search for the nearest solution of the equations F [m]. */
 static qdot_nearest
-level_equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
+prepare_search(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
 {
     return (qdot_nearest){.pool = l->plan->pool,
                           .inputs = 2 * l->n,
@@ -133,7 +133,7 @@ level_equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains
 /* --- words of messages -------------------------------------------------------------- */
 
 static void
-print_unknown(const level *l, size_t i, qdot_text *out)
+print_unknown_name(const level *l, size_t i, qdot_text *out)
 {
     qdot_text_format(out, "%s%s", l->plan->names[i], l->velocities ? "'" : "");
 }
@@ -148,7 +148,7 @@ print_constraints(const level *l, const bool *which, qdot_text *out)
         count += which[k];
     qdot_text_add(out, l->massless ? "the " : count == 1 ? "constraint " : "constraints ");
     for (size_t k = 0; k < l->m; k++) {
-        const char *name = row_at(l, l->constraint[k]).name;
+        const char *name = constraint_at(l, l->constraint[k]).name;
         const char *comma = strchr(name, ',');
 
         if (!which[k])
@@ -165,7 +165,7 @@ print_constraints(const level *l, const bool *which, qdot_text *out)
 }
 
 static qdot_status
-print_broken(const level *l, qdot_text *out)
+print_violated_constraints(const level *l, qdot_text *out)
 {
     bool *which = qdot_calloc(l->m + 1, sizeof *which);
 
@@ -178,9 +178,9 @@ print_broken(const level *l, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Fail with the message `text`, and free it. */
+/* Fail with the message `text`, whose memory is freed. */
 static qdot_status
-fail(qdot_text *text, qdot_status built)
+fail_with_text(qdot_text *text, qdot_status built)
 {
     if (built == QDOT_OK)
         built = qdot_text_status(text);
@@ -191,7 +191,7 @@ fail(qdot_text *text, qdot_status built)
 }
 
 static qdot_status
-level_refuse(const level *l, const double *residual)
+fail_no_solution(const level *l, const double *residual)
 {
     qdot_constraints_row row;
     qdot_text text = {0};
@@ -201,9 +201,9 @@ level_refuse(const level *l, const double *residual)
     for (size_t k = 1; k < l->m; k++)
         if (!(l->distance[k] <= l->distance[worst]))
             worst = k;
-    row = row_at(l, l->constraint[worst]);
+    row = constraint_at(l, l->constraint[worst]);
     qdot_text_add(&text, "the start breaks ");
-    status = print_broken(l, &text);
+    status = print_violated_constraints(l, &text);
     for (size_t k = 0; k < l->m; k++)
         broken += !(l->distance[k] <= breaks);
     qdot_text_add(&text, l->velocities && row.kind == QDOT_HOLONOMIC
@@ -212,7 +212,7 @@ level_refuse(const level *l, const double *residual)
     if (broken > 1)
         qdot_text_format(&text, " of %.100s", row.name);
     qdot_text_format(&text, " is %.6g, not 0", residual[worst]);
-    status = fail(&text, status);
+    status = fail_with_text(&text, status);
     return status == QDOT_EINVAL
                ? qdot_hint("without `exactly` the start is moved onto the constraints")
                : status;
@@ -220,7 +220,7 @@ level_refuse(const level *l, const double *residual)
 
 /* Append the values of a solution x that differ from those of another one, as "x = 1, y = 0". */
 static void
-print_answer(const level *l, const double *x, const double *other, qdot_text *out)
+print_differing_values(const level *l, const double *x, const double *other, qdot_text *out)
 {
     size_t listed = 0;
 
@@ -232,13 +232,13 @@ print_answer(const level *l, const double *x, const double *other, qdot_text *ou
             return;
         }
         qdot_text_add(out, listed++ > 0 ? ", " : " ");
-        print_unknown(l, i, out);
+        print_unknown_name(l, i, out);
         qdot_text_format(out, " = %.6g", x[i]);
     }
 }
 
 static qdot_status
-say_several(const level *l, const double *at, const double *other, bool all)
+fail_several_solutions(const level *l, const double *at, const double *other, bool all)
 {
     const double *x = at + (l->velocities ? l->n : 0);
     qdot_text text = {0}, name = {0};
@@ -248,16 +248,16 @@ say_several(const level *l, const double *at, const double *other, bool all)
     for (size_t j = 1; j < l->n; j++)
         if (fabs(x[j] - other[j]) > fabs(x[i] - other[i]))
             i = j;
-    print_unknown(l, i, &name);
+    print_unknown_name(l, i, &name);
     status = qdot_text_status(&name);
     qdot_text_add(&text, "the start breaks ");
     if (status == QDOT_OK)
-        status = print_broken(l, &text);
+        status = print_violated_constraints(l, &text);
     qdot_text_add(&text, ", and two answers are equally near:");
-    print_answer(l, x, other, &text);
+    print_differing_values(l, x, other, &text);
     qdot_text_add(&text, " and");
-    print_answer(l, other, x, &text);
-    status = fail(&text, status);
+    print_differing_values(l, other, x, &text);
+    status = fail_with_text(&text, status);
     if (status == QDOT_EINVAL)
         status = all ? qdot_hint("start %s = ...: a value nearer to one of them",
                                  qdot_text_str(&name))
@@ -268,7 +268,7 @@ say_several(const level *l, const double *at, const double *other, bool all)
 }
 
 static qdot_status
-say_moved(const level *l, const double *at, qdot_text *notice)
+add_notice_of_moves(const level *l, const double *at, qdot_text *notice)
 {
     size_t first = l->velocities ? l->n : 0, listed = 0, left = 0;
     double most = 0;
@@ -276,7 +276,7 @@ say_moved(const level *l, const double *at, qdot_text *notice)
     if (notice->n > 0)
         qdot_text_add(notice, "\n");
     qdot_text_add(notice, "the start breaks ");
-    QDOT_TRY(print_broken(l, notice));
+    QDOT_TRY(print_violated_constraints(l, notice));
     qdot_text_add(notice, l->massless ? "; moved:" : "; moved least, in the metric of M:");
     for (size_t i = 0; i < l->n; i++) {
         double from = l->before[first + i], by = at[first + i] - from;
@@ -289,7 +289,7 @@ say_moved(const level *l, const double *at, qdot_text *notice)
             continue;
         }
         qdot_text_add(notice, listed++ > 0 ? ", " : " ");
-        print_unknown(l, i, notice);
+        print_unknown_name(l, i, notice);
         qdot_text_format(notice, " from %.12g to %.12g (by %.3g)", from, at[first + i],
                          by);
     }
@@ -300,10 +300,10 @@ say_moved(const level *l, const double *at, qdot_text *notice)
 
 /* --- contradictory equations -------------------------------------------------------- */
 
-/* Whether the equations marked in `kept` have a common solution within the domains. */
+/* Whether the equations marked in `kept` have a common solution within the domains of the coordinates. */
 static qdot_status
-can_hold(const level *l, const bool *kept, const qdot_domains *domains,
-         const double *start, bool *can)
+have_common_solution(const level *l, const bool *kept, const qdot_domains *domains,
+                     const double *start, bool *can)
 {
     size_t m = 0;
     qdot_expr *F = qdot_calloc(l->m + 1, sizeof *F);
@@ -315,7 +315,7 @@ can_hold(const level *l, const bool *kept, const qdot_domains *domains,
     for (size_t k = 0; k < l->m && status == QDOT_OK; k++)
         if (kept[k])
             F[m++] = l->F[k];
-    near = level_equations(l, m, F, domains);
+    near = prepare_search(l, m, F, domains);
     if (status == QDOT_OK && m > 0) {
         status = qdot_nearest_begin(&near);
         if (status == QDOT_OK) {
@@ -333,7 +333,7 @@ can_hold(const level *l, const bool *kept, const qdot_domains *domains,
 /* If no state satisfies all constraints: name a minimal set that contradicts itself, by removing
  * others one by one. */
 static qdot_status
-name_contradiction(const level *l, const qdot_domains *domains, const double *start)
+name_contradicting_constraints(const level *l, const qdot_domains *domains, const double *start)
 {
     bool *kept = qdot_calloc(l->m + 1, sizeof *kept), can;
     qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
@@ -344,7 +344,7 @@ name_contradiction(const level *l, const qdot_domains *domains, const double *st
         kept[k] = true;
     for (size_t k = l->m; k-- > 0 && status == QDOT_OK;) {
         kept[k] = false;
-        status = can_hold(l, kept, domains, start, &can);
+        status = have_common_solution(l, kept, domains, start, &can);
         if (status == QDOT_OK && can)
             kept[k] = true;
         else
@@ -357,7 +357,7 @@ name_contradiction(const level *l, const qdot_domains *domains, const double *st
         print_constraints(l, kept, &text);
         if (count > 1)
             qdot_text_add(&text, ": they contradict each other");
-        status = fail(&text, status);
+        status = fail_with_text(&text, status);
     }
     if (status == QDOT_EINVAL)
         status = l->massless
@@ -370,9 +370,9 @@ name_contradiction(const level *l, const qdot_domains *domains, const double *st
 
 /* --- solving one level -------------------------------------------------------------- */
 
-/* Evaluate the mass matrix M at the start, into W. */
+/* Evaluate the mass matrix M at the start, into W, as the metric in which values move least. */
 static qdot_status
-metric(const level *l, double *W)
+evaluate_metric(const level *l, double *W)
 {
     qdot_pool *pool = l->plan->pool;
     const size_t n = l->n, m = n - l->plan->n_states;
@@ -387,7 +387,7 @@ metric(const level *l, double *W)
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
-        entries[i] = is_moving(l, i / n) && is_moving(l, i % n)
+        entries[i] = is_coordinate_of_level(l, i / n) && is_coordinate_of_level(l, i % n)
                          ? qdot_expr_arg(pool, M, (uint32_t)(i / n * m + i % n))
                      : i / n == i % n ? QDOT_ONE
                                       : QDOT_ZERO;
@@ -403,33 +403,33 @@ metric(const level *l, double *W)
     return status;
 }
 
-/* Move all values as little as possible, also those given by the user. */
+/* Move all values as little as possible, even those given by the user, onto the constraints. */
 static qdot_status
-move_all(level *l, const qdot_domains *domains, double *y, double *other,
-         qdot_text *notice)
+move_all_values(level *l, const qdot_domains *domains, double *y, double *other,
+                qdot_text *notice)
 {
     double *W = qdot_calloc(l->n * l->n + 1, sizeof *W);
     qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
     qdot_status status = W ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < l->n; i++)
-        l->free[i] = is_moving(l, i);
+        l->free[i] = is_coordinate_of_level(l, i);
     if (status == QDOT_OK)
-        status = metric(l, W);
+        status = evaluate_metric(l, W);
     if (status == QDOT_OK)
         status = qdot_nearest_find(&l->near, l->free, W, y, other, &outcome);
     qdot_free(W);
     QDOT_TRY(status);
     if (outcome == QDOT_NEAREST_NONE)
-        return name_contradiction(l, domains, y);
+        return name_contradicting_constraints(l, domains, y);
     if (outcome == QDOT_NEAREST_SEVERAL)
-        return say_several(l, y, other, true);
-    return say_moved(l, y, notice);
+        return fail_several_solutions(l, y, other, true);
+    return add_notice_of_moves(l, y, notice);
 }
 
 /* Solve for the values that were not given; if these cannot satisfy the equations, move all values. */
 static qdot_status
-level_solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
+solve_level(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
 {
     const bool *named = l->velocities ? l->request->v_named : l->request->q_named;
     qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
@@ -437,19 +437,19 @@ level_solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
     qdot_status status = other ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < l->n; i++)
-        l->free[i] = named && !named[i] && is_own(l, i);
+        l->free[i] = named && !named[i] && belongs_to_level(l, i);
     if (status == QDOT_OK)
         status = qdot_nearest_find(&l->near, l->free, NULL, y, other, &outcome);
     if (status == QDOT_OK && outcome == QDOT_NEAREST_SEVERAL)
-        status = say_several(l, y, other, false);
+        status = fail_several_solutions(l, y, other, false);
     else if (status == QDOT_OK && outcome == QDOT_NEAREST_NONE)
-        status = move_all(l, domains, y, other, notice);
+        status = move_all_values(l, domains, y, other, notice);
     qdot_free(other);
     return status;
 }
 
 static double
-worst(const level *l, const double *y)
+largest_violation(const level *l, const double *y)
 {
     double most = 0, size = 1;
 
@@ -460,9 +460,9 @@ worst(const level *l, const double *y)
     return most;
 }
 
-/* Fail for a coordinate without a given value that occurs in no constraint and must not be 0. */
+/* Fail if a coordinate without a given value occurs in no constraint, although it must not be 0. */
 static qdot_status
-check_left_alone(const level *l, const qdot_domains *domains, const double *y)
+check_unconstrained_values(const level *l, const qdot_domains *domains, const double *y)
 {
     const bool *named = l->request->q_named;
 
@@ -471,7 +471,7 @@ check_left_alone(const level *l, const qdot_domains *domains, const double *y)
         double x = y[d->coordinate];
         bool held = named[d->coordinate];
 
-        if (!is_own(l, d->coordinate) ||
+        if (!belongs_to_level(l, d->coordinate) ||
             ((d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi)))
             continue;
         for (size_t k = 0; k < l->m && !held; k++)
@@ -488,18 +488,18 @@ check_left_alone(const level *l, const qdot_domains *domains, const double *y)
 }
 
 static qdot_status
-level_settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
+solve_and_describe_level(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
 {
     double *residual = qdot_calloc(l->m + 1, sizeof *residual), broken;
     qdot_status status = residual ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = qdot_nearest_distance(&l->near, y, l->distance, residual);
-    broken = status == QDOT_OK ? worst(l, y) : 0;
+    broken = status == QDOT_OK ? largest_violation(l, y) : 0;
     for (size_t i = 0; i < l->n; i++)
-        l->free[i] = is_moving(l, i);
+        l->free[i] = is_coordinate_of_level(l, i);
     if (status == QDOT_OK && !(broken <= breaks)) {
-        status = l->request->exactly ? level_refuse(l, residual) : level_solve(l, domains, y, notice);
+        status = l->request->exactly ? fail_no_solution(l, residual) : solve_level(l, domains, y, notice);
         for (size_t i = 0; i < l->n; i++)
             if (l->free[i])
                 low[l->near.first + i] = 0;
@@ -512,9 +512,9 @@ level_settle(level *l, const qdot_domains *domains, double *y, double *low, qdot
 
 /* --- redundant constraints ---------------------------------------------------------- */
 
-/* Evaluate the rows of A at the start, each according to its constraint's kind. */
+/* Evaluate the gradients A of the constraints at the start: by q or q', according to each constraint's kind. */
 static qdot_status
-level_slopes(const level *l, double *A)
+evaluate_gradients(const level *l, double *A)
 {
     qdot_scene *scene = l->scene;
     qdot_pool *pool = l->plan->pool;
@@ -526,7 +526,7 @@ level_slopes(const level *l, double *A)
         const qdot_constraint *one = &scene->constraints.at[k / n];
         qdot_expr e, mu;
 
-        if (!is_moving(l, k % n)) {
+        if (!is_coordinate_of_level(l, k % n)) {
             entries[k] = QDOT_ZERO;
             continue;
         }
@@ -563,12 +563,12 @@ qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
     if (status == QDOT_OK)
         status = qdot_given_init(&given, plan, request, y, low);
     if (status == QDOT_OK)
-        status = level_init(&l);
+        status = begin_level(&l);
     for (size_t k = 0; k < c && status == QDOT_OK; k++)
         l.constraint[k] = k;
     l.m = c;
     if (status == QDOT_OK)
-        status = level_slopes(&l, A);
+        status = evaluate_gradients(&l, A);
     if (status == QDOT_OK) {
         qdot_row_space_factor(&rows, A, 1e-9, true);
         for (size_t k = rows.rank; k < c; k++)
@@ -582,7 +582,7 @@ qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
             status = qdot_text_status(notice);
         }
     }
-    level_clear(&l);
+    clear_level(&l);
     qdot_given_clear(&given);
     qdot_row_space_clear(&rows);
     qdot_free(A);
@@ -612,20 +612,20 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
                    .n = n,
                    .before = before};
 
-        status = level_init(&l);
+        status = begin_level(&l);
         if (status == QDOT_OK && l.m > 0)
             status = qdot_given_init(&given, plan, request, y, low);
         if (status == QDOT_OK && l.m > 0) {
-            l.near = level_equations(&l, l.m, l.F, domains);
-            status = check_left_alone(&l, domains, y);
+            l.near = prepare_search(&l, l.m, l.F, domains);
+            status = check_unconstrained_values(&l, domains, y);
             if (status == QDOT_OK)
                 status = qdot_nearest_begin(&l.near);
             if (status == QDOT_OK) {
-                status = level_settle(&l, domains, y, low, notice);
+                status = solve_and_describe_level(&l, domains, y, low, notice);
                 qdot_nearest_end(&l.near);
             }
         }
-        level_clear(&l);
+        clear_level(&l);
         qdot_given_clear(&given);
     }
     qdot_free(before);

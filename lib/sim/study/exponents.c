@@ -27,11 +27,11 @@ typedef struct {
     const qdot_variation *v;
     const qdot_run_request *request;
     qdot_method_run m;
-    size_t n, k, all; /* number of coordinates of the scene; of tangent directions; of both together */
-    double *y, *look;      /* [2 all] the state; scratch for `pursuit_look` */
-    double t, *sum, *size; /* time; [k] sums of logarithms of growth; [k] lengths of the tangents */
-    double *growth;        /* [windows x k] logarithm of growth in each window */
-    bool alone;            /* the scene alone decides where steps end */
+    size_t n, k, all; /* number of coordinates of the scene; of tangent vectors; of coordinates of both together */
+    double *y, *look;      /* [2 all] the state with tangent vectors; scratch for check_tangent_lengths */
+    double t, *sum, *size; /* time; [k] sums of logarithms of growth; [k] lengths of the tangent vectors */
+    double *growth;        /* [windows x k] logarithm of growth in each time window */
+    bool alone;            /* the scene alone, not the tangent vectors, decides where steps end */
     bool stopped;
     char reason[400]; /* why the integration ended early */
 } pursuit;
@@ -46,47 +46,47 @@ qdot_exponents_clear(qdot_exponents *x)
 
 /* --- tangent vectors ----------------------------------------------------------------------- */
 
-/* Component i < 2n of tangent vector k. */
+/* The address of component i < 2n of tangent vector k in the state y. */
 static double *
-direction_component(const pursuit *p, double *y, size_t k, size_t i)
+tangent_component(const pursuit *p, double *y, size_t k, size_t i)
 {
     return y + (i < p->n ? 0 : p->all) + (k + 1) * p->n + i % p->n;
 }
 
 static double
-directions_product(const pursuit *p, double *y, size_t k, size_t l)
+product_of_tangents(const pursuit *p, double *y, size_t k, size_t l)
 {
     double sum = 0;
 
     for (size_t i = 0; i < 2 * p->n; i++)
-        sum += *direction_component(p, y, k, i) * *direction_component(p, y, l, i);
+        sum += *tangent_component(p, y, k, i) * *tangent_component(p, y, l, i);
     return sum;
 }
 
 /* y = Q R, Q in place of y, R_kk into `size` [k]. Each is done twice, as once leaves what has
  * cancelled. */
 static void
-orthonormalise(const pursuit *p, double *y, double *size)
+orthonormalise_tangents(const pursuit *p, double *y, double *size)
 {
     for (size_t k = 0; k < p->k; k++) {
         for (int twice = 0; twice < 2; twice++)
             for (size_t l = 0; l < k; l++) {
-                const double part = directions_product(p, y, k, l);
+                const double part = product_of_tangents(p, y, k, l);
 
                 for (size_t i = 0; i < 2 * p->n; i++)
-                    *direction_component(p, y, k, i) -= part * *direction_component(p, y, l, i);
+                    *tangent_component(p, y, k, i) -= part * *tangent_component(p, y, l, i);
             }
-        size[k] = sqrt(directions_product(p, y, k, k));
+        size[k] = sqrt(product_of_tangents(p, y, k, k));
         for (size_t i = 0; i < 2 * p->n; i++)
-            *direction_component(p, y, k, i) /= size[k];
+            *tangent_component(p, y, k, i) /= size[k];
     }
 }
 
-/* Make the slopes of the state orthonormal, and add ln R_kk to the sums. */
+/* Make the tangent vectors orthonormal, and add the logarithms of their growth, ln R_kk, to the sums. */
 static qdot_status
-pursuit_gather(pursuit *p)
+add_growth(pursuit *p)
 {
-    orthonormalise(p, p->y, p->size);
+    orthonormalise_tangents(p, p->y, p->size);
     for (size_t k = 0; k < p->k; k++) {
         if (!(p->size[k] > 0) || !isfinite(p->size[k]))
             return qdot_fail(QDOT_EFAILED, "a direction has no length at t = %.9g", p->t);
@@ -97,13 +97,13 @@ pursuit_gather(pursuit *p)
 
 /* Stop the integration if a tangent vector, orthogonalised to those before it, has a length far from 1. */
 static qdot_status
-pursuit_look(double t, const double *y, bool *stop, void *user)
+check_tangent_lengths(double t, const double *y, bool *stop, void *user)
 {
     pursuit *p = user;
 
     (void)t;
     memcpy(p->look, y, 2 * p->all * sizeof *y);
-    orthonormalise(p, p->look, p->size);
+    orthonormalise_tangents(p, p->look, p->size);
     for (size_t k = 0; k < p->k; k++)
         if (!(p->size[k] < most_growth) || !(p->size[k] * most_growth > 1))
             *stop = true;
@@ -112,13 +112,13 @@ pursuit_look(double t, const double *y, bool *stop, void *user)
 
 /* --- integration through the windows --------------------------------------------------------- */
 
-/* Integrate to `end`, or until a tangent vector has grown too long. */
+/* Integrate to the time `end`, or until a tangent vector has grown too long. */
 static qdot_status
-pursuit_advance(pursuit *p, double end)
+integrate_until(pursuit *p, double end)
 {
     const qdot_ode_system system = qdot_bind_system(p->m.bind);
     const qdot_ode_options options = {
-        .tol = p->request->tol, .accepted = pursuit_look, .user = p, .max_steps = no_bound};
+        .tol = p->request->tol, .accepted = check_tangent_lengths, .user = p, .max_steps = no_bound};
     qdot_ode_result result;
     qdot_status status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t,
                                             end, p->y, &result);
@@ -129,16 +129,16 @@ pursuit_advance(pursuit *p, double end)
     return status;
 }
 
-/* Integrate to `end` as a course of pieces, if events, switches or domains may divide the motion. */
+/* Integrate to `end` in pieces, as events, switches or domains may divide the motion. */
 static qdot_status
-advance_in_pieces(pursuit *p, double end)
+integrate_in_pieces(pursuit *p, double end)
 {
     qdot_pool *pool = p->v->of->pool;
     qdot_run_request request = qdot_variation_request(p->v);
     qdot_method_run m = {0};
     qdot_course course = {.stage = &m.stage};
     const qdot_ode_options options = {
-        .tol = p->request->tol, .accepted = pursuit_look, .user = p, .max_steps = no_bound};
+        .tol = p->request->tol, .accepted = check_tangent_lengths, .user = p, .max_steps = no_bound};
     qdot_expr *start = qdot_calloc(2 * p->all + 1, sizeof *start);
     qdot_status status = start ? QDOT_OK : QDOT_ENOMEM;
 
@@ -172,19 +172,19 @@ advance_in_pieces(pursuit *p, double end)
     return status;
 }
 
-/* Integrate through one window, up to the time `end`. */
+/* Integrate through one time window, up to the time `end`. */
 static qdot_status
-pass_window(pursuit *p, double end)
+integrate_window(pursuit *p, double end)
 {
     while (p->t != end && !p->stopped) {
-        QDOT_TRY(p->alone ? pursuit_advance(p, end) : advance_in_pieces(p, end));
-        QDOT_TRY(pursuit_gather(p));
+        QDOT_TRY(p->alone ? integrate_until(p, end) : integrate_in_pieces(p, end));
+        QDOT_TRY(add_growth(p));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-pursuit_follow(pursuit *p)
+follow_all_windows(pursuit *p)
 {
     qdot_exponents *x = p->x;
     const double t0 = p->m.t0, t1 = p->m.t1;
@@ -195,7 +195,7 @@ pursuit_follow(pursuit *p)
                 ? t1
                 : t0 + (t1 - t0) * (double)(w + 1) / QDOT_EXPONENTS_WINDOWS;
         const double before = w > 0 ? x->t[w - 1] : 0;
-        qdot_status status = pass_window(p, end);
+        qdot_status status = integrate_window(p, end);
 
         if (status == QDOT_EINTR && w > 0) {
             x->interrupted = true;
@@ -219,7 +219,7 @@ pursuit_follow(pursuit *p)
 
 /* --- means and errors ----------------------------------------------------------------------- */
 
-/* The standard error of the mean of x [n] in blocks of `size`. */
+/* The standard error of the mean of x [n], estimated from means of blocks of `size` values. */
 static double
 error_of_blocks(size_t n, const double *x, size_t size)
 {
@@ -241,7 +241,7 @@ error_of_blocks(size_t n, const double *x, size_t size)
 /* How far the mean of x [n] would be from `mean` without its longest episode, the windows on one side of that: a motion
  * that sticks has as few as one. */
 static double
-change_by_an_episode(size_t n, const double *x, double mean)
+shift_of_mean_by_episode(size_t n, const double *x, double mean)
 {
     double most = 0;
 
@@ -271,12 +271,12 @@ qdot_exponents_mean(size_t n, const double *x, double *mean, double *error)
         return;
     for (size_t size = 1; size <= 8 && n / size >= 8; size *= 2)
         most = fmax(most, error_of_blocks(n, x, size));
-    *error = fmax(3 * most, 4 * change_by_an_episode(n, x, *mean)) + fabs(half[1] - half[0]);
+    *error = fmax(3 * most, 4 * shift_of_mean_by_episode(n, x, *mean)) + fabs(half[1] - half[0]);
 }
 
-/* Sort the exponents in descending order. */
+/* Sort the Lyapunov exponents in descending order. */
 static void
-sort(qdot_exponents *x)
+sort_exponents(qdot_exponents *x)
 {
     for (size_t i = 1; i < x->n; i++)
         for (size_t j = i; j > 0 && x->value[j] > x->value[j - 1]; j--) {
@@ -296,7 +296,7 @@ sort(qdot_exponents *x)
 }
 
 static qdot_status
-conclude(pursuit *p)
+compute_exponents(pursuit *p)
 {
     qdot_exponents *x = p->x;
     const size_t first = x->windows / 10, n = x->windows - first;
@@ -310,7 +310,7 @@ conclude(pursuit *p)
         qdot_exponents_mean(n, of, x->value + k, x->error + k);
     }
     qdot_free(of);
-    sort(x);
+    sort_exponents(x);
     if (p->stopped)
         return qdot_fail(QDOT_EFAILED, "the run ended: %.300s", p->reason);
     return QDOT_OK;
@@ -340,7 +340,7 @@ pursuit_allocate(pursuit *p)
 }
 
 static qdot_status
-pursue(pursuit *p)
+compute_with_scene(pursuit *p)
 {
     const qdot_run_request request = qdot_variation_request(p->v);
 
@@ -352,14 +352,14 @@ pursue(pursuit *p)
     p->alone = !p->m.pieces && p->m.stage.domains.n == 0;
     memcpy(p->y, p->m.start, 2 * p->all * sizeof *p->y);
     p->t = p->m.t0;
-    QDOT_TRY(pursuit_gather(p));
+    QDOT_TRY(add_growth(p));
     memset(p->sum, 0, p->k * sizeof *p->sum);
     qdot_progress_begin(p->m.t0, p->m.t1, "lyapunov");
-    QDOT_TRY(pursuit_follow(p));
-    return conclude(p);
+    QDOT_TRY(follow_all_windows(p));
+    return compute_exponents(p);
 }
 
-/* Find the number of independent directions on the constraints and equations of massless coordinates. */
+/* The number of independent directions allowed by the constraints and by massless coordinates' equations. */
 static size_t
 count_directions(const qdot_scene *s, size_t determined)
 {
@@ -373,7 +373,7 @@ count_directions(const qdot_scene *s, size_t determined)
 }
 
 static qdot_status
-count_determined(qdot_scene *scene, const qdot_run_request *request, size_t *determined)
+count_determined_values(qdot_scene *scene, const qdot_run_request *request, size_t *determined)
 {
     qdot_massless massless = {0};
     const qdot_status status = qdot_massless_of_scene(scene, request, &massless);
@@ -390,7 +390,7 @@ qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_expon
     qdot_run_request request = *asked;
     qdot_variation v = {0};
     size_t determined;
-    QDOT_TRY(count_determined(scene, asked, &determined));
+    QDOT_TRY(count_determined_values(scene, asked, &determined));
     const size_t k = x->spectrum ? count_directions(scene, determined) : 1;
     qdot_variation_by *by = qdot_calloc(k + 1, sizeof *by);
     char(*names)[24] = qdot_calloc(k + 1, sizeof *names);
@@ -414,7 +414,7 @@ qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_expon
         pursuit p = {
             .x = x, .v = &v, .request = &request, .n = n, .k = k, .all = (k + 1) * n};
 
-        status = pursue(&p);
+        status = compute_with_scene(&p);
         qdot_method_run_clear(&p.m);
         qdot_free(p.y);
     }

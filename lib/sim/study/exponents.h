@@ -24,14 +24,14 @@
 enum { QDOT_EXPONENTS_WINDOWS = 100 };
 
 typedef struct {
-    bool spectrum; /* in: compute all exponents; false: only the largest */
+    bool spectrum; /* requested: compute all exponents; false: only the largest */
 
     size_t n; /* number of exponents */
     double *value,
-        *error; /* [n] exponents in descending order; errors, NaN where the run ended too soon */
+        *error; /* [n] exponents in descending order; their errors, NaN where the run ended too soon */
     size_t windows;    /* number of completed windows */
     double *t;         /* [windows] time since the start at the end of each window */
-    double *course; /* [windows x n] estimates at the end of each window: sum of logarithms / t */
+    double *course; /* [windows x n] estimates of the exponents at the end of each window: sum of logarithms / t */
     double steps, cpu; /* steps of the integration; its CPU seconds */
     bool interrupted;
 } qdot_exponents;
@@ -43,7 +43,7 @@ QDOT_MUST_CHECK qdot_status qdot_exponents_find(qdot_scene *scene,
                                                 qdot_exponents *x);
 void qdot_exponents_clear(qdot_exponents *x);
 
-/* Find the mean of x [n] and its error, estimated from means of blocks as described above. */
+/* Find the mean of x [n] and its error, estimated from the means of blocks of values. */
 void qdot_exponents_mean(size_t n, const double *x, double *mean, double *error);
 
 #endif

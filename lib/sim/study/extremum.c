@@ -1,4 +1,4 @@
-/* extremum.c -- finds the time of an extremum: narrows a range about it by halving, then solves de/dt = 0. */
+/* extremum.c -- finds the time of an extremum of e: narrows a range about it by halving, then solves de/dt = 0. */
 #include "sim/study/extremum.h"
 
 #include <float.h>
@@ -15,9 +15,9 @@ extremum_value_at(const qdot_extremum *x, qdot_expr e, double t, double *value)
     return qdot_run_values(x->run, 1, &e, 1, &t, value, NULL);
 }
 
-/* Halve [from, to] about the extremum until it is narrow. */
+/* Halve the range [from, to] about the extremum until it is narrow. */
 static qdot_status
-extremum_halve(const qdot_extremum *x, double *from, double *to)
+narrow_range(const qdot_extremum *x, double *from, double *to)
 {
     const double whole = fabs(x->to - x->from);
     double best, value, error;
@@ -36,9 +36,9 @@ extremum_halve(const qdot_extremum *x, double *from, double *to)
     return QDOT_OK;
 }
 
-/* Whether the extremum is at an end of the range, with e falling off from there. */
+/* Whether the extremum lies at an end of the time range, e falling (or rising) from there into the range. */
 static qdot_status
-is_end(const qdot_extremum *x, double end, bool *is)
+is_extremum_at_end(const qdot_extremum *x, double end, bool *is)
 {
     const double inward = end == x->from ? x->to - x->from : x->from - x->to;
     const double way = x->kind == QDOT_RANGE_MAX ? 1 : -1;
@@ -51,7 +51,7 @@ is_end(const qdot_extremum *x, double end, bool *is)
 
 /* The time t, moved into the range if it lies outside. */
 static double
-clamp(const qdot_extremum *x, double t)
+clamp_to_range(const qdot_extremum *x, double t)
 {
     return fmax(fmin(x->from, x->to), fmin(fmax(x->from, x->to), t));
 }
@@ -63,11 +63,11 @@ qdot_extremum_time(const qdot_extremum *x, double *t)
     double from = x->from, to = x->to, rate, bend, step = INFINITY;
     bool end;
 
-    QDOT_TRY(extremum_halve(x, &from, &to));
+    QDOT_TRY(narrow_range(x, &from, &to));
     for (int k = 0; k < 2; k++)
         if (k ? to == x->to : from == x->from) {
             *t = k ? to : from;
-            QDOT_TRY(is_end(x, *t, &end));
+            QDOT_TRY(is_extremum_at_end(x, *t, &end));
             if (end)
                 return QDOT_OK;
         }
@@ -77,7 +77,7 @@ qdot_extremum_time(const qdot_extremum *x, double *t)
         QDOT_TRY(extremum_value_at(x, x->bend, *t, &bend));
         if (bend == 0 && rate != 0)
             break;
-        step = clamp(x, rate == 0 ? *t : *t - rate / bend) - *t;
+        step = clamp_to_range(x, rate == 0 ? *t : *t - rate / bend) - *t;
         if (!(fabs(*t + step - from - 0.5 * (to - from)) <= 100 * narrow * whole))
             break;
         *t += step;

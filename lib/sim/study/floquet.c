@@ -25,7 +25,7 @@ static const double followed = 1e-3, near_start = 1e-6;
  * max(1, |value|). */
 static const double resting = 1e-9;
 
-/* A multiplier counts as outside the unit circle if it is outside by more than this many errors. */
+/* A multiplier counts as outside the unit circle if its distance exceeds this many times its error. */
 static const double surely = 2;
 
 /* Accelerations are periodic if they differ by less than this, relative to their largest value;
@@ -33,22 +33,22 @@ static const double surely = 2;
 static const double same = 1e-7;
 enum { ASKED = 8 };
 
-/* A multiplier that is 1 in theory may be computed this far from 1, beyond its error. */
+/* A multiplier that is 1 in theory may be computed with this distance from 1, in addition to its error. */
 static const double near_one = 1e-2;
 
 typedef struct {
     qdot_scene *scene;
     qdot_run *run;
     const qdot_run_request *request;
-    qdot_run_request scaled; /* `request` with the sizes of the states as scales */
-    size_t n, K, c;   /* number of coordinates, of segments, of multipliers */
+    qdot_run_request scaled; /* `request` with scales: the sizes of the states along the orbit */
+    size_t n, K, c;   /* number of coordinates, of segments of the orbit, of multipliers */
     double t0, T;
     double *states;   /* [most K x 2n] states at the starts of the segments */
-    double *ends;     /* [most K x 2n x 2n] derivatives of each segment's end by its start */
-    double *B, *E; /* [most K x 2n x 2n] the same; in a basis of the constraints [K x c x c]; their errors */
+    double *ends;     /* [most K x 2n x 2n] derivatives of each segment's end state by its start state */
+    double *B, *E; /* [most K x 2n x 2n] the same matrices in a basis that keeps the constraints [K x c x c]; their errors */
     double *size;     /* [2n] size of each component along the orbit */
     qdot_flow flow;
-    const qdot_variation *v; /* equations of the derivatives, owned by `flow` */
+    const qdot_variation *v; /* the variational equations, whose solutions are the derivatives; owned by `flow` */
 } orbit;
 
 void
@@ -59,16 +59,16 @@ qdot_floquet_clear(qdot_floquet *x)
 }
 
 static qdot_expr
-state_jet(const qdot_scene *s, size_t i)
+state_symbol(const qdot_scene *s, size_t i)
 {
     const size_t n = s->coordinates.n;
 
     return qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
 }
 
-/* The scale of the i-th of q, q', with which differences are compared. */
+/* The scale of component i of the state (q, q'), relative to which differences are judged. */
 static double
-size_of(const qdot_run_report *report, size_t n, size_t i, double value)
+scale_of_component(const qdot_run_report *report, size_t n, size_t i, double value)
 {
     return qdot_ode_size(report->scales, i < n ? i : report->n + i - n, value);
 }
@@ -76,29 +76,29 @@ size_of(const qdot_run_report *report, size_t n, size_t i, double value)
 /* Find the change by [2n] of each of q, q' if its initial rate lasted for the whole run, and the
  * scales of q, q'. */
 static qdot_status
-find_ways(qdot_scene *scene, qdot_run *run, double *by, double *size)
+find_changes_over_run(qdot_scene *scene, qdot_run *run, double *by, double *size)
 {
     const size_t n = scene->coordinates.n;
     const qdot_run_report *report = qdot_run_get_report(run);
 
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr e[2] = {
-            state_jet(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
+            state_symbol(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
         double value[2];
 
         QDOT_TRY(qdot_run_values(run, 2, e, 1, &report->t0, value, NULL));
         by[i] = fabs(value[1] * (report->t1 - report->t0));
-        size[i] = size_of(report, n, i, value[0]);
+        size[i] = scale_of_component(report, n, i, value[0]);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-find_reach(qdot_scene *scene, qdot_run *run, bool relative, double *reach)
+find_reach_of_rates(qdot_scene *scene, qdot_run *run, bool relative, double *reach)
 {
     const size_t z = 2 * scene->coordinates.n;
     double *by = qdot_calloc(2 * z, sizeof *by);
-    const qdot_status status = by ? find_ways(scene, run, by, by + z) : QDOT_ENOMEM;
+    const qdot_status status = by ? find_changes_over_run(scene, run, by, by + z) : QDOT_ENOMEM;
 
     *reach = 0;
     for (size_t i = 0; i < z && status == QDOT_OK; i++)
@@ -110,7 +110,7 @@ find_reach(qdot_scene *scene, qdot_run *run, bool relative, double *reach)
 qdot_status
 qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach)
 {
-    return find_reach(scene, run, false, reach);
+    return find_reach_of_rates(scene, run, false, reach);
 }
 
 qdot_status
@@ -118,7 +118,7 @@ qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests)
 {
     double reach;
 
-    QDOT_TRY(find_reach(scene, run, true, &reach));
+    QDOT_TRY(find_reach_of_rates(scene, run, true, &reach));
     *rests = !(reach > resting);
     return QDOT_OK;
 }
@@ -131,11 +131,11 @@ qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *wh
 
     *off = 0;
     for (size_t i = 0; i < 2 * scene->coordinates.n; i++) {
-        const qdot_expr e = state_jet(scene, i);
+        const qdot_expr e = state_symbol(scene, i);
         double value[2], one;
 
         QDOT_TRY(qdot_run_values(run, 1, &e, 2, t, value, NULL));
-        one = fabs(value[1] - value[0]) / size_of(report, scene->coordinates.n, i, value[0]);
+        one = fabs(value[1] - value[0]) / scale_of_component(report, scene->coordinates.n, i, value[0]);
         if (one > *off || isnan(one)) {
             *off = one;
             *where = e;
@@ -147,23 +147,23 @@ qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *wh
 /* --- period of the equations ------------------------------------------------------------------- */
 
 static bool
-has_time(const orbit *o, qdot_expr e)
+contains_time_explicitly(const orbit *o, qdot_expr e)
 {
     return (qdot_expr_node(o->scene->pool, e)->holds & QDOT_HAS_TIME) != 0;
 }
 
-/* Whether accelerations, or the effects of events, depend explicitly on time. */
+/* Whether accelerations, or what events set, depend explicitly on time. */
 static bool
-holds_time(const orbit *o)
+is_driven_by_time(const orbit *o)
 {
     for (size_t i = 0; i < o->n; i++)
-        if (has_time(o, o->v->a[i]))
+        if (contains_time_explicitly(o, o->v->a[i]))
             return true;
     for (size_t k = 0; k < o->scene->events.n; k++) {
         const qdot_event *e = &o->scene->events.at[k];
 
         for (size_t i = 0; i < e->targets.n; i++)
-            if (has_time(o, e->left) || has_time(o, e->right) || has_time(o, e->values.at[i]))
+            if (contains_time_explicitly(o, e->left) || contains_time_explicitly(o, e->right) || contains_time_explicitly(o, e->values.at[i]))
                 return true;
     }
     return false;
@@ -177,7 +177,7 @@ moved(const orbit *o, qdot_expr e)
     qdot_pool *pool = o->scene->pool;
 
     for (size_t i = 0; i < 2 * o->n && e != QDOT_NIL; i++) {
-        const qdot_expr z = state_jet(o->scene, i),
+        const qdot_expr z = state_symbol(o->scene, i),
                         by = qdot_div(pool, qdot_expr_int(pool, (long)i + 3),
                                       qdot_expr_int(pool, 256)),
                         to = qdot_add(pool, z, by);
@@ -187,9 +187,9 @@ moved(const orbit *o, qdot_expr e)
     return e;
 }
 
-/* Check that the expression e at a given state has the same value one period later. */
+/* Check that an expression, at a given state, has the same value one period later. */
 static qdot_status
-check_same(orbit *o, qdot_expr of)
+check_same_after_period(orbit *o, qdot_expr of)
 {
     qdot_pool *pool = o->scene->pool;
     const qdot_run_report *report = qdot_run_get_report(o->run);
@@ -222,7 +222,7 @@ check_period(orbit *o)
     qdot_pool *pool = o->scene->pool;
 
     for (size_t i = 0; i < o->n; i++)
-        QDOT_TRY(check_same(o, o->v->a[i]));
+        QDOT_TRY(check_same_after_period(o, o->v->a[i]));
     for (size_t k = 0; k < o->scene->events.n; k++) {
         const qdot_event *e = &o->scene->events.at[k];
         qdot_expr g = qdot_sub(pool, e->left, e->right);
@@ -230,9 +230,9 @@ check_period(orbit *o)
         if (e->targets.n == 0)
             continue;
         g = e->way == 0 ? qdot_mul(pool, g, g) : g;
-        QDOT_TRY(check_same(o, qdot_variation_with_numbers(o->v, g)));
+        QDOT_TRY(check_same_after_period(o, qdot_variation_with_numbers(o->v, g)));
         for (size_t i = 0; i < e->targets.n; i++)
-            QDOT_TRY(check_same(o, qdot_variation_with_numbers(o->v, e->values.at[i])));
+            QDOT_TRY(check_same_after_period(o, qdot_variation_with_numbers(o->v, e->values.at[i])));
     }
     return QDOT_OK;
 }
@@ -252,9 +252,9 @@ qdot_floquet_is_lagrangian(qdot_scene *s, bool *yes)
 
 /* --- multipliers and stability --------------------------------------------------------------- */
 
-/* Set a multiplier to real if its conjugate partner was: its imaginary part is within its error. */
+/* Make a multiplier real if its conjugate partner was made real: its imaginary part is within its error. */
 static void
-pair_up(qdot_floquet *x)
+make_partners_real(qdot_floquet *x)
 {
     for (size_t k = 0; k < x->n; k++) {
         size_t j = 0;
@@ -268,9 +268,9 @@ pair_up(qdot_floquet *x)
     }
 }
 
-/* Set the `count` multipliers nearest to 1, which are 1 in theory, to exactly 1. */
+/* Set to exactly 1 the `count` multipliers nearest to 1, which are 1 in theory. */
 static void
-state_trivial(qdot_floquet *x, size_t count)
+set_trivial_multipliers(qdot_floquet *x, size_t count)
 {
     for (x->trivial = 0; x->trivial < count && x->trivial < x->n; x->trivial++) {
         size_t best = x->n;
@@ -285,7 +285,7 @@ state_trivial(qdot_floquet *x, size_t count)
             }
         }
         if (best == x->n || least > fmax(near_one, 2 * x->error[best]))
-            return; /* no multiplier is near 1: leave all unchanged */
+            return; /* leave all unchanged: no multiplier is near 1 */
         x->re[best] = 1;
         x->im[best] = x->error[best] = 0;
     }
@@ -293,7 +293,7 @@ state_trivial(qdot_floquet *x, size_t count)
 
 /* Whether multiplier k differs from all others by more than their errors. */
 static bool
-is_apart(const qdot_floquet *x, size_t k)
+differs_from_others(const qdot_floquet *x, size_t k)
 {
     for (size_t j = 0; j < x->n; j++)
         if (j != k && !(hypot(x->re[j] - x->re[k], x->im[j] - x->im[k]) >
@@ -310,19 +310,19 @@ floquet_judge(qdot_floquet *x)
     x->verdict = QDOT_FLOQUET_UNDECIDED;
     for (size_t k = 0; k < x->n; k++)
         inside = inside && hypot(x->re[k], x->im[k]) + x->error[k] < 1;
-    x->asymptotic = x->asymptotic || inside; /* also damping by a Lagrangian exp(c*t)*(T - V) */
+    x->asymptotic = x->asymptotic || inside; /* a Lagrangian exp(c*t)*(T - V) also has damping */
     for (size_t k = 0; k < x->n; k++) {
         const double size = hypot(x->re[k], x->im[k]), error = x->error[k];
 
         if (error == 0)
-            continue; /* exactly 1 for every orbit */
+            continue; /* this multiplier is exactly 1 for every orbit */
         if (size - surely * error > 1) {
             x->verdict = QDOT_FLOQUET_UNSTABLE;
             return;
         }
         stable =
             stable && (x->asymptotic ? size + error < 1
-                                     : fabs(size - 1) <= 2 * error && is_apart(x, k));
+                                     : fabs(size - 1) <= 2 * error && differs_from_others(x, k));
     }
     if (stable)
         x->verdict = QDOT_FLOQUET_STABLE;
@@ -340,7 +340,7 @@ find_eigenvalues(size_t K, size_t k, const double *B, const double *E, qdot_floq
     if (sum == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < K * kk; i++)
-        sum[i % kk] += fabs(B[i]) + E[i]; /* scale: an entry below its error must not set the unit */
+        sum[i % kk] += fabs(B[i]) + E[i]; /* sizes set the unit: an entry smaller than its error must not */
     qdot_balance(k, sum, unit);
     for (size_t i = 0; i < K * kk; i++) {
         const double by = unit[i % k] / unit[i % kk / k];
@@ -365,16 +365,16 @@ qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t tri
     x->im = x->re + k;
     x->error = x->im + k;
     QDOT_TRY(find_eigenvalues(K, k, B, E, x));
-    state_trivial(x, trivial);
-    pair_up(x);
+    set_trivial_multipliers(x, trivial);
+    make_partners_real(x);
     qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
     floquet_judge(x);
     return QDOT_OK;
 }
 
-/* Compute B, the factors of the monodromy matrix, by the flow with tolerance tol. */
+/* Compute B, the segments' factors of the monodromy matrix, by the flow map with tolerance tol. */
 static qdot_status
-fill_factors(orbit *o, double tol, double *B)
+fill_transfer_matrices(orbit *o, double tol, double *B)
 {
     const size_t z = 2 * o->n;
     const qdot_flow_orbit of = {.K = o->K, .t0 = o->t0, .T = o->T, .first = o->states, .others = o->states + z};
@@ -396,22 +396,22 @@ find_multipliers(orbit *o, qdot_floquet *x)
     bool driven, rests, free;
 
     QDOT_TRY(qdot_floquet_is_lagrangian(o->scene, &free));
-    QDOT_TRY(fill_factors(o, qdot_flow_tolerance[1], o->E));
-    QDOT_TRY(fill_factors(o, qdot_flow_tolerance[0], o->B));
+    QDOT_TRY(fill_transfer_matrices(o, qdot_flow_tolerance[1], o->E));
+    QDOT_TRY(fill_transfer_matrices(o, qdot_flow_tolerance[0], o->B));
     qdot_flow_errors(o->K * o->c * o->c, o->B, o->E);
     o->v = qdot_response_variation(o->flow.response);
-    driven = holds_time(o);
+    driven = is_driven_by_time(o);
     QDOT_TRY(qdot_floquet_rests(o->scene, o->run, &rests));
-    if (!rests) /* an orbit at rest has no sizes of states */
+    if (!rests) /* an orbit at rest has no sizes of states from which scales could be taken */
         QDOT_TRY(qdot_flow_rounding(&o->flow, &of, o->ends, z * z, o->size, o->E));
     return qdot_floquet_of(o->K, o->c, o->B, o->E, driven || rests ? 0 : free ? 2 : 1, !free, x);
 }
 
 /* --- closing the orbit --------------------------------------------------------------------------- */
 
-/* Use the sizes of the states as scales of the runs if they differ much from each other or from 1. */
+/* Use the sizes of the states along the orbit as scales, if they differ much from each other or from 1. */
 static qdot_status
-scale_flow(orbit *o)
+scale_flow_by_states(orbit *o)
 {
     if (!qdot_sizes_are_apart(2 * o->n, o->size) || o->request->scales != NULL)
         return QDOT_OK;
@@ -426,7 +426,7 @@ scale_flow(orbit *o)
 /* Read the start and the period from the run, and choose the number of segments by how fast
  * neighbouring motions separate. */
 static qdot_status
-floquet_begin(orbit *o)
+begin_orbit(orbit *o)
 {
     const qdot_run_report *report = qdot_run_get_report(o->run);
     const size_t n = o->n, z = 2 * n, most = QDOT_FLOW_MOST_SEGMENTS;
@@ -441,13 +441,13 @@ floquet_begin(orbit *o)
     o->E = o->B + most * z * z;
     o->size = o->E + most * z * z;
     for (size_t i = 0; i < z; i++) {
-        const qdot_expr e = state_jet(o->scene, i);
+        const qdot_expr e = state_symbol(o->scene, i);
 
         QDOT_TRY(qdot_run_values(o->run, 1, &e, 1, &report->t0, &o->states[i], NULL));
     }
     QDOT_TRY(qdot_flow_begin(&o->flow, o->scene, o->request, 0, NULL, QDOT_NIL, qdot_flow_tolerance[0], o->T));
     QDOT_TRY(qdot_flow_segments_of_orbit(&o->flow, o->states, NULL, o->t0, o->T, o->size, &o->K));
-    QDOT_TRY(scale_flow(o));
+    QDOT_TRY(scale_flow_by_states(o));
     o->v = qdot_response_variation(o->flow.response);
     return QDOT_OK;
 }
@@ -455,9 +455,9 @@ floquet_begin(orbit *o)
 /* The states between segments, with start and period where all of it closes (shooting.h): of one segment whose run comes
  * back, the run's. off: how far it does not. */
 static qdot_status
-close_up(orbit *o, double off)
+close_orbit(orbit *o, double off)
 {
-    const size_t z = 2 * o->n, k = z + !holds_time(o);
+    const size_t z = 2 * o->n, k = z + !is_driven_by_time(o);
     qdot_pool *pool = o->scene->pool;
     qdot_expr *u = qdot_calloc(z + 1, sizeof *u);
     double *at = qdot_calloc(4 * (z + 1), sizeof *at), *const low = at + 2 * (z + 1), *const high = low + z + 1;
@@ -468,7 +468,7 @@ close_up(orbit *o, double off)
     double moved = 0;
 
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
-        u[i] = i < z ? state_jet(o->scene, i) : qdot_symbol_get(pool, QDOT_FORMAL, "T");
+        u[i] = i < z ? state_symbol(o->scene, i) : qdot_symbol_get(pool, QDOT_FORMAL, "T");
         at[i] = i < z ? o->states[i] : o->T;
         low[i] = -INFINITY;
         high[i] = INFINITY;
@@ -494,16 +494,16 @@ close_up(orbit *o, double off)
 /* --- the whole computation ----------------------------------------------------------------------- */
 
 static qdot_status
-floquet_follow(orbit *o, qdot_floquet *x)
+follow_orbit(orbit *o, qdot_floquet *x)
 {
     qdot_expr where;
     double off;
 
     QDOT_TRY(qdot_floquet_return(o->scene, o->run, &off, &where));
-    QDOT_TRY(floquet_begin(o));
+    QDOT_TRY(begin_orbit(o));
     QDOT_TRY(check_period(o));
     if (o->K > 1 || off > QDOT_FLOQUET_CLOSED)
-        QDOT_TRY(close_up(o, off));
+        QDOT_TRY(close_orbit(o, off));
     return find_multipliers(o, x);
 }
 
@@ -512,7 +512,7 @@ qdot_floquet_find(qdot_scene *scene, qdot_run *run, const qdot_run_request *requ
                   qdot_floquet *x)
 {
     orbit o = {.scene = scene, .run = run, .request = request, .n = scene->coordinates.n};
-    const qdot_status status = floquet_follow(&o, x);
+    const qdot_status status = follow_orbit(&o, x);
 
     qdot_flow_end(&o.flow);
     qdot_free(o.states);

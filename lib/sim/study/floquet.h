@@ -31,14 +31,14 @@ typedef enum {
 typedef struct {
     size_t n; /* number of multipliers: 2 (n - m) */
     double *re, *im,
-        *error; /* [n] multipliers re + i im, as qdot_eigenvalues_arrange sorts them; error 0: exact */
-    size_t trivial; /* number of multipliers that are 1 for every orbit */
+        *error; /* [n] multipliers re + i im, sorted by qdot_eigenvalues_arrange; error 0: exact */
+    size_t trivial; /* number of multipliers that are 1 for every orbit (time shift, conserved energy) */
     bool
-        asymptotic; /* damping or driving: stable means that all multipliers are inside the circle */
+        asymptotic; /* there is damping or driving: stable means that all multipliers are inside the unit circle */
     qdot_floquet_verdict verdict;
 } qdot_floquet;
 
-/* Find *reach, the largest change of q and q' if their initial rates lasted for the whole run. */
+/* Find *reach, the largest change of q and q' that their initial rates would make over the whole run. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach);
 /* Whether the run began at rest: no coordinate or velocity changes, relative to max(scale, |value|). */
 QDOT_MUST_CHECK qdot_status qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests);

@@ -18,10 +18,10 @@ static const double tame = 30, growth_of_guess = 2, growth_of_orbit = 1e3;
 
 const double qdot_flow_tolerance[2] = {1e-13, 1e-11};
 
-/* The relative rounding error common to both flows, which their difference does not show. */
+/* The relative rounding error that both flow maps share, so that their difference does not show it. */
 static const double alike = 1e-14;
 
-/* The rounding error that remains in sums with cancellation, relative to the largest derivative. */
+/* The rounding error left in sums whose terms cancel, relative to the largest derivative. */
 static const double cancelled = 8 * DBL_EPSILON;
 
 static qdot_status
@@ -85,7 +85,7 @@ qdot_flow_end(qdot_flow *x)
 }
 
 static void
-flow_put(qdot_flow *x, const double *state, const double *parameters)
+set_unknowns(qdot_flow *x, const double *state, const double *parameters)
 {
     memcpy(x->in, state, x->z * sizeof *state);
     if (x->p > 0)
@@ -97,7 +97,7 @@ qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double
 {
     double times[QDOT_FLOW_LOOKS] = {from, to};
 
-    flow_put(x, state, parameters);
+    set_unknowns(x, state, parameters);
     for (size_t i = 0; i < count; i++)
         times[i] = i + 1 == count ? to : from + (to - from) * (double)(i + 1) / (double)count;
     QDOT_TRY(qdot_response_run(x->response, x->in, from, to));
@@ -107,7 +107,7 @@ qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double
 /* Units of the states in which the derivatives along the last motion have similar sizes; the
  * largest coordinate unit is 1. */
 static qdot_status
-find_units(const qdot_flow *x, double *unit)
+find_component_units(const qdot_flow *x, double *unit)
 {
     const size_t z = x->z, width = z + x->p;
     double *most = qdot_calloc(z * z, sizeof *most), largest = 0;
@@ -130,7 +130,7 @@ find_units(const qdot_flow *x, double *unit)
 /* How far each state goes over the last motion, until look `last`; where it stays, as far as the others of its kind,
  * or its unit, if it is given. size [z] */
 static void
-flow_find_sizes(const qdot_flow *x, const double *state, size_t last, const double *unit, double *size)
+find_segment_sizes(const qdot_flow *x, const double *state, size_t last, const double *unit, double *size)
 {
     double most[2] = {0, 0};
 
@@ -158,7 +158,7 @@ qdot_flow_growth(const qdot_flow *x, size_t look, const double *size)
 }
 
 static size_t
-segments_for(double growth, double each, double looks)
+choose_segment_count(double growth, double each, double looks)
 {
     return isfinite(growth) ? (size_t)fmin(QDOT_FLOW_MOST_SEGMENTS, ceil(log(growth) / log(each) * looks))
                             : QDOT_FLOW_MOST_SEGMENTS;
@@ -178,10 +178,10 @@ qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *par
     if (status != QDOT_OK)
         return qdot_grave(status);
     for (; at < QDOT_FLOW_LOOKS && most < tame; at++) {
-        flow_find_sizes(x, state, at, NULL, size);
+        find_segment_sizes(x, state, at, NULL, size);
         most = qdot_flow_growth(x, at, size);
     }
-    *segments = most < tame ? 1 : segments_for(most, growth_of_guess, QDOT_FLOW_LOOKS / (double)at);
+    *segments = most < tame ? 1 : choose_segment_count(most, growth_of_guess, QDOT_FLOW_LOOKS / (double)at);
     return QDOT_OK;
 }
 
@@ -198,12 +198,12 @@ qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *par
     for (size_t i = 0; i < x->z; i++)
         size[i] = 1;
     if (status == QDOT_OK)
-        status = find_units(x, unit);
+        status = find_component_units(x, unit);
     if (status == QDOT_OK) {
-        flow_find_sizes(x, state, QDOT_FLOW_LOOKS - 1, unit, size);
+        find_segment_sizes(x, state, QDOT_FLOW_LOOKS - 1, unit, size);
         for (size_t at = 0; at < QDOT_FLOW_LOOKS; at++)
             most = fmax(most, qdot_flow_growth(x, at, size));
-        *segments = most < tame ? 1 : segments_for(most, growth_of_orbit, 1);
+        *segments = most < tame ? 1 : choose_segment_count(most, growth_of_orbit, 1);
     }
     if (sizes != NULL)
         memcpy(sizes, size, x->z * sizeof *sizes);
@@ -257,9 +257,9 @@ qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *o, size_t *at, size_t count,
     return QDOT_OK;
 }
 
-/* Compute to^T S from, into out [c x c], with S [z x (z + p)] and from, to [c x z]. */
+/* Compute to^T S from, the derivatives S in the bases `from` and `to`; out [c x c], S [z x (z + p)], bases [c x z]. */
 static void
-along(const qdot_flow *x, size_t c, const double *from, const double *to, const double *S, double *out)
+transform_to_basis(const qdot_flow *x, size_t c, const double *from, const double *to, const double *S, double *out)
 {
     memset(out, 0, c * c * sizeof *out);
     for (size_t a = 0; a < c; a++)
@@ -269,12 +269,12 @@ along(const qdot_flow *x, size_t c, const double *from, const double *to, const 
                     out[a * c + b] += to[a * x->z + i] * S[i * (x->z + x->p) + j] * from[b * x->z + j];
 }
 
-/* Find the tangents at the beginnings of the segments: N [K x z x z], c of each. */
+/* Find the directions allowed by the constraints at the starts of the segments: N [K x z x z], c of each. */
 static qdot_status
-find_tangents(qdot_flow *x, const qdot_flow_orbit *o, size_t *c, double *N)
+find_allowed_directions(qdot_flow *x, const qdot_flow_orbit *o, size_t *c, double *N)
 {
     for (size_t k = 0; k < o->K; k++) {
-        flow_put(x, qdot_flow_state(x, o, k), o->parameters);
+        set_unknowns(x, qdot_flow_state(x, o, k), o->parameters);
         QDOT_TRY(qdot_response_tangents(x->response, x->in, qdot_flow_time(o, k), c, N + k * x->z * x->z));
     }
     return QDOT_OK;
@@ -285,10 +285,10 @@ qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, si
 {
     const size_t zz = x->z * x->z;
     double *N = qdot_calloc(o->K * zz, sizeof *N);
-    const qdot_status status = N ? find_tangents(x, o, c, N) : QDOT_ENOMEM;
+    const qdot_status status = N ? find_allowed_directions(x, o, c, N) : QDOT_ENOMEM;
 
     for (size_t k = 0; k < o->K && status == QDOT_OK; k++)
-        along(x, *c, N + k * zz, N + (k + 1) % o->K * zz, ends + k * step, B + k * *c * *c);
+        transform_to_basis(x, *c, N + k * zz, N + (k + 1) % o->K * zz, ends + k * step, B + k * *c * *c);
     qdot_free(N);
     return status;
 }
@@ -300,9 +300,9 @@ qdot_flow_errors(size_t count, const double *B, double *coarse)
         coarse[i] = fabs(coarse[i] - B[i]) + alike * fabs(B[i]);
 }
 
-/* Estimate rounding errors R [z x (z + p)]: some epsilons of the largest entry of S in units size [z]. */
+/* Estimate rounding errors R [z x (z + p)]: a few epsilons of S's largest entry, in units size [z]. */
 static void
-fill_rounding(const qdot_flow *x, const double *S, const double *size, double *R)
+estimate_rounding(const qdot_flow *x, const double *S, const double *size, double *R)
 {
     const size_t width = x->z + x->p;
     double most = 0;
@@ -322,13 +322,13 @@ qdot_flow_rounding(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, s
     const size_t zz = x->z * x->z, width = x->z + x->p;
     double *N = qdot_calloc((o->K + 1) * zz + x->z * width, sizeof *N), *by = N + o->K * zz, *R = by + zz;
     size_t c = 0;
-    const qdot_status status = N ? find_tangents(x, o, &c, N) : QDOT_ENOMEM;
+    const qdot_status status = N ? find_allowed_directions(x, o, &c, N) : QDOT_ENOMEM;
 
     for (size_t i = 0; i < o->K * zz && status == QDOT_OK; i++)
         N[i] = fabs(N[i]);
     for (size_t k = 0; k < o->K && status == QDOT_OK; k++) {
-        fill_rounding(x, ends + k * step, size, R);
-        along(x, c, N + k * zz, N + (k + 1) % o->K * zz, R, by);
+        estimate_rounding(x, ends + k * step, size, R);
+        transform_to_basis(x, c, N + k * zz, N + (k + 1) % o->K * zz, R, by);
         for (size_t i = 0; i < c * c; i++)
             E[k * c * c + i] += by[i];
     }

@@ -10,12 +10,12 @@
 
 #include "sim/study/response.h"
 
-/* The tolerances of the two flows; the difference between their results is taken as the error. */
+/* The tolerances of two flow maps; the difference of their results is taken as the error. */
 extern const double qdot_flow_tolerance[2];
 
 enum { QDOT_FLOW_LOOKS = 16, QDOT_FLOW_MOST_SEGMENTS = 32 };
 
-/* The flow map of a scene. Do not copy it: the response inside borrows from it. */
+/* The flow map of a scene: states after a time, with derivatives. Do not copy it: its response borrows from it. */
 typedef struct {
     size_t n, z, p, m; /* numbers: coordinates n, z = 2n, parameters p; expressions: q, q', q'', perhaps one more */
     qdot_run_request request;
@@ -23,7 +23,7 @@ typedef struct {
     const char **names;
     double *in;    /* [z + p] values of the unknowns */
     double *value; /* [QDOT_FLOW_LOOKS x m] values read last */
-    double *by;    /* [QDOT_FLOW_LOOKS x m x (z + p)] their derivatives by the unknowns */
+    double *by;    /* [QDOT_FLOW_LOOKS x m x (z + p)] derivatives of the values by the unknowns */
     qdot_response *response;
 } qdot_flow;
 
@@ -51,11 +51,11 @@ QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_guess(qdot_flow *x, const doub
 QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *parameters,
                                                         double t0, double T, double *size, size_t *segments);
 
-/* A closed orbit in K segments, z_k at t0 + k T/K. */
+/* A closed orbit of period T in K segments; the states are z_k at t0 + k T/K. */
 typedef struct {
     size_t K;
     double t0, T;
-    const double *first, *others; /* start states of the segments: z_0 [z]; z_1 ... z_(K-1) */
+    const double *first, *others; /* start states of the segments: z_0 [z]; then z_1 ... z_(K-1) */
     const double *parameters;
 } qdot_flow_orbit;
 
@@ -73,7 +73,7 @@ QDOT_MUST_CHECK qdot_status qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *
  * the segments, ends + k step [z x (z + p)]. Without constraints c = z, and B are these. */
 QDOT_MUST_CHECK qdot_status qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step,
                                               size_t *c, double *B);
-/* Find the errors of B [count] of the fine flow from B of the coarse one; they replace `coarse`. */
+/* Find the errors of the fine flow's matrices B [count] by those of the coarse flow, whose place they take. */
 void qdot_flow_errors(size_t count, const double *B, double *coarse);
 /* Add to E [K x c x c] what rounding leaves in these factors where both flows round alike, as in a slope that is 0 by
  * cancellation: some epsilons of the largest slope in units size [z] of the states. */

@@ -1,4 +1,4 @@
-/* longtime.c -- runs a method over a long time, and looks at the energy in growing windows. */
+/* longtime.c -- runs a method over a long time, and measures the energy error in growing time windows. */
 #include "sim/study/longtime.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "sim/run/long-run.h"
 #include "sim/study/method-run.h"
 
-/* The default work (ns) of a run, and the factor by which it may exceed the prediction. */
+/* The default limit of the work (ns) of a run, and the factor by which it may exceed its prediction. */
 static const double budget_default = 1e10, slack = 4;
 
 static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4};
@@ -29,8 +29,8 @@ typedef struct {
     qdot_longtime_row *row;
     qdot_ode_meter meter;
     double most_work;
-    uint64_t steps, next, draw; /* steps so far; next step to sample; random state for irregular distances */
-    double square;              /* sum of squared energy errors in the window */
+    uint64_t steps, next, draw; /* steps so far; next step to be sampled; random state for irregular sampling */
+    double square;              /* sum of squared energy errors in the present window */
     size_t count, window;
     bool too_much;
 } watched;
@@ -67,9 +67,9 @@ qdot_longtime_fit(size_t n, const double *x, const double *y, double *slope, dou
     *error = 2 * sqrt(squares / (double)(n - 2) / uu * (1 + c) / (1 - c));
 }
 
-/* Fit the growth of the error to the later half of the windows, in log t. */
+/* Fit a power of t to the growth of the energy error, in the later half of the windows, in log t. */
 static void
-find_growth(qdot_longtime_row *row)
+fit_error_growth(qdot_longtime_row *row)
 {
     const size_t first = row->n / 2;
 
@@ -79,14 +79,14 @@ find_growth(qdot_longtime_row *row)
 
 /* --- the run of one method ---------------------------------------------------------- */
 
-/* The end of window k, as a fraction of the run's duration; windows grow by a factor sqrt(2). */
+/* The end of time window k, as a fraction of the run's duration; windows grow by a factor of sqrt(2). */
 static double
 window_end(size_t k)
 {
     return pow(2, 0.5 * ((double)k - (QDOT_LONGTIME_WINDOWS - 1)));
 }
 
-/* End the window and store its rms error; a window with few steps is dropped. */
+/* End the time window and store its rms energy error; a window with few steps is dropped. */
 static void
 close_window(watched *w, double t)
 {
@@ -101,7 +101,7 @@ close_window(watched *w, double t)
 }
 
 static qdot_status
-watched_look(double t, const double *y, bool *stop, void *user)
+sample_energy(double t, const double *y, bool *stop, void *user)
 {
     watched *w = user;
     const qdot_method_run *m = w->run;
@@ -111,7 +111,7 @@ watched_look(double t, const double *y, bool *stop, void *user)
         *stop = w->too_much = true;
     if (++w->steps < w->next && t != m->t1)
         return QDOT_OK;
-    /* sample at irregular distances, so that no period of the motion is always met at the same phase */
+    /* irregular distances avoid that samples always meet the same phase of a periodic motion */
     w->draw = w->draw * 6364136223846793005u + 1442695040888963407u;
     w->next = w->steps + 1 + (w->draw >> 33) % (1 + w->steps / samples_in_window);
     {
@@ -141,7 +141,7 @@ count_steps(double t, const double *y, bool *stop, void *user)
 }
 
 static qdot_status
-longtime_integrate(qdot_method_run *m, qdot_ode_options *options, qdot_ode_result *result)
+integrate_or_stop(qdot_method_run *m, qdot_ode_options *options, qdot_ode_result *result)
 {
     const qdot_ode_system system = qdot_bind_system(m->bind);
 
@@ -153,16 +153,16 @@ longtime_integrate(qdot_method_run *m, qdot_ode_options *options, qdot_ode_resul
     return qdot_ode_integrate(&system, m->plan->method, options, m->t0, m->t1, m->y, result);
 }
 
-/* Predict the work of the whole run from its first steps; INFINITY if they fail. */
+/* Predict the work of the whole run from its first steps; INFINITY if the steps fail. */
 static qdot_status
-foretell(qdot_method_run *m, double tol, double *work)
+predict_work(qdot_method_run *m, double tol, double *work)
 {
     uint64_t left = foretelling_steps;
     qdot_ode_meter meter = {0};
     qdot_ode_options options = {
         .tol = tol, .accepted = count_steps, .user = &left, .meter = &meter};
     qdot_ode_result result;
-    const qdot_status status = longtime_integrate(m, &options, &result);
+    const qdot_status status = integrate_or_stop(m, &options, &result);
 
     *work = INFINITY;
     if (status == QDOT_EINTR || status == QDOT_ENOMEM)
@@ -173,11 +173,11 @@ foretell(qdot_method_run *m, double tol, double *work)
 }
 
 static qdot_status
-watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
+run_with_samples(qdot_method_run *m, double most_work, qdot_longtime_row *row)
 {
     watched w = {.run = m, .row = row, .most_work = most_work};
     qdot_ode_options options = {.tol = row->tol,
-                                .accepted = watched_look,
+                                .accepted = sample_energy,
                                 .user = &w,
                                 .meter = &w.meter,
                                 .stiff_work = most_work};
@@ -185,7 +185,7 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
     qdot_status status;
 
     qdot_progress_begin(m->t0, m->t1, "%s, tol %.0e", row->method, row->tol);
-    status = longtime_integrate(m, &options, &result);
+    status = integrate_or_stop(m, &options, &result);
     if (status == QDOT_EINTR || status == QDOT_ENOMEM)
         return status;
     row->steps = result.stats.steps;
@@ -198,14 +198,14 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
                  "stopped at t = %.6g: more work than its first steps suggested", result.t);
     else
         strcpy(row->status, "done");
-    find_growth(row);
+    fit_error_growth(row);
     return QDOT_OK;
 }
 
 /* --- measuring all methods ---------------------------------------------------------- */
 
 static qdot_status
-longtime_check(const qdot_method_run *m)
+check_energy_known(const qdot_method_run *m)
 {
     if (m->pieces)
         return qdot_fail(QDOT_EFAILED, "an event or a switch may divide the run");
@@ -218,10 +218,10 @@ longtime_check(const qdot_method_run *m)
     return QDOT_OK;
 }
 
-/* Try one tolerance. *done is false if the first steps predict more work than `most`. */
+/* Run a method with one tolerance; *done is false if the first steps predict more work than `most`. */
 static qdot_status
-try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_longtime_row *row,
-       bool *done)
+run_at_tolerance(qdot_scene *scene, const qdot_run_request *request, double most, qdot_longtime_row *row,
+                 bool *done)
 {
     qdot_method_run m = {0};
     double work = 0;
@@ -231,23 +231,23 @@ try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_lon
     if (status == QDOT_OK)
         status = qdot_method_run_find_energy(&m, scene);
     if (status == QDOT_OK)
-        status = longtime_check(&m);
+        status = check_energy_known(&m);
     if (status == QDOT_OK)
-        status = foretell(&m, row->tol, &work);
+        status = predict_work(&m, row->tol, &work);
     if (status == QDOT_OK && !(work <= most)) {
         snprintf(row->status, sizeof row->status,
                  "failed: at tol %.0e it would take %.2g times the permitted work", row->tol,
                  work / most);
     } else if (status == QDOT_OK) {
         *done = true;
-        status = watch(&m, isfinite(most) ? slack * most : INFINITY, row);
+        status = run_with_samples(&m, isfinite(most) ? slack * most : INFINITY, row);
     }
     qdot_method_run_clear(&m);
     return status;
 }
 
 static qdot_status
-push_row(qdot_longtime *out, const qdot_longtime_row *row)
+append_row(qdot_longtime *out, const qdot_longtime_row *row)
 {
     QDOT_TRY(qdot_grow(&out->rows, &out->capacity, out->n + 1, sizeof *out->rows));
     out->rows[out->n++] = *row;
@@ -255,8 +255,8 @@ push_row(qdot_longtime *out, const qdot_longtime_row *row)
 }
 
 static qdot_status
-one_method(qdot_scene *scene, const qdot_run_request *request, const char *method,
-           qdot_longtime *out)
+measure_method(qdot_scene *scene, const qdot_run_request *request, const char *method,
+               qdot_longtime *out)
 {
     const double most = out->budget > 0 ? out->budget : out->method ? INFINITY : budget_default;
     const size_t rungs = out->tol > 0 ? 1 : sizeof tolerances / sizeof *tolerances;
@@ -269,16 +269,16 @@ one_method(qdot_scene *scene, const qdot_run_request *request, const char *metho
                                   .tol = out->tol > 0 ? out->tol : tolerances[k],
                                   .growth = NAN,
                                   .growth_error = NAN};
-        status = try_at(scene, request, most, &row, &done);
+        status = run_at_tolerance(scene, request, most, &row, &done);
     }
     if (status == QDOT_ENOTBUILT && !out->method)
         return qdot_methods_leave_out(&out->left_out, method);
-    return status == QDOT_OK ? push_row(out, &row) : status;
+    return status == QDOT_OK ? append_row(out, &row) : status;
 }
 
-/* Find which method `auto` would use; its plan, and if needed a run, decide. */
+/* Find the method that `auto` would use, from its plan and, if necessary, from a run. */
 static qdot_status
-ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
+find_automatic_method(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 {
     const double tol = out->tol > 0 ? out->tol : tolerances[0];
     qdot_method_run m = {0};
@@ -287,7 +287,7 @@ ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
     if (status == QDOT_OK)
         status = qdot_method_run_find_energy(&m, scene);
     if (status == QDOT_OK)
-        status = longtime_check(&m);
+        status = check_energy_known(&m);
     if (status == QDOT_OK) {
         const qdot_ode_system system = qdot_bind_system(m.bind);
         const qdot_long_run run = {.plan = m.plan,
@@ -307,15 +307,15 @@ ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 }
 
 static qdot_status
-longtime_measure(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
+measure_all_methods(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 {
     qdot_status status;
 
     if (out->method)
-        return one_method(scene, request, out->method, out);
-    status = ask_auto(scene, request, out);
+        return measure_method(scene, request, out->method, out);
+    status = find_automatic_method(scene, request, out);
     for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++)
-        status = one_method(scene, request, qdot_ode_method_at(i)->name, out);
+        status = measure_method(scene, request, qdot_ode_method_at(i)->name, out);
     return status;
 }
 
@@ -326,7 +326,7 @@ qdot_longtime_measure(qdot_scene *scene, const qdot_run_request *request, qdot_l
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
-    status = longtime_measure(scene, &states.request, out);
+    status = measure_all_methods(scene, &states.request, out);
     qdot_parameter_states_clear(&states);
     out->interrupted = status == QDOT_EINTR && out->n > 0;
     return out->interrupted ? QDOT_OK : status;

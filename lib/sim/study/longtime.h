@@ -39,9 +39,9 @@ typedef struct {
     uint64_t steps, evals;
     double cpu; /* CPU seconds of the run */
     size_t n;   /* number of time windows */
-    double t[QDOT_LONGTIME_WINDOWS], error[QDOT_LONGTIME_WINDOWS]; /* end of each window, minus t0; energy error e_k in it */
-    double largest;              /* largest energy error |e| */
-    double growth, growth_error; /* exponent s of the growth e ~ t^s and its error; NaN: cannot be determined */
+    double t[QDOT_LONGTIME_WINDOWS], error[QDOT_LONGTIME_WINDOWS]; /* end of each window, minus t0; rms energy error in it */
+    double largest;              /* largest energy error |h - h0|, relative to max(1, |h0|) */
+    double growth, growth_error; /* exponent s of the energy error ~ t^s, and its error; NaN: cannot be determined */
     char status[300];            /* "done", or "failed: " and the reason */
 } qdot_longtime_row;
 

@@ -1,4 +1,4 @@
-/* method-run.c -- prepares a run by one method: plan, system and start, for studies of methods. */
+/* method-run.c -- prepares a run by one given method (plan, system and start), for studies of methods. */
 #include "sim/study/method-run.h"
 
 #include <math.h>
@@ -53,13 +53,13 @@ read_start(qdot_method_run *m, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* Choose the mode again after the projection, which may have moved the start across a surface. */
+/* Choose the mode again after projecting the start, which may have moved across a switching surface. */
 static qdot_status
-settle_side(qdot_method_run *m)
+update_mode_of_start(qdot_method_run *m)
 {
     bool anew;
 
-    qdot_bind_free(m->bind); /* it refers to a plan that may be freed next */
+    qdot_bind_free(m->bind); /* free the old equations, as they refer to a plan that may be freed next */
     m->bind = NULL;
     m->held = NULL;
     QDOT_TRY(qdot_stage_settle(&m->stage, m->start, &anew));
@@ -70,9 +70,9 @@ settle_side(qdot_method_run *m)
     return QDOT_OK;
 }
 
-/* Move the start onto the constraints. */
+/* Move the start state onto the constraints. */
 static qdot_status
-settle_start(qdot_method_run *m, qdot_scene *scene, const qdot_run_request *request)
+project_study_start(qdot_method_run *m, qdot_scene *scene, const qdot_run_request *request)
 {
     qdot_domains domains = {0};
     qdot_text notice = {0};
@@ -86,7 +86,7 @@ settle_start(qdot_method_run *m, qdot_scene *scene, const qdot_run_request *requ
         status =
             qdot_start_settle(scene, m->plan, request, &domains, m->start, m->low, &notice);
     if (status == QDOT_OK && m->stage.switches.surfaces.n > 0)
-        status = settle_side(m);
+        status = update_mode_of_start(m);
     if (status == QDOT_OK)
         status = qdot_bind_check(m->bind, m->t0, m->start, m->low);
     qdot_text_clear(&notice);
@@ -134,7 +134,7 @@ qdot_method_run_init(qdot_method_run *m, qdot_scene *scene, const qdot_run_reque
     QDOT_TRY(qdot_bind_new(m->plan, false, &m->bind));
     QDOT_TRY(qdot_bind_scale(m->bind, m->stage.scales));
     QDOT_TRY(read_start(m, request));
-    return settle_start(m, scene, request);
+    return project_study_start(m, scene, request);
 }
 
 qdot_status

@@ -12,13 +12,13 @@
 #include "sim/bind/bind.h"
 #include "sim/course/stage.h"
 
-/* A run for a study. Must not be copied: the stage points to the request. */
+/* A run for a study of methods. Must not be copied: its stage points to the request. */
 typedef struct {
     qdot_run_request request;
     qdot_stage stage;
     qdot_plan *plan; /* plan of the first mode; owned by `stage` */
     qdot_bind *bind;
-    qdot_constrained *held; /* constraints; NULL: none */
+    qdot_constrained *held; /* constraint solver; NULL: no constraints */
     bool pieces;            /* events or switches may divide the run into pieces */
     double t0, t1, t1_low;
     double *start, *low, *y; /* [2n] exact start is start + low; y is scratch */
@@ -33,7 +33,7 @@ QDOT_MUST_CHECK qdot_status qdot_method_run_init(qdot_method_run *m, qdot_scene 
                                                  const char *method, double tol);
 void qdot_method_run_clear(qdot_method_run *m);
 
-/* Derive the energy of the scene if it is conserved. */
+/* Derive the energy of the scene, if the energy is conserved. */
 QDOT_MUST_CHECK qdot_status qdot_method_run_find_energy(qdot_method_run *m, qdot_scene *scene);
 
 /* Find the start of the scene projected onto its constraints, as exact constants [2n]. */

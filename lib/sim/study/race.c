@@ -1,4 +1,4 @@
-/* race.c -- runs several formulations and a reference, and compares their end states. */
+/* race.c -- runs several formulations of a scene and a reference run, and compares their end states. */
 #include "sim/study/race.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static const double reference_tol = 1e-15;
 static const double ladder[QDOT_RACE_TOLERANCES] = {1e-4,  1e-6,  1e-8,
                                                     1e-10, 1e-12, 1e-14};
 
-/* Run times (s) shorter than this are measured again. */
+/* Measured CPU times (s) shorter than this are measured again. */
 static const double long_enough = 5e-3;
 enum { MOST_REPEATS = 5, MINIMAL = 3 };
 
@@ -32,7 +32,7 @@ typedef struct {
     const qdot_run_request *request; /* the request for the given coordinates */
     qdot_run *reference;
     size_t n;
-    double *end; /* [2n] end state of the reference */
+    double *end; /* [2n] end state of the reference run */
     double *values; /* [2n] values in the coordinates of a formulation */
     qdot_race *race;
 } race;
@@ -48,9 +48,9 @@ qdot_race_clear(qdot_race *r)
 
 /* --- running one formulation -------------------------------------------------------- */
 
-/* The largest error of values [2n] against the reference. */
+/* The largest error of the values [2n] against the end state of the reference run. */
 static double
-error_of(const race *r)
+largest_error(const race *r)
 {
     double worst = 0;
 
@@ -62,10 +62,10 @@ error_of(const race *r)
     return worst;
 }
 
-/* Run one formulation; state [2n]: q and q' of the given scene, in the coordinates of `scene`. */
+/* Run one formulation; state [2n]: q and q' of the given scene, as expressions in coordinates of `scene`. */
 static qdot_status
-one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
-        const qdot_expr *state, qdot_race_entry *entry)
+run_formulation(race *r, qdot_scene *scene, const qdot_run_request *request,
+                const qdot_expr *state, qdot_race_entry *entry)
 {
     double spent = 0;
 
@@ -91,7 +91,7 @@ one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
             status = qdot_run_values(run, 2 * r->n, state, 1, &report->t1, r->values,
                                      NULL);
             if (status == QDOT_OK)
-                entry->error = error_of(r);
+                entry->error = largest_error(r);
         }
         if (report->status != QDOT_RUN_DONE)
             spent = INFINITY;
@@ -101,16 +101,16 @@ one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
-/* Whether a failure concerns only one formulation, so that the race continues. */
+/* Whether a failure concerns one formulation only, so that the others are still run. */
 static bool
-is_its_own(qdot_status status)
+is_failure_of_formulation(qdot_status status)
 {
     return status == QDOT_EINVAL || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ||
            status == QDOT_ENOTBUILT || status == QDOT_EFAILED || status == QDOT_ELIMIT;
 }
 
 static qdot_status
-give_reason(qdot_race_lane *lane, const char *reason)
+set_reason(qdot_race_lane *lane, const char *reason)
 {
     lane->name = NULL;
     lane->reason = qdot_strdup(reason);
@@ -118,8 +118,8 @@ give_reason(qdot_race_lane *lane, const char *reason)
 }
 
 static qdot_status
-run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
-         const qdot_expr *state)
+run_at_all_tolerances(race *r, int which, qdot_scene *scene, qdot_run_request request,
+                      const qdot_expr *state)
 {
     qdot_race_lane *lane = &r->race->lane[which];
 
@@ -130,9 +130,9 @@ run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
         request.tol = ladder[k];
         qdot_progress_within("%s, tol %.0e", lane->name, request.tol);
         if (status == QDOT_OK)
-            status = one_run(r, scene, &request, state, &lane->entry[k]);
-        if (is_its_own(status))
-            return give_reason(lane, qdot_last_error()->message);
+            status = run_formulation(r, scene, &request, state, &lane->entry[k]);
+        if (is_failure_of_formulation(status))
+            return set_reason(lane, qdot_last_error()->message);
         QDOT_TRY(status);
     }
     return QDOT_OK;
@@ -140,9 +140,9 @@ run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
 
 /* --- the formulation in minimal coordinates ----------------------------------------- */
 
-/* The value of an expression in the given coordinates at the start on the constraints. */
+/* The value at the start, projected onto the constraints, of an expression in the given coordinates. */
 static qdot_expr
-at_start(const race *r, qdot_expr e)
+value_on_constraints(const race *r, qdot_expr e)
 {
     qdot_pool *pool = r->scene->pool;
     const qdot_run *run = r->reference;
@@ -160,7 +160,7 @@ at_start(const race *r, qdot_expr e)
 }
 
 static qdot_status
-minimal_start(const race *r, const qdot_minimal *m, qdot_expr *q0, qdot_expr *v0)
+find_minimal_start(const race *r, const qdot_minimal *m, qdot_expr *q0, qdot_expr *v0)
 {
     qdot_pool *pool = r->scene->pool;
     size_t n = m->scene->coordinates.n, kept = n - m->fresh;
@@ -168,14 +168,14 @@ minimal_start(const race *r, const qdot_minimal *m, qdot_expr *q0, qdot_expr *v0
     for (size_t i = 0; i < n; i++) {
         qdot_expr e = i < kept ? m->scene->coordinates.at[i] : m->angle[i - kept];
 
-        q0[i] = at_start(r, e);
-        v0[i] = at_start(r, qdot_ddt(pool, e));
+        q0[i] = value_on_constraints(r, e);
+        v0[i] = value_on_constraints(r, qdot_ddt(pool, e));
     }
     return qdot_pool_check(pool);
 }
 
 static qdot_status
-run_minimal(race *r, const qdot_minimal *m)
+run_in_minimal_coordinates(race *r, const qdot_minimal *m)
 {
     size_t n = m->scene->coordinates.n;
     qdot_expr *state = qdot_calloc(2 * r->n + 2 * n + 1, sizeof *state), *q0, *v0;
@@ -186,7 +186,7 @@ run_minimal(race *r, const qdot_minimal *m)
         return QDOT_ENOMEM;
     q0 = state + 2 * r->n;
     v0 = q0 + n;
-    status = minimal_start(r, m, q0, v0);
+    status = find_minimal_start(r, m, q0, v0);
     for (size_t i = 0; i < r->n; i++) {
         state[i] = m->given[i];
         state[r->n + i] = qdot_ddt(r->scene->pool, m->given[i]);
@@ -197,13 +197,13 @@ run_minimal(race *r, const qdot_minimal *m)
     request.v0 = v0;
     request.q_named = request.v_named = NULL;
     if (status == QDOT_OK)
-        status = run_lane(r, MINIMAL, m->scene, request, state);
+        status = run_at_all_tolerances(r, MINIMAL, m->scene, request, state);
     r->race->minimal = n;
     qdot_free(state);
     return status;
 }
 
-/* The size of e for qdot_minimal_start (minimal.h); 0 if e contains more than coordinates and numbers. */
+/* The size of e at the start, for qdot_minimal_start (minimal.h); 0 unless e has only coordinates and numbers. */
 static double
 size_at_start(qdot_expr e, void *user)
 {
@@ -211,7 +211,7 @@ size_at_start(qdot_expr e, void *user)
     double x = 0;
     int side;
 
-    e = qdot_substitute(r->scene->pool, at_start(r, e), r->request->n_values,
+    e = qdot_substitute(r->scene->pool, value_on_constraints(r, e), r->request->n_values,
                         r->request->symbols, r->request->values);
     return e != QDOT_NIL && qdot_constant_is(r->scene->pool, e) &&
                    qdot_constant_round(r->scene->pool, e, &x, &side) == QDOT_OK
@@ -222,30 +222,30 @@ size_at_start(qdot_expr e, void *user)
 static qdot_expr
 value_at_start(qdot_expr e, void *user)
 {
-    return at_start(user, e);
+    return value_on_constraints(user, e);
 }
 
 static qdot_status
-try_minimal(race *r)
+try_minimal_coordinates(race *r)
 {
     const qdot_minimal_start start = {size_at_start, value_at_start, r};
     qdot_minimal m;
     qdot_status status;
 
     if (qdot_scene_acting_event(r->scene))
-        return give_reason(&r->race->lane[MINIMAL],
-                           "events are met in the coordinates as given only");
+        return set_reason(&r->race->lane[MINIMAL],
+                          "events are met in the coordinates as given only");
     status = qdot_minimal_make(r->scene, &start, &m);
-    if (is_its_own(status))
-        return give_reason(&r->race->lane[MINIMAL], qdot_last_error()->message);
+    if (is_failure_of_formulation(status))
+        return set_reason(&r->race->lane[MINIMAL], qdot_last_error()->message);
     QDOT_TRY(status);
     if (!m.scene)
-        status = give_reason(&r->race->lane[MINIMAL], m.reason);
+        status = set_reason(&r->race->lane[MINIMAL], m.reason);
     else if (m.scene->coordinates.n == 0)
-        status = give_reason(&r->race->lane[MINIMAL],
-                             "the constraints leave no freedom");
+        status = set_reason(&r->race->lane[MINIMAL],
+                            "the constraints leave no freedom");
     else
-        status = run_minimal(r, &m);
+        status = run_in_minimal_coordinates(r, &m);
     qdot_minimal_clear(&m);
     return status;
 }
@@ -280,7 +280,7 @@ run_reference(race *r)
 }
 
 static qdot_status
-run_all(race *r)
+run_all_formulations(race *r)
 {
     qdot_expr *state = qdot_calloc(2 * r->n + 1, sizeof *state);
     qdot_run_request request = *r->request;
@@ -294,10 +294,10 @@ run_all(race *r)
     }
     for (int k = 0; k < lanes && status == QDOT_OK; k++) {
         request.treatment = (qdot_run_treatment)k;
-        status = run_lane(r, k, r->scene, request, state);
+        status = run_at_all_tolerances(r, k, r->scene, request, state);
     }
     if (status == QDOT_OK && lanes > 1)
-        status = try_minimal(r);
+        status = try_minimal_coordinates(r);
     qdot_free(state);
     return status;
 }
@@ -314,7 +314,7 @@ qdot_race_hold(qdot_scene *scene, const qdot_run_request *request, qdot_race *re
     *result = (qdot_race){.coordinates = r.n};
     r.end = qdot_calloc(4 * r.n + 1, sizeof *r.end);
     r.values = r.end ? r.end + 2 * r.n : NULL;
-    status = r.end ? run_all(&r) : QDOT_ENOMEM;
+    status = r.end ? run_all_formulations(&r) : QDOT_ENOMEM;
     qdot_run_free(r.reference);
     qdot_free(r.end);
     result->interrupted = status == QDOT_EINTR && result->lane[0].entry[0].method != NULL;

@@ -25,7 +25,7 @@ typedef struct {
 
 typedef struct {
     const char *name; /* name of the formulation, "as given, projected" ...; NULL: not run */
-    char *reason;     /* why it was not run; owned */
+    char *reason;     /* why the formulation was not run; owned */
     qdot_race_entry entry[QDOT_RACE_TOLERANCES];
 } qdot_race_lane;
 

@@ -1,4 +1,4 @@
-/* response.c -- derivatives of a run's results by unknowns u: makes the variational scene, and runs it. */
+/* response.c -- derivatives of a run's results by unknowns u: makes and runs the scene of variational equations. */
 #include "sim/study/response.h"
 
 #include <math.h>
@@ -25,13 +25,13 @@ struct qdot_response {
     qdot_pool *pool;
     size_t n, n_parameters; /* number of coordinates; of parameters among the unknowns */
     qdot_expr *parameters;  /* [n_parameters] their symbols */
-    size_t *place;          /* [n_parameters] index of each among the unknowns */
+    size_t *place;          /* [n_parameters] index of each parameter among the unknowns */
     qdot_tape *start; /* from u: start q, q' [2n], then its derivatives by each unknown [k x 2n] */
     double *starts, *work;  /* [(1 + k) 2n] values of `start`; its scratch */
     double t0;              /* start time of the request */
     double *in;             /* [n_parameters] values of the parameters */
     qdot_tangents tangents;
-    bool once, made;        /* the variational scene does not change with u; it has been made */
+    bool once, made;        /* the variational scene does not change with u; the scene has been made */
 
     /* Fields of the scene with derivatives; with the constraints, for numerical values: */
     /* [k] the unknowns as symbols; [(1 + k) x n_values] the values of the request with all, and with one of them
@@ -39,7 +39,7 @@ struct qdot_response {
     qdot_expr *u, *values;
     qdot_expr *first, *settled; /* [2 half] start of the first run; [2n] the same on the constraints */
     qdot_run_request request; /* request on which the variation is based */
-    qdot_variation_by *by;    /* [k] the directions of differentiation */
+    qdot_variation_by *by;    /* [k] the unknowns, or start values, by which is differentiated */
     qdot_expr *slopes;        /* [k x 2n] derivatives of the start by the unknowns */
     qdot_variation variation;
     qdot_parameter_states states;
@@ -47,16 +47,16 @@ struct qdot_response {
     qdot_method_run run;
     qdot_course course;
     double steps; /* number of steps of all runs so far */
-    qdot_expr *exprs; /* [m (1 + k)] each expression, then its derivatives */
+    qdot_expr *exprs; /* [m (1 + k)] each requested expression, then its derivatives by the unknowns */
     qdot_reading reading;
     double *y, *out; /* [2 (1 + k) n + 2 n_parameters] a state; [m (1 + k)] values of `exprs` */
 };
 
 /* --- allocating and freeing -------------------------------------------------------------- */
 
-/* Free the variational scene and everything that belongs to it. */
+/* Free the variational scene (coordinates and their derivatives) and everything that belongs to it. */
 static void
-unmake(qdot_response *r)
+free_variational_scene(qdot_response *r)
 {
     qdot_tape_free(r->reading.tape);
     r->reading = (qdot_reading){0};
@@ -74,7 +74,7 @@ qdot_response_free(qdot_response *r)
 {
     if (!r)
         return;
-    unmake(r);
+    free_variational_scene(r);
     qdot_tangents_end(&r->tangents);
     qdot_tape_free(r->start);
     qdot_free(r->parameters);
@@ -112,9 +112,9 @@ response_allocate(qdot_response *r)
 
 /* --- start values as functions of the unknowns --------------------------------------------- */
 
-/* Lower q, q' at the start, and their slopes, as functions of u. */
+/* Compile q, q' at the start, and their derivatives by the unknowns u, as functions of u. */
 static qdot_status
-lower_start(qdot_response *r)
+make_start_tape(qdot_response *r)
 {
     const size_t n = r->n, k = r->of.k;
     qdot_expr *all = qdot_calloc((1 + k) * 2 * n + 1, sizeof *all);
@@ -138,9 +138,9 @@ lower_start(qdot_response *r)
     return status;
 }
 
-/* If the constraints apply to the whole start, project it onto them, and the derivatives along them. */
+/* If constraints restrict the whole start, project it and the derivatives onto them. */
 static qdot_status
-response_settle(qdot_response *r, const double *u, double t)
+project_start_and_derivatives(qdot_response *r, const double *u, double t)
 {
     const size_t z = 2 * r->n;
 
@@ -159,7 +159,7 @@ response_settle(qdot_response *r, const double *u, double t)
 /* Fill the start y of the variational scene: q, its derivatives, parameters; then the velocities of
  * all these. */
 static void
-response_put_start(qdot_response *r, const double *u)
+write_start(qdot_response *r, const double *u)
 {
     const size_t n = r->n, all = (1 + r->of.k) * n, half = all + r->n_parameters;
 
@@ -176,9 +176,9 @@ response_put_start(qdot_response *r, const double *u)
 
 /* --- the scene for all u ---------------------------------------------------------------------- */
 
-/* The requested scale of unknown k if it is a coordinate or velocity with a scale; otherwise 0. */
+/* The scale given in the request for unknown k, if that is a coordinate or velocity; otherwise 0. */
 static double
-scale_of(const qdot_response *r, size_t k)
+scale_of_unknown(const qdot_response *r, size_t k)
 {
     const qdot_scene *scene = r->of.scene;
 
@@ -188,9 +188,9 @@ scale_of(const qdot_response *r, size_t k)
     return 0;
 }
 
-/* Make every unknown parameter a free symbol in the values of all directions. */
+/* In the parameter values of every direction, leave the unknown parameters as free symbols. */
 static void
-free_all(qdot_response *r)
+free_unknown_parameters(qdot_response *r)
 {
     r->request = *r->of.request;
     for (size_t k = 0, i = 0; k < r->of.k; k++) {
@@ -200,25 +200,25 @@ free_all(qdot_response *r)
             (qdot_variation_by){.name = r->of.names[k],
                                 .parameter = parameter ? r->of.unknowns[k] : QDOT_NIL,
                                 .values = parameter ? r->of.request->values : NULL,
-                                .scale = scale_of(r, k),
+                                .scale = scale_of_unknown(r, k),
                                 .start = r->tangents.tape == NULL ? r->slopes + k * 2 * r->n : NULL};
         i += parameter;
     }
     for (size_t i = 0; i < r->of.k * 2 * r->n; i++)
-        r->slopes[i] = QDOT_ZERO; /* placeholders: each run's start gives the numbers */
+        r->slopes[i] = QDOT_ZERO; /* placeholders: the start of each run provides the numbers */
 }
 
 /* Make the request of the runs: parameters among the unknowns become coordinates; the start is that
  * of the first u. */
 static qdot_status
-open_parameters(qdot_response *r, const double *u)
+make_unknowns_symbols(qdot_response *r, const double *u)
 {
     const qdot_run_request request = qdot_variation_request(&r->variation);
     const size_t half = (1 + r->of.k) * r->n + r->n_parameters;
 
     QDOT_TRY(qdot_parameter_states_open(&r->states, r->variation.scene, &request,
                                         r->n_parameters, r->parameters));
-    response_put_start(r, u);
+    write_start(r, u);
     for (size_t i = 0; i < 2 * half; i++)
         r->first[i] = qdot_expr_of_double(r->pool, r->y[i]);
     r->run_request = r->states.request;
@@ -230,9 +230,9 @@ open_parameters(qdot_response *r, const double *u)
 
 /* --- the scene for one u ---------------------------------------------------------------------- */
 
-/* Find the values of the request, with numbers for all unknowns except `free`. */
+/* Find the parameter values of the request, with numbers for all unknowns but that with index `free`. */
 static void
-put_values(qdot_response *r, size_t free, qdot_expr *values)
+insert_numbers_except(qdot_response *r, size_t free, qdot_expr *values)
 {
     const qdot_run_request *of = r->of.request;
 
@@ -244,23 +244,23 @@ put_values(qdot_response *r, size_t free, qdot_expr *values)
     }
 }
 
-/* Put numbers into the request and into the directions. */
+/* Insert the values u of the unknowns into the request and into the directions of differentiation. */
 static qdot_status
-put_numbers(qdot_response *r, const double *u)
+insert_numbers(qdot_response *r, const double *u)
 {
     const size_t n = r->n, n_values = r->of.request->n_values;
 
     for (size_t k = 0; k < r->of.k; k++)
         r->u[k] = qdot_expr_of_double(r->pool, u[k]);
-    put_values(r, SIZE_MAX, r->values);
+    insert_numbers_except(r, SIZE_MAX, r->values);
     for (size_t k = 0; k < r->of.k; k++) {
         qdot_expr *own = r->values + (1 + k) * n_values;
 
-        put_values(r, k, own);
+        insert_numbers_except(r, k, own);
         r->by[k] = (qdot_variation_by){.name = r->of.names[k],
                                        .parameter = QDOT_NIL,
                                        .start = r->slopes + k * 2 * n,
-                                       .scale = scale_of(r, k)};
+                                       .scale = scale_of_unknown(r, k)};
         for (size_t i = 0; i < 2 * n; i++)
             r->slopes[k * 2 * n + i] =
                 qdot_expr_of_double(r->pool, r->starts[(1 + k) * 2 * n + i]);
@@ -285,7 +285,7 @@ put_numbers(qdot_response *r, const double *u)
 /* --- making the scene --------------------------------------------------------------------------- */
 
 static qdot_status
-lower_expressions(qdot_response *r)
+make_expression_tape(qdot_response *r)
 {
     const size_t m = r->of.m, k = r->of.k;
 
@@ -301,15 +301,15 @@ lower_expressions(qdot_response *r)
 }
 
 static qdot_status
-response_make(qdot_response *r, const double *u)
+make_variational_scene(qdot_response *r, const double *u)
 {
     if (r->once)
-        free_all(r);
+        free_unknown_parameters(r);
     else
-        QDOT_TRY(put_numbers(r, u));
+        QDOT_TRY(insert_numbers(r, u));
     QDOT_TRY(qdot_variation_make(r->of.scene, &r->request, r->of.k, r->by, !r->once, &r->variation));
     if (r->once)
-        QDOT_TRY(open_parameters(r, u));
+        QDOT_TRY(make_unknowns_symbols(r, u));
     else
         r->run_request = qdot_variation_request(&r->variation);
     QDOT_TRY(qdot_method_run_init(&r->run, r->variation.scene, &r->run_request,
@@ -317,16 +317,16 @@ response_make(qdot_response *r, const double *u)
     if (!r->once)
         QDOT_TRY(qdot_variation_check_state(&r->variation, r->run.start));
     r->course = (qdot_course){.stage = &r->run.stage};
-    QDOT_TRY(lower_expressions(r));
+    QDOT_TRY(make_expression_tape(r));
     r->made = true;
     return QDOT_OK;
 }
 
 /* --- runs of the scene ------------------------------------------------------------------------ */
 
-/* Discard the last run but keep the systems of its modes. */
+/* Discard the last run, but keep the systems of equations of its modes. */
 static void
-rewind_course(qdot_course *c)
+clear_last_run(qdot_course *c)
 {
     qdot_trajectory_clear(&c->tr);
     c->tr = (qdot_trajectory){0};
@@ -338,11 +338,11 @@ rewind_course(qdot_course *c)
 }
 
 static qdot_status
-run(qdot_response *r, double t0, double t1)
+integrate_response(qdot_response *r, double t0, double t1)
 {
     const qdot_ode_options options = {.tol = r->run_request.tol, .past = r->steps};
 
-    rewind_course(&r->course);
+    clear_last_run(&r->course);
     qdot_progress_begin(t0, t1, "run with slopes");
     QDOT_TRY(qdot_course_run(&r->course, r->run.plan->method, &options, t0, t1,
                              r->once ? r->y : r->run.start));
@@ -353,7 +353,7 @@ run(qdot_response *r, double t0, double t1)
 }
 
 static qdot_status
-say_undefined(const qdot_response *r, size_t j, double t)
+fail_value_undefined(const qdot_response *r, size_t j, double t)
 {
     qdot_text text = {0};
     qdot_status status = qdot_print(r->pool, r->of.exprs[j], QDOT_PLAIN, &text);
@@ -380,7 +380,7 @@ qdot_response_read(qdot_response *r, size_t n_times, const double *times, double
 
             for (size_t l = 0; l <= k && status == QDOT_OK; l++)
                 if (!isfinite(own[l]))
-                    status = say_undefined(r, j, times[i]);
+                    status = fail_value_undefined(r, j, times[i]);
             values[i * m + j] = own[0];
             if (slopes != NULL)
                 memcpy(slopes + (i * m + j) * k, own + 1, k * sizeof *slopes);
@@ -390,7 +390,7 @@ qdot_response_read(qdot_response *r, size_t n_times, const double *times, double
     return status;
 }
 
-/* Make the parts that do not exist yet, and the start for u and t. */
+/* Make the parts of the response that do not exist yet, and the start state for u and t. */
 static qdot_status
 response_prepare(qdot_response *r, const double *u, double t)
 {
@@ -399,13 +399,13 @@ response_prepare(qdot_response *r, const double *u, double t)
         if (!isfinite(r->starts[i]))
             return qdot_fail(QDOT_EDOMAIN, "the start is undefined");
     if (r->once)
-        QDOT_TRY(response_settle(r, u, t));
+        QDOT_TRY(project_start_and_derivatives(r, u, t));
     if (!r->made || !r->once) {
-        unmake(r);
-        QDOT_TRY(response_make(r, u));
+        free_variational_scene(r);
+        QDOT_TRY(make_variational_scene(r, u));
     }
     if (r->once)
-        response_put_start(r, u);
+        write_start(r, u);
     return QDOT_OK;
 }
 
@@ -413,7 +413,7 @@ qdot_status
 qdot_response_run(qdot_response *r, const double *u, double t0, double t1)
 {
     QDOT_TRY(response_prepare(r, u, t0));
-    return run(r, t0, t1);
+    return integrate_response(r, t0, t1);
 }
 
 qdot_status
@@ -421,7 +421,7 @@ qdot_response_at(qdot_response *r, const double *u, double *values, double *slop
 {
     QDOT_TRY(response_prepare(r, u, r->t0));
     if (r->of.n_times > 0)
-        QDOT_TRY(run(r, r->run.t0, r->run.t1));
+        QDOT_TRY(integrate_response(r, r->run.t0, r->run.t1));
     return qdot_response_read(r, r->of.n_times, r->of.times, values, slopes);
 }
 
@@ -435,7 +435,7 @@ qdot_status
 qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count, double *basis)
 {
     qdot_tape_eval(r->start, u, r->starts, r->work);
-    QDOT_TRY(response_settle(r, u, t));
+    QDOT_TRY(project_start_and_derivatives(r, u, t));
     *count = qdot_tangents_basis(&r->tangents, basis);
     return QDOT_OK;
 }
@@ -466,7 +466,7 @@ qdot_response_new(const qdot_response_of *of, qdot_response **out)
             r->place[r->n_parameters++] = k;
         }
     if (status == QDOT_OK)
-        status = lower_start(r);
+        status = make_start_tape(r);
     if (status == QDOT_OK)
         status = qdot_constant_double(r->pool, of->request->t0, &r->t0);
     if (status == QDOT_OK && r->once)

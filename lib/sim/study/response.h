@@ -20,10 +20,10 @@ typedef struct {
     /* Values and start in the unknowns: a parameter among them has itself as its value, a coordinate or velocity
      * among them itself as its start. t1 is the last time that is needed; t0 the time of the start. */
     const qdot_run_request *request;
-    size_t k; /* number of unknowns: symbols of parameters, coordinates, velocities; then their names */
+    size_t k; /* number of unknowns (symbols of parameters, coordinates, velocities); the symbols and their names follow */
     const qdot_expr *unknowns;
     const char *const *names;
-    bool whole; /* the first unknowns are q, q', each the start value itself */
+    bool whole; /* the first unknowns are q, q' and are themselves the start values */
     size_t m; /* number of expressions of the scene, which may contain parameters */
     const qdot_expr *exprs;
     size_t n_times; /* number of times within t0 ... t1, in the order of the run */
@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u,
                                               double t1);
 QDOT_MUST_CHECK qdot_status qdot_response_read(qdot_response *r, size_t n_times, const double *times,
                                                double *values, double *slopes);
-/* The variational scene, if there is only one for all u; valid after the first run. */
+/* The variational scene, if it is the same for all values of the unknowns; valid after the first run. */
 const qdot_variation *qdot_response_variation(const qdot_response *r);
 /* For unknowns that are a whole state: orthonormal tangents [count x 2n] of the constraints at the
  * start for u, t. */

@@ -1,4 +1,4 @@
-/* shooting.c -- multiple shooting: segments of an orbit, the states between them, and the gaps. */
+/* shooting.c -- finds periodic orbits by multiple shooting: segments, states between them, and gaps. */
 #include "sim/study/shooting.h"
 
 #include <math.h>
@@ -19,10 +19,10 @@ static const double trusted[] = {30, 5, 1};
  * they change freely. */
 static const double free_states = 30;
 
-/* The solution is another orbit if its unknowns differ from the guesses by more than this, relatively. */
+/* A solution is a different orbit if its unknowns differ from the guesses by more than this, relatively. */
 static const double near = 0.5;
 
-/* An orbit is an equilibrium if velocities and accelerations are below this part of the states' sizes. */
+/* An orbit is an equilibrium if velocities and accelerations are below this fraction of the states' sizes. */
 static const double at_rest = 1e-6;
 
 /* The tolerance with which segments are integrated. */
@@ -34,12 +34,12 @@ typedef struct {
     size_t K;              /* number of segments */
     qdot_flow flow;
     qdot_expr *parameters; /* [flow.p] the parameters among the unknowns */
-    size_t *place;         /* [flow.p] index of each parameter among the unknowns */
+    size_t *place;         /* [flow.p] index, among the unknowns, of each parameter */
     double *p;             /* [flow.p] values of the parameters */
     qdot_tape *tape;       /* [z + 1] start and period as functions of the unknowns u [k] */
     double *tape_work;
     double t0;
-    double *first, *slope; /* start and period [z + 1]; their derivatives by u [(z + 1) x k] */
+    double *first, *slope; /* start and period [z + 1]; their derivatives by the unknowns u [(z + 1) x k] */
     double *size;          /* [z] range of each component along the orbit */
     double *best;          /* [2k] orbit nearest to the guess: unknowns, then errors */
     double *states;        /* [K x z] states at the starts of the segments; NULL: not requested */
@@ -48,16 +48,16 @@ typedef struct {
 
 /* --- guesses for start and states ------------------------------------------------------------ */
 
-/* Evaluate start and period at u, with slopes. */
+/* Evaluate start and period at the unknowns u, with their derivatives by u. */
 static void
-embed(shooting *x, const double *u)
+evaluate_start_and_period(shooting *x, const double *u)
 {
     qdot_derivative_eval(x->tape, u, 0, x->k, x->first, x->slope, x->tape_work);
 }
 
-/* Integrate the motion from a state, with the parameters contained in u, by qdot_flow_go. */
+/* Integrate the motion from a state by qdot_flow_go, with the parameter values contained in u. */
 static qdot_status
-shooting_go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
+integrate_from_state(shooting *x, const double *u, const double *state, double from, double to, size_t count)
 {
     for (size_t i = 0; i < x->flow.p; i++)
         x->p[i] = u[x->place[i]];
@@ -67,7 +67,7 @@ shooting_go(shooting *x, const double *u, const double *state, double from, doub
 /* States [K + 1] along the run, forwards or back from one end, up to a growth of `trust`; known[]
  * marks those found. */
 static qdot_status
-take_states(shooting *x, const double *u, bool back, double trust, double *states, bool *known)
+integrate_segment_states(shooting *x, const double *u, bool back, double trust, double *states, bool *known)
 {
     const double T = x->first[x->z], from = back ? x->t0 + T : x->t0;
 
@@ -77,7 +77,7 @@ take_states(shooting *x, const double *u, bool back, double trust, double *state
 
         if (known[at])
             break;
-        status = shooting_go(x, u, x->first, from, x->t0 + T * (double)at / (double)x->K, 1);
+        status = integrate_from_state(x, u, x->first, from, x->t0 + T * (double)at / (double)x->K, 1);
         if (status != QDOT_OK)
             return qdot_grave(status);
         if (!(qdot_flow_growth(&x->flow, 0, x->size) < trust))
@@ -88,7 +88,7 @@ take_states(shooting *x, const double *u, bool back, double trust, double *state
     return QDOT_OK;
 }
 
-/* Guess the states between the segments of the orbit. */
+/* Guess the states between the segments of the orbit, by integration from the start. */
 static qdot_status
 guess_states(shooting *x, const double *u, double trust, double *states, bool *known)
 {
@@ -96,8 +96,8 @@ guess_states(shooting *x, const double *u, double trust, double *states, bool *k
     known[0] = known[x->K] = true;
     memcpy(states, x->first, x->z * sizeof *states);
     memcpy(states + x->K * x->z, x->first, x->z * sizeof *states);
-    QDOT_TRY(take_states(x, u, false, trust, states, known));
-    QDOT_TRY(take_states(x, u, true, trust, states, known));
+    QDOT_TRY(integrate_segment_states(x, u, false, trust, states, known));
+    QDOT_TRY(integrate_segment_states(x, u, true, trust, states, known));
     for (size_t a = 0; a < x->K;) {
         size_t b = a + 1;
 
@@ -118,7 +118,7 @@ guess_states(shooting *x, const double *u, double trust, double *states, bool *k
 /* Add sign * M times the derivatives of the state at the start of segment `at` to J; rows of M [z x
  * (z + p)], or the unit matrix if NULL. */
 static void
-add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
+add_state_derivatives(const shooting *x, size_t at, const double *M, double sign, double *J)
 {
     const size_t all = x->k + (x->K - 1) * x->z, width = x->z + x->flow.p;
 
@@ -133,9 +133,9 @@ add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
         }
 }
 
-/* Find the gap after segment s and its derivatives, from the flow over that segment. */
+/* Find the gap after segment s and its derivatives, from the flow map over that segment. */
 static void
-segment_fill(const shooting *x, const double *next, size_t s, double *f, double *J)
+fill_gap_after_segment(const shooting *x, const double *next, size_t s, double *f, double *J)
 {
     const qdot_flow *const g = &x->flow;
     const size_t all = x->k + (x->K - 1) * x->z, width = x->z + g->p;
@@ -146,8 +146,8 @@ segment_fill(const shooting *x, const double *next, size_t s, double *f, double 
     if (J == NULL)
         return;
     memset(J, 0, x->z * all * sizeof *J);
-    add_state(x, s, by, 1, J);
-    add_state(x, s + 1, NULL, -1, J);
+    add_state_derivatives(x, s, by, 1, J);
+    add_state_derivatives(x, s + 1, NULL, -1, J);
     for (size_t i = 0; i < x->z; i++) {
         const double rate = qdot_flow_by_period(g, g->value, g->by, s, x->K, i);
 
@@ -159,20 +159,20 @@ segment_fill(const shooting *x, const double *next, size_t s, double *f, double 
 }
 
 static qdot_status
-shooting_evaluate(const double *u, double *f, double *error, double *slope, void *user)
+evaluate_gaps(const double *u, double *f, double *error, double *slope, void *user)
 {
     shooting *x = user;
     const size_t all = x->k + (x->K - 1) * x->z;
     double T;
 
-    embed(x, u);
+    evaluate_start_and_period(x, u);
     T = x->first[x->z];
     for (size_t s = 0; s < x->K; s++) {
         const double *from = s == 0 ? x->first : u + x->k + (s - 1) * x->z;
         const double *next = s + 1 == x->K ? x->first : u + x->k + s * x->z;
         const double t = x->t0 + T * (double)s / (double)x->K;
         const qdot_status status =
-            isfinite(T) ? shooting_go(x, u, from, t, t + T / (double)x->K, 0) : QDOT_EDOMAIN;
+            isfinite(T) ? integrate_from_state(x, u, from, t, t + T / (double)x->K, 0) : QDOT_EDOMAIN;
 
         if (status != QDOT_OK) {
             f[0] = NAN;
@@ -180,7 +180,7 @@ shooting_evaluate(const double *u, double *f, double *error, double *slope, void
         }
         for (size_t i = 0; i < x->z; i++)
             error[s * x->z + i] = 10 * tolerance * fmax(x->size[i], fabs(x->flow.value[x->flow.m + i]));
-        segment_fill(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
+        fill_gap_after_segment(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
     }
     return QDOT_OK;
 }
@@ -190,7 +190,7 @@ shooting_evaluate(const double *u, double *f, double *error, double *slope, void
 /* The largest distance of an unknown in u from its guess, relative to the guess or to the extent of
  * the motion. */
 static double
-shooting_distance(const shooting *x, const double *u, const double *guess)
+distance_from_guess(const shooting *x, const double *u, const double *guess)
 {
     double most = 0;
 
@@ -203,9 +203,9 @@ shooting_distance(const shooting *x, const double *u, const double *guess)
     return most;
 }
 
-/* Whether the states between segments differ from the start. */
+/* Whether the states between the segments differ from the start, so that the orbit is no equilibrium. */
 static bool
-moves(const shooting *x, const double *states)
+is_moving(const shooting *x, const double *states)
 {
     for (size_t s = 1; s < x->K; s++)
         for (size_t i = 0; i < x->z; i++)
@@ -217,7 +217,7 @@ moves(const shooting *x, const double *states)
 /* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best
  * [2k]. */
 static qdot_status
-shooting_search(shooting *x, double trust, const double *u, double *best, double *off)
+search_orbit(shooting *x, double trust, const double *u, double *best, double *off)
 {
     const size_t all = x->k + (x->K - 1) * x->z, m = x->K * x->z;
     double *room = qdot_calloc(5 * all + 2 * m + (x->K + 1) * x->z, sizeof *room);
@@ -226,10 +226,10 @@ shooting_search(shooting *x, double trust, const double *u, double *best, double
     double *const unit = room + 2 * all, *const low = unit + all, *const high = low + all,
            *const states = r.f_error + m;
     const qdot_zero_problem p = {
-        .n = all, .m = m, .at = shooting_evaluate, .user = x, .low = low, .high = high, .unit = unit, .once = true};
+        .n = all, .m = m, .at = evaluate_gaps, .user = x, .low = low, .high = high, .unit = unit, .once = true};
     qdot_status status = room && known ? QDOT_OK : QDOT_ENOMEM;
 
-    embed(x, u);
+    evaluate_start_and_period(x, u);
     if (status == QDOT_OK)
         status = guess_states(x, u, trust, states, known);
     for (size_t j = 0; j < all && status == QDOT_OK; j++) {
@@ -243,10 +243,10 @@ shooting_search(shooting *x, double trust, const double *u, double *best, double
     if (status == QDOT_OK)
         status = qdot_zero_find(&p, &r);
     if (status == QDOT_OK && r.answer == QDOT_ZERO_FOUND) {
-        const double this = shooting_distance(x, r.u, u);
+        const double this = distance_from_guess(x, r.u, u);
 
-        embed(x, r.u);
-        if (this < *off && (x->of->followed || moves(x, r.u + x->k))) {
+        evaluate_start_and_period(x, r.u);
+        if (this < *off && (x->of->followed || is_moving(x, r.u + x->k))) {
             *off = this;
             memcpy(best, r.u, x->k * sizeof *best);
             memcpy(best + x->k, r.error, x->k * sizeof *best);
@@ -279,9 +279,9 @@ shooting_allocate(shooting *x)
     return QDOT_OK;
 }
 
-/* Compile start and period as functions of the unknowns u to a tape. */
+/* Compile start and period, as functions of the unknowns u, to a tape. */
 static qdot_status
-shooting_lower(shooting *x)
+make_start_tape(shooting *x)
 {
     qdot_pool *pool = x->of->scene->pool;
     qdot_expr *e = qdot_calloc(x->z + 1, sizeof *e);
@@ -313,9 +313,9 @@ shooting_begin(shooting *x, const double *u)
             x->parameters[p] = of->unknowns[k];
             x->place[p++] = k;
         }
-    QDOT_TRY(shooting_lower(x));
+    QDOT_TRY(make_start_tape(x));
     QDOT_TRY(qdot_constant_double(s->pool, of->request->t0, &x->t0));
-    embed(x, u);
+    evaluate_start_and_period(x, u);
     for (size_t i = 0; i < p; i++)
         x->p[i] = u[x->place[i]];
     return qdot_flow_begin(&x->flow, s, of->request, p, x->parameters, QDOT_NIL, tolerance, x->first[x->z]);
@@ -350,9 +350,9 @@ qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r)
         r->segments = x.K = of->segments > 0 ? of->segments : x.K;
     x.states = r->states;
     if (status == QDOT_OK && of->followed)
-        status = shooting_search(&x, INFINITY, r->u, x.best, &off);
+        status = search_orbit(&x, INFINITY, r->u, x.best, &off);
     for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1 && !of->followed; k++)
-        status = shooting_search(&x, trusted[k], r->u, x.best, &off);
+        status = search_orbit(&x, trusted[k], r->u, x.best, &off);
     r->found = status == QDOT_OK && off < near;
     if (r->found) {
         memcpy(r->u, x.best, x.k * sizeof *r->u);

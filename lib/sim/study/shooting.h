@@ -24,24 +24,24 @@
 
 typedef struct {
     qdot_scene *scene;
-    /* The request, whose values depend on those unknowns that are parameters; t0 is the time of the start. */
+    /* The request, whose parameter values are replaced where unknowns are parameters; t0: time of the start. */
     const qdot_run_request *request;
-    size_t k; /* number of unknowns: parameters, coordinates, velocities, times; then symbols, names */
+    size_t k; /* number of unknowns (parameters, coordinates, velocities, times); their symbols and names follow */
     const qdot_expr *unknowns;
     const char *const *names;
     const qdot_expr *start; /* [2n] start q, q' in terms of the unknowns */
     qdot_expr period;       /* the period in terms of the unknowns */
     const double *low, *high; /* [k] bounds of the unknowns, infinite if there is none */
     size_t segments;          /* number of segments; 0: as many as the guess needs */
-    bool followed;            /* the guess closes within the error of its run: the states begin along it, all around */
+    bool followed;            /* the guess closes within the error of its run: all segment states are taken on it */
 } qdot_shooting_of;
 
 typedef struct {
     bool found;
     double *u, *error; /* [k] u in: the guess; out: the orbit and its errors if found, else unchanged */
-    size_t rank;       /* number of unknowns that the orbit determines */
+    size_t rank;       /* number of unknowns that the equations of a closed orbit determine */
     size_t segments;
-    double *states; /* [MOST_SEGMENTS x 2n] states at the starts of segments of the orbit found; NULL: not requested */
+    double *states; /* [MOST_SEGMENTS x 2n] states at the segments' starts on the orbit found; NULL: not requested */
 } qdot_shooting_result;
 
 /* r->segments: how many were taken; 1: the motions

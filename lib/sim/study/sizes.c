@@ -1,11 +1,11 @@
-/* sizes.c -- finds the largest values along a run, at equal distances in time. */
+/* sizes.c -- finds the largest magnitudes of coordinates and velocities along a run, at equidistant times. */
 #include "sim/study/sizes.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-/* Sizes are far apart if one is below this fraction of the largest, or of 1. */
+/* Sizes are called far apart if one is smaller than this fraction of the largest, or of 1. */
 static const double apart = 1e-2;
 
 /* A value is known if it exceeds this many times its error. */

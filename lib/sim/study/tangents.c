@@ -14,7 +14,7 @@
 #include "sim/model/massless.h"
 #include "sim/model/substitute.h"
 
-/* Singular values below this fraction of the largest one count as 0. */
+/* Singular values smaller than this fraction of the largest count as 0. */
 static const double least_singular = 1e-9;
 /* `rounding`: a relative change of a state that counts as none. `left`: a residual of F that counts
  * as 0, relative to its terms. */
@@ -29,7 +29,7 @@ add_condition(qdot_scene *s, const qdot_run_request *r, qdot_expr f, bool of_pos
         F[(*rows)++] = qdot_substitute(s->pool, qdot_ddt(s->pool, f), r->n_values, r->symbols, r->values);
 }
 
-/* Write F, the conditions from constraints and from coordinates without mass, as expressions. */
+/* Write F: conditions on states from constraints and from massless coordinates, as expressions. */
 static void
 write_conditions(qdot_scene *s, const qdot_run_request *r, const qdot_massless *massless, qdot_expr *F, size_t *rows)
 {
@@ -46,7 +46,7 @@ write_conditions(qdot_scene *s, const qdot_run_request *r, const qdot_massless *
 /* Whether the motion never leaves the surface f = const in space to which a velocity constraint holds it, by itself
  * or with the others together. */
 static qdot_status
-has_leaf(qdot_scene *s, size_t c, bool *yes)
+has_known_integral(qdot_scene *s, size_t c, bool *yes)
 {
     qdot_expr mu;
 
@@ -61,7 +61,7 @@ has_leaf(qdot_scene *s, size_t c, bool *yes)
 /* The slopes of such a surface by q, in the rows of F behind those of the conditions: df/dq_i' of the constraint. F there
  * is 0, on whichever leaf the state is. */
 static qdot_status
-write_leaves(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_expr *slopes)
+write_integrals(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_expr *slopes)
 {
     const size_t n = x->z / 2, all = x->z + x->p;
 
@@ -69,7 +69,7 @@ write_leaves(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_ex
         bool leaf;
         qdot_expr mu, f;
 
-        QDOT_TRY(has_leaf(s, c, &leaf));
+        QDOT_TRY(has_known_integral(s, c, &leaf));
         if (!leaf)
             continue;
         f = qdot_integrated_rate(s, c, &mu);
@@ -87,8 +87,8 @@ write_leaves(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_ex
 /* Lower F and its gradients, then those of the integrals that label leaves, as functions of z, p,
  * t. Room: F [most], gradients [most x all]. */
 static qdot_status
-tangents_lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_massless *massless,
-               const qdot_expr *parameters)
+make_tapes_of_conditions(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_massless *massless,
+                         const qdot_expr *parameters)
 {
     const size_t n = x->z / 2, all = x->z + x->p, most = 2 * massless->n + 3 * s->constraints.n;
     qdot_expr *in = qdot_calloc(2 * (all + 1) + most * (1 + all), sizeof *in), *const F = in + all + 1;
@@ -102,7 +102,7 @@ tangents_lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request,
         for (size_t k = 0; k < x->rows; k++)
             for (size_t i = 0; i < all; i++)
                 F[x->rows + k * all + i] = qdot_diff(s->pool, F[k], in[i]);
-        status = write_leaves(x, s, request, F + x->rows * (1 + all));
+        status = write_integrals(x, s, request, F + x->rows * (1 + all));
     }
     if (status == QDOT_OK && x->rows > 0)
         status = qdot_tape_new(s->pool, all + 1, in, x->rows * (1 + all) + x->leaves * all, F, &x->tape);
@@ -137,7 +137,7 @@ qdot_tangents_begin(qdot_tangents *x, qdot_scene *scene, const qdot_run_request 
     *x = (qdot_tangents){.z = 2 * scene->coordinates.n, .p = p};
     status = qdot_massless_of_scene(scene, request, &massless);
     if (status == QDOT_OK && scene->constraints.n + massless.n > 0)
-        status = tangents_lower(x, scene, request, &massless, parameters);
+        status = make_tapes_of_conditions(x, scene, request, &massless, parameters);
     qdot_massless_clear(&massless);
     return status == QDOT_OK && x->rows > 0 ? tangents_allocate(x) : status;
 }
@@ -154,7 +154,7 @@ qdot_tangents_end(qdot_tangents *x)
     *x = (qdot_tangents){0};
 }
 
-/* Evaluate F, and factor F_z = U S V^T at x->in, with or without the rows of `leaves`. False: not finite. */
+/* Evaluate F, factor F_z = U S V^T at x->in; leaves: with constraints' integrals. False: not finite. */
 static bool
 decompose(qdot_tangents *x, bool leaves)
 {
@@ -180,9 +180,9 @@ decompose(qdot_tangents *x, bool leaves)
     return true;
 }
 
-/* Subtract F_z^+ b [rows] from `to`; returns the size of the change relative to max(1, |to|). */
+/* Subtract F_z^+ b (pseudo-inverse; b [rows]) from `to`; returns the change relative to max(1, |to|). */
 static double
-subtract(const qdot_tangents *x, const double *b, double *to)
+subtract_least_correction(const qdot_tangents *x, const double *b, double *to)
 {
     double most = 0;
 
@@ -202,9 +202,9 @@ subtract(const qdot_tangents *x, const double *b, double *to)
     return most;
 }
 
-/* Whether F is 0 within the rounding of its terms, estimated from its gradients. */
+/* Whether F is 0 within the rounding of its terms, which is estimated from its gradients. */
 static bool
-tangents_are_met(const qdot_tangents *x)
+are_conditions_met(const qdot_tangents *x)
 {
     for (size_t k = 0; k < x->rows; k++) {
         const double *const slopes = x->out + x->rows + k * (x->z + x->p);
@@ -232,8 +232,8 @@ qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, doubl
         memcpy(x->in, state, x->z * sizeof *state);
         if (!decompose(x, false))
             break;
-        moved = subtract(x, x->out, state);
-        if ((moved <= rounding || (moved < 1e-12 && moved >= before)) && tangents_are_met(x))
+        moved = subtract_least_correction(x, x->out, state);
+        if ((moved <= rounding || (moved < 1e-12 && moved >= before)) && are_conditions_met(x))
             return QDOT_OK;
     }
     return qdot_fail(QDOT_EFAILED, "a state cannot be brought onto the constraints");
@@ -252,7 +252,7 @@ qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope)
         for (size_t i = 0; i < x->z; i++)
             x->out[k] += slopes[k * all + i] * slope[i];
     }
-    (void)subtract(x, x->out, slope);
+    (void)subtract_least_correction(x, x->out, slope);
 }
 
 size_t

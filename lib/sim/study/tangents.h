@@ -20,7 +20,7 @@
 #include "tape/tape.h"
 
 typedef struct {
-    size_t z, p, rows, rank; /* 2n; number of parameters; rows of F; rank of dF/dz at the latest state */
+    size_t z, p, rows, rank; /* 2n; number of parameters; number of conditions F; rank of dF/dz at the latest state */
     size_t leaves; /* number of velocity constraints with known integral, whose value stays constant */
     qdot_tape *tape;         /* from z, p, t: F [rows], then F_z and F_p [rows x (z + p)], and those of the leaves
                               * [leaves x (z + p)]; NULL: no constraints */
@@ -34,12 +34,12 @@ QDOT_MUST_CHECK qdot_status qdot_tangents_begin(qdot_tangents *x, qdot_scene *sc
                                                 size_t p, const qdot_expr *parameters);
 void qdot_tangents_end(qdot_tangents *x);
 
-/* Project state [2n] onto the constraints at t. QDOT_EFAILED: that is not possible. */
+/* Project the state [2n] onto the constraints at time t. QDOT_EFAILED: that is not possible. */
 QDOT_MUST_CHECK qdot_status qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, double *state);
 /* At the last projected state: project the derivative slope [2n] onto the constraints; it is taken
  * by parameter `by`, or SIZE_MAX: by none. */
 void qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope);
-/* At the last projected state: orthonormal tangents [count x 2n] of the constraints and their integrals; returns count. */
+/* At the last projected state: orthonormal tangents [count x 2n] to constraints and integrals; returns count. */
 size_t qdot_tangents_basis(qdot_tangents *x, double *basis);
 
 #endif

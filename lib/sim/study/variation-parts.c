@@ -54,7 +54,7 @@ qdot_variation_with_motion(const qdot_variation *v, qdot_expr e)
 /* The sum over q and q' (and q'', if order 2) of de/dz dz/ds along direction k, for an e with
  * parameter values. */
 static qdot_expr
-by_state(const qdot_variation *v, qdot_expr e, size_t k, uint32_t order)
+derivative_by_state(const qdot_variation *v, qdot_expr e, size_t k, uint32_t order)
 {
     qdot_pool *pool = v->of->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -74,7 +74,7 @@ by_state(const qdot_variation *v, qdot_expr e, size_t k, uint32_t order)
 qdot_expr
 qdot_variation_of(const qdot_variation *v, qdot_expr e, size_t k)
 {
-    return qdot_add(v->of->pool, by_state(v, qdot_variation_with_numbers(v, e), k, 2),
+    return qdot_add(v->of->pool, derivative_by_state(v, qdot_variation_with_numbers(v, e), k, 2),
                     qdot_variation_by_parameter(v, e, k));
 }
 

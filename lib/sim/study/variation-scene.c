@@ -1,4 +1,4 @@
-/* variation-scene.c -- writes the variational scene: coordinates, constraints, events, start. */
+/* variation-scene.c -- writes the scene of variational equations: coordinates, constraints, events, start. */
 #include "sim/study/variation-scene.h"
 
 #include <math.h>
@@ -15,13 +15,13 @@
 #include "mech/dynamics/integrated.h"
 #include "sim/model/massless-jump.h"
 
-/* A start value has been moved by the projection if it changed by more than this. */
+/* A start value counts as moved by the projection if it changed by more than this. */
 static const double moved = 1e-9;
 
 /* Only sizes below this become scales; larger ones use the scale 1. */
 static const double well_below = 1e-2;
 
-/* Add a coordinate; *T gains 1/2 q'^2, so that its equation is q'' = acceleration. */
+/* Add a coordinate q; *T gains 1/2 q'^2, so that its equation of motion is q'' = acceleration. */
 static qdot_status
 add_coordinate(qdot_scene *to, qdot_expr q, qdot_expr *T)
 {
@@ -64,8 +64,8 @@ add_constraints(const qdot_variation *v)
 /* The event with the saltation of y. Room: z [2n] for (q, q') before it, put [2n] for what becomes of them, after [3n] for
  * (q, q', q'') after it with numbers; expressions of the state before. */
 static qdot_status
-add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z, qdot_expr *put,
-              qdot_expr *after, qdot_event *own)
+find_jump_of_derivatives(const qdot_variation *v, const qdot_event *event, qdot_expr *z, qdot_expr *put,
+                         qdot_expr *after, qdot_event *own)
 {
     const qdot_massless_rows rows = {v->n_massless, v->G, v->massless, v->of_positions};
     qdot_pool *pool = v->of->pool;
@@ -102,7 +102,7 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z, qd
     return qdot_pool_check(pool);
 }
 
-/* Add the events that change the state, with the jump (saltation) of the derivatives. */
+/* Add the events that change the state, with the jumps of the derivatives at them (saltation). */
 static qdot_status
 add_events(const qdot_variation *v)
 {
@@ -117,7 +117,7 @@ add_events(const qdot_variation *v)
             continue;
         own.left = qdot_variation_with_numbers(v, event->left);
         own.right = qdot_variation_with_numbers(v, event->right);
-        status = add_saltation(v, event, room, room + 2 * v->n, room + 4 * v->n, &own);
+        status = find_jump_of_derivatives(v, event, room, room + 2 * v->n, room + 4 * v->n, &own);
         if (status == QDOT_OK)
             status = qdot_scene_event(v->scene, &own);
         qdot_free(own.targets.at);
@@ -131,7 +131,7 @@ add_events(const qdot_variation *v)
 
 /* Whether the equation of a massless coordinate determines coordinate i, or its velocity. */
 static bool
-is_determined(const qdot_variation *v, bool velocity, size_t i)
+is_determined_by_massless(const qdot_variation *v, bool velocity, size_t i)
 {
     for (size_t c = 0; c < v->w; c++)
         if (v->massless[c] == i && (velocity || v->of_positions[c]))
@@ -142,7 +142,7 @@ is_determined(const qdot_variation *v, bool velocity, size_t i)
 /* How many constraints hold coordinates (velocities: them too), and how many of these the start leaves
  * open. Where none holds coordinates none is open: what is not named is 0. */
 static void
-count_open(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
+count_undetermined(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
 {
     const bool *named = velocities ? v->request->v_named : v->request->q_named;
 
@@ -151,14 +151,14 @@ count_open(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
         *held += v->of->constraints.at[c].kind == QDOT_HOLONOMIC ||
                  (velocities && v->of->constraints.at[c].kind == QDOT_VELOCITY);
     for (size_t i = 0; i < v->n && *held > 0; i++)
-        *open += named && !named[i] && !is_determined(v, velocities, i);
+        *open += named && !named[i] && !is_determined_by_massless(v, velocities, i);
 }
 
 static bool
 starts_at_rest(const qdot_variation *v)
 {
     for (size_t i = 0; i < v->n; i++)
-        if (!is_determined(v, true, i) &&
+        if (!is_determined_by_massless(v, true, i) &&
             (v->request->v0[i] != QDOT_ZERO || !v->request->v_named || v->request->v_named[i]))
             return false;
     return true;
@@ -167,12 +167,12 @@ starts_at_rest(const qdot_variation *v)
 /* A start that leaves more values open than the constraints solve for takes those nearest to 0: their
  * slopes are known only where all velocities are 0. */
 static qdot_status
-check_open(const qdot_variation *v)
+check_undetermined(const qdot_variation *v)
 {
     size_t held, open;
 
     for (int velocities = 0; velocities < 2 && v->m > 0; velocities++) {
-        count_open(v, velocities, &held, &open);
+        count_undetermined(v, velocities, &held, &open);
         if (open <= held || (velocities && starts_at_rest(v)))
             continue;
         (void)qdot_fail(
@@ -185,7 +185,7 @@ check_open(const qdot_variation *v)
 }
 
 static qdot_status
-say_bound(const qdot_variation *v, size_t k)
+fail_constrained_direction(const qdot_variation *v, size_t k)
 {
     (void)qdot_fail(QDOT_EINVAL,
                     "the constraints do not let the start change with %.100s alone: it "
@@ -215,10 +215,10 @@ check_condition(const qdot_variation *v, qdot_expr e, size_t k)
     if (qdot_expr_node(pool, e)->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY))
         return QDOT_OK;
     QDOT_TRY(qdot_constant_double(pool, e, &value));
-    return fabs(value) <= moved ? QDOT_OK : say_bound(v, k);
+    return fabs(value) <= moved ? QDOT_OK : fail_constrained_direction(v, k);
 }
 
-/* Check that Df = 0 at the start and, for holonomic constraints, its time derivative. */
+/* Check that the constraints' derivative Df = 0 at the start; if holonomic also its time derivative. */
 static qdot_status
 check_conditions(const qdot_variation *v)
 {
@@ -240,7 +240,7 @@ check_conditions(const qdot_variation *v)
 /* A pseudo-random number of size 1e-6 for initial directions: so small that constraints move the
  * start by its square only. */
 static qdot_expr
-drawn(qdot_pool *pool, size_t k, size_t i)
+irregular_start_value(qdot_pool *pool, size_t k, size_t i)
 {
     uint64_t x = (k * 1000 + i + 1) * 6364136223846793005u;
 
@@ -249,41 +249,41 @@ drawn(qdot_pool *pool, size_t k, size_t i)
                     qdot_expr_int(pool, 8388608L * 1000000));
 }
 
-/* Component i < 2n of direction k at the start. */
+/* Component i < 2n of the derivative in direction k at the start. */
 static qdot_expr
-start_of(const qdot_variation *v, size_t k, size_t i)
+start_of_derivative(const qdot_variation *v, size_t k, size_t i)
 {
-    return v->by[k].start ? v->by[k].start[i] : drawn(v->of->pool, k, i);
+    return v->by[k].start ? v->by[k].start[i] : irregular_start_value(v->of->pool, k, i);
 }
 
 /* Write the start of q, y, q', y'; values that the original start solves for are solved for in all
  * directions. */
 static void
-variation_put_start(const qdot_variation *v)
+write_start_values(const qdot_variation *v)
 {
     const qdot_run_request *r = v->request;
     const size_t n = v->n, all = (v->k + 1) * n;
     size_t held, open;
 
-    count_open(v, false, &held, &open);
+    count_undetermined(v, false, &held, &open);
     for (size_t k = 0; k <= v->k; k++)
         for (size_t i = 0; i < n; i++) {
-            v->start[k * n + i] = k == 0 ? r->q0[i] : start_of(v, k - 1, i);
-            v->start[all + k * n + i] = k == 0 ? r->v0[i] : start_of(v, k - 1, n + i);
+            v->start[k * n + i] = k == 0 ? r->q0[i] : start_of_derivative(v, k - 1, i);
+            v->start[all + k * n + i] = k == 0 ? r->v0[i] : start_of_derivative(v, k - 1, n + i);
             v->named[k * n + i] = k == 0 || open == 0 || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }
-    /* these values follow from the equations of massless coordinates */
+    /* skip values that follow from the equations of massless coordinates */
     for (size_t j = 0; j < 2 * all && v->w > 0; j++) {
         const size_t i = j % all % n;
 
-        v->named[j] = (v->m == 0 || v->named[j]) && !is_determined(v, j >= all, i);
+        v->named[j] = (v->m == 0 || v->named[j]) && !is_determined_by_massless(v, j >= all, i);
     }
 }
 
-/* Find scales of the request; dz_i/ds gets the scale of z_i divided by that of s, if it is well below 1. */
+/* Find scales for the request: dz_i/ds gets (scale of z_i)/(scale of s), if that is well below 1. */
 static qdot_status
-put_scales(qdot_variation *v)
+find_scales_of_derivatives(qdot_variation *v)
 {
     const double *said = v->request->scales;
     const size_t n = v->n, all = (v->k + 1) * n;
@@ -319,10 +319,10 @@ qdot_variation_request(const qdot_variation *v)
     r.exactly = false;
     r.no_drifts = true;
     r.scales = v->scales;
-    r.apart = NULL; /* the derivatives belong to exactly this start */
+    r.apart = NULL; /* no errors of the start: the derivatives belong to exactly this start */
     r.n_values = 0;
     r.symbols = r.values = NULL;
-    /* the method given may not fit the variational scene */
+    /* use `auto`, as the given method may not fit the variational scene */
     r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto";
     return r;
 }
@@ -340,7 +340,7 @@ qdot_variation_check_state(const qdot_variation *v, const double *y)
             continue;
         QDOT_TRY(qdot_constant_double(v->of->pool, v->start[j], &wanted));
         if (!(fabs(y[j] - wanted) <= moved * fmax(1, fabs(wanted))))
-            return say_bound(v, i / v->n - 1);
+            return fail_constrained_direction(v, i / v->n - 1);
     }
     return QDOT_OK;
 }
@@ -372,9 +372,9 @@ qdot_variation_write(qdot_variation *v, const qdot_expr *b)
 {
     qdot_expr T = QDOT_ZERO;
 
-    QDOT_TRY(check_open(v));
-    variation_put_start(v);
-    QDOT_TRY(put_scales(v));
+    QDOT_TRY(check_undetermined(v));
+    write_start_values(v);
+    QDOT_TRY(find_scales_of_derivatives(v));
     v->scene = qdot_scene_new(v->of->pool);
     if (!v->scene)
         return QDOT_ENOMEM;

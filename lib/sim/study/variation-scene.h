@@ -1,10 +1,10 @@
-/* variation-scene.h -- writes the variational scene and its start (variation.h). */
+/* variation-scene.h -- writes the scene of variational equations and its start (variation.h). */
 #ifndef QDOT_SIM_VARIATION_SCENE_H
 #define QDOT_SIM_VARIATION_SCENE_H
 
 #include "sim/study/variation-parts.h"
 
-/* Write the scene and its start, where y'' = b [k x n] for all directions. */
+/* Write the variational scene and its start; its equations are y'' = b [k x n] for all directions. */
 QDOT_MUST_CHECK qdot_status qdot_variation_write(qdot_variation *v, const qdot_expr *b);
 
 /* The request of the variational run: the given one with the start of v. Borrows from both. */

@@ -1,4 +1,4 @@
-/* variation.c -- solves the equations of motion for q'' in symbols, and differentiates them. */
+/* variation.c -- solves the equations of motion symbolically for q'', and differentiates the solution. */
 #include "sim/study/variation.h"
 
 #include <stdio.h>
@@ -35,7 +35,7 @@ qdot_variation_clear(qdot_variation *v)
 /* Whether the condition that decides a jump of this function depends on the motion or on the
  * parameter (may be nil). */
 static bool
-function_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
+jumps_with_motion_or_parameter(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 {
     const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
     uint32_t n = qdot_expr_count(pool, e);
@@ -57,9 +57,9 @@ function_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
     return false;
 }
 
-/* Refuse equations that jump at a value that the motion or a parameter determines. */
+/* Refuse equations with functions that jump at a value that depends on the motion or on a parameter. */
 static qdot_status
-refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
+refuse_jumping_functions(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 {
     qdot_expr found = QDOT_NIL;
     qdot_text text = {0};
@@ -68,7 +68,7 @@ refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 
     QDOT_TRY(qdot_walk_begin(pool, e, &w));
     for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
-        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && function_jumps(pool, w.at[i], parameter))
+        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && jumps_with_motion_or_parameter(pool, w.at[i], parameter))
             found = w.at[i];
     qdot_walk_end(&w);
     if (found == QDOT_NIL)
@@ -84,7 +84,7 @@ refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 }
 
 static qdot_status
-refuse_events(const qdot_scene *s)
+refuse_unsuitable_events(const qdot_scene *s)
 {
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *e = &s->events.at[i];
@@ -105,7 +105,7 @@ refuse_events(const qdot_scene *s)
     return QDOT_OK;
 }
 
-/* Derive M and f as a LIST, and check them; values: of a direction, or of the request. */
+/* Derive M and f as a LIST and check them; `values`: the parameter values of a direction or of the request. */
 static qdot_status
 check_equations(const qdot_variation *v, qdot_expr whole, const qdot_expr *values,
                 qdot_expr parameter)
@@ -118,7 +118,7 @@ check_equations(const qdot_variation *v, qdot_expr whole, const qdot_expr *value
     if (qdot_expr_node(pool, e)->holds & QDOT_HAS_MULTIPLIER)
         return qdot_fail(QDOT_ENOTBUILT,
                          "not built yet: slopes of friction by multipliers");
-    return refuse_jumps(pool, e, parameter);
+    return refuse_jumping_functions(pool, e, parameter);
 }
 
 /* --- elimination by the factors of M ---------------------------------------------------- */
@@ -134,15 +134,15 @@ typedef struct {
     qdot_expr whole;      /* M and f before parameter values are inserted */
     qdot_expr *M, *f;     /* [n x n], [n] M and f with parameter values */
     size_t w;             /* number of massless coordinates; their indices are in v */
-    qdot_expr *F, *A; /* second time derivatives of constraints [m + w]; their slopes [(m + w) x n] */
-    qdot_expr *rate;      /* [w] the same for massless equations, parameters as symbols */
-    qdot_expr *W;         /* [w x w] LU factors of W */
+    qdot_expr *F, *A; /* second time derivatives of constraints [m + w]; their gradients [(m + w) x n] */
+    qdot_expr *rate;      /* [w] second time derivatives of the massless equations, with parameters as symbols */
+    qdot_expr *W;         /* [w x w] the matrix W of the massless coordinates' equations, as LU factors */
     qdot_expr *L, *B, *S; /* factors of M [n x n], B [m x n], factors of S [m x m] */
     qdot_expr *x, *z;     /* [n], [m + w] scratch */
 } elimination;
 
 static qdot_status
-ldl_factor(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
+factor_ldl(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
 {
     for (size_t k = 0; k < n; k++) {
         const qdot_expr d = L[k * n + k];
@@ -165,7 +165,7 @@ ldl_factor(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
 }
 
 static void
-ldl_solve(qdot_pool *pool, size_t n, const qdot_expr *L, qdot_expr *b)
+solve_ldl(qdot_pool *pool, size_t n, const qdot_expr *L, qdot_expr *b)
 {
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < i; k++)
@@ -189,7 +189,7 @@ is_massless(const elimination *e, size_t i)
     return false;
 }
 
-/* Solve for the massless components of x [n] from the others and z [m + w]. */
+/* Solve for the massless components of x [n], given its other components and z [m + w]. */
 static void
 solve_massless(const elimination *e, qdot_expr *x, qdot_expr *z)
 {
@@ -215,15 +215,15 @@ solve_massless(const elimination *e, qdot_expr *x, qdot_expr *z)
         x[e->v->massless[c]] = z[m + c];
 }
 
-/* Solve M x - A^T z = r, A x = g in place: x [n] holds r, z [m] holds g. */
+/* Solve M x - A^T z = r, A x = g; in: x [n] holds r, z [m] holds g; out: the solution. */
 static void
-solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
+solve_with_constraints(const elimination *e, qdot_expr *x, qdot_expr *z)
 {
     qdot_pool *pool = e->pool;
 
     for (size_t c = 0; c < e->w; c++)
         x[e->v->massless[c]] = QDOT_ZERO;
-    ldl_solve(pool, e->n, e->L, x);
+    solve_ldl(pool, e->n, e->L, x);
     if (e->m == 0) {
         solve_massless(e, x, z);
         return;
@@ -233,7 +233,7 @@ solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
             z[c] = qdot_sub(pool, z[c], qdot_mul(pool, e->A[c * e->n + i], x[i]));
         z[c] = qdot_hold(pool, z[c]);
     }
-    ldl_solve(pool, e->m, e->S, z);
+    solve_ldl(pool, e->m, e->S, z);
     for (size_t i = 0; i < e->n; i++) {
         for (size_t c = 0; c < e->m; c++)
             x[i] = qdot_add(pool, x[i], qdot_mul(pool, e->B[c * e->n + i], z[c]));
@@ -244,9 +244,9 @@ solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
 
 /* --- coordinates without mass ------------------------------------------------------------- */
 
-/* Whether constraints of the scene hold coordinate i. */
+/* Whether constraints of the scene contain coordinate i. */
 static bool
-coordinate_is_held(const elimination *e, size_t i)
+is_constrained(const elimination *e, size_t i)
 {
     const qdot_scene *s = e->v->of;
 
@@ -257,9 +257,9 @@ coordinate_is_held(const elimination *e, size_t i)
     return false;
 }
 
-/* Whether g contains this time derivative of a massless coordinate. */
+/* Whether g contains the given time derivative of any massless coordinate. */
 static bool
-holds_jet(const elimination *e, qdot_expr g, uint32_t order)
+contains_massless_derivative(const elimination *e, qdot_expr g, uint32_t order)
 {
     for (size_t c = 0; c < e->w; c++)
         if (qdot_expr_contains(e->pool, g, qdot_variation_jet(e->v, e->v->massless[c], order)))
@@ -268,7 +268,7 @@ holds_jet(const elimination *e, qdot_expr g, uint32_t order)
 }
 
 static void
-swap(qdot_expr *a, qdot_expr *b)
+swap_expressions(qdot_expr *a, qdot_expr *b)
 {
     const qdot_expr c = *a;
 
@@ -278,19 +278,19 @@ swap(qdot_expr *a, qdot_expr *b)
 
 /* Exchange two equations of massless coordinates. */
 static void
-exchange(elimination *e, size_t c, size_t d)
+swap_massless_equations(elimination *e, size_t c, size_t d)
 {
     const bool of_positions = e->v->of_positions[c];
 
     e->v->of_positions[c] = e->v->of_positions[d];
     e->v->of_positions[d] = of_positions;
-    swap(&e->v->G[c], &e->v->G[d]);
-    swap(&e->rate[c], &e->rate[d]);
-    swap(&e->F[e->m + c], &e->F[e->m + d]);
+    swap_expressions(&e->v->G[c], &e->v->G[d]);
+    swap_expressions(&e->rate[c], &e->rate[d]);
+    swap_expressions(&e->F[e->m + c], &e->F[e->m + d]);
     for (size_t i = 0; i < e->n; i++)
-        swap(&e->A[(e->m + c) * e->n + i], &e->A[(e->m + d) * e->n + i]);
+        swap_expressions(&e->A[(e->m + c) * e->n + i], &e->A[(e->m + d) * e->n + i]);
     for (size_t k = 0; k < e->w; k++)
-        swap(&e->W[c * e->w + k], &e->W[d * e->w + k]);
+        swap_expressions(&e->W[c * e->w + k], &e->W[d * e->w + k]);
 }
 
 /* W = L U. In phase space (L = p q' - H) the equation of q determines p': equations are exchanged so that each stands where
@@ -313,7 +313,7 @@ factor_massless(elimination *e, size_t *pivot)
         if (row == w)
             return QDOT_ESINGULAR;
         if (row != k)
-            exchange(e, row, k);
+            swap_massless_equations(e, row, k);
         for (size_t i = k + 1; i < w; i++) {
             e->W[i * w + k] = qdot_hold(pool, qdot_quotient(pool, e->W[i * w + k], e->W[k * w + k]));
             for (size_t j = k + 1; j < w; j++)
@@ -324,14 +324,14 @@ factor_massless(elimination *e, size_t *pivot)
     return qdot_pool_check(pool);
 }
 
-/* Find the massless coordinates and give them mass 1 in L. */
+/* Find the massless coordinates, and give them the mass 1 in the factor L. */
 static void
 find_massless(elimination *e)
 {
     const size_t n = e->n;
 
     for (size_t i = 0; i < n; i++) {
-        bool mass = coordinate_is_held(e, i);
+        bool mass = is_constrained(e, i);
 
         for (size_t j = 0; j < n; j++)
             mass = mass || e->M[i * n + j] != QDOT_ZERO;
@@ -343,16 +343,16 @@ find_massless(elimination *e)
     }
 }
 
-/* Differentiate the equations of massless coordinates until they contain q''. */
+/* Differentiate the equations of massless coordinates by t until they contain q''. */
 static qdot_status
-prepare_massless(elimination *e, size_t *pivot)
+differentiate_massless_equations(elimination *e, size_t *pivot)
 {
     qdot_variation *v = e->v;
 
     for (size_t c = 0; c < e->w; c++) {
         const qdot_expr G = qdot_variation_with_numbers(v, v->G[c]);
 
-        v->of_positions[c] = G != QDOT_NIL && !holds_jet(e, G, 1);
+        v->of_positions[c] = G != QDOT_NIL && !contains_massless_derivative(e, G, 1);
         e->rate[c] = qdot_ddt(e->pool, v->G[c]);
         if (v->of_positions[c])
             e->rate[c] = qdot_ddt(e->pool, e->rate[c]);
@@ -367,7 +367,7 @@ prepare_massless(elimination *e, size_t *pivot)
 
 /* Differentiate constraint c by t until it contains q''. */
 static qdot_expr
-second_rate(const elimination *e, size_t c)
+second_derivative(const elimination *e, size_t c)
 {
     const qdot_constraint *of = &e->v->of->constraints.at[c];
     qdot_expr mu, f = qdot_integrated_rate(e->v->of, c, &mu);
@@ -378,7 +378,7 @@ second_rate(const elimination *e, size_t c)
 }
 
 static qdot_status
-say_singular(const elimination *e, size_t pivot, bool constraint)
+fail_singular(const elimination *e, size_t pivot, bool constraint)
 {
     const qdot_scene *s = e->v->of;
 
@@ -392,7 +392,7 @@ say_singular(const elimination *e, size_t pivot, bool constraint)
 }
 
 static qdot_status
-say_undetermined(const elimination *e, size_t pivot)
+fail_undetermined(const elimination *e, size_t pivot)
 {
     const char *name = qdot_expr_symbol(e->pool, e->v->of->coordinates.at[pivot])->name;
 
@@ -402,9 +402,9 @@ say_undetermined(const elimination *e, size_t pivot)
                      name);
 }
 
-/* Derive M, f and the constraints, and factor them. */
+/* Derive M, f and the constraints, and factor the matrices of the equations. */
 static qdot_status
-elimination_prepare(elimination *e)
+derive_and_factor(elimination *e)
 {
     qdot_variation *v = e->v;
     qdot_scene *s = v->of;
@@ -427,20 +427,20 @@ elimination_prepare(elimination *e)
         e->f[i] = qdot_variation_with_numbers(v, qdot_expr_arg(pool, f, (uint32_t)i));
     QDOT_TRY(qdot_pool_check(pool));
     find_massless(e);
-    status = ldl_factor(pool, n, e->L, &pivot);
+    status = factor_ldl(pool, n, e->L, &pivot);
     if (status == QDOT_ESINGULAR)
-        return say_singular(e, pivot, false);
+        return fail_singular(e, pivot, false);
     if (status == QDOT_OK)
-        status = prepare_massless(e, &pivot);
+        status = differentiate_massless_equations(e, &pivot);
     if (status == QDOT_ESINGULAR)
-        return say_undetermined(e, pivot);
+        return fail_undetermined(e, pivot);
     for (size_t c = 0; c < m && status == QDOT_OK; c++) {
-        e->F[c] = qdot_variation_with_numbers(v, second_rate(e, c));
+        e->F[c] = qdot_variation_with_numbers(v, second_derivative(e, c));
         for (size_t i = 0; i < n; i++)
             e->A[c * n + i] = e->B[c * n + i] =
                 qdot_diff(pool, e->F[c], qdot_variation_jet(v, i, 2));
         status = qdot_pool_check(pool);
-        ldl_solve(pool, n, e->L, e->B + c * n);
+        solve_ldl(pool, n, e->L, e->B + c * n);
     }
     for (size_t c = 0; c < m && status == QDOT_OK; c++)
         for (size_t d = 0; d < m; d++) {
@@ -452,11 +452,11 @@ elimination_prepare(elimination *e)
             e->S[c * m + d] = qdot_hold(pool, sum);
         }
     if (status == QDOT_OK && m > 0)
-        status = ldl_factor(pool, m, e->S, &pivot);
-    return status == QDOT_ESINGULAR ? say_singular(e, pivot, true) : status;
+        status = factor_ldl(pool, m, e->S, &pivot);
+    return status == QDOT_ESINGULAR ? fail_singular(e, pivot, true) : status;
 }
 
-/* Solve for q'' and lambda in symbols, by the factors. */
+/* Solve symbolically for q'' and lambda, by the factors of the matrices. */
 static qdot_status
 solve_motion(const elimination *e)
 {
@@ -473,16 +473,16 @@ solve_motion(const elimination *e)
         }
         e->z[c] = qdot_neg(e->pool, rest);
     }
-    solve_both(e, v->a, e->z);
+    solve_with_constraints(e, v->a, e->z);
     memcpy(v->lambda, e->z, e->m * sizeof *v->lambda);
     return qdot_pool_check(e->pool);
 }
 
 /* --- derivatives of the equations -------------------------------------------------------- */
 
-/* Find the right-hand sides of the derivatives by z, a coordinate or velocity: e->x, e->z. */
+/* Find, into e->x and e->z, right-hand sides of the derivatives by z, a coordinate or a velocity. */
 static void
-slope_by(const elimination *e, qdot_expr z)
+derivatives_by_state(const elimination *e, qdot_expr z)
 {
     qdot_pool *pool = e->pool;
     const qdot_variation *v = e->v;
@@ -505,9 +505,9 @@ slope_by(const elimination *e, qdot_expr z)
                                                      v, qdot_diff(pool, e->F[c], z))));
 }
 
-/* Add to x and z the derivatives by the parameter of direction k. */
+/* Add to x and z the derivatives of the equations by the parameter of direction k. */
 static void
-add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
+add_derivatives_by_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
 {
     const qdot_variation *v = e->v;
     qdot_pool *pool = e->pool;
@@ -531,7 +531,7 @@ add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
         z[e->m + c] = qdot_sub(pool, z[e->m + c],
                                qdot_variation_with_motion(v, qdot_variation_by_parameter(v, e->rate[c], k)));
     for (size_t c = 0; c < e->m; c++) {
-        const qdot_expr F = second_rate(e, c);
+        const qdot_expr F = second_derivative(e, c);
 
         z[c] =
             qdot_sub(pool, z[c],
@@ -546,9 +546,9 @@ add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
     }
 }
 
-/* Find y'' of all directions, b [k x n]. */
+/* Find y'' = d2/dt2 (dq/ds) for all directions of differentiation, b [k x n]. */
 static qdot_status
-solve_slopes(const elimination *e, qdot_expr *b)
+solve_for_derivatives(const elimination *e, qdot_expr *b)
 {
     const qdot_variation *v = e->v;
     qdot_pool *pool = e->pool;
@@ -563,7 +563,7 @@ solve_slopes(const elimination *e, qdot_expr *b)
         mu[i] = QDOT_ZERO;
     for (uint32_t order = 0; order < 2; order++)
         for (size_t j = 0; j < n && !qdot_pool_failed(pool); j++) {
-            slope_by(e, qdot_variation_jet(v, j, order));
+            derivatives_by_state(e, qdot_variation_jet(v, j, order));
             for (size_t k = 0; k < v->k; k++) {
                 const qdot_expr y = qdot_variation_slope_jet(v, k, j, order);
 
@@ -577,8 +577,8 @@ solve_slopes(const elimination *e, qdot_expr *b)
         }
     for (size_t k = 0; k < v->k && !qdot_pool_failed(pool); k++) {
         if (v->by[k].parameter != QDOT_NIL)
-            add_parameter(e, k, b + k * n, mu + k * m);
-        solve_both(e, b + k * n, mu + k * m);
+            add_derivatives_by_parameter(e, k, b + k * n, mu + k * m);
+        solve_with_constraints(e, b + k * n, mu + k * m);
     }
     qdot_free(mu);
     return qdot_pool_check(pool);
@@ -587,7 +587,7 @@ solve_slopes(const elimination *e, qdot_expr *b)
 /* --- the whole variation ----------------------------------------------------------------- */
 
 static qdot_status
-name_slopes(qdot_variation *v)
+name_derivative_coordinates(qdot_variation *v)
 {
     for (size_t k = 0; k < v->k; k++)
         for (size_t i = 0; i < v->n; i++) {
@@ -602,13 +602,13 @@ name_slopes(qdot_variation *v)
 }
 
 static qdot_status
-variation_make(elimination *e, qdot_expr *b)
+make_variation(elimination *e, qdot_expr *b)
 {
-    QDOT_TRY(name_slopes(e->v));
-    QDOT_TRY(refuse_events(e->v->of));
-    QDOT_TRY(elimination_prepare(e));
+    QDOT_TRY(name_derivative_coordinates(e->v));
+    QDOT_TRY(refuse_unsuitable_events(e->v->of));
+    QDOT_TRY(derive_and_factor(e));
     QDOT_TRY(solve_motion(e));
-    QDOT_TRY(solve_slopes(e, b));
+    QDOT_TRY(solve_for_derivatives(e, b));
     e->v->n_massless = e->w;
     e->v->w = e->held ? e->w : 0;
     return qdot_variation_write(e->v, b);
@@ -645,7 +645,7 @@ qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k
         e.S = e.B + m * n;
         e.rate = e.S + m * m;
         e.W = e.rate + n;
-        status = variation_make(&e, e.W + n * n);
+        status = make_variation(&e, e.W + n * n);
     }
     qdot_free(work);
     return status;

@@ -22,30 +22,30 @@ enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
 
 static const double budget_default = 3e8;
 
-/* The tolerance of a reference run in doubles. */
+/* The tolerance of a reference run in double precision. */
 static const double reference_tol = 1e-15;
 
-/* A smaller error counts as rounding, even for a motion of small variation. */
+/* A smaller error counts as rounding, even if the motion varies little. */
 static const double rounding = 1e-14;
 
-/* A method that is measured, with its run and limits. */
+/* An integration method that is measured, with its run and its limits. */
 typedef struct {
     qdot_method_run run;
-    qdot_course course; /* the run by pieces, if events or switches may divide it */
+    qdot_course course; /* the run in pieces, if events or switches may divide it */
     double t_end;
     qdot_ode_system system;
     uint64_t most_evaluations;
     double drift;           /* largest energy drift along the run */
-    qdot_constrained *held; /* constraints; NULL: none */
+    qdot_constrained *held; /* constraint solver; NULL: no constraints */
     double residual;        /* largest constraint residual so far */
 } worker;
 
-/* The end state of the reference run, as sums of two doubles. */
+/* The end state of the reference run, in double-double precision. */
 typedef struct {
     size_t n;
     double *high, *low;
     double t_end;
-    bool stopped;     /* an event stopped the run at t_end */
+    bool stopped;     /* an event stopped the reference run, at t_end */
     double variation; /* sensitivity of the end state to the start (horizon.h) */
 } reference;
 
@@ -66,7 +66,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
     if (status == QDOT_ENOTBUILT || (scene->constraints.n > 0 && status == QDOT_ESINGULAR) ||
-        /* `digits` cannot be used, as with abs(x)^1.5 or a coordinate without mass */
+        /* double precision: `digits` is impossible, as with abs(x)^1.5 or a massless coordinate */
         (run == NULL && status == QDOT_EFAILED)) {
         precise.digits = 0;
         status = qdot_run_new(scene, &precise, &run);
@@ -111,7 +111,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     return status;
 }
 
-/* Find the scaled error of an end state; if an event ends the run also that of its time. */
+/* Find the scaled error of an end state; if an event ends the run, also the error of the event's time. */
 static double
 error_against(const reference *r, const double *scales, const double *y, double t)
 {
@@ -129,7 +129,7 @@ error_against(const reference *r, const double *scales, const double *y, double 
 /* --- the runs of one method ---------------------------------------------------------- */
 
 static void
-follow_energy(worker *w, double t, const double *y)
+record_energy_drift(worker *w, double t, const double *y)
 {
     const double change = fabs(qdot_method_run_energy_error(&w->run, t, y));
 
@@ -138,7 +138,7 @@ follow_energy(worker *w, double t, const double *y)
 }
 
 static void
-follow_constraints(worker *w, double t, const double *y)
+record_constraint_residual(worker *w, double t, const double *y)
 {
     qdot_constrained_residual r = qdot_constrained_measure(w->held, t, y);
     double residual = r.worst_position == SIZE_MAX ? r.velocity : r.position;
@@ -148,28 +148,28 @@ follow_constraints(worker *w, double t, const double *y)
 }
 
 static qdot_status
-worker_follow(double t, const double *y, bool *stop, void *user)
+record_drifts_of_step(double t, const double *y, bool *stop, void *user)
 {
     worker *w = user;
 
     (void)stop;
     if (w->run.energy)
-        follow_energy(w, t, y);
+        record_energy_drift(w, t, y);
     if (w->held)
-        follow_constraints(w, t, y);
+        record_constraint_residual(w, t, y);
     return QDOT_OK;
 }
 
 static void
-worker_clear(worker *w)
+clear_worker(worker *w)
 {
     qdot_course_clear(&w->course);
     qdot_method_run_clear(&w->run);
 }
 
 static qdot_status
-worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
-            const char *method, double tol, double budget)
+begin_worker(worker *w, qdot_scene *scene, const qdot_run_request *request,
+             const char *method, double tol, double budget)
 {
     double n, operations;
 
@@ -185,9 +185,9 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
-/* Whether the energy is conserved: events do not change it. */
+/* Whether the energy is conserved along the whole run: no event changes it. */
 static bool
-keeps_energy(const worker *w)
+is_energy_kept(const worker *w)
 {
     for (size_t i = 0; i < w->run.stage.events.n; i++)
         if (w->run.stage.events.at[i].then)
@@ -195,9 +195,9 @@ keeps_energy(const worker *w)
     return w->run.energy != NULL;
 }
 
-/* Measure the drift of the energy and of the constraints at all points of the course. */
+/* Measure the drifts of the energy and of the constraints at all stored points of the run. */
 static void
-follow_course(worker *w)
+measure_drifts(worker *w)
 {
     const qdot_trajectory *tr = &w->course.tr;
 
@@ -206,18 +206,18 @@ follow_course(worker *w)
         const double *y = tr->y + k * tr->n;
         const qdot_trajectory_piece *p = tr->pieces.at + qdot_trajectory_piece_of(tr, k);
 
-        if (keeps_energy(w))
-            follow_energy(w, tr->t[k], y);
+        if (is_energy_kept(w))
+            record_energy_drift(w, tr->t[k], y);
         if (w->held) {
             w->held = qdot_bind_held(w->course.binds.at[p->mode]);
-            follow_constraints(w, tr->t[k], y);
+            record_constraint_residual(w, tr->t[k], y);
         }
     }
 }
 
-/* Integrate a run that events, domains or switches divide into pieces. */
+/* Integrate a run that events, domains or switches may divide into pieces. */
 static qdot_status
-go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
+integrate_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
     const uint64_t a_step = w->run.plan->method->series ? 1 : 10; /* evaluations of f in one step, approximately */
     const qdot_ode_options options = {.tol = tol,
@@ -241,13 +241,13 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
     if (status == QDOT_OK && w->course.failed)
         return qdot_fail(QDOT_EFAILED, "%s", w->course.reason);
     if (watched && status == QDOT_OK)
-        follow_course(w);
+        measure_drifts(w);
     return status;
 }
 
-/* Integrate from start to end; `watched` to measure drifts, otherwise for timing. */
+/* Integrate from start to end; `watched`: measure drifts; otherwise only the time is measured. */
 static qdot_status
-worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
+integrate_once(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
     qdot_ode_options options = {.tol = tol,
                                 .max_evaluations = w->most_evaluations,
@@ -256,24 +256,24 @@ worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
 
     qdot_progress_begin(w->run.t0, w->run.t1, "%s, tol %.0e", w->run.plan->method->name, tol);
     if (w->run.pieces)
-        return go_in_pieces(w, tol, watched, result);
+        return integrate_in_pieces(w, tol, watched, result);
     memcpy(w->run.y, w->run.start, w->system.n * sizeof *w->run.y);
     w->t_end = w->run.t1;
     if (watched && (w->run.energy || w->held)) {
         w->drift = w->residual = 0;
-        options.accepted = worker_follow;
+        options.accepted = record_drifts_of_step;
         options.user = w;
     }
-    /* methods that can count their work in advance */
+    /* only methods that can count their work in advance */
     if (w->run.plan->method->series || w->run.plan->method->geometric)
         options.max_steps = w->most_evaluations;
     return qdot_ode_integrate(&w->system, w->run.plan->method, &options,
                               w->run.t0, w->run.t1, w->run.y, result);
 }
 
-/* Measure the run time by at least three runs, or more if they are short. */
+/* Measure the CPU time by at least three runs; by more if they are short. */
 static qdot_status
-take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
+measure_times(worker *w, double tol, double first, qdot_workprecision_row *row)
 {
     double times[MOST_TIMES];
     int n = first < 0.02 ? MOST_TIMES : first < 0.1 ? 5 : 3;
@@ -281,7 +281,7 @@ take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
     for (int i = 0; i < n; i++) {
         qdot_ode_result result;
 
-        QDOT_TRY(worker_run(w, tol, false, &result));
+        QDOT_TRY(integrate_once(w, tol, false, &result));
         times[i] = result.stats.cpu;
     }
     qdot_sort((size_t)n, times);
@@ -291,17 +291,17 @@ take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
 }
 
 static bool
-failure_is_kept(qdot_status status)
+is_failure_reported(qdot_status status)
 {
     return status == QDOT_EFAILED || status == QDOT_ELIMIT || status == QDOT_EDOMAIN
            || status == QDOT_ESINGULAR || status == QDOT_EINVAL;
 }
 
 static qdot_status
-one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
+measure_at_tolerance(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
 {
     qdot_ode_result result;
-    qdot_status status = worker_run(w, tol, true, &result);
+    qdot_status status = integrate_once(w, tol, true, &result);
 
     *row = (qdot_workprecision_row){.method = w->run.plan->method->name,
                                     .tol = tol,
@@ -314,7 +314,7 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
                                     .rejected = result.stats.rejected,
                                     .energy_err = NAN,
                                     .constraint_err = NAN};
-    if (failure_is_kept(status)) {
+    if (is_failure_reported(status)) {
         snprintf(row->status, sizeof row->status, "failed: %.290s",
                  qdot_last_error()->message);
         return QDOT_OK;
@@ -331,15 +331,15 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
                             ? "done: no digit is right"
                             : "done");
     row->scd = -log10(fmax(row->err, 0x1p-60));
-    if (keeps_energy(w))
+    if (is_energy_kept(w))
         row->energy_err = w->drift;
     if (w->held)
         row->constraint_err = w->residual;
-    return take_times(w, tol, result.stats.cpu, row);
+    return measure_times(w, tol, result.stats.cpu, row);
 }
 
 static qdot_status
-push_row(qdot_workprecision *out, const qdot_workprecision_row *row)
+append_row(qdot_workprecision *out, const qdot_workprecision_row *row)
 {
     QDOT_TRY(qdot_grow(&out->rows, &out->capacity, out->n + 1, sizeof *out->rows));
     out->rows[out->n++] = *row;
@@ -347,7 +347,7 @@ push_row(qdot_workprecision *out, const qdot_workprecision_row *row)
 }
 
 static double
-rung(int k)
+tolerance_of_row(int k)
 {
     return strtod((char[]){'1', 'e', '-', (char)('0' + k / 10), (char)('0' + k % 10), 0}, NULL);
 }
@@ -355,39 +355,39 @@ rung(int k)
 /* Whether the plan must be made anew for each tolerance, as some forms of equations depend on it
  * (sim/form/eliminated.h). */
 static bool
-is_planned_anew(const worker *w)
+needs_new_plan(const worker *w)
 {
     return w->run.plan->constraints && w->run.plan->method->series;
 }
 
-/* Measure a method at all tolerances. */
+/* Measure an integration method at all tolerances. */
 static qdot_status
-measure_tolerances(qdot_scene *scene, const qdot_run_request *request, const char *method,
-                   const reference *r, qdot_workprecision *out)
+measure_method(qdot_scene *scene, const qdot_run_request *request, const char *method,
+               const reference *r, qdot_workprecision *out)
 {
     const double budget = out->budget > 0 ? out->budget : budget_default;
     worker w = {0};
-    qdot_status status = worker_init(&w, scene, request, method, rung(FIRST), budget);
+    qdot_status status = begin_worker(&w, scene, request, method, tolerance_of_row(FIRST), budget);
 
     for (int k = FIRST; k <= LAST && status == QDOT_OK; k++) {
         qdot_workprecision_row row;
 
-        if (k > FIRST && is_planned_anew(&w)) {
-            worker_clear(&w);
+        if (k > FIRST && needs_new_plan(&w)) {
+            clear_worker(&w);
             w = (worker){0};
-            status = worker_init(&w, scene, request, method, rung(k), budget);
+            status = begin_worker(&w, scene, request, method, tolerance_of_row(k), budget);
         }
         if (status == QDOT_OK)
-            status = one_row(&w, rung(k), r, &row);
+            status = measure_at_tolerance(&w, tolerance_of_row(k), r, &row);
         if (status == QDOT_OK)
-            status = push_row(out, &row);
+            status = append_row(out, &row);
     }
-    worker_clear(&w);
+    clear_worker(&w);
     return status;
 }
 
 static qdot_status
-workprecision_measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *out)
+measure_all_methods(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *out)
 {
     reference r = {0};
     qdot_status status = make_reference(scene, request, &r, &out->ref_err);
@@ -396,7 +396,7 @@ workprecision_measure(qdot_scene *scene, const qdot_run_request *request, qdot_w
     for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++) {
         const char *method = qdot_ode_method_at(i)->name;
 
-        status = measure_tolerances(scene, request, method, &r, out);
+        status = measure_method(scene, request, method, &r, out);
         if (status == QDOT_ENOTBUILT)
             status = qdot_methods_leave_out(&out->left_out, method);
     }
@@ -415,7 +415,7 @@ qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
-    status = workprecision_measure(scene, &states.request, out);
+    status = measure_all_methods(scene, &states.request, out);
     qdot_parameter_states_clear(&states);
     return status;
 }

@@ -37,7 +37,7 @@ typedef struct {
     const char *method;
     double tol, err, scd, time_min, time_median; /* tolerance, error, correct digits, CPU times; NaN: failed */
     uint64_t evals, steps, rejected;
-    double energy_err; /* error of the energy; NaN: not conserved, or failed */
+    double energy_err; /* error of the conserved energy; NaN: not conserved, or the run failed */
     double constraint_err; /* largest constraint residual; NaN: no constraints, or failed */
     char status[300];  /* "done", "done: no digit is right", or "failed: " and the reason */
 } qdot_workprecision_row;
@@ -47,7 +47,7 @@ typedef struct {
     size_t n, capacity;
     qdot_workprecision_row *rows; /* [n] rows method by method, with decreasing tolerance */
     qdot_methods_left_out left_out;
-    double ref_err; /* error of the reference run, in the measure of `err` */
+    double ref_err; /* error of the reference run, measured in the same way as `err` */
     bool interrupted; /* interrupted by Ctrl-C: only some rows are filled */
     bool constraints; /* the scene has constraints */
 } qdot_workprecision;

@@ -7,7 +7,7 @@
 /* Whether function i crosses 0 within one double after t, where the run ends: it then counts as a
  * zero at the end. */
 static qdot_status
-is_about_to_cross(qdot_watch *w, size_t i, double t, bool *is)
+is_about_to_cross_zero(qdot_watch *w, size_t i, double t, bool *is)
 {
     const double before = nextafter(t, -w->direction * INFINITY);
     double g;
@@ -30,7 +30,7 @@ qdot_watch_end_on_zero(qdot_watch *w, double t)
     for (size_t i = 0; i < w->m; i++) {
         bool about;
 
-        QDOT_TRY(is_about_to_cross(w, i, t, &about));
+        QDOT_TRY(is_about_to_cross_zero(w, i, t, &about));
         if (w->grazed[i])
             QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
                                                     .t = t,
@@ -44,9 +44,9 @@ qdot_watch_end_on_zero(qdot_watch *w, double t)
     return QDOT_OK;
 }
 
-/* Whether the state in z at time t equals the start within rounding. */
+/* Whether the state in z at time t equals the start state within rounding. */
 static bool
-is_start(const qdot_watch *w, double t, const double *z)
+is_start_state(const qdot_watch *w, double t, const double *z)
 {
     const double by = 4 * DBL_EPSILON;
 
@@ -69,7 +69,7 @@ qdot_watch_forget_start(qdot_watch *w)
 
         if (root->way == 0 || root->stays) {
             QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
-            is = is_start(w, root->t, w->z);
+            is = is_start_state(w, root->t, w->z);
         }
         if (!is)
             w->roots.at[n++] = *root;

@@ -1,12 +1,12 @@
-/* watch-exclusion.c -- proves, by bounds over complex discs, that intervals of a step contain no root. */
+/* watch-exclusion.c -- proves, by bounds over complex discs, that a watched function has no root in an interval. */
 #include <float.h>
 #include <math.h>
 
 #include "sim/watch/watch-parts.h"
 
-/* Whether the interval of the function excludes 0; used if discs give no bound. */
+/* Whether interval arithmetic excludes a zero of the function; used if complex discs give no bound. */
 static bool
-keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
+interval_excludes_zero(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
 {
     const qdot_interval *box = w->bounds.box + i;
 
@@ -36,7 +36,7 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
 
         if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) || miss <= of_rounding * w->hidden[i] ||
             qdot_polynomial_bounds_is_hollow(&w->bounds, i, part) ||
-            keeps_off(w, p, nodes, i, &enclosed))
+            interval_excludes_zero(w, p, nodes, i, &enclosed))
             continue;
         worst = v > worst ? v : worst;
     }
@@ -44,15 +44,15 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
 }
 
 static bool
-discs_exclude(const qdot_watch *w, size_t i)
+discs_exclude_zero(const qdot_watch *w, size_t i)
 {
     return fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
            qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
 }
 
-/* Whether the bounds exclude 0 of function i, touches included. */
+/* Whether the bounds of function i on the step exclude 0, even a touch of 0. */
 static bool
-box_excludes(const qdot_watch *w, size_t i)
+bounds_exclude_zero(const qdot_watch *w, size_t i)
 {
     static const double near = 0x1p-10;
     const qdot_interval *box = w->bounds.box + i;
@@ -62,7 +62,7 @@ box_excludes(const qdot_watch *w, size_t i)
                                   : false;
 }
 
-/* Bound all functions over the step: by discs, and also by intervals if discs do not exclude all zeros. */
+/* Bound all functions over the step: by complex discs, and by intervals if discs do not exclude all zeros. */
 void
 qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
 {
@@ -74,7 +74,7 @@ qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
     qdot_polynomial_bounds_series(&w->bounds, w->reader.system->series, step);
     w->bound_at_step = true;
     for (size_t i = 0; i < w->m; i++)
-        all = all && discs_exclude(w, i);
+        all = all && discs_exclude_zero(w, i);
     if (all)
         return;
     qdot_polynomial_bounds_box(&w->bounds);
@@ -85,5 +85,5 @@ bool
 qdot_watch_excludes(const qdot_watch *w, size_t i)
 {
     return w->bound_at_step &&
-           (discs_exclude(w, i) || (w->boxed_at_step && box_excludes(w, i)));
+           (discs_exclude_zero(w, i) || (w->boxed_at_step && bounds_exclude_zero(w, i)));
 }

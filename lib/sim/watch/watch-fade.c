@@ -1,4 +1,4 @@
-/* watch-fade.c -- detects functions that have decayed below the rounding error of the run. */
+/* watch-fade.c -- detects watched functions that have decayed below the rounding error of the run. */
 #include <float.h>
 #include <math.h>
 
@@ -6,7 +6,7 @@
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
-/* A function has decayed if it is below this part of its largest value so far. */
+/* A function counts as decayed if it is below this fraction of its largest magnitude so far. */
 static const double decayed = 0x1p-20;
 
 /* It has faded when it was within its rounding all through so many steps in a row: one that only crosses 0 is larger at
@@ -23,9 +23,9 @@ qdot_watch_may_fade(qdot_watch *w, size_t i, bool may)
     w->may_fade[i] = may;
 }
 
-/* Find the rounding error of g_i if each component of y [2n] is rounded relative to its scale. */
+/* Find how much the function g_i changes if each component of y [2n] is rounded relative to its scale. */
 static qdot_status
-find_floor(qdot_watch *w, double t, const double *y, size_t i, double *floor)
+find_rounding_level(qdot_watch *w, double t, const double *y, size_t i, double *floor)
 {
     const double *scales = w->reader.system->scales;
 
@@ -36,15 +36,15 @@ find_floor(qdot_watch *w, double t, const double *y, size_t i, double *floor)
     return QDOT_OK;
 }
 
-/* Whether g_i is within its rounding error, but not 0, throughout the step to (t, y). */
+/* Whether g_i is non-zero but within its rounding error throughout the step that ends at (t, y). */
 static qdot_status
-is_within(qdot_watch *w, double t, const double *y, size_t i, bool *within)
+is_within_rounding(qdot_watch *w, double t, const double *y, size_t i, bool *within)
 {
     enum { PLACES = 4 };
     double floor, most = fabs(w->final[i]);
 
     *within = false;
-    QDOT_TRY(find_floor(w, t, y, i, &floor));
+    QDOT_TRY(find_rounding_level(w, t, y, i, &floor));
     if (most > floor)
         return QDOT_OK;
     for (int k = 1; k < PLACES && most <= floor; k++) {
@@ -65,7 +65,7 @@ qdot_watch_find_fading(qdot_watch *w, double t, const double *y)
         bool within = false;
 
         if (w->may_fade[i] && fabs(w->final[i]) <= decayed * w->most[i])
-            QDOT_TRY(is_within(w, t, y, i, &within));
+            QDOT_TRY(is_within_rounding(w, t, y, i, &within));
         w->fading[i] = within;
     }
     return QDOT_OK;

@@ -26,10 +26,10 @@
  * rounding for m < 6. */
 enum { BITS = 640 };
 
-/* A slope below this part of |g| on the part, per length of the part, is looked at. */
+/* A flat root is looked for if the slope, times the interval's length, is below this fraction of |g|. */
 static const double hardly_any = 1e-3;
 
-/* g is of odd order m > 1 where it grows by more than this from h to 2h: by 2^m; or a bounce, however low, by 4. */
+/* Growth of g from distance h to 2h that shows an odd power m > 1 (factor 2^m); a bounce grows by 4. */
 static const double growth_of_cube = 6;
 
 void
@@ -39,14 +39,14 @@ qdot_watch_clear_flat(qdot_watch *w)
 }
 
 static double
-step_of_double(double t)
+spacing_of_doubles(double t)
 {
     return nextafter(fabs(t), INFINITY) - fabs(t);
 }
 
 /* --- values in many digits ------------------------------------------------------------- */
 
-/* Function i at the state in w->state_two, of which component k (SIZE_MAX: none) is changed by `by`. */
+/* The value of function i at the state w->state_two, with component k (SIZE_MAX: none) changed by `by`. */
 static double
 value_of_state(qdot_watch *w, size_t i, double t, size_t k, double by)
 {
@@ -66,24 +66,24 @@ value_of_state(qdot_watch *w, size_t i, double t, size_t k, double by)
     if (!mpfr_number_p(out[0]))
         return NAN;
     g = mpfr_get_d(out[0], RN);
-    return mpfr_sgn(out[0]) * fmin(fmax(fabs(g), DBL_MIN), QDOT_WATCH_MOST); /* a zero remains a zero */
+    return mpfr_sgn(out[0]) * fmin(fmax(fabs(g), DBL_MIN), QDOT_WATCH_MOST); /* keeps the sign: only a zero becomes 0 */
 }
 
 static qdot_status
-value_in_digits(qdot_watch *w, size_t i, double t, double *g)
+evaluate_in_multiple_precision(qdot_watch *w, size_t i, double t, double *g)
 {
     QDOT_TRY(qdot_watch_read_two(w, t));
     *g = value_of_state(w, i, t, SIZE_MAX, 0);
     return QDOT_OK;
 }
 
-/* What rounding of the state at t makes of function i. */
+/* Find how much rounding of the state at t changes function i. */
 static qdot_status
-noise_at(qdot_watch *w, size_t i, double t, double *noise)
+find_state_rounding_effect(qdot_watch *w, size_t i, double t, double *noise)
 {
     double g;
 
-    QDOT_TRY(value_in_digits(w, i, t, &g));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, t, &g));
     *noise = 0;
     for (size_t k = 0; k < 2 * w->n && !w->clock[i]; k++) {
         const double size = fmax(fabs(w->state_two[k].hi), w->largest ? w->largest[k] : 0),
@@ -99,8 +99,8 @@ qdot_watch_noise_deep(qdot_watch *w, const qdot_watch_part *p, size_t i, double 
 {
     double end;
 
-    QDOT_TRY(noise_at(w, i, p->a, noise));
-    QDOT_TRY(noise_at(w, i, p->b, &end));
+    QDOT_TRY(find_state_rounding_effect(w, i, p->a, noise));
+    QDOT_TRY(find_state_rounding_effect(w, i, p->b, &end));
     *noise = fmax(*noise, end);
     return QDOT_OK;
 }
@@ -112,13 +112,13 @@ qdot_watch_may_be_flat(qdot_watch *w, size_t i)
 }
 
 static bool
-may_have_many(const qdot_watch *w, size_t i)
+may_use_multiple_precision(const qdot_watch *w, size_t i)
 {
     return w->may_be_flat[i] && w->reader.alone && !w->accelerations && w->coordinate[i] == SIZE_MAX;
 }
 
 static qdot_status
-make_many(qdot_watch *w)
+make_multiple_precision_program(qdot_watch *w)
 {
     QDOT_TRY(qdot_watch_make_two(w));
     return w->many ? QDOT_OK
@@ -131,7 +131,7 @@ qdot_watch_begin_deep(qdot_watch *w, const double *low)
     const double near = 4 * DBL_EPSILON * fabs(w->t);
 
     w->any_deep = false;
-    for (size_t k = 0; k < w->roots.n; k++) /* of the step that ended here: of several it may not be the last one */
+    for (size_t k = 0; k < w->roots.n; k++) /* the root need not be the last one of the step that ended here */
         if (w->roots.at[k].deep && fabs(w->t - w->roots.at[k].t) <= near)
             w->settled[w->roots.at[k].function] = w->roots.at[k].t;
     for (size_t i = 0; i < w->m; i++) {
@@ -165,13 +165,13 @@ qdot_watch_value_deep(qdot_watch *w, double t, double *g)
     return QDOT_OK;
 }
 
-/* So many doubles of t behind a root rounding of the state hides its sign no longer. */
+/* Number of doubles of t beyond a root after which rounding of the state no longer hides the sign. */
 static const double clearly = 0x1p12;
 
 qdot_status
 qdot_watch_leave_deep(qdot_watch *w, double t)
 {
-    const double by = fmin(clearly * step_of_double(w->t), 0.5 * w->length);
+    const double by = fmin(clearly * spacing_of_doubles(w->t), 0.5 * w->length);
 
     QDOT_TRY(qdot_watch_read_two(w, w->t + w->direction * by));
     for (size_t i = 0; i < w->m; i++)
@@ -190,18 +190,18 @@ qdot_watch_end_deep(qdot_watch *w)
 
 /* --- a crossing ------------------------------------------------------------------------ */
 
-/* From t on, by steps that double, as far as `end`: where function i has the sign `sign` (0: any) and exceeds `noise`; *found. */
+/* From t to `end`, in doubling steps, find where function i has the sign `sign` (0: any) and exceeds `noise`. */
 static qdot_status
-seek_sign(qdot_watch *w, size_t i, double t, double end, int sign, double noise, double *at, bool *found)
+search_clear_sign(qdot_watch *w, size_t i, double t, double end, int sign, double noise, double *at, bool *found)
 {
     const double way = end < t ? -1 : 1;
-    double by = step_of_double(t);
+    double by = spacing_of_doubles(t);
 
     *found = false;
     for (*at = t; !*found; by *= 2) {
         double g;
 
-        QDOT_TRY(value_in_digits(w, i, *at, &g));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, *at, &g));
         *found = (sign == 0 ? fabs(g) : g * sign) > noise;
         if (*found || *at == end)
             break;
@@ -210,9 +210,9 @@ seek_sign(qdot_watch *w, size_t i, double t, double end, int sign, double noise,
     return QDOT_OK;
 }
 
-/* Bisect the root between lo, where function i has the sign -way, and hi, in the direction of the run. */
+/* Bisect for the root between lo, where function i has the sign -way, and hi, in the run's time direction. */
 static qdot_status
-bisect(qdot_watch *w, size_t i, int way, double lo, double hi, qdot_root *root)
+bisect_root(qdot_watch *w, size_t i, int way, double lo, double hi, qdot_root *root)
 {
     double ends[2];
 
@@ -222,11 +222,11 @@ bisect(qdot_watch *w, size_t i, int way, double lo, double hi, qdot_root *root)
 
         if (middle == lo || middle == hi)
             break;
-        QDOT_TRY(value_in_digits(w, i, middle, &g));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, middle, &g));
         *(g * way >= 0 ? &hi : &lo) = middle;
     }
-    QDOT_TRY(value_in_digits(w, i, lo, ends));
-    QDOT_TRY(value_in_digits(w, i, hi, ends + 1));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, lo, ends));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, hi, ends + 1));
     root->t = hi;
     root->exact = ends[1] == 0;
     root->late = root->exact ? 0 : fabs(hi - lo) * (fabs(ends[1]) / (fabs(ends[0]) + fabs(ends[1])));
@@ -234,17 +234,17 @@ bisect(qdot_watch *w, size_t i, int way, double lo, double hi, qdot_root *root)
     return QDOT_OK;
 }
 
-/* Whether function i crosses 0 at t like an odd power above the first. */
+/* Whether function i crosses 0 at t like an odd power (t - root)^m with m > 1. */
 static qdot_status
-crosses_flatly(qdot_watch *w, size_t i, double t, double h, bool *is)
+crosses_like_odd_power(qdot_watch *w, size_t i, double t, double h, bool *is)
 {
     double odd[2], even[2];
 
     for (int k = 0; k < 2; k++) {
         double before, behind;
 
-        QDOT_TRY(value_in_digits(w, i, t - (k + 1) * h, &before));
-        QDOT_TRY(value_in_digits(w, i, t + (k + 1) * h, &behind));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, t - (k + 1) * h, &before));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, t + (k + 1) * h, &behind));
         odd[k] = fabs(behind - before);
         even[k] = fabs(behind + before);
     }
@@ -252,7 +252,7 @@ crosses_flatly(qdot_watch *w, size_t i, double t, double h, bool *is)
     return QDOT_OK;
 }
 
-/* Whether the root is one that was found already, or where the piece starts: rounding makes several of a flat one. */
+/* Whether the root was found already, or is where the piece started: rounding splits a flat root into several. */
 static bool
 is_found_already(const qdot_watch *w, const qdot_root *root)
 {
@@ -266,9 +266,9 @@ is_found_already(const qdot_watch *w, const qdot_root *root)
     return false;
 }
 
-/* Note a root that is located in many digits, and set its residual: |g| that doubles may see beside it. */
+/* Record a root located in multiple precision, and set its residual: the |g| that doubles may show beside it. */
 static qdot_status
-leave_residual(qdot_watch *w, double noise, qdot_root *root)
+record_with_residual(qdot_watch *w, double noise, qdot_root *root)
 {
     double operations;
 
@@ -279,21 +279,21 @@ leave_residual(qdot_watch *w, double noise, qdot_root *root)
     return QDOT_OK;
 }
 
-/* The times around a root that are looked at: those of the step. */
+/* The time interval that is examined around a flat root, within the step. */
 typedef struct {
     double from, to, ulp;
 } flat_range;
 
-/* Between lo and hi: the least of sign * g_i, at *t. */
+/* Find the smallest value of sign * g_i between lo and hi, at the time *t. */
 static qdot_status
-seek_least(qdot_watch *w, size_t i, int sign, double lo, double hi, double *t)
+minimise_between(qdot_watch *w, size_t i, int sign, double lo, double hi, double *t)
 {
-    while (fabs(hi - lo) > 4 * step_of_double(fmax(fabs(lo), fabs(hi)))) {
+    while (fabs(hi - lo) > 4 * spacing_of_doubles(fmax(fabs(lo), fabs(hi)))) {
         const double third = (hi - lo) / 3;
         double a, b;
 
-        QDOT_TRY(value_in_digits(w, i, lo + third, &a));
-        QDOT_TRY(value_in_digits(w, i, hi - third, &b));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, lo + third, &a));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, hi - third, &b));
         if (sign * a < sign * b)
             hi -= third;
         else
@@ -303,16 +303,16 @@ seek_least(qdot_watch *w, size_t i, int sign, double lo, double hi, double *t)
     return QDOT_OK;
 }
 
-/* The change of function i by a few doubles of t about `t`. */
+/* Find the change of function i if t changes by a few doubles about `t`. */
 static qdot_status
-change_at(qdot_watch *w, size_t i, double t, double *change)
+find_change_over_doubles(qdot_watch *w, size_t i, double t, double *change)
 {
-    const double by = 4 * step_of_double(t);
+    const double by = 4 * spacing_of_doubles(t);
     double at, before, behind;
 
-    QDOT_TRY(value_in_digits(w, i, t, &at));
-    QDOT_TRY(value_in_digits(w, i, t - by, &before));
-    QDOT_TRY(value_in_digits(w, i, t + by, &behind));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, t, &at));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, t - by, &before));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, t + by, &behind));
     *change = fmax(fabs(before - at), fabs(behind - at));
     return QDOT_OK;
 }
@@ -320,14 +320,14 @@ change_at(qdot_watch *w, size_t i, double t, double *change)
 /* The extremum of function i, of that sign on both sides, to which it falls from root->t. If that is 0 but for rounding of
  * the state the root becomes a touch there; *is. */
 static qdot_status
-make_touch(qdot_watch *w, const flat_range *of, int sign, qdot_root *root, bool *is)
+make_touching_root(qdot_watch *w, const flat_range *of, int sign, qdot_root *root, bool *is)
 {
     const size_t i = root->function;
     double ends[2], g, noise, change;
     bool found;
 
-    QDOT_TRY(value_in_digits(w, i, root->t, &g));
-    /* to both sides: to the nearest point with a clear sign, and twice as far */
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, root->t, &g));
+    /* on both sides: search the nearest point with a clear sign, and a point twice as far */
     for (int side = 0; side < 2; side++) {
         const double end = side == 0 ? of->from : of->to, way = end < root->t ? -1 : 1;
         double there = g, last = g;
@@ -336,38 +336,38 @@ make_touch(qdot_watch *w, const flat_range *of, int sign, qdot_root *root, bool 
         for (double by = of->ulp; ends[side] != end && sign * there <= sign * last; by *= 2) {
             last = there;
             ends[side] = way * (root->t + way * by - end) < 0 ? root->t + way * by : end;
-            QDOT_TRY(value_in_digits(w, i, ends[side], &there));
+            QDOT_TRY(evaluate_in_multiple_precision(w, i, ends[side], &there));
         }
     }
-    QDOT_TRY(seek_least(w, i, sign, ends[0], ends[1], &root->t));
-    QDOT_TRY(noise_at(w, i, root->t, &noise));
-    QDOT_TRY(change_at(w, i, root->t, &change));
+    QDOT_TRY(minimise_between(w, i, sign, ends[0], ends[1], &root->t));
+    QDOT_TRY(find_state_rounding_effect(w, i, root->t, &noise));
+    QDOT_TRY(find_change_over_doubles(w, i, root->t, &change));
     noise += change;
-    QDOT_TRY(value_in_digits(w, i, root->t, &g));
+    QDOT_TRY(evaluate_in_multiple_precision(w, i, root->t, &g));
     *is = fabs(g) <= 4 * noise;
     if (!*is)
         return QDOT_OK;
-    QDOT_TRY(seek_sign(w, i, root->t, of->from, sign, 4 * noise, ends, &found));
-    QDOT_TRY(seek_sign(w, i, root->t, of->to, sign, 4 * noise, ends + 1, &found));
+    QDOT_TRY(search_clear_sign(w, i, root->t, of->from, sign, 4 * noise, ends, &found));
+    QDOT_TRY(search_clear_sign(w, i, root->t, of->to, sign, 4 * noise, ends + 1, &found));
     root->way = 0;
     root->exact = false;
     root->late = root->flat = 0;
     root->blur = fabs(ends[1] - ends[0]);
     root->residual = 0;
-    return leave_residual(w, noise, root);
+    return record_with_residual(w, noise, root);
 }
 
 /* How far around the crossing `root` rounding of the state hides function i: root->flat, unless it is a few doubles of t;
  * *noise: what that makes of it. */
 static qdot_status
-find_width(qdot_watch *w, const flat_range *of, qdot_root *root, double *noise)
+find_hidden_width(qdot_watch *w, const flat_range *of, qdot_root *root, double *noise)
 {
     double lo, hi;
     bool found;
 
-    QDOT_TRY(noise_at(w, root->function, root->t, noise));
-    QDOT_TRY(seek_sign(w, root->function, root->t, of->from, -root->way, *noise, &lo, &found));
-    QDOT_TRY(seek_sign(w, root->function, root->t, of->to, root->way, *noise, &hi, &found));
+    QDOT_TRY(find_state_rounding_effect(w, root->function, root->t, noise));
+    QDOT_TRY(search_clear_sign(w, root->function, root->t, of->from, -root->way, *noise, &lo, &found));
+    QDOT_TRY(search_clear_sign(w, root->function, root->t, of->to, root->way, *noise, &hi, &found));
     root->flat = fabs(hi - lo) > 16 * of->ulp ? fabs(hi - lo) : 0;
     return QDOT_OK;
 }
@@ -375,7 +375,7 @@ find_width(qdot_watch *w, const flat_range *of, qdot_root *root, double *noise)
 /* Take note of a crossing beside which the function has the other sign somewhere, as far as its operations in doubles round
  * by `hidden`: it is one of several that doubles do not tell apart. */
 static qdot_status
-look_for_several(qdot_watch *w, const flat_range *of, double noise, double hidden, qdot_root *root)
+search_several_crossings(qdot_watch *w, const flat_range *of, double noise, double hidden, qdot_root *root)
 {
     for (int side = 0; side < 2 && !root->several; side++) {
         const double end = side == 0 ? of->from : of->to, way = end < root->t ? -1 : 1;
@@ -384,7 +384,7 @@ look_for_several(qdot_watch *w, const flat_range *of, double noise, double hidde
 
         for (double by = of->ulp; at != end && !root->several && sign * g <= 64 * hidden; by *= 1.5) {
             at = way * (root->t + way * by - end) < 0 ? root->t + way * by : end;
-            QDOT_TRY(value_in_digits(w, root->function, at, &g));
+            QDOT_TRY(evaluate_in_multiple_precision(w, root->function, at, &g));
             root->several = sign * g < -noise;
         }
         if (root->several)
@@ -394,13 +394,13 @@ look_for_several(qdot_watch *w, const flat_range *of, double noise, double hidde
 }
 
 static flat_range
-flat_range_of(const qdot_watch *w, const qdot_watch_part *p, double t)
+range_around_root(const qdot_watch *w, const qdot_watch_part *p, double t)
 {
     const double length = fabs(p->b - p->a), end = w->t + w->direction * w->length;
 
     return (flat_range){.from = fabs(p->a - w->t) < length ? w->t : p->a - w->direction * length,
                         .to = fabs(end - p->b) < length ? end : p->b + w->direction * length,
-                        .ulp = step_of_double(t)};
+                        .ulp = spacing_of_doubles(t)};
 }
 
 qdot_status
@@ -408,24 +408,24 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
 {
     const size_t i = root->function;
     const double length = fabs(p->b - p->a);
-    const flat_range of = flat_range_of(w, p, root->t);
+    const flat_range of = range_around_root(w, p, root->t);
     double noise, hidden, lo, hi, room, h;
     bool before, behind;
 
     *is = true;
-    if (w->coarse || root->pole || !may_have_many(w, i)
+    if (w->coarse || root->pole || !may_use_multiple_precision(w, i)
         || slope * length > hardly_any * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
-    QDOT_TRY(make_many(w));
-    QDOT_TRY(noise_at(w, i, root->t, &noise));
-    QDOT_TRY(seek_sign(w, i, root->t, of.from, -root->way, noise, &lo, &before));
-    QDOT_TRY(seek_sign(w, i, root->t, of.to, root->way, noise, &hi, &behind));
+    QDOT_TRY(make_multiple_precision_program(w));
+    QDOT_TRY(find_state_rounding_effect(w, i, root->t, &noise));
+    QDOT_TRY(search_clear_sign(w, i, root->t, of.from, -root->way, noise, &lo, &before));
+    QDOT_TRY(search_clear_sign(w, i, root->t, of.to, root->way, noise, &hi, &behind));
     room = fmin(w->deep[i] ? INFINITY : fabs(root->t - of.from), fabs(of.to - root->t));
     if (before != behind) {
         if (room > 0x1p-10 * length) {
-            QDOT_TRY(make_touch(w, &of, before ? -root->way : root->way, root, is));
+            QDOT_TRY(make_touching_root(w, &of, before ? -root->way : root->way, root, is));
             *is = *is && !is_found_already(w, root);
-        } else { /* the flat root is at an end of the step */
+        } else { /* the flat root lies at an end of the step */
             root->flat = 16 * room;
         }
         return QDOT_OK;
@@ -434,18 +434,18 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
     if (!*is)
         return QDOT_OK;
     if (fabs(hi - lo) > 4 * of.ulp)
-        QDOT_TRY(bisect(w, i, root->way, lo, hi, root));
+        QDOT_TRY(bisect_root(w, i, root->way, lo, hi, root));
     QDOT_TRY(w->reader.read(root->t, w->in, w->reader.user));
     QDOT_TRY(qdot_watch_operations(w, root->t, false, i, &hidden));
-    QDOT_TRY(look_for_several(w, &of, noise, hidden, root));
+    QDOT_TRY(search_several_crossings(w, &of, noise, hidden, root));
     if (root->several)
         return QDOT_OK;
-    QDOT_TRY(find_width(w, &of, root, &noise));
+    QDOT_TRY(find_hidden_width(w, &of, root, &noise));
     h = fmax(64 * of.ulp, 16 * root->flat);
     if (fmin(fabs(root->t - of.from), fabs(of.to - root->t)) > 2 * h)
-        QDOT_TRY(crosses_flatly(w, i, root->t, h, &root->cubic));
+        QDOT_TRY(crosses_like_odd_power(w, i, root->t, h, &root->cubic));
     *is = !is_found_already(w, root);
-    return root->cubic || root->flat > 0 ? leave_residual(w, noise, root) : QDOT_OK;
+    return root->cubic || root->flat > 0 ? record_with_residual(w, noise, root) : QDOT_OK;
 }
 
 qdot_status
@@ -453,34 +453,34 @@ qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, bo
 {
     const size_t i = root->function;
     const double length = fabs(p->b - p->a);
-    const flat_range of = flat_range_of(w, p, root->t);
+    const flat_range of = range_around_root(w, p, root->t);
     const qdot_root seen = *root;
     double noise, at;
     int sign[2] = {0, 0};
 
     *is = true;
-    if (w->coarse || !may_have_many(w, i)
+    if (w->coarse || !may_use_multiple_precision(w, i)
         || (!hidden && fabs(bend) * length * length > hardly_any * qdot_chebyshev_size(p->n, p->c)))
         return QDOT_OK;
-    QDOT_TRY(make_many(w));
-    QDOT_TRY(noise_at(w, i, root->t, &noise));
+    QDOT_TRY(make_multiple_precision_program(w));
+    QDOT_TRY(find_state_rounding_effect(w, i, root->t, &noise));
     for (int side = 0; side < 2; side++) {
         double g;
         bool found;
 
-        QDOT_TRY(seek_sign(w, i, root->t, side == 0 ? of.from : of.to, 0, 4 * noise, &at, &found));
-        QDOT_TRY(value_in_digits(w, i, at, &g));
+        QDOT_TRY(search_clear_sign(w, i, root->t, side == 0 ? of.from : of.to, 0, 4 * noise, &at, &found));
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, at, &g));
         sign[side] = found ? qdot_watch_sign(g) : 0;
     }
-    *is = sign[0] != 0 || !w->deep[i] || of.from != w->t; /* else it is the zero that the piece starts on */
-    if (sign[0] == 0 || sign[1] == 0)                     /* at an end of the step, or it stays 0 */
+    *is = sign[0] != 0 || !w->deep[i] || of.from != w->t; /* otherwise it is the zero on which the piece starts */
+    if (sign[0] == 0 || sign[1] == 0)                     /* the root is at an end of the step, or g stays 0 */
         return QDOT_OK;
     *is = sign[0] == sign[1];
     if (*is)
-        QDOT_TRY(make_touch(w, &of, sign[0], root, is));
+        QDOT_TRY(make_touching_root(w, &of, sign[0], root, is));
     if (!*is && sign[0] == sign[1]) {
-        QDOT_TRY(value_in_digits(w, i, root->t, &at));
-        if (sign[0] * at < 0) { /* the sign between differs from that on both sides: two crossings */
+        QDOT_TRY(evaluate_in_multiple_precision(w, i, root->t, &at));
+        if (sign[0] * at < 0) { /* the sign in between differs from that on both sides: there are two crossings */
             *root = seen;
             root->several = *is = true;
         }

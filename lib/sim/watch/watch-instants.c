@@ -39,9 +39,9 @@ qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdot_roo
     root->late = 0;
 }
 
-/* The time by which the root a is later than b. */
+/* By how much time root a is later than root b, in the direction of the run. */
 static double
-how_much_later(const qdot_watch *w, const qdot_root *a, const qdot_root *b)
+delay_between_roots(const qdot_watch *w, const qdot_root *a, const qdot_root *b)
 {
     return w->direction * (a->t - b->t) - (a->late - b->late);
 }
@@ -52,7 +52,7 @@ static const double most_doubles = 16;
 
 /* Whether a root is a crossing of a function of t only, known to a few doubles of t. */
 static bool
-is_known_crossing_of_clock(const qdot_watch *w, const qdot_root *root)
+is_accurate_root_of_time(const qdot_watch *w, const qdot_root *root)
 {
     const double step = nextafter(fabs(root->t), INFINITY) - fabs(root->t);
 
@@ -79,20 +79,20 @@ qdot_watch_join_instants(qdot_watch *w)
     bool any = false;
 
     for (size_t i = 0; i < w->roots.n; i++)
-        if (is_known_crossing_of_clock(w, &w->roots.at[i]))
+        if (is_accurate_root_of_time(w, &w->roots.at[i]))
             most = fmax(most, w->roots.at[i].rounding);
     for (size_t i = 1; i < w->roots.n; i++) {
         qdot_root *root = &w->roots.at[i];
 
-        if (!is_known_crossing_of_clock(w, root))
+        if (!is_accurate_root_of_time(w, root))
             continue;
         for (size_t k = i; k-- > 0;) {
             qdot_root *other = &w->roots.at[k];
 
             if (fabs(root->t - other->t) > root->late + root->rounding + most)
                 break;
-            if (is_known_crossing_of_clock(w, other) && other->t != root->t
-                && fabs(how_much_later(w, root, other)) <= root->rounding + other->rounding) {
+            if (is_accurate_root_of_time(w, other) && other->t != root->t
+                && fabs(delay_between_roots(w, root, other)) <= root->rounding + other->rounding) {
                 set_same_time(root, other, w->direction);
                 any = true;
             }

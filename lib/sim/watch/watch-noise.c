@@ -10,9 +10,9 @@
 
 /* --- rounding at a state -------------------------------------------------------------- */
 
-/* Find the change |g_i - g| if component k of the state y (2n: none) is replaced by `to`; 0 where undefined. */
+/* Find the change |g_i - g| if component k of the state y (2n: none) becomes `to`; 0 if undefined. */
 static qdot_status
-moved_by(qdot_watch *w, double t, const double *y, size_t k, double to, size_t i, double g, double *change)
+change_by_component(qdot_watch *w, double t, const double *y, size_t k, double to, size_t i, double g, double *change)
 {
     qdot_status status;
 
@@ -40,7 +40,7 @@ qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double lea
 
         if (to == at)
             continue;
-        QDOT_TRY(moved_by(w, k < 2 * w->n ? t : to, y, k, to, i, g, &change));
+        QDOT_TRY(change_by_component(w, k < 2 * w->n ? t : to, y, k, to, i, g, &change));
         *noise += change;
     }
     return QDOT_OK;
@@ -75,7 +75,7 @@ qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i, double *
 {
     double up, down;
 
-    /* both sides, because rounding differs beside a kink */
+    /* test changes to both sides, because rounding differs on the two sides of a kink */
     QDOT_TRY(qdot_watch_noise(w, t, y, 4 * DBL_EPSILON, 0, i, &up));
     QDOT_TRY(qdot_watch_noise(w, t, y, -4 * DBL_EPSILON, 0, i, &down));
     memcpy(w->in, y, 2 * w->n * sizeof *y);
@@ -103,7 +103,7 @@ qdot_watch_noise_of(qdot_watch *w, double t, const double *y, const double *by, 
 
         if (by[k] == 0)
             continue;
-        QDOT_TRY(moved_by(w, t, y, k, y[k] + h, i, g, &change));
+        QDOT_TRY(change_by_component(w, t, y, k, y[k] + h, i, g, &change));
         *noise += change * (4 * DBL_EPSILON * by[k] / h);
     }
     return QDOT_OK;
@@ -121,7 +121,7 @@ qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i, dou
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->moved));
     g = w->moved[i];
-    QDOT_TRY(moved_by(w, t + h, y, 2 * w->n, 0, i, g, noise));
+    QDOT_TRY(change_by_component(w, t + h, y, 2 * w->n, 0, i, g, noise));
     *noise *= 4 * DBL_EPSILON / 0x1p-20;
     return QDOT_OK;
 }
@@ -151,9 +151,9 @@ qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i, double 
 
 /* --- rounding within an interval ------------------------------------------------------ */
 
-/* The largest |g_i| at the nodes of the first sample. */
+/* The largest |g_i| at the nodes at which the step was sampled first. */
 static double
-seen_size(const qdot_watch *w, size_t i)
+largest_sampled_value(const qdot_watch *w, size_t i)
 {
     double largest = 0;
 
@@ -166,7 +166,7 @@ seen_size(const qdot_watch *w, size_t i)
  * NaN. Beside rounding of the state there is that of the series, no more than that of g at the end of the step or at
  * the nodes of the part. */
 static qdot_status
-lessen_noise(qdot_watch *w, double t, double *noise)
+reduce_noise_estimate(qdot_watch *w, double t, double *noise)
 {
     for (size_t i = 0; i < w->m; i++) {
         double here;
@@ -180,7 +180,7 @@ lessen_noise(qdot_watch *w, double t, double *noise)
         }
         QDOT_TRY(qdot_watch_rounding(w, t, w->z, i, &here));
         noise[i] = fmin(noise[i],
-                        here + 4 * DBL_EPSILON * fmin(fabs(w->final[i]), seen_size(w, i)));
+                        here + 4 * DBL_EPSILON * fmin(fabs(w->final[i]), largest_sampled_value(w, i)));
     }
     return QDOT_OK;
 }
@@ -202,13 +202,13 @@ qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p)
 
         memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
         w->fine = false;
-        status = lessen_noise(w, w->t, w->first_noise);
+        status = reduce_noise_estimate(w, w->t, w->first_noise);
         w->fine = fine;
         QDOT_TRY(status);
     }
     for (size_t i = 0; i < w->m; i++) {
         w->noise[i] = qdot_watch_is_fine(w, i) || w->deep[i] ? 0 : w->first_noise[i];
-        /* a function of t alone: its noise does not grow along the step */
+        /* the rounding error of a function of t alone does not grow along the step */
         if (w->live[i] && !w->deep[i] && w->clock[i] && qdot_watch_is_fine(w, i))
             QDOT_TRY(qdot_watch_operations_within(w, p, true, i, w->noise + i));
         if (!w->live[i] || !w->deep[i])
@@ -218,8 +218,8 @@ qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p)
     }
     if (p->a != w->t) {
         QDOT_TRY(w->reader.read(p->a, w->z, w->reader.user));
-        QDOT_TRY(lessen_noise(w, p->a, w->noise));
+        QDOT_TRY(reduce_noise_estimate(w, p->a, w->noise));
     }
     QDOT_TRY(w->reader.read(p->b, w->z, w->reader.user));
-    return lessen_noise(w, p->b, w->noise);
+    return reduce_noise_estimate(w, p->b, w->noise);
 }

@@ -27,25 +27,25 @@ enum { QDOT_WATCH_DEEPEST = 100 };
  * by the distance of nodes. */
 #define QDOT_WATCH_MOST 0x1p900
 
-/* Near a located root |g| below this part of its size counts as 0, as the time of the root is rounded. */
+/* Near a located root, |g| below this fraction of g's size counts as 0, because the root's time is rounded. */
 #define QDOT_WATCH_NEGLIGIBLE 0x1p-10
 
-/* A function of at most this many times its noise counts as 0. */
+/* A watched function counts as 0 if it is at most this many times its rounding error. */
 #define QDOT_WATCH_ROUNDINGS 16
 
-/* The value of n_extrema as long as the extrema have not been computed. */
+/* The value of n_extrema until the extrema of the polynomial have been computed. */
 #define QDOT_WATCH_UNKNOWN (-2)
 
-/* The signs of the functions at the time up to which the step has been searched. */
+/* The signs of the watched functions at the time up to which the step has been searched. */
 struct qdot_watch_state {
     int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on
                    g stays 0 */
-    bool *on;   /* [m] g_i is 0 at the start of the step */
+    bool *on;   /* [m] whether g_i is 0 at the start of the step */
     bool *blurred; /* [m] which is an extremum within rounding of 0, or a jump to it: two doubles tell no more
                       of it */
-    double *g0; /* [m] g at that zero, or at the start of the present part */
-    bool *sharp; /* [m] g0 has been computed in two doubles */
-    double *offset; /* [m] value of g at its zero due to rounding, subtracted from values in two doubles */
+    double *g0; /* [m] the value computed for g at its zero, or at the start of the present interval */
+    bool *sharp; /* [m] g0 has been computed in double-double precision */
+    double *offset; /* [m] value of g at its zero due to rounding, subtracted from double-double values */
 };
 
 typedef struct qdot_watch qdot_watch;
@@ -53,105 +53,105 @@ struct qdot_watch {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
     qdot_watch_reader reader; /* reads states within the step */
-    qdot_tape *tape, *sizes; /* outputs: g; sums of the magnitudes of their terms */
-    qdot_tape *plain; /* outputs: g without shaken constants; NULL: `tape` is not shaken */
-    /* Fields for values in sums of two doubles (watch-two.c). */
-    qdot_tape_two *two;   /* evaluates g in two doubles; NULL: not needed yet */
-    qdot_two *state_two;  /* [2n] scratch state in two doubles */
-    struct qdot_precise *many; /* evaluates g in many digits (watch-flat.c); NULL: not needed yet */
-    double *settled; /* [m] the time of the flat root at which a piece began; NaN: none */
-    bool *deep; /* [m] evaluate g in many digits: first step of a piece that starts on its zero */
+    qdot_tape *tape, *sizes; /* outputs: the functions g; sums of the magnitudes of their terms */
+    qdot_tape *plain; /* outputs: g with unperturbed constants; NULL: those in `tape` are unperturbed */
+    /* Fields for values in double-double precision (watch-two.c): */
+    qdot_tape_two *two;   /* evaluates g in double-double precision; NULL: not needed yet */
+    qdot_two *state_two;  /* [2n] scratch state in double-double precision */
+    struct qdot_precise *many; /* evaluates g in multiple precision (watch-flat.c); NULL: not needed yet */
+    double *settled; /* [m] the time of the flat root of g at which a piece began; NaN: none */
+    bool *deep; /* [m] evaluate g in multiple precision: first step of a piece that starts on a zero of g */
     bool any_deep;
-    double *hidden; /* [m] of these: what rounding of their operations hides of the bounds on the part; 0: not computed */
-    bool *may_be_flat; /* [m] flat roots of g may be located in many digits */
-    int *leaves;     /* [m] sign of g just after the start */
-    struct qdot_watch_turn *turns; /* [m] directions of the original functions (watch-turns.c); NULL: as g */
-    bool *smooth;         /* [m] g contains no switching function and is not a bound */
-    bool *clock;          /* [m] g is a function of t only */
+    double *hidden; /* [m] for functions that are `deep`: how much rounding of operations may hide; 0: not computed */
+    bool *may_be_flat; /* [m] g may have flat roots, to be located in multiple precision */
+    int *leaves;     /* [m] sign of g just after the start of the step */
+    struct qdot_watch_turn *turns; /* [m] directions of the user's functions (watch-turns.c); NULL: the same as those of g */
+    bool *smooth;         /* [m] g contains no switching function, and is not a bound of a coordinate */
+    bool *clock;          /* [m] g depends on t only */
     bool expanded;        /* the step has a Taylor series */
-    bool *wants;          /* [m] the sign of g_i in this part must be determined in two doubles */
-    bool fine;            /* such values are in two doubles at present */
-    /* all switches in the functions keep their sides in the present interval, as far as was tested */
+    bool *wants;          /* [m] the sign of g_i in this interval must be determined in double-double precision */
+    bool fine;            /* values of the functions in `wants` are double-double at present */
+    /* all switches inside the functions keep their sides in the present interval, as far as was tested */
     bool steady;
-    bool coarse;          /* do not use two doubles, because a jump or kink is near */
-    size_t m, n;             /* number of functions; of coordinates */
+    bool coarse;          /* do not use double-double values, because a jump or kink is near */
+    size_t m, n;             /* number of functions; number of coordinates */
     bool accelerations;
     double tol;
-    size_t *coordinate; /* [m] coordinate of a domain bound; SIZE_MAX: g is no bound */
-    double *bound;      /* [m] value of the bound */
+    size_t *coordinate; /* [m] index of the coordinate that g bounds; SIZE_MAX: g is no bound of a domain */
+    double *bound;      /* [m] value of the bound, if g is one */
     double *in;         /* inputs of the tape */
     double *work, *g;   /* scratch; [m] values of g */
     double *moved, *raw; /* [m] scratch for rounding errors and for values */
     double *z;          /* [2n] scratch state */
-    double *end;        /* [2n + 1] state and time at the end of the step searched last */
-    double *noise;      /* [m] rounding error of g in this part; NaN: not computed */
+    double *end;        /* [2n + 1] state and time at the end of the step that was searched last */
+    double *noise;      /* [m] rounding error of g in the present interval; NaN: not computed */
     double *first_noise; /* [m] rounding error of g at the start of the step; NaN: not computed */
-    double *size;       /* [m] size of the polynomial fitted last */
-    double *clear;      /* [m] guaranteed distance of g from 0 in this part, if positive */
-    qdot_polynomial_bounds bounds; /* bounds of g between nodes, or on the whole step */
-    bool bound_at_step;  /* bounds on the whole step are known */
-    bool boxed_at_step;  /* intervals bounds.box for the whole step are known */
+    double *size;       /* [m] size (largest coefficient) of the polynomial fitted last to g */
+    double *clear;      /* [m] proved distance of g from 0 in the present interval, if positive */
+    qdot_polynomial_bounds bounds; /* bounds of g between the nodes, or on the whole step */
+    bool bound_at_step;  /* the bounds of g on the whole step have been computed */
+    bool boxed_at_step;  /* the intervals bounds.box for the whole step have been computed */
     bool all_bounds;     /* every g is a coordinate minus its bound */
     double *final;      /* [m] g at the end of the step */
     double length;      /* length of the step */
-    double shortest;    /* a part of this length is not divided further */
-    double cut;         /* QDOT_PART_START_FAR: fraction of the part to be cut off at its start */
+    double shortest;    /* an interval of this length is not divided further */
+    double cut;         /* for QDOT_PART_START_FAR: fraction of the interval to be cut off at its start */
     double reached;     /* time in the step at which the search ended */
-    size_t looked_at;   /* number of parts searched in all steps */
+    size_t looked_at;   /* number of intervals searched in all steps */
     double reach;       /* time from the start of the step to the root that ended it; 0: none */
-    double part_before; /* start of the previous part of this step */
+    double part_before; /* start of the previous interval of this step */
     double direction;   /* direction of time in the step: 1 or -1 */
 
     /* The start of the step, and the state of the search. */
     double t, *y; /* time and state [2n] at the start of the step */
     double begun;          /* time at which the piece began */
-    const double *largest; /* [2n] largest |y| so far, as in qdot_watch_known */
-    double least; /* at a start that was shifted by rounding: size of this shift; else 0 */
+    const double *largest; /* [2n] largest |y| so far, as in qdot_watch_known; borrowed */
+    double least; /* if the start was shifted by rounding: size of this shift; else 0 */
     struct qdot_watch_state start, now;
-    int *first;      /* [m] first sign of g after the start */
-    bool *slow; /* [m] g leaves its zero at the start so slowly that rounding hides the slope */
+    int *first;      /* [m] first sign of g after the start of the step */
+    bool *slow; /* [m] g leaves its zero at the start so slowly that rounding hides its slope */
     bool *fresh;     /* [m] `first` is not known yet */
     bool *grazed;    /* [m] g touches 0 at the end of the step */
     bool *live;      /* [m] g may have a root in this step */
-    /* Fields for functions that have decayed until rounding hides their signs (watch-fade.c). */
-    bool *may_fade;  /* [m] g may be left unsearched after it has decayed */
+    /* Fields for functions that decay until rounding hides their signs (watch-fade.c): */
+    bool *may_fade;  /* [m] g need not be searched after it has decayed */
     bool *fading;    /* [m] |g| is within its rounding error during the whole step */
-    int *faded;      /* [m] number of consecutive steps before this one with the same property */
-    double *faded_since; /* [m] start of the first of these steps */
+    int *faded;      /* [m] number of consecutive earlier steps in which |g| was within its rounding error */
+    double *faded_since; /* [m] time at which the first of these steps starts */
     double *most;    /* [m] largest |g| at the ends of steps so far */
     /* Fields for functions that rounding makes (watch-hidden.c). */
     bool *may_hide;  /* [m] crossings of g that rounding makes are passed over */
     int *meets;      /* [m] sign of g behind a crossing that counts */
     int *hides;      /* [m] whether rounding is all of g in this step; QDOT_WATCH_UNKNOWN: not found out yet */
-    int nodes;       /* number of nodes that sufficed last time */
-    double *samples; /* [m x QDOT_WATCH_NODES] values of g at the nodes */
+    int nodes;       /* number of Chebyshev nodes that sufficed last time */
+    double *samples; /* [m x QDOT_WATCH_NODES] values of g at the Chebyshev nodes */
     double *fitted;  /* [m x QDOT_WATCH_NODES] Chebyshev coefficients of the polynomials fitted */
     int *n_fitted;   /* [m] number of nodes used for the fit; 0: not fitted */
-    double *extrema; /* [m x QDOT_WATCH_NODES] extrema of the polynomial, x in [-1, 1] */
-    int *n_extrema; /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as from qdot_chebyshev_crossings */
-    double *fine_end; /* [m] g at the end of the part, in two doubles */
+    double *extrema; /* [m x QDOT_WATCH_NODES] places x in [-1, 1] of the polynomial's extrema */
+    int *n_extrema; /* [m] number of extrema; or QDOT_WATCH_UNKNOWN, or -1 as from qdot_chebyshev_crossings */
+    double *fine_end; /* [m] g at the end of the interval, in double-double precision */
     double *ends;    /* [(QDOT_WATCH_DEEPEST + 2) x m] g at the ends of parts still to be searched */
     qdot_vec(qdot_root) roots;
 };
 
-/* An interval of a step, and the polynomial of one function on it. */
+/* An interval of a step, and the Chebyshev polynomial of one function on it. */
 typedef struct {
     double a, b; /* start and end time */
     int n;
     double c[QDOT_WATCH_NODES];
     bool from_zero; /* the polynomial represents (g - g(a)) (b - a)/(t - a) */
     double at_end;  /* value g(b) */
-    bool sharp;     /* at_end is in two doubles, though values within the part are not */
+    bool sharp;     /* at_end is a double-double value, though values within the interval are not */
 } qdot_watch_part;
 
-/* The next action for an interval; the most expensive last. */
+/* What to do next with an interval of a step; the most expensive actions come last. */
 typedef enum {
     QDOT_PART_GOOD,
     QDOT_PART_MORE_NODES,
     QDOT_PART_HALVED,
-    QDOT_PART_PARTED, /* cut beside the middle, where g may be singular */
-    QDOT_PART_START_CUT, /* cut off a short part at the start */
-    QDOT_PART_START_FAR  /* cut off a part at the start as long as w->cut says */
+    QDOT_PART_PARTED, /* divide beside the middle, where g may be singular */
+    QDOT_PART_START_CUT, /* cut off a short interval at the start */
+    QDOT_PART_START_FAR  /* cut off an interval at the start, of the length that w->cut gives */
 } qdot_watch_verdict;
 
 /* Whether two doubles tell more of function i than one. What jumps or has a kink there is a matter of its values as
@@ -162,7 +162,7 @@ qdot_watch_has_two(const qdot_watch *w, size_t i)
     return w->coordinate[i] == SIZE_MAX && (w->smooth[i] || w->steady);
 }
 
-/* Whether values of function i are in two doubles at present. */
+/* Whether values of function i are computed in double-double precision at present. */
 static inline bool
 qdot_watch_is_fine(const qdot_watch *w, size_t i)
 {
@@ -185,13 +185,13 @@ qdot_watch_sign(double x)
 
 /* --- recording roots (watch-turns.c) ------------------------------------------------- */
 
-/* Add a root of the step, with the direction of the function that the user asked for. */
+/* Record a root of the step, with the direction in which the user's function passes 0. */
 QDOT_MUST_CHECK qdot_status qdot_watch_push(qdot_watch *w, qdot_root root);
 void qdot_watch_clear_turns(qdot_watch *w);
 
 /* --- values of the functions (watch-values.c) ---------------------------------------- */
 
-/* Lower the functions g [m] with the parameter values of the plan; shaken and errors as qdot_watch_new. */
+/* Compile the functions g [m] with the parameter values of the plan; `shaken` and errors as in qdot_watch_new. */
 QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
                                              bool shaken);
 
@@ -199,22 +199,22 @@ QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
  * one is not a number. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
 
-/* Evaluate g [m] at t within the step; w->in becomes the state there. */
+/* Evaluate the functions g [m] at time t within the step; w->in becomes the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double *g);
 
 /* --- values in two doubles (watch-two.c) --------------------------------------------- */
 
-/* Whether function i can be evaluated in two doubles within the step: the state can be read so, or is not needed. */
+/* Whether function i can be double-double within the step: the state can be read so, or is not needed. */
 bool qdot_watch_can_two(const qdot_watch *w, size_t i);
 
-/* Make the tape of g in two doubles, and w->state_two, unless they exist; the state at t within the step: w->state_two. */
+/* Make the double-double tape of g, and w->state_two, the state at a time in the step, unless they exist. */
 QDOT_MUST_CHECK qdot_status qdot_watch_make_two(qdot_watch *w);
 QDOT_MUST_CHECK qdot_status qdot_watch_read_two(qdot_watch *w, double t);
 
-/* g [m] at t within the step, in two doubles where w->wants says so; w->in is the state there. */
+/* Evaluate g [m] at time t within the step, double-double where w->wants is set; w->in becomes the state. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double *g);
 
-/* Evaluate g [m] at the state y + low [2n] (low NULL: 0), all in two doubles. */
+/* Evaluate g [m] at the state y + low [2n] (low NULL: 0), all in double-double precision. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, const double *y,
                                                       const double *low, double *g);
 
@@ -255,7 +255,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
                                              double by, double least, size_t i,
                                              double *noise);
 
-/* Find the change of g_i by rounding of its operations, in two doubles if `exact`, at the state in w->in. */
+/* Find the change of g_i by rounding of its operations (double-double if `exact`) at the state w->in. */
 QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise);
 
 /* The same within the part: at two places beside its middle, the larger. (Some functions have none at a single place, and
@@ -263,11 +263,11 @@ QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool 
 QDOT_MUST_CHECK qdot_status qdot_watch_operations_within(qdot_watch *w, const qdot_watch_part *p, bool exact, size_t i,
                                                          double *noise);
 
-/* Find the change of g_i by rounding of the state y [2n], of t, of its terms and of its operations. */
+/* Find the change of g_i caused by rounding of the state y [2n], of t, of its terms and of its operations. */
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);
 
-/* Find the change of g_i by rounding of the change of the state y [2n] since the start of the step. */
+/* Find the change of g_i caused by rounding of the state's change, y [2n] minus that at the step's start. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i,
                                                  double *noise);
 
@@ -277,7 +277,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_find_noise(qdot_watch *w, const qdot_watc
 
 /* --- no roots between the nodes (watch-exclusion.c) ---------------------------------- */
 
-/* Whether polynomials that fit all values at `nodes` nodes cannot miss a root between them. */
+/* Whether polynomials that fit all values at `nodes` nodes cannot have missed a root between the nodes. */
 qdot_watch_verdict qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes);
 
 /* Bound the functions on the step by its series (NULL: none); g_i keeps its sign on the step if
@@ -298,25 +298,25 @@ int qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const 
 
 /* --- finding roots (watch-roots.c) --------------------------------------------------- */
 
-/* The time that corresponds to x in -1 ... 1 on an interval. */
+/* The time that corresponds to x, -1 to 1, on an interval. */
 double qdot_watch_time(const qdot_watch_part *p, double x);
 
 /* Fit function i on the interval by a polynomial p->c, from w->samples at `nodes` nodes. */
 qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes);
 
-/* After a fit: whether function i is only rounding noise on the interval. */
+/* After a fit: whether function i is nothing but rounding errors on the interval. */
 bool qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
-/* After a fit: the size below which function i cannot be distinguished from noise. */
+/* After a fit: the magnitude below which function i cannot be told from its rounding errors. */
 double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
-/* Whether a fit is accurate only within rounding noise, which may hide a kink. */
+/* Whether a fit is accurate only to within rounding errors, which may hide a kink. */
 bool qdot_watch_is_noisy(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
 /* Append the roots of function i on the interval to w->roots; w->now advances to the interval's end. */
 QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i);
 
-/* The value g at a time t just before a root, or at or after it. */
+/* The value of the function g at a time t just before a root, or at or after the root. */
 typedef struct {
     double t, g;
 } qdot_watch_end;
@@ -330,13 +330,13 @@ QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_par
 
 /* --- roots of one instant (watch-instants.c) ------------------------------------------ */
 
-/* Set root->rounding if the function depends on t only and has the given slope at the root. */
+/* Set root->rounding if the function depends on t only; its slope at the root is given. */
 QDOT_MUST_CHECK qdot_status qdot_watch_clock_rounding(qdot_watch *w, qdot_root *root, double slope);
 
-/* The value of root->rounding if it is negligible compared to `step`, the distance of doubles of t; else 0. */
+/* root->rounding if that is negligible compared to `step`, the distance of doubles of t; else 0. */
 double qdot_watch_negligible_rounding(const qdot_root *root, double step);
 
-/* Move the root to the double before root->t if rounding cannot tell the two apart. */
+/* Move the root to the double before root->t if rounding does not distinguish the two times. */
 void qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdot_root *root);
 
 /* Among the roots in order of time, those of functions of t alone that rounding moves by a few doubles of
@@ -359,13 +359,13 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin_deep(qdot_watch *w, const double *l
 QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w, double t);
 QDOT_MUST_CHECK qdot_status qdot_watch_value_deep(qdot_watch *w, double t, double *g);
 void qdot_watch_end_deep(qdot_watch *w);
-/* What rounding of the state makes of a deep function at the ends of the part. */
+/* Find how much rounding of the state changes a `deep` function at the ends of the interval. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_deep(qdot_watch *w, const qdot_watch_part *p, size_t i, double *noise);
 void qdot_watch_clear_flat(qdot_watch *w);
 
 /* --- touches (watch-touches.c) ------------------------------------------------------- */
 
-/* Whether an extremum of value v at x of the polynomial of function i is a root; *within: as in qdot_root. */
+/* Whether an extremum of value v at x, of the polynomial of function i, touches 0; *within: as in qdot_root. */
 QDOT_MUST_CHECK qdot_status qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
                                                 double v, bool *touch, double *within);
 
@@ -381,10 +381,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from
 
 /* --- where a run ends and starts (watch-ends.c) -------------------------------------- */
 
-/* At the end t of a run: append zeros of functions that are 0 there. */
+/* At the end t of a run: record zeros of functions that are 0 there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_end_on_zero(qdot_watch *w, double t);
 
-/* Remove a zero found because the start was shifted by one rounding: the function was 0 at the start. */
+/* Remove a zero found only because the start was shifted by a rounding error: there the function was 0. */
 QDOT_MUST_CHECK qdot_status qdot_watch_forget_start(qdot_watch *w);
 
 /* --- roots where a function jumps or has a kink (watch-rough.c) ---------------------- */

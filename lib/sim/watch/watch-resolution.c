@@ -30,16 +30,16 @@ qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const doub
     return w->n_extrema[i] > 0 ? w->n_extrema[i] : 0;
 }
 
-/* The size below which the sign of the polynomial is not reliable. */
+/* The magnitude below which the sign of the fitted polynomial is unreliable. */
 static double
-least_told(const qdot_watch_part *p)
+least_reliable_value(const qdot_watch_part *p)
 {
     return fmax(error_of_size * qdot_chebyshev_size(p->n, p->c), qdot_chebyshev_tail(p->n, p->c));
 }
 
-/* Whether g_i, of the given size at t (evaluated in two doubles if `sharp`), exceeds its rounding error. */
+/* Whether g_i, of the given size at t (double-double if `sharp`), exceeds its rounding error. */
 static qdot_status
-is_more_than_rounding(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size, bool sharp, bool *is)
+exceeds_rounding(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size, bool sharp, bool *is)
 {
     double noise;
 
@@ -59,7 +59,7 @@ static const double shortest = 0x1p20 * DBL_EPSILON;
 /* The fraction to be cut off at the start of the part, where the function is such a fraction of its size. The
  * next one is at least 16 times as long: however long the step, a few hundred parts come to its end. */
 static double
-start_cut(const qdot_watch *w, const qdot_watch_part *p, double fraction)
+length_of_start_cut(const qdot_watch *w, const qdot_watch_part *p, double fraction)
 {
     const double length = fabs(p->b - p->a), cut = fmax(0x1p20 * sqrt(fraction), 0x1p-500),
                  least = fmax(15 * fabs(p->a - w->t), shortest * fabs(p->a)) / length;
@@ -71,7 +71,7 @@ start_cut(const qdot_watch *w, const qdot_watch_part *p, double fraction)
  * so fast that there is no second sign until the polynomial tells it: at a slope of more than its error. The
  * derivative of a polynomial is at most n^2 times as large as it. */
 static bool
-leaves_start(const qdot_watch_part *p, double g, double least)
+is_clear_of_start_zero(const qdot_watch_part *p, double g, double least)
 {
     double d[QDOT_WATCH_NODES], slope, error = (double)p->n * p->n * least;
 
@@ -85,7 +85,7 @@ qdot_status
 qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
                    qdot_watch_verdict *v)
 {
-    const double *g = w->samples + i * QDOT_WATCH_NODES, *x, least = least_told(p),
+    const double *g = w->samples + i * QDOT_WATCH_NODES, *x, least = least_reliable_value(p),
                  start = p->from_zero ? qdot_watch_zero(w, i) : 0;
     bool told = false;
     int n;
@@ -94,23 +94,23 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
     if (w->deep[i] || qdot_watch_vanishes(w, p, i))
         return QDOT_OK;
     n = qdot_watch_extrema(w, p, i, &x);
-    if (!p->from_zero && fabs(w->now.g0[i]) <= least && !leaves_start(p, w->now.g0[i], least)) {
-        QDOT_TRY(is_more_than_rounding(w, p, i, p->a, fabs(w->now.g0[i]), w->now.sharp[i], &told));
+    if (!p->from_zero && fabs(w->now.g0[i]) <= least && !is_clear_of_start_zero(p, w->now.g0[i], least)) {
+        QDOT_TRY(exceeds_rounding(w, p, i, p->a, fabs(w->now.g0[i]), w->now.sharp[i], &told));
         if (told) {
-            w->cut = start_cut(w, p, fabs(w->now.g0[i]) / qdot_chebyshev_size(p->n, p->c));
+            w->cut = length_of_start_cut(w, p, fabs(w->now.g0[i]) / qdot_chebyshev_size(p->n, p->c));
             *v = QDOT_PART_START_FAR;
             return QDOT_OK;
         }
     }
     if (fabs(p->at_end - start) <= least)
-        QDOT_TRY(is_more_than_rounding(w, p, i, p->b, fabs(p->at_end - start), qdot_watch_is_fine(w, i),
-                                       &told));
+        QDOT_TRY(exceeds_rounding(w, p, i, p->b, fabs(p->at_end - start), qdot_watch_is_fine(w, i),
+                                  &told));
     for (int j = 0; j < nodes && !told; j++) {
         const double t = qdot_watch_time(p, qdot_chebyshev_node(nodes, j)),
                      value = fabs(g[j] - start);
 
         if ((p->from_zero ? value * ((p->b - p->a) / (t - p->a)) : value) <= least)
-            QDOT_TRY(is_more_than_rounding(w, p, i, t, value, qdot_watch_is_fine(w, i), &told));
+            QDOT_TRY(exceeds_rounding(w, p, i, t, value, qdot_watch_is_fine(w, i), &told));
     }
     for (int e = 0; e < n && !told; e++) {
         const double t = qdot_watch_time(p, x[e]);
@@ -118,7 +118,7 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
         if (fabs(qdot_chebyshev_at(p->n, p->c, x[e])) > least)
             continue;
         QDOT_TRY(qdot_watch_value_at(w, t, w->g));
-        QDOT_TRY(is_more_than_rounding(w, p, i, t, fabs(w->g[i] - start), qdot_watch_is_fine(w, i), &told));
+        QDOT_TRY(exceeds_rounding(w, p, i, t, fabs(w->g[i] - start), qdot_watch_is_fine(w, i), &told));
     }
     if (told || w->n_extrema[i] == -1)
         *v = QDOT_PART_HALVED;

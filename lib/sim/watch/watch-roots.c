@@ -1,4 +1,4 @@
-/* watch-roots.c -- fits one function on one interval of a step by a polynomial, and finds its roots. */
+/* watch-roots.c -- fits one watched function on one interval of a step by a polynomial, and finds its roots. */
 #include "sim/watch/watch-parts.h"
 
 #include <float.h>
@@ -9,20 +9,20 @@
  * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
-/* A value counts as not small if it is at least this fraction of the function's largest value. */
+/* A value is not small if it is at least this fraction of the function's largest magnitude. */
 static const double least_of_size = 1e-3;
 
-/* Near a root a function falls below this fraction of its size; near a jump or pole it does not. */
+/* Near a root a function falls below this fraction of its size; near a jump or a pole it does not. */
 static const double rest_of_size = 1e-6;
 
-/* The factor from the rounding of a function to that of its slope at a zero: nodes lie densely near an end. */
+/* Factor from a function's rounding error to that of its slope at an end, where nodes lie densely. */
 static const double noise_of_slope = 1e4;
 
 /* --- the polynomial of a function ---------------------------------------------------- */
 
-/* The rounding error of the nodes, relative to the length of the interval. */
+/* The rounding error of the nodes' times, relative to the length of the interval. */
 static double
-blur(const qdot_watch_part *p)
+rounding_of_nodes(const qdot_watch_part *p)
 {
     return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
 }
@@ -30,9 +30,9 @@ blur(const qdot_watch_part *p)
 /* The fraction of its size below which the slope of a function at a zero cannot be told from 0.
  *  */
 static double
-least_slope(const qdot_watch_part *p)
+least_reliable_slope(const qdot_watch_part *p)
 {
-    return fmax(resolved_start, 64 * blur(p));
+    return fmax(resolved_start, 64 * rounding_of_nodes(p));
 }
 
 double
@@ -41,9 +41,9 @@ qdot_watch_time(const qdot_watch_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* The largest difference between a value of function i on the interval and its zero at the start. */
+/* The largest difference between values of function i on the interval and its zero at the interval's start. */
 static double
-most_off_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+largest_difference_from_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double most = 0;
 
@@ -57,14 +57,14 @@ qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const double size = qdot_chebyshev_size(p->n, p->c);
 
-    /* dividing by the time since the zero amplifies rounding at nodes near the start */
-    return size == 0 || (p->from_zero ? most_off_zero(w, p, i) : size) <= QDOT_WATCH_ROUNDINGS * w->noise[i];
+    /* take this into account: dividing by the time since the zero amplifies rounding near the start */
+    return size == 0 || (p->from_zero ? largest_difference_from_zero(w, p, i) : size) <= QDOT_WATCH_ROUNDINGS * w->noise[i];
 }
 
 /* Of a function that vanishes on the part: whether it is 0, not just so flat at a root that rounding is all
  * that is seen there. */
 static bool
-stays_zero(const qdot_watch *w, const qdot_watch_part *p)
+stays_zero_in_interval(const qdot_watch *w, const qdot_watch_part *p)
 {
     return qdot_chebyshev_size(p->n, p->c) == 0 || fabs(p->b - p->a) >= 0.0625 * w->length;
 }
@@ -72,7 +72,7 @@ stays_zero(const qdot_watch *w, const qdot_watch_part *p)
 double
 qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * blur(p);
+    const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * rounding_of_nodes(p);
 
     return fmax(fmax(part * w->size[i], 16 * DBL_MIN),
                 isnan(w->noise[i]) ? 0 : (w->now.on[i] ? noise_of_slope : 8) * w->noise[i]);
@@ -85,15 +85,15 @@ qdot_watch_is_noisy(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 }
 
 static void
-note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
+record_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     w->size[i] = qdot_chebyshev_size(p->n, p->c);
     w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
 }
 
-/* Find coefficients c [p->n] of function i, or of its quotient by the time since it was 0. */
+/* Find the Chebyshev coefficients c [p->n] of function i, or of its quotient by the time since its zero. */
 static void
-fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
+fit_polynomial(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
     double values[QDOT_WATCH_NODES];
@@ -103,7 +103,7 @@ fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
         if (p->from_zero) {
             double t = qdot_watch_time(p, qdot_chebyshev_node(p->n, j));
 
-            /* if a node rounds to the start use the value at the node before it */
+            /* if a node rounds to the start of the interval, use the value at the previous node */
             values[j] = t != p->a
                             ? (g[j] - qdot_watch_zero(w, i)) * ((p->b - p->a) / (t - p->a))
                         : j > 0 ? values[j - 1]
@@ -121,18 +121,18 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
     p->n = nodes;
     p->from_zero = w->now.on[i];
     if (w->n_fitted[i] != nodes) {
-        fit_values(w, p, i, fitted);
+        fit_polynomial(w, p, i, fitted);
         w->n_fitted[i] = nodes;
     }
     memcpy(p->c, fitted, (size_t)nodes * sizeof *fitted);
     size = qdot_chebyshev_size(nodes, p->c);
-    note_sizes(w, p, i);
+    record_sizes(w, p, i);
     if (!qdot_watch_vanishes(w, p, i) &&
         qdot_chebyshev_tail(nodes, p->c) >
             qdot_watch_least(w, p, i))
         return QDOT_PART_MORE_NODES;
     if (p->from_zero && !w->deep[i] && !qdot_watch_vanishes(w, p, i) &&
-        fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_slope(p) * size)
+        fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_reliable_slope(p) * size)
         return QDOT_PART_START_CUT;
     return QDOT_PART_GOOD;
 }
@@ -142,7 +142,7 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
 /* Evaluate g_i at t, which becomes ends[*over]; *over: whether g_i has changed its sign to `way`.
  *  */
 static qdot_status
-narrow(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *over)
+narrow_bracket(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *over)
 {
     QDOT_TRY(qdot_watch_value_at(w, t, w->g));
     *over = w->g[i] == 0 || qdot_watch_sign(w->g[i]) == way;
@@ -150,44 +150,44 @@ narrow(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *o
     return QDOT_OK;
 }
 
-/* Narrow the interval of a root, ends [2], to neighbouring doubles, as qdot_watch_cross does. */
+/* Narrow the bracket ends [2] of a root to neighbouring doubles, as qdot_watch_cross does. */
 static qdot_status
-locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, bool *found)
+locate_root(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, bool *found)
 {
     const double lo = ends[0].t, hi = ends[1].t;
     double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess));
     bool over;
 
     guess = w->direction > 0 ? fmin(fmax(guess, lo), hi) : fmax(fmin(guess, lo), hi);
-    QDOT_TRY(narrow(w, i, way, guess, ends, &over));
-    for (const bool back = over; over == back; step *= 8) { /* search outward from the guess, until the sign changes */
+    QDOT_TRY(narrow_bracket(w, i, way, guess, ends, &over));
+    for (const bool back = over; over == back; step *= 8) { /* search outward from the guess until the sign changes */
         const double t = guess + (back ? -1 : 1) * w->direction * step;
 
         if (w->direction * (back ? t - ends[0].t : ends[1].t - t) <= 0)
             break;
         guess = t;
-        QDOT_TRY(narrow(w, i, way, guess, ends, &over));
+        QDOT_TRY(narrow_bracket(w, i, way, guess, ends, &over));
     }
     for (;;) {
         const double middle = ends[0].t + 0.5 * (ends[1].t - ends[0].t);
 
         if (middle == ends[0].t || middle == ends[1].t)
             break;
-        QDOT_TRY(narrow(w, i, way, middle, ends, &over));
+        QDOT_TRY(narrow_bracket(w, i, way, middle, ends, &over));
     }
     *found = true;
     if (ends[1].t == hi)
-        return narrow(w, i, way, hi, ends, found);
+        return narrow_bracket(w, i, way, hi, ends, found);
     if (ends[0].t == lo) {
-        QDOT_TRY(narrow(w, i, way, lo, ends, &over));
+        QDOT_TRY(narrow_bracket(w, i, way, lo, ends, &over));
         *found = !over || w->g[i] == 0;
     }
     return QDOT_OK;
 }
 
-/* The slope of function i at t, from its polynomial on the interval. */
+/* The slope of the function at t, from its polynomial on the interval. */
 static double
-slope_at(const qdot_watch_part *p, double t)
+slope_of_polynomial(const qdot_watch_part *p, double t)
 {
     double d[QDOT_WATCH_NODES];
     const double length = p->b - p->a, x = 2 * (t - p->a) / length - 1;
@@ -200,7 +200,7 @@ slope_at(const qdot_watch_part *p, double t)
  * behind its zero there by the time that a change came late (qdot_piece_make_up). The root is where g itself is 0: at a
  * later double of t than that found, if need be. */
 static void
-add_offset(const qdot_watch *w, const qdot_watch_part *p, double slope, double step, qdot_root *root)
+subtract_offset(const qdot_watch *w, const qdot_watch_part *p, double slope, double step, qdot_root *root)
 {
     const double late = root->late + root->way * w->now.offset[root->function] / slope;
 
@@ -217,10 +217,10 @@ add_offset(const qdot_watch *w, const qdot_watch_part *p, double slope, double s
 /* Where between two neighbouring doubles the root is; the first may not have been evaluated. Where g moves less from
  * one double of t to the next than the rounding of the state moves it, it is as far from there as that takes. */
 static qdot_status
-refine(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root *root)
+refine_in_double_double(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root *root)
 {
     const double step = fabs(ends[1].t - ends[0].t);
-    const double slope = w->coarse ? 0 : fabs(slope_at(p, root->t));
+    const double slope = w->coarse ? 0 : fabs(slope_of_polynomial(p, root->t));
     double noise, rise;
 
     if (ends[0].g == 0) {
@@ -232,7 +232,7 @@ refine(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root 
     QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
     QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
     root->late = step * (fabs(ends[1].g) / rise);
-    add_offset(w, p, slope, step, root);
+    subtract_offset(w, p, slope, step, root);
     qdot_watch_put_on_double(w, p, root);
     root->blur = noise < rise ? step * (noise / rise) : step;
     if (!qdot_watch_is_fine(w, root->function) && noise > root->blur * slope && slope > 0)
@@ -243,7 +243,7 @@ refine(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root 
 /* Whether g changes its sign through infinity between neighbouring doubles: away from there it is
  * much smaller. Only asked where its values are not small beside those of the part. */
 static qdot_status
-is_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, const qdot_root *root, bool *pole)
+is_sign_change_by_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, const qdot_root *root, bool *pole)
 {
     const double away = 4096 * (ends[1].t - ends[0].t), low = fmin(p->a, p->b),
                  high = fmax(p->a, p->b);
@@ -266,37 +266,37 @@ is_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, con
     return QDOT_OK;
 }
 
-/* Make the root between two neighbouring doubles. */
+/* Make a root from the sign change between two neighbouring doubles of t. */
 static qdot_status
-found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_watch_end *ends,
-              qdot_root *root)
+make_root_between_doubles(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_watch_end *ends,
+                          qdot_root *root)
 {
     *root = (qdot_root){.function = i,
                         .t = ends[1].t,
                         .way = way,
                         .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
                         .exact = ends[1].g == 0};
-    QDOT_TRY(qdot_watch_clock_rounding(w, root, w->coarse ? 0 : fabs(slope_at(p, root->t))));
+    QDOT_TRY(qdot_watch_clock_rounding(w, root, w->coarse ? 0 : fabs(slope_of_polynomial(p, root->t))));
     if (root->exact && qdot_watch_is_fine(w, i) && w->now.offset[i] == 0)
         return QDOT_OK;
-    QDOT_TRY(refine(w, p, ends, root));
-    return root->exact ? QDOT_OK : is_pole(w, p, ends, root, &root->pole);
+    QDOT_TRY(refine_in_double_double(w, p, ends, root));
+    return root->exact ? QDOT_OK : is_sign_change_by_pole(w, p, ends, root, &root->pole);
 }
 
-/* As qdot_watch_cross, for functions evaluated in the present precision. */
+/* Like qdot_watch_cross, but with functions evaluated in the present precision only. */
 static qdot_status
-cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
-      qdot_root *root, bool *found)
+find_crossing(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
+              qdot_root *root, bool *found)
 {
-    QDOT_TRY(locate(w, i, way, ends, guess, found));
-    return *found ? found_between(w, p, i, way, ends, root) : QDOT_OK;
+    QDOT_TRY(locate_root(w, i, way, ends, guess, found));
+    return *found ? make_root_between_doubles(w, p, i, way, ends, root) : QDOT_OK;
 }
 
 /* As qdot_watch_cross, by values in two doubles: the guess is good, so the root is beside the next step of
  * Newton's method. *found false: it is not. */
 static qdot_status
-cross_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
-           qdot_watch_end *ends, qdot_root *root, bool *found)
+find_crossing_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
+                   qdot_watch_end *ends, qdot_root *root, bool *found)
 {
     const double rest = rest_of_size * qdot_chebyshev_size(p->n, p->c);
     qdot_watch_end at[2];
@@ -307,19 +307,19 @@ cross_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double gu
         bool over, other;
         double next;
 
-        QDOT_TRY(narrow(w, i, way, t, at, &over));
+        QDOT_TRY(narrow_bracket(w, i, way, t, at, &over));
         if (at[over].g != 0 && fabs(at[over].g) > rest)
             return QDOT_OK;
         next = nextafter(t, over ? -w->direction * INFINITY : w->direction * INFINITY);
-        if (fabs(at[over].g) <= 2 * fabs(slope_at(p, t) * (next - t))) {
-            QDOT_TRY(narrow(w, i, way, next, at, &other));
+        if (fabs(at[over].g) <= 2 * fabs(slope_of_polynomial(p, t) * (next - t))) {
+            QDOT_TRY(narrow_bracket(w, i, way, next, at, &other));
             if (other == over)
                 t = next;
             *found = other != over;
             if (*found)
                 break;
         }
-        t -= at[over].g / slope_at(p, t);
+        t -= at[over].g / slope_of_polynomial(p, t);
     }
     if (!*found || at[0].t == ends[0].t || at[1].t == ends[1].t) {
         *found = false;
@@ -327,12 +327,12 @@ cross_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double gu
     }
     ends[0] = at[0];
     ends[1] = at[1];
-    return found_between(w, p, i, way, ends, root);
+    return make_root_between_doubles(w, p, i, way, ends, root);
 }
 
-/* Start, or stop, evaluating function i in two doubles. */
+/* Switch on or off that function i is evaluated in double-double precision. */
 static void
-set_fine(qdot_watch *w, size_t i, bool fine, bool others)
+set_double_double(qdot_watch *w, size_t i, bool fine, bool others)
 {
     w->wants[i] = fine;
     w->fine = fine || others;
@@ -342,29 +342,29 @@ qdot_status
 qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
                  qdot_watch_end *ends, qdot_root *root, bool *found)
 {
-    const bool others = w->fine; /* whether the other functions are evaluated in two doubles here */
+    const bool others = w->fine; /* whether the other functions are evaluated in double-double precision here */
     const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && qdot_watch_can_two(w, i);
     const double from = ends[0].t;
     qdot_watch_end near[2] = {ends[0], ends[1]};
     qdot_root again;
     bool also = false;
-    double beside; /* |g| next to the root, or at the end of the interval behind which the root lies */
+    double beside; /* |g| next to the root, or at the end of the interval if the root lies beyond it */
     qdot_status status = QDOT_OK;
 
     if (two) {
-        set_fine(w, i, true, others);
-        status = cross_near(w, p, i, way, guess, ends, root, found);
-        set_fine(w, i, false, others);
+        set_double_double(w, i, true, others);
+        status = find_crossing_near(w, p, i, way, guess, ends, root, found);
+        set_double_double(w, i, false, others);
         if (status != QDOT_OK || *found)
             return status;
     }
-    QDOT_TRY(cross(w, p, i, way, guess, ends, root, found));
+    QDOT_TRY(find_crossing(w, p, i, way, guess, ends, root, found));
     beside = *found ? root->residual : fabs(ends[ends[1].t == from].g);
     if (!two || (*found && root->pole) || beside > rest_of_size * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
-    set_fine(w, i, true, others); /* find the same root in two doubles, which doubles cannot locate */
-    status = cross(w, p, i, way, *found ? root->t : guess, near, &again, &also);
-    set_fine(w, i, false, others);
+    set_double_double(w, i, true, others); /* find the same root in double-double precision, as doubles cannot locate it */
+    status = find_crossing(w, p, i, way, *found ? root->t : guess, near, &again, &also);
+    set_double_double(w, i, false, others);
     if (status == QDOT_OK && also && !again.pole) {
         *root = again;
         *found = true;
@@ -376,9 +376,9 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
 
 /* --- roots of the polynomial --------------------------------------------------------- */
 
-/* The root of the polynomial between x0 and x1, where it is monotonic. */
+/* The root between x0 and x1 of the polynomial, which is monotonic there. */
 static double
-root_between(const qdot_watch_part *p, double x0, double x1, int way)
+polynomial_root_between(const qdot_watch_part *p, double x0, double x1, int way)
 {
     if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x0)) == way)
         return x0;
@@ -387,35 +387,35 @@ root_between(const qdot_watch_part *p, double x0, double x1, int way)
                : x1;
 }
 
-/* Whether the slope at the zero at the start of the interval is negligible compared to the function. */
+/* Whether the slope at the zero at the interval's start is negligible compared to the function. */
 static bool
-is_flat(const qdot_watch_part *p)
+is_flat_at_start(const qdot_watch_part *p)
 {
     return fabs(qdot_chebyshev_at(p->n, p->c, -1))
-           <= least_slope(p) * qdot_chebyshev_size(p->n, p->c);
+           <= least_reliable_slope(p) * qdot_chebyshev_size(p->n, p->c);
 }
 
-/* Whether the slope of g at its zero at the start is 0 to within rounding. */
+/* Whether the slope of g, at its zero at the interval's start, is 0 within rounding. */
 static bool
-is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+has_no_slope_at_start(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    return is_flat(p) /* false for a NaN */
+    return is_flat_at_start(p) /* the comparison is false for a NaN */
            || fabs(qdot_chebyshev_at(p->n, p->c, -1)) <= noise_of_slope * w->noise[i];
 }
 
 /* The sign of a function just after its zero at the start of the interval. */
 static int
-leaves_to(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+sign_after_start_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     return w->deep[i] && p->a == w->t
                ? w->leaves[i]
-               : qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, is_slow(w, p, i) ? 1 : -1));
+               : qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, has_no_slope_at_start(w, p, i) ? 1 : -1));
 }
 
 /* How far from the start of the part the extremum is that makes the zero there: a touch of a part
  * that ended on it to 2^-20 of its length. The polynomial is that of (g - g_0)/(t - t_0). */
 static double
-off_extremum(const qdot_watch_part *p)
+error_of_extremum(const qdot_watch_part *p)
 {
     double d[QDOT_WATCH_NODES];
     double slope, bend;
@@ -426,7 +426,7 @@ off_extremum(const qdot_watch_part *p)
     return slope < bend * fabs(p->b - p->a) ? slope / bend : 0;
 }
 
-/* The time from the start of the interval until the function has changed by g. */
+/* The time from the start of the interval until the function has changed by the amount g. */
 static double
 time_of_change(const qdot_watch_part *p, double g)
 {
@@ -438,9 +438,9 @@ time_of_change(const qdot_watch_part *p, double g)
     return part * length;
 }
 
-/* Handle a change of sign near the start of the interval, where the function is 0 within rounding. */
+/* Handle a sign change near the start of the interval, where the function is 0 within rounding. */
 static qdot_status
-cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
+cross_near_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 {
     qdot_watch_end ends[2] = {{w->part_before, 0}, {p->b, 0}};
     qdot_root root;
@@ -448,7 +448,7 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 
     if (qdot_watch_zero(w, i) != 0)
         QDOT_TRY(qdot_watch_cross(w, p, i, sign, p->a, ends, &root, &found));
-    if (!found) /* the root is before this step */
+    if (!found) /* no root is found, so it lies before this step */
         root = (qdot_root){.function = i,
                            .t = p->a,
                            .way = sign,
@@ -460,30 +460,30 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     return qdot_watch_push(w, root);
 }
 
-/* Append a crossing, unless it is found in many digits that rounding has made it. */
+/* Record a crossing of 0, unless evaluation in multiple precision shows that rounding caused it. */
 static qdot_status
-push_crossing(qdot_watch *w, const qdot_watch_part *p, qdot_root root)
+record_crossing(qdot_watch *w, const qdot_watch_part *p, qdot_root root)
 {
     bool is;
 
-    QDOT_TRY(qdot_watch_settle_flat(w, p, fabs(slope_at(p, root.t)), &root, &is));
+    QDOT_TRY(qdot_watch_settle_flat(w, p, fabs(slope_of_polynomial(p, root.t)), &root, &is));
     return is ? qdot_watch_push(w, root) : QDOT_OK;
 }
 
 /* Treat the zero at the start of the part: count it as a root if the sign before differs, or as a touch if
  * it does not. */
 static qdot_status
-pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
+record_sign_at_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 {
     const int before = w->now.sign[i];
 
     if (before != 0 && sign == before)
         QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
                                                 .t = p->a,
-                                                .blur = off_extremum(p),
+                                                .blur = error_of_extremum(p),
                                                 .exact = true}));
     else if (before != 0 && sign != 0)
-        QDOT_TRY(cross_start(w, p, i, sign));
+        QDOT_TRY(cross_near_start(w, p, i, sign));
     w->now.sign[i] = sign != 0 ? sign : before;
     return QDOT_OK;
 }
@@ -491,9 +491,9 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 /* Function i has the sign `way` where the part starts already, though the step before, whose states are rounded by
  * themselves, ended with the other sign: the root is there. */
 static qdot_status
-cross_between_steps(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double g)
+record_crossing_between_steps(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double g)
 {
-    const double slope = fabs(slope_at(p, p->a));
+    const double slope = fabs(slope_of_polynomial(p, p->a));
 
     return qdot_watch_push(w, (qdot_root){.function = i,
                                           .t = p->a,
@@ -503,9 +503,9 @@ cross_between_steps(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, 
                                           .exact = true});
 }
 
-/* Whether a root at t is the zero at the start of the interval, found a second time because of rounding. */
+/* Whether a root at t is the zero at the interval's start, found a second time because of rounding. */
 static bool
-is_start_again(const qdot_watch_part *p, double t)
+is_start_zero_again(const qdot_watch_part *p, double t)
 {
     return p->from_zero && fabs(t - p->a) <= 0x1p-40 * fabs(p->b - p->a);
 }
@@ -513,7 +513,7 @@ is_start_again(const qdot_watch_part *p, double t)
 /* Whether the part ends on an extremum that is 0, or so near to one that rounding would make two
  * crossings of it; not where function i is known in many digits. */
 static bool
-grazes_at_end(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+touches_at_end(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double d[QDOT_WATCH_NODES], size = qdot_chebyshev_size(p->n, p->c);
 
@@ -525,7 +525,7 @@ grazes_at_end(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 
 /* Whether the function jumps to 0 at the end of the interval. */
 static bool
-falls_at_end(const qdot_watch_part *p)
+jumps_to_zero_at_end(const qdot_watch_part *p)
 {
     const double size = qdot_chebyshev_size(p->n, p->c);
 
@@ -533,47 +533,47 @@ falls_at_end(const qdot_watch_part *p)
            && fabs(qdot_chebyshev_at(p->n, p->c, 1) - p->at_end) > least_of_size * size;
 }
 
-/* The root found last if it is a touch of function i; else NULL. */
+/* The root that was found last if it is a touch of function i; otherwise NULL. */
 static const qdot_root *
-last_touch(const qdot_watch *w, size_t i)
+last_touch_of(const qdot_watch *w, size_t i)
 {
     const qdot_root *last = w->roots.n > 0 ? &w->roots.at[w->roots.n - 1] : NULL;
 
     return last && last->function == i && last->way == 0 ? last : NULL;
 }
 
-/* Remove touches so near to the end of the interval that they are the zero at the end. */
+/* Remove touches so near to the interval's end that they are the same as the zero at the end. */
 static void
-forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
+remove_touch_at_end(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const qdot_root *last;
 
-    while ((last = last_touch(w, i)) && fabs(last->t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
+    while ((last = last_touch_of(w, i)) && fabs(last->t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
         w->roots.n--;
 }
 
 /* Touches that rounding makes, found since `from` between which and here g is nothing else, are no
  * roots beside the one that comes now. */
 static void
-forget_roundings(qdot_watch *w, size_t i, double from)
+remove_rounding_touches(qdot_watch *w, size_t i, double from)
 {
     const qdot_root *last;
 
-    while ((last = last_touch(w, i)) && last->within == 0 && !last->exact &&
+    while ((last = last_touch_of(w, i)) && last->within == 0 && !last->exact &&
            w->direction * (last->t - from) > 0)
         w->roots.n--;
 }
 
-/* Handle a function that vanishes on the whole interval, and may jump at its end. */
+/* Handle a function that is 0 within rounding on the whole interval, and may jump at its end. */
 static qdot_status
-be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
+handle_vanishing_function(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const double noise = w->noise[i] > 0 ? QDOT_WATCH_ROUNDINGS * w->noise[i] : 0,
                  start = p->from_zero ? fabs(qdot_watch_zero(w, i)) : 0;
     const bool leaves = fabs(p->at_end) > fmax(noise, start)
                         && fabs(p->at_end - qdot_chebyshev_at(p->n, p->c, 1)) > noise;
 
-    if (w->now.sign[i] != 0 && (leaves || stays_zero(w, p)))
+    if (w->now.sign[i] != 0 && (leaves || stays_zero_in_interval(w, p)))
         QDOT_TRY(qdot_watch_stay(w, i, p->a,
                                  p->from_zero
                                      ? p->a
@@ -596,20 +596,20 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
 {
     const double *extrema;
     double x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
-    double sure = p->a; /* latest time at which g certainly has `sign` */
+    double sure = p->a; /* latest time at which g certainly has the sign `sign` */
     int n, sign = w->now.sign[i];
     bool grazes;
 
-    if (w->fresh[i] && p->from_zero && is_flat(p))
+    if (w->fresh[i] && p->from_zero && is_flat_at_start(p))
         w->slow[i] = true;
     if (qdot_watch_vanishes(w, p, i))
-        return be_zero(w, p, i);
-    grazes = grazes_at_end(w, p, i);
+        return handle_vanishing_function(w, p, i);
+    grazes = touches_at_end(w, p, i);
     if (!grazes)
         QDOT_TRY(qdot_watch_sharpen_end(w, p, i));
     if (p->from_zero) {
-        sign = leaves_to(w, p, i);
-        QDOT_TRY(pass_start(w, p, i, sign));
+        sign = sign_after_start_zero(w, p, i);
+        QDOT_TRY(record_sign_at_start(w, p, i, sign));
     }
     n = qdot_watch_extrema(w, p, i, &extrema);
     if (n > 0)
@@ -628,8 +628,8 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
             qdot_root root;
 
             if (within == 0)
-                forget_roundings(w, i, from);
-            if (sign != 0 && !is_start_again(p, to)) {
+                remove_rounding_touches(w, i, from);
+            if (sign != 0 && !is_start_zero_again(p, to)) {
                 QDOT_TRY(qdot_watch_touch(w, p, i, x[e], v, within, &root, &found));
                 if (found)
                     QDOT_TRY(qdot_watch_push(w, root));
@@ -637,16 +637,16 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {
-            double guess = qdot_watch_time(p, root_between(p, x_from, x[e], there));
+            double guess = qdot_watch_time(p, polynomial_root_between(p, x_from, x[e], there));
             qdot_watch_end ends[2] = {{sure, 0}, {to, 0}};
             qdot_root root;
 
             QDOT_TRY(qdot_watch_cross(w, p, i, there, guess, ends, &root, &found));
-            if (found && !is_start_again(p, root.t)) {
-                forget_roundings(w, i, from);
-                QDOT_TRY(push_crossing(w, p, root));
+            if (found && !is_start_zero_again(p, root.t)) {
+                remove_rounding_touches(w, i, from);
+                QDOT_TRY(record_crossing(w, p, root));
             } else if (!found && ends[1].t == p->a && ends[1].g != 0 && !p->from_zero) {
-                QDOT_TRY(cross_between_steps(w, p, i, there, ends[1].g));
+                QDOT_TRY(record_crossing_between_steps(w, p, i, there, ends[1].g));
             }
             sure = ends[found ? 1 : 0].t;
             there = found || ends[1].g != 0 ? there : sign;
@@ -657,14 +657,14 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
     }
     w->now.sign[i] = sign;
     if (w->fresh[i]) {
-        w->first[i] = p->from_zero ? leaves_to(w, p, i) : qdot_watch_sign(w->now.g0[i]);
-        w->slow[i] |= p->from_zero && is_slow(w, p, i);
+        w->first[i] = p->from_zero ? sign_after_start_zero(w, p, i) : qdot_watch_sign(w->now.g0[i]);
+        w->slow[i] |= p->from_zero && has_no_slope_at_start(w, p, i);
         w->fresh[i] = false;
     }
     if (grazes)
-        forget_touch(w, p, i);
+        remove_touch_at_end(w, p, i);
     w->grazed[i] = grazes && sign != 0;
-    w->now.on[i] = grazes || p->at_end == 0 || falls_at_end(p);
+    w->now.on[i] = grazes || p->at_end == 0 || jumps_to_zero_at_end(p);
     w->now.g0[i] = p->at_end;
     return QDOT_OK;
 }

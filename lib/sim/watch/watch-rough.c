@@ -9,24 +9,24 @@
 #include <float.h>
 #include <math.h>
 
-/* The shift of a kink by rounding of the states, relative to t. */
+/* How far rounding of the states shifts a kink in time, relative to t. */
 static const double few_doubles = 32 * DBL_EPSILON;
 
-/* The state of a scan of one function over the interval, up to the time `at`. */
+/* The state of a scan of one function through the interval, up to the time `at`. */
 typedef struct {
     qdot_watch *w;
     const qdot_watch_part *p;
     size_t i;
-    double least; /* a smaller |g| counts as 0 */
+    double least; /* magnitude below which g counts as 0 */
     double at;
-    double zero; /* time since which g = 0; NaN: g is not 0 */
+    double zero; /* time since which g = 0; NaN: g is not 0 at present */
     double from; /* the previous time of evaluation */
-    int *sign;   /* last sign of g that was not 0 */
+    int *sign;   /* sign of g when it was last different from 0 */
 } walk;
 
-/* Locate the root between two times; g has the sign `way` at the second one. */
+/* Locate the root between two times; g has the sign `way` at the second of them. */
 static qdot_status
-cross(walk *x, double from, double to, int way)
+locate_crossing(walk *x, double from, double to, int way)
 {
     qdot_watch_end ends[2] = {{from, 0}, {to, 0}};
     qdot_root root;
@@ -38,9 +38,9 @@ cross(walk *x, double from, double to, int way)
     return found ? qdot_watch_push(x->w, root) : QDOT_OK;
 }
 
-/* Record that g has become 0 between x->from and x->zero; `touches`: it then has its former sign again. */
+/* Record that g has become 0 between x->from and x->zero; `touches`: g returns to its former sign. */
 static qdot_status
-stay(walk *x, bool touches)
+record_zero(walk *x, bool touches)
 {
     const int sign = *x->sign;
 
@@ -53,9 +53,9 @@ stay(walk *x, bool touches)
     return QDOT_OK;
 }
 
-/* Continue the scan to the time t, where the function has the value g. */
+/* Continue the scan of the function to the time t, where it has the value g. */
 static qdot_status
-go(walk *x, double t, double g)
+scan_to(walk *x, double t, double g)
 {
     const int s = fabs(g) <= x->least ? 0 : qdot_watch_sign(g), before = *x->sign;
     const double last = x->at;
@@ -71,16 +71,16 @@ go(walk *x, double t, double g)
     if (before == 0)
         *x->sign = s;
     else if (s != before)
-        QDOT_TRY(cross(x, isnan(x->zero) ? last : x->from, t, s));
+        QDOT_TRY(locate_crossing(x, isnan(x->zero) ? last : x->from, t, s));
     else if (!isnan(x->zero))
-        QDOT_TRY(stay(x, true));
+        QDOT_TRY(record_zero(x, true));
     x->zero = NAN;
     return QDOT_OK;
 }
 
-/* Evaluate g at t times its earlier sign: positive as long as g has not crossed 0. */
+/* Evaluate g at t times its earlier sign: a positive value if g has not crossed 0. */
 static qdot_status
-height(const walk *x, double t, double *g)
+evaluate_with_sign(const walk *x, double t, double *g)
 {
     QDOT_TRY(qdot_watch_value_at(x->w, t, x->w->g));
     *g = *x->sign * x->w->g[x->i];
@@ -101,16 +101,16 @@ is_at_zero(const walk *x, double t, double g, bool *is)
 
         if (there < fmin(x->p->a, x->p->b) || there > fmax(x->p->a, x->p->b))
             continue;
-        QDOT_TRY(height(x, there, &beside));
+        QDOT_TRY(evaluate_with_sign(x, there, &beside));
         change = fmin(change, fabs(beside - g));
     }
     *is = g <= x->least || (isfinite(change) && g <= 2 * change);
     return QDOT_OK;
 }
 
-/* Find the minimum of |g| near t[1], where it is g, between t[0] and t[2]. */
+/* Find the minimum of |g| near t[1], where its value is g, between t[0] and t[2]. */
 static qdot_status
-seek_least(walk *x, double *t, double g)
+minimise_magnitude(walk *x, double *t, double g)
 {
     const qdot_watch_part *p = x->p;
     bool touches;
@@ -122,7 +122,7 @@ seek_least(walk *x, double *t, double g)
 
         if (middle == t[1] || middle == (left ? t[0] : t[2]))
             break;
-        QDOT_TRY(height(x, middle, &there));
+        QDOT_TRY(evaluate_with_sign(x, middle, &there));
         if (there < g) {
             t[left ? 2 : 0] = t[1];
             t[1] = middle;
@@ -134,15 +134,15 @@ seek_least(walk *x, double *t, double g)
     if (g < 0) {
         const int sign = *x->sign;
 
-        QDOT_TRY(cross(x, p->a, t[1], -sign));
-        return cross(x, t[1], p->b, sign);
+        QDOT_TRY(locate_crossing(x, p->a, t[1], -sign));
+        return locate_crossing(x, t[1], p->b, sign);
     }
     if (fabs(t[1] - p->a) <= few_doubles * fabs(t[1]))
         return QDOT_OK; /* g is 0 at the start already: no new root */
     QDOT_TRY(is_at_zero(x, t[1], g, &touches));
     if (!touches)
         return QDOT_OK;
-    if (fabs(t[1] - p->b) <= few_doubles * fabs(t[1])) { /* a zero at the end belongs to the next part */
+    if (fabs(t[1] - p->b) <= few_doubles * fabs(t[1])) { /* a zero at the interval's end belongs to the next interval */
         x->w->now.on[x->i] = true;
         return QDOT_OK;
     }
@@ -166,7 +166,7 @@ change(qdot_watch *w, double t, size_t i, double roundings, double *by)
 }
 
 static qdot_status
-rough_walk_begin(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes, walk *x)
+begin_scan(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes, walk *x)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
     double noise, more, t;
@@ -195,20 +195,20 @@ qdot_watch_seek_least(qdot_watch *w, const qdot_watch_part *p, size_t i, int nod
     int k = 0;
     double t[3];
 
-    QDOT_TRY(rough_walk_begin(w, p, i, nodes, &x));
+    QDOT_TRY(begin_scan(w, p, i, nodes, &x));
     for (int j = 1; j < nodes; j++)
         k = sign * g[j] < sign * g[k] ? j : k;
     for (int j = -1; j <= 1; j++)
         t[j + 1] = k - j >= nodes ? p->a
                    : k - j < 0    ? p->b
                                   : qdot_watch_time(p, qdot_chebyshev_node(nodes, k - j));
-    return seek_least(&x, t, sign * g[k]);
+    return minimise_magnitude(&x, t, sign * g[k]);
 }
 
 /* The sign just after the start of the part. A smooth function is 0 throughout or nowhere about a zero, however flat
  * it is there: what is 0 beside the start is too small for its rounding. */
 static int
-first_sign(const qdot_watch *w, size_t i, int nodes)
+first_nonzero_sign(const qdot_watch *w, size_t i, int nodes)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
     int j = nodes - 1;
@@ -227,27 +227,27 @@ qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int no
     const size_t roots = w->roots.n;
     walk x;
 
-    QDOT_TRY(rough_walk_begin(w, p, i, nodes, &x));
+    QDOT_TRY(begin_scan(w, p, i, nodes, &x));
     if (w->now.on[i]) {
         x.zero = p->a;
         x.least = fmax(QDOT_WATCH_ROUNDINGS * x.least, fabs(w->now.g0[i]));
     }
     for (int j = nodes - 1; j >= 0; j--)
-        QDOT_TRY(go(&x, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), g[j]));
+        QDOT_TRY(scan_to(&x, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), g[j]));
     w->now.on[i] = false;
-    if (!isnan(x.zero) && fabs(p->at_end) <= x.least) { /* g stays 0 to the end, without a jump there */
+    if (!isnan(x.zero) && fabs(p->at_end) <= x.least) { /* g stays 0 to the interval's end, without a jump there */
         if (*x.sign != 0)
-            QDOT_TRY(stay(&x, false));
+            QDOT_TRY(record_zero(&x, false));
         w->now.on[i] = true;
-    } else if (p->at_end == 0) { /* a zero exactly at the end belongs to the next part */
+    } else if (p->at_end == 0) { /* a zero exactly at the interval's end belongs to the next interval */
         w->now.on[i] = true;
     } else {
-        QDOT_TRY(go(&x, p->b, p->at_end));
+        QDOT_TRY(scan_to(&x, p->b, p->at_end));
         if (off && roots == w->roots.n && before == *x.sign)
             QDOT_TRY(qdot_watch_seek_least(w, p, i, nodes));
     }
     if (w->fresh[i]) {
-        w->first[i] = first_sign(w, i, nodes);
+        w->first[i] = first_nonzero_sign(w, i, nodes);
         w->fresh[i] = false;
     }
     w->now.g0[i] = p->at_end;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 struct qdot_watch_turn {
-    qdot_tape *tape; /* the factor `turn` (repeated-zeros.h); NULL: f changes as g_i does */
+    qdot_tape *tape; /* the factor `turn` (repeated-zeros.h); NULL: the user's f rises and falls with g_i */
     double *in;      /* inputs of `tape`, followed by its work space */
     bool half;
 };
@@ -40,9 +40,9 @@ qdot_watch_turns(qdot_watch *w, size_t i, qdot_expr turn, bool half)
     return own->in ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The sign of the expression `turn` at the state in own->in. */
+/* The sign of the factor `turn` (direction of f relative to g_i) at the state in own->in. */
 static int
-sign_of(const qdot_watch *w, double t, size_t i)
+sign_of_turn(const qdot_watch *w, double t, size_t i)
 {
     struct qdot_watch_turn *own = w->turns + i;
     double out;
@@ -58,7 +58,7 @@ qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i)
     if (!w->turns || !w->turns[i].tape || w->turns[i].half)
         return false;
     memcpy(w->turns[i].in, y, 2 * w->n * sizeof *y);
-    return sign_of(w, t, i) < 0;
+    return sign_of_turn(w, t, i) < 0;
 }
 
 qdot_status
@@ -71,7 +71,7 @@ qdot_watch_push(qdot_watch *w, qdot_root root)
         bool other;
 
         QDOT_TRY(w->reader.read(root.t, own->in, w->reader.user));
-        other = sign_of(w, root.t, root.function) < 0;
+        other = sign_of_turn(w, root.t, root.function) < 0;
         root.turned = other && !own->half;
         root.pole = root.pole || (other && own->half);
     }

@@ -1,4 +1,4 @@
-/* watch-two.c -- evaluates watched functions in sums of two doubles where a double cannot decide their sign. */
+/* watch-two.c -- evaluates watched functions in double-double precision where doubles do not decide their sign. */
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A function smaller than this, relative to its terms, is evaluated in two doubles. */
+/* A function smaller than this, relative to its terms, is evaluated in double-double precision. */
 static const double small = 0x1p-20;
 
 bool
@@ -18,7 +18,7 @@ qdot_watch_can_two(const qdot_watch *w, size_t i)
 /* Whether any function can be evaluated in two doubles: the state is available so, or a function
  * depends on t only. */
 static bool
-can_any(const qdot_watch *w)
+can_use_double_double(const qdot_watch *w)
 {
     bool any = w->reader.read_two && w->expanded;
 
@@ -32,7 +32,7 @@ qdot_watch_read_two(qdot_watch *w, double t)
 {
     if (w->reader.read_two && w->expanded)
         return w->reader.read_two(t, w->state_two, w->reader.user);
-    QDOT_TRY(w->reader.read(t, w->in, w->reader.user)); /* no state in two doubles: functions of t alone need none */
+    QDOT_TRY(w->reader.read(t, w->in, w->reader.user)); /* no double-double state: functions of t alone need none */
     for (size_t k = 0; k < 2 * w->n; k++)
         w->state_two[k] = (qdot_two){w->in[k], 0};
     return QDOT_OK;
@@ -60,26 +60,26 @@ qdot_watch_make_two(qdot_watch *w)
     return qdot_tape_two_new(w->plain ? w->plain : w->tape, 0, 2 * w->n + 1, &w->two);
 }
 
-/* The range of values for sums of two doubles: outside one of them overflows or underflows. */
+/* The range of numbers for double-double arithmetic, which overflows or underflows outside of it. */
 static const double least_of_two = 1 / QDOT_WATCH_MOST, most_of_two = QDOT_WATCH_MOST;
 
 static bool
-is_of_two(const qdot_watch *w, size_t i)
+is_in_double_double_range(const qdot_watch *w, size_t i)
 {
     const double size = fabs(qdot_tape_two_output(w->two, i)[0].hi);
 
     return w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
 }
 
-/* Whether a function is exactly 0 in two doubles, where its double may be only rounding or underflow. */
+/* Whether function i is exactly 0 in double-double precision: then its double is only rounding or underflow. */
 static bool
-is_nothing(const qdot_watch *w, size_t i)
+is_exactly_zero(const qdot_watch *w, size_t i)
 {
     return w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i] && qdot_tape_two_output(w->two, i)[0].hi == 0;
 }
 
 static void
-evaluate_two(qdot_watch *w, double t, const qdot_two *y)
+evaluate_in_double_double(qdot_watch *w, double t, const qdot_two *y)
 {
     for (size_t k = 0; k < 2 * w->n; k++)
         *qdot_tape_two_input(w->two, k) = y[k];
@@ -88,29 +88,29 @@ evaluate_two(qdot_watch *w, double t, const qdot_two *y)
 }
 
 static qdot_status
-value_two(qdot_watch *w, double t, const qdot_two *y, bool start, double *g)
+find_double_double_values(qdot_watch *w, double t, const qdot_two *y, bool start, double *g)
 {
     bool rest = false;
 
     for (size_t k = 0; k < 2 * w->n; k++)
         w->in[k] = y[k].hi;
-    evaluate_two(w, t, y);
+    evaluate_in_double_double(w, t, y);
     if (start)
         w->steady = qdot_tape_two_sides(w->two) != 0;
     for (size_t i = 0; i < w->m; i++)
-        rest = rest || !is_of_two(w, i);
+        rest = rest || !is_in_double_double_range(w, i);
     if (rest)
         QDOT_TRY(qdot_watch_value(w, t, g));
     for (size_t i = 0; i < w->m; i++)
-        if (is_of_two(w, i))
+        if (is_in_double_double_range(w, i))
             g[i] = qdot_tape_two_output(w->two, i)[0].hi;
-        else if (is_nothing(w, i) && fabs(g[i]) > DBL_MIN) /* the double consists of rounding only */
+        else if (is_exactly_zero(w, i) && fabs(g[i]) > DBL_MIN) /* the double value consists of rounding only */
             g[i] = 0;
     return QDOT_OK;
 }
 
 static double
-difference(qdot_two a, double b)
+difference_to_double(qdot_two a, double b)
 {
     return qdot_two_add_double(a, -b).hi;
 }
@@ -120,10 +120,10 @@ qdot_watch_value_two(qdot_watch *w, double t, double *g)
 {
     QDOT_TRY(qdot_watch_make_two(w));
     QDOT_TRY(qdot_watch_read_two(w, t));
-    QDOT_TRY(value_two(w, t, w->state_two, false, g));
+    QDOT_TRY(find_double_double_values(w, t, w->state_two, false, g));
     for (size_t i = 0; i < w->m; i++)
-        if (w->now.offset[i] != 0 && is_of_two(w, i))
-            g[i] = difference(qdot_tape_two_output(w->two, i)[0], w->now.offset[i]);
+        if (w->now.offset[i] != 0 && is_in_double_double_range(w, i))
+            g[i] = difference_to_double(qdot_tape_two_output(w->two, i)[0], w->now.offset[i]);
     return QDOT_OK;
 }
 
@@ -135,7 +135,7 @@ qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double
         w->wants[i] = true;
     for (size_t k = 0; k < 2 * w->n; k++)
         w->state_two[k] = qdot_two_add_double((qdot_two){y[k], 0}, low ? low[k] : 0);
-    return value_two(w, t, w->state_two, true, g);
+    return find_double_double_values(w, t, w->state_two, true, g);
 }
 
 qdot_status
@@ -162,9 +162,9 @@ qdot_watch_value_at_begin(qdot_watch *w, const double *low)
     return QDOT_OK;
 }
 
-/* Test whether all switches have constant sides on the interval: w->steady. */
+/* Test whether all switches in the functions keep their sides on the interval; result: w->steady. */
 static qdot_status
-find_sides(qdot_watch *w, const qdot_watch_part *p)
+test_constant_sides(qdot_watch *w, const qdot_watch_part *p)
 {
     enum { PLACES = 4 };
     uint64_t sides = 0;
@@ -176,7 +176,7 @@ find_sides(qdot_watch *w, const qdot_watch_part *p)
         uint64_t here;
 
         QDOT_TRY(qdot_watch_read_two(w, t));
-        evaluate_two(w, t, w->state_two);
+        evaluate_in_double_double(w, t, w->state_two);
         here = qdot_tape_two_sides(w->two);
         w->steady = here != 0 && (k == 0 || here == sides);
         sides = here;
@@ -188,9 +188,9 @@ find_sides(qdot_watch *w, const qdot_watch_part *p)
  * size. */
 static const double shown = 0x1p-44;
 
-/* Find functions of t whose rounding far from t = 0 exceeds the error allowed for their polynomial. */
+/* Find functions of t whose rounding error, far from t = 0, exceeds the error allowed for their polynomial. */
 static qdot_status
-find_far_clocks(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
+find_imprecise_functions_of_time(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
 {
     for (size_t i = 0; i < w->m; i++) {
         double noise;
@@ -210,7 +210,7 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *a
     bool sought = false;
 
     *any = false;
-    if (!can_any(w))
+    if (!can_use_double_double(w))
         return QDOT_OK;
     for (int end = 0; end < 2; end++) { /* near a pole the terms are large */
         const double t = end == 0 ? p->a : p->b;
@@ -226,13 +226,13 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *a
         w->wants[i] = w->now.on[i]
                       || (w->moved[i] <= most_of_two && sampled_size(w, i, nodes) < small * w->moved[i]);
         if (w->wants[i] && !w->smooth[i] && !sought) {
-            QDOT_TRY(find_sides(w, p));
+            QDOT_TRY(test_constant_sides(w, p));
             sought = true;
         }
         w->wants[i] = w->wants[i] && qdot_watch_can_two(w, i);
         *any = *any || w->wants[i];
     }
-    return find_far_clocks(w, p, nodes, any);
+    return find_imprecise_functions_of_time(w, p, nodes, any);
 }
 
 qdot_status

@@ -15,14 +15,14 @@
 
 /* --- the tapes of the functions ------------------------------------------------------ */
 
-/* The symbols that do not occur in a function of t only. */
+/* The kinds of symbols that do not occur in a function of t only. */
 enum {
     OF_STATE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER
 };
 
-/* Find which functions contain no switches, and which depend on t only. */
+/* Find which watched functions contain no switching functions, and which depend on t only. */
 static qdot_status
-find_kinds(qdot_watch *w, const qdot_expr *e)
+find_function_kinds(qdot_watch *w, const qdot_expr *e)
 {
     const qdot_plan *p = w->plan;
 
@@ -59,7 +59,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, w->m, e, &tape);
     if (status == QDOT_OK)
-        status = find_kinds(w, e);
+        status = find_function_kinds(w, e);
     for (size_t i = 0; i < w->m && status == QDOT_OK; i++)
         e[i] = qdot_term_magnitude(p->pool, e[i]);
     if (status == QDOT_OK)
@@ -79,13 +79,13 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
 
 /* --- evaluating the functions -------------------------------------------------------- */
 
-/* An interval about 0 narrower than this underflows. */
+/* An interval of values about 0 that is narrower than this may be due to underflow. */
 static const double nothing = 0x1p-900;
 
 /* Whether g_i, which is 0 at the state in w->in, is a number too small for a double: an operation underflows, and
  * within rounding of the state g_i is nothing but such numbers. */
 static bool
-underflows(qdot_watch *w, size_t i)
+may_underflow(qdot_watch *w, size_t i)
 {
 #ifdef FE_UNDERFLOW
     const size_t inputs = qdot_tape_inputs(w->tape);
@@ -112,9 +112,9 @@ underflows(qdot_watch *w, size_t i)
 #endif
 }
 
-/* Fail because a function is not a number at the state in w->in. */
+/* Fail because a watched function is not a number at the state in w->in. */
 static qdot_status
-refuse_value(qdot_watch *w, double t)
+fail_not_a_number(qdot_watch *w, double t)
 {
 #ifdef FE_OVERFLOW
     feclearexcept(FE_OVERFLOW);
@@ -136,10 +136,10 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
     qdot_tape_eval(w->tape, w->in, g, w->work);
     for (size_t i = 0; i < w->m; i++)
         if (isnan(g[i]))
-            return refuse_value(w, t);
+            return fail_not_a_number(w, t);
         else if (fabs(g[i]) > QDOT_WATCH_MOST)
             g[i] = copysign(QDOT_WATCH_MOST, g[i]);
-        else if (fabs(g[i]) < DBL_MIN && (g[i] != 0 || underflows(w, i)))
+        else if (fabs(g[i]) < DBL_MIN && (g[i] != 0 || may_underflow(w, i)))
             g[i] = copysign(DBL_MIN, g[i]); /* keep the sign of values that underflow, by +-DBL_MIN */
     return QDOT_OK;
 }

@@ -10,7 +10,7 @@
 
 enum { MOST_PARTS = 4000 };
 
-/* A step with a series ends after this many intervals; the remaining part becomes the next step. */
+/* A step with a series ends after this many intervals; the rest is searched as a new step. */
 enum { ENOUGH_PARTS = 500 };
 
 /* After so many intervals functions that rounding makes are no longer searched. */
@@ -19,7 +19,7 @@ enum { MANY_PARTS = 64 };
 /* --- intervals of a step ------------------------------------------------------------- */
 
 static qdot_status
-sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
+sample_functions(qdot_watch *w, const qdot_watch_part *p, int nodes)
 {
     for (int j = 0; j < nodes; j++) {
         QDOT_TRY(qdot_watch_value_at(
@@ -31,9 +31,9 @@ sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
     return QDOT_OK;
 }
 
-/* The worst verdict about any watched function on an interval. */
+/* The worst verdict about the fit of any watched function on an interval. */
 static qdot_watch_verdict
-judge(qdot_watch *w, qdot_watch_part *p, int nodes)
+worst_verdict(qdot_watch *w, qdot_watch_part *p, int nodes)
 {
     qdot_watch_verdict worst = QDOT_PART_GOOD;
 
@@ -48,12 +48,12 @@ judge(qdot_watch *w, qdot_watch_part *p, int nodes)
     return worst;
 }
 
-/* An interval shorter than this fraction of its step, or of the first interval, is not halved further. */
+/* An interval shorter than this fraction of its step (or of the first interval) is not halved further. */
 static const double least_of_length = 0x1p-44;
 
-/* Whether an interval is too short to be examined further. */
+/* Whether an interval is too short to be divided further. */
 static bool
-is_short(const qdot_watch *w, const qdot_watch_part *p)
+is_too_short(const qdot_watch *w, const qdot_watch_part *p)
 {
     double t = fmax(fabs(p->a), fabs(p->b));
 
@@ -75,7 +75,7 @@ is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int node
 /* Find the roots of function i on an interval that is not halved further: the fit is `good`, or it
  * is too short. */
 static qdot_status
-roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
+find_roots_of_function(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
 {
     const size_t before = w->roots.n;
     const int sign = w->now.sign[i];
@@ -103,9 +103,9 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
     return qdot_watch_seek_least(w, p, i, nodes);
 }
 
-/* Whether the polynomials represent all functions accurately on the interval; *v: the worst verdict. */
+/* Whether polynomials represent all watched functions accurately on the interval; *v: the worst verdict. */
 static qdot_status
-resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot_watch_verdict *v)
+fit_all_functions(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot_watch_verdict *v)
 {
     *v = QDOT_PART_GOOD;
     for (size_t i = 0; i < w->m && *v == QDOT_PART_GOOD; i++) {
@@ -118,20 +118,20 @@ resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot
     return QDOT_OK;
 }
 
-/* Evaluate the values at the nodes; in two doubles, with *at_end, if doubles do not tell the sign. */
+/* Evaluate the functions at the nodes; double-double, with *at_end, if doubles do not determine their signs. */
 static qdot_status
-sample_enough(qdot_watch *w, const qdot_watch_part *p, int nodes, const double **at_end)
+sample_with_sufficient_precision(qdot_watch *w, const qdot_watch_part *p, int nodes, const double **at_end)
 {
     bool any = w->fine;
 
     if (!any)
-        QDOT_TRY(sample(w, p, nodes));
+        QDOT_TRY(sample_functions(w, p, nodes));
     if (!any)
         QDOT_TRY(qdot_watch_wants_two(w, p, nodes, &any));
     if (!any)
         return QDOT_OK;
     w->fine = true;
-    QDOT_TRY(sample(w, p, nodes));
+    QDOT_TRY(sample_functions(w, p, nodes));
     QDOT_TRY(qdot_watch_value_at(w, p->b, w->fine_end));
     *at_end = w->fine_end;
     return QDOT_OK;
@@ -140,7 +140,7 @@ sample_enough(qdot_watch *w, const qdot_watch_part *p, int nodes, const double *
 /* A function that is 0 at the end of the part, but for rounding, is so from there on, until it is large
  * beside that. `fine`: its value there is in two doubles. */
 static void
-keep_offset(qdot_watch *w, size_t i, bool fine)
+keep_value_at_zero(qdot_watch *w, size_t i, bool fine)
 {
     if (fine)
         w->now.g0[i] += w->now.offset[i];
@@ -153,8 +153,8 @@ keep_offset(qdot_watch *w, size_t i, bool fine)
 }
 
 static qdot_status
-look_at_part(qdot_watch *w, qdot_watch_part *p,
-             const double *at_end, qdot_watch_verdict *v)
+search_interval(qdot_watch *w, qdot_watch_part *p,
+                const double *at_end, qdot_watch_verdict *v)
 {
     int nodes = w->nodes;
     bool good;
@@ -168,13 +168,13 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
         w->n_fitted[i] = 0;
     }
     for (;; nodes *= 2) {
-        QDOT_TRY(sample_enough(w, p, nodes, &at_end));
-        if (w->fine) /* the values may consist of rounding only */
+        QDOT_TRY(sample_with_sufficient_precision(w, p, nodes, &at_end));
+        if (w->fine) /* the double values may consist of rounding only */
             QDOT_TRY(qdot_watch_find_noise(w, p));
-        *v = judge(w, p, nodes);
+        *v = worst_verdict(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
             QDOT_TRY(qdot_watch_find_noise(w, p));
-            *v = judge(w, p, nodes);
+            *v = worst_verdict(w, p, nodes);
         }
         if (*v != QDOT_PART_MORE_NODES || nodes == QDOT_WATCH_NODES)
             break;
@@ -187,11 +187,11 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
         }
     }
     if (*v == QDOT_PART_GOOD)
-        QDOT_TRY(resolve(w, p, at_end, nodes, v));
-    if (*v != QDOT_PART_GOOD && !is_short(w, p))
+        QDOT_TRY(fit_all_functions(w, p, at_end, nodes, v));
+    if (*v != QDOT_PART_GOOD && !is_too_short(w, p))
         return QDOT_OK;
     good = *v == QDOT_PART_GOOD;
-    if (!good) /* a zero left so slowly that only rounding is seen yet; or it is rough */
+    if (!good) /* g leaves a zero too slowly to be seen, or has no accurate fit */
         QDOT_TRY(qdot_watch_find_noise(w, p));
     *v = QDOT_PART_GOOD;
     w->nodes = nodes > QDOT_WATCH_LEAST_NODES ? nodes : QDOT_WATCH_LEAST_NODES;
@@ -200,19 +200,19 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
             continue;
         p->at_end = at_end[i];
         p->sharp = false;
-        QDOT_TRY(roots_of(w, p, i, nodes, good));
-        keep_offset(w, i, qdot_watch_is_fine(w, i) || p->sharp);
+        QDOT_TRY(find_roots_of_function(w, p, i, nodes, good));
+        keep_value_at_zero(w, i, qdot_watch_is_fine(w, i) || p->sharp);
     }
     return QDOT_OK;
 }
 
-/* Roots closer than this, relative to their times, may be simultaneous. */
+/* Roots whose times differ relatively by less than this may be simultaneous. */
 static const double one_instant = 64 * DBL_EPSILON;
 
 /* Whether a root from w->roots.at[since] on ends the step, clearly before b; *after: how long after the start of
  * the step. */
 static bool
-ends_before(const qdot_watch *w, double b, size_t since, double *after)
+step_ends_before(const qdot_watch *w, double b, size_t since, double *after)
 {
     for (size_t i = since; i < w->roots.n && w->reader.ends; i++) {
         const qdot_root *root = &w->roots.at[i];
@@ -226,9 +226,9 @@ ends_before(const qdot_watch *w, double b, size_t since, double *after)
     return false;
 }
 
-/* Push the end of an interval onto the stack, with the values there. */
+/* Push the end of an interval onto the stack of ends, with the functions' values there. */
 static qdot_status
-wait_until(qdot_watch *w, double t, double *ends, int *depth)
+push_end(qdot_watch *w, double t, double *ends, int *depth)
 {
     QDOT_TRY(qdot_watch_value_at(w, t, w->g));
     ends[*depth] = t;
@@ -240,9 +240,9 @@ wait_until(qdot_watch *w, double t, double *ends, int *depth)
 /* Where the last step was ended by a root, this one, if much longer, is looked at from a part of about that length on:
  * events of which hundreds would lie in the step come so. */
 static double
-first_cut(const qdot_watch *w, double t)
+length_of_first_cut(const qdot_watch *w, double t)
 {
-    const double least = 0x1p-40 * fmax(fabs(w->t), fabs(t)); /* a root at once says nothing */
+    const double least = 0x1p-40 * fmax(fabs(w->t), fabs(t)); /* a root just after the start says nothing */
 
     return w->reach > least && w->length > 16 * w->reach ? w->t + copysign(4 * w->reach, t - w->t)
                                                          : t;
@@ -251,17 +251,17 @@ first_cut(const qdot_watch *w, double t)
 /* The whole step, left to right, or as far as it is wanted; parts that wait stand on a stack of
  * their ends. */
 static qdot_status
-look_at_step(qdot_watch *w, double t, bool series, bool *whole)
+search_step_by_intervals(qdot_watch *w, double t, bool series, bool *whole)
 {
-    double ends[QDOT_WATCH_DEEPEST + 2], from = w->t, cut = first_cut(w, t);
+    double ends[QDOT_WATCH_DEEPEST + 2], from = w->t, cut = length_of_first_cut(w, t);
     int depth = 1, parts = 0;
-    size_t before = 0, earlier = 0; /* roots before this part, and the last one */
+    size_t before = 0, earlier = 0; /* roots before this interval, and before the previous one */
 
     *whole = true;
     ends[0] = t;
     memcpy(w->ends, w->final, w->m * sizeof *w->ends);
     if (cut != t)
-        QDOT_TRY(wait_until(w, cut, ends, &depth));
+        QDOT_TRY(push_end(w, cut, ends, &depth));
     w->reach = 0;
     w->part_before = w->t;
     while (depth > 0) {
@@ -271,14 +271,14 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
         qdot_watch_verdict v;
 
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(look_at_part(w, &p, at_end, &v));
+        QDOT_TRY(search_interval(w, &p, at_end, &v));
         w->fine = false;
         w->looked_at++;
         if (v == QDOT_PART_GOOD) {
             w->part_before = p.a;
             from = p.b;
             depth--;
-            *whole = !ends_before(w, p.b, earlier, &w->reach);
+            *whole = !step_ends_before(w, p.b, earlier, &w->reach);
             earlier = before;
             before = w->roots.n;
             if (!*whole)
@@ -307,16 +307,16 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
         if (depth == QDOT_WATCH_DEEPEST || parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
                              p.a);
-        QDOT_TRY(wait_until(w, middle, ends, &depth));
+        QDOT_TRY(push_end(w, middle, ends, &depth));
     }
     return QDOT_OK;
 }
 
 /* --- searching a step ---------------------------------------------------------------- */
 
-/* Whether the zero of a bound is so far from the step that the step cannot reach it. */
+/* Whether the zero of a coordinate's bound is so far away that the step cannot reach it. */
 static bool
-is_far(const qdot_watch *w, size_t i, double t, const double *y, const qdot_ode_expanded *step)
+is_bound_far(const qdot_watch *w, size_t i, double t, const double *y, const qdot_ode_expanded *step)
 {
     const qdot_ode_series *series = w->reader.system->series;
     size_t c = w->coordinate[i];
@@ -333,7 +333,7 @@ is_far(const qdot_watch *w, size_t i, double t, const double *y, const qdot_ode_
 }
 
 static int
-by_time(const qdot_root *a, const qdot_root *b, double direction)
+compare_roots_by_time(const qdot_root *a, const qdot_root *b, double direction)
 {
     return a->t != b->t ? (direction * (a->t - b->t) > 0 ? 1 : -1)
                         : (a->function > b->function) - (a->function < b->function);
@@ -346,15 +346,15 @@ sort_roots(qdot_watch *w)
         qdot_root root = w->roots.at[i];
         size_t k = i;
 
-        for (; k > 0 && by_time(&w->roots.at[k - 1], &root, w->direction) > 0; k--)
+        for (; k > 0 && compare_roots_by_time(&w->roots.at[k - 1], &root, w->direction) > 0; k--)
             w->roots.at[k] = w->roots.at[k - 1];
         w->roots.at[k] = root;
     }
 }
 
 static void
-copy_state(const qdot_watch *w, struct qdot_watch_state *to,
-           const struct qdot_watch_state *from)
+copy_search_state(const qdot_watch *w, struct qdot_watch_state *to,
+                  const struct qdot_watch_state *from)
 {
     memcpy(to->sign, from->sign, w->m * sizeof *to->sign);
     memcpy(to->on, from->on, w->m * sizeof *to->on);
@@ -373,7 +373,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     w->direction = t < w->t ? -1 : 1;
     w->expanded = step != NULL;
     w->fine = w->coarse = false;
-    copy_state(w, &w->now, &w->start);
+    copy_search_state(w, &w->now, &w->start);
     w->roots.n = 0;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->final));
@@ -392,7 +392,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         QDOT_TRY(qdot_watch_leave_deep(w, t));
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = !qdot_watch_has_faded(w, i)
-                     && (w->start.on[i] || qdot_watch_sign(w->final[i]) != w->start.sign[i] || !is_far(w, i, t, y, step));
+                     && (w->start.on[i] || qdot_watch_sign(w->final[i]) != w->start.sign[i] || !is_bound_far(w, i, t, y, step));
         any |= w->live[i];
         w->first_noise[i] = NAN;
         w->fresh[i] = true;
@@ -402,7 +402,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     }
     QDOT_TRY(qdot_watch_claim_hidden(w));
     if (any)
-        QDOT_TRY(look_at_step(w, t, step != NULL, &whole));
+        QDOT_TRY(search_step_by_intervals(w, t, step != NULL, &whole));
     if (last && whole)
         QDOT_TRY(qdot_watch_end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
@@ -428,7 +428,7 @@ qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step)
 {
     for (size_t i = 0; i < w->m; i++)
         if (w->coordinate[i] == SIZE_MAX || w->start.on[i] ||
-            !is_far(w, i, step->t_end, NULL, step))
+            !is_bound_far(w, i, step->t_end, NULL, step))
             return false;
     return true;
 }
@@ -445,7 +445,7 @@ qdot_watch_pass(qdot_watch *w, double t, const double *y)
 void
 qdot_watch_take(qdot_watch *w)
 {
-    copy_state(w, &w->start, &w->now);
+    copy_search_state(w, &w->start, &w->now);
     qdot_watch_end_deep(w);
     qdot_watch_take_fading(w);
     w->least = 0;
@@ -467,8 +467,8 @@ qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader, double t, con
  * `given` in two doubles. Where g_i
  * jumps from there a rounding of the state changes it as much as a larger change does: that tells nothing. */
 static qdot_status
-is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, bool given, size_t i, double g,
-            bool *is)
+is_value_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, bool given, size_t i, double g,
+                  bool *is)
 {
     double noise, more;
 
@@ -480,7 +480,7 @@ is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, 
     }
     if (*is)
         return QDOT_OK;
-    if (exact && given) { /* but numbers in g are rounded */
+    if (exact && given) { /* the state is exact, but numbers in g are rounded */
         memcpy(w->in, y, 2 * w->n * sizeof *y);
         w->in[2 * w->n] = t;
         qdot_tape_eval(w->sizes, w->in, w->moved, w->work);
@@ -515,8 +515,8 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
         if (w->start.sharp[i] && met && i < known->left) {
             w->start.on[i] = fabs(g) <= QDOT_WATCH_NEGLIGIBLE * known->residual[i];
         } else {
-            QDOT_TRY(is_rounding(w, t, y, known->least, w->start.sharp[i] && w->smooth[i],
-                                 known->exact && (t == 0 || !w->bounds.reads_time), i, g, &w->start.on[i]));
+            QDOT_TRY(is_value_rounding(w, t, y, known->least, w->start.sharp[i] && w->smooth[i],
+                                       known->exact && (t == 0 || !w->bounds.reads_time), i, g, &w->start.on[i]));
             w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
         }
         w->start.blurred[i] = false;

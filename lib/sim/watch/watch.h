@@ -51,7 +51,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_new(const qdot_plan *plan, size_t m,
                                            qdot_watch **watch);
 void qdot_watch_free(qdot_watch *w);
 
-/* Declare that g_i is coordinate - bound: a step that stays far from the bound is not searched. */
+/* Declare that g_i is coordinate - bound: steps that stay far from the bound need not be searched. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 
 /* Let roots of g_i at which it is flat be located in many digits: of an event, whose time counts. Not of a switch, which
@@ -62,7 +62,7 @@ void qdot_watch_may_be_flat(qdot_watch *w, size_t i);
  * (sim/model/repeated-zeros.h). `half`: f is not 0 where turn < 0; such a root of g_i is given as a pole. Errors: as
  * qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_watch_turns(qdot_watch *w, size_t i, qdot_expr turn, bool half);
-/* Whether turn < 0 at a state: f then has the opposite direction of g_i. Never true with `half`. */
+/* Whether the factor turn < 0 at a state: then f falls where g_i rises. Never true with `half`. */
 bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 
 /* Let g_i fade: where it has decayed and stays within the rounding of the state its zeros are not sought. That is for
@@ -75,12 +75,12 @@ double qdot_watch_faded_since(const qdot_watch *w, size_t i);
  * meet where g changes its sign to `way`, in the direction of the run. Until this is called none are. */
 void qdot_watch_may_hide(qdot_watch *w, size_t i, bool may, int way);
 
-/* Values and signs of the functions g at the start of a piece. */
+/* Values and signs of the watched functions g at the start of a piece of the run. */
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
                                the start was moved by a rounding of 1 */
     bool exact; /* y + low is exact and not the result of an integration: no rounding error */
-    const int *before;      /* [m] signs just before; 0: unknown, as at the start of a run */
+    const int *before;      /* [m] signs of g just before the start; 0: unknown, as at the start of a run */
     const double *residual; /* [m] |g| up to which it counts as 0, if a root was located here;
                                or NULL */
     const double *low;      /* [2n] exact state minus y; NULL: 0 */
@@ -96,7 +96,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
                                              const double *y, const qdot_watch_known *known,
                                              bool *on);
 
-/* Evaluate the functions [m] at a state; call before _begin. */
+/* Evaluate the watched functions [m] at a state; call before qdot_watch_begin. */
 QDOT_MUST_CHECK qdot_status qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader,
                                                double t, const double *y, const double **g);
 
@@ -113,7 +113,7 @@ void qdot_watch_take(qdot_watch *w);
  * roots. Such a step is to be tried shorter. */
 double qdot_watch_reached(const qdot_watch *w);
 
-/* The number of intervals of steps that were inspected so far. */
+/* The number of intervals of steps that have been searched so far. */
 size_t qdot_watch_looked_at(const qdot_watch *w);
 
 /* Whether only bounds are watched and the step, by its series, stays far from all of them: then
@@ -137,7 +137,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const doubl
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
                                                 const double *by, size_t i, double *noise);
 
-/* Find the change of g_i by 4 rounding errors of t, if it depends on t. */
+/* Find the change of g_i by 4 rounding errors of t, if g_i depends on t. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i,
                                                      double *noise);
 
