@@ -174,9 +174,10 @@ contains_square_root(qdot_pool *pool, qdot_expr e)
 }
 
 /* A product of powers as c B^(g/m), m > 1 the common denominator of their exponents, g the common divisor of numerators.
- * *base: the one base that is not known to be never negative. False: it has no such form, or there are two such bases. */
+ * *base: the one base that is not known to be never negative, *odd: it has an odd exponent in B, so that B has its sign.
+ * False: it has no such form, or there are two such bases. */
 static bool
-read_power(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *B, qdot_expr *inverse, qdot_expr *base)
+read_power(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *B, qdot_expr *inverse, qdot_expr *base, bool *odd)
 {
     const uint32_t n = qdot_expr_kind(pool, e) == QDOT_PROD ? qdot_expr_count(pool, e) : 0;
     unsigned unknown = 0;
@@ -186,6 +187,7 @@ read_power(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *B, qdot_expr *
     fmpz_init_set_si(m, 1);
     fmpz_init(g);
     *base = QDOT_NIL;
+    *odd = false;
     for (uint32_t i = 1; i + 1 < n && good; i += 2) {
         const fmpq *k = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i + 1));
 
@@ -204,9 +206,13 @@ read_power(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *B, qdot_expr *
         *inverse = qdot_expr_ratio(pool, fmpz_get_si(m), fmpz_get_si(g));
         *c = qdot_expr_arg(pool, e, 0);
         *B = QDOT_ONE;
-        for (uint32_t i = 1; i + 1 < n; i += 2)
-            *B = qdot_mul(pool, *B, qdot_pow(pool, qdot_expr_arg(pool, e, i),
-                                             qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), *inverse)));
+        for (uint32_t i = 1; i + 1 < n; i += 2) {
+            const qdot_expr k = qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), *inverse);
+
+            if (qdot_expr_arg(pool, e, i) == *base)
+                *odd = k != QDOT_NIL && fmpz_is_odd(fmpq_numref(qdot_expr_rational(pool, k)));
+            *B = qdot_mul(pool, *B, qdot_pow(pool, qdot_expr_arg(pool, e, i), k));
+        }
     }
     fmpz_clear(g);
     fmpz_clear(m);
@@ -217,19 +223,19 @@ qdot_expr
 qdot_condition_of_power(qdot_pool *pool, qdot_expr gap, qdot_expr *base)
 {
     qdot_expr constant, c, B, inverse, end;
-    bool above;
+    bool above, odd;
     double d;
 
     if (gap == QDOT_NIL)
         return QDOT_NIL;
     constant = qdot_constant_terms(pool, gap);
-    if (!read_power(pool, qdot_sub(pool, gap, constant), &c, &B, &inverse, base) ||
+    if (!read_power(pool, qdot_sub(pool, gap, constant), &c, &B, &inverse, base, &odd) ||
         qdot_constant_double(pool, constant, &d) != QDOT_OK)
         return QDOT_NIL;
     above = !qdot_expr_is_negative(pool, c);
     if (above ? d > 0 : d <= 0)
         return QDOT_NIL;
-    if (above)
+    if (above && odd)
         *base = QDOT_NIL; /* B is above a number that is not negative */
     end = qdot_pow(pool, qdot_neg(pool, qdot_div(pool, constant, c)), inverse);
     return above ? qdot_sub(pool, B, end) : qdot_sub(pool, end, B);

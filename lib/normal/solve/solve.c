@@ -9,7 +9,6 @@
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"
-#include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
 #include "normal/solve/sides.h"
 #include "normal/solve/solver.h"
