@@ -128,7 +128,7 @@ static const double little = 0x1p-10;
 static const double gathered = 0x1p10;
 
 /* Whether rounding is all of g_i at the start of the step, but no longer at its end, where it has the sign behind a
- * crossing. */
+ * crossing. In the first step of a piece too: rounding may have left the bodies within each other by the blow before it. */
 static qdot_status
 is_pushed(qdot_watch *w, size_t i, bool *is)
 {
@@ -139,7 +139,7 @@ is_pushed(qdot_watch *w, size_t i, bool *is)
     qdot_status status;
 
     *is = false;
-    if (!w->may_hide[i] || !w->largest || w->t == w->begun || sign != w->meets[i] || qdot_watch_sign(g) == -sign
+    if (!w->may_hide[i] || !w->largest || sign != w->meets[i] || qdot_watch_sign(g) == -sign
         || fabs(g) > little * fmax(w->most[i], fabs(w->final[i])))
         return QDOT_OK;
     room = qdot_malloc((6 * w->n + 1) * sizeof *room);
