@@ -116,6 +116,8 @@ qdot_declare_definition(qdot_cursor *c)
         return define_function(c, &d);
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
+    if (c->at != d.equals) /* as in a [1] = 3: a name has no blank before its index */
+        return qdot_cursor_expected(c, "`=`");
     c->at = d.equals + 1;
     QDOT_TRY(hint_at_self_reference(c, &d, qdot_read_named(c, &entry.value, &entry.over)));
     QDOT_TRY(qdot_cursor_expect_end(c));
