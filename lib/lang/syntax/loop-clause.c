@@ -32,8 +32,9 @@ qdot_loop_clause_read(const qdot_cursor *c, const qdot_usage *usage, qdot_record
     const qdot_status status = qdot_match(c, &qdot_loop_clause, usage, record);
     const qdot_filled *last = record->parts.n > 0 ? &record->parts.at[record->parts.n - 1] : NULL;
 
-    /* the failure is in the values of an index */
-    return status != QDOT_OK && last != NULL && qdot_filled_is(last, "=") && !qdot_token_is(last->to, "[")
+    /* the failure is behind the name of an index or in its values */
+    return status != QDOT_OK && last != NULL && (record->parts.n % 4 == 2 || qdot_filled_is(last, "=")) &&
+                   !qdot_token_is(last->to, "[")
                ? suggest_values(status)
                : status;
 }
