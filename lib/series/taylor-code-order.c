@@ -77,7 +77,7 @@ append_terms(qdot_generator *g, sum *v, const sum *other)
         v->terms[v->n++] = other->terms[i];
 }
 
-/* The factor of a term of a sum, multiplied by c; for a coefficient of order k the product is made at each order. */
+/* The factor of a term of a sum, multiplied by c; if the factor is the order k, the product is computed at each order. */
 static qdot_operand
 factor_times_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
 {

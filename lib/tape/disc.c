@@ -1,4 +1,4 @@
-/* disc.c -- evaluates a tape over complex discs: each value is a centre and a radius of possible errors. */
+/* disc.c -- evaluates a tape over complex discs: each value is a centre and a bound on the distance from it. */
 #include "tape/disc.h"
 
 #include <float.h>

@@ -234,7 +234,7 @@ enum { FARTHEST = 64 };
 typedef struct {
     const qdot_tape *tape;
     double *work, *errors, *shown[SHOWN]; /* [places] values; their errors; changes of results by perturbations */
-    signed char *sides; /* [length x OPERANDS] sign of (factor - 1) on an operand; 0: no factor */
+    signed char *sides; /* [length x OPERANDS] the factor on an operand: 1 plus or minus so many ulps; 0: no factor */
     size_t count;
 } marking;
 
