@@ -246,7 +246,7 @@ change_of_step(qdot_precise *precise, const qdot_program_step *i, int k)
 #undef U1
 #undef U2
 
-/* Add the recorded change of a row to its coefficient of order k. */
+/* Add the change stored in p->notes to coefficient k of a row (the Taylor series of one intermediate result). */
 static void
 precise_apply_note(qdot_precise *p, qdot_program_row row, int k)
 {

@@ -73,7 +73,7 @@ enum { QDOT_X_NEWEST = 1, QDOT_Y_NEWEST = 2, QDOT_Z_NEWEST = 4 };
 /* A step computes rows from rows. Rows that it does not write are QDOT_NO_ROW; operands it does not read are x. */
 typedef struct {
     uint16_t op, zero; /* its recurrence; how order 0 is computed: an operation of a tape or one of the ways above */
-    int sign;          /* +1 or -1: the sign in the recurrence RATIO */
+    int sign;          /* +1 or -1: the sign in f(x)' = sign x'/u, for op QDOT_T_RATIO (logarithms, inverse functions) */
     bool still;        /* the result is constant in time: only order 0 is computed */
     /* bits for those operands x, y, z whose newest coefficient depends on unknowns (motion.h) */
     unsigned char newest;

@@ -22,7 +22,7 @@ twice_operand(qdot_generator *g, qdot_operand a)
     return qdot_code_composed(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2));
 }
 
-/* Write the code for d_1/k, a factor of products that are divided by the order k > 1. */
+/* Write the code for d_1/k, the coefficient of order 1 of the step's row d divided by the order k > 1. */
 static qdot_operand
 first_coefficient_over_order(qdot_generator *g, const qdot_taylor_step *s)
 {

@@ -41,9 +41,9 @@ enum {
     QDOT_CODE_ANY = 1000,
     /* Numbers of work space for the factors of each folded sum or product (taylor-code-fold.c). */
     QDOT_CODE_FOLDED_SLOTS = 4,
-    /* the largest number of factors of a step that stay the same at all orders (qdot_code_composed) */
+    /* places reserved per step for products of two factors computed once for all orders (qdot_code_composed) */
     QDOT_CODE_FACTORS = 8,
-    /* no first loop begins beyond this (it begins at twice the lag): links are exact up to it */
+    /* the largest order k for which the rounding errors of 1/(k + 1) and 1/((k + 1)(k + 2)) are stored */
     QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
 };
 

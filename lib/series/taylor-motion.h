@@ -19,7 +19,8 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_of_motion(const qdot_motion *motion, boo
                                                   int most, int solved, qdot_taylor **taylor);
 void qdot_taylor_set_unit(qdot_taylor *taylor, double unit);
 const double *qdot_taylor_series(const qdot_taylor *taylor, qdot_program_row row);
-/* The coefficients of the row that is an entry of the matrix K, up to the factor *sign (1 or -1). */
+/* Taylor coefficients of an entry of the Jacobian K = dE/du of the equations E = 0, which is row `row`; multiply them by
+ * *sign, 1 or -1. */
 const double *qdot_taylor_entry(const qdot_taylor *taylor, qdot_program_row row, double *sign);
 
 /* Stage k with u_k = 0, as qdot_lanes_stage; by [solved] = -E_k then; u_k becomes `by`, as

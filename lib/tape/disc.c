@@ -18,14 +18,14 @@ radius_times(double x, double y)
 }
 
 static double
-of_product(double a, double ra, double b, double rb)
+radius_of_product(double a, double ra, double b, double rb)
 {
     return radius_times(fabs(a), rb) + radius_times(fabs(b), ra) + radius_times(ra, rb);
 }
 
 /* Radius of a quotient with centre d = a/b and deviations u, v: (a + u)/(b + v) - d = (u - d v)/(b + v). */
 static double
-of_quotient(double d, double ra, double b, double rb)
+radius_of_quotient(double d, double ra, double b, double rb)
 {
     return fabs(b) > rb ? (ra + radius_times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
 }
@@ -33,7 +33,7 @@ of_quotient(double d, double ra, double b, double rb)
 /* |f(c + w) - f(c)| for sine or cosine, from f(c + w) - f(c) = f'(c) sin w - f(c) (1 - cos w); also
  * hyperbolic. */
 static double
-of_wave(double slope, double value, double r)
+radius_of_wave(double slope, double value, double r)
 {
     const double s = sinh(0.5 * r);
 
@@ -43,7 +43,7 @@ of_wave(double slope, double value, double r)
 /* tanh(a + w) - tanh a = sinh w/(cosh a cosh(a + w)), |cosh(x + i y)| >= cosh x cos y; and where x
  * is not 0 throughout, |tanh z -+ 1| <= 2/(e^2|x| - 1) at both. */
 static double
-of_tanh(double a, double r)
+radius_of_tanh(double a, double r)
 {
     const double x = fabs(a) - r, flat = x > 0 ? 4 / expm1(2 * x) : NAN;
 
@@ -55,7 +55,7 @@ of_tanh(double a, double r)
 /* log(1 + e^z): its slope e^z/(1 + e^z) has poles at +-pi i; left of them it is at most of e^x/(1 - e^x),
  * x < 0. */
 static double
-of_softplus(double a, double r)
+radius_of_softplus(double a, double r)
 {
     const double x = a + r, small = x < 0 ? exp(x) / -expm1(x) : INFINITY;
 
@@ -66,7 +66,7 @@ of_softplus(double a, double r)
 
 /* Radius of erf: its derivative 2 e^(-z^2)/sqrt(pi) is largest, at z = x + i y, where x^2 - y^2 is smallest. */
 static double
-of_normal(double a, double r)
+radius_of_normal(double a, double r)
 {
     const double x = fabs(a);
     const double least = x < 2 * r ? 0.5 * x * x - r * r : (x - r) * (x - r);
@@ -76,7 +76,7 @@ of_normal(double a, double r)
 
 /* Radius of atan2(y, x), the imaginary part of log(x + i y): half the difference of two logarithms. */
 static double
-of_angle(double y, double ry, double x, double rx)
+radius_of_angle(double y, double ry, double x, double rx)
 {
     const double far = hypot(x, y);
 
@@ -97,20 +97,20 @@ disc_power_radius(double a, double ra, double b, double rb, double d)
     if (!(part < 1) || (a < 0 && (rb > 0 || b != floor(b))))
         return NAN;
     if (rb > 0)
-        return fabs(d) * expm1(of_product(log(a), -log1p(-part), b, rb));
+        return fabs(d) * expm1(radius_of_product(log(a), -log1p(-part), b, rb));
     return fabs(d) * fabs(expm1(b * log1p(b >= 1 ? part : -part)));
 }
 
 static bool
-are_apart(double a, double ra, double b, double rb)
+are_disjoint(double a, double ra, double b, double rb)
 {
     return fabs(a - b) > ra + rb || (ra == 0 && rb == 0);
 }
 
 static double
-of_remainder(double a, double ra, double b, double rb)
+radius_of_remainder(double a, double ra, double b, double rb)
 {
-    const double q = a / b, rq = of_quotient(q, ra, b, rb);
+    const double q = a / b, rq = radius_of_quotient(q, ra, b, rb);
 
     return floor(q - rq) == floor(q + rq) ? ra + fabs(floor(q)) * rb : NAN;
 }
@@ -298,7 +298,7 @@ typedef struct {
 static disc
 disc_product(disc a, disc b)
 {
-    return (disc){a.c * b.c, of_product(a.c, a.r, b.c, b.r)};
+    return (disc){a.c * b.c, radius_of_product(a.c, a.r, b.c, b.r)};
 }
 
 static disc
@@ -340,7 +340,7 @@ find_multiple_in_result(uint32_t op, const disc *B, const disc *x, disc *of)
     case QDOT_OP_NMADD: *of = disc_sum(B[2], negate_disc(ab)); return !(a && b);
     case QDOT_OP_DIV:
         of->c = B[0].c / x[1].c;
-        of->r = of_quotient(of->c, B[0].r, x[1].c, x[1].r);
+        of->r = radius_of_quotient(of->c, B[0].r, x[1].c, x[1].r);
         return !b;
     default: return false;
     }

@@ -32,7 +32,7 @@ void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, dou
 /* Find which inputs the tape reads: used [inputs]; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
-/* Kinds of operations by which a function that is large elsewhere can be negligible at one point. */
+/* Operations that may be negligible at one point though large elsewhere, so that a value there does not show them. */
 typedef enum {
     QDOT_HIDES_EXPONENTIALS, /* exponentials that are negligible at the start with all their derivatives */
     QDOT_HIDES_QUOTIENTS /* also quotients that are negligible at the start, as 1/x^2 at large x */

@@ -249,7 +249,7 @@ pseudo_random_bits(size_t i, size_t k)
 }
 
 static void
-marking_begin(marking *m, size_t state)
+set_inputs_of_test_state(marking *m, size_t state)
 {
     const size_t inputs = m->tape->inputs;
     double *in = m->work;
@@ -468,7 +468,7 @@ qdot_rounding_show(qdot_tape *tape)
         for (int k = 0; k < SHOWN; k++)
             m.shown[k] = m.errors + (size_t)(k + 1) * tape->places;
         for (size_t state = 0; state < STATES; state++) {
-            marking_begin(&m, state);
+            set_inputs_of_test_state(&m, state);
             for (size_t at = 0; at < tape->length; at++)
                 carry_out_instruction(&m, at);
         }

@@ -313,7 +313,8 @@ text_gives_same_numbers(qdot_session *s, const qdot_name *name, size_t k, bool *
     return qdot_grave(status);
 }
 
-/* Find the latest run, from index `first` on, after which the text of the name gives its value; runs.n: none. */
+/* Find the latest run k >= first such that the name's definition, read again with run k as the latest, gives the same
+ * numbers; else runs.n. */
 static qdot_status
 find_run_for_name(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
 {

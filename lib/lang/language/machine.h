@@ -27,7 +27,7 @@ typedef struct {
     qdot_expr symbol; /* symbol of the index, for a sum by a formula; nil: the index is a number */
 } qdot_sum_frame;
 
-/* The data that a call of a function of type QDOT_BUILTIN_PASSED records while its arguments are evaluated. */
+/* A call such as solve(...), which records what its arguments require to be defined; the record of the call around it. */
 typedef struct qdot_passed_frame {
     qdot_passed passed;
     qdot_passed *outer; /* the record that the session had before */

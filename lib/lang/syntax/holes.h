@@ -15,7 +15,7 @@ typedef enum {
     QDOT_HOLE_COMPARISON, /* as QDOT_HOLE_EQUATION, also with == < <= > >= */
     QDOT_HOLE_RANGE,      /* a range SIDE..SIDE */
     QDOT_HOLE_VALUES,     /* a range SIDE..SIDE, or a single SIDE */
-    QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), with as many entries as the hole names */
+    QDOT_HOLE_TUPLE,      /* (SIDE, SIDE, ...), with as many entries as the text of the placeholder has */
     QDOT_HOLE_CURVE,      /* SIDE, or drift(SIDE, ...) with its further arguments */
     QDOT_HOLE_NAME,       /* a name, which may have indices: name[SIDE, ...] */
     QDOT_HOLE_ROWS,       /* the name of an existing table of rows */

@@ -37,7 +37,7 @@ typedef struct {
     qdot_vec(qdot_inertial) terms;
     qdot_vec(uint64_t) bits; /* [sets * words] bit i of a set: term i belongs to it; set 0 is empty */
     qdot_vec(qdot_expr) weight; /* [sets] sum of the weights w of each set; nil until needed */
-    qdot_vec(uint32_t) slots;   /* open hash table of the sets; an entry is the index + 1 */
+    qdot_vec(uint32_t) slots;   /* open hash table of the sets of inertial terms; an entry is a set's index + 1 */
     uint32_t axis_set[3];       /* index of the set of inertial terms that are positions along axis x, y, z */
     qdot_groups *dx, *dy;       /* [n + 1] groups of dx/dq_i, then of dx/dt; dy == dx if y = x in all inertial terms */
     bool rest_ready, place_ready;

@@ -102,7 +102,7 @@ qdot_ratio_set(qdot_field *f, qdot_ratio *r, const qdot_ratio *a)
     fmpz_mpoly_set(r->d, a->d, f->ctx);
 }
 
-/* Set the field's state if the denominator of a quotient turned out to be zero. */
+/* If the denominator of r is zero, set the field's state to undefined, and the denominator to 1. */
 static void
 check_denominator(qdot_field *f, qdot_ratio *r)
 {

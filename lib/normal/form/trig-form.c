@@ -259,7 +259,7 @@ write_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine
 /* With b cos(2 k) as b - 2 b sin(k)^2 or 2 b cos(k)^2 - b (hyperbolic: b + 2 b sinh(k)^2, 2 b
  * cosh(k)^2 - b), of the harmonics the one that makes it shortest. */
 static qdot_expr
-write_with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
+write_one_harmonic_as_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
 {
     static const int origin[MOST_ANGLES];
     struct harmonic *zero = find_harmonic(x, origin);
@@ -365,7 +365,7 @@ write_by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
     }
     if (n > 0 && !sum->full) {
         e = write_harmonics(f, sum, n, sine, circular);
-        qdot_form_keep(f->pool, &e, write_with_square(f, sum, n, sine, circular));
+        qdot_form_keep(f->pool, &e, write_one_harmonic_as_square(f, sum, n, sine, circular));
     }
     fourier_clear(sum);
     fmpq_clear(c);

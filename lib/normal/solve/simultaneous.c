@@ -135,7 +135,7 @@ effort_to_solve(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
     slope = qdot_diff(s->pool, factor, u);
     if (slope == QDOT_NIL || qdot_expr_contains(s->pool, slope, u))
         return 3;
-    if (slope != QDOT_ZERO && contains_other_unknowns(s, factor) && has_kink_in(s, factor, u)) /* after factors without kinks */
+    if (slope != QDOT_ZERO && contains_other_unknowns(s, factor) && has_kink_in(s, factor, u)) /* after what is linear everywhere */
         return 2;
     if (has_bounded_unknowns(s, factor) && !has_bounded_unknowns(s, u)) /* a sign symbol: its bounds limit equilibria */
         return 2;

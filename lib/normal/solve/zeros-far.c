@@ -309,7 +309,7 @@ growth_of_fast_exponential(const far_task *t, const far_form *u)
     if (!u->known || !(least > 0) || !scale_multiply(t->pool, &slower, &x, 1, 1) ||
         !scale_multiply(t->pool, &slower, &u->scale, -1, 1) || scale_growth(&slower) > 0)
         return form_unknown;
-    most = scale_growth(&slower) == 0 ? 1 : bound_of_scale(t, &slower); /* bound of x/S */
+    most = scale_growth(&slower) == 0 ? 1 : bound_of_scale(t, &slower); /* bound of x/S(x), S the scale by which u grows */
     rate = least / most * (1 - 1e-9);
     if (!(rate > 0))
         return form_unknown;

@@ -135,7 +135,7 @@ size_of_inner_box(size_t n, const qdot_interval *bounds)
 }
 
 static bool
-is_unbounded(qdot_interval a)
+is_unbounded_interval(qdot_interval a)
 {
     return isinf(a.lo) || isinf(a.hi);
 }
@@ -164,7 +164,7 @@ choose_large_unknown(size_t n, const qdot_zeros_range *range, const qdot_interva
 
     for (size_t j = 0; j < n; j++)
         for (int sign = 1; sign >= -1; sign -= 2) {
-            if (range[j].group != group || !is_unbounded(bounds[j]) ||
+            if (range[j].group != group || !is_unbounded_interval(bounds[j]) ||
                 !isinf(sign > 0 ? bounds[j].hi : bounds[j].lo))
                 continue;
             if (choices++ == at)
@@ -186,7 +186,7 @@ qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
     for (size_t j = 0; j < n; j++) { /* the digits of k in a mixed base give the choice in each group of unknowns */
         size_t choices = 0, mine;
 
-        if (seen[j] || !is_unbounded(bounds[j]))
+        if (seen[j] || !is_unbounded_interval(bounds[j]))
             continue;
         for (size_t i = j; i < n; i++)
             seen[i] |= range[i].group == range[j].group;
@@ -205,7 +205,7 @@ qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
         out->inverse[j] = -1;
         for (size_t i = 0; i < n; i++)
             if (out->sign[i] != 0 && range[i].group == range[j].group &&
-                is_unbounded(bounds[j]))
+                is_unbounded_interval(bounds[j]))
                 out->inverse[j] = (int8_t)i;
         if (out->inverse[j] < 0) {
             *box = (qdot_interval){fmax(bounds[j].lo, -R), fmin(bounds[j].hi, R)};

@@ -67,7 +67,7 @@ qdot_chatter_add_state(const qdot_course *c, double t, const double *y, double *
     }
 }
 
-/* Find the largest |g(y + a fraction of the oscillation) - g(y)| over some fractions; the reader holds y [2n]. */
+/* Raise most[j] to the largest |g_j(y') - g_j(y)|, y' being y [2n] moved by + or - the oscillation's amplitude or speed. */
 static qdot_status
 find_change_by_oscillation(const qdot_course_chatter *x, double place, size_t n, qdot_reader *r, double t, const double *y,
                            const double *values, double *g, double *most)

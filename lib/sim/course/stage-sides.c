@@ -34,7 +34,7 @@ typedef struct {
     double *u, *noise; /* [m] values of the surfaces' functions u; their uncertainty by rounding of the state and of u */
     bool *flat;        /* [m] small changes of the state change u only by rounding */
     double *before;    /* [m] u with the sides of the previous pass */
-    uint8_t *open; /* whether each gate, then each surface [m], has to be evaluated (sim/model/gates.h) */
+    uint8_t *open; /* for each gate (if, max, abs), then each surface [m]: whether it has to be evaluated */
     double *out, *in, *work;
 } decision;
 

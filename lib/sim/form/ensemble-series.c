@@ -25,7 +25,7 @@ struct qdot_ensemble_series {
     const qdot_plan *plan;
     size_t n, numbers; /* number of coordinates that move; number of parameters that differ between members */
     const qdot_batch_kernels *kernels;
-    const qdot_motion *motion; /* series program of the plan, or of its residual */
+    const qdot_motion *motion; /* series program of d'Alembert's residual if that form is used, else of M q'' = f */
     qdot_lanes *lanes;
     qdot_constrained_lanes *held; /* constraint solver; NULL: there are no constraints */
     size_t stride;                /* distance of two rows of coefficients, in groups of lanes */

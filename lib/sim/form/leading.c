@@ -19,7 +19,7 @@ _Static_assert((int)QDOT_ODE_LEADING_MOST <= (int)QDOT_TWO_MOST, "orders that ar
 struct qdot_leading {
     const qdot_plan *plan;
     const qdot_ode_series *series;
-    const qdot_motion *motion; /* series program of the plan, or of its residual */
+    const qdot_motion *motion; /* series program of d'Alembert's residual if that form is used, else of M q'' = f */
     qdot_tape_two *two;
     qdot_ode_leading leading;
     qdot_blocks solvers;

@@ -13,7 +13,7 @@ typedef struct {
     size_t n;
     uint32_t
         *group; /* [functions] another function of the same node (links to its first one); itself for the first */
-    uint32_t *first; /* [n] a function that depends on each coordinate */
+    uint32_t *first; /* [n] for each coordinate, the index of the first function found that depends on it; NONE: none */
 } builder;
 
 static uint32_t

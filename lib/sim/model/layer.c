@@ -108,7 +108,8 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
 static double
 layer_width_for_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {
-    /* friction laws need no layer, nor do functions u(t) of time alone, whose zeros are located exactly */
+    /* no layer around u = 0 is needed for exponents below 1 (friction laws), nor for u(t) of time alone: its zeros are
+     * located exactly */
     if (surface->power < 1 || qdot_layers_in_time(pool, surface))
         return 0;
     return fmin(beyond_steps * pow(tol, 1.25), pow(share * tol, 1 / (1 + surface->power)));

@@ -254,7 +254,8 @@ qdot_plan_choose_constrained(qdot_plan *p, const qdot_run_request *request)
     double least;
 
     QDOT_TRY(measure_constrained_form(p));
-    if (request->digits > 0 || p->n_massless > 0) /* with digits or massless coordinates, other forms need an invertible M */
+    /* the eliminated and the bordered equations are too inexact for `digits`, and need M^-1, which massless coordinates lack */
+    if (request->digits > 0 || p->n_massless > 0)
         return QDOT_OK;
     own = p->expansions;
     least = qdot_cost_constrained_steps(p, &own, request->tol);

@@ -61,7 +61,7 @@ qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p)
 /* Values at lengths 2^NEAREST, 2^(NEAREST + 2) ... of the part beside its middle, as far as the step
  * goes, as increments [..] towards it and the nearest value; how many. */
 static int
-find_increments(qdot_range_scan *s, const qdot_range_part *p, int side, double *d, double *nearest)
+find_increments_towards_middle(qdot_range_scan *s, const qdot_range_part *p, int side, double *d, double *nearest)
 {
     const double w = fabs(p->b - p->a), middle = 0.5 * (p->a + p->b);
     double before = 0;
@@ -114,7 +114,7 @@ static void
 extrapolate_from_side(qdot_range_scan *s, const qdot_range_part *p, int side)
 {
     double d[INCREMENTS + 1], nearest = 0, ratio, limit;
-    const int n = find_increments(s, p, side, d, &nearest);
+    const int n = find_increments_towards_middle(s, p, side, d, &nearest);
 
     if (n < LEAST_INCREMENTS || !is_geometric(d, n, &ratio)
         || !(fabs(d[0]) > fmax(4 * DBL_EPSILON * fabs(nearest), QDOT_RANGE_NOISES * s->noise)))

@@ -16,7 +16,7 @@
 typedef struct {
     qdot_run_request request;
     qdot_stage stage;
-    qdot_plan *plan; /* plan of the first mode; owned by `stage` */
+    qdot_plan *plan; /* how to compute the motion with the sides of all switching surfaces as at the start; owned by `stage` */
     qdot_bind *bind;
     qdot_constrained *held; /* constraint solver; NULL: no constraints */
     bool pieces;            /* events or switches may divide the run into pieces */

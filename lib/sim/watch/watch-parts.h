@@ -359,7 +359,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin_deep(qdot_watch *w, const double *l
 QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w, double t);
 QDOT_MUST_CHECK qdot_status qdot_watch_value_deep(qdot_watch *w, double t, double *g);
 void qdot_watch_end_deep(qdot_watch *w);
-/* Find how much rounding of the state changes a `deep` function at the ends of the interval. */
+/* Find how much rounding of the state changes function i at the ends of the interval, evaluated in multiple precision. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_deep(qdot_watch *w, const qdot_watch_part *p, size_t i, double *noise);
 void qdot_watch_clear_flat(qdot_watch *w);
 
