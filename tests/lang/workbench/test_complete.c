@@ -98,7 +98,6 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"plot theta log ", "x xy y"},
         {"style ", "flat latex mathml plain unicode"},
         {"timing ", "off on"},
-        {"export ", "c julia latex matlab octave python"},
         {"check integrable ", "rod"},
         {"check conser", "conserved"},
         {"event e: theta = 0 ", "falling for rising stop then"},
@@ -146,6 +145,25 @@ holds(const char *text, const char *word)
         if ((at == text || at[-1] == ' ') && (at[n] == ' ' || at[n] == '\0'))
             return true;
     return false;
+}
+
+/* Exactly the languages of the table, and LaTeX. */
+static void
+languages_of_exports_are_offered(void **state)
+{
+    static const char *const languages[] = {
+        "latex",
+#define LANGUAGE(word, title, ending, language) #word,
+#include "show/export-languages.def"
+    };
+    const char *found = offers(*state, "export ");
+    size_t letters = strlen(found) + 1;
+
+    for (size_t i = 0; i < sizeof languages / sizeof *languages; i++) {
+        assert_true(holds(found, languages[i]));
+        letters -= strlen(languages[i]) + 1;
+    }
+    assert_int_equal(letters, 0);
 }
 
 /* Operands are expressions: no statement stands there. */
@@ -227,6 +245,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_may_stand_is_offered_and_no_more, begin,
                                         end),
+        cmocka_unit_test_setup_teardown(languages_of_exports_are_offered, begin, end),
         cmocka_unit_test_setup_teardown(operands_take_no_statements, begin, end),
         cmocka_unit_test_setup_teardown(greek_letters_are_offered, begin, end),
         cmocka_unit_test_setup_teardown(every_example_follows_its_usage, begin, end),
