@@ -211,7 +211,7 @@ paint_line(void)
     if (!advance_over(&cursor, rl_line_buffer, (size_t)rl_point) ||
         !advance_over(&end, rl_line_buffer, (size_t)rl_end) || end.row >= end.rows ||
         is_input_waiting())
-        return; /* give up: a part has scrolled off the screen and cannot be repainted */
+        return; /* give up: a width is unknown, a part has scrolled off the screen, or more input waits */
     kinds = kinds_of_line(&before);
     if (kinds == NULL)
         return;

@@ -49,7 +49,7 @@ qdot_motion_free(qdot_motion *motion)
     qdot_free(motion);
 }
 
-/* Copy the names of the coordinates into the motion: the run's own copies may be freed before the motion is. */
+/* Copy the names of the coordinates into the motion: the pool that holds them may be freed before the motion is. */
 static qdot_status
 copy_names(qdot_motion *m)
 {

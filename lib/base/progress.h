@@ -27,7 +27,7 @@ typedef struct qdot_progress {
     char text[80], within[80];
     uint64_t steps, pause,
         until; /* steps since `what` began; steps between looks at the clock; the step of the next look */
-    double begun, opened, last; /* times in seconds at which this work, all nested work, and the line shown began */
+    double begun, opened, last; /* times in seconds: when this part and the whole work began; when a line was last shown */
     bool shown;
 } qdot_progress;
 

@@ -436,7 +436,7 @@ evaluate_to_double(evaluation *v, qdot_expr e, double *value, int *side, double 
     y = ball_of_node(v, e);
     if (!arb_is_finite(y))
         return report_no_value(v->pool, e, "is undefined or not real");
-    /* even computed to 4096 bits the value does not decide how to round it, or it lies exactly at a jump */
+    /* even to 4096 bits it is not decided to which double the value rounds, or the value lies exactly at a jump */
     *value = arf_get_d(arb_midref(y), ARF_RND_NEAR) + 0.0;
     if (arb_rel_accuracy_bits(y) < 60)
         return report_no_value(v->pool, e, "could not be decided in 4096 bits");

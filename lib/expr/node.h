@@ -27,7 +27,7 @@ typedef struct {
 } qdot_node;
 
 const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
-/* What is known of the sign of e, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; 0 for nil. */
+/* What the node of e stores about the sign of e, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; 0 for nil. */
 uint8_t qdot_expr_sign(const qdot_pool *pool, qdot_expr e);
 /* The args of a node; valid until the next constructor call. */
 const qdot_expr *qdot_expr_args(const qdot_pool *pool, qdot_expr e);

@@ -8,7 +8,7 @@
 #include "expr/print-name.h"
 #include "formula/formula.h"
 
-/* The notation (LaTeX, MathML, a line of text ...) in which formulas of this style are written. */
+/* The notation in which formulas of this style are written: as input, as a line of text, or drawn (LaTeX, MathML ...). */
 qdot_notation_kind qdot_print_notation(qdot_style style);
 
 /* Append e as a child of the parent; `in` a LIST of symbols if it is a series in them, else nil. Errors: QDOT_EINVAL

@@ -517,7 +517,7 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
             p.status = out->failed ? QDOT_ENOMEM : qdot_interrupt_check();
     }
     qdot_free(p.todo.at);
-    if (p.status == QDOT_OK) /* for a number or a name nothing else is left to print */
+    if (p.status == QDOT_OK) /* a number or a name takes no step of the loop, where the formula is checked, too */
         p.status = qdot_formula_status(out);
     if (p.status != QDOT_OK)
         /* forget the nodes stored for expressions that were not printed completely */

@@ -418,7 +418,7 @@ run_merging_round(struct product *p)
         if (x.exponent == QDOT_ZERO)
             continue;
         if (base->kind == QDOT_PROD && is_integer(pool, x.exponent)) {
-            /* what was handled is put back after the part of the list not yet processed */
+            /* append the factors of this product after the part of the list that is not processed yet */
             qdot_expr e = x.base;
             fmpq_t y;
 

@@ -132,7 +132,7 @@ qdot_rational_equal(const fmpq *a, const fmpq *b)
 {
     if (COEFF_IS_MPZ(a->num) || COEFF_IS_MPZ(a->den))
         return fmpq_equal(a, b);
-    return a->num == b->num && a->den == b->den; /* large numbers: FLINT represents equal values by equal words */
+    return a->num == b->num && a->den == b->den; /* a is small, and FLINT stores a small number in only one way */
 }
 
 /* Whether the integer x equals k, where |k| < 2^62. */

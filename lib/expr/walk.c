@@ -41,7 +41,7 @@ enlarge_node_table(qdot_walk *w)
     return QDOT_OK;
 }
 
-/* Sort ids ascending by merging runs that are sorted already, since nodes are made in order; scratch [n]. */
+/* Sort ids ascending: groups of 8 by insertion (the ids come nearly in order), then by merging; scratch [n]. */
 static void
 sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
 {

@@ -402,7 +402,7 @@ count_relations(layout *l)
 
 /* --- lines that have no place to be broken at ---------------------------------------------------- */
 
-/* Replace item i of the line by the boxes that are on the stack. */
+/* Replace item i of the formula by the boxes that are on the stack. */
 static qdot_status
 replace_item(layout *l, size_t i)
 {

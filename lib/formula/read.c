@@ -146,7 +146,7 @@ finish_term(reader *r)
     g->product = 0;
 }
 
-/* Add a factor to the product; power (not 0): add it as the exponent of that power node instead. */
+/* Add a factor to the product; power (not 0): add it instead to that node, as a power's exponent or under a root. */
 static void
 append_factor(reader *r, qdot_formula_id id, qdot_formula_id power)
 {

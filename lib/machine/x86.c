@@ -242,7 +242,7 @@ emit_sse2_operation(qdot_asm *m, int name, bool wide, int reg, int first, qdot_o
     emit_two_operands(m, name, wide, reg, b);
 }
 
-/* Append a product and a sum as two SSE2 instructions, which AVX2 has as one fused instruction. */
+/* Append SSE2 instructions for a product and a sum, each rounded, which AVX2 has as one fused instruction. */
 static void
 emit_product_and_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {

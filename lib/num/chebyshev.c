@@ -199,7 +199,7 @@ qdot_chebyshev_sign(int n, const double *c)
 /* --- roots of a series -------------------------------------------------------------- */
 
 typedef struct {
-    double lo, hi; /* the ends of the interval of x on which the whole series is defined */
+    double lo, hi; /* the ends of this piece, in the variable x of the whole series */
     double at_lo, at_hi;
     int n;
     double c[most];

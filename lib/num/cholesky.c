@@ -39,7 +39,7 @@ pivot_is_significant(double *a, size_t n, const size_t *index, size_t i, double 
     return d > 4 * (double)(i + 1) * DBL_EPSILON * size * size;
 }
 
-/* Factor the block with the m rows and columns `index`; returns m, or the index of a pivot that is not positive. */
+/* Factor the block with the m rows and columns `index`; returns m, or the index of a pivot that is not clearly positive. */
 static inline size_t
 factor_block(double *a, size_t n, const size_t *index, size_t m)
 {

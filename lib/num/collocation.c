@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Families of nodes: zeros of the Legendre polynomials' differences P_s, P_s - P_(s-1), P_s - P_(s-2). */
+/* Families of nodes: zeros of Legendre's P_s, P_s - P_(s-1), P_s - P_(s-2); each value is the difference of degrees. */
 typedef enum { GAUSS, RADAU, LOBATTO } family;
 
 /* The Legendre polynomial P_s(x) minus P_(s-1) for Radau, P_(s-2) for Lobatto; s >= 1, for Lobatto s >= 2. */

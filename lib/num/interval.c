@@ -81,7 +81,7 @@ qdot_interval_sum(qdot_interval a, qdot_interval b)
 {
     qdot_interval d = qdot_interval_outward(a.lo + b.lo, a.hi + b.hi);
 
-    if (a.lo >= 0 && b.lo >= 0) /* the product is not negative: rounding cannot change its sign */
+    if (a.lo >= 0 && b.lo >= 0) /* the sum is not negative: rounding must not make it negative */
         d.lo = fmax(d.lo, 0);
     if (a.hi <= 0 && b.hi <= 0)
         d.hi = fmin(d.hi, 0);

@@ -23,7 +23,7 @@ qdot_interval qdot_interval_point(double x);
 bool qdot_interval_is_point(qdot_interval a);
 /* The smallest interval that contains both intervals. */
 qdot_interval qdot_interval_around(qdot_interval a, qdot_interval b);
-/* The part of the interval a inside least ... most, the domain of a function. */
+/* The part of the interval a inside least ... most, such as the domain of a function. */
 qdot_interval qdot_interval_within(qdot_interval a, double least, double most);
 /* lo ... hi rounded outward. A lower bound that overflows becomes the largest double: the exact value is
  * finite. */

@@ -136,7 +136,7 @@ reducible_part(search *s)
     return gsl_blas_dnrm2(s->along) / fmax(gsl_blas_dnrm2(&f.vector), 1e-300);
 }
 
-/* Compute the Gauss-Newton step C J^T f that remains at the end, into x->left. */
+/* Compute the Gauss-Newton step C J^T f that remains at the present u, into x->left. */
 static void
 compute_remaining_step(const search *s)
 {

@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The pivot row, and the first and the last column of the non-zero entries of a row. */
+/* The index of the pivot row; the entries of this row are 0 except in columns from ... to - 1. */
 typedef struct {
     size_t pivot, from, to;
 } qdot_lu_row;

@@ -169,7 +169,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
         high = product + 2 * used - kept;
         if (below > 0)
             mpn_rshift(product + 2 * used - kept, high, (mp_size_t)kept, (unsigned)below);
-        /* acc begins with a limb before the binary point, then come the skipped ones */
+        /* the highest limb of acc is before the binary point, below it are the skipped ones */
         used = m - 1 - skipped - kept;
         if (mpfr_signbit(a[j]) == mpfr_signbit(*b))
             mpn_add(acc + used, acc + used, (mp_size_t)(m - used), high,

@@ -208,7 +208,7 @@ scale_unknowns(qdot_saddle *s)
     }
 }
 
-/* The size relative to which row k of the scaled matrix R = E A D is judged to be small; `norm`: its norm. */
+/* The size by which row k of A D, which has the norm `norm`, is scaled; greater if the row has shrunk much. */
 static double
 reference_size_of_row(const qdot_saddle *s, size_t k, double norm)
 {

@@ -83,7 +83,7 @@ find_distance_without_zero(const family *x, double *open)
     return QDOT_OK;
 }
 
-/* Test the k-th direction: OTHER if the zero belongs to a family along it; else *open: the distance without zeros. */
+/* Test the k-th direction: OTHER if the zero belongs to a family along it; else *open: how far off F surely is not 0. */
 static qdot_status
 test_direction(const family *x, size_t k, beside_answer *answer, double *open)
 {

@@ -467,7 +467,7 @@ read_states_before_end(follower *f)
     return status == QDOT_OK;
 }
 
-/* Evaluate the companion's state at the end, and (if `whole`) whether its states at the comparison times are known. */
+/* Finish the companion: find its state at the end, and (`whole`) whether its states at the comparison times are known. */
 static bool
 finish_companion(follower *f, bool whole, qdot_companion_estimate *out)
 {

@@ -235,7 +235,7 @@ double qdot_companion_term_tol(double tol, size_t number);
  * for scenes that would stop series and is accurate enough itself. */
 bool qdot_companion_is_by_series(const qdot_ode_method *method);
 
-/* Choose the method of a companion run, and its tolerance *tol. */
+/* The method of a companion run; the second function: its tolerance, from the tolerance tol of the run. */
 const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
                                              const qdot_ode_method *method);
 double qdot_companion_tolerance(const qdot_ode_system *system,

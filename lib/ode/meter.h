@@ -37,7 +37,7 @@ typedef struct {
 struct qdot_ode_meter {
     const qdot_ode_meter *beside; /* meter of the run with which this work is compared, borrowed; NULL: no limit */
     double factor, allowance;
-    double early_factor, early; /* the limits `factor` and `allowance` as they are applied at each mark, before the end */
+    double early_factor, early; /* like `factor` and `allowance`, but beside the other run's work up to the same time */
     double spent;      /* work of earlier attempts for the same purpose, which counts, too */
     double direction;  /* direction of time: +1 or -1 */
     double t0;

@@ -22,7 +22,7 @@ typedef struct qdot_ode_method {
     const char *partner; /* the one-step method of its companion run (companion.h; of a stiff method
                             it is radau) and, unless it has a kernel, of its output between steps
                             (trajectory.h) */
-    double companion_ratio; /* tolerance of a run divided by that of the companion run that estimates its error */
+    double companion_ratio; /* tolerance of the companion run that estimates a run's error, divided by that of the run */
     double companion_tol;   /* the smallest tolerance of a companion run that still improves accuracy */
     const char *fits;       /* one line for the user: when to use the method */
     const void *stepper; /* GSL's stepper type, const gsl_odeiv2_step_type *const *; NULL: not from GSL */

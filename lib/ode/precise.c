@@ -315,7 +315,7 @@ fail_with_small_step(const state *s)
     return qdot_hint("the solution has a singularity there");
 }
 
-/* Set h and the end of the step from the desired length; near t1 the end is t1 itself, and *last is set. */
+/* Set h and the end of the step from the desired length; near t1 the end is t1 itself. */
 static void
 set_step_end(state *s, double log2_h)
 {

@@ -62,7 +62,7 @@ typedef struct {
     double before_h, h;
     bool slopes, fresh;             /* whether the Jacobian has been evaluated; whether that was at the present y */
     double factored;                /* step length for which the matrices are factored; 0: none */
-    double rate, rate_before, left; /* Newton's iteration: convergence rate, that of the last step, remaining error */
+    double rate, rate_before, left; /* Newton's iteration: mean and last convergence rate, remaining error by last change */
     double fall; /* factor by which the last iteration reduced the residual of the forces */
     int iterations, since; /* iterations of this step; steps since the number of stages changed */
     double ratio;                   /* error ratio (error divided by tolerance) of the last accepted step */

@@ -5,7 +5,7 @@
 #include "ode/companion.h"
 #include "ode/taylor-numbers.h"
 
-/* The lowest order; the highest increase of the order for companion runs (companion.h). */
+/* The lowest order; how many of the highest orders are left to companion runs (companion.h). */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
 /* Stability limits for orders from 6 on: 10 z, where |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6 up to z. */

@@ -126,7 +126,7 @@ is_confirmed_at_end(const run *r, double h, double part, double old_held)
     return derived_components_agree(r, part * h, share);
 }
 
-/* The largest defect (error of the derivative) of a component at the end of the step, relative to its size, by |h|. */
+/* The largest defect of a component at the end of the step: the error of its time derivative, relative to its size. */
 static double
 find_defect(const run *r, double h)
 {
@@ -422,7 +422,7 @@ taylor_advance(run *r)
 static qdot_status
 report_work(run *r)
 {
-    /* the number of expansions: a rejected step needs a second one at its start */
+    /* the number of expansions; a rejected step counts one more, as its series is begun a second time */
     const uint64_t now = r->result->stats.evaluations + r->result->stats.rejected;
     const double work = (double)(now - r->counted) * r->work;
 

@@ -115,7 +115,7 @@ store_low(qdot_trajectory *tr, const double *low)
     return QDOT_OK;
 }
 
-/* Stop a run that has made little progress in many steps, long before it reaches the limit of steps. */
+/* Stop a run that has made little progress in many steps, before it reaches the limit of steps. */
 static qdot_status
 stop_hopeless_run(const recorder *r, double t)
 {

@@ -47,7 +47,7 @@ typedef struct {
     bool just_rejected; /* the last try was rejected: the next step must not grow */
     qdot_error last_undefined; /* the last error of the right-hand side f */
     double undefined_at;       /* end of the step at which f was undefined; NaN: none yet */
-    double margin, margin_at; /* value of system->margin at the last step that was rejected, and the time t of that */
+    double margin, margin_at; /* value of system->margin when it was asked for last, and the time t of that */
     double best;               /* largest value of system->margin so far */
     double longest;            /* length of the longest step taken so far */
     double work;               /* work already reported to the meter (meter.h) */
@@ -76,7 +76,7 @@ least_step_length(const run *r)
     return fmax(16 * spacing(r->t), 16 * DBL_MIN);
 }
 
-/* The scaled norm max_i |x_i| / (tol max(s_i, |y_i|)) of a change x of the state. */
+/* The scaled norm max_i |x_i| / (tol max(s_i, |y_i|)) of x [n]: a derivative of the state y, or a difference of two. */
 static double
 scaled_norm(const run *r, const double *x, const double *y)
 {

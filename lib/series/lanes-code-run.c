@@ -194,7 +194,7 @@ allocate_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
     return QDOT_OK;
 }
 
-/* Generate the machine code; *code is NULL if that is not possible on this processor. */
+/* Generate the machine code; *code is NULL if the code would be too long, or the system does not let it be run. */
 static qdot_status
 build_code(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
 {

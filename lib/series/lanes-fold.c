@@ -46,7 +46,7 @@ qdot_writer_within(const qdot_lanes_writer *w, const qdot_program_step *product)
     return z && lanes_step_is_product(z->op) && is_folded(w, product->z) ? z : NULL;
 }
 
-/* Whether a step reads the row only as a summand: as its operand z, or as its only operand. */
+/* Whether a step reads the row only as a summand: in a plain sum, sign or time derivative, or as its operand z. */
 static bool
 is_only_summand(const qdot_program_step *s, qdot_program_row row)
 {
@@ -106,7 +106,7 @@ fold_negation_or_rate(qdot_lanes_writer *w, size_t i)
         w->steps[i].folded = true;
 }
 
-/* Make step i, a product, part of the step that adds this product to a sum. */
+/* If step i adds its product to the result of another product's step, which nothing else reads, fold that into step i. */
 static void
 fold_product(qdot_lanes_writer *w, size_t i)
 {

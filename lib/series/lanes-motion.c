@@ -164,7 +164,7 @@ write_integrated_coefficient(qdot_lanes_writer *w, const qdot_lanes_motion *c, i
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
-    /* low orders divide exactly (program.h); the orders in the loop are higher */
+    /* correct the rounding of the inverse at low orders, as by a division (program.h); the orders in the loop are higher */
     if (c->to >= QDOT_TAYLOR_EXACT_FROM && k <= QDOT_TAYLOR_EXACT) {
         qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
                                qdot_lanes_scalar_of(w, more, k));
@@ -174,7 +174,7 @@ write_integrated_coefficient(qdot_lanes_writer *w, const qdot_lanes_motion *c, i
     qdot_lanes_store(w, sum, to);
 }
 
-/* Write code for coefficients k + 1 of the velocity and k + 2 of the position whose acceleration is an unknown. */
+/* Write code for coefficients k + 1 of the first and k + 2 of the second integral of an unknown (velocity, position). */
 static void
 write_integrated_unknown(qdot_lanes_writer *w, const qdot_lanes_motion *c,
                          const qdot_motion_unknown *u, qdot_lanes_at a, int k)

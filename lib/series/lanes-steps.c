@@ -35,7 +35,7 @@ order_as_factor(int k)
     return k;
 }
 
-/* Store a sum as the coefficient of a row, unless this depends on unknown coefficients of the inputs. */
+/* Store a sum as the coefficient of a row; while unknowns are not known, an empty sum marks this as absent. */
 static void
 store_coefficient(const step *s, qdot_lanes_sum sum, qdot_program_row to)
 {

@@ -75,7 +75,7 @@ write_address(qdot_lanes_writer *w, qdot_asm_base to, qdot_lanes_row row, int or
         qdot_asm_set(&w->m, to, (qdot_asm_base)rm.reg, rm.offset);
 }
 
-/* Jump into the loop over the terms, at the address in a register, or `less` terms later for lower orders. */
+/* Jump into the sequence of terms, at the address in a register, or `less` terms later for lower orders. */
 static void
 write_jump_into_terms(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int less)
 {

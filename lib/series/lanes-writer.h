@@ -112,7 +112,7 @@ int qdot_writer_take(qdot_lanes_writer *w);
 void qdot_writer_settle(qdot_lanes_writer *w);
 /* Forget what registers below `end` hold, after storing values that memory does not have. */
 void qdot_writer_leave(qdot_lanes_writer *w, int end);
-/* Write code that stores a register at `a`; no other register then counts as holding the old value. */
+/* Write code that stores a register at `to`; no other register then counts as holding the old value. */
 void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
 void qdot_writer_clear(qdot_lanes_writer *w, int reg);
 /* The number of groups of numbers that the code needs as work space. */

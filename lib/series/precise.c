@@ -160,7 +160,7 @@ qdot_precise_order(qdot_precise *p, int k)
 
 /* --- unknowns: accelerations and multipliers ----------------------------------------- */
 
-/* Coefficient k of a row; NULL if the row does not exist. */
+/* Coefficient k of a row; NULL if the row or this order of it does not exist. */
 static mpfr_ptr
 precise_at(const qdot_precise *p, qdot_program_row row, int k)
 {

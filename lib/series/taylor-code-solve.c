@@ -2,7 +2,7 @@
  * for unknowns. */
 #include "series/taylor-code-sum.h"
 
-/* Where entry (i, j) of the Cholesky factor L of a block is stored (later: of the inverse M_0^-1). */
+/* Where entry (i, j) of a block's Cholesky factor L is stored; from i = n on, entry (i - n, j) of the inverse M_0^-1. */
 static qdot_operand
 place_of_factor_entry(const qdot_generator *g, size_t block, size_t i, size_t j)
 {

@@ -2,7 +2,7 @@
 #include "series/taylor-generator.h"
 
 enum {
-    /* if the sums need more vectors than this, most of them are kept in memory */
+    /* if sums and rows need more vectors than this, most of them are kept in memory */
     many_vectors = 40,
     temporary = 0,
     spare = 1,

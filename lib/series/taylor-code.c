@@ -219,7 +219,7 @@ find_all_sums(qdot_generator *g)
     return QDOT_OK;
 }
 
-/* Make one convolution sum of all products by which an unknown is coupled to others. */
+/* For each equation of the unknowns, make one convolution sum of all products M a in it. */
 static qdot_status
 find_sums_of_unknowns(qdot_generator *g)
 {
@@ -427,7 +427,7 @@ allocate_work_space(qdot_taylor_code *c)
     return QDOT_OK;
 }
 
-/* Whether all rows that integrals of the system (links) write belong to the program itself. */
+/* Whether all rows that integrals (links) read belong to the program itself. */
 static bool
 links_stay_in_program(const qdot_taylor *t)
 {

@@ -40,7 +40,7 @@ typedef struct {
     double **r;       /* [n] scratch: f minus those products M a that are already known */
     qdot_taylor_coupling *couplings; /* [n_couplings] the non-zero products of the equations, ordered by equation i */
     size_t n_couplings;
-    double *matrices; /* [n x n] Cholesky factor L of M_0 (order 0 of the matrix), then [n x n] its inverse */
+    double *matrices; /* [n x n] Cholesky factor L of M_0 (order 0 of the matrix), then [n x n] M_0^-1 */
 } qdot_taylor_block;
 
 /* An unknown that is solved for: rows of it and of its integrals; NULL: there is none, or a link computes it. */

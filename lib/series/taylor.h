@@ -92,7 +92,7 @@ size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 double qdot_taylor_near(const qdot_taylor *taylor, int p, double s, double least);
 bool qdot_taylor_may_hide(const qdot_taylor *taylor);
 
-/* The number of convolution sums that an order costs (a square counts half); _instructions: of instructions. */
+/* The number of convolution sums that an order costs (a square counts half); qdot_taylor_length: of steps. */
 double qdot_taylor_convolutions(const qdot_taylor *taylor);
 size_t qdot_taylor_length(const qdot_taylor *taylor);
 

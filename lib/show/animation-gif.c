@@ -205,7 +205,7 @@ have_same_ends(const qdot_animation_link *a, const qdot_animation_link *b)
            (a->ends[0] == b->ends[1] && a->ends[1] == b->ends[0]);
 }
 
-/* Draw springs, dampers or rods (one kind); those between the same two points are drawn side by side. */
+/* Draw springs, dampers or rods (one kind); springs and dampers between the same two points stand side by side. */
 static void
 draw_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
 {

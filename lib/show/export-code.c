@@ -156,7 +156,7 @@ write_arithmetic(const writer *w, const value *v, qdot_text *out)
         add_operand(w, a, PRODUCT, out);
         return SUM;
     case QDOT_OP_ADD:
-        /* put brackets around a negative constant: x + (-1.0) */
+        /* subtract a negative constant: x - 1.0 in place of x + (-1.0) */
         if (w->values[b].op == QDOT_OP_COUNT && *w->values[b].text == '-') {
             add_operand(w, a, SUM, out);
             qdot_text_format(out, " - %s", w->values[b].text + 1);
@@ -241,7 +241,7 @@ declare_variable(writer *w, const char *word, bool truth, const char *text)
 
     add_formatted(&line, truth ? w->frame->language->truth : w->frame->language->number, word);
     if (line.failed) {
-        w->out->failed = true; /* the format is too long for the text */
+        w->out->failed = true; /* there was no memory for the format */
     } else {
         qdot_text_add(w->out, w->frame->indent);
         add_formatted(w->out, qdot_text_str(&line), text);

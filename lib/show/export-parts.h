@@ -38,7 +38,7 @@ typedef struct {
 /* A surface at which the equations switch. */
 typedef struct {
     const char *text; /* equation of the surface: "x' = 0" */
-    bool steps;       /* the motion's mode is given by floor(u), otherwise by the sign of u (u = 0: the surface) */
+    bool steps;       /* the side of the surface is floor(u), otherwise the sign of u (u = 0: the surface) */
     bool moves;       /* u depends on coordinates or velocities, not on time alone */
 } qdot_export_surface;
 

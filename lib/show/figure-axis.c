@@ -226,7 +226,7 @@ list_linear_tics(const qdot_figure_axis *a, tics *t)
     qdot_text_clear(&label);
 }
 
-/* Append 10^power times 1, 2 or 5 as 0.1, 1, 20 if `plain`, otherwise as 10^k. Returns the number of letters. */
+/* Append times 10^power (times: 1 ... 9) as 0.1, 1, 20 if `plain`, otherwise as 2·10^k. Returns the number of letters. */
 static size_t
 add_power_of_ten(qdot_text *label, int times, int power, bool plain)
 {

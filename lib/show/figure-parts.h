@@ -44,7 +44,7 @@ qdot_figure_axis qdot_figure_axis_of(double least, double most, qdot_figure_tics
 bool qdot_figure_add_pi(qdot_text *out, double x);
 /* The number of tics of a linear axis; 0: gnuplot chooses them, or it is logarithmic. */
 int qdot_figure_count_tics(const qdot_figure_axis *axis);
-/* A tic of an axis: a large one with a number of `letters` characters of markup, or a small one without. */
+/* A tic of an axis: a large one with its number in gnuplot's markup, `letters` characters wide, or a small one without. */
 typedef struct {
     double at;
     char label[48];

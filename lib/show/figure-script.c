@@ -191,7 +191,7 @@ legend_entry_width(const qdot_panel *panel)
     return most + 7;
 }
 
-/* The number of rows of the legend above the axes; 0: it has none there. */
+/* The number of rows that a legend above the axes has; 0: there is no legend. */
 static size_t
 legend_row_count(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -321,7 +321,7 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         add_view_of_space(d, panel, axes);
 }
 
-/* Write where gnuplot finds a curve's data columns; floor: a space curve projected onto the xy plane. */
+/* Write where gnuplot finds a curve's data columns; floor: a space curve projected onto the floor of the box. */
 static void
 add_data_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_axis *axes, bool floor)
 {
@@ -394,7 +394,7 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                              marks[style.look % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
-        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* few enough to tell them apart */
+        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* not a mark at every point: they would hide each other */
             qdot_text_format(d->script, " pointinterval %zu",
                              panel->curves[k].rows / (MANY_MARKS / 2));
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", style.colour);
@@ -428,7 +428,7 @@ space_above_and_below(const qdot_figure_drawing *d, size_t i, double *above, dou
 
     *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) +
                      (has_legend_beside(d, panel) ? 0 : (double)legend_row_count(d, panel)));
-    if (legend_row_count(d, panel) == 0 && panel->axis[1].text != NULL) /* space for a power of ten above it */
+    if (legend_row_count(d, panel) == 0 && panel->axis[1].text != NULL) /* space for a power of ten above the axis */
         *above += line * 0.8;
     *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
 }

@@ -345,7 +345,7 @@ is_monotonic_in_x(const qdot_curve *curve)
     return curve->z == NULL && (up || down);
 }
 
-/* Count the points to be written; stop counting at most + 1. */
+/* Count the points to be written, but not beyond `most` + 1. */
 static qdot_status
 count_points(const choice *c, size_t most, size_t *n)
 {

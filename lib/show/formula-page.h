@@ -33,7 +33,7 @@ typedef struct qdot_formula_page {
     bool block;         /* a block of equations is open */
     bool told;          /* the last row of the open block has been ended by the words after it */
     qdot_text label;    /* the answer's name that is written before the next row in LaTeX */
-    qdot_text written;  /* scratch: LaTeX text of the formula being written and its parts */
+    qdot_text written;  /* scratch: LaTeX or MathML of the formula being written and its parts */
     qdot_formula_parts parts;
     qdot_vec(qdot_page_cut) cuts; /* position of each part in `written`; the last entry is the end of the text */
 } qdot_formula_page;

@@ -75,7 +75,7 @@ write_mathml_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_par
             QDOT_TRY(qdot_formula_write_page(f, parts->part.at[i], qdot_formula_before_part(parts, i), out));
             continue;
         }
-        /* keep the space before a sign at which the formula is broken */
+        /* divide the formula here: the blank between the two elements is the space before the sign */
         qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
         if (qdot_formula_write_page(f, parts->part.at[i], (qdot_formula_before){0}, &sign) == QDOT_OK)
             qdot_text_add(out, qdot_text_str(&sign) + strlen(tag));

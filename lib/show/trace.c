@@ -1,4 +1,4 @@
-/* trace.c -- samples a curve, with more points where it bends sharply. */
+/* trace.c -- samples a curve, with more points where it bends. */
 #include "show/trace.h"
 
 #include <math.h>
@@ -183,7 +183,7 @@ insert_points(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *ha
     return QDOT_OK;
 }
 
-/* Halve once the segments that bend too much or are too long; *done: no segment had to be halved. */
+/* Halve once the segments at a bend, at an end of a gap, or that jump across the view; *done: none was halved. */
 static qdot_status
 halve_segments(const qdot_trace_source *source, const qdot_figure_view *view,
                qdot_trace *p, bool *done)

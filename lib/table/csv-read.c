@@ -215,7 +215,7 @@ has_number(reader *r)
     return found;
 }
 
-/* Read the names of the columns from a line of words before the first row of numbers. */
+/* Read the names of the columns from the first line of words before the first row of numbers. */
 static qdot_status
 read_column_names(reader *r)
 {

@@ -300,7 +300,7 @@ static long
 choose_composition(qdot_angles *a, argument *arg, bool composed)
 {
     long change = composed ? -a->call : a->call;
-    const uint32_t before = composed ? 0 : 1; /* number of uses above which a separate sine and cosine of the base angle pay */
+    const uint32_t before = composed ? 0 : 1; /* number of uses with which an angle begins (or ceases) to cost something */
 
     if (arg->composed == composed)
         return 0;

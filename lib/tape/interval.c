@@ -40,7 +40,7 @@ qdot_interval_work(const qdot_tape *tape)
     return tape->places;
 }
 
-/* Apply an operation of the tape to numbers; the results are intervals of length 0. */
+/* Apply an operation of the tape to numbers; finite results become intervals of length 0. */
 static void
 apply_to_numbers(const qdot_instruction *i, double a, double b, double c, qdot_interval *to,
                  qdot_interval *second)

@@ -26,7 +26,7 @@
 
 #include "expr/walk.h"
 
-/* Whether some node of an expression is a quotient or a logarithm of exponentials. */
+/* Whether an expression contains exp, cosh or sinh, of which it may have quotients or logarithms. */
 bool qdot_logistic_occurs(const qdot_walk *w);
 
 /* The expression e, its quotients rewritten so that they do not overflow. Nil: a failure of the pool. */

@@ -60,7 +60,7 @@ value_of_node(lowering *l, qdot_expr e)
                                         : (qdot_value)qdot_walk_get(&l->walk, e);
 }
 
-/* Remove the sign from a value, and store in *minus whether it was negative. */
+/* If a value is the negative -x of another one, return x and reverse *minus; otherwise return the value. */
 static qdot_value
 remove_sign(lowering *l, qdot_value v, bool *minus)
 {
@@ -200,7 +200,7 @@ multiply_product(lowering *l, product *p, qdot_value v)
     *p = (product){true, p->some ? write_operation(l, QDOT_OP_MUL, p->value, v) : v};
 }
 
-/* Twice a rational exponent, if that is a moderately large integer; otherwise 0. */
+/* Twice a rational exponent if that is an integer of moderate size; otherwise 0. */
 static long
 twice_exponent(const qdot_pool *pool, qdot_expr exponent)
 {
@@ -544,7 +544,7 @@ compile_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const 
     return status;
 }
 
-/* Rewrite the outputs [m] so that quotients of exponentials do not overflow (owned); walk the new outputs. */
+/* Rewrite the outputs [m], into *finite (owned), so that quotients of exponentials do not overflow; walk these. */
 static qdot_status
 rewrite_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **finite)
 {

@@ -238,7 +238,7 @@ typedef struct {
     size_t count;
 } marking;
 
-/* Pseudo-random bits for input i in test state k. */
+/* Pseudo-random bits for input i in the k-th of several independent sequences. */
 static uint32_t
 pseudo_random_bits(size_t i, size_t k)
 {

@@ -11,7 +11,7 @@
 
 #include "tape/tape.h"
 
-/* Copy a tape, its constants replaced by neighbouring doubles; owned by the caller. Errors: QDOT_ENOMEM. */
+/* Copy a tape, rounded constants replaced by the doubles on the other side; owned by the caller. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken);
 
 /* The double that lies |side| ulps from x, above x if side > 0, below if side < 0. */

@@ -1,4 +1,4 @@
-/* sheet.c -- answers that contain formulas: for a terminal, as plain text, or for an HTML page. */
+/* sheet.c -- answers that contain formulas: for a terminal, as plain text, or for a page (LaTeX or HTML). */
 #include "lang/answer/sheet.h"
 
 #include <inttypes.h>
@@ -375,7 +375,7 @@ print_sheet(const qdot_sheet *s, const char *name)
     return qdot_answer_drawn(s->session, name, status, &drawn);
 }
 
-/* Find the block of an HTML page for the equations of the present statement; make it if it is missing. */
+/* Find the page block (LaTeX or MathML) for the equations of the present statement; make it if it is missing. */
 static qdot_formula_page *
 find_or_make_page_block(qdot_session *session)
 {

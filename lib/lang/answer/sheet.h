@@ -22,7 +22,7 @@
 typedef enum {
     QDOT_SHEET_LINES, /* the answer is written as lines of text */
     QDOT_SHEET_DRAWN, /* drawn in two dimensions on a terminal */
-    QDOT_SHEET_PAGE   /* as a part of an HTML page */
+    QDOT_SHEET_PAGE   /* as a part of a page, in LaTeX or HTML */
 } qdot_sheet_form;
 
 typedef struct {

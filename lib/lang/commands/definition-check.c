@@ -365,7 +365,7 @@ refuse_velocity_of_particle(assignment *a)
                : QDOT_OK;
 }
 
-/* The label of a particle, body, spring or run that the left side names, or a family of labels; NULL: none. */
+/* The label of a run or a thing of the scene (particle, spring, force ...) on the left side, or a family; NULL: none. */
 static const char *
 label_on_left_side(const assignment *a)
 {

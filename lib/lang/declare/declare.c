@@ -1,4 +1,4 @@
-/* declare.c -- carries out the definition NAME = EXPR, or of a function. */
+/* declare.c -- carries out definitions: NAME = EXPR, or that of a function. */
 #include "lang/declare/declare.h"
 
 #include <string.h>

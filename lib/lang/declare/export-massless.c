@@ -69,7 +69,7 @@ check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
     return qdot_hint("a small mass, or `save` of a run");
 }
 
-/* The time derivative of an equation f = 0 that contains accelerations: the first, or the second if f has no velocities. */
+/* The time derivative of an equation f = 0 that has accelerations: the second if f has no velocity of a massless q. */
 static qdot_expr
 accelerated_rate(const qdot_scene *s, const bool *massless, qdot_expr f)
 {

@@ -5,7 +5,7 @@
 #include "lang/syntax/record.h"
 #include "show/figure.h"
 
-/* Options of the whole figure: to "FILE", size W, H, keep (the window). */
+/* Options of the whole figure: to "FILE", size W, H, keep (the files with its gnuplot script and data). */
 typedef struct {
     const char *path; /* NULL: not given */
     double width, height;

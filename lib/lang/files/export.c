@@ -1,4 +1,4 @@
-/* export.c -- the statement `export LANGUAGE WHAT to "FILE"`: writes the motion as a program in another language. */
+/* export.c -- the statement `export LANGUAGE WHAT to "FILE"`: writes the motion or an expression in that language. */
 #include <string.h>
 
 #include "lang/answer/answer.h"

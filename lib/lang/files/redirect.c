@@ -30,7 +30,7 @@ static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PL
 bool
 qdot_redirect_answers(const qdot_statement *row)
 {
-    /* words of statements that parse `to` themselves, or have no answer, though their group is redirected */
+    /* statements of other groups with answers to redirect; one not listed parses `to` itself, or has no answer */
     static const char *const words[] = {"run",  "plan", "events", "help",
                                         "show", "vars", "print"};
 

@@ -191,7 +191,7 @@ add_numerical_roots(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_
     whole = whole && !contains_other_unknowns(session, f, x);
     for (uint32_t i = 0; i < qdot_expr_count(pool, factors) && !whole; i++)
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
-    if (rest == QDOT_ONE) /* each factor was solved exactly, so no zeros remain to be found numerically */
+    if (rest == QDOT_ONE) /* either no factor was solved exactly, or every one: take the whole of f */
         rest = f;
     domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
     window = qdot_solve_tighten(pool, x, domain, qdot_solve_window(pool, x, false), facts);
@@ -234,7 +234,7 @@ give_notice_of_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const
     status = qdot_solve_specials(pool, f, x, written, facts, found, &specials);
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
-    if (status == QDOT_OK && set != QDOT_FALSE) /* conditions under which single solutions exist can be stated */
+    if (status == QDOT_OK && set != QDOT_FALSE) /* FALSE: there are solutions at most for single values of parameters */
         status = qdot_solve_notice_all(session, "solutions exist when ", set);
     qdot_specials_clear(&specials);
     return status;

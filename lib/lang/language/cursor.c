@@ -130,7 +130,7 @@ qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool in
 
 /* --- errors ------------------------------------------------------------------------- */
 
-/* Give a hint if the syntax of another system, such as `**`, stands at this place. */
+/* Give a hint if the syntax of another system, such as `&&`, stands at this place. */
 static qdot_status
 hint_at_foreign_syntax(const qdot_token *t)
 {
@@ -299,7 +299,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
     }
     if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0 ||
         strncmp(what, "a text", 6) == 0)
-        return report_unexpected_token(what, t); /* after an option word, such as `tol`, not after an operand */
+        return report_unexpected_token(what, t); /* after an option word, such as `as`, not after an operand */
     if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
         !qdot_cursor_knows(c->session, t->text)) {
         report_unexpected_token(what, t); /* among option words, as in `2 tol`, it is not a `*` that is missing */

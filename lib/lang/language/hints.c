@@ -262,7 +262,7 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
          (next->kind == QDOT_TOKEN_NAME && qdot_cursor_knows(c->session, next->text)))) {
         const size_t to = qdot_cursor_operand_end(c, next);
 
-        if (to == next->start + next->length) /* no hint for a Greek letter, which stands for its spelled name: θ is theta */
+        if (to == next->start + next->length) /* for one token take its text, in which a Greek letter is spelled: theta for θ */
             return qdot_hint("write %s(%.80s)", name, next->text);
         if (to - next->start <= 80)
             return qdot_hint("write %s(%.*s)", name, (int)(to - next->start), c->source->text + next->start);

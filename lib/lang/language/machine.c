@@ -1,4 +1,4 @@
-/* machine.c -- the stack machine that evaluates expressions. */
+/* machine.c -- the stack on which expressions are evaluated. */
 #include "lang/language/machine.h"
 
 #include <string.h>
@@ -66,7 +66,7 @@ qdot_machine_pass_end(qdot_machine *m)
     m->session->evaluation->passed = frame->outer;
     m->passed = frame->below;
     if (frame->outer != NULL)
-        frame->outer->spoiled = true; /* what the outer call does with its arguments is not known either */
+        frame->outer->spoiled = true; /* the inner call may use only parts of its arguments, so the outer list is not valid */
     qdot_free(frame->passed.value.at);
     qdot_free(frame->passed.root.at);
     qdot_free(frame);

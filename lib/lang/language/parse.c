@@ -302,7 +302,7 @@ is_function(const parser *p, const char *name)
                : qdot_resolve_is_function(s, name);
 }
 
-/* Whether the name before ` (` may be a function's: as printed products look like that, it must be declared as one. */
+/* Whether the name before ` (` may be a function's; in text copied from the screen, where products look so, if it is one. */
 static bool
 may_be_called(const parser *p, const qdot_token *name)
 {

@@ -505,7 +505,7 @@ evaluate_quantity_entry(qdot_session *s, const qdot_quantity *row, unsigned prim
     return evaluate_quantity(s, row, primes, n, index, value);
 }
 
-/* Whether a label of the scene is a member of the family `name`, as spring[2] of spring. */
+/* Whether a particle or body of the scene is a member of the family `name`, as bob[2] of bob. */
 static bool
 is_label_family(const qdot_scene *scene, const char *name)
 {

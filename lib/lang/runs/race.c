@@ -1,4 +1,4 @@
-/* race.c -- the statement `race`, which compares methods: a table, and a figure of error against time. */
+/* race.c -- the statement `race`, which compares formulations of a scene: a table, and a figure of error against time. */
 #include <math.h>
 
 #include "base/interrupt.h"

@@ -30,7 +30,7 @@ typedef struct qdot_evaluation {
     qdot_vec(qdot_held) held; /* parameters and coordinates set by open loops, innermost last */
     size_t loops;      /* number of open loops, whose sources must be kept */
     qdot_vec(struct qdot_partial_sum) partial_sums; /* values of sums reused by the outermost loop (language/partial-sum) */
-    qdot_passed *passed; /* records subexpressions of both sides of a check; NULL: no check is being read */
+    qdot_passed *passed; /* records what must be defined in a check or a call such as solve(...); NULL: none is being read */
 } qdot_evaluation;
 
 #endif

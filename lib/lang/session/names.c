@@ -11,7 +11,7 @@ typedef struct entry {
     qdot_name name; /* must be the first member: a pointer to the name is also one to its entry */
     unsigned uses;
     uint32_t hash;
-    size_t order; /* its position in the order of declaration when the names were last sorted */
+    size_t order; /* its position in the order of declaration when it was entered or restored */
     struct entry *next;
 } entry;
 
@@ -31,7 +31,7 @@ struct qdot_names {
     qdot_vec(entry *) order;
     qdot_vec(qdot_name) bound; /* temporary bindings, innermost last */
     size_t seen_from;          /* bindings before this index are hidden */
-    size_t settled;            /* number of first entries of `order` not moved since it was sorted */
+    size_t settled;            /* number of first entries of `order` unchanged since the last settle or restore */
 };
 
 static uint32_t

@@ -25,7 +25,7 @@ typedef struct qdot_row_table {
     double *parameter_values; /* [n_parameters] values of these parameters */
     size_t rows, room;
     double *values, *errors; /* [rows x n] values (NaN: none) and their errors (NaN: unknown) */
-    char **reasons;          /* [rows] the reason why the run of a row failed; NULL: it did not fail */
+    char **reasons;          /* [rows] the reason why a row failed; NULL: it did not fail */
     const char *note;        /* the texts in `reasons` are no failures, but this of the rows: "type"; or
                                 NULL */
     size_t drawn;            /* for branches: how many columns after the parameter are drawn */

@@ -38,7 +38,7 @@ QDOT_MUST_CHECK qdot_status qdot_runs_keep(qdot_session *session, const char *na
 /* Find the first unused name among run1, run2, ..., counting from the number of runs. */
 void qdot_runs_next_name(const qdot_session *session, char *name, size_t size);
 
-/* Append an expression, or the components of a vector or list, to columns; *n: how many were appended. */
+/* Append an expression, or the components of a vector or list, to columns. */
 typedef qdot_vec(qdot_expr) qdot_runs_columns;
 QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e,
                                               qdot_runs_columns *columns);

@@ -52,7 +52,7 @@ qdot_slopes_at_end(qdot_session *session, qdot_expr *e)
 
 /* --- their slopes ------------------------------------------------------------------------------- */
 
-/* Evaluate, at a time, an expression of the coordinates and their derivatives by parameters, as a number. */
+/* Evaluate, at a time, an expression of coordinates and their derivatives in the directions k, as a number. */
 static qdot_status
 value_at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
 {

@@ -67,7 +67,7 @@ QDOT_MUST_CHECK qdot_status qdot_slopes_make(qdot_slopes *s, const char *run, qd
  * before the first-th nothing is known. QDOT_ENOTBUILT: of something in it there is no slope. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first,
                                            size_t k, qdot_expr *slope);
-/* Replace coordinates and velocities in *e by their values at the latest run's end. QDOT_EINVAL: an event stopped it. */
+/* If something in *e moves, replace *e by its value at the latest run's end. QDOT_EINVAL: an event stopped the run. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_at_end(qdot_session *session, qdot_expr *e);
 /* Evaluate an expression of coordinates and velocities at a time, as a number of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_at_time(qdot_session *session, qdot_expr e, qdot_expr time,

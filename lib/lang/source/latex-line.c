@@ -61,7 +61,7 @@ translate_bracketed_argument(reader *r, qdot_text *out)
     qdot_text_clear(&text);
 }
 
-/* Translate a function and its argument that has no brackets, as in \sin\theta. */
+/* Translate a function, and also its argument if that has no brackets, as in \sin\theta. */
 static void
 translate_function_call(reader *r, const char *name, qdot_text *out)
 {

@@ -101,7 +101,7 @@ find_end_of_run_options(const qdot_record *r, const qdot_filled *run, bool behin
     return part;
 }
 
-/* Find the run, or the sweep, of which the section is made; it is named before the colon or after the columns. */
+/* Find the run, or the sweep, of which the section is made, if it is given before the colon or after the columns. */
 static qdot_status
 find_run_or_sweep(qdot_record *r, poincare *p)
 {

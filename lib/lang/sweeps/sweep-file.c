@@ -41,7 +41,7 @@ hash_number(uint64_t *sum, double x)
     }
 }
 
-/* Write the text of the sweep's statement, with a checksum of that text and of the rows. */
+/* Write the text that identifies the sweep, with a checksum of that text and of the rows. */
 static qdot_status
 write_signature(const char *said, uint64_t sum, qdot_text *out)
 {

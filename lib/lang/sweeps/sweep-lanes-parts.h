@@ -24,7 +24,7 @@ struct qdot_sweep_lanes {
     qdot_vec(qdot_ensemble_event) events;
     qdot_vec(const char *) names; /* names of the events */
     qdot_sweep_lanes_column *columns;
-    size_t outputs, n, places; /* numbers of expressions, of coordinates, of values at each stored time */
+    size_t outputs, n, places; /* numbers of expressions, of coordinates, of stored times */
     size_t ways;               /* number of columns that need the whole course of a run, not just its end */
     qdot_run *run; /* holds the run of each member in turn for such columns; NULL: no such column */
     qdot_tape *tape;           /* the tape that computes the expressions of the columns */

@@ -18,7 +18,7 @@ typedef struct {
     const char *path; /* name of the file that stores the rows; NULL: none */
     const qdot_token *path_at;
     qdot_file_lock lock; /* lock of that file */
-    qdot_text said;   /* the text of the sweep's statement, by which the file identifies the sweep */
+    qdot_text said;   /* text by which the file identifies the sweep: its statement, a hash of the scene */
     qdot_row_table *table;
     bool *done;       /* [members] whether the row of this run of the sweep is complete */
     size_t told;      /* number of rows already written as JSON */

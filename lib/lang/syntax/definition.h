@@ -20,7 +20,7 @@ typedef struct {
     bool loop;                /* a loop, `for ...`, follows RIGHT */
     /* the fields from here on tell what RIGHT contains */
     bool chained;             /* RIGHT contains an equation sign outside brackets: a = b = c */
-    bool equation, comparison; /* RIGHT contains a sign = or ==, also within brackets; only = */
+    bool equation, comparison; /* RIGHT contains a sign =, also within brackets; a sign = or == */
     bool primed, accelerations; /* RIGHT contains a prime; two primes in a row */
     bool sum;                 /* RIGHT contains a sign + or - outside brackets */
     bool on;                  /* RIGHT contains `on` outside brackets, not as first token */

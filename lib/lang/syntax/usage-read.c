@@ -45,7 +45,7 @@ is_connective(const qdot_token *token)
            qdot_token_is_word(token, "not");
 }
 
-/* Whether a token continues the expression in a placeholder, as after an operator or as one. */
+/* Whether a token continues the expression in a placeholder: it follows an operator, or is one. */
 static bool
 continues_expression(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
@@ -72,7 +72,7 @@ may_begin_placeholder(const qdot_usage *u, const qdot_usage_node *hole, const qd
            (u->suits == NULL || u->suits(u->user, hole, token));
 }
 
-/* Whether an operand ends with the token, or is the contents of the bracket that it opens. */
+/* Whether an operand ends with the token, or with the pair of brackets that it opens. */
 static bool
 token_ends_operand(const qdot_token *token)
 {

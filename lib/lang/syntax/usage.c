@@ -288,7 +288,7 @@ compile_options_and_clauses(compiler *c, const members *m)
     char before[QDOT_USAGE_TEXT];
 
     for (int k = 0; k <= m->n; k++)
-        (void)append_node(c, QDOT_USAGE_FORK, ""); /* the last option leads to the end */
+        (void)append_node(c, QDOT_USAGE_FORK, ""); /* the last of these forks leads to the end */
     strcpy(before, c->before);
     for (int k = 0; k < m->n && !c->failed; k++) {
         const uint64_t own = (uint64_t)1 << (c->options++ & 63);

@@ -267,7 +267,7 @@ stability_of_segment(const qdot_branch *b, size_t k)
                                                                          : b->stability[k];
 }
 
-/* Whether the parameter p turns back at point k of a branch: a fold bifurcation. */
+/* Whether the parameter p turns back at point k of a branch, which is a bifurcation. */
 static bool
 does_parameter_turn_at(const qdot_branches *b, const qdot_branch *branch, size_t k)
 {

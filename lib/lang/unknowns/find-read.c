@@ -82,7 +82,7 @@ conditions_use_name(const qdot_record *r, const char *name)
     return false;
 }
 
-/* If the conditions use an undeclared name as an unknown, bind the name to a new symbol. */
+/* Bind an undeclared name, which the conditions use as an unknown, to a new symbol. */
 static qdot_status
 bind_undeclared_unknown(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_name *x)
 {

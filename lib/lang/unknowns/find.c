@@ -396,7 +396,7 @@ report_shrunk_motion(const hunt *h, const qdot_zero_result *r)
     return qdot_hint("another guess, or other values of the start that stay as they are");
 }
 
-/* Set the unknowns to the values found; the run for the solution becomes the latest run. */
+/* Set the unknowns that are declared to the values found; the run for the solution becomes the latest run. */
 static qdot_status
 adopt_solution(hunt *h, const qdot_zero_result *r)
 {

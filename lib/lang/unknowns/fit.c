@@ -48,7 +48,7 @@ free_fit(qdot_fit *f)
 
 /* --- columns of the file ------------------------------------------------------------------- */
 
-/* Whether the column in the statement consists of just this word, such as t or sigma. */
+/* Whether the column in the statement consists of just this word, such as sigma or skip. */
 static bool
 is_single_word(const qdot_record *r, const qdot_filled *part, const char *word)
 {

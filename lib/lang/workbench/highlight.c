@@ -162,7 +162,7 @@ qdot_highlight_text(const qdot_session *session, const char *text, size_t length
         if (status == QDOT_OK)
             mark_tokens(session, source, kinds + from, &end);
         end = status != QDOT_OK || at >= length - from || at < end
-                  ? length - from /* everything was read: only a closing bracket is missing */
+                  ? length - from /* everything was read, or only a closing bracket is missing */
                   : mark_invalid_byte(text + from, length - from, at, kinds + from);
         qdot_source_free(source);
         QDOT_TRY(status);

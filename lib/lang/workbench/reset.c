@@ -1,4 +1,4 @@
-/* reset.c -- the statement `reset`: removes the scene, or everything from the session. */
+/* reset.c -- the statement `reset`: forgets everything, or the scene, the initial state, or the scales. */
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/language/function.h"

@@ -26,7 +26,7 @@ carry_out_style(qdot_record *r)
                   {"mathml", QDOT_MATHML}};
     qdot_session *session = r->cursor.session;
 
-    /* the words concern only whether formulas are flat (on one line); the style stays */
+    /* the word `flat` alone only puts formulas on one line and leaves the style; every other word undoes that */
     session->output->flat = qdot_record_word(r, "flat") != NULL;
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++)
         if (qdot_record_word(r, styles[i].word) != NULL)

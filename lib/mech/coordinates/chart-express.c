@@ -348,7 +348,7 @@ qdot_chart_put(const qdot_chart *c, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_walk_replace(c->pool, e, QDOT_PROD, replace_root_squares, (void *)(uintptr_t)c);
 }
 
-/* The angle m (from the given x, y) minus `quarters` quarter turns. */
+/* The angle of m, atan2(y, x) with its components x and y, minus `quarters` quarter turns. */
 static qdot_expr
 angle_minus_quarters(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
 {
@@ -513,7 +513,7 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     qdot_pool *pool = c->pool;
 
     e = qdot_chart_put(c, e);
-    if (e == QDOT_NIL || contains_bare_angle(c, e)) /* a replaced coordinate remains, which no simplification removes */
+    if (e == QDOT_NIL || contains_bare_angle(c, e)) /* an angle remains outside of sin and cos: no simplification removes it */
         return QDOT_NIL;
     for (int tries = 0; tries < 4 && e != QDOT_NIL; tries++) {
         if (!is_singular(c, pool, e))

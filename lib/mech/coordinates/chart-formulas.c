@@ -384,7 +384,7 @@ add_parabolic_group(qdot_chart *c, const qdot_chart_group *g, int start)
     return QDOT_OK;
 }
 
-/* The roots used by elliptic coordinates: cosh u, sinh u, cos v, sin v, and S = sinh^2 u + sin^2 v. */
+/* The roots used by elliptic coordinates: cosh u, sinh u, cos v, sin v, and S = sinh^2 u + sin^2 v; v not turned. */
 typedef struct {
     qdot_expr cosh, sinh, cos, sin, S, du, dv;
 } ellipse;

@@ -384,7 +384,7 @@ add_equation_of_motion(work *k, qdot_expr q, qdot_expr second, qdot_expr q0, qdo
     return qdot_vec_push(&k->c->v0, v0);
 }
 
-/* Choose the start value of u: of the two solutions of x = L(u) u the one that is computed without cancellation. */
+/* Choose the start value of u: of two solutions of x = L(u) u the one that is computed without cancellation. */
 static void
 choose_start_of_u(const work *k, qdot_expr *u)
 {

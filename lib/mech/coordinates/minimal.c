@@ -22,7 +22,7 @@ typedef struct {
     qdot_minimal *out;
     bool *solved;    /* [constraints] the constraint has been solved for a coordinate */
     bool *gone;      /* [n] the coordinate has been eliminated */
-    qdot_expr *angle; /* [n] the new angles in terms of given coordinates; the first out->fresh entries are used */
+    qdot_expr *angle; /* [n] symbols of the new angles; the first out->fresh entries are used */
     qdot_expr *held; /* [constraints] left sides f(q, t) of holonomic constraints f = 0 */
     const qdot_minimal_start *start;
 } work;

@@ -85,7 +85,7 @@ replace_parameter_sums(qdot_scene *s, qdot_expr e, units *u)
                 u->n = 0;
                 return e;
             }
-    for (size_t k = 1; k < u->n; k++) /* check that no parameter occurs in two of the sums */
+    for (size_t k = 1; k < u->n; k++) /* check that no term occurs in two of the sums */
         for (uint32_t i = 1; i < qdot_expr_count(pool, u->sum[k]); i += 2)
             for (size_t l = 0; l < k; l++)
                 if (is_term_of_sum(pool, u->sum[l], qdot_expr_arg(pool, u->sum[k], i))) {
@@ -120,7 +120,7 @@ placeholder_for_symbol(qdot_scene *s, qdot_expr atom, uint32_t k)
     return e;
 }
 
-/* The expression e with its symbols replaced by numbered placeholders; nil if e has a symbol that cannot be. */
+/* The expression e with its symbols replaced by numbered placeholders; nil if that is not possible. */
 static qdot_expr
 make_pattern(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
 {

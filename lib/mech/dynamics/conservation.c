@@ -23,7 +23,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* The rate of the energy, -dL/dt + sum Q q', with Q the applied forces that are not in V. */
+/* The rate of the energy but for constraints, -dL/dt + sum Q q', with Q the applied forces that are not in V. */
 static qdot_expr
 applied_power(qdot_scene *s)
 {

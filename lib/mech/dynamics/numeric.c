@@ -191,7 +191,7 @@ add_cost_of_product(bill *b, qdot_expr e)
     b->units += factors - (factors > 0);
 }
 
-/* Record a base angle; true if it is new, so that it costs a call of sine and cosine. */
+/* Add the cost of a base angle: a call of sine and cosine if it is new, else nothing. False: no memory. */
 static bool
 add_cost_of_angle(bill *b, qdot_expr term)
 {

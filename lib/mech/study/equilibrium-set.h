@@ -18,7 +18,7 @@ typedef struct {
     qdot_equilibrium place;
     qdot_expr value; /* a LIST of coordinates f [n] and multipliers g as functions of p */
     bool corner;     /* forces jump at this place, so that it is not a zero of the smooth equations */
-    bool known;      /* proved: all special values of p ("walls") are known; continuous between them */
+    bool known;      /* proved: all its special values of p ("walls") are known; continuous between them */
     bool judged; /* place.stability holds where all members of `when` are positive; elsewhere it is undecided */
     qdot_expr when;  /* a LIST of expressions that must be positive */
 } qdot_equilibrium_member;

@@ -184,7 +184,7 @@ is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
     return false;
 }
 
-/* Whether the scene becomes regular if group g of coordinates, or all groups, are replaced; roots may stay singular. */
+/* Whether the scene becomes regular if group g, or all groups, are replaced; if one is a square root, only g is tried. */
 static qdot_status
 scene_is_regular(qdot_scene *s, const qdot_chart_groups *all, size_t g, bool *regular)
 {

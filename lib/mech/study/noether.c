@@ -58,7 +58,7 @@ noether_slope(const search *f, uint32_t order, size_t i, size_t j)
     return f->slope[(order * f->n + i) * f->n + j];
 }
 
-/* The expression E_i of the change of L under one unknown coefficient: dE_i(xi) + sum_j dxi_j/dq_i E_j. */
+/* Euler-Lagrange expression i of the change of L under one unknown coefficient: dE_i(xi) + sum_j dxi_j/dq_i E_j. */
 static qdot_expr
 variation_component(const search *f, const unknown *u, size_t i)
 {

@@ -330,7 +330,7 @@ append_if_fixed_in_body(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arm
     return qdot_vec_push(arms, P);
 }
 
-/* Find fixed points of a body among the left and right sides of constraints whose successive components form a vector. */
+/* Find points fixed in a body among the sides of constraints whose successive components form a vector. */
 static qdot_status
 find_body_points_in_constraints(qdot_scene *s, const qdot_body *b, qdot_arms *arms)
 {

@@ -213,7 +213,7 @@ judge_by_forces_beside(qdot_judgement *j, qdot_equilibrium *e)
     qdot_scene *s = j->s;
     qdot_pool *pool = s->pool;
     qdot_expr q = s->coordinates.at[0], mass, up, place;
-    qdot_expr back[2]; /* leading terms of the force towards the equilibrium, below and above it */
+    qdot_expr back[2]; /* leading terms of the force towards the equilibrium: [0] above it, [1] below it */
     int sign[2];
     long root;
 

@@ -102,7 +102,7 @@ qdot_stability_numbers_free(qdot_stability_numbers *x)
 
 /* --- the linear motion in numbers ------------------------------------------------------- */
 
-/* The linear motion in the tangent space of the constraints, in coordinates y scaled so that M = 1. */
+/* The linear motion in the tangent space of the constraints: y, first those in equations at rest; scaled so that M = 1. */
 typedef struct {
     size_t m, told;
     double *M, *G, *H; /* [m x m] mass, damping and stiffness matrix */
@@ -128,7 +128,7 @@ set_equilibrium_values(qdot_stability_numbers *x, const qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* Evaluate M, Gamma, H and A at the values of the symbols; *finite is false if an entry is undefined there. */
+/* Evaluate M, Gamma, H and A at the values of the symbols; *finite: false if an entry, not of Gamma, is undefined. */
 static qdot_status
 matrices_evaluate(qdot_stability_numbers *x, bool *finite)
 {

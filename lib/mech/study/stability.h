@@ -17,7 +17,7 @@ typedef struct {
     bool timed;         /* the equations contain t explicitly */
     bool velocity_kink; /* the equations contain |q'|, sign(q') ...: no linear part at rest */
     qdot_expr at_rest;  /* a LIST of the equations at rest */
-    /* generalized forces and dry friction, as in struct qdot_rest; nil if there is no friction */
+    /* generalized forces, dry friction and its velocities, as in struct qdot_rest; the last two are nil without friction */
     qdot_expr forces, friction, slips;
     qdot_expr by_signs; /* forces with each jump written as a sign; nil: not known */
     qdot_expr nonzero; /* a LIST of expressions by which the results are divided; nil: none */

@@ -65,7 +65,7 @@ cosines_to_sines(qdot_field *f, qdot_ratio *r, const qdot_ratio *from, slong v)
     return qdot_field_goes(f);
 }
 
-/* Try as a form the quotient with c^2 = 1 - s^2 inserted for one angle, if factors cancel then. */
+/* Try the quotient as a form with c^2 = 1 - s^2 inserted for each angle in its denominator: factors may cancel then. */
 static void
 try_sine_forms(struct simplifier *s, const qdot_ratio *from)
 {

@@ -43,7 +43,7 @@ is_complete_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
         moving |= t->f->gen[v].fast && a[v] != b[v];
         still |= !t->f->gen[v].fast && a[v] != b[v];
     }
-    /* velocities and other symbols must not mix: E*du^2 + 2*F*du*dv + G*dv^2 stays collected */
+    /* velocities (momenta, ...) must not mix with other symbols: E*du^2 + 2*F*du*dv + G*dv^2 stays collected */
     if (!good || same || fast != 0 || (moving && still))
         return false;
     fmpz_init(x);
@@ -80,7 +80,7 @@ term_root(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *ex
     return e;
 }
 
-/* Write the complete square g (common factor) (a +- b)^2; a stands for the term that comes first. */
+/* Write the terms i, j, k as a square, g (common powers) (a +- b)^2; a +- b is written without a leading minus. */
 static qdot_expr
 write_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g, ulong *exp)
 {

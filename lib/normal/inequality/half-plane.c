@@ -113,7 +113,7 @@ locate_zeros(const fmpz_poly_t f, bool squares)
     return s;
 }
 
-/* Count the zeros of f, a factor without multiple zeros that occurs `times` times in p. */
+/* Update *found by where the zeros of f lie; f has no multiple zeros and is a factor of p `times` times. */
 static void
 add_zeros_of_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
 {

@@ -243,7 +243,7 @@ answer_question(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
     if (q->too_much || qdot_pool_failed(pool))
         return qdot_grave(qdot_pool_check(pool));
     QDOT_TRY(qdot_linear_decide(pool, q->e, q->n, q->condition, &result));
-    /* let the cell decomposition find the point that refutes e, although elimination did refute it */
+    /* if elimination finds that e > 0 or e >= 0 fails, and q is exact, the cell decomposition finds a point where it fails */
     by_rows = result != QDOT_CELLS_UNKNOWN && !(q->exact && result >= QDOT_CELLS_NOT_NEGATIVE);
     if (!by_rows)
         QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));

@@ -210,7 +210,7 @@ rows_decide(const rows *given, const fmpz *c, bool weak)
     return s.too_much || qdot_interrupt_flag ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
 }
 
-/* Decide e > 0 by the rows of the conditions together with that of -e. */
+/* Find the sign of e under the conditions, by eliminating symbols from their rows together with the row of -e. */
 static qdot_cells
 decide_by_rows(const rows *given, const fmpz *minus_e)
 {

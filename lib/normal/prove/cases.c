@@ -461,7 +461,7 @@ divides_by_zero_of_case(const struct cases *c, qdot_status status, const int *si
     return status == QDOT_EDOMAIN && at_zero && has_no_branches(c);
 }
 
-/* Insert into e a symbol x for which key = c x + rest = 0 is solved; e itself if there is no such x. */
+/* Solve key = c x + rest = 0 for a symbol x, and insert the solution into e; e itself if there is no such x. */
 static qdot_expr
 insert_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
 {
@@ -539,7 +539,7 @@ prove_case(struct cases *c, const size_t *order, const int *sign, const qdot_fac
     qdot_facts known;
 
     *equal = status == QDOT_OK && contradicts(c, order, sign);
-    if (*equal) { /* no point satisfies the signs of this case */
+    if (*equal) { /* no point satisfies both the order and the signs of this case */
         qdot_free(condition);
         return status;
     }

@@ -359,7 +359,7 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++) {
         qdot_expr gap = j.gap.at[i];
 
-        j.gap.at[i] = QDOT_NIL; /* remove the condition gap > 0, unless it is put back */
+        j.gap.at[i] = QDOT_NIL; /* remove the condition gap > 0 (or gap >= 0), unless it is put back */
         if (gap != QDOT_NIL && qdot_expr_is_scalar(pool, gap)) {
             uint8_t sign = qdot_expr_node(pool, gap)->sign;
 

@@ -385,7 +385,7 @@ release_memory(job *j)
     qdot_walk_end(&j->walk);
 }
 
-/* Whether there are at least two arguments that can be compared. */
+/* Whether there are at least two functions or powers whose arguments can be compared. */
 static bool
 has_comparable_arguments(const job *j)
 {

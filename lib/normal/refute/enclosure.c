@@ -290,7 +290,7 @@ evaluate_general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
                worse_state(compare_with_domain(v->y, 0, INFINITY, false), worse_state(v->state, p->state))};
 
     f.y = qdot_interval_power(base, p->y);
-    if (s->slopes) { /* derivative of y = p^v: y (v' log p + v p'/p) */
+    if (s->slopes) { /* derivative of y = v^p: y (p' log v + p v'/v) */
         qdot_interval log_v = qdot_interval_rising(log, base);
 
         add_scaled_derivatives(s, to, qdot_interval_product(f.y, log_v, false), p);

@@ -41,7 +41,7 @@ qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
     return s != NULL && strncmp(s->name, "(sign ", 6) == 0;
 }
 
-/* How much it is preferred to solve a relation for this symbol (generator); 0: never. */
+/* How much it is preferred to solve a relation for this symbol or undefined function; 0: never. */
 static int
 preference_to_solve(const qdot_pool *pool, const qdot_gen *gen)
 {

@@ -442,7 +442,7 @@ qdot_sample_point(qdot_sample *s, int k)
             choose_value(s, &s->atom[i]);
 }
 
-/* Whether the value of a solved symbol certainly lies in its domain. */
+/* Whether the value of a symbol at the sample point certainly lies in its domain. */
 static bool
 is_in_domain(qdot_sample *s, const qdot_sample_atom *a)
 {
@@ -560,7 +560,7 @@ qdot_sample_list(qdot_sample *s)
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
             if (s->atom[i].turn)
                 x = qdot_mul(s->pool, x, QDOT_PI);
-        } else { /* the value is irrational: give a decimal number for printing */
+        } else { /* the value of a solved symbol is as a rule irrational: give a decimal number for printing */
             fmpq_t rounded;
 
             fmpq_init(rounded);

@@ -50,7 +50,7 @@ sign_everywhere(qdot_pool *pool, qdot_expr u)
     w = qdot_expr_arg(pool, inner, 0);
     if (!sign_of_multiple(pool, qdot_expand(pool, qdot_subs(pool, u, 1, &inner, &w)), w, &above))
         return 0;
-    w = qdot_neg(pool, w); /* w < 0 everywhere: take -w, which is |w| */
+    w = qdot_neg(pool, w); /* now the case w < 0, in which |w| is -w */
     if (!sign_of_multiple(pool, qdot_expand(pool, qdot_subs(pool, u, 1, &inner, &w)), w, &below))
         return 0;
     return above >= 0 && below >= 0 ? 1 : above <= 0 && below <= 0 ? -1 : 0;

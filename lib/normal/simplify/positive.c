@@ -170,7 +170,7 @@ proved_sign(job *j, qdot_expr e)
     return 0;
 }
 
-/* Keep those factors of a polynomial in numerator or denominator on which the condition e > 0 depends. */
+/* Keep those factors of p, a numerator or (`below`) a denominator, on which the condition asked for depends. */
 static qdot_status
 keep_relevant_factors(job *j, const fmpz_mpoly_t p, bool below)
 {

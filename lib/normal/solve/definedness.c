@@ -151,7 +151,7 @@ conditions_of_nodes(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
     if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (w.n > 0)
-        qdot_walk_set(&w, f, true); /* record that f is defined only where this node is */
+        qdot_walk_set(&w, f, true); /* mark the nodes that must be defined where f is; first f itself */
     for (size_t i = w.n; i-- > 0;) {
         const bool choice = qdot_expr_is_function(pool, w.at[i], QDOT_IF);
 

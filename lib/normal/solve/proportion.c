@@ -219,7 +219,7 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
     qdot_free(from);
     if (left == QDOT_NIL || right == QDOT_NIL)
         return qdot_pool_check(pool);
-    /* do not use facts with relations or conditions on velocities: these would have to hold for both sets of velocities */
+    /* do not try with relations among the facts: relations of velocities would have to hold for both sets of velocities */
     if (facts == NULL || facts->n_relations == 0)
         status = qdot_decide_equal(pool, left, right, facts, &inner);
     else

@@ -66,7 +66,7 @@ sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
 
 /* --- replacing them on either side ------------------------------------------------------------------ */
 
-/* Collect in s->choice the functions of e that switch where u does; with[2]: which sides agree with u = 0. */
+/* Collect in s->choice the functions of e that switch where u changes sign; with[2]: which sides agree with u = 0. */
 static qdot_status
 collect_switches(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
 {
@@ -125,7 +125,7 @@ add_two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
     s->n = 2;
     (void)qdot_sides_put(s, 2, e);
     status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN) /* no value on this side, because a divisor is 0 there */
+    if (status == QDOT_EDOMAIN) /* e has no value at u = 0, because a divisor is 0 there */
         with[0] = with[1] = false;
     else if (status == QDOT_OK && !with[0] && !with[1])
         s->jump = u;

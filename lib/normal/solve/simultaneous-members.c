@@ -229,7 +229,7 @@ may_be_solution(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_ex
         QDOT_TRY(
             qdot_decide_equal(pool, qdot_expr_arg(pool, there, i), QDOT_ZERO, &facts, &d));
         *yes = d.verdict != QDOT_REFUTED;
-        if (!*yes && qdot_solve_integers(pool, there) > 0) /* not excluded, since some integers of the family may solve it */
+        if (!*yes && qdot_solve_integers(pool, there) > 0) /* incomplete, since some integers of the family may solve it */
             s->complete = false;
     }
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
@@ -237,7 +237,7 @@ may_be_solution(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_ex
 
 /* A solution while its periodic unknowns are replaced by members of their families. */
 typedef struct {
-    qdot_expr *symbol, *value; /* [n] the periodic unknowns, and their values with an integer n */
+    qdot_expr *symbol, *value; /* [n] the unknowns that the solution determines, and their values */
     size_t n;
     qdot_expr *equation; /* [n] the equations symbol = member of the family */
 } solution;

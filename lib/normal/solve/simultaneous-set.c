@@ -220,7 +220,7 @@ replace_parameters(const alias *a, qdot_expr e)
     return rename_symbols(a->pool, e, a->n, a->name, a->symbol);
 }
 
-/* Write the facts with temporary symbols in place of parameters, stored in room [relations + conditions]. */
+/* Write the facts with temporary symbols in place of unknown parameters, in room [relations + conditions]. */
 static qdot_facts
 facts_with_symbols(const alias *a, const qdot_facts *facts, qdot_expr *room)
 {

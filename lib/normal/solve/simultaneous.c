@@ -43,7 +43,7 @@ qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values)
     return e;
 }
 
-/* A bound of a domain with the session's parameter values inserted; unchanged if it then has no value. */
+/* A bound of a domain with the values that the caller inserts (s->ends); unchanged if it then has no value. */
 static qdot_expr
 bound_with_values(const qdot_simultaneous *s, qdot_expr end)
 {
@@ -409,7 +409,7 @@ continue_on_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const 
         .whole = qdot_sides_put(sides, side, b->whole == QDOT_NIL ? s->equations : b->whole)};
     qdot_status status = qdot_pool_check(pool);
 
-    if (status != QDOT_OK) /* skip the side: the equation is not defined at this value */
+    if (status != QDOT_OK) /* skip the side: an equation is not defined on it */
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     if (jump != QDOT_NIL)
         next.equations = qdot_list_appended(pool, next.equations, 1, &jump);
@@ -573,7 +573,7 @@ choose_next_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts
     return qdot_pool_check(pool);
 }
 
-/* Choose those factors of a divisor that vanish on the branch to be solved; nil if it is 0 already. */
+/* Take a divisor that is to be 0 as the next equation, with its factors; nil if it is 0 already. */
 static qdot_status
 choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
 {

@@ -58,7 +58,7 @@ add_roots_at_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
             status = status == QDOT_EDOMAIN ? QDOT_OK : status;
         } else if (qdot_is_zero(s->pool, at, s->facts)) {
             status = qdot_solver_add(s, root->value, root->period, all);
-        /* the value is not generic: for some values of other unknowns it may be a root */
+        /* e is not proved to be 0 here, but may be for some values of the other symbols: a root with a condition */
         } else if (!qdot_is_generic(s->pool, at) ||
                    root->period == QDOT_NIL) {
             status = qdot_solver_add_where(s, root->value, at, all);

@@ -394,7 +394,7 @@ solve_hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shap
     return status;
 }
 
-/* Solve A + B r = 0 for a root r with r^q = b: A^q = (-B)^q b, where r = -A/B must not be negative. */
+/* Solve A + B r = 0, where r is a root of b, r^q = b: A^q = (-B)^q b, where r = -A/B must not be negative. */
 static qdot_status
 solve_equation_with_root(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
 {

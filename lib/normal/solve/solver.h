@@ -12,7 +12,7 @@ typedef struct {
     qdot_written written; /* conditions for the equation as typed to be defined, which each root must satisfy */
     const qdot_facts *facts;
     qdot_solutions *out;
-    int depth; /* number of functions inverted so far, as in asin(log(x)) = v */
+    int depth; /* how often the equation has been derived from another one, as log(x) = sin(v) from asin(log(x)) = v */
     qdot_status status;
 } qdot_solver;
 

@@ -542,7 +542,7 @@ examine_box(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
     return QDOT_OK;
 }
 
-/* Where an interval is cut in two: in the middle, or by magnitude if it spans many orders of magnitude. */
+/* Where an interval is cut in two: near the middle, or by magnitude if it spans many orders of magnitude. */
 static double
 cutting_point(qdot_interval X)
 {

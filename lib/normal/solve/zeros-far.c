@@ -256,7 +256,7 @@ add_growth(const far_task *t, const far_form *f, const far_form *g)
     growth = scale_growth(&ratio);
     if (growth > 0)
         return add_growth(t, g, f);
-    if (growth < 0 && !has_finite_bounds(g)) /* g may exceed its scale, so that only the sign of the ratio f/g is known */
+    if (growth < 0 && !has_finite_bounds(g)) /* g may exceed its scale: only the sign of g over the scale of f is known */
         other = other.lo > 0 ? (qdot_interval){0, INFINITY} : (qdot_interval){-INFINITY, 0};
     else if (growth < 0)
         other = qdot_interval_product(other, range_of_scale(t, &ratio), false);

@@ -47,7 +47,7 @@ read_ranges(qdot_zeros_task *t)
         if (r->turn)
             t->bounds[j] = (qdot_interval){-nextafter(M_PI, 4), nextafter(M_PI, 4)};
         if (!(t->bounds[j].lo <= t->bounds[j].hi))
-            t->bounds[j].hi = t->bounds[j].lo; /* make the range a single point: it is empty, or has equal ends */
+            t->bounds[j].hi = t->bounds[j].lo; /* the range is empty: search a single point */
     }
     return qdot_pool_check(t->pool);
 }
@@ -199,7 +199,7 @@ decide_undecided_box(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box
     return QDOT_OK;
 }
 
-/* Search the zeros of system number k within the box |x| <= R, the core. */
+/* Search the zeros of system number k, which `core` holds, within a box; `again`: some may have been found before. */
 static qdot_status
 search_inside(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
               const qdot_zero_box *box, bool again)
@@ -351,7 +351,7 @@ search_system(qdot_zeros_task *t, size_t k)
     if (status == QDOT_OK && !wild && beyond && t->n == 1)
         status = search_until_growth_excludes(t, k, &core, &chart.box.at[0], &beyond);
     if (status == QDOT_OK && beyond &&
-        t->n > 1) { /* a zero at infinity of one combination of factors may not be one of another */
+        t->n > 1) { /* a zero at infinity for these groups of unknowns may be none if each unknown is a group by itself */
         for (size_t j = 0; j < t->n; j++) {
             apart[j] = t->range[j];
             apart[j].group = (unsigned)j;

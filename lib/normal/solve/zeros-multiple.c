@@ -111,7 +111,7 @@ is_only_zero_at_end(qdot_zeros_system *s, qdot_expr c, int side, double reach, b
     return qdot_pool_check(pool);
 }
 
-/* The value of a root nearest to v; for a periodic root the nearest member of its family. */
+/* The value of a root; for a periodic root the member of its family that is nearest to v; nil if that is not known. */
 static qdot_expr
 nearest_member(qdot_pool *pool, const qdot_root *root, double v)
 {

@@ -41,7 +41,7 @@ typedef struct {
     size_t m;
     double *ab;          /* [2 x s x s] the method's coefficients as pairs of doubles; the last column is 0 */
     double *inverse;     /* [(s-1) x (s-1)] inverse of the weight matrix C */
-    double *beyond; /* [(s-1) x (s-1)] extrapolation of the first s - 1 nodes to the next step, as `ahead` */
+    double *beyond; /* [(s-1) x (s-1)] extrapolation from the first s - 1 nodes to those of the next step, as `ahead` */
     double *G;           /* [s x n] generalized forces at the nodes */
     double *lambda, *nu; /* [(s-1) x m] Lagrange multipliers at the nodes; their corrections */
     double *g, *sum;     /* [m] constraint values; [n] a sum of vectors */
@@ -128,7 +128,7 @@ add_reactions_at_stage(const qdot_geometric *g, const step_state *w, double t, s
     return w->m ? bonds->pull(t, w->at.X + i * w->at.n, lambda, F, bonds->user) : QDOT_OK;
 }
 
-/* Correct the multipliers by the constraint residuals at stages 2 ... s, so that these positions obey the constraints. */
+/* Correct the multipliers by the constraint residuals at stages 2 ... s, and move these stages onto the constraints. */
 static qdot_status
 correct(const qdot_geometric *g, const step_state *w, double t, double h)
 {

@@ -25,7 +25,7 @@ struct qdot_bind {
     qdot_motion_series *direct; /* Taylor series of smooth equations without constraints; NULL: none */
     qdot_tree_series *tree;
     qdot_motion_series *tied;      /* Taylor series of equations with constraints; NULL: none */
-    /* two alternative Taylor series for nearly dependent constraints; NULL: none */
+    /* a faster Taylor series under constraints, replaced by `tied` at states that it is not for; NULL: none */
     qdot_guarded *guarded;
     const qdot_ode_series *series; /* callbacks of the Taylor series in use; NULL: no series */
     qdot_phase *phase;     /* converts to canonical momenta, for geometric methods that need them; else NULL */

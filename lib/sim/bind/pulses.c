@@ -20,7 +20,7 @@ enum {
  * values and in tolerances. */
 static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it = 0.01;
 
-/* The largest exponent u of a force e^u whose change power series and differences can still resolve. */
+/* The largest change of u within a step at which power series and differences still resolve a force e^u. */
 static const double short_reach = 10;
 
 /* The share of the allowed error granted to unexamined intervals: for all of them together, and for each. */

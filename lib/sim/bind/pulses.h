@@ -29,17 +29,17 @@ typedef struct {
     const qdot_tape *tape; /* outputs: M and f; NULL: not made yet */
     size_t n, m;           /* number of coordinates; of outputs that are examined */
     qdot_disc_hiding hiding;
-    int nodes; /* number of Chebyshev nodes on a part of a step: 16, or 64 for methods that evaluate within steps */
+    int nodes; /* number of Chebyshev nodes on a whole step: 16, or 64 for methods that evaluate within steps */
     qdot_polynomial_bounds bounds;
     double *in;      /* [2n + 1] inputs of the tape: q, q', t */
     double *out;     /* [outputs] outputs of the tape */
     double *work;    /* scratch of the tape */
     double *largest; /* [m] largest magnitude of each output so far */
-    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] outputs at the Chebyshev nodes of a part of the step */
+    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] outputs at the Chebyshev nodes of the step or of a part of it */
     double *whole;   /* [m x QDOT_CHEBYSHEV_MOST] Chebyshev coefficients of the outputs over the step */
     double *beyond;  /* [m] integral of |output - its interpolating polynomial over the step|, from samples */
     double *all;     /* [m] integral of |output| over the step */
-    double *allowed; /* [m] allowed value of `beyond` in this step */
+    double *allowed; /* [m] largest allowed value of `beyond` in this step */
     double *left;    /* [m] what of `allowed` is left for parts not examined yet */
     double *ends;    /* [4n] the states at both ends of a part of the step */
     double *

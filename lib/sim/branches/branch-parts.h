@@ -8,7 +8,7 @@ typedef enum {
     QDOT_END_RANGE,   /* reached the end of the parameter's range */
     QDOT_END_DOMAIN,  /* reached the end of a coordinate's domain */
     QDOT_END_CLOSED,  /* the branch returned to its first point: a closed curve */
-    QDOT_END_FAR,     /* the coordinates grow without bound */
+    QDOT_END_FAR,     /* the unknowns grow without bound */
     QDOT_END_REST,    /* an orbit shrinks to an equilibrium */
     QDOT_END_HALF,    /* the orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the orbit's period grows to infinity */

@@ -377,7 +377,7 @@ append_unfollowed_point(qdot_branch_search *s, const double *y)
     return QDOT_OK;
 }
 
-/* Remove from the list of points to be followed those that lie on a curve already followed. */
+/* Remove from s->all->left, the points that are on no curve, those that lie on a curve already followed. */
 static qdot_status
 remove_known_points(qdot_branch_search *s)
 {

@@ -134,7 +134,7 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
         qdot_free(y);
         return QDOT_OK;
     }
-    if (b.kind == QDOT_HALVING) { /* leave it out: the orbit of half the period is on no branch */
+    if (b.kind == QDOT_HALVING) { /* list it as a doubling: the orbit of half the period is on no branch */
         b.kind = QDOT_DOUBLING;
         b.reached = true;
         y[T] /= 2;
@@ -276,7 +276,7 @@ qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
     if (status == QDOT_OK)
         status = qdot_continuation_follow(&s, y, 1);
     status = qdot_continuation_finish(&s, status);
-    if (status == QDOT_OK && !x.driven) /* search no doublings if a drive determines the period */
+    if (status == QDOT_OK && !x.driven) /* the period does not grow if a drive determines it */
         mark_ends_of_infinite_period(&x.path, out);
     if (status == QDOT_OK)
         status = follow_all_doublings(of, &x, 1, 0, out);

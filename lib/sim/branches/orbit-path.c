@@ -473,7 +473,7 @@ make_first_point(qdot_orbit_path *x, double *size, double *y)
     QDOT_TRY(orbit_find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));
-    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the held component's rate is 0: the start point has been moved */
+    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the rate is not set: the start point has been moved */
         QDOT_TRY(compute_segment_states(x, y));
         QDOT_TRY(integrate_segments(x, y));
         x->rate = segment_value(x, 0, 0, x->n + x->phase);

@@ -49,7 +49,7 @@ struct qdot_path {
     double upright;          /* p-components of unit directions smaller than this are rounding */
     bool dips; /* test functions are accurate enough to detect pairs of zeros by dips (dips.h) */
     int least_jump;          /* smallest change of `growing` that means the onset of an oscillation */
-    int halvings;            /* number of bisections that narrow a bifurcation before Newton's method locates it */
+    int halvings;            /* number of bisections that narrow a bifurcation before it is located */
     /* for orbits of doubled period: index in y of the state after half a period; 0 for other orbits */
     size_t half;
     /* Compute F [n] and F' [n * (n + 1)] at y; not finite where undefined. Serious failures: x->failure. */
@@ -91,7 +91,7 @@ double qdot_path_halves(const qdot_path *x, const double *a, const double *b);
 bool qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps);
 /* Solve F(y) = 0 from the guess y, keeping component y_i fixed. */
 bool qdot_path_hold(qdot_path *x, size_t i, double *y);
-/* Compute the tangent a->t and a->sign at a->y, oriented along the vector `along`; false if there is none. */
+/* Compute the tangent a->t and a->det at a->y, oriented along the vector `along`; false if there is no tangent. */
 bool qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a);
 /* Find the point at arclength s from a, predicted along a->t, with its tangent; false if there is none. */
 bool qdot_path_go(qdot_path *x, const qdot_path_point *a, double s, qdot_path_point *to, int *steps);

@@ -23,7 +23,7 @@ typedef struct {
     bool touched;
 } qdot_course_faded;
 
-/* The root of a watched function (event or switching surface) at which a piece of the run ended. */
+/* The root of a watched function (event, bound or switching surface) at which a piece of the run ended. */
 typedef struct {
     size_t piece, function; /* index of the piece; index of the function among those watched in its mode */
     double t;
@@ -38,7 +38,7 @@ typedef struct {
     double t, after;
 } qdot_course_rest;
 
-/* A time during which the motion, oscillating too fast about a surface, slides along it (sim/course/chatter.h). */
+/* A time during which the motion, oscillating too fast about a surface, is taken to slide along it (chatter.h). */
 typedef struct {
     size_t surface;
     double t, end; /* start and end of the time during which the motion is held on the surface */
@@ -64,7 +64,7 @@ typedef struct qdot_course {
     /* evaluations for states within steps, and the number that ends the run with QDOT_ELIMIT;
      * 0: no limit */
     uint64_t looked, most_looked;
-    double left_out; /* velocities neglected in boundary layers so far, relative to their scales (ode/scale.h) */
+    double left_out; /* velocities left out in layers about u = 0 so far (layer.h), relative to their scales (ode/scale.h) */
     const struct qdot_course *leader; /* for a companion run: the main run, which decides when a contact lasts; else NULL */
     size_t most_pieces; /* a companion run with more pieces than this is given up; 0: no limit */
     qdot_trajectory tr;
@@ -79,7 +79,7 @@ typedef struct qdot_course {
     size_t stopped_by; /* index of the event that stopped the run; SIZE_MAX: no event did */
     char reason[400];  /* why the run ended early; "": it did not */
     bool failed;       /* `reason` is a failure, not an event's `stop` */
-    bool began_on;     /* the function of an event or surface was 0 at the start */
+    bool began_on;     /* the function of an event, bound or surface was 0 at the start */
 } qdot_course;
 
 #endif

@@ -71,7 +71,7 @@ drift_evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, d
     qdot_lanes_eval(tape, in, c, work);
 }
 
-/* Whether a constraint surface that moves, and so does work, holds the motion in this mode. */
+/* Whether a contact with a moving surface, which does work, holds the motion in this mode. */
 static bool
 is_driven(const qdot_stage *stage, size_t mode)
 {

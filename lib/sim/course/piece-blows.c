@@ -145,7 +145,7 @@ apply_next_impact(blows *b, bool *any)
         touch *c = &b->at.at[k];
 
         c->due = is_approaching(c) && (c->held || !pushed);
-        c->held = c->held && fabs(c->rate) <= c->noise; /* keep the contact closed only if it does not separate */
+        c->held = c->held && fabs(c->rate) <= c->noise; /* held on only at speed 0 within rounding */
     }
     for (size_t k = 0; k < b->at.n; k++) {
         touch *c = &b->at.at[k];

@@ -142,7 +142,7 @@ is_oscillation_too_fast(const held_motion *h, double place, double period)
            || (place <= places && fabs(h->v) <= slow * speeds && crossings > most_crossings);
 }
 
-/* Whether the motion may be taken to slide on the surface from here; if so, sliding is set as its side. */
+/* *may: whether the motion may be taken to slide on the surface from here; then the start is moved onto it. */
 static qdot_status
 start_sliding_if_allowed(held_motion *h, bool *may)
 {

@@ -13,7 +13,7 @@ static const double alike = 1e-9;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides
  * them. */
 static const double least_height = DBL_EPSILON / 8;
-/* Least height of a bounce off a surface that moves with time: positions at roots are rounded, too. */
+/* Bounces off a surface that moves with time may be left out up to this height: positions at roots are rounded, too. */
 static const double least_moving = 0x1p10 * DBL_EPSILON;
 /* This part for methods without series, from which a state within a step is known only to that part of its size. The
  * search of a step tells heights above a sixth of that from rounding. */
@@ -28,7 +28,7 @@ static const double led = 16;
 static const double apart = 64 * DBL_EPSILON;
 /* No lasting contact begins if it changes a component of the state by more than this, relative to its size. */
 static const double fastest = 1e-4;
-/* No contact begins if the acceleration towards the wall is smaller than this fraction of its terms. */
+/* The rate u' at a contact, or a move of the start, counts as rounding if smaller than this fraction of its terms. */
 static const double rounded = 32 * DBL_EPSILON;
 /* A bounce is not low if its initial speed exceeds this fraction of the largest speed so far. */
 static const double slow = 1e-2;

@@ -299,7 +299,7 @@ try_to_begin_contact(qdot_piece *x, const qdot_watched *w, int way, double left,
     QDOT_TRY(qdot_piece_rest(x, w->index, way, left, &lasts, &soon));
     if (r && *fast)
         r->soon = soon;
-    if (r && lasts) /* lower bounces may follow later, so reset their counter */
+    if (r && lasts) /* forget its counter: bounces that follow later are counted anew */
         *r = x->repeats.at[--x->repeats.n];
     *fast = *fast && !lasts && !soon;
     return QDOT_OK;

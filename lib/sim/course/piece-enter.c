@@ -45,7 +45,7 @@ qdot_piece_enter(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* A start with |u| larger than this (relative to the terms of u) is not on the surface u = 0. */
+/* A start state that is on no surface u = 0 within this, relative to max(1, |component|), is not near it. */
 static const double away = 1e-9;
 
 /* The largest speed at which friction is regularised: of discs that come to rest, twice their
@@ -201,7 +201,7 @@ qdot_piece_widen_residuals(qdot_piece *x)
 
 /* --- corners of constraints ---------------------------------------------------------- */
 
-/* If the residual of the constraints is larger than this, no state satisfies those of both sides. */
+/* If the residual in the constraints of the new side is larger than this, the state does not satisfy those of both sides. */
 static const double corner = 1e-6;
 
 /* If constraints switch, the state at the end of the piece before must keep those of the new
@@ -241,7 +241,7 @@ turns_at_constraint_corner(qdot_piece *x, bool *corners)
 
 /* --- jumps of T - V ------------------------------------------------------------------ */
 
-/* Evaluate the level function of a mode at the state y with component k changed by a fraction of itself. */
+/* Evaluate the level function of a mode at the state y with component k (SIZE_MAX: none) changed by a small part. */
 static double
 level_with_shift(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
                  double *work)

@@ -214,7 +214,7 @@ comes_to_rest(qdot_piece *x, size_t i, bool *yes)
 
 /* --- coming to rest -------------------------------------------------------------------------------- */
 
-/* The friction force is compared at the layer's boundary and this fraction of the half width inside it. */
+/* The friction force is compared at the layer's boundary |u| = w and at |u| equal to this fraction of w. */
 static const double deeper = 0x1p-10;
 
 /* The motion held at u = 0 of a surface at the start of a piece: y and its rates [n], the slopes of u by
@@ -253,7 +253,7 @@ find_deceleration(qdot_piece *x, size_t i, const held_motion *held, int way, dou
     return status;
 }
 
-/* The time until the motion comes to rest, its uncertainty, and its mean velocity until then. */
+/* The time until the motion comes to rest, its uncertainty, and the mean of u until then as a fraction of u now. */
 typedef struct {
     double time, doubt, mean;
 } remainder_of_motion;

@@ -68,7 +68,7 @@ accelerations_with_velocity_change(qdot_piece *x, size_t i, const double *rest, 
     return status;
 }
 
-/* Find how the forces on disc i respond to small velocities about its state of rest, rest [x->n]. */
+/* Find how the acceleration of disc i depends on the direction of a small velocity, and its state of rest, rest [x->n]. */
 static qdot_status
 find_response(qdot_piece *x, size_t i, double *rest, response *r)
 {
@@ -126,7 +126,7 @@ friction_brakes_all_motion(const response *r)
     return true;
 }
 
-/* Solve (a - K) e = P for the direction e in which the disc starts; returns |e|, infinite if there is none. */
+/* Solve (a - K) e = P for the direction e at acceleration a; returns its length sqrt(e G e), infinite if there is none. */
 static double
 find_start_direction(const response *r, double a, double *e)
 {

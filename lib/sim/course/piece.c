@@ -297,7 +297,7 @@ check_assumed_sides(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* Begin to follow the surfaces whose function u was 0 until this step and no longer is. */
+/* End the piece at t0 if the function u of a surface was 0 until this step and no longer is. */
 static qdot_status
 watch_surfaces_left(qdot_piece *x, double t0)
 {
@@ -413,7 +413,7 @@ record_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
     return QDOT_OK;
 }
 
-/* If the motion leaves a coordinate's domain at t_act, end the piece one double earlier. */
+/* If the motion leaves a coordinate's domain at t_act, end the piece one double before that. */
 static void
 end_inside_domain(qdot_piece *x, double t0)
 {
@@ -669,7 +669,7 @@ qdot_piece_integrate(qdot_piece *x)
     x->beyond = NULL;
     x->has_root = false;
     memset(x->end_low, 0, x->n * sizeof *x->end_low);
-    if (x->reader.read_two) /* search the start, too: the piece may end there */
+    if (x->reader.read_two) /* the low parts at the start: the piece may end there */
         qdot_piece_low(x, x->end_low);
     x->intent = QDOT_PIECE_GOES_ON;
     x->resting = SIZE_MAX;

@@ -52,7 +52,7 @@ typedef struct {
         /* The low part of the state (exact minus y) of components that still equal low_of; other
          * components are exact. */
         double *low, *low_of; /* [n] low parts of components; values of the components for which the low parts are valid */
-        double t_low; /* difference between the time of the state and t, if the start is at a root */
+        double t_low; /* time of the state minus t, if the start is at a root */
         bool on_root; /* y is the state at the root that ended the previous piece */
         double late;  /* time by which the state at that root was then advanced */
         size_t from;  /* index of the mode of the previous piece */
@@ -73,14 +73,14 @@ typedef struct {
     bool put_aside;     /* due to rounding the start may lie slightly off the surfaces */
     double *residual;   /* [functions] magnitude below which the function counts as 0 at the start */
     double *bare;  /* [n] start state before an attempt changed it; then its low parts, start.low and start.low_of */
-    double *rim;   /* [n] part of dy/dt neglected in the friction layer entered last, at its boundary */
+    double *rim;   /* [n] part of dy/dt left out in the layer (layer.h) entered last, at its boundary */
     bool entered;  /* the layer to which `rim` belongs was entered in this piece; false: the piece began inside it */
     bool first_step;
     /* The search for the sides of switches: sides are being tried, compared with alternatives, or known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
     char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "": it can */
     bool well; /* if RETRIED: the sides agree with the first step, but other sides may agree, too */
-    bool far; /* no watched function is near 0 in this step, so no roots were searched */
+    bool far; /* only bounds are watched, all far from this step: no roots were searched */
 
     /* Results of searching the present step for roots. */
     qdot_piece_intent intent;
@@ -185,7 +185,7 @@ void qdot_piece_carry(qdot_piece *x);
  * elsewhere, by an event or by another switch inside u, is not. After x->reader is set. */
 QDOT_MUST_CHECK qdot_status qdot_piece_widen_residuals(qdot_piece *x);
 
-/* Whether an event was recorded at the end of the piece, or within about one double of t before it. */
+/* Whether an event was recorded at the end of the piece, or within about 16 doubles of t before it. */
 bool qdot_piece_just_noted(const qdot_piece *x, size_t event);
 
 /* Check a mode before it is integrated; if it cannot be entered, c->reason says why. */
@@ -200,7 +200,7 @@ bool qdot_piece_end_in_layers(qdot_piece *x);
 /* In x->side: surfaces of velocities in whose layers friction brings the motion to rest. Where a piece
  * starts it goes there, to a start of its own, with the events that it meets then in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_in_layers(qdot_piece *x);
-/* Whether the function u of a surface depends on positions only, and the surface has no friction layer. */
+/* Whether the function u of a surface depends on positions only, and the surface has no layer (sim/model/layer.h). */
 bool qdot_piece_is_of_places(const qdot_piece *x, size_t surface);
 /* In x->side: surfaces of places about which the motion goes too fast to be followed (sim/course/chatter.h) where a
  * piece starts; not `anew`: only those that were crossed there. It slides along them, from a start on them. */

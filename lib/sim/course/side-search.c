@@ -204,7 +204,7 @@ other_side_fits(qdot_piece *x, const long *held, size_t surface, long side, bool
     memcpy(x->side, held, surfaces * sizeof *x->side);
     x->side[surface] = side;
     QDOT_TRY(qdot_piece_sides(x, held));
-    if (qdot_piece_has_massless(x)) /* massless coordinates take the values that belong to the sides that were found */
+    if (qdot_piece_has_massless(x)) /* massless coordinates have taken the values of the sides found: undo that */
         restore_start(x, x->bare);
     status = enter_sides(x, &can);
     if (status == QDOT_OK && can) {

@@ -233,7 +233,7 @@ find_start_accelerations(const decision *d, double *a)
     return status;
 }
 
-/* Find du/dt of all surfaces, rate [m], if each coordinate q_i changes at the rate w[i]. */
+/* Find |du/dt| of all surfaces, rate [m], if each coordinate q_i changes at the rate w[i]. */
 static void
 surface_rates(decision *d, const long *side, const double *w, double *rate)
 {

@@ -17,7 +17,7 @@
  * (sim/model/undone.h). */
 typedef struct {
     const char *why;  /* why the event cannot be undone; NULL: it can */
-    bool nowhere;     /* not even the position at which the event occurred can be determined */
+    bool nowhere;     /* not even the time at which the event occurred can be determined */
     bool keeps_speed; /* the event's `then` does not change the rate of change of the event's function */
     bool moved; /* the inverse's function differs from the event's, as `then` changes positions or parameters */
     qdot_tape *rates; /* from q, q', t, q'': g', g'' (0 if g contains q'), dg/dq [n] of the event's function g */

@@ -55,7 +55,7 @@ find_largest_residual(qdot_run *run, const qdot_scene *scene, qdot_constraint_ki
     const qdot_constraints *c = run->plan->constraints;
 
     for (size_t k = 0; k < c->m; k++) {
-        /* leave it out: the row's f holds for one side only, if the equations do not switch */
+        /* take f from the scene, as the row's own f holds for one side only if the equations switch */
         /* an equation of a massless coordinate; such equations have no switches */
         const bool massless = c->rows[k].multiplier == QDOT_NIL;
         qdot_drift f = {
@@ -65,7 +65,7 @@ find_largest_residual(qdot_run *run, const qdot_scene *scene, qdot_constraint_ki
         if (c->rows[k].kind != kind)
             continue;
         QDOT_TRY(qdot_precise_pair_drifts(run->precise, &one));
-        *most = fmax(*most, f.drift); /* this comparison also replaces a NaN */
+        *most = fmax(*most, f.drift); /* fmax also replaces the NaN that *most is at first */
     }
     return QDOT_OK;
 }
@@ -116,10 +116,10 @@ keep_end_state(qdot_run *run)
     for (size_t k = 0; k < m; k++)
         if (!isfinite(run->multipliers.lambda[k])) /* infinite or undefined in doubles: no digits are given */
             run->exact[n + k] = QDOT_NIL;
-    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* not a failure: the exact end state stays nil where it is undefined */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* not a failure: multipliers without a value stay nil */
 }
 
-/* Note each event that occurs more often in a companion run than in the run in doubles, which tells where to search. */
+/* Add a notice for each event that a companion of the run in doubles, whose events are followed, met more often than it. */
 static qdot_status
 note_missed_events(qdot_run *run)
 {
@@ -210,7 +210,7 @@ qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
     return qdot_text_status(&run->notice);
 }
 
-/* Refuse scenes with friction layers, whose approximation errs by more than `digits` allows. */
+/* Refuse scenes with layers (layer.h), as what is left out in them exceeds the error that `digits` allows. */
 static qdot_status
 refuse_layers(const qdot_run *run)
 {

@@ -427,7 +427,7 @@ bounce_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
             break;
         mpfr_div(at[W], at[SPEED], at[SPEED_BEFORE], RN);
         mpfr_abs(at[W], at[W], RN);
-        /* the duration of the last flights is proportional to the impact speed W */
+        /* durations of low flights are in proportion to their speeds, whose ratio is W */
         mpfr_mul(at[FLIGHT], at[FLIGHT], at[W], RN);
         if (is_flight_lost_in_rounding(s))
             break;
@@ -470,7 +470,7 @@ find_occurrence_times(qdot_precise_side *s)
             mpfr_set(s->times.at[i], qdot_precise_point(run, run->count - 1)[0], RN);
             continue;
         }
-        /* search a crossing near the recorded root, although the function only touches 0 there */
+        /* skip touches, where no sign changes, except of |u| and u^2, for which the function is u */
         if ((o->way == 0 && (o->within > 0 || !g->stage->events.at[o->event].touches)) || segment >= s->segments.n)
             continue;
         QDOT_TRY(qdot_precise_locate(s, segment,

@@ -40,7 +40,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_formula_at(qdot_precise_side *s, size_t
 QDOT_MUST_CHECK qdot_status qdot_precise_find_root(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f,
                                                    bool *found);
 
-/* Find the root of the formula f within `by` of t on a segment; the state goes to s->course->y. */
+/* Find the root of the formula f within `by` of t on a segment, into at[X]; *found: f changes its sign there. */
 QDOT_MUST_CHECK qdot_status qdot_precise_locate(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f, double t,
                                                 double by, bool *found);
 

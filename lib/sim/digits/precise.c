@@ -487,7 +487,7 @@ qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error)
     return qdot_constant_of_real(pair->plan->pool, a->times.at[i]);
 }
 
-/* Append a point to the trajectory in doubles, unless its time equals that of the last point. */
+/* Append a point to the trajectory in doubles if its time lies after that of the last point, up to t_end. */
 static qdot_status
 append_point(qdot_trajectory *tr, bool first, double t, double t_end, const double *y)
 {

@@ -444,7 +444,7 @@ fill_results(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_resul
     }
 }
 
-/* Begin to inspect the steps of a pass for events, for states at given times, and for short forces. */
+/* Begin to inspect the steps of a pass: for events, states at given times, and doubts (sim/ensemble/doubts.h). */
 static qdot_status
 begin_inspection(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {

@@ -303,7 +303,7 @@ may_reach_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
     return false;
 }
 
-/* Inspect the step for forces shorter than the step, and search it for events. */
+/* Inspect the step for what a lane cannot treat (sim/ensemble/doubts.h), and search it for events. */
 static qdot_status
 inspect_lane_step(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {

@@ -324,7 +324,7 @@ compute_companion_by_plan(qdot_run *run, size_t number, const qdot_companion_pla
      * switch that is crossed here and not there is doubt of the run. */
     for (move how = EACH; how < MOVES; how++) {
         if (how == ALIKE && !qdot_companion_has_alike(n, run->start))
-            continue; /* a further attempt in another way would give the same result */
+            continue; /* no components are of equal size: the start would be the same */
         if (how != EACH)
             options.carry = y + n;
         c->exact = how == NOT && run->course.exact;

@@ -150,7 +150,7 @@ compare_with_companions(qdot_distance *d, size_t piece, double t, const double *
     return QDOT_OK;
 }
 
-/* Find the difference of the run and its companion runs at stored point k; 0 if unknown. */
+/* Find the error that the companion runs may have themselves at stored point k; 0 if unknown. */
 static qdot_status
 find_difference_at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 {
@@ -261,7 +261,7 @@ find_largest_on_one_side(qdot_distance *d, size_t piece, size_t k, int way, doub
     return QDOT_OK;
 }
 
-/* Find the difference of the run and its companion runs near t, which lies after point k. */
+/* Raise own [m] to the errors that the companion runs may have themselves near t, which lies after point k. */
 static qdot_status
 find_difference_near(qdot_distance *d, size_t piece, size_t k, double *own)
 {

@@ -159,7 +159,7 @@ find_time_of_fading(look *l, double *from)
         if (!isnan(seen))
             break;
     }
-    if (k == 0 || k > l->n) /* g always, or at the end still, differs from 0 by more than its error */
+    if (k == 0 || k > l->n) /* g never differs from 0 by more than its error, or still does so at the end */
         return QDOT_OK;
     start = l->t[k];
     left = fabs(l->end - start);

@@ -27,8 +27,8 @@ static const double at_most = 2;
 struct qdot_oscillations {
     const qdot_course *course;
     double longest; /* length of the longest step */
-    double lost;    /* amplitude of unresolved oscillations already at the start */
-    double damping; /* smallest damping rate |Re lambda| at this point */
+    double lost;    /* amplitude (max A - min A) lost at the first points of the run */
+    double damping; /* smallest damping rate |Re lambda| at the start of the run */
     double *J, *f;  /* Jacobian [n x n]; scratch [2n] */
     double complex *lambda, *v, *c; /* eigenvalues [n]; eigenvectors [n x n]; coefficients [n] */
 };
@@ -209,7 +209,7 @@ qdot_oscillations_add(qdot_oscillations *o, qdot_reader *r, double t, const doub
     const size_t n = tr->n, m = r->of.m;
     const double a = at_most * o->lost * exp(-o->damping * fabs(t - tr->t[0]));
     const double *scales = qdot_course_systems(o->course)->scales;
-    double most = 0; /* largest velocity in the mode */
+    double most = 0; /* largest velocity in a mode that a step's error estimate misses */
     double *y = qdot_malloc((n + 2 * m) * sizeof *y), *g = y + n, *sums = g + m;
     qdot_status status;
     bool there;

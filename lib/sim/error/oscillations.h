@@ -25,7 +25,7 @@
 
 typedef struct qdot_oscillations qdot_oscillations;
 
-/* Make *out; NULL if the steps resolve all oscillations. Errors: QDOT_ENOMEM. The course is borrowed. */
+/* Make *out; NULL if the run has passed over no oscillation. Errors: QDOT_ENOMEM. The course is borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_oscillations_new(const qdot_course *course,
                                                   qdot_oscillations **out);
 void qdot_oscillations_free(qdot_oscillations *o);

@@ -248,7 +248,7 @@ is_deep_minimum(const double *q)
     return q[1] <= q[0] && q[1] < q[2] && q[1] < shallow * fmax(q[0], q[2]);
 }
 
-/* Take the independence q at time t as the newest point; record a singular point if q had a minimum before. */
+/* Take the independence q at time t as the newest point; record a singular point if q has had a minimum near 0. */
 static qdot_status
 take_point(search *s, double t, double q)
 {

@@ -32,7 +32,7 @@ diagonal_mass(const qdot_plan *p, size_t i)
     return p->M[i * (p->n + 1)];
 }
 
-/* The element of constraint k's gradient for a coordinate, 0 if the constraint does not contain it. */
+/* The element of the gradient of constraint `row` for a coordinate, 0 if the constraint does not contain it. */
 static qdot_expr
 constraint_gradient(const qdot_constraints *c, size_t row, size_t coordinate)
 {

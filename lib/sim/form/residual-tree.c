@@ -35,7 +35,7 @@ join_nodes(builder *b, uint32_t f, uint32_t g)
     return true;
 }
 
-/* Join functions into nodes: those of one coordinate, then those whose children share a node, repeatedly. */
+/* Join functions into nodes: those of one term or coordinate, then those whose children share a node, repeatedly. */
 static void
 join_functions(builder *b)
 {

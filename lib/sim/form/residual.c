@@ -16,14 +16,14 @@
 #include "tape/keymap.h"
 #include "tape/rounding.h"
 
-/* Among how many earlier functions the parent of a function is searched: closely, and at most. */
+/* Among how many earlier functions the parent of a function is searched: at first, and at most. */
 enum { near = 8, looked_at = 64 };
 
 typedef struct {
     const qdot_plan *plan;
     qdot_residual *r;
     qdot_vec(qdot_expr) functions, outputs, forces;
-    qdot_keymap place; /* maps (term, function + 1) to the term's position in the sum that is the function */
+    qdot_keymap place; /* maps each term of the sum recorded last to its position in that sum */
     qdot_vec(qdot_expr) terms; /* the terms of a difference of two positions */
 } builder;
 

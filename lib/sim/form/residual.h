@@ -49,7 +49,7 @@ struct qdot_residual {
     qdot_expr *applied; /* [n] applied forces Q_i, with parameter values */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
-    /* Tapes from q, q' and t to the functions' differences and the applied forces: */
+    /* Tapes with the inputs q, q' and t: */
     qdot_tape *places; /* outputs: differences d_f in their order, their derivatives, and Q_i's parts without velocities */
     qdot_tape *forces; /* outputs: Q_i that depend on velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a

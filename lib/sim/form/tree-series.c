@@ -1,4 +1,4 @@
-/* tree-series.c -- computes each Taylor order of q'' by one sweep up the tree of bodies and one down. */
+/* tree-series.c -- computes each Taylor order of q'' by one sweep up the tree of functions and one down. */
 #include "sim/form/tree-series.h"
 
 #include <math.h>

@@ -17,7 +17,7 @@ static const double least_size = 0x1p-10;
  * each value set. */
 typedef struct {
     const qdot_constrained_level *level;
-    double *x, *low; /* [n] low parts: the values are x + low; low NULL: 0 */
+    double *x, *low; /* [n] the values are the sums x + low; low NULL: 0 */
     const bool *set; /* [n] which values the event has set */
     const double *residual;
     const qdot_tape *tape; /* tape whose outputs are the residuals of this level's constraints */

@@ -221,7 +221,7 @@ is_off_constraints(qdot_constrained *h, const level *l, const double *y)
     return false;
 }
 
-/* Evaluate the equations of motion at the loaded state y. Returns the left sides A q'' of the constraints. */
+/* Evaluate the equations of motion at the loaded state y. Returns the constraints' right-hand sides gamma = A q''. */
 static const double *
 evaluate_equations(qdot_constrained *h, level *all, const double *y)
 {

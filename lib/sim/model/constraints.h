@@ -36,7 +36,7 @@ struct qdot_constraints {
     size_t m; /* number of constraint rows: constraints of the scene, then n_massless equations */
     size_t count[3]; /* number of rows of each kind: on positions, velocities, accelerations */
     qdot_constraints_row *rows;
-    qdot_constraints_entry *masses; /* [n_masses] non-zero entries of M, and diagonal of massless ones */
+    qdot_constraints_entry *masses; /* [n_masses] non-zero entries of M, and the diagonal of massless coordinates */
     size_t n_masses;
     qdot_constraints_entry *slopes; /* [n_slopes] entries of A = df/dq (or df/dq', df/dq''), row by row */
     size_t n_slopes;
@@ -44,7 +44,7 @@ struct qdot_constraints {
     qdot_expr *A;      /* [n_slopes] entries of A as expressions */
     qdot_expr *gamma;  /* [m] right-hand sides of A q'' = gamma */
 
-    /* Tapes from q [n], q' [n] and t (n: coordinates of the plan); outputs are residuals: */
+    /* Tapes from q [n], q' [n] and t (n: coordinates of the plan); the first two give residuals: */
     qdot_tape *positions;  /* outputs: f of the holonomic constraints, in their order */
     qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
                               order of all rows without those on accelerations */

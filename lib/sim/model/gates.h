@@ -50,7 +50,7 @@ typedef struct {
     qdot_vec(size_t) arguments;
     qdot_vec(qdot_gate_pair) pairs;
     qdot_vec(size_t) roots; /* gates that are the outermost switching functions in the expressions searched */
-    size_t *decides; /* [surfaces] the gate that the surface's own function u contains; SIZE_MAX: none */
+    size_t *decides; /* [surfaces] the gate that the surface's own function u is, as it contains switches; SIZE_MAX: none */
     bool branches;   /* there is a mode in which some gate is not evaluated */
 } qdot_gates;
 

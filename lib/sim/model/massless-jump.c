@@ -95,7 +95,7 @@ append_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
     return n + 1;
 }
 
-/* Replace q and q' by the values to which the event's `then` sets them. */
+/* List q, q' and parameters with the values to which the event's `then` sets them, for later replacement. */
 static void
 insert_event_values(jump *j)
 {

@@ -26,7 +26,7 @@
  * determines nothing. */
 QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
 
-/* Whether coordinate i has no mass: its row of the mass matrix p->M is 0. */
+/* Whether coordinate i has no mass (its row of the mass matrix p->M is 0) and is in no constraint. */
 bool qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i);
 
 /* Whether what these equations determine decides a switch, as the velocity of a slider: by which side that starts is for

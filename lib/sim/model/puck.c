@@ -301,7 +301,7 @@ contains_expression(const qdot_pool *pool, qdot_expr e, qdot_expr x)
     return e != QDOT_NIL && qdot_expr_contains(pool, e, x);
 }
 
-/* The force at rest in place of C/|w|, sum B_j s_j, where s is a direction to be found; C: the coefficient. */
+/* The force at rest in place of C/|w|: sum B_j s_j, with friction ratios s to be found; C: the coefficient. */
 static qdot_expr
 force_at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 {

@@ -33,7 +33,7 @@
 #include "sim/model/equations.h"
 #include "sim/model/switch.h"
 
-/* The binary exponent of the largest s G s - 1 at which a disc still creeps (s: direction, G: metric). */
+/* The binary exponent of the largest s G s - 1 at which a disc still creeps (s: friction ratios, G: metric). */
 enum { QDOT_PUCK_CREEP_EXPONENT = -12 };
 
 /* Append the pucks in M q'' = f of the switches, and their surfaces. Errors: those of the pool,
@@ -51,7 +51,7 @@ qdot_puck_of(const qdot_switches *s, size_t surface)
     return k > 0 ? &s->pucks.at[k - 1] : NULL;
 }
 
-/* Whether a disc on this side of its surface moves in the direction of its static friction: rests or creeps. */
+/* Whether a disc with this side rests or creeps, so that its friction is found from the equations. */
 static inline bool
 qdot_puck_is_held(long side)
 {
@@ -64,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_puck_hold(qdot_pool *pool, const qdot_puck *puc
                                            const qdot_facts *facts, size_t n,
                                            qdot_expr *e);
 
-/* The square sum_ij s_i G_ij s_j of the direction s [k] of a disc's friction, G being the disc's metric. */
+/* The square sum_ij s_i G_ij s_j of a disc's friction ratios s [k], G being the disc's metric. */
 qdot_expr qdot_puck_square(qdot_pool *pool, const qdot_puck *puck,
                            const qdot_expr *share);
 

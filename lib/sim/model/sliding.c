@@ -29,13 +29,13 @@ qdot_sliding_is(const qdot_switches *s, const long *side)
     return false;
 }
 
-/* An unknown friction ratio s (in place of sign u) of a surface u = 0, or of component c of a disc. */
+/* An unknown s: in place of sign u (friction ratio) or the reaction of a contact; or of component c of a disc. */
 typedef struct {
     size_t surface, c;
     const qdot_puck *puck; /* the sliding disc to which the surface belongs; NULL: none */
 } unknown;
 
-/* The linear system being filled; unknowns: q'', then multipliers, then friction ratios of surfaces. */
+/* The linear system being filled; unknowns: q'', then multipliers, then friction ratios and contact reactions. */
 typedef struct {
     qdot_plan *p;
     qdot_scene *scene;
@@ -305,7 +305,7 @@ insert_ratios(sliding *s, bool all)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
         } else {
             p->f[i] = qdot_subs(p->pool, p->f[i], k, symbols, to);
-            if (all) /* otherwise these equations are among the other rows */
+            if (all) /* otherwise the contacts are still among the rows to be solved */
                 add_contact_reactions(s, i);
         }
     }

@@ -49,7 +49,7 @@ static const struct {
     double order, pair, vector;
 } kinds[] = {{1.8, 0.15, 0}, {1, 0.03, 16}, {1, 0.03, 0}};
 
-/* The cost of the linear system for q'' and multipliers, as machine code: measured with bench/constraints. */
+/* The cost of steps that solve for q'' and multipliers in machine code: measured with bench/constraints. */
 static const model bordered_code = {
     .start = {[ONE] = 160, [CALLS] = 20, [LENGTH] = 3, [UNKNOWNS] = 20, [CUBES] = 0.5},
     .order = {[ONE] = 3, [LENGTH] = 0.4, [CONVOLUTIONS] = 0.6, [SQUARES] = 1},

@@ -8,7 +8,7 @@
 #include "sim/run/chart-run.h"
 #include "sim/run/run.h"
 
-/* Expressions in the coordinates of the run; valid while the signs and quarter turns of its angles are constant. */
+/* Expressions in the coordinates of the run; valid while signs (of distances, roots) and quarter turns are constant. */
 typedef struct {
     qdot_run *run;
     size_t m;

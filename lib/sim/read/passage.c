@@ -95,7 +95,7 @@ find_extrema(const double *c, double middle, int sign, qdot_passage *p)
     }
 }
 
-/* Evaluate e on both sides of the singularity, and fit a polynomial on each side. */
+/* Evaluate e on both sides of the singularity, and fit one polynomial through the values of both. */
 static qdot_status
 fit_both_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c, double *error)
 {

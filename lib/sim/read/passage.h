@@ -13,7 +13,7 @@
 #include "sim/read/in-chart.h"
 
 typedef struct {
-    double beyond; /* end of the covered interval on the far side of the singularity */
+    double beyond; /* the interval that is covered reaches from the singularity to this time */
     double most, least, error;
 } qdot_passage;
 

@@ -27,7 +27,7 @@ largest_value_without_pole(qdot_range_scan *s, const qdot_range_part *p)
 
     if (s->typical > 0)
         return beyond_bounds * s->typical;
-    for (int side = -1; side <= 1; side += 2) { /* near a pole this includes the growth towards it; elsewhere the growth is 0 */
+    for (int side = -1; side <= 1; side += 2) { /* typical size 0: allow 8 times the values beside the interval */
         double t = p->a + side * far_beside * (p->b - p->a), v;
 
         if (fmin(s->ends[0], s->ends[1]) <= t && t <= fmax(s->ends[0], s->ends[1])

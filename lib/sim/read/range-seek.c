@@ -23,7 +23,7 @@ tolerated_excess(const qdot_range_scan *s, double x)
     return fmax(slack * fabs(x), QDOT_RANGE_NOISES * s->noise);
 }
 
-/* Enclose the values in a step, but for an end (one double) where equations switch, whose value is isolated. */
+/* Enclose the values between a and b; ends of the step are left out by one double: values there may be isolated. */
 static void
 enclose_values(qdot_range_scan *s, double a, double b, int nodes)
 {

@@ -135,7 +135,7 @@ judge_interval(scan *s, const part *p, bool *good)
         return v;
     if (qdot_range_is_beneath(s, p))
         return s->kind == QDOT_RANGE_MEAN ? SURE : SURPASSED;
-    /* do not use a polynomial near a singular edge, where values are certainly bounded */
+    /* if values are certainly bounded, do not use the polynomial of an interval near a singularity */
     if (v == HOLLOW)
         return s->kind == QDOT_RANGE_MEAN || s->bounds.resting ||
                        qdot_range_is_beside_switch(s, p) || isinf(s->bounds.box->lo) ||
@@ -181,7 +181,7 @@ bound_by_finer_fit(scan *s, const part *p, double low, double high)
 
         if (status != QDOT_OK && !qdot_reader_has_nothing(status))
             return status;
-        if (status != QDOT_OK || !good) /* stop: the expression is undefined at one of the changed states */
+        if (status != QDOT_OK || !good) /* no finer polynomial fits: use as many nodes as before */
             QDOT_TRY(fit_polynomial(s, &finer, p->n, &good));
         qdot_polynomial_bounds_look(&s->bounds, p->a, p->b, finer.n, NULL, NULL);
     }

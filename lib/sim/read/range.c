@@ -21,7 +21,7 @@
 #include "sim/read/range-parts.h"
 #include "sim/read/stretches.h"
 
-/* The search of a step for extrema is given up after this many intervals. */
+/* The scan of a step, for extrema or a mean, is given up after this many intervals. */
 enum { MOST_PARTS = 8192 };
 
 typedef qdot_range_scan scan;

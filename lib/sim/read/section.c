@@ -230,7 +230,7 @@ find_section_between(qdot_run *run, const qdot_section_of *of, const double *lim
         x.sides[i].course = courses[i];
         x.n_sides = i + 1;
         status = find_crossings(&x, &x.sides[i], limits);
-        /* the companion run has no value at this crossing, so it gives no error estimate */
+        /* the function has no value somewhere along a companion run: errors are not estimated */
         if (i > 0 && qdot_reader_has_nothing(status)) {
             x.n_sides = 1;
             status = QDOT_OK;

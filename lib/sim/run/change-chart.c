@@ -194,7 +194,7 @@ add_notice_of_chart(qdot_run *run)
     return qdot_text_status(&run->notice);
 }
 
-/* Whether the run is valid only as long as the signs of certain square roots do not change. */
+/* Whether the run is valid only as long as signs (of square roots, of distances in events) do not change. */
 static bool
 depends_on_root_signs(const qdot_chart *c)
 {

@@ -56,13 +56,13 @@ qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarter
 typedef struct {
     qdot_run_chart *x;
     qdot_reader reader;
-    size_t m, n;  /* number of replaced coordinates; number of signs of square roots */
+    size_t m, n;  /* number of replaced coordinates; number of signs (of distances and of square roots) */
     double *xy;   /* [4 m + 2 n] x, y of the angles with all signs 1, -1; then the roots w, and
                      the squares of their slopes */
     double *now;  /* [m] the angles at time t, continued without jumps */
     double *next; /* [m] the angles at the next point that is inspected */
-    double *most; /* [m + n] largest distance from a singular place so far; largest gradient of each square root */
-    long *signs;  /* [n] the signs of the square roots at time t */
+    double *most; /* [m + n] largest distance from a singular place so far; largest squared gradient of each root */
+    long *signs;  /* [n] the signs of distances and square roots at time t */
     uint64_t passed; /* bits: signs whose singular place is passed exactly at the next point */
     double t;
 } following;

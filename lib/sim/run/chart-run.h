@@ -17,7 +17,7 @@
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 
-/* A time from which the angles are counted from given numbers of quarter turns, with constant signs of roots. */
+/* A time from which angles are counted from given numbers of quarter turns; signs of distances, roots are constant. */
 typedef struct {
     double t;
     uint64_t passed; /* bits: the signs whose singular place is passed exactly at t */
@@ -36,7 +36,7 @@ typedef struct qdot_run_chart {
     bool at_place;         /* the run starts at a singular place */
     bool followed; /* `stretches` has been computed */
     bool crosses;  /* a square root w with w^2 = P passed a place where this surface crosses itself */
-    bool changes;  /* the sign of a root has changed at a singular place that was passed exactly */
+    bool changes;  /* the sign of a distance has changed at a singular place that was passed exactly */
     qdot_vec(qdot_chart_stretch) stretches; /* time intervals with constant signs and quarter turns, in the order of the run */
     qdot_vec(long) quarters;
 } qdot_run_chart;
@@ -47,7 +47,7 @@ void qdot_run_chart_free(qdot_run_chart *x);
 qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
                                  bool *turns);
 
-/* Follow the angles and the signs of roots along the run, unless that was done before. */
+/* Follow the angles, and the signs of distances and roots, along the run, unless that was done before. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
 
 /* The quarters [moved], and the signs behind them, for the stretch of time t; follows the run if that was not done yet, and

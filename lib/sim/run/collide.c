@@ -448,7 +448,7 @@ record_stop(qdot_run *run, double t)
     return status;
 }
 
-/* Convert the event times and the horizon of a run over the regularising variable s to times t. */
+/* Convert all times and the horizon of a run over the regularising variable s to times t. */
 static qdot_status
 convert_run_times(const ground *g, qdot_run *run)
 {

@@ -17,7 +17,7 @@ typedef struct {
     double origin;            /* the time at s = 0; 0: nothing was changed */
     qdot_scene *scene;        /* the scene in terms of s; NULL: t does not occur in the scene */
     qdot_scene_saved saved;
-    qdot_expr *values; /* the original values of parameters, and those of assignments by events */
+    qdot_expr *values; /* the values of parameters in terms of s; then the original ones that events assign */
 } qdot_origin;
 
 /* Rewrite scene and request in s; call qdot_origin_end in any case. Errors: those of constants, QDOT_ENOMEM. */

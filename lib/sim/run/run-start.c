@@ -136,7 +136,7 @@ project_and_check_start(qdot_run *run, qdot_scene *scene, const qdot_run_request
         memcpy(said + 2 * n, run->start_low, 2 * n * sizeof *said);
         status = project_start(run, scene, request, &run->stage.domains);
     }
-    /* keep the given start if the first piece has to find the sides of switches */
+    /* settle the given start again, now with the plan for the sides of switches at the start */
     if (status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches)) {
         qdot_text_truncate(&run->notice, words);
         memcpy(run->start, said, 2 * n * sizeof *said);

@@ -118,7 +118,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_event_at_end(qdot_run *run, size_t k, const
  * the companion; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,
                                                  const qdot_run_occurrence **list, size_t *n);
-/* Find the time spans [*n] in which rounding hides whether an event occurs; borrowed. */
+/* Find the time spans [*n] in which errors hide whether an event occurs; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_faded_events(qdot_run *run, const qdot_run_faded **list, size_t *n);
 /* Whether the scene of the run had an event with this name. */
 bool qdot_run_has_event(const qdot_run *run, const char *name);

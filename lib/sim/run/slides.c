@@ -192,7 +192,7 @@ add_notice_for_surface(qdot_run *run, size_t surface)
     return status;
 }
 
-/* Whether the run slid along a surface whose side enters values; sides of other surfaces enter no expression. */
+/* Whether the run slid along a surface whose side enters values; that of a contact enters no equation. */
 static bool
 affects_values(const qdot_run *run, size_t surface)
 {

@@ -39,7 +39,7 @@ struct qdot_response {
     qdot_expr *u, *values;
     qdot_expr *first, *settled; /* [2 half] start of the first run; [2n] the same on the constraints */
     qdot_run_request request; /* request on which the variation is based */
-    qdot_variation_by *by;    /* [k] the unknowns, or start values, by which is differentiated */
+    qdot_variation_by *by;    /* [k] the directions of differentiation, one for each unknown */
     qdot_expr *slopes;        /* [k x 2n] derivatives of the start by the unknowns */
     qdot_variation variation;
     qdot_parameter_states states;

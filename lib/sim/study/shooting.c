@@ -88,7 +88,7 @@ integrate_segment_states(shooting *x, const double *u, bool back, double trust, 
     return QDOT_OK;
 }
 
-/* Guess the states between the segments of the orbit, by integration from the start. */
+/* Guess the states between the segments of the orbit: by integration from both ends, and interpolation. */
 static qdot_status
 guess_states(shooting *x, const double *u, double trust, double *states, bool *known)
 {

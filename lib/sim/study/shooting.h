@@ -24,7 +24,7 @@
 
 typedef struct {
     qdot_scene *scene;
-    /* The request, whose parameter values are replaced where unknowns are parameters; t0: time of the start. */
+    /* The request, whose parameter values depend on those unknowns that are parameters; t0: time of the start. */
     const qdot_run_request *request;
     size_t k; /* number of unknowns (parameters, coordinates, velocities, times); their symbols and names follow */
     const qdot_expr *unknowns;

@@ -1,4 +1,4 @@
-/* sizes.c -- finds the largest magnitudes of coordinates and velocities along a run, at equidistant times. */
+/* sizes.c -- finds the largest magnitudes of expressions along a run, at equidistant times. */
 #include "sim/study/sizes.h"
 
 #include <math.h>

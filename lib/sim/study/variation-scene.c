@@ -273,7 +273,7 @@ write_start_values(const qdot_variation *v)
             v->named[k * n + i] = k == 0 || open == 0 || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }
-    /* skip values that follow from the equations of massless coordinates */
+    /* do not prescribe values that follow from the equations of massless coordinates */
     for (size_t j = 0; j < 2 * all && v->w > 0; j++) {
         const size_t i = j % all % n;
 

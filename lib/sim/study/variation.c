@@ -135,7 +135,7 @@ typedef struct {
     qdot_expr *M, *f;     /* [n x n], [n] M and f with parameter values */
     size_t w;             /* number of massless coordinates; their indices are in v */
     qdot_expr *F, *A; /* second time derivatives of constraints [m + w]; their gradients [(m + w) x n] */
-    qdot_expr *rate;      /* [w] second time derivatives of the massless equations, with parameters as symbols */
+    qdot_expr *rate;      /* [w] time derivatives of the massless equations that contain q'', with parameters as symbols */
     qdot_expr *W;         /* [w x w] the matrix W of the massless coordinates' equations, as LU factors */
     qdot_expr *L, *B, *S; /* factors of M [n x n], B [m x n], factors of S [m x m] */
     qdot_expr *x, *z;     /* [n], [m + w] scratch */

@@ -204,10 +204,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double 
 
 /* --- values in two doubles (watch-two.c) --------------------------------------------- */
 
-/* Whether function i can be double-double within the step: the state can be read so, or is not needed. */
+/* Whether function i can be evaluated double-double within the step: the state can be read so, or is not needed. */
 bool qdot_watch_can_two(const qdot_watch *w, size_t i);
 
-/* Make the double-double tape of g, and w->state_two, the state at a time in the step, unless they exist. */
+/* Make the double-double tape of g, and w->state_two, unless they exist; read the state at t in the step into the latter. */
 QDOT_MUST_CHECK qdot_status qdot_watch_make_two(qdot_watch *w);
 QDOT_MUST_CHECK qdot_status qdot_watch_read_two(qdot_watch *w, double t);
 

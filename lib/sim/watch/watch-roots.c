@@ -330,7 +330,7 @@ find_crossing_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, d
     return make_root_between_doubles(w, p, i, way, ends, root);
 }
 
-/* Switch on or off that function i is evaluated in double-double precision. */
+/* Switch the double-double evaluation of function i on or off. */
 static void
 set_double_double(qdot_watch *w, size_t i, bool fine, bool others)
 {
