@@ -18,12 +18,6 @@
 
 enum { FIRST_BITS = 256, MOST_BITS = 4096 };
 
-bool
-qdot_constant_is(const qdot_pool *pool, qdot_expr e)
-{
-    return (qdot_expr_node(pool, e)->holds & ~(QDOT_HAS_FUN | 1u << QDOT_CONST)) == 0;
-}
-
 /* Append an undefined function with its arguments as declared, x(s, t), whatever arguments e applies it to. */
 static void
 add_function(const qdot_pool *pool, qdot_expr e, qdot_text *text)
@@ -275,7 +269,7 @@ report_unset_symbols(const evaluation *v)
         qdot_expr e = v->walk.at[i];
         qdot_kind kind = qdot_expr_kind(v->pool, e);
 
-        if (kind == QDOT_UFUN || (kind == QDOT_SYM && !qdot_constant_is(v->pool, e)))
+        if (kind == QDOT_UFUN || (kind == QDOT_SYM && !qdot_expr_is_constant(v->pool, e)))
             status = qdot_vec_push(&unset, e);
     }
     if (status == QDOT_OK)

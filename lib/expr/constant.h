@@ -9,8 +9,6 @@
 
 #include "expr/id.h"
 
-/* Whether e contains no symbol except pi, true and false, and no undefined function. */
-bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
 
 /* One constant expression (no symbols) as a double, correctly rounded if 256 bits decide.
  * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */

@@ -668,6 +668,12 @@ qdot_expr_is_class(const qdot_pool *pool, qdot_expr e, qdot_class class)
 }
 
 bool
+qdot_expr_is_constant(const qdot_pool *pool, qdot_expr e)
+{
+    return (qdot_expr_node(pool, e)->holds & ~(QDOT_HAS_FUN | 1u << QDOT_CONST)) == 0;
+}
+
+bool
 qdot_expr_is_coordinate(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, e);

@@ -72,6 +72,8 @@ void qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open
 /* The symbol data of e; NULL unless e is a SYM. Valid until the next constructor call. */
 const qdot_symbol *qdot_expr_symbol(const qdot_pool *pool, qdot_expr e);
 bool qdot_expr_is_class(const qdot_pool *pool, qdot_expr e, qdot_class class);
+/* Whether e contains no symbol except pi, true and false, and no undefined function. */
+bool qdot_expr_is_constant(const qdot_pool *pool, qdot_expr e);
 /* Whether e is the coordinate itself (order 0). */
 bool qdot_expr_is_coordinate(const qdot_pool *pool, qdot_expr e);
 

@@ -3,11 +3,11 @@
 #include "tape/angle.h"
 
 #include "expr/build.h"
-#include "expr/constant.h"
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/rational.h"
+#include "expr/symbol.h"
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 
@@ -125,7 +125,7 @@ read_summands(qdot_angles *a, qdot_expr e, qdot_expr factor, qdot_expr *constant
         qdot_expr t = qdot_expr_arg(pool, e, i);
         qdot_expr c = qdot_mul(pool, factor, qdot_expr_arg(pool, e, i + 1));
 
-        if (qdot_constant_is(pool, t))
+        if (qdot_expr_is_constant(pool, t))
             *constant = qdot_add(pool, *constant, qdot_mul(pool, c, t));
         else
             QDOT_TRY(qdot_vec_push(&a->parts, ((part){.term = t,
@@ -411,7 +411,7 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, bool series,
     for (size_t i = 0; i < walk->n && status == QDOT_OK; i++) {
         qdot_expr e = walk->at[i];
 
-        if (is_sine_or_cosine(qdot_expr_node(pool, e)) && !qdot_constant_is(pool, e))
+        if (is_sine_or_cosine(qdot_expr_node(pool, e)) && !qdot_expr_is_constant(pool, e))
             status = read_argument(a, qdot_expr_arg(pool, e, 0));
     }
     if (status == QDOT_OK)

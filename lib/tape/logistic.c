@@ -4,10 +4,10 @@
 
 #include "expr/build.h"
 #include "expr/calculus.h"
-#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 
 enum { MOST = 8 }; /* largest number of factors in a product that is rewritten */
 
@@ -36,7 +36,7 @@ static bool
 read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
 {
     *x = (exponential){e, QDOT_ZERO};
-    if (qdot_constant_is(pool, e))
+    if (qdot_expr_is_constant(pool, e))
         return true;
     if (qdot_expr_is_function(pool, e, QDOT_EXP)) {
         *x = (exponential){QDOT_ONE, qdot_expr_arg(pool, e, 0)};
@@ -50,8 +50,8 @@ read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
         if (qdot_expr_is_function(pool, base, QDOT_EXP) && qdot_expr_arg(pool, e, i + 1) == QDOT_ONE &&
             x->v == QDOT_ZERO)
             x->v = qdot_expr_arg(pool, base, 0);
-        else if (!qdot_constant_is(pool, base) ||
-                 !qdot_constant_is(pool, qdot_expr_arg(pool, e, i + 1)))
+        else if (!qdot_expr_is_constant(pool, base) ||
+                 !qdot_expr_is_constant(pool, qdot_expr_arg(pool, e, i + 1)))
             return false;
     }
     x->c = qdot_div(pool, e, qdot_fun1(pool, QDOT_EXP, x->v));
@@ -71,7 +71,7 @@ read_sum_of_exponentials(qdot_pool *pool, qdot_expr e, denominator *x)
     exponential terms[2];
     size_t count = 0;
 
-    if (qdot_constant_is(pool, e))
+    if (qdot_expr_is_constant(pool, e))
         return false;
     if (qdot_expr_is_function(pool, e, QDOT_COSH)) {
         const qdot_expr u = qdot_expr_arg(pool, e, 0);
@@ -267,7 +267,7 @@ static bool
 read_hyperbolic_term(qdot_pool *pool, qdot_expr x, cosines *t)
 {
     *t = (cosines){.c = x, .u = QDOT_NIL};
-    if (qdot_constant_is(pool, x))
+    if (qdot_expr_is_constant(pool, x))
         return true;
     t->c = QDOT_ONE;
     if (qdot_expr_kind(pool, x) != QDOT_PROD)
@@ -276,7 +276,7 @@ read_hyperbolic_term(qdot_pool *pool, qdot_expr x, cosines *t)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, x, i), k = qdot_expr_arg(pool, x, i + 1);
 
-        if (qdot_constant_is(pool, base) && qdot_constant_is(pool, k))
+        if (qdot_expr_is_constant(pool, base) && qdot_expr_is_constant(pool, k))
             t->c = qdot_mul(pool, t->c, qdot_pow(pool, base, k));
         else if (!add_hyperbolic_power(pool, base, k, t))
             return false;

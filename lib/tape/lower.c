@@ -7,6 +7,7 @@
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/rational.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "tape/angle.h"
 #include "tape/code.h"
@@ -56,7 +57,7 @@ write_operation(lowering *l, qdot_op id, qdot_value a, qdot_value b)
 static qdot_value
 value_of_node(lowering *l, qdot_expr e)
 {
-    return qdot_constant_is(l->pool, e) ? qdot_code_constant(&l->code, e)
+    return qdot_expr_is_constant(l->pool, e) ? qdot_code_constant(&l->code, e)
                                         : (qdot_value)qdot_walk_get(&l->walk, e);
 }
 
@@ -148,7 +149,7 @@ compile_sum(lowering *l, qdot_expr e, known *k)
         qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
         const known *kt = l->known + qdot_walk_index(&l->walk, x);
 
-        if (qdot_constant_is(pool, x))
+        if (qdot_expr_is_constant(pool, x))
             constant = qdot_add(pool, constant, qdot_mul(pool, c, x));
         else
             QDOT_TRY(add_term_to_group(l, qdot_mul(pool, c, kt->factor), kt->bare));
@@ -251,10 +252,10 @@ compile_product(lowering *l, qdot_expr e, known *k)
 
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
-        bool constant = qdot_constant_is(pool, b);
+        bool constant = qdot_expr_is_constant(pool, b);
         long half = twice_exponent(pool, p);
 
-        if (constant && qdot_constant_is(pool, p))
+        if (constant && qdot_expr_is_constant(pool, p))
             factor = qdot_mul(pool, factor, qdot_pow(pool, b, p));
         else if (half != 0) {
             const known *kb = l->known + qdot_walk_index(&l->walk, b);
@@ -378,7 +379,7 @@ compile_function(lowering *l, qdot_expr e, known *k)
         return QDOT_OK;
     }
     d = qdot_logistic_argument(l->pool, e);
-    if (d != QDOT_NIL && !qdot_constant_is(l->pool, d)) {
+    if (d != QDOT_NIL && !qdot_expr_is_constant(l->pool, d)) {
         k->bare = write_softplus(l, d);
         return QDOT_OK;
     }
@@ -486,7 +487,7 @@ refuse_unknown_symbols(lowering *l)
         qdot_kind kind = qdot_expr_kind(l->pool, e);
 
         if ((kind == QDOT_SYM || kind == QDOT_UFUN) && !(qdot_walk_get(&l->walk, e) >> 32) &&
-            !qdot_constant_is(l->pool, e))
+            !qdot_expr_is_constant(l->pool, e))
             status = qdot_vec_push(&unset, e);
     }
     if (status == QDOT_OK)
@@ -512,7 +513,7 @@ compile_nodes(lowering *l, size_t n, const qdot_expr *inputs)
     for (size_t i = 0; i < l->walk.n; i++) {
         qdot_expr e = l->walk.at[i];
 
-        if (qdot_walk_get(&l->walk, e) >> 32 || qdot_constant_is(l->pool, e))
+        if (qdot_walk_get(&l->walk, e) >> 32 || qdot_expr_is_constant(l->pool, e))
             continue;
         QDOT_TRY(compile_node(l, i));
         qdot_walk_set(&l->walk, e, value_with_factor(l, l->known + i));

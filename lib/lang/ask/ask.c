@@ -24,7 +24,6 @@
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
 #include "lang/syntax/statement.h"
-#include "normal/refute/constant.h"
 
 /* --- answering expressions ---------------------------------------------------------- */
 
@@ -151,8 +150,8 @@ mixes_results_and_expressions(qdot_session *session, qdot_expr value)
 
         mixed = !qdot_measured_occurs(session, one) &&
                 qdot_expr_kind(session->pool, one) != QDOT_NUM &&
-                (qdot_is_constant(session->pool, one) ||
-                 !qdot_is_constant(session->pool, qdot_session_bind(session, one)));
+                (qdot_expr_is_constant(session->pool, one) ||
+                 !qdot_expr_is_constant(session->pool, qdot_session_bind(session, one)));
     }
     return mixed;
 }

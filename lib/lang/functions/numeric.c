@@ -8,7 +8,6 @@
  */
 #include "lang/functions/builtin.h"
 
-#include "expr/constant.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
@@ -97,9 +96,9 @@ qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot
         return qdot_fail(QDOT_ETYPE, "numeric takes numbers, not a text");
     exact = qdot_measured_as_rationals(session, e);
     QDOT_TRY(qdot_value_kind_check(pool, exact));
-    if (exact == e && !(qdot_constant_is(pool, e) && has_only_numbers(pool, e)))
+    if (exact == e && !(qdot_expr_is_constant(pool, e) && has_only_numbers(pool, e)))
         return qdot_decimals_beside_symbols(pool, e, (int)digits, value);
-    if (!qdot_constant_is(pool, exact) || !has_only_numbers(pool, e))
+    if (!qdot_expr_is_constant(pool, exact) || !has_only_numbers(pool, e))
         return qdot_fail(QDOT_ETYPE, "the expression contains a result of a run and a symbol without value");
     o.digits = (int)digits;
     *value = qdot_value_map(pool, e, number_of_scalar, &o);

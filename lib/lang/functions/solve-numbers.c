@@ -20,7 +20,6 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/constant.h"
 #include "normal/refute/enclosure.h"
 #include "normal/solve/solve.h"
 #include "normal/solve/zeros.h"
@@ -437,7 +436,7 @@ add_ranges_of_solutions(const question *q, qdot_expr domain, qdot_zeros_range *r
         const qdot_root *root = &found.root.at[i];
 
         points = points && (root->value == q->x[0] ||
-                            (root->condition == QDOT_NIL && qdot_is_constant(pool, root->value)));
+                            (root->condition == QDOT_NIL && qdot_expr_is_constant(pool, root->value)));
     }
     *rest = !points || !found.complete || q->measured;
     range->held = QDOT_NIL;
@@ -519,7 +518,7 @@ evaluate_window_end(const question *q, qdot_expr end, qdot_expr *constant, bool 
     QDOT_TRY(qdot_value_kind_check(q->session->pool, end));
     *constant = qdot_measured_as_rationals(q->session, end);
     QDOT_TRY(qdot_value_kind_check(q->session->pool, *constant));
-    *known = *known && qdot_is_constant(q->session->pool, *constant);
+    *known = *known && qdot_expr_is_constant(q->session->pool, *constant);
     return QDOT_OK;
 }
 

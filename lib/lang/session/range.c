@@ -6,12 +6,12 @@
 #include "base/text.h"
 #include "expr/build.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/mixture.h"
 #include "lang/session/runs.h"
-#include "normal/refute/constant.h"
 
 static const struct {
     const char *word;
@@ -91,10 +91,10 @@ refuse_ends_apart(qdot_session *session, const char *word, uint32_t n, const qdo
 {
     const qdot_pool *pool = session->pool;
     qdot_text line = {0};
-    const uint32_t both = n > 2 && qdot_is_constant(pool, args[n - 2]) ? 2 : 1;
+    const uint32_t both = n > 2 && qdot_expr_is_constant(pool, args[n - 2]) ? 2 : 1;
     qdot_status status = QDOT_OK;
 
-    if (n < 2 || qdot_is_constant(pool, args[0]) || !qdot_is_constant(pool, args[n - 1]))
+    if (n < 2 || qdot_expr_is_constant(pool, args[0]) || !qdot_expr_is_constant(pool, args[n - 1]))
         return QDOT_OK;
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_text_add(&line, i == 0 ? "" : i + both > n ? ".." : i == n - 1 ? ", 0.." : ", ");

@@ -89,7 +89,7 @@ add_exact_zero(line *l, qdot_expr value, uint32_t which)
 {
     double at;
 
-    return qdot_is_constant(l->pool, value) &&
+    return qdot_expr_is_constant(l->pool, value) &&
            qdot_ball_double(l->pool, value, NULL, NULL, &at) && add_zero(l, value, at, which);
 }
 

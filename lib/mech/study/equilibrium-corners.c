@@ -21,7 +21,6 @@
 #include "mech/study/linear-motion.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
@@ -331,7 +330,7 @@ add_coinciding_kinks(qdot_rest *r, qdot_expr q, size_t n, const qdot_expr *u)
                     const qdot_expr pair[2] = {qdot_expr_arg(pool, factors, f), at};
                     qdot_expr meeting = qdot_list(pool, 2, pair);
 
-                    if (qdot_is_generic(pool, pair[0]) && !qdot_is_constant(pool, pair[0]) &&
+                    if (qdot_is_generic(pool, pair[0]) && !qdot_expr_is_constant(pool, pair[0]) &&
                         (qdot_expr_node(pool, pair[0])->sign & QDOT_NE0) == 0)
                         r->meeting = qdot_list_appended(pool, r->meeting, 1, &meeting);
                 }

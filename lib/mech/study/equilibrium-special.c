@@ -13,7 +13,6 @@
 #include "expr/symbol.h"
 #include "mech/coordinates/chart.h"
 #include "mech/study/equilibrium-search.h"
-#include "normal/refute/constant.h"
 #include "normal/simplify/positive.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
@@ -85,7 +84,7 @@ add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
             bool out = exponent == NULL || fmpq_sgn(exponent) >= 0 || had == MOST_SPECIAL ||
                        qdot_list_has(pool, *special, base) ||
                        (qdot_expr_node(pool, base)->sign & QDOT_NE0) != 0 ||
-                       !qdot_is_generic(pool, base) || qdot_is_constant(pool, base);
+                       !qdot_is_generic(pool, base) || qdot_expr_is_constant(pool, base);
 
             if (!out)
                 status = qdot_rest_is_excluded(r, e->exists, base, &out);

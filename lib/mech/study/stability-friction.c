@@ -273,7 +273,7 @@ force_points_inside(held *h, qdot_expr end, bool upper, bool *yes)
     QDOT_TRY(qdot_pool_check(pool));
     if (end == symbol->lo || end == symbol->hi) /* an end given by the coordinate's domain, where friction is not at its limit */
         return QDOT_OK;
-    if (qdot_is_constant(pool, F)) {
+    if (qdot_expr_is_constant(pool, F)) {
         qdot_constant_sign sign;
 
         QDOT_TRY(qdot_constant_decide(pool, F, &sign));

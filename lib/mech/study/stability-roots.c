@@ -11,7 +11,6 @@
 #include "normal/inequality/half-plane.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
@@ -223,8 +222,8 @@ block_is_constant(const qdot_judgement *j, const block *x)
     bool yes = true;
 
     for (size_t i = 0; i < x->n * x->n && yes; i++)
-        yes = qdot_is_constant(j->s->pool, x->M[i]) && qdot_is_constant(j->s->pool, x->Gamma[i]) &&
-              qdot_is_constant(j->s->pool, x->H[i]);
+        yes = qdot_expr_is_constant(j->s->pool, x->M[i]) && qdot_expr_is_constant(j->s->pool, x->Gamma[i]) &&
+              qdot_expr_is_constant(j->s->pool, x->H[i]);
     return yes;
 }
 

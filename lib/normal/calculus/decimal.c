@@ -11,6 +11,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
@@ -130,7 +131,7 @@ replaced_node(const writer *w, qdot_expr e)
 static bool
 is_number(const writer *w, qdot_expr e)
 {
-    return qdot_expr_is_scalar(w->pool, e) && qdot_constant_is(w->pool, e) &&
+    return qdot_expr_is_scalar(w->pool, e) && qdot_expr_is_constant(w->pool, e) &&
            e != QDOT_TRUE && e != QDOT_FALSE;
 }
 

@@ -588,7 +588,7 @@ append_root_bases(cells *c)
     for (slong v = 0; v < f->n; v++) {
         qdot_expr of = f->gen[v].of, *more;
 
-        if (f->gen[v].kind != QDOT_GEN_ROOT || qdot_is_constant(c->pool, of))
+        if (f->gen[v].kind != QDOT_GEN_ROOT || qdot_expr_is_constant(c->pool, of))
             continue;
         if (c->n > 1 && !(qdot_expr_node(c->pool, of)->sign & QDOT_GE0) && !qdot_gap_is_linear(&c->f, of))
             return false; /* give up, since points where the argument is 0 might be isolated */

@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "expr/build.h"
-#include "expr/constant.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/refute/ball.h"
 
@@ -42,7 +42,7 @@ qdot_constant_terms(qdot_pool *pool, qdot_expr e)
     qdot_expr all = n == 0 ? QDOT_ZERO : qdot_expr_arg(pool, e, 0);
 
     for (uint32_t i = 1; i + 1 < n; i += 2)
-        if (qdot_constant_is(pool, qdot_expr_arg(pool, e, i)))
+        if (qdot_expr_is_constant(pool, qdot_expr_arg(pool, e, i)))
             all = qdot_add(pool, all, qdot_mul(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1)));
     return all;
 }
@@ -72,7 +72,7 @@ qdot_holds_constant_function(qdot_pool *pool, qdot_expr e)
         return true;
     }
     for (size_t i = 0; i < w.n && !found; i++)
-        found = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && qdot_constant_is(pool, w.at[i]);
+        found = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && qdot_expr_is_constant(pool, w.at[i]);
     qdot_walk_end(&w);
     return found;
 }

@@ -224,7 +224,7 @@ answer_question(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
     bool by_rows; /* decided by elimination of linear inequalities, which distinguishes > and >= */
 
     *proved = false;
-    if (!q->too_much && q->e != QDOT_NIL && qdot_is_constant(pool, q->e)) {
+    if (!q->too_much && q->e != QDOT_NIL && qdot_expr_is_constant(pool, q->e)) {
         qdot_constant_sign sign;
 
         QDOT_TRY(qdot_constant_decide(pool, q->e, &sign));
@@ -363,7 +363,7 @@ is_nonnegative_at(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr a, bool *
             qdot_pool_fail(pool);
         return false;
     }
-    if (!qdot_is_constant(pool, there) ||
+    if (!qdot_expr_is_constant(pool, there) ||
         qdot_constant_decide(pool, there, &sign) != QDOT_OK)
         return false;
     *above = sign == QDOT_CONSTANT_POSITIVE;
@@ -383,7 +383,7 @@ domain_extends(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr
     if (bound == QDOT_NIL)
         return true;
     *end = up ? qdot_sub(pool, bound, a) : qdot_sub(pool, a, bound);
-    if (*end == QDOT_NIL || !qdot_is_constant(pool, *end) ||
+    if (*end == QDOT_NIL || !qdot_expr_is_constant(pool, *end) ||
         qdot_constant_decide(pool, *end, &sign) != QDOT_OK)
         return false;
     *nothing = sign == QDOT_CONSTANT_ZERO;

@@ -15,7 +15,6 @@
 #include "normal/field/prepare.h"
 #include "normal/prove/rewrite.h"
 #include "normal/prove/zero.h"
-#include "normal/refute/constant.h"
 
 enum { MOST_SUBSTITUTES = 24, MOST_TERMS = 300 };
 #define WORK 1000000
@@ -230,7 +229,7 @@ replace_generator(substitutes *s, qdot_field *f, slong v)
     case QDOT_GEN_SINH: replace_hyperbolic(s, f, v); break;
     case QDOT_GEN_EXP: stand_for(s, g->expr, replace_exponential(s, g->of)); break;
     case QDOT_GEN_ROOT:
-        if (!qdot_is_constant(pool, g->of))
+        if (!qdot_expr_is_constant(pool, g->of))
             stand_for(s, g->expr,
                       qdot_pow(pool, value_with_replacements(s, f, g->of),
                                qdot_expr_ratio(pool, 1, (long)g->order)));

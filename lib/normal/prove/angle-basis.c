@@ -8,9 +8,9 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/equal.h"
-#include "normal/refute/constant.h"
 #include "normal/refute/sample.h"
 
 enum { MOST = 12, POINTS = MOST + 3, TRIES = 120, LARGEST = 64 };
@@ -171,7 +171,7 @@ guess_constant(struct basis *b, size_t j)
     long n, d;
 
     for (size_t k = 1; k < j; k++)
-        for (long up = -4; up <= 4 && qdot_is_constant(pool, b->column[k]); up++)
+        for (long up = -4; up <= 4 && qdot_expr_is_constant(pool, b->column[k]); up++)
             for (long down = 1; down <= 4 && up != 0; down++) {
                 double c = (double)up / (double)down;
                 double q = (b->value[j][0] - c * b->value[k][0]) / M_PI;
@@ -209,7 +209,7 @@ qdot_angle_basis(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *fact
         if (b.length[j] > 0)
             continue;
         sum = guess_combination(&b, j);
-        if (sum == QDOT_NIL && qdot_is_constant(pool, b.column[j]))
+        if (sum == QDOT_NIL && qdot_expr_is_constant(pool, b.column[j]))
             sum = guess_constant(&b, j);
         if (sum == QDOT_NIL || sum == b.column[j])
             continue;

@@ -9,6 +9,7 @@
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/prove/zero.h"
 #include "normal/refute/constant.h"
@@ -66,7 +67,7 @@ add_bounds_of_angle(struct sum *s, long k, qdot_expr e)
     long hi = op == QDOT_ACOS || op == QDOT_ATAN2 ? 2 : 1;
     bool open = op == QDOT_ATAN, lo_open = open || op == QDOT_ATAN2, hi_open = open;
 
-    if (qdot_is_constant(pool, e)) {
+    if (qdot_expr_is_constant(pool, e)) {
         add_interval_of_angle(s, k, e, false, e, false);
         return;
     }

@@ -192,7 +192,7 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
     qdot_expr key = sign_key(c->pool, u, &turned);
     size_t k;
 
-    if (key != QDOT_NIL && qdot_is_constant(c->pool, key))
+    if (key != QDOT_NIL && qdot_expr_is_constant(c->pool, key))
         return SIGNS;
     k = find_equal_expression(c, c->sign, c->n_signs, key, &turned);
     if (k == SIGNS || key == QDOT_NIL) {
@@ -333,7 +333,7 @@ sign_in_case(struct cases *c, qdot_expr u, const int *sign)
 
     if (key == QDOT_NIL)
         return 0;
-    if (qdot_is_constant(c->pool, key))
+    if (qdot_expr_is_constant(c->pool, key))
         return turned * sign_of_constant(c, key);
     k = find_equal_expression(c, c->sign, c->n_signs, key, &again);
     if (k == c->n_signs) {

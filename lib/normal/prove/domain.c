@@ -166,19 +166,19 @@ tighten_bounds(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
     if (v == QDOT_NIL)
         return;
     if (fmpq_sgn(qdot_expr_rational(j->pool, c)) > 0) {
-        if (s.lo == QDOT_NIL || !qdot_is_constant(j->pool, s.lo) || s.lo == v ||
+        if (s.lo == QDOT_NIL || !qdot_expr_is_constant(j->pool, s.lo) || s.lo == v ||
             is_proved_less(j->pool, s.lo, v)) {
             s.lo_open = !weak || (s.lo == v && s.lo_open);
             s.lo = v;
         }
-    } else if (s.hi == QDOT_NIL || !qdot_is_constant(j->pool, s.hi) || s.hi == v ||
+    } else if (s.hi == QDOT_NIL || !qdot_expr_is_constant(j->pool, s.hi) || s.hi == v ||
                is_proved_less(j->pool, v, s.hi)) {
         s.hi_open = !weak || (s.hi == v && s.hi_open);
         s.hi = v;
     }
-    if (s.lo != QDOT_NIL && !qdot_is_constant(j->pool, s.lo))
+    if (s.lo != QDOT_NIL && !qdot_expr_is_constant(j->pool, s.lo))
         s.lo = QDOT_NIL;
-    if (s.hi != QDOT_NIL && !qdot_is_constant(j->pool, s.hi))
+    if (s.hi != QDOT_NIL && !qdot_expr_is_constant(j->pool, s.hi))
         s.hi = QDOT_NIL;
     if (s.lo != QDOT_NIL && s.hi != QDOT_NIL && !is_proved_less(j->pool, s.lo, s.hi))
         return; /* lo < hi is not certain */
@@ -192,14 +192,14 @@ solve_condition(job *j, qdot_expr gap, bool weak)
     qdot_pool *pool = j->pool;
     qdot_expr g = qdot_expand(pool, gap), c, x, rest, to;
 
-    if (g == QDOT_NIL || !qdot_expr_is_scalar(pool, g) || qdot_is_constant(pool, g))
+    if (g == QDOT_NIL || !qdot_expr_is_scalar(pool, g) || qdot_expr_is_constant(pool, g))
         return g != QDOT_NIL;
     for (uint32_t i = 0; i < count_terms(pool, g); i++) {
         uint8_t need, have;
 
         if (!find_linear_term(pool, g, i, &c, &x, &rest))
             continue;
-        if (qdot_is_constant(pool, rest)) {
+        if (qdot_expr_is_constant(pool, rest)) {
             tighten_bounds(j, x, c, rest, weak);
             return true;
         }
@@ -317,9 +317,9 @@ domain_gather(job *j, const qdot_facts *facts, qdot_expr atoms)
         qdot_expr x = qdot_expr_arg(pool, atoms, i);
         qdot_symbol s = *qdot_expr_symbol(pool, x);
 
-        if (s.lo != QDOT_NIL && !qdot_is_constant(pool, s.lo))
+        if (s.lo != QDOT_NIL && !qdot_expr_is_constant(pool, s.lo))
             QDOT_TRY(add_domain_condition(j, qdot_sub(pool, x, s.lo), !s.lo_open));
-        if (s.hi != QDOT_NIL && !qdot_is_constant(pool, s.hi))
+        if (s.hi != QDOT_NIL && !qdot_expr_is_constant(pool, s.hi))
             QDOT_TRY(add_domain_condition(j, qdot_sub(pool, s.hi, x), !s.hi_open));
     }
     return QDOT_OK;
@@ -332,8 +332,8 @@ move_declared_bounds(job *j, qdot_expr atoms)
         qdot_expr x = qdot_expr_arg(j->pool, atoms, i);
         qdot_symbol s = *qdot_expr_symbol(j->pool, x);
 
-        if ((s.lo != QDOT_NIL && !qdot_is_constant(j->pool, s.lo)) ||
-            (s.hi != QDOT_NIL && !qdot_is_constant(j->pool, s.hi)))
+        if ((s.lo != QDOT_NIL && !qdot_expr_is_constant(j->pool, s.lo)) ||
+            (s.hi != QDOT_NIL && !qdot_expr_is_constant(j->pool, s.hi)))
             continue;
         if (s.lo != QDOT_NIL || s.hi != QDOT_NIL)
             domain_move_bounds(j, x, s);

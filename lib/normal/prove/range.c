@@ -44,7 +44,7 @@ add_symbol_range(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
     qdot_symbol own;
 
     if (s == NULL || s->lo == QDOT_NIL || s->hi == QDOT_NIL ||
-        !qdot_is_constant(pool, s->lo) || !qdot_is_constant(pool, s->hi))
+        !qdot_expr_is_constant(pool, s->lo) || !qdot_expr_is_constant(pool, s->hi))
         return false;
     own = *s; /* copy the symbol, since making expressions may move the pool's memory */
     r->lo = qdot_add(pool, r->lo, qdot_mul(pool, c, up ? own.lo : own.hi));
@@ -71,7 +71,7 @@ find_range(qdot_pool *pool, qdot_expr e, struct range *r)
         for (uint32_t i = 1; i < n && known; i += 2) {
             qdot_expr t = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
 
-            if (qdot_is_constant(pool, t)) {
+            if (qdot_expr_is_constant(pool, t)) {
                 r->lo = qdot_add(pool, r->lo, qdot_mul(pool, c, t));
                 r->hi = qdot_add(pool, r->hi, qdot_mul(pool, c, t));
             } else {
@@ -123,7 +123,7 @@ qdot_range_sign(qdot_pool *pool, const qdot_gen *gen)
 
     if (gen->kind == QDOT_GEN_ROOT || gen->kind == QDOT_GEN_ABS)
         sign |= QDOT_GE0;
-    if (qdot_is_constant(pool, gen->expr)) {
+    if (qdot_expr_is_constant(pool, gen->expr)) {
         qdot_constant_sign known;
 
         if (qdot_constant_decide(pool, gen->expr, &known) == QDOT_OK)

@@ -63,7 +63,7 @@ contains_constants(const qdot_field *f, const fmpz_mpoly_t p)
 {
     for (slong v = 0; v < f->n; v++)
         if (fmpz_mpoly_degree_si(p, v, f->ctx) > 0 && f->gen[v].kind != QDOT_GEN_PLAIN &&
-            qdot_is_constant(f->pool, f->gen[v].expr))
+            qdot_expr_is_constant(f->pool, f->gen[v].expr))
             return true;
     return false;
 }
@@ -80,7 +80,7 @@ drop_zero_coefficients(qdot_field *f, fmpz_mpoly_t p)
         return QDOT_ENOMEM;
     for (slong v = 0; v < f->n; v++)
         by[v] = f->gen[v].kind == QDOT_GEN_PLAIN ||
-                !qdot_is_constant(f->pool, f->gen[v].expr);
+                !qdot_expr_is_constant(f->pool, f->gen[v].expr);
     status = qdot_factor_group(f, &groups, p, by);
     for (slong i = 0; i < groups.n && groups.n <= MOST_GROUPS && status == QDOT_OK; i++) {
         qdot_expr e = qdot_field_expr(f, groups.poly + i);
@@ -152,7 +152,7 @@ find_next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
         if ((f->gen[v].kind != QDOT_GEN_ROOT && f->gen[v].kind != QDOT_GEN_ABS) ||
             fmpz_mpoly_degree_si(p, v, f->ctx) == 0)
             continue;
-        if (!qdot_is_constant(f->pool, f->gen[v].expr))
+        if (!qdot_expr_is_constant(f->pool, f->gen[v].expr))
             return v;
         if (constant < 0)
             constant = v;
@@ -250,8 +250,8 @@ has_constant_bounds(const qdot_pool *pool, qdot_expr x)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 
-    return (s->lo == QDOT_NIL || qdot_is_constant(pool, s->lo)) &&
-           (s->hi == QDOT_NIL || qdot_is_constant(pool, s->hi));
+    return (s->lo == QDOT_NIL || qdot_expr_is_constant(pool, s->lo)) &&
+           (s->hi == QDOT_NIL || qdot_expr_is_constant(pool, s->hi));
 }
 
 /* Whether a function is analytic wherever its arguments are analytic. */

@@ -20,13 +20,6 @@
 #define MOST_NODES 4000
 #define MOST_EXPONENT_BITS 20
 
-bool
-qdot_is_constant(const qdot_pool *pool, qdot_expr e)
-{
-    return (qdot_expr_node(pool, e)->holds &
-            ~(uint32_t)(QDOT_HAS_FUN | 1 << QDOT_CONST)) == 0;
-}
-
 /* Bounds of the conjugates of an algebraic number, as logarithms to base 2, rounded up. */
 typedef struct {
     double u, l;
@@ -299,7 +292,7 @@ qdot_constant_decide(qdot_pool *pool, qdot_expr e, qdot_constant_sign *sign)
     double bits = 0;
 
     *sign = QDOT_CONSTANT_UNKNOWN;
-    if (!qdot_is_constant(pool, e))
+    if (!qdot_expr_is_constant(pool, e))
         return QDOT_OK;
     if (e == QDOT_ZERO) {
         *sign = QDOT_CONSTANT_ZERO;

@@ -37,7 +37,5 @@ typedef enum {
 QDOT_MUST_CHECK qdot_status qdot_constant_decide(qdot_pool *pool, qdot_expr e,
                                                  qdot_constant_sign *sign);
 
-/* Whether no symbol and no undefined function occurs in e. */
-bool qdot_is_constant(const qdot_pool *pool, qdot_expr e);
 
 #endif

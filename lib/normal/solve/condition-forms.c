@@ -9,10 +9,10 @@
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/inequality/constant-bounds.h"
 #include "normal/refute/ball.h"
-#include "normal/refute/constant.h"
 
 /* MOST_CHOICES: nodes such as |u| that are replaced by their possible values; LARGEST: operations
  * of an examined expression; MOST_ROOT: m of an m-th root. */
@@ -254,7 +254,7 @@ qdot_condition_beside_root(qdot_pool *pool, qdot_expr gap, bool *above)
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr t = qdot_expr_arg(pool, gap, i), term = qdot_mul(pool, t, qdot_expr_arg(pool, gap, i + 1));
 
-        if (qdot_constant_is(pool, t))
+        if (qdot_expr_is_constant(pool, t))
             continue;
         if (!contains_square_root(pool, t))
             rest = qdot_add(pool, rest, term);
@@ -345,7 +345,7 @@ qdot_condition_unfolded(qdot_pool *pool, qdot_expr relation)
             side = qdot_expr_arg(pool, side, 1);
         }
         if (qdot_expr_kind(pool, side) != QDOT_FUN || qdot_expr_count(pool, side) != 1 ||
-            number == QDOT_NIL || !qdot_is_constant(pool, number) || qdot_is_constant(pool, side))
+            number == QDOT_NIL || !qdot_expr_is_constant(pool, number) || qdot_expr_is_constant(pool, side))
             continue;
         h = qdot_expr_node(pool, side)->op;
         inverse = inverse_of(h);

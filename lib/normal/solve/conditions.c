@@ -135,7 +135,7 @@ decide_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *
         return QDOT_TRUE;
     if (strict ? (sign & QDOT_LE0) != 0 : (sign & QDOT_NEG) == QDOT_NEG)
         return QDOT_FALSE;
-    if (qdot_is_constant(pool, gap)) {
+    if (qdot_expr_is_constant(pool, gap)) {
         qdot_constant_sign known;
 
         if (qdot_constant_decide(pool, gap, &known) != QDOT_OK)

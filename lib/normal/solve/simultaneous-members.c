@@ -8,10 +8,10 @@
 #include "expr/function.h"
 #include "expr/list.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
-#include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/simultaneous.h"
 #include "normal/solve/solve.h"
@@ -139,7 +139,7 @@ divides_by_zero(const qdot_simultaneous *s, qdot_expr e)
 
             found = exponent != NULL && fmpq_sgn(exponent) < 0 &&
                     (qdot_expr_node(pool, base)->sign & QDOT_NE0) == 0 &&
-                    qdot_is_constant(pool, base) && qdot_is_zero(pool, base, &s->facts);
+                    qdot_expr_is_constant(pool, base) && qdot_is_zero(pool, base, &s->facts);
         }
     }
     qdot_walk_end(&w);
@@ -271,7 +271,7 @@ find_integer_bounds(qdot_simultaneous *s, qdot_expr conditions, qdot_expr n, dou
         gap = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
         slope = qdot_diff(pool, gap, n);
         gap = qdot_subs(pool, gap, 1, &n, &zero);
-        if (slope == QDOT_NIL || gap == QDOT_NIL || !qdot_is_constant(pool, slope) || !qdot_is_constant(pool, gap) ||
+        if (slope == QDOT_NIL || gap == QDOT_NIL || !qdot_expr_is_constant(pool, slope) || !qdot_expr_is_constant(pool, gap) ||
             !qdot_ball_double(pool, slope, NULL, NULL, &a) || !qdot_ball_double(pool, gap, NULL, NULL, &b) || a == 0)
             continue;
         if (a > 0)

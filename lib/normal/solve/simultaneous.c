@@ -16,7 +16,6 @@
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
-#include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/condition-forms.h"
 #include "normal/solve/sides.h"
@@ -78,7 +77,7 @@ count_unknowns(const qdot_simultaneous *s, qdot_expr e)
 static qdot_status
 add_special_equation(qdot_simultaneous *s, qdot_expr d)
 {
-    if (!qdot_is_generic(s->pool, d) || qdot_is_constant(s->pool, d) ||
+    if (!qdot_is_generic(s->pool, d) || qdot_expr_is_constant(s->pool, d) ||
         (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0 ||
         qdot_expr_place(s->special.n, s->special.at, d) < s->special.n)
         return QDOT_OK;
@@ -354,11 +353,11 @@ normalise_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
         qdot_root *root = &found->root.at[i];
         qdot_solutions members = {.complete = true};
 
-        if (root->period == QDOT_NIL || !qdot_is_constant(s->pool, root->value) ||
-            !qdot_is_constant(s->pool, root->period))
+        if (root->period == QDOT_NIL || !qdot_expr_is_constant(s->pool, root->value) ||
+            !qdot_expr_is_constant(s->pool, root->period))
             continue;
         QDOT_TRY(qdot_solve_members(s->pool, u, root, &window, &s->facts, &members));
-        if (members.root.n > 0 && qdot_is_constant(s->pool, members.root.at[0].value)) /* a single value, not a family */
+        if (members.root.n > 0 && qdot_expr_is_constant(s->pool, members.root.at[0].value)) /* a single value, not a family */
             root->value = members.root.at[0].value;
         qdot_solutions_clear(&members);
         any = true;
@@ -491,7 +490,7 @@ continue_with_solved_integers(qdot_simultaneous *s, const qdot_simultaneous_bran
             s->complete = false;
             continue;
         }
-        if (!qdot_is_constant(pool, value))
+        if (!qdot_expr_is_constant(pool, value))
             continue;
         if (!qdot_ball_double(pool, value, NULL, NULL, &x) || fabs(x) > 1e9) {
             s->complete = false;

@@ -13,7 +13,6 @@
 #include "normal/inequality/boxes.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
-#include "normal/refute/constant.h"
 #include "normal/refute/enclosure.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solutions.h"
@@ -84,7 +83,7 @@ qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions, qdot_wind
             continue;
         rises = fmpq_sgn(c);
         end = qdot_simplify(pool, qdot_sub(pool, x, qdot_div(pool, gap, slope)), facts);
-        if (end == QDOT_NIL || !qdot_is_constant(pool, end))
+        if (end == QDOT_NIL || !qdot_expr_is_constant(pool, end))
             continue;
         if (rises > 0 && is_tighter(pool, end, open, w.lo, w.lo_open, true, facts)) {
             w.lo = end;
@@ -280,7 +279,7 @@ append_value(const members *m, qdot_expr value, const qdot_window *w)
 static bool
 constant_as_double(qdot_pool *pool, qdot_expr e, double *v)
 {
-    return e != QDOT_NIL && qdot_is_constant(pool, e) &&
+    return e != QDOT_NIL && qdot_expr_is_constant(pool, e) &&
            qdot_ball_double(pool, e, NULL, NULL, v) && isfinite(*v);
 }
 
@@ -455,12 +454,12 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
         return append_members_between(&m, fmin(first, last), fmax(first, last));
     }
     QDOT_TRY(qdot_pool_check(pool));
-    if (w.turn && qdot_is_constant(pool, root->period)) {
+    if (w.turn && qdot_expr_is_constant(pool, root->period)) {
         QDOT_TRY(append_members_of_turn(&m, &few));
         if (few)
             return QDOT_OK;
     }
-    if (few && qdot_is_constant(pool, root->period)) {
+    if (few && qdot_expr_is_constant(pool, root->period)) {
         QDOT_TRY(append_members_within_bounds(&m, &bounded));
         if (bounded) {
             out->recurs = recurs;

@@ -6,10 +6,10 @@
 #include "expr/build.h"
 #include "expr/elementary.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/constant.h"
 #include "normal/solve/sides.h"
 #include "normal/solve/solver.h"
 
@@ -79,7 +79,7 @@ as_exponential(qdot_pool *pool, qdot_expr node, void *user)
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, node, i), u = qdot_expr_arg(pool, node, i + 1);
 
-        if (!qdot_expr_contains(pool, u, x) || qdot_expr_contains(pool, base, x) || qdot_is_constant(pool, base))
+        if (!qdot_expr_contains(pool, u, x) || qdot_expr_contains(pool, base, x) || qdot_expr_is_constant(pool, base))
             continue;
         rest = qdot_div(pool, rest, qdot_pow(pool, base, u));
         exponent = qdot_add(pool, exponent, qdot_mul(pool, u, qdot_fun1(pool, QDOT_LOG, base)));

@@ -13,7 +13,6 @@
 #include "normal/field/prepare.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/constant.h"
 #include "normal/refute/sample.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/sides.h"
@@ -30,7 +29,7 @@ qdot_expr
 qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
 {
     bool strict = gap != QDOT_NIL && qdot_is_taken_generic(s->pool, gap, s->facts) &&
-                  !qdot_is_constant(s->pool, gap);
+                  !qdot_expr_is_constant(s->pool, gap);
 
     return gap == QDOT_NIL ? QDOT_NIL : qdot_condition(s->pool, gap, strict, s->facts);
 }
@@ -583,7 +582,7 @@ solve_product(qdot_solver *s, qdot_expr e, qdot_expr when)
                 rest = qdot_mul(s->pool, rest, qdot_pow(s->pool, base, qdot_expr_arg(s->pool, e, i + 1)));
         }
     QDOT_TRY(qdot_pool_check(s->pool));
-    return qdot_is_constant(s->pool, rest) ? QDOT_OK : qdot_solver_add_where(s, s->x, rest, when);
+    return qdot_expr_is_constant(s->pool, rest) ? QDOT_OK : qdot_solver_add_where(s, s->x, rest, when);
 }
 
 qdot_status

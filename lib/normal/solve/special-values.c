@@ -8,7 +8,6 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
@@ -49,7 +48,7 @@ is_never_zero(const search *s, qdot_expr d, bool *yes)
     qdot_decision zero;
 
     *yes = (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0;
-    if (*yes || !qdot_is_constant(s->pool, d))
+    if (*yes || !qdot_expr_is_constant(s->pool, d))
         return QDOT_OK;
     QDOT_TRY(qdot_decide_equal(s->pool, d, QDOT_ZERO, s->facts, &zero));
     *yes = zero.verdict == QDOT_REFUTED;
@@ -182,7 +181,7 @@ find_common_zeros(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
         return find_common_zeros(s, n - 1, d + 1, where);
     if ((qdot_expr_node(pool, first)->sign & QDOT_NE0) != 0)
         return QDOT_OK;
-    if (qdot_is_constant(pool, first))
+    if (qdot_expr_is_constant(pool, first))
         return qdot_is_zero(pool, first, s->facts) ? find_common_zeros(s, n - 1, d + 1, where)
                                                    : qdot_pool_check(pool);
     if (!qdot_expr_is_scalar(pool, first) || qdot_expr_size(pool, first) > QDOT_SPECIAL_LONGEST)

@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
-#include "expr/constant.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
@@ -35,7 +34,7 @@ is_suitable_plan(const qdot_plan *p)
         if (p->blocks[b].n > most_coupled)
             return false;
     for (size_t i = 0; i < p->n * p->n; i++)
-        moves = moves || !qdot_constant_is(p->pool, p->M[i]);
+        moves = moves || !qdot_expr_is_constant(p->pool, p->M[i]);
     return moves;
 }
 

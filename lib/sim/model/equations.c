@@ -105,7 +105,7 @@ fill_block(qdot_plan *p, qdot_plan_block *b)
     b->constant = n > 1;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++)
-            b->constant = b->constant && qdot_constant_is(p->pool, mass_matrix_entry(p, b, i, j));
+            b->constant = b->constant && qdot_expr_is_constant(p->pool, mass_matrix_entry(p, b, i, j));
     if (!b->constant)
         return QDOT_OK;
     b->M = qdot_calloc(n * n, sizeof *b->M);

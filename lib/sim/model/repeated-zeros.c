@@ -47,11 +47,11 @@ split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr 
 
     *c = *k = QDOT_NIL;
     QDOT_TRY(qdot_pool_check(pool));
-    if (slope == QDOT_ZERO || !qdot_constant_is(pool, slope))
+    if (slope == QDOT_ZERO || !qdot_expr_is_constant(pool, slope))
         return QDOT_OK;
     rest = qdot_sub(pool, with, qdot_mul(pool, slope, s));
     QDOT_TRY(qdot_pool_check(pool));
-    if (!qdot_constant_is(pool, rest))
+    if (!qdot_expr_is_constant(pool, rest))
         return QDOT_OK;
     *c = slope;
     *k = qdot_neg(pool, qdot_div(pool, rest, slope));
@@ -71,7 +71,7 @@ find_zeros_of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_e
 {
     double part, period;
 
-    if (!qdot_constant_is(pool, b))
+    if (!qdot_expr_is_constant(pool, b))
         return QDOT_OK;
     QDOT_TRY(qdot_constant_double(pool, b, &period));
     if (period == 0)

@@ -1,7 +1,6 @@
 /* geometric.c -- tests whether geometric methods apply: constant M, and forces independent of velocities. */
 #include "sim/plan/geometric.h"
 
-#include "expr/constant.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "ode/geometric/geometric.h"
@@ -13,7 +12,7 @@ first_varying_mass(const qdot_plan *p)
 {
     size_t i = 0;
 
-    while (i < p->n * p->n && qdot_constant_is(p->pool, p->M[i]))
+    while (i < p->n * p->n && qdot_expr_is_constant(p->pool, p->M[i]))
         i++;
     return i / p->n;
 }

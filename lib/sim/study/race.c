@@ -213,7 +213,7 @@ size_at_start(qdot_expr e, void *user)
 
     e = qdot_substitute(r->scene->pool, value_on_constraints(r, e), r->request->n_values,
                         r->request->symbols, r->request->values);
-    return e != QDOT_NIL && qdot_constant_is(r->scene->pool, e) &&
+    return e != QDOT_NIL && qdot_expr_is_constant(r->scene->pool, e) &&
                    qdot_constant_round(r->scene->pool, e, &x, &side) == QDOT_OK
                ? x
                : 0;
