@@ -216,10 +216,11 @@ qdot_figure_option_no_angles(qdot_record *r, const qdot_panel_choice *choice)
     return qdot_hint("leave out `ticks pi`");
 }
 
-/* Fail: axis k of the panel, which is logarithmic, is to have tics at multiples of pi. */
+/* Fail at the option: axis k of the panel, which is logarithmic, is to have tics at multiples of pi. */
 static qdot_status
-refuse_angles(const qdot_panel *panel, int k)
+refuse_angles(qdot_record *r, const qdot_filled *ticks, const qdot_panel *panel, int k)
 {
+    qdot_record_blame(r, ticks);
     (void)qdot_fail(QDOT_EINVAL, "the %s axis is logarithmic: it has no tics at multiples of pi",
                     k == 0 ? "horizontal" : "vertical");
     return panel->log[1 - k] ? qdot_hint("leave out `ticks pi`")
@@ -227,7 +228,7 @@ refuse_angles(const qdot_panel *panel, int k)
 }
 
 qdot_status
-qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
+qdot_figure_option_apply(qdot_record *r, const qdot_panel_choice *choice, qdot_panel *panel)
 {
     for (int k = 0; k < 2; k++) {
         panel->range[k] = choice->range[k];
@@ -236,7 +237,7 @@ qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
     }
     for (int k = 0; k < 2; k++)
         if (panel->pi[k] && panel->log[k])
-            return refuse_angles(panel, k);
+            return refuse_angles(r, choice->ticks, panel, k);
     panel->equal = panel->equal || choice->equal;
     panel->points = choice->points || (panel->points && !choice->lines);
     panel->marks = panel->marks && !choice->lines;

@@ -34,8 +34,8 @@ QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_f
                                                     qdot_panel_choice *panel);
 /* Refuse `ticks pi` in a figure of which no axis is an angle. */
 QDOT_MUST_CHECK qdot_status qdot_figure_option_no_angles(qdot_record *r, const qdot_panel_choice *choice);
-/* Set the fields of the panel for which an option was given. QDOT_EINVAL for `ticks pi` of a logarithmic axis; the
- * place is choice->ticks. */
-QDOT_MUST_CHECK qdot_status qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel);
+/* Set the fields of the panel for which an option was given. QDOT_EINVAL for `ticks pi` of a logarithmic axis; r is read
+ * then only: NULL where the choice has no `ticks`. */
+QDOT_MUST_CHECK qdot_status qdot_figure_option_apply(qdot_record *r, const qdot_panel_choice *choice, qdot_panel *panel);
 
 #endif

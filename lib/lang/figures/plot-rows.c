@@ -324,10 +324,8 @@ qdot_plot_rows(qdot_record *r)
                                     .keep = choice.keep};
 
         for (size_t i = 0; i < figure.n && status == QDOT_OK; i++)
-            status = qdot_figure_option_apply(&of_panel, &panels[i]);
-        if (status != QDOT_OK)
-            qdot_record_blame(r, of_panel.ticks);
-        else
+            status = qdot_figure_option_apply(r, &of_panel, &panels[i]);
+        if (status == QDOT_OK)
             status = qdot_figure_file_show(r->cursor.session, &figure, choice.path);
     }
     free_drawing(&d);

@@ -194,10 +194,7 @@ build_figure(qdot_record *r, const panels *all, frame *f)
         panel->equal = p->operands.n > 0 && p->operands.at[0].vector;
         panel->log[1] = shows_drifts_only(p);
         label_panel(p, f->labels + 2 * i, panel);
-        if (qdot_figure_option_apply(&p->choice, panel) != QDOT_OK) {
-            qdot_record_blame(r, p->choice.ticks);
-            return qdot_last_error()->status;
-        }
+        QDOT_TRY(qdot_figure_option_apply(r, &p->choice, panel));
         for (int k = 0; k < 2; k++)
             QDOT_TRY(qdot_text_status(&f->labels[2 * i + (size_t)k]));
     }

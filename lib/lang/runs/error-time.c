@@ -59,7 +59,7 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
             status = qdot_fail(QDOT_EFAILED, "%s", of->none);
     }
     if (status == QDOT_OK)
-        status = qdot_figure_option_apply(of->panel, &panel);
+        status = qdot_figure_option_apply(NULL, of->panel, &panel);
     if (status == QDOT_OK)
         status = qdot_figure_file_show(session, &figure, of->figure->path);
     qdot_free(curves);

@@ -10,31 +10,6 @@
 #include "expr/walk.h"
 #include "normal/refute/ball.h"
 
-bool
-qdot_bound_as_double(qdot_pool *pool, qdot_expr e, bool up, double *x)
-{
-    qdot_ball ball;
-    arb_srcptr value;
-
-    if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
-        return false;
-    qdot_ball_eval(&ball, 64, NULL, NULL);
-    value = qdot_ball_get(&ball, e);
-    if (value != NULL) {
-        arf_t bound;
-
-        arf_init(bound);
-        if (up)
-            arb_get_ubound_arf(bound, value, 64);
-        else
-            arb_get_lbound_arf(bound, value, 64);
-        *x = arf_get_d(bound, up ? ARF_RND_CEIL : ARF_RND_FLOOR);
-        arf_clear(bound);
-    }
-    qdot_ball_end(&ball);
-    return value != NULL;
-}
-
 qdot_expr
 qdot_constant_terms(qdot_pool *pool, qdot_expr e)
 {
@@ -53,8 +28,10 @@ qdot_with_less_constants(qdot_pool *pool, qdot_expr d, bool coarse)
     const qdot_expr constant = qdot_constant_terms(pool, d);
     double below;
 
-    if (qdot_expr_rational(pool, constant) != NULL || !qdot_bound_as_double(pool, constant, false, &below) ||
-        !isfinite(below))
+    if (qdot_expr_rational(pool, constant) != NULL)
+        return QDOT_NIL;
+    below = qdot_ball_bounds(pool, constant).lo;
+    if (!isfinite(below))
         return QDOT_NIL;
     if (coarse)
         below = ldexp(floor(ldexp(below, 20)), -20);

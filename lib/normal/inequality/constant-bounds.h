@@ -9,14 +9,11 @@
 
 #include "expr/id.h"
 
-/* A constant (nil: none) as a double, rounded up or down. False if it has no value. */
-bool qdot_bound_as_double(qdot_pool *pool, qdot_expr e, bool up, double *x);
-
 /* The terms of a sum that are constants; 0 for other expressions. */
 qdot_expr qdot_constant_terms(qdot_pool *pool, qdot_expr e);
 
-/* The sum with a rational number just below in place of its constant terms, if these are no rational number already; `coarse`: one of
- * few digits. Nil: it has no such terms, or they have no value. */
+/* The sum with a rational number just below in place of its constant terms, if these are no rational number already;
+ * `coarse`: one of few digits. Nil: it has no such terms, or they have no value. */
 qdot_expr qdot_with_less_constants(qdot_pool *pool, qdot_expr d, bool coarse);
 
 /* Whether a function of numbers alone, as exp(pi/3), is in e. */

@@ -102,12 +102,14 @@ is_positive_on_box(qdot_pool *pool, qdot_expr e)
     if (stack == NULL)
         return false;
     for (uint32_t i = 0; i < b.n && positive; i++) {
-        const qdot_symbol *s;
+        qdot_interval domain = qdot_interval_whole;
 
         b.atom[i] = qdot_expr_arg(pool, atoms, i);
-        s = qdot_expr_symbol(pool, b.atom[i]);
-        positive = s != NULL && qdot_bound_as_double(pool, s->lo, false, &stack[0].lo[i]) &&
-                   qdot_bound_as_double(pool, s->hi, true, &stack[0].hi[i]);
+        if (qdot_expr_kind(pool, b.atom[i]) == QDOT_SYM)
+            domain = qdot_ball_domain(pool, b.atom[i]);
+        stack[0].lo[i] = domain.lo;
+        stack[0].hi[i] = domain.hi;
+        positive = isfinite(domain.lo) && isfinite(domain.hi);
     }
     if (!positive || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK) {
         qdot_free(stack);
