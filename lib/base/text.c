@@ -42,6 +42,14 @@ qdot_ends_in(const char *text, const char *ending)
     return n > k && strcmp(text + n - k, ending) == 0;
 }
 
+bool
+qdot_is_member_of(const char *name, const char *family)
+{
+    const size_t n = strlen(family);
+
+    return strncmp(name, family, n) == 0 && name[n] == '[';
+}
+
 void
 qdot_text_char(qdot_text *s, char c)
 {

@@ -42,6 +42,9 @@ int qdot_double_digits(double x, int least);
 /* Whether text ends in `ending` and is longer: "a.csv" for ".csv". */
 bool qdot_ends_in(const char *text, const char *ending);
 
+/* Whether name is a member FAMILY[...]: "theta[2]" of "theta". */
+bool qdot_is_member_of(const char *name, const char *family);
+
 /* Whether text contains the word with no letter or _ next to it. */
 bool qdot_has_word(const char *text, const char *word);
 

@@ -23,7 +23,7 @@
 #define QDOT_KIND_END QDOT_PRAGMA(clang attribute pop)
 #if __has_feature(address_sanitizer)
 #define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll(disable))
-#define INLINE static __attribute__((unused))
+#define QDOT_NOT_INLINED
 #else
 #define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll_count(n))
 #endif
@@ -32,9 +32,9 @@
 #define QDOT_KIND_END QDOT_PRAGMA(GCC pop_options)
 #define QDOT_UNROLL(n) QDOT_PRAGMA(GCC unroll n)
 #endif
-#if !defined INLINE && defined __OPTIMIZE__
+#if defined __OPTIMIZE__ && !defined QDOT_NOT_INLINED
 #define INLINE static inline __attribute__((always_inline, unused))
-#elif !defined INLINE
+#else
 #define INLINE static __attribute__((unused))
 #endif
 #define QDOT_KIND_AVX2 QDOT_KIND_FOR("avx2,fma")

@@ -248,6 +248,10 @@ an_ending_has_something_before_it(void **state)
     assert_false(qdot_ends_in(".csv", ".csv"));
     assert_false(qdot_ends_in("csv", ".csv"));
     assert_false(qdot_ends_in("a.csv.txt", ".csv"));
+    assert_true(qdot_is_member_of("theta[2]", "theta"));
+    assert_false(qdot_is_member_of("theta", "theta"));
+    assert_false(qdot_is_member_of("theta1[2]", "theta"));
+    assert_false(qdot_is_member_of("the[2]", "theta"));
 }
 
 static void

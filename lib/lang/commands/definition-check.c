@@ -29,16 +29,14 @@ dynamic_symbols_of_name(const qdot_session *s, const char *name)
     const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
                             QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER;
     const qdot_name *known = qdot_names_find(s->names, name);
-    const size_t length = strlen(name);
 
     if (known != NULL)
         return known->kind == QDOT_NAME_INDEX || known->value == QDOT_NIL
                    ? 0
                    : qdot_expr_node(s->pool, known->value)->holds & motion;
-    for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
-        if (strncmp(known->name, name, length) == 0 && known->name[length] == '[')
-            return known->value == QDOT_NIL ? 0
-                                            : qdot_expr_node(s->pool, known->value)->holds & motion;
+    known = qdot_names_first_member(s->names, name);
+    if (known != NULL)
+        return known->value == QDOT_NIL ? 0 : qdot_expr_node(s->pool, known->value)->holds & motion;
     if (strcmp(name, "t") == 0)
         return QDOT_HAS_TIME;
     return qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name)
@@ -68,7 +66,6 @@ find_declared_name(const assignment *a)
     const qdot_session *s = a->session;
     const char *name = a->as.name->text;
     const qdot_name *known = qdot_names_find(s->names, name);
-    const size_t length = strlen(name);
     qdot_text member = {0};
 
     if (known != NULL || !a->as.member)
@@ -79,10 +76,7 @@ find_declared_name(const assignment *a)
         qdot_text_clear(&member);
         return known;
     }
-    for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
-        if (strncmp(known->name, name, length) == 0 && known->name[length] == '[')
-            return known;
-    return NULL;
+    return qdot_names_first_member(s->names, name);
 }
 
 static bool
@@ -371,21 +365,10 @@ label_on_left_side(const assignment *a)
 {
     const qdot_session *s = a->session;
     const char *name = a->as.name->text;
-    const size_t length = strlen(name);
 
     if (qdot_definition_is_of_name(&a->as) || a->as.call)
         return qdot_scene_has_label(s->scene, name) || is_run_name(s, name) ? name : NULL;
-    if (!a->as.member)
-        return NULL;
-    for (size_t i = 0; i < s->scene->particles.n; i++)
-        if (strncmp(s->scene->particles.at[i].name, name, length) == 0 &&
-            s->scene->particles.at[i].name[length] == '[')
-            return name;
-    for (size_t i = 0; i < s->scene->bodies.n; i++)
-        if (strncmp(s->scene->bodies.at[i].name, name, length) == 0 &&
-            s->scene->bodies.at[i].name[length] == '[')
-            return name;
-    return NULL;
+    return a->as.member && qdot_scene_is_family(s->scene, name) ? name : NULL;
 }
 
 /* --- values of the language with an index ------------------------------------------------- */

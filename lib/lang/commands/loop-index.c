@@ -80,14 +80,13 @@ static bool
 definition_contains_symbol(const qdot_session *s, const char *name, qdot_expr symbol)
 {
     const qdot_name *known = qdot_names_find(s->names, name);
-    const size_t length = strlen(name);
 
     if (known != NULL && known->kind == QDOT_NAME_FUNCTION)
         return true; /* the function's text may contain any name */
     if (known != NULL)
         return known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol);
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
-        if (strncmp(known->name, name, length) == 0 && known->name[length] == '[' &&
+        if (qdot_is_member_of(known->name, name) &&
             known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol))
             return true;
     return (qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name)) &&

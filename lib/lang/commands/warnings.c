@@ -153,19 +153,6 @@ is_name_used_elsewhere(const qdot_cursor *c, const qdot_definition *d)
            qdot_mention_is_in(d->name + 1, first + c->source->tokens.n, d->name->text);
 }
 
-/* The first declared member x[k] of a family x. */
-static const char *
-find_first_member(const qdot_session *s, const char *family)
-{
-    const size_t n = strlen(family);
-    const qdot_name *name;
-
-    for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++)
-        if (strncmp(name->name, family, n) == 0 && name->name[n] == '[')
-            return name->name;
-    return family;
-}
-
 /* Give a notice for thetadot = 2 with a coordinate theta and no use of thetadot: suggest `start theta' = 2`. */
 static qdot_status
 warn_of_velocity_name(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry)
@@ -173,6 +160,7 @@ warn_of_velocity_name(qdot_cursor *c, const qdot_definition *d, const qdot_name 
     qdot_session *session = c->session;
     qdot_derivative_name meant;
     const char *name = d->name->text;
+    const qdot_name *member = NULL;
     qdot_text line = {0};
     qdot_status status;
 
@@ -181,7 +169,9 @@ warn_of_velocity_name(qdot_cursor *c, const qdot_definition *d, const qdot_name 
         !(qdot_hints_derivative(session, name, true, &meant) || qdot_hints_derivative(session, name, false, &meant)) ||
         strcmp(meant.primes, "'") != 0 || is_name_used_elsewhere(c, d))
         return QDOT_OK;
-    qdot_text_add(&line, meant.family && qdot_definition_is_of_name(d) ? find_first_member(session, meant.base) : meant.base);
+    if (meant.family && qdot_definition_is_of_name(d))
+        member = qdot_names_first_member(session->names, meant.base);
+    qdot_text_add(&line, member != NULL ? member->name : meant.base);
     qdot_token_text(session, d->name + 1, d->equals, &line);
     qdot_text_add(&line, "' = ");
     qdot_token_text(session, d->equals + 1, c->at, &line);

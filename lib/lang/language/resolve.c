@@ -505,23 +505,6 @@ evaluate_quantity_entry(qdot_session *s, const qdot_quantity *row, unsigned prim
     return evaluate_quantity(s, row, primes, n, index, value);
 }
 
-/* Whether a particle or body of the scene is a member of the family `name`, as bob[2] of bob. */
-static bool
-is_label_family(const qdot_scene *scene, const char *name)
-{
-    size_t n = strlen(name);
-
-    for (size_t i = 0; i < scene->particles.n; i++)
-        if (strncmp(scene->particles.at[i].name, name, n) == 0 &&
-            scene->particles.at[i].name[n] == '[')
-            return true;
-    for (size_t i = 0; i < scene->bodies.n; i++)
-        if (strncmp(scene->bodies.at[i].name, name, n) == 0 &&
-            scene->bodies.at[i].name[n] == '[')
-            return true;
-    return false;
-}
-
 /* Whether name[...] could be a family member: theta[1], bob[1], dtheta[1], deltatheta[1]. */
 static bool
 may_be_family(const qdot_session *s, const char *name)
@@ -535,7 +518,7 @@ may_be_family(const qdot_session *s, const char *name)
         return true;
     if (entry != NULL)
         return false;
-    return is_label_family(s->scene, name) ||
+    return qdot_scene_is_family(s->scene, name) ||
            (name[0] == 'd' && qdot_names_is_family(s->names, name + 1)) ||
            (strncmp(name, "delta", 5) == 0 && qdot_names_is_family(s->names, name + 5));
 }
@@ -543,17 +526,13 @@ may_be_family(const qdot_session *s, const char *name)
 static qdot_status
 report_unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
 {
-    const size_t length = strlen(token->text);
-    const qdot_name *other;
+    const qdot_name *other = qdot_names_first_member(c->session->names, token->text);
 
     if (!qdot_names_is_family(c->session->names, token->text))
         return qdot_hints_unknown(c, token, spelled);
     qdot_fail(QDOT_ENAME,
               "`%.200s` is not declared, though other members of its family are",
               spelled);
-    for (size_t i = 0; (other = qdot_names_at(c->session->names, i)) != NULL; i++)
-        if (strncmp(other->name, token->text, length) == 0 && other->name[length] == '[')
-            break;
     if (other == NULL || (other->kind != QDOT_NAME_PARAM && other->kind != QDOT_NAME_COORD))
         return QDOT_ENAME;
     return qdot_hint("`%s %.100s` declares it", other->kind == QDOT_NAME_PARAM ? "param" : "coord",
@@ -613,7 +592,7 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
         (entry == NULL || !are_integer_indices(s, n, index)) && stands_beside_momenta(c, token))
         return resolve_independent_momentum(s, index[0], value);
-    if (row != NULL && row->least > 0 && !(entry || is_label_family(s->scene, name)))
+    if (row != NULL && row->least > 0 && !(entry || qdot_scene_is_family(s->scene, name)))
         return evaluate_quantity_entry(s, row, primes, n, index, value);
     if (row != NULL && row->least > 0 && !are_integer_indices(s, n, index))
         return evaluate_quantity_entry(s, row, primes, n, index, value);

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/spelling.h"
+#include "base/text.h"
 
 typedef struct entry {
     qdot_name name; /* must be the first member: a pointer to the name is also one to its entry */
@@ -147,6 +148,17 @@ qdot_names_is_family(const qdot_names *names, const char *name)
     const family *f = find_family(names, name, strlen(name));
 
     return f != NULL && f->members > 0;
+}
+
+const qdot_name *
+qdot_names_first_member(const qdot_names *names, const char *family)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(names, i)) != NULL; i++)
+        if (qdot_is_member_of(name->name, family))
+            return name;
+    return NULL;
 }
 
 const qdot_name *

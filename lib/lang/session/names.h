@@ -41,6 +41,8 @@ void qdot_names_free(qdot_names *names);
 const qdot_name *qdot_names_find(const qdot_names *names, const char *name);
 /* The declared meaning of a name, regardless of temporary bindings; NULL if there is none. */
 const qdot_name *qdot_names_declared(const qdot_names *names, const char *name);
+/* The first declared member NAME[...]; NULL if there is none. */
+const qdot_name *qdot_names_first_member(const qdot_names *names, const char *family);
 /* Whether any member NAME[...] is declared. */
 bool qdot_names_is_family(const qdot_names *names, const char *name);
 /* Declare. A VALUE or FUNCTION replaces a VALUE or FUNCTION; the very same PARAM again is

@@ -266,13 +266,8 @@ qdot_runs_measure_one(qdot_session *session, const char *run, qdot_expr e, qdot_
 bool
 qdot_runs_is_family(const qdot_session *session, const char *name)
 {
-    size_t n = strlen(name);
-
-    for (size_t i = 0; i < session->runs->n; i++) {
-        const char *run = session->runs->at[i].name;
-
-        if (strncmp(run, name, n) == 0 && run[n] == '[')
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (qdot_is_member_of(session->runs->at[i].name, name))
             return true;
-    }
     return false;
 }

@@ -14,6 +14,7 @@
 #include "lang/session/row-tables.h"
 #include "lang/syntax/expected.h"
 #include "lang/syntax/hole-read.h"
+#include "lang/syntax/outline.h"
 
 typedef struct {
     int node;
@@ -375,13 +376,10 @@ qdot_status
 qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end, const qdot_statement *row,
                        qdot_record *record)
 {
-    qdot_token *const last = (qdot_token *)end;
-    const uint8_t kind = last->kind;
-    qdot_status status;
+    const qdot_token_kind kind = qdot_outline_cut(end);
+    const qdot_status status = qdot_match_operands(c, row, record);
 
-    last->kind = QDOT_TOKEN_END; /* temporarily, restored below */
-    status = qdot_match_operands(c, row, record);
-    last->kind = kind;
+    qdot_outline_join(end, kind);
     return status;
 }
 

@@ -87,16 +87,19 @@ qdot_outline_file(const qdot_token *first)
     return end - first >= 2 && end[-1].kind == QDOT_TOKEN_STRING && qdot_token_is_word(end - 2, "to") ? end - 2 : NULL;
 }
 
-void
-qdot_outline_cut(const qdot_token *word)
+qdot_token_kind
+qdot_outline_cut(const qdot_token *token)
 {
-    ((qdot_token *)word)->kind = QDOT_TOKEN_END;
+    const qdot_token_kind kind = token->kind;
+
+    ((qdot_token *)token)->kind = QDOT_TOKEN_END;
+    return kind;
 }
 
 void
-qdot_outline_join(const qdot_token *word)
+qdot_outline_join(const qdot_token *token, qdot_token_kind kind)
 {
-    ((qdot_token *)word)->kind = QDOT_TOKEN_NAME;
+    ((qdot_token *)token)->kind = kind;
 }
 
 bool

@@ -34,9 +34,10 @@ const qdot_token *qdot_outline_block_loop(const qdot_token *close);
 /* The word `to` of `to "FILE"` at the end of the statement; NULL if the statement does not end like that. */
 const qdot_token *qdot_outline_file(const qdot_token *first);
 
-/* While a part of a statement is carried out, the word behind it, `for` or `to`, is its end; then a word again. */
-void qdot_outline_cut(const qdot_token *word);
-void qdot_outline_join(const qdot_token *word);
+/* While a part of a statement is read or carried out, the token behind it, such as `for` or `to`, is its end; then it has
+ * again the kind that _cut returned. */
+qdot_token_kind qdot_outline_cut(const qdot_token *token);
+void qdot_outline_join(const qdot_token *token, qdot_token_kind kind);
 
 /* Whether a failure at byte `at` is in the first tokens of the statement [first, end): then an example of it helps. *open:
  * it is behind the last of them. */

@@ -198,7 +198,7 @@ offer_indices(completion *c, const char *family)
     bool found = false;
 
     for (size_t i = 0; (name = qdot_names_at(c->session->names, i)) != NULL; i++)
-        if (strncmp(name->name, family, n) == 0 && name->name[n] == '[') {
+        if (qdot_is_member_of(name->name, family)) {
             offer_word_of_length(c, name->name + n + 1, strcspn(name->name + n + 1, ",]"));
             found = true;
         }

@@ -218,13 +218,14 @@ static qdot_status
 dispatch_with_output_file(engine *x, qdot_cursor *c, size_t to)
 {
     qdot_redirect redirect;
+    qdot_token_kind kind;
     qdot_status status;
 
     c->error_at = x->tokens[to + 1].start;
     QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
-    qdot_outline_cut(&x->tokens[to]);
+    kind = qdot_outline_cut(&x->tokens[to]);
     status = dispatch_in_loop(x, c);
-    qdot_outline_join(&x->tokens[to]);
+    qdot_outline_join(&x->tokens[to], kind);
     if (status == QDOT_OK)
         c->error_at = x->tokens[to + 1].start;
     return qdot_redirect_end(&redirect, status);
@@ -345,9 +346,10 @@ carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
     if (status == QDOT_OK)
         status = begin_loop(x, &loop, &clause, &more);
     while (status == QDOT_OK && more) {
-        qdot_outline_cut(word);
+        const qdot_token_kind kind = qdot_outline_cut(word);
+
         status = carry_out_statement(x, i);
-        qdot_outline_join(word);
+        qdot_outline_join(word, kind);
         if (status != QDOT_OK) {
             add_loop_values_to_error(x, &loop);
             break;

@@ -37,6 +37,18 @@ has_label(const void *at, size_t n, size_t size, size_t offset, const char *labe
 }
 
 bool
+qdot_scene_is_family(const qdot_scene *s, const char *label)
+{
+    for (size_t i = 0; i < s->particles.n; i++)
+        if (qdot_is_member_of(s->particles.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->bodies.n; i++)
+        if (qdot_is_member_of(s->bodies.at[i].name, label))
+            return true;
+    return false;
+}
+
+bool
 qdot_scene_has_label(const qdot_scene *s, const char *label)
 {
     if (qdot_scene_find_particle(s, label) || qdot_scene_find_body(s, label))

@@ -95,10 +95,12 @@ QDOT_MUST_CHECK qdot_status qdot_scene_map(qdot_scene *s,
  */
 QDOT_MUST_CHECK qdot_status qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to);
 
-/* Find a particle or body by its label, NULL if there is none; whether anything has the label. */
+/* Find a particle or body by its label, NULL if there is none; whether anything has the label; whether a particle or body
+ * is a member of the family, as bob[2] of bob. */
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
 const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
 bool qdot_scene_has_label(const qdot_scene *s, const char *label);
+bool qdot_scene_is_family(const qdot_scene *s, const char *label);
 /* QDOT_ENAME if the scene has this label already; NULL, no label, is always allowed. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_new_label(const qdot_scene *s, const char *label);
 /* The position of a particle or body; nil and QDOT_ENAME if there is none. */
