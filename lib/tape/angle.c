@@ -11,7 +11,7 @@
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 
-/* Costs of sines and of addition formulas: operations for numbers; products of series per order of a series. */
+/* Cost of a call of sine and cosine, and of an addition formula: in operations for numbers; in products for Taylor series. */
 static const struct {
     long call, addition;
 } number = {20, 6}, of_series = {2, 4};

@@ -248,6 +248,12 @@ an_ending_has_something_before_it(void **state)
     assert_false(qdot_ends_in(".csv", ".csv"));
     assert_false(qdot_ends_in("csv", ".csv"));
     assert_false(qdot_ends_in("a.csv.txt", ".csv"));
+}
+
+static void
+a_member_has_the_name_of_its_family_before_the_bracket(void **state)
+{
+    (void)state;
     assert_true(qdot_is_member_of("theta[2]", "theta"));
     assert_false(qdot_is_member_of("theta", "theta"));
     assert_false(qdot_is_member_of("theta1[2]", "theta"));
@@ -295,6 +301,7 @@ main(void)
         cmocka_unit_test(json_escapes_what_it_must),
         cmocka_unit_test(a_failed_append_marks_the_string_for_good),
         cmocka_unit_test(an_ending_has_something_before_it),
+        cmocka_unit_test(a_member_has_the_name_of_its_family_before_the_bracket),
         cmocka_unit_test(a_word_stands_by_itself),
         cmocka_unit_test(html_has_entities),
     };

@@ -119,7 +119,7 @@ divide_by_linear(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
     return qdot_div(pool, qdot_subs(pool, B, 1, &w, &back), a);
 }
 
-/* The quotient B = C/u, by means of the first velocity in which u is linear and that gives one; nil if none does. */
+/* The quotient B = C/u, by division with respect to a velocity in which u is linear; nil: no velocity gives a quotient. */
 static qdot_expr
 divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
 {

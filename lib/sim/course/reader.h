@@ -45,7 +45,7 @@ typedef struct {
 /* Compile exprs [m] to a tape, which the caller frees; NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
                                               const qdot_expr *exprs, qdot_reading *of);
-/* Compile exprs [m], evaluated along the same runs as another reading (which may have no tape). */
+/* Compile exprs [m] to a tape that is read along the same runs as `other`, of which only the runs are used. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, size_t m,
                                                      const qdot_expr *exprs, qdot_reading *of);
 

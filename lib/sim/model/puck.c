@@ -75,7 +75,7 @@ solve_for_velocity(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
     return qdot_pool_check(pool);
 }
 
-/* Find the velocities contained in w that constraints relate to others. */
+/* Find the velocities in the sliding velocity w that a constraint expresses by other velocities. */
 static qdot_status
 find_dependent_velocities(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *puck)
 {
