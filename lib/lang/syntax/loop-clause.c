@@ -2,6 +2,7 @@
 #include "lang/syntax/loop-clause.h"
 
 #include "lang/syntax/match.h"
+#include "lang/syntax/outline.h"
 
 const qdot_statement qdot_loop_clause = {.word = "for", .usage = "for NAME = A..B, ..."};
 
@@ -32,6 +33,8 @@ qdot_loop_clause_read(const qdot_cursor *c, const qdot_usage *usage, qdot_record
     const qdot_status status = qdot_match(c, &qdot_loop_clause, usage, record);
     const qdot_filled *last = record->parts.n > 0 ? &record->parts.at[record->parts.n - 1] : NULL;
 
+    if (status == QDOT_ESYNTAX && last != NULL && qdot_outline_file(last->to) == last->to)
+        return qdot_hint("`to` stands before `for`: T to \"T.tex\" for m = [1, 2]");
     /* the failure is behind the name of an index or in its values */
     return status != QDOT_OK && last != NULL && (record->parts.n % 4 == 2 || qdot_filled_is(last, "=")) &&
                    !qdot_token_is(last->to, "[")
