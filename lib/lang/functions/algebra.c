@@ -108,6 +108,37 @@ qdot_call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
                         : qdot_algebra_give_short(s, e, value);
 }
 
+/* The matrix of dF_i/dx_j, F and x vectors or lists. */
+qdot_status
+qdot_call_jacobian(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    uint32_t rows = qdot_expr_count(s->pool, args[0]), columns = qdot_expr_count(s->pool, args[1]);
+    qdot_status status = QDOT_OK;
+    qdot_expr *entries;
+
+    for (uint32_t i = 0; i < n; i++)
+        if (qdot_expr_kind(s->pool, args[i]) != QDOT_VEC && qdot_expr_kind(s->pool, args[i]) != QDOT_LIST) {
+            qdot_fail(QDOT_ETYPE, "jacobian(F, (x, y)) takes two vectors or lists, not %s",
+                      qdot_value_kind_words(s->pool, args[i]));
+            return qdot_hint("the derivative of one number is diff(e, x)");
+        }
+    if (rows == 0 || columns == 0)
+        return qdot_fail(QDOT_EINVAL, "a list in jacobian(F, [x, y]) is empty");
+    entries = qdot_malloc((size_t)rows * columns * sizeof *entries);
+    if (entries == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t k = 0; k < rows * columns && status == QDOT_OK; k++) {
+        const qdot_expr pair[] = {qdot_expr_arg(s->pool, args[0], k / columns),
+                                  qdot_expr_arg(s->pool, args[1], k % columns)};
+
+        status = qdot_call_diff(s, 2, pair, &entries[k]);
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_kind_give(s->pool, qdot_matrix(s->pool, rows, columns, entries), value);
+    qdot_free(entries);
+    return status;
+}
+
 qdot_status
 qdot_call_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
