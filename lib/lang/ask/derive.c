@@ -12,6 +12,7 @@
 #include "lang/answer/sheet.h"
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/geometry/metric.h"
 #include "normal/form/common.h"
 #include "normal/simplify/simplify.h"
 

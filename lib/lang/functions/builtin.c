@@ -17,7 +17,7 @@
 #include "lang/session/along.h"
 #include "lang/session/member.h"
 #include "lang/session/range.h"
-#include "mech/dynamics/quantity.h"
+#include "mech/geometry/metric.h"
 
 /* --- calls of elementary functions -------------------------------------------------- */
 

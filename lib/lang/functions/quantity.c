@@ -13,6 +13,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/geometry/metric.h"
 #include "mech/study/hamilton.h"
 #include "mech/study/noether.h"
 #include "mech/study/reactions.h"

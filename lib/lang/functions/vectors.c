@@ -7,8 +7,8 @@
 #include "lang/functions/algebra.h"
 #include "lang/functions/builtin.h"
 #include "lang/session/labels.h"
-#include "mech/dynamics/quantity.h"
-#include "mech/study/geometry.h"
+#include "mech/geometry/geometry.h"
+#include "mech/geometry/metric.h"
 #include "mech/study/hamilton.h"
 
 /* --- vectors and matrices ----------------------------------------------------------- */

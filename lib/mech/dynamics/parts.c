@@ -4,6 +4,7 @@
 #include "expr/tensor.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/geometry/metric.h"
 #include "mech/scene/access.h"
 #include "normal/form/common.h"
 

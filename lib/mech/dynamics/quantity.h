@@ -21,14 +21,6 @@ qdot_expr qdot_mech_lagrangian(qdot_scene *s); /* Lagrangian: T - V, or as state
 qdot_expr qdot_mech_energy(qdot_scene *s);     /* energy function h = sum p q' - L */
 qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* mass matrix of T as an n x n MAT; for a stated L: d2L/dq'dq' */
 
-/* --- geometry of r(q, t); R a VEC or scalar --- */
-qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R); /* line element ds^2 of positions R, in terms of dq, dt */
-qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* (ds/dt)^2 of positions R, in q' */
-qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* MAT; over the coordinates in R; or of
-                                                           a line element, a scalar in dq */
-/* The coordinates of a metric, in declared order: those in R, or whose differentials are in R. */
-qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* LIST of the coordinates in R */
-
 /* --- momenta and generalized forces --- */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* generalized momentum dL/dq' */
 qdot_expr qdot_mech_momenta(qdot_scene *s); /* LIST of momenta in the order of coordinates */

@@ -3,6 +3,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/geometry/metric.h"
 #include "mech/kit.h"
 
 static qdot_expr

@@ -1,12 +1,13 @@
 /* metric.c -- ds^2 = sum (dr/dq_i . dr/dq_j) dq_i dq_j of a place r(q, t), and back
  * again. */
+#include "mech/geometry/metric.h"
+
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
-#include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "normal/form/common.h"
 #include "normal/prove/decide.h"

@@ -6,8 +6,8 @@
 #include "expr/symbol.h"
 #include "mech/kit.h"
 
-#include "mech/dynamics/quantity.h"
-#include "mech/study/geometry.h"
+#include "mech/geometry/geometry.h"
+#include "mech/geometry/metric.h"
 
 static qdot_expr
 curvature(kit *k, const char *R)

@@ -1,5 +1,5 @@
 /* geometry.c -- Christoffel symbols, curvature, geodesics; grad, div, curl, Laplace. */
-#include "mech/study/geometry.h"
+#include "mech/geometry/geometry.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -7,7 +7,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
-#include "mech/dynamics/quantity.h"
+#include "mech/geometry/metric.h"
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
 

@@ -8,7 +8,7 @@
  *
  * Source  do Carmo, Differential Geometry of Curves and Surfaces, 4.3; Misner, Thorne, Wheeler,
  *         Gravitation, box 8.6 (signs of riemann and ricci).
- * Tests   tests/mech/study/test_geometry.c
+ * Tests   tests/mech/geometry/test_geometry.c
  */
 #ifndef QDOT_MECH_GEOMETRY_H
 #define QDOT_MECH_GEOMETRY_H
