@@ -14,6 +14,7 @@
 #include "lang/session/labels.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/geometry/metric.h"
+#include "mech/study/bodies.h"
 #include "mech/study/hamilton.h"
 #include "mech/study/noether.h"
 #include "mech/study/reactions.h"
@@ -59,6 +60,18 @@ cyclic_routhian(qdot_scene *s)
     return qdot_hamilton_routhian(s, 0, NULL);
 }
 
+static qdot_expr
+whole_momentum(qdot_scene *s)
+{
+    return qdot_bodies_momentum(s, NULL);
+}
+
+static qdot_expr
+whole_angular_momentum(qdot_scene *s)
+{
+    return qdot_bodies_angular_momentum(s, NULL, QDOT_NIL);
+}
+
 /* Define the getter of a quantity: `call` gives its value, after `need` has checked the scene. */
 #define OF_SCENE(word, need, call)                                                       \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
@@ -74,6 +87,8 @@ OF_SCENE(energy, require_equations_of_motion, qdot_mech_energy)
 OF_SCENE(hamiltonian, require_coordinates, qdot_hamilton_hamiltonian)
 OF_SCENE(routhian, require_coordinates, cyclic_routhian)
 OF_SCENE(virtual_work, require_coordinates, qdot_mech_virtual_work)
+OF_SCENE(momentum, require_equations_of_motion, whole_momentum)
+OF_SCENE(angular_momentum, require_equations_of_motion, whole_angular_momentum)
 OF_SCENE(conserved, require_coordinates, qdot_noether_conserved)
 #undef OF_SCENE
 
@@ -414,6 +429,9 @@ static const qdot_quantity rows[] = {
      "generalized momenta dL/dq'", "momenta", true, make_momentum_symbol},
     {"p", 1, 1, get_p, "p[theta]", "generalized momentum dL/dtheta'", "p[theta]", false,
      NULL},
+    {"momentum", 0, 0, get_momentum, "momentum", "momentum of the scene, the sum of m r'", "momentum", false, NULL},
+    {"angular_momentum", 0, 0, get_angular_momentum, "angular_momentum",
+     "angular momentum of the scene about the origin; in the plane a number", "angular_momentum", false, NULL},
     {"forces", 0, 1, get_forces, "forces", "generalized forces, with their parts",
      "forces", true, make_force_symbol},
     {"Q", 1, 1, get_Q, "Q[theta]", "generalized force: all that is applied", "Q[theta]",

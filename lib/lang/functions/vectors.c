@@ -1,4 +1,4 @@
-/* vectors.c -- functions of vectors and matrices, of positions r(q) and line elements, of bodies. */
+/* vectors.c -- functions of vectors and matrices, of positions r(q) and line elements. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -6,7 +6,7 @@
 #include "expr/value-kind.h"
 #include "lang/functions/algebra.h"
 #include "lang/functions/builtin.h"
-#include "lang/session/labels.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/geometry/geometry.h"
 #include "mech/geometry/metric.h"
 #include "mech/study/hamilton.h"
@@ -120,57 +120,4 @@ qdot_call_routhian(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
                                  qdot_expr_symbol(s->pool, args[i])->name);
     }
     return qdot_value_kind_give(s->pool, qdot_hamilton_routhian(s->scene, n, args), value);
-}
-
-/* --- bodies -------------------------------------------------------------------------- */
-
-/* Find the label spelled by the symbol `carrier`: of a body, or of a particle if particles are allowed. */
-static qdot_status
-label_of(qdot_session *s, qdot_expr carrier, bool particles, const char **label)
-{
-    const qdot_symbol *symbol = qdot_expr_symbol(s->pool, carrier);
-
-    if (symbol == NULL || symbol->class != QDOT_FORMAL)
-        return qdot_fail(QDOT_ETYPE, "the first argument is the name of a body%s",
-                         particles ? " or particle" : "");
-    *label = symbol->name;
-    if (qdot_scene_find_body(s->scene, *label) != NULL)
-        return QDOT_OK;
-    if (qdot_scene_find_particle(s->scene, *label) != NULL) {
-        if (particles)
-            return QDOT_OK;
-        return qdot_fail(QDOT_ETYPE, "`%.200s` is a particle, not a body", *label);
-    }
-    return qdot_labels_unknown(s->scene, particles ? "body or particle" : "body", *label);
-}
-
-qdot_status
-qdot_call_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    const char *label = NULL;
-
-    QDOT_TRY(label_of(s, args[0], n == 1, &label));
-    return qdot_value_kind_give(
-        s->pool, qdot_scene_point(s->scene, label, n == 2 ? args[1] : QDOT_NIL), value);
-}
-
-qdot_status
-qdot_call_spin(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    const char *label = NULL;
-
-    (void)n;
-    QDOT_TRY(label_of(s, args[0], false, &label));
-    return qdot_value_kind_give(s->pool, qdot_scene_spin(s->scene, label), value);
-}
-
-qdot_status
-qdot_call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    const char *label = NULL;
-
-    (void)n;
-    QDOT_TRY(label_of(s, args[0], false, &label));
-    return qdot_value_kind_give(s->pool, qdot_scene_velocity(s->scene, label, args[1]),
-                                value);
 }

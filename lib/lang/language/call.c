@@ -17,7 +17,7 @@
 
 /* functions that differentiate or solve, to which a value along a run would wrongly look like a constant */
 static const char *const of_formulas[] = {
-    "diff",  "ddt",        "solve",  "series", "integral",  "limit", "poisson",
+    "diff",  "ddt",  "rate", "solve",  "series", "integral",  "limit", "poisson",
     "ds2",   "speed2",     "metric", "christoffel", "gradient", "divergence", "curl",
     "laplacian", "geodesic", "riemann", "ricci", "scalar_curvature", "volume_element",
     "scale_factors"};
@@ -129,7 +129,7 @@ qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
     status = qdot_entry_name(s, name, call->indices, call->values, &spelled);
     entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
     if (status == QDOT_OK && row != NULL && (row->flags & QDOT_BUILTIN_SHORT) &&
-        is_name_of_value(s, entry, name, spelled.at))
+        (entry != NULL || qdot_scene_has_label(s->scene, spelled.at) || qdot_names_is_family(s->names, name)))
         row = NULL;
     if (status != QDOT_OK)
         ;

@@ -125,8 +125,10 @@ fits_placeholder(const matcher *x, char kind, const qdot_token *t)
         return name != NULL && name->kind == QDOT_NAME_COORD;
     case 'm': return name == NULL && coordinate_of_momentum(s, t->text) != NULL;
     case 'f': return name == NULL && qdot_foreign_word(t->text) != NULL;
-    default: /* placeholders of the kinds v and i */
+    default: /* placeholders of the kinds v, V and i */
         row = name == NULL ? qdot_quantity_find(t->text) : NULL;
+        if (kind == 'V')
+            return row != NULL && row->most == 0 && qdot_builtin_find(t->text) == NULL;
         return row != NULL && (kind == 'v') == (row->most == 0);
     }
 }
