@@ -20,6 +20,7 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/history.h"
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
@@ -274,7 +275,10 @@ qdot_ask_expression(qdot_cursor *c)
     qdot_text name = {0};
     qdot_status status;
 
-    QDOT_TRY(qdot_read_named(c, &value, &over));
+    session->evaluation->asks = true;
+    status = qdot_read_named(c, &value, &over);
+    session->evaluation->asks = false;
+    QDOT_TRY(status);
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
     qdot_token_text(c->session, start, c->at, &name);

@@ -42,7 +42,8 @@ apply_elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *a
         return qdot_value_kind_give(
             s->pool, qdot_value_map(s->pool, args[0], apply_to_scalar, &id), value);
     if (n == 1 && qdot_expr_is_scalar(s->pool, args[0]) &&
-        ((qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)) ||
+        ((qdot_expr_node(s->pool, args[0])->holds &
+          (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)) ||
          qdot_member_any(s, args[0])))
         return qdot_range_value(s, NULL, qdot_fun_name(id), 1, args, NULL, value);
     if (n > 1 || (kind != QDOT_LIST && kind != QDOT_VEC) ||

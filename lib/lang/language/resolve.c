@@ -15,6 +15,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/short-names.h"
+#include "lang/language/enclosing.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
 #include "lang/session/evaluation.h"
@@ -22,6 +23,7 @@
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
 #include "lang/source/letters.h"
+#include "mech/dynamics/rate.h"
 #include "mech/scene/scene.h"
 #include "mech/scene/things.h"
 
@@ -329,6 +331,24 @@ is_held_by_loop(const qdot_session *s, const char *name)
     return false;
 }
 
+static qdot_expr
+scalar_on_motion(qdot_pool *pool, qdot_expr e, void *scene)
+{
+    (void)pool;
+    return qdot_rate_on_motion(scene, e);
+}
+
+/* Replace multipliers in the value at `token` by what the equations make of them, where these are asked for. */
+static qdot_status
+replace_multipliers_if_asked(const qdot_cursor *c, const qdot_token *token, qdot_expr *value)
+{
+    qdot_session *s = c->session;
+
+    if (!(qdot_expr_node(s->pool, *value)->holds & QDOT_HAS_MULTIPLIER) || !qdot_enclosing_asks_multipliers(c, token))
+        return QDOT_OK;
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, *value, scalar_on_motion, s->scene), value);
+}
+
 qdot_status
 qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
                   qdot_expr *value, qdot_expr *over)
@@ -350,7 +370,8 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
                                              "printed so?", name);
         }
         *over = entry->over;
-        return resolve_declared(s, entry, primes, value);
+        QDOT_TRY(resolve_declared(s, entry, primes, value));
+        return entry->kind == QDOT_NAME_VALUE ? replace_multipliers_if_asked(c, token, value) : QDOT_OK;
     }
     QDOT_TRY(resolve_reserved(name, primes, &found, value));
     if (found)
@@ -420,28 +441,6 @@ is_independent_momentum(const qdot_session *s, const qdot_token *t)
     return e != QDOT_NIL && (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM);
 }
 
-/* Whether p at `token` is the variable of a call, diff(T, p[x]) or subs(T, p[x] = 0), in the statement that
- * begins at `first`. */
-static bool
-is_variable_position(const qdot_token *first, const qdot_token *token)
-{
-    static const char *const calls[] = {"diff", "subs", "solve", "series", "collect", "limit", "integral"};
-    const qdot_token *k = token;
-    long depth = 0;
-
-    if (!qdot_token_is_word(token, "p") || !qdot_token_is(token + 1, "[") || token == first ||
-        !qdot_token_is(token - 1, ","))
-        return false;
-    while (k > first && depth <= 0) { /* find the bracket that is open at the token */
-        k--;
-        depth += qdot_token_bracket(k);
-    }
-    for (size_t i = 0; k > first && i < sizeof calls / sizeof *calls; i++)
-        if (qdot_token_is_word(k - 1, calls[i]))
-            return true;
-    return false;
-}
-
 /* Whether the statement is NAME = ..., NAME[...] = ..., NAME(...) = ... */
 static bool
 is_definition(const qdot_token *name)
@@ -464,15 +463,13 @@ is_definition(const qdot_token *name)
 static bool
 stands_beside_momenta(const qdot_cursor *c, const qdot_token *token)
 {
-    const qdot_token *first = c->source->tokens.at, *begin;
-    const qdot_token *last = first + c->source->tokens.n - 1;
+    const qdot_token *first = qdot_enclosing_statement(c, token);
 
-    while (token > first && token[-1].kind != QDOT_TOKEN_END && !qdot_token_is(token - 1, "{"))
-        token--;
-    if (is_definition(token))
+    if (is_definition(first))
         return true;
-    for (begin = token; token <= last && token->kind != QDOT_TOKEN_END; token++)
-        if (is_independent_momentum(c->session, token) || is_variable_position(begin, token))
+    for (token = first; token->kind != QDOT_TOKEN_END; token++)
+        if (is_independent_momentum(c->session, token) ||
+            (qdot_token_is_word(token, "p") && qdot_token_is(token + 1, "[") && qdot_enclosing_is_variable(first, token)))
             return true;
     return false;
 }
@@ -592,10 +589,14 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
         (entry == NULL || !are_integer_indices(s, n, index)) && stands_beside_momenta(c, token))
         return resolve_independent_momentum(s, index[0], value);
-    if (row != NULL && row->least > 0 && !(entry || qdot_scene_is_family(s->scene, name)))
-        return evaluate_quantity_entry(s, row, primes, n, index, value);
-    if (row != NULL && row->least > 0 && !are_integer_indices(s, n, index))
-        return evaluate_quantity_entry(s, row, primes, n, index, value);
+    if (row != NULL && row->least > 0 && !(entry || qdot_scene_is_family(s->scene, name))) {
+        QDOT_TRY(evaluate_quantity_entry(s, row, primes, n, index, value));
+        return replace_multipliers_if_asked(c, token, value);
+    }
+    if (row != NULL && row->least > 0 && !are_integer_indices(s, n, index)) {
+        QDOT_TRY(evaluate_quantity_entry(s, row, primes, n, index, value));
+        return replace_multipliers_if_asked(c, token, value);
+    }
     QDOT_TRY(resolve_member(c, token, primes, n, index, &found, value));
     if (found)
         return QDOT_OK;

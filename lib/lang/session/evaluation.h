@@ -22,6 +22,7 @@ typedef struct {
 
 typedef struct qdot_evaluation {
     bool declares;     /* the statement declares a part of the scene */
+    bool asks;         /* an expression is read that is a statement by itself: its value is the answer */
     const char *claim; /* text of the check that is being answered; else NULL */
     const char *taken; /* short name of a value that was read (lang/functions/short-names); NULL: none */
     qdot_text_list told; /* notices that the present statement has given */

@@ -1,0 +1,81 @@
+/* enclosing.c -- where a token stands: in which statement, in the brackets of which calls. */
+#include "lang/language/enclosing.h"
+
+#include <string.h>
+
+#include "lang/functions/builtin.h"
+#include "lang/session/evaluation.h"
+#include "lang/session/range.h"
+
+const qdot_token *
+qdot_enclosing_statement(const qdot_cursor *c, const qdot_token *token)
+{
+    while (token > c->source->tokens.at && token[-1].kind != QDOT_TOKEN_END && !qdot_token_is(token - 1, "{"))
+        token--;
+    return token;
+}
+
+const qdot_token *
+qdot_enclosing_bracket(const qdot_token *first, const qdot_token *token)
+{
+    long depth = 0;
+
+    while (token > first) {
+        token--;
+        depth += qdot_token_bracket(token);
+        if (depth > 0)
+            return token;
+    }
+    return NULL;
+}
+
+bool
+qdot_enclosing_is_variable(const qdot_token *first, const qdot_token *token)
+{
+    static const char *const calls[] = {"diff", "subs", "solve", "series", "collect", "limit", "integral"};
+    const qdot_token *open = token > first && qdot_token_is(token - 1, ",") ? qdot_enclosing_bracket(first, token) : NULL;
+
+    for (size_t i = 0; open != NULL && open > first && i < sizeof calls / sizeof *calls; i++)
+        if (qdot_token_is_word(open - 1, calls[i]))
+            return true;
+    return false;
+}
+
+/* Whether the token begins what multipliers stand beside as symbols: an equation of motion, a reaction, an acceleration,
+ * or a multiplier that is itself a variable. */
+static bool
+keeps_multipliers(const qdot_token *first, const qdot_token *k)
+{
+    static const char *const words[] = {"eom", "reactions", "accel"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_token_is_word(k, words[i]))
+            return true;
+    if (qdot_token_is(k, "'") && qdot_token_is(k + 1, "'"))
+        return true;
+    return qdot_token_is_word(k, "lambda") && qdot_enclosing_is_variable(first, k);
+}
+
+bool
+qdot_enclosing_asks_multipliers(const qdot_cursor *c, const qdot_token *token)
+{
+    static const char *const calculus[] = {"diff", "ddt", "rate", "solve", "series", "limit", "integral", "subs", "jacobian"};
+    const qdot_token *first = qdot_enclosing_statement(c, token), *open = token;
+    bool asks = c->session->evaluation->asks;
+
+    if (c->session->evaluation->declares || (token > first && qdot_token_is(token - 1, ".")))
+        return false;
+    for (const qdot_token *k = first; k->kind != QDOT_TOKEN_END; k++)
+        if (keeps_multipliers(first, k))
+            return false;
+    while ((open = qdot_enclosing_bracket(first, open)) != NULL) {
+        const qdot_builtin *call =
+            open > first && open[-1].kind == QDOT_TOKEN_NAME ? qdot_builtin_find(open[-1].text) : NULL;
+
+        if (call != NULL && ((call->flags & QDOT_BUILTIN_RUN) || qdot_range_is_word(call->name)))
+            return false;
+        for (size_t i = 0; call != NULL && i < sizeof calculus / sizeof *calculus; i++)
+            asks |= strcmp(call->name, calculus[i]) == 0;
+    }
+    return asks;
+}
