@@ -6,7 +6,6 @@
 #include "expr/value-kind.h"
 #include "lang/functions/algebra.h"
 #include "lang/functions/builtin.h"
-#include "mech/dynamics/quantity.h"
 #include "mech/geometry/geometry.h"
 #include "mech/geometry/metric.h"
 #include "mech/study/hamilton.h"

@@ -5,7 +5,6 @@ while read -r line; do
 done <<'EOF'
 integral(x^2, x)
 limit(sin(x)/x, x = 0)
-euler_lagrange(x, x, x, t)
 hamiltonian p[x]^2/2
 hamiltonian (p[x]^2 + x^2)/2
 force (-mu*abs(lambda[floor])*sign(x'), 0) on b
