@@ -450,7 +450,7 @@ make_coordinate_symbol(qdot_pool *pool, qdot_class class, qdot_expr coordinate, 
     qdot_text_add(&name, before);
     qdot_text_add(&name, s->name);
     qdot_text_add(&name, after);
-    for (uint32_t i = 0; class == QDOT_COORD && i < order; i++)
+    for (uint32_t i = 0; i < order; i++)
         qdot_text_char(&name, '\'');
     if (qdot_text_status(&name) != QDOT_OK) {
         qdot_text_clear(&name);
@@ -469,9 +469,11 @@ qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
 
     if (coordinate == QDOT_NIL)
         return QDOT_NIL;
-    if (s == NULL || s->class != QDOT_COORD)
+    if (s == NULL || (s->class != QDOT_COORD && s->class != QDOT_MOMENTUM))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "only a coordinate has a velocity");
     order += s->order;
+    if (s->class == QDOT_MOMENTUM)
+        return make_coordinate_symbol(pool, QDOT_MOMENTUM, s->base, order, "p[", "]");
     if (s->order > 0)
         coordinate = s->base;
     return order == 0 ? coordinate

@@ -137,17 +137,21 @@ print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name)
         const size_t from = p->out->text.n;
 
         qdot_text_add(&p->out->text, momentum ? "p[" : s->class == QDOT_DELTA ? "δ" : "d");
-        qdot_name_line(name, s->order, may_print_index_lowered(p->pool, name), &p->out->text);
+        qdot_name_line(name, momentum ? 0 : s->order, may_print_index_lowered(p->pool, name), &p->out->text);
         qdot_text_add(&p->out->text, momentum ? "]" : "");
+        for (uint32_t i = 0; momentum && i < s->order; i++)
+            qdot_text_char(&p->out->text, '\'');
         qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NAME, from);
         return;
     }
     print_begin(p, momentum ? QDOT_FORMULA_INDEX : QDOT_FORMULA_ROW, 0, 0);
     if (s->class == QDOT_DELTA)
         print_sign(p, QDOT_SIGN_DELTA);
+    else if (momentum)
+        qdot_formula_add_name(p->out, p->at, "p", s->order);
     else
-        qdot_print_text(p, momentum ? "p" : "d");
-    add_symbol_name(p->out, p->at, p->pool, name, s->order, p->notation);
+        qdot_print_text(p, "d");
+    add_symbol_name(p->out, p->at, p->pool, name, momentum ? 0 : s->order, p->notation);
     p->at = outer;
 }
 

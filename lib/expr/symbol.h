@@ -42,7 +42,7 @@ typedef struct {
     qdot_class class;
     const char *name;  /* plain: "theta[1]", "theta[1]'", "dr", "lambda[rod]", "delta[r]" */
     qdot_expr base; /* for a time derivative, momentum, differential or delta: its coordinate (or t) */
-    uint32_t order;    /* order of the time derivative: 0 for q, 1 for q', 2 for q'' */
+    uint32_t order;    /* order of the time derivative: 0 for q and p[q], 1 for q' and p[q]', 2 for q'' */
     uint32_t rank;     /* order of declaration; a time derivative has its coordinate's */
     qdot_expr lo, hi;  /* bounds of the declared domain; nil: unbounded */
     bool lo_open, hi_open;
@@ -62,7 +62,7 @@ void qdot_symbol_show(qdot_pool *pool, qdot_expr x);
 bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
 /* As qdot_symbol_is_known, without formal arguments. */
 bool qdot_symbol_is_declared(const qdot_pool *pool, const char *name);
-/* The order-th time derivative of a coordinate (order 0: itself) or of a time derivative. */
+/* The order-th time derivative of a coordinate or momentum (order 0: itself) or of a time derivative. */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
 /* The symbol dq or dt, p[q], or delta[q] for `class` DIFFERENTIAL, MOMENTUM or DELTA. */
 qdot_expr qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate);

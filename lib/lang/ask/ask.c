@@ -58,26 +58,26 @@ answer_run_results(qdot_session *session, const char *name, qdot_expr value)
     return status;
 }
 
-/* Append the name of list member i: "eom[theta1]" if it belongs to a coordinate, otherwise (nil)
- * "solve(...)[1]". */
+/* Append the name of list member i: "eom[theta1]" if it belongs to a coordinate, "eom[theta1][2]" if `each` members do,
+ * otherwise (nil) "solve(...)[1]". */
 static void
-append_member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i,
+append_member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i, uint32_t each,
                    qdot_text *out)
 {
     qdot_text_add(out, name);
     if (coordinate != QDOT_NIL)
         qdot_text_format(out, "[%s]", qdot_expr_symbol(session->pool, coordinate)->name);
-    else
-        qdot_text_format(out, "[%u]", i + 1);
+    if (coordinate == QDOT_NIL || each > 1)
+        qdot_text_format(out, "[%u]", coordinate == QDOT_NIL ? i + 1 : i % each + 1);
 }
 
-/* What member i goes by: a coordinate of the scene for a quantity, of `over` (a LIST, or nil) for others
- * (with --json by its number); nil: by its number. */
+/* What member i goes by: a coordinate of the scene for a quantity, which has `each` members of it, of `over` (a LIST, or
+ * nil) for others (each 0; with --json by its number); nil: by its number. */
 static qdot_expr
-coordinate_of_member(const qdot_session *session, bool quantity, qdot_expr over, uint32_t n, uint32_t i)
+coordinate_of_member(const qdot_session *session, uint32_t each, qdot_expr over, uint32_t n, uint32_t i)
 {
-    if (quantity)
-        return session->scene->coordinates.at[i];
+    if (each > 0)
+        return session->scene->coordinates.at[i / each];
     if (over == QDOT_NIL || session->output->json || qdot_expr_count(session->pool, over) != n)
         return QDOT_NIL;
     return qdot_expr_arg(session->pool, over, i);
@@ -113,6 +113,9 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
     bool by_coordinate = row != NULL && row->over_coordinates &&
                          qdot_names_find(session->names, name) == NULL;
 
+    const uint32_t coordinates = (uint32_t)session->scene->coordinates.n;
+    const uint32_t each = by_coordinate && coordinates > 0 ? n / coordinates : 0; /* Hamilton's equations: 2 */
+
     if (n == 0 || (session->output->json && is_one_equilibrium(name)))
         return qdot_answer_expr(session, name, list);
     if (is_one_equilibrium(name))
@@ -122,7 +125,7 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
         qdot_text member = {0};
         qdot_status status;
 
-        append_member_name(session, name, coordinate_of_member(session, by_coordinate, over, n, i), i, &member);
+        append_member_name(session, name, coordinate_of_member(session, each, over, n, i), i, each, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK && by_coordinate && row->symbol != NULL) {
             qdot_expr q = session->scene->coordinates.at[i];
@@ -167,7 +170,7 @@ answer_members_separately(qdot_session *session, const char *name, qdot_expr lis
         qdot_expr one = qdot_expr_arg(session->pool, list, i);
         qdot_text member = {0};
 
-        append_member_name(session, name, QDOT_NIL, i, &member);
+        append_member_name(session, name, QDOT_NIL, i, 1, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK)
             status = qdot_measured_occurs(session, one)
@@ -238,7 +241,7 @@ answer_points(qdot_session *session, const char *name, qdot_expr list)
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
         qdot_text member = {0};
 
-        append_member_name(session, name, QDOT_NIL, i, &member);
+        append_member_name(session, name, QDOT_NIL, i, 1, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK)
             status = answer_point(session, qdot_text_str(&member),

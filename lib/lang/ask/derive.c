@@ -13,6 +13,7 @@
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/geometry/metric.h"
+#include "mech/study/hamilton.h"
 #include "normal/form/common.h"
 #include "normal/simplify/simplify.h"
 
@@ -368,7 +369,8 @@ write_energies(derivation *d)
     qdot_scene *s = d->session->scene;
 
     if (s->lagrangian != QDOT_NIL) {
-        begin_step(d, "Lagrangian, as stated", NULL);
+        begin_step(d, s->hamiltonian != QDOT_NIL ? "Lagrangian, with q' = dH/dp solved for p" : "Lagrangian, as stated",
+                   s->hamiltonian != QDOT_NIL ? "L = sum p q' - H" : NULL);
         return write_equation_line(d, make_symbol("L"), qdot_mech_lagrangian(s));
     }
     QDOT_TRY(write_kinetic_energy(d));
@@ -638,6 +640,21 @@ write_conserved_momenta(derivation *d)
 }
 
 static qdot_status
+write_hamiltons_equations(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    const qdot_expr all = qdot_hamilton_equations(s);
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    begin_step(d, "Hamilton's function, as stated", NULL);
+    QDOT_TRY(write_equation_line(d, make_symbol("H"), s->hamiltonian));
+    begin_step(d, "Hamilton's equations", has_forces(s) ? "q' = dH/dp, p' = -dH/dq + Q" : "q' = dH/dp, p' = -dH/dq");
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, all); i++)
+        QDOT_TRY(write_relation(d, qdot_expr_arg(s->pool, all, i)));
+    return QDOT_OK;
+}
+
+static qdot_status
 derive_print(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
@@ -652,6 +669,11 @@ derive_print(qdot_record *r)
     d.sheet = qdot_sheet_begin(session);
     d.sheet.whole = true;
     status = write_assumptions(&d);
+    if (status == QDOT_OK && session->scene->hamiltonian != QDOT_NIL) {
+        status = write_hamiltons_equations(&d);
+        if (status == QDOT_OK && session->scene->lagrangian == QDOT_NIL)
+            return qdot_sheet_end(&d.sheet, "derive", status);
+    }
     if (status == QDOT_OK && session->scene->lagrangian == QDOT_NIL)
         status = write_kinematics(&d);
     if (status == QDOT_OK)

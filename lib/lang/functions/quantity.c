@@ -26,6 +26,7 @@ require_equations_of_motion(const qdot_session *s)
 {
     const qdot_scene *scene = s->scene;
 
+    QDOT_TRY(qdot_hamilton_need_lagrangian(s->scene));
     if (scene->particles.n > 0 || scene->bodies.n > 0 || scene->lagrangian != QDOT_NIL)
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "the scene has nothing that moves");
@@ -84,13 +85,22 @@ whole_angular_momentum(qdot_scene *s)
 OF_SCENE(T, require_equations_of_motion, qdot_mech_kinetic)
 OF_SCENE(L, require_equations_of_motion, qdot_mech_lagrangian)
 OF_SCENE(energy, require_equations_of_motion, qdot_mech_energy)
-OF_SCENE(hamiltonian, require_coordinates, qdot_hamilton_hamiltonian)
 OF_SCENE(routhian, require_coordinates, cyclic_routhian)
 OF_SCENE(virtual_work, require_coordinates, qdot_mech_virtual_work)
 OF_SCENE(momentum, require_equations_of_motion, whole_momentum)
 OF_SCENE(angular_momentum, require_equations_of_motion, whole_angular_momentum)
 OF_SCENE(conserved, require_coordinates, qdot_noether_conserved)
 #undef OF_SCENE
+
+/* A stated H is known even where no Lagrangian follows from it. */
+static qdot_status
+get_hamiltonian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    if (s->scene->hamiltonian == QDOT_NIL)
+        QDOT_TRY(require_coordinates(s));
+    return qdot_value_kind_give(s->pool, qdot_hamilton_hamiltonian(s->scene), value);
+}
 
 static qdot_status
 get_V(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -168,10 +178,24 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
         return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
 BY_COORDINATE(momenta, qdot_mech_momenta, qdot_mech_momentum)
-BY_COORDINATE(eom, qdot_mech_equations, qdot_mech_equation)
+BY_COORDINATE(lagrange, qdot_mech_equations, qdot_mech_equation)
 BY_COORDINATE(accel, qdot_mech_accels, qdot_mech_accel)
 BY_COORDINATE(forces, qdot_mech_forces, qdot_mech_force)
 #undef BY_COORDINATE
+
+/* Lagrange's equations; Hamilton's where H is stated. */
+static qdot_status
+get_eom(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    if (s->scene->hamiltonian == QDOT_NIL)
+        return get_lagrange(s, n, index, value);
+    if (n == 0)
+        return qdot_value_kind_give(s->pool, qdot_hamilton_equations(s->scene), value);
+    if (!qdot_expr_is_coordinate(s->pool, index[0]))
+        return qdot_fail(QDOT_ETYPE, "eom[ ] takes a coordinate");
+    return qdot_value_kind_give(s->pool, qdot_hamilton_equation(s->scene, index[0]), value);
+}
+
 #define OF_COORDINATE(word, one)                                                         \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
                                   qdot_expr *value)                                      \
@@ -440,7 +464,7 @@ static const qdot_quantity rows[] = {
      "virtual work, the sum of Q[q]*delta[q]", "virtual_work", false, NULL},
     {"delta", 1, 1, get_delta, "delta[theta]", "virtual displacement of a coordinate",
      "delta[theta]", false, NULL},
-    {"eom", 0, 1, get_eom, "eom or eom[theta]", "Lagrange's equations", "eom", true,
+    {"eom", 0, 1, get_eom, "eom or eom[theta]", "Lagrange's equations; Hamilton's where H is stated", "eom", true,
      NULL},
     {"accel", 0, 1, get_accel, "accel or accel[theta]", "accelerations, solved for",
      "accel[theta]", true, make_acceleration_symbol},

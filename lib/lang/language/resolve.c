@@ -223,8 +223,8 @@ evaluate_quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, ui
 {
     QDOT_TRY(qdot_short_names_note(s, row, row->get(s, n, index, value)));
     QDOT_TRY(qdot_value_kind_check(s->pool, *value));
-    if (primes == 0)
-        return QDOT_OK;
+    if (primes == 0 || strcmp(row->name, "p") == 0) /* p[x]' is the rate of dL/dx' */
+        return differentiate_in_time(s, primes, value);
     (void)qdot_fail(QDOT_ETYPE, "`%s` is a value of the scene, no coordinate", row->name);
     return qdot_hint("write ddt(%s%s)", row->name, n > 0 ? "[...]" : "");
 }
@@ -433,6 +433,7 @@ is_independent_momentum(const qdot_session *s, const qdot_token *t)
         entry = qdot_names_find(s->names, t->text);
         if (entry == NULL)
             return strcmp(t->text, "hamiltonian") == 0 || strcmp(t->text, "H") == 0 ||
+                   (s->scene->hamiltonian != QDOT_NIL && strcmp(t->text, "eom") == 0) ||
                    strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0;
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
@@ -474,13 +475,13 @@ stands_beside_momenta(const qdot_cursor *c, const qdot_token *token)
     return false;
 }
 
-/* Evaluate p[theta] as an independent variable of the Hamiltonian. */
+/* Evaluate p[theta] as an independent variable of the Hamiltonian; with a prime its rate. */
 static qdot_status
-resolve_independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
+resolve_independent_momentum(qdot_session *s, qdot_expr q, unsigned primes, qdot_expr *value)
 {
     if (!qdot_expr_is_coordinate(s->pool, q))
         return qdot_fail(QDOT_ETYPE, "p[ ] takes a coordinate");
-    *value = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
+    *value = qdot_symbol_jet(s->pool, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q), primes);
     return qdot_value_kind_check(s->pool, *value);
 }
 
@@ -586,9 +587,9 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     bool found;
 
     /* p[theta] is the momentum even if a plain p is declared */
-    if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
+    if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes <= 1 &&
         (entry == NULL || !are_integer_indices(s, n, index)) && stands_beside_momenta(c, token))
-        return resolve_independent_momentum(s, index[0], value);
+        return resolve_independent_momentum(s, index[0], primes, value);
     if (row != NULL && row->least > 0 && !(entry || qdot_scene_is_family(s->scene, name))) {
         QDOT_TRY(evaluate_quantity_entry(s, row, primes, n, index, value));
         return replace_multipliers_if_asked(c, token, value);

@@ -80,7 +80,7 @@ qdot_momenta_for(qdot_session *session, qdot_expr e, qdot_expr symbol)
     if (!(variable & QDOT_HAS_MOMENTUM))
         return qdot_momenta_meet(session, 2, both) ? qdot_momenta_to_velocities(session, e) : e;
     if (!(held & QDOT_HAS_VELOCITY) || (held & QDOT_HAS_ACCELERATION) ||
-        !has_lagrangian(session->scene))
+        (!has_lagrangian(session->scene) && session->scene->hamiltonian == QDOT_NIL))
         return e;
     return qdot_hamilton_in_momenta(session->scene, e);
 }

@@ -58,7 +58,7 @@ is_answers(int k)
 static bool
 have_equal_singles(const qdot_undo_single *a, const qdot_undo_single *b)
 {
-    return a->lagrangian == b->lagrangian && a->style == b->style &&
+    return a->lagrangian == b->lagrangian && a->hamiltonian == b->hamiltonian && a->style == b->style &&
            a->flat == b->flat &&
            a->timing == b->timing && a->start_exactly == b->start_exactly;
 }
@@ -521,6 +521,7 @@ apply_record(qdot_session *s, record *r, int to)
     }
     u->now.single = r->single[to];
     s->scene->lagrangian = u->now.single.lagrangian;
+    s->scene->hamiltonian = u->now.single.hamiltonian;
     s->history->series = u->now.single.series;
     s->history->series_in = u->now.single.series_in;
     s->output->style = u->now.single.style;

@@ -135,9 +135,10 @@ qdot_mech_needs_particles(qdot_scene *s, const char *what)
 {
     if (!qdot_mech_stated(s))
         return true;
-    qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: %s is not known apart",
-              what);
-    qdot_hint("L and energy are; or declare particles instead of `lagrangian`");
+    qdot_fail(QDOT_EINVAL, "the scene states its %s: %s is not known apart",
+              s->hamiltonian != QDOT_NIL ? "Hamiltonian" : "Lagrangian", what);
+    qdot_hint("L and energy are; or declare particles instead of `%s`",
+              s->hamiltonian != QDOT_NIL ? "hamiltonian" : "lagrangian");
     qdot_pool_fail(s->pool);
     return false;
 }

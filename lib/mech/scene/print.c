@@ -278,7 +278,9 @@ qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
     for (size_t i = 0; i < s->bodies.n; i++)
         QDOT_TRY(print_body(s, &s->bodies.at[i], out));
     QDOT_TRY(print_kinds(s, QDOT_GRAVITY, QDOT_DISSIPATION, out));
-    if (s->lagrangian != QDOT_NIL)
+    if (s->hamiltonian != QDOT_NIL)
+        QDOT_TRY(print_statement(s, "hamiltonian", s->hamiltonian, out));
+    else if (s->lagrangian != QDOT_NIL)
         QDOT_TRY(print_statement(s, "lagrangian", s->lagrangian, out));
     QDOT_TRY(print_kinds(s, QDOT_FORCE, QDOT_TORQUE, out));
     QDOT_TRY(print_constraints(s, out));

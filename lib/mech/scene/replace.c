@@ -56,6 +56,7 @@ map_all_expressions(qdot_scene *s, mapping m)
     MAP(conditions, );
     MAP(relations, );
     map_expression(&m, &s->lagrangian);
+    map_expression(&m, &s->hamiltonian);
 }
 
 qdot_status

@@ -16,8 +16,9 @@
 
 /* The kinds of symbols that a declaration must not contain, and their names in messages. */
 enum {
-    NO_SYMBOLS =
-        QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA,
+    NO_VIRTUAL = QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA,
+    NO_SYMBOLS = NO_VIRTUAL | QDOT_HAS_MOMENTUM,
+    NO_RATE = NO_VIRTUAL | QDOT_HAS_ACCELERATION | QDOT_HAS_VELOCITY,
     NO_ACCELERATION = NO_SYMBOLS | QDOT_HAS_ACCELERATION,
     NO_VELOCITY = NO_ACCELERATION | QDOT_HAS_VELOCITY,
     NO_PLACE = NO_VELOCITY | QDOT_HAS_COORD
@@ -173,10 +174,14 @@ qdot_scene_need_new_label(const qdot_scene *s, const char *name)
 qdot_status
 qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what)
 {
-    if (s->lagrangian == QDOT_NIL)
+    const bool hamiltonian = s->hamiltonian != QDOT_NIL;
+
+    if (s->lagrangian == QDOT_NIL && !hamiltonian)
         return QDOT_OK;
-    (void)qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: %s beside it would not count", what);
-    return qdot_hint("put its term into the formula of `lagrangian`; `reset scene` begins anew");
+    (void)qdot_fail(QDOT_EINVAL, "the scene states its %s: %s beside it would not count",
+                    hamiltonian ? "Hamiltonian" : "Lagrangian", what);
+    return qdot_hint("put its term into the formula of `%s`; `reset scene` begins anew",
+                     hamiltonian ? "hamiltonian" : "lagrangian");
 }
 
 qdot_status
@@ -420,23 +425,51 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
     return mark_changed(s);
 }
 
+/* What makes T - V, so that L and H follow; NULL: nothing. */
+static const char *
+parts_of_lagrangian(const qdot_scene *s)
+{
+    return s->particles.n    ? "particles"
+           : s->bodies.n     ? "bodies"
+           : s->gravities.n  ? "gravity"
+           : s->potentials.n ? "a potential"
+           : s->springs.n    ? "springs"
+                             : NULL;
+}
+
 qdot_status
 qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
 {
-    const char *beside = s->particles.n    ? "particles"
-                         : s->bodies.n     ? "bodies"
-                         : s->gravities.n  ? "gravity"
-                         : s->potentials.n ? "a potential"
-                         : s->springs.n    ? "springs"
-                                           : NULL;
+    const char *beside = parts_of_lagrangian(s);
 
     if (beside) {
         (void)qdot_fail(QDOT_EINVAL, "a stated Lagrangian beside %s: L would not be T - V", beside);
         return qdot_hint("`lagrange_function` shows the one that follows; `reset scene` takes the scene away");
     }
     QDOT_TRY(require_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
-    s->lagrangian = qdot_kinks_cancel(s->pool, L);
+    L = qdot_kinks_cancel(s->pool, L);
     QDOT_TRY(qdot_pool_check(s->pool));
+    s->lagrangian = L;
+    s->hamiltonian = QDOT_NIL;
+    return mark_changed(s);
+}
+
+qdot_status
+qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L)
+{
+    const char *beside = parts_of_lagrangian(s);
+
+    if (beside) {
+        (void)qdot_fail(QDOT_EINVAL, "a stated Hamiltonian beside %s: H follows from these", beside);
+        return qdot_hint("`hamiltonian` alone shows it; `reset scene` takes the scene away");
+    }
+    QDOT_TRY(require_scalar(s, H, "a Hamiltonian", NO_RATE));
+    if (!(qdot_mech_holds(s, H) & QDOT_HAS_MOMENTUM)) {
+        (void)qdot_fail(QDOT_EINVAL, "no momentum stands in this Hamiltonian");
+        return qdot_hint("the momentum of a coordinate x is written p[x]: hamiltonian p[x]^2/2");
+    }
+    s->hamiltonian = H;
+    s->lagrangian = L;
     return mark_changed(s);
 }
 

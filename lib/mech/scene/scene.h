@@ -39,8 +39,11 @@ QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
 /* Declare a force; QDOT_EINVAL if it acts on a material point but `on` is no body. */
 QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
+/* State L; in place of an H stated before. */
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
-/* Fail if the scene states its Lagrangian, because then the declaration named by `what` would have no effect. */
+/* State H(q, p, t), without velocities; L: the Lagrangian that follows from it, or nil (mech/study/hamilton-stated.c). */
+QDOT_MUST_CHECK qdot_status qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L);
+/* Fail if the scene states its Lagrangian or H, because then the declaration named by `what` would have no effect. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what);
 /* f = left - right; scalars, or VECs of equal size (one constraint a component: "pin, 1").
  * Components proved to hold identically are left out and named in s->dropped. Without label the
@@ -72,7 +75,7 @@ bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
 void qdot_scene_changed(qdot_scene *s);
 
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
- * byte. With `lagrangian` they are the state of a scene: a copy of all can be put back, with the
+ * byte. With `lagrangian` and `hamiltonian` they are the state of a scene: a copy of all can be put back, with the
  * `version` that the scene had then. */
 enum { QDOT_SCENE_PARTS = 15 };
 typedef struct {

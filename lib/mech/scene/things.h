@@ -112,7 +112,8 @@ typedef struct qdot_scene {
     qdot_vec(qdot_assumption) assumed;
     qdot_vec(qdot_expr) conditions; /* assumptions that are inequalities */
     qdot_vec(qdot_expr) relations;  /* assumptions that are equations left = right, as left - right; also their derivatives */
-    qdot_expr lagrangian;           /* the stated Lagrangian; nil: L = T - V */
+    qdot_expr lagrangian;           /* the stated Lagrangian, or the one found from a stated H; nil: L = T - V */
+    qdot_expr hamiltonian; /* the stated H(q, p, t); nil: not stated. `lagrangian` nil beside it: none was found */
     qdot_vec(char *) dropped;       /* what the latest call dropped, for a notice: components of
                                        a constraint that hold identically ("pin, 2"); springs,
                                        forces ... on a removed thing ("spring s1", "a force") */

@@ -1,10 +1,9 @@
-/* hamilton.h -- Legendre transforms of the Lagrangian: Hamilton's function and Routh's.
+/* hamilton.h -- Hamilton's function and Routh's; Poisson's bracket.
  *
  *     H(q, p, t) = sum p_i q_i' - L,            all velocities replaced by momenta
  *     R          = L - sum_c p_c q_c',          those of some coordinates c only
  *
- * The velocities solve p_c = dL/dq_c', which must be linear in them (QDOT_EDOMAIN otherwise; a
- * singular d2L/dq'dq': QDOT_ESINGULAR with the coordinate). Momenta are the symbols p[q].
+ * They are Legendre transforms of L (legendre.h); a stated H is itself. Momenta are the symbols p[q].
  * Nil on failure; the pool keeps the cause.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1 and 8.3, with the opposite sign of R.
@@ -18,6 +17,20 @@
 qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
 /* The Routhian for the coordinates q [n], without repetition; n = 0: for the cyclic ones. */
 qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
+
+/* --- a scene that states H (hamilton-stated.c) ---
+ *
+ *     q' = dH/dp,    p' = -dH/dq + Q + sum lambda df/d(q, q')
+ *
+ * L = sum p q' - H is its Legendre transform where q' = dH/dp can be solved for p: QDOT_ESINGULAR, QDOT_EDOMAIN
+ * where it cannot. */
+QDOT_MUST_CHECK qdot_status qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L);
+/* QDOT_ENOTBUILT if the scene states an H from which no Lagrangian follows. */
+QDOT_MUST_CHECK qdot_status qdot_hamilton_need_lagrangian(qdot_scene *s);
+/* Hamilton's equations of a coordinate, a LIST of two; of all, a LIST: two for each coordinate. The rate of p is the
+ * symbol p[q]'. */
+qdot_expr qdot_hamilton_equation(qdot_scene *s, qdot_expr q);
+qdot_expr qdot_hamilton_equations(qdot_scene *s);
 
 /* e with velocities written in terms of momenta; second function: e with momenta replaced by dL/dq'. */
 qdot_expr qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e);

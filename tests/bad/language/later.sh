@@ -5,8 +5,6 @@ while read -r line; do
 done <<'EOF'
 integral(x^2, x)
 limit(sin(x)/x, x = 0)
-hamiltonian p[x]^2/2
-hamiltonian (p[x]^2 + x^2)/2
 force (-mu*abs(lambda[floor])*sign(x'), 0) on b
 dissipation lambda[floor]*x'^2
 run 0..1 method gauss4

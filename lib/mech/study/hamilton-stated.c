@@ -1,0 +1,89 @@
+/* hamilton-stated.c -- a scene that states H(q, p, t): the Lagrangian that follows, and Hamilton's equations. */
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/build.h"
+#include "expr/calculus.h"
+#include "expr/symbol.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/scene/constraint.h"
+#include "mech/study/hamilton.h"
+#include "mech/study/legendre.h"
+
+qdot_status
+qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L)
+{
+    qdot_legendre l;
+    qdot_expr value = QDOT_NIL;
+
+    if (qdot_legendre_begin(&l, s, QDOT_MOMENTUM, s->hamiltonian, (uint32_t)s->coordinates.n, s->coordinates.at))
+        value = qdot_legendre_transform(&l);
+    qdot_legendre_end(&l);
+    *L = value;
+    return qdot_pool_check(s->pool);
+}
+
+qdot_status
+qdot_hamilton_need_lagrangian(qdot_scene *s)
+{
+    qdot_expr L;
+    qdot_text why = {0};
+    qdot_status status;
+
+    if (s->hamiltonian == QDOT_NIL || s->lagrangian != QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_hamilton_lagrangian(s, &L);
+    if (status != QDOT_ESINGULAR && status != QDOT_EDOMAIN)
+        return status;
+    qdot_text_add(&why, qdot_last_error()->message);
+    status = qdot_text_status(&why);
+    if (status == QDOT_OK) {
+        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: what follows from H alone, without a Lagrangian: %s",
+                           qdot_text_str(&why));
+        qdot_hint("`eom`, `hamiltonian`, poisson(f, g) are known");
+    }
+    qdot_text_clear(&why);
+    return status;
+}
+
+/* q' = dH/dp and p' = -dH/dq + Q + R of coordinate i; velocities in Q and the reactions R are written in momenta. */
+static void
+equations_of_coordinate(qdot_scene *s, size_t i, qdot_expr pair[2])
+{
+    qdot_pool *pool = s->pool;
+    const qdot_expr q = s->coordinates.at[i], p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+    qdot_expr rate = qdot_add(pool, qdot_mech_force(s, q), qdot_constraint_reaction(s, i));
+
+    rate = qdot_hamilton_in_momenta(s, rate);
+    rate = qdot_sub(pool, rate, qdot_diff(pool, s->hamiltonian, q));
+    pair[0] = qdot_rel(pool, QDOT_EQ, qdot_symbol_jet(pool, q, 1),
+                       qdot_mech_tidy(s, qdot_diff(pool, s->hamiltonian, p)));
+    pair[1] = qdot_rel(pool, QDOT_EQ, qdot_symbol_jet(pool, p, 1), qdot_mech_tidy(s, rate));
+}
+
+qdot_expr
+qdot_hamilton_equation(qdot_scene *s, qdot_expr q)
+{
+    qdot_expr pair[2];
+    size_t i;
+
+    if (!qdot_mech_index(s, q, &i))
+        return QDOT_NIL;
+    equations_of_coordinate(s, i, pair);
+    return qdot_list(s->pool, 2, pair);
+}
+
+qdot_expr
+qdot_hamilton_equations(qdot_scene *s)
+{
+    const size_t n = s->coordinates.n;
+    qdot_expr *all = qdot_calloc(2 * n + 1, sizeof *all), list;
+
+    if (all == NULL)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++)
+        equations_of_coordinate(s, i, all + 2 * i);
+    list = qdot_list(s->pool, (uint32_t)(2 * n), all);
+    qdot_free(all);
+    return list;
+}

@@ -1,0 +1,100 @@
+/* Legendre's transform there and back, where momenta are not linear in the velocities too. */
+#include "expr/build.h"
+#include "expr/symbol.h"
+#include "mech/kit.h"
+
+#include "mech/dynamics/quantity.h"
+#include "mech/study/hamilton.h"
+#include "normal/prove/decide.h"
+
+static qdot_expr
+P(kit *k, const char *q)
+{
+    return qdot_symbol_of(k->pool, QDOT_MOMENTUM, E(k, "%s", q));
+}
+
+/* State L, take H from it, state that, and get L again. */
+static void
+goes_there_and_back(kit *k, const char *L, int line)
+{
+    qdot_facts facts;
+    qdot_expr H, again = QDOT_NIL;
+
+    must(qdot_scene_lagrangian(k->scene, E(k, "%s", L)));
+    H = qdot_hamilton_hamiltonian(k->scene);
+    must(qdot_pool_check(k->pool));
+    must(qdot_scene_hamiltonian(k->scene, H, QDOT_NIL));
+    must(qdot_hamilton_lagrangian(k->scene, &again));
+    facts = qdot_scene_facts(k->scene);
+    if (!qdot_is_zero(k->pool, qdot_sub(k->pool, again, E(k, "%s", L)), &facts))
+        fail_msg("line %d: L is not found again", line);
+}
+
+static void
+quadratic_lagrangians_return_body(kit *k)
+{
+    coords(k, "x y");
+    goes_there_and_back(k, "m*(x'^2 + y'^2)/2 + e*B*(x*y' - y*x')/2 - x^2*y", __LINE__);
+    goes_there_and_back(k, "x'^2/2 + (3 + cos(x))*y'^2 + x'*y'*sin(y) + t*x' - cos(x)", __LINE__);
+}
+TEST(quadratic_lagrangians_return)
+
+static void
+relativistic_lagrangians_return_body(kit *k)
+{
+    coords(k, "x y");
+    goes_there_and_back(k, "-m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) - k*x^2", __LINE__);
+    goes_there_and_back(k, "-m*c^2*sqrt(1 - (x'^2 + x^2*y'^2)/c^2) + e*x*y' - 1/x", __LINE__);
+    goes_there_and_back(k, "-sqrt(1 - x'^2) + m*y'^2/2 + x*y'", __LINE__);
+}
+TEST(relativistic_lagrangians_return)
+
+static void
+momenta_by_one_equation_return_body(kit *k)
+{
+    coords(k, "x");
+    goes_there_and_back(k, "exp(x') - x", __LINE__);
+}
+TEST(momenta_by_one_equation_return)
+
+/* L of first degree in the velocities: H is 0, and the momenta lie on the mass shell. */
+static void
+first_degree_names_its_constraint_body(kit *k)
+{
+    coords(k, "x s");
+    must(qdot_scene_lagrangian(k->scene, E(k, "-m*c*sqrt(c^2*s'^2 - x'^2)")));
+    assert_int_equal(qdot_hamilton_hamiltonian(k->scene), QDOT_NIL);
+    assert_int_equal(qdot_pool_check(k->pool), QDOT_ESINGULAR);
+    assert_non_null(strstr(qdot_last_error()->message, "p[s]^2 - c^2*p[x]^2 - m^2*c^4 = 0"));
+}
+TEST(first_degree_names_its_constraint)
+
+static void
+hamiltons_equations_of_a_stated_function_body(kit *k)
+{
+    qdot_expr H, pair;
+
+    coords(k, "x");
+    H = qdot_add(k->pool, qdot_mul(k->pool, P(k, "x"), E(k, "sin(x)")), E(k, "x^2"));
+    must(qdot_scene_hamiltonian(k->scene, H, QDOT_NIL));
+    pair = qdot_hamilton_equation(k->scene, E(k, "x"));
+    same_at(k, qdot_expr_arg(k->pool, qdot_expr_arg(k->pool, pair, 0), 1), E(k, "sin(x)"), __LINE__);
+    same_at(k, qdot_expr_arg(k->pool, qdot_expr_arg(k->pool, pair, 1), 1),
+            qdot_neg(k->pool, qdot_add(k->pool, qdot_mul(k->pool, P(k, "x"), E(k, "cos(x)")), E(k, "2*x"))), __LINE__);
+    assert_int_equal(qdot_hamilton_need_lagrangian(k->scene), QDOT_ENOTBUILT);
+}
+TEST(hamiltons_equations_of_a_stated_function)
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quadratic_lagrangians_return),
+        cmocka_unit_test(relativistic_lagrangians_return),
+        cmocka_unit_test(momenta_by_one_equation_return),
+        cmocka_unit_test(first_degree_names_its_constraint),
+        cmocka_unit_test(hamiltons_equations_of_a_stated_function),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
