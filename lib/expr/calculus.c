@@ -158,6 +158,12 @@ derive_function(derivation *d, qdot_expr e)
 
         if (yes != QDOT_ZERO || no != QDOT_ZERO)
             add_term_of_derivative(d, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){args[0], yes, no}));
+    } else if (node.op == QDOT_LOG && NODE(pool, args[0])->kind == QDOT_FUN &&
+               NODE(pool, args[0])->op == QDOT_ABS) { /* log|u|: u'/u */
+        qdot_expr u = ARGS(pool, args[0])[0], inner = known_derivative(d, u);
+
+        if (inner != QDOT_ZERO)
+            add_term_of_derivative(d, qdot_div(pool, inner, u));
     } else {
         for (uint32_t i = 0; i < node.n; i++) {
             qdot_expr inner = known_derivative(d, args[i]);

@@ -12,7 +12,7 @@
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
-#include "normal/solve/antiderivative.h"
+#include "normal/integral/antiderivative.h"
 
 /* Differential forms over x = (q, t), in rows of n + 1 coefficients. */
 typedef struct {

@@ -21,7 +21,7 @@
 #include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
-#include "normal/solve/antiderivative.h"
+#include "normal/integral/antiderivative.h"
 #include "normal/solve/null-space.h"
 
 enum { MOST_COORDINATES = 16 };

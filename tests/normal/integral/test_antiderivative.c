@@ -7,7 +7,7 @@
 
 #include "expr/calculus.h"
 #include "normal/prove/decide.h"
-#include "normal/solve/antiderivative.h"
+#include "normal/integral/antiderivative.h"
 
 static void
 known_integrals_differentiate_back(void **state)

@@ -1,0 +1,174 @@
+/* antiderivative.c -- antiderivatives: found by the methods of integrate.c, proved by differentiation, case by case. */
+#include "normal/integral/antiderivative.h"
+
+#include "expr/build.h"
+#include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "normal/field/flint.h"
+#include "normal/integral/task.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+
+/* Steps of one antiderivative, and constructor calls; both far beyond what an integral of a table needs. */
+enum { EFFORT = 20000, MOST_FACTS = 16 };
+#define CONSTRUCTIONS 4000000
+
+struct search {
+    qdot_pool *pool;
+    qdot_expr e, x, F;
+    const qdot_facts *facts;
+    bool by_cases;
+};
+
+/* Whether dF/dx = e is proved under the conditions assumed. */
+static bool
+is_proved(qdot_pool *pool, qdot_expr F, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+{
+    qdot_expr slope = qdot_diff(pool, F, x);
+    qdot_decision d;
+
+    if (slope == QDOT_NIL)
+        return false;
+    return slope == e || (qdot_decide_equal(pool, slope, e, facts, &d) == QDOT_OK && d.verdict == QDOT_PROVED);
+}
+
+/* The facts and the conditions assumed so far; the arrays hold as many as there is room for. */
+static qdot_facts
+with_conditions(const struct search *s, const qdot_integral_task *t, qdot_expr *conditions)
+{
+    qdot_facts facts = s->facts == NULL ? (qdot_facts){0} : *s->facts;
+    size_t n = 0;
+
+    for (; n < facts.n_conditions && n < MOST_FACTS; n++)
+        conditions[n] = facts.conditions[n];
+    for (size_t i = 0; i < t->asked; i++) {
+        qdot_expr c = t->condition[i];
+
+        conditions[n++] = t->holds[i] ? c
+                                      : qdot_rel(s->pool, QDOT_LT, qdot_expr_arg(s->pool, c, 1), qdot_expr_arg(s->pool, c, 0));
+    }
+    facts.conditions = conditions;
+    facts.n_conditions = n;
+    return facts;
+}
+
+/* The antiderivative with the first `fixed` signs as in `holds`; *asked: the conditions on which its form depends. */
+static qdot_expr
+find_case(const struct search *s, qdot_integral_task *t)
+{
+    qdot_expr conditions[MOST_FACTS + QDOT_INTEGRAL_SIGNS], F;
+    qdot_facts facts;
+
+    t->asked = 0;
+    t->failed = false;
+    t->fresh = 0;
+    F = qdot_integral_any(t, s->e, s->x, 0);
+    if (F == QDOT_NIL || qdot_pool_failed(s->pool))
+        return QDOT_NIL;
+    facts = with_conditions(s, t, conditions);
+    if (!is_proved(s->pool, F, s->e, s->x, &facts))
+        return QDOT_NIL;
+    if (s->by_cases) {
+        qdot_expr shorter = qdot_simplify(s->pool, F, &facts);
+
+        if (shorter != QDOT_NIL && shorter != F && is_proved(s->pool, shorter, s->e, s->x, &facts))
+            F = shorter;
+    }
+    return F;
+}
+
+/* All cases from the sign number `depth` on, as if(CONDITION, F, G). */
+static qdot_expr
+find_cases(const struct search *s, qdot_integral_task *t, size_t depth)
+{
+    qdot_expr F, G, condition;
+
+    if (depth >= QDOT_INTEGRAL_SIGNS)
+        return find_case(s, t);
+    for (size_t i = depth; i < QDOT_INTEGRAL_SIGNS; i++)
+        t->holds[i] = true;
+    F = find_case(s, t);
+    if (t->asked <= depth || F == QDOT_NIL)
+        return F;
+    condition = t->condition[depth];
+    if (t->asked > depth + 1) {
+        F = find_cases(s, t, depth + 1);
+        if (F == QDOT_NIL)
+            return F;
+    }
+    t->holds[depth] = false;
+    G = find_cases(s, t, depth + 1);
+    t->holds[depth] = true;
+    if (G == QDOT_NIL)
+        return G;
+    return F == G ? F : qdot_fun(s->pool, QDOT_IF, 3, (qdot_expr[]){condition, F, G});
+}
+
+static void
+search_antiderivative(void *user)
+{
+    struct search *s = user;
+    qdot_integral_task t = {.pool = s->pool, .facts = s->facts, .may_assume = s->by_cases, .effort = EFFORT};
+
+    s->F = find_cases(s, &t, 0);
+}
+
+static qdot_expr
+find_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts, bool by_cases)
+{
+    struct search s = {pool, e, x, QDOT_NIL, facts, by_cases};
+    uint64_t before;
+    qdot_status status;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    before = qdot_pool_budget(pool, CONSTRUCTIONS);
+    status = qdot_flint_run(pool, search_antiderivative, &s);
+    qdot_pool_budget(pool, before);
+    if (qdot_grave(status) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    if (status != QDOT_OK || qdot_pool_failed(pool)) {
+        status = qdot_pool_check(pool);
+        if (qdot_grave(status) != QDOT_OK)
+            return qdot_pool_fail(pool);
+        return QDOT_NIL;
+    }
+    return s.F;
+}
+
+qdot_expr
+qdot_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+{
+    return find_antiderivative(pool, e, x, facts, false);
+}
+
+qdot_expr
+qdot_antiderivative_by_cases(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+{
+    return find_antiderivative(pool, e, x, facts, true);
+}
+
+qdot_expr
+qdot_potential_of(qdot_pool *pool, size_t n, const qdot_expr *x, const qdot_expr *a,
+                  const qdot_facts *facts)
+{
+    qdot_expr F = QDOT_ZERO;
+
+    for (size_t i = 0; i < n && F != QDOT_NIL; i++) {
+        qdot_expr rest = qdot_sub(pool, a[i], qdot_diff(pool, F, x[i])), part;
+
+        rest = qdot_simplify(pool, rest, facts);
+        if (rest == QDOT_ZERO)
+            continue;
+        part = qdot_antiderivative(pool, rest, x[i], facts);
+        F = part == QDOT_NIL ? QDOT_NIL : qdot_add(pool, F, part);
+    }
+    if (F == QDOT_NIL)
+        return F;
+    F = qdot_simplify(pool, F, facts);
+    for (size_t i = 0; i < n && F != QDOT_NIL; i++)
+        if (!qdot_is_zero(pool, qdot_sub(pool, a[i], qdot_diff(pool, F, x[i])), facts))
+            return QDOT_NIL;
+    return F;
+}

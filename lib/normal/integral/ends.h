@@ -1,0 +1,30 @@
+/* ends.h -- the values of a function at the ends of a range, as limits from inside.
+ *
+ * Tests  tests/script/integrals/
+ */
+#ifndef QDOT_INTEGRAL_ENDS_H
+#define QDOT_INTEGRAL_ENDS_H
+
+#include "normal/field/facts.h"
+
+typedef enum {
+    QDOT_END_VALUE,
+    QDOT_END_INFINITE,
+    QDOT_END_NONE, /* it oscillates */
+    QDOT_END_UNKNOWN
+} qdot_end_kind;
+
+typedef struct {
+    qdot_end_kind kind;
+    qdot_expr value;
+} qdot_end;
+
+/* The limit of F as x tends to `at`, which may be QDOT_INFINITY or its negative, from the side: 1 above, -1 below.
+ * Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_end_value(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, int side,
+                                           const qdot_facts *facts, qdot_end *end);
+
+/* Whether `at` is no number but infinity or minus infinity. */
+bool qdot_end_is_infinite(qdot_pool *pool, qdot_expr at);
+
+#endif

@@ -1,0 +1,42 @@
+/* rational.h -- antiderivatives of rational functions.
+ *
+ *     int n/d dx = rest + sum c_i log|p_i(x)| + sum c_j atan p_j(x)
+ *
+ * Partial fractions over the factors of d over Q(parameters); Hermite's reduction lowers their powers without
+ * finding roots; what is left over a square-free denominator gives logarithms and arcs, of real factors of degree 1
+ * and 2. An irreducible x^4 + p x^2 + q and x^3 + c (in x - s) splits into such with roots of parameters. A denominator in x^k, whose
+ * numerator is x^(k-1) times such a one, is integrated over x^k.
+ *
+ * All terms are continuous wherever n/d is: the polynomials p_j are linear, and so no atan jumps.
+ *
+ * Source  Bronstein, Symbolic Integration I (2005), 2.2; Hardy, The Integration of Functions (1916), III.
+ * Tests   tests/normal/integral/test_antiderivative.c
+ */
+#ifndef QDOT_INTEGRAL_RATIONAL_H
+#define QDOT_INTEGRAL_RATIONAL_H
+
+#include "normal/integral/polynomial.h"
+
+enum { QDOT_PRIMITIVE_TERMS = 24 };
+
+/* rest + sum of c log|p(x)| (or c atan p(x), if `angle`). */
+typedef struct {
+    qdot_expr rest; /* a rational function of x */
+    int n;
+    struct {
+        bool angle;
+        qdot_expr c;
+        qdot_poly p;
+    } term[QDOT_PRIMITIVE_TERMS];
+} qdot_primitive;
+
+/* Integrate e, rational in x; false: it is not, or no real factors of its denominator were found. */
+bool qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qdot_primitive *out);
+
+/* The antiderivative as an expression in x. */
+qdot_expr qdot_rational_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr x);
+
+/* Sum of logarithms c_i log|u_i| [n], with c log|u| - c log|v| written c log|u/v|. */
+qdot_expr qdot_rational_logs(qdot_integral_task *t, int n, qdot_expr *c, const qdot_expr *u);
+
+#endif
