@@ -5,8 +5,9 @@
 #include "expr/calculus.h"
 #include "expr/function.h"
 #include "expr/node.h"
+#include "expr/walk.h"
 #include "normal/field/flint.h"
-#include "normal/integral/task.h"
+#include "normal/integral/methods.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
@@ -53,6 +54,25 @@ with_conditions(const struct search *s, const qdot_integral_task *t, qdot_expr *
     return facts;
 }
 
+/* F without terms free of x. */
+static qdot_expr
+without_constants(qdot_pool *pool, qdot_expr F, qdot_expr x)
+{
+    qdot_expr sum = QDOT_ZERO, factor = QDOT_ONE, rest = F;
+
+    if (qdot_expr_kind(pool, F) == QDOT_PROD)
+        qdot_integral_split(pool, F, x, &factor, &rest);
+    if (qdot_expr_kind(pool, rest) != QDOT_SUM)
+        return F;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, rest); i += 2) {
+        qdot_expr term = qdot_expr_arg(pool, rest, i);
+
+        if (qdot_expr_contains(pool, term, x))
+            sum = qdot_add(pool, sum, qdot_mul(pool, without_constants(pool, term, x), qdot_expr_arg(pool, rest, i + 1)));
+    }
+    return qdot_mul(pool, factor, sum);
+}
+
 /* The antiderivative with the first `fixed` signs as in `holds`; *asked: the conditions on which its form depends. */
 static qdot_expr
 find_case(const struct search *s, qdot_integral_task *t)
@@ -70,7 +90,7 @@ find_case(const struct search *s, qdot_integral_task *t)
     if (!is_proved(s->pool, F, s->e, s->x, &facts))
         return QDOT_NIL;
     if (s->by_cases) {
-        qdot_expr shorter = qdot_simplify(s->pool, F, &facts);
+        qdot_expr shorter = qdot_simplify(s->pool, without_constants(s->pool, F, s->x), &facts);
 
         if (shorter != QDOT_NIL && shorter != F && is_proved(s->pool, shorter, s->e, s->x, &facts))
             F = shorter;

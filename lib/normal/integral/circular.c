@@ -360,7 +360,8 @@ qdot_circular_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr 
     for (int i = 0; i < r->n; i++) {
         qdot_gen_kind kind = r->generator[i].kind;
 
-        if (kind < QDOT_GEN_SIN || kind > QDOT_GEN_COSH || r->generator[i].of != c.u)
+        if (kind < QDOT_GEN_SIN || kind > QDOT_GEN_COSH || r->generator[i].of != c.u ||
+            (i > 0 && c.hyperbolic != (kind == QDOT_GEN_SINH || kind == QDOT_GEN_COSH)))
             return QDOT_NIL;
         c.hyperbolic = kind == QDOT_GEN_SINH || kind == QDOT_GEN_COSH;
         *(kind == QDOT_GEN_SIN || kind == QDOT_GEN_SINH ? &c.S : &c.C) = r->generator[i].symbol;

@@ -47,5 +47,12 @@ qdot_parts_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, int dep
         u = qdot_pow(pool, base, exponent);
         return integrate_with(t, u, qdot_div(pool, term, u), x, depth);
     }
+    for (uint32_t i = 1; i < n && product && !t->failed && depth < 4; i += 2) { /* x^k lowers its power */
+        long k;
+
+        if (qdot_expr_arg(pool, term, i) == x && qdot_expr_to_int(pool, qdot_expr_arg(pool, term, i + 1), &k) && k >= 1 &&
+            k <= 3 && n > 3)
+            return integrate_with(t, qdot_pow_int(pool, x, k), qdot_div(pool, term, qdot_pow_int(pool, x, k)), x, depth);
+    }
     return QDOT_NIL;
 }

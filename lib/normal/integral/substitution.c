@@ -1,6 +1,7 @@
 /* substitution.c -- integrates f(u) u' over u, and rational functions of exponentials and of roots over these. */
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
@@ -34,6 +35,138 @@ substitute_part(qdot_integral_task *t, qdot_expr term, qdot_expr u, qdot_expr x,
     return f == QDOT_NIL ? f : qdot_subs(pool, f, 1, &w, &u);
 }
 
+/* Whether a power of w that is no integer occurs. */
+static bool
+holds_root_of(qdot_pool *pool, qdot_expr e, qdot_expr w)
+{
+    bool found = false;
+    qdot_walk walk;
+
+    if (qdot_walk_begin(pool, e, &walk) != QDOT_OK)
+        return true;
+    for (size_t i = 0; i < walk.n && !found; i++)
+        if (qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD)
+            for (uint32_t k = 1; k < qdot_expr_count(pool, walk.at[i]) && !found; k += 2) {
+                long n;
+
+                found = qdot_expr_arg(pool, walk.at[i], k) == w &&
+                        !qdot_expr_to_int(pool, qdot_expr_arg(pool, walk.at[i], k + 1), &n);
+            }
+    qdot_walk_end(&walk);
+    return found;
+}
+
+/* --- powers, roots and logarithms as new variables -------------------------------------- */
+
+/* int e dx over w = x^k, where e/x^(k - 1) holds x by x^k only. */
+static qdot_expr
+substitute_power(qdot_integral_task *t, qdot_expr e, qdot_expr x, long k, int depth)
+{
+    qdot_pool *pool = t->pool;
+    qdot_expr w = qdot_integral_variable(t, true), v = qdot_integral_variable(t, true), root, f, F, xk = qdot_pow_int(pool, x, k);
+
+    /* with v > 0 for x, and w for v^k, nothing but powers of v^k may be left */
+    f = qdot_div(pool, e, qdot_mul(pool, qdot_expr_int(pool, k), qdot_pow_int(pool, x, k - 1)));
+    root = qdot_pow(pool, w, qdot_expr_ratio(pool, 1, k));
+    e = qdot_subs(pool, f, 1, &x, &v);
+    f = qdot_subs(pool, e, 1, &v, &root);
+    if (f != QDOT_NIL && holds_root_of(pool, f, w))
+        f = qdot_integral_normal(t, qdot_subs(pool, qdot_integral_normal(t, e), 1, &v, &root));
+    if (f == QDOT_NIL || holds_root_of(pool, f, w))
+        return QDOT_NIL;
+    F = qdot_integral_any(t, f, w, depth + 1);
+    return F == QDOT_NIL ? F : qdot_subs(pool, F, 1, &w, &xk);
+}
+
+/* Read q = (a x + b)/(c x + d). */
+static bool
+read_linear_fraction(qdot_integral_task *t, qdot_expr q, qdot_expr x, qdot_poly *over, qdot_poly *under)
+{
+    qdot_reading r;
+
+    if (!qdot_reading_make(t, q, x, &r) || r.n > 0 || r.factors > 1 || (r.factors == 1 && r.factor[0].power > 1))
+        return false;
+    *over = qdot_poly_read(t, qdot_mul(t->pool, r.rest, r.numerator), x);
+    *under = qdot_poly_read(t, qdot_reading_denominator(t, &r), x);
+    return over->degree <= 1 && under->degree <= 1 && over->degree >= 0 && under->degree >= 0 &&
+           over->degree + under->degree > 0;
+}
+
+/* x as a function of w, from w^q = (a x + b)/(c x + d). */
+static qdot_expr
+solve_linear_fraction(qdot_pool *pool, const qdot_poly *over, const qdot_poly *under, qdot_expr wq)
+{
+#define AT(p, i) ((p)->degree >= (i) ? (p)->c[i] : QDOT_ZERO)
+    qdot_expr b = qdot_sub(pool, AT(over, 0), qdot_mul(pool, AT(under, 0), wq));
+
+    return qdot_div(pool, b, qdot_sub(pool, qdot_mul(pool, AT(under, 1), wq), AT(over, 1)));
+#undef AT
+}
+
+/* Split u = base^(1/q); q = 0 for u = log(base); false: it is neither. */
+static bool
+read_inverse(qdot_pool *pool, qdot_expr u, qdot_expr *base, long *q)
+{
+    const fmpq *exponent;
+
+    *q = 0;
+    *base = qdot_expr_count(pool, u) > 0 ? qdot_expr_arg(pool, u, 0) : QDOT_NIL;
+    if (qdot_expr_is_function(pool, u, QDOT_LOG))
+        return true;
+    if (qdot_expr_kind(pool, u) != QDOT_PROD || qdot_expr_count(pool, u) != 3 || *base != QDOT_ONE)
+        return false;
+    *base = qdot_expr_arg(pool, u, 1);
+    exponent = qdot_expr_rational(pool, qdot_expr_arg(pool, u, 2));
+    if (exponent == NULL || !fmpz_is_one(fmpq_numref(exponent)) || fmpz_cmp_si(fmpq_denref(exponent), 6) > 0)
+        return false;
+    *q = fmpz_get_si(fmpq_denref(exponent));
+    return *q > 1;
+}
+
+/* int e dx over the root w = u of (a x + b)/(c x + d), or its logarithm: x is put in as a function of w. */
+static qdot_expr
+substitute_inverse(qdot_integral_task *t, qdot_expr e, qdot_expr u, qdot_expr x, int depth)
+{
+    qdot_pool *pool = t->pool;
+    qdot_expr w, base, X, f, F;
+    qdot_poly over, under;
+    long q;
+
+    if (!read_inverse(pool, u, &base, &q) || !read_linear_fraction(t, base, x, &over, &under))
+        return QDOT_NIL;
+    w = qdot_integral_variable(t, q > 0);
+    X = solve_linear_fraction(pool, &over, &under, q == 0 ? qdot_fun1(pool, QDOT_EXP, w) : qdot_pow_int(pool, w, q));
+    f = qdot_subs(pool, e, 1, &u, &w);
+    f = qdot_mul(pool, qdot_subs(pool, f, 1, &x, &X), qdot_diff(pool, X, w));
+    F = qdot_integral_any(t, f, w, depth + 1);
+    return F == QDOT_NIL ? F : qdot_subs(pool, F, 1, &w, &u);
+}
+
+/* int e dx over w = exp(u), with exp(k u) as w^k. */
+static qdot_expr
+substitute_exponential(qdot_integral_task *t, qdot_expr e, qdot_expr u, qdot_expr x, int depth)
+{
+    enum { MOST = 4 };
+    qdot_pool *pool = t->pool;
+    qdot_expr w, from[2 * MOST], to[2 * MOST], v = qdot_expr_arg(pool, u, 0), slope = qdot_diff(pool, v, x), f, F;
+
+    if (slope == QDOT_NIL || slope == QDOT_ZERO || qdot_expr_contains(pool, slope, x))
+        return QDOT_NIL;
+    w = qdot_integral_variable(t, true);
+    for (long k = 1; k <= MOST; k++)
+        for (int i = 0; i < 2; i++) {
+            long n = i == 0 ? k : -k;
+
+            from[2 * (k - 1) + i] = qdot_fun1(pool, QDOT_EXP, qdot_mul(pool, qdot_expr_int(pool, n), v));
+            to[2 * (k - 1) + i] = qdot_pow_int(pool, w, n);
+        }
+    f = qdot_div(pool, qdot_subs(pool, e, 2 * MOST, from, to), qdot_mul(pool, slope, w));
+    if (f == QDOT_NIL || qdot_expr_contains(pool, f, x))
+        return QDOT_NIL;
+    F = qdot_integral_any(t, f, w, depth + 1);
+    return F == QDOT_NIL ? F : qdot_subs(pool, F, 1, &w, &u);
+}
+
 qdot_expr
 qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, int depth)
 {
@@ -54,6 +187,11 @@ qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, 
     qdot_walk_end(&w);
     for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed; i++)
         F = substitute_part(t, term, tried[i], x, depth);
+    for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed && depth <= 1; i++)
+        F = qdot_expr_is_function(t->pool, tried[i], QDOT_EXP) ? substitute_exponential(t, term, tried[i], x, depth)
+                                                               : substitute_inverse(t, term, tried[i], x, depth);
+    for (long k = 4; k >= 2 && F == QDOT_NIL && !t->failed && depth <= 1 && qdot_expr_contains(t->pool, term, x); k--)
+        F = substitute_power(t, term, x, k, depth);
     return F;
 }
 
@@ -81,27 +219,13 @@ qdot_exponential_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_ex
 
 /* --- roots of (a x + b)/(c x + d) ---------------------------------------------------- */
 
-/* Read q = (a x + b)/(c x + d). */
-static bool
-read_linear_fraction(qdot_integral_task *t, qdot_expr q, qdot_expr x, qdot_poly *over, qdot_poly *under)
-{
-    qdot_reading r;
-
-    if (!qdot_reading_make(t, q, x, &r) || r.n > 0 || r.factors > 1 || (r.factors == 1 && r.factor[0].power > 1))
-        return false;
-    *over = qdot_poly_read(t, qdot_mul(t->pool, r.rest, r.numerator), x);
-    *under = qdot_poly_read(t, qdot_reading_denominator(t, &r), x);
-    return over->degree <= 1 && under->degree <= 1 && over->degree >= 0 && under->degree >= 0 &&
-           over->degree + under->degree > 0;
-}
-
 qdot_expr
 qdot_linear_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x, int depth)
 {
     qdot_pool *pool = t->pool;
     int at = -1;
     qdot_poly over, under;
-    qdot_expr w, wq, X, e, F, b, from[QDOT_READING_GENERATORS + 1], to[QDOT_READING_GENERATORS + 1];
+    qdot_expr w, wq, X, e, F, from[QDOT_READING_GENERATORS + 1], to[QDOT_READING_GENERATORS + 1];
 
     for (int i = 0; i < r->n; i++) {
         if (r->generator[i].kind != QDOT_GEN_ROOT)
@@ -114,11 +238,7 @@ qdot_linear_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_ex
         return QDOT_NIL;
     w = qdot_integral_variable(t, true);
     wq = qdot_pow_int(pool, w, r->generator[at].order);
-    /* w^q = (a x + b)/(c x + d): x = (b - d w^q)/(c w^q - a) */
-#define AT(p, i) ((p).degree >= (i) ? (p).c[i] : QDOT_ZERO)
-    b = qdot_sub(pool, AT(over, 0), qdot_mul(pool, AT(under, 0), wq));
-    X = qdot_div(pool, b, qdot_sub(pool, qdot_mul(pool, AT(under, 1), wq), AT(over, 1)));
-#undef AT
+    X = solve_linear_fraction(pool, &over, &under, wq);
     for (int i = 0; i < r->n; i++) {
         from[i] = r->generator[i].symbol;
         to[i] = i == at ? w : qdot_subs(pool, r->generator[i].expr, 1, &x, &X);
