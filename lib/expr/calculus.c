@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/exact.h"
+#include "expr/integral.h"
 #include "expr/pool.h"
 #include "expr/walk.h"
 
@@ -178,6 +179,35 @@ derive_function(derivation *d, qdot_expr e)
         qdot_free(args);
 }
 
+/* Leibniz: the derivative of an integral of f from a to b is f(b) b' - f(a) a' plus the integral of f'. A function F
+ * of x with dF/dx = f, known by that alone, gives f x' plus what has the derivative f' - df/dx x'. */
+static void
+derive_integral(derivation *d, qdot_expr e)
+{
+    qdot_pool *pool = d->pool;
+    const qdot_expr f = ARGS(pool, e)[0], x = ARGS(pool, e)[1];
+    qdot_expr inner = known_derivative(d, f);
+
+    if (!qdot_integral_is_definite(pool, e)) {
+        const qdot_expr dx = known_derivative(d, x);
+
+        if (dx != QDOT_ZERO)
+            inner = qdot_expand(pool, qdot_sub(pool, inner, qdot_mul(pool, qdot_diff(pool, f, x), dx)));
+        add_term_of_derivative(d, qdot_mul(pool, f, dx));
+        add_term_of_derivative(d, qdot_integral_unfound(pool, inner, x));
+        return;
+    }
+    for (int end = 1; end <= 2; end++) {
+        const qdot_expr at = ARGS(pool, e)[end], slope = known_derivative(d, at);
+
+        if (slope != QDOT_ZERO)
+            add_term_of_derivative(d, qdot_product(pool, 3, (qdot_expr[]){end == 1 ? QDOT_MINUS_ONE : QDOT_ONE, slope,
+                                                                           qdot_integral_at(pool, f, at)}));
+    }
+    if (inner != QDOT_ZERO)
+        add_term_of_derivative(d, qdot_rebuild(pool, e, (qdot_expr[]){inner, ARGS(pool, e)[1], ARGS(pool, e)[2]}));
+}
+
 /* Vectors, lists, equations: entry by entry. Inequalities and logic occur only inside
  * conditions, where they are not derived; alone they have no derivative. */
 static qdot_expr
@@ -233,6 +263,10 @@ apply_derivation(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
             break;
         case QDOT_UFUN:
             derive_undefined_function(&d, node);
+            result = qdot_sum(pool, d.terms.n, d.terms.at);
+            break;
+        case QDOT_INTEGRAL:
+            derive_integral(&d, node);
             result = qdot_sum(pool, d.terms.n, d.terms.at);
             break;
         case QDOT_FUN:

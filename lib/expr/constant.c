@@ -8,8 +8,11 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/elliptic-ball.h"
 #include "expr/exact.h"
 #include "expr/function-ball.h"
+#include "expr/integral.h"
+#include "expr/integral-value.h"
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/rational.h"
@@ -221,6 +224,12 @@ ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const 
         return true;
     }
     switch ((int)f) {
+    case QDOT_ELLIPTIC_K:
+    case QDOT_ELLIPTIC_E:
+    case QDOT_ELLIPTIC_F:
+    case QDOT_ELLIPTIC_PI:
+        qdot_elliptic_ball(y, f, n, x, bits);
+        return true;
     case QDOT_ATAN2:
         arb_atan2(y, x[0], x[1], bits);
         return true;
@@ -249,6 +258,7 @@ typedef struct {
     qdot_walk walk;
     arb_struct *ball;          /* [walk.n] the value of each subexpression as a ball (an interval) */
     const arb_struct **args;   /* scratch: the balls of one node's arguments */
+    slong wanted;              /* of an integral: bits beyond half the bits of the other operations */
     size_t args_capacity;
 } evaluation;
 
@@ -269,13 +279,41 @@ report_unset_symbols(const evaluation *v)
         qdot_expr e = v->walk.at[i];
         qdot_kind kind = qdot_expr_kind(v->pool, e);
 
-        if (kind == QDOT_UFUN || (kind == QDOT_SYM && !qdot_expr_is_constant(v->pool, e)))
+        if (kind == QDOT_UFUN || (kind == QDOT_SYM && !qdot_expr_is_constant(v->pool, e) && e != QDOT_INFINITY &&
+                                  !qdot_expr_is_class(v->pool, e, QDOT_BOUND)))
             status = qdot_vec_push(&unset, e);
     }
     if (status == QDOT_OK)
         status = qdot_constant_unset_all(v->pool, unset.n, unset.at);
     qdot_free(unset.at);
     return status;
+}
+
+/* Fail with the reason why the expression `e`, whose computed interval is not finite, has no value. */
+static qdot_status
+report_no_value(const qdot_pool *pool, qdot_expr e, const char *why)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(pool, e, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.120s%s %s", qdot_text_str(&text),
+                           text.n > 120 ? "..." : "", why);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* The value of a definite integral, whose integrand must hold nothing without a value. */
+static qdot_status
+integrate(const evaluation *v, arb_t y, qdot_expr e, slong bits)
+{
+    bool proved;
+
+    if ((qdot_expr_node(v->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
+        return report_unset_symbols(v);
+    QDOT_TRY(qdot_integral_value(y, v->pool, qdot_expr_arg(v->pool, e, 0), v->args[1], v->args[2],
+                                 bits / 2 + v->wanted, &proved));
+    return arb_is_finite(y) ? QDOT_OK : report_no_value(v->pool, e, "diverges, or its number was not found");
 }
 
 static qdot_status
@@ -288,6 +326,10 @@ evaluate_node(evaluation *v, size_t i, slong bits)
     arb_struct *y = v->ball + i;
     arb_t x;
 
+    if (node->holds & QDOT_HAS_BOUND) { /* within an integrand, which is evaluated as a whole */
+        arb_indeterminate(y);
+        return QDOT_OK;
+    }
     QDOT_TRY(qdot_grow(&v->args, &v->args_capacity, n, sizeof *v->args));
     for (uint32_t k = 0; k < n && node->kind != QDOT_NUM && node->kind != QDOT_SYM; k++)
         v->args[k] = ball_of_node(v, qdot_expr_arg(pool, e, k));
@@ -300,6 +342,8 @@ evaluate_node(evaluation *v, size_t i, slong bits)
             arb_const_pi(y, bits);
         else if (e == QDOT_TRUE || e == QDOT_FALSE)
             arb_set_si(y, e == QDOT_TRUE);
+        else if (e == QDOT_INFINITY)
+            arb_pos_inf(y);
         else
             return report_unset_symbols(v);
         return QDOT_OK;
@@ -333,6 +377,10 @@ evaluate_node(evaluation *v, size_t i, slong bits)
     case QDOT_LOGIC:
         ball_logic(y, (qdot_logic_op)node->op, n, v->args);
         return QDOT_OK;
+    case QDOT_INTEGRAL:
+        if (!qdot_integral_is_definite(pool, e))
+            return qdot_fail(QDOT_EDOMAIN, "an integral without ends has no value at a place");
+        return integrate(v, y, e, bits);
     case QDOT_UFUN:
         return report_unset_symbols(v);
     case QDOT_VEC:
@@ -378,20 +426,6 @@ rounds_to_one_double(const arb_t ball, double *value)
     arf_clear(hi);
     *value = a + 0.0; /* turns -0 into 0 */
     return a == b;
-}
-
-/* Fail with the reason why the expression `e`, whose computed interval is not finite, has no value. */
-static qdot_status
-report_no_value(const qdot_pool *pool, qdot_expr e, const char *why)
-{
-    qdot_text text = {0};
-    qdot_status status = qdot_print(pool, e, QDOT_PLAIN, &text);
-
-    if (status == QDOT_OK)
-        status = qdot_fail(QDOT_EDOMAIN, "%.120s%s %s", qdot_text_str(&text),
-                           text.n > 120 ? "..." : "", why);
-    qdot_text_clear(&text);
-    return status;
 }
 
 /* The midpoint of the ball (an interval) minus `value`. */
@@ -518,6 +552,8 @@ evaluate_to_mpfr(evaluation *v, qdot_expr e, mpfr_ptr x)
 {
     const slong bits = (slong)mpfr_get_prec(x);
     const arb_struct *y = ball_of_node(v, e);
+
+    v->wanted = bits / 2;
 
     for (slong b = bits + 64; b <= 64 * bits + FIRST_BITS; b *= 2) {
         for (size_t i = 0; i < v->walk.n; i++) {

@@ -2,6 +2,7 @@
  * with new children. */
 #include "expr/build.h"
 #include "expr/exact.h"
+#include "expr/integral.h"
 #include "expr/pool.h"
 
 #include <string.h>
@@ -171,6 +172,7 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     case QDOT_FUN: result = qdot_fun(pool, node.op, node.n, own); break;
     case QDOT_REL: result = qdot_rel(pool, node.op, own[0], own[1]); break;
     case QDOT_LOGIC: result = qdot_logic(pool, node.op, node.n, own); break;
+    case QDOT_INTEGRAL: result = qdot_integral_rebuild(pool, e, own); break;
     case QDOT_VEC: result = qdot_vector(pool, node.n, own); break;
     case QDOT_MAT: result = qdot_matrix(pool, node.n / node.op, node.op, own); break;
     case QDOT_UFUN:

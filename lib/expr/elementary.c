@@ -2,7 +2,9 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/elliptic.h"
 #include "expr/exact.h"
+#include "expr/integral.h"
 #include "expr/pool.h"
 #include "expr/walk.h"
 
@@ -525,6 +527,8 @@ qdot_hold(qdot_pool *pool, qdot_expr e)
 qdot_expr
 qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
+    qdot_expr e;
+
     if (FAILED(pool))
         return QDOT_NIL;
     if (id == QDOT_HOLD)
@@ -538,6 +542,8 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
             return QDOT_NIL;
         if (id != QDOT_IF && !qdot_pool_is_scalar(pool, args[i]))
             return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes numbers", qdot_fun_facts_of(id)->name);
+        if ((NODE(pool, args[i])->holds & QDOT_HAS_INFINITY) != 0 && qdot_infinity_refuse(pool, args[i]) != QDOT_OK)
+            return qdot_pool_fail(pool);
     }
     switch (id) {
     case QDOT_SIN:
@@ -560,6 +566,12 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_LOG: return simplify_logarithm(pool, args[0]);
     case QDOT_ERF:
     case QDOT_ERFC: return simplify_error_function(pool, id, args[0]);
+    case QDOT_ELLIPTIC_K:
+    case QDOT_ELLIPTIC_E:
+    case QDOT_ELLIPTIC_F:
+    case QDOT_ELLIPTIC_PI:
+        e = qdot_elliptic_simplify(pool, id, n, args);
+        return e != QDOT_NIL || FAILED(pool) ? e : make_function_node(pool, id, n, args);
     case QDOT_ABS: return simplify_absolute_value(pool, args[0]);
     case QDOT_SIGN: return simplify_sign(pool, args[0]);
     case QDOT_MIN:
@@ -636,6 +648,10 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
     case QDOT_LOG: return qdot_div(pool, QDOT_ONE, x);
     case QDOT_ERF: return scaled_gaussian(pool, 2, x);
     case QDOT_ERFC: return scaled_gaussian(pool, -2, x);
+    case QDOT_ELLIPTIC_K:
+    case QDOT_ELLIPTIC_E:
+    case QDOT_ELLIPTIC_F:
+    case QDOT_ELLIPTIC_PI: return qdot_elliptic_derivative(pool, id, n, args, i);
     case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
     case QDOT_FLOOR: return QDOT_ZERO;

@@ -36,6 +36,8 @@ typedef enum {
     QDOT_FUN,     /* op: a qdot_fun_id; args: its arguments */
     QDOT_UFUN,    /* op: an undefined function; args: a1 ... an, then n orders (NUMs) of partial
                      derivatives: D1^o1 ... Dn^on x (a1, ..., an) */
+    QDOT_INTEGRAL, /* args: f, a, b, an integral over a variable that f holds as a QDOT_BOUND symbol; or f, x, a
+                     function of x with the derivative f that was not found (expr/integral.h) */
     QDOT_REL,     /* op: a qdot_rel_op; args: left, right */
     QDOT_LOGIC,   /* op: a qdot_logic_op; args: operands */
     QDOT_VEC,     /* args: components, 2 or more */
@@ -52,6 +54,7 @@ typedef enum {
 #define QDOT_TRUE 6u
 #define QDOT_FALSE 7u
 #define QDOT_T 8u /* the symbol t of the time */
+#define QDOT_INFINITY 9u /* legal only as an end of an integral and as the place of a limit, there also with a minus */
 
 typedef enum { QDOT_EQ, QDOT_LT, QDOT_LE } qdot_rel_op; /* a > b is stored as b < a */
 typedef enum { QDOT_AND, QDOT_OR, QDOT_NOT } qdot_logic_op;

@@ -35,7 +35,7 @@ qdot_kind qdot_expr_kind(const qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);
 uint32_t qdot_expr_count(const qdot_pool *pool, qdot_expr e);
 
-bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* true for NUM ... UFUN, but not for a text */
+bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* true for NUM ... INTEGRAL, but not for a text */
 /* Compare factors in the canonical order, which is total and the same on every machine; returns <0, 0, >0. */
 int qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 

@@ -19,7 +19,7 @@ rank_of_factor(uint32_t holds)
     } rows[] = {
         {QDOT_HAS_DELTA, 9},        {QDOT_HAS_DIFFERENTIAL, 8}, {QDOT_HAS_MULTIPLIER, 7},
         {QDOT_HAS_ACCELERATION, 6}, {QDOT_HAS_VELOCITY, 5},     {QDOT_HAS_MOMENTUM, 4},
-        {QDOT_HAS_COORD, 3},        {QDOT_HAS_UFUN, 3},         {QDOT_HAS_TIME, 2},
+        {QDOT_HAS_COORD | QDOT_HAS_BOUND, 3}, {QDOT_HAS_UFUN, 3},         {QDOT_HAS_TIME, 2},
         {QDOT_HAS_FORMAL, 1},       {QDOT_HAS_PARAM, 1},
     };
     const uint32_t above_coordinates = QDOT_HAS_DELTA | QDOT_HAS_DIFFERENTIAL |
@@ -41,6 +41,8 @@ level_of_factor(const qdot_node *node)
 {
     int l = rank_of_factor(node->holds);
 
+    if (node->kind == QDOT_INTEGRAL && l < 3)
+        return 3;
     return node->kind == QDOT_FUN && l > 0 && l < 3 ? 3 : l;
 }
 
@@ -49,7 +51,7 @@ level_of_factor(const qdot_node *node)
 static int
 rank_of_kind(const qdot_node *node)
 {
-    static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12};
+    static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12, 13};
 
     if (node->kind == QDOT_SUM && rank_of_factor(node->holds) == 1 && node->size <= node->n / 2)
         return 2; /* a sum of k terms with about k operations: its terms are hardly more than symbols */

@@ -208,11 +208,13 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
         if (node.height <= child->height)
             node.height = child->height + 1;
     }
-    if (kind == QDOT_FUN)
+    if (kind == QDOT_FUN || kind == QDOT_INTEGRAL)
         node.holds |= QDOT_HAS_FUN;
+    if (kind == QDOT_INTEGRAL)
+        node.holds &= ~(uint32_t)QDOT_HAS_INFINITY;
     if (kind == QDOT_UFUN)
         node.holds |= QDOT_HAS_UFUN;
-    if (kind > QDOT_UFUN)
+    if (kind > QDOT_INTEGRAL)
         node.touches |= QDOT_TOUCHES_VALUE;
     node.hash = hash;
     node.at = (uint32_t)pool->args.n;
@@ -549,7 +551,10 @@ qdot_pool_new(void)
                QDOT_PI &&
            qdot_symbol_get(pool, QDOT_CONST, "true") == QDOT_TRUE &&
            qdot_symbol_get(pool, QDOT_CONST, "false") == QDOT_FALSE &&
-           qdot_symbol_get(pool, QDOT_TIME, "t") == QDOT_T;
+           qdot_symbol_get(pool, QDOT_TIME, "t") == QDOT_T &&
+           find_or_make_symbol(pool, &(qdot_symbol){.class = QDOT_INFINITE,
+                                                    .name = "infinity",
+                                                    .sign = QDOT_POS}) == QDOT_INFINITY;
     if (!good) {
         qdot_pool_free(pool);
         return NULL;
@@ -567,6 +572,7 @@ qdot_pool_free(qdot_pool *pool)
     qdot_free(pool->args.at);
     qdot_free(pool->symbols.at);
     qdot_free(pool->ufuns.at);
+    qdot_free(pool->variables.at);
     qdot_free(pool->table);
     qdot_arena_free(pool->arena);
     qdot_printed_free(pool->printed);

@@ -12,12 +12,19 @@
 
 typedef struct qdot_memo qdot_memo;
 
+/* What the variable of a definite integral is called in print. */
+typedef struct {
+    qdot_expr integral;
+    const char *name;
+} qdot_variable;
+
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* nodes.at[0] is nil */
     qdot_vec(qdot_expr) args;
     qdot_vec(fmpq *) numbers; /* numbers in the arena, at fixed addresses; read only: FLINT must not free them */
     qdot_vec(qdot_symbol) symbols;
     qdot_vec(qdot_ufun) ufuns;
+    qdot_vec(qdot_variable) variables; /* the names of the variables of integrals, ascending by node */
     uint32_t *table; /* open hash table of node ids, mask + 1 slots */
     uint32_t mask;
     qdot_arena *arena; /* memory for names and limbs of large numbers */
@@ -116,7 +123,7 @@ bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 static inline bool
 qdot_pool_is_scalar(const qdot_pool *pool, qdot_expr e)
 {
-    return e != QDOT_NIL && NODE(pool, e)->kind <= QDOT_UFUN && e != QDOT_TRUE &&
+    return e != QDOT_NIL && NODE(pool, e)->kind <= QDOT_INTEGRAL && e != QDOT_TRUE &&
            e != QDOT_FALSE && !(NODE(pool, e)->holds & QDOT_HAS_WORDS);
 }
 

@@ -1,6 +1,7 @@
 /* print-function.c -- prints elementary and undefined functions, and their derivatives. */
 #include <string.h>
 
+#include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/print-parts.h"
 
@@ -38,7 +39,10 @@ qdot_print_function(printer *p, qdot_expr e, int context)
         return;
     }
     print_begin(p, QDOT_FORMULA_APPLY, 0, 0);
-    qdot_formula_add_text(p->out, p->at, QDOT_TEXT_FUNCTION, name, strlen(name));
+    if (is_drawn(p) && qdot_is_elliptic(id)) /* by its letter: K, E, F, Pi */
+        qdot_print_spelled(p, strchr(name, '_') + 1);
+    else
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_FUNCTION, name, strlen(name));
     print_begin_bracket(p, true);
     children(p, e, 0, NODE(p->pool, e)->n);
     p->at = outer;

@@ -17,6 +17,14 @@ struct part {
     int context;
     bool turned; /* print -1 times the sum e; for a product, with one difference negated */
     qdot_formula_id at; /* the empty node of the formula (a SPAN) that this part will fill */
+    uint32_t binder; /* of the innermost integral around e, an index in printer.binders; 0: there is none */
+};
+
+/* An integral in whose integrand something is printed, with the name of its variable. */
+struct binder {
+    uint32_t outer; /* the integral around it */
+    qdot_expr integral;
+    char own[8]; /* the name, if that with which the integral was made means something else here; else "" */
 };
 
 typedef struct {
@@ -29,6 +37,8 @@ typedef struct {
     qdot_formula *out;
     qdot_formula_id at;     /* the formula node to which children are appended */
     qdot_vec(struct part) todo; /* stack of parts still to be printed */
+    uint32_t binder;            /* of the part that is being printed */
+    qdot_vec(struct binder) binders; /* binders.at[0] is none */
     qdot_status status;
 } printer;
 
@@ -139,5 +149,8 @@ void qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool f
 /* Print the application of an elementary or undefined function. (print-function.c) */
 void qdot_print_function(printer *p, qdot_expr e, int context);
 void qdot_print_ufun(printer *p, qdot_expr e, int context);
+/* Print an integral, and the variable of an integral. (print-integral.c) */
+void qdot_print_integral(printer *p, qdot_expr e, int context);
+void qdot_print_bound(printer *p, qdot_expr e);
 
 #endif

@@ -163,7 +163,11 @@ qdot_print_symbol_parts(printer *p, qdot_expr e)
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base)->name : s->name;
 
-    if (s->class == QDOT_WORDS)
+    if (s->class == QDOT_BOUND)
+        qdot_print_bound(p, e);
+    else if (s->class == QDOT_INFINITE && is_drawn(p))
+        print_sign(p, QDOT_SIGN_INFINITY);
+    else if (s->class == QDOT_WORDS)
         qdot_formula_add_text(p->out, p->at, QDOT_TEXT_WORDS, s->name, strlen(s->name));
     else if (mark != NULL)
         print_number_symbol(p, s->name, (size_t)(mark - s->name));

@@ -369,6 +369,7 @@ print_node(printer *p, const struct part *x)
     const qdot_node *node = NODE(pool, x->e);
 
     p->at = x->at;
+    p->binder = x->binder;
     if (x->coefficient != QDOT_NIL) {
         qdot_print_scaled(p, x->coefficient, x->e, x->context, x->turned);
         return;
@@ -382,6 +383,7 @@ print_node(printer *p, const struct part *x)
         break;
     case QDOT_FUN: qdot_print_function(p, x->e, x->context); break;
     case QDOT_UFUN: qdot_print_ufun(p, x->e, x->context); break;
+    case QDOT_INTEGRAL: qdot_print_integral(p, x->e, x->context); break;
     case QDOT_REL: print_relation(p, x->e, x->context); break;
     case QDOT_LOGIC: print_logic(p, x->e, x->context); break;
     case QDOT_VEC: print_vector(p, x->e, x->context); break;
@@ -412,6 +414,7 @@ print_part(printer *p, struct part x)
 {
     uint8_t kind = NODE(p->pool, x.e)->kind;
     const bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL && p->below == QDOT_NIL &&
+                       !(NODE(p->pool, x.e)->holds & QDOT_HAS_BOUND) &&
                        (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN || kind == QDOT_SYM);
     const qdot_formula_id of = again ? qdot_printed_find(p->pool->printed, x.e, get_printing_context(p, &x)) : 0;
 
@@ -436,6 +439,7 @@ qdot_print_part(printer *p, struct part x)
         return;
     }
     x.at = qdot_formula_add(p->out, p->at, QDOT_FORMULA_SPAN, 0, 0);
+    x.binder = p->binder;
     if (x.coefficient == QDOT_NIL && kind == QDOT_SYM) {
         const qdot_formula_id at = p->at;
 
@@ -510,6 +514,8 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
     qdot_printed_begin(pool->printed, out);
     QDOT_TRY(qdot_print_wants_fractions(pool, e, &p.fractions));
     find_common_denominator(&p, e);
+    if (qdot_vec_push(&p.binders, ((struct binder){0})) != QDOT_OK)
+        return QDOT_ENOMEM;
     child(&p, e, TOP);
     while (p.status == QDOT_OK && p.todo.n > 0) {
         print_part(&p, p.todo.at[--p.todo.n]);
@@ -517,6 +523,7 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
             p.status = out->failed ? QDOT_ENOMEM : qdot_interrupt_check();
     }
     qdot_free(p.todo.at);
+    qdot_free(p.binders.at);
     if (p.status == QDOT_OK) /* a number or a name takes no step of the loop, where the formula is checked, too */
         p.status = qdot_formula_status(out);
     if (p.status != QDOT_OK)

@@ -493,6 +493,7 @@ needs_only_merging(const qdot_pool *pool, const struct pair *x)
         return false;
     switch (base->kind) {
     case QDOT_SYM:
+    case QDOT_INTEGRAL:
     case QDOT_UFUN: return true;
     case QDOT_FUN: return base->op != QDOT_EXP && base->op != QDOT_ABS;
     case QDOT_SUM: return !qdot_expr_is_negative(pool, x->base);

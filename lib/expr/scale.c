@@ -125,7 +125,7 @@ qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_node *node = NODE(pool, e);
 
-    return node->kind == QDOT_SYM || node->kind == QDOT_UFUN ||
+    return node->kind == QDOT_SYM || node->kind == QDOT_UFUN || node->kind == QDOT_INTEGRAL ||
            (node->kind == QDOT_SUM && !qdot_expr_is_negative(pool, e)) ||
            (node->kind == QDOT_FUN && node->op != QDOT_EXP && node->op != QDOT_ABS);
 }

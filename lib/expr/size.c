@@ -107,7 +107,7 @@ size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
             size = add_saturating(size, child_size(pool, w, args[i]));
         for (uint32_t i = n; i < node->n; i++) /* the orders of derivatives of a UFUN */
             size = add_saturating(size, args[i] != QDOT_ZERO);
-        return add_saturating(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
+        return add_saturating(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC || node->kind == QDOT_INTEGRAL);
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include "expr/id.h"
 
-/* Classes of symbols, in the order in which factors are printed. */
+/* Classes of symbols, in the order in which factors are printed; 10 to 13 are taken by bits of `holds`. */
 typedef enum {
     QDOT_CONST,        /* pi, true, false */
     QDOT_PARAM,        /* a parameter */
@@ -18,7 +18,9 @@ typedef enum {
     QDOT_MULTIPLIER,   /* Lagrange multiplier of a constraint: lambda[rod], lambda[pin, 1] */
     QDOT_DIFFERENTIAL, /* dq, dt: a differential in a constraint or one-form */
     QDOT_DELTA,        /* delta[q], a virtual displacement */
-    QDOT_WORDS /* a text, as latex(e) gives it; printed as it stands, has no value as a number */
+    QDOT_WORDS, /* a text, as latex(e) gives it; printed as it stands, has no value as a number */
+    QDOT_BOUND = 14, /* the variable of an integral within its integrand (integral.h) */
+    QDOT_INFINITE    /* infinity */
 } qdot_class;
 
 /* The kinds of symbols in an expression, as a set of bits in qdot_node.holds (node.h). */
@@ -35,7 +37,9 @@ enum {
     QDOT_HAS_VELOCITY = 1 << 10,     /* a first time derivative q' of a coordinate */
     QDOT_HAS_ACCELERATION = 1 << 11, /* a time derivative q'', q''' ... of a coordinate */
     QDOT_HAS_UFUN = 1 << 12,
-    QDOT_HAS_FUN = 1 << 13
+    QDOT_HAS_FUN = 1 << 13,          /* an elementary function or an integral */
+    QDOT_HAS_BOUND = 1 << QDOT_BOUND,       /* the variable of an integral, outside of that integral */
+    QDOT_HAS_INFINITY = 1 << QDOT_INFINITE  /* infinity, not as the end of an integral */
 };
 
 typedef struct {

@@ -470,7 +470,7 @@ qdot_expr_atoms(qdot_pool *pool, qdot_expr e, bool ufuns)
     for (size_t i = 0; i < w.n; i++) {
         const qdot_node *node = NODE(pool, w.at[i]);
 
-        if ((node->kind == QDOT_SYM && pool->symbols.at[node->at].class != QDOT_CONST) ||
+        if ((node->kind == QDOT_SYM && (node->holds & ~(uint32_t)(QDOT_HAS_BOUND | QDOT_HAS_INFINITY)) != 0) ||
             (ufuns && node->kind == QDOT_UFUN))
             if (qdot_vec_push(&found, w.at[i]) != QDOT_OK)
                 qdot_pool_fail(pool);

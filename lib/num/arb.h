@@ -6,6 +6,9 @@
 
 #if __FLINT_RELEASE >= 30000
 #include <flint/acb.h>
+#include <flint/acb_calc.h>
+#include <flint/acb_elliptic.h>
+#include <flint/acb_hypgeom.h>
 #include <flint/acb_poly.h>
 #include <flint/arb.h>
 #include <flint/arb_fmpz_poly.h>
@@ -14,6 +17,9 @@
 #include <flint/arb_poly.h>
 #else
 #include <acb.h>
+#include <acb_calc.h>
+#include <acb_elliptic.h>
+#include <acb_hypgeom.h>
 #include <acb_poly.h>
 #include <arb.h>
 #include <arb_fmpz_poly.h>

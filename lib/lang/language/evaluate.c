@@ -3,6 +3,7 @@
 
 #include "base/interrupt.h"
 #include "expr/build.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
@@ -20,6 +21,16 @@
 #include "lang/session/runs.h"
 #include "lang/source/letters.h"
 #include "lang/source/lex.h"
+
+/* Take the top n values as operands; infinity is none. */
+static qdot_status
+take_operands(qdot_machine *m, size_t n)
+{
+    QDOT_TRY(qdot_machine_take(m, n));
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(qdot_infinity_refuse(m->pool, m->args.at[i]));
+    return QDOT_OK;
+}
 
 /* --- sums and products -------------------------------------------------------------- */
 
@@ -47,7 +58,7 @@ add_top_values(qdot_machine *m, size_t n)
     const qdot_slot *s = qdot_machine_top(m, n);
     qdot_expr value;
 
-    QDOT_TRY(qdot_machine_take(m, n)); /* the removed entries above the stack remain readable */
+    QDOT_TRY(take_operands(m, n)); /* the removed entries above the stack remain readable */
     value = m->args.at[0];
     if (qdot_machine_all_scalars(m))
         return qdot_machine_push(m, qdot_sum(m->pool, n, m->args.at));
@@ -67,7 +78,7 @@ multiply_top_values(qdot_machine *m, size_t n)
     qdot_expr value;
     bool at_once;
 
-    QDOT_TRY(qdot_machine_take(m, n));
+    QDOT_TRY(take_operands(m, n));
     value = m->args.at[0];
     at_once = n > LONG && qdot_machine_all_scalars(m);
     for (size_t i = 1; i < n; i++) {
@@ -421,7 +432,7 @@ execute_instruction(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
         QDOT_TRY(qdot_machine_take(m, 1));
         return qdot_machine_push(m, qdot_value_neg(m->pool, m->args.at[0]));
     case QDOT_POSTFIX_POWER:
-        QDOT_TRY(qdot_machine_take(m, 2));
+        QDOT_TRY(take_operands(m, 2));
         QDOT_TRY(
             qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
         return qdot_machine_pass_power(m, m->args.at[0], m->args.at[1], qdot_machine_top(m, 1)->value);
@@ -486,6 +497,9 @@ evaluate_codes(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first,
         .c = c, .session = c->session, .pool = c->session->pool, .program = program};
     qdot_status status = execute_program(&m, first, end);
 
+    if (status == QDOT_OK && m.stack.at[0].value != QDOT_NIL && qdot_expr_is_scalar(m.pool, m.stack.at[0].value) &&
+        qdot_infinite(m.pool, m.stack.at[0].value) == 0)
+        status = qdot_infinity_refuse(m.pool, m.stack.at[0].value);
     if (status == QDOT_OK) {
         if (over != NULL)
             *over = m.stack.at[0].over;

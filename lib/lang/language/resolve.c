@@ -156,7 +156,7 @@ resolve_reserved(const char *name, unsigned primes, bool *found, qdot_expr *valu
         const char *name;
         qdot_expr value;
     } fixed[] = {
-        {"pi", QDOT_PI}, {"t", QDOT_T}, {"true", QDOT_TRUE}, {"false", QDOT_FALSE}};
+        {"pi", QDOT_PI}, {"t", QDOT_T}, {"true", QDOT_TRUE}, {"false", QDOT_FALSE}, {"infinity", QDOT_INFINITY}};
 
     *found = true;
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)

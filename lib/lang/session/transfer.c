@@ -5,6 +5,7 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -90,6 +91,7 @@ copy_node(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *ar
         return made;
     case QDOT_FUN: return qdot_fun(to, (qdot_fun_id)node->op, node->n, args);
     case QDOT_UFUN: return copy_undefined_function(from, to, e, args);
+    case QDOT_INTEGRAL: return qdot_integral_copy(from, e, to, args);
     case QDOT_REL: return qdot_rel(to, (qdot_rel_op)node->op, args[0], args[1]);
     case QDOT_LOGIC: return qdot_logic(to, (qdot_logic_op)node->op, node->n, args);
     case QDOT_VEC: return qdot_vector(to, node->n, args);

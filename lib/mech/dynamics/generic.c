@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "expr/build.h"
+#include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"

@@ -190,6 +190,7 @@ add_generators_of_node(qdot_field *f, struct found *g, qdot_expr e)
                                      qdot_expr_arg(pool, e, i + 1)));
         return QDOT_OK;
     case QDOT_FUN: return add_generators_of_function(f, g, e);
+    case QDOT_INTEGRAL:
     case QDOT_UFUN: return add_generator(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
     default: return qdot_fail(QDOT_ETYPE, "a number is needed here");
     }

@@ -501,10 +501,11 @@ prepare_node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins
     case QDOT_PROD: return prepare_product(pool, e, origins, work);
     case QDOT_UFUN: now = expand_arguments(pool, e, qdot_expr_count(pool, e) / 2, work); break;
     case QDOT_REL: return expand_arguments(pool, e, 2, work);
+    case QDOT_INTEGRAL: now = e; break;
     default: return e;
     }
     if (now != QDOT_NIL &&
-        (qdot_expr_kind(pool, now) == QDOT_FUN || qdot_expr_kind(pool, now) == QDOT_UFUN))
+        (qdot_expr_kind(pool, now) == QDOT_FUN || qdot_expr_kind(pool, now) == QDOT_INTEGRAL || qdot_expr_kind(pool, now) == QDOT_UFUN))
         record_origin(pool, origins, now, before);
     return now;
 }

@@ -140,6 +140,7 @@ qdot_simple_is_done(const qdot_pool *pool, qdot_expr e)
     switch (qdot_expr_kind(pool, e)) {
     case QDOT_NUM:
     case QDOT_SYM: return true;
+    case QDOT_INTEGRAL: return false;
     case QDOT_FUN:
     case QDOT_UFUN: return is_plain_function(pool, e);
     case QDOT_PROD: return is_simple_product(pool, e);

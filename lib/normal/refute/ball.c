@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "expr/elliptic-ball.h"
 #include "expr/exact.h"
 #include "expr/function-ball.h"
 #include "expr/node.h"
@@ -84,6 +85,12 @@ evaluate_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
         if (arb_contains_zero(v) && (arb_contains_zero(u) || (!arb_is_zero(v) && !arb_is_positive(u))))
             return false; /* give up: atan2 is undefined at the origin, and jumps from pi to -pi on the negative axis */
         arb_atan2(y, v, u, prec);
+    } else if (qdot_is_elliptic(op)) {
+        const arb_struct *x[3] = {NULL, NULL, NULL};
+
+        for (uint32_t i = 0; i < n; i++)
+            x[i] = b->value + ball_argument_index(b, e, i);
+        qdot_elliptic_ball(y, op, n, x, prec);
     } else if (op == QDOT_MOD) {
         evaluate_mod(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1), prec);
     } else if (op == QDOT_MIN || op == QDOT_MAX) {

@@ -1,0 +1,400 @@
+/* complex-ball.c -- evaluates an integrand in balls of complex numbers, in one pass over its nodes. */
+#include "expr/complex-ball.h"
+
+#include "base/memory.h"
+#include "expr/elementary.h"
+#include "expr/elliptic-ball.h"
+#include "expr/exact.h"
+#include "expr/function-ball.h"
+#include "expr/integral.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+
+/* What is evaluated now: at complex arguments or where `analytic` is asked for, cuts and kinks count. */
+typedef struct {
+    qdot_complex_ball *b;
+    acb_srcptr z;
+    bool analytic;
+    slong bits;
+} evaluation;
+
+static acb_ptr
+value_of(const evaluation *v, qdot_expr e, uint32_t i)
+{
+    return v->b->value + qdot_walk_index(&v->b->walk, qdot_expr_arg(v->b->pool, e, i));
+}
+
+/* Whether z may lie on the real line at or below `most`. */
+static bool
+may_be_below(const acb_t z, long most)
+{
+    arb_t end;
+    bool may;
+
+    arb_init(end);
+    arb_set_si(end, most);
+    may = arb_contains_zero(acb_imagref(z)) && !arb_gt(acb_realref(z), end);
+    arb_clear(end);
+    return may;
+}
+
+/* Whether the part x of z may be beyond -1 and 1 while the other part is 0. */
+static bool
+may_be_outside_unit(const arb_t x, const arb_t other)
+{
+    arb_t one, size;
+    bool may;
+
+    arb_init(one);
+    arb_init(size);
+    arb_one(one);
+    arb_abs(size, x);
+    may = arb_contains_zero(other) && !arb_lt(size, one);
+    arb_clear(one);
+    arb_clear(size);
+    return may;
+}
+
+/* --- powers ---------------------------------------------------------------------------------------- */
+
+/* y = x^p for a real x that may touch 0 from above, p no integer. */
+static void
+real_root(arb_t y, const arb_t x, const fmpq *p, slong bits)
+{
+    arf_t hi;
+    arb_t upper;
+
+    if (arb_is_positive(x)) {
+        arb_pow_fmpq(y, x, p, bits);
+        return;
+    }
+    if (arb_is_negative(x) || fmpq_sgn(p) < 0 || !arb_is_finite(x)) {
+        arb_indeterminate(y);
+        return;
+    }
+    arf_init(hi);
+    arb_init(upper);
+    arb_get_ubound_arf(hi, x, bits);
+    arb_set_arf(upper, hi);
+    if (arf_sgn(hi) > 0)
+        arb_pow_fmpq(upper, upper, p, bits); /* the values from 0 to there */
+    arb_zero(y);
+    arb_union(y, y, upper, bits);
+    arf_clear(hi);
+    arb_clear(upper);
+}
+
+static void
+rational_power(const evaluation *v, acb_t y, const acb_t x, const fmpq *p)
+{
+    arb_t q;
+
+    if (fmpz_is_one(fmpq_denref(p))) {
+        acb_pow_fmpz(y, x, fmpq_numref(p), v->bits);
+        return;
+    }
+    if (acb_is_real(x) && !v->analytic) {
+        real_root(acb_realref(y), acb_realref(x), p, v->bits);
+        arb_zero(acb_imagref(y));
+        return;
+    }
+    if (may_be_below(x, 0)) {
+        acb_indeterminate(y);
+        return;
+    }
+    if (fmpz_equal_si(fmpq_denref(p), 2)) { /* more accurate than by the logarithm */
+        acb_sqrt(y, x, v->bits);
+        acb_pow_fmpz(y, y, fmpq_numref(p), v->bits);
+        return;
+    }
+    arb_init(q);
+    arb_set_fmpq(q, p, v->bits);
+    acb_pow_arb(y, x, q, v->bits);
+    arb_clear(q);
+}
+
+static void
+general_power(const evaluation *v, acb_t y, const acb_t x, const acb_t p)
+{
+    if (may_be_below(x, 0))
+        acb_indeterminate(y);
+    else
+        acb_pow(y, x, p, v->bits);
+}
+
+static void
+complex_of_sum(const evaluation *v, acb_t y, qdot_expr e)
+{
+    acb_set(y, value_of(v, e, 0));
+    for (uint32_t i = 1; i < qdot_expr_count(v->b->pool, e); i += 2)
+        acb_addmul(y, value_of(v, e, i), value_of(v, e, i + 1), v->bits);
+}
+
+static void
+complex_of_product(const evaluation *v, acb_t y, qdot_expr e)
+{
+    acb_t factor;
+
+    acb_init(factor);
+    acb_set(y, value_of(v, e, 0));
+    for (uint32_t i = 1; i < qdot_expr_count(v->b->pool, e); i += 2) {
+        const fmpq *p = qdot_expr_rational(v->b->pool, qdot_expr_arg(v->b->pool, e, i + 1));
+
+        if (p != NULL)
+            rational_power(v, factor, value_of(v, e, i), p);
+        else
+            general_power(v, factor, value_of(v, e, i), value_of(v, e, i + 1));
+        acb_mul(y, y, factor, v->bits);
+    }
+    acb_clear(factor);
+}
+
+/* --- functions ---------------------------------------------------------------------------------------- */
+
+/* A function of one complex argument that is analytic but for poles, where Arb's result is not finite. */
+static bool
+evaluate_meromorphic(const evaluation *v, acb_t y, qdot_fun_id f, const acb_t x)
+{
+    switch (f) {
+    case QDOT_SIN: acb_sin(y, x, v->bits); break;
+    case QDOT_COS: acb_cos(y, x, v->bits); break;
+    case QDOT_TAN: acb_tan(y, x, v->bits); break;
+    case QDOT_COT: acb_cot(y, x, v->bits); break;
+    case QDOT_SEC: acb_cos(y, x, v->bits), acb_inv(y, y, v->bits); break;
+    case QDOT_CSC: acb_sin(y, x, v->bits), acb_inv(y, y, v->bits); break;
+    case QDOT_SINH: acb_sinh(y, x, v->bits); break;
+    case QDOT_COSH: acb_cosh(y, x, v->bits); break;
+    case QDOT_TANH: acb_tanh(y, x, v->bits); break;
+    case QDOT_EXP: acb_exp(y, x, v->bits); break;
+    case QDOT_ERF: acb_hypgeom_erf(y, x, v->bits); break;
+    case QDOT_ERFC: acb_hypgeom_erfc(y, x, v->bits); break;
+    default: return false;
+    }
+    return true;
+}
+
+/* A function with branch cuts; indeterminate where x may lie on one. */
+static bool
+evaluate_cut(const evaluation *v, acb_t y, qdot_fun_id f, const acb_t x)
+{
+    const bool beyond = may_be_outside_unit(acb_realref(x), acb_imagref(x)),
+               above = may_be_outside_unit(acb_imagref(x), acb_realref(x));
+    bool on_cut = false;
+
+    switch (f) {
+    case QDOT_LOG: on_cut = may_be_below(x, 0); break;
+    case QDOT_ACOSH: on_cut = may_be_below(x, 1); break;
+    case QDOT_ASIN:
+    case QDOT_ACOS:
+    case QDOT_ATANH: on_cut = beyond; break;
+    case QDOT_ATAN:
+    case QDOT_ASINH: on_cut = above; break;
+    default: return false;
+    }
+    if (on_cut)
+        acb_indeterminate(y);
+    else if (f == QDOT_LOG)
+        acb_log(y, x, v->bits);
+    else if (f == QDOT_ACOSH)
+        acb_acosh(y, x, v->bits);
+    else if (f == QDOT_ASIN || f == QDOT_ACOS)
+        (f == QDOT_ASIN ? acb_asin : acb_acos)(y, x, v->bits);
+    else if (f == QDOT_ATANH || f == QDOT_ATAN)
+        (f == QDOT_ATAN ? acb_atan : acb_atanh)(y, x, v->bits);
+    else
+        acb_asinh(y, x, v->bits);
+    return true;
+}
+
+/* A function with kinks or steps, continued from the real line where it has none. */
+static bool
+evaluate_kinked(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
+{
+    acb_srcptr x = value_of(v, e, 0);
+    const uint32_t n = qdot_expr_count(v->b->pool, e);
+
+    switch (f) {
+    case QDOT_ABS: acb_real_abs(y, x, v->analytic, v->bits); break;
+    case QDOT_SIGN: acb_real_sgn(y, x, v->analytic, v->bits); break;
+    case QDOT_FLOOR: acb_real_floor(y, x, v->analytic, v->bits); break;
+    case QDOT_MIN:
+    case QDOT_MAX:
+        acb_set(y, x);
+        for (uint32_t i = 1; i < n; i++)
+            (f == QDOT_MIN ? acb_real_min : acb_real_max)(y, y, value_of(v, e, i), v->analytic, v->bits);
+        break;
+    case QDOT_MOD:
+        acb_div(y, x, value_of(v, e, 1), v->bits);
+        acb_real_floor(y, y, v->analytic, v->bits);
+        acb_mul(y, y, value_of(v, e, 1), v->bits);
+        acb_sub(y, x, y, v->bits);
+        break;
+    case QDOT_IF:
+        if (!acb_is_finite(x))
+            acb_indeterminate(y);
+        else
+            acb_set(y, value_of(v, e, acb_is_zero(x) ? 2 : 1));
+        if (!acb_is_finite(x) && !v->analytic) /* either value */
+            acb_union(y, value_of(v, e, 1), value_of(v, e, 2), v->bits);
+        break;
+    default: return false;
+    }
+    return true;
+}
+
+static bool
+are_real(const evaluation *v, qdot_expr e)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(v->b->pool, e); i++)
+        if (!acb_is_real(value_of(v, e, i)))
+            return false;
+    return true;
+}
+
+/* Real functions of several arguments; indeterminate where the arguments are not real. */
+static void
+evaluate_real(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
+{
+    const uint32_t n = qdot_expr_count(v->b->pool, e);
+    const arb_struct *x[3] = {NULL, NULL, NULL};
+
+    acb_indeterminate(y);
+    if (v->analytic || !are_real(v, e) || n > 3)
+        return;
+    for (uint32_t i = 0; i < n; i++)
+        x[i] = acb_realref(value_of(v, e, i));
+    if (qdot_is_elliptic(f))
+        qdot_elliptic_ball(acb_realref(y), f, n, x, v->bits);
+    else if (f == QDOT_ATAN2)
+        arb_atan2(acb_realref(y), x[0], x[1], v->bits);
+    else
+        return;
+    arb_zero(acb_imagref(y));
+}
+
+static void
+complex_of_function(const evaluation *v, acb_t y, qdot_expr e)
+{
+    const qdot_fun_id f = (qdot_fun_id)qdot_expr_node(v->b->pool, e)->op;
+    acb_srcptr x = value_of(v, e, 0);
+
+    if (evaluate_kinked(v, y, f, e))
+        return;
+    if (qdot_fun_ball_of(f) != NULL && acb_is_real(x) && !v->analytic) {
+        qdot_fun_ball_of(f)(acb_realref(y), acb_realref(x), v->bits);
+        arb_zero(acb_imagref(y));
+    } else if (!evaluate_meromorphic(v, y, f, x) && !evaluate_cut(v, y, f, x)) {
+        evaluate_real(v, y, f, e);
+    }
+}
+
+/* --- conditions ------------------------------------------------------------------------------------------ */
+
+/* 1, 0 or indeterminate: in a disc beside the real line it is what the real parts say on all of it. */
+static void
+complex_of_relation(const evaluation *v, acb_t y, qdot_expr e)
+{
+    const unsigned op = qdot_expr_node(v->b->pool, e)->op;
+    arb_t d;
+
+    arb_init(d);
+    arb_sub(d, acb_realref(value_of(v, e, 0)), acb_realref(value_of(v, e, 1)), v->bits);
+    acb_indeterminate(y);
+    if (arb_is_positive(d))
+        acb_zero(y);
+    else if (arb_is_negative(d))
+        acb_set_si(y, op != QDOT_EQ);
+    else if (arb_is_zero(d) && !v->analytic)
+        acb_set_si(y, op != QDOT_LT);
+    arb_clear(d);
+}
+
+static void
+complex_of_logic(const evaluation *v, acb_t y, qdot_expr e)
+{
+    const unsigned op = qdot_expr_node(v->b->pool, e)->op;
+    bool all = true;
+
+    if (op == QDOT_NOT) {
+        acb_sub_si(y, value_of(v, e, 0), 1, v->bits);
+        acb_neg(y, y);
+        return;
+    }
+    acb_set_si(y, op == QDOT_AND);
+    for (uint32_t i = 0; i < qdot_expr_count(v->b->pool, e); i++) {
+        acb_srcptr x = value_of(v, e, i);
+
+        all = all && acb_is_finite(x);
+        if (acb_is_finite(x) && acb_is_zero(x) == (op == QDOT_AND)) {
+            acb_set_si(y, op != QDOT_AND);
+            return;
+        }
+    }
+    if (!all)
+        acb_indeterminate(y);
+}
+
+/* --- evaluation of all nodes -------------------------------------------------------------------------------- */
+
+static void
+evaluate_symbol(const evaluation *v, acb_t y, qdot_expr e)
+{
+    if (qdot_bound_number(v->b->pool, e) == 1) {
+        acb_set(y, v->z);
+    } else if (e == QDOT_PI) {
+        acb_const_pi(y, v->bits);
+    } else if (e == QDOT_TRUE || e == QDOT_FALSE) {
+        acb_set_si(y, e == QDOT_TRUE);
+    } else {
+        acb_indeterminate(y);
+    }
+}
+
+void
+qdot_complex_ball_eval(qdot_complex_ball *b, acb_t y, const acb_t z, bool analytic, slong bits)
+{
+    const evaluation v = {b, z, analytic || !acb_is_real(z), bits};
+
+    for (size_t i = 0; i < b->walk.n; i++) {
+        const qdot_expr e = b->walk.at[i];
+        acb_ptr x = b->value + i;
+
+        switch (qdot_expr_kind(b->pool, e)) {
+        case QDOT_NUM: acb_set_fmpq(x, qdot_expr_rational(b->pool, e), bits); break;
+        case QDOT_SYM: evaluate_symbol(&v, x, e); break;
+        case QDOT_SUM: complex_of_sum(&v, x, e); break;
+        case QDOT_PROD: complex_of_product(&v, x, e); break;
+        case QDOT_FUN: complex_of_function(&v, x, e); break;
+        case QDOT_REL: complex_of_relation(&v, x, e); break;
+        case QDOT_LOGIC: complex_of_logic(&v, x, e); break;
+        default: acb_indeterminate(x);
+        }
+    }
+    acb_set(y, b->value + qdot_walk_index(&b->walk, b->f));
+}
+
+qdot_status
+qdot_complex_ball_begin(qdot_complex_ball *b, const qdot_pool *pool, qdot_expr f)
+{
+    *b = (qdot_complex_ball){.pool = pool, .f = f};
+    if (qdot_integral_occurs(pool, f))
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: the number of an integral within an integral");
+    QDOT_TRY(qdot_walk_begin(pool, f, &b->walk));
+    b->value = qdot_malloc((b->walk.n + 1) * sizeof *b->value);
+    if (b->value == NULL) {
+        qdot_walk_end(&b->walk);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < b->walk.n; i++)
+        acb_init(b->value + i);
+    return QDOT_OK;
+}
+
+void
+qdot_complex_ball_end(qdot_complex_ball *b)
+{
+    for (size_t i = 0; i < b->walk.n; i++)
+        acb_clear(b->value + i);
+    qdot_free(b->value);
+    qdot_walk_end(&b->walk);
+}
