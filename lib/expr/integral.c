@@ -55,7 +55,7 @@ qdot_infinity_refuse(const qdot_pool *pool, qdot_expr e)
     if (e == QDOT_NIL || !(NODE(pool, e)->holds & QDOT_HAS_INFINITY))
         return QDOT_OK;
     (void)qdot_fail(QDOT_EDOMAIN, "infinity is no number");
-    return qdot_hint("it may be an end of an integral, integral(E, x, 0, infinity), or the place of a limit");
+    return qdot_hint("it may be an end of an integral or the place of a limit: limit(1/x, x = infinity)");
 }
 
 bool

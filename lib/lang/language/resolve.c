@@ -349,6 +349,14 @@ replace_multipliers_if_asked(const qdot_cursor *c, const qdot_token *token, qdot
     return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, *value, scalar_on_motion, s->scene), value);
 }
 
+/* Whether a token is the word `left` or `right` as the last argument of a call, limit(E, x = a, left). */
+static bool
+is_side_of_limit(const qdot_token *token)
+{
+    return (strcmp(token->text, "left") == 0 || strcmp(token->text, "right") == 0) && qdot_token_is(token - 1, ",") &&
+           qdot_token_is(token + 1, ")");
+}
+
 qdot_status
 qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
                   qdot_expr *value, qdot_expr *over)
@@ -402,6 +410,10 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         if (qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT)
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name);
         return qdot_hints_bare_function(c, token);
+    }
+    if (is_side_of_limit(token)) {
+        *value = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
+        return qdot_value_kind_check(s->pool, *value);
     }
     return qdot_hints_unknown(c, token, NULL);
 }
