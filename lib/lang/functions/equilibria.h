@@ -4,7 +4,7 @@
 
 #include "lang/session/parts.h"
 #include "mech/study/equilibrium.h"
-#include "mech/study/modes.h"
+#include "mech/linear/modes.h"
 
 /* As qdot_equilibrium_find, with the parameter values given by `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,

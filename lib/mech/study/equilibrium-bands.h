@@ -11,7 +11,7 @@
 #define QDOT_MECH_EQUILIBRIUM_BANDS_H
 
 #include "mech/scene/things.h"
-#include "mech/study/rest.h"
+#include "mech/linear/rest.h"
 #include "normal/field/facts.h"
 
 /* An interval lo <= u <= hi of a coordinate; a nil end means that there is no end. */

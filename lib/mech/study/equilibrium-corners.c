@@ -18,7 +18,7 @@
 #include "expr/symbol.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"

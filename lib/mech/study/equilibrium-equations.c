@@ -11,7 +11,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 

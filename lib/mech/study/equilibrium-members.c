@@ -7,7 +7,7 @@
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-bands.h"
 #include "mech/study/equilibrium-search.h"
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "normal/simplify/positive.h"
 #include "normal/solve/condition-forms.h"
 #include "normal/solve/solve.h"

@@ -7,7 +7,7 @@
 #include "expr/list.h"
 #include "expr/walk.h"
 #include "mech/scene/things.h"
-#include "mech/study/rest.h"
+#include "mech/linear/rest.h"
 #include "normal/solve/assumptions.h"
 #include "normal/solve/simultaneous.h"
 

@@ -10,7 +10,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "mech/study/stability.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"

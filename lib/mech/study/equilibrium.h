@@ -15,7 +15,7 @@
  *
  *     M y'' + Gamma y' + H y = 0
  *
- * (mech/study/linear-motion.h). Every statement is proved:
+ * (mech/linear/linear-motion.h). Every statement is proved:
  *
  *     stable     an energy that never grows (mech/study/lyapunov.h) has a strict minimum there: M
  *     and
@@ -38,7 +38,7 @@
 #define QDOT_MECH_EQUILIBRIUM_H
 
 #include "mech/scene/things.h"
-#include "mech/study/rest.h"
+#include "mech/linear/rest.h"
 
 /* *out cleared by the caller. QDOT_EUNSET names a parameter if nothing is found without numbers, QDOT_EFAILED
  * if nothing can be said. */

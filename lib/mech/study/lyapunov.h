@@ -7,7 +7,7 @@
  *
  * constraints between coordinates alone do no work. E is conserved (KEPT) if dE/dt is 0, and
  * dissipated (USED) if dE/dt is proved never positive. E has a minimum if M is positive definite
- * (velocities) and so is the Hessian of E at rest (coordinates), H of mech/study/linear-motion.h.
+ * (velocities) and so is the Hessian of E at rest (coordinates), H of mech/linear/linear-motion.h.
  *
  * Source  Merkin, Introduction to the Theory of Stability, 3 (Lagrange, Dirichlet) and 6 (Kelvin, Chetaev).
  */

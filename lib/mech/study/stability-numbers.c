@@ -15,7 +15,7 @@
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "mech/study/stability.h"
 
 /* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest

@@ -3,7 +3,7 @@
 #ifndef QDOT_MECH_STABILITY_PARTS_H
 #define QDOT_MECH_STABILITY_PARTS_H
 
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "mech/study/stability.h"
 
 typedef struct {

@@ -4,7 +4,7 @@
 
 #include "expr/function.h"
 #include "mech/study/lyapunov.h"
-#include "mech/study/rest.h"
+#include "mech/linear/rest.h"
 
 typedef struct qdot_stability_numbers qdot_stability_numbers;
 

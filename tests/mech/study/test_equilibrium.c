@@ -7,7 +7,7 @@
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/equilibrium.h"
-#include "mech/study/modes.h"
+#include "mech/linear/modes.h"
 #include "normal/solve/isolate.h"
 
 static void

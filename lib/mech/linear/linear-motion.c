@@ -1,5 +1,5 @@
 /* linear-motion.c -- the equations of motion near an equilibrium, to first order. */
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"

@@ -1,6 +1,6 @@
 /* modes.c -- normal modes about an equilibrium: exact where the characteristic polynomial
  * factors, else numbers. */
-#include "mech/study/modes.h"
+#include "mech/linear/modes.h"
 
 #include <math.h>
 
@@ -18,7 +18,7 @@
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
-#include "mech/study/linear-motion.h"
+#include "mech/linear/linear-motion.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"

@@ -9,7 +9,7 @@
 #define QDOT_MECH_LINEAR_MOTION_H
 
 #include "mech/scene/things.h"
-#include "mech/study/rest.h"
+#include "mech/linear/rest.h"
 #include "normal/field/facts.h"
 
 typedef struct {

@@ -3,7 +3,7 @@
 #define QDOT_MECH_MODES_H
 
 #include "mech/scene/things.h"
-#include "mech/study/rest.h"
+#include "mech/linear/rest.h"
 
 /* (H - w^2 M) a = 0 about `equations`: frequencies w [n]
  * ascending (unordered: the order of some pairs is not proved; they are ordered as at one set of
