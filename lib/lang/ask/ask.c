@@ -141,7 +141,42 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
     return QDOT_OK;
 }
 
-/* Whether a list contains results of runs and also members that are no such numbers, as sqrt(2). */
+/* Answer a matrix that contains results of runs, row by row, each number with the digits that its error leaves. */
+static qdot_status
+answer_matrix_of_results(qdot_session *session, const char *name, qdot_expr M)
+{
+    const uint32_t columns = qdot_expr_node(session->pool, M)->op, n = qdot_expr_count(session->pool, M);
+    const bool json = session->output->json;
+    qdot_text values = {0}, errors = {0};
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        const bool begins = i % columns == 0;
+        double x, error;
+
+        status = qdot_session_number(session, qdot_expr_arg(session->pool, M, i), &x, &error);
+        if (status != QDOT_OK)
+            break;
+        if (json) {
+            qdot_text_add(&values, begins ? i == 0 ? "[[" : "],[" : ",");
+            qdot_text_add(&errors, begins ? i == 0 ? "[[" : "],[" : ",");
+            qdot_number_text_json(&values, x);
+            qdot_number_text_json(&errors, error);
+        } else {
+            qdot_text_add(&values, begins ? i == 0 ? "[" : "; " : ", ");
+            qdot_number_text(&values, x, error);
+        }
+    }
+    qdot_text_add(&values, json ? "]]" : "]");
+    qdot_text_add(&errors, json ? "]]" : "");
+    if (status == QDOT_OK)
+        status = qdot_answer_numerals(session, name, true, &values, &errors);
+    qdot_text_clear(&values);
+    qdot_text_clear(&errors);
+    return status;
+}
+
+/* Whether a list contains results of runs and also members that are no such numbers, as sqrt(2), or lists. */
 static bool
 mixes_results_and_expressions(qdot_session *session, qdot_expr value)
 {
@@ -152,6 +187,9 @@ mixes_results_and_expressions(qdot_session *session, qdot_expr value)
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, value) && !mixed; i++) {
         qdot_expr one = qdot_expr_arg(session->pool, value, i);
 
+        mixed = qdot_expr_kind(session->pool, one) == QDOT_LIST;
+        if (mixed)
+            break;
         mixed = !qdot_measured_occurs(session, one) &&
                 qdot_expr_kind(session->pool, one) != QDOT_NUM &&
                 (qdot_expr_is_constant(session->pool, one) ||
@@ -260,6 +298,8 @@ qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_e
         return answer_points(session, name, value);
     if (qdot_measured_occurs(session, value) && mixes_results_and_expressions(session, value))
         return answer_members_separately(session, name, value);
+    if (qdot_measured_occurs(session, value) && qdot_expr_kind(session->pool, value) == QDOT_MAT)
+        return answer_matrix_of_results(session, name, value);
     if (qdot_measured_occurs(session, value))
         return answer_run_results(session, name, value);
     if (qdot_components_are(session, name, value, over))

@@ -13,6 +13,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/values.h"
+#include "mech/scene/things.h"
 
 static qdot_status set_values(qdot_record *r);
 
@@ -204,6 +205,24 @@ qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr *value
     return check_constant(&r->cursor, part->from, value);
 }
 
+/* Read the value of a parameter; that of an input may hold the time, coordinates and velocities. */
+static qdot_status
+set_read_value(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_expr *value)
+{
+    qdot_session *session = r->cursor.session;
+
+    for (size_t i = 0; i < session->scene->inputs.n; i++)
+        if (session->scene->inputs.at[i] == symbol) {
+            QDOT_TRY(qdot_record_scalar(r, part, value));
+            QDOT_TRY(qdot_set_keep_measured(session, value));
+            if (!(qdot_expr_node(session->pool, *value)->holds & QDOT_HAS_ACCELERATION))
+                return QDOT_OK;
+            qdot_record_blame(r, part);
+            return qdot_fail(QDOT_ETYPE, "an input depends on t, coordinates and velocities, not on accelerations");
+        }
+    return qdot_set_find_constant(r, part, value);
+}
+
 /* Read NAME = VALUE, F(u, v) = EXPR, ... into the list. */
 static qdot_status
 set_read(qdot_record *r, qdot_pairs *list)
@@ -216,7 +235,7 @@ set_read(qdot_record *r, qdot_pairs *list)
             continue;
         if (qdot_filled_is(part, "NAME")) {
             QDOT_TRY(qdot_set_find_parameter(r, part, &symbol));
-            QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+            QDOT_TRY(set_read_value(r, qdot_record_next(r, part, "VALUE"), symbol, &value));
         } else {
             QDOT_TRY(set_read_function(r, part, &symbol, &value));
         }

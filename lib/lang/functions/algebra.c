@@ -1,4 +1,4 @@
-/* algebra.c -- functions that differentiate, take the sides of equations, substitute and factor; eigenvalues. */
+/* algebra.c -- functions that differentiate, take the sides of equations, substitute and factor. */
 #include "lang/functions/algebra.h"
 
 #include "base/memory.h"
@@ -286,72 +286,11 @@ qdot_call_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
     return status;
 }
 
-/* --- factorisation, eigenvalues ---------------------------------------------- */
+/* --- factorisation ---------------------------------------------- */
 
 qdot_status
 qdot_call_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
-}
-
-/* Find all roots x of det(M - x 1), the eigenvalues of M, repeated by multiplicity. */
-static qdot_status
-find_roots_of_determinant(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *value)
-{
-    qdot_pool *pool = s->pool;
-    qdot_facts facts = qdot_scene_facts(s->scene);
-    qdot_expr *values = qdot_malloc((n + 1) * sizeof *values);
-    qdot_solutions roots = {0};
-    uint32_t found = 0;
-    qdot_status status = QDOT_ENOMEM;
-
-    if (values != NULL)
-        status = qdot_solve(pool, det, x, &facts, &roots);
-    for (size_t i = 0; i < roots.root.n && status == QDOT_OK; i++)
-        for (qdot_expr p = det; found < n; p = qdot_diff(pool, p, x)) {
-            if (p == QDOT_NIL ||
-                !qdot_is_zero(pool, qdot_subs(pool, p, 1, &x, &roots.root.at[i].value), &facts))
-                break;
-            values[found++] = roots.root.at[i].value;
-        }
-    if (status == QDOT_OK && !roots.complete)
-        status = qdot_fail(QDOT_EFAILED, "the characteristic polynomial cannot be solved "
-                                         "exactly");
-    else if (status == QDOT_OK && found < n)
-        status = qdot_fail(QDOT_EDOMAIN, "only %u of %u eigenvalues are real", found, n);
-    if (status == QDOT_OK)
-        status = qdot_value_kind_give(s->pool, qdot_list(pool, n, values), value);
-    qdot_solutions_clear(&roots);
-    qdot_free(values);
-    return status;
-}
-
-qdot_status
-qdot_call_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args,
-                         qdot_expr *value)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr x = qdot_symbol_get(pool, QDOT_FORMAL, "eigenvalue"), *entries, det;
-    uint32_t size;
-
-    (void)n;
-    if (qdot_expr_kind(pool, args[0]) != QDOT_MAT)
-        return qdot_fail(QDOT_ETYPE, "eigenvalues takes a matrix, not %s",
-                         qdot_value_kind_words(pool, args[0]));
-    size = qdot_expr_node(pool, args[0])->op;
-    if (size * size != qdot_expr_count(pool, args[0]))
-        return qdot_fail(QDOT_ETYPE, "eigenvalues takes a square matrix");
-    entries = qdot_malloc((size_t)size * size * sizeof *entries);
-    if (entries == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < size * size; i++) {
-        entries[i] = qdot_expr_arg(pool, args[0], i);
-        if (i % (size + 1) == 0)
-            entries[i] = qdot_sub(pool, entries[i], x);
-    }
-    det = qdot_det(pool, qdot_matrix(pool, size, size, entries));
-    qdot_free(entries);
-    QDOT_TRY(qdot_value_kind_check(pool, det));
-    return find_roots_of_determinant(s, det, x, size, value);
 }

@@ -13,6 +13,7 @@
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/scene/saved.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/solve.h"
 
@@ -31,12 +32,34 @@ require_coordinates(const qdot_session *session)
     return qdot_hint("declare them: coord theta");
 }
 
+/* While equilibria are looked for inputs are 0: put 0 in their place, and back. */
+static qdot_status
+inputs_rest(qdot_scene *scene, qdot_scene_saved *saved)
+{
+    qdot_status status = QDOT_OK;
+
+    *saved = (qdot_scene_saved){0};
+    if (scene->inputs.n > 0)
+        status = qdot_scene_save(scene, saved);
+    for (size_t i = 0; i < scene->inputs.n && status == QDOT_OK; i++)
+        status = qdot_scene_replace(scene, scene->inputs.at[i], QDOT_ZERO);
+    if (status != QDOT_OK)
+        qdot_scene_restore(scene, saved);
+    return status;
+}
+
 qdot_status
 qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
 {
+    qdot_scene_saved saved;
+    qdot_status status;
+
     *out = (qdot_equilibria){0};
     QDOT_TRY(require_coordinates(session));
-    return qdot_equilibrium_find(session->scene, insert_session_values, session, out);
+    QDOT_TRY(inputs_rest(session->scene, &saved));
+    status = qdot_equilibrium_find(session->scene, insert_session_values, session, out);
+    qdot_scene_restore(session->scene, &saved);
+    return status;
 }
 
 qdot_expr
@@ -305,8 +328,9 @@ judge_stability(qdot_session *session, qdot_equilibrium *place)
     return qdot_equilibrium_judge(session->scene, insert_session_values, session, place);
 }
 
-qdot_status
-qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
+/* As qdot_equilibria_modes_at, of a scene whose inputs are 0. */
+static qdot_status
+find_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
 {
     qdot_equilibrium place = {.equations = equations};
     qdot_status status = QDOT_OK;
@@ -329,5 +353,17 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
                                              "choice of the parameters");
     if (status != QDOT_OK)
         qdot_modes_clear(modes);
+    return status;
+}
+
+qdot_status
+qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
+{
+    qdot_scene_saved saved;
+    qdot_status status;
+
+    QDOT_TRY(inputs_rest(session->scene, &saved));
+    status = find_modes_at(session, equations, modes);
+    qdot_scene_restore(session->scene, &saved);
     return status;
 }

@@ -10,6 +10,7 @@
 #include "expr/value-kind.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/equilibria.h"
+#include "lang/functions/linear.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "mech/dynamics/quantity.h"
@@ -387,6 +388,35 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     return status == QDOT_OK ? qdot_value_kind_check(s->pool, *value) : status;
 }
 
+/* --- the linear motion ---------------------------------------------------------------- */
+
+/* linearize[A]: a part of the latest linear motion. */
+static qdot_status
+get_linearize(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    const qdot_symbol *part = qdot_expr_symbol(s->pool, index[0]);
+    const qdot_linear *x;
+
+    (void)n;
+    QDOT_TRY(qdot_linear_latest(s, &x));
+    *value = QDOT_NIL;
+#define PART(word)                                                                       \
+    if (part != NULL && strcmp(part->name, #word) == 0)                                  \
+        *value = x->word;
+    PART(A)
+    PART(B)
+    PART(C)
+    PART(D)
+    PART(states)
+    PART(inputs)
+    PART(outputs)
+#undef PART
+    if (*value != QDOT_NIL)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "the latest linear motion has no such part");
+    return qdot_hint("linearize[A]; B, D belong to `input`, C, D to `output`");
+}
+
 /* --- reactions of constraints ------------------------------------------------------- */
 
 static qdot_status
@@ -506,6 +536,8 @@ static const qdot_quantity rows[] = {
      "angular frequencies of the normal modes about the first equilibrium that is not "
      "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1",
      "modes", false, NULL},
+    {"linearize", 1, 1, get_linearize, "linearize[A]",
+     "a part of the latest linear motion x' = A x + B u, y = C x + D u: a matrix, or the list [states], [inputs], [outputs]", "linearize[A]", false, NULL},
 };
 
 const qdot_quantity *

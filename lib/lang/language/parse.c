@@ -341,7 +341,7 @@ parse_name(parser *p)
         (qdot_token_is(next + 1, "-") || qdot_token_is(next + 2, "(")))
         return parse_superscript_call(p, t);
     if (qdot_token_is(next, "[") && next->glued && n == 0) {
-        bool multiplier = strcmp(t->text, "lambda") == 0;
+        const bool multiplier = strcmp(t->text, "lambda") == 0, linear = strcmp(t->text, "linearize") == 0;
 
         if (qdot_hints_is_foreign(p->c->session, t->text)) {
             (void)qdot_hints_unknown(p->c, t, NULL);
@@ -349,8 +349,8 @@ parse_name(parser *p)
         }
         p->c->at++;
         QDOT_TRY(push_on_stack(p, IN_INDEX_NAME, t));
-        return multiplier && p->c->at->kind == QDOT_TOKEN_NAME
-                   ? parse_label(p, "the label of a constraint")
+        return (multiplier || linear) && p->c->at->kind == QDOT_TOKEN_NAME
+                   ? parse_label(p, multiplier ? "the label of a constraint" : "A, B, C, D, states, inputs or outputs")
                    : QDOT_OK;
     }
     p->operand = false;

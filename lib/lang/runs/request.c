@@ -153,6 +153,12 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
             QDOT_TRY(qdot_session_in_domain(session, symbol, value));
         QDOT_TRY(qdot_pairs_push(&o->values, NULL, symbol, value));
     }
+    for (size_t i = 0; i < session->scene->inputs.n; i++) { /* an input without a value is 0 */
+        const qdot_expr symbol = session->scene->inputs.at[i];
+
+        if (qdot_session_bind(session, symbol) == symbol)
+            QDOT_TRY(qdot_pairs_push(&o->values, NULL, symbol, QDOT_ZERO));
+    }
     QDOT_TRY(keep_event_parameters(session, o));
     QDOT_TRY(qdot_value_check_assumed(session));
     QDOT_TRY(arrange_start_values(session, o));

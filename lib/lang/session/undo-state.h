@@ -6,6 +6,7 @@
 #define QDOT_LANG_UNDO_STATE_H
 
 #include "expr/print-name.h"
+#include "lang/session/history.h"
 #include "lang/session/names.h"
 #include "lang/session/parts.h"
 #include "mech/scene/scene.h"
@@ -29,6 +30,7 @@ enum { /* numbered after the parts of the scene */
 /* The parts of the session's state that are not arrays. */
 typedef struct {
     qdot_expr lagrangian, hamiltonian, series, series_in;
+    qdot_linear linear;
     qdot_style style;
     bool flat, timing, start_exactly;
 } qdot_undo_single;

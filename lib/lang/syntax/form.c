@@ -169,6 +169,9 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
     bool declared = qdot_names_find(session->names, name->text) != NULL ||
                     qdot_names_is_family(session->names, name->text);
 
+    /* `linearize[A]` is a value, which it is not without an index */
+    if (!row->alone && qdot_quantity_find(row->word) != NULL && qdot_quantity_find(row->word)->least > 0)
+        return declared || (qdot_token_is(next, "[") && next->glued);
     /* `hamiltonian` without an operand is a value; followed by an operand it is a statement */
     if (!row->alone && qdot_quantity_find(row->word) != NULL)
         return declared || !begins_operand(next);

@@ -252,6 +252,19 @@ print_assumption(const qdot_scene *s, const qdot_assumption *said, qdot_text *ou
     return QDOT_OK;
 }
 
+/* Print `WORD A, B`; nothing for an empty list. */
+static qdot_status
+print_list(const qdot_scene *s, const char *word, size_t n, const qdot_expr *e, qdot_text *out)
+{
+    for (size_t i = 0; i < n; i++) {
+        qdot_text_add(out, i == 0 ? word : ", ");
+        QDOT_TRY(print_expression(s, e[i], out));
+    }
+    if (n > 0)
+        qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_scene_print(const qdot_scene *s, qdot_text *out)
 {
@@ -266,6 +279,7 @@ qdot_scene_print(const qdot_scene *s, qdot_text *out)
 qdot_status
 qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
 {
+    QDOT_TRY(print_list(s, "input ", s->inputs.n, s->inputs.at, out));
     for (size_t i = 0; i < s->assumed.n; i++)
         QDOT_TRY(print_assumption(s, &s->assumed.at[i], out));
     for (size_t i = 0; i < s->particles.n; i++) {
@@ -284,6 +298,7 @@ qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
         QDOT_TRY(print_statement(s, "lagrangian", s->lagrangian, out));
     QDOT_TRY(print_kinds(s, QDOT_FORCE, QDOT_TORQUE, out));
     QDOT_TRY(print_constraints(s, out));
+    QDOT_TRY(print_list(s, "output ", s->outputs.n, s->outputs.at, out));
     for (size_t i = 0; i < s->events.n; i++)
         QDOT_TRY(qdot_event_print(s, &s->events.at[i], out));
     return qdot_text_status(out);

@@ -55,6 +55,7 @@ map_all_expressions(qdot_scene *s, mapping m)
     MAP(assumed, .relation);
     MAP(conditions, );
     MAP(relations, );
+    MAP(outputs, );
     map_expression(&m, &s->lagrangian);
     map_expression(&m, &s->hamiltonian);
 }

@@ -82,6 +82,8 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s->assumed.at);
     qdot_free(s->conditions.at);
     qdot_free(s->relations.at);
+    qdot_free(s->inputs.at);
+    qdot_free(s->outputs.at);
     if (s->kept)
         s->kept_free(s->kept);
     if (s->derived)
@@ -470,6 +472,29 @@ qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L)
     }
     s->hamiltonian = H;
     s->lagrangian = L;
+    return mark_changed(s);
+}
+
+/* --- inputs, outputs -------------------------------------------------------------------- */
+
+qdot_status
+qdot_scene_input(qdot_scene *s, qdot_expr symbol)
+{
+    for (size_t i = 0; i < s->inputs.n; i++)
+        if (s->inputs.at[i] == symbol)
+            return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&s->inputs, symbol));
+    return mark_changed(s);
+}
+
+qdot_status
+qdot_scene_outputs(qdot_scene *s, size_t n, const qdot_expr *e)
+{
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(refuse_forbidden_symbols(s, e[i], "an output", NO_SYMBOLS & ~(uint32_t)QDOT_HAS_MULTIPLIER));
+    s->outputs.n = 0;
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(qdot_vec_push(&s->outputs, e[i]));
     return mark_changed(s);
 }
 

@@ -61,6 +61,9 @@ const qdot_event *qdot_scene_acting_event(const qdot_scene *s);
 /* Add an equation or inequality that proofs may use; turned: a < b was written b > a. QDOT_ETYPE:
  * it is neither; QDOT_EINVAL: it can never hold. */
 QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned);
+/* Declare a parameter to be an input. Set the outputs e [n], in place of earlier ones. */
+QDOT_MUST_CHECK qdot_status qdot_scene_input(qdot_scene *s, qdot_expr symbol);
+QDOT_MUST_CHECK qdot_status qdot_scene_outputs(qdot_scene *s, size_t n, const qdot_expr *e);
 /* Take the thing of that label out again. What was declared to act on a removed particle or body
  * goes with it, named in s->dropped. */
 QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
@@ -77,7 +80,7 @@ void qdot_scene_changed(qdot_scene *s);
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
  * byte. With `lagrangian` and `hamiltonian` they are the state of a scene: a copy of all can be put back, with the
  * `version` that the scene had then. */
-enum { QDOT_SCENE_PARTS = 15 };
+enum { QDOT_SCENE_PARTS = 17 };
 typedef struct {
     void *at;            /* address of the pointer to the array's first item */
     size_t *n, *capacity, size;

@@ -109,6 +109,8 @@ typedef struct qdot_scene {
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
     qdot_vec(qdot_event) events;
+    qdot_vec(qdot_expr) inputs;  /* parameters that drive the scene: 0 at rest, in runs a value or a function of t and q */
+    qdot_vec(qdot_expr) outputs; /* expressions that are observed */
     qdot_vec(qdot_assumption) assumed;
     qdot_vec(qdot_expr) conditions; /* assumptions that are inequalities */
     qdot_vec(qdot_expr) relations;  /* assumptions that are equations left = right, as left - right; also their derivatives */

@@ -1,0 +1,123 @@
+/* state-values.c -- expressions at a state of a scene, in symbols or in numbers. */
+#include "mech/linear/state-values.h"
+
+#include "expr/build.h"
+#include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
+#include "normal/refute/ball.h"
+
+enum {
+    BITS = 192,      /* precision of the balls */
+    MOST_WORK = 40000 /* operations in expressions simplified for one linear motion */
+};
+
+void
+qdot_state_values_begin(qdot_state_values *v, qdot_scene *s, bool numbers, qdot_binder bind, void *user)
+{
+    *v = (qdot_state_values){.s = s, .facts = qdot_scene_facts(s), .bind = bind, .user = user};
+    v->x = (qdot_elimination){.pool = s->pool, .numbers = numbers, .facts = &v->facts, .most = MOST_WORK};
+}
+
+void
+qdot_state_values_end(qdot_state_values *v)
+{
+    qdot_free(v->symbols.at);
+    qdot_free(v->values.at);
+}
+
+qdot_status
+qdot_state_values_put(qdot_state_values *v, qdot_expr symbol, qdot_expr value)
+{
+    for (size_t i = 0; i < v->symbols.n; i++)
+        if (v->symbols.at[i] == symbol)
+            return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&v->symbols, symbol));
+    return qdot_vec_push(&v->values, value);
+}
+
+/* --- in numbers ------------------------------------------------------------------------- */
+
+/* Fail because a symbol in e has no value. */
+static qdot_status
+report_symbol_without_value(qdot_pool *pool, qdot_expr e)
+{
+    const qdot_expr atoms = qdot_expr_atoms(pool, e, true);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+        const qdot_expr x = qdot_expr_arg(pool, atoms, i);
+        const qdot_symbol *symbol = qdot_expr_symbol(pool, x);
+        const char *name = symbol != NULL ? symbol->name : qdot_ufun_get(pool, qdot_expr_node(pool, x)->op)->name;
+
+        if (symbol != NULL && symbol->class == QDOT_CONST)
+            continue;
+        (void)qdot_fail(QDOT_EUNSET, "the linear motion is found in numbers only, which need a value of `%.100s`", name);
+        return symbol != NULL && (symbol->class == QDOT_COORD || symbol->class == QDOT_TIME)
+                   ? qdot_hint("at [%.100s = ..., ...]", name)
+                   : qdot_hint("set %.100s%s = ...", name, symbol != NULL ? "" : "(...)");
+    }
+    return qdot_fail(QDOT_EDOMAIN, "the equations of motion have no linear part there");
+}
+
+/* The middle of a ball as a rational; 0 where it cannot be told from 0. */
+static qdot_expr
+middle_of_ball(qdot_pool *pool, arb_srcptr ball)
+{
+    qdot_expr value;
+    fmpq_t x;
+
+    if (arb_contains_zero(ball))
+        return QDOT_ZERO;
+    fmpq_init(x);
+    arf_get_fmpq(x, arb_midref(ball));
+    value = qdot_expr_fmpq(pool, x);
+    fmpq_clear(x);
+    return value;
+}
+
+static qdot_status
+evaluate_constants(qdot_pool *pool, size_t n, qdot_expr *e)
+{
+    qdot_ball ball;
+    qdot_status status = QDOT_OK;
+    size_t unknown = n;
+
+    QDOT_TRY(qdot_ball_begin(&ball, pool, n, e));
+    qdot_ball_eval(&ball, BITS, NULL, NULL);
+    for (size_t i = 0; i < n && unknown == n; i++) {
+        arb_srcptr value = qdot_ball_get(&ball, e[i]);
+
+        if (qdot_expr_kind(pool, e[i]) == QDOT_NUM)
+            continue;
+        if (value == NULL || !arb_is_finite(value))
+            unknown = i;
+        else
+            e[i] = middle_of_ball(pool, value);
+    }
+    qdot_ball_end(&ball);
+    if (unknown < n)
+        status = report_symbol_without_value(pool, e[unknown]);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* --- values --------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_state_values_of(qdot_state_values *v, size_t n, qdot_expr *e)
+{
+    qdot_pool *pool = v->s->pool;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t i = 0; i < n; i++) {
+        e[i] = qdot_subs(pool, e[i], v->symbols.n, v->symbols.at, v->values.at);
+        if (v->x.numbers && e[i] != QDOT_NIL)
+            e[i] = v->bind(v->user, e[i]);
+        else
+            e[i] = qdot_elimination_short(&v->x, e[i]);
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    return v->x.numbers && n > 0 ? evaluate_constants(pool, n, e) : QDOT_OK;
+}
