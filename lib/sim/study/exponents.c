@@ -112,6 +112,22 @@ check_tangent_lengths(double t, const double *y, bool *stop, void *user)
 
 /* --- integration through the windows --------------------------------------------------------- */
 
+/* Put the tangent vectors back onto the constraints: where they are made orthonormal, one that has shrunk is multiplied,
+ * and its distance from these with it. */
+static qdot_status
+project_tangents(pursuit *p, const qdot_ode_system *system)
+{
+    double moved;
+
+    if (!system->project)
+        return QDOT_OK;
+    memset(p->look, 0, 2 * p->all * sizeof *p->look);
+    QDOT_TRY(system->project(p->t, p->y, p->look, &moved, system->user));
+    for (size_t i = 0; i < 2 * p->all; i++)
+        p->y[i] += p->look[i];
+    return QDOT_OK;
+}
+
 /* Integrate to the time `end`, or until a tangent vector has grown too long. */
 static qdot_status
 integrate_until(pursuit *p, double end)
@@ -120,7 +136,10 @@ integrate_until(pursuit *p, double end)
     const qdot_ode_options options = {
         .tol = p->request->tol, .accepted = check_tangent_lengths, .user = p, .max_steps = no_bound};
     qdot_ode_result result;
-    qdot_status status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t,
+    qdot_status status;
+
+    QDOT_TRY(project_tangents(p, &system));
+    status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t,
                                             end, p->y, &result);
 
     p->t = result.t;
