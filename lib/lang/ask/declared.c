@@ -41,6 +41,8 @@ qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out
     switch (name->kind) {
     case QDOT_NAME_PARAM:
     case QDOT_NAME_COORD:
+        if (qdot_scene_state_of(session->scene, name->value) != NULL)
+            return qdot_scene_print_state(session->scene, name->value, out);
         qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
         QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
         value = value_given_by_set(session, name->value);

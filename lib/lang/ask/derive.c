@@ -401,13 +401,16 @@ write_left_sides(derivation *d)
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
 
-        QDOT_TRY(write_equation_line(d, make_coordinate_symbol(d, "p", q), qdot_mech_momentum(s, q)));
+        if (qdot_scene_state_of(s, q) == NULL)
+            QDOT_TRY(write_equation_line(d, make_coordinate_symbol(d, "p", q), qdot_mech_momentum(s, q)));
     }
     begin_step(d, stated ? "Derivatives of L" : "Derivatives of T", NULL);
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
         qdot_expr slope = qdot_diff(pool, F, qdot_symbol_jet(pool, q, 1));
 
+        if (qdot_scene_state_of(s, q) != NULL)
+            continue;
         slope = simplify_for_page(d, slope);
         if (slope != QDOT_NIL && slope != qdot_mech_momentum(s, q))
             QDOT_TRY(write_derivative_of_function(d, letter, false, true, i, slope));
@@ -572,7 +575,8 @@ write_right_sides(derivation *d)
         for (size_t i = 0; i < s->coordinates.n && !has_no_forces(s); i++) {
             qdot_expr q = s->coordinates.at[i];
 
-            QDOT_TRY(write_equation_line(d, make_coordinate_symbol(d, "Q", q), qdot_mech_force(s, q)));
+            if (qdot_scene_state_of(s, q) == NULL)
+                QDOT_TRY(write_equation_line(d, make_coordinate_symbol(d, "Q", q), qdot_mech_force(s, q)));
         }
     }
     if (s->constraints.n == 0)
@@ -608,7 +612,8 @@ write_equations_of_motion(derivation *d)
     qdot_text_clear(&formula);
     QDOT_TRY(status);
     for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(write_relation(d, qdot_mech_equation(s, s->coordinates.at[i])));
+        if (qdot_scene_state_of(s, s->coordinates.at[i]) == NULL)
+            QDOT_TRY(write_relation(d, qdot_mech_equation(s, s->coordinates.at[i])));
     if (s->constraints.n > 0)
         qdot_sheet_format(&d->sheet,
                          "    with the constraints %zu equations for %zu coordinate%s and "
@@ -616,6 +621,19 @@ write_equations_of_motion(derivation *d)
                          s->coordinates.n + s->constraints.n, s->coordinates.n,
                          s->coordinates.n == 1 ? "" : "s", s->constraints.n,
                          s->constraints.n == 1 ? "" : "s");
+    return QDOT_OK;
+}
+
+/* Write the equations of first order, z' = rate. */
+static qdot_status
+write_states(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+
+    if (s->states.n > 0)
+        begin_step(d, "States", NULL);
+    for (size_t i = 0; i < s->states.n; i++)
+        QDOT_TRY(write_relation(d, qdot_mech_equation(s, s->states.at[i].z)));
     return QDOT_OK;
 }
 
@@ -669,6 +687,8 @@ derive_print(qdot_record *r)
     d.sheet = qdot_sheet_begin(session);
     d.sheet.whole = true;
     status = write_assumptions(&d);
+    if (session->scene->states.n == session->scene->coordinates.n) /* nothing moves */
+        return qdot_sheet_end(&d.sheet, "derive", status == QDOT_OK ? write_states(&d) : status);
     if (status == QDOT_OK && session->scene->hamiltonian != QDOT_NIL) {
         status = write_hamiltons_equations(&d);
         if (status == QDOT_OK && session->scene->lagrangian == QDOT_NIL)
@@ -684,6 +704,8 @@ derive_print(qdot_record *r)
         status = write_right_sides(&d);
     if (status == QDOT_OK)
         status = write_equations_of_motion(&d);
+    if (status == QDOT_OK)
+        status = write_states(&d);
     if (status == QDOT_OK)
         status = write_conserved_momenta(&d);
     return qdot_sheet_end(&d.sheet, "derive", status);

@@ -35,6 +35,8 @@ carry_out_dof(qdot_record *r)
                      "n = %zu - %zu = %zu",
                      dof.coordinates, dof.constraints, dof.independent, dof.coordinates,
                      dof.independent, dof.freedom);
+    if (dof.states > 0)
+        qdot_text_format(&text, "\nstates of first order: %zu", dof.states);
     if (dof.cartesian)
         qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
                          dof.dimension, dof.independent, dof.freedom);

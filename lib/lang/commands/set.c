@@ -279,7 +279,18 @@ check_is_position_or_velocity(qdot_cursor *c, const qdot_token *start, qdot_expr
 qdot_status
 qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
 {
+    const qdot_session *session = r->cursor.session;
+    const qdot_scene *scene = session->scene;
+
     QDOT_TRY(qdot_record_coordinate(r, name, jet));
+    for (size_t i = 0; i < scene->states.n; i++)
+        if (*jet == qdot_symbol_jet(scene->pool, scene->states.at[i].z, 1)) {
+            const char *z = qdot_expr_symbol(scene->pool, scene->states.at[i].z)->name;
+
+            qdot_record_blame(r, name);
+            (void)qdot_fail(QDOT_EINVAL, "`%s` is a state: its rate follows from its equation", z);
+            return qdot_hint("%s = ... gives its value", z);
+        }
     return check_is_position_or_velocity(&r->cursor, name->from, *jet);
 }
 

@@ -22,6 +22,9 @@ typedef struct {
     const char *form; /* shown instead of `usage` in the hint at a missing clause; NULL: none */
     bool alone; /* the word is also a value; as a whole statement it prints more */
     qdot_status (*handler)(struct qdot_record *r); /* carries the statement out; NULL: not built in this version */
+    /* Declares the names of the statement. A loop does so in all its passes before the first is carried out, so that a
+     * pass may read names of a later one. NULL: the statement declares none that others of its loop read. */
+    qdot_status (*names)(struct qdot_record *r);
 } qdot_statement;
 
 /* Define the table row of a statement, at the beginning of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */

@@ -16,7 +16,7 @@
 
 static const qdot_statement *const table[] = {
 #define UNBUILT(word, group, usage, summary, example)                                    \
-    &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL},
+    &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL, NULL},
 #define STATEMENT(word) &qdot_statement_row_##word,
 #include "lang/syntax/statement.def"
 };

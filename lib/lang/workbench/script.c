@@ -53,6 +53,7 @@ typedef struct {
     uint32_t *match; /* for each `{` the index of its `}`; NULL: no blocks in the source */
     qdot_vec(frame) frames;
     qdot_vec(qdot_usage *) usages; /* compiled usages of the statements met so far */
+    bool naming; /* only the names of the statement are declared, before its loop */
     size_t error_at;
 } engine;
 
@@ -121,7 +122,7 @@ carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
         return QDOT_ENOMEM;
     status = qdot_match(c, row, usage, &record);
     if (status == QDOT_OK)
-        status = row->handler(&record);
+        status = x->naming ? row->names(&record) : row->handler(&record);
     c->at = record.cursor.at;
     c->error_at = record.cursor.error_at;
     qdot_record_free(&record);
@@ -333,18 +334,14 @@ begin_loop(engine *x, qdot_loop *loop, qdot_record *clause, bool *more)
     return status;
 }
 
-/* Carry out the statement at i, which ends before its word `for`, once in each pass of its loop. */
+/* Go through the passes of the loop with the statement at i, which ends before its word `for`. */
 static qdot_status
-carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
+go_through_passes(engine *x, size_t i, const qdot_token *word, qdot_record *clause)
 {
-    const qdot_cursor c = {.session = x->session, .source = x->source, .at = word};
-    qdot_record clause;
     qdot_loop loop = {0};
     bool more = false;
-    qdot_status status = read_clause(x, &c, &x->tokens[i], word, false, &clause);
+    qdot_status status = begin_loop(x, &loop, clause, &more);
 
-    if (status == QDOT_OK)
-        status = begin_loop(x, &loop, &clause, &more);
     while (status == QDOT_OK && more) {
         const qdot_token_kind kind = qdot_outline_cut(word);
 
@@ -355,9 +352,28 @@ carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
             break;
         }
         status = qdot_loop_next(&loop, &more);
-        x->error_at = status != QDOT_OK ? clause.cursor.error_at : x->error_at;
+        x->error_at = status != QDOT_OK ? clause->cursor.error_at : x->error_at;
     }
     qdot_loop_end(&loop);
+    return status;
+}
+
+/* Carry out the statement at i, which ends before its word `for`, once in each pass of its loop. */
+static qdot_status
+carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
+{
+    const qdot_cursor c = {.session = x->session, .source = x->source, .at = word};
+    const qdot_statement *row = qdot_statement_row(&x->tokens[i]);
+    qdot_record clause;
+    qdot_status status = read_clause(x, &c, &x->tokens[i], word, false, &clause);
+
+    if (status == QDOT_OK && row != NULL && row->names != NULL) {
+        x->naming = true;
+        status = go_through_passes(x, i, word, &clause);
+        x->naming = false;
+    }
+    if (status == QDOT_OK)
+        status = go_through_passes(x, i, word, &clause);
     qdot_record_free(&clause);
     return status;
 }

@@ -642,7 +642,9 @@ qdot_collision_make(qdot_scene *s, const qdot_collision_equations *of,
         k.rest = k.speed + n;
         k.pull = k.rest + n;
     }
-    status = room && c->scene ? build_scene(&k) : QDOT_ENOMEM;
+    if (s->states.n > 0)
+        snprintf(c->hindrance, sizeof c->hindrance, "the scene has states");
+    status = !room || !c->scene ? QDOT_ENOMEM : s->states.n > 0 ? QDOT_OK : build_scene(&k);
     qdot_free(room);
     if (status == QDOT_OK && c->hindrance[0] != '\0') {
         qdot_scene_free(c->scene);

@@ -2,8 +2,9 @@
  *
  * By Lagrange's equations
  *
- *     dh/dt = -dL/dt + sum (Q_i + R_i) q_i'
+ *     dh/dt = -dL/dt - sum dL/dz z' + sum (Q_i + R_i) q_i'
  *
+ * over the states z, functions of time for L,
  * with Q what is applied beside V and R the reactions, so h is conserved when dL/dt and
  * the power of Q vanish and every constraint works at no power: f (q, t) = 0 at -lambda
  * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'. Where L jumps
@@ -36,7 +37,8 @@ applied_power(qdot_scene *s)
     if (has)
         power = qdot_neg(pool, qdot_lagrangian_slope(s, QDOT_T));
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        qdot_expr Q = qdot_force_total(s, i, false, true);
+        const bool state = qdot_scene_state_of(s, s->coordinates.at[i]) != NULL;
+        qdot_expr Q = state ? qdot_neg(pool, qdot_lagrangian_slope(s, s->coordinates.at[i])) : qdot_force_total(s, i, false, true);
 
         power = qdot_add(pool, power, qdot_mul(pool, Q, qdot_mech_jet(s, i, 1)));
     }
@@ -154,7 +156,7 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
 
     QDOT_TRY(status);
     *conserved = d->conserved;
-    if (d->conserved_known)
+    if (d->conserved_known || (s->states.n > 0 && s->states.n == s->coordinates.n)) /* states alone have no energy */
         return QDOT_OK;
     if (s->constraints.n)
         status = qdot_constraint_facts(s, &relations, &on_manifold);

@@ -566,7 +566,7 @@ has_cartesian_coordinates(const qdot_scene *s)
                     return false;
         }
     }
-    return seen == s->coordinates.n;
+    return seen == s->coordinates.n - s->states.n;
 }
 
 qdot_status
@@ -578,7 +578,8 @@ qdot_mech_dof(qdot_scene *s, qdot_dof *dof)
 
         return status == QDOT_OK ? QDOT_EFAILED : status;
     }
-    *dof = (qdot_dof){.coordinates = s->coordinates.n,
+    *dof = (qdot_dof){.coordinates = s->coordinates.n - s->states.n,
+                      .states = s->states.n,
                       .constraints = s->constraints.n,
                       .is_independent = s->derived->independent,
                       .is_hidden = s->derived->hidden,

@@ -14,6 +14,7 @@
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/dynamics/virtual-work.h"
 #include "mech/scene/access.h"
 #include "mech/scene/cache.h"
 #include "mech/scene/constraint.h"
@@ -174,8 +175,11 @@ qdot_expr
 qdot_lagrange_forcing(qdot_scene *s, qdot_expr F, size_t i)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr p = qdot_diff(pool, F, qdot_mech_jet(s, i, 1));
+    qdot_expr p;
 
+    if (qdot_scene_state_of(s, s->coordinates.at[i]))
+        return QDOT_ZERO;
+    p = qdot_diff(pool, F, qdot_mech_jet(s, i, 1));
     return qdot_sub(pool, qdot_diff(pool, F, s->coordinates.at[i]),
                     qdot_mech_at_rest(s, qdot_ddt(pool, p)));
 }
@@ -184,8 +188,11 @@ qdot_expr
 qdot_lagrange_people_forcing(qdot_scene *s, size_t i)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr Q = qdot_mech_at_rest(s, qdot_mech_force(s, s->coordinates.at[i]));
+    qdot_expr Q = qdot_force_of_state(s, i);
 
+    if (Q != QDOT_NIL)
+        return Q;
+    Q = qdot_mech_at_rest(s, qdot_mech_force(s, s->coordinates.at[i]));
     if (qdot_mech_stated(s))
         return qdot_add(pool, Q, qdot_lagrange_forcing(s, s->lagrangian, i));
     return qdot_sub(pool, Q, qdot_lagrange_rest(s, i));
@@ -229,12 +236,15 @@ left_side_of_equation(qdot_scene *s, size_t i)
 qdot_expr
 qdot_mech_equation(qdot_scene *s, qdot_expr q)
 {
+    const qdot_state *state = qdot_scene_state_of(s, q);
     qdot_derived *d;
     qdot_expr right;
     size_t i;
 
     if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
+    if (state)
+        return qdot_rel(s->pool, QDOT_EQ, qdot_mech_jet(s, i, 1), qdot_mech_tidy(s, state->rate));
     d = qdot_derived_get(s);
     if (!qdot_derived_array(s, &d->equation, d->n))
         return QDOT_NIL;

@@ -58,7 +58,7 @@ find_cyclic(qdot_scene *s, size_t i)
     const qdot_facts facts = qdot_scene_facts(s);
     qdot_cyclic_known c = {.known = true};
 
-    if (!qdot_lagrangian_is_still(s, s->coordinates.at[i]))
+    if (qdot_scene_state_of(s, s->coordinates.at[i]) || !qdot_lagrangian_is_still(s, s->coordinates.at[i]))
         return c;
     c.momentum = qdot_mech_momentum(s, s->coordinates.at[i]);
     c.rate = qdot_add(s->pool, qdot_force_total(s, i, true, true), qdot_constraint_reaction(s, i));

@@ -103,6 +103,8 @@ unsimplified_force(qdot_scene *s, size_t i)
     const qdot_groups *rest;
     qdot_kinematics *k;
 
+    if (qdot_scene_state_of(s, s->coordinates.at[i]))
+        return Q;
     if (qdot_mech_stated(s))
         return qdot_add(pool, Q, qdot_lagrange_forcing(s, s->lagrangian, i));
     k = qdot_kinematics_get(s);

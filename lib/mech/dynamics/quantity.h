@@ -86,7 +86,8 @@ qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
  * rates as above do not know. */
 bool qdot_mech_lacks_mass(qdot_scene *s);
 typedef struct {
-    size_t coordinates, constraints, independent; /* numbers of each; independent: symbolic rank of the constraints */
+    size_t coordinates, constraints, independent; /* numbers of each, without states; independent: symbolic rank of the constraints */
+    size_t states;                                /* number of first-order unknowns */
     size_t freedom;                               /* degrees of freedom: coordinates - independent */
     const bool *is_independent; /* [constraints] of those declared before; borrowed until the
                                    scene changes */

@@ -298,13 +298,24 @@ static const struct {
 };
 enum { SOURCES = sizeof sources / sizeof *sources };
 
+qdot_expr
+qdot_force_of_state(qdot_scene *s, size_t i)
+{
+    const qdot_state *state = s->states.n ? qdot_scene_state_of(s, s->coordinates.at[i]) : NULL;
+
+    return state ? qdot_sub(s->pool, state->rate, qdot_mech_jet(s, i, 1)) : QDOT_NIL;
+}
+
 static qdot_expr
 total_force(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr Q = QDOT_ZERO;
+    qdot_expr Q = qdot_force_of_state(s, i);
     size_t parts = 0;
 
+    if (Q != QDOT_NIL)
+        return Q;
+    Q = QDOT_ZERO;
     for (size_t a = 0; a < SOURCES; a++) {
         if (applied && sources[a].conservative)
             continue;
@@ -329,8 +340,11 @@ qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied)
 qdot_expr
 qdot_force_but_gravity(qdot_scene *s, size_t i)
 {
-    qdot_expr Q = QDOT_ZERO;
+    qdot_expr Q = qdot_force_of_state(s, i);
 
+    if (Q != QDOT_NIL)
+        return Q;
+    Q = QDOT_ZERO;
     for (size_t a = 0; a < SOURCES; a++)
         for (size_t k = 0; sources[a].force != gravity_force && k < sources[a].count(s);
              k++)
@@ -365,6 +379,8 @@ qdot_mech_force(qdot_scene *s, qdot_expr q)
         return QDOT_NIL;
     if (d->force[i] != QDOT_NIL)
         return d->force[i];
+    if (qdot_scene_state_of(s, q))
+        return d->force[i] = QDOT_ZERO;
     return d->force[i] = total_force(s, i, true, false, false);
 }
 

@@ -264,6 +264,39 @@ linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
     return qdot_pool_check(s->pool);
 }
 
+/* Subtract `by` times column z from column j of M, Gamma and H, X [3 * n * n]. */
+static qdot_status
+subtract_column(const place *p, qdot_expr *X, size_t j, qdot_expr by, size_t z)
+{
+    const size_t n = p->s->coordinates.n;
+
+    for (size_t i = 0; i < 3 * n; i++)
+        X[i * n + j] = qdot_simplify(
+            p->s->pool, qdot_sub(p->s->pool, X[i * n + j], qdot_mul(p->s->pool, by, X[i * n + z])), &p->facts);
+    return qdot_pool_check(p->s->pool);
+}
+
+/* Make the equations of states those of second order that linear-motion.h describes. */
+static qdot_status
+raise_states(const place *p, qdot_expr *X)
+{
+    const size_t n = p->s->coordinates.n;
+    qdot_expr *M = X, *Gamma = X + n * n, *H = X + 2 * n * n;
+
+    for (size_t z = 0; z < n; z++) {
+        if (!qdot_scene_state_of(p->s, p->s->coordinates.at[z]))
+            continue;
+        for (size_t j = 0; j < n; j++)
+            if (j != z && Gamma[z * n + j] != QDOT_ZERO)
+                QDOT_TRY(subtract_column(p, X, j, Gamma[z * n + j], z));
+        for (size_t j = 0; j < n; j++) {
+            M[z * n + j] = Gamma[z * n + j];
+            Gamma[z * n + j] = qdot_add(p->s->pool, Gamma[z * n + j], H[z * n + j]);
+        }
+    }
+    return qdot_pool_check(p->s->pool);
+}
+
 void
 qdot_linear_motion_clear(qdot_linear_motion *m)
 {
@@ -311,6 +344,8 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
         status = place_begin(&p, s, equations, exists);
     if (status == QDOT_OK)
         status = linearise(&p, X, out);
+    if (status == QDOT_OK)
+        status = raise_states(&p, X);
     if (status == QDOT_OK)
         status = constraint_tangents(&p, X + 3 * n * n, out);
     if (status == QDOT_OK)

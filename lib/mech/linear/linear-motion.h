@@ -4,6 +4,10 @@
  * disguise (qdot_mech_is_holonomic: then H is symmetric there whichever multiple of dF/dt they are),
  *
  *     M y'' + Gamma y' + H y = 0,   H = d(left - right)/dq at rest, multipliers held.
+ *
+ * The equation of a state, E = z' - a q' - b q - c z = 0, is of first order. With z = w + a q, which leaves no q' in
+ * it, E' + E = 0 takes its place: so M stays regular and symmetric, and beside the roots s of the motion there is -1, once
+ * for each state, which decides no stability.
  */
 #ifndef QDOT_MECH_LINEAR_MOTION_H
 #define QDOT_MECH_LINEAR_MOTION_H

@@ -602,6 +602,7 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     qdot_status status;
 
     *out = (qdot_modes){0};
+    QDOT_TRY(qdot_scene_need_no_states(s, "modes"));
     QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
     if (!holonomic)
         return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");

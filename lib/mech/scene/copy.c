@@ -37,6 +37,10 @@ qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to)
         QDOT_TRY(qdot_scene_force(to, &s->forces.at[i]));
     for (size_t i = 0; i < s->torques.n; i++)
         QDOT_TRY(qdot_scene_torque(to, &s->torques.at[i]));
+    for (size_t i = 0; i < s->states.n; i++) {
+        QDOT_TRY(qdot_vec_push(&to->states, s->states.at[i]));
+        qdot_scene_changed(to);
+    }
     if (s->lagrangian != QDOT_NIL)
         QDOT_TRY(qdot_scene_lagrangian(to, s->lagrangian));
     return QDOT_OK;

@@ -9,7 +9,7 @@ qdot_scene_part_at(qdot_scene *s, size_t k)
         PART(s->events),     PART(s->coordinates), PART(s->particles),    PART(s->bodies),
         PART(s->gravities),  PART(s->potentials),  PART(s->springs),      PART(s->dampers),
         PART(s->dissipations), PART(s->forces),    PART(s->torques),      PART(s->constraints),
-        PART(s->assumed),    PART(s->conditions),  PART(s->relations),
+        PART(s->assumed),    PART(s->conditions),  PART(s->relations),  PART(s->states),
         PART(s->inputs),     PART(s->outputs),
     };
 #undef PART

@@ -269,6 +269,8 @@ qdot_status
 qdot_scene_print(const qdot_scene *s, qdot_text *out)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
+        if (qdot_scene_state_of(s, s->coordinates.at[i]))
+            continue;
         qdot_text_add(out, "coord ");
         QDOT_TRY(qdot_scene_print_domain(s, s->coordinates.at[i], out));
         qdot_text_char(out, '\n');
@@ -277,9 +279,40 @@ qdot_scene_print(const qdot_scene *s, qdot_text *out)
 }
 
 qdot_status
+qdot_scene_print_state(const qdot_scene *s, qdot_expr z, qdot_text *out)
+{
+    const qdot_state *state = qdot_scene_state_of(s, z);
+
+    qdot_text_format(out, "state %s'", qdot_expr_symbol(s->pool, z)->name);
+    if (state->rate == QDOT_NIL)
+        return QDOT_OK;
+    qdot_text_add(out, " = ");
+    return print_expression(s, state->rate, out);
+}
+
+/* Print the states in one statement, whose right sides may hold one another. */
+static qdot_status
+print_states(const qdot_scene *s, qdot_text *out)
+{
+    size_t printed = 0;
+
+    for (size_t k = 0; k < s->states.n; k++) {
+        if (s->states.at[k].rate == QDOT_NIL)
+            continue;
+        qdot_text_format(out, "%s%s' = ", printed++ ? ", " : "state ",
+                         qdot_expr_symbol(s->pool, s->states.at[k].z)->name);
+        QDOT_TRY(print_expression(s, s->states.at[k].rate, out));
+    }
+    if (printed)
+        qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
 {
     QDOT_TRY(print_list(s, "input ", s->inputs.n, s->inputs.at, out));
+    QDOT_TRY(print_states(s, out));
     for (size_t i = 0; i < s->assumed.n; i++)
         QDOT_TRY(print_assumption(s, &s->assumed.at[i], out));
     for (size_t i = 0; i < s->particles.n; i++) {

@@ -52,6 +52,7 @@ map_all_expressions(qdot_scene *s, mapping m)
     MAP(gravities, .e);
     MAP(potentials, .e);
     MAP(dissipations, .e);
+    MAP(states, .rate);
     MAP(assumed, .relation);
     MAP(conditions, );
     MAP(relations, );

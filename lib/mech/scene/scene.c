@@ -66,6 +66,7 @@ qdot_scene_free(qdot_scene *s)
     if (!s)
         return;
     qdot_free(s->events.at);
+    qdot_free(s->states.at);
     qdot_scene_forget_dropped(s);
     qdot_free(s->dropped.at);
     qdot_free(s->coordinates.at);
@@ -243,6 +244,7 @@ qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr p
     QDOT_TRY(qdot_scene_need_new_label(s, name));
     QDOT_TRY(require_mass(s, mass));
     QDOT_TRY(require_vector(s, position, "a position", NO_VELOCITY));
+    QDOT_TRY(qdot_scene_refuse_states(s, position, "a position", 0));
     QDOT_TRY(qdot_scene_copy_text(s, name, &p.name));
     QDOT_TRY(qdot_vec_push(&s->particles, p));
     return mark_changed(s);
@@ -257,6 +259,7 @@ require_energy_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
         return require_vector(s, e, "a uniform field", NO_PLACE);
     case QDOT_POTENTIAL:
         QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a potential"));
+        QDOT_TRY(qdot_scene_refuse_states(s, e, "a potential", 1));
         return require_scalar(s, e, "a potential", NO_ACCELERATION);
     default:
         QDOT_TRY(refuse_multipliers_in_friction(s, e, "a dissipation function"));
@@ -410,6 +413,12 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
         QDOT_TRY(require_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION));
         if (!qdot_mech_index(s, torque->coordinate, &i))
             return qdot_pool_check(s->pool);
+        if (qdot_scene_state_of(s, torque->coordinate)) {
+            const char *name = qdot_expr_symbol(s->pool, torque->coordinate)->name;
+
+            qdot_fail(QDOT_EINVAL, "%s is a state: no force acts on it", name);
+            return qdot_hint("what changes it is its rate, state %s' = ...", name);
+        }
     } else {
         uint32_t n = qdot_mech_dimension(s->pool, torque->torque), wanted;
 
@@ -449,6 +458,7 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
         return qdot_hint("`lagrange_function` shows the one that follows; `reset scene` takes the scene away");
     }
     QDOT_TRY(require_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
+    QDOT_TRY(qdot_scene_refuse_states(s, L, "a Lagrangian", 1));
     L = qdot_kinks_cancel(s->pool, L);
     QDOT_TRY(qdot_pool_check(s->pool));
     s->lagrangian = L;
@@ -466,6 +476,7 @@ qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L)
         return qdot_hint("`hamiltonian` alone shows it; `reset scene` takes the scene away");
     }
     QDOT_TRY(require_scalar(s, H, "a Hamiltonian", NO_RATE));
+    QDOT_TRY(qdot_scene_refuse_states(s, H, "a Hamiltonian", 1));
     if (!(qdot_mech_holds(s, H) & QDOT_HAS_MOMENTUM)) {
         (void)qdot_fail(QDOT_EINVAL, "no momentum stands in this Hamiltonian");
         return qdot_hint("the momentum of a coordinate x is written p[x]: hamiltonian p[x]^2/2");

@@ -52,6 +52,17 @@ QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *lab
                                                   qdot_expr left, qdot_expr right);
 /* The derivative of the given order (0, 1, 2) by t of constraint function f number i; how high depends on its kind. */
 qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned order);
+/* A state z' = rate. The first call, with rate nil, makes z a coordinate of the scene, so that the
+ * right sides of several states may hold one another; the second gives its right side. QDOT_ENAME: it has one already. */
+QDOT_MUST_CHECK qdot_status qdot_scene_state(qdot_scene *s, qdot_expr z, qdot_expr rate);
+/* The state whose symbol is z; NULL: z is none. */
+const qdot_state *qdot_scene_state_of(const qdot_scene *s, qdot_expr z);
+/* QDOT_ENOTBUILT if e holds the derivative of a state of order `from` (0: the state itself) or higher; `what` is e. */
+QDOT_MUST_CHECK qdot_status qdot_scene_refuse_states(const qdot_scene *s, qdot_expr e, const char *what, uint32_t from);
+/* QDOT_EINVAL if a state has no right side yet. */
+QDOT_MUST_CHECK qdot_status qdot_scene_check_states(const qdot_scene *s);
+/* QDOT_ENOTBUILT if the scene has states: `what` is not made for them. */
+QDOT_MUST_CHECK qdot_status qdot_scene_need_no_states(const qdot_scene *s, const char *what);
 /* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
  * does not know; a target twice. */
 QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
@@ -80,7 +91,7 @@ void qdot_scene_changed(qdot_scene *s);
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
  * byte. With `lagrangian` and `hamiltonian` they are the state of a scene: a copy of all can be put back, with the
  * `version` that the scene had then. */
-enum { QDOT_SCENE_PARTS = 17 };
+enum { QDOT_SCENE_PARTS = 18 };
 typedef struct {
     void *at;            /* address of the pointer to the array's first item */
     size_t *n, *capacity, size;
@@ -126,6 +137,8 @@ QDOT_MUST_CHECK qdot_status qdot_scene_moves_within(qdot_scene *s, qdot_expr pla
 
 /* Print every declaration as a statement that parses back, one per line (plain style). */
 QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
+/* Print "state z' = rate" without an end of line. */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_state(const qdot_scene *s, qdot_expr z, qdot_text *out);
 /* Print all declarations except the coordinates. */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_things(const qdot_scene *s, qdot_text *out);
 /* Print a symbol with its domain, "0 < theta < pi". */

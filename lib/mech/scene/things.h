@@ -72,6 +72,14 @@ typedef struct {
     qdot_expr unused;
 } qdot_constraint;
 
+/* A first-order unknown: z' = rate, an expression of coordinates, velocities, states and t. It is among
+ * the coordinates of the scene, but no mass moves with it, no force acts on it, and it pulls on nothing: for everything
+ * else it is a function of time. A scene may have nothing but such unknowns. */
+typedef struct {
+    qdot_expr z;    /* the symbol, a coordinate of the scene */
+    qdot_expr rate; /* nil: declared, but its right side is not known yet */
+} qdot_state;
+
 /* An event of a run, where left = right. It does not affect the mechanics. */
 typedef struct {
     char *name;
@@ -108,6 +116,7 @@ typedef struct qdot_scene {
     qdot_vec(qdot_force) forces;
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
+    qdot_vec(qdot_state) states;
     qdot_vec(qdot_event) events;
     qdot_vec(qdot_expr) inputs;  /* parameters that drive the scene: 0 at rest, in runs a value or a function of t and q */
     qdot_vec(qdot_expr) outputs; /* expressions that are observed */

@@ -131,9 +131,20 @@ qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
 qdot_expr
 qdot_hamilton_hamiltonian(qdot_scene *s)
 {
+    qdot_expr *moving, H;
+    uint32_t n = 0;
+
     if (s->hamiltonian != QDOT_NIL)
         return s->hamiltonian;
-    return legendre_transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
+    moving = qdot_calloc(s->coordinates.n + 1, sizeof *moving);
+    if (moving == NULL)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (!qdot_scene_state_of(s, s->coordinates.at[i])) /* states are functions of time for H */
+            moving[n++] = s->coordinates.at[i];
+    H = legendre_transform(s, n, moving);
+    qdot_free(moving);
+    return H;
 }
 
 /* The Routhian R for the coordinates q [n], in the shorter of two forms. */

@@ -77,7 +77,7 @@ is_time_independent(qdot_scene *s, bool *yes)
     bool holonomic;
 
     QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
-    *yes = holonomic && qdot_lagrangian_is_still(s, QDOT_T);
+    *yes = s->states.n == 0 && holonomic && qdot_lagrangian_is_still(s, QDOT_T);
     for (size_t k = 0; k < s->constraints.n; k++)
         *yes = *yes && (qdot_mech_holds(s, s->constraints.at[k].f) & QDOT_HAS_TIME) == 0;
     return qdot_pool_check(s->pool);

@@ -579,8 +579,11 @@ qdot_noether_conserved(qdot_scene *s)
 {
     search f = {
         .s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .n = s->coordinates.n};
-    qdot_status status = conserved(&f);
+    qdot_status status = qdot_scene_need_no_states(s, "symmetries");
     qdot_expr result = QDOT_NIL;
+
+    if (status == QDOT_OK)
+        status = conserved(&f);
 
     if (status == QDOT_OK)
         result = qdot_list(s->pool, (uint32_t)f.found.n, f.found.at);

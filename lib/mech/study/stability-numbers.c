@@ -150,6 +150,29 @@ matrices_evaluate(qdot_stability_numbers *x, bool *finite)
     return QDOT_OK;
 }
 
+/* Make the equations of states those of second order that linear-motion.h describes. */
+static void
+raise_states(const qdot_stability_numbers *x)
+{
+    const size_t n = x->n;
+    double *M = x->value, *G = M + n * n, *H = G + n * n;
+
+    for (size_t z = 0; z < n && x->s->states.n > 0; z++) {
+        if (!qdot_scene_state_of(x->s, x->s->coordinates.at[z]))
+            continue;
+        for (size_t j = 0; j < n; j++) {
+            const double by = G[z * n + j];
+
+            for (size_t i = 0; i < 3 * n && j != z; i++)
+                M[i * n + j] -= by * M[i * n + z];
+        }
+        for (size_t j = 0; j < n; j++) {
+            M[z * n + j] = G[z * n + j];
+            G[z * n + j] += H[z * n + j];
+        }
+    }
+}
+
 /* A basis of the null space of A, the told coordinates' part first: N [n * m]. Free coordinates
  * stand in no constraint. */
 static bool
@@ -392,6 +415,8 @@ judge_at_values(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_s
     *verdict = QDOT_STABILITY_UNDECIDED;
     if (status == QDOT_OK)
         status = matrices_evaluate(numbers, &finite);
+    if (status == QDOT_OK)
+        raise_states(numbers);
     if (status == QDOT_OK && finite && find_tangent_space(numbers, N, &x)) {
         x.G = x.M + x.m * x.m;
         x.H = x.G + x.m * x.m;

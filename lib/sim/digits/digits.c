@@ -186,7 +186,7 @@ make_guiding_run(qdot_run *run, const qdot_run_request *request)
 }
 
 qdot_status
-qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
+qdot_digits_say_start(qdot_run *run, const qdot_scene *scene, const qdot_run_request *request)
 {
     const size_t n = run->plan->n - run->plan->n_states;
     size_t found = 0;
@@ -195,6 +195,8 @@ qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
         const size_t k = i % n;
         const bool *named = i < n ? request->q_named : request->v_named;
 
+        if (i >= n && k < scene->coordinates.n && qdot_scene_state_of(scene, scene->coordinates.at[k]))
+            continue;
         if (!named || named[k] || run->start[i < n ? k : run->plan->n + k] == 0)
             continue;
         if (found++ < MOST_NAMES)

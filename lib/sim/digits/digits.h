@@ -9,8 +9,8 @@
 #include "sim/model/domain.h"
 
 /* Add to the notice which values of the start were solved for: run->start, in doubles, not 0 where
- * the request does not name them. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_digits_say_start(qdot_run *run,
+ * the request does not name them; rates of states, which are no choice, are left out. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_digits_say_start(qdot_run *run, const qdot_scene *scene,
                                                   const qdot_run_request *request);
 
 /* Carry out both runs; then make the trajectory in doubles for figures, the drifts and the

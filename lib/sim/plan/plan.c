@@ -40,11 +40,11 @@ qdot_plan_check(const qdot_scene *scene)
         return qdot_hint("`lagrange_function` says why none does; `eom`, `hamiltonian`, poisson(f, g) are known");
     }
     if (scene->lagrangian == QDOT_NIL && scene->particles.n == 0
-        && scene->bodies.n == 0) {
+        && scene->bodies.n == 0 && scene->states.n < scene->coordinates.n) {
         qdot_fail(QDOT_EINVAL, "the scene has no masses");
         return qdot_hint("particle bob mass m at (x, y)");
     }
-    return QDOT_OK;
+    return qdot_scene_check_states(scene);
 }
 
 static qdot_status

@@ -98,7 +98,7 @@ project_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
                                run->start_low, &run->notice));
     if (request->digits > 0)
-        QDOT_TRY(qdot_digits_say_start(run, request));
+        QDOT_TRY(qdot_digits_say_start(run, scene, request));
     QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
     run->plan = run->stage.modes.at[0]->plan;
     return QDOT_OK;

@@ -242,7 +242,7 @@ qdot_floquet_is_lagrangian(qdot_scene *s, bool *yes)
 {
     bool plain = true;
 
-    *yes = s->dampers.n + s->dissipations.n + s->forces.n + s->torques.n == 0;
+    *yes = s->dampers.n + s->dissipations.n + s->forces.n + s->torques.n + s->states.n == 0;
     for (size_t e = 0; e < s->events.n; e++)
         *yes = *yes && s->events.at[e].targets.n == 0;
     for (size_t c = 0; c < s->constraints.n; c++)

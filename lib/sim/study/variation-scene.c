@@ -21,6 +21,30 @@ static const double moved = 1e-9;
 /* Only sizes below this become scales; larger ones use the scale 1. */
 static const double well_below = 1e-2;
 
+/* The state of the given scene that coordinate i is, if the new scene has it as one: with its slopes, in place of
+ * constraints. NULL: none. */
+static const qdot_state *
+state_of(const qdot_variation *v, size_t i)
+{
+    return v->w > 0 ? qdot_scene_state_of(v->of, qdot_variation_jet(v, i, 0)) : NULL;
+}
+
+/* Give the states of the new scene and their slopes their rates. */
+static qdot_status
+add_rates(const qdot_variation *v)
+{
+    for (size_t i = 0; i < v->n; i++) {
+        const qdot_state *state = state_of(v, i);
+
+        if (!state)
+            continue;
+        QDOT_TRY(qdot_scene_state(v->scene, state->z, qdot_variation_with_numbers(v, state->rate)));
+        for (size_t k = 0; k < v->k; k++)
+            QDOT_TRY(qdot_scene_state(v->scene, v->y[k * v->n + i], qdot_variation_of(v, state->rate, k)));
+    }
+    return QDOT_OK;
+}
+
 /* Add a coordinate q; *T gains 1/2 q'^2, so that its equation of motion is q'' = acceleration. */
 static qdot_status
 add_coordinate(qdot_scene *to, qdot_expr q, qdot_expr *T)
@@ -46,9 +70,11 @@ add_constraints(const qdot_variation *v)
     qdot_scene *s = v->of;
 
     for (size_t c = 0; c < v->m + v->w; c++) {
-        qdot_expr mu;
-        const qdot_expr f = c < v->m ? qdot_integrated_rate(s, c, &mu) : v->G[c - v->m];
+        qdot_expr mu, f;
 
+        if (c >= v->m && state_of(v, v->massless[c - v->m]))
+            continue;
+        f = c < v->m ? qdot_integrated_rate(s, c, &mu) : v->G[c - v->m];
         QDOT_TRY(qdot_scene_constraint(v->scene, NULL, qdot_variation_with_numbers(v, f),
                                        QDOT_ZERO));
         for (size_t k = 0; k < v->k; k++) {
@@ -378,16 +404,19 @@ qdot_variation_write(qdot_variation *v, const qdot_expr *b)
     v->scene = qdot_scene_new(v->of->pool);
     if (!v->scene)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < v->n; i++)
-        QDOT_TRY(add_coordinate(v->scene, qdot_variation_jet(v, i, 0), &T));
-    for (size_t i = 0; i < v->k * v->n; i++)
-        QDOT_TRY(add_coordinate(v->scene, v->y[i], &T));
+    for (size_t i = 0; i < (v->k + 1) * v->n; i++) {
+        const qdot_expr q = i < v->n ? qdot_variation_jet(v, i, 0) : v->y[i - v->n];
+
+        QDOT_TRY(state_of(v, i % v->n) ? qdot_scene_state(v->scene, q, QDOT_NIL) : add_coordinate(v->scene, q, &T));
+    }
     QDOT_TRY(qdot_pool_check(v->of->pool));
-    QDOT_TRY(qdot_scene_lagrangian(v->scene, T));
-    for (size_t i = 0; i < v->n; i++)
-        QDOT_TRY(add_acceleration(v->scene, qdot_variation_jet(v, i, 0), v->a[i]));
-    for (size_t i = 0; i < v->k * v->n; i++)
-        QDOT_TRY(add_acceleration(v->scene, v->y[i], b[i]));
+    if (T != QDOT_ZERO)
+        QDOT_TRY(qdot_scene_lagrangian(v->scene, T));
+    for (size_t i = 0; i < (v->k + 1) * v->n; i++)
+        if (!state_of(v, i % v->n))
+            QDOT_TRY(i < v->n ? add_acceleration(v->scene, qdot_variation_jet(v, i, 0), v->a[i])
+                              : add_acceleration(v->scene, v->y[i - v->n], b[i - v->n]));
+    QDOT_TRY(add_rates(v));
     QDOT_TRY(check_conditions(v));
     QDOT_TRY(add_constraints(v));
     return add_events(v);
