@@ -9,6 +9,8 @@
 
 #include "expr/exact.h"
 #include "expr/print-parts.h"
+#include "expr/unit.h"
+#include "units/dimension.h"
 
 /* The factors of a product that are written under one root sign. */
 struct root {
@@ -224,7 +226,7 @@ is_taken_out_of_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *e = qdot_expr_rational(pool, x);
 
-    return e != NULL && qdot_integer_is(fmpq_denref(e), 2) &&
+    return e != NULL && qdot_integer_is(fmpq_denref(e), 2) && qdot_unit_symbol_base(pool, b) < 0 &&
            NODE(pool, b)->kind != QDOT_NUM && NODE(pool, b)->kind != QDOT_PROD &&
            (NODE(pool, b)->sign & QDOT_GE0);
 }
@@ -395,9 +397,9 @@ count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool dow
     uint32_t count = r->any && r->above != down;
 
     if (NODE(pool, e)->kind != QDOT_PROD)
-        return e != QDOT_ONE && !down;
+        return e != QDOT_ONE && !down && qdot_unit_symbol_base(pool, e) < 0;
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2)
-        count += is_in_denominator(pool, ARGS(pool, e)[i + 1]) == down &&
+        count += qdot_unit_symbol_base(pool, ARGS(pool, e)[i]) < 0 && is_in_denominator(pool, ARGS(pool, e)[i + 1]) == down &&
                  !is_under_root(pool, r, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
     return count;
 }
@@ -446,7 +448,7 @@ print_factors(printer *p, qdot_expr e, const struct root *r, bool down, const fm
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
         bool under = is_under_root(pool, r, b, x);
 
-        if (factor_print_rank(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
+        if (factor_print_rank(pool, b, x) != k / (NODE(pool, e)->n / 2) || qdot_unit_symbol_base(pool, b) >= 0 ||
             (under ? i != r->last || r->above == down : is_in_denominator(pool, x) != down))
             continue;
         if (first && number != NULL)
@@ -470,6 +472,62 @@ has_pi_in_denominator(const qdot_pool *pool, qdot_expr e)
     return false;
 }
 
+/* --- numbers with units ----------------------------------------------------------------------- */
+
+/* The powers of the base units in e; false: there are none. A power that is no small number is left to the product. */
+static bool
+find_units(const qdot_pool *pool, qdot_expr e, qdot_dimension *unit)
+{
+    bool any = false;
+
+    *unit = qdot_dimension_none();
+    for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < NODE(pool, e)->n; i += 2) {
+        const int base = qdot_unit_symbol_base(pool, ARGS(pool, e)[i]);
+        const fmpq *x = base < 0 ? NULL : qdot_expr_rational(pool, ARGS(pool, e)[i + 1]);
+
+        if (x == NULL)
+            continue;
+        unit->of[base] = qdot_exponent_make(fmpz_get_si(fmpq_numref(x)), fmpz_get_si(fmpq_denref(x)));
+        any = true;
+    }
+    if (qdot_unit_symbol_base(pool, e) >= 0) {
+        unit->of[qdot_unit_symbol_base(pool, e)] = (qdot_exponent){1, 1};
+        any = true;
+    }
+    return any;
+}
+
+/* The unit behind a number: ` [m/s^2]`. */
+static void
+print_unit(printer *p, qdot_dimension unit)
+{
+    qdot_text text = {0};
+
+    qdot_text_add(&text, " [");
+    qdot_dimension_unit(unit, &text);
+    qdot_text_char(&text, ']');
+    if (qdot_text_status(&text) == QDOT_OK)
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_WORDS, text.at, text.n);
+    else
+        p->status = QDOT_ENOMEM;
+    qdot_text_clear(&text);
+}
+
+/* The number c before its unit, in brackets if it is a fraction. */
+static void
+print_number_with_unit(printer *p, qdot_expr c, const fmpq *x, qdot_dimension unit)
+{
+    const qdot_formula_id outer = p->at;
+
+    print_begin_bracket(p, !fmpz_is_one(fmpq_denref(x)) && !qdot_print_says_decimal(p, x));
+    if (c == QDOT_NIL)
+        print_absolute_quotient(p, fmpq_numref(x), fmpq_denref(x));
+    else
+        child(p, c, MAGNITUDE);
+    p->at = outer;
+    print_unit(p, unit);
+}
+
 void
 qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
 {
@@ -487,18 +545,20 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
         x = r.c;
 
     bool decimal = qdot_print_says_decimal(p, x);
-    bool fraction = !decimal && !fmpz_is_one(fmpq_denref(x));
+    qdot_dimension unit;
+    const bool units = find_units(pool, e, &unit);
+    bool fraction = !decimal && !units && !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, &r, false),
              down = count_factors(pool, e, &r, true);
     /* where the number's denominator goes: 1/2*m/r, but 1/(2*r) if the numerator is otherwise
      * empty, and h/(2*pi) */
     bool inside = fraction && down > 0 && (up == 0 || drawn || has_pi_in_denominator(pool, e));
-    bool number = up == 0 || decimal || !fmpz_is_pm1(fmpq_numref(x)) ||
+    bool number = up == 0 || decimal || units || !fmpz_is_pm1(fmpq_numref(x)) ||
                   (fraction && !inside);
     bool several = !drawn && (down > 1 || inside), frac = drawn && down > 0;
     uint32_t written = number + up + down;
     bool bracket = context == BASE
-                       ? written > 1 || minus || e == QDOT_ONE || up + down > 0
+                       ? written > 1 || minus || e == QDOT_ONE || up + down > 0 || units
                        : context == FACTOR && (minus || down > 0 || fraction);
 
     const qdot_formula_id outer = print_begin_bracket(p, bracket);
@@ -510,7 +570,9 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     if (down > 0)
         print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
     bar = down > 0 ? print_begin_row(p) : p->at;
-    if (number && r.any) {
+    if (units) {
+        print_number_with_unit(p, r.any ? QDOT_NIL : c, x, unit);
+    } else if (number && r.any) {
         print_absolute_quotient(p, fmpq_numref(x), inside ? NULL : fmpq_denref(x));
     } else if (number) {
         child(p, c, inside ? NUMERATOR : MAGNITUDE);

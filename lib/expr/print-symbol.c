@@ -6,6 +6,7 @@
 
 #include "expr/print-formula.h"
 #include "expr/print-parts.h"
+#include "expr/unit.h"
 
 static bool
 is_name_with_index_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
@@ -163,7 +164,9 @@ qdot_print_symbol_parts(printer *p, qdot_expr e)
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base)->name : s->name;
 
-    if (s->class == QDOT_BOUND)
+    if (qdot_unit_symbol_base(p->pool, e) >= 0)
+        qdot_print_scaled(p, QDOT_ONE, e, TOP, false);
+    else if (s->class == QDOT_BOUND)
         qdot_print_bound(p, e);
     else if (s->class == QDOT_INFINITE && is_drawn(p))
         print_sign(p, QDOT_SIGN_INFINITY);

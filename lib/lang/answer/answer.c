@@ -86,6 +86,16 @@ prints_as_its_name(qdot_session *session, const char *name, qdot_expr value, boo
     return status;
 }
 
+/* Append the unit of the present answer, as ` [m/s]`. */
+static void
+append_unit(qdot_sheet *s)
+{
+    const char *unit = s->session->output->unit;
+
+    if (unit != NULL)
+        qdot_sheet_format(s, " [%s]", unit);
+}
+
 static qdot_status
 answer_expression_as_text(qdot_session *session, const char *name, qdot_expr value)
 {
@@ -107,7 +117,16 @@ answer_expression_as_text(qdot_session *session, const char *name, qdot_expr val
     }
     if (status == QDOT_OK)
         status = qdot_sheet_expr(&s, value);
+    append_unit(&s);
     return qdot_sheet_end(&s, "", status);
+}
+
+/* Append the field of the present answer's unit to a JSON object. */
+static void
+write_unit(const qdot_session *session, qdot_text *line)
+{
+    if (session->output->unit != NULL)
+        qdot_write_field(line, ",\"unit\":", session->output->unit);
 }
 
 static qdot_status
@@ -123,8 +142,9 @@ answer_expression_as_json(qdot_session *session, const char *name, qdot_expr val
     if (status == QDOT_OK)
         status = qdot_expression_print(session, value, QDOT_LATEX, &part);
     qdot_write_field(&line, ",\"latex\":", qdot_text_str(&part));
-    qdot_text_format(&line, ",\"ops\":%" PRIu64 "}\n",
-                     qdot_expr_size(session->pool, value));
+    qdot_text_format(&line, ",\"ops\":%" PRIu64, qdot_expr_size(session->pool, value));
+    write_unit(session, &line);
+    qdot_text_add(&line, "}\n");
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
     return finish_json_object(session, status, &line);
@@ -221,6 +241,7 @@ answer_numbers_as_text(qdot_session *session, const char *name, size_t n, const 
             qdot_sheet_sign(&s, QDOT_SIGN_COMMA);
         append_number_with_error(&s, values[i], errors[i]);
     }
+    append_unit(&s);
     return qdot_sheet_end(&s, "", status);
 }
 
@@ -238,7 +259,9 @@ answer_numbers_as_json(qdot_session *session, const char *name, bool several,
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, several ? "],\"errors\":[" : ",\"error\":");
     qdot_text_add(&line, qdot_text_str(errors));
-    qdot_text_add(&line, several ? "]}\n" : "}\n");
+    qdot_text_add(&line, several ? "]" : "");
+    write_unit(session, &line);
+    qdot_text_add(&line, "}\n");
     line.failed = line.failed || values->failed || errors->failed;
     return qdot_write_object(session, session->output->out, &line);
 }
@@ -287,6 +310,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     s = qdot_sheet_begin(session);
     status = begin_named_formula(&s, name);
     qdot_sheet_words(&s, qdot_text_str(values));
+    append_unit(&s);
     return qdot_sheet_end(&s, "", status);
 }
 

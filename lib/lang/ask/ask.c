@@ -17,13 +17,15 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/function.h"
-#include "lang/language/read.h"
+#include "lang/language/compiled.h"
+#include "lang/language/units.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/history.h"
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
+#include "lang/session/units.h"
 #include "lang/syntax/statement.h"
 
 /* --- answering expressions ---------------------------------------------------------- */
@@ -309,17 +311,47 @@ qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_e
     return qdot_answer_expr(session, name, value);
 }
 
+/* The unit of an answer: that which `in` asks for, else that of a number. */
+static void
+write_unit_of_answer(qdot_session *session, const qdot_token *asked, qdot_expr value, qdot_text *unit)
+{
+    qdot_pool *pool = session->pool;
+    const bool measured = qdot_measured_occurs(session, value);
+
+    if (asked != NULL && (measured || qdot_expr_is_constant(pool, value)))
+        qdot_token_text_written(session, asked + 1, qdot_unit_end(asked) - 1, unit);
+    else if (measured || session->output->json)
+        qdot_units_label(session, value, unit);
+}
+
+/* Read an expression; behind `in` its number where its symbols have values. *asked: the unit after `in`, or NULL. */
+static qdot_status
+read_answer(qdot_cursor *c, qdot_expr *value, qdot_expr *over, const qdot_token **asked)
+{
+    qdot_session *session = c->session;
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_VALUE, &program);
+
+    if (status == QDOT_OK)
+        status = qdot_compiled_named(c, &program, value, over);
+    *asked = status == QDOT_OK ? qdot_compiled_unit(&program, true) : NULL;
+    qdot_compiled_free(&program);
+    if (*asked != NULL && !qdot_expr_is_constant(session->pool, *value) && !qdot_measured_occurs(session, *value))
+        return qdot_call_numeric(session, 1, value, value);
+    return status;
+}
+
 qdot_status
 qdot_ask_expression(qdot_cursor *c)
 {
     qdot_session *session = c->session;
-    const qdot_token *start = c->at;
+    const qdot_token *start = c->at, *asked;
     qdot_expr value, over;
-    qdot_text name = {0};
+    qdot_text name = {0}, unit = {0};
     qdot_status status;
 
     session->evaluation->asks = true;
-    status = qdot_read_named(c, &value, &over);
+    status = read_answer(c, &value, &over, &asked);
     session->evaluation->asks = false;
     QDOT_TRY(status);
     QDOT_TRY(qdot_cursor_expect_end(c));
@@ -332,8 +364,15 @@ qdot_ask_expression(qdot_cursor *c)
     status = qdot_text_status(&name);
     if (status == QDOT_OK)
         status = qdot_session_remember(session, value, over);
+    if (status == QDOT_OK && qdot_units_on(session)) {
+        write_unit_of_answer(session, asked, value, &unit);
+        status = qdot_text_status(&unit);
+        session->output->unit = unit.n > 0 ? qdot_text_str(&unit) : NULL;
+    }
     if (status == QDOT_OK)
         status = qdot_ask_answer(session, qdot_text_str(&name), value, over);
+    session->output->unit = NULL;
+    qdot_text_clear(&unit);
     qdot_text_clear(&name);
     return status;
 }

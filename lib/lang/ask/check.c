@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/unit.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
@@ -24,6 +25,7 @@
 #include "lang/session/momenta.h"
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
+#include "lang/session/units.h"
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/inequality/contradiction.h"
@@ -259,7 +261,9 @@ read_comparison(qdot_record *r, const qdot_filled *part, question *q)
         return split_relation(r, part, q);
     q->turned = relation[0] == '>';
     q->how = relation[0] == '=' ? EQUAL : relation[1] == '=' ? LESS_EQUAL : LESS;
-    return qdot_record_side(r, part, 1, &q->right);
+    QDOT_TRY(qdot_record_side(r, part, 1, &q->right));
+    r->cursor.error_at = r->compiled.at[part->first].to->start;
+    return qdot_units_join(r->cursor.session, q->left, q->right, "%s is compared with %s");
 }
 
 static qdot_status
@@ -450,6 +454,10 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     bool measured;
 
     unwrap_single_members(pool, &q->left, &q->right);
+    if (qdot_units_on(session)) { /* of one dimension: their numbers are compared */
+        q->left = qdot_expr_in_si(pool, q->left);
+        q->right = qdot_expr_in_si(pool, q->right);
+    }
     QDOT_TRY(replace_multipliers(session, q, f));
     QDOT_TRY(replace_momenta_by_velocities(session, q, f));
     measured =

@@ -14,11 +14,13 @@
 #include "lang/language/condition.h"
 #include "lang/language/forms.h"
 #include "lang/language/partial-sum.h"
+#include "lang/language/units.h"
 #include "lang/session/bind.h"
 #include "lang/session/event-time.h"
 #include "lang/session/history.h"
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
+#include "lang/session/units.h"
 #include "lang/source/letters.h"
 #include "lang/source/lex.h"
 
@@ -214,6 +216,8 @@ evaluate_range_function(qdot_machine *m, const qdot_postfix *code)
     else
         QDOT_TRY(qdot_resolve_over_range(m->session, code->token->text, code->n, m->args.at,
                                          &value));
+    if (along && qdot_units_on(m->session))
+        QDOT_TRY(qdot_units_of_call(m->session, code->token->text, code->n - 2, m->args.at, &value));
     return qdot_machine_push(m, value);
 }
 
@@ -262,6 +266,8 @@ evaluate_call(qdot_machine *m, const qdot_postfix *code)
                                &(qdot_call){code->token, code->primes, code->to, code->n,
                                             m->args.at, m->labels.at, run},
                                &value, &over));
+    if (qdot_units_on(m->session))
+        QDOT_TRY(qdot_units_of_call(m->session, code->token->text, code->n, m->args.at + code->to, &value));
     QDOT_TRY(qdot_machine_push(m, value));
     qdot_machine_top(m, 1)->over = over;
     qdot_machine_spoil(m, code->token->text);
@@ -426,7 +432,12 @@ execute_instruction(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     case QDOT_POSTFIX_CALL: return evaluate_call(m, code);
     case QDOT_POSTFIX_RANGE: return evaluate_range_function(m, code);
     case QDOT_POSTFIX_TERM: return prepare_right_operand(m, code->token);
-    case QDOT_POSTFIX_SUM: return add_top_values(m, code->n);
+    case QDOT_POSTFIX_UNIT:
+    case QDOT_POSTFIX_IN: return qdot_machine_unit(m, code);
+    case QDOT_POSTFIX_SUM:
+        if (qdot_units_on(m->session))
+            QDOT_TRY(qdot_machine_units_sum(m, code->n));
+        return add_top_values(m, code->n);
     case QDOT_POSTFIX_PRODUCT: return multiply_top_values(m, code->n);
     case QDOT_POSTFIX_NEGATE:
         QDOT_TRY(qdot_machine_take(m, 1));
@@ -437,6 +448,8 @@ execute_instruction(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
             qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
         return qdot_machine_pass_power(m, m->args.at[0], m->args.at[1], qdot_machine_top(m, 1)->value);
     case QDOT_POSTFIX_RELATION:
+        if (qdot_units_on(m->session))
+            QDOT_TRY(qdot_machine_units_relation(m, code->token));
         QDOT_TRY(qdot_machine_take(m, 2));
         QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
                                          m->args.at[1], &value));
@@ -483,6 +496,8 @@ execute_program(qdot_machine *m, uint32_t first, uint32_t end)
         if ((pc & 0x3FFF) == 0)
             QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(execute_instruction(m, code, &pc));
+        if (qdot_units_on(m->session) && (code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_POWER))
+            QDOT_TRY(qdot_machine_units_value(m));
         if (m->frames.n > 0 && code->op >= QDOT_POSTFIX_NAME && code->op <= QDOT_POSTFIX_MEMBER)
             qdot_partial_sum_note(m, code);
     }

@@ -32,6 +32,8 @@ typedef enum {
     QDOT_POSTFIX_AND,      /* pop n operands; push their conjunction */
     QDOT_POSTFIX_OR,
     QDOT_POSTFIX_NOT,
+    QDOT_POSTFIX_UNIT,      /* multiply the top value by the unit in the brackets at `token`; n = 0: push the unit */
+    QDOT_POSTFIX_IN,        /* divide the top value by the unit in the brackets at `token` */
     QDOT_POSTFIX_VECTOR,    /* pop n components; push a vector */
     QDOT_POSTFIX_LIST,      /* pop n members; push a list of them */
     QDOT_POSTFIX_MATRIX,    /* pop n entries; push a matrix with `to` columns */

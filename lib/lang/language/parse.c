@@ -9,6 +9,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
+#include "lang/language/units.h"
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
 #include "lang/source/lex.h"
@@ -152,14 +153,12 @@ static qdot_status
 parse_chained_relation(parser *p, waiting *w, const qdot_token *token)
 {
     if (token->text[0] == '=' || w->token->text[0] == '=') {
-        qdot_fail(QDOT_ESYNTAX, "two relations in one: `%s` after `%s`", token->text,
-                  w->token->text);
+        qdot_fail(QDOT_ESYNTAX, "two relations in one: `%s` after `%s`", token->text, w->token->text);
         qdot_hint("write (a = b) = c with brackets, or two statements");
         return fail_at_token(p, token, QDOT_ESYNTAX);
     }
     w->count++;
     const qdot_token *first = w->token;
-
     w->token = token;
     return append_instruction(p, QDOT_POSTFIX_CHAIN, first, 2, 0, 0);
 }
@@ -379,6 +378,16 @@ parse_earlier_answer(parser *p)
     return append_instruction(p, QDOT_POSTFIX_HISTORY, t, n, 0, 0);
 }
 
+/* Parse a unit that follows a number, `pi` or a bracket. */
+static qdot_status
+parse_unit(parser *p)
+{
+    const waiting *w = top_of_stack(p);
+
+    return qdot_unit_parse(p->c, w != NULL && (w->kind == OP_POWER || (w->kind == OP_PRODUCT && w->token->text[0] == '/')),
+                           p->program);
+}
+
 static qdot_status
 parse_operand(parser *p)
 {
@@ -387,7 +396,8 @@ parse_operand(parser *p)
     if (t->kind == QDOT_TOKEN_NUMBER) {
         p->c->at++;
         p->operand = false;
-        return append_instruction(p, QDOT_POSTFIX_NUMBER, t, 0, 0, 0);
+        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_NUMBER, t, 0, 0, 0));
+        return qdot_token_is(p->c->at, "[") ? parse_unit(p) : QDOT_OK;
     }
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "not") == 0) {
         p->c->at++;
@@ -489,9 +499,7 @@ row(parser *p)
     w = top_of_stack(p);
     if (w->kind != IN_LIST)
         return qdot_cursor_expected(
-            p->c, w->kind == IN_INDEX || w->kind == IN_INDEX_NAME || w->kind == IN_LABEL
-                      ? "`]`"
-                      : "`)`");
+            p->c, w->kind == IN_INDEX || w->kind == IN_INDEX_NAME || w->kind == IN_LABEL ? "`]`" : "`)`");
     w->count++;
     if (w->columns == 0)
         w->columns = w->count;
@@ -618,6 +626,8 @@ parse_after_operand(parser *p)
 
     if (t->glued && qdot_token_is(t, "'"))
         return report_stray_prime(p);
+    if (qdot_unit_follows(t))
+        return parse_unit(p);
     if (t->glued && qdot_token_is(t, "[")) {
         p->c->at++;
         return push_on_stack(p, IN_INDEX, t);
@@ -646,7 +656,8 @@ parse_after_operand(parser *p)
         return parse_binary_operator(p, OP_PRODUCT, t);
     if (p->depth == 0) {
         p->done = true;
-        return emit_operators_to_bracket(p);
+        QDOT_TRY(emit_operators_to_bracket(p));
+        return qdot_unit_parse_in(p->c, p->program);
     }
     if (qdot_token_is(t, ","))
         return parse_comma(p);

@@ -117,6 +117,8 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
 
         if (words && qdot_token_is(k - 1, "%"))
             words = false;
+        if (qdot_token_is(k, "[") && k > from && !k->glued && sign_follows_operand(k - 1))
+            words = true; /* a unit */
         if (k > from && qdot_cursor_is_shown_product(session, k, depth > 0))
             qdot_text_char(out, '*');
         else

@@ -20,6 +20,7 @@ typedef struct qdot_output {
     bool flat; /* formulas are written on one line, also on a terminal */
     struct qdot_formula_page *page;  /* page that collects answers for a file; NULL: none */
     struct qdot_formula_page *block; /* page with the present statement's equations (lang/answer/sheet); NULL: none yet */
+    const char *unit; /* unit of the present answer, as "m/s"; NULL: none is written */
     bool json, timing;
     FILE *console; /* the stream of notices; NULL: the same as that of answers */
     bool console_json;

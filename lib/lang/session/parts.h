@@ -22,6 +22,7 @@ typedef struct qdot_session {
     struct qdot_measured_list *measured;   /* numbers from runs used in expressions: measured.h */
     struct qdot_member_list *members; /* values a.EXPR along runs used in expressions: member.h */
     struct qdot_evaluation *evaluation;    /* state of the present statement: evaluation.h */
+    struct qdot_units *units;              /* what is known of dimensions: units.h */
     struct qdot_text_list *told;           /* notices that are given only once: text-list.h */
     struct qdot_text_list *remarks;        /* lines with remarks of files of sessions that were read
                                               (lang/declare/session-remarks.h) */

@@ -15,6 +15,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/text-list.h"
 #include "lang/session/typed.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
 #include "show/formula-page.h"
@@ -29,6 +30,7 @@
     X(qdot_kept_studies, studies)                                                        \
     X(qdot_measured_list, measured)                                                      \
     X(qdot_member_list, members)                                                         \
+    X(qdot_units, units)                                                                 \
     X(qdot_evaluation, evaluation)                                                       \
     X(qdot_text_list, told)                                                              \
     X(qdot_text_list, remarks)
@@ -101,6 +103,7 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->tables->at);
     qdot_studies_clear(session->studies);
     free_values(session->values);
+    qdot_units_clear(session->units);
     qdot_free(session->history->values.at);
     qdot_free(session->history->over.at);
     qdot_free(session->measured->at);

@@ -8,6 +8,7 @@
 #include "lang/session/row-table.h"
 #include "lang/session/row-tables.h"
 #include "lang/session/runs.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 
 qdot_scene_part
@@ -17,7 +18,7 @@ qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k)
     const qdot_scene_part own[QDOT_UNDO_PARTS - QDOT_SCENE_PARTS] = {
         PART(s->values->set_symbols),  PART(s->values->set_values),    PART(s->values->start_symbols),
         PART(s->values->start_values), PART(s->values->start_errors),  PART(s->values->scale_symbols),
-        PART(s->values->scale_values),
+        PART(s->values->scale_values), PART(s->units->facts),
         PART(s->history->values),      PART(s->history->over),  PART(*s->runs),
         PART(*s->tables),       PART(state->names),
     };

@@ -19,6 +19,7 @@ enum { /* numbered after the parts of the scene */
     QDOT_UNDO_START_ERRORS,
     QDOT_UNDO_SCALE_SYMBOLS,
     QDOT_UNDO_SCALE_VALUES,
+    QDOT_UNDO_UNITS,
     QDOT_UNDO_HISTORY,
     QDOT_UNDO_HISTORY_OVER,
     QDOT_UNDO_RUNS,

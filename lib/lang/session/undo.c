@@ -10,6 +10,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/session.h"
 #include "lang/session/undo-state.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 
 enum { TEXT_LIMIT = 160 };
@@ -519,6 +520,7 @@ apply_record(qdot_session *s, record *r, int to)
             qdot_names_restore(s->names, u->now.names.n, u->now.names.at);
         }
     }
+    qdot_units_back_to(s, s->units->facts.n);
     u->now.single = r->single[to];
     s->scene->lagrangian = u->now.single.lagrangian;
     s->scene->hamiltonian = u->now.single.hamiltonian;

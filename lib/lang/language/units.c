@@ -1,0 +1,250 @@
+/* units.c -- units in expressions: their values, and what sums, relations and functions say of dimensions. */
+#include "lang/language/units.h"
+
+#include "base/text.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/tensor.h"
+#include "expr/value-kind.h"
+#include "expr/unit.h"
+#include "lang/session/measured.h"
+#include "lang/session/units.h"
+
+const qdot_token *
+qdot_unit_end(const qdot_token *open)
+{
+    long depth = 0;
+
+    for (const qdot_token *t = open; t->kind != QDOT_TOKEN_END; t++) {
+        depth += qdot_token_bracket(t);
+        if (depth == 0)
+            return t + 1;
+    }
+    return open;
+}
+
+/* The token of which the byte `at` of the joined texts is one. */
+static const qdot_token *
+token_at(const qdot_token *first, const qdot_token *end, size_t at)
+{
+    for (; first + 1 < end && at >= strlen(first->text); first++)
+        at -= strlen(first->text);
+    return first;
+}
+
+qdot_status
+qdot_read_unit(qdot_session *session, const qdot_token *open, qdot_expr *value, bool *angle, const qdot_token **blame)
+{
+    const qdot_token *end = qdot_unit_end(open) - 1;
+    qdot_pool *pool = session->pool;
+    qdot_text text = {0};
+    qdot_expr factor;
+    qdot_unit unit;
+    qdot_status status;
+    size_t at = 0;
+
+    for (const qdot_token *t = open + 1; t < end; t++)
+        if (t > open + 1 && !t->glued && t->kind != QDOT_TOKEN_OPERATOR && t[-1].kind != QDOT_TOKEN_OPERATOR)
+            qdot_text_format(&text, " %s", t->text); /* two names side by side are no unit */
+        else
+            qdot_text_add(&text, t->text);
+    qdot_unit_init(&unit);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_unit_read(qdot_text_str(&text), &unit, &at);
+    *blame = token_at(open + 1, end, at);
+    if (status == QDOT_OK)
+        status = qdot_units_base(session, unit.dimension, value);
+    if (status == QDOT_OK) {
+        factor = qdot_mul(pool, qdot_expr_fmpq(pool, unit.factor), qdot_pow(pool, QDOT_PI, qdot_expr_int(pool, unit.pi)));
+        *value = qdot_mul(pool, factor, *value);
+        *angle = unit.angle;
+        status = qdot_pool_check(pool);
+    }
+    qdot_unit_clear(&unit);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* --- parsing ---------------------------------------------------------------------------- */
+
+static qdot_status
+append_unit(qdot_cursor *c, qdot_postfix_kind op, uint32_t n, qdot_postfix_list *program)
+{
+    const qdot_token *open = c->at;
+
+    c->at = qdot_unit_end(open);
+    if (c->at == open)
+        return qdot_cursor_expected(c, "a unit in brackets, as in [m/s^2]");
+    return qdot_vec_push(&program->list, ((qdot_postfix){.op = (uint8_t)op, .n = n, .token = open}));
+}
+
+bool
+qdot_unit_follows(const qdot_token *t)
+{
+    return !t->glued && qdot_token_is(t, "[") && (qdot_token_is(t - 1, ")") || qdot_token_is_word(t - 1, "pi"));
+}
+
+qdot_status
+qdot_unit_parse(qdot_cursor *c, bool below, qdot_postfix_list *program)
+{
+    const qdot_token *number = c->at - 1;
+
+    if (below && number->kind == QDOT_TOKEN_NUMBER) {
+        qdot_fail(QDOT_ESYNTAX, "the unit belongs to %.40s alone: is that meant?", number->text);
+        c->error_at = c->at->start;
+        return qdot_hint("brackets say it: `(1/2) [m]` or `1/(2 [m])`");
+    }
+    QDOT_TRY(append_unit(c, QDOT_POSTFIX_UNIT, 1, program));
+    if (!qdot_token_is(c->at, "^"))
+        return QDOT_OK;
+    qdot_fail(QDOT_ESYNTAX, "a power behind a unit: of the unit alone, or of the number too?");
+    c->error_at = c->at->start;
+    return qdot_hint("write `2 [m^2]` or `(2 [m])^2`");
+}
+
+qdot_status
+qdot_unit_parse_alone(qdot_cursor *c, qdot_postfix_list *program)
+{
+    return append_unit(c, QDOT_POSTFIX_UNIT, 0, program);
+}
+
+qdot_status
+qdot_unit_parse_in(qdot_cursor *c, qdot_postfix_list *program)
+{
+    if (!qdot_token_is_word(c->at, "in") || !qdot_token_is(c->at + 1, "["))
+        return QDOT_OK;
+    c->at++;
+    return append_unit(c, QDOT_POSTFIX_IN, 1, program);
+}
+
+/* --- evaluating ------------------------------------------------------------------------- */
+
+qdot_status
+qdot_machine_unit(qdot_machine *m, const qdot_postfix *code)
+{
+    qdot_slot *top = code->n == 0 ? NULL : qdot_machine_top(m, 1);
+    const bool in = code->op == QDOT_POSTFIX_IN;
+    qdot_expr unit;
+    bool angle;
+
+    QDOT_TRY(qdot_read_unit(m->session, code->token, &unit, &angle, &m->blame));
+    if (top == NULL)
+        return qdot_machine_push(m, unit);
+    if (in) {
+        m->blame = code->token;
+        QDOT_TRY(qdot_units_join(m->session, top->value, unit, "%s is asked for in the unit of %s"));
+    }
+    top->value = (in ? qdot_value_div : qdot_value_mul)(m->pool, top->value, unit);
+    return qdot_value_kind_check(m->pool, top->value);
+}
+
+qdot_status
+qdot_machine_units_sum(qdot_machine *m, size_t n)
+{
+    size_t left = n; /* the first summand that is not 0 */
+
+    for (size_t i = n - 1; i > 0; i--) {
+        const qdot_slot *s = qdot_machine_top(m, i);
+        const bool minus = s->sign->text[0] == '-';
+
+        m->blame = s->sign;
+        QDOT_TRY(qdot_units_join(m->session, qdot_machine_top(m, left)->value, s->value,
+                                 minus ? "from %s %s is subtracted" : "%s is added to %s"));
+        if (qdot_machine_top(m, left)->value == QDOT_ZERO)
+            left = i;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_machine_units_relation(qdot_machine *m, const qdot_token *relation)
+{
+    m->blame = relation;
+    return qdot_units_join(m->session, qdot_machine_top(m, 2)->value, qdot_machine_top(m, 1)->value,
+                           relation->text[0] == '=' ? "%s is set equal to %s" : "%s is compared with %s");
+}
+
+/* The number *value of the expression `of` has the unit of that. */
+static qdot_status
+give_unit(qdot_session *session, qdot_expr of, qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    qdot_dimension is;
+    qdot_expr unit;
+
+    if (!qdot_measured_occurs(session, *value) || qdot_expr_has_units(pool, *value))
+        return QDOT_OK;
+    switch (qdot_units_of(session, of, &is)) {
+    case QDOT_DIMENSION_KNOWN:
+        QDOT_TRY(qdot_units_base(session, is, &unit));
+        *value = qdot_mul(pool, *value, unit);
+        return qdot_pool_check(pool);
+    case QDOT_DIMENSION_FREE: return qdot_units_join(session, *value, of, "%s is the number of %s");
+    default: return QDOT_OK;
+    }
+}
+
+/* The k-th of the expressions args [n], in which vectors and lists count by their entries; nil: there are not so many. */
+static qdot_expr
+entry_of_arguments(const qdot_pool *pool, uint32_t n, const qdot_expr *args, uint32_t k)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t count = qdot_expr_is_scalar(pool, args[i]) ? 1 : qdot_expr_count(pool, args[i]);
+
+        if (k < count)
+            return qdot_expr_is_scalar(pool, args[i]) ? args[i] : qdot_expr_arg(pool, args[i], k);
+        k -= count;
+    }
+    return QDOT_NIL;
+}
+
+qdot_status
+qdot_units_of_call(qdot_session *session, const char *name, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    static const char *const numbers[] = {"value", "numeric", "N", "mean", "min", "max"};
+    qdot_pool *pool = session->pool;
+    const bool scalar = qdot_expr_is_scalar(pool, *value);
+    qdot_vec(qdot_expr) entries = {0};
+    qdot_status status = QDOT_OK;
+    size_t k = 0;
+
+    while (k < sizeof numbers / sizeof *numbers && strcmp(numbers[k], name) != 0)
+        k++;
+    if (k == sizeof numbers / sizeof *numbers || n == 0)
+        return QDOT_OK;
+    n = k == 0 && n > 1 ? n - 1 : k == 0 ? n : 1; /* the last argument of `value` is the time */
+    for (uint32_t i = 0; i < (scalar ? 1 : qdot_expr_count(pool, *value)) && status == QDOT_OK; i++) {
+        qdot_expr one = scalar ? *value : qdot_expr_arg(pool, *value, i);
+        const qdot_expr of = entry_of_arguments(pool, n, args, i);
+
+        if (of != QDOT_NIL && qdot_expr_is_scalar(pool, one))
+            status = give_unit(session, of, &one);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&entries, one);
+    }
+    if (status == QDOT_OK && scalar)
+        *value = entries.at[0];
+    else if (status == QDOT_OK && qdot_expr_kind(pool, *value) == QDOT_VEC)
+        *value = qdot_vector(pool, (uint32_t)entries.n, entries.at);
+    else if (status == QDOT_OK && qdot_expr_kind(pool, *value) == QDOT_LIST)
+        *value = qdot_list(pool, (uint32_t)entries.n, entries.at);
+    qdot_free(entries.at);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+qdot_status
+qdot_machine_units_value(qdot_machine *m)
+{
+    return qdot_units_visit(m->session, qdot_machine_top(m, 1)->value);
+}
+
+const qdot_token *
+qdot_compiled_unit(const qdot_compiled *program, bool in)
+{
+    const size_t n = program->code.list.n;
+    const qdot_postfix *last = n > 0 ? &program->code.list.at[n - 1] : NULL;
+
+    return last != NULL && last->op == (in ? QDOT_POSTFIX_IN : QDOT_POSTFIX_UNIT) ? last->token : NULL;
+}

@@ -1,0 +1,184 @@
+/* units.c -- the facts about dimensions in a session, and the solver made of them. */
+#include "lang/session/units.h"
+
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
+#include "expr/unit.h"
+#include "expr/walk.h"
+#include "lang/session/member.h"
+#include "lang/session/values.h"
+
+void
+qdot_units_clear(qdot_units *units)
+{
+    qdot_dimensions_free(units->known);
+    qdot_free(units->facts.at);
+    *units = (qdot_units){0};
+}
+
+bool
+qdot_units_on(const qdot_session *session)
+{
+    return session->units->facts.n > 0;
+}
+
+qdot_status
+qdot_units_begin(qdot_session *session)
+{
+    return qdot_units_on(session) ? QDOT_OK
+                                  : qdot_vec_push(&session->units->facts, ((qdot_unit_fact){.kind = QDOT_FACT_BEGIN}));
+}
+
+void
+qdot_units_back_to(qdot_session *session, size_t n)
+{
+    qdot_units *units = session->units;
+
+    units->facts.n = units->facts.n < n ? units->facts.n : n;
+    qdot_dimensions_free(units->known);
+    units->known = NULL;
+    units->done = 0;
+}
+
+/* --- the solver ------------------------------------------------------------------------ */
+
+/* What a symbol of a.EXPR stands for. */
+static qdot_expr
+stands_for(const void *session, qdot_expr symbol)
+{
+    const qdot_member *member = qdot_member_find(session, symbol);
+
+    return member != NULL ? member->value : QDOT_NIL;
+}
+
+static qdot_status
+carry_out_fact(qdot_dimensions *known, const qdot_unit_fact *fact, const char *format)
+{
+    switch ((qdot_unit_fact_kind)fact->kind) {
+    case QDOT_FACT_VISIT: return qdot_dimensions_visit(known, fact->a);
+    case QDOT_FACT_JOIN: return qdot_dimensions_join(known, fact->a, fact->b, format);
+    case QDOT_FACT_FIX: return qdot_dimensions_fix(known, fact->a, fact->is, format);
+    default: return QDOT_OK;
+    }
+}
+
+/* Make the solver from the facts that it does not have yet. */
+static qdot_status
+bring_up_to_date(qdot_session *session)
+{
+    qdot_units *units = session->units;
+
+    if (units->known == NULL)
+        units->known = qdot_dimensions_new(session->pool, stands_for, session);
+    if (units->known == NULL)
+        return QDOT_ENOMEM;
+    for (; units->done < units->facts.n; units->done++)
+        QDOT_TRY(carry_out_fact(units->known, &units->facts.at[units->done], "%s is %s"));
+    return QDOT_OK;
+}
+
+/* Carry out a new fact, and keep it if it told anything. */
+static qdot_status
+add_fact(qdot_session *session, const qdot_unit_fact *fact, const char *format)
+{
+    qdot_units *units = session->units;
+    size_t rank;
+
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    QDOT_TRY(bring_up_to_date(session));
+    rank = qdot_dimensions_rank(units->known);
+    QDOT_TRY(carry_out_fact(units->known, fact, format));
+    if (qdot_dimensions_rank(units->known) == rank && fact->kind != QDOT_FACT_ANGLE)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&units->facts, *fact));
+    units->done++;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_units_visit(qdot_session *session, qdot_expr e)
+{
+    return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_VISIT, .a = e}, NULL);
+}
+
+qdot_status
+qdot_units_join(qdot_session *session, qdot_expr a, qdot_expr b, const char *format)
+{
+    return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_JOIN, .a = a, .b = b}, format);
+}
+
+qdot_status
+qdot_units_fix(qdot_session *session, qdot_expr e, qdot_dimension is, const char *format)
+{
+    return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_FIX, .a = e, .is = is}, format);
+}
+
+qdot_status
+qdot_units_angle(qdot_session *session, qdot_expr symbol)
+{
+    return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_ANGLE, .a = symbol}, NULL);
+}
+
+qdot_dimension_state
+qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension)
+{
+    *dimension = qdot_dimension_none();
+    if (!qdot_units_on(session) || bring_up_to_date(session) != QDOT_OK)
+        return QDOT_DIMENSION_NONE;
+    return qdot_dimensions_of(session->units->known, e, dimension);
+}
+
+/* --- units of numbers ------------------------------------------------------------------- */
+
+/* Whether e is a symbol that was declared an angle, or a time derivative of one. */
+static bool
+is_angle(const qdot_session *session, qdot_expr e)
+{
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, e);
+    const qdot_units *units = session->units;
+
+    if (s == NULL)
+        return false;
+    e = s->class == QDOT_COORD && s->base != QDOT_NIL ? s->base : e;
+    for (size_t i = 0; i < units->facts.n; i++)
+        if (units->facts.at[i].kind == QDOT_FACT_ANGLE && units->facts.at[i].a == e)
+            return true;
+    return false;
+}
+
+void
+qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    static const char *const angles[] = {"rad", "rad/s", "rad/s^2"};
+    qdot_dimension is;
+
+    if (qdot_units_of(session, e, &is) != QDOT_DIMENSION_KNOWN)
+        return;
+    if (is_angle(session, e) && is.of[2].n <= 0 && is.of[2].n >= -2 && is.of[2].d == 1)
+        qdot_text_add(out, angles[-is.of[2].n]);
+    else
+        qdot_dimension_unit(is, out);
+}
+
+qdot_status
+qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit)
+{
+    qdot_pool *pool = session->pool;
+    qdot_status status = qdot_units_begin(session);
+
+    *unit = QDOT_ONE;
+    for (int i = 0; i < QDOT_BASES && status == QDOT_OK; i++) {
+        const qdot_exponent x = dimension.of[i];
+        const qdot_expr base = x.n != 0 ? qdot_unit_symbol(pool, i) : QDOT_NIL;
+
+        if (base == QDOT_NIL)
+            continue;
+        if (qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, base) ==
+            session->values->set_symbols.n)
+            qdot_session_set(session, base, QDOT_ONE, &status);
+        *unit = qdot_mul(pool, *unit, qdot_pow(pool, base, qdot_expr_ratio(pool, x.n, x.d)));
+    }
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}

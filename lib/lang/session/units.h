@@ -1,0 +1,52 @@
+/* units.h -- the units of a session: what has been said of the dimensions of its names.
+ *
+ * Nothing is done before a unit is written. From then on each statement adds facts: that two expressions are of one
+ * dimension, that one has a certain dimension. They are kept in a list, which `undo` shortens, and from which the
+ * solver (dimensions/dimensions.h) is made again where facts have gone.
+ */
+#ifndef QDOT_LANG_SESSION_UNITS_H
+#define QDOT_LANG_SESSION_UNITS_H
+
+#include "base/memory.h"
+#include "dimensions/dimensions.h"
+#include "lang/session/parts.h"
+
+typedef enum { QDOT_FACT_BEGIN, QDOT_FACT_VISIT, QDOT_FACT_JOIN, QDOT_FACT_FIX, QDOT_FACT_ANGLE } qdot_unit_fact_kind;
+
+/* One fact; the fields that its kind does not use are 0. */
+typedef struct {
+    qdot_expr a, b;
+    qdot_dimension is;
+    uint32_t kind; /* a qdot_unit_fact_kind */
+} qdot_unit_fact;
+
+typedef struct qdot_units {
+    qdot_vec(qdot_unit_fact) facts; /* the first is BEGIN */
+    qdot_dimensions *known;         /* the solver; NULL: not made yet */
+    size_t done;                    /* number of facts that it has */
+} qdot_units;
+
+void qdot_units_clear(qdot_units *units);
+/* Whether a unit has been written in the session. */
+bool qdot_units_on(const qdot_session *session);
+/* The first unit has been written. */
+QDOT_MUST_CHECK qdot_status qdot_units_begin(qdot_session *session);
+/* Drop all but the first n facts. */
+void qdot_units_back_to(qdot_session *session, size_t n);
+
+/* As the functions of dimensions.h, and kept as facts. Without units they do nothing. */
+QDOT_MUST_CHECK qdot_status qdot_units_visit(qdot_session *session, qdot_expr e);
+QDOT_MUST_CHECK qdot_status qdot_units_join(qdot_session *session, qdot_expr a, qdot_expr b, const char *format);
+QDOT_MUST_CHECK qdot_status qdot_units_fix(qdot_session *session, qdot_expr e, qdot_dimension is, const char *format);
+/* The symbol is an angle: its unit is written, as rad. */
+QDOT_MUST_CHECK qdot_status qdot_units_angle(qdot_session *session, qdot_expr symbol);
+
+/* The dimension of e; NONE without units. */
+qdot_dimension_state qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension);
+/* Append the unit in which numbers of e are given, as "m/s" or "rad"; nothing: a number, or not known. */
+void qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out);
+
+/* The SI unit of a dimension as an expression of base units, whose numbers are 1. */
+QDOT_MUST_CHECK qdot_status qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit);
+
+#endif
