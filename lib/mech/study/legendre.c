@@ -31,6 +31,31 @@ holds_variable(const qdot_legendre *l, qdot_expr e)
     return false;
 }
 
+/* The sum of those terms of e that hold an x of the block `of`, and none of other blocks; without a block (n): of those
+ * that hold no x at all. */
+static qdot_expr
+terms_of_block(const qdot_legendre *l, qdot_expr e, size_t of)
+{
+    const bool several = e != QDOT_NIL && qdot_expr_kind(l->pool, e) == QDOT_SUM;
+    const uint32_t n = several ? qdot_expr_count(l->pool, e) : 2;
+    qdot_expr sum = several && of == l->n ? qdot_expr_arg(l->pool, e, 0) : QDOT_ZERO;
+
+    for (uint32_t i = 1; i < n && e != QDOT_NIL; i += 2) {
+        const qdot_expr term = several ? qdot_expr_arg(l->pool, e, i) : e;
+        bool own = of == l->n, other = false;
+
+        for (uint32_t k = 0; k < l->n; k++)
+            if (qdot_expr_contains(l->pool, term, l->x[k])) {
+                own |= l->block[k] == of;
+                other |= l->block[k] != of;
+            }
+        if (own && !other)
+            sum = qdot_add(l->pool, sum,
+                           several ? qdot_mul(l->pool, qdot_expr_arg(l->pool, e, i + 1), term) : term);
+    }
+    return sum;
+}
+
 /* Find A, its blocks, and those in which F is not quadratic. */
 static void
 find_hessian_blocks(qdot_legendre *l)
@@ -146,30 +171,42 @@ solve_linear_blocks(qdot_legendre *l)
     return status == QDOT_OK;
 }
 
-/* Solve the block of the variable `first`, in which F is not quadratic. */
+/* Solve the block of the variable `first`, in which F is not quadratic. Its terms leave l->F_left for l->G_bent; if they
+ * cannot be told from those of other blocks, F at the solution stays in l->F_left. */
 static bool
 solve_bent_block(qdot_legendre *l, uint32_t first)
 {
+    qdot_pool *pool = l->pool;
     qdot_expr *x = qdot_calloc(3 * (size_t)l->n, sizeof *x), *y = x + l->n, *solved = y + l->n, bound = QDOT_NIL,
-              there = QDOT_NIL;
+              there = QDOT_NIL, sum = QDOT_ZERO, own = terms_of_block(l, l->F_left, first), others = qdot_sub(pool, l->F_left, own);
     uint32_t m = 0;
-    bool found = false;
+    bool found = false, apart = true;
     qdot_status status = x == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (uint32_t i = first; i < l->n && status == QDOT_OK; i++)
         if (l->block[i] == first) {
+            apart &= !qdot_expr_contains(pool, others, l->x[i]);
             x[m] = l->x[i];
             y[m++] = l->y[i];
         }
     if (status == QDOT_OK)
-        status = qdot_legendre_bent(l->pool, l->there, m, x, y, &l->facts, solved, &found, &bound, &there);
-    for (uint32_t i = first, k = 0; i < l->n && status == QDOT_OK; i++)
-        if (l->block[i] == first)
+        status = qdot_legendre_bent(pool, apart ? own : l->F_left, m, x, y, &l->facts, solved, &found, &bound, &there);
+    for (uint32_t i = first, k = 0; i < l->n && found && status == QDOT_OK; i++)
+        if (l->block[i] == first) {
             l->solved[i] = solved[k++];
+            sum = qdot_add(pool, sum, qdot_mul(pool, l->solved[i], l->y[i]));
+        }
     qdot_free(x);
-    l->there = there;
+    if (apart) {
+        l->F_left = others;
+        sum = qdot_simplify(pool, qdot_sub(pool, sum, there), &l->facts);
+    } else {
+        l->F_left = there;
+        l->mixed = true;
+    }
+    l->G_bent = qdot_add(pool, l->G_bent, sum);
     if (status != QDOT_OK)
-        qdot_pool_fail(l->pool);
+        qdot_pool_fail(pool);
     else if (bound != QDOT_NIL)
         report_homogeneous(l, bound);
     else if (!found)
@@ -182,7 +219,7 @@ qdot_legendre_begin(qdot_legendre *l, qdot_scene *s, qdot_class of, qdot_expr F,
 {
     qdot_pool *pool = s->pool;
 
-    *l = (qdot_legendre){.s = s, .pool = pool, .facts = qdot_scene_facts(s), .of = of, .n = n, .F = F, .there = F};
+    *l = (qdot_legendre){.s = s, .pool = pool, .facts = qdot_scene_facts(s), .of = of, .n = n, .F = F, .F_left = F, .G_bent = QDOT_ZERO};
     l->q = qdot_calloc((size_t)n * n + 5 * n + 1, sizeof *l->q);
     l->block = qdot_calloc(n + 1, sizeof *l->block);
     l->bent = qdot_calloc(n + 1, sizeof *l->bent);
@@ -254,43 +291,19 @@ add_quadratic_block(qdot_legendre *l, qdot_squares *q, size_t m, const size_t *w
     return qdot_pool_check(pool);
 }
 
-/* The sum of those terms of e in which no x stands. */
-static qdot_expr
-terms_without_variables(const qdot_legendre *l, qdot_expr e)
-{
-    qdot_expr sum = QDOT_ZERO;
-
-    if (e == QDOT_NIL || qdot_expr_kind(l->pool, e) != QDOT_SUM)
-        return sum;
-    sum = qdot_expr_arg(l->pool, e, 0);
-    for (uint32_t i = 1; i < qdot_expr_count(l->pool, e); i += 2) {
-        const qdot_expr term = qdot_expr_arg(l->pool, e, i);
-
-        if (!holds_variable(l, term))
-            sum = qdot_add(l->pool, sum, qdot_mul(l->pool, qdot_expr_arg(l->pool, e, i + 1), term));
-    }
-    return sum;
-}
-
-/* The rest of G: sum x y over the bent blocks, less F there with the other x = 0. Terms of F without x stay apart. */
+/* The part of G that is not quadratic: that of the bent blocks, less F elsewhere at x = 0. */
 static qdot_expr
 rest_of_transform(qdot_legendre *l)
 {
     qdot_pool *pool = l->pool;
     const bool stated = l->of == QDOT_MOMENTUM || l->s->lagrangian != QDOT_NIL;
-    qdot_expr sum = QDOT_ZERO, apart, F = at_zero(l, l->there, false);
-    bool bent = false;
+    const qdot_expr F = at_zero(l, l->F_left, false);
+    const qdot_expr apart = l->mixed ? terms_of_block(l, l->F, l->n) : F;
 
-    for (uint32_t i = 0; i < l->n; i++)
-        if (l->bent[i]) {
-            bent = true;
-            sum = qdot_add(pool, sum, qdot_mul(pool, l->solved[i], l->y[i]));
-        }
-    apart = bent ? terms_without_variables(l, l->F) : QDOT_ZERO;
-    sum = qdot_sub(pool, sum, qdot_sub(pool, F, apart));
-    if (bent || stated) /* T - V is in simplified form already */
-        sum = qdot_simplify(pool, sum, &l->facts);
-    return qdot_sub(pool, sum, apart);
+    if (l->mixed)
+        return qdot_sub(pool, qdot_simplify(pool, qdot_sub(pool, l->G_bent, qdot_sub(pool, F, apart)), &l->facts), apart);
+    /* T - V is in simplified form already */
+    return qdot_sub(pool, l->G_bent, stated ? qdot_simplify(pool, F, &l->facts) : F);
 }
 
 /* F is of second degree in the x of a block that is not bent: with b the slopes at x = 0

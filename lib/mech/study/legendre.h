@@ -28,7 +28,8 @@ typedef struct {
     qdot_facts facts;
     qdot_class of;  /* what x is: QDOT_COORD, velocities, or QDOT_MOMENTUM */
     uint32_t n;
-    qdot_expr F, there; /* F; F with the x of bent blocks as functions of y */
+    qdot_expr F, F_left, G_bent; /* F; its terms outside of bent blocks; those blocks' parts of G */
+    bool mixed; /* F_left holds terms of bent blocks, at the solution */
     qdot_expr *q, *x, *y; /* [n] coordinates; the variables of F and of G */
     qdot_expr *rest;      /* [n] y - dF/dx at x = 0, of blocks in which F is quadratic */
     qdot_expr *solved;    /* [n] x in terms of y */
