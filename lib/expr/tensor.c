@@ -82,6 +82,8 @@ report_different_shapes(qdot_pool *pool, const char *verb, qdot_expr a, qdot_exp
         return qdot_pool_refuse(pool, QDOT_ETYPE,
                                 "cannot %s vectors of %u and %u components", verb, x->n,
                                 y->n);
+    if (x->kind == QDOT_LIST && y->kind == QDOT_LIST && x->n != y->n)
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s lists of %u and %u members", verb, x->n, y->n);
     if (x->kind == QDOT_MAT && y->kind == QDOT_MAT)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s a %ux%u and a %ux%u matrix",
                                 verb, x->n / x->op, x->op, y->n / y->op, y->op);
@@ -101,6 +103,12 @@ is_equation(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e)->kind == QDOT_REL && NODE(pool, e)->op == QDOT_EQ;
 }
 
+static bool
+is_list(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->kind == QDOT_LIST;
+}
+
 qdot_expr
 qdot_value_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -108,7 +116,7 @@ qdot_value_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_add(pool, a, b);
-    if ((is_tensor(pool, a) || is_equation(pool, a)) && has_same_shape(pool, a, b) &&
+    if ((is_tensor(pool, a) || is_list(pool, a) || is_equation(pool, a)) && has_same_shape(pool, a, b) &&
         is_equation(pool, a) == is_equation(pool, b))
         return map_components(pool, a, b, qdot_value_add, true);
     if (is_equation(pool, a) && qdot_expr_is_scalar(pool, b))
@@ -178,9 +186,9 @@ qdot_value_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_mul(pool, a, b);
-    if (qdot_expr_is_scalar(pool, a) && (is_tensor(pool, b) || is_equation(pool, b)))
+    if (qdot_expr_is_scalar(pool, a) && (is_tensor(pool, b) || is_list(pool, b) || is_equation(pool, b)))
         return map_components(pool, b, a, qdot_value_mul, false);
-    if (qdot_expr_is_scalar(pool, b) && (is_tensor(pool, a) || is_equation(pool, a)))
+    if (qdot_expr_is_scalar(pool, b) && (is_tensor(pool, a) || is_list(pool, a) || is_equation(pool, a)))
         return map_components(pool, a, b, qdot_value_mul, false);
     if (NODE(pool, a)->kind == QDOT_MAT && is_tensor(pool, b))
         return matrix_product(pool, a, b);

@@ -60,13 +60,27 @@ answer_run_results(qdot_session *session, const char *name, qdot_expr value)
     return status;
 }
 
+/* Whether an index written behind the text would belong to its last part only, as behind eom/m. */
+static bool
+is_sum_or_product(const char *text)
+{
+    long depth = 0;
+
+    for (; *text != '\0'; text++) {
+        depth += (strchr("([", *text) != NULL) - (strchr(")]", *text) != NULL);
+        if (depth == 0 && strchr("+-*/", *text) != NULL)
+            return true;
+    }
+    return false;
+}
+
 /* Append the name of list member i: "eom[theta1]" if it belongs to a coordinate, "eom[theta1][2]" if `each` members do,
  * otherwise (nil) "solve(...)[1]". */
 static void
 append_member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i, uint32_t each,
                    qdot_text *out)
 {
-    qdot_text_add(out, name);
+    qdot_text_format(out, is_sum_or_product(name) ? "(%s)" : "%s", name);
     if (coordinate != QDOT_NIL)
         qdot_text_format(out, "[%s]", qdot_expr_symbol(session->pool, coordinate)->name);
     if (coordinate == QDOT_NIL || each > 1)

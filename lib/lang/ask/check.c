@@ -37,9 +37,9 @@ static qdot_status check_claim(qdot_record *r);
 QDOT_STATEMENT(check) = {
     .word = "check",
     .group = QDOT_ASKING,
-    .usage = "check [not] A == B [when C, D, ...] [within E] | check [not] conserved E [when C, D, ...] | "
+    .usage = "check [not] A == B [when C, D, ...] [within E] | check [not] A ~ B [when C, D, ...] | check [not] conserved E [when C, D, ...] | "
              "check [not] integrable LABEL",
-    .summary = "decide an identity, an inequality, a conservation, or whether a velocity constraint "
+    .summary = "decide an identity, an inequality, whether equations agree up to a factor (~), a conservation, or whether a velocity constraint "
                "is holonomic in disguise: proved, refuted or undecided",
     .example = "check sin(x)^2 + cos(x)^2 == 1",
     .handler = check_claim,
@@ -47,7 +47,7 @@ QDOT_STATEMENT(check) = {
 
 /* --- deciding a claim --------------------------------------------------------------- */
 
-typedef enum { EQUAL, LESS, LESS_EQUAL } comparison;
+typedef enum { EQUAL, PROPORTIONAL, LESS, LESS_EQUAL } comparison;
 
 static qdot_status
 decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
@@ -75,16 +75,21 @@ is_text_value(qdot_pool *pool, qdot_expr e)
     return qdot_expr_is_class(pool, e, QDOT_WORDS) || qdot_equilibria_is_word(pool, e);
 }
 
-/* Decide whether two equations are equivalent: left - right of one is that of the other times a factor without zeros. */
+/* left - right of an equation; a scalar e stands for e = 0. */
+static qdot_expr
+residual_of(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_scalar(pool, e) ? e : qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
+}
+
+/* Decide whether two equations are equivalent: the residual of one is that of the other times a factor without zeros, which
+ * may hold velocities where `how` is PROPORTIONAL. */
 static qdot_status
-decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
+decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                  const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
-    qdot_expr a =
-        qdot_sub(pool, qdot_expr_arg(pool, left, 0), qdot_expr_arg(pool, left, 1));
-    qdot_expr b =
-        qdot_sub(pool, qdot_expr_arg(pool, right, 0), qdot_expr_arg(pool, right, 1));
+    qdot_expr a = residual_of(pool, left), b = residual_of(pool, right);
     qdot_expr factor = QDOT_NIL;
     bool may_vanish = false;
     qdot_text text = {0};
@@ -92,10 +97,11 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_sheet sheet;
 
     QDOT_TRY(qdot_pool_check(pool));
-    if (qdot_expr_node(pool, left)->op != QDOT_EQ ||
-        qdot_expr_node(pool, right)->op != QDOT_EQ)
+    if ((qdot_expr_kind(pool, left) == QDOT_REL && qdot_expr_node(pool, left)->op != QDOT_EQ) ||
+        (qdot_expr_kind(pool, right) == QDOT_REL && qdot_expr_node(pool, right)->op != QDOT_EQ))
         return qdot_fail(QDOT_ETYPE, "inequalities are not compared with one another");
-    QDOT_TRY(qdot_decide_proportional(pool, a, b, known, decision, &factor, &may_vanish));
+    QDOT_TRY(qdot_decide_proportional(pool, a, b, how == PROPORTIONAL ? QDOT_FACTOR_OF_STATE : QDOT_FACTOR_OF_PLACE, known, decision,
+                                      &factor, &may_vanish));
     if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
         return QDOT_OK;
     sheet = qdot_sheet_begin_text(session, session->output->style);
@@ -108,6 +114,12 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
                                     qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
+}
+
+static bool
+is_equation_or_scalar(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_scalar(pool, e) || qdot_expr_kind(pool, e) == QDOT_REL;
 }
 
 static const char *
@@ -149,6 +161,8 @@ decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, com
 
         if (how == EQUAL && is_text_value(pool, a) && is_text_value(pool, b)) {
             one.verdict = a == b ? QDOT_PROVED : QDOT_REFUTED;
+        } else if (how == PROPORTIONAL && is_equation_or_scalar(pool, a) && is_equation_or_scalar(pool, b)) {
+            status = decide_equations(session, a, b, how, known, &one);
         } else if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
             status = decide_scalars(session, a, b, how, known, &one);
         } else if (kind != qdot_expr_kind(pool, b) || kind == QDOT_LOGIC ||
@@ -156,11 +170,11 @@ decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, com
                    (kind == QDOT_MAT &&
                     qdot_expr_node(pool, a)->op != qdot_expr_node(pool, b)->op)) {
             status = report_unequal_shapes(pool, a, b);
-        } else if (how != EQUAL) {
+        } else if (how != EQUAL && how != PROPORTIONAL) {
             status =
                 qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_in_words(pool, a));
         } else if (kind == QDOT_REL) {
-            status = decide_equations(session, a, b, known, &one);
+            status = decide_equations(session, a, b, how, known, &one);
         } else {
             for (uint32_t i = 2 * qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;)
                 status =
@@ -260,7 +274,7 @@ read_comparison(qdot_record *r, const qdot_filled *part, question *q)
     if (part->n == 1)
         return split_relation(r, part, q);
     q->turned = relation[0] == '>';
-    q->how = relation[0] == '=' ? EQUAL : relation[1] == '=' ? LESS_EQUAL : LESS;
+    q->how = relation[0] == '=' ? EQUAL : relation[0] == '~' ? PROPORTIONAL : relation[1] == '=' ? LESS_EQUAL : LESS;
     QDOT_TRY(qdot_record_side(r, part, 1, &q->right));
     r->cursor.error_at = r->compiled.at[part->first].to->start;
     return qdot_units_join(r->cursor.session, q->left, q->right, "%s is compared with %s");
@@ -462,6 +476,8 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     QDOT_TRY(replace_momenta_by_velocities(session, q, f));
     measured =
         qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
+    if (q->how == PROPORTIONAL && (measured || q->within))
+        return qdot_fail(QDOT_EINVAL, "`~` compares equations, not numbers");
     if (measured && q->how == EQUAL && !q->within) {
         (void)qdot_fail(QDOT_EINVAL, "numbers of a run are never exactly equal");
         return qdot_hint("check ... within 1e-9");
@@ -493,6 +509,24 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     return qdot_answer_check(session, q->left, q->right, &decision);
 }
 
+/* The rate of a scalar where it needs no accelerations; *missing: it does. */
+typedef struct {
+    qdot_scene *scene;
+    bool missing;
+} rate_search;
+
+static qdot_expr
+rate_without_accelerations(qdot_pool *pool, qdot_expr e, void *user)
+{
+    rate_search *search = user;
+    qdot_expr rate = qdot_mech_rate(search->scene, e);
+
+    if (rate != QDOT_NIL || qdot_pool_failed(pool))
+        return rate;
+    search->missing = true;
+    return QDOT_ZERO;
+}
+
 /* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so.
  * Where multipliers are left, which the state tells, or a coordinate has no mass, only a proof
  * counts. */
@@ -502,22 +536,24 @@ decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bo
     qdot_pool *pool = session->pool;
     qdot_decision decision;
     qdot_facts known;
-    qdot_expr rate;
+    rate_search search = {.scene = session->scene};
+    qdot_expr rate, zero;
 
     *done = false;
-    if (!qdot_expr_is_scalar(pool, q->left) || session->scene->coordinates.n == 0 ||
+    if (session->scene->coordinates.n == 0 ||
         f->from.n > 0 || qdot_measured_occurs(session, q->left))
         return QDOT_OK;
-    rate = qdot_mech_rate(session->scene, q->left);
+    rate = qdot_value_map(pool, q->left, rate_without_accelerations, &search);
+    zero = qdot_value_sub(pool, rate, rate);
     QDOT_TRY(qdot_pool_check(pool));
-    if (rate == QDOT_NIL)
+    if (search.missing)
         return QDOT_OK;
     f->motion = true;
     for (size_t i = 0; i < session->scene->constraints.n; i++)
         QDOT_TRY(qdot_assumed_constraint(session, f, i, false));
     known = collect_known_facts(session, f, q);
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(decide_scalars(session, rate, QDOT_ZERO, EQUAL, &known, &decision));
+    QDOT_TRY(decide_by_components(session, rate, zero, EQUAL, &known, &decision));
     *done = decision.verdict == QDOT_PROVED ||
             ((qdot_expr_node(pool, rate)->holds & QDOT_HAS_MULTIPLIER) == 0 &&
              !qdot_mech_lacks_mass(session->scene));
@@ -527,7 +563,7 @@ decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bo
         QDOT_TRY(report_contradiction(session, f, &known));
     if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
         session->outcome->refuted = true;
-    return qdot_answer_check(session, rate, QDOT_ZERO, &decision);
+    return qdot_answer_check(session, rate, zero, &decision);
 }
 
 /* `conserved E`: by its rate, else with accelerations put in; past the work budget that is
@@ -540,14 +576,14 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     bool done, jumps;
     qdot_status status;
 
-    q->left = qdot_momenta_to_velocities(session, q->left);
-    QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
     if (!jumps) {
         QDOT_TRY(decide_conserved_by_rate(session, q, f, &done));
         if (done)
             return QDOT_OK;
     }
+    q->left = qdot_momenta_to_velocities(session, q->left);
+    QDOT_TRY(qdot_pool_check(session->pool));
     q->left = qdot_ddt(session->pool, q->left);
     q->right = QDOT_ZERO;
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -557,7 +593,9 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     }
     status = qdot_assumed_motion(session, f);
     if (status == QDOT_ELIMIT) {
-        QDOT_TRY(qdot_answer_notice(session, "%s", qdot_last_error()->message));
+        QDOT_TRY(qdot_answer_notice(session, "%s; with momenta p[q] in place of velocities, or with numbers as parameters, "
+                                             "it may be decided, and `drift(...)` is its change along a run",
+                                    qdot_last_error()->message));
         return qdot_answer_check(session, q->left, q->right, &decision);
     }
     QDOT_TRY(status);

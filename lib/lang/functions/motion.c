@@ -8,25 +8,29 @@
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
 
+/* The rate of e in velocities or, as momenta have rates of their own, in momenta. */
 static qdot_expr
-rate_of_scalar(qdot_pool *pool, qdot_expr e, void *scene)
+rate_of_scalar(qdot_pool *pool, qdot_expr e, void *session)
 {
-    (void)pool;
-    return qdot_rate_of(scene, e);
+    const qdot_session *s = session;
+
+    if (qdot_expr_node(pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+        e = qdot_momenta_to_velocities(session, e);
+    return e == QDOT_NIL ? e : qdot_rate_of(s->scene, e);
 }
 
 qdot_status
 qdot_call_rate(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     const qdot_scene *scene = s->scene;
-    const qdot_expr e = qdot_momenta_to_velocities(s, args[0]);
+    const qdot_expr e = args[0];
 
     (void)n;
-    QDOT_TRY(qdot_value_kind_check(s->pool, e));
-    if ((qdot_expr_node(s->pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)) && scene->particles.n == 0 &&
+    if ((qdot_expr_node(s->pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM)) &&
+        scene->particles.n == 0 &&
         scene->bodies.n == 0 && scene->lagrangian == QDOT_NIL) {
         qdot_fail(QDOT_EINVAL, "the scene has nothing that moves, so accelerations are unknown");
         return qdot_hint("ddt(...) keeps them; or declare a `particle`, a `body` or a `lagrangian`");
     }
-    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, e, rate_of_scalar, s->scene), value);
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, e, rate_of_scalar, s), value);
 }

@@ -433,7 +433,7 @@ are_integer_indices(qdot_session *s, uint32_t n, const qdot_expr *index)
     return true;
 }
 
-/* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), or a name, or a value
+/* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), rate(...), or a name, or a value
  * of before, in which momenta stand. */
 static bool
 is_independent_momentum(const qdot_session *s, const qdot_token *t)
@@ -446,7 +446,7 @@ is_independent_momentum(const qdot_session *s, const qdot_token *t)
         if (entry == NULL)
             return strcmp(t->text, "hamiltonian") == 0 || strcmp(t->text, "H") == 0 ||
                    (s->scene->hamiltonian != QDOT_NIL && strcmp(t->text, "eom") == 0) ||
-                   strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0;
+                   strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0 || strcmp(t->text, "rate") == 0;
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
         e = s->history->values.n > 0 ? s->history->values.at[s->history->values.n - 1] : QDOT_NIL;
@@ -471,6 +471,15 @@ is_definition(const qdot_token *name)
     return qdot_token_is(next, "=");
 }
 
+/* Whether the statement is `check conserved ...`: momenta have rates of their own. */
+static bool
+is_claim_of_conservation(const qdot_token *first)
+{
+    return qdot_token_is_word(first, "check") &&
+           (qdot_token_is_word(first + 1, "conserved") ||
+            (qdot_token_is_word(first + 1, "not") && qdot_token_is_word(first + 2, "conserved")));
+}
+
 /* Whether the statement of `token` is written in momenta: then p[q] is the independent symbol. A
  * definition keeps it; so does what stands beside something canonical. */
 static bool
@@ -478,7 +487,7 @@ stands_beside_momenta(const qdot_cursor *c, const qdot_token *token)
 {
     const qdot_token *first = qdot_enclosing_statement(c, token);
 
-    if (is_definition(first))
+    if (is_definition(first) || is_claim_of_conservation(first))
         return true;
     for (token = first; token->kind != QDOT_TOKEN_END; token++)
         if (is_independent_momentum(c->session, token) ||

@@ -52,6 +52,7 @@ static const struct {
     {"!", "!"},
     {"&", "&"},
     {"|", "|"},
+    {"~", "~"},
     {"\xE2\x88\x92", "-"},  /* minus sign */
     {"\xC2\xB7", "*"},      /* middle dot */
     {"\xE2\x8B\x85", "*"},  /* dot operator */

@@ -173,7 +173,7 @@ report_unknown_name(const reader *m, const qdot_filled *part)
                : QDOT_OK;
 }
 
-/* Parse SIDE = SIDE, or an equation given by name; for a comparison any relation. */
+/* Parse SIDE = SIDE, or an equation given by name; for a comparison any relation, also `~`. */
 static qdot_status
 read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
 {
@@ -181,7 +181,8 @@ read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
     qdot_cursor *c = m->c;
 
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
-    if (qdot_token_is(c->at, "=") || qdot_token_is(c->at, "==") || (comparison && is_relation(c->at))) {
+    if (qdot_token_is(c->at, "=") || qdot_token_is(c->at, "==") ||
+        (comparison && (is_relation(c->at) || qdot_token_is(c->at, "~")))) {
         c->at++;
         return read_expression(m, QDOT_PARSE_SIDE, part);
     }

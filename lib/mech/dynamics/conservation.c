@@ -14,6 +14,7 @@
 #include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "mech/dynamics/energy.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/quantity.h"
@@ -127,11 +128,44 @@ qdot_mech_lacks_mass(qdot_scene *s)
     return false;
 }
 
+/* dE/dt of E(q, p, t), sum dE/dq q' + dE/dp p' + dE/dt, written in velocities. Nil where E holds velocities too. */
+static qdot_expr
+rate_in_momenta(qdot_scene *s, qdot_expr E)
+{
+    qdot_pool *pool = s->pool;
+    const size_t n = s->coordinates.n;
+    qdot_expr rate, *from;
+    size_t held = 0;
+
+    if (!is_free_of_velocities(s, E))
+        return QDOT_NIL;
+    from = qdot_calloc(2 * n + 1, sizeof *from);
+    if (from == NULL)
+        return qdot_pool_fail(pool);
+    rate = qdot_diff(pool, E, QDOT_T);
+    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+        const qdot_expr q = s->coordinates.at[i], p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+
+        rate = qdot_add(pool, rate, qdot_mul(pool, qdot_diff(pool, E, q), qdot_mech_jet(s, i, 1)));
+        if (!qdot_expr_contains(pool, E, p))
+            continue;
+        rate = qdot_add(pool, rate, qdot_mul(pool, qdot_diff(pool, E, p), momentum_rate(s, i)));
+        from[held] = p;
+        from[n + held++] = qdot_mech_momentum(s, q);
+    }
+    if (!qdot_pool_failed(pool))
+        rate = qdot_subs(pool, rate, held, from, from + n);
+    qdot_free(from);
+    return qdot_pool_failed(pool) ? QDOT_NIL : rate;
+}
+
 qdot_expr
 qdot_mech_rate(qdot_scene *s, qdot_expr E)
 {
     qdot_expr rest;
 
+    if (qdot_mech_holds(s, E) & QDOT_HAS_MOMENTUM)
+        return rate_in_momenta(s, E);
     if (is_free_of_velocities(s, E) && !qdot_mech_lacks_mass(s))
         return qdot_ddt(s->pool, E);
     rest = difference_without_velocities(s, E, qdot_mech_energy(s));

@@ -79,8 +79,8 @@ QDOT_MUST_CHECK qdot_status qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, 
 /* Whether the energy function h is proved conserved: dh/dt = 0 by the equations of motion. */
 QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *conserved);
 /* dE/dt along the motion, with multipliers as symbols, if no acceleration has to be solved for: E
- * is the energy h, a momentum p_i or 0, plus a function of q and t. Nil without a failure: E is
- * none of these. */
+ * is the energy h, a momentum p_i or 0, plus a function of q and t; or a function of q, t and the
+ * symbols p[q]. Nil without a failure: E is none of these. */
 qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
 /* Whether a row of M is 0: the equation of such a coordinate ties velocities or positions, which
  * rates as above do not know. */

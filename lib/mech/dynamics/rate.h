@@ -15,7 +15,7 @@
 /* The scalar e with accelerations and multipliers replaced by their solutions; e itself if it holds none. Nil on
  * failure: as of qdot_mech_accel; QDOT_EINVAL: the constraints are redundant, so that a multiplier has no value. */
 qdot_expr qdot_rate_on_motion(qdot_scene *s, qdot_expr e);
-/* dE/dt along the motion for a scalar E of q, q', q'', t and multipliers, simplified; 0 where the constraints prove it. */
+/* dE/dt along the motion for a scalar E of q, q', q'', t and multipliers, or of q, t and momenta p[q], simplified; 0 where the constraints prove it. */
 qdot_expr qdot_rate_of(qdot_scene *s, qdot_expr E);
 
 #endif

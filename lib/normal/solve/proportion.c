@@ -16,26 +16,25 @@
 #include "normal/simplify/simplify.h"
 
 #define WORK 40000000
-#define MOVING (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
 
 /* Mark the variables that must not occur in the factor between the two equations. */
 static bool *
-moving_variables(const qdot_field *f)
+moving_variables(const qdot_field *f, uint32_t moving)
 {
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
 
     for (slong v = 0; by != NULL && v < f->n; v++)
         by[v] = f->gen[v].kind == QDOT_GEN_PLAIN &&
-                (qdot_expr_node(f->pool, f->gen[v].expr)->holds & MOVING);
+                (qdot_expr_node(f->pool, f->gen[v].expr)->holds & moving);
     return by;
 }
 
-/* Whether a velocity occurs inside another function or root of the field, as in sin(q'). */
+/* Whether such a variable occurs inside another function or root of the field, as in sin(q'). */
 static bool
-has_velocity_inside_function(const qdot_field *f, const bool *by)
+has_velocity_inside_function(const qdot_field *f, const bool *by, uint32_t moving)
 {
     for (slong v = 0; v < f->n; v++)
-        if (!by[v] && (qdot_expr_node(f->pool, f->gen[v].expr)->holds & MOVING))
+        if (!by[v] && (qdot_expr_node(f->pool, f->gen[v].expr)->holds & moving))
             return true;
     return false;
 }
@@ -54,13 +53,13 @@ find_group_by_key(const qdot_field *f, const qdot_groups *groups, const ulong *k
     return NULL;
 }
 
-/* a = factor * b with numerators and denominators free of velocities; *moving: there
- * are any. */
+/* a = factor * b with numerators and denominators free of what holds bits of `fixed`; *moving: there
+ * are such variables. */
 static qdot_status
-find_constant_ratio(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *factor,
-                    bool *proved, bool *moving)
+find_constant_ratio(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, uint32_t fixed,
+                    qdot_ratio *factor, bool *proved, bool *moving)
 {
-    bool *by = moving_variables(f);
+    bool *by = moving_variables(f, fixed);
     qdot_groups ga = {0}, gb = {0};
     qdot_status status;
     qdot_ratio x, y;
@@ -68,7 +67,7 @@ find_constant_ratio(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdo
     *proved = *moving = false;
     if (by == NULL)
         return QDOT_ENOMEM;
-    if (has_velocity_inside_function(f, by)) {
+    if (has_velocity_inside_function(f, by, fixed)) {
         qdot_free(by);
         return QDOT_OK;
     }
@@ -186,7 +185,7 @@ report_point(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_de
 /* a(q, v) b(q, w) - a(q, w) b(q, v) is zero for all v, w if a is a multiple of b; the
  * point at which it is not refutes. */
 static qdot_status
-refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
+refute(qdot_pool *pool, qdot_expr a, qdot_expr b, uint32_t fixed, const qdot_facts *facts,
        qdot_decision *d)
 {
     qdot_expr both[2] = {a, b}, atoms, left, right;
@@ -208,7 +207,7 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
         char name[32];
 
         if (qdot_expr_kind(pool, x) != QDOT_SYM ||
-            !(qdot_expr_node(pool, x)->holds & MOVING))
+            !(qdot_expr_node(pool, x)->holds & fixed))
             continue;
         snprintf(name, sizeof name, "(other %u)", moving);
         from[moving] = x;
@@ -253,7 +252,7 @@ refute_by_zeros_of_one(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision 
 }
 
 static qdot_status
-decide_ratio(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
+decide_ratio(qdot_pool *pool, qdot_expr a, qdot_expr b, uint32_t fixed, const qdot_facts *facts,
              qdot_decision *d, qdot_expr *factor, bool *may_vanish)
 {
     bool zero_a, zero_b, proved = false, moving = false;
@@ -285,7 +284,7 @@ decide_ratio(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
         qdot_field_cancelled(&f, &x, e[0]);
         qdot_field_cancelled(&f, &y, e[1]);
         qdot_ratio_init(&f, &k);
-        status = find_constant_ratio(&f, &x, &y, &k, &proved, &moving);
+        status = find_constant_ratio(&f, &x, &y, fixed, &k, &proved, &moving);
         if (status == QDOT_OK && proved) {
             *may_vanish = !factors_are_nonzero(&f, k.n) || !factors_are_nonzero(&f, k.d);
             *factor = qdot_field_ratio_expr(&f, &k);
@@ -318,12 +317,13 @@ decide_ratio(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
         *may_vanish = false;
         return refute_by_zeros_of_one(pool, a, b, d);
     }
-    return refute(pool, a, b, facts, d);
+    return refute(pool, a, b, fixed, facts, d);
 }
 
 struct proportion {
     qdot_pool *pool;
     qdot_expr a, b;
+    uint32_t fixed;
     const qdot_facts *facts;
     qdot_decision d;
     qdot_expr factor;
@@ -336,15 +336,15 @@ decide_proportion_task(void *user)
 {
     struct proportion *x = user;
 
-    x->status = decide_ratio(x->pool, x->a, x->b, x->facts, &x->d, &x->factor, &x->may_vanish);
+    x->status = decide_ratio(x->pool, x->a, x->b, x->fixed, x->facts, &x->d, &x->factor, &x->may_vanish);
 }
 
 qdot_status
-qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
+qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b, uint32_t fixed,
                          const qdot_facts *facts, qdot_decision *d, qdot_expr *factor,
                          bool *may_vanish)
 {
-    struct proportion x = {.pool = pool, .a = a, .b = b, .facts = facts};
+    struct proportion x = {.pool = pool, .a = a, .b = b, .fixed = fixed, .facts = facts};
     qdot_status status = qdot_flint_run(pool, decide_proportion_task, &x);
 
     *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};

@@ -606,8 +606,8 @@ proportional_equations_are_found(void **state)
         bool may_vanish;
 
         assert_int_equal(qdot_decide_proportional(pool, text_read(pool, proportions[i].a),
-                                                  text_read(pool, proportions[i].b), NULL,
-                                                  &d, &factor, &may_vanish),
+                                                  text_read(pool, proportions[i].b),
+                                                  QDOT_FACTOR_OF_PLACE, NULL, &d, &factor, &may_vanish),
                          QDOT_OK);
         if (d.verdict != proportions[i].expected ||
             may_vanish != proportions[i].may_vanish)
@@ -615,6 +615,40 @@ proportional_equations_are_found(void **state)
                      d.verdict);
         if (proportions[i].factor != NULL)
             assert_int_equal(factor, text_read(pool, proportions[i].factor));
+        qdot_pool_free(pool);
+    }
+}
+
+/* A factor that holds velocities, where that is allowed: of equations of motion only. */
+static const struct {
+    const char *a, *b;
+    qdot_verdict expected;
+    bool may_vanish;
+} with_velocities[] = {
+    {"phi''*x'", "phi''", QDOT_PROVED, true},
+    {"(1 + x'^2)*(phi'' + sin(x))", "phi'' + sin(x)", QDOT_PROVED, false},
+    {"phi''/(1 + x'^2) - x'", "phi'' - x' - x'^3", QDOT_PROVED, false},
+    {"phi''*(phi'' + 1)", "phi'' + 1", QDOT_REFUTED, false},
+    {"x'*(phi' - 1)", "phi' - 1", QDOT_REFUTED, false},
+    {"phi'' + x'", "phi'' - x'", QDOT_REFUTED, false},
+};
+
+static void
+factors_with_velocities_are_found_where_allowed(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof with_velocities / sizeof *with_velocities; i++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_decision d;
+        qdot_expr factor;
+        bool may_vanish;
+
+        assert_int_equal(qdot_decide_proportional(pool, text_read(pool, with_velocities[i].a),
+                                                  text_read(pool, with_velocities[i].b), QDOT_FACTOR_OF_STATE, NULL,
+                                                  &d, &factor, &may_vanish),
+                         QDOT_OK);
+        if (d.verdict != with_velocities[i].expected || may_vanish != with_velocities[i].may_vanish)
+            fail_msg("%s ~ %s: verdict %d", with_velocities[i].a, with_velocities[i].b, d.verdict);
         qdot_pool_free(pool);
     }
 }
@@ -653,7 +687,7 @@ unequal_equations_are_shown_at_one_point(void **state)
 
     (void)state;
     assert_int_equal(qdot_decide_proportional(pool, text_read(pool, "phi'' + 2*x"),
-                                              text_read(pool, "phi'' - 2*x"), NULL, &d,
+                                              text_read(pool, "phi'' - 2*x"), QDOT_FACTOR_OF_PLACE, NULL, &d,
                                               &factor, &may_vanish),
                      QDOT_OK);
     assert_int_equal(d.verdict, QDOT_REFUTED);
@@ -883,6 +917,7 @@ main(void)
         cmocka_unit_test(inequalities_are_decided),
         cmocka_unit_test(conditions_bound_a_difference),
         cmocka_unit_test(proportional_equations_are_found),
+        cmocka_unit_test(factors_with_velocities_are_found_where_allowed),
         cmocka_unit_test(a_refutation_names_its_point),
         cmocka_unit_test(unequal_equations_are_shown_at_one_point),
         cmocka_unit_test(what_is_undefined_everywhere_is_undecided),
