@@ -171,6 +171,10 @@ read_cell(const reader *r, piece cell, double *x)
     char *own = n < sizeof buffer ? buffer : NULL, *allocated = NULL;
     qdot_csv_place place;
 
+    if (r->csv->gaps && (n == 0 || is_missing_number(cell))) {
+        *x = NAN;
+        return QDOT_OK;
+    }
     if (!is_decimal_number(cell))
         return fail_at_cell(r, cell);
     if (own == NULL)
@@ -246,7 +250,7 @@ read_row(reader *r)
         double x = 0;
 
         if (r->separator != ' ' && at > r->line.end && cell.at == cell.end && n > 0
-            && (r->rows == 0 || n == r->columns))
+            && (r->rows == 0 ? !r->csv->gaps || n >= r->csv->names.n : n == r->columns))
             break; /* a separator at the end of the line is ignored */
         if (r->rows > 0 && n == r->columns) {
             const qdot_csv_place place = place_in_file(r, cell.at);

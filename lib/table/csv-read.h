@@ -28,8 +28,9 @@ typedef struct {
 } qdot_csv_name;
 
 typedef struct {
+    bool gaps; /* set before reading: an empty cell or a word for a missing number, as nan, is NaN and no error */
     size_t columns, rows;
-    double *at;             /* [rows x columns] the numbers, all finite */
+    double *at;             /* [rows x columns] the numbers, all finite but for gaps */
     qdot_csv_place *places; /* [rows x columns] where each number stands in the file */
     qdot_vec(qdot_csv_name) names;
 } qdot_csv;

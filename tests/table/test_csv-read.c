@@ -43,6 +43,28 @@ names_are_kept(void **state)
     qdot_csv_clear(&csv);
 }
 
+/* Where the caller takes gaps, empty cells and words for missing numbers are NaN; else they are errors. */
+static void
+gaps_are_nan(void **state)
+{
+    static const char *const texts[] = {"t,x,y\n1,2,\n3,nan,4\n", "1;n/a;NaN\n;2;3\n"};
+
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        qdot_csv csv = {.gaps = true};
+        size_t missing = 0;
+
+        assert_int_equal(qdot_csv_read_text("x", texts[i], strlen(texts[i]), &csv), QDOT_OK);
+        assert_int_equal(csv.columns * csv.rows, 6);
+        for (size_t k = 0; k < 6; k++)
+            missing += csv.at[k] != csv.at[k];
+        assert_int_equal(missing, i == 0 ? 2 : 3);
+        qdot_csv_clear(&csv);
+        assert_int_equal(qdot_csv_read_text("x", texts[i], strlen(texts[i]), &csv), QDOT_EINVAL);
+        qdot_csv_clear(&csv);
+    }
+}
+
 static void
 tables(void **state)
 {
@@ -106,6 +128,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables),
+        cmocka_unit_test(gaps_are_nan),
         cmocka_unit_test(places_of_errors),
         cmocka_unit_test(names_are_kept),
     };

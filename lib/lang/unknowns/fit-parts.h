@@ -23,7 +23,9 @@ typedef struct {
     qdot_fit_kind kind;
     const qdot_token *place;
     char *label;
-    qdot_expr e; /* expression of the model for the measured quantity in this column */
+    qdot_expr e; /* expression of the model for the measured quantity in this column; of the time: what it makes of the
+                  * column, an expression of t */
+    size_t at;   /* index of this column in the file */
     double sigma; /* standard error of the measured quantity; 0: given by a column, or unknown */
     bool weighted; /* the next column contains the standard errors of this one */
 } qdot_fit_column;

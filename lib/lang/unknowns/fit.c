@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/build.h"
+#include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "lang/answer/answer.h"
@@ -26,8 +27,8 @@ QDOT_STATEMENT(fit) = {
     .usage = "fit NAME, ... to \"FILE\" : T, EXPR, ... [sigma EXPR, ...] [from EXPR] [tol E] "
              "[method auto|radau] [as NAME]",
     .summary = "parameters and initial values (theta, theta') by least squares, each with its standard error; the "
-               "values of `set` and `start` are the guesses; columns of the file may be `sigma`, of the one before, or "
-               "`skip`",
+               "values of `set` and `start` are the guesses; columns of the file, in its order or by its names, may be "
+               "`sigma`, of the one before, or `skip`; `t*1e-3` scales the time",
     .example = "fit m, k, theta' to \"data.csv\" : t, theta sigma 0.01",
     .handler = carry_out_fit,
 };
@@ -79,6 +80,30 @@ read_sigma_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit
                                        "what you call so");
 }
 
+/* Whether e is t, or t in another unit or from another origin: a t + b. */
+static bool
+is_of_time(qdot_pool *pool, qdot_expr e)
+{
+    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME | QDOT_HAS_MOMENTUM
+                            | QDOT_HAS_MULTIPLIER | QDOT_HAS_UFUN;
+    const qdot_expr slope = qdot_expr_is_scalar(pool, e) ? qdot_diff(pool, e, QDOT_T) : QDOT_NIL;
+
+    return slope != QDOT_NIL && slope != QDOT_ZERO && !(qdot_expr_node(pool, slope)->holds & moving)
+           && !(qdot_expr_node(pool, e)->holds & (moving & ~(uint32_t)QDOT_HAS_TIME));
+}
+
+/* Fail if no column is the time. */
+static qdot_status
+check_time_column(qdot_cursor *c, const qdot_fit *f)
+{
+    for (size_t i = 0; i < f->columns.n; i++)
+        if (f->columns.at[i].kind == QDOT_FIT_TIME)
+            return QDOT_OK;
+    c->error_at = f->columns.at[0].place->start;
+    (void)qdot_fail(QDOT_EINVAL, "no column is the time, `t`");
+    return qdot_hint("fit m to \"data.csv\" : t, %.100s", f->columns.at[0].label ? f->columns.at[0].label : "x");
+}
+
 static qdot_status
 read_expression_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
@@ -91,12 +116,12 @@ read_expression_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdo
     x->label = text.at;
     QDOT_TRY(qdot_text_status(&text));
     qdot_record_blame(r, part);
-    if (f->columns.n == 0) {
+    if (is_of_time(session->pool, x->e)) {
         x->kind = QDOT_FIT_TIME;
-        if (x->e == QDOT_T)
-            return QDOT_OK;
-        (void)qdot_fail(QDOT_EINVAL, "the first column is the time, `t`, not %.100s", x->label);
-        return qdot_hint("fit m to \"data.csv\" : t, %.100s", x->label);
+        for (size_t i = 0; i < f->columns.n; i++)
+            if (f->columns.at[i].kind == QDOT_FIT_TIME)
+                return qdot_fail(QDOT_EINVAL, "the time is one column alone");
+        return QDOT_OK;
     }
     x->kind = QDOT_FIT_VALUE;
     if (!qdot_expr_is_scalar(session->pool, x->e))
@@ -107,8 +132,6 @@ read_expression_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdo
     }
     if (qdot_expr_node(session->pool, x->e)->holds & QDOT_HAS_MULTIPLIER)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of multipliers");
-    if (x->e == QDOT_T)
-        return qdot_fail(QDOT_EINVAL, "the time is the first column alone");
     x->e = qdot_momenta_to_velocities(session, qdot_measured_as_rationals(session, x->e));
     f->m++;
     return qdot_pool_check(session->pool);
@@ -119,7 +142,7 @@ read_column(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_colum
 {
     if (is_single_word(r, part, "sigma"))
         return read_sigma_column(r, part, f, x);
-    if (!is_single_word(r, part, "skip") || f->columns.n == 0)
+    if (!is_single_word(r, part, "skip"))
         return read_expression_column(r, part, f, x);
     x->kind = QDOT_FIT_SKIP;
     return QDOT_OK;
@@ -147,7 +170,9 @@ read_columns(qdot_record *r, qdot_fit *f)
             return status;
         }
     }
-    return f->m > 0 ? QDOT_OK : qdot_record_expected(r, last->to, "`,` and what was measured: `t, theta`");
+    if (f->m > 0)
+        return check_time_column(&r->cursor, f);
+    return qdot_record_expected(r, last->to, "`,` and what was measured: `t, theta`");
 }
 
 /* --- reading the options ------------------------------------------------------------------------ */

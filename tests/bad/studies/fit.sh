@@ -16,7 +16,9 @@ fit g to "data.csv" : t, x
 fit k to data : t, x
 fit k to "data.csv"
 fit k to "data.csv" :
-fit k to "data.csv" : x, t
+fit k to "data.csv" : x, theta
+fit k to "data.csv" : t*1000, x, t/2
+fit k to "data.csv" : t^2, x
 fit k to "data.csv" : t
 fit k to "data.csv" : t, skip
 fit k to "data.csv" : t,
@@ -47,9 +49,9 @@ data()
     printf "$1" >bad.csv
     try "fit k to \"bad.csv\" : ${2:-t, x}" | grep -v '^  *fit\|^  *^'
 }
-data '0,1\n1,\n'
+data ',1\n1,\n'
 data 't,x\r\n0,1\r\n\r\n1,two\r\n'
-data '0,1\n1,nan\n'
+data '0,1\n1,nam\n'
 data '0,1\n1,2,3\n'
 data '0,1\n1\n'
 data '0;1,5\n'
@@ -60,7 +62,7 @@ data '0,1,0.1\n1,2,0\n' 't, x, sigma'
 data '0,1\n1,2\n' 't, x, sigma'
 data '0,1,2,3\n1,2,2,3\n'
 data '0,1e400\n'
-data 'x,t\n1,0\n0.8,0.5\n'
+data 'theta,t\n1,0\n0.8,0.5\n'
 data "# measured\nt;x'\ns;m/s\n0;1\n0.5;0.8\n"
 # a sum that no step makes less; a run that ends before the data do; a guess outside a domain
 printf '0,1\n1,2\n2,300\n3,-7\n4,11\n' >wild.csv
