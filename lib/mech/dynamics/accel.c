@@ -6,6 +6,8 @@
  * the constraints, differentiated as often as their kind asks. Constraints that repeat others
  * are left out (mech/dynamics/freedom.c): q'' does not depend on how they share the reaction. Rows
  * of velocity constraints in disguise are those of their integrals (mech/dynamics/integrated.h).
+ *
+ * The row of a state z' = g is z'' - dg/dq' q'' = dg/dt at q'' = 0, and z' stands nowhere else: g is in its place.
  */
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -42,6 +44,30 @@ fill_constraint_row(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr 
     return qdot_pool_check(pool);
 }
 
+/* The expression e with the rates of states in place of their velocities. */
+static qdot_expr
+with_rates(qdot_scene *s, qdot_expr e)
+{
+    for (size_t k = 0; k < s->states.n && e != QDOT_NIL; k++) {
+        const qdot_expr velocity = qdot_symbol_jet(s->pool, s->states.at[k].z, 1);
+
+        e = qdot_subs(s->pool, e, 1, &velocity, &s->states.at[k].rate);
+    }
+    return e;
+}
+
+/* The row of the state at coordinate i. */
+static void
+fill_state_row(qdot_scene *s, const qdot_state *state, size_t i, size_t size, qdot_expr *A, qdot_expr *b)
+{
+    qdot_pool *pool = s->pool;
+
+    for (size_t j = 0; j < s->coordinates.n; j++)
+        A[i * size + j] = j == i ? QDOT_ONE
+                                 : qdot_neg(pool, qdot_diff(pool, state->rate, qdot_mech_jet(s, j, 1)));
+    b[i] = qdot_mech_at_rest(s, qdot_ddt(pool, state->rate));
+}
+
 static qdot_status
 solve_for_accelerations(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, size_t size,
                         const size_t *which)
@@ -58,6 +84,13 @@ solve_for_accelerations(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x,
         for (size_t j = i; j < n; j++)
             A[i * size + j] = A[j * size + i] = qdot_mass_of_lagrangian(s, i, j);
         b[i] = qdot_lagrange_people_forcing(s, i);
+    }
+    for (size_t i = 0; i < n && s->states.n > 0; i++) {
+        const qdot_state *state = qdot_scene_state_of(s, s->coordinates.at[i]);
+
+        if (state)
+            fill_state_row(s, state, i, size, A, b);
+        b[i] = with_rates(s, b[i]);
     }
     for (size_t row = n; row < size; row++)
         QDOT_TRY(fill_constraint_row(s, which[row - n], row, size, A, b));
