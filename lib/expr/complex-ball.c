@@ -385,8 +385,11 @@ qdot_complex_ball_begin(qdot_complex_ball *b, const qdot_pool *pool, qdot_expr f
         qdot_walk_end(&b->walk);
         return QDOT_ENOMEM;
     }
-    for (size_t i = 0; i < b->walk.n; i++)
+    for (size_t i = 0; i < b->walk.n; i++) {
         acb_init(b->value + i);
+        b->kinked = b->kinked || (qdot_expr_kind(pool, b->walk.at[i]) == QDOT_FUN &&
+                                  qdot_expr_node(pool, b->walk.at[i])->op >= QDOT_ABS);
+    }
     return QDOT_OK;
 }
 

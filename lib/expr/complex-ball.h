@@ -17,6 +17,7 @@ typedef struct {
     const qdot_pool *pool;
     qdot_expr f;
     qdot_walk walk;
+    bool kinked;    /* f holds a function with kinks or steps */
     acb_ptr value;  /* [walk.n] the value of each node; of a condition 1, 0 or indeterminate */
 } qdot_complex_ball;
 

@@ -48,6 +48,10 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
     qdot_text text = {0};
 
+    if (s != NULL && s->class == QDOT_BOUND)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: an integral in the numbers of a run or a figure");
+    if (s != NULL && s->class >= QDOT_WORDS)
+        return qdot_fail(QDOT_EUNSET, "%s has no value", s->name);
     if (s) {
         const char *kind = what[s->class];
 

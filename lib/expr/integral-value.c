@@ -4,7 +4,7 @@
 #include "base/interrupt.h"
 #include "expr/complex-ball.h"
 
-enum { EVALUATIONS = 4000, LEVELS = 9, MOST_STEPS = 4096 };
+enum { EVALUATIONS = 4000, AT_KINKS = 40000, LEVELS = 9, MOST_STEPS = 4096 };
 
 static int
 integrand(acb_ptr y, const acb_t z, void *user, slong order, slong bits)
@@ -37,7 +37,7 @@ enclose(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits)
     acb_set_arb(hi, b);
     mag_set_ui_2exp_si(tolerance, 1, -bits);
     acb_calc_integrate_opt_init(options);
-    options->eval_limit = EVALUATIONS + 20 * bits;
+    options->eval_limit = (f->kinked ? AT_KINKS : EVALUATIONS) + 20 * bits; /* each bit halves the piece with the kink */
     acb_calc_integrate(sum, integrand, f, lo, hi, bits, tolerance, options, bits + 20);
     known = acb_is_finite(sum) && arb_contains_zero(acb_imagref(sum)) && is_known_well(acb_realref(sum), bits / 2);
     arb_set(y, acb_realref(sum));

@@ -447,7 +447,7 @@ compile_node(lowering *l, size_t i)
     case QDOT_FUN:
         return compile_function(l, e, k);
     case QDOT_INTEGRAL:
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: an integral in numbers of a run");
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: an integral in the numbers of a run or a figure");
     case QDOT_REL:
         k->bare = write_left_to_right(l, relations[node->op], e);
         return QDOT_OK;

@@ -7,6 +7,8 @@
 #include "expr/elliptic-ball.h"
 #include "expr/exact.h"
 #include "expr/function-ball.h"
+#include "expr/integral-value.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 
@@ -196,6 +198,25 @@ evaluate_logic(const qdot_ball *b, qdot_expr e)
     return all;
 }
 
+/* --- integrals --------------------------------------------------------------------- */
+
+/* A definite integral without symbols, enclosed once: to some digits, whatever precision is asked for. */
+static bool
+evaluate_integral(qdot_ball *b, arb_t y, size_t i, qdot_expr e)
+{
+    enum { BITS = 160 };
+    bool proved = false;
+
+    if (b->known[i] == 1)
+        return true;
+    if (!qdot_integral_is_definite(b->pool, e) || (qdot_expr_node(b->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0 ||
+        !arguments_are_finite(b, e, 1))
+        return false;
+    return qdot_integral_value(y, b->pool, qdot_expr_arg(b->pool, e, 0), b->value + ball_argument_index(b, e, 1),
+                               b->value + ball_argument_index(b, e, 2), BITS, &proved) == QDOT_OK &&
+           proved;
+}
+
 /* --- evaluation of all nodes ------------------------------------------------------- */
 
 qdot_status
@@ -254,6 +275,7 @@ qdot_ball_eval(qdot_ball *b, slong prec,
         case QDOT_SUM: known = evaluate_sum(b, y, e, prec); break;
         case QDOT_PROD: known = evaluate_product(b, y, e, prec); break;
         case QDOT_FUN: known = evaluate_function(b, y, e, prec); break;
+        case QDOT_INTEGRAL: known = evaluate_integral(b, y, i, e); break;
         case QDOT_REL: b->known[i] = evaluate_relation(b, e); continue;
         case QDOT_LOGIC: b->known[i] = evaluate_logic(b, e); continue;
         default: break;
