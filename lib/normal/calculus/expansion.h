@@ -4,7 +4,7 @@
  * coefficient is dropped where it is proved to be 0; that a leading one is not 0 is proved, too, or nothing is said.
  *
  * Source  Gruntz, "On computing limits in a symbolic manipulation system", ETH Zurich 1996, chapter 3
- * Tests   tests/script/integral/limit.lag
+ * Tests   tests/normal/calculus/test_limit.c, tests/script/integral/limit.lag
  */
 #ifndef QDOT_NORMAL_EXPANSION_H
 #define QDOT_NORMAL_EXPANSION_H

@@ -11,7 +11,7 @@
  * limit is found if its coefficient tends to 0.
  *
  * Source  Gruntz, "On computing limits in a symbolic manipulation system", ETH Zurich 1996
- * Tests   tests/script/integral/limit.lag
+ * Tests   tests/normal/calculus/test_limit.c, tests/script/integral/limit.lag
  */
 #ifndef QDOT_NORMAL_LIMIT_H
 #define QDOT_NORMAL_LIMIT_H
