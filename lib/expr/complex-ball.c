@@ -10,6 +10,8 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 
+enum { INNER_EVALUATIONS = 600, DEEPEST = 3 };
+
 /* What is evaluated now: at complex arguments or where `analytic` is asked for, cuts and kinks count. */
 typedef struct {
     qdot_complex_ball *b;
@@ -336,11 +338,24 @@ complex_of_logic(const evaluation *v, acb_t y, qdot_expr e)
 
 /* --- evaluation of all nodes -------------------------------------------------------------------------------- */
 
+/* The number-th variable from within: 1 is that of f itself. */
+static acb_srcptr
+variable(const qdot_complex_ball *b, uint32_t number)
+{
+    while (b != NULL && number > 1) {
+        b = b->outer;
+        number--;
+    }
+    return b == NULL ? NULL : b->z;
+}
+
 static void
 evaluate_symbol(const evaluation *v, acb_t y, qdot_expr e)
 {
-    if (qdot_bound_number(v->b->pool, e) == 1) {
-        acb_set(y, v->z);
+    const uint32_t number = qdot_bound_number(v->b->pool, e);
+
+    if (number > 0 && variable(v->b, number) != NULL) {
+        acb_set(y, variable(v->b, number));
     } else if (e == QDOT_PI) {
         acb_const_pi(y, v->bits);
     } else if (e == QDOT_TRUE || e == QDOT_FALSE) {
@@ -350,21 +365,55 @@ evaluate_symbol(const evaluation *v, acb_t y, qdot_expr e)
     }
 }
 
+static int
+inner_integrand(acb_ptr y, const acb_t z, void *user, slong order, slong bits)
+{
+    qdot_complex_ball *b = user;
+
+    qdot_complex_ball_eval(b, y, z, order != 0 || b->outer->analytic, bits);
+    return 0;
+}
+
+/* The integral e within f. It is analytic in the outer variable where its integrand is, on all of its path. */
+static void
+evaluate_inner(const evaluation *v, acb_t y, qdot_expr e, qdot_complex_ball *inner)
+{
+    acb_calc_integrate_opt_t options;
+    mag_t tolerance;
+
+    if (inner == NULL || !acb_is_finite(value_of(v, e, 1)) || !acb_is_finite(value_of(v, e, 2))) {
+        acb_indeterminate(y);
+        return;
+    }
+    mag_init(tolerance);
+    mag_set_ui_2exp_si(tolerance, 1, -v->bits);
+    acb_calc_integrate_opt_init(options);
+    options->eval_limit = INNER_EVALUATIONS;
+    acb_calc_integrate(y, inner_integrand, inner, value_of(v, e, 1), value_of(v, e, 2), v->bits, tolerance, options, v->bits);
+    mag_clear(tolerance);
+}
+
 void
 qdot_complex_ball_eval(qdot_complex_ball *b, acb_t y, const acb_t z, bool analytic, slong bits)
 {
     const evaluation v = {b, z, analytic || !acb_is_real(z), bits};
 
+    b->z = z;
+    b->analytic = v.analytic;
+
     for (size_t i = 0; i < b->walk.n; i++) {
         const qdot_expr e = b->walk.at[i];
         acb_ptr x = b->value + i;
 
+        if (qdot_walk_get(&b->walk, e) == 0) /* within the integrand of an inner integral */
+            continue;
         switch (qdot_expr_kind(b->pool, e)) {
         case QDOT_NUM: acb_set_fmpq(x, qdot_expr_rational(b->pool, e), bits); break;
         case QDOT_SYM: evaluate_symbol(&v, x, e); break;
         case QDOT_SUM: complex_of_sum(&v, x, e); break;
         case QDOT_PROD: complex_of_product(&v, x, e); break;
         case QDOT_FUN: complex_of_function(&v, x, e); break;
+        case QDOT_INTEGRAL: evaluate_inner(&v, x, e, b->inner[i]); break;
         case QDOT_REL: complex_of_relation(&v, x, e); break;
         case QDOT_LOGIC: complex_of_logic(&v, x, e); break;
         default: acb_indeterminate(x);
@@ -373,31 +422,76 @@ qdot_complex_ball_eval(qdot_complex_ball *b, acb_t y, const acb_t z, bool analyt
     acb_set(y, b->value + qdot_walk_index(&b->walk, b->f));
 }
 
+/* Prepare the integral of the i-th node, which stands in f. */
+static qdot_status
+begin_inner(qdot_complex_ball *b, size_t i)
+{
+    qdot_complex_ball *inner;
+    qdot_status status;
+    int depth = 1;
+
+    for (const qdot_complex_ball *o = b; o != NULL; o = o->outer)
+        depth++;
+    if (depth > DEEPEST)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: the number of more than %d integrals within each other", DEEPEST);
+    if (!qdot_integral_is_definite(b->pool, b->walk.at[i]))
+        return QDOT_OK;
+    inner = qdot_malloc(sizeof *inner);
+    if (inner == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_complex_ball_begin(inner, b->pool, qdot_expr_arg(b->pool, b->walk.at[i], 0));
+    if (status != QDOT_OK) {
+        qdot_free(inner);
+        return status;
+    }
+    inner->outer = b;
+    b->kinked = b->kinked || inner->kinked;
+    b->inner[i] = inner;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_complex_ball_begin(qdot_complex_ball *b, const qdot_pool *pool, qdot_expr f)
 {
+    qdot_status status = QDOT_OK;
+
     *b = (qdot_complex_ball){.pool = pool, .f = f};
-    if (qdot_integral_occurs(pool, f))
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: the number of an integral within an integral");
     QDOT_TRY(qdot_walk_begin(pool, f, &b->walk));
-    b->value = qdot_malloc((b->walk.n + 1) * sizeof *b->value);
-    if (b->value == NULL) {
+    b->value = qdot_calloc(b->walk.n + 1, sizeof *b->value);
+    b->inner = qdot_calloc(b->walk.n + 1, sizeof *b->inner);
+    if (b->value == NULL || b->inner == NULL) {
         qdot_walk_end(&b->walk);
+        qdot_free(b->value);
+        qdot_free(b->inner);
         return QDOT_ENOMEM;
     }
-    for (size_t i = 0; i < b->walk.n; i++) {
+    for (size_t i = 0; i < b->walk.n; i++)
         acb_init(b->value + i);
-        b->kinked = b->kinked || (qdot_expr_kind(pool, b->walk.at[i]) == QDOT_FUN &&
-                                  qdot_expr_node(pool, b->walk.at[i])->op >= QDOT_ABS);
+    qdot_integral_mark_outside(pool, &b->walk, f);
+    for (size_t i = 0; i < b->walk.n && status == QDOT_OK; i++) {
+        const qdot_node *node = qdot_expr_node(pool, b->walk.at[i]);
+
+        if (qdot_walk_get(&b->walk, b->walk.at[i]) == 0)
+            continue;
+        b->kinked = b->kinked || (node->kind == QDOT_FUN && node->op >= QDOT_ABS);
+        if (node->kind == QDOT_INTEGRAL)
+            status = begin_inner(b, i);
     }
-    return QDOT_OK;
+    if (status != QDOT_OK)
+        qdot_complex_ball_end(b);
+    return status;
 }
 
 void
 qdot_complex_ball_end(qdot_complex_ball *b)
 {
-    for (size_t i = 0; i < b->walk.n; i++)
+    for (size_t i = 0; i < b->walk.n; i++) {
         acb_clear(b->value + i);
+        if (b->inner[i] != NULL)
+            qdot_complex_ball_end(b->inner[i]);
+        qdot_free(b->inner[i]);
+    }
     qdot_free(b->value);
+    qdot_free(b->inner);
     qdot_walk_end(&b->walk);
 }

@@ -99,9 +99,8 @@ rebind_symbol(qdot_pool *pool, qdot_expr e, const rebinding *r, uint32_t depth)
                               : rebind(pool, r->to, &(rebinding){.what = LIFT, .by = depth}, 0);
 }
 
-/* Mark in w the nodes that are reached without passing through an integrand. */
-static void
-mark_outside_integrands(const qdot_pool *pool, qdot_walk *w, qdot_expr root)
+void
+qdot_integral_mark_outside(const qdot_pool *pool, qdot_walk *w, qdot_expr root)
 {
     qdot_walk_set(w, root, UINT64_MAX);
     for (size_t i = w->n; i-- > 0;) {
@@ -129,7 +128,7 @@ rebind(qdot_pool *pool, qdot_expr e, const rebinding *r, uint32_t depth)
         return qdot_pool_refuse(pool, QDOT_ELIMIT, "more than %d integrals one within the other", DEEPEST);
     if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
-    mark_outside_integrands(pool, &w, e);
+    qdot_integral_mark_outside(pool, &w, e);
     for (size_t i = 0; i < w.n; i++) {
         const qdot_expr at = w.at[i];
 
@@ -174,7 +173,7 @@ holds_bound_from(const qdot_pool *pool, qdot_expr e, uint32_t number)
 
     if (!(NODE(pool, e)->holds & QDOT_HAS_BOUND) || qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return false;
-    mark_outside_integrands(pool, &w, e);
+    qdot_integral_mark_outside(pool, &w, e);
     for (size_t i = 0; i < w.n && !holds; i++) {
         if (w.value[i] == 0)
             continue;

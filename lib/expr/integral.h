@@ -19,6 +19,7 @@
 #define QDOT_EXPR_INTEGRAL_H
 
 #include "expr/id.h"
+#include "expr/walk.h"
 
 /* The integral of f over the symbol x from a to b. QDOT_ETYPE: f, a or b is no number, x no variable. */
 qdot_expr qdot_integral(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr a, qdot_expr b);
@@ -45,6 +46,8 @@ qdot_expr qdot_integral_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *a
 qdot_expr qdot_integral_copy(const qdot_pool *from, qdot_expr e, qdot_pool *to, const qdot_expr *args);
 /* f, an integrand as it stands in a node, with `value` for its variable. */
 qdot_expr qdot_integral_at(qdot_pool *pool, qdot_expr f, qdot_expr value);
+/* Give the nodes of a walk over root that are reached without passing through an integrand a value other than 0. */
+void qdot_integral_mark_outside(const qdot_pool *pool, struct qdot_walk *w, qdot_expr root);
 /* The number of a symbol of class QDOT_BOUND; 0 for anything else. */
 uint32_t qdot_bound_number(const qdot_pool *pool, qdot_expr e);
 

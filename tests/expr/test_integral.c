@@ -125,6 +125,12 @@ numbers_are_those_of_known_integrals(void **state)
     assert_true(number_of(qdot_fun1(p.pool, QDOT_ABS, qdot_sub(p.pool, x, QDOT_HALF)), QDOT_ZERO, QDOT_ONE) == 0.25);
     assert_true(number_of(qdot_div(p.pool, QDOT_ONE, qdot_add(p.pool, QDOT_ONE, square)), QDOT_ZERO, QDOT_INFINITY) ==
                 acos(-1) / 2);
+    /* int_0^1 dx int_0^x x y^2 dy = 1/15; of cos(x y) e^-x over y from 0 to 1, x from 0: pi/4 */
+    assert_true(number_of(qdot_integral(p.pool, times(x, qdot_pow_int(p.pool, y, 2)), y, QDOT_ZERO, x), QDOT_ZERO, QDOT_ONE) ==
+                1.0 / 15);
+    assert_true(number_of(times(qdot_fun1(p.pool, QDOT_EXP, qdot_neg(p.pool, x)),
+                                qdot_integral(p.pool, qdot_fun1(p.pool, QDOT_COS, times(x, y)), y, QDOT_ZERO, QDOT_ONE)),
+                          QDOT_ZERO, QDOT_INFINITY) == acos(-1) / 4);
     assert_true(isnan(number_of(qdot_div(p.pool, QDOT_ONE, x), QDOT_ZERO, QDOT_ONE)));
     assert_true(isnan(number_of(qdot_div(p.pool, QDOT_ONE, x), QDOT_MINUS_ONE, QDOT_ONE)));
     assert_true(isnan(number_of(qdot_sqrt(p.pool, x), QDOT_MINUS_ONE, QDOT_ONE)));
