@@ -14,6 +14,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/dynamics/statics.h"
 #include "mech/geometry/metric.h"
 #include "mech/study/bodies.h"
 #include "mech/study/hamilton.h"
@@ -44,11 +45,19 @@ require_coordinates(const qdot_session *s)
     return qdot_hint("declare them: coord theta");
 }
 
+/* Check that the scene has equations of motion or, where nothing has mass, of equilibrium. */
+static qdot_status
+require_equations(const qdot_session *s)
+{
+    return qdot_statics_applies(s->scene) && qdot_statics_acts(s->scene) && s->scene->coordinates.n > 0 ? QDOT_OK
+                                                                                                        : require_coordinates(s);
+}
+
 /* Check the index of name[theta]: it must be a coordinate. */
 static qdot_status
 check_coordinate_index(qdot_session *s, const char *name, qdot_expr index)
 {
-    QDOT_TRY(require_coordinates(s));
+    QDOT_TRY(require_equations(s));
     if (qdot_expr_is_coordinate(s->pool, index))
         return QDOT_OK;
     return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
@@ -87,7 +96,7 @@ OF_SCENE(T, require_equations_of_motion, qdot_mech_kinetic)
 OF_SCENE(L, require_equations_of_motion, qdot_mech_lagrangian)
 OF_SCENE(energy, require_equations_of_motion, qdot_mech_energy)
 OF_SCENE(routhian, require_coordinates, cyclic_routhian)
-OF_SCENE(virtual_work, require_coordinates, qdot_mech_virtual_work)
+OF_SCENE(virtual_work, require_equations, qdot_mech_virtual_work)
 OF_SCENE(momentum, require_equations_of_motion, whole_momentum)
 OF_SCENE(angular_momentum, require_equations_of_motion, whole_angular_momentum)
 OF_SCENE(conserved, require_coordinates, qdot_noether_conserved)
@@ -168,20 +177,20 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
 /* --- momenta, forces, equations ----------------------------------------------------- */
 
 /* Define the getter of a quantity: its name gives the LIST for all coordinates, name[q] the value for one. */
-#define BY_COORDINATE(word, all, one)                                                    \
+#define BY_COORDINATE(word, need, all, one)                                              \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
                                   qdot_expr *value)                                      \
     {                                                                                    \
-        QDOT_TRY(require_coordinates(s));                                                   \
+        QDOT_TRY(need(s));                                                               \
         if (n == 0)                                                                      \
             return qdot_value_kind_give(s->pool, all(s->scene), value);                  \
         QDOT_TRY(check_coordinate_index(s, #word, index[0]));                                        \
         return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
-BY_COORDINATE(momenta, qdot_mech_momenta, qdot_mech_momentum)
-BY_COORDINATE(lagrange, qdot_mech_equations, qdot_mech_equation)
-BY_COORDINATE(accel, qdot_mech_accels, qdot_mech_accel)
-BY_COORDINATE(forces, qdot_mech_forces, qdot_mech_force)
+BY_COORDINATE(momenta, require_coordinates, qdot_mech_momenta, qdot_mech_momentum)
+BY_COORDINATE(lagrange, require_equations, qdot_mech_equations, qdot_mech_equation)
+BY_COORDINATE(accel, require_coordinates, qdot_mech_accels, qdot_mech_accel)
+BY_COORDINATE(forces, require_equations, qdot_mech_forces, qdot_mech_force)
 #undef BY_COORDINATE
 
 /* Lagrange's equations; Hamilton's where H is stated. */
@@ -334,7 +343,7 @@ get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *v
     qdot_status status;
     long k = 0;
 
-    QDOT_TRY(require_coordinates(s));
+    QDOT_TRY(require_equations(s));
     QDOT_TRY(qdot_equilibria_find(s, &all));
     status = qdot_equilibria_list(s, &all, value);
     if (status == QDOT_OK && n > 0)
@@ -423,7 +432,7 @@ static qdot_status
 get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
     (void)n, (void)index;
-    QDOT_TRY(require_coordinates(s));
+    QDOT_TRY(require_equations(s));
     if (s->scene->constraints.n > 0)
         return qdot_value_kind_give(s->pool, qdot_mech_reaction_list(s->scene), value);
     qdot_fail(QDOT_EINVAL, "the scene has no constraints");

@@ -7,6 +7,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/dynamics/statics.h"
 #include "mech/scene/access.h"
 #include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
@@ -32,7 +33,7 @@ solved_acceleration(qdot_scene *s, size_t i)
 static qdot_expr
 solved_multiplier(qdot_scene *s, size_t k)
 {
-    qdot_expr value = qdot_mech_multiplier(s, k);
+    qdot_expr value = qdot_statics_applies(s) ? qdot_statics_multiplier(s, k) : qdot_mech_multiplier(s, k);
 
     if (value == QDOT_NIL && !qdot_pool_failed(s->pool))
         return qdot_mech_fail(s, QDOT_EINVAL, "lambda[%.200s] is not determined: constraints repeat each other",
