@@ -12,7 +12,7 @@
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
-#include "lang/functions/equilibria.h"
+#include "lang/ask/equilibria.h"
 #include "lang/session/bind.h"
 #include "lang/session/history.h"
 #include "lang/session/output.h"
@@ -194,6 +194,11 @@ print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
     double value;
     qdot_status status;
 
+    if (qdot_expr_arg(session->pool, one, 0) == qdot_expr_arg(session->pool, one, 1)) { /* a rate that is free */
+        QDOT_TRY(qdot_sheet_formula(sheet, qdot_expr_arg(session->pool, one, 0)));
+        qdot_sheet_words(sheet, " constant");
+        return QDOT_OK;
+    }
     if (!e->numeric)
         return qdot_sheet_formula(sheet, one);
     QDOT_TRY(
@@ -208,14 +213,14 @@ print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
 
 /* Answer one equilibrium as `equilibria[1]: theta = 0, stable when ...`; in JSON the equations, then a text. */
 static qdot_status
-answer_one_equilibrium(qdot_session *session, size_t i, const qdot_equilibrium *e)
+answer_one_equilibrium(qdot_session *session, const char *word, size_t i, const qdot_equilibrium *e)
 {
-    char name[40];
+    char name[60];
     qdot_status status = QDOT_OK;
     uint32_t n = qdot_expr_count(session->pool, e->equations);
     qdot_sheet sheet;
 
-    snprintf(name, sizeof name, "equilibria[%zu]", i + 1);
+    snprintf(name, sizeof name, "%.20s[%zu]", word, i + 1);
     if (session->output->json)
         QDOT_TRY(qdot_answer_expr(session, name, qdot_equilibria_value(session->pool, e)));
     sheet = qdot_sheet_begin(session);
@@ -254,7 +259,7 @@ give_notice_of_special_values(qdot_session *session, qdot_expr special, const ch
 
 /* Give a notice that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
-give_notice_of_incompleteness(qdot_session *session, const qdot_equilibria *all)
+give_notice_of_incompleteness(qdot_session *session, const char *word, const char *noun, const qdot_equilibria *all)
 {
     qdot_text text = {0};
 
@@ -277,27 +282,39 @@ give_notice_of_incompleteness(qdot_session *session, const qdot_equilibria *all)
     if (all->complete && all->n > 0)
         return QDOT_OK;
     if (all->complete) {
-        qdot_text_add(&text, "there is no equilibrium");
+        qdot_text_format(&text, "there is no %s", noun);
     } else if (all->pole != NULL && all->n == 0 && all->starts == 0 && all->unset == NULL) {
-        qdot_text_format(&text, "no equilibrium was found; there may be some: where the domain of `%.100s` ends these "
-                                "coordinates are singular, and rests there are not looked for", all->pole);
+        qdot_text_format(&text, "no %s was found; there may be some: where the domain of `%.100s` ends these "
+                                "coordinates are singular, and rests there are not looked for", noun, all->pole);
     } else if (all->unset != NULL) {
         qdot_text_format(&text, "there may be others: they cannot be solved for exactly, and numbers "
                                 "need a value of `%.100s`", all->unset);
     } else if (all->starts == 0) {
-        qdot_text_add(&text, all->n == 0 ? "no equilibrium was found; there may be some"
-                                         : "there may be others");
+        if (all->n == 0)
+            qdot_text_format(&text, "no %s was found; there may be some", noun);
+        else
+            qdot_text_add(&text, "there may be others");
     } else {
-        qdot_text_format(&text, "%s: %zu starts in numbers, within -%g..%g where no domain "
-                                "is declared",
-                         all->n == 0 ? "no equilibrium was found; there may be some"
-                                     : "there may be others",
-                         all->starts, all->reach, all->reach);
+        if (all->n == 0)
+            qdot_text_format(&text, "no %s was found; there may be some", noun);
+        else
+            qdot_text_add(&text, "there may be others");
+        qdot_text_format(&text, ": %zu starts in numbers, within -%g..%g where no domain is declared", all->starts,
+                         all->reach, all->reach);
     }
     if (all->unproved > 0)
         qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
-                                "but none is proved to be an equilibrium", all->unproved);
-    return qdot_answer_written(session, "equilibria", QDOT_OK, &text);
+                                "but none is proved to be %s %s", all->unproved,
+                         noun[0] == 'e' ? "an" : "a", noun);
+    return qdot_answer_written(session, word, QDOT_OK, &text);
+}
+
+qdot_status
+qdot_equilibria_answer(qdot_session *session, const char *word, const char *noun, const qdot_equilibria *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        QDOT_TRY(answer_one_equilibrium(session, word, i, &all->at[i]));
+    return give_notice_of_incompleteness(session, word, noun, all);
 }
 
 static qdot_status
@@ -313,10 +330,8 @@ carry_out_equilibria(qdot_record *r)
     status = qdot_equilibria_list(session, &all, &value);
     if (status == QDOT_OK)
         status = qdot_vec_push(&session->history->values, value);
-    for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
-        status = answer_one_equilibrium(session, i, &all.at[i]);
     if (status == QDOT_OK)
-        status = give_notice_of_incompleteness(session, &all);
+        status = qdot_equilibria_answer(session, "equilibria", "equilibrium", &all);
     qdot_equilibria_clear(&all);
     return status;
 }

@@ -41,9 +41,9 @@ tell_condition(qdot_session *s, qdot_expr condition)
     return status;
 }
 
-/* Add each real root of f = 0 as often as its multiplicity. */
+/* Add each real root of f = 0 as often as its multiplicity; *condition: nil, or under which they are all real. */
 static qdot_status
-add_real_roots(qdot_session *s, qdot_expr f, qdot_expr x, bool *complete, expressions *values)
+add_real_roots(qdot_session *s, qdot_expr f, qdot_expr x, bool *complete, qdot_expr *condition, expressions *values)
 {
     qdot_pool *pool = s->pool;
     const qdot_facts facts = qdot_scene_facts(s->scene);
@@ -56,8 +56,9 @@ add_real_roots(qdot_session *s, qdot_expr f, qdot_expr x, bool *complete, expres
                 break;
             status = qdot_vec_push(values, roots.root.at[i].value);
         }
+    *condition = QDOT_NIL;
     for (size_t i = 0; i < roots.root.n && status == QDOT_OK; i++)
-        status = tell_condition(s, roots.root.at[i].condition);
+        *condition = roots.root.at[i].condition != QDOT_NIL ? roots.root.at[i].condition : *condition;
     *complete = roots.complete;
     qdot_solutions_clear(&roots);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
@@ -148,11 +149,11 @@ static qdot_status
 find_exact(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, bool *all, expressions *values)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr product;
+    qdot_expr product, condition;
     bool complete;
 
-    QDOT_TRY(add_real_roots(s, det, x, &complete, values));
-    *all = complete && values->n == n;
+    QDOT_TRY(add_real_roots(s, det, x, &complete, &condition, values));
+    *all = complete && values->n == n && condition == QDOT_NIL;
     if (*all)
         return QDOT_OK;
     values->n = 0;
@@ -171,13 +172,22 @@ find_exact(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, bool *all, e
             continue;
         if (!whole)
             (void)qdot_expr_to_int(pool, qdot_expr_arg(pool, product, i + 1), &power);
-        QDOT_TRY(add_real_roots(s, f, x, &complete, values));
-        if (values->n - before < degree) {
-            if (values->n > before || !complete)
+        QDOT_TRY(add_real_roots(s, f, x, &complete, &condition, values));
+        if (values->n - before < degree || condition != QDOT_NIL) {
+            const bool real = complete && values->n - before == degree;
+            expressions complex = {0};
+            qdot_status status = add_complex_roots(s, f, x, degree, &complete, &complex);
+
+            if (status == QDOT_OK && complete)
+                values->n = before;
+            for (size_t k = 0; k < complex.n && status == QDOT_OK && complete; k++)
+                status = qdot_vec_push(values, complex.at[k]);
+            qdot_free(complex.at);
+            QDOT_TRY(status);
+            if (!complete && !real)
                 return QDOT_OK;
-            QDOT_TRY(add_complex_roots(s, f, x, degree, &complete, values));
             if (!complete)
-                return QDOT_OK;
+                QDOT_TRY(tell_condition(s, condition));
         }
         for (size_t from = before, to = values->n; power > 1; power--)
             for (size_t k = from; k < to; k++)
@@ -210,19 +220,51 @@ find_numbers(qdot_session *s, uint32_t n, const qdot_expr *entries, expressions 
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
-/* Of entries with errors, ascending in the real part. */
+/* Rows and columns that are 0 beside their entry on the diagonal have that for an eigenvalue, and nothing else depends on
+ * it: leave them out. *left, which [n]: the indices of the others. */
+static qdot_status
+deflate(qdot_session *s, uint32_t n, qdot_expr M, uint32_t *left, uint32_t *which, expressions *values)
+{
+    bool found = true;
+
+    *left = n;
+    for (uint32_t i = 0; i < n; i++)
+        which[i] = i;
+    while (found) {
+        found = false;
+        for (uint32_t i = 0; i < *left && !found; i++) {
+            bool row = true, column = true;
+
+            for (uint32_t k = 0; k < *left; k++) {
+                row = row && (k == i || qdot_expr_arg(s->pool, M, which[i] * n + which[k]) == QDOT_ZERO);
+                column = column && (k == i || qdot_expr_arg(s->pool, M, which[k] * n + which[i]) == QDOT_ZERO);
+            }
+            found = row || column;
+            if (!found)
+                continue;
+            QDOT_TRY(qdot_vec_push(values, qdot_expr_arg(s->pool, M, which[i] * n + which[i])));
+            for (uint32_t k = i; k + 1 < *left; k++)
+                which[k] = which[k + 1];
+            --*left;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* Of entries with errors: first those that stand alone, then ascending in the real part. */
 static qdot_status
 find_with_errors(qdot_session *s, uint32_t n, qdot_expr M, expressions *values)
 {
     const size_t size = (size_t)n * n;
     double *A = qdot_calloc(2 * size + 3 * (size_t)n + 1, sizeof *A), *E = A + size, *re = E + size, *im = re + n, *error = im + n;
-    qdot_status status = A == NULL ? QDOT_ENOMEM : QDOT_OK;
+    uint32_t *which = qdot_calloc(n + 1, sizeof *which), m = n;
+    qdot_status status = A == NULL || which == NULL ? QDOT_ENOMEM : deflate(s, n, M, &m, which, values);
 
-    for (uint32_t i = 0; i < size && status == QDOT_OK; i++)
-        status = qdot_session_number(s, qdot_expr_arg(s->pool, M, i), &A[i], &E[i]);
-    if (status == QDOT_OK)
-        status = qdot_eigenvalues(n, A, E, re, im, error);
-    for (uint32_t left = n; left > 0 && status == QDOT_OK; left--) {
+    for (uint32_t i = 0; i < m * m && status == QDOT_OK; i++)
+        status = qdot_session_number(s, qdot_expr_arg(s->pool, M, which[i / m] * n + which[i % m]), &A[i], &E[i]);
+    if (status == QDOT_OK && m > 0)
+        status = qdot_eigenvalues(m, A, E, re, im, error);
+    for (uint32_t left = m; left > 0 && status == QDOT_OK; left--) {
         uint32_t k = 0;
 
         for (uint32_t i = 1; i < left; i++)
@@ -236,6 +278,7 @@ find_with_errors(qdot_session *s, uint32_t n, qdot_expr M, expressions *values)
         }
     }
     qdot_free(A);
+    qdot_free(which);
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 

@@ -14,6 +14,7 @@
 #include "lang/session/bind.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/saved.h"
+#include "mech/study/steady.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/solve.h"
 
@@ -58,6 +59,20 @@ qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
     QDOT_TRY(require_coordinates(session));
     QDOT_TRY(inputs_rest(session->scene, &saved));
     status = qdot_equilibrium_find(session->scene, insert_session_values, session, out);
+    qdot_scene_restore(session->scene, &saved);
+    return status;
+}
+
+qdot_status
+qdot_equilibria_steady(qdot_session *session, qdot_equilibria *out)
+{
+    qdot_scene_saved saved;
+    qdot_status status;
+
+    *out = (qdot_equilibria){0};
+    QDOT_TRY(require_coordinates(session));
+    QDOT_TRY(inputs_rest(session->scene, &saved));
+    status = qdot_steady_find(session->scene, insert_session_values, session, out);
     qdot_scene_restore(session->scene, &saved);
     return status;
 }
@@ -109,7 +124,7 @@ existence_with_values(qdot_session *session, qdot_expr exists)
 }
 
 qdot_status
-qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e)
+qdot_equilibria_notice(qdot_session *session, const char *word, long k, const qdot_equilibrium *e)
 {
     qdot_text text = {0};
     qdot_expr now;
@@ -121,7 +136,7 @@ qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e)
     QDOT_TRY(qdot_pool_check(session->pool));
     if (now == QDOT_NIL) /* the condition holds */
         return QDOT_OK;
-    qdot_text_format(&text, "equilibria[%ld] exists when ", k);
+    qdot_text_format(&text, "%s[%ld] exists when ", word, k);
     status = qdot_solve_print_conditions(session->pool, "", e->exists, &text);
     if (now == QDOT_FALSE)
         qdot_text_add(&text, ": not with the values of `set`");

@@ -9,6 +9,8 @@
 /* As qdot_equilibrium_find, with the parameter values given by `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,
                                                  qdot_equilibria *out);
+/* As qdot_steady_find, with the parameter values given by `set`. */
+QDOT_MUST_CHECK qdot_status qdot_equilibria_steady(qdot_session *session, qdot_equilibria *out);
 /* Make the LIST of all equilibria, each a LIST of equations; a continuous set of them also has its range. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
                                                  const qdot_equilibria *all,
@@ -16,7 +18,8 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
 /* One equilibrium as a LIST of its equations. */
 qdot_expr qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e);
 /* When equilibrium k is used as a value: give a notice of its conditions, unless the session's values satisfy them. */
-QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e);
+QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, const char *word, long k,
+                                                   const qdot_equilibrium *e);
 /* Find the stability of one equilibrium, given as a LIST of equations: a word, or if(CONDITION,
  * word, undecided). */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,

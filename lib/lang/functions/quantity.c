@@ -336,24 +336,39 @@ get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 
 /* --- equilibria, stability, modes --------------------------------------------------- */
 
+/* All equilibria or steady motions as a LIST, or one of them; as `find` has them. */
 static qdot_status
-get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+get_rests(qdot_session *s, const char *word, qdot_status (*find)(qdot_session *, qdot_equilibria *), uint32_t n,
+          const qdot_expr *index, qdot_expr *value)
 {
     qdot_equilibria all;
     qdot_status status;
     long k = 0;
 
     QDOT_TRY(require_equations(s));
-    QDOT_TRY(qdot_equilibria_find(s, &all));
-    status = qdot_equilibria_list(s, &all, value);
+    status = find(s, &all);
+    if (status == QDOT_OK)
+        status = qdot_equilibria_list(s, &all, value);
     if (status == QDOT_OK && n > 0)
         status = qdot_entry_of(s, *value, QDOT_NIL, 1, index, value);
     if (status == QDOT_OK && n > 0)
         status = qdot_session_integer(s, index[0], &k);
     if (status == QDOT_OK && n > 0)
-        status = qdot_equilibria_notice(s, k, &all.at[k - 1]);
+        status = qdot_equilibria_notice(s, word, k, &all.at[k - 1]);
     qdot_equilibria_clear(&all);
     return status;
+}
+
+static qdot_status
+get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    return get_rests(s, "equilibria", qdot_equilibria_find, n, index, value);
+}
+
+static qdot_status
+get_steady(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    return get_rests(s, "steady", qdot_equilibria_steady, n, index, value);
 }
 
 #define VERDICT(name, verdict)                                                           \
@@ -532,6 +547,10 @@ static const qdot_quantity rows[] = {
     {"equilibria", 0, 1, get_equilibria, "equilibria or equilibria[2]",
      "the equilibria, a list of equations each; typed alone, with their stability",
      "equilibria", false, NULL},
+    {"steady", 0, 1, get_steady, "steady or steady[2]",
+     "the steady motions, a list of equations each, rates of cyclic coordinates standing for themselves; typed alone, "
+     "with their stability",
+     "steady", false, NULL},
     {"stable", 0, 0, get_stable, "stable", "a verdict of stability(equilibria[1])",
      "check stability(equilibria[1]) == stable", false, NULL},
     {"unstable", 0, 0, get_unstable, "unstable", "a verdict of stability(equilibria[1])",

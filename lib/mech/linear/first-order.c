@@ -74,12 +74,15 @@ constraint_on_level(const job *j, size_t k, int order)
     return f;
 }
 
-/* Fail because the state does not fulfil constraint k, or its time derivative. */
+/* Fail because the state does not fulfil constraint k, or its time derivative, off by `left`. In symbols that may depend on
+ * the parameters: then numbers must tell. */
 static qdot_status
-report_unmet(const job *j, size_t k, int order)
+report_unmet(const job *j, size_t k, int order, qdot_expr left)
 {
     const qdot_constraint *c = &j->s->constraints.at[k];
 
+    if (!j->v.x.numbers && (qdot_expr_sign(j->pool, left) & QDOT_NE0) == 0)
+        return qdot_fail(QDOT_ELIMIT, "constraint %.100s holds there for some values only", c->name);
     return qdot_fail(QDOT_EINVAL, "the state does not fulfil constraint %.100s%s", c->name,
                      order > (int)c->kind ? " with these velocities" : "");
 }
@@ -177,7 +180,7 @@ reduce_level(job *j, int order)
 
             if (!qdot_elimination_is_zero(&j->v.x, left) &&
                 (!j->v.x.numbers || fabs(fmpq_get_d(qdot_expr_rational(j->pool, left))) > 1e-6))
-                status = report_unmet(j, k, order);
+                status = report_unmet(j, k, order, left);
             row[width - 1] = QDOT_ZERO;
         }
         if (status == QDOT_OK)

@@ -44,7 +44,8 @@ typedef struct {
 } qdot_first_order;
 
 /* QDOT_EINVAL: the state does not fulfil a constraint; QDOT_ESINGULAR: M or the constraints are singular there;
- * QDOT_ELIMIT: the expressions grow too long, numbers are needed; QDOT_EUNSET: a parameter has no value. */
+ * QDOT_ELIMIT: the expressions grow too long, or a constraint holds
+ * for some values of the parameters only: numbers are needed; QDOT_EUNSET: a parameter has no value. */
 QDOT_MUST_CHECK qdot_status qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request,
                                                    qdot_first_order *out);
 void qdot_first_order_clear(qdot_first_order *x);
