@@ -17,8 +17,8 @@ QDOT_STATEMENT(start) = {
     .word = "start",
     .group = QDOT_NUMBERS,
     .usage = "start Q = VALUE, Q' = VALUE, ... [exactly] | start RUN [exactly]",
-    .summary = "the initial state; changes only what it names; what constraints determine of the rest "
-               "is solved for, unless `exactly`",
+    .summary = "the initial state, with velocities or momenta p[Q]; changes only what it names; what constraints "
+               "determine of the rest is solved for, unless `exactly`",
     .example = "start theta = 2, theta' = 0",
     .handler = carry_out_start,
 };
@@ -105,7 +105,7 @@ start_at_end_of_run(qdot_record *r, const char *name)
     return give_notice_of_parameters(session, run->name, report);
 }
 
-/* Read the pairs Q = VALUE, Q' = VALUE, ... into the list, where Q is a coordinate. */
+/* Read the pairs Q = VALUE, Q' = VALUE, p[Q] = VALUE, ... into the list, where Q is a coordinate. */
 static qdot_status
 read_start_values(qdot_record *r, qdot_pairs *list)
 {
@@ -115,7 +115,10 @@ read_start_values(qdot_record *r, qdot_pairs *list)
 
         if (part->node->kind != QDOT_USAGE_HOLE || qdot_filled_is(part, "VALUE"))
             continue;
-        QDOT_TRY(qdot_set_find_jet(r, part, &jet));
+        if (qdot_set_is_momentum(r->cursor.session, part))
+            QDOT_TRY(qdot_set_find_parameter(r, part, &jet));
+        else
+            QDOT_TRY(qdot_set_find_jet(r, part, &jet));
         QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
         QDOT_TRY(qdot_pairs_push(list, part->from, jet, value));
     }

@@ -513,6 +513,10 @@ find_start_values(description *d)
         (void)qdot_fail(QDOT_EINVAL, "the start of a coordinate without mass follows from its equation: it is taken from a run");
         return qdot_hint("run 0..10 before");
     }
+    if (qdot_session_starts_by_momenta(s)) {
+        (void)qdot_fail(QDOT_EINVAL, "the start gives momenta: the velocities are taken from a run");
+        return qdot_hint("run 0..10 before");
+    }
     d->x.t1 = 10;
     d->x.tol = LEAST_TOL;
     for (size_t i = 0; i < 2 * d->x.n; i++)

@@ -208,8 +208,9 @@ append_start_lines(qdot_session *s, bool remarks, qdot_text *out)
 {
     size_t left = s->values->start_symbols.n;
 
-    for (size_t i = 0; i < 2 * s->scene->coordinates.n; i++) {
-        const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
+    for (size_t i = 0; i < 3 * s->scene->coordinates.n; i++) {
+        const qdot_expr q = s->scene->coordinates.at[i / 3];
+        const qdot_expr jet = i % 3 == 2 ? qdot_symbol_of(s->pool, QDOT_MOMENTUM, q) : qdot_symbol_jet(s->pool, q, i % 3);
 
         for (size_t k = 0; k < s->values->start_symbols.n; k++)
             if (s->values->start_symbols.at[k] == jet)

@@ -457,6 +457,22 @@ forget_starts_at_run_ends(writer *w)
         }
 }
 
+/* Write the momenta of the start, of which runs have the velocities. */
+static qdot_status
+write_start_momenta(const writer *w)
+{
+    const qdot_values *values = w->s->values;
+
+    for (size_t i = 0; i < values->start_symbols.n; i++) {
+        if (!qdot_expr_is_class(w->s->pool, values->start_symbols.at[i], QDOT_MOMENTUM))
+            continue;
+        QDOT_TRY(append_expression(w->s, "start ", values->start_symbols.at[i], w->out));
+        QDOT_TRY(append_expression(w->s, " = ", values->start_values.at[i], w->out));
+        qdot_text_add(w->out, values->start_exactly ? " exactly\n" : "\n");
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 write_runs_and_names(writer *w, const placements *list)
 {
@@ -474,6 +490,8 @@ write_runs_and_names(writer *w, const placements *list)
     }
     if (status == QDOT_OK && compare_start_conditions(w, &start) != SAME)
         status = write_start_statements(w, &start, s->runs->n);
+    if (status == QDOT_OK && s->runs->n > 0)
+        status = write_start_momenta(w);
     qdot_conditions_clear(&start);
     return status;
 }

@@ -183,7 +183,8 @@ qdot_request_limits(qdot_session *session, qdot_expr from, qdot_expr to, qdot_re
     o->request.said[1] = qdot_measured_as_rationals(session, to);
     o->request.t0 = qdot_session_bind(session, o->request.said[0]);
     o->request.t1 = qdot_session_bind(session, o->request.said[1]);
-    return qdot_pool_check(session->pool);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    return qdot_request_momenta(session, o);
 }
 
 qdot_status

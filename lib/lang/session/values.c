@@ -3,6 +3,7 @@
 
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 
 void
 qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
@@ -29,11 +30,54 @@ qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
     }
 }
 
+bool
+qdot_session_starts_by_momenta(const qdot_session *session)
+{
+    for (size_t i = 0; i < session->values->start_symbols.n; i++)
+        if (qdot_expr_is_class(session->pool, session->values->start_symbols.at[i], QDOT_MOMENTUM))
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_session_need_velocities(const qdot_session *session, const char *what)
+{
+    if (!qdot_session_starts_by_momenta(session))
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: %s of runs whose start gives momenta", what);
+    return qdot_hint("start x' = ... gives the velocity");
+}
+
+/* Take out the start value of the velocity that a momentum determines, or of the momentum of a velocity. */
+static void
+remove_other_of_pair(qdot_session *session, qdot_expr jet)
+{
+    qdot_values *values = session->values;
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, jet);
+    qdot_expr other;
+    size_t at;
+
+    if (s->class != QDOT_MOMENTUM && s->order != 1)
+        return;
+    other = s->class == QDOT_MOMENTUM ? qdot_symbol_jet(session->pool, s->base, 1)
+                                      : qdot_symbol_of(session->pool, QDOT_MOMENTUM, s->base);
+    at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, other);
+    if (at == values->start_symbols.n)
+        return;
+    for (size_t i = at; i + 1 < values->start_symbols.n; i++) {
+        values->start_symbols.at[i] = values->start_symbols.at[i + 1];
+        values->start_values.at[i] = values->start_values.at[i + 1];
+    }
+    values->start_symbols.n--;
+    values->start_values.n--;
+}
+
 qdot_status
 qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value)
 {
     qdot_values *values = session->values;
 
+    remove_other_of_pair(session, jet);
     for (size_t i = 0; i < values->start_symbols.n; i++)
         if (values->start_symbols.at[i] == jet) {
             values->start_values.at[i] = value;

@@ -443,6 +443,7 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     qdot_run *run = NULL;
     qdot_status status;
 
+    QDOT_TRY(qdot_session_need_velocities(s->session, "derivatives"));
     QDOT_TRY(find_run(s, name));
     QDOT_TRY(shorten_run(s, e, first));
     QDOT_TRY(find_directions(s));

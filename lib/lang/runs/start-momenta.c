@@ -1,0 +1,85 @@
+/* start-momenta.c -- a start that gives momenta: the velocities at the beginning of a run. */
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
+#include "lang/runs/request.h"
+#include "lang/session/bind.h"
+#include "lang/session/values.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/study/legendre.h"
+
+/* A start in momenta: of the coordinates q [n], numbers `at` of the scene, momenta p = value. */
+typedef struct {
+    uint32_t n;
+    qdot_expr *q, *p, *value;
+    size_t *at;
+} start;
+
+/* Collect the coordinates whose momentum is named, or of which nothing is: that momentum is 0. */
+static void
+collect_start_momenta(qdot_session *session, const qdot_request *o, start *s)
+{
+    const qdot_scene *scene = session->scene;
+
+    for (size_t i = 0; i < scene->coordinates.n; i++) {
+        const qdot_expr q = scene->coordinates.at[i], p = qdot_symbol_of(session->pool, QDOT_MOMENTUM, q);
+        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, p);
+        const bool named = at < session->values->start_symbols.n;
+
+        if (!named && o->v_named.at[i])
+            continue;
+        s->q[s->n] = q;
+        s->p[s->n] = p;
+        s->value[s->n] = named ? qdot_session_bind(session, session->values->start_values.at[at]) : QDOT_ZERO;
+        o->v_named.at[i] = named;
+        s->at[s->n++] = i;
+    }
+}
+
+/* L at the start, as a function of the velocities that are sought. */
+static qdot_expr
+lagrangian_at_start(qdot_session *session, const qdot_request *o, const start *s)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr L = qdot_mech_lagrangian(session->scene), t = QDOT_T;
+
+    for (size_t i = 0; i < session->scene->coordinates.n && L != QDOT_NIL; i++) {
+        const qdot_expr q = session->scene->coordinates.at[i], v = qdot_symbol_jet(pool, q, 1);
+
+        L = qdot_subs(pool, L, 1, &q, &o->q0.at[i]);
+        if (qdot_expr_place(s->n, s->q, q) == s->n)
+            L = qdot_subs(pool, L, 1, &v, &o->v0.at[i]);
+    }
+    L = qdot_subs(pool, L, 1, &t, &o->request.t0);
+    return L == QDOT_NIL ? L : qdot_session_bind(session, L);
+}
+
+qdot_status
+qdot_request_momenta(qdot_session *session, qdot_request *o)
+{
+    const size_t n = session->scene->coordinates.n;
+    start s = {0};
+    qdot_legendre l = {0};
+    qdot_status status = QDOT_OK;
+
+    if (!qdot_session_starts_by_momenta(session))
+        return QDOT_OK;
+    s.q = qdot_calloc(3 * n + 1, sizeof *s.q);
+    s.at = qdot_calloc(n + 1, sizeof *s.at);
+    if (s.q == NULL || s.at == NULL)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        s.p = s.q + n;
+        s.value = s.p + n;
+        collect_start_momenta(session, o, &s);
+        if (qdot_legendre_begin(&l, session->scene, QDOT_COORD, lagrangian_at_start(session, o, &s), s.n, s.q))
+            for (uint32_t i = 0; i < s.n; i++)
+                o->v0.at[s.at[i]] = qdot_subs(session->pool, l.solved[i], s.n, s.p, s.value);
+        qdot_legendre_end(&l);
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_free(s.q);
+    qdot_free(s.at);
+    return status;
+}
