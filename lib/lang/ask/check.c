@@ -585,7 +585,7 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     q->left = qdot_momenta_to_velocities(session, q->left);
     QDOT_TRY(qdot_pool_check(session->pool));
     q->left = qdot_ddt(session->pool, q->left);
-    q->right = QDOT_ZERO;
+    q->right = qdot_value_sub(session->pool, q->left, q->left);
     QDOT_TRY(qdot_pool_check(session->pool));
     if (jumps) {
         QDOT_TRY(qdot_answer_notice(session, "it jumps with time: its rate is that between jumps"));
