@@ -195,6 +195,8 @@ symbol_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
                     : qdot_form_constant(&d->forms, qdot_dimension_none());
     else if (unit >= 0)
         *form = qdot_form_constant(&d->forms, base_dimension(unit));
+    else if (qdot_symbol_is_number(d->pool, e)) /* the number of a result; its unit stands beside it */
+        *form = qdot_form_constant(&d->forms, qdot_dimension_none());
     else if (s.class == QDOT_TIME)
         *form = qdot_form_constant(&d->forms, base_dimension(2));
     else if (before == QDOT_NIL)
@@ -500,6 +502,23 @@ length_of(size_t n, const int32_t *p)
     return length;
 }
 
+/* A power of a product without dimension is replaced by that product. */
+static void
+divide_by_common_factor(size_t n, int32_t *power)
+{
+    int64_t divisor = 0;
+
+    for (size_t i = 0; i < n; i++)
+        for (int64_t x = power[i] < 0 ? -(int64_t)power[i] : power[i]; x != 0;) {
+            const int64_t rest = divisor % x;
+
+            divisor = x;
+            x = rest;
+        }
+    for (size_t i = 0; i < n && divisor > 1; i++)
+        power[i] /= (int32_t)divisor;
+}
+
 /* Replace groups by products of two of them while that makes one shorter. */
 static void
 shorten_groups(size_t count, size_t n, int32_t *power, int32_t *trial)
@@ -513,6 +532,7 @@ shorten_groups(size_t count, size_t n, int32_t *power, int32_t *trial)
                 for (int s = -1; s <= 1 && i != k; s += 2) {
                     for (size_t j = 0; j < n; j++)
                         trial[j] = power[i * n + j] + s * power[k * n + j];
+                    divide_by_common_factor(n, trial);
                     if (length_of(n, trial) < length_of(n, power + i * n)) {
                         memcpy(power + i * n, trial, n * sizeof *trial);
                         again = true;
@@ -551,7 +571,7 @@ order_groups(size_t count, size_t n, int32_t *power, int32_t *trial)
 static bool
 group_of_column(size_t n, const qdot_exponent *a, size_t rank, const size_t *pivot, size_t k, int32_t *power)
 {
-    int64_t common = 1, divisor = 0;
+    int64_t common = 1;
 
     for (size_t i = 0; i < rank; i++) {
         const qdot_exponent part = qdot_exponent_make(a[i * n + k].d, common);
@@ -569,15 +589,7 @@ group_of_column(size_t n, const qdot_exponent *a, size_t rank, const size_t *piv
             return false;
         power[pivot[i]] = (int32_t)value;
     }
-    for (size_t i = 0; i < n; i++)
-        for (int64_t x = power[i] < 0 ? -(int64_t)power[i] : power[i]; x != 0;) {
-            const int64_t rest = divisor % x;
-
-            divisor = x;
-            x = rest;
-        }
-    for (size_t i = 0; i < n && divisor > 1; i++)
-        power[i] /= (int32_t)divisor;
+    divide_by_common_factor(n, power);
     return true;
 }
 

@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include <flint/flint.h>
 #include <flint/fmpz.h>
 
 #include "expr/exact.h"
@@ -513,12 +514,48 @@ print_unit(printer *p, qdot_dimension unit)
     qdot_text_clear(&text);
 }
 
+/* n/2^k as a decimal number, for k up to 9: 0.5, 2.25. */
+static bool
+print_binary_fraction(printer *p, const fmpq *x)
+{
+    const slong k = fmpz_fits_si(fmpq_denref(x)) ? __builtin_ctzl((unsigned long)fmpz_get_si(fmpq_denref(x))) : 0;
+    qdot_text digits = {0};
+    char *all;
+    fmpz_t n;
+
+    if (k < 1 || k > 9 || !qdot_integer_is(fmpq_denref(x), 1L << k) || fmpz_sizeinbase(fmpq_numref(x), 10) > 30)
+        return false;
+    fmpz_init(n);
+    fmpz_abs(n, fmpq_numref(x));
+    for (slong i = 0; i < k; i++)
+        fmpz_mul_ui(n, n, 5);
+    all = fmpz_get_str(NULL, 10, n);
+    for (slong i = (slong)strlen(all); i <= k; i++)
+        qdot_text_char(&digits, '0');
+    qdot_text_add(&digits, all);
+    if (qdot_text_status(&digits) == QDOT_OK) {
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NUMBER, digits.at, digits.n - (size_t)k);
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NUMBER, ".", 1);
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NUMBER, digits.at + digits.n - k, (size_t)k);
+    } else {
+        p->status = QDOT_ENOMEM;
+    }
+    flint_free(all);
+    fmpz_clear(n);
+    qdot_text_clear(&digits);
+    return true;
+}
+
 /* The number c before its unit, in brackets if it is a fraction. */
 static void
 print_number_with_unit(printer *p, qdot_expr c, const fmpq *x, qdot_dimension unit)
 {
     const qdot_formula_id outer = p->at;
 
+    if (print_binary_fraction(p, x)) {
+        print_unit(p, unit);
+        return;
+    }
     print_begin_bracket(p, !fmpz_is_one(fmpq_denref(x)) && !qdot_print_says_decimal(p, x));
     if (c == QDOT_NIL)
         print_absolute_quotient(p, fmpq_numref(x), fmpq_denref(x));

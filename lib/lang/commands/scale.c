@@ -30,7 +30,7 @@ read_scale(qdot_record *r, const qdot_filled *part, qdot_pairs *list)
         return qdot_fail(QDOT_EINVAL,
                          "a scale is that of a coordinate, a velocity or of t");
     }
-    QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+    QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), symbol, &value));
     qdot_record_blame(r, part);
     QDOT_TRY(qdot_scales_check(session, symbol, value));
     return qdot_pairs_push(list, part->from, symbol, value);

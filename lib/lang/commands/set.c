@@ -12,6 +12,7 @@
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "mech/scene/things.h"
 
@@ -198,11 +199,38 @@ check_constant(qdot_cursor *c, const qdot_token *start, qdot_expr *value)
     return QDOT_OK;
 }
 
+/* Where units are declared: whether the value, a bare number being one in SI units, has the dimension of the symbol. */
+static qdot_status
+check_dimension(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_expr value)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_text format = {0};
+    qdot_status status;
+
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    r->cursor.error_at = part->from->start;
+    if (qdot_expr_is_constant(session->pool, value) && value != QDOT_ZERO && qdot_units_is_scaled(session, symbol)) {
+        (void)qdot_fail(QDOT_EINVAL, "a number without a unit for %.100s, which was declared in one that is not SI",
+                        qdot_expr_symbol(session->pool, symbol)->name);
+        return qdot_hint("write the unit: 50 [cm], 30 [deg]");
+    }
+    if (qdot_expr_is_constant(session->pool, value))
+        return QDOT_OK;
+    qdot_text_format(&format, "%.100s is %%s, the value %%s", qdot_expr_symbol(session->pool, symbol)->name);
+    status = qdot_text_status(&format);
+    if (status == QDOT_OK)
+        status = qdot_units_join(session, symbol, value, format.at);
+    qdot_text_clear(&format);
+    return status;
+}
+
 qdot_status
-qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr *value)
+qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_expr *value)
 {
     QDOT_TRY(qdot_record_scalar(r, part, value));
-    return check_constant(&r->cursor, part->from, value);
+    QDOT_TRY(check_constant(&r->cursor, part->from, value));
+    return check_dimension(r, part, symbol, *value);
 }
 
 /* Read the value of a parameter; that of an input may hold the time, coordinates and velocities. */
@@ -216,11 +244,11 @@ set_read_value(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_e
             QDOT_TRY(qdot_record_scalar(r, part, value));
             QDOT_TRY(qdot_set_keep_measured(session, value));
             if (!(qdot_expr_node(session->pool, *value)->holds & QDOT_HAS_ACCELERATION))
-                return QDOT_OK;
+                return check_dimension(r, part, symbol, *value);
             qdot_record_blame(r, part);
             return qdot_fail(QDOT_ETYPE, "an input depends on t, coordinates and velocities, not on accelerations");
         }
-    return qdot_set_find_constant(r, part, value);
+    return qdot_set_find_constant(r, part, symbol, value);
 }
 
 /* Read NAME = VALUE, F(u, v) = EXPR, ... into the list. */

@@ -119,7 +119,7 @@ read_start_values(qdot_record *r, qdot_pairs *list)
             QDOT_TRY(qdot_set_find_parameter(r, part, &jet));
         else
             QDOT_TRY(qdot_set_find_jet(r, part, &jet));
-        QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+        QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), jet, &value));
         QDOT_TRY(qdot_pairs_push(list, part->from, jet, value));
     }
     return QDOT_OK;

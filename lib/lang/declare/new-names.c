@@ -3,9 +3,11 @@
 
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/unit.h"
 #include "lang/commands/set.h"
 #include "lang/declare/declare.h"
 #include "lang/session/evaluation.h"
+#include "lang/session/units.h"
 #include "lang/syntax/holes.h"
 #include "mech/scene/scene.h"
 
@@ -53,7 +55,8 @@ read_new_name(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
             QDOT_TRY(store_bound(&r->cursor, x, &bound));
     }
     if (value >= r->parts.at + r->parts.n || !qdot_filled_is(value, "VALUE"))
-        return QDOT_OK;
+        return qdot_record_unit(r, part, NULL, &x->unit, &x->angle);
+    QDOT_TRY(qdot_record_unit(r, part, value, &x->unit, &x->angle));
     session->evaluation->declares = false; /* read numbers as `set` does: results of runs keep their errors */
     status = qdot_record_scalar(r, value, &x->value);
     session->evaluation->declares = true;
@@ -79,6 +82,43 @@ apply_sign_to_bare_names(qdot_new_names *list)
         x->hi_open = last->hi_open;
         x->own = true;
     }
+}
+
+/* A unit after the last name of a list of parameters is also that of the bare names before it: `param m1, m2 > 0 [kg]`. */
+static void
+apply_unit_to_bare_names(qdot_new_names *list)
+{
+    const qdot_new_name *last = &list->at[list->n - 1];
+
+    for (size_t i = list->n - 1; i-- > 0 && last->unit != QDOT_NIL && last->value == QDOT_NIL;) {
+        qdot_new_name *x = &list->at[i];
+
+        if (x->unit != QDOT_NIL || x->value != QDOT_NIL)
+            break;
+        x->unit = last->unit;
+        x->angle = last->angle;
+    }
+}
+
+/* The dimension of a declared name is that of its unit, its bounds and its value; a bare number is in SI units. */
+static qdot_status
+declare_dimension(qdot_cursor *c, const qdot_new_name *x, qdot_expr symbol)
+{
+    const qdot_expr same[] = {x->unit, x->lo, x->hi, x->value};
+    qdot_session *session = c->session;
+
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    c->error_at = x->start->start;
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++)
+        if (same[i] != QDOT_NIL && !qdot_expr_is_constant(session->pool, same[i]))
+            QDOT_TRY(qdot_units_join(session, symbol, same[i], "the name is %s, its bound or value %s"));
+    if (x->unit != QDOT_NIL && qdot_expr_is_constant(session->pool, x->unit))
+        QDOT_TRY(qdot_units_fix(session, symbol, qdot_dimension_none(), "the name is %s, its unit that of %s"));
+    if (x->angle)
+        QDOT_TRY(qdot_units_angle(session, symbol));
+    return x->unit != QDOT_NIL && qdot_expr_in_si(session->pool, x->unit) != QDOT_ONE ? qdot_units_scaled(session, symbol)
+                                                                                    : QDOT_OK;
 }
 
 /* Make a parameter known while the rest of its list is read: `param a = 2, b = a^2`. */
@@ -112,8 +152,10 @@ qdot_new_names_read(qdot_record *r, bool params, qdot_new_names *list)
         status = read_new_name(r, part, &x);
         if (status == QDOT_OK)
             status = qdot_vec_push(list, x);
-        if (status == QDOT_OK && params)
+        if (status == QDOT_OK && params) {
             apply_sign_to_bare_names(list);
+            apply_unit_to_bare_names(list);
+        }
         if (status == QDOT_OK)
             r->cursor.error_at = x.start->start;
         if (status == QDOT_OK && params)
@@ -162,6 +204,7 @@ declare_new_name(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bo
                                false);
         QDOT_TRY(qdot_declare_meet_functions(session, x->name, entry.value));
     }
+    QDOT_TRY(declare_dimension(c, x, entry.value));
     if (kind == QDOT_NAME_COORD)
         return qdot_scene_coordinate(session->scene, entry.value);
     return QDOT_OK;

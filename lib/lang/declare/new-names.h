@@ -14,6 +14,8 @@ typedef struct {
     bool lo_open, hi_open;
     bool own;        /* the domain was declared for this name, or taken over from a later name of the list */
     qdot_expr value; /* nil: not declared */
+    qdot_expr unit;  /* the unit, as an expression; nil: not declared */
+    bool angle;      /* it is one of angles */
 } qdot_new_name;
 
 typedef qdot_vec(qdot_new_name) qdot_new_names;

@@ -176,14 +176,11 @@ give_unit(qdot_session *session, qdot_expr of, qdot_expr *value)
 
     if (!qdot_measured_occurs(session, *value) || qdot_expr_has_units(pool, *value))
         return QDOT_OK;
-    switch (qdot_units_of(session, of, &is)) {
-    case QDOT_DIMENSION_KNOWN:
-        QDOT_TRY(qdot_units_base(session, is, &unit));
-        *value = qdot_mul(pool, *value, unit);
-        return qdot_pool_check(pool);
-    case QDOT_DIMENSION_FREE: return qdot_units_join(session, *value, of, "%s is the number of %s");
-    default: return QDOT_OK;
-    }
+    if (qdot_units_of(session, of, &is) != QDOT_DIMENSION_KNOWN)
+        return QDOT_OK;
+    QDOT_TRY(qdot_units_base(session, is, &unit));
+    *value = qdot_mul(pool, *value, unit);
+    return qdot_pool_check(pool);
 }
 
 /* The k-th of the expressions args [n], in which vectors and lists count by their entries; nil: there are not so many. */

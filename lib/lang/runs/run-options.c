@@ -55,7 +55,7 @@ read_with_pair(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
     if (qdot_record_word(r, "as") == NULL && !qdot_set_is_read(r, part, symbol))
         QDOT_TRY(qdot_answer_notice(r->cursor.session, "nothing in the run depends on %.100s",
                                     qdot_expr_symbol(r->cursor.session->pool, symbol)->name));
-    QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+    QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), symbol, &value));
     qdot_record_blame(r, part);
     QDOT_TRY(qdot_session_in_domain(r->cursor.session, symbol, value));
     return qdot_pairs_push(with, part->from, symbol, value);

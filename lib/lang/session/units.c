@@ -90,7 +90,7 @@ add_fact(qdot_session *session, const qdot_unit_fact *fact, const char *format)
     QDOT_TRY(bring_up_to_date(session));
     rank = qdot_dimensions_rank(units->known);
     QDOT_TRY(carry_out_fact(units->known, fact, format));
-    if (qdot_dimensions_rank(units->known) == rank && fact->kind != QDOT_FACT_ANGLE)
+    if (qdot_dimensions_rank(units->known) == rank && fact->kind < QDOT_FACT_ANGLE)
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&units->facts, *fact));
     units->done++;
@@ -121,6 +121,12 @@ qdot_units_angle(qdot_session *session, qdot_expr symbol)
     return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_ANGLE, .a = symbol}, NULL);
 }
 
+qdot_status
+qdot_units_scaled(qdot_session *session, qdot_expr symbol)
+{
+    return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_SCALED, .a = symbol}, NULL);
+}
+
 qdot_dimension_state
 qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension)
 {
@@ -132,9 +138,9 @@ qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension)
 
 /* --- units of numbers ------------------------------------------------------------------- */
 
-/* Whether e is a symbol that was declared an angle, or a time derivative of one. */
+/* Whether e is a symbol of which the fact is known, or a time derivative of one. */
 static bool
-is_angle(const qdot_session *session, qdot_expr e)
+has_fact(const qdot_session *session, qdot_expr e, qdot_unit_fact_kind kind)
 {
     const qdot_symbol *s = qdot_expr_symbol(session->pool, e);
     const qdot_units *units = session->units;
@@ -143,9 +149,15 @@ is_angle(const qdot_session *session, qdot_expr e)
         return false;
     e = s->class == QDOT_COORD && s->base != QDOT_NIL ? s->base : e;
     for (size_t i = 0; i < units->facts.n; i++)
-        if (units->facts.at[i].kind == QDOT_FACT_ANGLE && units->facts.at[i].a == e)
+        if (units->facts.at[i].kind == kind && units->facts.at[i].a == e)
             return true;
     return false;
+}
+
+bool
+qdot_units_is_scaled(const qdot_session *session, qdot_expr symbol)
+{
+    return has_fact(session, symbol, QDOT_FACT_SCALED);
 }
 
 void
@@ -156,7 +168,7 @@ qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out)
 
     if (qdot_units_of(session, e, &is) != QDOT_DIMENSION_KNOWN)
         return;
-    if (is_angle(session, e) && is.of[2].n <= 0 && is.of[2].n >= -2 && is.of[2].d == 1)
+    if (has_fact(session, e, QDOT_FACT_ANGLE) && is.of[2].n <= 0 && is.of[2].n >= -2 && is.of[2].d == 1)
         qdot_text_add(out, angles[-is.of[2].n]);
     else
         qdot_dimension_unit(is, out);

@@ -11,7 +11,7 @@
 #include "dimensions/dimensions.h"
 #include "lang/session/parts.h"
 
-typedef enum { QDOT_FACT_BEGIN, QDOT_FACT_VISIT, QDOT_FACT_JOIN, QDOT_FACT_FIX, QDOT_FACT_ANGLE } qdot_unit_fact_kind;
+typedef enum { QDOT_FACT_BEGIN, QDOT_FACT_VISIT, QDOT_FACT_JOIN, QDOT_FACT_FIX, QDOT_FACT_ANGLE, QDOT_FACT_SCALED } qdot_unit_fact_kind;
 
 /* One fact; the fields that its kind does not use are 0. */
 typedef struct {
@@ -40,6 +40,10 @@ QDOT_MUST_CHECK qdot_status qdot_units_join(qdot_session *session, qdot_expr a, 
 QDOT_MUST_CHECK qdot_status qdot_units_fix(qdot_session *session, qdot_expr e, qdot_dimension is, const char *format);
 /* The symbol is an angle: its unit is written, as rad. */
 QDOT_MUST_CHECK qdot_status qdot_units_angle(qdot_session *session, qdot_expr symbol);
+
+/* The symbol was declared in a unit that is not 1 in SI units, such as cm or deg; whether it was, or is a derivative. */
+QDOT_MUST_CHECK qdot_status qdot_units_scaled(qdot_session *session, qdot_expr symbol);
+bool qdot_units_is_scaled(const qdot_session *session, qdot_expr symbol);
 
 /* The dimension of e; NONE without units. */
 qdot_dimension_state qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lang/functions/builtin.h"
+#include "lang/language/units.h"
 #include "lang/session/row-tables.h"
 #include "lang/syntax/holes.h"
 
@@ -116,7 +117,8 @@ static bool
 begins_with_bound(const reader *m)
 {
     const qdot_token *t = m->c->at, *next = token_after_name(t);
-    const bool more = next->kind != QDOT_TOKEN_END && !qdot_token_is(next, ",") && !qdot_token_is(next, "=");
+    const bool more = next->kind != QDOT_TOKEN_END && !qdot_token_is(next, ",") && !qdot_token_is(next, "=") &&
+                      !qdot_token_is(next, "["); /* a unit */
 
     if (t->kind != QDOT_TOKEN_NAME)
         return true;
@@ -128,6 +130,22 @@ begins_with_bound(const reader *m)
         return more;
     return next[1].kind == QDOT_TOKEN_NAME && strcmp(next[1].text, "pi") != 0 &&
            !is_declared(m, next[1].text);
+}
+
+/* Parse a unit behind a new name. */
+static qdot_status
+read_unit(const reader *m, qdot_filled *part)
+{
+    qdot_compiled one = {.from = m->c->at};
+    qdot_status status = qdot_unit_parse_alone(m->c, &one.code);
+
+    one.to = m->c->at;
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&m->r->compiled, one);
+    if (status != QDOT_OK)
+        qdot_compiled_free(&one);
+    part->n += status == QDOT_OK;
+    return status;
 }
 
 /* Parse a new name with bounds: name, LO < name, name > LO, LO < name < HI. */
@@ -154,7 +172,7 @@ read_domain(const reader *m, const qdot_hole *hole, qdot_filled *part)
         c->at++;
         QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
     }
-    return QDOT_OK;
+    return qdot_token_is(c->at, "[") ? read_unit(m, part) : QDOT_OK;
 }
 
 /* --- parsing a hole by its class ----------------------------------------------------- */

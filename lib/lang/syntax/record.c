@@ -3,10 +3,15 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/language/read.h"
+#include "lang/language/units.h"
 #include "lang/session/bind.h"
 #include "lang/session/names.h"
+#include "lang/session/units.h"
+#include "lang/syntax/dimension.h"
 #include "lang/syntax/mention.h"
 
 void
@@ -108,12 +113,47 @@ qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text
     return NULL;
 }
 
+/* --- dimensions ------------------------------------------------------------------------ */
+
+/* The coordinate behind `on`; nil: there is none. */
+static qdot_status
+find_coordinate_acted_on(qdot_record *r, qdot_expr *q)
+{
+    const qdot_filled *on = qdot_record_hole(r, "on", NULL);
+    const qdot_name *known;
+    const char *name;
+
+    *q = QDOT_NIL;
+    if (on == NULL || on->name == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_record_name(r, on, &name));
+    known = qdot_names_find(r->cursor.session->names, name);
+    if (known != NULL && known->kind == QDOT_NAME_COORD)
+        *q = known->value;
+    return QDOT_OK;
+}
+
+/* The value of the compiled expression `of` of this part has the dimension that belongs there. */
+static qdot_status
+check_dimension(qdot_record *r, const qdot_filled *part, size_t of, qdot_expr value)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_expr on;
+
+    if (!qdot_units_on(session) || value == QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(find_coordinate_acted_on(r, &on));
+    r->cursor.error_at = r->compiled.at[of].from->start;
+    return qdot_hole_dimension(session, r->row->word, part->node, on, value);
+}
+
 /* --- evaluating parts ---------------------------------------------------------------- */
 
 qdot_status
 qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 {
-    return qdot_compiled_value(&r->cursor, &r->compiled.at[part->first], value);
+    QDOT_TRY(qdot_compiled_value(&r->cursor, &r->compiled.at[part->first], value));
+    return check_dimension(r, part, part->first, *value);
 }
 
 qdot_status
@@ -125,13 +165,15 @@ qdot_record_named(qdot_record *r, const qdot_filled *part, qdot_expr *value, qdo
 qdot_status
 qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 {
-    return qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first], value);
+    QDOT_TRY(qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first], value));
+    return check_dimension(r, part, part->first, *value);
 }
 
 qdot_status
 qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 {
-    return qdot_compiled_point(&r->cursor, &r->compiled.at[part->first], value);
+    QDOT_TRY(qdot_compiled_point(&r->cursor, &r->compiled.at[part->first], value));
+    return check_dimension(r, part, part->first, *value);
 }
 
 qdot_status
@@ -143,8 +185,19 @@ qdot_record_number(qdot_record *r, const qdot_filled *part, double *value)
 qdot_status
 qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from, qdot_expr *to)
 {
+    const qdot_token *unit = qdot_compiled_unit(&r->compiled.at[part->first + 1], false);
+    qdot_expr factor;
+
     QDOT_TRY(qdot_record_item(r, part, 0, from));
-    return qdot_record_item(r, part, 1, to);
+    QDOT_TRY(qdot_record_item(r, part, 1, to));
+    if (unit == NULL || !qdot_expr_is_constant(r->cursor.session->pool, *from))
+        return QDOT_OK;
+    /* 5..20 [min]: the unit of the upper end is that of a bare lower one, too */
+    bool angle;
+
+    QDOT_TRY(qdot_read_unit(r->cursor.session, unit, &factor, &angle, &unit));
+    *from = qdot_mul(r->cursor.session->pool, *from, factor);
+    return qdot_pool_check(r->cursor.session->pool);
 }
 
 qdot_status
@@ -156,7 +209,8 @@ qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value)
 qdot_status
 qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k, qdot_expr *value)
 {
-    return qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first + k], value);
+    QDOT_TRY(qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first + k], value));
+    return check_dimension(r, part, part->first + k, *value);
 }
 
 qdot_status
@@ -176,8 +230,11 @@ qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion, qdot_
     qdot_expr equation;
 
     QDOT_TRY(evaluate(&r->cursor, &sides[0], left));
-    if (part->n == 2)
-        return evaluate(&r->cursor, &sides[1], right);
+    if (part->n == 2) {
+        QDOT_TRY(evaluate(&r->cursor, &sides[1], right));
+        r->cursor.error_at = sides[0].to->start;
+        return qdot_units_join(r->cursor.session, *left, *right, "%s is set equal to %s");
+    }
     equation = *left;
     if (qdot_expr_kind(pool, equation) != QDOT_REL || qdot_expr_node(pool, equation)->op != QDOT_EQ)
         return qdot_record_expected(r, part->to, "`=` and the other side");
@@ -236,6 +293,37 @@ qdot_record_new_name(qdot_record *r, const qdot_filled *part, const char **name)
     return qdot_fail(QDOT_ENAME, "`%s` means something else already", *name);
 }
 
+/* Whether it is the unit of a declared name, as in `coord x [m]`. */
+static bool
+is_unit_alone(const qdot_compiled *one)
+{
+    return one->code.list.n == 1 && one->code.list.at[0].op == QDOT_POSTFIX_UNIT;
+}
+
+qdot_status
+qdot_record_unit(qdot_record *r, const qdot_filled *part, const qdot_filled *value, qdot_expr *unit, bool *angle)
+{
+    const qdot_token *open = NULL, *blame;
+
+    for (size_t i = 0; i < part->n; i++) {
+        const qdot_compiled *one = &r->compiled.at[part->first + i];
+
+        if ((one->from < part->name || one->from >= part->primes) && qdot_compiled_unit(one, false) != NULL)
+            open = qdot_compiled_unit(one, false);
+    }
+    if (value != NULL && open == NULL)
+        open = qdot_compiled_unit(&r->compiled.at[value->first], false);
+    *unit = QDOT_NIL;
+    *angle = false;
+    if (open == NULL)
+        return QDOT_OK;
+    blame = open;
+    const qdot_status status = qdot_read_unit(r->cursor.session, open, unit, angle, &blame);
+
+    r->cursor.error_at = status != QDOT_OK ? blame->start : r->cursor.error_at;
+    return status;
+}
+
 qdot_status
 qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k, qdot_bound *bound, bool *is)
 {
@@ -244,7 +332,7 @@ qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k, qdot_bound 
         const bool before = one->from < part->name;
         const char *relation = before ? one->to->text : one->from[-1].text;
 
-        if ((!before && one->from < part->primes) || k-- > 0)
+        if ((!before && one->from < part->primes) || is_unit_alone(one) || k-- > 0)
             continue;
         *is = true;
         *bound = (qdot_bound){.at = one->from, .upper = (relation[0] == '<') != before, .strict = relation[1] == '\0'};

@@ -127,6 +127,11 @@ const char *qdot_record_text(const qdot_filled *part);
 
 /* --- reporting errors ---------------------------------------------------------------- */
 
+/* The unit behind a declared name or its bound, or behind its value (NULL: none), as in `param m > 0 [kg]`; *unit nil:
+ * there is none. *angle: it is one of angles. */
+QDOT_MUST_CHECK qdot_status qdot_record_unit(qdot_record *r, const qdot_filled *part, const qdot_filled *value,
+                                             qdot_expr *unit, bool *angle);
+
 /* Set the position at which an error is shown to the beginning of this part of the statement. */
 void qdot_record_blame(qdot_record *r, const qdot_filled *part);
 /* Fail at the primes of a name that cannot have any; what: a description of what should follow the name. */

@@ -30,6 +30,7 @@
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
 #include "lang/session/typed.h"
+#include "lang/session/units.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
 #include "lang/syntax/form.h"
@@ -564,6 +565,7 @@ carry_out_statement_or_block(engine *x, size_t *i)
 {
     const qdot_token *first = &x->tokens[*i], *last;
     size_t begun = qdot_undo_begin(x->session);
+    const size_t facts = x->session->units->facts.n;
     qdot_status status;
 
     qdot_typed_begin(x->session, x->source, first->start);
@@ -574,6 +576,8 @@ carry_out_statement_or_block(engine *x, size_t *i)
            : status == QDOT_OK ? &x->tokens[*i]
                                : qdot_outline_end(first);
     last -= last > first;
+    if (status != QDOT_OK) /* what a failed statement said of dimensions is not kept */
+        qdot_units_back_to(x->session, facts);
     qdot_undo_end(x->session, begun, x->source->text + first->start,
                   last->start + last->length - first->start);
     if (status == QDOT_OK) /* after a failure, the statement ends only when its error has been printed */

@@ -1,0 +1,118 @@
+/* units.c -- the statement `units`: the dimensions and units of all names, or of an expression. */
+#include <string.h>
+
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/write.h"
+#include "lang/language/token-text.h"
+#include "lang/session/names.h"
+#include "lang/session/output.h"
+#include "lang/session/units.h"
+#include "lang/syntax/record.h"
+
+static qdot_status carry_out_units(qdot_record *r);
+
+QDOT_STATEMENT(units) = {
+    .word = "units",
+    .group = QDOT_ASKING,
+    .usage = "units [EXPR]",
+    .summary = "the dimension and the SI unit of every name, or of an expression; what is not determined is said so",
+    .example = "units",
+    .handler = carry_out_units,
+};
+
+/* Append the dimension of e in words. */
+static qdot_status
+add_dimension(qdot_session *session, qdot_expr e, const char *label, qdot_text *out)
+{
+    static const char *const angles[] = {"rad", "rad/s", "rad/s^2"};
+    static const char *const words[] = {"an angle", "an angular velocity", "an angular acceleration"};
+    qdot_dimension is;
+
+    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
+        if (strcmp(label, angles[i]) == 0) {
+            qdot_text_add(out, words[i]);
+            return qdot_text_status(out);
+        }
+    switch (qdot_units_of(session, e, &is)) {
+    case QDOT_DIMENSION_KNOWN: qdot_dimension_words(is, out); break;
+    case QDOT_DIMENSION_ANY: qdot_text_add(out, "0, of any dimension"); break;
+    case QDOT_DIMENSION_NONE: qdot_text_add(out, "of several dimensions, or of none"); break;
+    case QDOT_DIMENSION_FREE:
+        qdot_text_add(out, "not determined");
+        if (!qdot_expr_is_class(session->pool, e, QDOT_PARAM) && !qdot_expr_is_class(session->pool, e, QDOT_COORD)) {
+            qdot_text_add(out, ": ");
+            qdot_dimensions_words(session->units->known, e, out);
+        }
+    }
+    return qdot_text_status(out);
+}
+
+/* Answer for one name: a line of the text, or an object of JSON. */
+static qdot_status
+answer_dimension(qdot_session *session, const char *name, qdot_expr e, qdot_text *out)
+{
+    qdot_text label = {0}, words = {0}, line = {0};
+    qdot_status status;
+
+    qdot_units_label(session, e, &label);
+    status = add_dimension(session, e, qdot_text_str(&label), &words);
+    if (status == QDOT_OK && session->output->json) {
+        qdot_text_add(&line, "{\"kind\":\"unit\"");
+        qdot_write_field(&line, ",\"name\":", name);
+        qdot_write_field(&line, ",\"dimension\":", qdot_text_str(&words));
+        qdot_write_field(&line, ",\"unit\":", qdot_text_str(&label));
+        qdot_text_add(&line, "}\n");
+        status = qdot_write_object(session, session->output->out, &line);
+    } else if (status == QDOT_OK) {
+        qdot_text_format(out, "%s%s: %s", out->n > 0 ? "\n" : "", name, qdot_text_str(&words));
+        if (label.n > 0)
+            qdot_text_format(out, " [%s]", qdot_text_str(&label));
+    }
+    qdot_text_clear(&label);
+    qdot_text_clear(&words);
+    return status;
+}
+
+static qdot_status
+answer_all_names(qdot_session *session, qdot_text *out)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
+        if (name->kind != QDOT_NAME_FUNCTION && !(name->kind == QDOT_NAME_VALUE && !qdot_expr_is_scalar(session->pool, name->value) &&
+                                                  qdot_expr_kind(session->pool, name->value) != QDOT_VEC))
+            QDOT_TRY(answer_dimension(session, name->name, name->value, out));
+    return QDOT_OK;
+}
+
+static qdot_status
+carry_out_units(qdot_record *r)
+{
+    const qdot_filled *one = qdot_record_hole(r, NULL, "EXPR");
+    qdot_session *session = r->cursor.session;
+    qdot_text text = {0}, name = {0};
+    qdot_expr value;
+    qdot_status status;
+
+    if (one != NULL)
+        QDOT_TRY(qdot_record_value(r, one, &value));
+    if (!qdot_units_on(session)) {
+        r->cursor.error_at = r->start->start;
+        (void)qdot_fail(QDOT_EINVAL, "no unit has been written");
+        return qdot_hint("declare one, as in `param m > 0 [kg]`: the others follow where they can");
+    }
+    if (one != NULL) {
+        qdot_token_text(session, one->from, one->to, &name);
+        status = answer_dimension(session, qdot_text_str(&name), value, &text);
+    } else {
+        status = answer_all_names(session, &text);
+    }
+    qdot_text_clear(&name);
+    if (session->output->json || status != QDOT_OK) {
+        qdot_text_clear(&text);
+        return status;
+    }
+    return qdot_answer_written(session, "units", status, &text);
+}
