@@ -274,6 +274,26 @@ evaluate_real(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
     arb_zero(acb_imagref(y));
 }
 
+/* A complete elliptic integral of one argument m, with its cut from 1 on. */
+static bool
+evaluate_complete(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
+{
+    acb_srcptr m = value_of(v, e, 0);
+    acb_t below;
+
+    if ((f != QDOT_ELLIPTIC_K && f != QDOT_ELLIPTIC_E) || qdot_expr_count(v->b->pool, e) != 1)
+        return false;
+    acb_init(below);
+    acb_sub_ui(below, m, 1, v->bits);
+    acb_neg(below, below);
+    if (may_be_below(below, 0))
+        acb_indeterminate(y);
+    else
+        (f == QDOT_ELLIPTIC_K ? acb_elliptic_k : acb_elliptic_e)(y, m, v->bits);
+    acb_clear(below);
+    return true;
+}
+
 static void
 complex_of_function(const evaluation *v, acb_t y, qdot_expr e)
 {
@@ -285,7 +305,8 @@ complex_of_function(const evaluation *v, acb_t y, qdot_expr e)
     if (qdot_fun_ball_of(f) != NULL && acb_is_real(x) && !v->analytic) {
         qdot_fun_ball_of(f)(acb_realref(y), acb_realref(x), v->bits);
         arb_zero(acb_imagref(y));
-    } else if (!evaluate_meromorphic(v, y, f, x) && !evaluate_cut(v, y, f, x)) {
+    } else if (!evaluate_meromorphic(v, y, f, x) && !evaluate_cut(v, y, f, x) &&
+               !evaluate_complete(v, y, f, e)) {
         evaluate_real(v, y, f, e);
     }
 }

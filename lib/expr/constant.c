@@ -307,16 +307,46 @@ report_no_value(const qdot_pool *pool, qdot_expr e, const char *why)
     return status;
 }
 
+/* An end of an integral with more bits, where it is a rational multiple of 1 or pi: an integrand that is singular there
+ * must tell places near it from it. */
+static void
+sharpen_end(const qdot_pool *pool, qdot_expr e, arb_t end, slong bits)
+{
+    const bool product = qdot_expr_kind(pool, e) == QDOT_PROD && qdot_expr_count(pool, e) == 3 &&
+                         qdot_expr_arg(pool, e, 1) == QDOT_PI && qdot_expr_arg(pool, e, 2) == QDOT_ONE;
+    const fmpq *c = qdot_expr_rational(pool, product ? qdot_expr_arg(pool, e, 0) : e);
+
+    if (product || e == QDOT_PI)
+        arb_const_pi(end, bits);
+    if (product)
+        arb_mul_fmpz(end, end, fmpq_numref(c), bits);
+    if (product)
+        arb_div_fmpz(end, end, fmpq_denref(c), bits);
+    else if (c != NULL)
+        arb_set_fmpq(end, c, bits);
+}
+
 /* The value of a definite integral, whose integrand must hold nothing without a value. */
 static qdot_status
-integrate(const evaluation *v, arb_t y, qdot_expr e, slong bits)
+integral_of_node(const evaluation *v, arb_t y, qdot_expr e, slong bits)
 {
+    const slong precise = 8 * bits;
+    qdot_status status;
     bool proved;
+    arb_t a, b;
 
     if ((qdot_expr_node(v->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
         return report_unset_symbols(v);
-    QDOT_TRY(qdot_integral_value(y, v->pool, qdot_expr_arg(v->pool, e, 0), v->args[1], v->args[2],
-                                 bits / 2 + v->wanted, &proved));
+    arb_init(a);
+    arb_init(b);
+    arb_set(a, v->args[1]);
+    arb_set(b, v->args[2]);
+    sharpen_end(v->pool, qdot_expr_arg(v->pool, e, 1), a, precise);
+    sharpen_end(v->pool, qdot_expr_arg(v->pool, e, 2), b, precise);
+    status = qdot_integral_value(y, v->pool, qdot_expr_arg(v->pool, e, 0), a, b, bits / 2 + v->wanted, &proved);
+    arb_clear(a);
+    arb_clear(b);
+    QDOT_TRY(status);
     return arb_is_finite(y) ? QDOT_OK : report_no_value(v->pool, e, "diverges, or its number was not found");
 }
 
@@ -384,7 +414,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
     case QDOT_INTEGRAL:
         if (!qdot_integral_is_definite(pool, e))
             return qdot_fail(QDOT_EDOMAIN, "an integral without ends has no value at a place");
-        return integrate(v, y, e, bits);
+        return integral_of_node(v, y, e, bits);
     case QDOT_UFUN:
         return report_unset_symbols(v);
     case QDOT_VEC:

@@ -3,8 +3,12 @@
 
 #include "base/interrupt.h"
 #include "expr/complex-ball.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/integral.h"
+#include "expr/node.h"
 
-enum { EVALUATIONS = 4000, AT_KINKS = 40000, LEVELS = 9, MOST_STEPS = 4096 };
+enum { EVALUATIONS = 4000, AT_KINKS = 40000, LEVELS = 9, MOST_STEPS = 4096, MOST_PIECES = 8 };
 
 static int
 integrand(acb_ptr y, const acb_t z, void *user, slong order, slong bits)
@@ -55,14 +59,14 @@ typedef struct {
     qdot_complex_ball *f;
     const arb_struct *a, *b;
     int kind;
-    slong bits; /* of the sum; the places are computed with three times as many */
+    slong bits; /* of the sum; the places are computed with six times as many, to tell them from the ends */
 } substitution;
 
 /* y = f(x) dx/dt at t; false where it is not known. */
 static bool
 evaluate_substituted(const substitution *s, arb_t y, const arb_t t)
 {
-    const slong bits = 3 * s->bits + 64;
+    const slong bits = 6 * s->bits + 64;
     arb_t u, du, g, h;
     acb_t x, v;
     bool known;
@@ -129,7 +133,7 @@ sum_outward(const substitution *s, arb_t sum, const arb_t h, long first, long st
     mag_init(size);
     mag_init(least);
     for (long k = 0; k < MOST_STEPS && small < 6; k++) {
-        arb_mul_si(t, h, first + step * k, 3 * s->bits + 64);
+        arb_mul_si(t, h, first + step * k, 6 * s->bits + 64);
         if (!evaluate_substituted(s, term, t)) { /* the place is not told from the end any more, or f is not defined */
             lost = true;
             break;
@@ -183,23 +187,118 @@ substitute(arb_t y, const substitution *s)
     return found;
 }
 
+/* --- on pieces ------------------------------------------------------------------------------------------ */
+
+/* From a to b by the first way that gives a number. */
+static bool
+integrate_piece(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits, bool *proved)
+{
+    const bool from = arb_is_finite(a), to = arb_is_finite(b);
+    const substitution s = {f, a, b, from && to ? 0 : from ? 1 : to ? -1 : 2, bits};
+
+    if (from && to && enclose(y, f, a, b, bits))
+        return true;
+    *proved = false;
+    return substitute(y, &s);
+}
+
+/* Whether the node e is where u, linear in the variable, may make the integrand singular: abs(u), log(u), u^p. */
+static qdot_expr
+base_of_singularity(const qdot_pool *pool, qdot_expr e, uint32_t k)
+{
+    const qdot_node *node = qdot_expr_node(pool, e);
+    long whole;
+
+    if (node->kind == QDOT_FUN && k == 0 && (node->op == QDOT_ABS || node->op == QDOT_LOG || node->op == QDOT_SIGN))
+        return qdot_expr_arg(pool, e, 0);
+    if (node->kind == QDOT_PROD && k % 2 == 1 && !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, k + 1), &whole))
+        return qdot_expr_arg(pool, e, k);
+    return QDOT_NIL;
+}
+
+/* The place x = -c/d at which u = c + d x vanishes, in c + d x of rationals. */
+static bool
+find_zero(const qdot_pool *pool, qdot_expr u, fmpq_t place)
+{
+    if (qdot_bound_number(pool, u) == 1) {
+        fmpq_zero(place);
+        return true;
+    }
+    if (qdot_expr_kind(pool, u) != QDOT_SUM || qdot_expr_count(pool, u) != 3 ||
+        qdot_bound_number(pool, qdot_expr_arg(pool, u, 1)) != 1)
+        return false;
+    fmpq_div(place, qdot_expr_rational(pool, qdot_expr_arg(pool, u, 0)), qdot_expr_rational(pool, qdot_expr_arg(pool, u, 2)));
+    fmpq_neg(place, place);
+    return true;
+}
+
+/* The least such place between a and b, *at. */
+static bool
+find_split(const qdot_complex_ball *f, const arb_t a, const arb_t b, arb_t at, slong bits)
+{
+    bool found = false;
+    fmpq_t place;
+    arb_t x;
+
+    fmpq_init(place);
+    arb_init(x);
+    for (size_t i = 0; i < f->walk.n; i++)
+        for (uint32_t k = 0; k < qdot_expr_count(f->pool, f->walk.at[i]); k++) {
+            const qdot_expr u = base_of_singularity(f->pool, f->walk.at[i], k);
+
+            if (u == QDOT_NIL || !find_zero(f->pool, u, place))
+                continue;
+            arb_set_fmpq(x, place, 4 * bits + 64);
+            if (!arb_gt(x, a) || !arb_lt(x, b) || (found && !arb_lt(x, at)))
+                continue;
+            arb_set(at, x);
+            found = true;
+        }
+    fmpq_clear(place);
+    arb_clear(x);
+    return found;
+}
+
+/* From a to b as a whole; where that fails, on the pieces between the places at which f may be singular. */
+static bool
+integrate_split(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits, bool *proved)
+{
+    arb_t from, at, part;
+    bool found = integrate_piece(y, f, a, b, bits, proved);
+
+    if (found)
+        return true;
+    arb_init(from);
+    arb_init(at);
+    arb_init(part);
+    arb_set(from, a);
+    arb_zero(y);
+    for (int pieces = 0; pieces < MOST_PIECES; pieces++) {
+        const bool last = !find_split(f, from, b, at, bits);
+
+        if (pieces == 0 && last)
+            break;
+        found = integrate_piece(part, f, from, last ? b : at, bits, proved);
+        arb_add(y, y, part, 3 * bits);
+        if (!found || last)
+            break;
+        arb_set(from, at);
+        found = false;
+    }
+    arb_clear(from);
+    arb_clear(at);
+    arb_clear(part);
+    return found;
+}
+
 qdot_status
 qdot_integral_value(arb_t y, const qdot_pool *pool, qdot_expr f, const arb_t a, const arb_t b, slong bits, bool *proved)
 {
-    const bool from = arb_is_finite(a), to = arb_is_finite(b);
     qdot_complex_ball ball;
-    bool found;
 
     *proved = true;
     QDOT_TRY(qdot_complex_ball_begin(&ball, pool, f));
-    found = from && to && enclose(y, &ball, a, b, bits);
-    if (!found) {
-        const substitution s = {&ball, a, b, from && to ? 0 : from ? 1 : to ? -1 : 2, bits};
-
-        *proved = false;
-        found = substitute(y, &s);
-    }
-    if (!found)
+    if (!integrate_split(y, &ball, a, b, bits, proved))
         arb_indeterminate(y);
     qdot_complex_ball_end(&ball);
     return qdot_interrupt_check();

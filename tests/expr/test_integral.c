@@ -125,6 +125,13 @@ numbers_are_those_of_known_integrals(void **state)
     assert_true(number_of(qdot_fun1(p.pool, QDOT_ABS, qdot_sub(p.pool, x, QDOT_HALF)), QDOT_ZERO, QDOT_ONE) == 0.25);
     assert_true(number_of(qdot_div(p.pool, QDOT_ONE, qdot_add(p.pool, QDOT_ONE, square)), QDOT_ZERO, QDOT_INFINITY) ==
                 acos(-1) / 2);
+    /* singular at the end 1/3, and within at 1/3 */
+    assert_true(fabs(number_of(qdot_pow(p.pool, qdot_sub(p.pool, number(1, 3), x), number(-1, 2)), QDOT_ZERO, number(1, 3)) -
+                     2 / sqrt(3)) < 1e-15);
+    assert_true(fabs(number_of(qdot_fun1(p.pool, QDOT_LOG, qdot_fun1(p.pool, QDOT_ABS, qdot_sub(p.pool, x, number(1, 3)))),
+                               QDOT_ZERO, QDOT_ONE) -
+                     (log(1.0 / 3) / 3 + 2 * log(2.0 / 3) / 3 - 1)) < 1e-15);
+    assert_true(isnan(number_of(qdot_pow_int(p.pool, qdot_fun1(p.pool, QDOT_ABS, x), -1), QDOT_MINUS_ONE, QDOT_ONE)));
     /* int_0^1 dx int_0^x x y^2 dy = 1/15; of cos(x y) e^-x over y from 0 to 1, x from 0: pi/4 */
     assert_true(number_of(qdot_integral(p.pool, times(x, qdot_pow_int(p.pool, y, 2)), y, QDOT_ZERO, x), QDOT_ZERO, QDOT_ONE) ==
                 1.0 / 15);
