@@ -14,6 +14,7 @@
 #include "expr/integral.h"
 #include "expr/integral-value.h"
 #include "expr/node.h"
+#include "expr/pool.h"
 #include "expr/print.h"
 #include "expr/rational.h"
 #include "expr/symbol.h"
@@ -262,6 +263,7 @@ typedef struct {
     qdot_walk walk;
     arb_struct *ball;          /* [walk.n] the value of each subexpression as a ball (an interval) */
     const arb_struct **args;   /* scratch: the balls of one node's arguments */
+    bool estimated;            /* the error of an integral is an estimate */
     slong wanted;              /* of an integral: bits beyond half the bits of the other operations */
     size_t args_capacity;
 } evaluation;
@@ -328,7 +330,7 @@ sharpen_end(const qdot_pool *pool, qdot_expr e, arb_t end, slong bits)
 
 /* The value of a definite integral, whose integrand must hold nothing without a value. */
 static qdot_status
-integral_of_node(const evaluation *v, arb_t y, qdot_expr e, slong bits)
+integral_of_node(evaluation *v, arb_t y, qdot_expr e, slong bits)
 {
     const slong precise = 8 * bits;
     qdot_status status;
@@ -347,6 +349,7 @@ integral_of_node(const evaluation *v, arb_t y, qdot_expr e, slong bits)
     arb_clear(a);
     arb_clear(b);
     QDOT_TRY(status);
+    v->estimated = v->estimated || !proved;
     return arb_is_finite(y) ? QDOT_OK : report_no_value(v->pool, e, "diverges, or its number was not found");
 }
 
@@ -569,6 +572,7 @@ qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, doub
     }
     QDOT_TRY(prepare_evaluation(&v, pool, e));
     status = evaluate_to_double(&v, e, value, side, low);
+    pool->estimated = pool->estimated || v.estimated;
     free_evaluation(&v);
     return status;
 }
@@ -616,8 +620,18 @@ qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
 
     QDOT_TRY(prepare_evaluation(&v, pool, e));
     status = evaluate_to_mpfr(&v, e, x);
+    pool->estimated = pool->estimated || v.estimated;
     free_evaluation(&v);
     return status;
+}
+
+bool
+qdot_constant_estimated_taken(qdot_pool *pool)
+{
+    const bool was = pool->estimated;
+
+    pool->estimated = false;
+    return was;
 }
 
 qdot_expr

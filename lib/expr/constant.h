@@ -36,4 +36,7 @@ qdot_status qdot_constant_unset(const qdot_pool *pool, qdot_expr e);
  * is something else. QDOT_OK: n is 0. */
 qdot_status qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e);
 
+/* Whether, since the last call, the error of the number of an integral was an estimate and not a bound. */
+bool qdot_constant_estimated_taken(qdot_pool *pool);
+
 #endif

@@ -34,6 +34,7 @@ struct qdot_pool {
     struct qdot_printed *printed; /* cache of printed texts, which printing may change in a const pool */
     qdot_memo *memo;              /* stored answers (expr/memo); NULL: none yet */
     uint32_t domains;             /* how many times the domain of a symbol has changed */
+    bool estimated;               /* a number of an integral was found whose error is an estimate */
     bool choices;                 /* some expression in the pool contains if(...) */
 };
 

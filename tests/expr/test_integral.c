@@ -120,7 +120,10 @@ numbers_are_those_of_known_integrals(void **state)
     (void)state;
     name_symbols();
     square = qdot_pow_int(p.pool, x, 2);
+    assert_true(number_of(qdot_fun1(p.pool, QDOT_EXP, qdot_neg(p.pool, square)), QDOT_ZERO, QDOT_ONE) == 0x1.7e5fbb9495fb8p-1);
+    assert_false(qdot_constant_estimated_taken(p.pool));
     assert_true(number_of(qdot_fun1(p.pool, QDOT_EXP, qdot_neg(p.pool, square)), minus, QDOT_INFINITY) == 0x1.c5bf891b4ef6bp0); /* sqrt(pi) */
+    assert_true(qdot_constant_estimated_taken(p.pool));
     assert_true(number_of(qdot_pow(p.pool, x, number(-1, 2)), QDOT_ZERO, QDOT_ONE) == 2);
     assert_true(number_of(qdot_fun1(p.pool, QDOT_ABS, qdot_sub(p.pool, x, QDOT_HALF)), QDOT_ZERO, QDOT_ONE) == 0.25);
     assert_true(number_of(qdot_div(p.pool, QDOT_ONE, qdot_add(p.pool, QDOT_ONE, square)), QDOT_ZERO, QDOT_INFINITY) ==

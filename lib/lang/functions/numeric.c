@@ -8,10 +8,12 @@
  */
 #include "lang/functions/builtin.h"
 
+#include "expr/constant.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
+#include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "normal/calculus/decimal.h"
@@ -31,7 +33,10 @@ static qdot_status
 evaluate_number(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 {
     *m = (qdot_measured){.digits = o->digits, .plain = o->plain};
+    (void)qdot_constant_estimated_taken(session->pool);
     QDOT_TRY(qdot_decimal(session->pool, e, o->digits, &m->exact, &m->error));
+    if (qdot_constant_estimated_taken(session->pool))
+        QDOT_TRY(qdot_answer_notice_once(session, "the error of this integral is an estimate, not a bound"));
     return qdot_session_number(session, m->exact, &m->value, NULL);
 }
 
