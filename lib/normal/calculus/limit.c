@@ -209,9 +209,10 @@ split_bounded(const approach *a, qdot_expr t, qdot_expr *rest)
     return *rest != QDOT_NIL && !holds_bounded(a, *rest);
 }
 
-/* Leave out the terms that a bounded part makes vanish; QDOT_EFAILED where one does not. */
+/* Leave out the terms with bounded parts whose coefficients have a limit; *remain: one of these limits is not 0, so that
+ * something bounded is left out. QDOT_EFAILED where one grows. */
 static qdot_status
-drop_bounded(approach *a, qdot_expr *e)
+drop_bounded(approach *a, qdot_expr *e, bool *remain)
 {
     qdot_pool *pool = a->growth.pool;
     qdot_expr kept, sum;
@@ -234,8 +235,9 @@ drop_bounded(approach *a, qdot_expr *e)
         if (!split_bounded(a, t, &rest))
             return QDOT_EFAILED;
         QDOT_TRY(qdot_growth_limit(&a->growth, rest, &limit));
-        if (limit != QDOT_ZERO)
+        if (qdot_infinite(pool, limit) != 0)
             return QDOT_EFAILED;
+        *remain = *remain || limit != QDOT_ZERO;
     }
     *e = kept;
     return QDOT_OK;
@@ -252,6 +254,7 @@ limit_on_side(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x
                     w = qdot_symbol_get(pool, QDOT_FORMAL, "a small number");
     approach a = {.growth = {.pool = pool, .facts = facts, .x = X, .w = w, .work = QUESTIONS}};
     qdot_expr place, limit = QDOT_NIL;
+    bool remain = false;
     qdot_status status;
 
     *answer = (qdot_limit_answer){.kind = QDOT_LIMIT_NOT_FOUND};
@@ -270,9 +273,11 @@ limit_on_side(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x
     if (status == QDOT_OK)
         status = a.status != QDOT_OK ? a.status : qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = drop_bounded(&a, &e);
+        status = drop_bounded(&a, &e, &remain);
     if (status == QDOT_OK)
         status = qdot_growth_limit(&a.growth, e, &limit);
+    if (status == QDOT_OK && remain && qdot_infinite(pool, limit) == 0)
+        status = QDOT_EFAILED;
     if (qdot_grave(status) != QDOT_OK)
         return status;
     if (status != QDOT_OK) {

@@ -8,7 +8,7 @@
  *
  * abs, sign, min, max, if are decided by the sign of their arguments near the place, floor and mod by the side from which
  * these come. Where an argument of sine, cosine or floor grows without bound, that part is only known to be bounded: the
- * limit is found if its coefficient tends to 0.
+ * limit is found if its coefficient tends to 0, or to another value while the rest is infinite.
  *
  * Source  Gruntz, "On computing limits in a symbolic manipulation system", ETH Zurich 1996
  * Tests   tests/normal/calculus/test_limit.c, tests/script/integral/limit.lag

@@ -51,6 +51,8 @@ limits_are_those_of_the_books(void **state)
         {"tanh(x)", "inf", 0, "1"},
         {"x*sin(1/x)", "0", 0, "0"},
         {"sqrt(x)", "0", 0, "0"},
+        {"x + 3*sin(x)", "inf", 0, "inf"},
+        {"x + floor(x)", "-inf", 0, "-inf"},
     };
 
     (void)state;
