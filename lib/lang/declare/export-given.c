@@ -4,15 +4,20 @@
 #include <math.h>
 
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/values.h"
 #include "sim/model/substitute.h"
+
+/* What the value of an input may hold, and that of a parameter may not. */
+enum { MOVING = QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY };
 
 qdot_status
 qdot_given_functions_find(qdot_session *s, qdot_given_functions *f)
 {
     for (size_t i = 0; i < s->values->set_symbols.n; i++)
-        if (qdot_expr_kind(s->pool, s->values->set_symbols.at[i]) == QDOT_UFUN) {
+        if (qdot_expr_kind(s->pool, s->values->set_symbols.at[i]) == QDOT_UFUN ||
+            (qdot_expr_node(s->pool, s->values->set_values.at[i])->holds & MOVING) != 0) {
             QDOT_TRY(qdot_vec_push(&f->heads, s->values->set_symbols.at[i]));
             QDOT_TRY(qdot_vec_push(&f->bodies, s->values->set_values.at[i]));
         }

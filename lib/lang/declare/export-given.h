@@ -5,7 +5,8 @@
 #include "base/memory.h"
 #include "lang/session/parts.h"
 
-/* Declared functions that have a value: f(s) is heads.at[i], its value bodies.at[i]. */
+/* Declared functions that have a value: f(s) is heads.at[i], its value bodies.at[i]; and inputs whose value depends on the
+ * motion. */
 typedef struct {
     qdot_vec(qdot_expr) heads, bodies;
 } qdot_given_functions;

@@ -7,11 +7,15 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
 /* Numbers are rounded to this many bits after each step, so that they do not grow. */
-enum { BITS = 128 };
+enum {
+    BITS = 128,
+    LONG_CONSTANT = 20 /* operations */
+};
 
 /* Round a rational number to BITS significant bits; what is below 2^-90 becomes 0: it is the rounding of earlier steps
  * in numbers of ordinary size. */
@@ -47,6 +51,13 @@ rounded_number(qdot_pool *pool, qdot_expr e)
     return e;
 }
 
+/* Whether e is a constant that numbers say better, as a sum of products of sin(1/4) and cos(2/3). */
+static bool
+is_long_constant(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_node(pool, e)->size > LONG_CONSTANT && qdot_expr_is_constant(pool, e);
+}
+
 qdot_expr
 qdot_elimination_short(qdot_elimination *x, qdot_expr e)
 {
@@ -55,7 +66,7 @@ qdot_elimination_short(qdot_elimination *x, qdot_expr e)
     if (qdot_expr_kind(x->pool, e) == QDOT_NUM)
         return x->numbers ? rounded_number(x->pool, e) : e;
     x->work += qdot_expr_node(x->pool, e)->size;
-    if (x->work > x->most) {
+    if (x->work > x->most || is_long_constant(x->pool, e)) {
         (void)qdot_fail(QDOT_ELIMIT, "the linear motion is too long to be written in symbols");
         return qdot_pool_fail(x->pool);
     }

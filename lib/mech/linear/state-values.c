@@ -11,7 +11,7 @@
 
 enum {
     BITS = 192,      /* precision of the balls */
-    MOST_WORK = 40000 /* operations in expressions simplified for one linear motion */
+    MOST_WORK = 12000 /* operations in expressions simplified for one linear motion */
 };
 
 void
