@@ -22,6 +22,7 @@ enum {
     QDOT_BUILTIN_FORM = 8,    /* arguments are not evaluated before the call, as for sum and if */
     QDOT_BUILTIN_SHORT = 16,  /* a name declared by the user takes precedence */
     QDOT_BUILTIN_RANGE = 32, /* the last argument may be a range a..b: it counts as two arguments */
+    QDOT_BUILTIN_NAMES = 128, /* an argument NAME = EXPR may have a new name, given as a symbol */
     QDOT_BUILTIN_PASSED = 64 /* while the arguments are read, session->passed records what must be defined */
 };
 

@@ -1,5 +1,4 @@
 /* vectors.c -- functions of vectors and matrices, of positions r(q) and line elements. */
-#include "base/memory.h"
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -78,58 +77,6 @@ OF_FIELD(divergence)
 OF_FIELD(curl)
 OF_FIELD(laplacian)
 
-typedef struct {
-    qdot_session *session;
-    qdot_expr f, g; /* the two functions; g nil: the vector whose components are mapped */
-} bracket;
-
-static qdot_expr
-bracket_with(qdot_pool *pool, qdot_expr scalar, void *user)
-{
-    bracket *b = user, inner = {b->session, scalar, QDOT_NIL};
-
-    if (b->g == QDOT_NIL)
-        return qdot_hamilton_poisson(b->session->scene, b->f, scalar);
-    return qdot_value_map(pool, b->g, bracket_with, &inner);
-}
-
-/* The matrix of {f_i, g_j}, f and g vectors or lists. */
-static qdot_status
-bracket_matrix(qdot_session *s, qdot_expr f, qdot_expr g, qdot_expr *value)
-{
-    const uint32_t rows = qdot_expr_count(s->pool, f), columns = qdot_expr_count(s->pool, g);
-    qdot_expr *entries = qdot_malloc(((size_t)rows * columns + 1) * sizeof *entries);
-
-    if (entries == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t k = 0; k < rows * columns; k++)
-        entries[k] = qdot_hamilton_poisson(s->scene, qdot_expr_arg(s->pool, f, k / columns),
-                                           qdot_expr_arg(s->pool, g, k % columns));
-    *value = qdot_matrix(s->pool, rows, columns, entries);
-    qdot_free(entries);
-    return qdot_value_kind_check(s->pool, *value);
-}
-
-static bool
-is_row(const qdot_pool *pool, qdot_expr e)
-{
-    return (qdot_expr_kind(pool, e) == QDOT_VEC || qdot_expr_kind(pool, e) == QDOT_LIST) && qdot_expr_count(pool, e) > 0;
-}
-
-/* Compute {f, g}, component by component where f or g is a vector; of two vectors the matrix. */
-qdot_status
-qdot_call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    bracket b = {s, QDOT_NIL, args[1]};
-
-    (void)n;
-    if (is_row(s->pool, args[0]) && is_row(s->pool, args[1]))
-        return bracket_matrix(s, args[0], args[1], value);
-    if (!qdot_expr_is_scalar(s->pool, args[0]) && !qdot_expr_is_scalar(s->pool, args[1]))
-        return qdot_fail(QDOT_ETYPE, "poisson(f, g) takes numbers and vectors");
-    return qdot_value_kind_give(
-        s->pool, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
-}
 #undef OF_PLACE
 #undef OF_FIELD
 

@@ -217,6 +217,18 @@ parse_label(parser *p, const char *what)
     return append_instruction(p, QDOT_POSTFIX_LABEL, name, 0, 0, 0);
 }
 
+/* Parse the new name of an argument NAME = EXPR, where the call `name` takes such; any other argument as usual. */
+static qdot_status
+parse_new_name(parser *p, const qdot_token *name)
+{
+    const qdot_builtin *row = qdot_builtin_find(name->text);
+    const qdot_token *at = p->c->at;
+    const bool pair = at->kind == QDOT_TOKEN_NAME && qdot_token_is(at + 1, "=");
+
+    return row != NULL && (row->flags & QDOT_BUILTIN_NAMES) && pair &&
+                   qdot_names_find(p->c->session->names, at->text) == NULL ? parse_label(p, "a name") : QDOT_OK;
+}
+
 /* Parse a call; the cursor is after `name` (and [indices] and primes), at `(`. */
 static qdot_status
 parse_call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
@@ -260,8 +272,7 @@ parse_call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indice
         top_of_stack(p)->passed = true;
         return append_instruction(p, QDOT_POSTFIX_PASS_BEGIN, name, 0, 0, 0);
     }
-    return flags & QDOT_BUILTIN_LABEL ? parse_label(p, "the name of a body or particle")
-                                      : QDOT_OK;
+    return flags & QDOT_BUILTIN_LABEL ? parse_label(p, "the name of a body or particle") : parse_new_name(p, name);
 }
 
 /* Whether a superscript number follows without a blank, as in x². */
@@ -486,7 +497,7 @@ parse_comma(parser *p)
             p->program->list.at[w->at].to = here + 1;
         w->at = here;
     }
-    return QDOT_OK;
+    return w->kind == IN_CALL && w->indices == 0 ? parse_new_name(p, w->token) : QDOT_OK;
 }
 
 /* Parse `;` in [a, b; c, d]: a row of the matrix is complete. */

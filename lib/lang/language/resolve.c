@@ -433,6 +433,18 @@ are_integer_indices(qdot_session *s, uint32_t n, const qdot_expr *index)
     return true;
 }
 
+/* Whether p[q] beside this quantity or function is the momentum as a symbol. */
+static bool
+is_word_of_momenta(const char *word)
+{
+    static const char *const words[] = {"hamiltonian", "H", "routhian", "poisson", "lie", "canonical", "rate"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(word, words[i]) == 0)
+            return true;
+    return false;
+}
+
 /* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), rate(...), or a name, or a value
  * of before, in which momenta stand. */
 static bool
@@ -444,9 +456,8 @@ is_independent_momentum(const qdot_session *s, const qdot_token *t)
     if (t->kind == QDOT_TOKEN_NAME) {
         entry = qdot_names_find(s->names, t->text);
         if (entry == NULL)
-            return strcmp(t->text, "hamiltonian") == 0 || strcmp(t->text, "H") == 0 ||
-                   (s->scene->hamiltonian != QDOT_NIL && strcmp(t->text, "eom") == 0) ||
-                   strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0 || strcmp(t->text, "rate") == 0;
+            return is_word_of_momenta(t->text) ||
+                   (s->scene->hamiltonian != QDOT_NIL && strcmp(t->text, "eom") == 0);
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
         e = s->history->values.n > 0 ? s->history->values.at[s->history->values.n - 1] : QDOT_NIL;

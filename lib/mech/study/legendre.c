@@ -171,6 +171,16 @@ solve_linear_blocks(qdot_legendre *l)
     return status == QDOT_OK;
 }
 
+/* Whether an x of the block stands in e. */
+static bool
+is_held(const qdot_legendre *l, qdot_expr e, uint32_t block)
+{
+    for (uint32_t i = block; i < l->n; i++)
+        if (l->block[i] == block && e != QDOT_NIL && qdot_expr_contains(l->pool, e, l->x[i]))
+            return true;
+    return false;
+}
+
 /* Solve the block of the variable `first`, in which F is not quadratic. Its terms leave l->F_left for l->G_bent; if they
  * cannot be told from those of other blocks, F at the solution stays in l->F_left. */
 static bool
@@ -180,12 +190,17 @@ solve_bent_block(qdot_legendre *l, uint32_t first)
     qdot_expr *x = qdot_calloc(3 * (size_t)l->n, sizeof *x), *y = x + l->n, *solved = y + l->n, bound = QDOT_NIL,
               there = QDOT_NIL, sum = QDOT_ZERO, own = terms_of_block(l, l->F_left, first), others = qdot_sub(pool, l->F_left, own);
     uint32_t m = 0;
-    bool found = false, apart = true;
+    bool found = false, apart;
     qdot_status status = x == NULL ? QDOT_ENOMEM : QDOT_OK;
 
+    if (is_held(l, others, first)) { /* a product may hold a sum of terms of several blocks */
+        l->F_left = qdot_expand(pool, l->F_left);
+        own = terms_of_block(l, l->F_left, first);
+        others = qdot_sub(pool, l->F_left, own);
+    }
+    apart = !is_held(l, others, first);
     for (uint32_t i = first; i < l->n && status == QDOT_OK; i++)
         if (l->block[i] == first) {
-            apart &= !qdot_expr_contains(pool, others, l->x[i]);
             x[m] = l->x[i];
             y[m++] = l->y[i];
         }
