@@ -464,6 +464,7 @@ make_coordinate_symbol(qdot_pool *pool, qdot_class class, qdot_expr coordinate, 
     return e;
 }
 
+/* t has derivatives too: as a coordinate of a line element, by the parameter of a curve. */
 qdot_expr
 qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
 {
@@ -471,7 +472,7 @@ qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
 
     if (coordinate == QDOT_NIL)
         return QDOT_NIL;
-    if (s == NULL || (s->class != QDOT_COORD && s->class != QDOT_MOMENTUM))
+    if (s == NULL || (s->class != QDOT_COORD && s->class != QDOT_MOMENTUM && s->class != QDOT_TIME))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "only a coordinate has a velocity");
     order += s->order;
     if (s->class == QDOT_MOMENTUM)

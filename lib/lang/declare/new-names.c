@@ -1,6 +1,8 @@
 /* new-names.c -- reads the names that a statement declares, each with its domain. */
 #include "lang/declare/new-names.h"
 
+#include <string.h>
+
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/unit.h"
@@ -176,6 +178,19 @@ has_same_domain(const qdot_symbol *s, const qdot_new_name *x)
            (x->hi == QDOT_NIL || s->hi_open == x->hi_open);
 }
 
+/* `coord t`: t is the time as always, also a coordinate of line elements that hold dt; t' is its derivative by the
+ * parameter of a geodesic. The scene does not move along it. */
+static qdot_status
+declare_time(qdot_cursor *c, const qdot_new_name *x, qdot_name *entry)
+{
+    if (x->own) {
+        qdot_fail(QDOT_EINVAL, "the time has no domain");
+        return qdot_hint("assume t > 0");
+    }
+    entry->value = QDOT_T;
+    return qdot_declare_name(c, x->start, NULL, entry);
+}
+
 /* Declare one name; *fresh: it was not declared before. */
 static qdot_status
 declare_new_name(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bool *fresh)
@@ -187,6 +202,8 @@ declare_new_name(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bo
 
     *fresh = false;
     c->error_at = x->start->start;
+    if (kind == QDOT_NAME_COORD && strcmp(x->name, "t") == 0)
+        return declare_time(c, x, &entry);
     entry.value = qdot_symbol_get(session->pool, class, x->name);
     QDOT_TRY(qdot_pool_check(session->pool));
     if (old != NULL && old->kind == QDOT_NAME_PARAM && kind == QDOT_NAME_PARAM) {

@@ -27,7 +27,7 @@ qdot_entry_name(qdot_session *session, const char *name, uint32_t n,
 static qdot_status
 index_as_number(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
 {
-    if (qdot_expr_is_coordinate(s->pool, index)) {
+    if (qdot_expr_is_coordinate(s->pool, index) || (index == QDOT_T && over != QDOT_NIL)) {
         for (uint32_t k = 0; over != QDOT_NIL && k < qdot_expr_count(s->pool, over); k++)
             if (qdot_expr_arg(s->pool, over, k) == index) {
                 *i = (long)k + 1;

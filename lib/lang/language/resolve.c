@@ -123,7 +123,7 @@ resolve_declared(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_
     }
     if (primes == 0)
         return QDOT_OK;
-    if (qdot_expr_is_class(s->pool, *value, QDOT_COORD) &&
+    if ((qdot_expr_is_class(s->pool, *value, QDOT_COORD) || entry->kind == QDOT_NAME_COORD) &&
         entry->kind != QDOT_NAME_VALUE && entry->kind != QDOT_NAME_ARGUMENT) {
         *value = qdot_symbol_jet(s->pool, *value, primes);
         return qdot_value_kind_check(s->pool, *value);

@@ -474,7 +474,8 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
 {
     struct entry *old;
 
-    QDOT_TRY(check_reserved(entry->name));
+    if (entry->kind != QDOT_NAME_COORD || strcmp(entry->name, "t") != 0) /* `coord t`: the time in line elements */
+        QDOT_TRY(check_reserved(entry->name));
     old = find_declared(names, entry->name);
     if (old != NULL && !may_replace(&old->name, entry))
         return report_name_taken(entry->name, &old->name);

@@ -24,6 +24,12 @@ qdot_expr qdot_geometry_riemann(qdot_scene *s, qdot_expr R);
 qdot_expr qdot_geometry_ricci(qdot_scene *s, qdot_expr R);
 /* The scalar curvature g^jl R_jl; twice Gauss' curvature for a surface: 2/a^2 on a sphere. */
 qdot_expr qdot_geometry_scalar_curvature(qdot_scene *s, qdot_expr R);
+/* Einstein's tensor R_jl - 1/2 g_jl R as a MAT. */
+qdot_expr qdot_geometry_einstein(qdot_scene *s, qdot_expr R);
+/* Weyl's tensor C^i_jkl, the part of riemann without traces, arranged as riemann; QDOT_ETYPE for less than 3 coordinates. */
+qdot_expr qdot_geometry_weyl(qdot_scene *s, qdot_expr R);
+/* Kretschmann's scalar R_ijkl R^ijkl. */
+qdot_expr qdot_geometry_kretschmann(qdot_scene *s, qdot_expr R);
 /* The equations of geodesics as a LIST: q_i'' + sum_jk G^i_jk q_j' q_k' = 0 with Christoffel symbols G. */
 qdot_expr qdot_geometry_geodesic(qdot_scene *s, qdot_expr R);
 /* The volume element sqrt(det g). */

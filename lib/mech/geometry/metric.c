@@ -109,6 +109,8 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     members = qdot_calloc(n + 1, sizeof *members);
     if (!members)
         return qdot_pool_fail(pool);
+    if (is_line_element(s, R) && qdot_expr_contains(pool, R, qdot_symbol_of(pool, QDOT_DIFFERENTIAL, QDOT_T)))
+        members[m++] = QDOT_T;
     for (size_t i = 0; i < n; i++) {
         qdot_expr q = s->coordinates.at[i];
         qdot_expr mark =

@@ -12,7 +12,8 @@
 qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R); /* line element ds^2, in terms of dq and dt */
 qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* (ds/dt)^2, in q' */
 qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* g_ij as a MAT over the coordinates of R */
-/* The coordinates of a metric as a LIST, in declared order: those in R, or whose differentials are in R. */
+/* The coordinates of a metric as a LIST, in declared order: those in R, or whose differentials are in R; t comes
+ * first where dt is in R. */
 qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R);
 
 #endif

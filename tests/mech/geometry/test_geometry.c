@@ -55,6 +55,31 @@ connection_of_the_sphere_body(kit *k)
 }
 TEST(connection_of_the_sphere)
 
+/* Schwarzschild, and a sphere of three dimensions: constant curvature, so no Weyl tensor. */
+static void
+curvature_of_spacetimes_body(kit *k)
+{
+    const char *hole = "-(1 - 2*M/r)*dt^2 + dr^2/(1 - 2*M/r) + r^2*(dtheta^2 + sin(theta)^2*dphi^2)";
+    const char *ball = "du^2 + sin(u)^2*(dtheta^2 + sin(theta)^2*dphi^2)";
+    qdot_expr W, e;
+
+    coords(k, "u r>0 theta phi");
+    SAME(k, qdot_geometry_kretschmann(k->scene, E(k, "%s", hole)), "48*M^2/r^6");
+    W = qdot_geometry_weyl(k->scene, E(k, "%s", hole));
+    SAME(k, qdot_entry2(k->pool, qdot_entry(k->pool, qdot_entry(k->pool, W, 1), 2), 1, 2), "2*M/(r^2*(r - 2*M))");
+    SAME(k, qdot_entry2(k->pool, qdot_entry(k->pool, qdot_entry(k->pool, W, 1), 2), 2, 1), "-2*M/(r^2*(r - 2*M))");
+    e = qdot_geometry_geodesic(k->scene, E(k, "%s", hole));
+    assert_int_equal(qdot_expr_count(k->pool, e), 4);
+    SAME(k, qdot_geometry_kretschmann(k->scene, E(k, "%s", ball)), "12");
+    W = qdot_geometry_weyl(k->scene, E(k, "%s", ball));
+    SAME(k, qdot_entry2(k->pool, qdot_entry(k->pool, qdot_entry(k->pool, W, 1), 2), 1, 2), "0");
+    e = qdot_geometry_einstein(k->scene, E(k, "%s", ball));
+    SAME(k, qdot_entry2(k->pool, e, 2, 2), "-sin(u)^2");
+    assert_int_equal(qdot_geometry_weyl(k->scene, E(k, "dtheta^2 + sin(theta)^2*dphi^2")), QDOT_NIL);
+    assert_int_equal(qdot_pool_check(k->pool), QDOT_ETYPE);
+}
+TEST(curvature_of_spacetimes)
+
 /* A metric that is not diagonal has an inverse too: a plane in oblique coordinates is flat, and so
  * is one whose coordinates bend. */
 static void
@@ -221,6 +246,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(curvature_of_surfaces),
         cmocka_unit_test(connection_of_the_sphere),
+        cmocka_unit_test(curvature_of_spacetimes),
         cmocka_unit_test(flat_however_it_is_written),
         cmocka_unit_test(laplacian_is_that_of_space),
         cmocka_unit_test(divergence_and_curl_are_those_of_space),
