@@ -1,10 +1,10 @@
 /* geometry.h -- the geometry of r(q) or of a line element: from ds^2 to curvature, and the vector
- * operators in its orthonormal frame.
+ * operators in the frame of its unit vectors.
  *
  * R is a position (VEC or scalar) or a quadratic form in dq; the coordinates q_1 ... q_n are those that
  * occur in it, in declared order (qdot_mech_metric_coordinates). g_ij = dr/dq_i . dr/dq_j.
  * Everything is simplified. Nil on failure; the pool keeps the cause. QDOT_EDOMAIN where g has no
- * inverse, QDOT_ETYPE where an operator needs an orthogonal g or another number of components.
+ * inverse, QDOT_ETYPE where an operator needs another number of components.
  *
  * Source  do Carmo, Differential Geometry of Curves and Surfaces, 4.3; Misner, Thorne, Wheeler,
  *         Gravitation, box 8.6 (signs of riemann and ricci).
@@ -37,15 +37,15 @@ qdot_expr qdot_geometry_volume_element(qdot_scene *s, qdot_expr R);
 /* The scale factors h_i = sqrt(g_ii) as a LIST. */
 qdot_expr qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R);
 
-/* Vector fields have components along the unit vectors e_i = (dr/dq_i)/h_i; the metric g must be diagonal. */
-/* The gradient (1/h_i) df/dq_i as a VEC (a scalar for one coordinate). */
+/* Vector fields have components along the unit vectors e_i = (dr/dq_i)/h_i, which need not be orthogonal. */
+/* The gradient h_i g^ij df/dq_j as a VEC (a scalar for one coordinate). */
 qdot_expr qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R);
 /* The divergence (1/w) d_i (w F_i/h_i), w = sqrt(det g). */
 qdot_expr qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R);
 /* Three coordinates: a VEC; two: the scalar across the surface. Of the ambient field: a left-handed
  * frame turns the sign. */
 qdot_expr qdot_geometry_curl(qdot_scene *s, qdot_expr F, qdot_expr R);
-/* The Laplacian (1/w) d_i (w g^ii d_i f), w = sqrt(det g). */
+/* The Laplacian (1/w) d_i (w g^ij d_j f), w = sqrt(det g). */
 qdot_expr qdot_geometry_laplacian(qdot_scene *s, qdot_expr f, qdot_expr R);
 
 #endif

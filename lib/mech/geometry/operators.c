@@ -38,19 +38,6 @@ qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R)
     return result;
 }
 
-static bool
-begin_orthogonal(qdot_manifold *m, qdot_scene *s, qdot_expr R)
-{
-    if (!qdot_manifold_begin(m, s, R))
-        return false;
-    if (m->diagonal)
-        return true;
-    qdot_mech_fail(s, QDOT_ETYPE, "the vector operators need orthogonal coordinates; here the "
-                                  "metric has entries off its diagonal");
-    qdot_manifold_end(m);
-    return false;
-}
-
 /* Whether F has as many components as there are coordinates. */
 static bool
 components_fit(const qdot_manifold *m, qdot_expr F)
@@ -64,6 +51,28 @@ components_fit(const qdot_manifold *m, qdot_expr F)
     qdot_mech_fail(m->s, QDOT_ETYPE, "the field needs %u component%s, one for each coordinate of r, not %u",
                    m->n, m->n == 1 ? "" : "s", n);
     return false;
+}
+
+/* The contravariant component g^ij d_j f of the gradient. */
+static qdot_expr
+raised_derivative(const qdot_manifold *m, qdot_expr f, uint32_t i)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (uint32_t j = 0; j < m->n; j++)
+        if (m->inverse[i * m->n + j] != QDOT_ZERO)
+            sum = qdot_add(m->pool, sum, qdot_mul(m->pool, m->inverse[i * m->n + j], qdot_diff(m->pool, f, m->q[j])));
+    return sum;
+}
+
+/* A component of the gradient along the unit vector e_i: h_i g^ij d_j f, which is (1/h_i) d_i f if g is diagonal. */
+static qdot_expr
+gradient_component(const qdot_manifold *m, qdot_expr f, uint32_t i)
+{
+    qdot_expr e = m->diagonal ? qdot_div(m->pool, qdot_diff(m->pool, f, m->q[i]), scale_factor(m, i))
+                              : qdot_mul(m->pool, scale_factor(m, i), raised_derivative(m, f, i));
+
+    return qdot_manifold_tidy(m, e);
 }
 
 static bool
@@ -103,14 +112,14 @@ qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R)
     qdot_manifold m;
     qdot_expr result = QDOT_NIL, *parts;
 
-    if (!begin_orthogonal(&m, s, R))
+    if (!qdot_manifold_begin(&m, s, R))
         return QDOT_NIL;
     parts = qdot_calloc(m.n, sizeof *parts);
     if (parts == NULL) {
         qdot_pool_fail(m.pool);
     } else if (is_scalar_field(&m, f)) {
         for (uint32_t i = 0; i < m.n; i++)
-            parts[i] = qdot_manifold_tidy(&m, qdot_div(m.pool, qdot_diff(m.pool, f, m.q[i]), scale_factor(&m, i)));
+            parts[i] = gradient_component(&m, f, i);
         result = m.n == 1 ? parts[0] : qdot_vector(m.pool, m.n, parts);
     }
     qdot_free(parts);
@@ -124,7 +133,7 @@ qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R)
     qdot_manifold m;
     qdot_expr sum = QDOT_ZERO;
 
-    if (!begin_orthogonal(&m, s, R))
+    if (!qdot_manifold_begin(&m, s, R))
         return QDOT_NIL;
     if (!components_fit(&m, F))
         sum = QDOT_NIL;
@@ -146,14 +155,12 @@ qdot_geometry_laplacian(qdot_scene *s, qdot_expr f, qdot_expr R)
     qdot_manifold m;
     qdot_expr sum = QDOT_ZERO;
 
-    if (!begin_orthogonal(&m, s, R))
+    if (!qdot_manifold_begin(&m, s, R))
         return QDOT_NIL;
     if (!is_scalar_field(&m, f))
         sum = QDOT_NIL;
     for (uint32_t i = 0; i < m.n && sum != QDOT_NIL; i++) {
-        qdot_expr e = qdot_mul(m.pool, m.inverse[i * m.n + i], qdot_diff(m.pool, f, m.q[i]));
-
-        sum = qdot_add(m.pool, sum, divergence_term(&m, e, i));
+        sum = qdot_add(m.pool, sum, divergence_term(&m, raised_derivative(&m, f, i), i));
     }
     sum = sum == QDOT_NIL ? sum : qdot_manifold_tidy(&m, sum);
     qdot_manifold_end(&m);
@@ -174,8 +181,10 @@ frame_handedness(const qdot_manifold *m)
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t d = 0; d < n; d++)
             entries[i * n + d] = qdot_diff(pool, qdot_mech_component(pool, m->R, d), m->q[i]);
-    for (uint32_t i = 0; i < n; i++)
+    for (uint32_t i = 0; i < n && m->diagonal; i++)
         sign = qdot_mul(pool, sign, scale_factor(m, i));
+    if (!m->diagonal)
+        sign = qdot_sqrt(pool, m->det);
     return qdot_manifold_tidy(m, qdot_div(pool, qdot_det(pool, qdot_matrix(pool, n, n, entries)), sign));
 }
 
@@ -191,11 +200,36 @@ curl_half(const qdot_manifold *m, qdot_expr F, uint32_t i, uint32_t j)
     return qdot_div(pool, e, scale_factor(m, i));
 }
 
-/* A component of the curl: (d_i (h_j F_j) - d_j (h_i F_i)) / (h_i h_j). */
+/* The covariant component g_kl F_l/h_l of a field. */
+static qdot_expr
+lowered_component(const qdot_manifold *m, qdot_expr F, uint32_t k)
+{
+    qdot_pool *pool = m->pool;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (uint32_t l = 0; l < m->n; l++)
+        if (m->g[k * m->n + l] != QDOT_ZERO)
+            sum = qdot_add(pool, sum,
+                           qdot_mul(pool, m->g[k * m->n + l],
+                                    qdot_div(pool, qdot_mech_component(pool, F, l), scale_factor(m, l))));
+    return sum;
+}
+
+/* A component of the curl, along e_k where there are three coordinates, i, j, k in cyclic order: (d_i (h_j F_j) -
+ * d_j (h_i F_i)) / (h_i h_j); if g is not diagonal h_k (d_i f_j - d_j f_i)/w of the covariant components f. */
 static qdot_expr
 curl_component(const qdot_manifold *m, qdot_expr F, uint32_t i, uint32_t j)
 {
-    return qdot_sub(m->pool, curl_half(m, F, i, j), curl_half(m, F, j, i));
+    qdot_pool *pool = m->pool;
+    qdot_expr e;
+
+    if (m->diagonal)
+        return qdot_sub(pool, curl_half(m, F, i, j), curl_half(m, F, j, i));
+    e = qdot_sub(pool, qdot_diff(pool, lowered_component(m, F, j), m->q[i]),
+                 qdot_diff(pool, lowered_component(m, F, i), m->q[j]));
+    if (m->n == 3)
+        e = qdot_mul(pool, e, scale_factor(m, 3 - i - j));
+    return qdot_div(pool, e, qdot_sqrt(pool, m->det));
 }
 
 qdot_expr
@@ -204,7 +238,7 @@ qdot_geometry_curl(qdot_scene *s, qdot_expr F, qdot_expr R)
     qdot_manifold m;
     qdot_expr result = QDOT_NIL, c[3], turn;
 
-    if (!begin_orthogonal(&m, s, R))
+    if (!qdot_manifold_begin(&m, s, R))
         return QDOT_NIL;
     if (m.n != 2 && m.n != 3) {
         qdot_mech_fail(s, QDOT_ETYPE, "curl needs 2 or 3 coordinates; here there %s %u",
