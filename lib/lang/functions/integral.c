@@ -2,6 +2,7 @@
 #include "lang/functions/builtin.h"
 
 #include "base/text.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
@@ -35,7 +36,7 @@ refuse_place(qdot_session *s, const char *what, const char *where, qdot_expr at)
     return status;
 }
 
-/* Integrate the scalar e from lo to hi. */
+/* Integrate the scalar e from lo to hi; what is not found stands as an integral. */
 static qdot_expr
 integrate_between(integration *i, qdot_expr e, const qdot_facts *facts)
 {
@@ -52,33 +53,21 @@ integrate_between(integration *i, qdot_expr e, const qdot_facts *facts)
     case QDOT_DEFINITE_UNDEFINED:
         i->status = refuse_place(i->session, "the integrand is not real in a part of the range", "that begins at", answer.at);
         break;
-    default:
-        i->status = qdot_fail(QDOT_EFAILED, "this integral was not found");
-        i->status = qdot_hint("its number, with the values of `set`: numeric(integral(...))");
+    default: return qdot_integral(i->session->pool, e, i->x, i->lo, i->hi);
     }
     return QDOT_NIL;
 }
 
-/* Integrate a scalar. */
+/* Integrate a scalar; of an antiderivative that is not found, an integral stands. */
 static qdot_expr
 integrate_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     integration *i = user;
     qdot_facts facts = qdot_scene_facts(i->session->scene);
-    qdot_expr F = QDOT_NIL;
 
     if (i->status != QDOT_OK)
         return QDOT_NIL;
-    if (i->lo == QDOT_NIL) {
-        F = qdot_antiderivative_by_cases(pool, e, i->x, &facts);
-        if (F == QDOT_NIL && !qdot_pool_failed(pool)) {
-            i->status = qdot_fail(QDOT_EFAILED, "no antiderivative was found");
-            i->status = qdot_hint("a guess F is proved by check diff(F, x) == e");
-        }
-    } else {
-        F = integrate_between(i, e, &facts);
-    }
-    return F;
+    return i->lo == QDOT_NIL ? qdot_antiderivative_or_integral(pool, e, i->x, &facts) : integrate_between(i, e, &facts);
 }
 
 /* Whether x is a symbol over which one may integrate. */
@@ -105,7 +94,7 @@ qdot_call_integral(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
         i.lo = args[2];
         i.hi = args[3];
         for (int k = 2; k < 4; k++)
-            if (!qdot_expr_is_scalar(s->pool, args[k]))
+            if (!qdot_expr_is_scalar(s->pool, args[k]) && qdot_infinite(s->pool, args[k]) == 0)
                 return qdot_fail(QDOT_ETYPE, "a bound of an integral is a number, not %s",
                                  qdot_value_kind_words(s->pool, args[k]));
     }

@@ -4,8 +4,10 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/function.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "normal/calculus/elliptic-forms.h"
 #include "normal/field/flint.h"
 #include "normal/integral/methods.h"
 #include "normal/prove/decide.h"
@@ -166,7 +168,34 @@ qdot_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts 
 qdot_expr
 qdot_antiderivative_by_cases(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
 {
-    return find_antiderivative(pool, e, x, facts, true);
+    qdot_expr F = find_antiderivative(pool, e, x, facts, true);
+
+    return F == QDOT_NIL && !qdot_pool_failed(pool) ? qdot_elliptic_antiderivative(pool, e, x, facts) : F;
+}
+
+qdot_expr
+qdot_antiderivative_or_integral(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+{
+    qdot_expr F = qdot_antiderivative_by_cases(pool, e, x, facts), left = QDOT_ZERO, free, rest;
+    bool sum;
+
+    if (F != QDOT_NIL || qdot_pool_failed(pool))
+        return F;
+    rest = qdot_expand(pool, e);
+    sum = rest != QDOT_NIL && qdot_expr_kind(pool, rest) == QDOT_SUM;
+    F = QDOT_ZERO;
+    for (uint32_t i = 0; sum && i < qdot_expr_count(pool, rest); i += i == 0 ? 1 : 2) {
+        qdot_expr term = qdot_expr_arg(pool, rest, i), part;
+
+        if (i > 0)
+            term = qdot_mul(pool, term, qdot_expr_arg(pool, rest, i + 1));
+        part = qdot_antiderivative_by_cases(pool, term, x, facts);
+        *(part == QDOT_NIL ? &left : &F) = qdot_add(pool, part == QDOT_NIL ? left : F, part == QDOT_NIL ? term : part);
+    }
+    if (!sum || F == QDOT_ZERO)
+        left = e;
+    qdot_integral_split(pool, left, x, &free, &rest);
+    return qdot_add(pool, F, qdot_mul(pool, free, qdot_integral_unfound(pool, rest, x)));
 }
 
 qdot_expr

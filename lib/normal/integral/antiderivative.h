@@ -20,6 +20,10 @@ qdot_expr qdot_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x,
  * which a divisor vanishes, are left out. */
 qdot_expr qdot_antiderivative_by_cases(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts);
 
+/* The same of a sum term by term where the whole is not found; what is not found stands as an integral (expr/integral.h). Nil
+ * only where the pool failed. */
+qdot_expr qdot_antiderivative_or_integral(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts);
+
 /* F with dF/dx_i = a_i for i = 0 ... n - 1, proved; nil: not known, not exact, or the pool
  * failed. */
 qdot_expr qdot_potential_of(qdot_pool *pool, size_t n, const qdot_expr *x,

@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -30,6 +31,12 @@ typedef struct {
     qdot_definite_answer *answer;
 } range;
 
+static bool
+is_infinite(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_infinite(pool, e) != 0;
+}
+
 /* Whether 0 < e is proved. */
 static bool
 is_positive(range *r, qdot_expr e)
@@ -51,7 +58,7 @@ sign_inside(range *r, qdot_expr g)
 {
     qdot_pool *pool = r->pool;
     qdot_expr mid, at;
-    bool no_lo = qdot_end_is_infinite(pool, r->lo), no_hi = qdot_end_is_infinite(pool, r->hi);
+    bool no_lo = is_infinite(pool, r->lo), no_hi = is_infinite(pool, r->hi);
 
     if (is_positive(r, g))
         return 1;
@@ -74,20 +81,20 @@ add_place(range *r, qdot_expr at, bool *known)
 {
     size_t i;
 
-    if (qdot_end_is_infinite(r->pool, at))
+    if (is_infinite(r->pool, at))
         return;
     if (!r->ordered) {
         *known = false;
         return;
     }
-    if ((!qdot_end_is_infinite(r->pool, r->lo) && qdot_is_zero(r->pool, qdot_sub(r->pool, at, r->lo), r->facts)) ||
-        (!qdot_end_is_infinite(r->pool, r->hi) && qdot_is_zero(r->pool, qdot_sub(r->pool, at, r->hi), r->facts)))
+    if ((!is_infinite(r->pool, r->lo) && qdot_is_zero(r->pool, qdot_sub(r->pool, at, r->lo), r->facts)) ||
+        (!is_infinite(r->pool, r->hi) && qdot_is_zero(r->pool, qdot_sub(r->pool, at, r->hi), r->facts)))
         return;
-    if ((!qdot_end_is_infinite(r->pool, r->lo) && is_positive(r, qdot_sub(r->pool, r->lo, at))) ||
-        (!qdot_end_is_infinite(r->pool, r->hi) && is_positive(r, qdot_sub(r->pool, at, r->hi))))
+    if ((!is_infinite(r->pool, r->lo) && is_positive(r, qdot_sub(r->pool, r->lo, at))) ||
+        (!is_infinite(r->pool, r->hi) && is_positive(r, qdot_sub(r->pool, at, r->hi))))
         return;
-    if ((!qdot_end_is_infinite(r->pool, r->lo) && !is_positive(r, qdot_sub(r->pool, at, r->lo))) ||
-        (!qdot_end_is_infinite(r->pool, r->hi) && !is_positive(r, qdot_sub(r->pool, r->hi, at)))) {
+    if ((!is_infinite(r->pool, r->lo) && !is_positive(r, qdot_sub(r->pool, at, r->lo))) ||
+        (!is_infinite(r->pool, r->hi) && !is_positive(r, qdot_sub(r->pool, r->hi, at)))) {
         *known = false;
         return;
     }
@@ -254,7 +261,7 @@ variable_between(qdot_pool *pool, qdot_expr lo, qdot_expr hi)
 
     qdot_symbol_hide(pool, w);
     if (w != QDOT_NIL)
-        qdot_symbol_domain(pool, w, qdot_end_is_infinite(pool, lo) ? QDOT_NIL : lo, true, qdot_end_is_infinite(pool, hi) ? QDOT_NIL : hi, true);
+        qdot_symbol_domain(pool, w, is_infinite(pool, lo) ? QDOT_NIL : lo, true, is_infinite(pool, hi) ? QDOT_NIL : hi, true);
     return w;
 }
 
@@ -273,9 +280,6 @@ between_ends(range *r, qdot_expr F, qdot_expr lo, qdot_expr hi)
     if (from.kind == QDOT_END_INFINITE || to.kind == QDOT_END_INFINITE) {
         r->answer->kind = QDOT_DEFINITE_DIVERGES;
         r->answer->at = from.kind == QDOT_END_INFINITE ? lo : hi;
-    } else if (from.kind == QDOT_END_NONE || to.kind == QDOT_END_NONE) {
-        r->answer->kind = QDOT_DEFINITE_DIVERGES;
-        r->answer->at = from.kind == QDOT_END_NONE ? lo : hi;
     } else if (from.kind == QDOT_END_VALUE && to.kind == QDOT_END_VALUE) {
         r->answer->kind = QDOT_DEFINITE_FOUND;
         r->answer->value = qdot_sub(r->pool, to.value, from.value);
@@ -438,7 +442,9 @@ qdot_definite(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr
         *answer = (qdot_definite_answer){QDOT_DEFINITE_FOUND, QDOT_ZERO, QDOT_NIL};
         return QDOT_OK;
     }
-    if (!is_positive(&r, qdot_sub(pool, hi, lo))) {
+    if (is_infinite(pool, lo) || is_infinite(pool, hi)) {
+        backward = qdot_infinite(pool, lo) > 0 || qdot_infinite(pool, hi) < 0;
+    } else if (!is_positive(&r, qdot_sub(pool, hi, lo))) {
         backward = is_positive(&r, qdot_sub(pool, lo, hi));
         ordered = backward;
     }

@@ -1,23 +1,56 @@
-/* ends.c -- values at the ends of a range: by substitution. */
+/* ends.c -- values at the ends of a range: by substitution, else as limits. */
 #include "normal/integral/ends.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
+#include "expr/integral.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/calculus/limit.h"
 
-bool
-qdot_end_is_infinite(qdot_pool *pool, qdot_expr at)
+/* F with -1 or 1 for an erf(u) that stands in it with a constant factor, u tending to minus infinity or infinity. */
+static qdot_status
+settle_error_function(qdot_pool *pool, qdot_expr *F, qdot_expr x, qdot_expr at, const qdot_facts *facts)
 {
-    (void)pool, (void)at;
-    return false;
+    const qdot_fun_id id = QDOT_ERF;
+    qdot_expr e = qdot_expr_find_function(pool, *F, 1, &id, x), w = qdot_symbol_get(pool, QDOT_FORMAL, "erf#"), f, end;
+    qdot_limit_answer limit;
+
+    if (e == QDOT_NIL)
+        return QDOT_OK;
+    f = qdot_subs(pool, *F, 1, &e, &w);
+    if (f == QDOT_NIL || qdot_expr_contains(pool, qdot_diff(pool, f, w), x))
+        return QDOT_OK;
+    QDOT_TRY(qdot_limit(pool, facts, qdot_expr_arg(pool, e, 0), x, at, 0, &limit));
+    if (limit.kind != QDOT_LIMIT_INFINITE)
+        return QDOT_OK;
+    end = qdot_infinite(pool, limit.value) > 0 ? QDOT_ONE : QDOT_MINUS_ONE;
+    *F = qdot_subs(pool, f, 1, &w, &end);
+    return QDOT_OK;
 }
 
 qdot_status
 qdot_end_value(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, int side, const qdot_facts *facts, qdot_end *end)
 {
-    (void)side, (void)facts;
+    qdot_limit_answer limit;
+
     *end = (qdot_end){QDOT_END_UNKNOWN, QDOT_NIL};
-    end->value = qdot_subs(pool, F, 1, &x, &at);
-    if (end->value != QDOT_NIL)
-        end->kind = QDOT_END_VALUE;
-    return qdot_grave(qdot_pool_check(pool));
+    if (qdot_infinite(pool, at) == 0) {
+        end->value = qdot_subs(pool, F, 1, &x, &at);
+        QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
+        if (end->value != QDOT_NIL) {
+            end->kind = QDOT_END_VALUE;
+            return QDOT_OK;
+        }
+    }
+    if (qdot_infinite(pool, at) != 0)
+        QDOT_TRY(settle_error_function(pool, &F, x, at, facts));
+    QDOT_TRY(qdot_limit(pool, facts, F, x, at, qdot_infinite(pool, at) == 0 ? side : 0, &limit));
+    if (limit.kind == QDOT_LIMIT_VALUE || limit.kind == QDOT_LIMIT_INFINITE) {
+        end->kind = limit.kind == QDOT_LIMIT_VALUE ? QDOT_END_VALUE : QDOT_END_INFINITE;
+        end->value = limit.value;
+    }
+    return QDOT_OK;
 }

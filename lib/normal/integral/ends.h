@@ -10,7 +10,6 @@
 typedef enum {
     QDOT_END_VALUE,
     QDOT_END_INFINITE,
-    QDOT_END_NONE, /* it oscillates */
     QDOT_END_UNKNOWN
 } qdot_end_kind;
 
@@ -23,8 +22,5 @@ typedef struct {
  * Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_end_value(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, int side,
                                            const qdot_facts *facts, qdot_end *end);
-
-/* Whether `at` is no number but infinity or minus infinity. */
-bool qdot_end_is_infinite(qdot_pool *pool, qdot_expr at);
 
 #endif
