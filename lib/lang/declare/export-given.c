@@ -6,6 +6,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "expr/unit.h"
 #include "lang/session/values.h"
 #include "sim/model/substitute.h"
 
@@ -41,7 +42,7 @@ qdot_export_bound(qdot_session *s, qdot_expr e)
     if (f.heads.n > 0 && e != QDOT_NIL)
         e = qdot_substitute(s->pool, e, f.heads.n, f.heads.at, f.bodies.at);
     qdot_given_functions_clear(&f);
-    return e;
+    return e == QDOT_NIL ? e : qdot_expr_in_si(s->pool, e);
 }
 
 qdot_status

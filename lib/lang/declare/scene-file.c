@@ -7,6 +7,7 @@
 
 #include "expr/print.h"
 #include "expr/symbol.h"
+#include "expr/unit.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/session-file.h"
 #include "lang/declare/session-remarks.h"
@@ -17,6 +18,7 @@
 #include "lang/session/output.h"
 #include "lang/session/runs.h"
 #include "lang/session/typed.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "lang/source/source.h"
 #include "lang/syntax/mention.h"
@@ -38,6 +40,19 @@ append_text_and_expression(qdot_session *s, const char *before, qdot_expr e, qdo
 
 /* --- writing definitions -------------------------------------------------------------- */
 
+/* Append ` [kg]`, if the dimension is known and is not that of a number. */
+static void
+append_unit_of_name(qdot_session *s, qdot_expr symbol, qdot_text *out)
+{
+    qdot_text unit = {0};
+
+    qdot_units_label(s, symbol, &unit);
+    if (unit.n > 0)
+        qdot_text_format(out, " [%s]", qdot_text_str(&unit));
+    out->failed = out->failed || unit.failed;
+    qdot_text_clear(&unit);
+}
+
 /* Write `param m > 0`, `function x(s, t)`, `coord theta` in order of declaration, which is also
  * that of terms. */
 static qdot_status
@@ -52,6 +67,7 @@ append_declarations(qdot_session *s, qdot_text *out)
                    && qdot_scene_state_of(s->scene, name->value) == NULL) { /* states come with the scene's things */
             qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
             QDOT_TRY(qdot_scene_print_domain(s->scene, name->value, out));
+            append_unit_of_name(s, name->value, out);
         } else {
             continue;
         }
@@ -198,7 +214,8 @@ append_value_lines(qdot_session *s, const char *word, size_t n, const qdot_expr 
                    const qdot_expr *values, bool remarks, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(append_value_line(s, word, symbols[i], values[i], "", remarks, out));
+        if (qdot_unit_symbol_base(s->pool, symbols[i]) < 0) /* a unit is always 1 */
+            QDOT_TRY(append_value_line(s, word, symbols[i], values[i], "", remarks, out));
     return QDOT_OK;
 }
 

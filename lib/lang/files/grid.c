@@ -1,4 +1,5 @@
 /* grid.c -- evaluates expressions along runs into a grid, a column of numbers for each. */
+#include "lang/session/units.h"
 #include "lang/files/grid.h"
 
 #include <string.h>
@@ -34,15 +35,22 @@ allocate_grid(qdot_grid *g, size_t n, size_t rows)
     return QDOT_OK;
 }
 
-/* Write the label of column i: "R", or "R[2]" for one of several components. */
+/* Write the label of column i, of the expression e: "R", or "R[2]" for one of several components; in a session with units
+ * "R [m]". */
 static qdot_status
-label_column(qdot_grid *g, size_t i, const char *label, size_t component, size_t components)
+label_column(qdot_grid *g, size_t i, qdot_session *session, qdot_expr e, const char *label, size_t component,
+             size_t components)
 {
-    qdot_text text = {0};
+    qdot_text text = {0}, unit = {0};
 
     qdot_text_add(&text, label);
     if (components > 1)
         qdot_text_format(&text, "[%zu]", component + 1);
+    qdot_units_label(session, e, &unit);
+    if (unit.n > 0)
+        qdot_text_format(&text, " [%s]", qdot_text_str(&unit));
+    text.failed = text.failed || unit.failed;
+    qdot_text_clear(&unit);
     if (qdot_text_status(&text) != QDOT_OK) {
         qdot_text_clear(&text);
         return QDOT_ENOMEM;
@@ -61,13 +69,13 @@ qdot_grid_fill(qdot_grid *g, const qdot_operands *list, size_t rows, const doubl
         n += list->at[i].columns.n;
     QDOT_TRY(allocate_grid(g, n, rows));
     memcpy(g->values, times, rows * sizeof *times);
-    QDOT_TRY(label_column(g, 0, "t", 0, 1));
+    QDOT_TRY(label_column(g, 0, list->at[0].session, QDOT_T, "t", 0, 1));
     for (size_t i = 0; i < list->n; i++) {
         const qdot_operand *o = &list->at[i];
 
         QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows, NULL));
         for (size_t k = 0; k < o->columns.n; k++)
-            QDOT_TRY(label_column(g, next + k, o->label, k, o->columns.n));
+            QDOT_TRY(label_column(g, next + k, o->session, o->columns.at[k], o->label, k, o->columns.n));
         next += o->columns.n;
     }
     return QDOT_OK;

@@ -160,6 +160,21 @@ qdot_units_is_scaled(const qdot_session *session, qdot_expr symbol)
     return has_fact(session, symbol, QDOT_FACT_SCALED);
 }
 
+qdot_status
+qdot_units_transfer(qdot_session *from, qdot_expr symbol, qdot_session *to, qdot_expr copy)
+{
+    qdot_dimension is;
+
+    if (!qdot_units_on(from))
+        return QDOT_OK;
+    QDOT_TRY(qdot_units_begin(to));
+    if (qdot_units_of(from, symbol, &is) == QDOT_DIMENSION_KNOWN)
+        QDOT_TRY(qdot_units_fix(to, copy, is, "%s is %s"));
+    if (has_fact(from, symbol, QDOT_FACT_ANGLE))
+        QDOT_TRY(qdot_units_angle(to, copy));
+    return has_fact(from, symbol, QDOT_FACT_SCALED) ? qdot_units_scaled(to, copy) : QDOT_OK;
+}
+
 void
 qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out)
 {

@@ -45,6 +45,9 @@ QDOT_MUST_CHECK qdot_status qdot_units_angle(qdot_session *session, qdot_expr sy
 QDOT_MUST_CHECK qdot_status qdot_units_scaled(qdot_session *session, qdot_expr symbol);
 bool qdot_units_is_scaled(const qdot_session *session, qdot_expr symbol);
 
+/* What is known of a symbol of the session is that of its copy in another, too. */
+QDOT_MUST_CHECK qdot_status qdot_units_transfer(qdot_session *from, qdot_expr symbol, qdot_session *to, qdot_expr copy);
+
 /* The dimension of e; NONE without units. */
 qdot_dimension_state qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension);
 /* Append the unit in which numbers of e are given, as "m/s" or "rad"; nothing: a number, or not known. */

@@ -8,6 +8,7 @@
 #include "lang/session/session.h"
 #include "lang/session/transfer.h"
 #include "lang/session/undo.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "lang/syntax/record.h"
 #include "mech/scene/things.h"
@@ -53,7 +54,7 @@ is_function_kept(const qdot_session *session, const qdot_name *function)
 /* Carry what is kept of `old` over into `fresh`, which has a pool and names of its
  * own. */
 static qdot_status
-copy_surviving_names(const qdot_session *old, qdot_session *fresh)
+copy_surviving_names(qdot_session *old, qdot_session *fresh)
 {
     const qdot_name *name;
 
@@ -70,6 +71,8 @@ copy_surviving_names(const qdot_session *old, qdot_session *fresh)
         if (name->kind == QDOT_NAME_UFUN)
             copy.ufun = qdot_expr_node(fresh->pool, copy.value)->op;
         QDOT_TRY(qdot_names_declare(fresh->names, &copy));
+        if (name->kind == QDOT_NAME_PARAM)
+            QDOT_TRY(qdot_units_transfer(old, name->value, fresh, copy.value));
     }
     for (size_t i = 0; i < old->values->set_symbols.n; i++) {
         const qdot_node *symbol = qdot_expr_node(old->pool, old->values->set_symbols.at[i]);
