@@ -93,7 +93,8 @@ static qdot_expr
 coordinate_of_member(const qdot_session *session, uint32_t each, qdot_expr over, uint32_t n, uint32_t i)
 {
     if (each > 0)
-        return session->scene->coordinates.at[i / each];
+        return over != QDOT_NIL && qdot_expr_count(session->pool, over) == n ? qdot_expr_arg(session->pool, over, i)
+                                                                             : session->scene->coordinates.at[i / each];
     if (over == QDOT_NIL || session->output->json || qdot_expr_count(session->pool, over) != n)
         return QDOT_NIL;
     return qdot_expr_arg(session->pool, over, i);
@@ -130,7 +131,8 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
                          qdot_names_find(session->names, name) == NULL;
 
     const uint32_t coordinates = (uint32_t)session->scene->coordinates.n;
-    const uint32_t each = by_coordinate && coordinates > 0 ? n / coordinates : 0; /* Hamilton's equations: 2 */
+    const bool named = over != QDOT_NIL && qdot_expr_count(session->pool, over) == n;
+    const uint32_t each = !by_coordinate || coordinates == 0 ? 0 : named ? 1 : n / coordinates; /* Hamilton's equations: 2 */
 
     if (n == 0 || (session->output->json && is_one_equilibrium(name)))
         return qdot_answer_expr(session, name, list);

@@ -25,6 +25,7 @@
 #include "lang/session/momenta.h"
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
+#include "lang/session/speeds.h"
 #include "lang/session/units.h"
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
@@ -393,6 +394,11 @@ replace_momenta_by_velocities(qdot_session *session, question *q, qdot_assumed *
     qdot_vec(qdot_expr) list = {0};
     qdot_status status = QDOT_OK;
 
+    if (qdot_session_speeds_meet(session, 2, sides) || (f->motion && qdot_session_has_speeds(session))) {
+        q->left = qdot_session_speeds_replaced(session, q->left);
+        q->right = qdot_session_speeds_replaced(session, q->right);
+        QDOT_TRY(qdot_pool_check(session->pool));
+    }
     if (!((qdot_expr_node(session->pool, q->left)->holds |
            qdot_expr_node(session->pool, q->right)->holds) & QDOT_HAS_MOMENTUM))
         return QDOT_OK;
@@ -576,6 +582,8 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     bool done, jumps;
     qdot_status status;
 
+    q->left = qdot_session_speeds_replaced(session, q->left);
+    QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
     if (!jumps) {
         QDOT_TRY(decide_conserved_by_rate(session, q, f, &done));

@@ -53,6 +53,9 @@ qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out
     case QDOT_NAME_UFUN:
         qdot_text_add(out, "function ");
         return qdot_print(pool, name->value, QDOT_PLAIN, out);
+    case QDOT_NAME_SPEED:
+        qdot_text_format(out, "speed %s = ", name->name);
+        return print_value(session, qdot_expr_arg(pool, name->formals, 0), out);
     case QDOT_NAME_FUNCTION: return qdot_function_print(session, name, out);
     default:
         qdot_text_format(out, "%s = ", name->name);

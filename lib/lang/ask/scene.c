@@ -1,6 +1,8 @@
 /* scene.c -- the statement `scene`: lists the declarations. */
 #include "lang/answer/answer.h"
+#include "lang/ask/declared.h"
 #include "lang/declare/scene-file.h"
+#include "lang/session/names.h"
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
 
@@ -22,12 +24,18 @@ carry_out_scene(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *file = qdot_record_hole(r, "to", NULL);
+    const qdot_name *name;
     qdot_text text = {0};
     qdot_status status;
 
     if (file != NULL)
         return qdot_scene_file_write(&r->cursor, file->from, QDOT_FILE_SCENE);
     status = qdot_scene_print(session->scene, &text);
+    for (size_t i = 0; status == QDOT_OK && (name = qdot_names_at(session->names, i)) != NULL; i++)
+        if (name->kind == QDOT_NAME_SPEED) {
+            status = qdot_declared_print(session, name, &text);
+            qdot_text_char(&text, '\n');
+        }
     if (status == QDOT_OK && text.n == 0)
         qdot_text_add(&text, "the scene is empty");
     return qdot_answer_written(session, "scene", status, &text);

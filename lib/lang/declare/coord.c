@@ -24,7 +24,7 @@ is_of_earlier_pass(const qdot_cursor *c, const qdot_new_name *x)
     const qdot_name *old = qdot_names_find(c->session->names, x->name);
     uint32_t line, column;
 
-    if (c->session->evaluation->loops == 0 || old == NULL || old->kind != QDOT_NAME_COORD || qdot_token_is(x->start + 1, "["))
+    if (c->session->evaluation->loops == 0 || old == NULL || old->kind != QDOT_NAME_COORD || strchr(x->name, '[') != NULL)
         return false;
     qdot_source_locate(c->source, x->start->start, &line, &column);
     return old->line == line && strcmp(old->file, c->source->name) == 0;

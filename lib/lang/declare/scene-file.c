@@ -63,6 +63,9 @@ append_declarations(qdot_session *s, qdot_text *out)
     for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
         if (name->kind == QDOT_NAME_UFUN) {
             QDOT_TRY(append_text_and_expression(s, "function ", name->value, out));
+        } else if (name->kind == QDOT_NAME_SPEED) {
+            qdot_text_format(out, "speed %s = ", name->name);
+            QDOT_TRY(append_text_and_expression(s, "", qdot_expr_arg(s->pool, name->formals, 0), out));
         } else if ((name->kind == QDOT_NAME_PARAM || name->kind == QDOT_NAME_COORD)
                    && qdot_scene_state_of(s->scene, name->value) == NULL) { /* states come with the scene's things */
             qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");

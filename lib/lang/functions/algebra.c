@@ -17,6 +17,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/momenta.h"
+#include "lang/session/speeds.h"
 #include "mech/scene/things.h"
 #include "normal/simplify/circle.h"
 #include "normal/simplify/kinks.h"
@@ -92,6 +93,8 @@ qdot_call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
             return qdot_hint("an index has its value: subs(diff(e, l), l = k) for k = [1, 2]");
         return QDOT_ETYPE;
     }
+    if (qdot_session_speeds_meet(s, 2, (qdot_expr[]){e, args[1]}))
+        return qdot_fail(QDOT_EINVAL, "diff(e, x) takes speeds and velocities apart: e is written in one, x is of the other");
     if (n == 3)
         QDOT_TRY(qdot_session_integer(s, args[2], &times));
     if (times < 0)

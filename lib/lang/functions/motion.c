@@ -5,6 +5,7 @@
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/session/momenta.h"
+#include "lang/session/speeds.h"
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
 
@@ -23,9 +24,10 @@ qdot_status
 qdot_call_rate(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     const qdot_scene *scene = s->scene;
-    const qdot_expr e = args[0];
+    const qdot_expr e = qdot_session_speeds_replaced(s, args[0]);
 
     (void)n;
+    QDOT_TRY(qdot_value_kind_check(s->pool, e));
     if ((qdot_expr_node(s->pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM)) &&
         scene->particles.n == 0 &&
         scene->bodies.n == 0 && scene->lagrangian == QDOT_NIL) {

@@ -13,6 +13,7 @@
 #include "lang/functions/linear.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
+#include "lang/session/speeds.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/statics.h"
 #include "mech/geometry/metric.h"
@@ -193,10 +194,14 @@ BY_COORDINATE(accel, require_coordinates, qdot_mech_accels, qdot_mech_accel)
 BY_COORDINATE(forces, require_equations, qdot_mech_forces, qdot_mech_force)
 #undef BY_COORDINATE
 
-/* Lagrange's equations; Hamilton's where H is stated. */
+/* Equations in speeds where these are declared; Hamilton's where H is stated; else Lagrange's. */
 static qdot_status
 get_eom(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
+    if (qdot_session_has_speeds(s)) {
+        QDOT_TRY(require_equations(s));
+        return qdot_session_speeds_eom(s, n > 0 ? index[0] : QDOT_NIL, value);
+    }
     if (s->scene->hamiltonian == QDOT_NIL)
         return get_lagrange(s, n, index, value);
     if (n == 0)

@@ -22,6 +22,7 @@
 #include "lang/session/history.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
+#include "lang/session/speeds.h"
 #include "lang/source/letters.h"
 #include "mech/dynamics/rate.h"
 #include "mech/scene/scene.h"
@@ -236,6 +237,8 @@ index_coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
     *over = QDOT_NIL;
     if (!row->over_coordinates)
         return QDOT_OK;
+    if (strcmp(row->name, "eom") == 0 && qdot_session_has_speeds(s))
+        return qdot_session_speeds_members(s, over);
     *over =
         qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
     return qdot_value_kind_check(s->pool, *over);
@@ -260,6 +263,15 @@ bound_argument(const qdot_session *s, const char *name)
     return QDOT_NIL;
 }
 
+/* In a declaration a speed is what it is in velocities, of which the scene is made. */
+static qdot_status
+replace_speeds_if_declaring(qdot_session *s, qdot_expr *value)
+{
+    if (!s->evaluation->declares || !qdot_session_has_speeds(s))
+        return QDOT_OK;
+    return qdot_value_kind_give(s->pool, qdot_session_speeds_replaced(s, *value), value);
+}
+
 /* Evaluate theta[2], bob[2] or dtheta[2], given the spelling of the member. */
 static qdot_status
 resolve_spelled_member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
@@ -268,8 +280,10 @@ resolve_spelled_member(qdot_session *s, const char *spelled, unsigned primes, bo
     const qdot_name *entry = qdot_names_find(s->names, spelled);
 
     *found = entry != NULL;
-    if (entry != NULL)
-        return resolve_declared(s, entry, primes, value);
+    if (entry != NULL) {
+        QDOT_TRY(resolve_declared(s, entry, primes, value));
+        return replace_speeds_if_declaring(s, value);
+    }
     QDOT_TRY(resolve_label(s, spelled, primes, found, value));
     if (*found)
         return QDOT_OK;
@@ -379,6 +393,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         }
         *over = entry->over;
         QDOT_TRY(resolve_declared(s, entry, primes, value));
+        QDOT_TRY(replace_speeds_if_declaring(s, value));
         return entry->kind == QDOT_NAME_VALUE ? replace_multipliers_if_asked(c, token, value) : QDOT_OK;
     }
     QDOT_TRY(resolve_reserved(name, primes, &found, value));

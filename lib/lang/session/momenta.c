@@ -4,6 +4,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "lang/session/speeds.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 
@@ -26,6 +27,7 @@ has_lagrangian(const qdot_scene *scene)
 qdot_expr
 qdot_momenta_to_velocities(qdot_session *session, qdot_expr e)
 {
+    e = qdot_session_speeds_replaced(session, e);
     if (!(symbol_kinds_in(session, e) & QDOT_HAS_MOMENTUM) || !has_lagrangian(session->scene))
         return e;
     return qdot_hamilton_in_velocities(session->scene, e);

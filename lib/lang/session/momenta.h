@@ -12,7 +12,7 @@
 
 #include "lang/session/parts.h"
 
-/* The expression e with every momentum p[q] replaced by dL/dq'. Nil, here and below: the pool keeps the failure. */
+/* The expression e with every momentum p[q] replaced by dL/dq', and every speed by what it is in velocities. Nil, here and below: the pool keeps the failure. */
 qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);
 
 /* e in the variables of `symbol`: in momenta for p[x]; in velocities if p[q] and q' of one coordinate q

@@ -176,7 +176,7 @@ kind_in_words(qdot_name_kind kind)
         [QDOT_NAME_PARAM] = "a parameter",   [QDOT_NAME_COORD] = "a coordinate",
         [QDOT_NAME_UFUN] = "a function",     [QDOT_NAME_VALUE] = "an expression",
         [QDOT_NAME_FUNCTION] = "a function", [QDOT_NAME_INDEX] = "an index",
-        [QDOT_NAME_ARGUMENT] = "an argument",
+        [QDOT_NAME_ARGUMENT] = "an argument", [QDOT_NAME_SPEED] = "a speed",
     };
 
     return words[kind];

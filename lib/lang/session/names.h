@@ -16,6 +16,7 @@ typedef enum {
     QDOT_NAME_VALUE,    /* a defined name; value: any expression */
     QDOT_NAME_FUNCTION, /* formals: a LIST of symbols; body: its text; value: a LIST of the
                          * values of body->captured */
+    QDOT_NAME_SPEED,    /* a speed (quasi-velocity); value: its symbol; formals: a LIST of one, what it is in velocities */
     QDOT_NAME_INDEX,    /* a loop or sum index; value: its present number; hides outer names */
     QDOT_NAME_ARGUMENT  /* a function argument; value: the one in the call; hides outer names */
 } qdot_name_kind;

@@ -440,7 +440,7 @@ hide_or_show_symbols(qdot_session *s, const change *c, int to)
             memcpy(&name, c->items[side] + i * sizeof name, sizeof name);
             if (name->kind == QDOT_NAME_UFUN && step == 1)
                 (void)!qdot_ufun_redeclare(s->pool, name->ufun, name->formals);
-            if (name->kind != QDOT_NAME_PARAM && name->kind != QDOT_NAME_COORD)
+            if (name->kind != QDOT_NAME_PARAM && name->kind != QDOT_NAME_COORD && name->kind != QDOT_NAME_SPEED)
                 continue;
             if (step == 0)
                 qdot_symbol_hide(s->pool, name->value);

@@ -1,0 +1,37 @@
+/* speeds.h -- equations of motion in quasi-velocities (Kane's speeds).
+ *
+ * Speeds u_k = E_k(q, q', t), linear in q', as many as there are degrees of freedom, and the constraints as velocities
+ * determine
+ *
+ *     q_i' = sum_j b_ij(q, t) u_j + g_i(q, t),
+ *
+ * where b spans the velocities that the constraints allow. Lagrange's equations M q'' = f + A^T lambda projected on it,
+ *
+ *     sum_i b_ij (sum_l M_il q_l'' - f_i) = 0,   q'' = b u' + b' u + g',
+ *
+ * are one first-order equation for each speed, without multipliers.
+ *
+ * Source  Kane, Levinson, Dynamics: Theory and Applications, 4.4 and 6.1; Neimark, Fufaev, Dynamics of Nonholonomic
+ *         Systems, ch. III (Boltzmann, Hamel, Gibbs, Appell).
+ * Tests   tests/mech/dynamics/test_speeds.c
+ */
+#ifndef QDOT_MECH_SPEEDS_H
+#define QDOT_MECH_SPEEDS_H
+
+#include "mech/scene/scene.h"
+
+/* symbol [n]: what a speed is called, a symbol that has jets (class QDOT_COORD) but is no coordinate of the scene;
+ * value [n]: E_k. Borrowed. */
+typedef struct {
+    size_t n;
+    const qdot_expr *symbol, *value;
+} qdot_speeds;
+
+/* velocity [coordinates]: q_i' in q, u, t. QDOT_EINVAL: a speed is not linear in the velocities, their number is not that of
+ * the degrees of freedom, or they do not determine the velocities; a constraint of accelerations. */
+QDOT_MUST_CHECK qdot_status qdot_speeds_kinematics(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *velocity);
+/* equation [n]: sum_k m_jk u_k' = rest in q, u, t, simplified; velocity: from qdot_speeds_kinematics. */
+QDOT_MUST_CHECK qdot_status qdot_speeds_equations(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *velocity,
+                                                  qdot_expr *equation);
+
+#endif
