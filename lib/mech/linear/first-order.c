@@ -12,13 +12,16 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/linear/state-values.h"
 #include "mech/scene/access.h"
+#include "mech/scene/scene.h"
 
 /* Changes of n symbols are linear in columns: state and inputs, and a last one for what does not change. */
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_state_values v;
-    size_t n, c, inputs;   /* numbers of coordinates, constraints, inputs */
+    size_t n, c, inputs;   /* numbers of coordinates that are no first-order unknowns, of constraints, of inputs, which
+                            * here are those of the scene and the first-order unknowns */
+    size_t *own;           /* [n] index of each such coordinate in the scene */
     size_t *order;         /* [c] the constraints, holonomic ones first, then those of velocities, of accelerations */
     qdot_echelon level[3]; /* rows over jets of that order: (n of the order itself, n each of the orders below, 1) */
     bool *kept;            /* [c] not a repetition of earlier ones on the level of accelerations */
@@ -29,6 +32,41 @@ typedef struct {
     qdot_expr *lambda;     /* [c x width] of the multipliers */
     qdot_expr *M;          /* [n x n] */
 } job;
+
+/* The jet of coordinate i. */
+static qdot_expr
+jet(const job *j, size_t i, uint32_t order)
+{
+    return qdot_mech_jet(j->s, j->own[i], order);
+}
+
+/* Input k: those of the scene, then its first-order unknowns, on which the motion depends in the same way. */
+static qdot_expr
+input_symbol(const job *j, size_t k)
+{
+    const size_t m = j->s->inputs.n;
+
+    return k < m ? j->s->inputs.at[k] : j->s->states.at[k - m].z;
+}
+
+/* The force along coordinate i, with the rates of first-order unknowns in place of their velocities. */
+static qdot_expr
+force_along(const job *j, qdot_expr f, size_t i)
+{
+    f = qdot_expr_arg(j->pool, f, (uint32_t)j->own[i]);
+    for (size_t k = 0; k < j->s->states.n && f != QDOT_NIL; k++) {
+        const qdot_expr velocity = qdot_symbol_jet(j->pool, j->s->states.at[k].z, 1);
+
+        f = qdot_subs(j->pool, f, 1, &velocity, &j->s->states.at[k].rate);
+    }
+    return f;
+}
+
+static qdot_expr
+mass_entry(const job *j, qdot_expr M, size_t i, size_t k)
+{
+    return qdot_expr_arg(j->pool, M, (uint32_t)(j->own[i] * j->s->coordinates.n + j->own[k]));
+}
 
 static qdot_expr *
 new_expressions(size_t n)
@@ -55,8 +93,8 @@ put_state(job *j, qdot_expr place)
             QDOT_TRY(qdot_state_values_put(&j->v, symbol, qdot_expr_arg(pool, one, 1)));
     }
     for (size_t i = 0; i < j->n; i++)
-        QDOT_TRY(qdot_state_values_put(&j->v, qdot_mech_jet(j->s, i, 1), QDOT_ZERO));
-    for (size_t i = 0; i < j->inputs; i++)
+        QDOT_TRY(qdot_state_values_put(&j->v, jet(j, i, 1), QDOT_ZERO));
+    for (size_t i = 0; i < j->s->inputs.n; i++)
         QDOT_TRY(qdot_state_values_put(&j->v, j->s->inputs.at[i], QDOT_ZERO));
     return qdot_pool_check(pool);
 }
@@ -99,7 +137,7 @@ constraint_row(job *j, size_t k, int order, qdot_expr *row)
         for (size_t i = 0; i < n; i++)
             row[(size_t)at * n + i] = o < 2 && order == 2 && !j->accelerated
                                           ? QDOT_ZERO
-                                          : qdot_diff(j->pool, f, qdot_mech_jet(j->s, i, (uint32_t)o));
+                                          : qdot_diff(j->pool, f, jet(j, i, (uint32_t)o));
     row[(size_t)(order + 1) * n] = rest;
     return qdot_state_values_of(&j->v, (size_t)(order + 1) * n + 1, row);
 }
@@ -354,7 +392,7 @@ multiplied_slope(const job *j, size_t k, size_t i)
 {
     const qdot_constraint *c = &j->s->constraints.at[k];
 
-    return qdot_diff(j->pool, c->f, qdot_mech_jet(j->s, i, (uint32_t)c->kind));
+    return qdot_diff(j->pool, c->f, jet(j, i, (uint32_t)c->kind));
 }
 
 /* M q'' - f - G^T lambda of coordinate i, with symbols for q'' and lambda. */
@@ -362,11 +400,11 @@ static qdot_expr
 residual_of_motion(const job *j, qdot_expr M, qdot_expr f, size_t i)
 {
     qdot_pool *pool = j->pool;
-    qdot_expr sum = qdot_neg(pool, qdot_expr_arg(pool, f, (uint32_t)i));
+    qdot_expr sum = qdot_neg(pool, force_along(j, f, i));
 
     for (size_t k = 0; k < j->n; k++)
-        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_expr_arg(pool, M, (uint32_t)(i * j->n + k)),
-                                           qdot_mech_jet(j->s, k, 2)));
+        sum = qdot_add(pool, sum, qdot_mul(pool, mass_entry(j, M, i, k),
+                                           jet(j, k, 2)));
     for (size_t k = 0; k < j->c; k++)
         sum = qdot_sub(pool, sum, qdot_mul(pool, multiplied_slope(j, k, i), j->s->constraints.at[k].multiplier));
     return sum;
@@ -381,7 +419,7 @@ find_accelerations_at_state(job *j, qdot_expr f, const qdot_expr *G)
     qdot_status status = F == NULL || f0 == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (size_t i = 0; i < j->n && status == QDOT_OK; i++)
-        f0[i] = qdot_neg(j->pool, qdot_expr_arg(j->pool, f, (uint32_t)i));
+        f0[i] = qdot_neg(j->pool, force_along(j, f, i));
     if (status == QDOT_OK)
         status = qdot_state_values_of(&j->v, j->n, f0);
     for (size_t i = 0; i < j->n && status == QDOT_OK; i++)
@@ -391,7 +429,7 @@ find_accelerations_at_state(job *j, qdot_expr f, const qdot_expr *G)
     if (status == QDOT_OK)
         status = solve_multipliers(j, G, F, last, j->width);
     for (size_t i = 0; i < j->n && status == QDOT_OK; i++)
-        status = qdot_state_values_put(&j->v, qdot_mech_jet(j->s, i, 2), j->change[2][i * j->width + last]);
+        status = qdot_state_values_put(&j->v, jet(j, i, 2), j->change[2][i * j->width + last]);
     for (size_t k = 0; k < j->c && status == QDOT_OK; k++)
         status = qdot_state_values_put(&j->v, j->s->constraints.at[k].multiplier, j->lambda[k * j->width + last]);
     qdot_free(F);
@@ -412,8 +450,8 @@ find_changes(job *j, qdot_expr M, qdot_expr f, const qdot_expr *G)
 
         for (size_t k = 0; k < moving; k++)
             slope[i * moving + k] = qdot_diff(j->pool, residual,
-                                              k < 2 * n ? qdot_mech_jet(j->s, k % n, k < n ? 0 : 1)
-                                                        : j->s->inputs.at[k - 2 * n]);
+                                              k < 2 * n ? jet(j, k % n, k < n ? 0 : 1)
+                                                        : input_symbol(j, k - 2 * n));
         status = qdot_pool_check(j->pool);
     }
     if (status == QDOT_OK)
@@ -487,7 +525,7 @@ linearise(job *j)
     if (status == QDOT_OK) {
         j->lambda = new_expressions(j->c * j->width);
         for (size_t i = 0; i < n * n; i++)
-            j->M[i] = qdot_expr_arg(j->pool, M, (uint32_t)i);
+            j->M[i] = mass_entry(j, M, i / n, i % n);
         for (size_t i = 0; i < j->c * n; i++)
             G[i] = multiplied_slope(j, i / n, i % n);
         status = j->lambda == NULL ? QDOT_ENOMEM : qdot_state_values_of(&j->v, n * n, j->M);
@@ -514,16 +552,64 @@ value_of_symbol(const job *j, qdot_expr symbol)
     return symbol;
 }
 
+/* The column of the results, (state, first-order unknowns, inputs), that column a of the changes is. */
+static size_t
+column_of_results(const job *j, size_t a)
+{
+    const size_t motion = j->y + j->z, m = j->s->inputs.n, s = j->s->states.n;
+
+    return a < motion ? a : a < motion + m ? a + s : a - m;
+}
+
+/* Write the first-order unknowns and their rates behind the other symbols: rows 3 n + c + inputs ... of the results. */
+static qdot_status
+write_first_order_unknowns(job *j, qdot_first_order *out)
+{
+    const qdot_scene *s = j->s;
+    const size_t n = j->n, moving = 2 * n + j->inputs, columns = out->states + out->inputs, first = out->n - 2 * s->states.n;
+    qdot_expr *slope = new_expressions(moving + 1);
+    qdot_status status = slope == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < s->states.n && status == QDOT_OK; k++) {
+        const qdot_state *z = &s->states.at[k];
+        qdot_expr *own = out->change + (first + 2 * k) * columns, *rate = own + columns;
+
+        for (size_t i = 0; i < moving; i++)
+            slope[i] = qdot_diff(j->pool, z->rate, i < 2 * n ? jet(j, i % n, i < n ? 0 : 1) : input_symbol(j, i - 2 * n));
+        slope[moving] = z->rate;
+        status = qdot_pool_check(j->pool);
+        if (status == QDOT_OK)
+            status = qdot_state_values_of(&j->v, moving + 1, slope);
+        for (size_t a = 0; a < j->y + j->z + j->inputs && status == QDOT_OK; a++) {
+            qdot_expr sum = qdot_add(j->pool, change_along(j, slope, j->change[0], a),
+                                     change_along(j, slope + n, j->change[1], a));
+
+            if (a >= j->y + j->z)
+                sum = qdot_add(j->pool, sum, slope[2 * n + a - j->y - j->z]);
+            rate[column_of_results(j, a)] = qdot_elimination_short(&j->v.x, sum);
+        }
+        out->symbol[first + 2 * k] = z->z;
+        out->symbol[first + 2 * k + 1] = qdot_symbol_jet(j->pool, z->z, 1);
+        out->value[first + 2 * k] = value_of_symbol(j, z->z);
+        out->value[first + 2 * k + 1] = slope[moving];
+        own[j->y + j->z + k] = QDOT_ONE;
+        out->moves |= !qdot_elimination_is_zero(&j->v.x, slope[moving]);
+    }
+    qdot_free(slope);
+    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
+}
+
 /* Hand out the results. */
 static qdot_status
 write_results(job *j, qdot_first_order *out)
 {
-    const size_t n = j->n, columns = j->y + j->z + j->inputs;
-    size_t at = 0;
+    const size_t n = j->n, m = j->s->inputs.n, inner = j->y + j->z + j->inputs;
+    size_t at = 0, columns;
 
-    out->states = j->y + j->z;
-    out->inputs = j->inputs;
-    out->n = 3 * n + j->c + j->inputs;
+    out->states = j->y + j->z + j->s->states.n;
+    out->inputs = m;
+    columns = out->states + m;
+    out->n = 3 * n + j->c + m + 2 * j->s->states.n;
     out->state = new_expressions(out->states);
     out->symbol = new_expressions(2 * out->n);
     out->change = new_expressions(out->n * columns);
@@ -537,22 +623,25 @@ write_results(job *j, qdot_first_order *out)
             for (size_t r = 0; r < j->level[order].rank; r++)
                 dependent |= j->level[order].pivot[r] == i;
             if (!dependent)
-                out->state[at++] = qdot_mech_jet(j->s, i, (uint32_t)order);
+                out->state[at++] = jet(j, i, (uint32_t)order);
         }
-    for (size_t i = 0; i < out->n; i++) {
+    for (size_t k = 0; k < j->s->states.n; k++)
+        out->state[at++] = j->s->states.at[k].z;
+    for (size_t i = 0; i < 3 * n + j->c + m; i++) {
         const qdot_expr *row = i < 3 * n ? j->change[i / n] + i % n * j->width
                                : i < 3 * n + j->c ? j->lambda + (i - 3 * n) * j->width : NULL;
 
-        out->symbol[i] = i < 3 * n         ? qdot_mech_jet(j->s, i % n, (uint32_t)(i / n))
+        out->symbol[i] = i < 3 * n          ? jet(j, i % n, (uint32_t)(i / n))
                          : i < 3 * n + j->c ? j->s->constraints.at[i - 3 * n].multiplier
                                             : j->s->inputs.at[i - 3 * n - j->c];
         out->value[i] = value_of_symbol(j, out->symbol[i]);
-        for (size_t a = 0; a < columns; a++)
-            out->change[i * columns + a] = row != NULL ? row[a]
-                                           : a == out->states + i - 3 * n - j->c ? QDOT_ONE : QDOT_ZERO;
+        for (size_t a = 0; a < inner && row != NULL; a++)
+            out->change[i * columns + column_of_results(j, a)] = row[a];
+        if (row == NULL)
+            out->change[i * columns + out->states + i - 3 * n - j->c] = QDOT_ONE;
         out->moves |= i >= 2 * n && i < 3 * n && !qdot_elimination_is_zero(&j->v.x, out->value[i]);
     }
-    return qdot_pool_check(j->pool);
+    return write_first_order_unknowns(j, out);
 }
 
 void
@@ -567,11 +656,17 @@ qdot_first_order_clear(qdot_first_order *x)
 qdot_status
 qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, qdot_first_order *out)
 {
-    job j = {.s = s, .pool = s->pool, .n = s->coordinates.n, .c = s->constraints.n, .inputs = s->inputs.n};
+    job j = {.s = s, .pool = s->pool, .c = s->constraints.n, .inputs = s->inputs.n + s->states.n,
+             .own = qdot_calloc(s->coordinates.n + 1, sizeof *j.own)};
     qdot_status status;
     size_t at = 0;
 
     *out = (qdot_first_order){0};
+    if (j.own == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (qdot_scene_state_of(s, s->coordinates.at[i]) == NULL)
+            j.own[j.n++] = i;
     j.width = 2 * j.n + j.inputs + 1;
     j.order = qdot_calloc(j.c + 1, sizeof *j.order);
     j.kept = qdot_calloc(j.c + 1, sizeof *j.kept);
@@ -596,6 +691,7 @@ qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, q
         qdot_free(j.change[i]);
     }
     qdot_state_values_end(&j.v);
+    qdot_free(j.own);
     qdot_free(j.order);
     qdot_free(j.kept);
     qdot_free(j.M);

@@ -15,6 +15,9 @@
  * then the independent velocities; a velocity constraint binds a velocity and leaves its coordinate. Constraints that
  * repeat others are left out, after a check that they hold to first order along the others.
  *
+ * A first-order unknown z' = g (mech/scene/state.c) is beside the motion one more input; then it is a state behind the
+ * others, x = (y, z, unknowns), with the change of g as its row.
+ *
  * Source  Peterson, Gede & Hubbard, "Symbolic linearization of equations of motion of constrained multibody systems",
  *         Multibody System Dynamics 33 (2015) 143.
  * Tests   tests/mech/linear/test_first_order.c
