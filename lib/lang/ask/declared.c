@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 
+#include "expr/node.h"
 #include "expr/print.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"

@@ -20,6 +20,7 @@ QDOT_STATEMENT(groups) = {
     .summary = "a basis of the products of powers without dimension, of the parameters or of what is named; each other "
                "such product is one of these",
     .example = "groups",
+    .nameable = true,
     .handler = carry_out_groups,
 };
 

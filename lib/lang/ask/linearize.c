@@ -22,6 +22,7 @@ QDOT_STATEMENT(linearize) = {
     .usage = "linearize at EQUILIBRIUM | linearize along RUN at T",
     .summary = "x' = A x + B u near an equilibrium, a state or a time of a run; with outputs y = C x + D u",
     .example = "linearize at equilibria[1]",
+    .nameable = true,
     .handler = carry_out_linearize,
 };
 

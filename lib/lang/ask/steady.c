@@ -12,6 +12,7 @@ QDOT_STATEMENT(steady) = {
     .summary = "the steady motions, with their stability: the rates of cyclic coordinates constant, all others at rest",
     .example = "steady",
     .alone = true,
+    .nameable = true,
     .handler = carry_out_steady,
 };
 

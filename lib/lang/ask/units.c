@@ -19,6 +19,7 @@ QDOT_STATEMENT(units) = {
     .usage = "units [EXPR]",
     .summary = "the dimension and the SI unit of every name, or of an expression; what is not determined is said so",
     .example = "units",
+    .nameable = true,
     .handler = carry_out_units,
 };
 

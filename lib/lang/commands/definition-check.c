@@ -475,6 +475,8 @@ check_definition(assignment *a)
         return known->name[0] == 'p' && known->name[1] == '\0' && is_member_of_quantity(a)
                    ? refuse_member(a)
                    : QDOT_OK;
+    if (row != NULL && row->nameable)
+        return QDOT_OK;
     if (row != NULL)
         return refuse_statement_word(a, row);
     if (is_member_of_quantity(a))

@@ -11,6 +11,7 @@ QDOT_STATEMENT(input) = {
     .usage = "input NAME, ...",
     .summary = "symbols that drive the scene: 0 at rest; in runs a value by `set`, or a function of t and the state",
     .example = "input F, tau",
+    .nameable = true,
     .handler = declare_inputs,
 };
 

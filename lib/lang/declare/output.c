@@ -11,6 +11,7 @@ QDOT_STATEMENT(output) = {
     .usage = "output EXPR, ...",
     .summary = "what is observed, for C and D of `linearize`; said again it replaces the outputs before",
     .example = "output theta, x'",
+    .nameable = true,
     .handler = declare_outputs,
 };
 

@@ -16,6 +16,7 @@ QDOT_STATEMENT(speed) = {
     .summary = "name combinations of velocities, linear in them: eom then has a first-order equation for each, without "
                "multipliers, and the kinematic ones",
     .example = "speed v = x'*cos(phi) + y'*sin(phi), w = phi'",
+    .nameable = true,
     .handler = declare_speeds,
 };
 

@@ -15,6 +15,7 @@ QDOT_STATEMENT(state) = {
     .summary = "unknowns of first order, such as those of a filter, a motor, a controller: forces, events and columns may "
                "read them, nothing pulls on them",
     .example = "state z' = x - z",
+    .nameable = true,
     .handler = declare_states,
     .names = declare_names,
 };

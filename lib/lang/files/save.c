@@ -25,7 +25,7 @@ QDOT_STATEMENT(save) = {
 static qdot_status
 append_symbol_operand(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operands *list)
 {
-    qdot_operand o = {.run = run};
+    qdot_operand o = {.session = session, .run = run};
     qdot_status status = qdot_pool_check(session->pool);
 
     if (status == QDOT_OK)

@@ -9,148 +9,33 @@
 #include "lang/functions/builtin.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
+#include "lang/language/parse-stack.h"
 #include "lang/language/units.h"
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
 #include "lang/source/lex.h"
 
-/* Operators (by precedence) and open brackets that wait on the parser's stack. */
-typedef enum {
-    OP_OR,
-    OP_AND,
-    OP_NOT,
-    OP_RELATION,
-    OP_SUM,
-    OP_PRODUCT,
-    OP_NEGATE,
-    OP_POWER,
-    OP_ROOT, /* √ before its operand */
-    OP_MEMBER, /* the run `a.` before its operand */
-    IN_GROUP,  /* brackets ( ) of an operand: a vector if they contain a comma */
-    IN_LIST,   /* brackets [ ]: a list, or with `;` a matrix */
-    IN_INDEX_NAME,
-    IN_INDEX,
-    IN_LABEL,
-    IN_CALL,
-    IN_SUM,
-    IN_IF
-} waiting_kind;
-
-typedef struct {
-    uint8_t kind; /* the operator or bracket, a waiting_kind */
-    uint8_t primes;
-    bool ranged; /* for IN_CALL: the last argument is a range a..b */
-    bool passed; /* for IN_CALL: between the instructions PASS_BEGIN and PASS_END */
-    const qdot_token *token; /* the operator's sign, or the opening bracket */
-    const qdot_token *name;  /* for IN_SUM: token of the sum's index */
-    const qdot_token *power; /* for IN_CALL: exponent of sin²(x), which means sin(x)^2; NULL: none */
-    uint32_t count;          /* number of complete operands or arguments */
-    uint32_t columns, indices, at;
-    uint32_t last; /* of IN_CALL: where the code of the present argument begins, from the second on */
-} waiting;
-
-typedef struct {
-    qdot_cursor *c;
-    qdot_postfix_list *program;
-    qdot_parse_extent extent;
-    qdot_vec(waiting) stack;
-    size_t depth; /* number of open brackets */
-    bool operand; /* whether an operand must come next */
-    bool done;
-} parser;
-
 static const struct {
     const char *text;
     uint8_t kind;
 } binaries[] = {
-    {"+", OP_SUM},       {"-", OP_SUM},      {"*", OP_PRODUCT},   {"/", OP_PRODUCT},
-    {"^", OP_POWER},     {"=", OP_RELATION}, {"==", OP_RELATION}, {"<", OP_RELATION},
-    {"<=", OP_RELATION}, {">", OP_RELATION}, {">=", OP_RELATION}, {"and", OP_AND},
-    {"or", OP_OR},
+    {"+", QDOT_OP_SUM},       {"-", QDOT_OP_SUM},      {"*", QDOT_OP_PRODUCT},   {"/", QDOT_OP_PRODUCT},
+    {"^", QDOT_OP_POWER},     {"=", QDOT_OP_RELATION}, {"==", QDOT_OP_RELATION}, {"<", QDOT_OP_RELATION},
+    {"<=", QDOT_OP_RELATION}, {">", QDOT_OP_RELATION}, {">=", QDOT_OP_RELATION}, {"and", QDOT_OP_AND},
+    {"or", QDOT_OP_OR},
 };
 
 static qdot_status
-fail_at_token(parser *p, const qdot_token *token, qdot_status status)
+fail_at_token(qdot_parser *p, const qdot_token *token, qdot_status status)
 {
     p->c->error_at = token->start;
     return status;
 }
 
-static qdot_status
-append_instruction(parser *p, qdot_postfix_kind op, const qdot_token *token, uint32_t n, uint32_t to,
-                   unsigned primes)
-{
-    qdot_postfix code = {.op = (uint8_t)op, .primes = (uint8_t)primes, .n = n, .to = to, .token = token};
-
-    return qdot_vec_push(&p->program->list, code);
-}
-
-static waiting *
-top_of_stack(parser *p)
-{
-    return p->stack.n > 0 ? &p->stack.at[p->stack.n - 1] : NULL;
-}
+/* --- operators ---------------------------------------------------------------------- */
 
 static qdot_status
-push_on_stack(parser *p, waiting_kind kind, const qdot_token *token)
-{
-    waiting w = {.kind = (uint8_t)kind, .token = token};
-
-    if (kind >= IN_GROUP) {
-        p->depth++;
-        p->operand = true;
-    }
-    return qdot_vec_push(&p->stack, w);
-}
-
-/* --- waiting operators -------------------------------------------------------------- */
-
-/* Append the instruction of the operator on top of the parser's stack, whose last operand is complete. */
-static qdot_status
-emit_top_operator(parser *p)
-{
-    waiting w = p->stack.at[--p->stack.n];
-
-    switch ((waiting_kind)w.kind) {
-    case OP_OR: return append_instruction(p, QDOT_POSTFIX_OR, w.token, w.count + 1, 0, 0);
-    case OP_AND: return append_instruction(p, QDOT_POSTFIX_AND, w.token, w.count + 1, 0, 0);
-    case OP_NOT: return append_instruction(p, QDOT_POSTFIX_NOT, w.token, 1, 0, 0);
-    case OP_RELATION:
-        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_RELATION, w.token, 2, 0, 0));
-        return w.count > 1 ? append_instruction(p, QDOT_POSTFIX_AND, w.token, w.count, 0, 0) : QDOT_OK;
-    case OP_SUM:
-        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_TERM, w.token, 1, 0, 0));
-        return append_instruction(p, QDOT_POSTFIX_SUM, w.token, w.count + 1, 0, 0);
-    case OP_PRODUCT:
-        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_TERM, w.token, 1, 0, 0));
-        return append_instruction(p, QDOT_POSTFIX_PRODUCT, w.token, w.count + 1, 0, 0);
-    case OP_NEGATE: return append_instruction(p, QDOT_POSTFIX_NEGATE, w.token, 1, 0, 0);
-    case OP_POWER: return append_instruction(p, QDOT_POSTFIX_POWER, w.token, 2, 0, 0);
-    case OP_ROOT: return append_instruction(p, QDOT_POSTFIX_CALL, w.token, 1, 0, 0);
-    default: return append_instruction(p, QDOT_POSTFIX_MEMBER, w.token, 1, 0, 0);
-    }
-}
-
-/* Append the instructions of all operators on the stack that bind tighter than `kind`. */
-static qdot_status
-emit_tighter_operators(parser *p, waiting_kind kind)
-{
-    while (top_of_stack(p) != NULL && top_of_stack(p)->kind < IN_GROUP && top_of_stack(p)->kind > kind)
-        QDOT_TRY(emit_top_operator(p));
-    return QDOT_OK;
-}
-
-/* Append the instructions of all operators on the stack down to the last opening bracket. */
-static qdot_status
-emit_operators_to_bracket(parser *p)
-{
-    while (top_of_stack(p) != NULL && top_of_stack(p)->kind < IN_GROUP)
-        QDOT_TRY(emit_top_operator(p));
-    return QDOT_OK;
-}
-
-static qdot_status
-parse_chained_relation(parser *p, waiting *w, const qdot_token *token)
+parse_chained_relation(qdot_parser *p, qdot_waiting *w, const qdot_token *token)
 {
     if (token->text[0] == '=' || w->token->text[0] == '=') {
         qdot_fail(QDOT_ESYNTAX, "two relations in one: `%s` after `%s`", token->text, w->token->text);
@@ -160,28 +45,28 @@ parse_chained_relation(parser *p, waiting *w, const qdot_token *token)
     w->count++;
     const qdot_token *first = w->token;
     w->token = token;
-    return append_instruction(p, QDOT_POSTFIX_CHAIN, first, 2, 0, 0);
+    return qdot_parser_append(p, QDOT_POSTFIX_CHAIN, first, 2, 0, 0);
 }
 
 static qdot_status
-parse_binary_operator(parser *p, waiting_kind kind, const qdot_token *token)
+parse_binary_operator(qdot_parser *p, qdot_waiting_kind kind, const qdot_token *token)
 {
-    waiting *w;
+    qdot_waiting *w;
 
-    QDOT_TRY(emit_tighter_operators(p, kind));
+    QDOT_TRY(qdot_parser_emit_tighter(p, kind));
     p->operand = true;
-    w = top_of_stack(p);
-    if (w != NULL && w->kind == kind && kind != OP_POWER) {
-        if (kind == OP_RELATION)
+    w = qdot_parser_top(p);
+    if (w != NULL && w->kind == kind && kind != QDOT_OP_POWER) {
+        if (kind == QDOT_OP_RELATION)
             return parse_chained_relation(p, w, token);
-        if (kind == OP_SUM || kind == OP_PRODUCT)
-            QDOT_TRY(append_instruction(p, QDOT_POSTFIX_TERM, w->token, 1, 0, 0));
+        if (kind == QDOT_OP_SUM || kind == QDOT_OP_PRODUCT)
+            QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_TERM, w->token, 1, 0, 0));
         w->count++;
         w->token = token;
         return QDOT_OK;
     }
-    QDOT_TRY(push_on_stack(p, kind, token));
-    top_of_stack(p)->count = 1;
+    QDOT_TRY(qdot_parser_push(p, kind, token));
+    qdot_parser_top(p)->count = 1;
     return QDOT_OK;
 }
 
@@ -189,7 +74,7 @@ parse_binary_operator(parser *p, waiting_kind kind, const qdot_token *token)
 
 /* Skip the primes at the cursor; returns their number. */
 static unsigned
-skip_primes(parser *p)
+skip_primes(qdot_parser *p)
 {
     unsigned n = 0;
 
@@ -202,7 +87,7 @@ skip_primes(parser *p)
 
 /* Parse an argument that is a label: NAME or NAME[...]. */
 static qdot_status
-parse_label(parser *p, const char *what)
+parse_label(qdot_parser *p, const char *what)
 {
     const qdot_token *name = p->c->at;
 
@@ -211,15 +96,15 @@ parse_label(parser *p, const char *what)
     p->c->at++;
     if (p->c->at->glued && qdot_token_is(p->c->at, "[")) {
         p->c->at++;
-        return push_on_stack(p, IN_LABEL, name);
+        return qdot_parser_push(p, QDOT_IN_LABEL, name);
     }
     p->operand = false;
-    return append_instruction(p, QDOT_POSTFIX_LABEL, name, 0, 0, 0);
+    return qdot_parser_append(p, QDOT_POSTFIX_LABEL, name, 0, 0, 0);
 }
 
 /* Parse the new name of an argument NAME = EXPR, where the call `name` takes such; any other argument as usual. */
 static qdot_status
-parse_new_name(parser *p, const qdot_token *name)
+parse_new_name(qdot_parser *p, const qdot_token *name)
 {
     const qdot_builtin *row = qdot_builtin_find(name->text);
     const qdot_token *at = p->c->at;
@@ -231,7 +116,7 @@ parse_new_name(parser *p, const qdot_token *name)
 
 /* Parse a call; the cursor is after `name` (and [indices] and primes), at `(`. */
 static qdot_status
-parse_call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
+parse_call(qdot_parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
 {
     qdot_session *s = p->c->session;
     const qdot_builtin *row = indices > 0 || qdot_resolve_is_function(s, name->text)
@@ -251,40 +136,40 @@ parse_call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indice
     if (flags & QDOT_BUILTIN_FORM) {
         bool sum = strcmp(name->text, "sum") == 0;
 
-        QDOT_TRY(push_on_stack(p, sum ? IN_SUM : IN_IF, name));
+        QDOT_TRY(qdot_parser_push(p, sum ? QDOT_IN_SUM : QDOT_IN_IF, name));
         if (sum) {
-            top_of_stack(p)->at = (uint32_t)p->program->list.n;
-            return append_instruction(p, QDOT_POSTFIX_JUMP, name, 0, 0, 0);
+            qdot_parser_top(p)->at = (uint32_t)p->program->list.n;
+            return qdot_parser_append(p, QDOT_POSTFIX_JUMP, name, 0, 0, 0);
         }
         return QDOT_OK;
     }
-    QDOT_TRY(push_on_stack(p, IN_CALL, name));
-    top_of_stack(p)->primes = (uint8_t)n_primes;
-    top_of_stack(p)->indices = indices;
+    QDOT_TRY(qdot_parser_push(p, QDOT_IN_CALL, name));
+    qdot_parser_top(p)->primes = (uint8_t)n_primes;
+    qdot_parser_top(p)->indices = indices;
     if (qdot_token_is(p->c->at, ")")) { /* a call without arguments */
         p->c->at++;
         p->stack.n--;
         p->depth--;
         p->operand = false;
-        return append_instruction(p, QDOT_POSTFIX_CALL, name, 0, indices, n_primes);
+        return qdot_parser_append(p, QDOT_POSTFIX_CALL, name, 0, indices, n_primes);
     }
     if (flags & QDOT_BUILTIN_PASSED) {
-        top_of_stack(p)->passed = true;
-        return append_instruction(p, QDOT_POSTFIX_PASS_BEGIN, name, 0, 0, 0);
+        qdot_parser_top(p)->passed = true;
+        return qdot_parser_append(p, QDOT_POSTFIX_PASS_BEGIN, name, 0, 0, 0);
     }
     return flags & QDOT_BUILTIN_LABEL ? parse_label(p, "the name of a body or particle") : parse_new_name(p, name);
 }
 
 /* Whether a superscript number follows without a blank, as in x². */
 static bool
-superscript_follows(const parser *p, const qdot_token *t)
+superscript_follows(const qdot_parser *p, const qdot_token *t)
 {
     return qdot_token_is(t, "^") && t->glued && (p->c->source->text[t->start] & 0x80) != 0;
 }
 
 /* Parse sin²(x), which means sin(x)^2; the cursor is after `sin`. */
 static qdot_status
-parse_superscript_call(parser *p, const qdot_token *name)
+parse_superscript_call(qdot_parser *p, const qdot_token *name)
 {
     const qdot_token *power = p->c->at + 1;
 
@@ -296,13 +181,13 @@ parse_superscript_call(parser *p, const qdot_token *name)
     }
     p->c->at += 2;
     QDOT_TRY(parse_call(p, name, 0, 0));
-    if (top_of_stack(p) != NULL && top_of_stack(p)->token == name)
-        top_of_stack(p)->power = power;
+    if (qdot_parser_top(p) != NULL && qdot_parser_top(p)->token == name)
+        qdot_parser_top(p)->power = power;
     return QDOT_OK;
 }
 
 static bool
-is_function(const parser *p, const char *name)
+is_function(const qdot_parser *p, const char *name)
 {
     const qdot_session *s = p->c->session;
 
@@ -314,7 +199,7 @@ is_function(const parser *p, const char *name)
 
 /* Whether the name before ` (` may be a function's; in text copied from the screen, where products look so, if it is one. */
 static bool
-may_be_called(const parser *p, const qdot_token *name)
+may_be_called(const qdot_parser *p, const qdot_token *name)
 {
     if (name->shown)
         return is_function(p, name->text);
@@ -323,7 +208,7 @@ may_be_called(const parser *p, const qdot_token *name)
 }
 
 static qdot_status
-parse_name(parser *p)
+parse_name(qdot_parser *p)
 {
     const qdot_token *t = p->c->at++;
     const qdot_token *next = p->c->at;
@@ -332,7 +217,7 @@ parse_name(parser *p)
     if (qdot_token_is(next, ".") && next->glued && next[1].glued &&
         (next[1].kind == QDOT_TOKEN_NAME || qdot_token_is(next + 1, "("))) {
         p->c->at++;
-        return push_on_stack(p, OP_MEMBER, t);
+        return qdot_parser_push(p, QDOT_OP_MEMBER, t);
     }
     if (qdot_token_is(next, "[") && next->glued && qdot_runs_is_family(p->c->session, t->text)) {
         const qdot_token *run;
@@ -340,7 +225,7 @@ parse_name(parser *p)
         p->c->at = t;
         QDOT_TRY(qdot_cursor_accept_run(p->c, &run));
         if (run != NULL)
-            return push_on_stack(p, OP_MEMBER, run);
+            return qdot_parser_push(p, QDOT_OP_MEMBER, run);
         p->c->at = t + 1;
     }
     n = skip_primes(p);
@@ -358,18 +243,18 @@ parse_name(parser *p)
             return fail_at_token(p, t, QDOT_ENAME);
         }
         p->c->at++;
-        QDOT_TRY(push_on_stack(p, IN_INDEX_NAME, t));
+        QDOT_TRY(qdot_parser_push(p, QDOT_IN_INDEX_NAME, t));
         return (multiplier || linear) && p->c->at->kind == QDOT_TOKEN_NAME
                    ? parse_label(p, multiplier ? "the label of a constraint" : "A, B, C, D, states, inputs or outputs")
                    : QDOT_OK;
     }
     p->operand = false;
-    return append_instruction(p, QDOT_POSTFIX_NAME, t, 0, 0, n);
+    return qdot_parser_append(p, QDOT_POSTFIX_NAME, t, 0, 0, n);
 }
 
 /* Parse `%` or `%3`, which stand for the latest or an earlier answer. */
 static qdot_status
-parse_earlier_answer(parser *p)
+parse_earlier_answer(qdot_parser *p)
 {
     const qdot_token *t = p->c->at++;
     uint32_t n = 0;
@@ -386,33 +271,33 @@ parse_earlier_answer(parser *p)
             return qdot_cursor_expected(p->c, "a number from 1 after `%`");
         p->c->at++;
     }
-    return append_instruction(p, QDOT_POSTFIX_HISTORY, t, n, 0, 0);
+    return qdot_parser_append(p, QDOT_POSTFIX_HISTORY, t, n, 0, 0);
 }
 
 /* Parse a unit that follows a number, `pi` or a bracket. */
 static qdot_status
-parse_unit(parser *p)
+parse_unit(qdot_parser *p)
 {
-    const waiting *w = top_of_stack(p);
+    const qdot_waiting *w = qdot_parser_top(p);
 
-    return qdot_unit_parse(p->c, w != NULL && (w->kind == OP_POWER || (w->kind == OP_PRODUCT && w->token->text[0] == '/')),
+    return qdot_unit_parse(p->c, w != NULL && (w->kind == QDOT_OP_POWER || (w->kind == QDOT_OP_PRODUCT && w->token->text[0] == '/')),
                            p->program);
 }
 
 static qdot_status
-parse_operand(parser *p)
+parse_operand(qdot_parser *p)
 {
     const qdot_token *t = p->c->at;
 
     if (t->kind == QDOT_TOKEN_NUMBER) {
         p->c->at++;
         p->operand = false;
-        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_NUMBER, t, 0, 0, 0));
+        QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_NUMBER, t, 0, 0, 0));
         return qdot_token_is(p->c->at, "[") ? parse_unit(p) : QDOT_OK;
     }
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "not") == 0) {
         p->c->at++;
-        return push_on_stack(p, OP_NOT, t);
+        return qdot_parser_push(p, QDOT_OP_NOT, t);
     }
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "and") != 0 &&
         strcmp(t->text, "or") != 0)
@@ -421,24 +306,24 @@ parse_operand(parser *p)
         return parse_earlier_answer(p);
     if (qdot_token_is(t, "sqrt")) {
         p->c->at++;
-        return push_on_stack(p, OP_ROOT, t);
+        return qdot_parser_push(p, QDOT_OP_ROOT, t);
     }
     if (qdot_token_is(t, "-") || qdot_token_is(t, "+")) {
         p->c->at++;
-        return t->text[0] == '-' ? push_on_stack(p, OP_NEGATE, t) : QDOT_OK;
+        return t->text[0] == '-' ? qdot_parser_push(p, QDOT_OP_NEGATE, t) : QDOT_OK;
     }
     if (qdot_token_is(t, "(")) {
         p->c->at++;
-        return push_on_stack(p, IN_GROUP, t);
+        return qdot_parser_push(p, QDOT_IN_GROUP, t);
     }
     if (qdot_token_is(t, "[")) {
         p->c->at++;
         if (qdot_token_is(p->c->at, "]")) {
             p->c->at++;
             p->operand = false;
-            return append_instruction(p, QDOT_POSTFIX_LIST, t, 0, 0, 0);
+            return qdot_parser_append(p, QDOT_POSTFIX_LIST, t, 0, 0, 0);
         }
-        return push_on_stack(p, IN_LIST, t);
+        return qdot_parser_push(p, QDOT_IN_LIST, t);
     }
     return qdot_cursor_expected(p->c, "an expression");
 }
@@ -446,71 +331,71 @@ parse_operand(parser *p)
 /* --- parsing brackets --------------------------------------------------------------- */
 
 static qdot_status
-report_usage(parser *p, const waiting *w)
+report_usage(qdot_parser *p, const qdot_waiting *w)
 {
-    qdot_fail(QDOT_ESYNTAX, w->kind == IN_SUM ? "a sum is sum(EXPR, k, a, b)"
+    qdot_fail(QDOT_ESYNTAX, w->kind == QDOT_IN_SUM ? "a sum is sum(EXPR, k, a, b)"
                                               : "a choice is if(CONDITION, A, B)");
-    qdot_hint(w->kind == IN_SUM ? "as in sum(k^2, k, 1, 3); a plain sum is a + b"
+    qdot_hint(w->kind == QDOT_IN_SUM ? "as in sum(k^2, k, 1, 3); a plain sum is a + b"
                                 : "as in if(x > 0, x, -x)");
     return fail_at_token(p, w->token, QDOT_ESYNTAX);
 }
 
 /* Parse the index k of sum(EXPR, k, a, b), after the first comma. */
 static qdot_status
-parse_sum_index(parser *p, waiting *w)
+parse_sum_index(qdot_parser *p, qdot_waiting *w)
 {
     w->name = p->c->at;
     if (w->name->kind != QDOT_TOKEN_NAME || !qdot_token_is(w->name + 1, ","))
         return report_usage(p, w);
     p->c->at += 2;
-    QDOT_TRY(append_instruction(p, QDOT_POSTFIX_SUM_NEXT, w->token, 0, 0, 0));
+    QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_SUM_NEXT, w->token, 0, 0, 0));
     p->program->list.at[w->at].to = (uint32_t)p->program->list.n;
     return QDOT_OK;
 }
 
 static qdot_status
-parse_comma(parser *p)
+parse_comma(qdot_parser *p)
 {
-    waiting *w;
+    qdot_waiting *w;
 
-    QDOT_TRY(emit_operators_to_bracket(p));
-    w = top_of_stack(p);
-    if (w->kind == IN_CALL && w->ranged)
+    QDOT_TRY(qdot_parser_emit_to_bracket(p));
+    w = qdot_parser_top(p);
+    if (w->kind == QDOT_IN_CALL && w->ranged)
         return qdot_cursor_expected(p->c, "`)`: a range comes last");
     p->c->at++;
     p->operand = true;
     w->count++;
     w->last = (uint32_t)p->program->list.n;
-    if (w->kind == IN_SUM) {
+    if (w->kind == QDOT_IN_SUM) {
         if (w->count == 1)
             return parse_sum_index(p, w);
         return w->count > 2 ? report_usage(p, w) : QDOT_OK;
     }
-    if (w->kind == IN_IF) {
+    if (w->kind == QDOT_IN_IF) {
         uint32_t here = (uint32_t)p->program->list.n;
 
         if (w->count > 2)
             return report_usage(p, w);
-        QDOT_TRY(append_instruction(p, w->count == 1 ? QDOT_POSTFIX_IF_TEST : QDOT_POSTFIX_IF_ELSE, w->token,
+        QDOT_TRY(qdot_parser_append(p, w->count == 1 ? QDOT_POSTFIX_IF_TEST : QDOT_POSTFIX_IF_ELSE, w->token,
                                     0, 0, 0));
         if (w->count == 2)
             p->program->list.at[w->at].to = here + 1;
         w->at = here;
     }
-    return w->kind == IN_CALL && w->indices == 0 ? parse_new_name(p, w->token) : QDOT_OK;
+    return w->kind == QDOT_IN_CALL && w->indices == 0 ? parse_new_name(p, w->token) : QDOT_OK;
 }
 
 /* Parse `;` in [a, b; c, d]: a row of the matrix is complete. */
 static qdot_status
-row(parser *p)
+row(qdot_parser *p)
 {
-    waiting *w;
+    qdot_waiting *w;
 
-    QDOT_TRY(emit_operators_to_bracket(p));
-    w = top_of_stack(p);
-    if (w->kind != IN_LIST)
+    QDOT_TRY(qdot_parser_emit_to_bracket(p));
+    w = qdot_parser_top(p);
+    if (w->kind != QDOT_IN_LIST)
         return qdot_cursor_expected(
-            p->c, w->kind == IN_INDEX || w->kind == IN_INDEX_NAME || w->kind == IN_LABEL ? "`]`" : "`)`");
+            p->c, w->kind == QDOT_IN_INDEX || w->kind == QDOT_IN_INDEX_NAME || w->kind == QDOT_IN_LABEL ? "`]`" : "`)`");
     w->count++;
     if (w->columns == 0)
         w->columns = w->count;
@@ -520,75 +405,75 @@ row(parser *p)
     }
     p->c->at++;
     if (qdot_token_is(p->c->at, "]")) { /* [a, b;] is a matrix with a single row */
-        waiting whole = *w;
+        qdot_waiting whole = *w;
 
         p->c->at++;
         p->stack.n--;
         p->depth--;
-        return append_instruction(p, QDOT_POSTFIX_MATRIX, whole.token, whole.count, whole.columns, 0);
+        return qdot_parser_append(p, QDOT_POSTFIX_MATRIX, whole.token, whole.count, whole.columns, 0);
     }
     p->operand = true;
     return QDOT_OK;
 }
 
 static qdot_status
-close_list(parser *p, const waiting *w)
+close_list(qdot_parser *p, const qdot_waiting *w)
 {
     if (w->columns == 0)
-        return append_instruction(p, QDOT_POSTFIX_LIST, w->token, w->count + 1, 0, 0);
+        return qdot_parser_append(p, QDOT_POSTFIX_LIST, w->token, w->count + 1, 0, 0);
     if ((w->count + 1) % w->columns != 0) {
         qdot_fail(QDOT_ETYPE, "the rows of a matrix are of one length");
         return fail_at_token(p, p->c->at - 1, QDOT_ETYPE);
     }
-    return append_instruction(p, QDOT_POSTFIX_MATRIX, w->token, w->count + 1, w->columns, 0);
+    return qdot_parser_append(p, QDOT_POSTFIX_MATRIX, w->token, w->count + 1, w->columns, 0);
 }
 
 static qdot_status
-close_bracket(parser *p)
+close_bracket(qdot_parser *p)
 {
-    waiting w;
+    qdot_waiting w;
     unsigned n;
 
-    QDOT_TRY(emit_operators_to_bracket(p));
-    w = *top_of_stack(p);
+    QDOT_TRY(qdot_parser_emit_to_bracket(p));
+    w = *qdot_parser_top(p);
     p->c->at++;
     p->stack.n--;
     p->depth--;
-    switch ((waiting_kind)w.kind) {
-    case IN_GROUP:
-        return w.count > 0 ? append_instruction(p, QDOT_POSTFIX_VECTOR, w.token, w.count + 1, 0, 0)
+    switch ((qdot_waiting_kind)w.kind) {
+    case QDOT_IN_GROUP:
+        return w.count > 0 ? qdot_parser_append(p, QDOT_POSTFIX_VECTOR, w.token, w.count + 1, 0, 0)
                            : QDOT_OK;
-    case IN_LIST: return close_list(p, &w);
-    case IN_LABEL: return append_instruction(p, QDOT_POSTFIX_LABEL, w.token, w.count + 1, 0, 0);
-    case IN_INDEX_NAME:
+    case QDOT_IN_LIST: return close_list(p, &w);
+    case QDOT_IN_LABEL: return qdot_parser_append(p, QDOT_POSTFIX_LABEL, w.token, w.count + 1, 0, 0);
+    case QDOT_IN_INDEX_NAME:
         n = skip_primes(p);
         if (qdot_token_is(p->c->at, "(") && p->c->at->glued)
             return parse_call(p, w.token, n, w.count + 1);
-        return append_instruction(p, QDOT_POSTFIX_INDEX_NAME, w.token, w.count + 1, 0, n);
-    case IN_INDEX: return append_instruction(p, QDOT_POSTFIX_INDEX, w.token, w.count + 1, 0, 0);
-    case IN_SUM:
+        return qdot_parser_append(p, QDOT_POSTFIX_INDEX_NAME, w.token, w.count + 1, 0, n);
+    case QDOT_IN_INDEX: return qdot_parser_append(p, QDOT_POSTFIX_INDEX, w.token, w.count + 1, 0, 0);
+    case QDOT_IN_SUM:
         if (w.count != 2)
             return report_usage(p, &w);
-        return append_instruction(p, QDOT_POSTFIX_SUM_BEGIN, w.token,
+        return qdot_parser_append(p, QDOT_POSTFIX_SUM_BEGIN, w.token,
                                   (uint32_t)(w.name - p->c->source->tokens.at), w.at + 1, 0);
-    case IN_IF:
+    case QDOT_IN_IF:
         if (w.count != 2)
             return report_usage(p, &w);
-        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_IF_END, w.token, 0, 0, 0));
+        QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_IF_END, w.token, 0, 0, 0));
         p->program->list.at[w.at].to = (uint32_t)p->program->list.n;
         return QDOT_OK;
     default:
         if (w.ranged)
-            QDOT_TRY(append_instruction(p, QDOT_POSTFIX_RANGE, w.token, w.count + 1, 0, 0));
+            QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_RANGE, w.token, w.count + 1, 0, 0));
         else
-            QDOT_TRY(append_instruction(p, QDOT_POSTFIX_CALL, w.token, w.count + 1, w.indices, w.primes));
+            QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_CALL, w.token, w.count + 1, w.indices, w.primes));
         p->program->list.at[p->program->list.n - 1].last = w.last;
         if (w.passed)
-            QDOT_TRY(append_instruction(p, QDOT_POSTFIX_PASS_END, w.token, 0, 0, 0));
+            QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_PASS_END, w.token, 0, 0, 0));
         if (w.power == NULL)
             return QDOT_OK;
-        QDOT_TRY(append_instruction(p, QDOT_POSTFIX_NUMBER, w.power, 0, 0, 0));
-        return append_instruction(p, QDOT_POSTFIX_POWER, w.power, 2, 0, 0);
+        QDOT_TRY(qdot_parser_append(p, QDOT_POSTFIX_NUMBER, w.power, 0, 0, 0));
+        return qdot_parser_append(p, QDOT_POSTFIX_POWER, w.power, 2, 0, 0);
     }
 }
 
@@ -602,16 +487,16 @@ may_take_range(const char *word)
 
 /* Parse `a..b` among the arguments of a call: a range of numbers, for some functions of times of a run. */
 static qdot_status
-parse_argument_range(parser *p)
+parse_argument_range(qdot_parser *p)
 {
-    waiting *w;
+    qdot_waiting *w;
 
-    QDOT_TRY(emit_operators_to_bracket(p));
-    w = top_of_stack(p);
-    if (w->kind != IN_CALL || w->ranged || w->count == 0 || w->indices > 0 ||
+    QDOT_TRY(qdot_parser_emit_to_bracket(p));
+    w = qdot_parser_top(p);
+    if (w->kind != QDOT_IN_CALL || w->ranged || w->count == 0 || w->indices > 0 ||
         w->primes > 0 || !may_take_range(w->token->text) ||
         qdot_resolve_is_function(p->c->session, w->token->text))
-        return qdot_cursor_expected(p->c, w->kind == IN_CALL ? "`,` or `)`" : "`)`");
+        return qdot_cursor_expected(p->c, w->kind == QDOT_IN_CALL ? "`,` or `)`" : "`)`");
     w->ranged = true;
     w->count++;
     w->last = (uint32_t)p->program->list.n;
@@ -623,7 +508,7 @@ parse_argument_range(parser *p)
 /* --- after an operand --------------------------------------------------------------- */
 
 static qdot_status
-report_stray_prime(parser *p)
+report_stray_prime(qdot_parser *p)
 {
     qdot_fail(QDOT_ESYNTAX, "a prime goes directly after a name");
     qdot_hint("the time derivative of an expression is ddt(...)");
@@ -631,7 +516,7 @@ report_stray_prime(parser *p)
 }
 
 static qdot_status
-parse_after_operand(parser *p)
+parse_after_operand(qdot_parser *p)
 {
     const qdot_token *t = p->c->at;
 
@@ -641,33 +526,32 @@ parse_after_operand(parser *p)
         return parse_unit(p);
     if (t->glued && qdot_token_is(t, "[")) {
         p->c->at++;
-        return push_on_stack(p, IN_INDEX, t);
+        return qdot_parser_push(p, QDOT_IN_INDEX, t);
     }
-    if (top_of_stack(p) != NULL && top_of_stack(p)->kind == OP_ROOT && qdot_token_is(t, "^") &&
+    if (qdot_parser_top(p) != NULL && qdot_parser_top(p)->kind == QDOT_OP_ROOT && qdot_token_is(t, "^") &&
         !qdot_token_is(t - 1, ")")) {
         qdot_fail(QDOT_ESYNTAX, "a root and a power: which comes first?");
         qdot_hint("write √(x^2) or √(x)^2");
         return fail_at_token(p, t, QDOT_ESYNTAX);
     }
-    while (top_of_stack(p) != NULL && (top_of_stack(p)->kind == OP_MEMBER || top_of_stack(p)->kind == OP_ROOT))
-        QDOT_TRY(emit_top_operator(p));
+    QDOT_TRY(qdot_parser_emit_tighter(p, QDOT_OP_POWER)); /* a root, the run of a member */
 
     if (t->kind == QDOT_TOKEN_OPERATOR || t->kind == QDOT_TOKEN_NAME)
         for (size_t i = 0; i < sizeof binaries / sizeof *binaries; i++) {
-            waiting_kind kind = binaries[i].kind;
+            qdot_waiting_kind kind = binaries[i].kind;
 
             if (strcmp(t->text, binaries[i].text) != 0)
                 continue;
-            if (p->depth == 0 && p->extent == QDOT_PARSE_SIDE && kind <= OP_RELATION)
+            if (p->depth == 0 && p->extent == QDOT_PARSE_SIDE && kind <= QDOT_OP_RELATION)
                 break;
             p->c->at++;
             return parse_binary_operator(p, kind, t);
         }
     if (qdot_cursor_is_shown_product(p->c->session, t, p->depth > 0))
-        return parse_binary_operator(p, OP_PRODUCT, t);
+        return parse_binary_operator(p, QDOT_OP_PRODUCT, t);
     if (p->depth == 0) {
         p->done = true;
-        QDOT_TRY(emit_operators_to_bracket(p));
+        QDOT_TRY(qdot_parser_emit_to_bracket(p));
         return qdot_unit_parse_in(p->c, p->program);
     }
     if (qdot_token_is(t, ","))
@@ -678,16 +562,16 @@ parse_after_operand(parser *p)
         return close_bracket(p);
     if (qdot_token_is(t, ".."))
         return parse_argument_range(p);
-    QDOT_TRY(emit_operators_to_bracket(p));
+    QDOT_TRY(qdot_parser_emit_to_bracket(p));
     return qdot_cursor_expected(
-        p->c, top_of_stack(p)->kind == IN_LIST || top_of_stack(p)->kind == IN_INDEX ||
-                      top_of_stack(p)->kind == IN_INDEX_NAME || top_of_stack(p)->kind == IN_LABEL
+        p->c, qdot_parser_top(p)->kind == QDOT_IN_LIST || qdot_parser_top(p)->kind == QDOT_IN_INDEX ||
+                      qdot_parser_top(p)->kind == QDOT_IN_INDEX_NAME || qdot_parser_top(p)->kind == QDOT_IN_LABEL
                   ? "`]`"
                   : "`)`");
 }
 
 static qdot_status
-parse_expression(parser *p)
+parse_expression(qdot_parser *p)
 {
     for (size_t i = 0; !p->done; i++) {
         if ((i & 0xFFFF) == 0xFFFF)
@@ -700,7 +584,7 @@ parse_expression(parser *p)
 qdot_status
 qdot_parse(qdot_cursor *c, qdot_parse_extent extent, qdot_postfix_list *program)
 {
-    parser p = {.c = c, .program = program, .extent = extent, .operand = true};
+    qdot_parser p = {.c = c, .program = program, .extent = extent, .operand = true};
     qdot_status status;
 
     c->error_at = c->at->start;

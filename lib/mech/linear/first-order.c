@@ -1,5 +1,6 @@
 /* first-order.c -- the motion near a state, to first order, with inputs. */
 #include "mech/linear/first-order.h"
+#include "mech/linear/first-order-parts.h"
 
 #include <math.h>
 
@@ -10,39 +11,17 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/linear/state-values.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
-/* Changes of n symbols are linear in columns: state and inputs, and a last one for what does not change. */
-typedef struct {
-    qdot_scene *s;
-    qdot_pool *pool;
-    qdot_state_values v;
-    size_t n, c, inputs;   /* numbers of coordinates that are no first-order unknowns, of constraints, of inputs, which
-                            * here are those of the scene and the first-order unknowns */
-    size_t *own;           /* [n] index of each such coordinate in the scene */
-    size_t *order;         /* [c] the constraints, holonomic ones first, then those of velocities, of accelerations */
-    qdot_echelon level[3]; /* rows over jets of that order: (n of the order itself, n each of the orders below, 1) */
-    bool *kept;            /* [c] not a repetition of earlier ones on the level of accelerations */
-    size_t y, z;           /* numbers of independent coordinates and velocities */
-    bool accelerated;      /* q'' at the state is known: the slopes of the constraints on its level have values */
-    size_t width;          /* columns: y + z of the state, inputs; some that are 0; last what does not change */
-    qdot_expr *change[3];  /* [n x width] of q, q', q'' */
-    qdot_expr *lambda;     /* [c x width] of the multipliers */
-    qdot_expr *M;          /* [n x n] */
-} job;
-
-/* The jet of coordinate i. */
-static qdot_expr
-jet(const job *j, size_t i, uint32_t order)
+qdot_expr
+qdot_first_order_jet(const qdot_first_order_job *j, size_t i, uint32_t order)
 {
     return qdot_mech_jet(j->s, j->own[i], order);
 }
 
-/* Input k: those of the scene, then its first-order unknowns, on which the motion depends in the same way. */
-static qdot_expr
-input_symbol(const job *j, size_t k)
+qdot_expr
+qdot_first_order_input(const qdot_first_order_job *j, size_t k)
 {
     const size_t m = j->s->inputs.n;
 
@@ -51,7 +30,7 @@ input_symbol(const job *j, size_t k)
 
 /* The force along coordinate i, with the rates of first-order unknowns in place of their velocities. */
 static qdot_expr
-force_along(const job *j, qdot_expr f, size_t i)
+force_along(const qdot_first_order_job *j, qdot_expr f, size_t i)
 {
     f = qdot_expr_arg(j->pool, f, (uint32_t)j->own[i]);
     for (size_t k = 0; k < j->s->states.n && f != QDOT_NIL; k++) {
@@ -63,13 +42,13 @@ force_along(const job *j, qdot_expr f, size_t i)
 }
 
 static qdot_expr
-mass_entry(const job *j, qdot_expr M, size_t i, size_t k)
+mass_entry(const qdot_first_order_job *j, qdot_expr M, size_t i, size_t k)
 {
     return qdot_expr_arg(j->pool, M, (uint32_t)(j->own[i] * j->s->coordinates.n + j->own[k]));
 }
 
-static qdot_expr *
-new_expressions(size_t n)
+qdot_expr *
+qdot_first_order_new(size_t n)
 {
     qdot_expr *e = qdot_calloc(n + 1, sizeof *e);
 
@@ -82,7 +61,7 @@ new_expressions(size_t n)
 
 /* The values of q and q' from the equations of the request; velocities that are not named are 0. */
 static qdot_status
-put_state(job *j, qdot_expr place)
+put_state(qdot_first_order_job *j, qdot_expr place)
 {
     qdot_pool *pool = j->pool;
 
@@ -93,7 +72,7 @@ put_state(job *j, qdot_expr place)
             QDOT_TRY(qdot_state_values_put(&j->v, symbol, qdot_expr_arg(pool, one, 1)));
     }
     for (size_t i = 0; i < j->n; i++)
-        QDOT_TRY(qdot_state_values_put(&j->v, jet(j, i, 1), QDOT_ZERO));
+        QDOT_TRY(qdot_state_values_put(&j->v, qdot_first_order_jet(j, i, 1), QDOT_ZERO));
     for (size_t i = 0; i < j->s->inputs.n; i++)
         QDOT_TRY(qdot_state_values_put(&j->v, j->s->inputs.at[i], QDOT_ZERO));
     return qdot_pool_check(pool);
@@ -103,7 +82,7 @@ put_state(job *j, qdot_expr place)
 
 /* Constraint k on the level of jets of that order: differentiated until its highest derivative is of the order. */
 static qdot_expr
-constraint_on_level(const job *j, size_t k, int order)
+constraint_on_level(const qdot_first_order_job *j, size_t k, int order)
 {
     qdot_expr f = j->s->constraints.at[k].f;
 
@@ -115,7 +94,7 @@ constraint_on_level(const job *j, size_t k, int order)
 /* Fail because the state does not fulfil constraint k, or its time derivative, off by `left`. In symbols that may depend on
  * the parameters: then numbers must tell. */
 static qdot_status
-report_unmet(const job *j, size_t k, int order, qdot_expr left)
+report_unmet(const qdot_first_order_job *j, size_t k, int order, qdot_expr left)
 {
     const qdot_constraint *c = &j->s->constraints.at[k];
 
@@ -127,7 +106,7 @@ report_unmet(const job *j, size_t k, int order, qdot_expr left)
 
 /* A row of constraint k on a level: its slopes, and what it is without the jets of the level. */
 static qdot_status
-constraint_row(job *j, size_t k, int order, qdot_expr *row)
+constraint_row(qdot_first_order_job *j, size_t k, int order, qdot_expr *row)
 {
     const size_t n = j->n;
     const qdot_expr f = constraint_on_level(j, k, order);
@@ -137,14 +116,14 @@ constraint_row(job *j, size_t k, int order, qdot_expr *row)
         for (size_t i = 0; i < n; i++)
             row[(size_t)at * n + i] = o < 2 && order == 2 && !j->accelerated
                                           ? QDOT_ZERO
-                                          : qdot_diff(j->pool, f, jet(j, i, (uint32_t)o));
+                                          : qdot_diff(j->pool, f, qdot_first_order_jet(j, i, (uint32_t)o));
     row[(size_t)(order + 1) * n] = rest;
     return qdot_state_values_of(&j->v, (size_t)(order + 1) * n + 1, row);
 }
 
 /* Whether what a repeated constraint leaves, `row` over the jets below the level, changes with the motion. */
 static bool
-repetition_moves(job *j, int order, const qdot_expr *row)
+repetition_moves(qdot_first_order_job *j, int order, const qdot_expr *row)
 {
     const size_t n = j->n;
 
@@ -166,7 +145,7 @@ repetition_moves(job *j, int order, const qdot_expr *row)
 /* Write the changes of the jets of a level: of independent ones the column given by *first and counted up, of dependent
  * ones what the rows of the level make of the others. */
 static qdot_status
-write_changes(job *j, int order, size_t *first)
+write_changes(qdot_first_order_job *j, int order, size_t *first)
 {
     const qdot_echelon *e = &j->level[order];
     const size_t n = j->n, width = j->width;
@@ -200,10 +179,10 @@ write_changes(job *j, int order, size_t *first)
 
 /* Bring the constraints that act on a level into echelon form; a repeated one must hold along the others. */
 static qdot_status
-reduce_level(job *j, int order)
+reduce_level(qdot_first_order_job *j, int order)
 {
     const size_t n = j->n, width = (size_t)(order + 1) * n + 1;
-    qdot_expr *row = new_expressions(width);
+    qdot_expr *row = qdot_first_order_new(width);
     qdot_status status = row == NULL ? QDOT_ENOMEM : qdot_echelon_begin(&j->level[order], j->c, n, width);
 
     for (size_t i = 0; i < j->c && status == QDOT_OK; i++) {
@@ -236,9 +215,8 @@ reduce_level(job *j, int order)
 
 /* --- equations of motion ------------------------------------------------------------- */
 
-/* The sum of X[i] change[i] over the n coordinates, of columns a. */
-static qdot_expr
-change_along(job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
+qdot_expr
+qdot_first_order_along(qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
 {
     qdot_expr sum = QDOT_ZERO;
 
@@ -251,10 +229,10 @@ change_along(job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
 /* Solve A x = b for several right sides; A is [n x n], X has a row of `columns` right sides for each unknown and is
  * replaced by the solutions. QDOT_ESINGULAR without a message. */
 static qdot_status
-solve_together(job *j, size_t n, const qdot_expr *A, size_t columns, qdot_expr *X)
+solve_together(qdot_first_order_job *j, size_t n, const qdot_expr *A, size_t columns, qdot_expr *X)
 {
     qdot_echelon e;
-    qdot_expr *row = new_expressions(n + columns);
+    qdot_expr *row = qdot_first_order_new(n + columns);
     qdot_status status = row == NULL ? QDOT_ENOMEM : qdot_echelon_begin(&e, n, n, n + columns);
 
     if (row == NULL)
@@ -281,15 +259,15 @@ solve_together(job *j, size_t n, const qdot_expr *A, size_t columns, qdot_expr *
 /* From the changes of q'' without its independent part, and F [n x width], the changes of all other terms of
  * M q'' - f - G^T lambda: the independent accelerations, into the changes of q''. */
 static qdot_status
-solve_accelerations(job *j, const qdot_expr *F, size_t from, size_t to)
+solve_accelerations(qdot_first_order_job *j, const qdot_expr *F, size_t from, size_t to)
 {
     const qdot_echelon *e = &j->level[2];
     const size_t n = j->n, m = n - e->rank, columns = to - from, width = j->width;
-    qdot_expr *N = new_expressions(n * m), *A = new_expressions(m * m), *X = new_expressions(m * columns), *MN;
+    qdot_expr *N = qdot_first_order_new(n * m), *A = qdot_first_order_new(m * m), *X = qdot_first_order_new(m * columns), *MN;
     qdot_status status = N == NULL || A == NULL || X == NULL ? QDOT_ENOMEM : QDOT_OK;
     size_t a = 0;
 
-    MN = new_expressions(n * m);
+    MN = qdot_first_order_new(n * m);
     if (MN == NULL)
         status = QDOT_ENOMEM;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) { /* Na: a column for each independent acceleration */
@@ -326,7 +304,7 @@ solve_accelerations(job *j, const qdot_expr *F, size_t from, size_t to)
                 sum = qdot_sub(j->pool, sum,
                                qdot_mul(j->pool, N[h * m + i],
                                         qdot_add(j->pool, F[h * width + from + k],
-                                                 change_along(j, j->M + h * n, j->change[2], from + k))));
+                                                 qdot_first_order_along(j, j->M + h * n, j->change[2], from + k))));
             X[i * columns + k] = qdot_elimination_short(&j->v.x, sum);
         }
         status = qdot_pool_check(j->pool);
@@ -352,11 +330,11 @@ solve_accelerations(job *j, const qdot_expr *F, size_t from, size_t to)
 
 /* The multipliers of the constraints that are kept, from G^T lambda = M dq'' + F; G [c x n]. */
 static qdot_status
-solve_multipliers(job *j, const qdot_expr *G, const qdot_expr *F, size_t from, size_t to)
+solve_multipliers(qdot_first_order_job *j, const qdot_expr *G, const qdot_expr *F, size_t from, size_t to)
 {
     const qdot_echelon *e = &j->level[2];
     const size_t n = j->n, r = e->rank, columns = to - from;
-    qdot_expr *A = new_expressions(r * r), *X = new_expressions(r * columns);
+    qdot_expr *A = qdot_first_order_new(r * r), *X = qdot_first_order_new(r * columns);
     size_t *which = qdot_calloc(r + 1, sizeof *which), at = 0;
     qdot_status status = A == NULL || X == NULL || which == NULL ? QDOT_ENOMEM : QDOT_OK;
 
@@ -371,7 +349,7 @@ solve_multipliers(job *j, const qdot_expr *G, const qdot_expr *F, size_t from, s
         for (size_t k = 0; k < columns; k++)
             X[i * columns + k] = qdot_elimination_short(
                 &j->v.x, qdot_add(j->pool, F[row * j->width + from + k],
-                                  change_along(j, j->M + row * n, j->change[2], from + k)));
+                                  qdot_first_order_along(j, j->M + row * n, j->change[2], from + k)));
     }
     if (status == QDOT_OK)
         status = qdot_pool_check(j->pool);
@@ -388,23 +366,23 @@ solve_multipliers(job *j, const qdot_expr *G, const qdot_expr *F, size_t from, s
 
 /* The slope of constraint k that multiplies its multiplier in the equation of coordinate i. */
 static qdot_expr
-multiplied_slope(const job *j, size_t k, size_t i)
+multiplied_slope(const qdot_first_order_job *j, size_t k, size_t i)
 {
     const qdot_constraint *c = &j->s->constraints.at[k];
 
-    return qdot_diff(j->pool, c->f, jet(j, i, (uint32_t)c->kind));
+    return qdot_diff(j->pool, c->f, qdot_first_order_jet(j, i, (uint32_t)c->kind));
 }
 
 /* M q'' - f - G^T lambda of coordinate i, with symbols for q'' and lambda. */
 static qdot_expr
-residual_of_motion(const job *j, qdot_expr M, qdot_expr f, size_t i)
+residual_of_motion(const qdot_first_order_job *j, qdot_expr M, qdot_expr f, size_t i)
 {
     qdot_pool *pool = j->pool;
     qdot_expr sum = qdot_neg(pool, force_along(j, f, i));
 
     for (size_t k = 0; k < j->n; k++)
         sum = qdot_add(pool, sum, qdot_mul(pool, mass_entry(j, M, i, k),
-                                           jet(j, k, 2)));
+                                           qdot_first_order_jet(j, k, 2)));
     for (size_t k = 0; k < j->c; k++)
         sum = qdot_sub(pool, sum, qdot_mul(pool, multiplied_slope(j, k, i), j->s->constraints.at[k].multiplier));
     return sum;
@@ -412,10 +390,10 @@ residual_of_motion(const job *j, qdot_expr M, qdot_expr f, size_t i)
 
 /* q'' and lambda at the state: the last column. They become values. */
 static qdot_status
-find_accelerations_at_state(job *j, qdot_expr f, const qdot_expr *G)
+find_accelerations_at_state(qdot_first_order_job *j, qdot_expr f, const qdot_expr *G)
 {
     const size_t last = j->width - 1;
-    qdot_expr *F = new_expressions(j->n * j->width), *f0 = new_expressions(j->n);
+    qdot_expr *F = qdot_first_order_new(j->n * j->width), *f0 = qdot_first_order_new(j->n);
     qdot_status status = F == NULL || f0 == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (size_t i = 0; i < j->n && status == QDOT_OK; i++)
@@ -429,7 +407,7 @@ find_accelerations_at_state(job *j, qdot_expr f, const qdot_expr *G)
     if (status == QDOT_OK)
         status = solve_multipliers(j, G, F, last, j->width);
     for (size_t i = 0; i < j->n && status == QDOT_OK; i++)
-        status = qdot_state_values_put(&j->v, jet(j, i, 2), j->change[2][i * j->width + last]);
+        status = qdot_state_values_put(&j->v, qdot_first_order_jet(j, i, 2), j->change[2][i * j->width + last]);
     for (size_t k = 0; k < j->c && status == QDOT_OK; k++)
         status = qdot_state_values_put(&j->v, j->s->constraints.at[k].multiplier, j->lambda[k * j->width + last]);
     qdot_free(F);
@@ -439,10 +417,10 @@ find_accelerations_at_state(job *j, qdot_expr f, const qdot_expr *G)
 
 /* The changes of q'' and lambda with state and inputs. */
 static qdot_status
-find_changes(job *j, qdot_expr M, qdot_expr f, const qdot_expr *G)
+find_changes(qdot_first_order_job *j, qdot_expr M, qdot_expr f, const qdot_expr *G)
 {
     const size_t n = j->n, moving = 2 * n + j->inputs, last = j->y + j->z + j->inputs;
-    qdot_expr *slope = new_expressions(n * moving), *F = new_expressions(n * j->width);
+    qdot_expr *slope = qdot_first_order_new(n * moving), *F = qdot_first_order_new(n * j->width);
     qdot_status status = slope == NULL || F == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -450,8 +428,8 @@ find_changes(job *j, qdot_expr M, qdot_expr f, const qdot_expr *G)
 
         for (size_t k = 0; k < moving; k++)
             slope[i * moving + k] = qdot_diff(j->pool, residual,
-                                              k < 2 * n ? jet(j, k % n, k < n ? 0 : 1)
-                                                        : input_symbol(j, k - 2 * n));
+                                              k < 2 * n ? qdot_first_order_jet(j, k % n, k < n ? 0 : 1)
+                                                        : qdot_first_order_input(j, k - 2 * n));
         status = qdot_pool_check(j->pool);
     }
     if (status == QDOT_OK)
@@ -459,8 +437,8 @@ find_changes(job *j, qdot_expr M, qdot_expr f, const qdot_expr *G)
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         for (size_t a = 0; a < last; a++) {
             const qdot_expr *own = slope + i * moving;
-            qdot_expr sum = qdot_add(j->pool, change_along(j, own, j->change[0], a),
-                                     change_along(j, own + n, j->change[1], a));
+            qdot_expr sum = qdot_add(j->pool, qdot_first_order_along(j, own, j->change[0], a),
+                                     qdot_first_order_along(j, own + n, j->change[1], a));
 
             if (a >= j->y + j->z)
                 sum = qdot_add(j->pool, sum, own[2 * n + a - j->y - j->z]);
@@ -481,7 +459,7 @@ find_changes(job *j, qdot_expr M, qdot_expr f, const qdot_expr *G)
 
 /* The level of accelerations anew, as q'' at the state is known now. */
 static qdot_status
-reduce_accelerations_again(job *j)
+reduce_accelerations_again(qdot_first_order_job *j)
 {
     j->accelerated = true;
     if (j->c == 0)
@@ -495,7 +473,7 @@ reduce_accelerations_again(job *j)
 
 /* The independent jets: positions and velocities. */
 static qdot_status
-reduce_constraints(job *j)
+reduce_constraints(qdot_first_order_job *j)
 {
     size_t first = 0;
 
@@ -511,11 +489,11 @@ reduce_constraints(job *j)
 }
 
 static qdot_status
-linearise(job *j)
+linearise(qdot_first_order_job *j)
 {
     const size_t n = j->n;
     const qdot_expr M = qdot_mech_numeric_mass(j->s), f = qdot_mech_numeric_forcing(j->s);
-    qdot_expr *G = new_expressions(j->c * n);
+    qdot_expr *G = qdot_first_order_new(j->c * n);
     qdot_status status = G == NULL ? QDOT_ENOMEM : qdot_pool_check(j->pool);
 
     if (status == QDOT_OK && (qdot_mech_holds(j->s, f) & QDOT_HAS_MULTIPLIER) != 0)
@@ -523,7 +501,7 @@ linearise(job *j)
     if (status == QDOT_OK)
         status = reduce_constraints(j);
     if (status == QDOT_OK) {
-        j->lambda = new_expressions(j->c * j->width);
+        j->lambda = qdot_first_order_new(j->c * j->width);
         for (size_t i = 0; i < n * n; i++)
             j->M[i] = mass_entry(j, M, i / n, i % n);
         for (size_t i = 0; i < j->c * n; i++)
@@ -542,108 +520,6 @@ linearise(job *j)
     return status;
 }
 
-/* The value of a symbol at the state; itself where it has none. */
-static qdot_expr
-value_of_symbol(const job *j, qdot_expr symbol)
-{
-    for (size_t i = 0; i < j->v.symbols.n; i++)
-        if (j->v.symbols.at[i] == symbol)
-            return j->v.values.at[i];
-    return symbol;
-}
-
-/* The column of the results, (state, first-order unknowns, inputs), that column a of the changes is. */
-static size_t
-column_of_results(const job *j, size_t a)
-{
-    const size_t motion = j->y + j->z, m = j->s->inputs.n, s = j->s->states.n;
-
-    return a < motion ? a : a < motion + m ? a + s : a - m;
-}
-
-/* Write the first-order unknowns and their rates behind the other symbols: rows 3 n + c + inputs ... of the results. */
-static qdot_status
-write_first_order_unknowns(job *j, qdot_first_order *out)
-{
-    const qdot_scene *s = j->s;
-    const size_t n = j->n, moving = 2 * n + j->inputs, columns = out->states + out->inputs, first = out->n - 2 * s->states.n;
-    qdot_expr *slope = new_expressions(moving + 1);
-    qdot_status status = slope == NULL ? QDOT_ENOMEM : QDOT_OK;
-
-    for (size_t k = 0; k < s->states.n && status == QDOT_OK; k++) {
-        const qdot_state *z = &s->states.at[k];
-        qdot_expr *own = out->change + (first + 2 * k) * columns, *rate = own + columns;
-
-        for (size_t i = 0; i < moving; i++)
-            slope[i] = qdot_diff(j->pool, z->rate, i < 2 * n ? jet(j, i % n, i < n ? 0 : 1) : input_symbol(j, i - 2 * n));
-        slope[moving] = z->rate;
-        status = qdot_pool_check(j->pool);
-        if (status == QDOT_OK)
-            status = qdot_state_values_of(&j->v, moving + 1, slope);
-        for (size_t a = 0; a < j->y + j->z + j->inputs && status == QDOT_OK; a++) {
-            qdot_expr sum = qdot_add(j->pool, change_along(j, slope, j->change[0], a),
-                                     change_along(j, slope + n, j->change[1], a));
-
-            if (a >= j->y + j->z)
-                sum = qdot_add(j->pool, sum, slope[2 * n + a - j->y - j->z]);
-            rate[column_of_results(j, a)] = qdot_elimination_short(&j->v.x, sum);
-        }
-        out->symbol[first + 2 * k] = z->z;
-        out->symbol[first + 2 * k + 1] = qdot_symbol_jet(j->pool, z->z, 1);
-        out->value[first + 2 * k] = value_of_symbol(j, z->z);
-        out->value[first + 2 * k + 1] = slope[moving];
-        own[j->y + j->z + k] = QDOT_ONE;
-        out->moves |= !qdot_elimination_is_zero(&j->v.x, slope[moving]);
-    }
-    qdot_free(slope);
-    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
-}
-
-/* Hand out the results. */
-static qdot_status
-write_results(job *j, qdot_first_order *out)
-{
-    const size_t n = j->n, m = j->s->inputs.n, inner = j->y + j->z + j->inputs;
-    size_t at = 0, columns;
-
-    out->states = j->y + j->z + j->s->states.n;
-    out->inputs = m;
-    columns = out->states + m;
-    out->n = 3 * n + j->c + m + 2 * j->s->states.n;
-    out->state = new_expressions(out->states);
-    out->symbol = new_expressions(2 * out->n);
-    out->change = new_expressions(out->n * columns);
-    if (out->state == NULL || out->symbol == NULL || out->change == NULL)
-        return QDOT_ENOMEM;
-    out->value = out->symbol + out->n;
-    for (int order = 0; order < 2; order++)
-        for (size_t i = 0; i < n; i++) {
-            bool dependent = false;
-
-            for (size_t r = 0; r < j->level[order].rank; r++)
-                dependent |= j->level[order].pivot[r] == i;
-            if (!dependent)
-                out->state[at++] = jet(j, i, (uint32_t)order);
-        }
-    for (size_t k = 0; k < j->s->states.n; k++)
-        out->state[at++] = j->s->states.at[k].z;
-    for (size_t i = 0; i < 3 * n + j->c + m; i++) {
-        const qdot_expr *row = i < 3 * n ? j->change[i / n] + i % n * j->width
-                               : i < 3 * n + j->c ? j->lambda + (i - 3 * n) * j->width : NULL;
-
-        out->symbol[i] = i < 3 * n          ? jet(j, i % n, (uint32_t)(i / n))
-                         : i < 3 * n + j->c ? j->s->constraints.at[i - 3 * n].multiplier
-                                            : j->s->inputs.at[i - 3 * n - j->c];
-        out->value[i] = value_of_symbol(j, out->symbol[i]);
-        for (size_t a = 0; a < inner && row != NULL; a++)
-            out->change[i * columns + column_of_results(j, a)] = row[a];
-        if (row == NULL)
-            out->change[i * columns + out->states + i - 3 * n - j->c] = QDOT_ONE;
-        out->moves |= i >= 2 * n && i < 3 * n && !qdot_elimination_is_zero(&j->v.x, out->value[i]);
-    }
-    return write_first_order_unknowns(j, out);
-}
-
 void
 qdot_first_order_clear(qdot_first_order *x)
 {
@@ -656,7 +532,7 @@ qdot_first_order_clear(qdot_first_order *x)
 qdot_status
 qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, qdot_first_order *out)
 {
-    job j = {.s = s, .pool = s->pool, .c = s->constraints.n, .inputs = s->inputs.n + s->states.n,
+    qdot_first_order_job j = {.s = s, .pool = s->pool, .c = s->constraints.n, .inputs = s->inputs.n + s->states.n,
              .own = qdot_calloc(s->coordinates.n + 1, sizeof *j.own)};
     qdot_status status;
     size_t at = 0;
@@ -670,9 +546,9 @@ qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, q
     j.width = 2 * j.n + j.inputs + 1;
     j.order = qdot_calloc(j.c + 1, sizeof *j.order);
     j.kept = qdot_calloc(j.c + 1, sizeof *j.kept);
-    j.M = new_expressions(j.n * j.n);
+    j.M = qdot_first_order_new(j.n * j.n);
     for (int i = 0; i < 3; i++)
-        j.change[i] = new_expressions(j.n * j.width);
+        j.change[i] = qdot_first_order_new(j.n * j.width);
     qdot_state_values_begin(&j.v, s, request->numbers, request->bind, request->user);
     status = j.order == NULL || j.kept == NULL || j.M == NULL || j.change[0] == NULL || j.change[1] == NULL ||
                      j.change[2] == NULL
@@ -685,7 +561,7 @@ qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, q
     if (status == QDOT_OK)
         status = linearise(&j);
     if (status == QDOT_OK)
-        status = write_results(&j, out);
+        status = qdot_first_order_write(&j, out);
     for (int i = 0; i < 3; i++) {
         qdot_echelon_end(&j.level[i]);
         qdot_free(j.change[i]);

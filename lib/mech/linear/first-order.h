@@ -36,7 +36,7 @@ typedef struct {
     void *user;
 } qdot_first_order_request;
 
-typedef struct {
+typedef struct qdot_first_order {
     size_t states, inputs;
     qdot_expr *state;   /* [states] the symbols of the independent coordinates, then of the independent velocities */
     size_t n;           /* number of symbols that move with state and inputs */

@@ -88,7 +88,7 @@ is_function_of(const block *k, qdot_expr Q, form *m)
 
 /* Find a node Q of F of which F is a function, beside terms linear in x. */
 static qdot_status
-find_form(const block *k, form *m, bool *found)
+find_quadratic_inside(const block *k, form *m, bool *found)
 {
     qdot_walk w;
 
@@ -113,7 +113,7 @@ put(const block *k, qdot_expr e, const qdot_expr *at)
 
 /* Whether k->solved is proved to fulfil y = dF/dx, where F is real. */
 static bool
-is_proved(const block *k)
+is_solution_proved(const block *k)
 {
     qdot_expr conditions[MOST_CONDITIONS + 1];
     qdot_facts facts = *k->facts;
@@ -146,7 +146,7 @@ choose_root(block *k, qdot_expr equation, qdot_expr unknown, void (*fill)(block 
         if (roots.root.at[i].period != QDOT_NIL || roots.root.at[i].value == unknown)
             continue;
         fill(k, roots.root.at[i].value, user);
-        if (is_proved(k)) {
+        if (is_solution_proved(k)) {
             which = i;
             good++;
         }
@@ -313,7 +313,7 @@ qdot_legendre_bent(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x,
     }
     homogeneous = status == QDOT_OK && is_homogeneous(&k);
     if (status == QDOT_OK)
-        status = find_form(&k, &m, &by_form);
+        status = find_quadratic_inside(&k, &m, &by_form);
     if (status == QDOT_OK && by_form)
         status = solve_by_form(&k, &m, found, bound);
     if (status == QDOT_OK && homogeneous && *bound == QDOT_NIL)

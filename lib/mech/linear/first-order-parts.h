@@ -1,0 +1,38 @@
+/* first-order-parts.h -- what the files of the linear motion about a state share. */
+#ifndef QDOT_MECH_FIRST_ORDER_PARTS_H
+#define QDOT_MECH_FIRST_ORDER_PARTS_H
+
+#include "mech/linear/state-values.h"
+
+/* Changes of n symbols are linear in columns: state and inputs, and a last one for what does not change. */
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_state_values v;
+    size_t n, c, inputs;   /* numbers of coordinates that are no first-order unknowns, of constraints, of inputs, which
+                            * here are those of the scene and the first-order unknowns */
+    size_t *own;           /* [n] index of each such coordinate in the scene */
+    size_t *order;         /* [c] the constraints, holonomic ones first, then those of velocities, of accelerations */
+    qdot_echelon level[3]; /* rows over jets of that order: (n of the order itself, n each of the orders below, 1) */
+    bool *kept;            /* [c] not a repetition of earlier ones on the level of accelerations */
+    size_t y, z;           /* numbers of independent coordinates and velocities */
+    bool accelerated;      /* q'' at the state is known: the slopes of the constraints on its level have values */
+    size_t width;          /* columns: y + z of the state, inputs; some that are 0; last what does not change */
+    qdot_expr *change[3];  /* [n x width] of q, q', q'' */
+    qdot_expr *lambda;     /* [c x width] of the multipliers */
+    qdot_expr *M;          /* [n x n] */
+} qdot_first_order_job;
+
+/* The jet of coordinate i. */
+qdot_expr qdot_first_order_jet(const qdot_first_order_job *j, size_t i, uint32_t order);
+/* Input k: those of the scene, then its first-order unknowns, on which the motion depends in the same way. */
+qdot_expr qdot_first_order_input(const qdot_first_order_job *j, size_t k);
+/* n expressions, all 0, which the caller frees; NULL: there is none. */
+qdot_expr *qdot_first_order_new(size_t n);
+/* The sum of X[i] change[i] over the n coordinates, of columns a. */
+qdot_expr qdot_first_order_along(qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a);
+/* Hand out the results. */
+struct qdot_first_order;
+QDOT_MUST_CHECK qdot_status qdot_first_order_write(qdot_first_order_job *j, struct qdot_first_order *out);
+
+#endif

@@ -1,0 +1,110 @@
+/* first-order-results.c -- what the elimination gave, as the symbols of a scene, their values and changes. */
+#include "mech/linear/first-order.h"
+#include "mech/linear/first-order-parts.h"
+
+#include "base/memory.h"
+#include "expr/build.h"
+#include "expr/calculus.h"
+#include "expr/symbol.h"
+#include "mech/scene/scene.h"
+
+/* The value of a symbol at the state; itself where it has none. */
+static qdot_expr
+value_of_symbol(const qdot_first_order_job *j, qdot_expr symbol)
+{
+    for (size_t i = 0; i < j->v.symbols.n; i++)
+        if (j->v.symbols.at[i] == symbol)
+            return j->v.values.at[i];
+    return symbol;
+}
+
+/* The column of the results, (state, first-order unknowns, inputs), that column a of the changes is. */
+static size_t
+column_of_results(const qdot_first_order_job *j, size_t a)
+{
+    const size_t motion = j->y + j->z, m = j->s->inputs.n, s = j->s->states.n;
+
+    return a < motion ? a : a < motion + m ? a + s : a - m;
+}
+
+/* Write the first-order unknowns and their rates behind the other symbols: rows 3 n + c + inputs ... of the results. */
+static qdot_status
+write_first_order_unknowns(qdot_first_order_job *j, qdot_first_order *out)
+{
+    const qdot_scene *s = j->s;
+    const size_t n = j->n, moving = 2 * n + j->inputs, columns = out->states + out->inputs, first = out->n - 2 * s->states.n;
+    qdot_expr *slope = qdot_first_order_new(moving + 1);
+    qdot_status status = slope == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < s->states.n && status == QDOT_OK; k++) {
+        const qdot_state *z = &s->states.at[k];
+        qdot_expr *own = out->change + (first + 2 * k) * columns, *rate = own + columns;
+
+        for (size_t i = 0; i < moving; i++)
+            slope[i] = qdot_diff(j->pool, z->rate, i < 2 * n ? qdot_first_order_jet(j, i % n, i < n ? 0 : 1) : qdot_first_order_input(j, i - 2 * n));
+        slope[moving] = z->rate;
+        status = qdot_pool_check(j->pool);
+        if (status == QDOT_OK)
+            status = qdot_state_values_of(&j->v, moving + 1, slope);
+        for (size_t a = 0; a < j->y + j->z + j->inputs && status == QDOT_OK; a++) {
+            qdot_expr sum = qdot_add(j->pool, qdot_first_order_along(j, slope, j->change[0], a),
+                                     qdot_first_order_along(j, slope + n, j->change[1], a));
+
+            if (a >= j->y + j->z)
+                sum = qdot_add(j->pool, sum, slope[2 * n + a - j->y - j->z]);
+            rate[column_of_results(j, a)] = qdot_elimination_short(&j->v.x, sum);
+        }
+        out->symbol[first + 2 * k] = z->z;
+        out->symbol[first + 2 * k + 1] = qdot_symbol_jet(j->pool, z->z, 1);
+        out->value[first + 2 * k] = value_of_symbol(j, z->z);
+        out->value[first + 2 * k + 1] = slope[moving];
+        own[j->y + j->z + k] = QDOT_ONE;
+        out->moves |= !qdot_elimination_is_zero(&j->v.x, slope[moving]);
+    }
+    qdot_free(slope);
+    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
+}
+
+qdot_status
+qdot_first_order_write(qdot_first_order_job *j, qdot_first_order *out)
+{
+    const size_t n = j->n, m = j->s->inputs.n, inner = j->y + j->z + j->inputs;
+    size_t at = 0, columns;
+
+    out->states = j->y + j->z + j->s->states.n;
+    out->inputs = m;
+    columns = out->states + m;
+    out->n = 3 * n + j->c + m + 2 * j->s->states.n;
+    out->state = qdot_first_order_new(out->states);
+    out->symbol = qdot_first_order_new(2 * out->n);
+    out->change = qdot_first_order_new(out->n * columns);
+    if (out->state == NULL || out->symbol == NULL || out->change == NULL)
+        return QDOT_ENOMEM;
+    out->value = out->symbol + out->n;
+    for (int order = 0; order < 2; order++)
+        for (size_t i = 0; i < n; i++) {
+            bool dependent = false;
+
+            for (size_t r = 0; r < j->level[order].rank; r++)
+                dependent |= j->level[order].pivot[r] == i;
+            if (!dependent)
+                out->state[at++] = qdot_first_order_jet(j, i, (uint32_t)order);
+        }
+    for (size_t k = 0; k < j->s->states.n; k++)
+        out->state[at++] = j->s->states.at[k].z;
+    for (size_t i = 0; i < 3 * n + j->c + m; i++) {
+        const qdot_expr *row = i < 3 * n ? j->change[i / n] + i % n * j->width
+                               : i < 3 * n + j->c ? j->lambda + (i - 3 * n) * j->width : NULL;
+
+        out->symbol[i] = i < 3 * n          ? qdot_first_order_jet(j, i % n, (uint32_t)(i / n))
+                         : i < 3 * n + j->c ? j->s->constraints.at[i - 3 * n].multiplier
+                                            : j->s->inputs.at[i - 3 * n - j->c];
+        out->value[i] = value_of_symbol(j, out->symbol[i]);
+        for (size_t a = 0; a < inner && row != NULL; a++)
+            out->change[i * columns + column_of_results(j, a)] = row[a];
+        if (row == NULL)
+            out->change[i * columns + out->states + i - 3 * n - j->c] = QDOT_ONE;
+        out->moves |= i >= 2 * n && i < 3 * n && !qdot_elimination_is_zero(&j->v.x, out->value[i]);
+    }
+    return write_first_order_unknowns(j, out);
+}
