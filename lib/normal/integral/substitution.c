@@ -187,6 +187,8 @@ qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, 
     qdot_walk_end(&w);
     for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed; i++)
         F = substitute_part(t, term, tried[i], x, depth);
+    if (F == QDOT_NIL && !t->failed && depth <= 1)
+        F = substitute_inverse(t, term, term, x, depth); /* a root alone */
     for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed && depth <= 1; i++)
         F = qdot_expr_is_function(t->pool, tried[i], QDOT_EXP) ? substitute_exponential(t, term, tried[i], x, depth)
                                                                : substitute_inverse(t, term, tried[i], x, depth);
