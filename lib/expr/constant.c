@@ -339,6 +339,8 @@ integral_of_node(evaluation *v, arb_t y, qdot_expr e, slong bits)
 
     if ((qdot_expr_node(v->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
         return report_unset_symbols(v);
+    if (v->estimated && bits > 2 * (FIRST_BITS + v->wanted))
+        return QDOT_OK; /* y stays: no number of bits makes an estimate a bound, that it is 0, say */
     arb_init(a);
     arb_init(b);
     arb_set(a, v->args[1]);

@@ -259,18 +259,24 @@ find_split(const qdot_complex_ball *f, const arb_t a, const arb_t b, arb_t at, s
     return found;
 }
 
-/* From a to b as a whole; where that fails, on the pieces between the places at which f may be singular. */
+/* From a to b: on the pieces between the places at which f may be singular, where f has kinks or steps or cannot be
+ * integrated as a whole. */
 static bool
 integrate_split(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits, bool *proved)
 {
     arb_t from, at, part;
-    bool found = integrate_piece(y, f, a, b, bits, proved);
+    bool found;
 
-    if (found)
-        return true;
     arb_init(from);
     arb_init(at);
     arb_init(part);
+    found = !(f->kinked && find_split(f, a, b, at, bits)) && integrate_piece(y, f, a, b, bits, proved);
+    if (found) {
+        arb_clear(from);
+        arb_clear(at);
+        arb_clear(part);
+        return true;
+    }
     arb_set(from, a);
     arb_zero(y);
     for (int pieces = 0; pieces < MOST_PIECES; pieces++) {
