@@ -189,17 +189,53 @@ substitute(arb_t y, const substitution *s)
 
 /* --- on pieces ------------------------------------------------------------------------------------------ */
 
+static bool
+substitute_between(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits)
+{
+    const bool from = arb_is_finite(a), to = arb_is_finite(b);
+
+    return substitute(y, &(substitution){f, a, b, from && to ? 0 : from ? 1 : to ? -1 : 2, bits});
+}
+
+/* From a to b in two parts that are not alike: over the whole, poles that lie symmetrically cancel in the sums, and an
+ * integral that diverges has a number, as that of tan(x) from 0 to 2 pi or of x/(x^2 + 1) over the whole line. */
+static bool
+estimate(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits)
+{
+    const bool from = arb_is_finite(a), to = arb_is_finite(b);
+    const slong precise = 8 * bits + 64;
+    arb_t middle, width, part;
+    bool found;
+
+    arb_init(middle);
+    arb_init(width);
+    arb_init(part);
+    arb_const_pi(middle, precise);
+    arb_mul_2exp_si(middle, middle, -3); /* of the width: no zero of usual functions is there */
+    if (from && to) {
+        arb_sub(width, b, a, precise);
+        arb_mul(middle, middle, width, precise);
+    }
+    if (from)
+        arb_add(middle, a, middle, precise);
+    else if (to)
+        arb_sub(middle, b, middle, precise);
+    found = substitute_between(y, f, a, middle, bits) && substitute_between(part, f, middle, b, bits);
+    arb_add(y, y, part, 3 * bits);
+    arb_clear(middle);
+    arb_clear(width);
+    arb_clear(part);
+    return found;
+}
+
 /* From a to b by the first way that gives a number. */
 static bool
 integrate_piece(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits, bool *proved)
 {
-    const bool from = arb_is_finite(a), to = arb_is_finite(b);
-    const substitution s = {f, a, b, from && to ? 0 : from ? 1 : to ? -1 : 2, bits};
-
-    if (from && to && enclose(y, f, a, b, bits))
+    if (arb_is_finite(a) && arb_is_finite(b) && enclose(y, f, a, b, bits))
         return true;
     *proved = false;
-    return substitute(y, &s);
+    return estimate(y, f, a, b, bits);
 }
 
 /* Whether the node e is where u, linear in the variable, may make the integrand singular: abs(u), log(u), u^p. */
