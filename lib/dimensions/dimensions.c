@@ -6,6 +6,7 @@
 #include "dimensions/form.h"
 #include "expr/exact.h"
 #include "expr/function.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
@@ -168,6 +169,27 @@ of_arg(const qdot_dimensions *d, qdot_expr e, uint32_t i)
     return d->of.at[qdot_expr_arg(d->pool, e, i)];
 }
 
+/* The variable of an integral with ends, a symbol of this integral alone; nil: e is none. */
+static qdot_expr
+variable_of(const qdot_dimensions *d, qdot_expr e)
+{
+    char name[96];
+
+    if (qdot_expr_kind(d->pool, e) != QDOT_INTEGRAL || !qdot_integral_is_definite(d->pool, e))
+        return QDOT_NIL;
+    snprintf(name, sizeof name, "%.60s of integral %u", qdot_integral_name(d->pool, e), (unsigned)e);
+    return qdot_symbol_get(d->pool, QDOT_FORMAL, name);
+}
+
+/* The i-th node that must be visited before e: its args, but the integrand with this integral's own variable. */
+static qdot_expr
+part_of(const qdot_dimensions *d, qdot_expr e, uint32_t i)
+{
+    const qdot_expr x = i == 0 ? variable_of(d, e) : QDOT_NIL;
+
+    return x == QDOT_NIL ? qdot_expr_arg(d->pool, e, i) : qdot_integral_open(d->pool, e, x);
+}
+
 /* The node that must be visited before e in which it stands beside its args; nil: none. */
 static qdot_expr
 what_comes_before(const qdot_dimensions *d, qdot_expr e)
@@ -175,7 +197,7 @@ what_comes_before(const qdot_dimensions *d, qdot_expr e)
     const qdot_symbol *s = qdot_expr_symbol(d->pool, e);
 
     if (s == NULL)
-        return QDOT_NIL;
+        return variable_of(d, e);
     if (s->base != QDOT_NIL)
         return s->base;
     return s->class == QDOT_FORMAL && d->stands_for != NULL ? d->stands_for(d->user, e) : QDOT_NIL;
@@ -316,8 +338,23 @@ undefined_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
 }
 
 static qdot_status
+integral_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
+{
+    const qdot_expr own = variable_of(d, e), x = own != QDOT_NIL ? own : qdot_expr_arg(d->pool, e, 1);
+
+    for (uint32_t i = 1; own != QDOT_NIL && i < 3; i++)
+        QDOT_TRY(join_forms(d, d->of.at[x], of_arg(d, e, i), "an integral over %s has an end that is %s"));
+    *form = qdot_form_addmul(&d->forms, d->of.at[part_of(d, e, 0)], d->of.at[x], (qdot_exponent){1, 1});
+    return QDOT_OK;
+}
+
+static qdot_status
 node_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
 {
+    if (qdot_infinite(d->pool, e) != 0) {
+        *form = qdot_form_any(&d->forms);
+        return QDOT_OK;
+    }
     switch (qdot_expr_kind(d->pool, e)) {
     case QDOT_NUM:
         *form = e == QDOT_ZERO ? qdot_form_any(&d->forms) : qdot_form_constant(&d->forms, qdot_dimension_none());
@@ -327,6 +364,7 @@ node_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
     case QDOT_PROD: return product_form(d, e, form);
     case QDOT_FUN: return function_form(d, e, form);
     case QDOT_UFUN: return undefined_form(d, e, form);
+    case QDOT_INTEGRAL: return integral_form(d, e, form);
     case QDOT_REL:
         *form = qdot_form_none(&d->forms);
         return qdot_dimensions_join(d, qdot_expr_arg(d->pool, e, 0), qdot_expr_arg(d->pool, e, 1),
@@ -354,7 +392,7 @@ qdot_dimensions_visit(qdot_dimensions *d, qdot_expr e)
             continue;
         }
         for (uint32_t i = 0; i < n; i++) {
-            const qdot_expr arg = qdot_expr_arg(d->pool, at, i);
+            const qdot_expr arg = part_of(d, at, i);
 
             if (arg >= d->of.n || d->of.at[arg] == NULL)
                 QDOT_TRY(qdot_vec_push(&d->stack, arg));

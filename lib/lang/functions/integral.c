@@ -10,6 +10,7 @@
 #include "expr/value-kind.h"
 #include "lang/functions/algebra.h"
 #include "lang/session/momenta.h"
+#include "lang/session/units.h"
 #include "mech/scene/things.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/integral/definite.h"
@@ -93,10 +94,12 @@ qdot_call_integral(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
     if (n == 4) {
         i.lo = args[2];
         i.hi = args[3];
-        for (int k = 2; k < 4; k++)
+        for (int k = 2; k < 4; k++) {
             if (!qdot_expr_is_scalar(s->pool, args[k]) && qdot_infinite(s->pool, args[k]) == 0)
                 return qdot_fail(QDOT_ETYPE, "a bound of an integral is a number, not %s",
                                  qdot_value_kind_words(s->pool, args[k]));
+            QDOT_TRY(qdot_units_join(s, args[1], args[k], "an integral over %s has an end that is %s"));
+        }
     }
     e = qdot_momenta_for(s, args[0], args[1]);
     result = qdot_value_map(s->pool, e, integrate_scalar, &i);
