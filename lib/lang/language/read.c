@@ -314,6 +314,10 @@ qdot_read_jet_of(qdot_cursor *c, const qdot_token *start, const char *name, uint
     const qdot_name *entry = qdot_names_find(c->session->names, name);
 
     c->error_at = start->start;
+    if (entry != NULL && entry->kind == QDOT_NAME_SPEED) {
+        (void)qdot_fail(QDOT_ENAME, "`%.200s` is a speed, not a coordinate", name);
+        return qdot_hint("give the velocities of coordinates");
+    }
     if (entry == NULL || !qdot_expr_is_coordinate(pool, entry->value)) {
         const char *near = entry == NULL ? qdot_hints_nearest(c->session, name) : name;
 
