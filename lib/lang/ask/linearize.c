@@ -6,12 +6,14 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
+#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/ask/ask.h"
 #include "lang/functions/linear.h"
 #include "lang/session/history.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/scene/scene.h"
 
 static qdot_status carry_out_linearize(qdot_record *r);
@@ -59,8 +61,10 @@ belongs_to_state(const qdot_session *session, qdot_expr x)
     for (size_t i = 0; i < session->scene->inputs.n; i++)
         if (session->scene->inputs.at[i] == x)
             return true;
-    return symbol != NULL && (x == QDOT_T || (symbol->class == QDOT_COORD && symbol->order < 2) ||
-                              symbol->class == QDOT_MULTIPLIER);
+    for (size_t i = 0; i < session->scene->coordinates.n; i++)
+        if (x == session->scene->coordinates.at[i] || x == qdot_symbol_jet(session->pool, session->scene->coordinates.at[i], 1))
+            return true;
+    return symbol != NULL && (x == QDOT_T || symbol->class == QDOT_MULTIPLIER);
 }
 
 static qdot_status
@@ -86,6 +90,11 @@ read_equations(qdot_record *r, const qdot_filled *place, state *x)
         if (!belongs_to_state(session, qdot_expr_arg(pool, one, 0)) ||
             !qdot_expr_is_scalar(pool, qdot_expr_arg(pool, one, 1)))
             return refuse_place(r, place);
+        if (qdot_expr_place(x->symbols.n, x->symbols.at, qdot_expr_arg(pool, one, 0)) < x->symbols.n) {
+            qdot_record_blame(r, place);
+            return qdot_fail(QDOT_EINVAL, "`%.100s` has two values here",
+                             qdot_expr_symbol(pool, qdot_expr_arg(pool, one, 0))->name);
+        }
         QDOT_TRY(qdot_vec_push(&x->symbols, qdot_expr_arg(pool, one, 0)));
         QDOT_TRY(qdot_vec_push(&x->values, qdot_expr_arg(pool, one, 1)));
     }
@@ -169,6 +178,27 @@ answer_linear_motion(qdot_session *session, const qdot_linear *linear)
     return answer_part(session, "linearize[D]", linear->D);
 }
 
+/* Inputs enter by their values only: of one that moves something the rates would enter too. */
+static qdot_status
+need_inputs_without_rates(const qdot_session *session)
+{
+    qdot_scene *scene = session->scene;
+
+    for (size_t i = 0; i < scene->inputs.n; i++) {
+        const qdot_expr input = scene->inputs.at[i];
+        bool matters;
+
+        QDOT_TRY(qdot_mech_rate_matters(scene, input, &matters));
+        for (size_t k = 0; k < scene->constraints.n; k++)
+            matters |= qdot_expr_contains(session->pool, scene->constraints.at[k].f, input);
+        if (matters)
+            return qdot_fail(QDOT_ENOTBUILT,
+                             "not built yet: the linear motion where something moves with the input `%.100s`, whose "
+                             "rates would be inputs too", qdot_expr_symbol(session->pool, input)->name);
+    }
+    return QDOT_OK;
+}
+
 /* An input on which nothing depends was a mistake. */
 static qdot_status
 need_inputs_used(qdot_session *session)
@@ -198,6 +228,8 @@ carry_out_linearize(qdot_record *r)
         r->cursor.error_at = r->start[-1].start; /* errors point at the word `linearize` */
     if (status == QDOT_OK)
         status = need_inputs_used(session);
+    if (status == QDOT_OK)
+        status = need_inputs_without_rates(session);
     where = (qdot_linear_place){.n = x.symbols.n,
                                 .symbols = x.symbols.at,
                                 .values = x.values.at,

@@ -12,6 +12,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/scales.h"
 #include "lang/session/values.h"
+#include "mech/dynamics/quantity.h"
 
 void
 qdot_request_free(qdot_request *o)
@@ -136,6 +137,31 @@ keep_event_parameters(qdot_session *session, qdot_request *o)
 }
 
 /* Fill the request of a run with the session's present values of parameters and start. */
+/* The value of an input may vary where only it, not its rate, enters the equations of motion. */
+static qdot_status
+check_varying_inputs(qdot_session *session)
+{
+    const uint32_t varying = QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY;
+    bool matters;
+
+    for (size_t i = 0; i < session->scene->inputs.n; i++) {
+        const qdot_expr symbol = session->scene->inputs.at[i], value = qdot_session_bind(session, symbol);
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        if (!(qdot_expr_node(session->pool, value)->holds & varying))
+            continue;
+        QDOT_TRY(qdot_mech_rate_matters(session->scene, symbol, &matters));
+        if (matters) {
+            const char *name = qdot_expr_symbol(session->pool, symbol)->name;
+
+            qdot_fail(QDOT_ENOTBUILT, "not built yet: a mass or damper that moves with the input `%.100s`, whose value varies",
+                      name);
+            return qdot_hint("write its value in place of `%.100s`", name);
+        }
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_request_fill(qdot_session *session, qdot_request *o)
 {
@@ -159,6 +185,7 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
         if (qdot_session_bind(session, symbol) == symbol)
             QDOT_TRY(qdot_pairs_push(&o->values, NULL, symbol, QDOT_ZERO));
     }
+    QDOT_TRY(check_varying_inputs(session));
     QDOT_TRY(keep_event_parameters(session, o));
     QDOT_TRY(qdot_value_check_assumed(session));
     QDOT_TRY(arrange_start_values(session, o));

@@ -5,6 +5,7 @@
  */
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/energy.h"
 #include "mech/dynamics/mass-matrix.h"
@@ -43,6 +44,20 @@ qdot_mech_momentum(qdot_scene *s, qdot_expr q)
         p = qdot_add(pool, p,
                      qdot_mul(pool, qdot_mass_entry(s, i, j), qdot_mech_jet(s, j, 1)));
     return d->momentum[i] = qdot_mech_tidy_whole(s, p);
+}
+
+bool
+qdot_mech_holds_momentum_rate(qdot_scene *s, qdot_expr e)
+{
+    if (e == QDOT_NIL || !(qdot_mech_holds(s, e) & QDOT_HAS_MOMENTUM))
+        return false;
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr p = qdot_symbol_of(s->pool, QDOT_MOMENTUM, s->coordinates.at[i]);
+
+        if (qdot_expr_contains(s->pool, e, qdot_symbol_jet(s->pool, p, 1)))
+            return true;
+    }
+    return false;
 }
 
 qdot_expr
@@ -125,6 +140,31 @@ qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds)
 
         QDOT_TRY(qdot_pool_check(s->pool));
         *holds = qdot_expr_contains(s->pool, Q, x);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_mech_rate_matters(qdot_scene *s, qdot_expr x, bool *matters)
+{
+    qdot_pool *pool = s->pool;
+
+    *matters = false;
+    for (size_t i = 0; i < s->particles.n; i++)
+        *matters |= qdot_expr_contains(pool, s->particles.at[i].position, x);
+    for (size_t i = 0; i < s->bodies.n; i++)
+        *matters |= qdot_expr_contains(pool, s->bodies.at[i].position, x) ||
+                    qdot_expr_contains(pool, s->bodies.at[i].rotation, x);
+    for (size_t i = 0; i < s->dampers.n; i++)
+        for (size_t k = 0; k < 2; k++)
+            *matters |= qdot_expr_contains(pool, s->dampers.at[i].at[k], x);
+    if (*matters || !qdot_scene_contains(s, x) || (s->particles.n == 0 && s->bodies.n == 0 && !qdot_mech_stated(s)))
+        return QDOT_OK;
+    for (size_t i = 0; i < s->coordinates.n && !*matters; i++) {
+        const qdot_expr p = qdot_mech_momentum(s, s->coordinates.at[i]);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        *matters = qdot_expr_contains(pool, p, x);
     }
     return QDOT_OK;
 }

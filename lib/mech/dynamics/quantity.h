@@ -23,7 +23,12 @@ qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* mass matrix of T as an n x n 
 
 /* --- momenta and generalized forces --- */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* generalized momentum dL/dq' */
+/* Whether the rate p[q]' of a momentum stands in e. */
+bool qdot_mech_holds_momentum_rate(qdot_scene *s, qdot_expr e);
 qdot_expr qdot_mech_momenta(qdot_scene *s); /* LIST of momenta in the order of coordinates */
+/* Whether the time derivatives of the parameter x would stand in the equations of motion, did it vary: it holds a place of
+ * a mass or an end of a damper, or stands in a momentum. */
+QDOT_MUST_CHECK qdot_status qdot_mech_rate_matters(qdot_scene *s, qdot_expr x, bool *matters);
 /* Q[q]: the sum of all applied generalized forces on q, including -dV/dq */
 qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);
 /* The generalized force in Kane's form, sum F . dv/dq'. */
