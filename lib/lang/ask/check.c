@@ -29,6 +29,7 @@
 #include "lang/session/units.h"
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/dynamics/rate.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"
@@ -515,6 +516,18 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     return qdot_answer_check(session, q->left, q->right, &decision);
 }
 
+/* A scalar as a function of the state: accelerations, and rates of momenta, by the equations of motion. */
+static qdot_expr
+function_of_state(qdot_pool *pool, qdot_expr e, void *user)
+{
+    qdot_session *session = user;
+
+    if (qdot_mech_holds_momentum_rate(session->scene, e))
+        e = qdot_momenta_to_velocities(session, e);
+    return e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & QDOT_HAS_ACCELERATION) && session->scene->coordinates.n > 0
+               ? qdot_rate_on_motion(session->scene, e) : e;
+}
+
 /* The rate of a scalar where it needs no accelerations; *missing: it does. */
 typedef struct {
     qdot_scene *scene;
@@ -583,6 +596,7 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     qdot_status status;
 
     q->left = qdot_session_speeds_replaced(session, q->left);
+    q->left = qdot_value_map(session->pool, q->left, function_of_state, session);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
     if (!jumps) {

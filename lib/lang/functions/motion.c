@@ -6,6 +6,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/session/momenta.h"
 #include "lang/session/speeds.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
 
@@ -15,7 +16,8 @@ rate_of_scalar(qdot_pool *pool, qdot_expr e, void *session)
 {
     const qdot_session *s = session;
 
-    if (qdot_expr_node(pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+    if ((qdot_expr_node(pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)) ||
+        qdot_mech_holds_momentum_rate(s->scene, e))
         e = qdot_momenta_to_velocities(session, e);
     return e == QDOT_NIL ? e : qdot_rate_of(s->scene, e);
 }

@@ -93,11 +93,11 @@ qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
 static qdot_expr
 bracket_argument(qdot_scene *s, qdot_expr e)
 {
-    if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION))
+    if (e == QDOT_NIL || (!(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION) && !qdot_mech_holds_momentum_rate(s, e)))
         return qdot_hamilton_in_momenta(s, e);
     qdot_mech_fail(s, QDOT_ETYPE,
                    "a Poisson bracket is of functions of coordinates, momenta and "
-                   "velocities, not of accelerations");
+                   "velocities, not of accelerations or rates of momenta");
     return QDOT_NIL;
 }
 
