@@ -84,20 +84,38 @@ append_member_name(qdot_session *session, const char *name, qdot_expr coordinate
     if (coordinate != QDOT_NIL)
         qdot_text_format(out, "[%s]", qdot_expr_symbol(session->pool, coordinate)->name);
     if (coordinate == QDOT_NIL || each > 1)
-        qdot_text_format(out, "[%u]", coordinate == QDOT_NIL ? i + 1 : i % each + 1);
+        qdot_text_format(out, "[%u]", i + 1);
 }
 
-/* What member i goes by: a coordinate of the scene for a quantity, which has `each` members of it, of `over` (a LIST, or
+/* The coordinate of the scene whose member is number *i of a quantity that has *each members of a coordinate and one of a
+ * state; *i becomes its number among the *each of that coordinate. */
+static qdot_expr
+coordinate_of_quantity(const qdot_scene *s, uint32_t *i, uint32_t *each)
+{
+    for (size_t k = 0; k < s->coordinates.n; k++) {
+        const qdot_expr q = s->coordinates.at[k];
+        const uint32_t members = qdot_scene_state_of(s, q) ? 1 : *each;
+
+        if (*i < members) {
+            *each = members;
+            return q;
+        }
+        *i -= members;
+    }
+    return QDOT_NIL;
+}
+
+/* What member *i goes by: a coordinate of the scene for a quantity, which has *each members of it, of `over` (a LIST, or
  * nil) for others (each 0; with --json by its number); nil: by its number. */
 static qdot_expr
-coordinate_of_member(const qdot_session *session, uint32_t each, qdot_expr over, uint32_t n, uint32_t i)
+coordinate_of_member(const qdot_session *session, uint32_t *each, qdot_expr over, uint32_t n, uint32_t *i)
 {
-    if (each > 0)
-        return over != QDOT_NIL && qdot_expr_count(session->pool, over) == n ? qdot_expr_arg(session->pool, over, i)
-                                                                             : session->scene->coordinates.at[i / each];
+    if (*each > 0)
+        return over != QDOT_NIL && qdot_expr_count(session->pool, over) == n ? qdot_expr_arg(session->pool, over, *i)
+                                                                             : coordinate_of_quantity(session->scene, i, each);
     if (over == QDOT_NIL || session->output->json || qdot_expr_count(session->pool, over) != n)
         return QDOT_NIL;
-    return qdot_expr_arg(session->pool, over, i);
+    return qdot_expr_arg(session->pool, over, *i);
 }
 
 /* Whether the name is `equilibria[k]`, a list of equations that belong to one equilibrium. */
@@ -132,7 +150,10 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
 
     const uint32_t coordinates = (uint32_t)session->scene->coordinates.n;
     const bool named = over != QDOT_NIL && qdot_expr_count(session->pool, over) == n;
-    const uint32_t each = !by_coordinate || coordinates == 0 ? 0 : named ? 1 : n / coordinates; /* Hamilton's equations: 2 */
+    const uint32_t states = (uint32_t)session->scene->states.n;
+    const uint32_t each = !by_coordinate || coordinates == 0 || n < coordinates ? 0
+                          : named || coordinates == states ? 1
+                                                           : (n - states) / (coordinates - states); /* Hamilton's equations: 2 */
 
     if (n == 0 || (session->output->json && is_one_equilibrium(name)))
         return qdot_answer_expr(session, name, list);
@@ -143,7 +164,10 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
         qdot_text member = {0};
         qdot_status status;
 
-        append_member_name(session, name, coordinate_of_member(session, each, over, n, i), i, each, &member);
+        uint32_t number = i, members = each;
+        const qdot_expr coordinate = coordinate_of_member(session, &members, over, n, &number);
+
+        append_member_name(session, name, coordinate, number, members, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK && by_coordinate && row->symbol != NULL) {
             qdot_expr q = session->scene->coordinates.at[i];

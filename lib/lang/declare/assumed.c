@@ -143,6 +143,11 @@ qdot_assumed_motion(qdot_session *session, qdot_assumed *f)
         QDOT_TRY(add_replacement(session, f, qdot_symbol_jet(pool, q, 2),
                                  qdot_expr_arg(pool, accels, i)));
     }
+    for (size_t i = 0; i < session->scene->states.n; i++) {
+        const qdot_state *state = &session->scene->states.at[i];
+
+        QDOT_TRY(add_replacement(session, f, qdot_symbol_jet(pool, state->z, 1), state->rate));
+    }
     for (size_t i = 0; i < session->scene->constraints.n; i++) {
         qdot_expr value = qdot_mech_multiplier(session->scene, i);
 

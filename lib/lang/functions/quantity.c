@@ -30,7 +30,8 @@ require_equations_of_motion(const qdot_session *s)
     const qdot_scene *scene = s->scene;
 
     QDOT_TRY(qdot_hamilton_need_lagrangian(s->scene));
-    if (scene->particles.n > 0 || scene->bodies.n > 0 || scene->lagrangian != QDOT_NIL || scene->states.n > 0)
+    if (scene->particles.n > 0 || scene->bodies.n > 0 || scene->lagrangian != QDOT_NIL
+        || (scene->states.n > 0 && scene->states.n == scene->coordinates.n))
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "the scene has nothing that moves");
     return qdot_hint("declare a `particle`, a `body` or a `lagrangian`");

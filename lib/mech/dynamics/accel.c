@@ -44,18 +44,6 @@ fill_constraint_row(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr 
     return qdot_pool_check(pool);
 }
 
-/* The expression e with the rates of states in place of their velocities. */
-static qdot_expr
-with_rates(qdot_scene *s, qdot_expr e)
-{
-    for (size_t k = 0; k < s->states.n && e != QDOT_NIL; k++) {
-        const qdot_expr velocity = qdot_symbol_jet(s->pool, s->states.at[k].z, 1);
-
-        e = qdot_subs(s->pool, e, 1, &velocity, &s->states.at[k].rate);
-    }
-    return e;
-}
-
 /* The row of the state at coordinate i. */
 static void
 fill_state_row(qdot_scene *s, const qdot_state *state, size_t i, size_t size, qdot_expr *A, qdot_expr *b)
@@ -90,7 +78,7 @@ solve_for_accelerations(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x,
 
         if (state)
             fill_state_row(s, state, i, size, A, b);
-        b[i] = with_rates(s, b[i]);
+        b[i] = qdot_scene_with_rates(s, b[i]);
     }
     for (size_t row = n; row < size; row++)
         QDOT_TRY(fill_constraint_row(s, which[row - n], row, size, A, b));

@@ -159,8 +159,9 @@ rate_in_momenta(qdot_scene *s, qdot_expr E)
     return qdot_pool_failed(pool) ? QDOT_NIL : rate;
 }
 
-qdot_expr
-qdot_mech_rate(qdot_scene *s, qdot_expr E)
+/* qdot_mech_rate, with the velocities of states in it. */
+static qdot_expr
+rate_without_accelerations(qdot_scene *s, qdot_expr E)
 {
     qdot_expr rest;
 
@@ -177,6 +178,12 @@ qdot_mech_rate(qdot_scene *s, qdot_expr E)
             return qdot_add(s->pool, momentum_rate(s, i), qdot_ddt(s->pool, rest));
     }
     return QDOT_NIL;
+}
+
+qdot_expr
+qdot_mech_rate(qdot_scene *s, qdot_expr E)
+{
+    return qdot_scene_with_rates(s, rate_without_accelerations(s, qdot_scene_with_rates(s, E)));
 }
 
 qdot_status

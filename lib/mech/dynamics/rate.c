@@ -48,6 +48,7 @@ qdot_rate_on_motion(qdot_scene *s, qdot_expr e)
     qdot_expr *from;
     size_t n = 0;
 
+    e = qdot_scene_with_rates(s, e);
     if (e == QDOT_NIL || !(qdot_mech_holds(s, e) & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)))
         return e;
     from = qdot_calloc(2 * most + 1, sizeof *from);
@@ -59,7 +60,7 @@ qdot_rate_on_motion(qdot_scene *s, qdot_expr e)
         add_if_contained(s, e, s->constraints.at[k].multiplier, solved_multiplier, k, from, from + most, &n);
     e = qdot_pool_failed(s->pool) ? QDOT_NIL : qdot_subs(s->pool, e, n, from, from + most);
     qdot_free(from);
-    return e;
+    return qdot_scene_with_rates(s, e);
 }
 
 /* Whether e is proved to be 0, where the constraints hold. */

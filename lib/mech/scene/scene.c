@@ -262,6 +262,7 @@ require_energy_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
         QDOT_TRY(qdot_scene_refuse_states(s, e, "a potential", 1));
         return require_scalar(s, e, "a potential", NO_ACCELERATION);
     default:
+        QDOT_TRY(qdot_scene_refuse_states(s, e, "a dissipation function", 1));
         QDOT_TRY(refuse_multipliers_in_friction(s, e, "a dissipation function"));
         return require_scalar(s, e, "a dissipation function", NO_ACCELERATION);
     }

@@ -57,6 +57,8 @@ qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned orde
 QDOT_MUST_CHECK qdot_status qdot_scene_state(qdot_scene *s, qdot_expr z, qdot_expr rate);
 /* The state whose symbol is z; NULL: z is none. */
 const qdot_state *qdot_scene_state_of(const qdot_scene *s, qdot_expr z);
+/* The expression e with the right sides of the states in place of z'. */
+qdot_expr qdot_scene_with_rates(const qdot_scene *s, qdot_expr e);
 /* QDOT_ENOTBUILT if e holds the derivative of a state of order `from` (0: the state itself) or higher; `what` is e. */
 QDOT_MUST_CHECK qdot_status qdot_scene_refuse_states(const qdot_scene *s, qdot_expr e, const char *what, uint32_t from);
 /* QDOT_EINVAL if a state has no right side yet. */

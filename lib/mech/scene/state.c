@@ -62,11 +62,19 @@ check_rate(qdot_scene *s, qdot_expr rate)
 
 /* The expression e with the rate of a state in place of z', if it is known. */
 static qdot_expr
-with_rate(qdot_scene *s, qdot_expr e, const qdot_state *state)
+with_rate(const qdot_scene *s, qdot_expr e, const qdot_state *state)
 {
     const qdot_expr velocity = qdot_symbol_jet(s->pool, state->z, 1);
 
     return state->rate == QDOT_NIL ? e : qdot_subs(s->pool, e, 1, &velocity, &state->rate);
+}
+
+qdot_expr
+qdot_scene_with_rates(const qdot_scene *s, qdot_expr e)
+{
+    for (size_t k = 0; k < s->states.n && e != QDOT_NIL; k++)
+        e = with_rate(s, e, &s->states.at[k]);
+    return e;
 }
 
 qdot_status
@@ -93,8 +101,7 @@ qdot_scene_state(qdot_scene *s, qdot_expr z, qdot_expr rate)
     if (s->states.at[k].rate != QDOT_NIL)
         return qdot_fail(QDOT_ENAME, "the state %s has its rate already", name);
     QDOT_TRY(check_rate(s, rate));
-    for (size_t i = 0; i < s->states.n; i++)
-        rate = with_rate(s, rate, &s->states.at[i]);
+    rate = qdot_scene_with_rates(s, rate);
     if (qdot_expr_contains(s->pool, rate, qdot_symbol_jet(s->pool, z, 1)))
         return qdot_fail(QDOT_EINVAL, "the rate of %s depends on itself", name);
     QDOT_TRY(qdot_pool_check(s->pool));

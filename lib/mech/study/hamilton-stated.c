@@ -14,11 +14,16 @@ qdot_status
 qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L)
 {
     qdot_legendre l;
-    qdot_expr value = QDOT_NIL;
+    qdot_expr value = QDOT_NIL, *moving;
+    uint32_t n;
 
-    if (qdot_legendre_begin(&l, s, QDOT_MOMENTUM, s->hamiltonian, (uint32_t)s->coordinates.n, s->coordinates.at))
+    moving = qdot_hamilton_moving(s, &n);
+    if (moving == NULL)
+        return QDOT_ENOMEM;
+    if (qdot_legendre_begin(&l, s, QDOT_MOMENTUM, s->hamiltonian, n, moving))
         value = qdot_legendre_transform(&l);
     qdot_legendre_end(&l);
+    qdot_free(moving);
     *L = value;
     return qdot_pool_check(s->pool);
 }
@@ -46,19 +51,27 @@ qdot_hamilton_need_lagrangian(qdot_scene *s)
     return status;
 }
 
-/* q' = dH/dp and p' = -dH/dq + Q + R of coordinate i; velocities in Q and the reactions R are written in momenta. */
-static void
+/* q' = dH/dp and p' = -dH/dq + Q + R of coordinate i; velocities in Q and the reactions R are written in momenta.
+ * Of a state its own equation. Returns how many they are. */
+static uint32_t
 equations_of_coordinate(qdot_scene *s, size_t i, qdot_expr pair[2])
 {
     qdot_pool *pool = s->pool;
     const qdot_expr q = s->coordinates.at[i], p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
-    qdot_expr rate = qdot_add(pool, qdot_mech_force(s, q), qdot_constraint_reaction(s, i));
+    const qdot_state *state = qdot_scene_state_of(s, q);
+    qdot_expr rate;
 
+    if (state) {
+        pair[0] = qdot_rel(pool, QDOT_EQ, qdot_symbol_jet(pool, q, 1), qdot_mech_tidy(s, qdot_hamilton_in_momenta(s, state->rate)));
+        return 1;
+    }
+    rate = qdot_add(pool, qdot_mech_force(s, q), qdot_constraint_reaction(s, i));
     rate = qdot_hamilton_in_momenta(s, rate);
     rate = qdot_sub(pool, rate, qdot_diff(pool, s->hamiltonian, q));
     pair[0] = qdot_rel(pool, QDOT_EQ, qdot_symbol_jet(pool, q, 1),
                        qdot_mech_tidy(s, qdot_diff(pool, s->hamiltonian, p)));
     pair[1] = qdot_rel(pool, QDOT_EQ, qdot_symbol_jet(pool, p, 1), qdot_mech_tidy(s, rate));
+    return 2;
 }
 
 qdot_expr
@@ -66,11 +79,12 @@ qdot_hamilton_equation(qdot_scene *s, qdot_expr q)
 {
     qdot_expr pair[2];
     size_t i;
+    uint32_t n;
 
     if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
-    equations_of_coordinate(s, i, pair);
-    return qdot_list(s->pool, 2, pair);
+    n = equations_of_coordinate(s, i, pair);
+    return n == 1 ? pair[0] : qdot_list(s->pool, n, pair);
 }
 
 qdot_expr
@@ -78,12 +92,13 @@ qdot_hamilton_equations(qdot_scene *s)
 {
     const size_t n = s->coordinates.n;
     qdot_expr *all = qdot_calloc(2 * n + 1, sizeof *all), list;
+    uint32_t made = 0;
 
     if (all == NULL)
         return qdot_pool_fail(s->pool);
     for (size_t i = 0; i < n; i++)
-        equations_of_coordinate(s, i, all + 2 * i);
-    list = qdot_list(s->pool, (uint32_t)(2 * n), all);
+        made += equations_of_coordinate(s, i, all + made);
+    list = qdot_list(s->pool, made, all);
     qdot_free(all);
     return list;
 }

@@ -43,20 +43,42 @@ put_velocities_of_hamiltonian(qdot_scene *s, qdot_expr e)
     return e;
 }
 
+qdot_expr *
+qdot_hamilton_moving(const qdot_scene *s, uint32_t *n)
+{
+    qdot_expr *moving = qdot_calloc(s->coordinates.n + 1, sizeof *moving);
+
+    *n = 0;
+    if (moving == NULL) {
+        qdot_pool_fail(s->pool);
+        return NULL;
+    }
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (!qdot_scene_state_of(s, s->coordinates.at[i]))
+            moving[(*n)++] = s->coordinates.at[i];
+    return moving;
+}
+
 qdot_expr
 qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e)
 {
     qdot_legendre l;
+    qdot_expr *moving;
+    uint32_t n;
 
+    e = qdot_scene_with_rates(s, e);
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
         return e;
     if (s->hamiltonian != QDOT_NIL)
         return put_velocities_of_hamiltonian(s, e);
-    e = qdot_legendre_begin(&l, s, QDOT_COORD, qdot_mech_lagrangian(s), (uint32_t)s->coordinates.n,
-                            s->coordinates.at)
+    moving = qdot_hamilton_moving(s, &n);
+    if (moving == NULL)
+        return QDOT_NIL;
+    e = qdot_legendre_begin(&l, s, QDOT_COORD, qdot_mech_lagrangian(s), n, moving)
             ? qdot_subs(s->pool, e, l.n, l.x, l.solved)
             : QDOT_NIL;
     qdot_legendre_end(&l);
+    qdot_free(moving);
     return e;
 }
 
@@ -132,16 +154,13 @@ qdot_expr
 qdot_hamilton_hamiltonian(qdot_scene *s)
 {
     qdot_expr *moving, H;
-    uint32_t n = 0;
+    uint32_t n;
 
     if (s->hamiltonian != QDOT_NIL)
         return s->hamiltonian;
-    moving = qdot_calloc(s->coordinates.n + 1, sizeof *moving);
+    moving = qdot_hamilton_moving(s, &n);
     if (moving == NULL)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < s->coordinates.n; i++)
-        if (!qdot_scene_state_of(s, s->coordinates.at[i])) /* states are functions of time for H */
-            moving[n++] = s->coordinates.at[i];
+        return QDOT_NIL;
     H = legendre_transform(s, n, moving);
     qdot_free(moving);
     return H;

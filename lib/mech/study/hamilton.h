@@ -27,10 +27,13 @@ qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
 QDOT_MUST_CHECK qdot_status qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L);
 /* QDOT_ENOTBUILT if the scene states an H from which no Lagrangian follows. */
 QDOT_MUST_CHECK qdot_status qdot_hamilton_need_lagrangian(qdot_scene *s);
-/* Hamilton's equations of a coordinate, a LIST of two; of all, a LIST: two for each coordinate. The rate of p is the
+/* Hamilton's equations of a coordinate, a LIST of two, or z' = rate of a state; of all, a LIST. The rate of p is the
  * symbol p[q]'. */
 qdot_expr qdot_hamilton_equation(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_hamilton_equations(qdot_scene *s);
+
+/* The coordinates that have momenta, all but states, which are functions of time for H. NULL: the pool keeps the failure. */
+qdot_expr *qdot_hamilton_moving(const qdot_scene *s, uint32_t *n);
 
 /* e with velocities written in terms of momenta; second function: e with momenta replaced by dL/dq'. */
 qdot_expr qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e);
