@@ -4,9 +4,11 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
+#include "expr/function.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 
 enum {
@@ -105,6 +107,40 @@ evaluate_constants(qdot_pool *pool, size_t n, qdot_expr *e)
 
 /* --- values --------------------------------------------------------------------------------- */
 
+/* The value of e, in symbols or bound. */
+static qdot_expr
+value_at_state(qdot_state_values *v, qdot_expr e)
+{
+    e = qdot_subs(v->s->pool, e, v->symbols.n, v->symbols.at, v->values.at);
+    return v->x.numbers && e != QDOT_NIL ? v->bind(v->user, e) : e;
+}
+
+/* Fail where a sign(u) with u = 0 at the state makes a difference: e jumps there, or that of which it is a slope has a kink. */
+static qdot_status
+need_no_jump(qdot_state_values *v, qdot_expr e)
+{
+    static const qdot_expr sides[] = {QDOT_ONE, QDOT_MINUS_ONE};
+    qdot_pool *pool = v->s->pool;
+    bool jumps = false;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n && !jumps && !qdot_pool_failed(pool); i++) {
+        qdot_expr on[2];
+
+        if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN || qdot_expr_node(pool, w.at[i])->op != QDOT_SIGN ||
+            !qdot_is_zero(pool, value_at_state(v, qdot_expr_arg(pool, w.at[i], 0)), &v->facts))
+            continue;
+        for (int k = 0; k < 2; k++)
+            on[k] = value_at_state(v, qdot_subs(pool, e, 1, &w.at[i], &sides[k]));
+        jumps = !qdot_is_zero(pool, qdot_sub(pool, on[0], on[1]), &v->facts);
+    }
+    qdot_walk_end(&w);
+    QDOT_TRY(qdot_pool_check(pool));
+    return jumps ? qdot_fail(QDOT_EDOMAIN, "the equations of motion have no linear part there: a force has a jump or a kink")
+                 : QDOT_OK;
+}
+
 qdot_status
 qdot_state_values_of(qdot_state_values *v, size_t n, qdot_expr *e)
 {
@@ -112,6 +148,7 @@ qdot_state_values_of(qdot_state_values *v, size_t n, qdot_expr *e)
 
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(need_no_jump(v, e[i]));
         e[i] = qdot_subs(pool, e[i], v->symbols.n, v->symbols.at, v->values.at);
         if (v->x.numbers && e[i] != QDOT_NIL)
             e[i] = v->bind(v->user, e[i]);
