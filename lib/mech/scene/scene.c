@@ -477,7 +477,7 @@ qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L)
         return qdot_hint("`hamiltonian` alone shows it; `reset scene` takes the scene away");
     }
     QDOT_TRY(require_scalar(s, H, "a Hamiltonian", NO_RATE));
-    QDOT_TRY(qdot_scene_need_no_states(s, "a stated Hamiltonian"));
+    QDOT_TRY(qdot_scene_refuse_states(s, H, "a Hamiltonian", 1));
     if (!(qdot_mech_holds(s, H) & QDOT_HAS_MOMENTUM)) {
         (void)qdot_fail(QDOT_EINVAL, "no momentum stands in this Hamiltonian");
         return qdot_hint("the momentum of a coordinate x is written p[x]: hamiltonian p[x]^2/2");

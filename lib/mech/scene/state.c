@@ -84,10 +84,6 @@ qdot_scene_state(qdot_scene *s, qdot_expr z, qdot_expr rate)
     const char *name;
 
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (s->hamiltonian != QDOT_NIL) {
-        qdot_fail(QDOT_ENOTBUILT, "not built yet: a stated Hamiltonian of a scene with states");
-        return qdot_hint("state a Lagrangian");
-    }
     if (rate == QDOT_NIL) {
         QDOT_TRY(qdot_scene_coordinate(s, z));
         if (qdot_vec_push(&s->states, ((qdot_state){z, QDOT_NIL})) == QDOT_OK)
