@@ -3,6 +3,7 @@
 #include "lang/commands/set.h"
 #include "lang/declare/declare.h"
 #include "lang/session/measured.h"
+#include "lang/session/units.h"
 #include "mech/scene/scene.h"
 
 static qdot_status declare_states(qdot_record *r);
@@ -87,14 +88,17 @@ read_rates(qdot_record *r)
     for (const qdot_filled *part = qdot_record_hole(r, NULL, "Z'"); part != NULL; part = qdot_record_next(r, part, "Z'")) {
         const qdot_filled *right = qdot_record_next(r, part, "EXPR");
         const char *name;
-        qdot_expr rate;
+        qdot_expr rate, z;
 
         QDOT_TRY(qdot_record_name(r, part, &name));
         QDOT_TRY(qdot_record_scalar(r, right, &rate));
         rate = qdot_measured_as_rationals(session, rate);
         QDOT_TRY(qdot_pool_check(session->pool));
         qdot_record_blame(r, right);
-        QDOT_TRY(qdot_scene_state(session->scene, qdot_names_find(session->names, name)->value, rate));
+        z = qdot_names_find(session->names, name)->value;
+        if (!qdot_expr_is_constant(session->pool, rate)) /* a bare number is one in SI units */
+            QDOT_TRY(qdot_units_join(session, qdot_symbol_jet(session->pool, z, 1), rate, "the rate of the state is %s, its right side %s"));
+        QDOT_TRY(qdot_scene_state(session->scene, z, rate));
     }
     return QDOT_OK;
 }
