@@ -535,7 +535,7 @@ typedef struct {
 } rate_search;
 
 static qdot_expr
-rate_without_accelerations(qdot_pool *pool, qdot_expr e, void *user)
+rate_of_component(qdot_pool *pool, qdot_expr e, void *user)
 {
     rate_search *search = user;
     qdot_expr rate = qdot_mech_rate(search->scene, e);
@@ -562,7 +562,7 @@ decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bo
     if (session->scene->coordinates.n == 0 ||
         f->from.n > 0 || qdot_measured_occurs(session, q->left))
         return QDOT_OK;
-    rate = qdot_value_map(pool, q->left, rate_without_accelerations, &search);
+    rate = qdot_value_map(pool, q->left, rate_of_component, &search);
     zero = qdot_value_sub(pool, rate, rate);
     QDOT_TRY(qdot_pool_check(pool));
     if (search.missing)
