@@ -28,7 +28,7 @@ tell_missing_lagrangian(qdot_session *session)
     qdot_text_format(&text, "no Lagrangian follows: %s", qdot_last_error()->message);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
-        status = qdot_answer_notice(session, qdot_text_str(&text));
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }

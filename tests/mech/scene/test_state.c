@@ -13,7 +13,7 @@ state(kit *k, const char *name, const char *rate)
     if (!qdot_scene_state_of(k->scene, z))
         must(qdot_scene_state(k->scene, z, QDOT_NIL));
     if (rate)
-        must(qdot_scene_state(k->scene, z, E(k, rate)));
+        must(qdot_scene_state(k->scene, z, E(k, "%s", rate)));
 }
 
 static void
