@@ -639,13 +639,12 @@ factors_with_velocities_are_found_where_allowed(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof with_velocities / sizeof *with_velocities; i++) {
         qdot_pool *pool = qdot_pool_new();
+        const qdot_expr b = text_read(pool, with_velocities[i].b), a = text_read(pool, with_velocities[i].a);
         qdot_decision d;
         qdot_expr factor;
         bool may_vanish;
 
-        assert_int_equal(qdot_decide_proportional(pool, text_read(pool, with_velocities[i].a),
-                                                  text_read(pool, with_velocities[i].b), QDOT_FACTOR_OF_STATE, NULL,
-                                                  &d, &factor, &may_vanish),
+        assert_int_equal(qdot_decide_proportional(pool, a, b, QDOT_FACTOR_OF_STATE, NULL, &d, &factor, &may_vanish),
                          QDOT_OK);
         if (d.verdict != with_velocities[i].expected || may_vanish != with_velocities[i].may_vanish)
             fail_msg("%s ~ %s: verdict %d", with_velocities[i].a, with_velocities[i].b, d.verdict);
