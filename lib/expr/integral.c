@@ -332,12 +332,15 @@ qdot_expr
 qdot_integral(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr a, qdot_expr b)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
+    const char *name;
 
     if (f == QDOT_NIL || x == QDOT_NIL)
         return QDOT_NIL;
     if (s == NULL || s->class == QDOT_CONST || s->class == QDOT_WORDS || s->class >= QDOT_BOUND)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "an integral is taken over a name: a coordinate, a parameter or t");
-    return definite(pool, rebind(pool, f, &(rebinding){.what = CLOSE, .x = x}, 0), a, b, s->name);
+    name = s->name; /* a new symbol may move the symbols, not their names */
+    f = rebind(pool, f, &(rebinding){.what = CLOSE, .x = x}, 0);
+    return definite(pool, f, a, b, name);
 }
 
 /* --- functions with a given derivative ------------------------------------------------------------ */

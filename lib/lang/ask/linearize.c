@@ -56,15 +56,15 @@ refuse_place(qdot_record *r, const qdot_filled *place)
 static bool
 belongs_to_state(const qdot_session *session, qdot_expr x)
 {
-    const qdot_symbol *symbol = qdot_expr_symbol(session->pool, x);
-
+    if (x == QDOT_T || qdot_expr_is_class(session->pool, x, QDOT_MULTIPLIER))
+        return true;
     for (size_t i = 0; i < session->scene->inputs.n; i++)
         if (session->scene->inputs.at[i] == x)
             return true;
     for (size_t i = 0; i < session->scene->coordinates.n; i++)
         if (x == session->scene->coordinates.at[i] || x == qdot_symbol_jet(session->pool, session->scene->coordinates.at[i], 1))
             return true;
-    return symbol != NULL && (x == QDOT_T || symbol->class == QDOT_MULTIPLIER);
+    return false;
 }
 
 static qdot_status
