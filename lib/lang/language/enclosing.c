@@ -41,6 +41,36 @@ qdot_enclosing_is_variable(const qdot_token *first, const qdot_token *token)
     return false;
 }
 
+/* The second argument of the call whose bracket this is; NULL: it has none. */
+static const qdot_token *
+second_argument(const qdot_token *open)
+{
+    long depth = 1;
+
+    for (const qdot_token *k = open + 1; k->kind != QDOT_TOKEN_END && depth > 0; k++) {
+        if (depth == 1 && qdot_token_is(k, ","))
+            return k + 1;
+        depth += qdot_token_bracket(k);
+    }
+    return NULL;
+}
+
+bool
+qdot_enclosing_binds(const qdot_cursor *c, const qdot_token *token)
+{
+    const qdot_token *first = qdot_enclosing_statement(c, token), *open = token;
+
+    while ((open = qdot_enclosing_bracket(first, open)) != NULL) {
+        const qdot_token *variable = second_argument(open);
+
+        if (variable != NULL && open > first && (qdot_token_is_word(open - 1, "integral") || qdot_token_is_word(open - 1, "limit")) &&
+            qdot_token_is_word(variable, token->text) &&
+            (qdot_token_is(variable + 1, ",") || qdot_token_is(variable + 1, ")") || qdot_token_is(variable + 1, "=")))
+            return true;
+    }
+    return false;
+}
+
 /* Whether the token begins what multipliers stand beside as symbols: an equation of motion, a reaction, an acceleration,
  * or a multiplier that is itself a variable. */
 static bool

@@ -10,6 +10,8 @@ const qdot_token *qdot_enclosing_statement(const qdot_cursor *c, const qdot_toke
 const qdot_token *qdot_enclosing_bracket(const qdot_token *first, const qdot_token *token);
 /* Whether the token, a name, is the variable of a call, as x in diff(T, x) or subs(T, x = 0). */
 bool qdot_enclosing_is_variable(const qdot_token *first, const qdot_token *token);
+/* Whether the token is the variable of an integral or a limit, or stands for it in one: x in integral(x^2, x, 0, 1). */
+bool qdot_enclosing_binds(const qdot_cursor *c, const qdot_token *token);
 /* Whether the multipliers in what is named at `token` are to be replaced by what the equations make of them: in what is
  * asked, as `2*lambda[rod]*L`, and in what calculus is applied to, as diff(lambda[rod], x). They stay symbols in
  * declarations and definitions, beside equations of motion and accelerations, and along runs. */

@@ -426,7 +426,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name);
         return qdot_hints_bare_function(c, token);
     }
-    if (is_side_of_limit(token)) {
+    if (is_side_of_limit(token) || (primes == 0 && qdot_enclosing_binds(c, token))) {
         *value = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
         return qdot_value_kind_check(s->pool, *value);
     }
