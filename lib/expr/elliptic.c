@@ -249,6 +249,19 @@ incomplete_double(unsigned f, double n, double s, double c, double m)
     return f == QDOT_ELLIPTIC_PI && n != 0 ? first + n / 3 * s * s * s * carlson_third(c * c, q, 1, p) : first;
 }
 
+qdot_expr
+qdot_elliptic_coefficient(qdot_pool *pool, qdot_fun_id f, long k)
+{
+    qdot_expr c = QDOT_ONE;
+
+    if (f != QDOT_ELLIPTIC_K && f != QDOT_ELLIPTIC_E)
+        return QDOT_NIL;
+    for (long i = 1; i <= k; i++)
+        c = qdot_mul(pool, c, qdot_div(pool, qdot_expr_int(pool, 2 * i - 1), qdot_expr_int(pool, 2 * i)));
+    c = qdot_mul(pool, qdot_div(pool, QDOT_PI, qdot_expr_int(pool, 2)), qdot_mul(pool, c, c));
+    return f == QDOT_ELLIPTIC_K ? c : qdot_div(pool, c, qdot_expr_int(pool, 1 - 2 * k));
+}
+
 double
 qdot_elliptic_double(unsigned f, uint32_t n, const double *x)
 {

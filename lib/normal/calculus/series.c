@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/print.h"
@@ -392,12 +393,25 @@ as_quotient(qdot_pool *pool, qdot_expr e)
     }
 }
 
+/* Find the Taylor coefficients of a function of one argument at a; QDOT_EDOMAIN if one of them does not exist. */
+static qdot_status
+function_coefficients(course *x, qdot_fun_id id, qdot_expr a, long most, laurent *s)
+{
+    const qdot_expr z = qdot_symbol_get(x->pool, QDOT_FORMAL, "a place");
+
+    if (a != QDOT_ZERO || qdot_elliptic_coefficient(x->pool, id, 0) == QDOT_NIL)
+        return derivatives(x, qdot_fun1(x->pool, id, z), z, a, most, s);
+    s->least = 0;
+    for (long k = 0; k <= most; k++)
+        QDOT_TRY(qdot_vec_push(&s->c, qdot_elliptic_coefficient(x->pool, id, k)));
+    return qdot_pool_check(x->pool);
+}
+
 /* Find the series of f(a + h), where h has no term of order 0. */
 static qdot_status
 series_of_function(course *x, qdot_expr e, long most, laurent *s)
 {
     qdot_pool *pool = x->pool;
-    const qdot_expr z = qdot_symbol_get(pool, QDOT_FORMAL, "a place");
     const qdot_node *node = qdot_expr_node(pool, e);
     laurent inner = {0}, outer = {0};
     qdot_status status;
@@ -416,7 +430,7 @@ series_of_function(course *x, qdot_expr e, long most, laurent *s)
         qdot_switch_at(x->pool, id, coefficient(&inner, 0), &x->facts))
         status = fail_without_series(x, e, "it switches at the point");
     if (status == QDOT_OK) {
-        status = derivatives(x, qdot_fun1(pool, id, z), z, coefficient(&inner, 0), most, &outer);
+        status = function_coefficients(x, id, coefficient(&inner, 0), most, &outer);
         if (status == QDOT_EDOMAIN)
             status = fail_without_series(x, e, "a derivative does not exist at the point");
     }
