@@ -367,8 +367,7 @@ node_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
     case QDOT_INTEGRAL: return integral_form(d, e, form);
     case QDOT_REL:
         *form = qdot_form_none(&d->forms);
-        return qdot_dimensions_join(d, qdot_expr_arg(d->pool, e, 0), qdot_expr_arg(d->pool, e, 1),
-                                    "%s is compared with %s");
+        return join_forms(d, of_arg(d, e, 0), of_arg(d, e, 1), "%s is compared with %s");
     default: *form = qdot_form_none(&d->forms); return QDOT_OK;
     }
 }

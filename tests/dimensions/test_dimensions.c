@@ -126,6 +126,24 @@ roots_have_rational_exponents(void **state)
     is(qdot_pow(pool, l, QDOT_HALF), "a quantity in m^(1/2)");
 }
 
+/* if(x > y, x, -y) + z: x, y and z are of one dimension. */
+static void
+the_sides_of_a_condition_are_of_one_dimension(void **state)
+{
+    const qdot_expr x = coord("x"), y = coord("y"), z = coord("z");
+    const qdot_expr larger[] = {qdot_rel(pool, QDOT_LT, y, x), x, qdot_neg(pool, y)};
+    const qdot_expr smaller[] = {qdot_rel(pool, QDOT_LT, x, param("m")), x, y};
+
+    (void)state;
+    fix(z, 1, 0, 0);
+    fix(param("m"), 0, 1, 0);
+    assert_int_equal(qdot_dimensions_visit(d, qdot_add(pool, qdot_fun(pool, QDOT_IF, 3, larger), z)), QDOT_OK);
+    is(x, "a length");
+    is(y, "a length");
+    assert_int_equal(qdot_dimensions_visit(d, qdot_fun(pool, QDOT_IF, 3, smaller)), QDOT_ETYPE);
+    assert_string_equal(qdot_last_error()->message, "a length is compared with a mass");
+}
+
 /* Random monomials: every group has no dimension, and there are n - rank of them (by floating elimination). */
 static void
 groups_are_a_basis(void **state)
@@ -194,7 +212,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_lagrangian_tells_the_rest), TEST(a_contradiction_is_told_and_leaves_no_trace),
         TEST(zero_has_every_dimension),    TEST(roots_have_rational_exponents),
-        TEST(groups_are_a_basis),
+        TEST(the_sides_of_a_condition_are_of_one_dimension), TEST(groups_are_a_basis),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
