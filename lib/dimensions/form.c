@@ -22,8 +22,9 @@ qdot_forms_unknown(qdot_forms *f, uint32_t *unknown)
 
 /* --- making forms ---------------------------------------------------------------------- */
 
+/* A form like this one, with room for n terms. */
 static qdot_form *
-form_new(qdot_forms *f, size_t n)
+form_new(qdot_forms *f, size_t n, qdot_form like)
 {
     qdot_form *form = qdot_calloc(1, sizeof *form + n * sizeof *form->at);
 
@@ -33,49 +34,35 @@ form_new(qdot_forms *f, size_t n)
         qdot_free(form);
         return NULL;
     }
-    form->constant = qdot_dimension_none();
+    *form = like;
     return form;
 }
 
 const qdot_form *
 qdot_form_constant(qdot_forms *f, qdot_dimension constant)
 {
-    qdot_form *form = form_new(f, 0);
-
-    if (form != NULL)
-        form->constant = constant;
-    return form;
+    return form_new(f, 0, (qdot_form){.constant = constant});
 }
 
 const qdot_form *
 qdot_form_any(qdot_forms *f)
 {
-    qdot_form *form = form_new(f, 0);
-
-    if (form != NULL)
-        form->any = true;
-    return form;
+    return form_new(f, 0, (qdot_form){.constant = qdot_dimension_none(), .any = true});
 }
 
 const qdot_form *
 qdot_form_none(qdot_forms *f)
 {
-    qdot_form *form = form_new(f, 0);
-
-    if (form != NULL)
-        form->none = true;
-    return form;
+    return form_new(f, 0, (qdot_form){.constant = qdot_dimension_none(), .none = true});
 }
 
 const qdot_form *
 qdot_form_unknown(qdot_forms *f, uint32_t unknown)
 {
-    qdot_form *form = form_new(f, 1);
+    qdot_form *form = form_new(f, 1, (qdot_form){.constant = qdot_dimension_none(), .n = 1});
 
-    if (form != NULL) {
-        form->n = 1;
+    if (form != NULL)
         form->at[0] = (qdot_form_term){unknown, {1, 1}};
-    }
     return form;
 }
 
@@ -90,10 +77,9 @@ qdot_form_addmul(qdot_forms *f, const qdot_form *a, const qdot_form *b, qdot_exp
         return a == NULL || b == NULL ? NULL : a;
     if (b->any || b->none || x.n == 0)
         return x.n == 0 ? a : b;
-    sum = form_new(f, (size_t)a->n + b->n);
+    sum = form_new(f, (size_t)a->n + b->n, (qdot_form){.constant = qdot_dimension_addmul(a->constant, b->constant, x)});
     if (sum == NULL)
         return NULL;
-    sum->constant = qdot_dimension_addmul(a->constant, b->constant, x);
     large = qdot_dimension_failed(sum->constant);
     while (i < a->n || k < b->n) {
         const bool left = k == b->n || (i < a->n && a->at[i].unknown <= b->at[k].unknown);
