@@ -67,7 +67,7 @@ answer_groups(qdot_session *session, const quantities *x)
     qdot_expr list;
     int32_t *power = NULL;
     size_t count;
-    qdot_status status = qdot_dimensions_groups(session->units->known, x->n, x->at, &count, &power);
+    qdot_status status = qdot_units_groups(session, x->n, x->at, &count, &power);
 
     for (size_t k = 0; k < count && status == QDOT_OK; k++) {
         qdot_expr product = QDOT_ONE;
@@ -100,8 +100,6 @@ carry_out_groups(qdot_record *r)
     }
     if (status == QDOT_OK)
         status = give_notice_of_free(session, &x);
-    if (status == QDOT_OK)
-        status = qdot_units_visit(session, QDOT_ONE);
     if (status == QDOT_OK)
         status = answer_groups(session, &x);
     qdot_free(x.at);

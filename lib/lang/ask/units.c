@@ -1,6 +1,4 @@
 /* units.c -- the statement `units`: the dimensions and units of all names, or of an expression. */
-#include <string.h>
-
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
@@ -23,30 +21,24 @@ QDOT_STATEMENT(units) = {
     .handler = carry_out_units,
 };
 
-/* Append the dimension of e in words. */
+/* Append what is known of the dimension of e. */
 static qdot_status
-add_dimension(qdot_session *session, qdot_expr e, const char *label, qdot_text *out)
+add_dimension(qdot_session *session, qdot_expr e, qdot_text *out)
 {
-    static const char *const angles[] = {"rad", "rad/s", "rad/s^2"};
-    static const char *const words[] = {"an angle", "an angular velocity", "an angular acceleration"};
-    qdot_dimension is;
+    const bool symbol = qdot_expr_is_class(session->pool, e, QDOT_PARAM) || qdot_expr_is_class(session->pool, e, QDOT_COORD);
+    qdot_text words = {0};
 
-    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
-        if (strcmp(label, angles[i]) == 0) {
-            qdot_text_add(out, words[i]);
-            return qdot_text_status(out);
-        }
-    switch (qdot_units_of(session, e, &is)) {
-    case QDOT_DIMENSION_KNOWN: qdot_dimension_words(is, out); break;
+    switch (qdot_units_words(session, e, &words)) {
+    case QDOT_DIMENSION_KNOWN: qdot_text_add(out, qdot_text_str(&words)); break;
     case QDOT_DIMENSION_ANY: qdot_text_add(out, "0, of any dimension"); break;
     case QDOT_DIMENSION_NONE: qdot_text_add(out, "of several dimensions, or of none"); break;
     case QDOT_DIMENSION_FREE:
         qdot_text_add(out, "not determined");
-        if (!qdot_expr_is_class(session->pool, e, QDOT_PARAM) && !qdot_expr_is_class(session->pool, e, QDOT_COORD)) {
-            qdot_text_add(out, ": ");
-            qdot_dimensions_words(session->units->known, e, out);
-        }
+        if (!symbol)
+            qdot_text_format(out, ": %s", qdot_text_str(&words));
     }
+    out->failed = out->failed || words.failed;
+    qdot_text_clear(&words);
     return qdot_text_status(out);
 }
 
@@ -58,7 +50,7 @@ answer_dimension(qdot_session *session, const char *name, qdot_expr e, qdot_text
     qdot_status status;
 
     qdot_units_label(session, e, &label);
-    status = add_dimension(session, e, qdot_text_str(&label), &words);
+    status = add_dimension(session, e, &words);
     if (status == QDOT_OK && session->output->json) {
         qdot_text_add(&line, "{\"kind\":\"unit\"");
         qdot_write_field(&line, ",\"name\":", name);

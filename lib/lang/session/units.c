@@ -175,18 +175,57 @@ qdot_units_transfer(qdot_session *from, qdot_expr symbol, qdot_session *to, qdot
     return has_fact(from, symbol, QDOT_FACT_SCALED) ? qdot_units_scaled(to, copy) : QDOT_OK;
 }
 
+/* An angle, or its first or second rate. */
+static const struct angle {
+    const char *unit, *words;
+} angles[] = {{"rad", "an angle"}, {"rad/s", "an angular velocity"}, {"rad/s^2", "an angular acceleration"}};
+
+/* Which of these e is, of the dimension `is`; NULL: none. */
+static const struct angle *
+find_angle(const qdot_session *session, qdot_expr e, qdot_dimension is)
+{
+    const qdot_exponent time = is.of[2];
+
+    return has_fact(session, e, QDOT_FACT_ANGLE) && time.n <= 0 && time.n >= -2 && time.d == 1 ? &angles[-time.n] : NULL;
+}
+
 void
 qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out)
 {
-    static const char *const angles[] = {"rad", "rad/s", "rad/s^2"};
+    const struct angle *angle;
     qdot_dimension is;
 
     if (qdot_units_of(session, e, &is) != QDOT_DIMENSION_KNOWN)
         return;
-    if (has_fact(session, e, QDOT_FACT_ANGLE) && is.of[2].n <= 0 && is.of[2].n >= -2 && is.of[2].d == 1)
-        qdot_text_add(out, angles[-is.of[2].n]);
+    angle = find_angle(session, e, is);
+    if (angle != NULL)
+        qdot_text_add(out, angle->unit);
     else
         qdot_dimension_unit(is, out);
+}
+
+qdot_dimension_state
+qdot_units_words(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    qdot_dimension is;
+    const qdot_dimension_state state = qdot_units_of(session, e, &is);
+    const struct angle *angle = state == QDOT_DIMENSION_KNOWN ? find_angle(session, e, is) : NULL;
+
+    if (angle != NULL)
+        qdot_text_add(out, angle->words);
+    else if (state == QDOT_DIMENSION_KNOWN)
+        qdot_dimension_words(is, out);
+    else if (state == QDOT_DIMENSION_FREE)
+        qdot_dimensions_words(session->units->known, e, out);
+    return state;
+}
+
+qdot_status
+qdot_units_groups(qdot_session *session, size_t n, const qdot_expr *x, size_t *count, int32_t **power)
+{
+    *power = NULL;
+    QDOT_TRY(bring_up_to_date(session));
+    return qdot_dimensions_groups(session->units->known, n, x, count, power);
 }
 
 qdot_status

@@ -52,6 +52,12 @@ QDOT_MUST_CHECK qdot_status qdot_units_transfer(qdot_session *from, qdot_expr sy
 qdot_dimension_state qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension);
 /* Append the unit in which numbers of e are given, as "m/s" or "rad"; nothing: a number, or not known. */
 void qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out);
+/* Append the dimension of e in words: "a force", "an angular velocity"; where it is FREE, in terms of those of other names.
+ * Returns what is known of it; nothing is appended where e is 0 or has none. */
+qdot_dimension_state qdot_units_words(qdot_session *session, qdot_expr e, qdot_text *out);
+/* As qdot_dimensions_groups. */
+QDOT_MUST_CHECK qdot_status qdot_units_groups(qdot_session *session, size_t n, const qdot_expr *x, size_t *count,
+                                              int32_t **power);
 
 /* The SI unit of a dimension as an expression of base units, whose numbers are 1. */
 QDOT_MUST_CHECK qdot_status qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit);
