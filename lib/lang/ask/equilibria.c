@@ -289,18 +289,14 @@ give_notice_of_incompleteness(qdot_session *session, const char *word, const cha
     } else if (all->unset != NULL) {
         qdot_text_format(&text, "there may be others: they cannot be solved for exactly, and numbers "
                                 "need a value of `%.100s`", all->unset);
-    } else if (all->starts == 0) {
-        if (all->n == 0)
-            qdot_text_format(&text, "no %s was found; there may be some", noun);
-        else
-            qdot_text_add(&text, "there may be others");
     } else {
         if (all->n == 0)
             qdot_text_format(&text, "no %s was found; there may be some", noun);
         else
             qdot_text_add(&text, "there may be others");
-        qdot_text_format(&text, ": %zu starts in numbers, within -%g..%g where no domain is declared", all->starts,
-                         all->reach, all->reach);
+        if (all->starts > 0)
+            qdot_text_format(&text, ": %zu starts in numbers, within -%g..%g where no domain is declared", all->starts,
+                             all->reach, all->reach);
     }
     if (all->unproved > 0)
         qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
@@ -310,28 +306,30 @@ give_notice_of_incompleteness(qdot_session *session, const char *word, const cha
 }
 
 qdot_status
-qdot_equilibria_answer(qdot_session *session, const char *word, const char *noun, const qdot_equilibria *all)
+qdot_equilibria_answer(qdot_record *r, qdot_equilibria_search *find, const char *noun)
 {
-    for (size_t i = 0; i < all->n; i++)
-        QDOT_TRY(answer_one_equilibrium(session, word, i, &all->at[i]));
-    return give_notice_of_incompleteness(session, word, noun, all);
+    qdot_session *session = r->cursor.session;
+    const char *word = r->row->word;
+    qdot_equilibria all;
+    qdot_expr value;
+    qdot_status status;
+
+    r->cursor.error_at = r->start[-1].start; /* errors point at the statement's word */
+    status = find(session, &all);
+    if (status == QDOT_OK)
+        status = qdot_equilibria_list(session, &all, &value);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history->values, value);
+    for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
+        status = answer_one_equilibrium(session, word, i, &all.at[i]);
+    if (status == QDOT_OK)
+        status = give_notice_of_incompleteness(session, word, noun, &all);
+    qdot_equilibria_clear(&all);
+    return status;
 }
 
 static qdot_status
 carry_out_equilibria(qdot_record *r)
 {
-    qdot_session *session = r->cursor.session;
-    qdot_equilibria all;
-    qdot_expr value;
-    qdot_status status;
-
-    r->cursor.error_at = r->start[-1].start; /* errors point at the word `equilibria` */
-    QDOT_TRY(qdot_equilibria_find(session, &all));
-    status = qdot_equilibria_list(session, &all, &value);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&session->history->values, value);
-    if (status == QDOT_OK)
-        status = qdot_equilibria_answer(session, "equilibria", "equilibrium", &all);
-    qdot_equilibria_clear(&all);
-    return status;
+    return qdot_equilibria_answer(r, qdot_equilibria_find, "equilibrium");
 }

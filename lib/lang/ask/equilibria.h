@@ -3,9 +3,9 @@
 #define QDOT_LANG_ASK_EQUILIBRIA_H
 
 #include "lang/functions/equilibria.h"
+#include "lang/syntax/record.h"
 
-/* word: equilibria, steady; noun: what one of them is called. */
-QDOT_MUST_CHECK qdot_status qdot_equilibria_answer(qdot_session *session, const char *word, const char *noun,
-                                                   const qdot_equilibria *all);
+/* Carry out the statement `equilibria` or `steady`: find, remember and answer; noun: what one of them is called. */
+QDOT_MUST_CHECK qdot_status qdot_equilibria_answer(qdot_record *r, qdot_equilibria_search *find, const char *noun);
 
 #endif

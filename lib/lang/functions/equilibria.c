@@ -49,8 +49,11 @@ inputs_rest(qdot_scene *scene, qdot_scene_saved *saved)
     return status;
 }
 
-qdot_status
-qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
+typedef qdot_status search(qdot_scene *scene, qdot_binder bind, void *user, qdot_equilibria *out);
+
+/* Call `find` while the inputs are 0, with the parameter values of the session. */
+static qdot_status
+find_with_inputs_at_rest(qdot_session *session, search *find, qdot_equilibria *out)
 {
     qdot_scene_saved saved;
     qdot_status status;
@@ -58,23 +61,21 @@ qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
     *out = (qdot_equilibria){0};
     QDOT_TRY(require_coordinates(session));
     QDOT_TRY(inputs_rest(session->scene, &saved));
-    status = qdot_equilibrium_find(session->scene, insert_session_values, session, out);
+    status = find(session->scene, insert_session_values, session, out);
     qdot_scene_restore(session->scene, &saved);
     return status;
 }
 
 qdot_status
+qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
+{
+    return find_with_inputs_at_rest(session, qdot_equilibrium_find, out);
+}
+
+qdot_status
 qdot_equilibria_steady(qdot_session *session, qdot_equilibria *out)
 {
-    qdot_scene_saved saved;
-    qdot_status status;
-
-    *out = (qdot_equilibria){0};
-    QDOT_TRY(require_coordinates(session));
-    QDOT_TRY(inputs_rest(session->scene, &saved));
-    status = qdot_steady_find(session->scene, insert_session_values, session, out);
-    qdot_scene_restore(session->scene, &saved);
-    return status;
+    return find_with_inputs_at_rest(session, qdot_steady_find, out);
 }
 
 qdot_expr

@@ -6,6 +6,8 @@
 #include "mech/study/equilibrium.h"
 #include "mech/linear/modes.h"
 
+typedef qdot_status qdot_equilibria_search(qdot_session *session, qdot_equilibria *out);
+
 /* As qdot_equilibrium_find, with the parameter values given by `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,
                                                  qdot_equilibria *out);

@@ -344,8 +344,8 @@ get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 
 /* All equilibria or steady motions as a LIST, or one of them; as `find` has them. */
 static qdot_status
-get_rests(qdot_session *s, const char *word, qdot_status (*find)(qdot_session *, qdot_equilibria *), uint32_t n,
-          const qdot_expr *index, qdot_expr *value)
+get_rests(qdot_session *s, const char *word, qdot_equilibria_search *find, uint32_t n, const qdot_expr *index,
+          qdot_expr *value)
 {
     qdot_equilibria all;
     qdot_status status;
