@@ -15,22 +15,13 @@
 #include "lang/session/range.h"
 #include "mech/scene/scene.h"
 
-/* functions that differentiate or solve, to which a value along a run would wrongly look like a constant */
-static const char *const of_formulas[] = {
-    "diff",  "ddt",  "rate", "solve",  "series", "integral",  "limit", "poisson",
-    "ds2",   "speed2",     "metric", "christoffel", "gradient", "divergence", "curl",
-    "laplacian", "geodesic", "riemann", "ricci", "scalar_curvature", "volume_element",
-    "scale_factors"};
-
 static qdot_status
 refuse_values_along_runs(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args)
 {
     qdot_status status = QDOT_OK;
 
-    for (size_t i = 0; i < sizeof of_formulas / sizeof *of_formulas; i++)
-        if (strcmp(of_formulas[i], row->name) == 0)
-            for (uint32_t k = 0; k < n && status == QDOT_OK; k++)
-                status = qdot_member_refuse(s, args[k]);
+    for (uint32_t k = 0; k < n && status == QDOT_OK && (row->flags & QDOT_BUILTIN_FORMULA); k++)
+        status = qdot_member_refuse(s, args[k]);
     return status == QDOT_OK
                ? status
                : qdot_hint("the run is written outside, as in `a.(%s(...))`", row->name);

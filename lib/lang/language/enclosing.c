@@ -1,9 +1,6 @@
 /* enclosing.c -- where a token stands: in which statement, in the brackets of which calls. */
 #include "lang/language/enclosing.h"
 
-#include <string.h>
-
-#include "lang/functions/builtin.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/range.h"
 
@@ -29,16 +26,18 @@ qdot_enclosing_bracket(const qdot_token *first, const qdot_token *token)
     return NULL;
 }
 
+const qdot_builtin *
+qdot_enclosing_call(const qdot_token *first, const qdot_token *open)
+{
+    return open != NULL && open > first && open[-1].kind == QDOT_TOKEN_NAME ? qdot_builtin_find(open[-1].text) : NULL;
+}
+
 bool
 qdot_enclosing_is_variable(const qdot_token *first, const qdot_token *token)
 {
-    static const char *const calls[] = {"diff", "subs", "solve", "series", "collect", "limit", "integral"};
-    const qdot_token *open = token > first && qdot_token_is(token - 1, ",") ? qdot_enclosing_bracket(first, token) : NULL;
+    const qdot_builtin *call = qdot_enclosing_call(first, qdot_enclosing_bracket(first, token));
 
-    for (size_t i = 0; open != NULL && open > first && i < sizeof calls / sizeof *calls; i++)
-        if (qdot_token_is_word(open - 1, calls[i]))
-            return true;
-    return false;
+    return call != NULL && (call->flags & QDOT_BUILTIN_VARIABLE) && qdot_token_is(token - 1, ",");
 }
 
 /* The second argument of the call whose bracket this is; NULL: it has none. */
@@ -89,7 +88,6 @@ keeps_multipliers(const qdot_token *first, const qdot_token *k)
 bool
 qdot_enclosing_asks_multipliers(const qdot_cursor *c, const qdot_token *token)
 {
-    static const char *const calculus[] = {"diff", "ddt", "rate", "solve", "series", "limit", "integral", "subs", "jacobian"};
     const qdot_token *first = qdot_enclosing_statement(c, token), *open = token;
     bool asks = c->session->evaluation->asks;
 
@@ -99,13 +97,13 @@ qdot_enclosing_asks_multipliers(const qdot_cursor *c, const qdot_token *token)
         if (keeps_multipliers(first, k))
             return false;
     while ((open = qdot_enclosing_bracket(first, open)) != NULL) {
-        const qdot_builtin *call =
-            open > first && open[-1].kind == QDOT_TOKEN_NAME ? qdot_builtin_find(open[-1].text) : NULL;
+        const qdot_builtin *call = qdot_enclosing_call(first, open);
 
-        if (call != NULL && ((call->flags & QDOT_BUILTIN_RUN) || qdot_range_is_word(call->name)))
+        if (call == NULL)
+            continue;
+        if ((call->flags & QDOT_BUILTIN_RUN) || qdot_range_is_word(call->name))
             return false;
-        for (size_t i = 0; call != NULL && i < sizeof calculus / sizeof *calculus; i++)
-            asks |= strcmp(call->name, calculus[i]) == 0;
+        asks = asks || (call->flags & QDOT_BUILTIN_CALCULUS);
     }
     return asks;
 }

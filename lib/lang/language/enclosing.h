@@ -2,12 +2,15 @@
 #ifndef QDOT_LANG_ENCLOSING_H
 #define QDOT_LANG_ENCLOSING_H
 
+#include "lang/functions/builtin.h"
 #include "lang/language/cursor.h"
 
 /* The first token of the statement of `token`. */
 const qdot_token *qdot_enclosing_statement(const qdot_cursor *c, const qdot_token *token);
 /* The bracket that is open at `token` in the statement that begins at `first`; NULL: none is. */
 const qdot_token *qdot_enclosing_bracket(const qdot_token *first, const qdot_token *token);
+/* The function of the language whose arguments stand in this bracket (NULL: in none), in that statement; NULL: none. */
+const qdot_builtin *qdot_enclosing_call(const qdot_token *first, const qdot_token *open);
 /* Whether the token, a name, is the variable of a call, as x in diff(T, x) or subs(T, x = 0). */
 bool qdot_enclosing_is_variable(const qdot_token *first, const qdot_token *token);
 /* Whether the token is the variable of an integral or a limit, or stands for it in one: x in integral(x^2, x, 0, 1). */

@@ -452,12 +452,10 @@ are_integer_indices(qdot_session *s, uint32_t n, const qdot_expr *index)
 static bool
 is_word_of_momenta(const char *word)
 {
-    static const char *const words[] = {"hamiltonian", "H", "routhian", "poisson", "lie", "canonical", "rate"};
+    const qdot_builtin *function = qdot_builtin_find(word);
 
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(word, words[i]) == 0)
-            return true;
-    return false;
+    return strcmp(word, "hamiltonian") == 0 || strcmp(word, "H") == 0 ||
+           (function != NULL && (function->flags & QDOT_BUILTIN_MOMENTA));
 }
 
 /* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), rate(...), or a name, or a value
