@@ -66,7 +66,7 @@ qdot_elimination_short(qdot_elimination *x, qdot_expr e)
     if (qdot_expr_kind(x->pool, e) == QDOT_NUM)
         return x->numbers ? rounded_number(x->pool, e) : e;
     x->work += qdot_expr_node(x->pool, e)->size;
-    if (x->work > x->most || is_long_constant(x->pool, e)) {
+    if (x->most > 0 && (x->work > x->most || is_long_constant(x->pool, e))) {
         (void)qdot_fail(QDOT_ELIMIT, "the linear motion is too long to be written in symbols");
         return qdot_pool_fail(x->pool);
     }
@@ -161,4 +161,30 @@ qdot_echelon_add(qdot_elimination *x, qdot_echelon *e, qdot_expr *row, bool *ind
         QDOT_TRY(subtract_multiple(x, e->width, e->row + r * e->width, e->row[r * e->width + j], own));
     e->pivot[e->rank++] = j;
     return qdot_pool_check(x->pool);
+}
+
+bool
+qdot_echelon_leads(const qdot_echelon *e, size_t j)
+{
+    for (size_t r = 0; r < e->rank; r++)
+        if (e->pivot[r] == j)
+            return true;
+    return false;
+}
+
+void
+qdot_echelon_null_space(qdot_pool *pool, const qdot_echelon *e, qdot_expr *N)
+{
+    const size_t m = e->lead - e->rank;
+
+    for (size_t i = 0; i < e->lead * m; i++)
+        N[i] = QDOT_ZERO;
+    for (size_t j = 0, a = 0; j < e->lead; j++) {
+        if (qdot_echelon_leads(e, j))
+            continue;
+        N[j * m + a] = QDOT_ONE;
+        for (size_t r = 0; r < e->rank; r++)
+            N[e->pivot[r] * m + a] = qdot_neg(pool, e->row[r * e->width + j]);
+        a++;
+    }
 }

@@ -12,7 +12,8 @@ typedef struct {
     qdot_pool *pool;
     const qdot_facts *facts;
     bool numbers;
-    size_t work, most; /* operations in the expressions simplified so far; QDOT_ELIMIT beyond `most` */
+    size_t most; /* bound of the work, beyond which, or at a long constant, there is QDOT_ELIMIT; 0: no bound */
+    size_t work; /* operations in the expressions simplified so far */
 } qdot_elimination;
 
 /* Rows in reduced echelon form: the leading 1 of row r is in column pivot[r], other rows have 0 there. */
@@ -32,7 +33,12 @@ qdot_expr qdot_elimination_minus(qdot_elimination *x, qdot_expr a, qdot_expr b, 
 QDOT_MUST_CHECK qdot_status qdot_echelon_begin(qdot_echelon *e, size_t rows, size_t lead, size_t width);
 void qdot_echelon_end(qdot_echelon *e);
 /* Add `row` [width], which is reduced in place; *independent: its first `lead` entries are not all 0 then, and it was
- * added. */
+ * added, divided by row[pivot[rank - 1]]. */
 QDOT_MUST_CHECK qdot_status qdot_echelon_add(qdot_elimination *x, qdot_echelon *e, qdot_expr *row, bool *independent);
+/* Whether a row leads in column j. */
+bool qdot_echelon_leads(const qdot_echelon *e, size_t j);
+/* Solve for the leading entries, with zeros on the right: N [lead x (lead - rank)], by rows. Column a of N has the a-th
+ * entry in which no row leads at 1, the others of these at 0. */
+void qdot_echelon_null_space(qdot_pool *pool, const qdot_echelon *e, qdot_expr *N);
 
 #endif

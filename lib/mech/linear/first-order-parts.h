@@ -25,12 +25,12 @@ typedef struct {
 
 /* The jet of coordinate i. */
 qdot_expr qdot_first_order_jet(const qdot_first_order_job *j, size_t i, uint32_t order);
-/* Input k: those of the scene, then its first-order unknowns, on which the motion depends in the same way. */
-qdot_expr qdot_first_order_input(const qdot_first_order_job *j, size_t k);
 /* n expressions, all 0, which the caller frees; NULL: there is none. */
 qdot_expr *qdot_first_order_new(size_t n);
-/* The sum of X[i] change[i] over the n coordinates, of columns a. */
-qdot_expr qdot_first_order_along(qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a);
+/* The slopes of e along q, q' and the inputs, slope [2 n + inputs]. */
+void qdot_first_order_slopes(const qdot_first_order_job *j, qdot_expr e, qdot_expr *slope);
+/* How an expression with these slopes changes with what column a stands for, one of the state or an input. */
+qdot_expr qdot_first_order_change(qdot_first_order_job *j, const qdot_expr *slope, size_t a);
 /* Hand out the results. */
 struct qdot_first_order;
 QDOT_MUST_CHECK qdot_status qdot_first_order_write(qdot_first_order_job *j, struct qdot_first_order *out);

@@ -32,7 +32,7 @@ static qdot_status
 write_first_order_unknowns(qdot_first_order_job *j, qdot_first_order *out)
 {
     const qdot_scene *s = j->s;
-    const size_t n = j->n, moving = 2 * n + j->inputs, columns = out->states + out->inputs, first = out->n - 2 * s->states.n;
+    const size_t moving = 2 * j->n + j->inputs, columns = out->states + out->inputs, first = out->n - 2 * s->states.n;
     qdot_expr *slope = qdot_first_order_new(moving + 1);
     qdot_status status = slope == NULL ? QDOT_ENOMEM : QDOT_OK;
 
@@ -40,20 +40,13 @@ write_first_order_unknowns(qdot_first_order_job *j, qdot_first_order *out)
         const qdot_state *z = &s->states.at[k];
         qdot_expr *own = out->change + (first + 2 * k) * columns, *rate = own + columns;
 
-        for (size_t i = 0; i < moving; i++)
-            slope[i] = qdot_diff(j->pool, z->rate, i < 2 * n ? qdot_first_order_jet(j, i % n, i < n ? 0 : 1) : qdot_first_order_input(j, i - 2 * n));
+        qdot_first_order_slopes(j, z->rate, slope);
         slope[moving] = z->rate;
         status = qdot_pool_check(j->pool);
         if (status == QDOT_OK)
             status = qdot_state_values_of(&j->v, moving + 1, slope);
-        for (size_t a = 0; a < j->y + j->z + j->inputs && status == QDOT_OK; a++) {
-            qdot_expr sum = qdot_add(j->pool, qdot_first_order_along(j, slope, j->change[0], a),
-                                     qdot_first_order_along(j, slope + n, j->change[1], a));
-
-            if (a >= j->y + j->z)
-                sum = qdot_add(j->pool, sum, slope[2 * n + a - j->y - j->z]);
-            rate[column_of_results(j, a)] = qdot_elimination_short(&j->v.x, sum);
-        }
+        for (size_t a = 0; a < j->y + j->z + j->inputs && status == QDOT_OK; a++)
+            rate[column_of_results(j, a)] = qdot_first_order_change(j, slope, a);
         out->symbol[first + 2 * k] = z->z;
         out->symbol[first + 2 * k + 1] = qdot_symbol_jet(j->pool, z->z, 1);
         out->value[first + 2 * k] = value_of_symbol(j, z->z);
@@ -82,14 +75,9 @@ qdot_first_order_write(qdot_first_order_job *j, qdot_first_order *out)
         return QDOT_ENOMEM;
     out->value = out->symbol + out->n;
     for (int order = 0; order < 2; order++)
-        for (size_t i = 0; i < n; i++) {
-            bool dependent = false;
-
-            for (size_t r = 0; r < j->level[order].rank; r++)
-                dependent |= j->level[order].pivot[r] == i;
-            if (!dependent)
+        for (size_t i = 0; i < n; i++)
+            if (!qdot_echelon_leads(&j->level[order], i))
                 out->state[at++] = qdot_first_order_jet(j, i, (uint32_t)order);
-        }
     for (size_t k = 0; k < j->s->states.n; k++)
         out->state[at++] = j->s->states.at[k].z;
     for (size_t i = 0; i < 3 * n + j->c + m; i++) {

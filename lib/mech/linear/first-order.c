@@ -20,8 +20,9 @@ qdot_first_order_jet(const qdot_first_order_job *j, size_t i, uint32_t order)
     return qdot_mech_jet(j->s, j->own[i], order);
 }
 
-qdot_expr
-qdot_first_order_input(const qdot_first_order_job *j, size_t k)
+/* Input k: those of the scene, then its first-order unknowns, on which the motion depends in the same way. */
+static qdot_expr
+first_order_input(const qdot_first_order_job *j, size_t k)
 {
     const size_t m = j->s->inputs.n;
 
@@ -32,13 +33,7 @@ qdot_first_order_input(const qdot_first_order_job *j, size_t k)
 static qdot_expr
 force_along(const qdot_first_order_job *j, qdot_expr f, size_t i)
 {
-    f = qdot_expr_arg(j->pool, f, (uint32_t)j->own[i]);
-    for (size_t k = 0; k < j->s->states.n && f != QDOT_NIL; k++) {
-        const qdot_expr velocity = qdot_symbol_jet(j->pool, j->s->states.at[k].z, 1);
-
-        f = qdot_subs(j->pool, f, 1, &velocity, &j->s->states.at[k].rate);
-    }
-    return f;
+    return qdot_scene_with_rates(j->s, qdot_expr_arg(j->pool, f, (uint32_t)j->own[i]));
 }
 
 static qdot_expr
@@ -151,12 +146,9 @@ write_changes(qdot_first_order_job *j, int order, size_t *first)
     const size_t n = j->n, width = j->width;
     qdot_expr *change = j->change[order];
 
-    for (size_t i = 0, r; i < n; i++) {
-        for (r = 0; r < e->rank && e->pivot[r] != i; r++)
-            ;
-        if (r == e->rank && first != NULL)
+    for (size_t i = 0; i < n && first != NULL; i++)
+        if (!qdot_echelon_leads(e, i))
             change[i * width + (*first)++] = QDOT_ONE;
-    }
     for (size_t r = 0; r < e->rank; r++) {
         const qdot_expr *row = e->row + r * e->width;
         qdot_expr *own = change + e->pivot[r] * width;
@@ -215,8 +207,9 @@ reduce_level(qdot_first_order_job *j, int order)
 
 /* --- equations of motion ------------------------------------------------------------- */
 
-qdot_expr
-qdot_first_order_along(qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
+/* The sum of X[i] change[i] over the n coordinates, of columns a. */
+static qdot_expr
+change_along(const qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
 {
     qdot_expr sum = QDOT_ZERO;
 
@@ -224,6 +217,27 @@ qdot_first_order_along(qdot_first_order_job *j, const qdot_expr *X, const qdot_e
         if (X[i] != QDOT_ZERO && change[i * j->width + a] != QDOT_ZERO)
             sum = qdot_add(j->pool, sum, qdot_mul(j->pool, X[i], change[i * j->width + a]));
     return sum;
+}
+
+void
+qdot_first_order_slopes(const qdot_first_order_job *j, qdot_expr e, qdot_expr *slope)
+{
+    const size_t n = j->n;
+
+    for (size_t k = 0; k < 2 * n + j->inputs; k++)
+        slope[k] = qdot_diff(j->pool, e, k < 2 * n ? qdot_first_order_jet(j, k % n, k < n ? 0 : 1)
+                                                   : first_order_input(j, k - 2 * n));
+}
+
+qdot_expr
+qdot_first_order_change(qdot_first_order_job *j, const qdot_expr *slope, size_t a)
+{
+    const size_t state = j->y + j->z;
+    qdot_expr sum = qdot_add(j->pool, change_along(j, slope, j->change[0], a), change_along(j, slope + j->n, j->change[1], a));
+
+    if (a >= state)
+        sum = qdot_add(j->pool, sum, slope[2 * j->n + a - state]);
+    return qdot_elimination_short(&j->v.x, sum);
 }
 
 /* Solve A x = b for several right sides; A is [n x n], X has a row of `columns` right sides for each unknown and is
@@ -263,25 +277,12 @@ solve_accelerations(qdot_first_order_job *j, const qdot_expr *F, size_t from, si
 {
     const qdot_echelon *e = &j->level[2];
     const size_t n = j->n, m = n - e->rank, columns = to - from, width = j->width;
-    qdot_expr *N = qdot_first_order_new(n * m), *A = qdot_first_order_new(m * m), *X = qdot_first_order_new(m * columns), *MN;
-    qdot_status status = N == NULL || A == NULL || X == NULL ? QDOT_ENOMEM : QDOT_OK;
-    size_t a = 0;
+    qdot_expr *N = qdot_first_order_new(n * m), *MN = qdot_first_order_new(n * m), *A = qdot_first_order_new(m * m),
+              *X = qdot_first_order_new(m * columns);
+    qdot_status status = N == NULL || MN == NULL || A == NULL || X == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    MN = qdot_first_order_new(n * m);
-    if (MN == NULL)
-        status = QDOT_ENOMEM;
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) { /* Na: a column for each independent acceleration */
-        bool dependent = false;
-
-        for (size_t r = 0; r < e->rank; r++)
-            dependent |= e->pivot[r] == i;
-        if (dependent)
-            continue;
-        N[i * m + a] = QDOT_ONE;
-        for (size_t r = 0; r < e->rank; r++)
-            N[e->pivot[r] * m + a] = qdot_neg(j->pool, e->row[r * e->width + i]);
-        a++;
-    }
+    if (status == QDOT_OK)
+        qdot_echelon_null_space(j->pool, e, N); /* Na: a column for each independent acceleration */
     for (size_t i = 0; i < n * m && status == QDOT_OK; i++) {
         qdot_expr sum = QDOT_ZERO;
 
@@ -304,7 +305,7 @@ solve_accelerations(qdot_first_order_job *j, const qdot_expr *F, size_t from, si
                 sum = qdot_sub(j->pool, sum,
                                qdot_mul(j->pool, N[h * m + i],
                                         qdot_add(j->pool, F[h * width + from + k],
-                                                 qdot_first_order_along(j, j->M + h * n, j->change[2], from + k))));
+                                                 change_along(j, j->M + h * n, j->change[2], from + k))));
             X[i * columns + k] = qdot_elimination_short(&j->v.x, sum);
         }
         status = qdot_pool_check(j->pool);
@@ -349,7 +350,7 @@ solve_multipliers(qdot_first_order_job *j, const qdot_expr *G, const qdot_expr *
         for (size_t k = 0; k < columns; k++)
             X[i * columns + k] = qdot_elimination_short(
                 &j->v.x, qdot_add(j->pool, F[row * j->width + from + k],
-                                  qdot_first_order_along(j, j->M + row * n, j->change[2], from + k)));
+                                  change_along(j, j->M + row * n, j->change[2], from + k)));
     }
     if (status == QDOT_OK)
         status = qdot_pool_check(j->pool);
@@ -426,24 +427,14 @@ find_changes(qdot_first_order_job *j, qdot_expr M, qdot_expr f, const qdot_expr 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         const qdot_expr residual = residual_of_motion(j, M, f, i);
 
-        for (size_t k = 0; k < moving; k++)
-            slope[i * moving + k] = qdot_diff(j->pool, residual,
-                                              k < 2 * n ? qdot_first_order_jet(j, k % n, k < n ? 0 : 1)
-                                                        : qdot_first_order_input(j, k - 2 * n));
+        qdot_first_order_slopes(j, residual, slope + i * moving);
         status = qdot_pool_check(j->pool);
     }
     if (status == QDOT_OK)
         status = qdot_state_values_of(&j->v, n * moving, slope);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        for (size_t a = 0; a < last; a++) {
-            const qdot_expr *own = slope + i * moving;
-            qdot_expr sum = qdot_add(j->pool, qdot_first_order_along(j, own, j->change[0], a),
-                                     qdot_first_order_along(j, own + n, j->change[1], a));
-
-            if (a >= j->y + j->z)
-                sum = qdot_add(j->pool, sum, own[2 * n + a - j->y - j->z]);
-            F[i * j->width + a] = qdot_elimination_short(&j->v.x, sum);
-        }
+        for (size_t a = 0; a < last; a++)
+            F[i * j->width + a] = qdot_first_order_change(j, slope + i * moving, a);
     if (status == QDOT_OK)
         status = qdot_pool_check(j->pool);
     if (status == QDOT_OK)

@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/linear/elimination.h"
 #include "mech/scene/access.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
@@ -115,83 +116,25 @@ qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
     return e;
 }
 
-/* The gradients of constraints in reduced row echelon form. */
-typedef struct {
-    size_t n, rank;
-    qdot_expr *A;  /* [rank x n] the reduced gradients */
-    size_t *pivot; /* [rank] column of each row's leading 1; other rows have 0 there */
-} echelon;
-
-/* Subtract from row [n] the row `other` [n] times `by`. */
+/* Bring the gradients of the holonomic constraints into echelon form; out->pivot: the divisors of the rows. */
 static qdot_status
-subtract_row(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_expr *other)
-{
-    qdot_pool *pool = p->s->pool;
-
-    for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
-        row[i] = qdot_simplify(pool, qdot_sub(pool, row[i], qdot_mul(pool, by, other[i])), &p->facts);
-    return qdot_pool_check(pool);
-}
-
-/* Add the gradient of constraint k unless it depends linearly on earlier ones. *pivot: the divisor of its row. */
-static qdot_status
-echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
-{
-    qdot_pool *pool = p->s->pool;
-    qdot_expr *row = e->A + e->rank * e->n;
-    size_t j = 0;
-
-    for (size_t i = 0; i < e->n; i++)
-        row[i] = simplified_value_at_rest(p, qdot_integrated_slope(p->s, k, i));
-    QDOT_TRY(qdot_pool_check(pool));
-    for (size_t r = 0; r < e->rank; r++)
-        QDOT_TRY(subtract_row(p, e->n, row, row[e->pivot[r]], e->A + r * e->n));
-    while (j < e->n && qdot_is_zero(pool, row[j], &p->facts))
-        j++;
-    if (j == e->n)
-        return QDOT_OK;
-    *pivot = row[j];
-    for (size_t i = e->n; i-- > 0;)
-        if (i != j)
-            row[i] = qdot_simplify(pool, qdot_div(pool, row[i], row[j]), &p->facts);
-    row[j] = QDOT_ONE;
-    for (size_t r = 0; r < e->rank; r++)
-        QDOT_TRY(subtract_row(p, e->n, e->A + r * e->n, e->A[r * e->n + j], row));
-    e->pivot[e->rank++] = j;
-    return qdot_pool_check(pool);
-}
-
-/* The tangent space of the holonomic constraints: its columns, at stride n, a basis; which [n] the
- * coordinate of each. */
-static qdot_status
-constraint_tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
+reduce_gradients(const place *p, qdot_echelon *e, qdot_linear_motion *out)
 {
     const size_t n = p->s->coordinates.n, c = p->s->constraints.n;
-    echelon e = {.n = n};
-    qdot_status status;
+    qdot_elimination x = {.pool = p->s->pool, .facts = &p->facts};
+    qdot_expr *row = qdot_calloc(n + 1, sizeof *row);
+    qdot_status status = row == NULL ? QDOT_ENOMEM : qdot_echelon_begin(e, c, n, n);
 
-    e.A = qdot_calloc(c * n + n + 1, sizeof *e.A);
-    e.pivot = qdot_calloc(c + 1, sizeof *e.pivot);
-    status = e.A == NULL || e.pivot == NULL ? QDOT_ENOMEM : QDOT_OK;
-    for (size_t k = 0; k < c && status == QDOT_OK; k++)
-        status = echelon_add(p, &e, k, &out->pivot[e.rank]);
-    out->n = 0;
-    for (size_t j = 0; j < n && status == QDOT_OK; j++) {
-        bool dependent = false;
+    for (size_t k = 0; k < c && status == QDOT_OK; k++) {
+        bool independent;
 
-        for (size_t r = 0; r < e.rank; r++)
-            dependent |= e.pivot[r] == j;
-        if (dependent)
-            continue;
         for (size_t i = 0; i < n; i++)
-            N[i * n + out->n] = i == j ? QDOT_ONE : QDOT_ZERO;
-        for (size_t r = 0; r < e.rank; r++)
-            N[e.pivot[r] * n + out->n] = qdot_neg(p->s->pool, e.A[r * n + j]);
-        out->which[out->n++] = j;
+            row[i] = simplified_value_at_rest(p, qdot_integrated_slope(p->s, k, i));
+        status = qdot_echelon_add(&x, e, row, &independent);
+        if (status == QDOT_OK && independent)
+            out->pivot[out->rank++] = row[e->pivot[e->rank - 1]];
     }
-    out->rank = e.rank;
-    qdot_free(e.A);
-    qdot_free(e.pivot);
+    qdot_free(row);
     return status;
 }
 
@@ -306,21 +249,22 @@ qdot_linear_motion_clear(qdot_linear_motion *m)
     *m = (qdot_linear_motion){0};
 }
 
+/* Write the motion in the tangent space of the constraints, which is the null space of their gradients. */
 static qdot_status
-reduce_to_tangents(const place *p, const qdot_expr *X, const qdot_expr *columns,
-                   qdot_linear_motion *out)
+reduce_to_tangents(const place *p, const qdot_expr *X, const qdot_echelon *gradients, qdot_linear_motion *out)
 {
-    size_t n = p->s->coordinates.n, m = out->n;
+    const size_t n = p->s->coordinates.n, m = n - gradients->rank;
 
+    for (size_t j = 0; j < n; j++)
+        if (!qdot_echelon_leads(gradients, j))
+            out->which[out->n++] = j;
     out->M = qdot_calloc(3 * m * m + n * m + 1, sizeof *out->M);
     if (out->M == NULL)
         return QDOT_ENOMEM;
     out->Gamma = out->M + m * m;
     out->H = out->Gamma + m * m;
     out->N = out->H + m * m;
-    for (size_t i = 0; i < n; i++)
-        for (size_t a = 0; a < m; a++)
-            out->N[i * m + a] = columns[i * n + a];
+    qdot_echelon_null_space(p->s->pool, gradients, out->N);
     for (int k = 0; k < 3; k++)
         QDOT_TRY(project_on_tangents(p, X + (size_t)k * n * n, out->N, m, out->M + (size_t)k * m * m));
     return QDOT_OK;
@@ -331,9 +275,10 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
                          qdot_linear_motion *out)
 {
     size_t n = s->coordinates.n;
-    qdot_expr *X = qdot_calloc(4 * n * n + 1, sizeof *X);
+    qdot_expr *X = qdot_calloc(3 * n * n + 1, sizeof *X);
     qdot_status status = X == NULL ? QDOT_ENOMEM : QDOT_OK;
     place p = {0};
+    qdot_echelon gradients = {0};
 
     *out = (qdot_linear_motion){
         .which = qdot_calloc(n + 1, sizeof *out->which),
@@ -347,9 +292,10 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
     if (status == QDOT_OK)
         status = raise_states(&p, X);
     if (status == QDOT_OK)
-        status = constraint_tangents(&p, X + 3 * n * n, out);
+        status = reduce_gradients(&p, &gradients, out);
     if (status == QDOT_OK)
-        status = reduce_to_tangents(&p, X, X + 3 * n * n, out);
+        status = reduce_to_tangents(&p, X, &gradients, out);
+    qdot_echelon_end(&gradients);
     qdot_free(X);
     place_end(&p);
     if (status != QDOT_OK)

@@ -149,10 +149,8 @@ qdot_state_values_of(qdot_state_values *v, size_t n, qdot_expr *e)
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < n; i++) {
         QDOT_TRY(need_no_jump(v, e[i]));
-        e[i] = qdot_subs(pool, e[i], v->symbols.n, v->symbols.at, v->values.at);
-        if (v->x.numbers && e[i] != QDOT_NIL)
-            e[i] = v->bind(v->user, e[i]);
-        else
+        e[i] = value_at_state(v, e[i]);
+        if (!v->x.numbers)
             e[i] = qdot_elimination_short(&v->x, e[i]);
     }
     QDOT_TRY(qdot_pool_check(pool));
