@@ -100,20 +100,17 @@ write_kinematics(qdot_derivation *d)
                    : step == 1 ? "v = sum dr/dq q' + dr/dt"
                             : "v^2 = v.v");
         for (size_t i = 0; i < n; i++) {
-            bool particle = i < s->particles.n;
-            const qdot_body *b = particle ? NULL : &s->bodies.at[i - s->particles.n];
-            const char *name = particle ? s->particles.at[i].name : b->name;
-            qdot_expr r = particle ? s->particles.at[i].position : b->position;
-            qdot_derived_symbol x = {.letter = step == 0 ? "r" : "v", .of = name, .square = step == 2};
+            const qdot_massive one = qdot_scene_massive(s, i);
+            qdot_derived_symbol x = {.letter = step == 0 ? "r" : "v", .of = one.name, .square = step == 2};
 
             QDOT_TRY(qdot_derive_equation(d, x,
-                                         step == 0   ? r
-                                         : step == 1 ? simplify_for_page(d, qdot_ddt(s->pool, r))
-                                                     : qdot_mech_speed2(s, r)));
-            if (step == 0 && !particle)
-                QDOT_TRY(write_turning_angle(d, b));
-            if (step == 1 && !particle)
-                QDOT_TRY(write_angular_velocity(d, b));
+                                         step == 0   ? one.position
+                                         : step == 1 ? simplify_for_page(d, qdot_ddt(s->pool, one.position))
+                                                     : qdot_mech_speed2(s, one.position)));
+            if (step == 0 && one.body)
+                QDOT_TRY(write_turning_angle(d, one.body));
+            if (step == 1 && one.body)
+                QDOT_TRY(write_angular_velocity(d, one.body));
         }
     }
     return QDOT_OK;

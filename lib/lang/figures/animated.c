@@ -290,16 +290,12 @@ kinetic_energy(qdot_scene *s)
     qdot_expr twice = QDOT_ZERO;
 
     for (size_t i = 0; i < s->particles.n + s->bodies.n; i++) {
-        bool particle = i < s->particles.n;
-        const qdot_body *b = particle ? NULL : &s->bodies.at[i - s->particles.n];
-        qdot_expr v = qdot_ddt(pool,
-                               particle ? s->particles.at[i].position : b->position),
-                  w;
+        const qdot_massive one = qdot_scene_massive(s, i);
+        const qdot_body *b = one.body;
+        qdot_expr w;
 
-        twice = qdot_add(pool, twice,
-                         qdot_mul(pool, particle ? s->particles.at[i].mass : b->mass,
-                                  norm_squared(pool, v)));
-        if (particle)
+        twice = qdot_add(pool, twice, qdot_mul(pool, one.mass, norm_squared(pool, qdot_ddt(pool, one.position))));
+        if (b == NULL)
             continue;
         w = qdot_scene_spin(s, b->name);
         if (b->angle == QDOT_NIL) {

@@ -68,14 +68,10 @@ add_gravity_potential(const qdot_scene *s, qdot_scene *to)
 
     for (size_t k = 0; k < s->gravities.n; k++)
         for (size_t i = 0; i < s->particles.n + s->bodies.n; i++) {
-            const qdot_body *b =
-                i < s->particles.n ? NULL : s->bodies.at + i - s->particles.n;
-            const qdot_expr mass = b ? b->mass : s->particles.at[i].mass;
-            const qdot_expr r = b ? b->position : s->particles.at[i].position;
+            const qdot_massive one = qdot_scene_massive(s, i);
 
-            V = qdot_sub(
-                pool, V,
-                qdot_mul(pool, mass, qdot_mech_dot(pool, s->gravities.at[k].e, r)));
+            V = qdot_sub(pool, V,
+                         qdot_mul(pool, one.mass, qdot_mech_dot(pool, s->gravities.at[k].e, one.position)));
         }
     to->gravities.n = 0;
     QDOT_TRY(qdot_pool_check(pool));

@@ -295,14 +295,6 @@ typedef struct {
     bool hyperbolic[MOST_COORDINATES], square[MOST_COORDINATES];
 } joined;
 
-/* The position of the i-th particle or body, particles first. */
-static qdot_expr
-position_of_thing(const qdot_scene *s, size_t i)
-{
-    return i < s->particles.n ? s->particles.at[i].position
-                              : s->bodies.at[i - s->particles.n].position;
-}
-
 /* Whether e contains f(q) for this function f; function 0: q as a factor, or by itself. */
 static bool
 contains_function(qdot_pool *pool, qdot_expr e, uint16_t function, qdot_expr q)
@@ -356,8 +348,8 @@ find_coupled_coordinates(const qdot_scene *s, bool rates)
     joined pairs = {0};
 
     for (size_t i = 0; i < s->particles.n + s->bodies.n; i++)
-        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, position_of_thing(s, i)); d++)
-            mark_coupled_coordinates(s, qdot_mech_component(s->pool, position_of_thing(s, i), d), false, &pairs);
+        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, qdot_scene_massive(s, i).position); d++)
+            mark_coupled_coordinates(s, qdot_mech_component(s->pool, qdot_scene_massive(s, i).position, d), false, &pairs);
     mark_coupled_coordinates(s, s->lagrangian, rates, &pairs);
     return pairs;
 }
@@ -481,7 +473,7 @@ qdot_chart_find(qdot_scene *s, bool open, qdot_chart_groups *groups)
         if (!open || order[k].kind == QDOT_CHART_PLANE || order[k].kind == QDOT_CHART_SPACE)
             status = try_groups_of_kind(s, open, order[k].kind, order[k].turned, &pairs, groups);
     for (size_t i = 0; i < s->particles.n + s->bodies.n && status == QDOT_OK && !open; i++)
-        status = try_root_groups(s, position_of_thing(s, i), groups);
+        status = try_root_groups(s, qdot_scene_massive(s, i).position, groups);
     pending = qdot_pool_check(s->pool);
     status = status == QDOT_OK ? pending : status;
     (void)qdot_pool_budget(s->pool, rest);

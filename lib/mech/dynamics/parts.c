@@ -8,27 +8,6 @@
 #include "mech/scene/access.h"
 #include "normal/form/common.h"
 
-/* A particle or rigid body of the scene; they are numbered with the particles first. */
-typedef struct {
-    const char *name;
-    qdot_expr mass, position;
-    const qdot_body *body; /* the rigid body; NULL: a particle */
-} massive;
-
-static massive
-get_particle_or_body(const qdot_scene *s, size_t k)
-{
-    if (k < s->particles.n) {
-        const qdot_particle *p = &s->particles.at[k];
-
-        return (massive){.name = p->name, .mass = p->mass, .position = p->position};
-    }
-    const qdot_body *b = &s->bodies.at[k - s->particles.n];
-
-    return (massive){
-        .name = b->name, .mass = b->mass, .position = b->position, .body = b};
-}
-
 /* Twice the rotational energy of a body, w.I w; in space in the body's axes, in which I is given. */
 static qdot_expr
 twice_rotational_energy(qdot_scene *s, const qdot_body *b)
@@ -47,11 +26,11 @@ qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part)
 {
     qdot_pool *pool = s->pool;
     qdot_expr T;
-    massive m;
+    qdot_massive m;
 
     if (k >= s->particles.n + s->bodies.n)
         return false;
-    m = get_particle_or_body(s, k);
+    m = qdot_scene_massive(s, k);
     T = qdot_mul(pool, m.mass, qdot_common_out(pool, qdot_mech_speed2(s, m.position)));
     T = qdot_mul(pool, QDOT_HALF, T);
     if (m.body)
@@ -62,7 +41,7 @@ qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part)
 
 /* The potential -m g.r of a particle or body, where g is the sum of all gravity fields. */
 static qdot_expr
-gravity_potential(qdot_scene *s, const massive *m)
+gravity_potential(qdot_scene *s, const qdot_massive *m)
 {
     qdot_pool *pool = s->pool;
     qdot_expr height = QDOT_ZERO;
@@ -79,7 +58,7 @@ qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part)
     const size_t heavy = s->gravities.n > 0 ? s->particles.n + s->bodies.n : 0;
 
     if (k < heavy) {
-        const massive m = get_particle_or_body(s, k);
+        const qdot_massive m = qdot_scene_massive(s, k);
 
         *part =
             (qdot_energy_part){.kind = "gravity", .name = m.name, .value = gravity_potential(s, &m)};

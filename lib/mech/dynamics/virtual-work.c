@@ -45,16 +45,13 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
     if (kane) {
         Q = QDOT_ZERO;
         for (size_t p = 0; p < s->particles.n + s->bodies.n; p++) {
-            bool body = p >= s->particles.n;
-            const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
-            qdot_expr m = body ? b->mass : s->particles.at[p].mass;
-            qdot_expr r = body ? b->position : s->particles.at[p].position;
-            qdot_expr v = partial_position(s, r, i, true);
+            const qdot_massive one = qdot_scene_massive(s, p);
+            qdot_expr v = partial_position(s, one.position, i, true);
 
             for (size_t g = 0; g < s->gravities.n; g++)
                 Q = qdot_add(
                     pool, Q,
-                    qdot_mul(pool, m, qdot_mech_dot(pool, s->gravities.at[g].e, v)));
+                    qdot_mul(pool, one.mass, qdot_mech_dot(pool, s->gravities.at[g].e, v)));
         }
     } else {
         kin = qdot_kinematics_get(s);
@@ -64,18 +61,16 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
     }
     /* if a mass depends on q, V = -m g.r also contributes a force through dm/dq */
     for (size_t p = 0; p < s->particles.n + s->bodies.n; p++) {
-        bool body = p >= s->particles.n;
-        const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
-        qdot_expr m = body ? b->mass : s->particles.at[p].mass;
-        qdot_expr r = body ? b->position : s->particles.at[p].position, slope;
+        const qdot_massive one = qdot_scene_massive(s, p);
+        qdot_expr slope;
 
-        if (!(qdot_mech_holds(s, m) & QDOT_HAS_COORD))
+        if (!(qdot_mech_holds(s, one.mass) & QDOT_HAS_COORD))
             continue;
-        slope = qdot_diff(pool, m, s->coordinates.at[i]);
+        slope = qdot_diff(pool, one.mass, s->coordinates.at[i]);
         for (size_t g = 0; g < s->gravities.n; g++)
             Q = qdot_add(
                 pool, Q,
-                qdot_mul(pool, slope, qdot_mech_dot(pool, s->gravities.at[g].e, r)));
+                qdot_mul(pool, slope, qdot_mech_dot(pool, s->gravities.at[g].e, one.position)));
     }
     return Q;
 }

@@ -88,6 +88,23 @@ check_rotation(qdot_scene *s, qdot_expr R)
     return status;
 }
 
+qdot_expr
+qdot_body_steiner(qdot_pool *pool, qdot_expr mass, qdot_expr d)
+{
+    const qdot_expr square = qdot_dot(pool, d, d);
+    qdot_expr e[9];
+
+    if (qdot_mech_dimension(pool, d) == 2)
+        return qdot_mul(pool, mass, square);
+    for (uint32_t i = 0; i < 3; i++)
+        for (uint32_t j = 0; j < 3; j++) {
+            const qdot_expr product = qdot_mul(pool, qdot_expr_arg(pool, d, i), qdot_expr_arg(pool, d, j));
+
+            e[3 * i + j] = qdot_mul(pool, mass, qdot_sub(pool, i == j ? square : QDOT_ZERO, product));
+        }
+    return qdot_matrix(pool, 3, 3, e);
+}
+
 /* Find a body's inertia as it is stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
 static qdot_status
 convert_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bool plane,
@@ -95,21 +112,13 @@ convert_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about,
 {
     qdot_pool *pool = s->pool;
     uint32_t dim = plane ? 2 : 3;
-    qdot_expr I = given, P2 = QDOT_ZERO;
+    qdot_expr I = given;
 
-    if (about != QDOT_NIL) {
-        if (qdot_mech_dimension(pool, about) != dim)
-            return qdot_fail(QDOT_ETYPE,
-                             "`about` takes a point of the body, %u components", dim);
-        P2 = qdot_mech_dot(pool, about, about);
-    }
-    if (plane) {
-        if (!qdot_expr_is_scalar(pool, I))
-            return qdot_fail(QDOT_ETYPE, "the inertia of a plane body is a number");
-        *inertia = qdot_sub(pool, I, qdot_mul(pool, mass, P2));
-        return qdot_pool_check(pool);
-    }
-    if (qdot_expr_kind(pool, I) == QDOT_VEC && qdot_expr_count(pool, I) == 3) {
+    if (about != QDOT_NIL && qdot_mech_dimension(pool, about) != dim)
+        return qdot_fail(QDOT_ETYPE, "`about` takes a point of the body, %u components", dim);
+    if (plane && !qdot_expr_is_scalar(pool, I))
+        return qdot_fail(QDOT_ETYPE, "the inertia of a plane body is a number");
+    if (!plane && qdot_expr_kind(pool, I) == QDOT_VEC && qdot_expr_count(pool, I) == 3) {
         qdot_expr e[9];
 
         for (uint32_t k = 0; k < 9; k++)
@@ -117,30 +126,15 @@ convert_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about,
         I = qdot_matrix(pool, 3, 3, e);
     }
     QDOT_TRY(qdot_pool_check(pool));
-    if (qdot_expr_kind(pool, I) != QDOT_MAT || qdot_expr_count(pool, I) != 9 ||
-        qdot_expr_node(pool, I)->op != 3)
+    if (!plane && (qdot_expr_kind(pool, I) != QDOT_MAT || qdot_expr_count(pool, I) != 9 ||
+                   qdot_expr_node(pool, I)->op != 3))
         return qdot_fail(QDOT_ETYPE,
                          "inertia is three moments or a symmetric 3x3 matrix");
-    for (uint32_t i = 0; i < 3; i++)
+    for (uint32_t i = 0; i < 3 && !plane; i++)
         for (uint32_t j = i + 1; j < 3; j++)
             if (qdot_expr_arg(pool, I, 3 * i + j) != qdot_expr_arg(pool, I, 3 * j + i))
                 return qdot_fail(QDOT_ETYPE, "an inertia matrix must be symmetric");
-    if (about != QDOT_NIL) {
-        qdot_expr e[9];
-
-        /* Steiner's theorem: I_P = I + m (|P|^2 1 - P P^T) */
-        for (uint32_t i = 0; i < 3; i++)
-            for (uint32_t j = 0; j < 3; j++) {
-                qdot_expr PP = qdot_mul(pool, qdot_expr_arg(pool, about, i),
-                                        qdot_expr_arg(pool, about, j));
-                qdot_expr shift = qdot_sub(pool, i == j ? P2 : QDOT_ZERO, PP);
-
-                e[3 * i + j] = qdot_sub(pool, qdot_expr_arg(pool, I, 3 * i + j),
-                                        qdot_mul(pool, mass, shift));
-            }
-        I = qdot_matrix(pool, 3, 3, e);
-    }
-    *inertia = I;
+    *inertia = about == QDOT_NIL ? I : qdot_value_sub(pool, I, qdot_body_steiner(pool, mass, about));
     return qdot_pool_check(pool);
 }
 

@@ -1,4 +1,4 @@
-/* label.c -- finds the items of a scene by their labels. */
+/* label.c -- finds the items of a scene by their labels; particles and bodies by their numbers. */
 #include <stddef.h>
 
 #include "mech/scene/access.h"
@@ -20,6 +20,19 @@ qdot_scene_find_body(const qdot_scene *s, const char *label)
         if (qdot_label_is(s->bodies.at[i].name, label))
             return &s->bodies.at[i];
     return NULL;
+}
+
+qdot_massive
+qdot_scene_massive(const qdot_scene *s, size_t k)
+{
+    if (k < s->particles.n) {
+        const qdot_particle *p = &s->particles.at[k];
+
+        return (qdot_massive){p->name, p->mass, p->position, NULL};
+    }
+    const qdot_body *b = &s->bodies.at[k - s->particles.n];
+
+    return (qdot_massive){b->name, b->mass, b->position, b};
 }
 
 /* Whether an item of s->list has the label in the given field. */

@@ -118,6 +118,13 @@ QDOT_MUST_CHECK qdot_status qdot_scene_copy_things(const qdot_scene *s, qdot_sce
  * is a member of the family, as bob[2] of bob. */
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
 const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
+/* What has mass, a particle or a body; borrowed until the scene changes. The k-th: first all particles, then the bodies. */
+typedef struct {
+    const char *name;
+    qdot_expr mass, position;
+    const qdot_body *body; /* NULL: a particle */
+} qdot_massive;
+qdot_massive qdot_scene_massive(const qdot_scene *s, size_t k);
 bool qdot_scene_has_label(const qdot_scene *s, const char *label);
 bool qdot_scene_is_family(const qdot_scene *s, const char *label);
 /* QDOT_ENAME if the scene has this label already; NULL, no label, is always allowed. */

@@ -9,27 +9,6 @@
 #include "mech/scene/access.h"
 #include "mech/scene/body.h"
 
-/* A particle, or a body if `body` is not NULL. */
-typedef struct {
-    const char *name;
-    qdot_expr mass, position;
-    const qdot_body *body;
-} thing;
-
-/* The k-th of the particles and then the bodies. */
-static thing
-thing_at(const qdot_scene *s, size_t k)
-{
-    if (k < s->particles.n) {
-        const qdot_particle *p = &s->particles.at[k];
-
-        return (thing){p->name, p->mass, p->position, NULL};
-    }
-    const qdot_body *b = &s->bodies.at[k - s->particles.n];
-
-    return (thing){b->name, b->mass, b->position, b};
-}
-
 /* The inertia about the centre along the axes of space, A I A^T; in the plane I. */
 static qdot_expr
 inertia_in_space(qdot_pool *pool, const qdot_body *b)
@@ -60,14 +39,14 @@ momentum_of_spin(qdot_scene *s, const qdot_body *b)
 }
 
 static qdot_expr
-momentum_of(qdot_scene *s, const thing *one, qdot_expr about)
+momentum_of(qdot_scene *s, const qdot_massive *one, qdot_expr about)
 {
     (void)about;
     return qdot_value_mul(s->pool, one->mass, qdot_ddt(s->pool, one->position));
 }
 
 static qdot_expr
-angular_momentum_of(qdot_scene *s, const thing *one, qdot_expr about)
+angular_momentum_of(qdot_scene *s, const qdot_massive *one, qdot_expr about)
 {
     qdot_pool *pool = s->pool;
     qdot_expr arm = about == QDOT_NIL ? one->position : qdot_value_sub(pool, one->position, about);
@@ -76,42 +55,25 @@ angular_momentum_of(qdot_scene *s, const thing *one, qdot_expr about)
     return one->body == NULL ? L : qdot_value_add(pool, L, momentum_of_spin(s, one->body));
 }
 
-/* m (|d|^2 1 - d d^T); in the plane m |d|^2. */
 static qdot_expr
-steiner_term(qdot_pool *pool, qdot_expr m, qdot_expr d)
-{
-    qdot_expr square = qdot_dot(pool, d, d), e[9];
-
-    if (qdot_mech_dimension(pool, d) == 2)
-        return qdot_mul(pool, m, square);
-    for (uint32_t i = 0; i < 3; i++)
-        for (uint32_t j = 0; j < 3; j++) {
-            qdot_expr product = qdot_mul(pool, qdot_mech_component(pool, d, i), qdot_mech_component(pool, d, j));
-
-            e[3 * i + j] = qdot_mul(pool, m, qdot_sub(pool, i == j ? square : QDOT_ZERO, product));
-        }
-    return qdot_matrix(pool, 3, 3, e);
-}
-
-static qdot_expr
-inertia_of(qdot_scene *s, const thing *one, qdot_expr about)
+inertia_of(qdot_scene *s, const qdot_massive *one, qdot_expr about)
 {
     qdot_pool *pool = s->pool;
     qdot_expr d = qdot_value_sub(pool, one->position, about == QDOT_NIL ? one->position : about);
-    qdot_expr J = steiner_term(pool, one->mass, d);
+    qdot_expr J = qdot_body_steiner(pool, one->mass, d);
 
     return one->body == NULL ? J : qdot_value_add(pool, inertia_in_space(pool, one->body), J);
 }
 
 /* The sum of one function over the scene, or its value for what has the label. */
 static qdot_expr
-sum_over(qdot_scene *s, qdot_expr (*of)(qdot_scene *, const thing *, qdot_expr), const char *label, qdot_expr about)
+sum_over(qdot_scene *s, qdot_expr (*of)(qdot_scene *, const qdot_massive *, qdot_expr), const char *label, qdot_expr about)
 {
     qdot_pool *pool = s->pool;
     qdot_expr sum = QDOT_NIL;
 
     for (size_t k = 0; k < s->particles.n + s->bodies.n && !qdot_pool_failed(pool); k++) {
-        const thing one = thing_at(s, k);
+        const qdot_massive one = qdot_scene_massive(s, k);
         qdot_expr term;
 
         if (label != NULL && !qdot_label_is(one.name, label))

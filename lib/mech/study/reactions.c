@@ -20,15 +20,8 @@ typedef struct {
     qdot_vec(qdot_reaction) list;
 } work;
 
-/* A particle, or a body if `body` is not NULL. */
-typedef struct {
-    const char *name;
-    qdot_expr position;
-    const qdot_body *body;
-} thing;
-
 static bool
-depends_on_coordinate(const work *w, const thing *one, size_t j)
+depends_on_coordinate(const work *w, const qdot_massive *one, size_t j)
 {
     qdot_expr q = w->s->coordinates.at[j];
     const qdot_pool *pool = w->s->pool;
@@ -39,7 +32,7 @@ depends_on_coordinate(const work *w, const thing *one, size_t j)
 
 /* Column j of the Jacobian d(position, rotation)/dq as its components. */
 static uint32_t
-jacobian_column(const work *w, const thing *one, size_t j, qdot_expr out[6])
+jacobian_column(const work *w, const qdot_massive *one, size_t j, qdot_expr out[6])
 {
     qdot_pool *pool = w->s->pool;
     qdot_expr q = w->s->coordinates.at[j];
@@ -109,7 +102,7 @@ moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
 
 /* Find the reaction force on a thing, if no other thing depends on its coordinates. */
 static qdot_status
-find_reaction_force(work *w, const thing *one)
+find_reaction_force(work *w, const qdot_massive *one)
 {
     qdot_pool *pool = w->s->pool;
     uint32_t dim = qdot_mech_dimension(pool, one->position), rows = dim, k = 0;
@@ -160,17 +153,6 @@ find_reaction_force(work *w, const thing *one)
     return qdot_vec_push(&w->list, r);
 }
 
-static thing
-particle_or_body_at(const qdot_scene *s, size_t i)
-{
-    const qdot_body *b;
-
-    if (i < s->particles.n)
-        return (thing){s->particles.at[i].name, s->particles.at[i].position, NULL};
-    b = &s->bodies.at[i - s->particles.n];
-    return (thing){b->name, b->position, b};
-}
-
 static qdot_status
 collect_particles_and_bodies(work *w)
 {
@@ -181,13 +163,13 @@ collect_particles_and_bodies(work *w)
         w->R[j] = qdot_constraint_reaction(s, j);
     QDOT_TRY(qdot_pool_check(s->pool));
     for (size_t i = 0; i < things; i++) {
-        thing one = particle_or_body_at(s, i);
+        const qdot_massive one = qdot_scene_massive(s, i);
 
         for (size_t j = 0; j < w->n; j++)
             w->uses[j] += depends_on_coordinate(w, &one, j);
     }
     for (size_t i = 0; i < things; i++) {
-        thing one = particle_or_body_at(s, i);
+        const qdot_massive one = qdot_scene_massive(s, i);
 
         QDOT_TRY(find_reaction_force(w, &one));
     }
