@@ -58,20 +58,6 @@ qdot_infinity_refuse(const qdot_pool *pool, qdot_expr e)
     return qdot_hint("it may be an end of an integral or the place of a limit: limit(1/x, x = infinity)");
 }
 
-bool
-qdot_integral_occurs(const qdot_pool *pool, qdot_expr e)
-{
-    bool occurs = false;
-    qdot_walk w;
-
-    if (e == QDOT_NIL || !(NODE(pool, e)->holds & QDOT_HAS_FUN) || qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return false;
-    for (size_t i = 0; i < w.n && !occurs; i++)
-        occurs = NODE(pool, w.at[i])->kind == QDOT_INTEGRAL;
-    qdot_walk_end(&w);
-    return occurs;
-}
-
 /* --- putting values for variables --------------------------------------------------------------- */
 
 /* What is put for symbols: CLOSE makes x the variable of an integral around it, OPEN puts `to` for the variable, LIFT

@@ -31,8 +31,6 @@ bool qdot_integral_is_definite(const qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_integral_open(qdot_pool *pool, qdot_expr e, qdot_expr x);
 /* The name by which the variable of the definite integral e was introduced. */
 const char *qdot_integral_name(const qdot_pool *pool, qdot_expr e);
-/* Whether e holds an integral. */
-bool qdot_integral_occurs(const qdot_pool *pool, qdot_expr e);
 /* Whether e is infinity (1), minus infinity (-1) or neither (0). */
 int qdot_infinite(const qdot_pool *pool, qdot_expr e);
 /* Fail with QDOT_EDOMAIN where e holds infinity outside of the ends of integrals. */
