@@ -258,9 +258,12 @@ definite_node(qdot_pool *pool, qdot_expr f, qdot_expr a, qdot_expr b, const char
     uint8_t sign = order > 0 ? NODE(pool, f)->sign : 0;
     qdot_expr args[] = {f, a, b}, e;
 
-    if (qdot_infinite(pool, a) == 0 && qdot_infinite(pool, b) == 0 && order > 0 &&
-        !(NODE(pool, qdot_sub(pool, b, a))->sign & QDOT_NE0))
-        sign &= (uint8_t)~QDOT_NE0;
+    if (qdot_infinite(pool, a) == 0 && qdot_infinite(pool, b) == 0 && order > 0) {
+        const qdot_expr width = qdot_sub(pool, b, a);
+
+        if (!(NODE(pool, width)->sign & QDOT_NE0))
+            sign &= (uint8_t)~QDOT_NE0;
+    }
     if (!(sign & (QDOT_GE0 | QDOT_LE0)))
         sign = 0; /* a function without a zero may have an integral that is 0 */
     if (FAILED(pool))
