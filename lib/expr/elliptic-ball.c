@@ -12,7 +12,7 @@ stays_below_one(const arb_t c, const arb_struct *phi, bool closed, slong bits)
     arb_init(half);
     arb_init(s);
     arb_one(one);
-    below = arb_lt(c, one) || (closed && arb_le(c, one));
+    below = (closed ? arb_le : arb_lt)(c, one);
     if (!below && phi != NULL) {
         arb_const_pi(half, bits);
         arb_mul_2exp_si(half, half, -1);
@@ -35,36 +35,28 @@ qdot_elliptic_ball(arb_t y, unsigned f, uint32_t n, const arb_struct *const *x, 
 {
     const arb_struct *m = x[n - 1], *c = f == QDOT_ELLIPTIC_PI ? x[0] : NULL;
     const arb_struct *phi = n == (c != NULL ? 3 : 2) ? x[n - 2] : NULL;
-    acb_t z, a, b, d;
+    acb_ptr args, z; /* x and f(x) as complex numbers, which Arb's functions take */
 
     if (!stays_below_one(m, phi, f == QDOT_ELLIPTIC_E, bits) || (c != NULL && !stays_below_one(c, phi, false, bits))) {
         arb_indeterminate(y);
         return;
     }
-    acb_init(z);
-    acb_init(a);
-    acb_init(b);
-    acb_init(d);
-    acb_set_arb(b, m);
-    if (phi != NULL)
-        acb_set_arb(a, phi);
-    if (c != NULL)
-        acb_set_arb(d, c);
+    args = _acb_vec_init((slong)n + 1);
+    z = args + n;
+    for (uint32_t i = 0; i < n; i++)
+        acb_set_arb(args + i, x[i]);
     if (f == QDOT_ELLIPTIC_K)
-        acb_elliptic_k(z, b, bits);
+        acb_elliptic_k(z, args, bits);
     else if (f == QDOT_ELLIPTIC_F)
-        acb_elliptic_f(z, a, b, 0, bits);
+        acb_elliptic_f(z, args, args + 1, 0, bits);
     else if (f == QDOT_ELLIPTIC_E && phi == NULL)
-        acb_elliptic_e(z, b, bits);
+        acb_elliptic_e(z, args, bits);
     else if (f == QDOT_ELLIPTIC_E)
-        acb_elliptic_e_inc(z, a, b, 0, bits);
+        acb_elliptic_e_inc(z, args, args + 1, 0, bits);
     else if (phi == NULL)
-        acb_elliptic_pi(z, d, b, bits);
+        acb_elliptic_pi(z, args, args + 1, bits);
     else
-        acb_elliptic_pi_inc(z, d, a, b, 0, bits);
+        acb_elliptic_pi_inc(z, args, args + 1, args + 2, 0, bits);
     arb_set(y, acb_realref(z));
-    acb_clear(z);
-    acb_clear(a);
-    acb_clear(b);
-    acb_clear(d);
+    _acb_vec_clear(args, (slong)n + 1);
 }
