@@ -108,14 +108,27 @@ sine_cosine(qdot_pool *pool, qdot_expr phi)
                            : qdot_mul(pool, qdot_fun1(pool, QDOT_SIN, phi), qdot_fun1(pool, QDOT_COS, phi));
 }
 
+/* F(phi, m), without phi K(m). */
+static qdot_expr
+first_kind(qdot_pool *pool, qdot_expr phi, qdot_expr m)
+{
+    return phi == QDOT_NIL ? elliptic(pool, QDOT_ELLIPTIC_K, m, QDOT_NIL, QDOT_NIL)
+                           : elliptic(pool, QDOT_ELLIPTIC_F, phi, m, QDOT_NIL);
+}
+
+/* E(phi, m), without phi E(m). */
+static qdot_expr
+second_kind(qdot_pool *pool, qdot_expr phi, qdot_expr m)
+{
+    return phi == QDOT_NIL ? elliptic(pool, QDOT_ELLIPTIC_E, m, QDOT_NIL, QDOT_NIL)
+                           : elliptic(pool, QDOT_ELLIPTIC_E, phi, m, QDOT_NIL);
+}
+
 /* dF/dm = E/(2 m (1 - m)) - F/(2 m) - sin cos/(2 (1 - m) D), dE/dm = (E - F)/(2 m). */
 static qdot_expr
 derivative_by_parameter(qdot_pool *pool, qdot_fun_id f, qdot_expr phi, qdot_expr m)
 {
-    const qdot_expr first = phi == QDOT_NIL ? elliptic(pool, QDOT_ELLIPTIC_K, m, QDOT_NIL, QDOT_NIL)
-                                            : elliptic(pool, QDOT_ELLIPTIC_F, phi, m, QDOT_NIL);
-    const qdot_expr second = phi == QDOT_NIL ? elliptic(pool, QDOT_ELLIPTIC_E, m, QDOT_NIL, QDOT_NIL)
-                                             : elliptic(pool, QDOT_ELLIPTIC_E, phi, m, QDOT_NIL);
+    const qdot_expr first = first_kind(pool, phi, m), second = second_kind(pool, phi, m);
     const qdot_expr twice = qdot_mul(pool, qdot_expr_int(pool, 2), m), rest = one_less(pool, m, QDOT_NIL);
 
     if (f == QDOT_ELLIPTIC_E)
@@ -137,10 +150,7 @@ derivative_of_third_kind(qdot_pool *pool, qdot_expr n, qdot_expr phi, qdot_expr 
     const bool whole = phi == QDOT_NIL;
     const qdot_expr third = whole ? elliptic(pool, QDOT_ELLIPTIC_PI, n, m, QDOT_NIL)
                                   : elliptic(pool, QDOT_ELLIPTIC_PI, n, phi, m);
-    const qdot_expr second = whole ? elliptic(pool, QDOT_ELLIPTIC_E, m, QDOT_NIL, QDOT_NIL)
-                                   : elliptic(pool, QDOT_ELLIPTIC_E, phi, m, QDOT_NIL);
-    const qdot_expr first = whole ? elliptic(pool, QDOT_ELLIPTIC_K, m, QDOT_NIL, QDOT_NIL)
-                                  : elliptic(pool, QDOT_ELLIPTIC_F, phi, m, QDOT_NIL);
+    const qdot_expr first = first_kind(pool, phi, m), second = second_kind(pool, phi, m);
     const qdot_expr D = qdot_sqrt(pool, one_less(pool, m, phi)), s = sine_cosine(pool, phi);
     const qdot_expr m1 = qdot_sub(pool, m, QDOT_ONE), apart = qdot_sub(pool, m, n);
     qdot_expr sum;
@@ -179,7 +189,8 @@ qdot_elliptic_derivative(qdot_pool *pool, qdot_fun_id f, uint32_t n, const qdot_
 
 /* --- values in double, by Carlson's integrals --------------------------------------------------------- */
 
-/* R_F(x, y, z) and R_D(x, y, z) by duplication: what stays of the difference of the arguments is a power series. */
+/* R_F(x, y, z) by duplication: each step brings the arguments four times closer to each other without changing R_F; when
+ * they nearly agree, R_F is a power series in their differences. */
 static double
 carlson_first(double x, double y, double z)
 {
@@ -206,7 +217,7 @@ carlson_circular(double e)
     return e > 0 ? atan(sqrt(e)) / sqrt(e) : atanh(sqrt(-e)) / sqrt(-e);
 }
 
-/* R_J(x, y, z, p), p > 0; R_D(x, y, z) = R_J(x, y, z, z). */
+/* R_J(x, y, z, p), p > 0, the same way; R_D(x, y, z) = R_J(x, y, z, z). */
 static double
 carlson_third(double x, double y, double z, double p)
 {
