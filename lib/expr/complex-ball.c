@@ -12,11 +12,9 @@
 
 enum { INNER_EVALUATIONS = 600, DEEPEST = 3 };
 
-/* What is evaluated now: at complex arguments or where `analytic` is asked for, cuts and kinks count. */
+/* One evaluation of an integrand, to so many bits. */
 typedef struct {
     qdot_complex_ball *b;
-    acb_srcptr z;
-    bool analytic;
     slong bits;
 } evaluation;
 
@@ -95,7 +93,7 @@ rational_power(const evaluation *v, acb_t y, const acb_t x, const fmpq *p)
         acb_pow_fmpz(y, x, fmpq_numref(p), v->bits);
         return;
     }
-    if (acb_is_real(x) && !v->analytic) {
+    if (acb_is_real(x) && !v->b->analytic) {
         real_root(acb_realref(y), acb_realref(x), p, v->bits);
         arb_zero(acb_imagref(y));
         return;
@@ -181,30 +179,23 @@ evaluate_cut(const evaluation *v, acb_t y, qdot_fun_id f, const acb_t x)
 {
     const bool beyond = may_be_outside_unit(acb_realref(x), acb_imagref(x)),
                above = may_be_outside_unit(acb_imagref(x), acb_realref(x));
-    bool on_cut = false;
+    void (*value)(acb_t y, const acb_t x, slong bits);
+    bool on_cut;
 
     switch (f) {
-    case QDOT_LOG: on_cut = may_be_below(x, 0); break;
-    case QDOT_ACOSH: on_cut = may_be_below(x, 1); break;
-    case QDOT_ASIN:
-    case QDOT_ACOS:
-    case QDOT_ATANH: on_cut = beyond; break;
-    case QDOT_ATAN:
-    case QDOT_ASINH: on_cut = above; break;
+    case QDOT_LOG: value = acb_log, on_cut = may_be_below(x, 0); break;
+    case QDOT_ACOSH: value = acb_acosh, on_cut = may_be_below(x, 1); break;
+    case QDOT_ASIN: value = acb_asin, on_cut = beyond; break;
+    case QDOT_ACOS: value = acb_acos, on_cut = beyond; break;
+    case QDOT_ATANH: value = acb_atanh, on_cut = beyond; break;
+    case QDOT_ATAN: value = acb_atan, on_cut = above; break;
+    case QDOT_ASINH: value = acb_asinh, on_cut = above; break;
     default: return false;
     }
     if (on_cut)
         acb_indeterminate(y);
-    else if (f == QDOT_LOG)
-        acb_log(y, x, v->bits);
-    else if (f == QDOT_ACOSH)
-        acb_acosh(y, x, v->bits);
-    else if (f == QDOT_ASIN || f == QDOT_ACOS)
-        (f == QDOT_ASIN ? acb_asin : acb_acos)(y, x, v->bits);
-    else if (f == QDOT_ATANH || f == QDOT_ATAN)
-        (f == QDOT_ATAN ? acb_atan : acb_atanh)(y, x, v->bits);
     else
-        acb_asinh(y, x, v->bits);
+        value(y, x, v->bits);
     return true;
 }
 
@@ -216,18 +207,18 @@ evaluate_kinked(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
     const uint32_t n = qdot_expr_count(v->b->pool, e);
 
     switch (f) {
-    case QDOT_ABS: acb_real_abs(y, x, v->analytic, v->bits); break;
-    case QDOT_SIGN: acb_real_sgn(y, x, v->analytic, v->bits); break;
-    case QDOT_FLOOR: acb_real_floor(y, x, v->analytic, v->bits); break;
+    case QDOT_ABS: acb_real_abs(y, x, v->b->analytic, v->bits); break;
+    case QDOT_SIGN: acb_real_sgn(y, x, v->b->analytic, v->bits); break;
+    case QDOT_FLOOR: acb_real_floor(y, x, v->b->analytic, v->bits); break;
     case QDOT_MIN:
     case QDOT_MAX:
         acb_set(y, x);
         for (uint32_t i = 1; i < n; i++)
-            (f == QDOT_MIN ? acb_real_min : acb_real_max)(y, y, value_of(v, e, i), v->analytic, v->bits);
+            (f == QDOT_MIN ? acb_real_min : acb_real_max)(y, y, value_of(v, e, i), v->b->analytic, v->bits);
         break;
     case QDOT_MOD:
         acb_div(y, x, value_of(v, e, 1), v->bits);
-        acb_real_floor(y, y, v->analytic, v->bits);
+        acb_real_floor(y, y, v->b->analytic, v->bits);
         acb_mul(y, y, value_of(v, e, 1), v->bits);
         acb_sub(y, x, y, v->bits);
         break;
@@ -236,7 +227,7 @@ evaluate_kinked(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
             acb_indeterminate(y);
         else
             acb_set(y, value_of(v, e, acb_is_zero(x) ? 2 : 1));
-        if (!acb_is_finite(x) && !v->analytic) /* either value */
+        if (!acb_is_finite(x) && !v->b->analytic) /* either value */
             acb_union(y, value_of(v, e, 1), value_of(v, e, 2), v->bits);
         break;
     default: return false;
@@ -261,7 +252,7 @@ evaluate_real(const evaluation *v, acb_t y, qdot_fun_id f, qdot_expr e)
     const arb_struct *x[3] = {NULL, NULL, NULL};
 
     acb_indeterminate(y);
-    if (v->analytic || !are_real(v, e) || n > 3)
+    if (v->b->analytic || !are_real(v, e) || n > 3)
         return;
     for (uint32_t i = 0; i < n; i++)
         x[i] = acb_realref(value_of(v, e, i));
@@ -302,7 +293,7 @@ complex_of_function(const evaluation *v, acb_t y, qdot_expr e)
 
     if (evaluate_kinked(v, y, f, e))
         return;
-    if (qdot_fun_ball_of(f) != NULL && acb_is_real(x) && !v->analytic) {
+    if (qdot_fun_ball_of(f) != NULL && acb_is_real(x) && !v->b->analytic) {
         qdot_fun_ball_of(f)(acb_realref(y), acb_realref(x), v->bits);
         arb_zero(acb_imagref(y));
     } else if (!evaluate_meromorphic(v, y, f, x) && !evaluate_cut(v, y, f, x) &&
@@ -327,7 +318,7 @@ complex_of_relation(const evaluation *v, acb_t y, qdot_expr e)
         acb_zero(y);
     else if (arb_is_negative(d))
         acb_set_si(y, op != QDOT_EQ);
-    else if (arb_is_zero(d) && !v->analytic)
+    else if (arb_is_zero(d) && !v->b->analytic)
         acb_set_si(y, op != QDOT_LT);
     arb_clear(d);
 }
@@ -417,11 +408,10 @@ evaluate_inner(const evaluation *v, acb_t y, qdot_expr e, qdot_complex_ball *inn
 void
 qdot_complex_ball_eval(qdot_complex_ball *b, acb_t y, const acb_t z, bool analytic, slong bits)
 {
-    const evaluation v = {b, z, analytic || !acb_is_real(z), bits};
+    const evaluation v = {b, bits};
 
     b->z = z;
-    b->analytic = v.analytic;
-
+    b->analytic = analytic || !acb_is_real(z);
     for (size_t i = 0; i < b->walk.n; i++) {
         const qdot_expr e = b->walk.at[i];
         acb_ptr x = b->value + i;

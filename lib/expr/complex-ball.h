@@ -22,7 +22,7 @@ typedef struct qdot_complex_ball {
     struct qdot_complex_ball *outer; /* of the integral in whose integrand this one stands; NULL: of none */
     struct qdot_complex_ball **inner; /* [walk.n] of the integrals in f, NULL for other nodes */
     acb_srcptr z; /* the variable, while f is evaluated */
-    bool analytic;  /* what is evaluated now must be analytic */
+    bool analytic;  /* what is evaluated now must be analytic, as at complex z: branch cuts, kinks and steps count */
     bool kinked;    /* f holds a function with kinks or steps */
     acb_ptr value;  /* [walk.n] the value of each node; of a condition 1, 0 or indeterminate */
 } qdot_complex_ball;
