@@ -37,12 +37,11 @@ is_name_taken(const printer *p, qdot_expr f, const char *name)
     return taken;
 }
 
-/* Begin what stands within the integral e; returns the binder to which to return. */
-static uint32_t
+/* Begin what stands within the integral e, with a name for its variable that means nothing else there. */
+static void
 begin_integrand(printer *p, qdot_expr e)
 {
     struct binder b = {.outer = p->binder, .integral = e};
-    const uint32_t outer = p->binder;
     const qdot_expr f = ARGS(p->pool, e)[0];
 
     if (is_name_taken(p, f, qdot_integral_name(p->pool, e))) {
@@ -63,7 +62,6 @@ begin_integrand(printer *p, qdot_expr e)
         p->status = QDOT_ENOMEM;
     else
         p->binder = (uint32_t)p->binders.n - 1;
-    return outer;
 }
 
 static void
@@ -101,7 +99,7 @@ qdot_print_integral(printer *p, qdot_expr e, int context)
 {
     const bool definite = qdot_integral_is_definite(p->pool, e);
     const qdot_formula_id outer = p->at;
-    uint32_t binder = p->binder;
+    const uint32_t binder = p->binder;
 
     if (is_drawn(p)) {
         print_begin_bracket(p, context >= FACTOR);
