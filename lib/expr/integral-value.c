@@ -301,31 +301,25 @@ static bool
 integrate_split(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, slong bits, bool *proved)
 {
     arb_t from, at, part;
-    bool found;
+    bool last, found;
 
     arb_init(from);
     arb_init(at);
     arb_init(part);
-    found = !(f->kinked && find_split(f, a, b, at, bits)) && integrate_piece(y, f, a, b, bits, proved);
-    if (found) {
-        arb_clear(from);
-        arb_clear(at);
-        arb_clear(part);
-        return true;
-    }
-    arb_set(from, a);
-    arb_zero(y);
-    for (int pieces = 0; pieces < MOST_PIECES; pieces++) {
-        const bool last = !find_split(f, from, b, at, bits);
-
-        if (pieces == 0 && last)
-            break;
-        found = integrate_piece(part, f, from, last ? b : at, bits, proved);
-        arb_add(y, y, part, 3 * bits);
-        if (!found || last)
-            break;
-        arb_set(from, at);
-        found = false;
+    last = !find_split(f, a, b, at, bits);
+    found = (last || !f->kinked) && integrate_piece(y, f, a, b, bits, proved);
+    if (!found && !last) {
+        arb_set(from, a);
+        arb_zero(y);
+        for (int pieces = 0; pieces < MOST_PIECES && !last; pieces++) {
+            last = !find_split(f, from, b, at, bits);
+            found = integrate_piece(part, f, from, last ? b : at, bits, proved);
+            arb_add(y, y, part, 3 * bits);
+            if (!found)
+                break;
+            arb_set(from, at);
+        }
+        found = found && last;
     }
     arb_clear(from);
     arb_clear(at);
