@@ -103,23 +103,21 @@ times_hyperbolic(qdot_pool *pool, waves *w, qdot_expr u, qdot_expr slope, bool s
     return true;
 }
 
-/* Multiply w by base^exponent; *waving: it is a wave or exponential. */
+/* Multiply w by base^exponent; false: that is no power of x, exponential, sine or cosine. */
 static bool
-times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot_expr x, int *kinds)
+times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot_expr x)
 {
     qdot_expr slope, u;
     qdot_fun_id id;
     long k;
 
     if (!qdot_expr_contains(pool, base, x) && is_linear(pool, exponent, x, &slope)) {
-        *kinds |= 1;
         times_exponential(pool, w, qdot_pow(pool, base, exponent), qdot_mul(pool, slope, qdot_fun1(pool, QDOT_LOG, base)));
         return true;
     }
     if (!qdot_expr_to_int(pool, exponent, &k) || k < -MOST_POWER || k > MOST_POWER)
         return false;
     if (base == x && k > 0) {
-        *kinds |= 2;
         for (size_t i = 0; i < w->n; i++)
             w->at[i].n += k;
         return true;
@@ -131,14 +129,12 @@ times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot
     if (!is_linear(pool, u, x, &slope))
         return false;
     if (id == QDOT_EXP) {
-        *kinds |= 1;
         times_exponential(pool, w, qdot_pow(pool, base, exponent), qdot_mul(pool, slope, exponent));
         return true;
     }
     for (; k > 0; k--) {
         bool done = false;
 
-        *kinds |= 4;
         if (id == QDOT_SIN || id == QDOT_COS)
             done = times_circular(pool, w, u, id == QDOT_SIN);
         else if (id == QDOT_SINH || id == QDOT_COSH)
@@ -149,22 +145,22 @@ times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot
     return k == 0;
 }
 
+/* Write a term whose factors all hold x as a sum of waves. */
 static bool
 read_waves(qdot_pool *pool, qdot_expr term, qdot_expr x, waves *w)
 {
     bool product = qdot_expr_kind(pool, term) == QDOT_PROD;
     uint32_t n = product ? qdot_expr_count(pool, term) : 3;
-    int kinds = 0;
 
     *w = (waves){1, {{product ? qdot_expr_arg(pool, term, 0) : QDOT_ONE, QDOT_ONE, QDOT_ZERO, QDOT_ZERO, 0, false}}};
     for (uint32_t i = 1; i < n; i += 2) {
         qdot_expr base = product ? qdot_expr_arg(pool, term, i) : term;
         qdot_expr exponent = product ? qdot_expr_arg(pool, term, i + 1) : QDOT_ONE;
 
-        if (!times_factor(pool, w, base, exponent, x, &kinds))
+        if (!times_factor(pool, w, base, exponent, x))
             return false;
     }
-    return kinds != 0;
+    return true;
 }
 
 /* The integral of a wave. */
