@@ -104,11 +104,13 @@ is_unit_factor(const circular *c, const qdot_poly *p, int sign)
            qdot_integral_zero(c->t, sign > 0 ? qdot_sub(c->pool, p->c[0], p->c[1]) : qdot_add(c->pool, p->c[0], p->c[1]));
 }
 
-qdot_expr
-qdot_circular_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr T, qdot_expr v, bool hyperbolic)
+/* The primitive f in T = tan v (or tanh v) as an expression that does not jump; nil: not possible. */
+static qdot_expr
+write_without_jumps(const circular *c, const qdot_primitive *f, qdot_expr T, qdot_expr v)
 {
-    circular c = {.t = t, .pool = t->pool, .hyperbolic = hyperbolic};
-    qdot_pool *pool = t->pool;
+    qdot_integral_task *t = c->t;
+    qdot_pool *pool = c->pool;
+    const bool hyperbolic = c->hyperbolic;
     qdot_expr two_v = qdot_mul(pool, qdot_expr_int(pool, 2), v), sum, left = QDOT_ZERO, part;
     qdot_expr coefficient[QDOT_PRIMITIVE_TERMS + 1], inside[QDOT_PRIMITIVE_TERMS + 1];
     int logs = 0;
@@ -116,7 +118,7 @@ qdot_circular_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr T,
     if (f->rest != QDOT_ZERO && qdot_poly_read(t, f->rest, T).degree >= 0)
         sum = qdot_subs(pool, f->rest, 1, &T, &(qdot_expr){qdot_fun1(pool, hyperbolic ? QDOT_TANH : QDOT_TAN, v)});
     else
-        sum = qdot_subs(pool, f->rest, 1, &T, &(qdot_expr){qdot_div(pool, sine(&c, two_v), qdot_add(pool, QDOT_ONE, cosine(&c, two_v)))});
+        sum = qdot_subs(pool, f->rest, 1, &T, &(qdot_expr){qdot_div(pool, sine(c, two_v), qdot_add(pool, QDOT_ONE, cosine(c, two_v)))});
     sum = qdot_integral_normal(t, sum);
     for (int i = 0; i < f->n; i++) {
         const qdot_poly *p = &f->term[i].p;
@@ -127,18 +129,18 @@ qdot_circular_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr T,
                 return QDOT_NIL;
             part = hyperbolic ? qdot_fun1(pool, QDOT_ATAN, qdot_subs(pool, qdot_poly_expr(t, p, T), 1, &T,
                                                                      &(qdot_expr){qdot_fun1(pool, QDOT_TANH, v)}))
-                              : arc_without_jumps(&c, p, v);
+                              : arc_without_jumps(c, p, v);
             sum = qdot_add(pool, sum, qdot_mul(pool, k, part));
             continue;
         }
         left = qdot_sub(pool, left, qdot_mul(pool, k, qdot_expr_int(pool, p->degree)));
-        if (hyperbolic && is_unit_factor(&c, p, 1)) {
+        if (hyperbolic && is_unit_factor(c, p, 1)) {
             sum = qdot_add(pool, sum, qdot_mul(pool, k, v));
-        } else if (hyperbolic && is_unit_factor(&c, p, -1)) {
+        } else if (hyperbolic && is_unit_factor(c, p, -1)) {
             sum = qdot_sub(pool, sum, qdot_mul(pool, k, v));
         } else {
             coefficient[logs] = k;
-            inside[logs] = homogeneous(&c, p, v);
+            inside[logs] = homogeneous(c, p, v);
             if (!qdot_expr_contains(pool, inside[logs], v) && qdot_expr_node(pool, v)->height == 0)
                 continue; /* 1 + T^2: a constant */
             logs++;
@@ -146,12 +148,12 @@ qdot_circular_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr T,
     }
     left = qdot_integral_normal(t, left);
     for (int i = 0; i < logs; i++)
-        if (inside[i] == sine(&c, v) && qdot_integral_normal(t, qdot_add(pool, coefficient[i], left)) == QDOT_ZERO) {
+        if (inside[i] == sine(c, v) && qdot_integral_normal(t, qdot_add(pool, coefficient[i], left)) == QDOT_ZERO) {
             inside[i] = qdot_fun1(pool, hyperbolic ? QDOT_TANH : QDOT_TAN, v);
             left = QDOT_ZERO;
         }
     coefficient[logs] = left;
-    inside[logs++] = cosine(&c, v);
+    inside[logs++] = cosine(c, v);
     return qdot_add(pool, sum, qdot_rational_logs(t, logs, coefficient, inside));
 }
 
@@ -252,7 +254,7 @@ integrate_over_tangent(const circular *c, qdot_expr n, qdot_expr d)
     if (n == QDOT_NIL || d == QDOT_NIL)
         return QDOT_NIL;
     e = qdot_div(pool, n, qdot_mul(pool, d, w));
-    return qdot_rational_integrate(c->t, e, T, &f) ? qdot_circular_write(c->t, &f, T, c->u, c->hyperbolic) : QDOT_NIL;
+    return qdot_rational_integrate(c->t, e, T, &f) ? write_without_jumps(c, &f, T, c->u) : QDOT_NIL;
 }
 
 /* Over T = tan(u/2). */
@@ -269,7 +271,7 @@ integrate_over_half_tangent(const circular *c, qdot_expr n, qdot_expr d)
     e = qdot_div(pool, qdot_mul(pool, two, qdot_div(pool, n, d)), w);
     e = qdot_subs(pool, e, 2, from, to);
     return qdot_rational_integrate(c->t, e, T, &f)
-               ? qdot_circular_write(c->t, &f, T, qdot_mul(pool, QDOT_HALF, c->u), c->hyperbolic)
+               ? write_without_jumps(c, &f, T, qdot_mul(pool, QDOT_HALF, c->u))
                : QDOT_NIL;
 }
 

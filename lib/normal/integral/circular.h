@@ -26,7 +26,4 @@
  * or not found. */
 qdot_expr qdot_circular_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x);
 
-/* The primitive f in T = tan v (or tanh v) as an expression that does not jump; nil: not possible. */
-qdot_expr qdot_circular_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr T, qdot_expr v, bool hyperbolic);
-
 #endif

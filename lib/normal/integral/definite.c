@@ -220,8 +220,7 @@ collect_dangers(range *r, qdot_expr e, bool jumps, dangers *d)
         qdot_kind kind = qdot_expr_kind(r->pool, w.at[i]);
         uint32_t count = kind == QDOT_PROD ? qdot_expr_count(r->pool, w.at[i]) : kind == QDOT_FUN ? 2 : 0;
 
-        if (kind == QDOT_UFUN && qdot_expr_contains(r->pool, w.at[i], r->x))
-            continue; /* undefined functions are smooth */
+        /* all others have none: undefined functions are smooth */
         if (count == 0 || !qdot_expr_contains(r->pool, w.at[i], r->x))
             continue;
         for (uint32_t k = 1; k < count && known; k += 2) {
@@ -264,10 +263,6 @@ variable_between(qdot_pool *pool, qdot_expr lo, qdot_expr hi)
         qdot_symbol_domain(pool, w, is_infinite(pool, lo) ? QDOT_NIL : lo, true, is_infinite(pool, hi) ? QDOT_NIL : hi, true);
     return w;
 }
-
-static qdot_status
-find_piece(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi, const qdot_facts *facts, bool ordered,
-           qdot_definite_answer *answer);
 
 /* F over the piece, taken from end to end; F is continuous between these. */
 static qdot_status
@@ -415,11 +410,8 @@ find_ordered(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr 
     e = qdot_subs(pool, e, 1, &x, &w);
     if (e == QDOT_NIL)
         return qdot_grave(qdot_pool_check(pool));
-    if (!add_dangers(&r, e, true)) {
-        if (r.status != QDOT_OK)
-            return r.status;
-        return QDOT_OK;
-    }
+    if (!add_dangers(&r, e, true))
+        return r.status;
     for (size_t i = 0; i <= r.n; i++) {
         QDOT_TRY(find_piece(pool, e, w, i == 0 ? lo : r.place[i - 1], i == r.n ? hi : r.place[i], facts, true, answer));
         if (answer->kind != QDOT_DEFINITE_FOUND)

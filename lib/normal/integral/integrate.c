@@ -81,8 +81,9 @@ integral_of_derivative(qdot_pool *pool, qdot_expr e, qdot_expr x)
     return qdot_div(pool, qdot_ufun_apply(pool, qdot_expr_node(pool, e)->op, args, orders), slope);
 }
 
-qdot_expr
-qdot_table_integrate(qdot_integral_task *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
+/* The integral of a power or function of something linear in x. */
+static qdot_expr
+integral_of_table(qdot_integral_task *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
 {
     qdot_pool *pool = t->pool;
     bool function = qdot_expr_kind(pool, base) == QDOT_FUN && exponent == QDOT_ONE && qdot_expr_count(pool, base) == 1;
@@ -144,8 +145,8 @@ integrate_term(qdot_integral_task *t, qdot_expr e, qdot_expr x, int depth)
     qdot_pool *pool = t->pool;
     bool power = qdot_expr_kind(pool, e) == QDOT_PROD && qdot_expr_count(pool, e) == 3 &&
                  qdot_expr_arg(pool, e, 0) == QDOT_ONE;
-    qdot_expr F = qdot_table_integrate(t, power ? qdot_expr_arg(pool, e, 1) : e,
-                                       power ? qdot_expr_arg(pool, e, 2) : QDOT_ONE, x);
+    qdot_expr F = integral_of_table(t, power ? qdot_expr_arg(pool, e, 1) : e,
+                                    power ? qdot_expr_arg(pool, e, 2) : QDOT_ONE, x);
 
     if (F == QDOT_NIL)
         F = integrate_what_was_read(t, e, x, depth);

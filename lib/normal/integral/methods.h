@@ -31,9 +31,6 @@ qdot_expr qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdo
 /* Logarithms, inverse functions and error functions times what can be integrated: by parts (parts.c). */
 qdot_expr qdot_parts_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, int depth);
 
-/* A power or function of something linear in x. */
-qdot_expr qdot_table_integrate(qdot_integral_task *t, qdot_expr base, qdot_expr exponent, qdot_expr x);
-
 /* Split a product into factors free of x and the rest. */
 void qdot_integral_split(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *free, qdot_expr *rest);
 

@@ -233,16 +233,3 @@ qdot_poly_at(qdot_integral_task *t, const qdot_poly *a, qdot_expr x)
         v = qdot_add(t->pool, qdot_mul(t->pool, v, x), a->c[i]);
     return qdot_integral_normal(t, v);
 }
-
-qdot_poly
-qdot_poly_gcd(qdot_integral_task *t, const qdot_poly *a, const qdot_poly *b)
-{
-    qdot_poly u = *a, v = *b, q, r;
-
-    while (v.degree >= 0 && qdot_integral_goes(t)) {
-        qdot_poly_divide(t, &u, &v, &q, &r);
-        u = v;
-        v = r;
-    }
-    return u.degree < 0 ? u : qdot_poly_scale(t, &u, qdot_div(t->pool, QDOT_ONE, u.c[u.degree]));
-}

@@ -39,7 +39,5 @@ void qdot_poly_divide(qdot_integral_task *t, const qdot_poly *a, const qdot_poly
 qdot_poly qdot_poly_quotient_mod(qdot_integral_task *t, const qdot_poly *c, const qdot_poly *a,
                                  const qdot_poly *m);
 qdot_expr qdot_poly_at(qdot_integral_task *t, const qdot_poly *a, qdot_expr x);
-/* The greatest common divisor, monic. */
-qdot_poly qdot_poly_gcd(qdot_integral_task *t, const qdot_poly *a, const qdot_poly *b);
 
 #endif
