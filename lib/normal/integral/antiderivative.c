@@ -75,7 +75,7 @@ without_constants(qdot_pool *pool, qdot_expr F, qdot_expr x)
     return qdot_mul(pool, factor, sum);
 }
 
-/* The antiderivative with the first `fixed` signs as in `holds`; *asked: the conditions on which its form depends. */
+/* The antiderivative with the signs as in t->holds; t->condition [t->asked]: the conditions on which its form depends. */
 static qdot_expr
 find_case(const struct search *s, qdot_integral_task *t)
 {
@@ -100,31 +100,36 @@ find_case(const struct search *s, qdot_integral_task *t)
     return F;
 }
 
-/* All cases from the sign number `depth` on, as if(CONDITION, F, G). */
-static qdot_expr
-find_cases(const struct search *s, qdot_integral_task *t, size_t depth)
-{
-    qdot_expr F, G, condition;
+static qdot_expr find_cases(const struct search *s, qdot_integral_task *t, size_t depth);
 
-    if (depth >= QDOT_INTEGRAL_SIGNS)
-        return find_case(s, t);
-    for (size_t i = depth; i < QDOT_INTEGRAL_SIGNS; i++)
-        t->holds[i] = true;
-    F = find_case(s, t);
+/* All cases from the sign number `depth` on, as if(CONDITION, F, G); F is that in which all of them are positive, just
+ * found. */
+static qdot_expr
+add_other_cases(const struct search *s, qdot_integral_task *t, size_t depth, qdot_expr F)
+{
+    qdot_expr G, condition;
+
     if (t->asked <= depth || F == QDOT_NIL)
         return F;
     condition = t->condition[depth];
-    if (t->asked > depth + 1) {
-        F = find_cases(s, t, depth + 1);
-        if (F == QDOT_NIL)
-            return F;
-    }
+    F = add_other_cases(s, t, depth + 1, F);
+    if (F == QDOT_NIL)
+        return F;
     t->holds[depth] = false;
     G = find_cases(s, t, depth + 1);
     t->holds[depth] = true;
     if (G == QDOT_NIL)
         return G;
     return F == G ? F : qdot_fun(s->pool, QDOT_IF, 3, (qdot_expr[]){condition, F, G});
+}
+
+/* All cases from the sign number `depth` on, those before as in t->holds. */
+static qdot_expr
+find_cases(const struct search *s, qdot_integral_task *t, size_t depth)
+{
+    for (size_t i = depth; i < QDOT_INTEGRAL_SIGNS; i++)
+        t->holds[i] = true;
+    return add_other_cases(s, t, depth, find_case(s, t));
 }
 
 static void
