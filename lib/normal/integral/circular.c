@@ -8,6 +8,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/integral/methods.h"
 
 typedef struct {
     qdot_integral_task *t;
@@ -372,8 +373,8 @@ qdot_circular_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr 
         c.S = qdot_integral_variable(t, false);
     if (c.C == QDOT_NIL)
         c.C = qdot_integral_variable(t, false);
-    c.slope = qdot_diff(t->pool, c.u, x);
-    if (c.slope == QDOT_NIL || qdot_expr_contains(t->pool, c.slope, x))
+    c.slope = qdot_integral_slope(t->pool, c.u, x);
+    if (c.slope == QDOT_NIL)
         return QDOT_NIL;
     c.numerator = qdot_mul(t->pool, r->rest, r->numerator);
     c.denominator = qdot_reading_denominator(t, r);

@@ -27,6 +27,14 @@ qdot_integral_split(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *fre
     }
 }
 
+qdot_expr
+qdot_integral_slope(qdot_pool *pool, qdot_expr u, qdot_expr x)
+{
+    const qdot_expr slope = qdot_diff(pool, u, x);
+
+    return slope == QDOT_NIL || qdot_expr_contains(pool, slope, x) ? QDOT_NIL : slope;
+}
+
 /* --- the table ----------------------------------------------------------------------- */
 
 /* The integral of f(u) du; nil if the table does not have it. */
@@ -74,8 +82,8 @@ integral_of_derivative(qdot_pool *pool, qdot_expr e, qdot_expr x)
     }
     if (at == n || orders[at] == 0)
         return QDOT_NIL;
-    slope = qdot_diff(pool, args[at], x);
-    if (slope == QDOT_NIL || qdot_expr_contains(pool, slope, x))
+    slope = qdot_integral_slope(pool, args[at], x);
+    if (slope == QDOT_NIL)
         return QDOT_NIL;
     orders[at]--;
     return qdot_div(pool, qdot_ufun_apply(pool, qdot_expr_node(pool, e)->op, args, orders), slope);
@@ -99,8 +107,8 @@ integral_of_table(qdot_integral_task *t, qdot_expr base, qdot_expr exponent, qdo
             return QDOT_NIL;
         return qdot_div(pool, qdot_pow(pool, base, exponent), slope);
     }
-    slope = qdot_diff(pool, u, x);
-    if (slope == QDOT_NIL || slope == QDOT_ZERO || qdot_expr_contains(pool, slope, x))
+    slope = qdot_integral_slope(pool, u, x);
+    if (slope == QDOT_NIL || slope == QDOT_ZERO)
         return QDOT_NIL;
     if (function) {
         F = integral_of_function(t, (qdot_fun_id)qdot_expr_node(pool, base)->op, u);

@@ -31,6 +31,9 @@ qdot_expr qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdo
 /* Logarithms, inverse functions and error functions times what can be integrated: by parts (parts.c). */
 qdot_expr qdot_parts_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, int depth);
 
+/* du/dx where it is free of x; nil: u is not linear in x. */
+qdot_expr qdot_integral_slope(qdot_pool *pool, qdot_expr u, qdot_expr x);
+
 /* Split a product into factors free of x and the rest. */
 void qdot_integral_split(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *free, qdot_expr *rest);
 

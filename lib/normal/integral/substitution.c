@@ -148,9 +148,9 @@ substitute_exponential(qdot_integral_task *t, qdot_expr e, qdot_expr u, qdot_exp
 {
     enum { MOST = 4 };
     qdot_pool *pool = t->pool;
-    qdot_expr w, from[2 * MOST], to[2 * MOST], v = qdot_expr_arg(pool, u, 0), slope = qdot_diff(pool, v, x), f, F;
+    qdot_expr w, from[2 * MOST], to[2 * MOST], v = qdot_expr_arg(pool, u, 0), slope = qdot_integral_slope(pool, v, x), f, F;
 
-    if (slope == QDOT_NIL || slope == QDOT_ZERO || qdot_expr_contains(pool, slope, x))
+    if (slope == QDOT_NIL || slope == QDOT_ZERO)
         return QDOT_NIL;
     w = qdot_integral_variable(t, true);
     for (long k = 1; k <= MOST; k++)
@@ -208,8 +208,8 @@ qdot_exponential_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_ex
 
     if (r->bare || r->n != 1 || r->generator[0].kind != QDOT_GEN_EXP)
         return QDOT_NIL;
-    slope = qdot_diff(pool, r->generator[0].of, x);
-    if (slope == QDOT_NIL || qdot_expr_contains(pool, slope, x))
+    slope = qdot_integral_slope(pool, r->generator[0].of, x);
+    if (slope == QDOT_NIL)
         return QDOT_NIL;
     w = qdot_integral_variable(t, true);
     e = qdot_div(pool, qdot_mul(pool, r->rest, r->numerator), qdot_mul(pool, qdot_reading_denominator(t, r), slope));

@@ -42,13 +42,6 @@ add_wave(waves *w, wave a)
     return true;
 }
 
-static bool
-is_linear(qdot_pool *pool, qdot_expr u, qdot_expr x, qdot_expr *slope)
-{
-    *slope = qdot_diff(pool, u, x);
-    return *slope != QDOT_NIL && !qdot_expr_contains(pool, *slope, x);
-}
-
 /* Multiply w by sin u or cos u. */
 static bool
 times_circular(qdot_pool *pool, waves *w, qdot_expr u, bool sine)
@@ -111,7 +104,8 @@ times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot
     qdot_fun_id id;
     long k;
 
-    if (!qdot_expr_contains(pool, base, x) && is_linear(pool, exponent, x, &slope)) {
+    slope = qdot_expr_contains(pool, base, x) ? QDOT_NIL : qdot_integral_slope(pool, exponent, x);
+    if (slope != QDOT_NIL) {
         times_exponential(pool, w, qdot_pow(pool, base, exponent), qdot_mul(pool, slope, qdot_fun1(pool, QDOT_LOG, base)));
         return true;
     }
@@ -126,7 +120,8 @@ times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot
         return false;
     u = qdot_expr_arg(pool, base, 0);
     id = (qdot_fun_id)qdot_expr_node(pool, base)->op;
-    if (!is_linear(pool, u, x, &slope))
+    slope = qdot_integral_slope(pool, u, x);
+    if (slope == QDOT_NIL)
         return false;
     if (id == QDOT_EXP) {
         times_exponential(pool, w, qdot_pow(pool, base, exponent), qdot_mul(pool, slope, exponent));
