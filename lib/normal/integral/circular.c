@@ -198,19 +198,6 @@ parity(const circular *c, qdot_expr e, qdot_expr x)
     return p.degree == -2 || (even && odd) ? 0 : odd ? -1 : 1;
 }
 
-/* int e dV, e rational in the symbol V, with `is` in the place of V. */
-static qdot_expr
-integrate_over(const circular *c, qdot_expr e, qdot_expr V, qdot_expr is)
-{
-    qdot_primitive f;
-    qdot_expr F;
-
-    if (!qdot_rational_integrate(c->t, e, V, &f))
-        return QDOT_NIL;
-    F = qdot_rational_write(c->t, &f, V);
-    return F == QDOT_NIL ? F : qdot_subs(c->pool, F, 1, &V, &is);
-}
-
 /* Replace V^(2k) by square^k in e; nil if V occurs with an odd power. */
 static qdot_expr
 replace_squares(const circular *c, qdot_expr e, qdot_expr V, qdot_expr square)
@@ -298,7 +285,7 @@ integrate_cosines(const circular *c, qdot_expr n, qdot_expr d)
         n = replace_squares(c, n, c->C, square);
         d = replace_squares(c, d, c->C, square);
         return n == QDOT_NIL || d == QDOT_NIL ? QDOT_NIL
-                                              : integrate_over(c, qdot_div(pool, n, d), V, sine(c, c->u));
+                                              : qdot_rational_over(c->t, qdot_div(pool, n, d), V, sine(c, c->u));
     }
     q = qdot_poly_read(c->t, d, c->C);
     for (int i = 0; i < q.degree; i++)
@@ -332,7 +319,7 @@ integrate_over_angle(const circular *c)
             return integrate_over_half_tangent(c, c->numerator, d0);
         if (n1 != QDOT_ZERO) {
             V = qdot_integral_variable(c->t, false);
-            F = integrate_over(c, qdot_subs(pool, qdot_div(pool, n1, d0), 1, &c->C, &V), V, cosine(c, c->u));
+            F = qdot_rational_over(c->t, qdot_subs(pool, qdot_div(pool, n1, d0), 1, &c->C, &V), V, cosine(c, c->u));
             F = c->hyperbolic || F == QDOT_NIL ? F : qdot_neg(pool, F);
         }
         G = integrate_cosines(c, n0, d0);
@@ -341,7 +328,7 @@ integrate_over_angle(const circular *c)
     if (reduce_to_linear(c, c->numerator, false, &m0, &m1) && reduce_to_linear(c, c->denominator, false, &e0, &e1) &&
         e1 == QDOT_ZERO && m0 == QDOT_ZERO) { /* odd in the cosine */
         V = qdot_integral_variable(c->t, false);
-        return integrate_over(c, qdot_subs(pool, qdot_div(pool, m1, e0), 1, &c->S, &V), V, sine(c, c->u));
+        return qdot_rational_over(c->t, qdot_subs(pool, qdot_div(pool, m1, e0), 1, &c->S, &V), V, sine(c, c->u));
     }
     k = parity(c, d0, c->C);
     if (k != 0 && parity(c, d1, c->C) == -k &&

@@ -127,13 +127,12 @@ static qdot_expr
 integrate_what_was_read(qdot_integral_task *t, qdot_expr e, qdot_expr x, int depth)
 {
     qdot_reading r;
-    qdot_primitive f;
     qdot_expr F = QDOT_NIL;
 
     if (!qdot_reading_make(t, e, x, &r))
         return QDOT_NIL;
     if (r.n == 0)
-        return qdot_rational_integrate(t, e, x, &f) ? qdot_rational_write(t, &f, x) : QDOT_NIL;
+        return qdot_rational_over(t, e, x, x);
     F = qdot_circular_integrate(t, &r, x);
     if (F == QDOT_NIL)
         F = qdot_exponential_integrate(t, &r, x);

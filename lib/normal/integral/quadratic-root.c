@@ -98,17 +98,6 @@ integral_at_pole(const root *r, qdot_expr p)
     return qdot_div(pool, qdot_fun1(pool, QDOT_ATAN, qdot_integral_normal(t, e)), s);
 }
 
-/* p/f over w, with w = `is`, f even in z: f = f(z^2), z^2 = `square`(w); slope factor 1/m(w). */
-static qdot_expr
-integrate_even(const root *r, qdot_expr e, qdot_expr w, qdot_expr is)
-{
-    qdot_primitive f;
-
-    if (!qdot_rational_integrate(r->t, e, w, &f))
-        return QDOT_NIL;
-    return qdot_subs(r->pool, qdot_rational_write(r->t, &f, w), 1, &w, &is);
-}
-
 /* (p z + s)/(f y), z = x - h, f = f2 z^2 + f0 and q = a z^2 + c without linear terms. */
 static qdot_expr
 integral_over_even(const root *r, const qdot_poly *n, const qdot_poly *f, qdot_expr h)
@@ -122,13 +111,13 @@ integral_over_even(const root *r, const qdot_poly *n, const qdot_poly *f, qdot_e
     s = qdot_poly_at(t, n, h);
     if (!qdot_integral_zero(t, p)) { /* over w = y: z dz = w dw/a, z^2 = (w^2 - c)/a */
         e = qdot_add(pool, qdot_mul(pool, f2, qdot_sub(pool, ww, c)), qdot_mul(pool, f0, a));
-        part = integrate_even(r, qdot_div(pool, p, e), w, r->y);
+        part = qdot_rational_over(t, qdot_div(pool, p, e), w, r->y);
         F = part == QDOT_NIL ? part : qdot_add(pool, F, part);
     }
     if (F != QDOT_NIL && !qdot_integral_zero(t, s)) { /* over w = z/y: z^2 = c w^2/(1 - a w^2), dz/y = dw/(1 - a w^2) */
         e = qdot_sub(pool, QDOT_ONE, qdot_mul(pool, a, ww));
         e = qdot_add(pool, qdot_mul(pool, f2, qdot_mul(pool, c, ww)), qdot_mul(pool, f0, e));
-        part = integrate_even(r, qdot_div(pool, s, e), w, qdot_div(pool, z, r->y));
+        part = qdot_rational_over(t, qdot_div(pool, s, e), w, qdot_div(pool, z, r->y));
         F = part == QDOT_NIL ? part : qdot_add(pool, F, part);
     }
     return F;
@@ -331,12 +320,7 @@ qdot_quadratic_root_integrate(qdot_integral_task *t, const qdot_reading *g, qdot
     G = qdot_integral_normal(t, qdot_div(pool, qdot_mul(pool, q, G), under));
     if (A == QDOT_NIL || G == QDOT_NIL)
         return QDOT_NIL;
-    if (A != QDOT_ZERO) {
-        qdot_primitive f;
-
-        if (!qdot_rational_integrate(t, A, x, &f))
-            return QDOT_NIL;
-        r.F = qdot_rational_write(t, &f, x);
-    }
-    return integrate_over_root(&r, G) ? r.F : QDOT_NIL;
+    if (A != QDOT_ZERO)
+        r.F = qdot_rational_over(t, A, x, x);
+    return r.F != QDOT_NIL && integrate_over_root(&r, G) ? r.F : QDOT_NIL;
 }

@@ -358,3 +358,15 @@ qdot_rational_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr x)
     }
     return qdot_add(pool, sum, qdot_rational_logs(t, logs, c, u));
 }
+
+qdot_expr
+qdot_rational_over(qdot_integral_task *t, qdot_expr e, qdot_expr w, qdot_expr is)
+{
+    qdot_primitive f;
+    qdot_expr F;
+
+    if (!qdot_rational_integrate(t, e, w, &f))
+        return QDOT_NIL;
+    F = qdot_rational_write(t, &f, w);
+    return F == QDOT_NIL || is == w ? F : qdot_subs(t->pool, F, 1, &w, &is);
+}

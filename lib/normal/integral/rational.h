@@ -36,6 +36,9 @@ bool qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qd
 /* The antiderivative as an expression in x. */
 qdot_expr qdot_rational_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr x);
 
+/* int e dw, e rational in the symbol w, with `is` in the place of w; nil: not found. */
+qdot_expr qdot_rational_over(qdot_integral_task *t, qdot_expr e, qdot_expr w, qdot_expr is);
+
 /* Sum of logarithms c_i log|u_i| [n], with c log|u| - c log|v| written c log|u/v|. */
 qdot_expr qdot_rational_logs(qdot_integral_task *t, int n, qdot_expr *c, const qdot_expr *u);
 

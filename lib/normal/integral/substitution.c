@@ -204,7 +204,6 @@ qdot_exponential_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_ex
 {
     qdot_pool *pool = t->pool;
     qdot_expr w, e, slope;
-    qdot_primitive f;
 
     if (r->bare || r->n != 1 || r->generator[0].kind != QDOT_GEN_EXP)
         return QDOT_NIL;
@@ -214,9 +213,7 @@ qdot_exponential_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_ex
     w = qdot_integral_variable(t, true);
     e = qdot_div(pool, qdot_mul(pool, r->rest, r->numerator), qdot_mul(pool, qdot_reading_denominator(t, r), slope));
     e = qdot_subs(pool, e, 1, &r->generator[0].symbol, &w);
-    if (!qdot_rational_integrate(t, qdot_div(pool, e, w), w, &f))
-        return QDOT_NIL;
-    return qdot_subs(pool, qdot_rational_write(t, &f, w), 1, &w, &r->generator[0].expr);
+    return qdot_rational_over(t, qdot_div(pool, e, w), w, r->generator[0].expr);
 }
 
 /* --- roots of (a x + b)/(c x + d) ---------------------------------------------------- */
