@@ -249,7 +249,8 @@ integrate_over_root(root *r, qdot_expr G)
 {
     qdot_integral_task *t = r->t;
     qdot_reading g;
-    qdot_poly n, all = qdot_poly_constant(t, QDOT_ONE), P, rest, f[QDOT_READING_FACTORS], part[QDOT_READING_FACTORS];
+    qdot_poly n, P, f[QDOT_READING_FACTORS], over[QDOT_READING_FACTORS];
+    long power[QDOT_READING_FACTORS];
 
     if (G == QDOT_ZERO)
         return true;
@@ -258,22 +259,13 @@ integrate_over_root(root *r, qdot_expr G)
     n = qdot_poly_read(t, qdot_mul(t->pool, g.rest, g.numerator), r->x);
     for (int i = 0; i < g.factors; i++) {
         f[i] = qdot_poly_read(t, g.factor[i].base, r->x);
-        part[i] = qdot_poly_power(t, &f[i], g.factor[i].power);
-        all = qdot_poly_mul(t, &all, &part[i]);
+        power[i] = g.factor[i].power;
     }
-    qdot_poly_divide(t, &n, &all, &P, &rest);
-    if (P.degree == -2)
+    if (!qdot_rational_fractions(t, &n, g.factors, f, power, &P, over))
         return false;
-    for (int i = 0; i < g.factors && rest.degree >= 0; i++) {
-        qdot_poly others = qdot_poly_constant(t, QDOT_ONE), a;
-
-        for (int j = 0; j < g.factors; j++)
-            if (j != i)
-                others = qdot_poly_mul(t, &others, &part[j]);
-        a = qdot_poly_quotient_mod(t, &rest, &others, &part[i]);
-        if (a.degree == -2 || !reduce_power(r, a, &f[i], g.factor[i].power, &P))
+    for (int i = 0; i < g.factors; i++)
+        if (over[i].degree >= 0 && !reduce_power(r, over[i], &f[i], power[i], &P))
             return false;
-    }
     return integrate_polynomial(r, P);
 }
 

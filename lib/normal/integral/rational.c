@@ -236,33 +236,51 @@ raise_step(const qdot_poly *p, int k)
     return r;
 }
 
-/* n/prod f_i^power_i by partial fractions. */
-static bool
-integrate_fraction(qdot_integral_task *t, qdot_poly n, int factors, const qdot_poly *f, const long *power, qdot_expr x,
-                   qdot_primitive *out)
+bool
+qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, const qdot_poly *f, const long *power,
+                        qdot_poly *whole, qdot_poly *over)
 {
-    qdot_poly all = qdot_poly_constant(t, QDOT_ONE), q, rest;
-    qdot_poly part[QDOT_READING_FACTORS];
+    qdot_poly all = qdot_poly_constant(t, QDOT_ONE), rest, part[QDOT_READING_FACTORS];
 
-    for (int i = 0; i < factors; i++) {
+    for (int i = 0; i < count; i++) {
         part[i] = qdot_poly_power(t, &f[i], power[i]);
         all = qdot_poly_mul(t, &all, &part[i]);
     }
-    qdot_poly_divide(t, &n, &all, &q, &rest);
-    q = qdot_poly_integral(t, &q);
-    if (q.degree == -2 || rest.degree == -2)
+    qdot_poly_divide(t, n, &all, whole, &rest);
+    if (whole->degree == -2 || rest.degree == -2)
         return false;
-    out->rest = qdot_add(t->pool, out->rest, qdot_poly_expr(t, &q, x));
-    for (int i = 0; i < factors && rest.degree >= 0; i++) {
-        qdot_poly others = qdot_poly_constant(t, QDOT_ONE), a;
+    for (int i = 0; i < count; i++) {
+        qdot_poly others = qdot_poly_constant(t, QDOT_ONE);
 
-        for (int j = 0; j < factors; j++)
+        over[i] = rest;
+        if (rest.degree < 0)
+            continue;
+        for (int j = 0; j < count; j++)
             if (j != i)
                 others = qdot_poly_mul(t, &others, &part[j]);
-        a = qdot_poly_quotient_mod(t, &rest, &others, &part[i]);
-        if (a.degree == -2 || !integrate_over_power(t, a, &f[i], power[i], x, out))
+        over[i] = qdot_poly_quotient_mod(t, &rest, &others, &part[i]);
+        if (over[i].degree == -2)
             return false;
     }
+    return true;
+}
+
+/* n/prod f_i^power_i by partial fractions. */
+static bool
+integrate_fraction(qdot_integral_task *t, const qdot_poly *n, int factors, const qdot_poly *f, const long *power,
+                   qdot_expr x, qdot_primitive *out)
+{
+    qdot_poly whole, over[QDOT_READING_FACTORS];
+
+    if (!qdot_rational_fractions(t, n, factors, f, power, &whole, over))
+        return false;
+    whole = qdot_poly_integral(t, &whole);
+    if (whole.degree == -2)
+        return false;
+    out->rest = qdot_add(t->pool, out->rest, qdot_poly_expr(t, &whole, x));
+    for (int i = 0; i < factors; i++)
+        if (over[i].degree >= 0 && !integrate_over_power(t, over[i], &f[i], power[i], x, out))
+            return false;
     return qdot_integral_goes(t);
 }
 
@@ -308,7 +326,7 @@ qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qdot_pr
         }
         return true;
     }
-    return integrate_fraction(t, n, r.factors, f, power, x, out);
+    return integrate_fraction(t, &n, r.factors, f, power, x, out);
 }
 
 qdot_expr
