@@ -82,12 +82,14 @@ scalar_curvature(qdot_manifold *m)
 {
     qdot_expr sum = QDOT_ZERO;
 
+    if (m->scalar != QDOT_NIL)
+        return m->scalar;
     for (uint32_t j = 0; j < m->n; j++)
         for (uint32_t l = 0; l < m->n; l++)
             if (m->inverse[j * m->n + l] != QDOT_ZERO)
                 sum = qdot_add(m->pool, sum,
                                qdot_mul(m->pool, m->inverse[j * m->n + l], ricci_component(m, j, l)));
-    return qdot_manifold_tidy(m, sum);
+    return m->scalar = qdot_manifold_tidy(m, sum);
 }
 
 /* R^ij_kl = sum over a < b of (g^ia g^jb - g^ib g^ja) R_abkl. */

@@ -19,6 +19,7 @@ typedef struct {
     qdot_expr *inverse; /* [n*n] inverse metric g^ij */
     qdot_expr *gamma;   /* [n*n*n] Christoffel symbols; nil until requested */
     qdot_expr *ricci;   /* [n*n] R_ij; nil until requested */
+    qdot_expr scalar;   /* R = g^ij R_ij; nil until requested */
     uint32_t pairs;     /* n (n - 1)/2 pairs of indices i < j */
     qdot_expr *riemann; /* [pairs*pairs] R_ijkl, all indices down, i < j, k < l; nil until requested; NULL: none yet */
 } qdot_manifold;

@@ -13,18 +13,13 @@
 qdot_status
 qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L)
 {
-    qdot_legendre l;
-    qdot_expr value = QDOT_NIL, *moving;
     uint32_t n;
+    qdot_expr *moving = qdot_hamilton_moving(s, &n);
 
-    moving = qdot_hamilton_moving(s, &n);
     if (moving == NULL)
         return QDOT_ENOMEM;
-    if (qdot_legendre_begin(&l, s, QDOT_MOMENTUM, s->hamiltonian, n, moving))
-        value = qdot_legendre_transform(&l);
-    qdot_legendre_end(&l);
+    *L = qdot_legendre_of(s, QDOT_MOMENTUM, s->hamiltonian, n, moving);
     qdot_free(moving);
-    *L = value;
     return qdot_pool_check(s->pool);
 }
 

@@ -11,19 +11,6 @@
 #include "mech/study/legendre.h"
 #include "normal/simplify/simplify.h"
 
-/* The Legendre transform sum p q' - L over the coordinates q [n], with their velocities replaced by momenta. */
-static qdot_expr
-legendre_transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
-{
-    qdot_legendre l;
-    qdot_expr result = qdot_legendre_begin(&l, s, QDOT_COORD, qdot_mech_lagrangian(s), n, q)
-                           ? qdot_legendre_transform(&l)
-                           : QDOT_NIL;
-
-    qdot_legendre_end(&l);
-    return result;
-}
-
 /* e with q' = dH/dp of a stated H. */
 static qdot_expr
 put_velocities_of_hamiltonian(qdot_scene *s, qdot_expr e)
@@ -161,7 +148,7 @@ qdot_hamilton_hamiltonian(qdot_scene *s)
     moving = qdot_hamilton_moving(s, &n);
     if (moving == NULL)
         return QDOT_NIL;
-    H = legendre_transform(s, n, moving);
+    H = qdot_legendre_of(s, QDOT_COORD, qdot_mech_lagrangian(s), n, moving);
     qdot_free(moving);
     return H;
 }
@@ -171,7 +158,7 @@ static qdot_expr
 routhian(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     const qdot_facts facts = qdot_scene_facts(s);
-    qdot_expr result = legendre_transform(s, n, q), shorter;
+    qdot_expr result = qdot_legendre_of(s, QDOT_COORD, qdot_mech_lagrangian(s), n, q), shorter;
 
     if (result == QDOT_NIL)
         return QDOT_NIL;

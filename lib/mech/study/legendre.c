@@ -13,11 +13,12 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/linear.h"
 
+/* e where all x are 0 but those of bent blocks. */
 static qdot_expr
-at_zero(const qdot_legendre *l, qdot_expr e, bool bent_too)
+at_zero(const qdot_legendre *l, qdot_expr e)
 {
     for (uint32_t i = 0; i < l->n; i++)
-        if (bent_too || !l->bent[i])
+        if (!l->bent[i])
             e = qdot_subs(l->pool, e, 1, &l->x[i], (qdot_expr[]){QDOT_ZERO});
     return e;
 }
@@ -148,7 +149,7 @@ solve_linear_blocks(qdot_legendre *l)
         for (uint32_t i = 0; i < m; i++) {
             qdot_expr slope = qdot_diff(l->pool, l->F, l->x[which[i]]);
 
-            slope = at_zero(l, slope, false);
+            slope = at_zero(l, slope);
             if (m < n && holds_variable(l, slope)) /* what varies with the bent blocks cancels */
                 slope = qdot_simplify(l->pool, slope, &l->facts);
             b[i] = l->rest[which[i]] = qdot_sub(l->pool, l->y[which[i]], slope);
@@ -312,7 +313,7 @@ rest_of_transform(qdot_legendre *l)
 {
     qdot_pool *pool = l->pool;
     const bool stated = l->of == QDOT_MOMENTUM || l->s->lagrangian != QDOT_NIL;
-    const qdot_expr F = at_zero(l, l->F_left, false);
+    const qdot_expr F = at_zero(l, l->F_left);
     const qdot_expr apart = l->mixed ? terms_of_block(l, l->F, l->n) : F;
 
     if (l->mixed)
@@ -326,8 +327,8 @@ rest_of_transform(qdot_legendre *l)
  *     sum x y - F = 1/2 (y - b).A^-1 (y - b) - F at x = 0
  *
  * without terms that cancel. */
-qdot_expr
-qdot_legendre_transform(qdot_legendre *l)
+static qdot_expr
+legendre_transform(qdot_legendre *l)
 {
     qdot_pool *pool = l->pool;
     qdot_expr sum = QDOT_NIL;
@@ -352,4 +353,14 @@ qdot_legendre_transform(qdot_legendre *l)
     if (status != QDOT_OK)
         return qdot_pool_fail(pool);
     return qdot_add(pool, sum, rest_of_transform(l));
+}
+
+qdot_expr
+qdot_legendre_of(qdot_scene *s, qdot_class of, qdot_expr F, uint32_t n, const qdot_expr *q)
+{
+    qdot_legendre l;
+    const qdot_expr G = qdot_legendre_begin(&l, s, of, F, n, q) ? legendre_transform(&l) : QDOT_NIL;
+
+    qdot_legendre_end(&l);
+    return G;
 }

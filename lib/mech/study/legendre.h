@@ -42,9 +42,9 @@ typedef struct {
  * False: the pool has the cause: QDOT_ESINGULAR, y does not determine x, or QDOT_EDOMAIN, no formula was found. To be
  * ended in any case. */
 bool qdot_legendre_begin(qdot_legendre *l, qdot_scene *s, qdot_class of, qdot_expr F, uint32_t n, const qdot_expr *q);
-/* G(y), after begin. Nil: the pool has the cause. */
-qdot_expr qdot_legendre_transform(qdot_legendre *l);
 void qdot_legendre_end(qdot_legendre *l);
+/* G(y). Nil: the pool has the cause, as of qdot_legendre_begin. */
+qdot_expr qdot_legendre_of(qdot_scene *s, qdot_class of, qdot_expr F, uint32_t n, const qdot_expr *q);
 
 /* Solve y_i = dF/dx_i, i < n, of one block in which F is not quadratic; *found false: no formula was found. *bound: an
  * expression in y that is 0 where F is homogeneous of first degree in x (QDOT_ONE: it is, but the relation was not

@@ -112,8 +112,8 @@ check_tangent_lengths(double t, const double *y, bool *stop, void *user)
 
 /* --- integration through the windows --------------------------------------------------------- */
 
-/* Put the tangent vectors back onto the constraints: where they are made orthonormal, one that has shrunk is multiplied,
- * and its distance from these with it. */
+/* Put the tangent vectors back onto the constraints: when they are made orthonormal, a short one is multiplied by a large
+ * number, and its distance from the constraints with it. */
 static qdot_status
 project_tangents(pursuit *p, const qdot_ode_system *system)
 {
@@ -139,9 +139,7 @@ integrate_until(pursuit *p, double end)
     qdot_status status;
 
     QDOT_TRY(project_tangents(p, &system));
-    status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t,
-                                            end, p->y, &result);
-
+    status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t, end, p->y, &result);
     p->t = result.t;
     p->x->steps += (double)result.stats.steps;
     p->x->cpu += result.stats.cpu;

@@ -21,8 +21,8 @@ static const double moved = 1e-9;
 /* Only sizes below this become scales; larger ones use the scale 1. */
 static const double well_below = 1e-2;
 
-/* The state of the given scene that coordinate i is, if the new scene has it as one: with its slopes, in place of
- * constraints. NULL: none. */
+/* The state that coordinate i of the given scene is. Where the new scene keeps equations of massless coordinates as
+ * constraints, this one and its slopes are states of it instead. NULL: it is none, or no such equations are kept. */
 static const qdot_state *
 state_of(const qdot_variation *v, size_t i)
 {
