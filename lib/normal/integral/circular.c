@@ -166,20 +166,13 @@ reduce_to_linear(const circular *c, qdot_expr e, bool by_sine, qdot_expr *lo, qd
 {
     qdot_pool *pool = c->pool;
     qdot_expr V = by_sine ? c->S : c->C, W = by_sine ? c->C : c->S, square;
-    qdot_poly p = qdot_poly_read(c->t, e, V);
 
-    if (p.degree == -2)
-        return false;
     square = qdot_mul(pool, W, W); /* circular: V^2 = 1 - W^2; S^2 = C^2 - 1, C^2 = 1 + S^2 */
     square = !c->hyperbolic ? qdot_sub(pool, QDOT_ONE, square)
              : by_sine      ? qdot_sub(pool, square, QDOT_ONE)
                             : qdot_add(pool, square, QDOT_ONE);
-    *lo = *hi = QDOT_ZERO;
-    for (int i = 0; i <= p.degree; i++) {
-        qdot_expr *to = i % 2 == 0 ? lo : hi;
-
-        *to = qdot_add(pool, *to, qdot_mul(pool, p.c[i], qdot_pow_int(pool, square, i / 2)));
-    }
+    if (!qdot_poly_read_root(c->t, e, V, square, lo, hi))
+        return false;
     *lo = qdot_integral_normal(c->t, *lo);
     *hi = qdot_integral_normal(c->t, *hi);
     return *lo != QDOT_NIL && *hi != QDOT_NIL;

@@ -46,11 +46,8 @@ qdot_gauss_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x)
     du = qdot_poly_diff(t, &u);
     while (P.degree >= 1 && qdot_integral_goes(t)) {
         int n = P.degree - 1;
-        qdot_poly c = {.degree = n}, v, w;
+        qdot_poly c = qdot_poly_monomial(qdot_integral_normal(t, qdot_div(pool, P.c[P.degree], du.c[1])), n), v, w;
 
-        for (int i = 0; i < n; i++)
-            c.c[i] = QDOT_ZERO;
-        c.c[n] = qdot_integral_normal(t, qdot_div(pool, P.c[P.degree], du.c[1]));
         v = qdot_poly_diff(t, &c);
         w = qdot_poly_mul(t, &c, &du);
         P = qdot_poly_sub(t, &P, &v);

@@ -36,6 +36,23 @@ qdot_poly_linear(qdot_integral_task *t, qdot_expr a, qdot_expr b)
 }
 
 qdot_poly
+qdot_poly_monomial(qdot_expr c, int n)
+{
+    qdot_poly p = {.degree = n};
+
+    for (int i = 0; i < n; i++)
+        p.c[i] = QDOT_ZERO;
+    p.c[n] = c;
+    return p;
+}
+
+qdot_expr
+qdot_poly_coefficient(const qdot_poly *p, int i)
+{
+    return i <= p->degree ? p->c[i] : QDOT_ZERO;
+}
+
+qdot_poly
 qdot_poly_read(qdot_integral_task *t, qdot_expr e, qdot_expr x)
 {
     qdot_pool *pool = t->pool;
@@ -71,6 +88,21 @@ qdot_poly_read(qdot_integral_task *t, qdot_expr e, qdot_expr x)
     return poly_trim(t, p);
 }
 
+bool
+qdot_poly_read_root(qdot_integral_task *t, qdot_expr e, qdot_expr V, qdot_expr square, qdot_expr *lo, qdot_expr *hi)
+{
+    qdot_pool *pool = t->pool;
+    qdot_poly p = qdot_poly_read(t, e, V);
+
+    *lo = *hi = QDOT_ZERO;
+    for (int i = 0; i <= p.degree; i++) {
+        qdot_expr *to = i % 2 == 0 ? lo : hi;
+
+        *to = qdot_add(pool, *to, qdot_mul(pool, p.c[i], qdot_pow_int(pool, square, i / 2)));
+    }
+    return p.degree != -2;
+}
+
 qdot_expr
 qdot_poly_expr(qdot_integral_task *t, const qdot_poly *p, qdot_expr x)
 {
@@ -91,7 +123,7 @@ poly_combine(qdot_integral_task *t, const qdot_poly *a, const qdot_poly *b, bool
     if (a->degree == -2 || b->degree == -2)
         return too_large;
     for (int i = 0; i <= r.degree; i++) {
-        qdot_expr u = i <= a->degree ? a->c[i] : QDOT_ZERO, v = i <= b->degree ? b->c[i] : QDOT_ZERO;
+        qdot_expr u = qdot_poly_coefficient(a, i), v = qdot_poly_coefficient(b, i);
 
         r.c[i] = minus ? qdot_sub(t->pool, u, v) : qdot_add(t->pool, u, v);
     }

@@ -20,8 +20,13 @@ typedef struct {
 
 qdot_poly qdot_poly_constant(qdot_integral_task *t, qdot_expr c);
 qdot_poly qdot_poly_linear(qdot_integral_task *t, qdot_expr a, qdot_expr b); /* a x + b */
+qdot_poly qdot_poly_monomial(qdot_expr c, int n); /* c x^n, c in normal form and not 0 */
+/* The coefficient of x^i. */
+qdot_expr qdot_poly_coefficient(const qdot_poly *p, int i);
 /* e as a polynomial in x; degree -2: it is none. */
 qdot_poly qdot_poly_read(qdot_integral_task *t, qdot_expr e, qdot_expr x);
+/* e, a polynomial in V, as lo + hi V with `square` for V^2; false: it is none. */
+bool qdot_poly_read_root(qdot_integral_task *t, qdot_expr e, qdot_expr V, qdot_expr square, qdot_expr *lo, qdot_expr *hi);
 qdot_expr qdot_poly_expr(qdot_integral_task *t, const qdot_poly *p, qdot_expr x);
 
 qdot_poly qdot_poly_add(qdot_integral_task *t, const qdot_poly *a, const qdot_poly *b);

@@ -107,7 +107,7 @@ integral_over_even(const root *r, const qdot_poly *n, const qdot_poly *f, qdot_e
     qdot_expr w = qdot_integral_variable(t, false), ww = qdot_mul(pool, w, w), z = qdot_sub(pool, r->x, h), F = QDOT_ZERO, part;
     qdot_expr a = r->q.c[2], c = qdot_poly_at(t, &r->q, h), f2 = f->c[2], f0 = qdot_poly_at(t, f, h), p, s, e;
 
-    p = n->degree >= 1 ? n->c[1] : QDOT_ZERO;
+    p = qdot_poly_coefficient(n, 1);
     s = qdot_poly_at(t, n, h);
     if (!qdot_integral_zero(t, p)) { /* over w = y: z dz = w dw/a, z^2 = (w^2 - c)/a */
         e = qdot_add(pool, qdot_mul(pool, f2, qdot_sub(pool, ww, c)), qdot_mul(pool, f0, a));
@@ -224,11 +224,9 @@ integrate_polynomial(root *r, qdot_poly P)
 
     while (P.degree >= 1 && qdot_integral_goes(t)) { /* the leading term of (c x^n y)' y is c a (n + 1) x^(n+1) */
         int n = P.degree - 1;
-        qdot_poly c = {.degree = n};
+        qdot_expr by = qdot_mul(pool, qdot_expr_int(pool, n + 1), r->q.c[2]);
+        qdot_poly c = qdot_poly_monomial(qdot_integral_normal(t, qdot_div(pool, P.c[P.degree], by)), n);
 
-        for (int i = 0; i < n; i++)
-            c.c[i] = QDOT_ZERO;
-        c.c[n] = qdot_integral_normal(t, qdot_div(pool, P.c[P.degree], qdot_mul(pool, qdot_expr_int(pool, n + 1), r->q.c[2])));
         step = slope_times_root(r, &c);
         P = qdot_poly_sub(t, &P, &step);
         S = qdot_poly_add(t, &S, &c);
@@ -269,23 +267,6 @@ integrate_over_root(root *r, qdot_expr G)
     return integrate_polynomial(r, P);
 }
 
-/* e = lo + hi Y, Y^2 = q. */
-static bool
-split_by_root(root *r, qdot_expr e, qdot_expr Y, qdot_expr q, qdot_expr *lo, qdot_expr *hi)
-{
-    qdot_poly p = qdot_poly_read(r->t, e, Y);
-
-    if (p.degree == -2)
-        return false;
-    *lo = *hi = QDOT_ZERO;
-    for (int i = 0; i <= p.degree; i++) {
-        qdot_expr *to = i % 2 == 0 ? lo : hi;
-
-        *to = qdot_add(r->pool, *to, qdot_mul(r->pool, p.c[i], qdot_pow_int(r->pool, q, i / 2)));
-    }
-    return true;
-}
-
 qdot_expr
 qdot_quadratic_root_integrate(qdot_integral_task *t, const qdot_reading *g, qdot_expr x)
 {
@@ -302,8 +283,8 @@ qdot_quadratic_root_integrate(qdot_integral_task *t, const qdot_reading *g, qdot
         return QDOT_NIL;
     r.y = g->generator[0].expr;
     r.dq = qdot_poly_diff(t, &r.q);
-    if (!split_by_root(&r, qdot_mul(pool, g->rest, g->numerator), Y, q, &n0, &n1) ||
-        !split_by_root(&r, qdot_reading_denominator(t, g), Y, q, &d0, &d1))
+    if (!qdot_poly_read_root(t, qdot_mul(pool, g->rest, g->numerator), Y, q, &n0, &n1) ||
+        !qdot_poly_read_root(t, qdot_reading_denominator(t, g), Y, q, &d0, &d1))
         return QDOT_NIL;
     under = qdot_sub(pool, qdot_mul(pool, d0, d0), qdot_mul(pool, q, qdot_mul(pool, d1, d1)));
     A = qdot_sub(pool, qdot_mul(pool, n0, d0), qdot_mul(pool, q, qdot_mul(pool, n1, d1)));

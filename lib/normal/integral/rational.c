@@ -33,7 +33,7 @@ integrate_over_quadratic(qdot_integral_task *t, const qdot_poly *n, const qdot_p
 {
     qdot_pool *pool = t->pool;
     qdot_expr a = f->c[2], b = f->c[1], c = f->c[0], two_a = qdot_mul(pool, qdot_expr_int(pool, 2), a);
-    qdot_expr top = n->degree >= 1 ? n->c[1] : QDOT_ZERO, low = n->degree >= 0 ? n->c[0] : QDOT_ZERO;
+    qdot_expr top = qdot_poly_coefficient(n, 1), low = qdot_poly_coefficient(n, 0);
     qdot_expr k = qdot_div(pool, top, two_a), r, d, s;
     int sign;
 

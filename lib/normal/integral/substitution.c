@@ -96,11 +96,10 @@ read_linear_fraction(qdot_integral_task *t, qdot_expr q, qdot_expr x, qdot_poly 
 static qdot_expr
 solve_linear_fraction(qdot_pool *pool, const qdot_poly *over, const qdot_poly *under, qdot_expr wq)
 {
-#define AT(p, i) ((p)->degree >= (i) ? (p)->c[i] : QDOT_ZERO)
-    qdot_expr b = qdot_sub(pool, AT(over, 0), qdot_mul(pool, AT(under, 0), wq));
+    qdot_expr a = qdot_poly_coefficient(over, 1), b = qdot_poly_coefficient(over, 0);
+    qdot_expr c = qdot_poly_coefficient(under, 1), d = qdot_poly_coefficient(under, 0);
 
-    return qdot_div(pool, b, qdot_sub(pool, qdot_mul(pool, AT(under, 1), wq), AT(over, 1)));
-#undef AT
+    return qdot_div(pool, qdot_sub(pool, b, qdot_mul(pool, d, wq)), qdot_sub(pool, qdot_mul(pool, c, wq), a));
 }
 
 /* Split u = base^(1/q); q = 0 for u = log(base); false: it is neither. */
