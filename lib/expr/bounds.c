@@ -1,13 +1,22 @@
-/* bounds.c -- finds the sign of a sum from rational bounds of its terms. */
+/* bounds.c -- finds the sign of a sum from bounds of its terms, which are rational numbers and multiples of pi. */
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
 
-/* One bound of a value: a rational number if it is known; `open`: the value does not reach it. */
+/* One bound of a value, x + turns pi, if it is known; `open`: the value does not reach it. */
 struct bound {
-    fmpq x;
+    fmpq x, turns;
     bool known, open;
 };
+
+#define NO_BOUND {{0, 1}, {0, 1}, false, false}
+
+static void
+clear_bound(struct bound *b)
+{
+    fmpq_clear(&b->x);
+    fmpq_clear(&b->turns);
+}
 
 static void
 set_bound(struct bound *b, int64_t n, int64_t d, bool open)
@@ -17,10 +26,9 @@ set_bound(struct bound *b, int64_t n, int64_t d, bool open)
     b->open = open;
 }
 
-/* A declared bound as a rational; a multiple of pi is replaced by a rational slightly beyond it.
- * `up`: an upper bound. */
+/* A declared bound that is a rational number or a rational multiple of pi. */
 static void
-set_declared_bound(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
+set_declared_bound(const qdot_pool *pool, qdot_expr e, bool open, struct bound *b)
 {
     const fmpq *c = NUMBER(pool, e);
     bool turn = e == QDOT_PI;
@@ -35,36 +43,40 @@ set_declared_bound(const qdot_pool *pool, qdot_expr e, bool open, bool up, struc
     if (c == NULL && !turn)
         return;
     b->known = true;
-    b->open = open || turn;
-    qdot_rational_set(&b->x, c == NULL ? &(fmpq){1, 1} : c);
-    if (turn) { /* replace pi by one of its rational bounds 333/106 < pi < 355/113 */
-        bool more = (qdot_rational_sgn(&b->x) > 0) == up;
-
-        qdot_rational_mul(&b->x, &b->x, more ? &(fmpq){355, 113} : &(fmpq){333, 106});
-    }
+    b->open = open;
+    qdot_rational_set(turn ? &b->turns : &b->x, c == NULL ? &(fmpq){1, 1} : c);
 }
 
-/* An end of a function's range; a multiple of pi is replaced by a rational slightly beyond it.
- * `up`: the upper end. */
+/* Replace the multiple of pi in a bound by a rational number slightly beyond it. `up`: an upper bound. */
 static void
-set_range_bound(const qdot_fun_end *end, bool up, struct bound *b)
+make_bound_rational(struct bound *b, bool up)
+{
+    const int sign = qdot_rational_sgn(&b->turns);
+
+    if (sign == 0)
+        return;
+    qdot_rational_addmul(&b->x, &b->turns, (sign > 0) == up ? &(fmpq){355, 113} : &(fmpq){333, 106});
+    qdot_rational_set(&b->turns, &(fmpq){0, 1});
+    b->open = true;
+}
+
+/* An end of a function's range. */
+static void
+set_range_bound(const qdot_fun_end *end, struct bound *b)
 {
     if (!end->known)
         return;
-    if (!end->angle)
-        set_bound(b, end->number, 1, end->open);
-    else if ((end->number > 0) == up)
-        set_bound(b, 355 * end->number, 226, true);
-    else
-        set_bound(b, 333 * end->number, 212, true);
+    set_bound(b, end->angle ? 0 : end->number, 1, end->open);
+    if (end->angle)
+        qdot_rational_mul(&b->turns, &(fmpq){end->number, 1}, &(fmpq){1, 2});
 }
 
 /* Find the bounds of a function's values for any real arguments. */
 static void
 bounds_of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
 {
-    set_range_bound(&qdot_fun_facts_of(id)->lo, false, lo);
-    set_range_bound(&qdot_fun_facts_of(id)->hi, true, hi);
+    set_range_bound(&qdot_fun_facts_of(id)->lo, lo);
+    set_range_bound(&qdot_fun_facts_of(id)->hi, hi);
 }
 
 /* Find bounds of f^k for a positive integer k, where |f| <= 1 or f >= 1. */
@@ -108,10 +120,12 @@ set_squared_bound(struct bound *b, const struct bound *end)
 static void
 bounds_of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct bound *hi)
 {
-    struct bound least = {{0, 1}, false, false}, most = {{0, 1}, false, false};
+    struct bound least = NO_BOUND, most = NO_BOUND;
 
-    set_declared_bound(pool, s->lo, s->lo_open, false, &least);
-    set_declared_bound(pool, s->hi, s->hi_open, true, &most);
+    set_declared_bound(pool, s->lo, s->lo_open, &least);
+    set_declared_bound(pool, s->hi, s->hi_open, &most);
+    make_bound_rational(&least, false);
+    make_bound_rational(&most, true);
     if (least.known && qdot_rational_sgn(&least.x) >= 0) {
         set_squared_bound(lo, &least);
         if (most.known)
@@ -121,7 +135,7 @@ bounds_of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, 
         if (least.known)
             set_squared_bound(hi, &least);
     } else if (least.known && most.known) {
-        struct bound other = {{0, 1}, false, false};
+        struct bound other = NO_BOUND;
         int d;
 
         set_squared_bound(hi, &least);
@@ -131,10 +145,22 @@ bounds_of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, 
             set_squared_bound(hi, &most);
         else if (d == 0)
             hi->open &= other.open;
-        fmpq_clear(&other.x);
+        clear_bound(&other);
     }
-    fmpq_clear(&least.x);
-    fmpq_clear(&most.x);
+    clear_bound(&least);
+    clear_bound(&most);
+}
+
+/* 0 as the bound of a value with this sign, unless *b is a better one; `beyond`: the sign of a worse one. */
+static void
+bound_by_zero(struct bound *b, uint8_t sign, int beyond)
+{
+    if (b->known && qdot_rational_sgn(&b->x) != beyond && qdot_rational_sgn(&b->turns) != beyond)
+        return;
+    qdot_rational_set(&b->x, &(fmpq){0, 1});
+    qdot_rational_set(&b->turns, &(fmpq){0, 1});
+    b->known = true;
+    b->open = sign & QDOT_NE0;
 }
 
 /* Find the bounds of a term without its coefficient. */
@@ -147,10 +173,8 @@ bounds_of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct boun
     switch (node->kind) {
     case QDOT_SYM:
         s = &pool->symbols.at[node->at];
-        set_declared_bound(pool, s->lo, s->lo_open, false, lo);
-        set_declared_bound(pool, s->hi, s->hi_open, true, hi);
-        if (e == QDOT_PI)
-            set_bound(lo, 333, 106, true), set_bound(hi, 355, 113, true);
+        set_declared_bound(pool, e == QDOT_PI ? e : s->lo, s->lo_open, lo);
+        set_declared_bound(pool, e == QDOT_PI ? e : s->hi, s->hi_open, hi);
         break;
     case QDOT_FUN: bounds_of_function(node->op, lo, hi); break;
     case QDOT_PROD:
@@ -164,16 +188,10 @@ bounds_of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct boun
         break;
     default: break;
     }
-    if ((node->sign & QDOT_GE0) && (!lo->known || qdot_rational_sgn(&lo->x) < 0)) {
-        qdot_rational_set(&lo->x, &(fmpq){0, 1});
-        lo->known = true;
-        lo->open = node->sign & QDOT_NE0;
-    }
-    if ((node->sign & QDOT_LE0) && (!hi->known || qdot_rational_sgn(&hi->x) > 0)) {
-        qdot_rational_set(&hi->x, &(fmpq){0, 1});
-        hi->known = true;
-        hi->open = node->sign & QDOT_NE0;
-    }
+    if (node->sign & QDOT_GE0)
+        bound_by_zero(lo, node->sign, -1);
+    if (node->sign & QDOT_LE0)
+        bound_by_zero(hi, node->sign, 1);
 }
 
 /* A bound with a long denominator by a shorter one beyond it, above where `up`: the denominator of a sum of thousands of
@@ -209,33 +227,37 @@ add_scaled_bound(struct bound *sum, const fmpq *c, const struct bound *b, bool u
     if (!sum->known)
         return;
     qdot_rational_addmul(&sum->x, c, &b->x);
+    qdot_rational_addmul(&sum->turns, c, &b->turns);
     round_bound_outward(sum, up);
 }
 
 uint8_t
 qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
 {
-    struct bound least = {{0, 1}, true, false}, most = {{0, 1}, true, false};
+    struct bound least = NO_BOUND, most = NO_BOUND;
     uint8_t sign = 0;
 
     qdot_rational_set(&least.x, RATIONAL(pool, args[0]));
     qdot_rational_set(&most.x, RATIONAL(pool, args[0]));
+    least.known = most.known = true;
     for (uint32_t i = 1; i < n && (least.known || most.known); i += 2) {
-        struct bound lo = {{0, 1}, false, false}, hi = {{0, 1}, false, false};
+        struct bound lo = NO_BOUND, hi = NO_BOUND;
         const fmpq *c = RATIONAL(pool, args[i + 1]);
         bool up = qdot_rational_sgn(c) > 0;
 
         bounds_of_term(pool, args[i], &lo, &hi);
         add_scaled_bound(&least, c, up ? &lo : &hi, false);
         add_scaled_bound(&most, c, up ? &hi : &lo, true);
-        fmpq_clear(&lo.x);
-        fmpq_clear(&hi.x);
+        clear_bound(&lo);
+        clear_bound(&hi);
     }
+    make_bound_rational(&least, false);
+    make_bound_rational(&most, true);
     if (least.known && qdot_rational_sgn(&least.x) >= 0)
         sign = QDOT_GE0 | (least.open || qdot_rational_sgn(&least.x) > 0 ? QDOT_NE0 : 0);
     else if (most.known && qdot_rational_sgn(&most.x) <= 0)
         sign = QDOT_LE0 | (most.open || qdot_rational_sgn(&most.x) < 0 ? QDOT_NE0 : 0);
-    fmpq_clear(&least.x);
-    fmpq_clear(&most.x);
+    clear_bound(&least);
+    clear_bound(&most);
     return sign;
 }

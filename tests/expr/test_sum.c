@@ -212,6 +212,30 @@ bounds_of_long_sums_are_short_and_sound(void **state)
     }
 }
 
+/* 0 < x < pi: pi - x > 0; 2 x < 7, but 2 x - 6 may have either sign; asin(y) + pi/2 >= 0. */
+static void
+bounds_that_are_multiples_of_pi_are_exact(void **state)
+{
+    place p;
+    qdot_expr x, e;
+
+    (void)state;
+    place_open(&p);
+    x = qdot_symbol_get(p.pool, QDOT_PARAM, "angle");
+    qdot_symbol_domain(p.pool, x, QDOT_ZERO, true, QDOT_PI, true);
+    e = qdot_sub(p.pool, QDOT_PI, x);
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_GE0 | QDOT_NE0);
+    e = qdot_sub(p.pool, x, QDOT_PI);
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_LE0 | QDOT_NE0);
+    e = qdot_add(p.pool, qdot_add(p.pool, x, x), qdot_expr_int(p.pool, -7));
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_LE0 | QDOT_NE0); /* 2 pi < 7 */
+    e = qdot_add(p.pool, qdot_add(p.pool, x, x), qdot_expr_int(p.pool, -6));
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, 0);
+    e = qdot_add(p.pool, qdot_fun1(p.pool, QDOT_ASIN, p.symbol[5]), qdot_div(p.pool, QDOT_PI, qdot_expr_int(p.pool, 2)));
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_GE0);
+    place_close(&p);
+}
+
 int
 main(void)
 {
@@ -221,6 +245,7 @@ main(void)
         cmocka_unit_test(long_sums_are_canonical_too),
         cmocka_unit_test(like_terms_meet),
         cmocka_unit_test(bounds_of_long_sums_are_short_and_sound),
+        cmocka_unit_test(bounds_that_are_multiples_of_pi_are_exact),
         cmocka_unit_test(the_negative_of_a_sum_is_a_sum),
     };
 
