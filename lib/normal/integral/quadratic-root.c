@@ -94,8 +94,8 @@ integral_at_pole(const root *r, qdot_expr p)
         e = qdot_div(pool, e, at);
         return qdot_neg(pool, qdot_div(pool, qdot_integral_log(t, qdot_integral_normal(t, e)), s));
     }
-    e = qdot_div(pool, e, qdot_mul(pool, two, qdot_mul(pool, s, r->y)));
-    return qdot_div(pool, qdot_fun1(pool, QDOT_ATAN, qdot_integral_normal(t, e)), s);
+    e = qdot_integral_normal(t, qdot_div(pool, e, qdot_mul(pool, two, s)));
+    return qdot_div(pool, qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, e, r->y)), s);
 }
 
 /* (p z + s)/(f y), z = x - h, f = f2 z^2 + f0 and q = a z^2 + c without linear terms. */
