@@ -231,32 +231,79 @@ add_scaled_bound(struct bound *sum, const fmpq *c, const struct bound *b, bool u
     round_bound_outward(sum, up);
 }
 
+/* The term args[k] of the sum that the term args[i], a symbol, is bounded by, with a coefficient of the other sign, as
+ * a - x with x < a; 0: none. *open: it is not reached. */
+static uint32_t
+bounding_term(const qdot_pool *pool, uint32_t n, const qdot_expr *args, uint32_t i, bool up, bool *open)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, args[i]);
+    const bool high = (qdot_rational_sgn(RATIONAL(pool, args[i + 1])) > 0) == up;
+    const qdot_expr bound = s == NULL ? QDOT_NIL : high ? s->hi : s->lo;
+
+    if (bound == QDOT_NIL || bound == QDOT_PI)
+        return 0;
+    *open = high ? s->hi_open : s->lo_open;
+    for (uint32_t k = 1; k < n; k += 2)
+        if (args[k] == bound && qdot_rational_sgn(RATIONAL(pool, args[k + 1])) != qdot_rational_sgn(RATIONAL(pool, args[i + 1])))
+            return k;
+    return 0;
+}
+
+/* The upper or lower bound of a sum. */
+static void
+bound_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args, bool up, struct bound *sum)
+{
+    enum { MOST = 33 };
+    fmpq c[MOST] = {{0, 0}};
+    const uint32_t terms = n < MOST ? n : 0; /* only a short sum is searched for terms that bound others */
+
+    sum->known = true;
+    qdot_rational_set(&sum->x, RATIONAL(pool, args[0]));
+    for (uint32_t i = 1; i < terms; i += 2) {
+        c[i] = (fmpq){0, 1};
+        qdot_rational_set(&c[i], RATIONAL(pool, args[i + 1]));
+    }
+    for (uint32_t i = 1; i < terms; i += 2) {
+        bool open;
+        uint32_t k = bounding_term(pool, n, args, i, up, &open);
+
+        if (k == 0)
+            continue;
+        qdot_rational_addmul(&c[k], RATIONAL(pool, args[i + 1]), &(fmpq){1, 1});
+        qdot_rational_addmul(&c[i], RATIONAL(pool, args[i + 1]), &(fmpq){-1, 1});
+        sum->open |= open;
+    }
+    for (uint32_t i = 1; i < n && sum->known; i += 2) {
+        struct bound lo = NO_BOUND, hi = NO_BOUND;
+        const fmpq *coefficient = i < terms ? &c[i] : RATIONAL(pool, args[i + 1]);
+        const int sign = qdot_rational_sgn(coefficient);
+
+        if (sign == 0)
+            continue;
+        bounds_of_term(pool, args[i], &lo, &hi);
+        add_scaled_bound(sum, coefficient, (sign > 0) == up ? &hi : &lo, up);
+        clear_bound(&lo);
+        clear_bound(&hi);
+    }
+    for (uint32_t i = 1; i < terms; i += 2)
+        fmpq_clear(&c[i]);
+    make_bound_rational(sum, up);
+}
+
 uint8_t
 qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
 {
     struct bound least = NO_BOUND, most = NO_BOUND;
     uint8_t sign = 0;
 
-    qdot_rational_set(&least.x, RATIONAL(pool, args[0]));
-    qdot_rational_set(&most.x, RATIONAL(pool, args[0]));
-    least.known = most.known = true;
-    for (uint32_t i = 1; i < n && (least.known || most.known); i += 2) {
-        struct bound lo = NO_BOUND, hi = NO_BOUND;
-        const fmpq *c = RATIONAL(pool, args[i + 1]);
-        bool up = qdot_rational_sgn(c) > 0;
-
-        bounds_of_term(pool, args[i], &lo, &hi);
-        add_scaled_bound(&least, c, up ? &lo : &hi, false);
-        add_scaled_bound(&most, c, up ? &hi : &lo, true);
-        clear_bound(&lo);
-        clear_bound(&hi);
-    }
-    make_bound_rational(&least, false);
-    make_bound_rational(&most, true);
-    if (least.known && qdot_rational_sgn(&least.x) >= 0)
+    bound_sum(pool, n, args, false, &least);
+    if (least.known && qdot_rational_sgn(&least.x) >= 0) {
         sign = QDOT_GE0 | (least.open || qdot_rational_sgn(&least.x) > 0 ? QDOT_NE0 : 0);
-    else if (most.known && qdot_rational_sgn(&most.x) <= 0)
-        sign = QDOT_LE0 | (most.open || qdot_rational_sgn(&most.x) < 0 ? QDOT_NE0 : 0);
+    } else {
+        bound_sum(pool, n, args, true, &most);
+        if (most.known && qdot_rational_sgn(&most.x) <= 0)
+            sign = QDOT_LE0 | (most.open || qdot_rational_sgn(&most.x) < 0 ? QDOT_NE0 : 0);
+    }
     clear_bound(&least);
     clear_bound(&most);
     return sign;

@@ -236,6 +236,32 @@ bounds_that_are_multiples_of_pi_are_exact(void **state)
     place_close(&p);
 }
 
+/* b > a > 0: b - a > 0, b - 2 a may have either sign, a - b < 0, b + a > 0. */
+static void
+a_symbol_is_bounded_by_another(void **state)
+{
+    place p;
+    qdot_expr a, b, e;
+
+    (void)state;
+    place_open(&p);
+    a = qdot_symbol_get(p.pool, QDOT_PARAM, "inner");
+    b = qdot_symbol_get(p.pool, QDOT_PARAM, "outer");
+    qdot_symbol_domain(p.pool, a, QDOT_ZERO, true, QDOT_NIL, false);
+    qdot_symbol_domain(p.pool, b, a, true, QDOT_NIL, false);
+    e = qdot_sub(p.pool, b, a);
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_GE0 | QDOT_NE0);
+    e = qdot_sub(p.pool, a, b);
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_LE0 | QDOT_NE0);
+    e = qdot_sub(p.pool, e, a);
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign & QDOT_GE0, 0); /* -b */
+    e = qdot_sub(p.pool, b, qdot_add(p.pool, a, a));
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, 0);
+    e = qdot_sub(p.pool, qdot_add(p.pool, b, b), a);
+    assert_int_equal(qdot_expr_node(p.pool, e)->sign, QDOT_GE0 | QDOT_NE0);
+    place_close(&p);
+}
+
 int
 main(void)
 {
@@ -246,6 +272,7 @@ main(void)
         cmocka_unit_test(like_terms_meet),
         cmocka_unit_test(bounds_of_long_sums_are_short_and_sound),
         cmocka_unit_test(bounds_that_are_multiples_of_pi_are_exact),
+        cmocka_unit_test(a_symbol_is_bounded_by_another),
         cmocka_unit_test(the_negative_of_a_sum_is_a_sum),
     };
 
