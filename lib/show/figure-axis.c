@@ -53,6 +53,23 @@ choose_angle_step(qdot_figure_axis *a, double steps)
     return true;
 }
 
+/* The tic distance of an axis in degrees: a part of a turn, the nearest to `steps` in the span; 0: the span is too small or
+ * too large for these. */
+static double
+degree_step(double span, double steps)
+{
+    static const double degrees[] = {15, 30, 45, 90, 180, 360, 720};
+    const double wanted = span / steps;
+    double best = degrees[0];
+
+    if (wanted < 10 || wanted > 1000)
+        return 0;
+    for (size_t i = 1; i < sizeof degrees / sizeof *degrees; i++)
+        if (fabs(log(degrees[i] / wanted)) < fabs(log(best / wanted)))
+            best = degrees[i];
+    return best;
+}
+
 bool
 qdot_figure_add_pi(qdot_text *out, double x)
 {
@@ -155,6 +172,10 @@ qdot_figure_axis_of(double least, double most, qdot_figure_tics tics, double ste
     if (a.log || !isfinite(most - least) || !(most > least))
         return a;
     if (tics == QDOT_TICS_PI && choose_angle_step(&a, steps))
+        return a;
+    if (tics == QDOT_TICS_DEGREES)
+        a.step = degree_step(most - least, steps);
+    if (a.step > 0)
         return a;
     if (rounded_tic_step(most - least, steps) < 2e-5 * largest && (least > 0) == (most > 0)) {
         choose_offset(&a);

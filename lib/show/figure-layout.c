@@ -227,7 +227,8 @@ find_view_without_lengths(const qdot_figure *figure, size_t i, qdot_figure_view 
     const bool joined = !panel->marks && !panel->points;
     extent e;
 
-    *view = (qdot_figure_view){.log = {panel->log[0], panel->log[1]}, .pi = {panel->pi[0], panel->pi[1]}};
+    *view = (qdot_figure_view){.log = {panel->log[0], panel->log[1]}, .pi = {panel->pi[0], panel->pi[1]},
+                               .degrees = panel->degrees};
     for (int k = 0; k < 2; k++)
         if (fixed[k] && panel->log[k] && !(panel->range[k].least > 0))
             return qdot_fail(QDOT_EINVAL, "a logarithmic axis begins above 0, not at %.6g",

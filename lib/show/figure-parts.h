@@ -14,8 +14,8 @@ typedef struct {
     int times, over; /* tic step is times * pi / over; over 0: the step is a decimal number */
 } qdot_figure_axis;
 
-/* What the tics of an axis are: decimal numbers, powers of ten, multiples of pi. */
-typedef enum { QDOT_TICS_DECIMAL, QDOT_TICS_LOG, QDOT_TICS_PI } qdot_figure_tics;
+/* What the tics of an axis are: decimal numbers, powers of ten, multiples of pi, parts of a turn of 360. */
+typedef enum { QDOT_TICS_DECIMAL, QDOT_TICS_LOG, QDOT_TICS_PI, QDOT_TICS_DEGREES } qdot_figure_tics;
 
 /* --- writing labels ----------------------------------------------------------------- */
 

@@ -135,7 +135,10 @@ choose_axis(const qdot_figure_drawing *d, const qdot_figure_view *v, int k, doub
             const int *power)
 {
     const double length = v->length[k];
-    const qdot_figure_tics tics = v->log[k] ? QDOT_TICS_LOG : v->pi[k] ? QDOT_TICS_PI : QDOT_TICS_DECIMAL;
+    const qdot_figure_tics tics = v->log[k]              ? QDOT_TICS_LOG
+                                  : v->pi[k]             ? QDOT_TICS_PI
+                                  : k == 1 && v->degrees ? QDOT_TICS_DEGREES
+                                                         : QDOT_TICS_DECIMAL;
     qdot_figure_axis a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
 
     while (a.step > 0 && qdot_figure_count_tics(&a) < 3 &&

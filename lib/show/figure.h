@@ -55,6 +55,7 @@ typedef struct {
     qdot_figure_range range[2]; /* ranges of x and y */
     bool log[2];                /* logarithmic x, y axis */
     bool pi[2];                 /* x and y are angles, with tics at multiples of pi */
+    bool degrees;               /* y is an angle in degrees, with tics at parts of a turn */
     bool equal;                 /* same scale on all axes, as for paths */
     bool marks;                 /* draw a mark at every point, besides the line */
     bool points;                /* draw points without a line */
@@ -80,7 +81,7 @@ const char *qdot_figure_colour_name(size_t i);
  * value, and the length in cm that lies between them. */
 typedef struct {
     double least[3], most[3], length[3];
-    bool log[3], pi[3];
+    bool log[3], pi[3], degrees;
 } qdot_figure_view;
 
 /* Whether the ending of the name is that of a figure: .svg .png .pdf .eps .tikz. */

@@ -14,6 +14,7 @@
 #include "lang/language/function.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
+#include "lang/session/history.h"
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
 #include "lang/session/runs.h"
@@ -95,16 +96,19 @@ parse_definition_text(const qdot_text *text, qdot_source **source)
     return status;
 }
 
-/* Whether a definition's text evaluates to exactly this value, indexed by the same coordinates. */
+/* Whether a definition's text evaluates to exactly this value, indexed by the same coordinates, where no linear motion has
+ * been asked for. */
 static qdot_status
 evaluates_to_value(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
 {
+    const qdot_linear linear = s->history->linear;
     qdot_source *source = NULL;
     qdot_expr read = QDOT_NIL, its_over = QDOT_NIL;
     qdot_status status;
 
     *is = false;
     QDOT_TRY(qdot_text_status(text));
+    s->history->linear = (qdot_linear){0};
     status = parse_definition_text(text, &source);
     if (status == QDOT_OK) {
         qdot_cursor c = {.session = s, .source = source, .at = source->tokens.at + 2};
@@ -114,6 +118,7 @@ evaluates_to_value(qdot_session *s, const qdot_text *text, qdot_expr value, qdot
               its_over == over;
     }
     qdot_source_free(source);
+    s->history->linear = linear;
     (void)!qdot_pool_check(s->pool); /* clear the failure: that a text cannot be evaluated here is no error */
     return qdot_grave(status);
 }

@@ -238,6 +238,7 @@ qdot_figure_option_apply(qdot_record *r, const qdot_panel_choice *choice, qdot_p
     for (int k = 0; k < 2; k++)
         if (panel->pi[k] && panel->log[k])
             return refuse_angles(r, choice->ticks, panel, k);
+    panel->degrees = choice->degrees;
     panel->equal = panel->equal || choice->equal;
     panel->points = choice->points || (panel->points && !choice->lines);
     panel->marks = panel->marks && !choice->lines;

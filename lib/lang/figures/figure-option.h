@@ -18,7 +18,7 @@ typedef struct {
     bool logs, log[2]; /* axes with logarithmic scale; logs: the option was given */
     const qdot_filled *ticks; /* the word of `ticks pi`; NULL: not given */
     bool pi[2];               /* the axes that it names; neither where it names none */
-    bool equal, points, lines;
+    bool equal, points, lines, degrees; /* degrees: the ordinate is an angle in degrees */
     const char *title, *labels[3] /* of each axis; NULL: not given */, *legend[QDOT_FIGURE_LEGEND];
     size_t n_labels, n_legend, colours[QDOT_FIGURE_LEGEND], n_colours;
 } qdot_panel_choice;

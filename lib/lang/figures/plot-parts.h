@@ -10,7 +10,7 @@
 #include "tape/tape.h"
 
 /* A curve and where its numbers come from: along a run (y of an operand, x of another or t), or
- * over a variable (a tape); the points of data are in a file. */
+ * over a variable (a tape), or the response of a quotient in s (plot-bode.c); the points of data are in a file. */
 typedef struct {
     char *label, *axis; /* name in the legend; label of the y axis */
     const qdot_operand *y;
@@ -22,6 +22,8 @@ typedef struct {
     double begin;
     qdot_tape *tape; /* for a curve over a variable: y as a tape; owned */
     double *work;
+    void *response; /* for `plot bode`: zeros and poles; owned, unless borrowed from the panel before */
+    bool borrowed;
     qdot_trace_source source;
     qdot_trace points;
     qdot_figure_range shown; /* the range of the ordinate that is shown if the curve has a pole */

@@ -24,7 +24,7 @@ find_row_table(const qdot_record *r)
 bool
 qdot_plot_rows_is(const qdot_record *r)
 {
-    return qdot_record_hole(r, NULL, "ROWS") != NULL || (qdot_record_hole(r, "plot", "EXPR") == NULL &&
+    return qdot_record_hole(r, NULL, "ROWS") != NULL || (qdot_record_hole(r, "plot", "EXPR") == NULL && qdot_record_word(r, "bode") == NULL &&
                                                          qdot_record_hole(r, "plot", "\"DATA\"") == NULL);
 }
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "lang/figures/figure-file.h"
+#include "lang/figures/plot-bode.h"
 #include "lang/figures/plot-parts.h"
 #include "lang/figures/plot.h"
 #include "lang/figures/plot-rows.h"
@@ -21,6 +22,8 @@ free_curve(qdot_plot_curve *curve)
     qdot_free(curve->axis);
     qdot_tape_free(curve->tape);
     qdot_free(curve->work);
+    if (!curve->borrowed)
+        qdot_free(curve->response);
     qdot_trace_clear(&curve->points);
     qdot_free(curve);
 }
@@ -243,7 +246,7 @@ give_notice_of_left_out(qdot_session *session, const qdot_figure *figure)
 
 /* --- the statement `plot` ----------------------------------------------------------- */
 
-/* Read the parts of one panel, up to the next `|`. */
+/* Read the parts of one panel, up to the next `|`; a Bode diagram has two. */
 static qdot_status
 read_panel(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {
@@ -251,6 +254,10 @@ read_panel(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_figure_c
     qdot_plot_panel empty = {0}, *p;
 
     QDOT_TRY(qdot_vec_push(all, empty));
+    if (qdot_plot_bode_is(said)) {
+        QDOT_TRY(qdot_vec_push(all, empty));
+        return qdot_plot_bode(said, &all->at[all->n - 2], &all->at[all->n - 1], figure);
+    }
     p = &all->at[all->n - 1];
     if (said->from == said->to || (!qdot_filled_is(said->from, "EXPR") && qdot_plot_data_find(said) != said->from))
         return qdot_record_expected(said->record, said->from[-1].to, "an expression");

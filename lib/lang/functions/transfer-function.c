@@ -16,8 +16,8 @@
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/linear.h"
+#include "lang/functions/quotient.h"
 #include "lang/session/measured.h"
-#include "lang/session/names.h"
 #include "mech/scene/things.h"
 #include "normal/field/normal-form.h"
 #include "normal/simplify/simplify.h"
@@ -97,30 +97,12 @@ quotient_in_s(job *j, qdot_expr s)
 static qdot_expr
 collected_quotient(qdot_pool *pool, qdot_expr e, qdot_expr s)
 {
-    qdot_expr top = QDOT_ONE, bottom = QDOT_ONE;
+    qdot_expr top, bottom;
 
-    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
-        return e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_SUM ? e : qdot_collect(pool, e, s);
-    top = qdot_expr_arg(pool, e, 0);
-    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
-        const qdot_expr base = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
-        long k;
-
-        if (qdot_expr_to_int(pool, power, &k) && k < 0)
-            bottom = qdot_mul(pool, bottom, qdot_pow_int(pool, base, -k));
-        else
-            top = qdot_mul(pool, top, qdot_pow(pool, base, power));
-    }
+    if (e == QDOT_NIL || (qdot_expr_kind(pool, e) != QDOT_PROD && qdot_expr_kind(pool, e) != QDOT_SUM))
+        return e;
+    qdot_quotient_split(pool, e, &top, &bottom);
     return qdot_div(pool, qdot_collect(pool, top, s), qdot_collect(pool, bottom, s));
-}
-
-/* The symbol s: the user's parameter of that name, else a formal one. */
-static qdot_expr
-laplace_symbol(qdot_session *s)
-{
-    const qdot_name *known = qdot_names_find(s->names, "s");
-
-    return known != NULL && known->kind == QDOT_NAME_PARAM ? known->value : qdot_symbol_get(s->pool, QDOT_FORMAL, "s");
 }
 
 static qdot_status
@@ -149,7 +131,7 @@ qdot_call_transfer(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
 {
     qdot_pool *pool = s->pool;
     const qdot_linear *linear;
-    const qdot_expr symbol = laplace_symbol(s);
+    const qdot_expr symbol = qdot_quotient_laplace(s);
     job j = {.s = s, .pool = pool, .facts = qdot_scene_facts(s->scene)};
     size_t input = 0;
     qdot_status status;

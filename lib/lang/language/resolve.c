@@ -14,6 +14,7 @@
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
+#include "lang/functions/quotient.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/enclosing.h"
 #include "lang/language/evaluator.h"
@@ -428,6 +429,10 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     }
     if (is_side_of_limit(token) || (primes == 0 && qdot_enclosing_binds(c, token))) {
         *value = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
+        return qdot_value_kind_check(s->pool, *value);
+    }
+    if (primes == 0 && qdot_quotient_is_laplace(s, name)) {
+        *value = qdot_quotient_laplace(s);
         return qdot_value_kind_check(s->pool, *value);
     }
     return qdot_hints_unknown(c, token, NULL);

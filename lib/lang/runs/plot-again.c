@@ -14,11 +14,11 @@ static qdot_status draw_plot(qdot_record *r);
 QDOT_STATEMENT(plot) = {
     .word = "plot",
     .group = QDOT_NUMBERS,
-    .usage = "plot [EXPR [vs EXPR], \"DATA\" : T, EXPR, ... | EXPR, \"DATA\" : T, EXPR, ... vs NAME = A..B | ROWS] "
+    .usage = "plot [EXPR [vs EXPR], \"DATA\" : T, EXPR, ... | EXPR, \"DATA\" : T, EXPR, ... vs NAME = A..B | ROWS | bode EXPR, ...] "
              "[for NAME = A..B, ...] " QDOT_FIGURE_USAGE
              " [| plot ...]",
-    .summary = "a figure along the latest run, of an expression over a variable, of columns of a file, or of a table of rows; "
-               "panels one below the other",
+    .summary = "a figure along the latest run, of an expression over a variable, of columns of a file, of a table of rows, or of "
+               "magnitude and phase of a quotient in s; panels one below the other",
     .example = "plot theta' vs theta range -3..3 to \"fig.svg\"",
     .handler = draw_plot,
 };

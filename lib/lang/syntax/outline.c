@@ -46,6 +46,8 @@ qdot_outline_statement(const qdot_session *session, const qdot_token *first)
             continue;
         if (plot && qdot_token_is_word(k, "vs") && k[1].kind == QDOT_TOKEN_NAME && qdot_token_is(k + 2, "="))
             own = true;
+        if (plot && qdot_token_is_word(k, "bode") && (qdot_token_is_word(k - 1, "plot") || qdot_token_is(k - 1, "|")))
+            own = true;
         if (!own && qdot_token_is_word(k, "for") && k[1].kind == QDOT_TOKEN_NAME &&
             !(plot && is_index_of_plot(session, k + 1)) &&
             (qdot_token_is(k + 2, "=") || k[2].kind == QDOT_TOKEN_NAME || k[2].kind == QDOT_TOKEN_END))

@@ -21,7 +21,8 @@ typedef struct {
 typedef enum { QDOT_OUTLINE_END, QDOT_OUTLINE_BLOCK, QDOT_OUTLINE_STATEMENT } qdot_outline_kind;
 
 qdot_outline_kind qdot_outline_at(const qdot_token *first);
-/* The statement that begins at `first`. plot keeps a loop that goes with `vs NAME =` or is over a declared NAME. */
+/* The statement that begins at `first`. plot keeps a loop that goes with `vs NAME =`, a range
+ * behind `bode`, and one that is over a declared NAME. */
 qdot_outline qdot_outline_statement(const qdot_session *session, const qdot_token *first);
 /* The end of the statement that contains the token. */
 const qdot_token *qdot_outline_end(const qdot_token *token);

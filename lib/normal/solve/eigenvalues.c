@@ -5,11 +5,11 @@
 
 #include <flint/fmpq_mat.h>
 #include <flint/fmpq_poly.h>
-#include <flint/fmpz_poly_factor.h>
 
 #include "expr/exact.h"
 #include "normal/field/flint.h"
 #include "normal/refute/ball.h"
+#include "normal/solve/complex-roots.h"
 
 #if __FLINT_RELEASE >= 30000
 #include <flint/acb_mat.h>
@@ -131,23 +131,6 @@ is_rational(const job *j)
     return true;
 }
 
-/* Write the roots of a polynomial without multiple roots, each `times` times, from *at on. */
-static void
-write_roots(const job *j, const fmpz_poly_t f, slong times, size_t *at)
-{
-    const slong n = fmpz_poly_degree(f);
-    acb_ptr roots = _acb_vec_init(n);
-
-    arb_fmpz_poly_complex_roots(roots, f, 0, 80);
-    for (slong k = 0; k < n; k++)
-        for (slong t = 0; t < times; t++, ++*at) {
-            j->re[*at] = arf_get_d(arb_midref(acb_realref(roots + k)), ARF_RND_NEAR);
-            j->im[*at] = arf_get_d(arb_midref(acb_imagref(roots + k)), ARF_RND_NEAR);
-            j->error[*at] = 1.2e-16 * hypot(j->re[*at], j->im[*at]);
-        }
-    _acb_vec_clear(roots, n);
-}
-
 static void
 find_rational(void *user)
 {
@@ -156,21 +139,17 @@ find_rational(void *user)
     fmpq_mat_t M;
     fmpq_poly_t p;
     fmpz_poly_t f;
-    fmpz_poly_factor_t factors;
-    size_t at = 0;
 
     fmpq_mat_init(M, n, n);
     fmpq_poly_init(p);
     fmpz_poly_init(f);
-    fmpz_poly_factor_init(factors);
     for (slong i = 0; i < n * n; i++)
         fmpq_set(fmpq_mat_entry(M, i / n, i % n), qdot_expr_rational(j->pool, j->A[i]));
     fmpq_mat_charpoly(p, M);
     fmpq_poly_get_numerator(f, p);
-    fmpz_poly_factor_squarefree(factors, f);
-    for (slong i = 0; i < factors->num; i++)
-        write_roots(j, factors->p + i, factors->exp[i], &at);
-    fmpz_poly_factor_clear(factors);
+    qdot_complex_roots_of(f, j->re, j->im);
+    for (size_t k = 0; k < j->n; k++)
+        j->error[k] = 1.2e-16 * hypot(j->re[k], j->im[k]);
     fmpz_poly_clear(f);
     fmpq_poly_clear(p);
     fmpq_mat_clear(M);
