@@ -23,6 +23,7 @@
 #include "lang/session/output.h"
 #include "lang/session/text-list.h"
 #include "lang/session/typed.h"
+#include "lang/session/units.h"
 #include "lang/source/source.h"
 
 /* The terminal code of a colour; "" if answers are shown without colours. */
@@ -289,6 +290,23 @@ qdot_status
 qdot_answer_number(qdot_session *session, const char *name, double value, double error)
 {
     return answer_numbers(session, name, false, 1, &value, &error);
+}
+
+qdot_status
+qdot_answer_quantity(qdot_session *session, const char *name, qdot_expr e, double value, double error)
+{
+    qdot_text unit = {0};
+    qdot_status status;
+
+    qdot_units_label(session, e, &unit);
+    status = qdot_text_status(&unit);
+    if (status == QDOT_OK && unit.n > 0)
+        session->output->unit = qdot_text_str(&unit);
+    if (status == QDOT_OK)
+        status = qdot_answer_number(session, name, value, error);
+    session->output->unit = NULL;
+    qdot_text_clear(&unit);
+    return status;
 }
 
 qdot_status

@@ -29,6 +29,9 @@ QDOT_MUST_CHECK qdot_status qdot_answer_solved(qdot_session *session, const char
 /* Answer {"kind":"number"} with an error bound: 0 if the value is exact, NaN if the error is unknown. */
 QDOT_MUST_CHECK qdot_status qdot_answer_number(qdot_session *session, const char *name,
                                                double value, double error);
+/* The same for a number that e is, such as an unknown that was found: with its unit, where e has a dimension. */
+QDOT_MUST_CHECK qdot_status qdot_answer_quantity(qdot_session *session, const char *name, qdot_expr e, double value,
+                                                 double error);
 /* Answer {"kind":"numbers"}: values [n], errors [n]. */
 QDOT_MUST_CHECK qdot_status qdot_answer_numbers(qdot_session *session, const char *name,
                                                 size_t n, const double *values,

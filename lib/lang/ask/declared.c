@@ -5,9 +5,11 @@
 
 #include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
 #include "lang/language/function.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
 
@@ -47,10 +49,13 @@ qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out
         qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
         QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
         value = value_given_by_set(session, name->value);
-        if (value == QDOT_NIL)
-            return QDOT_OK;
-        qdot_text_add(out, " = ");
-        return print_value(session, value, out);
+        if (value != QDOT_NIL) {
+            qdot_text_add(out, " = ");
+            QDOT_TRY(print_value(session, value, out));
+        }
+        if (value == QDOT_NIL || qdot_expr_is_constant(pool, value))
+            qdot_units_in_brackets(session, name->value, out);
+        return QDOT_OK;
     case QDOT_NAME_UFUN:
         qdot_text_add(out, "function ");
         return qdot_print(pool, name->value, QDOT_PLAIN, out);

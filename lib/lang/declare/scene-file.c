@@ -41,19 +41,6 @@ append_text_and_expression(qdot_session *s, const char *before, qdot_expr e, qdo
 
 /* --- writing definitions -------------------------------------------------------------- */
 
-/* Append ` [kg]`, if the dimension is known and is not that of a number. */
-static void
-append_unit_of_name(qdot_session *s, qdot_expr symbol, qdot_text *out)
-{
-    qdot_text unit = {0};
-
-    qdot_units_label(s, symbol, &unit);
-    if (unit.n > 0)
-        qdot_text_format(out, " [%s]", qdot_text_str(&unit));
-    out->failed = out->failed || unit.failed;
-    qdot_text_clear(&unit);
-}
-
 /* Write `param m > 0`, `function x(s, t)`, `coord theta` in order of declaration, which is also
  * that of terms. */
 static qdot_status
@@ -71,7 +58,7 @@ append_declarations(qdot_session *s, qdot_text *out)
                    && qdot_scene_state_of(s->scene, name->value) == NULL) { /* states come with the scene's things */
             qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
             QDOT_TRY(qdot_scene_print_domain(s->scene, name->value, out));
-            append_unit_of_name(s, name->value, out);
+            qdot_units_in_brackets(s, name->value, out);
         } else {
             continue;
         }

@@ -41,16 +41,12 @@ static qdot_status
 label_column(qdot_grid *g, size_t i, qdot_session *session, qdot_expr e, const char *label, size_t component,
              size_t components)
 {
-    qdot_text text = {0}, unit = {0};
+    qdot_text text = {0};
 
     qdot_text_add(&text, label);
     if (components > 1)
         qdot_text_format(&text, "[%zu]", component + 1);
-    qdot_units_label(session, e, &unit);
-    if (unit.n > 0)
-        qdot_text_format(&text, " [%s]", qdot_text_str(&unit));
-    text.failed = text.failed || unit.failed;
-    qdot_text_clear(&unit);
+    qdot_units_in_brackets(session, e, &text);
     if (qdot_text_status(&text) != QDOT_OK) {
         qdot_text_clear(&text);
         return QDOT_ENOMEM;

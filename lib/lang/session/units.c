@@ -204,6 +204,18 @@ qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out)
         qdot_dimension_unit(is, out);
 }
 
+void
+qdot_units_in_brackets(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    qdot_text unit = {0};
+
+    qdot_units_label(session, e, &unit);
+    if (unit.n > 0)
+        qdot_text_format(out, " [%s]", qdot_text_str(&unit));
+    out->failed = out->failed || unit.failed;
+    qdot_text_clear(&unit);
+}
+
 qdot_dimension_state
 qdot_units_words(qdot_session *session, qdot_expr e, qdot_text *out)
 {

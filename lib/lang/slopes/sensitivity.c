@@ -1,5 +1,6 @@
 /* sensitivity.c -- the statement `sensitivity EXPR of NAME, ...`: derivatives of results of runs by parameters and start
  * values. */
+#include "expr/build.h"
 #include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
@@ -25,22 +26,24 @@ QDOT_STATEMENT(sensitivity) = {
 
 /* --- computing the slopes -------------------------------------------------------------------- */
 
+/* The slope of e by a name, whose label `of` e has: in the unit of e/symbol. */
 static qdot_status
-answer_sensitivity(qdot_session *session, const char *of, const char *by, qdot_expr slope)
+answer_sensitivity(qdot_session *session, const char *of, qdot_expr e, const qdot_slope_name *by, qdot_expr slope)
 {
+    const qdot_expr quotient = qdot_div(session->pool, e, by->symbol);
     const int digits = qdot_digits_of(session, slope);
     qdot_text name = {0};
     double value, error;
     qdot_status status;
 
-    qdot_text_format(&name, "d(%s)/d(%s)", of, by);
+    qdot_text_format(&name, "d(%s)/d(%s)", of, by->label);
     status = qdot_text_status(&name);
     if (status == QDOT_OK && digits > 0) {
         status = qdot_digits_answer(session, qdot_text_str(&name), slope, digits);
     } else if (status == QDOT_OK) {
         status = qdot_session_number(session, slope, &value, &error);
         if (status == QDOT_OK)
-            status = qdot_answer_number(session, qdot_text_str(&name), value, error);
+            status = qdot_answer_quantity(session, qdot_text_str(&name), quotient, value, error);
     }
     qdot_text_clear(&name);
     return status;
@@ -56,7 +59,7 @@ answer_sensitivities(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
     for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++)
         status = qdot_slopes_of(s, e, first, k, slope + k);
     for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++)
-        status = answer_sensitivity(s->session, of, s->names.at[k].label, slope[k]);
+        status = answer_sensitivity(s->session, of, e, &s->names.at[k], slope[k]);
     qdot_free(slope);
     return status;
 }

@@ -421,7 +421,7 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
     QDOT_TRY(store_solution_run(f, h->now.from, h->now.to));
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
-            qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
+            qdot_answer_quantity(session, f->unknowns.at[i].label, f->unknowns.at[i].symbol, r->u[i], r->error[i]));
     if (rests)
         QDOT_TRY(qdot_answer_notice(
             session, "this is an equilibrium: velocities and accelerations are 0 at the start"));

@@ -10,6 +10,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/table-answer.h"
 #include "lang/session/output.h"
+#include "lang/session/units.h"
 #include "lang/unknowns/fit-parts.h"
 
 /* a numerical error counts as large if it exceeds this fraction of a standard error */
@@ -59,6 +60,7 @@ write_unknowns(const qdot_fit *f, qdot_text *out)
     for (size_t k = 0; k < f->unknowns.names.n; k++) {
         qdot_text_format(out, "%s = ", f->unknowns.names.at[k].label);
         write_value_with_error(f->u[k], f->error[k], out);
+        qdot_units_in_brackets(f->session, f->unknowns.names.at[k].symbol, out);
         qdot_text_char(out, '\n');
     }
 }
@@ -161,7 +163,8 @@ answer_fit_as_json(qdot_fit *f)
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < k; i++)
-        QDOT_TRY(qdot_answer_number(f->session, f->unknowns.names.at[i].label, f->u[i], f->error[i]));
+        QDOT_TRY(qdot_answer_quantity(f->session, f->unknowns.names.at[i].label, f->unknowns.names.at[i].symbol, f->u[i],
+                                      f->error[i]));
     /* no error is given: the numerical error of chi^2 is due to that of the residuals */
     QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, NAN));
     QDOT_TRY(qdot_answer_number(f->session, "degrees of freedom", (double)f->freedom, 0));
