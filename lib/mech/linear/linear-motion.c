@@ -41,6 +41,7 @@ typedef struct {
     qdot_expr *own; /* [conditions] the array in which the conditions of `facts` are stored; owned */
     size_t n;
     qdot_expr *from, *to;
+    bool family; /* the equations hold integers that number the members of a family */
 } place;
 
 static qdot_status
@@ -65,6 +66,7 @@ place_begin(place *p, qdot_scene *s, qdot_expr equations, qdot_expr exists)
         p->from[2 * n + i] = qdot_expr_arg(s->pool, one, 0);
         p->to[2 * n + i] = qdot_expr_arg(s->pool, one, 1);
     }
+    p->family = qdot_solve_integers(s->pool, equations) > 0;
     return qdot_pool_check(s->pool);
 }
 
@@ -81,12 +83,9 @@ static qdot_expr
 substituted_value(const place *p, qdot_expr e)
 {
     qdot_pool *pool = p->s->pool;
-    bool family = false;
 
-    for (size_t i = 0; i < p->n && !family; i++)
-        family = qdot_solve_integers(pool, p->to[i]) > 0;
     e = qdot_subs(pool, e, p->n, p->from, p->to);
-    return family && e != QDOT_NIL ? qdot_solve_without_turns(pool, e) : e;
+    return p->family && e != QDOT_NIL ? qdot_solve_without_turns(pool, e) : e;
 }
 
 static qdot_expr

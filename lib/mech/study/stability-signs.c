@@ -13,7 +13,11 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
-enum { MOST_ASKED = 150 }; /* largest conditions (in operations) that are tested for redundancy */
+enum {
+    MOST_ASKED = 150,  /* largest conditions (in operations) that are tested for redundancy */
+    MOST_MINORS = 12,  /* largest matrix whose leading minors are determinants; of larger ones pivots are taken */
+    LONGEST_PIVOT = 300,
+};
 
 /* --- definite or not ---------------------------------------------------------------------- */
 
@@ -79,6 +83,26 @@ leading_minor(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
     return qdot_simplify(pool, e, &j->facts);
 }
 
+/* The k-th pivot of A [n*n], minor k divided by minor k - 1, which has the sign of minor k where those before it are
+ * positive. E [n*n] is A with k - 1 columns eliminated, and one more afterwards; 0 if the pivot grows too long. */
+static qdot_expr
+next_pivot(qdot_judgement *j, size_t n, qdot_expr *E, size_t k)
+{
+    qdot_pool *pool = j->s->pool;
+    const qdot_expr *row = E + (k - 1) * n, pivot = row[k - 1];
+
+    if (pivot == QDOT_NIL || qdot_is_zero(pool, pivot, &j->facts) || qdot_expr_size(pool, pivot) > LONGEST_PIVOT)
+        return pivot == QDOT_NIL ? QDOT_NIL : QDOT_ZERO;
+    for (size_t i = k; i < n; i++) {
+        const qdot_expr by = qdot_div(pool, E[i * n + k - 1], pivot);
+
+        for (size_t c = k; by != QDOT_ZERO && c < n; c++)
+            if (row[c] != QDOT_ZERO)
+                E[i * n + c] = qdot_simplify(pool, qdot_sub(pool, E[i * n + c], qdot_mul(pool, by, row[c])), &j->facts);
+    }
+    return pivot;
+}
+
 /* Whether e, a leading minor or another of a row of expressions, is proved below 0 wherever those before it are not, a set
  * of conditions: then no parameters make all of them positive. */
 static qdot_status
@@ -98,10 +122,9 @@ is_never_definite(qdot_judgement *j, qdot_expr before, qdot_expr e, bool *yes)
     return QDOT_OK;
 }
 
-/* Positive definite? A negative diagonal entry, or a minor that is negative wherever those before it are not: negative
- * somewhere. Conditions are noted. */
-qdot_status
-qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdot_definite *how)
+/* As qdot_judgement_definiteness; E [n*n] a copy of A for the pivots of a large one, or NULL. */
+static qdot_status
+judge_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdot_expr *E, qdot_definite *how)
 {
     qdot_pool *pool = j->s->pool;
     const qdot_judgement_point before = qdot_judgement_mark(j);
@@ -119,7 +142,7 @@ qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdo
         }
     }
     for (size_t k = 1; k <= n; k++) {
-        qdot_expr e = leading_minor(j, n, A, k), answer;
+        qdot_expr e = E != NULL ? next_pivot(j, n, E, k) : leading_minor(j, n, A, k), answer;
         const bool first = j->when.n == before.when;
         bool zero, never = false;
 
@@ -143,6 +166,26 @@ qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdo
     }
     *how = j->when.n > before.when ? QDOT_DEFINITE_CONDITIONAL : QDOT_DEFINITE_POSITIVE;
     return QDOT_OK;
+}
+
+/* Positive definite? A negative diagonal entry, or a minor that is negative wherever those before it are not: negative
+ * somewhere. Conditions are noted. */
+qdot_status
+qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdot_definite *how)
+{
+    qdot_expr *E = NULL;
+    qdot_status status;
+
+    if (n > MOST_MINORS) {
+        E = qdot_calloc(n * n, sizeof *E);
+        if (E == NULL)
+            return QDOT_ENOMEM;
+        for (size_t i = 0; i < n * n; i++)
+            E[i] = A[i];
+    }
+    status = judge_definiteness(j, n, A, E, how);
+    qdot_free(E);
+    return status;
 }
 
 /* Whether A is positive definite without further conditions. */
