@@ -1,4 +1,5 @@
-/* modes.c -- the statement `modes`: frequencies and amplitudes of small oscillations about an equilibrium. */
+/* modes.c -- the statement `modes`: frequencies and amplitudes of small oscillations about an equilibrium or
+ * a steady motion. */
 #include <math.h>
 #include <stdio.h>
 
@@ -19,27 +20,48 @@ QDOT_STATEMENT(modes) = {
     .word = "modes",
     .group = QDOT_ASKING,
     .usage = "modes [at EQUILIBRIUM]",
-    .summary = "normal modes about an equilibrium: frequencies and amplitudes",
+    .summary = "normal modes about an equilibrium or a steady motion: frequencies and amplitudes",
     .example = "modes at equilibria[2]",
     .alone = true,
     .handler = carry_out_modes,
 };
 
-/* Print an exact value as an expression, or a number found numerically; in JSON without an error. */
+/* Append a number found numerically. */
+static qdot_status
+append_number(qdot_session *session, qdot_expr value, qdot_text *line)
+{
+    double x;
+
+    QDOT_TRY(qdot_session_number(session, value, &x, NULL));
+    qdot_number_text(line, x, 1e-13 * fabs(x));
+    return QDOT_OK;
+}
+
+/* Print an exact value as an expression, or a number found numerically, of a complex amplitude [re, im]; in JSON without an
+ * error. */
 static qdot_status
 answer_frequency_or_amplitude(qdot_session *session, bool numeric, const char *name, qdot_expr value)
 {
+    const bool pair = qdot_expr_kind(session->pool, value) == QDOT_LIST;
     qdot_text line = {0};
     double x;
+    qdot_status status = QDOT_OK;
 
-    if (!numeric)
+    if (!numeric || (pair && session->output->json))
         return qdot_answer_expr(session, name, value);
-    QDOT_TRY(qdot_session_number(session, value, &x, NULL));
-    if (session->output->json)
+    if (session->output->json) {
+        QDOT_TRY(qdot_session_number(session, value, &x, NULL));
         return qdot_answer_number(session, name, x, NAN);
-    qdot_text_format(&line, "%s = ", name);
-    qdot_number_text(&line, x, 1e-13 * fabs(x));
-    return qdot_answer_written(session, name, QDOT_OK, &line);
+    }
+    qdot_text_format(&line, pair ? "%s = [" : "%s = ", name);
+    for (uint32_t k = 0; pair && k < 2 && status == QDOT_OK; k++) {
+        qdot_text_add(&line, k == 0 ? "" : ", ");
+        status = append_number(session, qdot_expr_arg(session->pool, value, k), &line);
+    }
+    if (!pair)
+        status = append_number(session, value, &line);
+    qdot_text_add(&line, pair ? "]" : "");
+    return qdot_answer_written(session, name, status, &line);
 }
 
 static qdot_status

@@ -344,22 +344,71 @@ judge_stability(qdot_session *session, qdot_equilibrium *place)
     return qdot_equilibrium_judge(session->scene, insert_session_values, session, place);
 }
 
+/* Whether velocities are among the equations, as steady motions have them. */
+static bool
+names_velocities(const qdot_pool *pool, qdot_expr equations)
+{
+    for (uint32_t i = 0; equations != QDOT_NIL && i < qdot_expr_count(pool, equations); i++) {
+        const qdot_expr left = qdot_expr_arg(pool, qdot_expr_arg(pool, equations, i), 0);
+
+        if (qdot_expr_is_class(pool, left, QDOT_COORD) && qdot_expr_symbol(pool, left)->order > 0)
+            return true;
+    }
+    return false;
+}
+
+/* The modes about a place, to *modes, and unless they are numbers the place's stability if `judge`. */
+static qdot_status
+find_modes_about(qdot_session *session, bool judge, qdot_equilibrium *place, qdot_modes *modes)
+{
+    QDOT_TRY(qdot_rest_multipliers(session->scene, &place->equations));
+    place->numeric = is_found_numerically(session, place->equations);
+    QDOT_TRY(qdot_modes_about(session->scene, place->equations, place->numeric, insert_session_values, session, modes));
+    return judge && !modes->numeric ? judge_stability(session, place) : QDOT_OK;
+}
+
+/* The same about a steady motion, in coordinates that turn along. */
+static qdot_status
+find_modes_of_steady_motion(qdot_session *session, qdot_equilibrium *place, qdot_modes *modes)
+{
+    const size_t n = session->scene->coordinates.n;
+    qdot_turning turning;
+    qdot_status status = qdot_turning_begin(session->scene, place->equations, &turning, &place->equations);
+
+    if (status == QDOT_OK)
+        status = find_modes_about(session, true, place, modes);
+    if (status == QDOT_EINVAL && turning.n > 0)
+        (void)qdot_hint("modes at steady[1]");
+    qdot_turning_end(session->scene, &turning);
+    if (status == QDOT_OK) {
+        place->equations = qdot_turning_with_rates(&turning, place->equations);
+        place->exists = qdot_turning_with_rates(&turning, place->exists);
+        place->stable_when = qdot_turning_with_rates(&turning, place->stable_when);
+        for (size_t k = 0; k < modes->n; k++)
+            modes->frequency[k] = qdot_turning_with_rates(&turning, modes->frequency[k]);
+        for (size_t k = 0; k < modes->n * n; k++)
+            modes->amplitude[k] = qdot_turning_with_rates(&turning, modes->amplitude[k]);
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_turning_clear(&turning);
+    return status;
+}
+
 /* As qdot_equilibria_modes_at, of a scene whose inputs are 0. */
 static qdot_status
 find_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
 {
     qdot_equilibrium place = {.equations = equations};
-    qdot_status status = QDOT_OK;
+    qdot_status status;
 
     if (equations == QDOT_NIL)
         QDOT_TRY(find_first_not_unstable(session, &place));
     place.equations = qdot_solve_one_member(session->pool, select_equations(session->pool, place.equations));
     QDOT_TRY(qdot_pool_check(session->pool));
-    place.numeric = is_found_numerically(session, place.equations);
-    QDOT_TRY(qdot_modes_about(session->scene, place.equations, place.numeric, insert_session_values, session, modes));
-    if (!modes->numeric && equations != QDOT_NIL)
-        status = judge_stability(session, &place);
-    if (!modes->numeric && status == QDOT_OK)
+    status = names_velocities(session->pool, place.equations)
+                 ? find_modes_of_steady_motion(session, &place, modes)
+                 : find_modes_about(session, equations != QDOT_NIL, &place, modes);
+    if (status == QDOT_OK && !modes->numeric)
         status = give_notice_of_equilibrium(session, &place);
     if (!modes->numeric && status == QDOT_OK && place.stability != QDOT_STABLE &&
         place.stability != QDOT_STABLE_TO_FIRST_ORDER)
@@ -378,6 +427,7 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
     qdot_scene_saved saved;
     qdot_status status;
 
+    *modes = (qdot_modes){0};
     QDOT_TRY(inputs_rest(session->scene, &saved));
     status = find_modes_at(session, equations, modes);
     qdot_scene_restore(session->scene, &saved);

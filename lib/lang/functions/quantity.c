@@ -568,7 +568,7 @@ static const qdot_quantity rows[] = {
      "check stability(equilibria[1]) == undecided", false, NULL},
     {"modes", 0, 2, get_modes, "modes, modes[k] or modes[k, theta]",
      "angular frequencies of the normal modes about the first equilibrium that is not "
-     "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1",
+     "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1; a complex one is [re, im]",
      "modes", false, NULL},
     {"linearize", 1, 1, get_linearize, "linearize[A]",
      "a part of the latest linear motion x' = A x + B u, y = C x + D u: a matrix, or the list [states], [inputs], [outputs]", "linearize[A]", false, NULL},

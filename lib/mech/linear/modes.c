@@ -1,60 +1,42 @@
-/* modes.c -- normal modes about an equilibrium: exact where the characteristic polynomial
- * factors, else numbers. */
+/* modes.c -- normal modes about an equilibrium: what has them, and their order. Formulas are found in modes-exact.c and
+ * modes-gyroscopic.c, numbers in modes-numbers.c. */
 #include "mech/linear/modes.h"
+#include "mech/linear/modes-parts.h"
 
 #include <math.h>
 
-#include <gsl/gsl_eigen.h>
-
 #include "expr/build.h"
 #include "expr/calculus.h"
-#include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
-#include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
-#include "mech/linear/linear-motion.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/rationalize.h"
 #include "normal/simplify/simplify.h"
-#include "normal/solve/solve.h"
 
-enum { MOST_EXACT = 6 };
-
-typedef struct {
-    qdot_scene *s;
-    qdot_pool *pool;
-    qdot_facts facts;
-    qdot_binder bind;
-    void *user;
-    qdot_linear_motion m;
-    qdot_vec(qdot_expr) frequency, amplitude;
-    bool numeric, unordered;
-} job;
-
-static bool
-is_proved_zero(const job *j, qdot_expr e)
+bool
+qdot_modes_is_zero(const qdot_modes_job *j, qdot_expr e)
 {
     return e == QDOT_ZERO || qdot_is_zero(j->pool, e, &j->facts);
 }
 
-static qdot_expr
-insert_values(const job *j, qdot_expr e)
+qdot_expr
+qdot_modes_bound(const qdot_modes_job *j, qdot_expr e)
 {
     return j->bind == NULL || e == QDOT_NIL ? e : j->bind(j->user, e);
 }
 
 /* Eliminate coordinates without mass, which follow the other coordinates as in statics. */
 static qdot_status
-eliminate_massless(job *j)
+eliminate_massless(qdot_modes_job *j)
 {
     size_t left;
 
@@ -69,7 +51,7 @@ eliminate_massless(job *j)
 /* *yes: the argument of a sign in e, or the difference between both sides of an `if`'s condition, is proved to be 0 at
  * the place, so that e jumps there. */
 static qdot_status
-expression_jumps_at(const job *j, qdot_expr e, qdot_expr place, bool *yes)
+expression_jumps_at(const qdot_modes_job *j, qdot_expr e, qdot_expr place, bool *yes)
 {
     qdot_pool *pool = j->pool;
     qdot_status status = QDOT_OK;
@@ -86,7 +68,7 @@ expression_jumps_at(const job *j, qdot_expr e, qdot_expr place, bool *yes)
             continue;
         if (op == QDOT_IF)
             u = qdot_sub(pool, qdot_expr_arg(pool, u, 1), qdot_expr_arg(pool, u, 0));
-        *yes = is_proved_zero(j, qdot_rest_value(j->s, place, u));
+        *yes = qdot_modes_is_zero(j, qdot_rest_value(j->s, place, u));
         status = qdot_pool_check(pool);
     }
     qdot_walk_end(&w);
@@ -95,7 +77,7 @@ expression_jumps_at(const job *j, qdot_expr e, qdot_expr place, bool *yes)
 
 /* Refuse points without linear motion: at a corner, between one-sided springs, or under dry friction. */
 static qdot_status
-check_smooth(const job *j, qdot_expr place)
+check_smooth(const qdot_modes_job *j, qdot_expr place)
 {
     qdot_scene *s = j->s;
     bool jumps = false;
@@ -116,7 +98,7 @@ check_smooth(const job *j, qdot_expr place)
 /* Whether |value|, that of e at the place, is no more than relative errors of 1e-6 in the coordinates of the place (of
  * 1e-6 where they are below 1) make of it, to first order. */
 static bool
-is_within_rounding_error(const job *j, qdot_expr e, qdot_expr place, double value)
+is_within_rounding_error(const qdot_modes_job *j, qdot_expr e, qdot_expr place, double value)
 {
     double sum = 0;
 
@@ -124,9 +106,9 @@ is_within_rounding_error(const job *j, qdot_expr e, qdot_expr place, double valu
         const qdot_expr q = j->s->coordinates.at[k];
         double slope = 0, at = 0;
 
-        if (qdot_ball_double(j->pool, insert_values(j, qdot_rest_value(j->s, place, qdot_diff(j->pool, e, q))), NULL, NULL,
+        if (qdot_ball_double(j->pool, qdot_modes_bound(j, qdot_rest_value(j->s, place, qdot_diff(j->pool, e, q))), NULL, NULL,
                              &slope) &&
-            qdot_ball_double(j->pool, insert_values(j, qdot_rest_value(j->s, place, q)), NULL, NULL, &at))
+            qdot_ball_double(j->pool, qdot_modes_bound(j, qdot_rest_value(j->s, place, q)), NULL, NULL, &at))
             sum += fabs(slope) * fmax(1, fabs(at));
     }
     return fabs(value) <= 1e-6 * sum;
@@ -135,7 +117,7 @@ is_within_rounding_error(const job *j, qdot_expr e, qdot_expr place, double valu
 /* An error if an equation of motion is refuted at rest at the place, beyond rounding: it is no equilibrium.
  * Equations that hold a multiplier are passed over, because its value there need not be known. */
 static qdot_status
-check_is_equilibrium(const job *j, qdot_expr place)
+check_is_equilibrium(const qdot_modes_job *j, qdot_expr place)
 {
     for (size_t i = 0; i < j->s->coordinates.n; i++) {
         const qdot_expr gap = qdot_motion_residual(j->s, i);
@@ -147,7 +129,7 @@ check_is_equilibrium(const job *j, qdot_expr place)
             pulled = pulled || qdot_expr_contains(j->pool, gap, j->s->constraints.at[k].multiplier);
         if (pulled)
             continue;
-        there = insert_values(j, qdot_rest_value(j->s, place, gap));
+        there = qdot_modes_bound(j, qdot_rest_value(j->s, place, gap));
         QDOT_TRY(qdot_pool_check(j->pool));
         QDOT_TRY(qdot_decide_equal(j->pool, there, QDOT_ZERO, &j->facts, &decision));
         if (decision.verdict != QDOT_REFUTED || is_within_rounding_error(j, gap, place, decision.left))
@@ -159,44 +141,104 @@ check_is_equilibrium(const job *j, qdot_expr place)
     return qdot_pool_check(j->pool);
 }
 
-static qdot_status
-check_linear_motion(job *j)
+/* Whether Gamma is antisymmetric, as rotation and magnetic fields have it, and not damping. */
+static bool
+is_antisymmetric(const qdot_modes_job *j)
 {
-    size_t n = j->m.n;
+    const size_t n = j->m.n;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k <= i; k++)
+            if (!qdot_modes_is_zero(j, qdot_add(j->pool, j->m.Gamma[i * n + k], j->m.Gamma[k * n + i])))
+                return false;
+    return true;
+}
+
+/* Whether the equation of some unknown has no mass; by Gamma it has velocities, which condensation does not know. */
+static bool
+something_is_without_mass(const qdot_modes_job *j)
+{
+    const size_t n = j->m.n;
+
+    for (size_t i = 0; i < n; i++) {
+        bool moves = false;
+
+        for (size_t k = 0; k < n && !moves; k++)
+            moves = !qdot_modes_is_zero(j, j->m.M[i * n + k]);
+        if (!moves)
+            return true;
+    }
+    return false;
+}
+
+static qdot_status
+check_linear_motion(qdot_modes_job *j)
+{
+    const size_t n = j->m.n;
 
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "nothing can move there: there are no modes");
+    j->symmetric = true;
     for (size_t i = 0; i < n * n; i++)
-        if (!is_proved_zero(j, j->m.Gamma[i]))
-            return qdot_fail(QDOT_ETYPE,
-                             "the motion about the equilibrium has damping or "
-                             "gyroscopic terms: it has no normal modes");
+        j->gyroscopic = j->gyroscopic || !qdot_modes_is_zero(j, j->m.Gamma[i]);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < i; k++)
-            if (!is_proved_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i])))
-                return qdot_fail(QDOT_ETYPE, "the forces have no potential: there are no "
-                                             "normal modes");
+            j->symmetric = j->symmetric &&
+                           qdot_modes_is_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i]));
     QDOT_TRY(qdot_pool_check(j->pool));
-    return eliminate_massless(j);
+    if (j->gyroscopic && !is_antisymmetric(j)) {
+        (void)qdot_fail(QDOT_ETYPE, "the motion about the equilibrium has damping: it has no normal modes");
+        return qdot_hint("linearize at equilibria[1]");
+    }
+    if (!j->symmetric && !j->bound_by_velocities)
+        return qdot_fail(QDOT_ETYPE, "the forces have no potential: there are no normal modes");
+    if (j->gyroscopic && something_is_without_mass(j))
+        return qdot_fail(QDOT_ESINGULAR, "something moves without mass under gyroscopic forces: there are no normal modes");
+    return j->gyroscopic ? qdot_pool_check(j->pool) : eliminate_massless(j);
 }
 
-/* Add the mode with frequency w and displacements x = N y, scaled so that the first non-zero component of x is 1. */
-static qdot_status
-add_mode(job *j, qdot_expr w, const qdot_expr *y)
+qdot_status
+qdot_modes_fail_unstable(void)
+{
+    return qdot_fail(QDOT_EDOMAIN, "the equilibrium is not stable: there is no oscillation about it");
+}
+
+qdot_status
+qdot_modes_frequency(const qdot_modes_job *j, qdot_expr square, qdot_expr *w)
 {
     qdot_pool *pool = j->pool;
-    size_t n = j->s->coordinates.n, m = j->m.n;
+
+    if (qdot_positive(pool, square, &j->facts, 0, NULL) == QDOT_FALSE && !qdot_modes_is_zero(j, square))
+        return qdot_pool_failed(pool) ? qdot_pool_check(pool) : qdot_modes_fail_unstable();
+    *w = qdot_simplify(pool, qdot_sqrt(pool, square), &j->facts);
+    return qdot_pool_check(pool) == QDOT_EDOMAIN ? qdot_modes_fail_unstable() : qdot_pool_check(pool);
+}
+
+/* x = N y for coordinate i. */
+static qdot_expr
+displacement(const qdot_modes_job *j, size_t i, const qdot_expr *y)
+{
+    const size_t m = j->m.n;
+    qdot_expr x = QDOT_ZERO;
+
+    for (size_t a = 0; a < m; a++)
+        if (j->m.N[i * m + a] != QDOT_ZERO && y[a] != QDOT_ZERO)
+            x = qdot_add(j->pool, x, qdot_mul(j->pool, j->m.N[i * m + a], y[a]));
+    return qdot_simplify(j->pool, x, &j->facts);
+}
+
+qdot_status
+qdot_modes_add(qdot_modes_job *j, qdot_expr w, const qdot_expr *y)
+{
+    qdot_pool *pool = j->pool;
     qdot_expr first = QDOT_NIL;
 
     QDOT_TRY(qdot_vec_push(&j->frequency, w));
-    for (size_t i = 0; i < n; i++) {
-        qdot_expr x = QDOT_ZERO;
+    for (size_t i = 0; i < j->s->coordinates.n; i++) {
+        qdot_expr x = displacement(j, i, y);
 
-        for (size_t a = 0; a < m; a++)
-            x = qdot_add(pool, x, qdot_mul(pool, j->m.N[i * m + a], y[a]));
-        x = qdot_simplify(pool, x, &j->facts);
         QDOT_TRY(qdot_pool_check(pool));
-        if (first == QDOT_NIL && !is_proved_zero(j, x))
+        if (first == QDOT_NIL && !qdot_modes_is_zero(j, x))
             first = x;
         if (first != QDOT_NIL)
             x = qdot_rationalize(pool, qdot_div(pool, x, first), &j->facts);
@@ -206,102 +248,66 @@ add_mode(job *j, qdot_expr w, const qdot_expr *y)
     return QDOT_OK;
 }
 
-/* --- exact modes ---------------------------------------------------------------------- */
+qdot_status
+qdot_modes_add_as_it_is(qdot_modes_job *j, qdot_expr w, const qdot_expr *y)
+{
+    const size_t m = j->m.n;
 
-static qdot_status
-reduce_to_echelon_form(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
+    QDOT_TRY(qdot_vec_push(&j->frequency, w));
+    for (size_t i = 0; i < j->s->coordinates.n; i++) {
+        qdot_expr x = QDOT_ZERO;
+
+        for (size_t a = 0; a < m; a++)
+            if (j->m.N[i * m + a] != QDOT_ZERO)
+                x = qdot_add(j->pool, x, qdot_mul(j->pool, j->m.N[i * m + a], y[a]));
+        QDOT_TRY(qdot_vec_push(&j->amplitude, x));
+    }
+    return qdot_pool_check(j->pool);
+}
+
+/* (a + i b)/(c + i d) as a real expression or a list [re, im]. */
+static qdot_expr
+complex_quotient(const qdot_modes_job *j, const qdot_expr *by, qdot_expr a, qdot_expr b)
 {
     qdot_pool *pool = j->pool;
-    size_t n = j->m.n;
+    const qdot_expr c = by[0], d = by[1];
+    const qdot_expr square = qdot_add(pool, qdot_mul(pool, c, c), qdot_mul(pool, d, d));
+    qdot_expr part[2] = {
+        qdot_add(pool, qdot_mul(pool, a, c), qdot_mul(pool, b, d)),
+        qdot_sub(pool, qdot_mul(pool, b, c), qdot_mul(pool, a, d)),
+    };
 
-    *rank = 0;
-    for (size_t c = 0; c < n; c++) {
-        size_t r = *rank;
+    for (int k = 0; k < 2; k++)
+        part[k] = qdot_rationalize(pool, qdot_simplify(pool, qdot_div(pool, part[k], square), &j->facts), &j->facts);
+    return qdot_modes_is_zero(j, part[1]) ? part[0] : qdot_list(pool, 2, part);
+}
 
-        while (r < n && is_proved_zero(j, A[r * n + c]))
-            r++;
-        if (r == n)
-            continue;
-        for (size_t k = 0; k < n; k++) {
-            qdot_expr keep = A[r * n + k];
+qdot_status
+qdot_modes_add_complex(qdot_modes_job *j, qdot_expr w, const qdot_expr *re, const qdot_expr *im)
+{
+    qdot_expr first[2] = {QDOT_ZERO, QDOT_ZERO};
 
-            A[r * n + k] = A[*rank * n + k];
-            A[*rank * n + k] = keep;
+    QDOT_TRY(qdot_vec_push(&j->frequency, w));
+    for (size_t i = 0; i < j->s->coordinates.n; i++) {
+        qdot_expr a = displacement(j, i, re), b = displacement(j, i, im);
+
+        QDOT_TRY(qdot_pool_check(j->pool));
+        if (first[0] == QDOT_ZERO && first[1] == QDOT_ZERO) {
+            first[0] = qdot_modes_is_zero(j, a) ? QDOT_ZERO : a;
+            first[1] = qdot_modes_is_zero(j, b) ? QDOT_ZERO : b;
         }
-        for (size_t k = n; k-- > 0;)
-            if (k != c)
-                A[*rank * n + k] = qdot_simplify(
-                    pool, qdot_div(pool, A[*rank * n + k], A[*rank * n + c]), &j->facts);
-        A[*rank * n + c] = QDOT_ONE;
-        for (r = 0; r < n; r++) {
-            qdot_expr by = A[r * n + c];
-
-            for (size_t k = 0; r != *rank && by != QDOT_ZERO && k < n; k++)
-                A[r * n + k] = qdot_simplify(
-                    pool,
-                    qdot_sub(pool, A[r * n + k], qdot_mul(pool, by, A[*rank * n + k])),
-                    &j->facts);
-        }
-        QDOT_TRY(qdot_pool_check(pool));
-        pivot[(*rank)++] = c;
+        a = first[0] == QDOT_ZERO && first[1] == QDOT_ZERO ? QDOT_ZERO : complex_quotient(j, first, a, b);
+        QDOT_TRY(qdot_pool_check(j->pool));
+        QDOT_TRY(qdot_vec_push(&j->amplitude, a));
     }
     return QDOT_OK;
 }
 
-static qdot_status
-fail_because_unstable(void)
-{
-    return qdot_fail(QDOT_EDOMAIN,
-                     "the equilibrium is not stable: there is no oscillation about it");
-}
-
-/* Add the modes for one root W = w^2: the null space of H - W M. */
-static qdot_status
-add_modes_of_root(job *j, qdot_expr W)
-{
-    qdot_pool *pool = j->pool;
-    size_t n = j->m.n, rank = 0;
-    qdot_expr *A = qdot_calloc(n * n + n, sizeof *A), *y = A + n * n;
-    size_t *pivot = qdot_calloc(n, sizeof *pivot);
-    qdot_expr w = qdot_sqrt(pool, W);
-    qdot_status status = QDOT_OK;
-
-    if (A == NULL || pivot == NULL)
-        status = QDOT_ENOMEM;
-    else if (qdot_positive(pool, W, &j->facts, 0, NULL) == QDOT_FALSE && !is_proved_zero(j, W))
-        w = QDOT_NIL;
-    if (w == QDOT_NIL && status == QDOT_OK && !qdot_pool_failed(pool))
-        status = fail_because_unstable();
-    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
-        A[i] = qdot_simplify(
-            pool, qdot_sub(pool, j->m.H[i], qdot_mul(pool, W, j->m.M[i])), &j->facts);
-    if (status == QDOT_OK)
-        status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN)
-        status = fail_because_unstable();
-    if (status == QDOT_OK)
-        status = reduce_to_echelon_form(j, A, pivot, &rank);
-    for (size_t c = 0; c < n && status == QDOT_OK; c++) {
-        bool dependent = false;
-
-        for (size_t r = 0; r < rank; r++)
-            dependent |= pivot[r] == c;
-        if (dependent)
-            continue;
-        for (size_t i = 0; i < n; i++)
-            y[i] = i == c ? QDOT_ONE : QDOT_ZERO;
-        for (size_t r = 0; r < rank; r++)
-            y[pivot[r]] = qdot_neg(pool, A[r * n + c]);
-        status = add_mode(j, qdot_simplify(pool, w, &j->facts), y);
-    }
-    qdot_free(A);
-    qdot_free(pivot);
-    return status;
-}
+/* --- order -------------------------------------------------------------------------------- */
 
 /* Compare frequencies: *order is 1 if a <= b, -1 if a > b, by declared signs and assumptions; else 0. */
 static qdot_status
-frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
+frequency_order(const qdot_modes_job *j, qdot_expr a, qdot_expr b, int *order)
 {
     qdot_pool *pool = j->pool;
     qdot_expr d = qdot_sub(pool, qdot_mul(pool, b, b), qdot_mul(pool, a, a));
@@ -323,21 +329,21 @@ frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
 
 /* The order of a and b at the parameter values; parameters without value get a generic one. */
 static int
-compare_numerically(const job *j, qdot_expr a, qdot_expr b)
+compare_numerically(const qdot_modes_job *j, qdot_expr a, qdot_expr b)
 {
     qdot_expr pair[2] = {a, b};
     double v[2];
 
     for (int k = 0; k < 2; k++)
-        pair[k] = insert_values(j, pair[k]);
+        pair[k] = qdot_modes_bound(j, pair[k]);
     if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
         qdot_generic_evaluate(j->pool, 2, pair, NULL, v) != QDOT_OK)
         return 1;
-    return v[0] > v[1] ? -1 : 1;
+    return v[0] > v[1] + 1e-12 * fabs(v[1]) ? -1 : 1;
 }
 
 static void
-exchange_modes(job *j, size_t a, size_t b)
+exchange_modes(qdot_modes_job *j, size_t a, size_t b)
 {
     size_t width = j->s->coordinates.n;
     qdot_expr keep = j->frequency.at[a];
@@ -353,14 +359,16 @@ exchange_modes(job *j, size_t a, size_t b)
 
 /* Sort the modes by ascending frequency. */
 static qdot_status
-frequencies_sort(job *j)
+frequencies_sort(qdot_modes_job *j)
 {
     for (size_t a = 1; a < j->frequency.n; a++)
         for (size_t b = a; b > 0; b--) {
             qdot_expr left = j->frequency.at[b - 1], right = j->frequency.at[b];
             int order = 1;
 
-            if (left != right)
+            if (j->numeric)
+                order = compare_numerically(j, left, right);
+            else if (left != right)
                 QDOT_TRY(frequency_order(j, left, right, &order));
             if (order == 0) {
                 j->unordered = true;
@@ -371,195 +379,6 @@ frequencies_sort(job *j)
             exchange_modes(j, b - 1, b);
         }
     return QDOT_OK;
-}
-
-/* The two roots of det(H - W M) = 0 as
- *
- *     2 a W = b -+ sqrt((M11 H22 - M22 H11)^2 + 4 (M11 H12 - M12 H11)(M22 H12 - M12 H22)),
- *     a = det M,   b = M11 H22 + M22 H11 - 2 M12 H12,
- *
- * whose root is mostly shorter than that of b^2 - 4 a det H; taken where W is. */
-static void
-solve_two_coordinates(job *j, qdot_root *roots)
-{
-    qdot_pool *pool = j->pool;
-    const qdot_expr *M = j->m.M, *H = j->m.H;
-    qdot_expr cross[4], b, root, W[2];
-    static const int pick[3][4] = {{0, 3, 3, 0}, {0, 1, 1, 0}, {3, 1, 1, 3}};
-
-    for (int i = 0; i < 3; i++) /* cross products of entries of M and H, such as M11 H22 - M22 H11 */
-        cross[i] =
-            qdot_simplify(pool,
-                          qdot_sub(pool, qdot_mul(pool, M[pick[i][0]], H[pick[i][1]]),
-                                   qdot_mul(pool, M[pick[i][2]], H[pick[i][3]])),
-                          &j->facts);
-    cross[3] = qdot_sub(pool, qdot_mul(pool, M[0], M[3]), qdot_mul(pool, M[1], M[1]));
-    b = qdot_add(pool, qdot_mul(pool, M[0], H[3]), qdot_mul(pool, M[3], H[0]));
-    b = qdot_sub(pool, b,
-                 qdot_mul(pool, qdot_expr_int(pool, 2), qdot_mul(pool, M[1], H[1])));
-    root = qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, cross[1], cross[2]));
-    root = qdot_add(pool, qdot_pow_int(pool, cross[0], 2), root);
-    root = qdot_sqrt(pool, qdot_simplify(pool, root, &j->facts));
-    for (int i = 0; i < 2; i++) {
-        W[i] = i == 0 ? qdot_sub(pool, b, root) : qdot_add(pool, b, root);
-        W[i] = qdot_div(pool, W[i], qdot_mul(pool, qdot_expr_int(pool, 2), cross[3]));
-        W[i] = qdot_simplify(pool, W[i], &j->facts);
-    }
-    if (qdot_pool_failed(pool))
-        return;
-    if (qdot_expr_size(pool, W[0]) + qdot_expr_size(pool, W[1]) <
-        qdot_expr_size(pool, roots[0].value) + qdot_expr_size(pool, roots[1].value))
-        for (int i = 0; i < 2; i++)
-            roots[i].value = W[i];
-}
-
-/* Find the modes by exact formulas; *done: all n modes were found. */
-static qdot_status
-find_exact_modes(job *j, bool *done)
-{
-    qdot_pool *pool = j->pool;
-    size_t n = j->m.n;
-    qdot_expr W = qdot_symbol_get(pool, QDOT_FORMAL, "omega^2"), *A, e;
-    qdot_solutions roots;
-    qdot_status status;
-
-    *done = false;
-    if (n > MOST_EXACT)
-        return QDOT_OK;
-    A = qdot_calloc(n * n, sizeof *A);
-    if (A == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n * n; i++)
-        A[i] = qdot_sub(pool, j->m.H[i], qdot_mul(pool, W, j->m.M[i]));
-    e = n == 1 ? A[0] : qdot_det(pool, qdot_matrix(pool, (uint32_t)n, (uint32_t)n, A));
-    qdot_free(A);
-    QDOT_TRY(qdot_pool_check(pool));
-    status = qdot_solve(pool, e, W, &j->facts, &roots);
-    if (status == QDOT_OK && n == 2 && roots.root.n == 2 && roots.complete)
-        solve_two_coordinates(j, roots.root.at);
-    if (status == QDOT_OK)
-        status = qdot_pool_check(pool);
-    for (size_t k = 0; k < roots.root.n && roots.complete && status == QDOT_OK; k++)
-        status = add_modes_of_root(j, roots.root.at[k].value);
-    *done = roots.complete && j->frequency.n == n;
-    qdot_solutions_clear(&roots);
-    if (status == QDOT_OK && *done)
-        status = frequencies_sort(j);
-    return status;
-}
-
-/* --- numerical modes ---------------------------------------------------------------------- */
-
-/* Evaluate e [n] with parameter values; QDOT_EUNSET names a parameter without one. */
-static qdot_status
-evaluate_all(const job *j, size_t n, const qdot_expr *e, double *out)
-{
-    qdot_pool *pool = j->pool;
-    qdot_expr list = qdot_list(pool, (uint32_t)n, e), atoms;
-    qdot_expr *bound;
-    qdot_status status;
-
-    list = insert_values(j, list);
-    QDOT_TRY(qdot_pool_check(pool));
-    atoms = qdot_expr_atoms(pool, list, true);
-    QDOT_TRY(qdot_pool_check(pool));
-    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
-        qdot_expr x = qdot_expr_arg(pool, atoms, i);
-
-        if (qdot_expr_is_class(pool, x, QDOT_CONST))
-            continue;
-        qdot_fail(QDOT_EUNSET,
-                  "the modes cannot be found exactly; numbers need a value of `%.100s`",
-                  qdot_expr_kind(pool, x) == QDOT_SYM
-                      ? qdot_expr_symbol(pool, x)->name
-                      : qdot_ufun_get(pool, qdot_expr_node(pool, x)->op)->name);
-        return qdot_hint("set %.100s = ...", qdot_expr_kind(pool, x) == QDOT_SYM
-                                                 ? qdot_expr_symbol(pool, x)->name
-                                                 : "f(...)");
-    }
-    bound = qdot_malloc((n + 1) * sizeof *bound);
-    if (bound == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        bound[i] = qdot_expr_arg(pool, list, (uint32_t)i);
-    status = qdot_generic_evaluate(pool, n, bound, NULL, out);
-    qdot_free(bound);
-    return status;
-}
-
-/* Add a numerical mode: x = N y, scaled so that the first component that is not small is 1. */
-static qdot_status
-add_numeric_mode(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
-{
-    size_t n = j->s->coordinates.n, m = j->m.n;
-    double *x = qdot_calloc(n, sizeof *x), most = 0, first = 0;
-    qdot_status status = x == NULL ? QDOT_ENOMEM : QDOT_OK;
-
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        for (size_t a = 0; a < m; a++)
-            x[i] += N[i * m + a] * gsl_matrix_get(Y, a, k);
-        most = fmax(most, fabs(x[i]));
-    }
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&j->frequency, qdot_generic_decimal(j->pool, w));
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        double v;
-
-        if (first == 0 && fabs(x[i]) > 1e-9 * most)
-            first = x[i];
-        v = fabs(x[i]) > 1e-12 * most && first != 0 ? x[i] / first : 0;
-        status = qdot_vec_push(&j->amplitude, qdot_generic_decimal(j->pool, v));
-    }
-    qdot_free(x);
-    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
-}
-
-static qdot_status
-find_numeric_modes(job *j)
-{
-    size_t n = j->s->coordinates.n, m = j->m.n;
-    double *v = qdot_calloc(3 * m * m + n * m + 1, sizeof *v);
-    gsl_matrix *H = gsl_matrix_alloc(m, m), *M = gsl_matrix_alloc(m, m),
-               *Y = gsl_matrix_alloc(m, m);
-    gsl_vector *W = gsl_vector_alloc(m);
-    gsl_eigen_gensymmv_workspace *work = gsl_eigen_gensymmv_alloc(m);
-    gsl_error_handler_t *before = gsl_set_error_handler_off();
-    qdot_status status =
-        v == NULL || H == NULL || M == NULL || Y == NULL || W == NULL || work == NULL
-            ? QDOT_ENOMEM
-            : QDOT_OK;
-
-    if (status == QDOT_OK) /* the arrays M, Gamma, H, N follow each other in memory */
-        status = evaluate_all(j, 3 * m * m + n * m, j->m.M, v);
-    for (size_t i = 0; i < m * m && status == QDOT_OK; i++) {
-        M->data[i] = v[i];
-        H->data[i] = v[2 * m * m + i];
-    }
-    if (status == QDOT_OK && gsl_eigen_gensymmv(H, M, W, Y, work) != GSL_SUCCESS)
-        status =
-            qdot_fail(QDOT_ESINGULAR, "the mass matrix is not positive definite there");
-    if (status == QDOT_OK)
-        gsl_eigen_gensymmv_sort(W, Y, GSL_EIGEN_SORT_VAL_ASC);
-    for (size_t k = 0; k < m && status == QDOT_OK; k++) {
-        double square = gsl_vector_get(W, k),
-               scale = fmax(fabs(gsl_vector_get(W, 0)), fabs(gsl_vector_get(W, m - 1)));
-
-        if (square < -1e-10 * scale)
-            status = fail_because_unstable();
-        else
-            status = add_numeric_mode(j, sqrt(square > 1e-13 * scale ? square : 0),
-                                      v + 3 * m * m, Y, k);
-    }
-    j->numeric = true;
-    gsl_set_error_handler(before);
-    gsl_matrix_free(H);
-    gsl_matrix_free(M);
-    gsl_matrix_free(Y);
-    gsl_vector_free(W);
-    if (work != NULL)
-        gsl_eigen_gensymmv_free(work);
-    qdot_free(v);
-    return status;
 }
 
 /* --- modes, exact or numerical ------------------------------------------------------------- */
@@ -575,7 +394,7 @@ qdot_modes_clear(qdot_modes *m)
 /* The linear motion about the place, to j->m: where the forces have values but no slopes, as -x^(1/2) at 0, there is
  * none. */
 static qdot_status
-modes_linearise(job *j, qdot_expr equations)
+modes_linearise(qdot_modes_job *j, qdot_expr equations)
 {
     qdot_status status = qdot_linear_motion_about(j->s, equations, QDOT_NIL, &j->m);
 
@@ -589,23 +408,46 @@ modes_linearise(job *j, qdot_expr equations)
                                  "it has no normal modes");
 }
 
+/* Velocity constraints bind displacements as positions do, G x' = 0, so that x moves in the tangent space of G at the
+ * place. Refuse those that depend on positions alone at rest, and those of accelerations. */
+static qdot_status
+check_constraints(qdot_modes_job *j)
+{
+    qdot_scene *s = j->s;
+    bool holonomic;
+
+    QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
+    j->bound_by_velocities = !holonomic;
+    for (size_t k = 0; k < s->constraints.n && !holonomic; k++) {
+        const qdot_constraint *c = &s->constraints.at[k];
+
+        if (c->kind == QDOT_ACCELERATION)
+            return qdot_fail(QDOT_ETYPE, "normal modes need constraints of positions or velocities, not of accelerations "
+                                         "as %.100s", c->name);
+        if (c->kind == QDOT_HOLONOMIC)
+            continue;
+        if (!qdot_modes_is_zero(j, qdot_rest_value(s, qdot_list(j->pool, 0, NULL), c->f)))
+            return qdot_fail(QDOT_ETYPE, "normal modes need constraints that hold at rest everywhere: %.100s has terms "
+                                         "without velocities", c->name);
+    }
+    return qdot_pool_check(j->pool);
+}
+
 qdot_status
 qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder bind,
                  void *user, qdot_modes *out)
 {
-    job j = {.s = s,
-             .pool = s->pool,
-             .facts = qdot_scene_facts(s),
-             .bind = bind,
-             .user = user};
-    bool done = false, holonomic;
+    qdot_modes_job j = {.s = s,
+                        .pool = s->pool,
+                        .facts = qdot_scene_facts(s),
+                        .bind = bind,
+                        .user = user};
+    bool done = false;
     qdot_status status;
 
     *out = (qdot_modes){0};
     QDOT_TRY(qdot_scene_need_no_states(s, "modes"));
-    QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
-    if (!holonomic)
-        return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
+    QDOT_TRY(check_constraints(&j));
     QDOT_TRY(modes_linearise(&j, equations));
     status = check_is_equilibrium(&j, equations);
     if (status == QDOT_OK)
@@ -613,11 +455,13 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     if (status == QDOT_OK)
         status = check_smooth(&j, equations);
     if (status == QDOT_OK && !numbers)
-        status = find_exact_modes(&j, &done);
+        status = j.gyroscopic ? qdot_modes_gyroscopic(&j, &done) : qdot_modes_exact(&j, &done);
     if (status == QDOT_OK && !done) {
         j.frequency.n = j.amplitude.n = 0;
-        status = find_numeric_modes(&j);
+        status = qdot_modes_in_numbers(&j);
     }
+    if (status == QDOT_OK)
+        status = frequencies_sort(&j);
     qdot_linear_motion_clear(&j.m);
     out->n = j.frequency.n;
     out->frequency = j.frequency.at;

@@ -5,25 +5,39 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/list.h"
+#include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/scene/saved.h"
 
-typedef struct {
-    qdot_pool *pool;
-    size_t n;
-    qdot_expr *q, *rate, *w; /* [n] cyclic coordinates, q' and the parameters that stand for them */
-} turning;
+/* The value that `place` gives the rate; nil: none. */
+static qdot_expr
+rate_of_place(const qdot_pool *pool, qdot_expr place, qdot_expr rate)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(pool, place); i++) {
+        const qdot_expr one = qdot_expr_arg(pool, place, i);
 
-/* The cyclic coordinates whose momentum is conserved. */
+        if (qdot_expr_arg(pool, one, 0) == rate)
+            return qdot_expr_arg(pool, one, 1);
+    }
+    return QDOT_NIL;
+}
+
+/* The parameter that stands for a rate while it is free. */
+static qdot_expr
+parameter_of_rate(qdot_pool *pool, qdot_expr rate)
+{
+    return qdot_symbol_get(pool, QDOT_PARAM, qdot_expr_symbol(pool, rate)->name);
+}
+
+/* The cyclic coordinates whose momentum is conserved; of a place those whose rates it names. */
 static qdot_status
-find_turning(qdot_scene *s, turning *x)
+find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
 {
     qdot_cyclic *list = NULL;
     size_t n = 0;
 
+    *x = (qdot_turning){.pool = s->pool};
     QDOT_TRY(qdot_mech_cyclic(s, &list, &n));
-    x->pool = s->pool;
     x->q = qdot_calloc(3 * n + 1, sizeof *x->q);
     if (x->q == NULL) {
         qdot_free(list);
@@ -32,23 +46,26 @@ find_turning(qdot_scene *s, turning *x)
     x->rate = x->q + n;
     x->w = x->rate + n;
     for (size_t i = 0; i < n; i++) {
-        if (list[i].rate != QDOT_NIL)
+        const qdot_expr rate = qdot_symbol_jet(s->pool, list[i].coordinate, 1);
+        const qdot_expr value = place == QDOT_NIL ? rate : rate_of_place(s->pool, place, rate);
+
+        if (list[i].rate != QDOT_NIL || value == QDOT_NIL)
             continue;
         x->q[x->n] = list[i].coordinate;
-        x->rate[x->n] = qdot_symbol_jet(s->pool, list[i].coordinate, 1);
-        x->w[x->n] = qdot_symbol_get(s->pool, QDOT_PARAM, qdot_expr_symbol(s->pool, x->rate[x->n])->name);
+        x->rate[x->n] = rate;
+        x->w[x->n] = value == rate ? parameter_of_rate(s->pool, rate) : value;
         x->n++;
     }
     qdot_free(list);
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (x->n > 0)
+    if (x->n > 0 || place != QDOT_NIL)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "no coordinate is cyclic with a conserved momentum: steady motions are the equilibria");
     return qdot_hint("equilibria");
 }
 
 static qdot_status
-turn_along(qdot_scene *s, const turning *x)
+turn_along(qdot_scene *s, const qdot_turning *x)
 {
     for (size_t i = 0; i < x->n; i++) {
         QDOT_TRY(qdot_scene_replace(s, x->rate[i], qdot_add(s->pool, x->rate[i], x->w[i])));
@@ -57,53 +74,108 @@ turn_along(qdot_scene *s, const turning *x)
     return QDOT_OK;
 }
 
-/* Write the rates as q'. */
-static qdot_expr
-with_rates(const turning *x, qdot_expr e)
+static bool
+is_velocity(const qdot_pool *pool, qdot_expr x)
 {
-    return e == QDOT_NIL ? QDOT_NIL : qdot_subs(x->pool, e, x->n, x->w, x->rate);
+    return qdot_expr_is_class(pool, x, QDOT_COORD) && qdot_expr_symbol(pool, x)->order == 1;
+}
+
+/* The equations of the place that are none of rates, in the coordinates that turn along. */
+static qdot_status
+place_of_turning(const qdot_turning *x, qdot_expr place, qdot_expr *at)
+{
+    qdot_pool *pool = x->pool;
+
+    *at = qdot_list(pool, 0, NULL);
+    for (uint32_t i = 0; i < qdot_expr_count(pool, place); i++) {
+        qdot_expr one = qdot_expr_arg(pool, place, i);
+        const qdot_expr symbol = qdot_expr_arg(pool, one, 0);
+        bool turns = false;
+
+        for (size_t k = 0; k < x->n; k++)
+            turns = turns || symbol == x->rate[k];
+        if (turns)
+            continue;
+        if (is_velocity(pool, symbol) && qdot_expr_arg(pool, one, 1) == QDOT_ZERO)
+            continue;
+        if (is_velocity(pool, symbol)) {
+            (void)qdot_fail(QDOT_EINVAL, "%.100s is not constant in a steady motion: its coordinate is not cyclic with a "
+                                         "conserved momentum", qdot_expr_symbol(pool, symbol)->name);
+            return qdot_hint("steady");
+        }
+        one = qdot_rel(pool, QDOT_EQ, symbol, qdot_subs(pool, qdot_expr_arg(pool, one, 1), x->n, x->rate, x->w));
+        *at = qdot_list_appended(pool, *at, 1, &one);
+    }
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_turning_begin(qdot_scene *s, qdot_expr place, qdot_turning *x, qdot_expr *at)
+{
+    QDOT_TRY(find_turning(s, place, x));
+    if (place != QDOT_NIL)
+        QDOT_TRY(place_of_turning(x, place, at));
+    QDOT_TRY(qdot_scene_save(s, &x->saved));
+    return turn_along(s, x);
+}
+
+void
+qdot_turning_end(qdot_scene *s, qdot_turning *x)
+{
+    qdot_scene_restore(s, &x->saved);
+}
+
+void
+qdot_turning_clear(qdot_turning *x)
+{
+    qdot_free(x->q);
+    *x = (qdot_turning){0};
+}
+
+qdot_expr
+qdot_turning_with_rates(const qdot_turning *x, qdot_expr e)
+{
+    for (size_t k = 0; k < x->n && e != QDOT_NIL; k++)
+        if (x->w[k] == parameter_of_rate(x->pool, x->rate[k]))
+            e = qdot_subs(x->pool, e, 1, &x->w[k], &x->rate[k]);
+    return e;
 }
 
 static qdot_status
-write_rates(const turning *x, qdot_equilibria *all)
+write_rates(const qdot_turning *x, qdot_equilibria *all)
 {
     for (size_t i = 0; i < all->n; i++) {
         qdot_equilibrium *one = &all->at[i];
 
-        one->equations = with_rates(x, one->equations);
-        one->exists = with_rates(x, one->exists);
-        one->range = with_rates(x, one->range);
-        one->stable_when = with_rates(x, one->stable_when);
+        one->equations = qdot_turning_with_rates(x, one->equations);
+        one->exists = qdot_turning_with_rates(x, one->exists);
+        one->range = qdot_turning_with_rates(x, one->range);
+        one->stable_when = qdot_turning_with_rates(x, one->stable_when);
         for (size_t k = 0; k < x->n; k++) {
             const qdot_expr constant = qdot_rel(x->pool, QDOT_EQ, x->rate[k], x->rate[k]);
 
             one->equations = qdot_list_appended(x->pool, one->equations, 1, &constant);
         }
     }
-    all->special = with_rates(x, all->special);
-    all->undefined = with_rates(x, all->undefined);
-    all->meeting = with_rates(x, all->meeting);
-    all->jump = with_rates(x, all->jump);
+    all->special = qdot_turning_with_rates(x, all->special);
+    all->undefined = qdot_turning_with_rates(x, all->undefined);
+    all->meeting = qdot_turning_with_rates(x, all->meeting);
+    all->jump = qdot_turning_with_rates(x, all->jump);
     return qdot_pool_check(x->pool);
 }
 
 qdot_status
 qdot_steady_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    qdot_scene_saved saved = {0};
-    turning x = {0};
-    qdot_status status = find_turning(s, &x);
+    qdot_turning x;
+    qdot_status status = qdot_turning_begin(s, QDOT_NIL, &x, NULL);
 
     *out = (qdot_equilibria){0};
     if (status == QDOT_OK)
-        status = qdot_scene_save(s, &saved);
-    if (status == QDOT_OK)
-        status = turn_along(s, &x);
-    if (status == QDOT_OK)
         status = qdot_equilibrium_find(s, bind, user, out);
-    qdot_scene_restore(s, &saved);
+    qdot_turning_end(s, &x);
     if (status == QDOT_OK)
         status = write_rates(&x, out);
-    qdot_free(x.q);
+    qdot_turning_clear(&x);
     return status;
 }

@@ -10,10 +10,30 @@
 #ifndef QDOT_MECH_STEADY_H
 #define QDOT_MECH_STEADY_H
 
+#include "mech/scene/saved.h"
 #include "mech/study/equilibrium.h"
 
 /* *out is cleared by the caller; each has an equation q' = q' for every cyclic coordinate, whose rate is free. QDOT_EINVAL:
  * there is no cyclic coordinate with a conserved momentum. The scene is as before. */
 QDOT_MUST_CHECK qdot_status qdot_steady_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out);
+
+/* --- in coordinates that turn along ---- */
+
+/* The scene while it is written in coordinates that turn along. */
+typedef struct {
+    qdot_pool *pool;
+    size_t n;
+    qdot_expr *q, *rate, *w; /* [n] cyclic coordinates, q', and the parameters, or values, that stand for these */
+    qdot_scene_saved saved;
+} qdot_turning;
+
+/* Write the scene in coordinates that turn along with the rates that `place` names, equations q = value, q' = value, of which
+ * q' = q' leaves a rate free; nil: with every rate that can be constant. *at: the equations of the coordinates in these. Then
+ * qdot_turning_end brings the scene back, also after a failure. QDOT_EINVAL: a rate is none of a steady motion. */
+QDOT_MUST_CHECK qdot_status qdot_turning_begin(qdot_scene *s, qdot_expr place, qdot_turning *x, qdot_expr *at);
+void qdot_turning_end(qdot_scene *s, qdot_turning *x);
+/* e with free rates written as q' again; nil stays nil. Of one that has ended too. */
+qdot_expr qdot_turning_with_rates(const qdot_turning *x, qdot_expr e);
+void qdot_turning_clear(qdot_turning *x);
 
 #endif
