@@ -522,6 +522,10 @@ function_of_state(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_session *session = user;
 
+    if (!qdot_session_in_speeds(session, e))
+        e = qdot_session_speeds_replaced(session, e);
+    if (e == QDOT_NIL)
+        return e;
     if (qdot_mech_holds_momentum_rate(session->scene, e))
         e = qdot_momenta_to_velocities(session, e);
     return e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & QDOT_HAS_ACCELERATION) && session->scene->coordinates.n > 0
@@ -530,7 +534,7 @@ function_of_state(qdot_pool *pool, qdot_expr e, void *user)
 
 /* The rate of a scalar where it needs no accelerations; *missing: it does. */
 typedef struct {
-    qdot_scene *scene;
+    qdot_session *session;
     bool missing;
 } rate_search;
 
@@ -538,7 +542,8 @@ static qdot_expr
 rate_of_component(qdot_pool *pool, qdot_expr e, void *user)
 {
     rate_search *search = user;
-    qdot_expr rate = qdot_mech_rate(search->scene, e);
+    const bool speeds = qdot_session_in_speeds(search->session, e);
+    qdot_expr rate = speeds ? qdot_session_speeds_rate(search->session, e) : qdot_mech_rate(search->session->scene, e);
 
     if (rate != QDOT_NIL || qdot_pool_failed(pool))
         return rate;
@@ -555,7 +560,7 @@ decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bo
     qdot_pool *pool = session->pool;
     qdot_decision decision;
     qdot_facts known;
-    rate_search search = {.scene = session->scene};
+    rate_search search = {.session = session};
     qdot_expr rate, zero;
 
     *done = false;
@@ -595,7 +600,6 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     bool done, jumps;
     qdot_status status;
 
-    q->left = qdot_session_speeds_replaced(session, q->left);
     q->left = qdot_value_map(session->pool, q->left, function_of_state, session);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
@@ -604,7 +608,7 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
         if (done)
             return QDOT_OK;
     }
-    q->left = qdot_momenta_to_velocities(session, q->left);
+    q->left = qdot_momenta_to_velocities(session, q->left); /* and speeds */
     QDOT_TRY(qdot_pool_check(session->pool));
     q->left = qdot_ddt(session->pool, q->left);
     q->right = qdot_value_sub(session->pool, q->left, q->left);

@@ -9,6 +9,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/ask/derive-lines.h"
+#include "lang/session/speeds.h"
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/geometry/metric.h"
@@ -448,6 +449,36 @@ write_states(qdot_derivation *d)
     return QDOT_OK;
 }
 
+/* Write the speeds, the velocities in them, and the equations projected on the velocities that the constraints allow. */
+static qdot_status
+write_speeds(qdot_derivation *d)
+{
+    qdot_session *session = d->session;
+    qdot_pool *pool = session->pool;
+    qdot_speeds speeds;
+    qdot_expr all = QDOT_NIL;
+    qdot_status status;
+
+    QDOT_TRY(qdot_session_speeds(session, &speeds));
+    status = speeds.n > 0 ? qdot_session_speeds_eom(session, QDOT_NIL, &all) : QDOT_OK;
+    for (size_t k = 0; k < speeds.n && status == QDOT_OK; k++) {
+        if (k == 0)
+            qdot_derive_step(d, "Speeds", "u = E(q, q', t)");
+        status = qdot_derive_relation(d, qdot_rel(pool, QDOT_EQ, speeds.symbol[k], speeds.value[k]));
+    }
+    for (uint32_t i = 0; speeds.n > 0 && i < qdot_expr_count(pool, all) && status == QDOT_OK; i++) {
+        const uint32_t n = qdot_expr_count(pool, all), velocities = n - (uint32_t)speeds.n;
+
+        if (i == 0)
+            qdot_derive_step(d, "Velocities in speeds", "q' = sum b u + g");
+        if (i == velocities)
+            qdot_derive_step(d, "Equations of the speeds", "sum b (M q'' - f) = 0");
+        status = qdot_derive_relation(d, qdot_expr_arg(pool, all, (i + (uint32_t)speeds.n) % n));
+    }
+    qdot_free((void *)speeds.symbol);
+    return status;
+}
+
 /* Write the momenta that are constant because L does not contain their coordinates. */
 static qdot_status
 write_conserved_momenta(qdot_derivation *d)
@@ -517,6 +548,8 @@ derive_print(qdot_record *r)
         status = write_equations_of_motion(&d);
     if (status == QDOT_OK)
         status = write_states(&d);
+    if (status == QDOT_OK)
+        status = write_speeds(&d);
     if (status == QDOT_OK)
         status = write_conserved_momenta(&d);
     return qdot_sheet_end(&d.sheet, "derive", status);

@@ -2,6 +2,7 @@
  * order, as matrices with named states and inputs. */
 #include "base/memory.h"
 #include "expr/build.h"
+#include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -12,6 +13,7 @@
 #include "lang/functions/linear.h"
 #include "lang/session/history.h"
 #include "lang/session/runs.h"
+#include "lang/session/speeds.h"
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/scene.h"
@@ -58,6 +60,8 @@ belongs_to_state(const qdot_session *session, qdot_expr x)
 {
     if (x == QDOT_T || qdot_expr_is_class(session->pool, x, QDOT_MULTIPLIER))
         return true;
+    if (qdot_session_is_speed(session, x))
+        return true;
     for (size_t i = 0; i < session->scene->inputs.n; i++)
         if (session->scene->inputs.at[i] == x)
             return true;
@@ -101,31 +105,46 @@ read_equations(qdot_record *r, const qdot_filled *place, state *x)
     return QDOT_OK;
 }
 
+/* The symbols of a state: coordinates and velocities or, where there are some, speeds. */
+static qdot_status
+list_symbols(const qdot_session *session, const qdot_speeds *speeds, state *x, qdot_runs_columns *columns)
+{
+    const qdot_scene *scene = session->scene;
+    const unsigned orders = speeds->n > 0 ? 1 : 2;
+
+    for (size_t i = 0; i < orders * scene->coordinates.n; i++) {
+        const qdot_expr jet = qdot_symbol_jet(session->pool, scene->coordinates.at[i / orders], i % orders);
+
+        QDOT_TRY(qdot_vec_push(&x->symbols, jet));
+        QDOT_TRY(qdot_vec_push(columns, jet));
+    }
+    for (size_t k = 0; k < speeds->n; k++) {
+        QDOT_TRY(qdot_vec_push(&x->symbols, speeds->symbol[k]));
+        QDOT_TRY(qdot_vec_push(columns, speeds->value[k]));
+    }
+    return QDOT_OK;
+}
+
 /* The state of a run at a time, each value with its error. */
 static qdot_status
-read_run(qdot_record *r, state *x)
+read_run(qdot_record *r, const qdot_speeds *speeds, state *x)
 {
     qdot_session *session = r->cursor.session;
-    const qdot_scene *scene = session->scene;
     qdot_runs_columns columns = {0};
-    qdot_measured *m = qdot_calloc(2 * scene->coordinates.n + 1, sizeof *m);
+    qdot_measured *m = qdot_calloc(2 * session->scene->coordinates.n + speeds->n + 1, sizeof *m);
     const char *run;
     qdot_expr time;
-    qdot_status status = m == NULL ? QDOT_ENOMEM : QDOT_OK;
+    qdot_status status = m == NULL ? QDOT_ENOMEM : list_symbols(session, speeds, x, &columns);
 
     if (status == QDOT_OK)
         status = qdot_record_name(r, qdot_record_hole(r, "along", NULL), &run);
     if (status == QDOT_OK)
         status = qdot_record_scalar(r, qdot_record_hole(r, "at", "T"), &time);
-    for (size_t i = 0; i < 2 * scene->coordinates.n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&columns, qdot_symbol_jet(session->pool, scene->coordinates.at[i / 2], i % 2));
     r->cursor.error_at = qdot_record_hole(r, "along", NULL)->from->start;
     if (status == QDOT_OK)
         status = qdot_runs_measure(session, run, &columns, time, m);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++) {
-        status = qdot_vec_push(&x->symbols, columns.at[i]);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&x->values, m[i].exact != QDOT_NIL ? m[i].exact
+        status = qdot_vec_push(&x->values, m[i].exact != QDOT_NIL ? m[i].exact
                                                                     : qdot_measured_rational(session->pool, m[i].value));
         if (status == QDOT_OK)
             status = qdot_vec_push(&x->errors, m[i].error);
@@ -140,6 +159,47 @@ read_run(qdot_record *r, state *x)
     qdot_free(columns.at);
     qdot_free(m);
     return status;
+}
+
+/* In the state of a place velocities are replaced by the speeds, which are 0 where neither is named. */
+static qdot_status
+put_speeds(qdot_record *r, const qdot_filled *place, const qdot_speeds *speeds, state *x)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_pool *pool = session->pool;
+    const size_t named = x->symbols.n;
+    bool velocities = false, given = false;
+    size_t kept = 0;
+
+    for (size_t i = 0; i < named; i++) {
+        velocities |= qdot_expr_symbol(pool, x->symbols.at[i])->order == 1;
+        given |= qdot_session_is_speed(session, x->symbols.at[i]);
+    }
+    if (velocities && given) {
+        qdot_record_blame(r, place);
+        return qdot_fail(QDOT_EINVAL, "a state is given by speeds or by velocities");
+    }
+    for (size_t k = 0; k < speeds->n; k++) {
+        qdot_expr u = qdot_subs(pool, speeds->value[k], (uint32_t)named, x->symbols.at, x->values.at);
+
+        if (qdot_expr_place(named, x->symbols.at, speeds->symbol[k]) < named)
+            continue;
+        for (size_t i = 0; i < session->scene->coordinates.n && u != QDOT_NIL; i++) {
+            const qdot_expr from = qdot_symbol_jet(pool, session->scene->coordinates.at[i], 1), to = QDOT_ZERO;
+
+            u = qdot_subs(pool, u, 1, &from, &to);
+        }
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(qdot_vec_push(&x->symbols, speeds->symbol[k]));
+        QDOT_TRY(qdot_vec_push(&x->values, u));
+    }
+    for (size_t i = 0; i < x->symbols.n; i++)
+        if (qdot_expr_symbol(pool, x->symbols.at[i])->order != 1) {
+            x->symbols.at[kept] = x->symbols.at[i];
+            x->values.at[kept++] = x->values.at[i];
+        }
+    x->symbols.n = x->values.n = kept;
+    return QDOT_OK;
 }
 
 /* Whether a value was found numerically: a rational of many digits. */
@@ -215,29 +275,57 @@ need_inputs_used(qdot_session *session)
 }
 
 static qdot_status
+read_state(qdot_record *r, const qdot_filled *place, const qdot_speeds *speeds, state *x)
+{
+    if (place == NULL)
+        return read_run(r, speeds, x);
+    QDOT_TRY(read_equations(r, place, x));
+    return speeds->n > 0 ? put_speeds(r, place, speeds, x) : QDOT_OK;
+}
+
+/* The linear motion near the state x, of the scene or of its equations in speeds. */
+static qdot_status
+find_linear_motion(qdot_session *session, const qdot_speeds *speeds, const state *x, bool *moves)
+{
+    qdot_scene *states = NULL;
+    qdot_linear_place where = {.scene = session->scene,
+                               .n = x->symbols.n,
+                               .symbols = x->symbols.at,
+                               .values = x->values.at,
+                               .errors = x->measured ? x->errors.at : NULL,
+                               .numbers = is_numeric(session, x)};
+    qdot_status status = speeds->n > 0 ? qdot_speeds_scene(session->scene, speeds, &states) : QDOT_OK;
+
+    if (states != NULL)
+        where.scene = states;
+    if (status == QDOT_OK)
+        status = qdot_linear_find(session, &where, moves);
+    qdot_scene_free(states);
+    return status;
+}
+
+static qdot_status
 carry_out_linearize(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *place = qdot_record_hole(r, "at", "EQUILIBRIUM");
     state x = {0};
-    qdot_linear_place where;
     bool moves = false;
-    qdot_status status = place != NULL ? read_equations(r, place, &x) : read_run(r, &x);
+    qdot_speeds speeds;
+    qdot_status status;
 
+    QDOT_TRY(qdot_session_speeds(session, &speeds));
+    status = read_state(r, place, &speeds, &x);
     if (status == QDOT_OK)
         r->cursor.error_at = r->start[-1].start; /* errors point at the word `linearize` */
     if (status == QDOT_OK)
         status = need_inputs_used(session);
     if (status == QDOT_OK)
         status = need_inputs_without_rates(session);
-    where = (qdot_linear_place){.n = x.symbols.n,
-                                .symbols = x.symbols.at,
-                                .values = x.values.at,
-                                .errors = x.measured ? x.errors.at : NULL,
-                                .numbers = is_numeric(session, &x)};
     if (status == QDOT_OK)
-        status = qdot_linear_find(session, &where, &moves);
+        status = find_linear_motion(session, &speeds, &x, &moves);
     state_free(&x);
+    qdot_free((void *)speeds.symbol);
     QDOT_TRY(status);
     if (moves && place != NULL)
         QDOT_TRY(qdot_answer_notice(session, "this state is no equilibrium: the matrices are those of the deviation from "

@@ -61,6 +61,8 @@ find_parameter(qdot_cursor *c, const qdot_token *start, const char *name, qdot_e
     (void)qdot_fail(QDOT_ENAME, "`%s` is not a parameter", name);
     return known->kind == QDOT_NAME_COORD  ? qdot_hint("start %s = ...", name)
            : known->kind == QDOT_NAME_UFUN ? qdot_hint("set %s(...) = ...", name)
+           : known->kind == QDOT_NAME_SPEED
+               ? qdot_hint("start %s = ... gives its value, which may hold a parameter", name)
                                            : qdot_hint("%s = ... names it anew", name);
 }
 

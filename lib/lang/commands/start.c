@@ -9,7 +9,10 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/speeds.h"
+#include "lang/session/start-kind.h"
 #include "lang/session/values.h"
+#include "mech/scene/scene.h"
 
 static qdot_status carry_out_start(qdot_record *r);
 
@@ -17,7 +20,7 @@ QDOT_STATEMENT(start) = {
     .word = "start",
     .group = QDOT_NUMBERS,
     .usage = "start Q = VALUE, Q' = VALUE, ... [exactly] | start RUN [exactly]",
-    .summary = "the initial state, with velocities or momenta p[Q]; changes only what it names; what constraints "
+    .summary = "the initial state, with velocities, momenta p[Q] or speeds; changes only what it names; what constraints "
                "determine of the rest is solved for, unless `exactly`",
     .example = "start theta = 2, theta' = 0",
     .handler = carry_out_start,
@@ -85,6 +88,7 @@ start_at_end_of_run(qdot_record *r, const char *name)
     r->cursor.error_at = r->start->start;
     QDOT_TRY(qdot_runs_find(session, name, &run));
     report = qdot_run_get_report(run->run);
+    qdot_session_start_forget_speeds(session);
     for (size_t i = 0; i < report->n - report->n_states; i++) {
         qdot_expr q = report->coordinates[i], v = qdot_symbol_jet(session->pool, q, 1);
         qdot_expr q0, v0;
@@ -105,7 +109,32 @@ start_at_end_of_run(qdot_record *r, const char *name)
     return give_notice_of_parameters(session, run->name, report);
 }
 
-/* Read the pairs Q = VALUE, Q' = VALUE, p[Q] = VALUE, ... into the list, where Q is a coordinate. */
+/* The symbol of the speed that a part names; nil: it names none. */
+static qdot_status
+find_speed(qdot_record *r, const qdot_filled *part, qdot_expr *speed)
+{
+    const qdot_name *known;
+    const char *name;
+
+    *speed = QDOT_NIL;
+    QDOT_TRY(qdot_record_name(r, part, &name));
+    known = qdot_names_find(r->cursor.session->names, name);
+    if (known == NULL || known->kind != QDOT_NAME_SPEED)
+        return QDOT_OK;
+    *speed = known->value;
+    return qdot_record_no_prime(r, part, "`=`");
+}
+
+static qdot_status
+find_start_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
+{
+    if (qdot_set_is_momentum(r->cursor.session, part))
+        return qdot_set_find_parameter(r, part, symbol);
+    QDOT_TRY(find_speed(r, part, symbol));
+    return *symbol != QDOT_NIL ? QDOT_OK : qdot_set_find_jet(r, part, symbol);
+}
+
+/* Read the pairs Q = VALUE, Q' = VALUE, p[Q] = VALUE, U = VALUE, ... into the list: of coordinates and speeds. */
 static qdot_status
 read_start_values(qdot_record *r, qdot_pairs *list)
 {
@@ -115,14 +144,57 @@ read_start_values(qdot_record *r, qdot_pairs *list)
 
         if (part->node->kind != QDOT_USAGE_HOLE || qdot_filled_is(part, "VALUE"))
             continue;
-        if (qdot_set_is_momentum(r->cursor.session, part))
-            QDOT_TRY(qdot_set_find_parameter(r, part, &jet));
-        else
-            QDOT_TRY(qdot_set_find_jet(r, part, &jet));
+        QDOT_TRY(find_start_symbol(r, part, &jet));
         QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), jet, &value));
         QDOT_TRY(qdot_pairs_push(list, part->from, jet, value));
     }
     return QDOT_OK;
+}
+
+static bool
+is_velocity(const qdot_session *session, qdot_expr symbol)
+{
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, symbol);
+
+    return s->class == QDOT_MOMENTUM || s->order == 1;
+}
+
+/* Whether the start gives every coordinate and every velocity, as after `start RUN`. */
+static bool
+is_whole_state(const qdot_session *session)
+{
+    const qdot_values *values = session->values;
+    const qdot_scene *scene = session->scene;
+
+    for (size_t i = 0; i < 2 * scene->coordinates.n; i++)
+        if (qdot_scene_state_of(scene, scene->coordinates.at[i / 2]) == NULL &&
+            qdot_expr_place(values->start_symbols.n, values->start_symbols.at,
+                            qdot_symbol_jet(session->pool, scene->coordinates.at[i / 2], i % 2)) == values->start_symbols.n)
+            return false;
+    return true;
+}
+
+/* A start gives velocities or speeds; those of a whole state are turned into these. */
+static qdot_status
+keep_one_kind(qdot_record *r, const qdot_pairs *list)
+{
+    qdot_session *session = r->cursor.session;
+    const bool turns = qdot_session_starts_by_velocities(session) && is_whole_state(session);
+    bool velocities = !turns && qdot_session_starts_by_velocities(session), speeds = qdot_session_starts_by_speeds(session);
+
+    for (size_t i = 0; i < list->symbols.n; i++) {
+        const bool speed = qdot_session_is_speed(session, list->symbols.at[i]);
+
+        velocities |= is_velocity(session, list->symbols.at[i]);
+        speeds |= speed;
+        if (!velocities || !speeds)
+            continue;
+        r->cursor.error_at = list->places.at[i]->start;
+        (void)qdot_fail(QDOT_EINVAL, speed ? "the start gives velocities, and speeds determine all of them"
+                                           : "the start gives speeds, which determine all velocities");
+        return qdot_hint("`reset start`, then give either");
+    }
+    return turns && speeds ? qdot_session_start_by_speeds(session) : QDOT_OK;
 }
 
 /* Carry out `start NAME` if NAME is a run; it may also be q' or q[1], to be refused. */
@@ -154,6 +226,8 @@ carry_out_start(qdot_record *r)
         r->cursor.error_at = list.places.at[i]->start;
         status = qdot_session_in_domain(session, list.symbols.at[i], list.values.at[i]);
     }
+    if (status == QDOT_OK)
+        status = keep_one_kind(r, &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         status = qdot_session_start(session, list.symbols.at[i], list.values.at[i]);
     if (status == QDOT_OK)

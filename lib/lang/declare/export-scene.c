@@ -16,6 +16,7 @@
 #include "lang/declare/export-massless.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
+#include "lang/session/start-kind.h"
 #include "lang/session/values.h"
 #include "sim/model/switch.h"
 
@@ -513,8 +514,9 @@ find_start_values(description *d)
         (void)qdot_fail(QDOT_EINVAL, "the start of a coordinate without mass follows from its equation: it is taken from a run");
         return qdot_hint("run 0..10 before");
     }
-    if (qdot_session_starts_by_momenta(s)) {
-        (void)qdot_fail(QDOT_EINVAL, "the start gives momenta: the velocities are taken from a run");
+    if (qdot_session_starts_by_momenta(s) || qdot_session_starts_by_speeds(s)) {
+        (void)qdot_fail(QDOT_EINVAL, "the start gives %s: the velocities are taken from a run",
+                        qdot_session_starts_by_speeds(s) ? "speeds" : "momenta");
         return qdot_hint("run 0..10 before");
     }
     d->x.t1 = 10;

@@ -18,6 +18,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
 #include "lang/session/runs.h"
+#include "lang/session/speeds.h"
 #include "lang/session/typed.h"
 #include "lang/session/units.h"
 #include "lang/session/values.h"
@@ -229,6 +230,10 @@ append_start_lines(qdot_session *s, bool remarks, qdot_text *out)
                 QDOT_TRY(append_value_line(s, "start ", jet, s->values->start_values.at[k],
                                            --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
     }
+    for (size_t k = 0; k < s->values->start_symbols.n; k++)
+        if (qdot_session_is_speed(s, s->values->start_symbols.at[k]))
+            QDOT_TRY(append_value_line(s, "start ", s->values->start_symbols.at[k], s->values->start_values.at[k],
+                                       --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
     return QDOT_OK;
 }
 

@@ -16,6 +16,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/names.h"
 #include "lang/session/runs.h"
+#include "lang/session/speeds.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
 #include "lang/syntax/mention.h"
@@ -457,14 +458,15 @@ forget_starts_at_run_ends(writer *w)
         }
 }
 
-/* Write the momenta of the start, of which runs have the velocities. */
+/* Write the momenta and speeds of the start, of which runs have the velocities. */
 static qdot_status
 write_start_momenta(const writer *w)
 {
     const qdot_values *values = w->s->values;
 
     for (size_t i = 0; i < values->start_symbols.n; i++) {
-        if (!qdot_expr_is_class(w->s->pool, values->start_symbols.at[i], QDOT_MOMENTUM))
+        if (!qdot_expr_is_class(w->s->pool, values->start_symbols.at[i], QDOT_MOMENTUM) &&
+            !qdot_session_is_speed(w->s, values->start_symbols.at[i]))
             continue;
         QDOT_TRY(append_expression(w->s, "start ", values->start_symbols.at[i], w->out));
         QDOT_TRY(append_expression(w->s, " = ", values->start_values.at[i], w->out));

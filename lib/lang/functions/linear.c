@@ -37,7 +37,7 @@ linearise_displaced(qdot_session *session, const qdot_linear_place *place, bool 
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK)
-        status = qdot_first_order_about(session->scene, &request, out);
+        status = qdot_first_order_about(place->scene, &request, out);
     qdot_free(equations);
     return status;
 }

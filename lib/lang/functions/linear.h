@@ -6,8 +6,9 @@
 
 /* Where and how the motion is made linear. */
 typedef struct {
+    struct qdot_scene *scene; /* that of the session or, where there are speeds, of its equations in these */
     size_t n;
-    const qdot_expr *symbols; /* [n] t, q, q', inputs that have a value */
+    const qdot_expr *symbols; /* [n] t, q, q' or speeds, inputs that have a value */
     const qdot_expr *values;  /* [n] these values */
     const double *errors;     /* [n] their errors; NULL: the values are exact */
     bool numbers;             /* not in symbols */

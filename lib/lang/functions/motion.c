@@ -10,12 +10,17 @@
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
 
-/* The rate of e in velocities or, as momenta have rates of their own, in momenta. */
+/* The rate of e in velocities or, as speeds and momenta have rates of their own, in these. */
 static qdot_expr
 rate_of_scalar(qdot_pool *pool, qdot_expr e, void *session)
 {
-    const qdot_session *s = session;
+    qdot_session *s = session;
 
+    if (qdot_session_in_speeds(s, e))
+        return qdot_session_speeds_rate(s, e);
+    e = qdot_session_speeds_replaced(s, e);
+    if (e == QDOT_NIL)
+        return e;
     if ((qdot_expr_node(pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)) ||
         qdot_mech_holds_momentum_rate(s->scene, e))
         e = qdot_momenta_to_velocities(session, e);
@@ -26,10 +31,9 @@ qdot_status
 qdot_call_rate(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     const qdot_scene *scene = s->scene;
-    const qdot_expr e = qdot_session_speeds_replaced(s, args[0]);
+    const qdot_expr e = args[0];
 
     (void)n;
-    QDOT_TRY(qdot_value_kind_check(s->pool, e));
     if ((qdot_expr_node(s->pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM)) &&
         scene->particles.n == 0 &&
         scene->bodies.n == 0 && scene->lagrangian == QDOT_NIL) {

@@ -211,6 +211,7 @@ qdot_request_limits(qdot_session *session, qdot_expr from, qdot_expr to, qdot_re
     o->request.t0 = qdot_session_bind(session, o->request.said[0]);
     o->request.t1 = qdot_session_bind(session, o->request.said[1]);
     QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_request_speeds(session, o));
     return qdot_request_momenta(session, o);
 }
 

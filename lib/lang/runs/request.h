@@ -23,6 +23,9 @@ QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr
 /* If the start gives momenta p[q], the velocities that follow from them at its place and time; a momentum whose
  * velocity is not named either is 0 then. Called by _limits. QDOT_ESINGULAR, QDOT_EDOMAIN: they do not follow. */
 QDOT_MUST_CHECK qdot_status qdot_request_momenta(qdot_session *session, qdot_request *o);
+/* If the start gives speeds, the velocities that follow from them and the constraints at its place and time. Called by
+ * _limits. QDOT_EINVAL: they do not follow, or the place breaks a constraint. */
+QDOT_MUST_CHECK qdot_status qdot_request_speeds(qdot_session *session, qdot_request *o);
 /* Set values, start and limits for a statement that integrates by itself; give a notice if there was no `start`. */
 QDOT_MUST_CHECK qdot_status qdot_request_between(qdot_session *session, qdot_expr from,
                                                  qdot_expr to, qdot_request *o);

@@ -5,6 +5,7 @@
 #include "expr/walk.h"
 #include "lang/runs/request.h"
 #include "lang/session/bind.h"
+#include "lang/session/start-kind.h"
 #include "lang/session/values.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/legendre.h"

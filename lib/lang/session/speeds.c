@@ -10,6 +10,7 @@
 #include "expr/walk.h"
 #include "lang/session/names.h"
 #include "mech/scene/scene.h"
+#include "normal/simplify/simplify.h"
 
 /* The k-th speed; NULL past the end. */
 static const qdot_name *
@@ -27,6 +28,17 @@ bool
 qdot_session_has_speeds(const qdot_session *s)
 {
     return speed_at(s, 0) != NULL;
+}
+
+bool
+qdot_session_is_speed(const qdot_session *s, qdot_expr symbol)
+{
+    const qdot_name *speed;
+
+    for (size_t k = 0; (speed = speed_at(s, k)) != NULL; k++)
+        if (speed->value == symbol)
+            return true;
+    return false;
 }
 
 qdot_status
@@ -132,6 +144,37 @@ qdot_session_speeds_eom(qdot_session *s, qdot_expr for_one, qdot_expr *value)
     qdot_free(all);
     qdot_free((void *)speeds.symbol);
     return status;
+}
+
+bool
+qdot_session_in_speeds(qdot_session *s, qdot_expr e)
+{
+    const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER;
+    const qdot_name *speed;
+    bool held = false;
+    size_t n = 0;
+
+    for (; (speed = speed_at(s, n)) != NULL; n++)
+        held |= qdot_expr_contains(s->pool, e, speed->value);
+    return held && !(qdot_expr_node(s->pool, e)->holds & others) && qdot_speeds_suffice(s->scene, n);
+}
+
+qdot_expr
+qdot_session_speeds_rate(qdot_session *s, qdot_expr e)
+{
+    const qdot_facts facts = qdot_scene_facts(s->scene);
+    qdot_scene *states = NULL;
+    qdot_speeds speeds;
+    qdot_status status = qdot_session_speeds(s, &speeds);
+
+    if (status == QDOT_OK)
+        status = qdot_speeds_scene(s->scene, &speeds, &states);
+    if (status == QDOT_OK)
+        e = qdot_simplify(s->pool, qdot_scene_with_rates(states, qdot_ddt(s->pool, e)), &facts);
+    qdot_scene_free(states);
+    if (status == QDOT_OK)
+        qdot_free((void *)speeds.symbol);
+    return status == QDOT_OK ? e : qdot_pool_fail(s->pool);
 }
 
 qdot_status

@@ -30,38 +30,23 @@ qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
     }
 }
 
-bool
-qdot_session_starts_by_momenta(const qdot_session *session)
-{
-    for (size_t i = 0; i < session->values->start_symbols.n; i++)
-        if (qdot_expr_is_class(session->pool, session->values->start_symbols.at[i], QDOT_MOMENTUM))
-            return true;
-    return false;
-}
-
-qdot_status
-qdot_session_need_velocities(const qdot_session *session, const char *what)
-{
-    if (!qdot_session_starts_by_momenta(session))
-        return QDOT_OK;
-    (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: %s of runs whose start gives momenta", what);
-    return qdot_hint("start x' = ... gives the velocity");
-}
-
 /* Take out the start value of the velocity that a momentum determines, or of the momentum of a velocity. */
 static void
 remove_other_of_pair(qdot_session *session, qdot_expr jet)
 {
-    qdot_values *values = session->values;
     const qdot_symbol *s = qdot_expr_symbol(session->pool, jet);
-    qdot_expr other;
-    size_t at;
 
-    if (s->class != QDOT_MOMENTUM && s->order != 1)
-        return;
-    other = s->class == QDOT_MOMENTUM ? qdot_symbol_jet(session->pool, s->base, 1)
-                                      : qdot_symbol_of(session->pool, QDOT_MOMENTUM, s->base);
-    at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, other);
+    if (s->class == QDOT_MOMENTUM || s->order == 1)
+        qdot_session_start_forget(session, s->class == QDOT_MOMENTUM ? qdot_symbol_jet(session->pool, s->base, 1)
+                                                                     : qdot_symbol_of(session->pool, QDOT_MOMENTUM, s->base));
+}
+
+void
+qdot_session_start_forget(qdot_session *session, qdot_expr symbol)
+{
+    qdot_values *values = session->values;
+    const size_t at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, symbol);
+
     if (at == values->start_symbols.n)
         return;
     for (size_t i = at; i + 1 < values->start_symbols.n; i++) {

@@ -13,7 +13,7 @@ typedef struct {
 
 typedef struct qdot_values {
     qdot_vec(qdot_expr) set_symbols, set_values; /* parameters and their latest values by `set` */
-    qdot_vec(qdot_expr) start_symbols, start_values; /* coordinates q, velocities q' or momenta p[q], and their start values */
+    qdot_vec(qdot_expr) start_symbols, start_values; /* coordinates q, velocities q', momenta p[q] or speeds, and their start values */
     qdot_vec(qdot_expr) start_open; /* start values that constraints may change while `find` varies others */
     qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t, and their scales by `scale` */
     qdot_vec(qdot_start_error) start_errors; /* errors of start values from `start RUN`; each valid while its value is unchanged */
@@ -27,10 +27,8 @@ void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
 /* Set the value of q or q' with which runs start from now on. */
 QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
                                                qdot_expr value);
-/* Whether the start gives a momentum p[q]: the velocities follow from it when a run begins. Of q' and p[q] the latest counts. */
-bool qdot_session_starts_by_momenta(const qdot_session *session);
-/* QDOT_ENOTBUILT for such a start: it is not known how `what` follows it. */
-QDOT_MUST_CHECK qdot_status qdot_session_need_velocities(const qdot_session *session, const char *what);
+/* The start gives no value to the symbol. */
+void qdot_session_start_forget(qdot_session *session, qdot_expr symbol);
 /* Set a value as `set` or `start` does, depending on the kind of symbol. */
 QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
                                              qdot_expr value);

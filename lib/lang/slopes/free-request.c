@@ -4,6 +4,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
+#include "lang/session/start-kind.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
 

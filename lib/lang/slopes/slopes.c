@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/start-kind.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
 #include "sim/model/substitute.h"

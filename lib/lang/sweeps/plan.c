@@ -1,7 +1,10 @@
 /* plan.c -- the statement `plan`: tells how a run, or a sweep of many runs, would be computed. */
+#include "base/memory.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/runs/request.h"
 #include "lang/runs/run-options.h"
+#include "lang/session/speeds.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/syntax/record.h"
 #include "sim/run/run.h"
@@ -18,6 +21,21 @@ QDOT_STATEMENT(plan) = {
     .example = "plan",
     .handler = answer_plan,
 };
+
+/* With the present forms of the equations q' and u' as first-order unknowns cost more (doc/measurements.md). */
+static qdot_status
+describe_speeds(const qdot_session *session, qdot_text *text)
+{
+    qdot_speeds speeds;
+
+    QDOT_TRY(qdot_session_speeds(session, &speeds));
+    for (size_t k = 0; k < speeds.n; k++)
+        qdot_text_format(text, "%s%s", k == 0 ? "speeds: " : ", ", qdot_expr_symbol(session->pool, speeds.symbol[k])->name);
+    if (speeds.n > 0)
+        qdot_text_add(text, ": for equations and answers; the run integrates the coordinates, which costs less\n");
+    qdot_free((void *)speeds.symbol);
+    return qdot_text_status(text);
+}
 
 static qdot_status
 answer_plan(qdot_record *r)
@@ -37,6 +55,8 @@ answer_plan(qdot_record *r)
     }
     if (status == QDOT_OK)
         status = qdot_run_plan(session->scene, &request.request, &text);
+    if (status == QDOT_OK)
+        status = describe_speeds(session, &text);
     status = qdot_answer_written(session, "plan", status, &text);
     qdot_request_free(&request);
     qdot_run_options_free(&o);

@@ -41,13 +41,60 @@ fill_velocity_row(qdot_scene *s, qdot_expr e, qdot_expr right, const char *what,
     return qdot_pool_check(s->pool);
 }
 
+/* How many speeds the scene needs. False on failure: the pool keeps it. */
+static bool
+count_needed(qdot_scene *s, size_t *independent, size_t *needed)
+{
+    *independent = 0;
+    if (!qdot_freedom_independent(s))
+        return false;
+    for (size_t k = 0; k < s->constraints.n; k++)
+        *independent += s->derived->independent[k];
+    *needed = s->coordinates.n - s->states.n - *independent;
+    return true;
+}
+
+bool
+qdot_speeds_suffice(qdot_scene *s, size_t n)
+{
+    size_t independent, needed;
+
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (s->constraints.at[k].kind == QDOT_ACCELERATION)
+            return false;
+    return count_needed(s, &independent, &needed) && n == needed;
+}
+
+/* QDOT_EINVAL where speeds and constraints are not as many as coordinates. */
 static qdot_status
-fill_rows(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *A, qdot_expr *b)
+need_number_of_speeds(qdot_scene *s, const qdot_speeds *speeds)
+{
+    size_t independent, needed;
+
+    if (!count_needed(s, &independent, &needed))
+        return qdot_pool_check(s->pool);
+    if (speeds->n == needed)
+        return QDOT_OK;
+    return qdot_fail(QDOT_EINVAL, "the speeds are %zu, and %zu are needed: %zu coordinates less %zu independent "
+                     "constraints", speeds->n, needed, needed + independent, independent);
+}
+
+qdot_status
+qdot_speeds_rows(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *A, qdot_expr *b)
 {
     const size_t n = s->coordinates.n;
-    const bool *independent = qdot_derived_get(s)->independent;
+    const bool *independent;
     size_t row = 0;
 
+    QDOT_TRY(need_number_of_speeds(s, speeds));
+    independent = qdot_derived_get(s)->independent;
+    for (size_t i = 0; i < n * n; i++)
+        A[i] = QDOT_ZERO;
+    for (size_t i = 0; i < n; i++)
+        if (qdot_scene_state_of(s, s->coordinates.at[i]) != NULL) {
+            A[row * n + i] = QDOT_ONE;
+            b[row++] = QDOT_ZERO;
+        }
     for (size_t k = 0; k < speeds->n; k++, row++)
         QDOT_TRY(fill_velocity_row(s, speeds->value[k], speeds->symbol[k], "the speed",
                                    qdot_expr_symbol(s->pool, speeds->symbol[k])->name, A + row * n, b + row));
@@ -65,27 +112,40 @@ fill_rows(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *A, qdot_expr *b)
     return QDOT_OK;
 }
 
+/* Write z' = rate of the first-order unknowns into velocity [n], in terms of the other velocities. */
+static qdot_status
+insert_rates_of_states(qdot_scene *s, qdot_expr *velocity)
+{
+    for (size_t k = 0; k < s->states.n; k++) {
+        const qdot_state *state = &s->states.at[k];
+        qdot_expr rate = state->rate;
+        size_t own = 0;
+
+        for (size_t i = 0; i < s->coordinates.n && rate != QDOT_NIL; i++) {
+            const qdot_expr jet = qdot_mech_jet(s, i, 1);
+
+            if (s->coordinates.at[i] == state->z)
+                own = i;
+            rate = qdot_subs(s->pool, rate, 1, &jet, &velocity[i]);
+        }
+        velocity[own] = qdot_mech_tidy(s, rate);
+        QDOT_TRY(qdot_pool_check(s->pool));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_speeds_kinematics(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *velocity)
 {
     const size_t n = s->coordinates.n;
     const qdot_facts facts = qdot_scene_facts(s);
-    size_t independent = 0;
     uint32_t pivot = 0;
-    qdot_expr *A;
+    qdot_expr *A = qdot_calloc(n * n + n, sizeof *A);
     qdot_status status;
 
-    if (!qdot_freedom_independent(s))
-        return qdot_pool_check(s->pool);
-    for (size_t k = 0; k < s->constraints.n; k++)
-        independent += s->derived->independent[k];
-    if (speeds->n + independent != n)
-        return qdot_fail(QDOT_EINVAL, "the speeds are %zu, and %zu are needed: %zu coordinates less %zu independent "
-                         "constraints", speeds->n, n - independent, n, independent);
-    A = qdot_calloc(n * n + n, sizeof *A);
     if (A == NULL)
         return QDOT_ENOMEM;
-    status = fill_rows(s, speeds, A, A + n * n);
+    status = qdot_speeds_rows(s, speeds, A, A + n * n);
     if (status == QDOT_OK)
         status = qdot_solve_linear(s->pool, (uint32_t)n, A, A + n * n, velocity, &pivot, &facts);
     if (status == QDOT_ESINGULAR)
@@ -95,6 +155,8 @@ qdot_speeds_kinematics(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *velo
         velocity[i] = qdot_simplify(s->pool, velocity[i], &facts);
         status = qdot_pool_check(s->pool);
     }
+    if (status == QDOT_OK)
+        status = insert_rates_of_states(s, velocity);
     qdot_free(A);
     return status;
 }
@@ -107,7 +169,7 @@ typedef struct {
     const qdot_expr *velocity;
     size_t n;
     qdot_expr *jets;  /* [n] the symbols q' */
-    qdot_expr *slope; /* [n * speeds] dq_i'/du_j */
+    qdot_expr *slope; /* [n * speeds] dq_i'/du_j; 0 of first-order unknowns, on which no force acts */
     qdot_expr *drift; /* [n] q_i'' at u' = 0 */
     qdot_expr *mass;  /* [n * n] M in q, u, t */
     qdot_expr *force; /* [n] f in q, u, t */
@@ -133,7 +195,9 @@ fill_projection(projection *p)
         for (size_t j = 0; j < p->speeds->n; j++) {
             const qdot_expr from = qdot_symbol_jet(pool, p->speeds->symbol[j], 1), to = QDOT_ZERO;
 
-            p->slope[i * p->speeds->n + j] = qdot_diff(pool, p->velocity[i], p->speeds->symbol[j]);
+            p->slope[i * p->speeds->n + j] = qdot_scene_state_of(s, s->coordinates.at[i]) != NULL
+                                                 ? QDOT_ZERO
+                                                 : qdot_diff(pool, p->velocity[i], p->speeds->symbol[j]);
             drift = qdot_subs(pool, drift, 1, &from, &to);
         }
         p->drift[i] = qdot_mech_tidy(s, in_speeds(p, drift));
@@ -197,5 +261,80 @@ qdot_speeds_equations(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr 
         status = qdot_pool_check(s->pool);
     }
     qdot_free(p.jets);
+    return status;
+}
+
+qdot_status
+qdot_speeds_rates(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *equation, qdot_expr *rate)
+{
+    const size_t m = speeds->n;
+    const qdot_facts facts = qdot_scene_facts(s);
+    uint32_t pivot = 0;
+    qdot_expr *A = qdot_calloc(m * m + m + 1, sizeof *A), *b = A == NULL ? NULL : A + m * m;
+    qdot_status status = A == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+        const qdot_expr left = qdot_expr_arg(s->pool, equation[j], 0);
+
+        for (size_t k = 0; k < m; k++)
+            A[j * m + k] = qdot_diff(s->pool, left, qdot_symbol_jet(s->pool, speeds->symbol[k], 1));
+        b[j] = qdot_expr_arg(s->pool, equation[j], 1);
+        status = qdot_pool_check(s->pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_solve_linear(s->pool, (uint32_t)m, A, b, rate, &pivot, &facts);
+    if (status == QDOT_ESINGULAR)
+        status = qdot_fail(QDOT_ESINGULAR, "no mass moves with the speed %.200s",
+                           qdot_expr_symbol(s->pool, speeds->symbol[pivot])->name);
+    for (size_t k = 0; k < m && status == QDOT_OK; k++) {
+        rate[k] = qdot_simplify(s->pool, rate[k], &facts);
+        status = qdot_pool_check(s->pool);
+    }
+    qdot_free(A);
+    return status;
+}
+
+/* --- a scene of states ----------------------------------------------------------------- */
+
+static qdot_status
+add_states(const qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *velocity, const qdot_expr *rate, qdot_scene *to)
+{
+    const size_t n = s->coordinates.n;
+
+    for (size_t i = 0; i < n + speeds->n; i++)
+        QDOT_TRY(qdot_scene_state(to, i < n ? s->coordinates.at[i] : speeds->symbol[i - n], QDOT_NIL));
+    for (size_t i = 0; i < n + speeds->n; i++)
+        QDOT_TRY(i < n ? qdot_scene_state(to, s->coordinates.at[i], velocity[i])
+                       : qdot_scene_state(to, speeds->symbol[i - n], rate[i - n]));
+    for (size_t i = 0; i < s->inputs.n; i++)
+        QDOT_TRY(qdot_scene_input(to, s->inputs.at[i]));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_speeds_scene(qdot_scene *s, const qdot_speeds *speeds, qdot_scene **states)
+{
+    const size_t n = s->coordinates.n, m = speeds->n;
+    qdot_expr *velocity = qdot_calloc(n + 2 * m + 1, sizeof *velocity), *equation, *rate;
+    qdot_status status = velocity == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    *states = status == QDOT_OK ? qdot_scene_new(s->pool) : NULL;
+    equation = status == QDOT_OK ? velocity + n : NULL;
+    rate = status == QDOT_OK ? equation + m : NULL;
+    if (status == QDOT_OK && *states == NULL)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = qdot_speeds_kinematics(s, speeds, velocity);
+    if (status == QDOT_OK)
+        status = qdot_speeds_equations(s, speeds, velocity, equation);
+    if (status == QDOT_OK)
+        status = qdot_speeds_rates(s, speeds, equation, rate);
+    if (status == QDOT_OK)
+        status = add_states(s, speeds, velocity, rate, *states);
+    if (status != QDOT_OK) {
+        qdot_scene_free(*states);
+        *states = NULL;
+    }
+    qdot_free(velocity);
     return status;
 }

@@ -131,6 +131,58 @@ equations_agree_with_accelerations(void **state)
     kit_close(&k);
 }
 
+/* The scene of first-order unknowns has x' = v cos(phi), w' = -m a v w/(I + m a^2), and an unknown of its own. */
+static void
+scene_of_states_has_the_same_rates(void **state)
+{
+    static const char *const of[] = {"x'*cos(phi) + y'*sin(phi)", "phi'"};
+    qdot_scene *states;
+    kit k;
+    chosen c;
+
+    (void)state;
+    kit_open(&k);
+    coords(&k, "x y phi");
+    must(declare_body(k.scene, "sleigh", E(&k, "m"), E(&k, "I"), QDOT_NIL, E(&k, "(x + a*cos(phi), y + a*sin(phi))"),
+                      E(&k, "phi"), QDOT_NIL));
+    constraint(&k, "blade", "x'*sin(phi)", "y'*cos(phi)");
+    choose(&k, &c, "v w", of);
+    assert_true(qdot_speeds_suffice(k.scene, 2));
+    assert_false(qdot_speeds_suffice(k.scene, 3));
+    must(qdot_speeds_scene(k.scene, &c.speeds, &states));
+    assert_int_equal(states->coordinates.n, 5);
+    assert_int_equal(states->states.n, 5);
+    same_at(&k, qdot_scene_state_of(states, k.scene->coordinates.at[0])->rate, qdot_mul(k.pool, E(&k, "cos(phi)"), c.symbol[0]),
+            __LINE__);
+    same_at(&k, qdot_scene_state_of(states, c.symbol[1])->rate,
+            qdot_mul(k.pool, E(&k, "-m*a/(I + m*a^2)"), qdot_mul(k.pool, c.symbol[0], c.symbol[1])), __LINE__);
+    qdot_scene_free(states);
+    kit_close(&k);
+}
+
+/* Of a scene with z' = 2 x' - z the kinematic equations have the rate of z in speeds; it needs no speed of its own. */
+static void
+unknowns_keep_their_rates(void **state)
+{
+    static const char *const of[] = {"3*x'"};
+    kit k;
+    chosen c;
+    qdot_expr z;
+
+    (void)state;
+    kit_open(&k);
+    coords(&k, "x");
+    particle(&k, "a", "m", "x");
+    z = qdot_symbol_get(k.pool, QDOT_COORD, "z");
+    must(qdot_scene_state(k.scene, z, QDOT_NIL));
+    must(qdot_scene_state(k.scene, z, E(&k, "2*x' - z")));
+    choose(&k, &c, "u", of);
+    derive(&k, &c);
+    same_at(&k, c.velocity[1], qdot_sub(k.pool, qdot_mul(k.pool, E(&k, "2/3"), c.symbol[0]), z), __LINE__);
+    is_equation(&k, c.equation[0], qdot_mul(k.pool, E(&k, "m/9"), rate_of(&k, &c, 0)), QDOT_ZERO, __LINE__);
+    kit_close(&k);
+}
+
 static void
 wrong_speeds_are_refused(void **state)
 {
@@ -158,6 +210,8 @@ main(void)
         cmocka_unit_test(spin_components_give_eulers_equations),
         cmocka_unit_test(sleigh_has_chaplygins_equations),
         cmocka_unit_test(equations_agree_with_accelerations),
+        cmocka_unit_test(scene_of_states_has_the_same_rates),
+        cmocka_unit_test(unknowns_keep_their_rates),
         cmocka_unit_test(wrong_speeds_are_refused),
     };
 
