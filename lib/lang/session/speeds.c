@@ -109,12 +109,13 @@ static qdot_status
 derive_equations(qdot_session *s, const qdot_speeds *speeds, qdot_expr *all)
 {
     qdot_scene *scene = s->scene;
-    const size_t n = scene->coordinates.n;
+    const qdot_expr *velocity, *equation;
 
-    QDOT_TRY(qdot_speeds_kinematics(scene, speeds, all + speeds->n));
-    QDOT_TRY(qdot_speeds_equations(scene, speeds, all + speeds->n, all));
-    for (size_t i = 0; i < n; i++)
-        all[speeds->n + i] = qdot_rel(s->pool, QDOT_EQ, qdot_symbol_jet(s->pool, scene->coordinates.at[i], 1), all[speeds->n + i]);
+    QDOT_TRY(qdot_speeds_motion(scene, speeds, &velocity, &equation));
+    for (size_t k = 0; k < speeds->n; k++)
+        all[k] = equation[k];
+    for (size_t i = 0; i < scene->coordinates.n; i++)
+        all[speeds->n + i] = qdot_rel(s->pool, QDOT_EQ, qdot_symbol_jet(s->pool, scene->coordinates.at[i], 1), velocity[i]);
     return qdot_pool_check(s->pool);
 }
 

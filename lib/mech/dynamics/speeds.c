@@ -5,13 +5,46 @@
 #include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "mech/dynamics/freedom.h"
 #include "mech/dynamics/lagrange.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/scene/access.h"
 #include "mech/scene/cache.h"
+#include "normal/simplify/relative.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/linear.h"
+
+/* With a coordinate-free right side the sums on the left sides of holonomic constraints are known: x^2 + y^2 is l^2. */
+static qdot_expr
+insert_constraints(qdot_scene *s, qdot_expr e)
+{
+    for (size_t k = 0; k < s->constraints.n && e != QDOT_NIL; k++) {
+        const qdot_constraint *c = &s->constraints.at[k];
+
+        if (c->kind == QDOT_HOLONOMIC && qdot_expr_kind(s->pool, c->left) == QDOT_SUM &&
+            !(qdot_mech_holds(s, c->right) & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
+            e = qdot_subs(s->pool, e, 1, &c->left, &c->right);
+    }
+    return e;
+}
+
+/* e as a person would write it, in differences of angles where that is shorter. */
+static qdot_expr
+write_short(qdot_scene *s, qdot_expr e)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    const qdot_expr relative = qdot_simplify_relative(s->pool, e, &facts);
+    qdot_expr shortest = relative;
+
+    if (relative == QDOT_NIL || qdot_expr_size(s->pool, e) < 2 * qdot_expr_size(s->pool, relative))
+        shortest = qdot_simplify(s->pool, e, &facts);
+    if (relative != QDOT_NIL && shortest != QDOT_NIL &&
+        qdot_expr_size(s->pool, relative) < qdot_expr_size(s->pool, shortest))
+        shortest = relative;
+    e = insert_constraints(s, shortest);
+    return e == shortest ? e : qdot_simplify(s->pool, e, &facts);
+}
 
 /* e with every velocity q' set to 0. */
 static qdot_expr
@@ -152,7 +185,7 @@ qdot_speeds_kinematics(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *velo
         status = qdot_fail(QDOT_EINVAL, "the speeds do not determine %.200s'",
                            qdot_expr_symbol(s->pool, s->coordinates.at[pivot])->name);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        velocity[i] = qdot_simplify(s->pool, velocity[i], &facts);
+        velocity[i] = write_short(s, velocity[i]);
         status = qdot_pool_check(s->pool);
     }
     if (status == QDOT_OK)
@@ -200,7 +233,7 @@ fill_projection(projection *p)
                                                  : qdot_diff(pool, p->velocity[i], p->speeds->symbol[j]);
             drift = qdot_subs(pool, drift, 1, &from, &to);
         }
-        p->drift[i] = qdot_mech_tidy(s, in_speeds(p, drift));
+        p->drift[i] = in_speeds(p, drift);
         p->force[i] = in_speeds(p, qdot_lagrange_people_forcing(s, i));
         for (size_t l = i; l < p->n; l++)
             p->mass[i * p->n + l] = p->mass[l * p->n + i] = in_speeds(p, qdot_mass_of_lagrangian(s, i, l));
@@ -228,17 +261,16 @@ static qdot_expr
 equation_of_speed(const projection *p, size_t j)
 {
     qdot_pool *pool = p->s->pool;
-    const qdot_facts facts = qdot_scene_facts(p->s);
     qdot_expr left = QDOT_ZERO, right = qdot_neg(pool, project(p, j, p->drift, 1));
 
     for (size_t k = 0; k < p->speeds->n; k++) {
-        const qdot_expr m = qdot_simplify(pool, project(p, j, p->slope + k, p->speeds->n), &facts);
+        const qdot_expr m = write_short(p->s, project(p, j, p->slope + k, p->speeds->n));
 
         left = qdot_add(pool, left, qdot_mul(pool, m, qdot_symbol_jet(pool, p->speeds->symbol[k], 1)));
     }
     for (size_t i = 0; i < p->n; i++)
         right = qdot_add(pool, right, qdot_mul(pool, p->slope[i * p->speeds->n + j], p->force[i]));
-    return qdot_pool_failed(pool) ? QDOT_NIL : qdot_rel(pool, QDOT_EQ, left, qdot_simplify(pool, right, &facts));
+    return qdot_pool_failed(pool) ? QDOT_NIL : qdot_rel(pool, QDOT_EQ, left, write_short(p->s, right));
 }
 
 qdot_status
@@ -287,11 +319,55 @@ qdot_speeds_rates(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *equ
         status = qdot_fail(QDOT_ESINGULAR, "no mass moves with the speed %.200s",
                            qdot_expr_symbol(s->pool, speeds->symbol[pivot])->name);
     for (size_t k = 0; k < m && status == QDOT_OK; k++) {
-        rate[k] = qdot_simplify(s->pool, rate[k], &facts);
+        rate[k] = write_short(s, rate[k]);
         status = qdot_pool_check(s->pool);
     }
     qdot_free(A);
     return status;
+}
+
+/* --- kept results ------------------------------------------------------------------------- */
+
+static bool
+are_kept(const qdot_derived *d, const qdot_speeds *speeds)
+{
+    bool same = d->speeds != NULL && d->n_speeds == speeds->n;
+
+    for (size_t k = 0; same && k < speeds->n; k++)
+        same = d->speeds[k] == speeds->symbol[k] && d->speeds[speeds->n + k] == speeds->value[k];
+    return same;
+}
+
+qdot_status
+qdot_speeds_motion(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr **velocity, const qdot_expr **equation)
+{
+    const size_t n = s->coordinates.n, m = speeds->n;
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_expr *all;
+    qdot_status status;
+
+    if (!are_kept(d, speeds)) {
+        all = qdot_calloc(3 * m + n + 1, sizeof *all);
+        if (all == NULL)
+            return QDOT_ENOMEM;
+        for (size_t k = 0; k < m; k++) {
+            all[k] = speeds->symbol[k];
+            all[m + k] = speeds->value[k];
+        }
+        status = qdot_speeds_kinematics(s, speeds, all + 3 * m);
+        if (status == QDOT_OK)
+            status = qdot_speeds_equations(s, speeds, all + 3 * m, all + 2 * m);
+        if (status != QDOT_OK) {
+            qdot_free(all);
+            return status;
+        }
+        qdot_free(d->speeds);
+        d->speeds = all;
+        d->n_speeds = m;
+    }
+    *equation = d->speeds + 2 * m;
+    *velocity = d->speeds + 3 * m;
+    return QDOT_OK;
 }
 
 /* --- a scene of states ----------------------------------------------------------------- */
@@ -314,19 +390,12 @@ add_states(const qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *velo
 qdot_status
 qdot_speeds_scene(qdot_scene *s, const qdot_speeds *speeds, qdot_scene **states)
 {
-    const size_t n = s->coordinates.n, m = speeds->n;
-    qdot_expr *velocity = qdot_calloc(n + 2 * m + 1, sizeof *velocity), *equation, *rate;
-    qdot_status status = velocity == NULL ? QDOT_ENOMEM : QDOT_OK;
+    const qdot_expr *velocity, *equation;
+    qdot_expr *rate = qdot_calloc(speeds->n + 1, sizeof *rate);
+    qdot_status status;
 
-    *states = status == QDOT_OK ? qdot_scene_new(s->pool) : NULL;
-    equation = status == QDOT_OK ? velocity + n : NULL;
-    rate = status == QDOT_OK ? equation + m : NULL;
-    if (status == QDOT_OK && *states == NULL)
-        status = QDOT_ENOMEM;
-    if (status == QDOT_OK)
-        status = qdot_speeds_kinematics(s, speeds, velocity);
-    if (status == QDOT_OK)
-        status = qdot_speeds_equations(s, speeds, velocity, equation);
+    *states = qdot_scene_new(s->pool);
+    status = rate == NULL || *states == NULL ? QDOT_ENOMEM : qdot_speeds_motion(s, speeds, &velocity, &equation);
     if (status == QDOT_OK)
         status = qdot_speeds_rates(s, speeds, equation, rate);
     if (status == QDOT_OK)
@@ -335,6 +404,6 @@ qdot_speeds_scene(qdot_scene *s, const qdot_speeds *speeds, qdot_scene **states)
         qdot_scene_free(*states);
         *states = NULL;
     }
-    qdot_free(velocity);
+    qdot_free(rate);
     return status;
 }

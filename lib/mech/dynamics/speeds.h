@@ -39,6 +39,9 @@ QDOT_MUST_CHECK qdot_status qdot_speeds_kinematics(qdot_scene *s, const qdot_spe
 /* equation [n]: sum_k m_jk u_k' = rest in q, u, t, simplified; velocity: from qdot_speeds_kinematics. */
 QDOT_MUST_CHECK qdot_status qdot_speeds_equations(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *velocity,
                                                   qdot_expr *equation);
+/* Both, kept until the scene changes or other speeds are asked about; borrowed. */
+QDOT_MUST_CHECK qdot_status qdot_speeds_motion(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr **velocity,
+                                               const qdot_expr **equation);
 /* rate [n]: u_k' in q, u, t, simplified, as the equations make it. QDOT_ESINGULAR: a speed moves no mass. */
 QDOT_MUST_CHECK qdot_status qdot_speeds_rates(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr *equation,
                                               qdot_expr *rate);

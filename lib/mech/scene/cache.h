@@ -76,6 +76,9 @@ struct qdot_derived {
     qdot_vec(qdot_pattern) patterns;
     qdot_expr kinetic, potential, lagrangian, energy, mass_matrix;
     qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each: by coordinate */
+    size_t n_speeds;  /* m */
+    qdot_expr *speeds; /* [3 m + n] symbols and values of the speeds for which the rest holds, their equations, then the
+                        * velocities (mech/dynamics/speeds.h); NULL until requested */
     qdot_expr *accel; /* [n] accelerations q'', computed together */
     qdot_expr *lambda; /* [constraints] multipliers, computed with accel; nil if not unique */
     qdot_expr numeric_mass, numeric_forcing, numeric_energy;
