@@ -11,6 +11,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "mech/linear/first-order.h"
+#include "mech/linear/state-values.h"
 #include "normal/simplify/simplify.h"
 
 static qdot_expr
@@ -131,35 +132,43 @@ write_matrices(qdot_session *session, const qdot_first_order *x, qdot_linear *ou
     return qdot_pool_check(pool);
 }
 
+/* The slopes of e along all that moves, at the state; slope [n]. */
+static qdot_status
+find_slopes(qdot_session *session, const qdot_linear *linear, qdot_expr e, uint32_t n, qdot_expr *slope)
+{
+    qdot_pool *pool = session->pool;
+    qdot_state_values v;
+    qdot_status status = QDOT_OK;
+
+    qdot_state_values_begin(&v, session->scene, linear->numbers != 0, insert_values_of_session, session);
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        status = qdot_state_values_put(&v, qdot_expr_arg(pool, linear->symbols, i), qdot_expr_arg(pool, linear->values, i));
+    for (uint32_t i = 0; i < n; i++)
+        slope[i] = qdot_diff(pool, e, qdot_expr_arg(pool, linear->symbols, i));
+    if (status == QDOT_OK)
+        status = qdot_state_values_of(&v, n, slope);
+    qdot_state_values_end(&v);
+    return status;
+}
+
 qdot_status
 qdot_linear_row(qdot_session *session, const qdot_linear *linear, qdot_expr e, qdot_expr *row)
 {
     qdot_pool *pool = session->pool;
     const qdot_facts facts = qdot_scene_facts(session->scene);
     const uint32_t n = qdot_expr_count(pool, linear->symbols), columns = n == 0 ? 0 : qdot_expr_count(pool, linear->change) / n;
-    qdot_expr *symbols = qdot_calloc(2 * (size_t)n + 1, sizeof *symbols), *values;
+    qdot_expr *slope = qdot_calloc((size_t)n + 1, sizeof *slope);
+    qdot_status status = slope == NULL ? QDOT_ENOMEM : find_slopes(session, linear, e, n, slope);
 
-    if (symbols == NULL)
-        return QDOT_ENOMEM;
-    values = symbols + n;
-    for (uint32_t i = 0; i < n; i++) {
-        symbols[i] = qdot_expr_arg(pool, linear->symbols, i);
-        values[i] = qdot_expr_arg(pool, linear->values, i);
-    }
-    for (uint32_t k = 0; k < columns; k++)
+    for (uint32_t k = 0; k < columns && status == QDOT_OK; k++) {
         row[k] = QDOT_ZERO;
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr slope = qdot_subs(pool, qdot_diff(pool, e, symbols[i]), n, symbols, values);
-
-        if (slope != QDOT_NIL && linear->numbers)
-            slope = qdot_session_bind(session, slope);
-        for (uint32_t k = 0; k < columns && slope != QDOT_ZERO; k++)
-            row[k] = qdot_add(pool, row[k], qdot_mul(pool, slope, qdot_expr_arg(pool, linear->change, i * columns + k)));
-    }
-    for (uint32_t k = 0; k < columns; k++)
+        for (uint32_t i = 0; i < n; i++)
+            if (slope[i] != QDOT_ZERO)
+                row[k] = qdot_add(pool, row[k], qdot_mul(pool, slope[i], qdot_expr_arg(pool, linear->change, i * columns + k)));
         row[k] = qdot_simplify(pool, row[k], &facts);
-    qdot_free(symbols);
-    return qdot_pool_check(pool);
+    }
+    qdot_free(slope);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
 /* C and D: the slopes of the outputs. */

@@ -6,6 +6,7 @@
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
@@ -115,30 +116,129 @@ value_at_state(qdot_state_values *v, qdot_expr e)
     return v->x.numbers && e != QDOT_NIL ? v->bind(v->user, e) : e;
 }
 
-/* Fail where a sign(u) with u = 0 at the state makes a difference: e jumps there, or that of which it is a slope has a kink. */
-static qdot_status
-need_no_jump(qdot_state_values *v, qdot_expr e)
+/* Parts of an expression that switch where a surface u = 0 passes through the state, and what each is where u < 0 and where
+ * u > 0. */
+typedef struct {
+    qdot_expr node, side[2];
+    size_t surface; /* index of the surface */
+} switching_part;
+
+enum { MOST_SURFACES = 5 };
+
+typedef struct {
+    qdot_vec(switching_part) parts;
+    qdot_expr surface[MOST_SURFACES];
+    size_t surfaces;
+} switching;
+
+/* What switches where: sign(u) and a relation u < v at the end, floor(u) at an integer, mod(u, m) at a multiple of m. nil: the
+ * node never does. */
+static qdot_expr
+switching_surface(qdot_state_values *v, qdot_expr node, qdot_expr side[2])
 {
-    static const qdot_expr sides[] = {QDOT_ONE, QDOT_MINUS_ONE};
     qdot_pool *pool = v->s->pool;
-    bool jumps = false;
+    const uint16_t op = qdot_expr_node(pool, node)->op;
+    qdot_expr value;
+
+    if (qdot_expr_kind(pool, node) == QDOT_REL) {
+        side[0] = QDOT_TRUE;
+        side[1] = QDOT_FALSE;
+        return qdot_sub(pool, qdot_expr_arg(pool, node, 0), qdot_expr_arg(pool, node, 1));
+    }
+    if (qdot_expr_kind(pool, node) != QDOT_FUN || (op != QDOT_SIGN && op != QDOT_FLOOR && op != QDOT_MOD))
+        return QDOT_NIL;
+    side[0] = QDOT_MINUS_ONE;
+    side[1] = QDOT_ONE;
+    if (op == QDOT_SIGN)
+        return qdot_expr_arg(pool, node, 0);
+    value = value_at_state(v, node);
+    side[1] = value;
+    side[0] = op == QDOT_FLOOR ? qdot_sub(pool, value, QDOT_ONE) : qdot_expr_arg(pool, node, 1);
+    return op == QDOT_FLOOR ? qdot_sub(pool, qdot_expr_arg(pool, node, 0), value) : node;
+}
+
+/* Add a node if it switches at the state; a surface that is the negative of one before is that one. */
+static qdot_status
+add_switching_part(qdot_state_values *v, qdot_expr node, switching *x)
+{
+    switching_part part = {.node = node};
+    const qdot_expr u = switching_surface(v, node, part.side), minus = u == QDOT_NIL ? QDOT_NIL : qdot_neg(v->s->pool, u);
+    size_t k = 0;
+
+    if (u == QDOT_NIL || !qdot_is_zero(v->s->pool, value_at_state(v, u), &v->facts))
+        return qdot_pool_check(v->s->pool);
+    while (k < x->surfaces && x->surface[k] != u && x->surface[k] != minus)
+        k++;
+    if (k == MOST_SURFACES)
+        return QDOT_OK;
+    if (k < x->surfaces && x->surface[k] == minus)
+        part = (switching_part){node, {part.side[1], part.side[0]}, 0};
+    if (k == x->surfaces)
+        x->surface[x->surfaces++] = u;
+    part.surface = k;
+    return qdot_vec_push(&x->parts, part);
+}
+
+/* The value of e on the sides of the surfaces that are the bits of `which`. */
+static qdot_expr
+value_on_sides(qdot_state_values *v, qdot_expr e, const switching *x, unsigned which, qdot_expr *from, qdot_expr *to)
+{
+    for (size_t i = 0; i < x->parts.n; i++) {
+        from[i] = x->parts.at[i].node;
+        to[i] = x->parts.at[i].side[which >> x->parts.at[i].surface & 1];
+    }
+    return value_at_state(v, qdot_subs(v->s->pool, e, x->parts.n, from, to));
+}
+
+static qdot_status
+report_jump(const qdot_state_values *v, qdot_expr surface)
+{
+    const qdot_pool *pool = v->s->pool;
+    const qdot_expr minus = qdot_neg(v->s->pool, surface);
+    const bool shorter = minus != QDOT_NIL && qdot_expr_node(pool, minus)->size < qdot_expr_node(pool, surface)->size;
+    qdot_text text = {0};
+    qdot_status status = qdot_print(pool, shorter ? minus : surface, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK) {
+        status = qdot_fail(QDOT_EDOMAIN, "nothing is linear there: a jump or a kink where %.200s = 0", qdot_text_str(&text));
+        (void)qdot_hint("each side has its own linear motion: at a state beside it");
+    }
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* Replace e by its value beside the state, which must be the same on all sides of the surfaces there: else it jumps, or that
+ * of which it is a slope has a kink. At the state alone a slope may have no meaning, as sign(0). */
+static qdot_status
+evaluate_beside_surfaces(qdot_state_values *v, qdot_expr *e)
+{
+    qdot_pool *pool = v->s->pool;
+    switching x = {0};
+    qdot_expr *from = NULL, first;
+    qdot_status status;
     qdot_walk w;
 
-    QDOT_TRY(qdot_walk_begin(pool, e, &w));
-    for (size_t i = 0; i < w.n && !jumps && !qdot_pool_failed(pool); i++) {
-        qdot_expr on[2];
-
-        if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN || qdot_expr_node(pool, w.at[i])->op != QDOT_SIGN ||
-            !qdot_is_zero(pool, value_at_state(v, qdot_expr_arg(pool, w.at[i], 0)), &v->facts))
-            continue;
-        for (int k = 0; k < 2; k++)
-            on[k] = value_at_state(v, qdot_subs(pool, e, 1, &w.at[i], &sides[k]));
-        jumps = !qdot_is_zero(pool, qdot_sub(pool, on[0], on[1]), &v->facts);
-    }
+    QDOT_TRY(qdot_walk_begin(pool, *e, &w));
+    status = QDOT_OK;
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
+        status = add_switching_part(v, w.at[i], &x);
     qdot_walk_end(&w);
-    QDOT_TRY(qdot_pool_check(pool));
-    return jumps ? qdot_fail(QDOT_EDOMAIN, "the equations of motion have no linear part there: a force has a jump or a kink")
-                 : QDOT_OK;
+    if (status == QDOT_OK && x.parts.n > 0) {
+        from = qdot_calloc(2 * x.parts.n, sizeof *from);
+        status = from == NULL ? QDOT_ENOMEM : QDOT_OK;
+    }
+    first = from == NULL ? value_at_state(v, *e) : value_on_sides(v, *e, &x, 0, from, from + x.parts.n);
+    for (unsigned which = 1; which < 1u << x.surfaces && status == QDOT_OK && from != NULL; which++) {
+        const qdot_expr other = value_on_sides(v, *e, &x, which, from, from + x.parts.n);
+
+        status = qdot_pool_check(pool);
+        if (status == QDOT_OK && !qdot_is_zero(pool, qdot_sub(pool, first, other), &v->facts))
+            status = report_jump(v, x.surface[__builtin_ctz(which)]);
+    }
+    *e = first;
+    qdot_free(from);
+    qdot_free(x.parts.at);
+    return status;
 }
 
 qdot_status
@@ -148,8 +248,7 @@ qdot_state_values_of(qdot_state_values *v, size_t n, qdot_expr *e)
 
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(need_no_jump(v, e[i]));
-        e[i] = value_at_state(v, e[i]);
+        QDOT_TRY(evaluate_beside_surfaces(v, &e[i]));
         if (!v->x.numbers)
             e[i] = qdot_elimination_short(&v->x, e[i]);
     }
