@@ -1,14 +1,17 @@
 /* steady.c -- the statement `steady`: lists the steady motions of the scene, with their stability. */
 #include "lang/ask/equilibria.h"
+#include "lang/session/history.h"
+#include "lang/syntax/record.h"
 
 static qdot_status carry_out_steady(qdot_record *r);
 
 QDOT_STATEMENT(steady) = {
     .word = "steady",
     .group = QDOT_ASKING,
-    .usage = "steady",
-    .summary = "the steady motions, with their stability: the rates of cyclic coordinates constant, all others at rest",
-    .example = "steady",
+    .usage = "steady [in Q']",
+    .summary = "the steady motions, with their stability: the rates of cyclic coordinates constant, all others at rest; solved "
+               "for the coordinates, or for a rate",
+    .example = "steady in phi'",
     .alone = true,
     .nameable = true,
     .handler = carry_out_steady,
@@ -17,5 +20,11 @@ QDOT_STATEMENT(steady) = {
 static qdot_status
 carry_out_steady(qdot_record *r)
 {
+    const qdot_filled *rate = qdot_record_hole(r, "in", NULL);
+    qdot_expr unknown = QDOT_NIL;
+
+    if (rate != NULL)
+        QDOT_TRY(qdot_record_coordinate(r, rate, &unknown));
+    r->cursor.session->history->steady_in = unknown;
     return qdot_equilibria_answer(r, qdot_equilibria_steady, "steady motion");
 }

@@ -12,6 +12,8 @@
 #include "lang/answer/answer.h"
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
+#include "lang/session/history.h"
+#include "lang/session/values.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/saved.h"
 #include "mech/study/steady.h"
@@ -22,6 +24,25 @@ static qdot_expr
 insert_session_values(void *session, qdot_expr e)
 {
     return qdot_session_bind(session, e);
+}
+
+/* The same with the rates of steady motions at the values of `start`. */
+static qdot_expr
+insert_values_and_rates(void *user, qdot_expr e)
+{
+    qdot_session *session = user;
+    const qdot_values *values = session->values;
+
+    for (size_t i = 0; i < values->start_symbols.n && e != QDOT_NIL; i++) {
+        const qdot_expr rate = values->start_symbols.at[i];
+
+        if (qdot_expr_symbol(session->pool, rate)->class == QDOT_COORD && qdot_expr_symbol(session->pool, rate)->order == 1) {
+            const qdot_expr symbol = qdot_steady_rate(session->pool, rate);
+
+            e = qdot_subs(session->pool, e, 1, &symbol, &values->start_values.at[i]);
+        }
+    }
+    return e == QDOT_NIL ? e : qdot_session_bind(session, e);
 }
 
 static qdot_status
@@ -49,11 +70,9 @@ inputs_rest(qdot_scene *scene, qdot_scene_saved *saved)
     return status;
 }
 
-typedef qdot_status search(qdot_scene *scene, qdot_binder bind, void *user, qdot_equilibria *out);
-
-/* Call `find` while the inputs are 0, with the parameter values of the session. */
+/* While inputs are 0 find equilibria, or (steady) steady motions, with the parameter values of the session. */
 static qdot_status
-find_with_inputs_at_rest(qdot_session *session, search *find, qdot_equilibria *out)
+find_with_inputs_at_rest(qdot_session *session, bool steady, qdot_equilibria *out)
 {
     qdot_scene_saved saved;
     qdot_status status;
@@ -61,7 +80,8 @@ find_with_inputs_at_rest(qdot_session *session, search *find, qdot_equilibria *o
     *out = (qdot_equilibria){0};
     QDOT_TRY(require_coordinates(session));
     QDOT_TRY(inputs_rest(session->scene, &saved));
-    status = find(session->scene, insert_session_values, session, out);
+    status = steady ? qdot_steady_find(session->scene, session->history->steady_in, insert_values_and_rates, session, out)
+                    : qdot_equilibrium_find(session->scene, insert_session_values, session, out);
     qdot_scene_restore(session->scene, &saved);
     return status;
 }
@@ -69,13 +89,13 @@ find_with_inputs_at_rest(qdot_session *session, search *find, qdot_equilibria *o
 qdot_status
 qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
 {
-    return find_with_inputs_at_rest(session, qdot_equilibrium_find, out);
+    return find_with_inputs_at_rest(session, false, out);
 }
 
 qdot_status
 qdot_equilibria_steady(qdot_session *session, qdot_equilibria *out)
 {
-    return find_with_inputs_at_rest(session, qdot_steady_find, out);
+    return find_with_inputs_at_rest(session, true, out);
 }
 
 qdot_expr

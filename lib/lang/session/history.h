@@ -19,6 +19,7 @@ typedef struct qdot_history {
     qdot_vec(qdot_expr) values;  /* the answers: %1 is values.at[0] */
     qdot_vec(qdot_expr) over; /* for each answer a LIST of coordinates that index its entries; nil: none */
     qdot_expr series, series_in; /* the latest series(...) and a LIST of its variables; nil: none */
+    qdot_expr steady_in; /* the rate for which the latest `steady in` solved; nil: the latest `steady` had none */
     qdot_linear linear;
 } qdot_history;
 

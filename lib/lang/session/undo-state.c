@@ -44,6 +44,7 @@ qdot_undo_single_of(const qdot_session *s)
                     .hamiltonian = s->scene->hamiltonian,
                     .series = s->history->series,
                     .series_in = s->history->series_in,
+                    .steady_in = s->history->steady_in,
                     .linear = s->history->linear,
                     .style = s->output->style,
                     .flat = s->output->flat,

@@ -526,6 +526,7 @@ apply_record(qdot_session *s, record *r, int to)
     s->scene->hamiltonian = u->now.single.hamiltonian;
     s->history->series = u->now.single.series;
     s->history->series_in = u->now.single.series_in;
+    s->history->steady_in = u->now.single.steady_in;
     s->history->linear = u->now.single.linear;
     s->output->style = u->now.single.style;
     s->output->flat = u->now.single.flat;

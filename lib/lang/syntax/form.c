@@ -176,7 +176,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
     if (!row->alone && qdot_quantity_find(row->word) != NULL)
         return declared || !begins_operand(next);
     if (row->alone)
-        return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") &&
+        return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") && !qdot_token_is_word(next, "in") &&
                 !(qdot_token_is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
                declared;
     for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)

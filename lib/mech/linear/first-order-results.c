@@ -2,11 +2,23 @@
 #include "mech/linear/first-order.h"
 #include "mech/linear/first-order-parts.h"
 
+#include <math.h>
+
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/scene/scene.h"
+
+/* Whether an acceleration is not 0; in numbers, beyond the rounding of a place that was found to 15 digits. */
+static bool
+is_moving(const qdot_first_order_job *j, qdot_expr acceleration)
+{
+    return !qdot_elimination_is_zero(&j->v.x, acceleration) &&
+           (!j->v.x.numbers || fabs(fmpq_get_d(qdot_expr_rational(j->pool, acceleration))) > 1e-10);
+}
 
 /* The value of a symbol at the state; itself where it has none. */
 static qdot_expr
@@ -52,7 +64,7 @@ write_first_order_unknowns(qdot_first_order_job *j, qdot_first_order *out)
         out->value[first + 2 * k] = value_of_symbol(j, z->z);
         out->value[first + 2 * k + 1] = slope[moving];
         own[j->y + j->z + k] = QDOT_ONE;
-        out->moves |= !qdot_elimination_is_zero(&j->v.x, slope[moving]);
+        out->moves |= is_moving(j, slope[moving]);
     }
     qdot_free(slope);
     return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
@@ -92,7 +104,7 @@ qdot_first_order_write(qdot_first_order_job *j, qdot_first_order *out)
             out->change[i * columns + column_of_results(j, a)] = row[a];
         if (row == NULL)
             out->change[i * columns + out->states + i - 3 * n - j->c] = QDOT_ONE;
-        out->moves |= i >= 2 * n && i < 3 * n && !qdot_elimination_is_zero(&j->v.x, out->value[i]);
+        out->moves |= i >= 2 * n && i < 3 * n && is_moving(j, out->value[i]);
     }
     return write_first_order_unknowns(j, out);
 }

@@ -8,6 +8,8 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/study/steady-momenta.h"
+#include "mech/study/steady-reduced.h"
 
 /* The value that `place` gives the rate; nil: none. */
 static qdot_expr
@@ -22,9 +24,8 @@ rate_of_place(const qdot_pool *pool, qdot_expr place, qdot_expr rate)
     return QDOT_NIL;
 }
 
-/* The parameter that stands for a rate while it is free. */
-static qdot_expr
-parameter_of_rate(qdot_pool *pool, qdot_expr rate)
+qdot_expr
+qdot_steady_rate(qdot_pool *pool, qdot_expr rate)
 {
     return qdot_symbol_get(pool, QDOT_PARAM, qdot_expr_symbol(pool, rate)->name);
 }
@@ -53,7 +54,7 @@ find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
             continue;
         x->q[x->n] = list[i].coordinate;
         x->rate[x->n] = rate;
-        x->w[x->n] = value == rate ? parameter_of_rate(s->pool, rate) : value;
+        x->w[x->n] = value == rate ? qdot_steady_rate(s->pool, rate) : value;
         x->n++;
     }
     qdot_free(list);
@@ -62,6 +63,15 @@ find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "no coordinate is cyclic with a conserved momentum: steady motions are the equilibria");
     return qdot_hint("equilibria");
+}
+
+static bool
+has_velocity_constraints(const qdot_scene *s)
+{
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (s->constraints.at[k].kind == QDOT_VELOCITY)
+            return true;
+    return false;
 }
 
 static qdot_status
@@ -136,13 +146,13 @@ qdot_expr
 qdot_turning_with_rates(const qdot_turning *x, qdot_expr e)
 {
     for (size_t k = 0; k < x->n && e != QDOT_NIL; k++)
-        if (x->w[k] == parameter_of_rate(x->pool, x->rate[k]))
+        if (x->w[k] == qdot_steady_rate(x->pool, x->rate[k]))
             e = qdot_subs(x->pool, e, 1, &x->w[k], &x->rate[k]);
     return e;
 }
 
 static qdot_status
-write_rates(const qdot_turning *x, qdot_equilibria *all)
+write_rates(const qdot_turning *x, qdot_binder bind, void *user, qdot_equilibria *all)
 {
     for (size_t i = 0; i < all->n; i++) {
         qdot_equilibrium *one = &all->at[i];
@@ -152,7 +162,8 @@ write_rates(const qdot_turning *x, qdot_equilibria *all)
         one->range = qdot_turning_with_rates(x, one->range);
         one->stable_when = qdot_turning_with_rates(x, one->stable_when);
         for (size_t k = 0; k < x->n; k++) {
-            const qdot_expr constant = qdot_rel(x->pool, QDOT_EQ, x->rate[k], x->rate[k]);
+            const qdot_expr constant =
+                qdot_rel(x->pool, QDOT_EQ, x->rate[k], one->numeric ? bind(user, x->w[k]) : x->rate[k]);
 
             one->equations = qdot_list_appended(x->pool, one->equations, 1, &constant);
         }
@@ -164,18 +175,50 @@ write_rates(const qdot_turning *x, qdot_equilibria *all)
     return qdot_pool_check(x->pool);
 }
 
+/* Of those that the turning scene's energy does not decide, the stability at fixed momenta. */
+static qdot_status
+judge_undecided(qdot_scene *s, const qdot_turning *x, qdot_equilibria *all)
+{
+    bool conservative;
+
+    QDOT_TRY(qdot_steady_is_conservative(s, &conservative));
+    for (size_t i = 0; i < all->n && conservative; i++)
+        if (all->at[i].stability != QDOT_UNSTABLE && (all->at[i].stability != QDOT_STABLE || all->at[i].stable_when != QDOT_NIL))
+            QDOT_TRY(qdot_steady_at_momenta(s, x->n, x->q, &all->at[i]));
+    return QDOT_OK;
+}
+
+/* Numbers need a value of a rate, which is one of the start. */
+static qdot_status
+suggest_rate(const qdot_turning *x, qdot_binder bind, void *user, qdot_status status)
+{
+    for (size_t k = 0; k < x->n && status == QDOT_EUNSET; k++)
+        if (bind(user, x->w[k]) == x->w[k])
+            return qdot_hint("start %.100s = ...", qdot_expr_symbol(x->pool, x->w[k])->name);
+    return status;
+}
+
 qdot_status
-qdot_steady_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
+qdot_steady_find(qdot_scene *s, qdot_expr unknown, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_turning x;
-    qdot_status status = qdot_turning_begin(s, QDOT_NIL, &x, NULL);
+    qdot_status status;
 
     *out = (qdot_equilibria){0};
+    if (unknown != QDOT_NIL)
+        return qdot_steady_reduced(s, unknown, out);
+    status = qdot_turning_begin(s, QDOT_NIL, &x, NULL);
+    if (status == QDOT_EINVAL && has_velocity_constraints(s)) {
+        qdot_turning_clear(&x);
+        return qdot_steady_reduced(s, QDOT_NIL, out);
+    }
     if (status == QDOT_OK)
-        status = qdot_equilibrium_find(s, bind, user, out);
+        status = suggest_rate(&x, bind, user, qdot_equilibrium_find(s, bind, user, out));
     qdot_turning_end(s, &x);
     if (status == QDOT_OK)
-        status = write_rates(&x, out);
+        status = write_rates(&x, bind, user, out);
+    if (status == QDOT_OK)
+        status = judge_undecided(s, &x, out);
     qdot_turning_clear(&x);
     return status;
 }

@@ -13,9 +13,15 @@
 #include "mech/scene/saved.h"
 #include "mech/study/equilibrium.h"
 
-/* *out is cleared by the caller; each has an equation q' = q' for every cyclic coordinate, whose rate is free. QDOT_EINVAL:
- * there is no cyclic coordinate with a conserved momentum. The scene is as before. */
-QDOT_MUST_CHECK qdot_status qdot_steady_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out);
+/* The parameter that stands for a rate while the equilibria of the turning scene are found. */
+qdot_expr qdot_steady_rate(qdot_pool *pool, qdot_expr rate);
+
+/* *out is cleared by the caller; each has an equation q' = q' for every cyclic coordinate, whose rate is free; where places are
+ * found in numbers, with the values that `bind` gives to the rates. unknown: a rate q' that is solved for instead of the
+ * coordinates, which are then free, or nil. With velocity constraints and without cyclic coordinates, and for an unknown rate, the
+ * equations are those of mech/study/steady-reduced.h. QDOT_EINVAL: there is no free rate, or `unknown` is none. The scene is as
+ * before. */
+QDOT_MUST_CHECK qdot_status qdot_steady_find(qdot_scene *s, qdot_expr unknown, qdot_binder bind, void *user, qdot_equilibria *out);
 
 /* --- in coordinates that turn along ---- */
 
