@@ -8,6 +8,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
+#include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/inequality/less.h"
 #include "normal/simplify/positive.h"
