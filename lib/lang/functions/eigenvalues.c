@@ -25,9 +25,9 @@ typedef qdot_vec(qdot_expr) expressions;
 
 /* --- in symbols ---------------------------------------------------------------------------- */
 
-/* Give a notice of the condition under which an eigenvalue is real. */
+/* Give a notice of the condition under which eigenvalues are real or imaginary. */
 static qdot_status
-tell_condition(qdot_session *s, qdot_expr condition)
+tell_condition(qdot_session *s, const char *what, qdot_expr condition)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -35,7 +35,7 @@ tell_condition(qdot_session *s, qdot_expr condition)
     if (condition != QDOT_NIL) {
         status = qdot_solve_print_conditions(s->pool, "", condition, &text);
         if (status == QDOT_OK)
-            status = qdot_answer_condition(s, "these eigenvalues are real where %s", qdot_text_str(&text));
+            status = qdot_answer_condition(s, "these eigenvalues are %s where %s", what, qdot_text_str(&text));
     }
     qdot_text_clear(&text);
     return status;
@@ -138,6 +138,8 @@ add_complex_roots(qdot_session *s, qdot_expr f, qdot_expr x, uint32_t degree, bo
     *all = status == QDOT_OK && roots.complete && 2 * roots.root.n == degree;
     for (size_t i = 0; i < roots.root.n && *all; i++)
         *all = is_proved_negative(s, roots.root.at[i].value);
+    if (*all && status == QDOT_OK) /* the roots in x^2 are real under one condition */
+        status = tell_condition(s, "imaginary", roots.root.n > 0 ? roots.root.at[0].condition : QDOT_NIL);
     for (size_t i = 0; i < roots.root.n && *all && status == QDOT_OK; i++)
         status = add_pair(s, QDOT_ZERO, qdot_sqrt(pool, qdot_neg(pool, roots.root.at[i].value)), values);
     qdot_solutions_clear(&roots);
@@ -187,7 +189,7 @@ find_exact(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, bool *all, e
             if (!complete && !real)
                 return QDOT_OK;
             if (!complete)
-                QDOT_TRY(tell_condition(s, condition));
+                QDOT_TRY(tell_condition(s, "real", condition));
         }
         for (size_t from = before, to = values->n; power > 1; power--)
             for (size_t k = from; k < to; k++)
