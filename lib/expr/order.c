@@ -102,8 +102,16 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
             return d;
         if (x->kind == QDOT_NUM)
             return qdot_rational_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
-        if (x->kind == QDOT_SYM)
-            return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
+        if (x->kind == QDOT_SYM) {
+            d = compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
+            if (d != 0)
+                return d;
+            a = pool->symbols.at[x->at].base; /* p[x] and p[x'], products of differentials: by what they belong to */
+            b = pool->symbols.at[y->at].base;
+            if (a == QDOT_NIL || b == QDOT_NIL)
+                return 0;
+            continue;
+        }
         if (x->kind != y->kind) /* one of the two is an elementary function, the other an undefined one */
             return compare_numbers(x->kind, y->kind);
         if (x->kind == QDOT_FUN && x->n == 1 && y->n == 1 &&

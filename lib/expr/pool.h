@@ -41,6 +41,10 @@ struct qdot_pool {
 /* The node with these args, created if new; args may point into the pool. Nil on failure. */
 qdot_expr qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
                            const qdot_expr *args, uint8_t sign);
+/* The symbol if it is there, else nil; *hash that of its node. What has a base is known by it, whatever its name. */
+qdot_expr qdot_pool_find_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash);
+/* The symbol, made if new. Nil on failure. */
+qdot_expr qdot_pool_make_symbol(qdot_pool *pool, const qdot_symbol *wanted);
 /* Record the failure `status` with its message, and return nil. */
 qdot_expr qdot_pool_refuse(qdot_pool *pool, qdot_status status, const char *format, ...)
     QDOT_PRINTF(3, 4);

@@ -156,13 +156,36 @@ print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name)
     p->at = outer;
 }
 
+/* The differentials of a LIST of coordinates: wedge(dr, dphi) in a line, with the sign of the product where it is drawn. */
+static void
+print_wedge(printer *p, qdot_expr list)
+{
+    const qdot_formula_id outer = p->at;
+
+    if (is_drawn(p))
+        print_begin(p, QDOT_FORMULA_ROW, 0, 0);
+    else
+        qdot_print_text(p, "wedge(");
+    for (uint32_t i = 0; i < qdot_expr_count(p->pool, list); i++) {
+        const char *name = qdot_expr_symbol(p->pool, qdot_expr_arg(p->pool, list, i))->name;
+
+        if (i > 0)
+            print_sign(p, is_drawn(p) ? QDOT_SIGN_WEDGE : QDOT_SIGN_COMMA);
+        qdot_print_text(p, "d");
+        add_symbol_name(p->out, p->at, p->pool, name, 0, p->notation);
+    }
+    if (!is_drawn(p))
+        qdot_print_text(p, ")");
+    p->at = outer;
+}
+
 void
 qdot_print_symbol_parts(printer *p, qdot_expr e)
 {
     const qdot_symbol *s = qdot_expr_symbol(p->pool, e);
+    const qdot_symbol *base = s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base) : NULL;
     const char *mark = end_of_number_digits(s);
-    const char *name =
-        s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base)->name : s->name;
+    const char *name = base != NULL ? base->name : s->name;
 
     if (qdot_unit_symbol_base(p->pool, e) >= 0)
         qdot_print_scaled(p, QDOT_ONE, e, TOP, false);
@@ -176,6 +199,8 @@ qdot_print_symbol_parts(printer *p, qdot_expr e)
         print_number_symbol(p, s->name, (size_t)(mark - s->name));
     else if (p->notation == QDOT_NOTATION_SCRIPT)
         qdot_print_text(p, s->name);
+    else if (s->base != QDOT_NIL && base == NULL)
+        print_wedge(p, s->base);
     else if (s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL || s->class == QDOT_DELTA)
         print_coordinate_symbol(p, s, name);
     else

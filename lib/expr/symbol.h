@@ -45,7 +45,7 @@ enum {
 typedef struct {
     qdot_class class;
     const char *name;  /* plain: "theta[1]", "theta[1]'", "dr", "lambda[rod]", "delta[r]" */
-    qdot_expr base; /* for a time derivative, momentum, differential or delta: its coordinate (or t) */
+    qdot_expr base; /* for a time derivative, momentum, differential or delta: its coordinate (or t), or a LIST of them */
     uint32_t order;    /* order of the time derivative: 0 for q and p[q], 1 for q' and p[q]', 2 for q'' */
     uint32_t rank;     /* order of declaration; a time derivative has its coordinate's */
     qdot_expr lo, hi;  /* bounds of the declared domain; nil: unbounded */
@@ -68,7 +68,9 @@ bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
 bool qdot_symbol_is_declared(const qdot_pool *pool, const char *name);
 /* The order-th time derivative of a coordinate or momentum (order 0: itself) or of a time derivative. */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
-/* The symbol dq or dt, p[q], or delta[q] for `class` DIFFERENTIAL, MOMENTUM or DELTA. */
+/* The symbol dq or dt, p[q], or delta[q] for `class` DIFFERENTIAL, MOMENTUM or DELTA. A momentum may belong to a velocity too,
+ * p[q'], that of Ostrogradsky. The differential of a LIST of coordinates is their product wedge(dr, dphi), a
+ * symbol of its own (mech/geometry/forms.h); the list is its base. */
 qdot_expr qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate);
 /* Declare the domain lo < x < hi of x, before x is used (nil: no bound; open: strict, else with the bound itself). */
 void qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open,

@@ -1,9 +1,10 @@
-/* tensors.c -- covariant and Lie derivatives, commutators of vector fields. */
+/* tensors.c -- covariant and Lie derivatives, commutators of vector fields; vectors in forms. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
+#include "mech/geometry/forms.h"
 #include "mech/geometry/metric.h"
 #include "mech/geometry/tensors.h"
 
@@ -68,4 +69,10 @@ qdot_status
 qdot_call_commutator(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     return over_coordinates(s, n, args, qdot_tensors_commutator, value);
+}
+
+qdot_status
+qdot_call_interior_product(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    return over_coordinates(s, n, args, qdot_forms_interior, value);
 }

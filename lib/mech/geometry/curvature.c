@@ -330,7 +330,10 @@ qdot_geometry_kretschmann(qdot_scene *s, qdot_expr R)
 static qdot_expr
 volume_element(qdot_manifold *m)
 {
-    return qdot_manifold_tidy(m, qdot_sqrt(m->pool, m->det));
+    /* of space and time det g < 0 */
+    const qdot_expr det = qdot_expr_sign(m->pool, m->det) & QDOT_LE0 ? qdot_neg(m->pool, m->det) : m->det;
+
+    return qdot_manifold_tidy(m, qdot_sqrt(m->pool, det));
 }
 
 qdot_expr

@@ -32,7 +32,7 @@ qdot_expr qdot_geometry_weyl(qdot_scene *s, qdot_expr R);
 qdot_expr qdot_geometry_kretschmann(qdot_scene *s, qdot_expr R);
 /* The equations of geodesics as a LIST: q_i'' + sum_jk G^i_jk q_j' q_k' = 0 with Christoffel symbols G. */
 qdot_expr qdot_geometry_geodesic(qdot_scene *s, qdot_expr R);
-/* The volume element sqrt(det g). */
+/* The volume element sqrt(det g); sqrt(-det g) where det g < 0. */
 qdot_expr qdot_geometry_volume_element(qdot_scene *s, qdot_expr R);
 /* The scale factors h_i = sqrt(g_ii) as a LIST. */
 qdot_expr qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R);

@@ -5,6 +5,7 @@
 #include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "mech/geometry/forms.h"
 #include "mech/geometry/manifold.h"
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
@@ -251,6 +252,8 @@ qdot_tensors_lie(qdot_scene *s, qdot_expr V, qdot_expr X, uint32_t n, const qdot
         return is_square(s, V, n) ? lie_of_matrix(s, V, X, n, q) : QDOT_NIL;
     if (!qdot_expr_is_scalar(s->pool, V))
         return qdot_mech_fail(s, QDOT_ETYPE, "lie_derivative takes a number, a vector, a form or a matrix");
+    if (qdot_forms_has_product(s, V))
+        return qdot_forms_lie(s, V, X, n, q);
     return qdot_simplify(s->pool, qdot_add(s->pool, derivative_along(s, V, X, n, q), change_of_differentials(s, V, X, n, q)),
                          &facts);
 }

@@ -17,7 +17,7 @@
 qdot_expr qdot_tensors_covariant(qdot_scene *s, qdot_expr V, qdot_expr R);
 
 /* The Lie derivative of V along the VEC X over the coordinates q [n]. f: X^k d_k f; V^i: the commutator of X and V; an
- * expression in dq, of any degree: X^k d_k of its coefficients, each dq_i replaced by d_k X^i dq_k in turn; T_ij: X^k
+ * expression in dq, of any degree: X^k d_k of its coefficients, each dq_i replaced by d_k X^i dq_k in turn (forms of higher degree: forms.h); T_ij: X^k
  * d_k T_ij + T_kj d_i X^k + T_ik d_j X^k. */
 qdot_expr qdot_tensors_lie(qdot_scene *s, qdot_expr V, qdot_expr X, uint32_t n, const qdot_expr *q);
 

@@ -1,0 +1,44 @@
+/* forms.c -- differential forms: d, wedge, hodge. */
+#include "expr/tensor.h"
+#include "expr/value-kind.h"
+#include "lang/functions/builtin.h"
+#include "mech/geometry/forms.h"
+
+static qdot_expr
+derivative_of_form(qdot_pool *pool, qdot_expr w, void *user)
+{
+    (void)pool;
+    return qdot_forms_exterior_derivative(user, w);
+}
+
+qdot_status
+qdot_call_exterior_derivative(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], derivative_of_form, s->scene), value);
+}
+
+qdot_status
+qdot_call_d(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    return qdot_call_exterior_derivative(s, n, args, value);
+}
+
+qdot_status
+qdot_call_wedge(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_expr product = args[0];
+
+    for (uint32_t i = 1; i < n; i++) {
+        product = qdot_forms_wedge(s->scene, product, args[i]);
+        QDOT_TRY(qdot_value_kind_check(s->pool, product));
+    }
+    return qdot_value_kind_give(s->pool, product, value);
+}
+
+qdot_status
+qdot_call_hodge(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return qdot_value_kind_give(s->pool, qdot_forms_hodge(s->scene, args[0], args[1]), value);
+}
