@@ -127,9 +127,24 @@ print_number_symbol(printer *p, const char *name, size_t length)
     p->at = outer;
 }
 
-/* Print a symbol derived from a coordinate q: p with q as index, dq, or delta q. */
+/* A name without the primes at its end, which are added to *order: a coordinate may stand for a derivative, and a momentum
+ * belong to one. */
+static const char *
+without_primes(const char *name, qdot_text *room, uint32_t *order)
+{
+    size_t n = strlen(name);
+
+    for (; n > 0 && name[n - 1] == '\''; n--)
+        ++*order;
+    if (name[n] == '\0')
+        return name;
+    qdot_text_add_n(room, name, n);
+    return qdot_text_str(room);
+}
+
+/* Print a symbol derived from a coordinate q, or from its derivative with so many primes: p with q as index, dq, or delta q. */
 static void
-print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name)
+print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name, uint32_t primes)
 {
     const bool momentum = s->class == QDOT_MOMENTUM;
     const qdot_formula_id outer = p->at;
@@ -138,7 +153,7 @@ print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name)
         const size_t from = p->out->text.n;
 
         qdot_text_add(&p->out->text, momentum ? "p[" : s->class == QDOT_DELTA ? "δ" : "d");
-        qdot_name_line(name, momentum ? 0 : s->order, may_print_index_lowered(p->pool, name), &p->out->text);
+        qdot_name_line(name, momentum ? primes : s->order, may_print_index_lowered(p->pool, name), &p->out->text);
         qdot_text_add(&p->out->text, momentum ? "]" : "");
         for (uint32_t i = 0; momentum && i < s->order; i++)
             qdot_text_char(&p->out->text, '\'');
@@ -152,7 +167,7 @@ print_coordinate_symbol(printer *p, const qdot_symbol *s, const char *name)
         qdot_formula_add_name(p->out, p->at, "p", s->order);
     else
         qdot_print_text(p, "d");
-    add_symbol_name(p->out, p->at, p->pool, name, momentum ? 0 : s->order, p->notation);
+    add_symbol_name(p->out, p->at, p->pool, name, momentum ? primes : s->order, p->notation);
     p->at = outer;
 }
 
@@ -186,7 +201,11 @@ qdot_print_symbol_parts(printer *p, qdot_expr e)
     const qdot_symbol *base = s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base) : NULL;
     const char *mark = end_of_number_digits(s);
     const char *name = base != NULL ? base->name : s->name;
+    qdot_text room = {0};
+    uint32_t primes = 0;
 
+    if (s->class == QDOT_COORD || s->class == QDOT_MOMENTUM)
+        name = without_primes(name, &room, &primes);
     if (qdot_unit_symbol_base(p->pool, e) >= 0)
         qdot_print_scaled(p, QDOT_ONE, e, TOP, false);
     else if (s->class == QDOT_BOUND)
@@ -202,7 +221,8 @@ qdot_print_symbol_parts(printer *p, qdot_expr e)
     else if (s->base != QDOT_NIL && base == NULL)
         print_wedge(p, s->base);
     else if (s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL || s->class == QDOT_DELTA)
-        print_coordinate_symbol(p, s, name);
+        print_coordinate_symbol(p, s, name, primes);
     else
-        add_symbol_name(p->out, p->at, p->pool, name, s->order, p->notation);
+        add_symbol_name(p->out, p->at, p->pool, name, s->order + primes, p->notation);
+    qdot_text_clear(&room);
 }

@@ -148,7 +148,8 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
     bool by_coordinate = row != NULL && row->over_coordinates &&
                          qdot_names_find(session->names, name) == NULL;
 
-    const uint32_t coordinates = (uint32_t)session->scene->coordinates.n;
+    const uint32_t all = (uint32_t)session->scene->coordinates.n, higher = (uint32_t)session->scene->higher.n;
+    const uint32_t coordinates = n + higher == all ? n : all; /* an equation for each coordinate, none for its derivatives */
     const bool named = over != QDOT_NIL && qdot_expr_count(session->pool, over) == n;
     const uint32_t states = (uint32_t)session->scene->states.n;
     const uint32_t each = !by_coordinate || coordinates == 0 || n < coordinates ? 0
@@ -165,7 +166,10 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
         qdot_status status;
 
         uint32_t number = i, members = each;
-        const qdot_expr coordinate = coordinate_of_member(session, &members, over, n, &number);
+        qdot_expr coordinate = coordinate_of_member(session, &members, over, n, &number);
+
+        if (higher > 0 && by_coordinate && coordinate != QDOT_NIL && row->symbol != NULL) /* p[x'] belongs to x' */
+            coordinate = qdot_expr_symbol(session->pool, row->symbol(session->scene, coordinate))->base;
 
         append_member_name(session, name, coordinate, number, members, &member);
         status = qdot_text_status(&member);
@@ -173,7 +177,7 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
             qdot_expr q = session->scene->coordinates.at[i];
 
             status = qdot_answer_solved(session, qdot_text_str(&member),
-                                        row->symbol(session->pool, q), one);
+                                        row->symbol(session->scene, q), one);
         } else if (status == QDOT_OK) {
             status = qdot_answer_expr(session, qdot_text_str(&member), one);
         }

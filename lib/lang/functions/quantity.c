@@ -14,9 +14,11 @@
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "lang/session/speeds.h"
+#include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/statics.h"
 #include "mech/geometry/metric.h"
+#include "mech/scene/scene.h"
 #include "mech/study/bodies.h"
 #include "mech/study/hamilton.h"
 #include "mech/study/noether.h"
@@ -60,7 +62,7 @@ static qdot_status
 check_coordinate_index(qdot_session *s, const char *name, qdot_expr index)
 {
     QDOT_TRY(require_equations(s));
-    if (qdot_expr_is_coordinate(s->pool, index))
+    if (qdot_expr_is_coordinate(s->pool, index) || (s->scene->higher.n > 0 && qdot_expr_is_class(s->pool, index, QDOT_COORD)))
         return QDOT_OK;
     return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
 }
@@ -178,6 +180,26 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
 
 /* --- momenta, forces, equations ----------------------------------------------------- */
 
+/* Where the Lagrangian holds second derivatives, others are asked. */
+#define HIGHER(all)                                                                      \
+    static qdot_expr higher_or_##all(qdot_scene *s)                                      \
+    {                                                                                    \
+        return s->higher.n > 0 ? qdot_ostrogradsky_##all(s) : qdot_mech_##all(s);        \
+    }
+#define HIGHER_OF(one)                                                                   \
+    static qdot_expr higher_or_##one(qdot_scene *s, qdot_expr q)                         \
+    {                                                                                    \
+        return s->higher.n > 0 ? qdot_ostrogradsky_##one(s, q) : qdot_mech_##one(s, q);  \
+    }
+HIGHER(momenta)
+HIGHER(equations)
+HIGHER(accels)
+HIGHER_OF(momentum)
+HIGHER_OF(equation)
+HIGHER_OF(accel)
+#undef HIGHER
+#undef HIGHER_OF
+
 /* Define the getter of a quantity: its name gives the LIST for all coordinates, name[q] the value for one. */
 #define BY_COORDINATE(word, need, all, one)                                              \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
@@ -189,9 +211,9 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
         QDOT_TRY(check_coordinate_index(s, #word, index[0]));                                        \
         return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
-BY_COORDINATE(momenta, require_coordinates, qdot_mech_momenta, qdot_mech_momentum)
-BY_COORDINATE(lagrange, require_equations, qdot_mech_equations, qdot_mech_equation)
-BY_COORDINATE(accel, require_coordinates, qdot_mech_accels, qdot_mech_accel)
+BY_COORDINATE(momenta, require_coordinates, higher_or_momenta, higher_or_momentum)
+BY_COORDINATE(lagrange, require_equations, higher_or_equations, higher_or_equation)
+BY_COORDINATE(accel, require_coordinates, higher_or_accels, higher_or_accel)
 BY_COORDINATE(forces, require_equations, qdot_mech_forces, qdot_mech_force)
 #undef BY_COORDINATE
 
@@ -220,7 +242,7 @@ get_eom(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
         QDOT_TRY(check_coordinate_index(s, #word, index[0]));                                        \
         return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
-OF_COORDINATE(p, qdot_mech_momentum)
+OF_COORDINATE(p, higher_or_momentum)
 OF_COORDINATE(Q, qdot_mech_force)
 #undef OF_COORDINATE
 
@@ -463,20 +485,21 @@ get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
 /* --- names of list members ---------------------------------------------------------- */
 
 static qdot_expr
-make_momentum_symbol(qdot_pool *pool, qdot_expr q)
+make_momentum_symbol(qdot_scene *s, qdot_expr q)
 {
-    return qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+    return qdot_ostrogradsky_symbol(s, q);
 }
 
 static qdot_expr
-make_acceleration_symbol(qdot_pool *pool, qdot_expr q)
+make_acceleration_symbol(qdot_scene *s, qdot_expr q)
 {
-    return qdot_symbol_jet(pool, q, 2);
+    return qdot_symbol_jet(s->pool, q, 2 * qdot_higher_order(s, q));
 }
 
 static qdot_expr
-make_force_symbol(qdot_pool *pool, qdot_expr q)
+make_force_symbol(qdot_scene *s, qdot_expr q)
 {
+    qdot_pool *pool = s->pool;
     qdot_text name = {0};
     qdot_expr symbol;
 

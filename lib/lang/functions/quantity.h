@@ -15,7 +15,7 @@ typedef struct {
     bool over_coordinates; /* the value is a list or matrix whose entries can also be indexed by coordinates */
     /* what a member of the list is called where the whole is asked, `p[theta] = ...`: a
      * symbol by its coordinate; NULL: `eom[theta]` */
-    qdot_expr (*symbol)(qdot_pool *pool, qdot_expr coordinate);
+    qdot_expr (*symbol)(struct qdot_scene *scene, qdot_expr coordinate);
 } qdot_quantity;
 const qdot_quantity *qdot_quantity_find(const char *name);
 const qdot_quantity *qdot_quantity_at(size_t i);

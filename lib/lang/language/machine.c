@@ -8,13 +8,14 @@
 #include "expr/node.h"
 #include "expr/value-kind.h"
 #include "lang/session/member.h"
+#include "mech/scene/scene.h"
 
 qdot_status
 qdot_machine_push(qdot_machine *m, qdot_expr value)
 {
-    qdot_slot s = {.value = value};
+    qdot_slot s = {.value = qdot_higher_in_motion(m->session->scene, value)};
 
-    QDOT_TRY(qdot_value_kind_check(m->pool, value));
+    QDOT_TRY(qdot_value_kind_check(m->pool, s.value));
     return qdot_vec_push(&m->stack, s);
 }
 

@@ -16,6 +16,7 @@
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
 #include "lang/session/range.h"
+#include "mech/scene/scene.h"
 
 /* --- parsed expressions, evaluated later --------------------------------------------- */
 
@@ -329,6 +330,7 @@ qdot_read_jet_of(qdot_cursor *c, const qdot_token *start, const char *name, uint
                    : QDOT_ENAME;
     }
     *jet = order > 0 ? qdot_symbol_jet(pool, entry->value, order) : entry->value;
+    *jet = qdot_higher_in_motion(c->session->scene, *jet);
     return qdot_value_kind_check(pool, *jet);
 }
 

@@ -19,6 +19,7 @@
 #include "lang/language/enclosing.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
+#include "lang/session/higher.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/history.h"
 #include "lang/session/member.h"
@@ -223,6 +224,7 @@ static qdot_status
 evaluate_quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
                   const qdot_expr *index, qdot_expr *value)
 {
+    QDOT_TRY(qdot_session_refuse_higher(s, row->name));
     QDOT_TRY(qdot_short_names_note(s, row, row->get(s, n, index, value)));
     QDOT_TRY(qdot_value_kind_check(s->pool, *value));
     if (primes == 0 || strcmp(row->name, "p") == 0) /* p[x]' is the rate of dL/dx' */
@@ -240,8 +242,9 @@ index_coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
         return QDOT_OK;
     if (strcmp(row->name, "eom") == 0 && qdot_session_has_speeds(s))
         return qdot_session_speeds_members(s, over);
-    *over =
-        qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
+    /* there is an equation for each coordinate, but a momentum for each derivative */
+    *over = qdot_list(s->pool, (uint32_t)(s->scene->coordinates.n - (strcmp(row->name, "momenta") == 0 ? 0 : s->scene->higher.n)),
+                      s->scene->coordinates.at);
     return qdot_value_kind_check(s->pool, *over);
 }
 
@@ -529,7 +532,9 @@ stands_beside_momenta(const qdot_cursor *c, const qdot_token *token)
 static qdot_status
 resolve_independent_momentum(qdot_session *s, qdot_expr q, unsigned primes, qdot_expr *value)
 {
-    if (!qdot_expr_is_coordinate(s->pool, q))
+    if (s->scene->higher.n > 0 && qdot_expr_is_class(s->pool, q, QDOT_COORD))
+        q = qdot_higher_in_jets(s->scene, q); /* p[x'] is a momentum too */
+    else if (!qdot_expr_is_coordinate(s->pool, q))
         return qdot_fail(QDOT_ETYPE, "p[ ] takes a coordinate");
     *value = qdot_symbol_jet(s->pool, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q), primes);
     return qdot_value_kind_check(s->pool, *value);

@@ -66,6 +66,7 @@ qdot_request_momenta(qdot_session *session, qdot_request *o)
 
     if (!qdot_session_starts_by_momenta(session))
         return QDOT_OK;
+    QDOT_TRY(qdot_higher_refuse(session->scene, "a start by momenta"));
     s.q = qdot_calloc(3 * n + 1, sizeof *s.q);
     s.at = qdot_calloc(n + 1, sizeof *s.at);
     if (s.q == NULL || s.at == NULL)

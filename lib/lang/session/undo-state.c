@@ -41,6 +41,7 @@ qdot_undo_single
 qdot_undo_single_of(const qdot_session *s)
 {
     return (qdot_undo_single){.lagrangian = s->scene->lagrangian,
+                    .higher_lagrangian = s->scene->higher_lagrangian,
                     .hamiltonian = s->scene->hamiltonian,
                     .series = s->history->series,
                     .series_in = s->history->series_in,

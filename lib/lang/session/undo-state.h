@@ -30,7 +30,7 @@ enum { /* numbered after the parts of the scene */
 
 /* The parts of the session's state that are not arrays. */
 typedef struct {
-    qdot_expr lagrangian, hamiltonian, series, series_in;
+    qdot_expr lagrangian, higher_lagrangian, hamiltonian, series, series_in;
     qdot_expr steady_in;
     qdot_linear linear;
     qdot_style style;

@@ -59,7 +59,7 @@ is_answers(int k)
 static bool
 have_equal_singles(const qdot_undo_single *a, const qdot_undo_single *b)
 {
-    return a->lagrangian == b->lagrangian && a->hamiltonian == b->hamiltonian && a->style == b->style &&
+    return a->lagrangian == b->lagrangian && a->hamiltonian == b->hamiltonian && a->higher_lagrangian == b->higher_lagrangian && a->style == b->style &&
            a->flat == b->flat &&
            a->timing == b->timing && a->start_exactly == b->start_exactly;
 }
@@ -523,6 +523,7 @@ apply_record(qdot_session *s, record *r, int to)
     qdot_units_back_to(s, s->units->facts.n);
     u->now.single = r->single[to];
     s->scene->lagrangian = u->now.single.lagrangian;
+    s->scene->higher_lagrangian = u->now.single.higher_lagrangian;
     s->scene->hamiltonian = u->now.single.hamiltonian;
     s->history->series = u->now.single.series;
     s->history->series_in = u->now.single.series_in;

@@ -25,6 +25,7 @@
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/foreign.h"
+#include "lang/session/higher.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/held.h"
 #include "lang/session/outcome.h"
@@ -122,6 +123,8 @@ carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
     if (usage == NULL)
         return QDOT_ENOMEM;
     status = qdot_match(c, row, usage, &record);
+    if (status == QDOT_OK && !x->naming)
+        status = qdot_session_refuse_higher(record.cursor.session, row->word);
     if (status == QDOT_OK)
         status = x->naming ? row->names(&record) : row->handler(&record);
     c->at = record.cursor.at;

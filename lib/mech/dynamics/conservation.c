@@ -16,6 +16,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/energy.h"
+#include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/virtual-work.h"
@@ -166,10 +167,10 @@ rate_without_accelerations(qdot_scene *s, qdot_expr E)
     qdot_expr rest;
 
     if (qdot_mech_holds(s, E) & QDOT_HAS_MOMENTUM)
-        return rate_in_momenta(s, E);
+        return s->higher.n > 0 ? QDOT_NIL : rate_in_momenta(s, E);
     if (is_free_of_velocities(s, E) && !qdot_mech_lacks_mass(s))
         return qdot_ddt(s->pool, E);
-    rest = difference_without_velocities(s, E, qdot_mech_energy(s));
+    rest = s->higher.n > 0 ? QDOT_NIL : difference_without_velocities(s, E, qdot_mech_energy(s));
     if (rest != QDOT_NIL)
         return qdot_add(s->pool, energy_rate(s), qdot_ddt(s->pool, rest));
     for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
@@ -199,6 +200,11 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
     *conserved = d->conserved;
     if (d->conserved_known || (s->states.n > 0 && s->states.n == s->coordinates.n)) /* states alone have no energy */
         return QDOT_OK;
+    if (s->higher.n > 0) {
+        d->conserved_known = true;
+        *conserved = d->conserved = qdot_ostrogradsky_conserves(s);
+        return qdot_pool_check(pool);
+    }
     if (s->constraints.n)
         status = qdot_constraint_facts(s, &relations, &on_manifold);
     if (status == QDOT_OK) {

@@ -11,6 +11,7 @@
 #include "expr/walk.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/potential.h"
+#include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/squares.h"
 #include "mech/scene/access.h"
@@ -163,6 +164,8 @@ qdot_mech_lagrangian(qdot_scene *s)
 {
     qdot_expr T, V;
 
+    if (s->higher_lagrangian != QDOT_NIL)
+        return s->higher_lagrangian;
     if (qdot_mech_stated(s))
         return s->lagrangian;
     T = qdot_mech_kinetic(s);
@@ -213,6 +216,8 @@ qdot_mech_energy(qdot_scene *s)
 
     if (d->energy != QDOT_NIL)
         return d->energy;
+    if (s->higher.n > 0)
+        return d->energy = qdot_ostrogradsky_energy(s);
     /* with F = L or -V: h = sum q' dF/dq' - F; and from T its quadratic part minus its constant part */
     F = qdot_mech_stated(s) ? s->lagrangian : qdot_neg(pool, qdot_potential_raw(s));
     h = qdot_neg(pool, F);

@@ -31,6 +31,9 @@ qdot_expr qdot_mech_momenta(qdot_scene *s); /* LIST of momenta in the order of c
 QDOT_MUST_CHECK qdot_status qdot_mech_rate_matters(qdot_scene *s, qdot_expr x, bool *matters);
 /* Q[q]: the sum of all applied generalized forces on q, including -dV/dq */
 qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);
+/* The sum of all declared forces along coordinate i, also where what determines its motion is another (states, higher
+ * derivatives), simplified. */
+qdot_expr qdot_mech_sources(qdot_scene *s, size_t i);
 /* The generalized force in Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST of generalized forces, in the order of coordinates */

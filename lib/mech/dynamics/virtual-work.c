@@ -20,6 +20,7 @@
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/potential.h"
+#include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/scene/body.h"
@@ -301,16 +302,24 @@ qdot_force_of_state(qdot_scene *s, size_t i)
     return state ? qdot_sub(s->pool, state->rate, qdot_mech_jet(s, i, 1)) : QDOT_NIL;
 }
 
+/* What is given along coordinate i instead of the declared forces: of a state its equation, where the Lagrangian holds higher
+ * derivatives theirs. Nil: nothing. */
 static qdot_expr
-total_force(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
+given_force(qdot_scene *s, size_t i)
+{
+    const qdot_expr Q = qdot_force_of_state(s, i);
+
+    return Q == QDOT_NIL && s->higher.n > 0 ? qdot_ostrogradsky_force(s, i) : Q;
+}
+
+/* The sum of all declared sources. */
+static qdot_expr
+sum_of_sources(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr Q = qdot_force_of_state(s, i);
+    qdot_expr Q = QDOT_ZERO;
     size_t parts = 0;
 
-    if (Q != QDOT_NIL)
-        return Q;
-    Q = QDOT_ZERO;
     for (size_t a = 0; a < SOURCES; a++) {
         if (applied && sources[a].conservative)
             continue;
@@ -326,6 +335,20 @@ total_force(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
     return people && parts > 1 ? qdot_mech_alike(s, Q) : Q;
 }
 
+static qdot_expr
+total_force(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
+{
+    const qdot_expr Q = given_force(s, i);
+
+    return Q != QDOT_NIL || qdot_pool_failed(s->pool) ? Q : sum_of_sources(s, i, people, applied, kane);
+}
+
+qdot_expr
+qdot_mech_sources(qdot_scene *s, size_t i)
+{
+    return sum_of_sources(s, i, true, false, false);
+}
+
 qdot_expr
 qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied)
 {
@@ -335,9 +358,9 @@ qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied)
 qdot_expr
 qdot_force_but_gravity(qdot_scene *s, size_t i)
 {
-    qdot_expr Q = qdot_force_of_state(s, i);
+    qdot_expr Q = given_force(s, i);
 
-    if (Q != QDOT_NIL)
+    if (Q != QDOT_NIL || qdot_pool_failed(s->pool))
         return Q;
     Q = QDOT_ZERO;
     for (size_t a = 0; a < SOURCES; a++)

@@ -37,6 +37,7 @@ clear_results(qdot_derived *d)
     qdot_free(d->left);
     qdot_free(d->equation);
     qdot_free(d->speeds);
+    qdot_free(d->higher);
     qdot_free(d->accel);
     qdot_free(d->lambda);
     qdot_free(d->integral);

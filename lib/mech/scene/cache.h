@@ -79,6 +79,7 @@ struct qdot_derived {
     size_t n_speeds;  /* m */
     qdot_expr *speeds; /* [3 m + n] symbols and values of the speeds for which the rest holds, their equations, then the
                         * velocities (mech/dynamics/speeds.h); NULL until requested */
+    qdot_expr *higher; /* [n] what is applied to each coordinate so that the equations are those of higher_lagrangian */
     qdot_expr *accel; /* [n] accelerations q'', computed together */
     qdot_expr *lambda; /* [constraints] multipliers, computed with accel; nil if not unique */
     qdot_expr numeric_mass, numeric_forcing, numeric_energy;

@@ -269,7 +269,7 @@ qdot_status
 qdot_scene_print(const qdot_scene *s, qdot_text *out)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        if (qdot_scene_state_of(s, s->coordinates.at[i]))
+        if (qdot_scene_state_of(s, s->coordinates.at[i]) || qdot_higher_find(s, s->coordinates.at[i]))
             continue;
         qdot_text_add(out, "coord ");
         QDOT_TRY(qdot_scene_print_domain(s, s->coordinates.at[i], out));
@@ -327,6 +327,8 @@ qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
     QDOT_TRY(print_kinds(s, QDOT_GRAVITY, QDOT_DISSIPATION, out));
     if (s->hamiltonian != QDOT_NIL)
         QDOT_TRY(print_statement(s, "hamiltonian", s->hamiltonian, out));
+    else if (s->higher_lagrangian != QDOT_NIL)
+        QDOT_TRY(print_statement(s, "lagrangian", s->higher_lagrangian, out));
     else if (s->lagrangian != QDOT_NIL)
         QDOT_TRY(print_statement(s, "lagrangian", s->lagrangian, out));
     QDOT_TRY(print_kinds(s, QDOT_FORCE, QDOT_TORQUE, out));

@@ -58,6 +58,7 @@ map_all_expressions(qdot_scene *s, mapping m)
     MAP(relations, );
     MAP(outputs, );
     map_expression(&m, &s->lagrangian);
+    map_expression(&m, &s->higher_lagrangian);
     map_expression(&m, &s->hamiltonian);
 }
 

@@ -17,6 +17,7 @@ qdot_status
 qdot_scene_save(qdot_scene *s, qdot_scene_saved *saved)
 {
     saved->lagrangian = s->lagrangian;
+    saved->higher_lagrangian = s->higher_lagrangian;
     saved->hamiltonian = s->hamiltonian;
     saved->version = s->version;
     for (size_t k = 0; k < QDOT_SCENE_PARTS; k++) {
@@ -47,6 +48,7 @@ qdot_scene_restore(qdot_scene *s, qdot_scene_saved *saved)
             memcpy(*(void **)part.at, saved->at[k], bytes);
     }
     s->lagrangian = saved->lagrangian;
+    s->higher_lagrangian = saved->higher_lagrangian;
     s->hamiltonian = saved->hamiltonian;
     s->version = saved->version;
     free_saved_arrays(saved);

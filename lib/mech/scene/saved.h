@@ -11,7 +11,7 @@
 
 typedef struct {
     unsigned char *at[QDOT_SCENE_PARTS];
-    qdot_expr lagrangian, hamiltonian;
+    qdot_expr lagrangian, higher_lagrangian, hamiltonian;
     uint64_t version;
 } qdot_scene_saved;
 

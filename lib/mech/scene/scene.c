@@ -67,6 +67,7 @@ qdot_scene_free(qdot_scene *s)
         return;
     qdot_free(s->events.at);
     qdot_free(s->states.at);
+    qdot_free(s->higher.at);
     qdot_scene_forget_dropped(s);
     qdot_free(s->dropped.at);
     qdot_free(s->coordinates.at);
@@ -221,6 +222,10 @@ qdot_scene_coordinate(qdot_scene *s, qdot_expr q)
         if (s->coordinates.at[i] == q)
             return qdot_fail(QDOT_ENAME, "%s is a coordinate already",
                              qdot_expr_symbol(s->pool, q)->name);
+    if (s->higher.n > 0) {
+        qdot_fail(QDOT_ENOTBUILT, "not built yet: a coordinate declared after a Lagrangian with second derivatives");
+        return qdot_hint("declare it before");
+    }
     QDOT_TRY(qdot_vec_push(&s->coordinates, q));
     return mark_changed(s);
 }
@@ -458,10 +463,11 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
         (void)qdot_fail(QDOT_EINVAL, "a stated Lagrangian beside %s: L would not be T - V", beside);
         return qdot_hint("`lagrange_function` shows the one that follows; `reset scene` takes the scene away");
     }
-    QDOT_TRY(require_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
+    QDOT_TRY(require_scalar(s, L, "a Lagrangian", NO_SYMBOLS));
     QDOT_TRY(qdot_scene_refuse_states(s, L, "a Lagrangian", 1));
     L = qdot_kinks_cancel(s->pool, L);
     QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(qdot_higher_state(s, &L));
     s->lagrangian = L;
     s->hamiltonian = QDOT_NIL;
     return mark_changed(s);
@@ -482,6 +488,7 @@ qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L)
         (void)qdot_fail(QDOT_EINVAL, "no momentum stands in this Hamiltonian");
         return qdot_hint("the momentum of a coordinate x is written p[x]: hamiltonian p[x]^2/2");
     }
+    qdot_higher_forget(s);
     s->hamiltonian = H;
     s->lagrangian = L;
     return mark_changed(s);

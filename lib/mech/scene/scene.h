@@ -65,6 +65,23 @@ QDOT_MUST_CHECK qdot_status qdot_scene_refuse_states(const qdot_scene *s, qdot_e
 QDOT_MUST_CHECK qdot_status qdot_scene_check_states(const qdot_scene *s);
 /* QDOT_ENOTBUILT if the scene has states: `what` is not made for them. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_no_states(const qdot_scene *s, const char *what);
+/* Higher derivatives (qdot_higher). qdot_scene_lagrangian leaves out total time derivatives of L that are linear in the
+ * highest derivatives, x x'' for -x'^2, and declares the coordinates u that the derivatives left over need.
+ *   _find        the row whose coordinate is u; NULL: u is none
+ *   _order       the highest derivative of the coordinate q in the stated Lagrangian; 1 where it holds none above q'
+ *   _in_motion   e with the coordinates u, their velocities and accelerations in place of q'' and higher derivatives
+ *   _in_jets     e with q'' and higher derivatives in their place again
+ *   _refuse      QDOT_ENOTBUILT if the scene has such coordinates: `what` is not made for them */
+const qdot_higher *qdot_higher_find(const qdot_scene *s, qdot_expr u);
+uint32_t qdot_higher_order(const qdot_scene *s, qdot_expr q);
+qdot_expr qdot_higher_in_motion(const qdot_scene *s, qdot_expr e);
+qdot_expr qdot_higher_in_jets(const qdot_scene *s, qdot_expr e);
+QDOT_MUST_CHECK qdot_status qdot_higher_refuse(const qdot_scene *s, const char *what);
+/* Take the coordinates of the derivatives away with their Lagrangian. */
+void qdot_higher_forget(qdot_scene *s);
+/* Make *L, in which second derivatives or higher may stand, that of the scene; then the Lagrangian to be stored as `lagrangian`.
+ * QDOT_ENOTBUILT: equations of odd order, or a total derivative whose integral was not found. */
+QDOT_MUST_CHECK qdot_status qdot_higher_state(qdot_scene *s, qdot_expr *L);
 /* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
  * does not know; a target twice. */
 QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
@@ -91,9 +108,9 @@ bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
 void qdot_scene_changed(qdot_scene *s);
 
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
- * byte. With `lagrangian` and `hamiltonian` they are the state of a scene: a copy of all can be put back, with the
+ * byte. With `lagrangian`, `higher_lagrangian` and `hamiltonian` they are the state of a scene: a copy of all can be put back, with the
  * `version` that the scene had then. */
-enum { QDOT_SCENE_PARTS = 18 };
+enum { QDOT_SCENE_PARTS = 19 };
 typedef struct {
     void *at;            /* address of the pointer to the array's first item */
     size_t *n, *capacity, size;

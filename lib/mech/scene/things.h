@@ -80,6 +80,14 @@ typedef struct {
     qdot_expr rate; /* nil: declared, but its right side is not known yet */
 } qdot_state;
 
+/* A coordinate u that stands for a higher derivative, u = base^(order), where a Lagrangian of second or higher derivatives is
+ * stated. With order 2, 4, ... up to twice that of L less 2, all equations are of second order again. Such coordinates come
+ * after all others. (mech/scene/higher.c) */
+typedef struct {
+    qdot_expr u, base;
+    uint32_t order;
+} qdot_higher;
+
 /* An event of a run, where left = right. It does not affect the mechanics. */
 typedef struct {
     char *name;
@@ -117,6 +125,7 @@ typedef struct qdot_scene {
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
     qdot_vec(qdot_state) states;
+    qdot_vec(qdot_higher) higher;
     qdot_vec(qdot_event) events;
     qdot_vec(qdot_expr) inputs;  /* parameters that drive the scene: 0 at rest, in runs a value or a function of t and q */
     qdot_vec(qdot_expr) outputs; /* expressions that are observed */
@@ -124,6 +133,8 @@ typedef struct qdot_scene {
     qdot_vec(qdot_expr) conditions; /* assumptions that are inequalities */
     qdot_vec(qdot_expr) relations;  /* assumptions that are equations left = right, as left - right; also their derivatives */
     qdot_expr lagrangian;           /* the stated Lagrangian, or the one found from a stated H; nil: L = T - V */
+    qdot_expr higher_lagrangian; /* the stated Lagrangian where it holds second derivatives; `lagrangian` is then sum 1/2 q'^2 over
+                                    all coordinates, and what is applied to them makes the equations of this one; else nil */
     qdot_expr hamiltonian; /* the stated H(q, p, t); nil: not stated. `lagrangian` nil beside it: none was found */
     qdot_vec(char *) dropped;       /* what the latest call dropped, for a notice: components of
                                        a constraint that hold identically ("pin, 2"); springs,

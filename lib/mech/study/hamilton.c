@@ -6,8 +6,10 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
+#include "mech/scene/scene.h"
 #include "mech/study/legendre.h"
 #include "normal/simplify/simplify.h"
 
@@ -54,6 +56,13 @@ qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e)
     uint32_t n;
 
     e = qdot_scene_with_rates(s, e);
+    if (s->higher.n > 0) { /* lower derivatives are variables of H too */
+        if (qdot_ostrogradsky_is_canonical(s, e))
+            return e;
+        if (qdot_higher_refuse(s, "momenta in place of velocities") != QDOT_OK)
+            qdot_pool_fail(s->pool);
+        return QDOT_NIL;
+    }
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
         return e;
     if (s->hamiltonian != QDOT_NIL)
@@ -69,6 +78,13 @@ qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e)
     return e;
 }
 
+/* The momentum that goes with coordinate q, in velocities; p is its symbol. */
+static qdot_expr
+stated_momentum(qdot_scene *s, qdot_expr q, qdot_expr p)
+{
+    return s->higher.n > 0 ? qdot_ostrogradsky_momentum(s, qdot_expr_symbol(s->pool, p)->base) : qdot_mech_momentum(s, q);
+}
+
 qdot_expr
 qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
 {
@@ -78,7 +94,7 @@ qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM))
         return e;
     for (size_t i = 0; i < s->coordinates.n && status == QDOT_OK; i++) {
-        const qdot_expr q = s->coordinates.at[i], p = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
+        const qdot_expr q = s->coordinates.at[i], p = qdot_ostrogradsky_symbol(s, q);
 
         for (uint32_t order = 0; order < 2 && status == QDOT_OK; order++) { /* p[q] and p[q]' */
             const qdot_expr symbol = qdot_symbol_jet(s->pool, p, order);
@@ -87,8 +103,7 @@ qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
                 continue;
             status = qdot_vec_push(&from, symbol);
             if (status == QDOT_OK)
-                status = qdot_vec_push(&to, order == 0 ? qdot_mech_momentum(s, q)
-                                                       : qdot_ddt(s->pool, qdot_mech_momentum(s, q)));
+                status = qdot_vec_push(&to, order == 0 ? stated_momentum(s, q, p) : qdot_ddt(s->pool, stated_momentum(s, q, p)));
         }
     }
     e = status == QDOT_OK ? qdot_subs(s->pool, e, from.n, from.at, to.at)
@@ -137,6 +152,34 @@ qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
     return qdot_simplify(pool, sum, &facts);
 }
 
+/* H = sum_k p_k q^(k) - L of a Lagrangian with second derivatives or higher, the highest, q^(s), solved for from its momentum
+ * p_s = dL/dq^(s); the lower ones are variables as q is. */
+static qdot_expr
+hamiltonian_of_higher(qdot_scene *s)
+{
+    qdot_pool *pool = s->pool;
+    const uint32_t n = (uint32_t)(s->coordinates.n - s->higher.n);
+    qdot_expr *below = qdot_calloc(n + 1, sizeof *below), H = QDOT_ZERO;
+    uint32_t moving = 0;
+
+    if (below == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        const qdot_expr q = s->coordinates.at[i];
+        const uint32_t order = qdot_higher_order(s, q);
+
+        if (qdot_scene_state_of(s, q))
+            continue;
+        for (uint32_t k = 1; k < order; k++)
+            H = qdot_add(pool, H, qdot_mul(pool, qdot_symbol_of(pool, QDOT_MOMENTUM, qdot_symbol_jet(pool, q, k - 1)),
+                                           qdot_symbol_jet(pool, q, k)));
+        below[moving++] = qdot_symbol_jet(pool, q, order - 1);
+    }
+    H = qdot_add(pool, H, qdot_legendre_of(s, QDOT_COORD, qdot_higher_in_jets(s, s->higher_lagrangian), moving, below));
+    qdot_free(below);
+    return qdot_higher_in_motion(s, H);
+}
+
 qdot_expr
 qdot_hamilton_hamiltonian(qdot_scene *s)
 {
@@ -145,6 +188,8 @@ qdot_hamilton_hamiltonian(qdot_scene *s)
 
     if (s->hamiltonian != QDOT_NIL)
         return s->hamiltonian;
+    if (s->higher.n > 0)
+        return hamiltonian_of_higher(s);
     moving = qdot_hamilton_moving(s, &n);
     if (moving == NULL)
         return QDOT_NIL;
