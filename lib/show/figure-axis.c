@@ -381,6 +381,7 @@ add_scaled_label(qdot_text *markup, char name, const qdot_figure_axis *a,
     bool compound;
     const qdot_figure_label own = qdot_figure_moved_label(name, label, &compound);
 
+    compound = compound && (moved || scaled);
     qdot_text_add(markup, moved && scaled ? "(" : "");
     qdot_text_add(markup, compound ? "(" : "");
     qdot_figure_add_markup(markup, &own);
@@ -395,15 +396,18 @@ add_scaled_label(qdot_text *markup, char name, const qdot_figure_axis *a,
 /* Append the label in quotes, with gnuplot's keyword for reading it as markup or as plain text. */
 static void
 axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
-               const qdot_figure_label *label)
+               const qdot_figure_label *label, const char *unit)
 {
+    const bool named = label->text != NULL && label->text[0] != '\0', in_unit = unit != NULL && *unit != '\0';
     qdot_text markup = {0};
 
-    if (a->offset_text[0] == '\0' && a->power == 0) {
+    if (a->offset_text[0] == '\0' && a->power == 0 && !(named && in_unit)) {
         qdot_figure_add_label(script, label);
         return;
     }
     add_scaled_label(&markup, name, a, label);
+    if (named)
+        qdot_figure_add_unit_markup(&markup, unit);
     qdot_figure_add_quoted(script, qdot_text_str(&markup));
     qdot_text_add(script, " enhanced");
     script->failed = script->failed || markup.failed;
@@ -412,7 +416,7 @@ axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
 
 void
 qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *a,
-                           const qdot_figure_label *label)
+                           const qdot_figure_label *label, const char *unit)
 {
     const bool above = name == 'y' && a->offset_text[0] != '\0'; /* above the axis: the label is long */
 
@@ -422,7 +426,7 @@ qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis 
         qdot_text_add(script, "unset ylabel\nset label 1 ");
     else
         qdot_text_format(script, "set %clabel ", name);
-    axis_add_label(script, name, a, label);
+    axis_add_label(script, name, a, label, unit);
     qdot_text_add(script, above         ? " at graph 0, graph 1 offset -4,0.9 left\n"
                           : name == 'x' ? " offset 0,0.5\n"
                                         : "\n");
@@ -430,7 +434,7 @@ qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis 
 
 void
 qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
-                           const qdot_figure_label *label, size_t width)
+                           const qdot_figure_label *label, const char *unit, size_t width)
 {
     /* positions of the axis labels: the middle of the two front edges of the box, the upper end of the left one */
     const double at[3][3] = {
@@ -439,7 +443,7 @@ qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axe
         {axes[0].least, axes[1].least, axes[2].most}};
 
     qdot_text_format(script, "set label %d ", k + 2);
-    axis_add_label(script, "xyz"[k], &axes[k], label);
+    axis_add_label(script, "xyz"[k], &axes[k], label, unit);
     qdot_text_add(script, " at first ");
     for (int i = 0; i < 3; i++) { /* coordinates with a precision of a thousandth of the axis */
         const double part = pow(10, floor(log10(axes[i].most - axes[i].least)) - 3);

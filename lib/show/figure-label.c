@@ -98,6 +98,40 @@ qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
     add_typed_text(out, label->text != NULL ? label->text : "", label->formula, IN_GNUPLOT);
 }
 
+/* Append a unit in brackets; each exponent between `open` and `close`. */
+static void
+add_unit(qdot_text *out, const char *unit, const char *open, const char *close)
+{
+    if (unit == NULL || *unit == '\0')
+        return;
+    qdot_text_add(out, " [");
+    while (*unit != '\0') {
+        const bool bracket = unit[0] == '^' && unit[1] == '(';
+        const size_t n = bracket ? strcspn(unit + 2, ")") : strspn(unit + 1, "-0123456789");
+
+        if (*unit != '^') {
+            qdot_text_char(out, (unsigned char)*unit++);
+            continue;
+        }
+        unit += bracket ? 2 : 1;
+        qdot_text_format(out, "%s%.*s%s", open, (int)n, unit, close);
+        unit += n + (bracket && unit[n] == ')');
+    }
+    qdot_text_add(out, "]");
+}
+
+void
+qdot_figure_add_unit_markup(qdot_text *out, const char *unit)
+{
+    add_unit(out, unit, "^{", "}");
+}
+
+void
+qdot_figure_add_unit_latex(qdot_text *out, const char *unit)
+{
+    add_unit(out, unit, "$^{", "}$");
+}
+
 /* Append one letter as LaTeX shows it in any font encoding; returns the bytes that were read. */
 static size_t
 add_latex_letter(qdot_text *out, const char *at)

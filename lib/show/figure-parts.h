@@ -25,6 +25,9 @@ void qdot_figure_add_quoted(qdot_text *script, const char *text);
 void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
 /* Append the label in gnuplot's markup, without quotes. */
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
+/* Append a unit, " [m/s^2]", in gnuplot's markup; as text of a LaTeX document. NULL: nothing. */
+void qdot_figure_add_unit_markup(qdot_text *out, const char *unit);
+void qdot_figure_add_unit_latex(qdot_text *out, const char *unit);
 /* Append the label as text of a LaTeX document, a formula between dollars. */
 void qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label);
 /* Append a typed formula as one line of plain text, for a sketch made of characters. */
@@ -60,13 +63,13 @@ void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *
 /* What is written before the offset and power of ten of an axis: its label, or its letter if it has none; *compound: it
  * needs brackets there. */
 qdot_figure_label qdot_figure_moved_label(char name, const qdot_figure_label *label, bool *compound);
-/* Append `set xlabel` with offset and power of ten, if any: (E - 9.81) / 10^-12. */
+/* Append `set xlabel` with offset and power of ten, if any, and the unit: (E - 9.81) / 10^-12 [J]. */
 void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *axis,
-                                const qdot_figure_label *label);
+                                const qdot_figure_label *label, const char *unit);
 /* The same at the edge k of the box of a path in space, all three axes given; width: letters of the
  * widest number there. */
 void qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
-                                const qdot_figure_label *label, size_t width);
+                                const qdot_figure_label *label, const char *unit, size_t width);
 /* Append a data column, shifted and scaled for its axis, as an expression for gnuplot's `using`. */
 void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *axis);
 

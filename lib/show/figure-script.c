@@ -314,11 +314,12 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         if (d->kind == NULL && plain && !(k == 0 && shared)) /* a window can be zoomed, so gnuplot has to choose the tics */
             qdot_text_format(d->script, "set %ctics autofreq\n", name);
         if (n == 3) /* write the labels of three axes as free text: gnuplot misplaces its own if the box has unequal sides */
-            qdot_figure_add_edge_label(d->script, k, axes, &panel->axis[k], width);
+            qdot_figure_add_edge_label(d->script, k, axes, &panel->axis[k], panel->unit[k], width);
         else
             qdot_figure_add_axis_label(d->script, name, &axes[k],
                                        k == 0 && shared ? &(qdot_figure_label){0}
-                                                        : &panel->axis[k]);
+                                                        : &panel->axis[k],
+                                       panel->unit[k]);
     }
     if (n == 3)
         add_view_of_space(d, panel, axes);
@@ -436,14 +437,15 @@ space_above_and_below(const qdot_figure_drawing *d, size_t i, double *above, dou
     *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
 }
 
-/* Whether a label contains a superscript, which would be cut off at the edge of the figure. */
+/* Whether a label and its unit contain a superscript, which would be cut off at the edge of the figure. */
 static bool
-has_superscript(const qdot_figure_label *label)
+has_superscript(const qdot_figure_label *label, const char *unit)
 {
     qdot_text markup = {0};
     bool found;
 
     qdot_figure_add_markup(&markup, label);
+    qdot_figure_add_unit_markup(&markup, unit);
     found = strchr(qdot_text_str(&markup), '^') != NULL;
     qdot_text_clear(&markup);
     return found;
@@ -468,7 +470,7 @@ space_left_of_axes(const qdot_figure_drawing *d, double *letters)
 
         QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
         *letters = fmax(*letters, 3.2 + 0.72 * (double)widest_number(&axes[1]) +
-                                      (has_superscript(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
+                                      (has_superscript(&d->figure->panels[i].axis[1], d->figure->panels[i].unit[1]) ? 0.6 : 0));
     }
     return QDOT_OK;
 }

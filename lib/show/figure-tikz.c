@@ -45,7 +45,7 @@ tikz_add_number(qdot_text *out, const char *number)
 
 /* Append the label of an axis with the offset and the power of ten of its numbers: (E - 9.81) / 10^{-12}. */
 static void
-tikz_add_axis_label(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label)
+tikz_add_axis_label(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label, const char *unit)
 {
     const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
     bool compound = false;
@@ -64,6 +64,8 @@ tikz_add_axis_label(qdot_text *s, char name, const qdot_figure_axis *a, const qd
     qdot_text_add(s, moved && scaled ? ")" : "");
     if (scaled)
         qdot_text_format(s, " $/\\,10^{%d}$", a->power);
+    if (label->text != NULL && label->text[0] != '\0')
+        qdot_figure_add_unit_latex(s, unit);
     qdot_text_char(s, '}');
 }
 
@@ -102,7 +104,8 @@ add_tic_list(qdot_text *s, const qdot_figure_tic *tics, size_t n, bool minor, bo
 
 /* Append range, tics and label of axis k; bare: without numbers and label, which the panel below has. */
 static void
-tikz_add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label, bool bare)
+tikz_add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label,
+              const char *unit, bool bare)
 {
     char option[] = "xmin";
     qdot_figure_tic tics[QDOT_FIGURE_TICS];
@@ -133,7 +136,7 @@ tikz_add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_fig
     if (bare || ((label->text == NULL || label->text[0] == '\0') && a->power == 0 && a->offset_text[0] == '\0'))
         return;
     qdot_text_format(s, "  %clabel=", name);
-    tikz_add_axis_label(s, name, a, label);
+    tikz_add_axis_label(s, name, a, label, unit);
     qdot_text_add(s, ",\n");
 }
 
@@ -488,7 +491,7 @@ tikz_add_panel(const qdot_figure_drawing *d, size_t i, double top)
     qdot_text_add(s, "  unbounded coords=jump, xticklabel style={text height=1.5ex},\n");
     tikz_add_title(s, panel);
     for (int k = 0; k < (space ? 3 : 2); k++)
-        tikz_add_axis(s, "xyz"[k], &axes[k], &panel->axis[k], k == 0 && shared);
+        tikz_add_axis(s, "xyz"[k], &axes[k], &panel->axis[k], panel->unit[k], k == 0 && shared);
     if (panel->map != NULL)
         tikz_add_map_options(s, panel->map);
     tikz_add_legend(s, panel);

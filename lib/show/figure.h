@@ -49,6 +49,7 @@ enum { QDOT_FIGURE_LEGEND = 16 };
 /* A panel: one pair of axes; three axes if the first curve is a path in space. */
 typedef struct {
     qdot_figure_label title, axis[3]; /* title; labels of the axes x, y, z */
+    const char *unit[3];        /* units behind these labels, as "m/s^2"; NULL: none */
     const char *note;           /* text below the title; NULL: none */
     const qdot_curve *curves;
     size_t n;

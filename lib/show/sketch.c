@@ -153,6 +153,15 @@ sketch_add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
         qdot_text_add(out, label->text != NULL ? label->text : "");
 }
 
+/* The label of axis k with its unit. */
+static void
+sketch_add_axis_label(qdot_text *out, const qdot_panel *panel, int k, bool ascii)
+{
+    sketch_add_label(out, &panel->axis[k], ascii);
+    if (out->n > 0 && panel->unit[k] != NULL)
+        qdot_text_format(out, " [%s]", panel->unit[k]);
+}
+
 /* Write the legend, which shows the dash pattern or the colour of each curve. */
 static void
 sketch_write_legend(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *out)
@@ -230,7 +239,7 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
 
     write_axis_ends(v->least[1], v->most[1], margin - 1, ends);
     if (named)
-        sketch_add_label(&label, &panel->axis[1], how->ascii);
+        sketch_add_axis_label(&label, panel, 1, how->ascii);
     if (qdot_utf8_columns(qdot_text_str(&label), label.n) >= margin)
         qdot_text_truncate(&label, 0);
     for (size_t r = 0; r < g->rows; r++) {
@@ -245,7 +254,7 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
     if (space)
         return;
     write_axis_ends(v->least[0], v->most[0], g->columns / 2 - 2, ends);
-    sketch_add_label(&label, &panel->axis[0], how->ascii);
+    sketch_add_axis_label(&label, panel, 0, how->ascii);
     free = (long)g->columns - (long)strlen(ends[0]) - (long)strlen(ends[1]);
     if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
         qdot_text_truncate(&label, 0); /* without room for both, leave out the label: the numbers are more important */

@@ -250,7 +250,11 @@ qdot_figure_option_apply(qdot_record *r, const qdot_panel_choice *choice, qdot_p
     if (choice->title != NULL)
         panel->title = (qdot_figure_label){choice->title, false};
     for (size_t k = 0; k < 3; k++)
-        if (choice->labels[k] != NULL)
+        if (choice->labels[k] != NULL) {
             panel->axis[k] = (qdot_figure_label){choice->labels[k], false};
+            panel->unit[k] = NULL;
+        }
+    if (choice->degrees)
+        panel->unit[1] = NULL;
     return QDOT_OK;
 }

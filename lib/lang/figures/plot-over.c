@@ -77,6 +77,8 @@ make_curve(qdot_record *r, const qdot_filled *part, const variable *v, const qdo
         status = qdot_plot_curve_add(p, qdot_text_str(&label), qdot_text_str(&axis), &curve);
     if (status == QDOT_OK)
         status = compute_first_points(session, v, e, curve);
+    if (status == QDOT_OK)
+        status = qdot_plot_curve_unit(session, curve, e);
     qdot_text_clear(&axis);
     qdot_text_clear(&label);
     return status;
@@ -142,6 +144,7 @@ qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *p, qdot_figure_choic
     QDOT_TRY(read_variable(said->record, name, &v));
     QDOT_TRY(read_options(said, name, p, figure));
     p->variable = qdot_strdup(v.name);
+    p->over = v.symbol;
     if (p->variable == NULL)
         return QDOT_ENOMEM;
     bound = qdot_names_find(names, v.name) == NULL;

@@ -13,6 +13,7 @@
  * over a variable (a tape), or the response of a quotient in s (plot-bode.c); the points of data are in a file. */
 typedef struct {
     char *label, *axis; /* name in the legend; label of the y axis */
+    char *unit;         /* the unit of y, or of the places of a path; NULL: none */
     const qdot_operand *y;
     qdot_operand x;  /* operand of the abscissa; strings and columns borrowed; session NULL: the abscissa is t */
     size_t component; /* for a vector y: index of its component */
@@ -43,6 +44,7 @@ typedef struct {
     qdot_vec(char *) passes;        /* text of each pass of a loop, as ", l = 1"; owned */
     qdot_vec(qdot_named_run) made;  /* the run of each pass of a loop; one use of each is held */
     char *variable;                 /* name of the abscissa of `vs NAME = A..B`; NULL: none */
+    qdot_expr over;                 /* its symbol; nil: none */
     qdot_panel_choice choice;
 } qdot_plot_panel;
 
@@ -50,6 +52,9 @@ void qdot_plot_panel_clear(qdot_plot_panel *panel);
 /* Add a curve to the panel, as yet without points. */
 QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
                                                 const char *axis, qdot_plot_curve **added);
+
+/* The unit of e is that of the curve. */
+QDOT_MUST_CHECK qdot_status qdot_plot_curve_unit(qdot_session *session, qdot_plot_curve *curve, qdot_expr e);
 
 /* Read `E, ... [vs E], ... [for ...]` and the options; compute the first points of each curve along its run. */
 QDOT_MUST_CHECK qdot_status qdot_plot_run(const qdot_plot_said *said, const qdot_plot_runs *runs,

@@ -382,6 +382,8 @@ make_curves_of_item(qdot_plot_panel *p, size_t i)
                                              .values = o->vector ? evaluate_path : evaluate_curve,
                                              .user = curve};
         status = compute_first_points(p, curve);
+        if (status == QDOT_OK)
+            status = qdot_plot_curve_unit(o->session, curve, o->columns.at[k]);
     }
     qdot_text_clear(&label);
     qdot_text_clear(&axis);

@@ -6,6 +6,7 @@
 #include "lang/figures/plot-parts.h"
 #include "lang/figures/plot.h"
 #include "lang/figures/plot-rows.h"
+#include "lang/session/units.h"
 #include "lang/answer/answer.h"
 #include "show/pole.h"
 
@@ -20,6 +21,7 @@ free_curve(qdot_plot_curve *curve)
 {
     qdot_free(curve->label);
     qdot_free(curve->axis);
+    qdot_free(curve->unit);
     qdot_tape_free(curve->tape);
     qdot_free(curve->work);
     if (!curve->borrowed)
@@ -65,20 +67,33 @@ qdot_plot_curve_add(qdot_plot_panel *p, const char *label, const char *axis,
     return QDOT_OK;
 }
 
+qdot_status
+qdot_plot_curve_unit(qdot_session *session, qdot_plot_curve *curve, qdot_expr e)
+{
+    qdot_text unit = {0};
+
+    qdot_units_label(session, e, &unit);
+    if (unit.n > 0)
+        curve->unit = unit.at;
+    else
+        qdot_text_clear(&unit);
+    return unit.failed ? QDOT_ENOMEM : QDOT_OK;
+}
+
 /* --- making the figure -------------------------------------------------------------- */
 
 /* Objects of the session that a figure borrows while it is drawn. */
 typedef struct {
     qdot_panel *panels;
     qdot_curve *curves;
-    qdot_text *labels; /* [2 n] labels of the x and y axis of each panel */
+    qdot_text *labels; /* [4 n] labels of the x and y axis of each panel, then their units */
     size_t n;
 } frame;
 
 static void
 free_frame(frame *f)
 {
-    for (size_t i = 0; f->labels != NULL && i < 2 * f->n; i++)
+    for (size_t i = 0; f->labels != NULL && i < 4 * f->n; i++)
         qdot_text_clear(&f->labels[i]);
     qdot_free(f->labels);
     qdot_free(f->panels);
@@ -111,6 +126,75 @@ join_axis_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
         qdot_text_truncate(y, 0);
     if (x->n > LONGEST_LABEL)
         qdot_text_truncate(x, 0);
+}
+
+/* Join the units of an axis, one for each label where they differ; there is none where a label has none. */
+static void
+join_units(qdot_text *unit, const char *const *each, size_t n)
+{
+    bool same = true, all = n > 0;
+
+    for (size_t i = 0; i < n; i++) {
+        all = all && each[i] != NULL;
+        same = same && all && strcmp(each[i], each[0]) == 0;
+    }
+    for (size_t i = 0; i < (same ? 1 : n) && all; i++)
+        qdot_text_format(unit, "%s%s", i > 0 ? ", " : "", each[i]);
+}
+
+/* The unit of the y axis from those of the curves whose labels are joined there. */
+static qdot_status
+write_unit_of_ordinate(const qdot_plot_panel *p, qdot_text *unit)
+{
+    const char **each = qdot_calloc(p->curves.n + 1, sizeof *each);
+    size_t n = 0;
+
+    if (each == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < p->curves.n; i++) {
+        bool known = false;
+
+        for (size_t k = 0; k < i; k++)
+            known = known || strcmp(p->curves.at[k]->axis, p->curves.at[i]->axis) == 0;
+        if (!known)
+            each[n++] = p->curves.at[i]->unit;
+    }
+    join_units(unit, each, n);
+    qdot_free(each);
+    return qdot_text_status(unit);
+}
+
+/* The unit of the x axis: of the one abscissa, the variable or t; several have none. */
+static qdot_status
+write_unit_of_abscissa(qdot_session *session, const qdot_plot_panel *p, qdot_text *unit)
+{
+    if (p->versus.n > 1 || (p->versus.n == 1 && p->versus.at[0].columns.n == 0))
+        return QDOT_OK;
+    if (p->versus.n == 1)
+        qdot_units_label(session, p->versus.at[0].columns.at[0], unit);
+    else if (p->over != QDOT_NIL)
+        qdot_units_label(session, p->over, unit);
+    else if (p->variable == NULL)
+        qdot_units_label(session, QDOT_T, unit);
+    return qdot_text_status(unit);
+}
+
+/* Write the units of the axes of a panel. */
+static qdot_status
+give_units(qdot_session *session, const qdot_plot_panel *p, qdot_text *units, qdot_panel *panel)
+{
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    if (panel->equal) {
+        for (int k = 0; k < 3; k++)
+            panel->unit[k] = p->curves.at[0]->unit;
+        return QDOT_OK;
+    }
+    QDOT_TRY(write_unit_of_abscissa(session, p, &units[0]));
+    QDOT_TRY(write_unit_of_ordinate(p, &units[1]));
+    for (int k = 0; k < 2; k++)
+        panel->unit[k] = units[k].n > 0 ? qdot_text_str(&units[k]) : NULL;
+    return QDOT_OK;
 }
 
 /* Label the axes of a panel; a path has the axes x, y, z, and its label becomes the title. */
@@ -183,7 +267,7 @@ build_figure(qdot_record *r, const panels *all, frame *f)
     f->n = all->n;
     f->panels = qdot_calloc(all->n, sizeof *f->panels);
     f->curves = qdot_calloc(n, sizeof *f->curves);
-    f->labels = qdot_calloc(2 * all->n, sizeof *f->labels);
+    f->labels = qdot_calloc(4 * all->n, sizeof *f->labels);
     if (f->panels == NULL || f->curves == NULL || f->labels == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < all->n; i++) {
@@ -196,10 +280,11 @@ build_figure(qdot_record *r, const panels *all, frame *f)
         next += panel->n;
         panel->equal = p->operands.n > 0 && p->operands.at[0].vector;
         panel->log[1] = shows_drifts_only(p);
-        label_panel(p, f->labels + 2 * i, panel);
+        label_panel(p, f->labels + 4 * i, panel);
+        QDOT_TRY(give_units(r->cursor.session, p, f->labels + 4 * i + 2, panel));
         QDOT_TRY(qdot_figure_option_apply(r, &p->choice, panel));
         for (int k = 0; k < 2; k++)
-            QDOT_TRY(qdot_text_status(&f->labels[2 * i + (size_t)k]));
+            QDOT_TRY(qdot_text_status(&f->labels[4 * i + (size_t)k]));
     }
     return QDOT_OK;
 }
