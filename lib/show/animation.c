@@ -22,6 +22,8 @@ qdot_animation_clear(qdot_animation *a)
     for (size_t i = 0; i < a->facts.n; i++)
         qdot_free(a->facts.at[i].text);
     qdot_free(a->title);
+    qdot_free(a->time);
+    qdot_free(a->energy);
     qdot_free(a->values);
     qdot_free(a->points.at);
     qdot_free(a->particles.at);
@@ -234,9 +236,16 @@ add_diagrams(const qdot_animation *a, qdot_text *out)
     }
     qdot_text_add(out, "],\n\"energies\":[");
     for (size_t i = 0; i < a->energies.n; i++) {
+        qdot_text name = {0};
+
+        qdot_text_add(&name, a->energies.at[i].name);
+        if (a->energy != NULL)
+            qdot_text_format(&name, " [%s]", a->energy);
         qdot_text_add(out, i > 0 ? ",{\"name\":" : "{\"name\":");
-        add_string(out, a->energies.at[i].name);
+        add_string(out, qdot_text_str(&name));
         qdot_text_format(out, ",\"channel\":%zu}", a->energies.at[i].column);
+        out->failed = out->failed || name.failed;
+        qdot_text_clear(&name);
     }
     qdot_text_add(out, "],\n\"facts\":[");
     for (size_t i = 0; i < a->facts.n; i++) {
@@ -275,6 +284,11 @@ qdot_animation_section(const qdot_animation *a, qdot_text *out)
     if (a->title != NULL) {
         qdot_text_add(out, "\"title\":");
         add_string(out, a->title);
+        qdot_text_add(out, ",\n");
+    }
+    if (a->time != NULL) {
+        qdot_text_add(out, "\"unit\":");
+        add_string(out, a->time);
         qdot_text_add(out, ",\n");
     }
     qdot_text_format(out, "\"dimension\":%u,", a->dimension);

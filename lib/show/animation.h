@@ -54,7 +54,7 @@ typedef struct {
 } qdot_animation_body;
 
 typedef struct {
-    char *name, *rate; /* names of the coordinate and of its velocity; owned */
+    char *name, *rate; /* names of the coordinate and of its velocity, with their units; owned */
     size_t q, v;       /* indices of the columns of the coordinate and of its velocity */
 } qdot_animation_state;
 
@@ -70,6 +70,7 @@ typedef struct {
 
 typedef struct {
     char *title;        /* title of the page, owned; NULL: none */
+    char *time, *energy; /* units of t and of the energies, owned; NULL: none */
     unsigned dimension; /* dimension of space, 2 or 3 */
     double up[3];       /* the direction in space that is upward in the picture, a unit vector */
     double t0, t1;      /* times of the first and last frame */

@@ -532,7 +532,7 @@ function Animation(section) {
     const t = { lo: Math.min(data.t0, data.t1), hi: Math.max(data.t0, data.t1), exact: true };
     if (!(t.hi > t.lo)) t.hi = t.lo + 1;
     const y = { lo: Math.min(...list.map(c => c.lo)), hi: Math.max(...list.map(c => c.hi)) };
-    const a = axes(g, energy, t, y, "t", ""), inks = [colours.c1, colours.c0, colours.ink];
+    const a = axes(g, energy, t, y, data.unit ? `t [${data.unit}]` : "t", ""), inks = [colours.c1, colours.c0, colours.ink];
     const dashes = [[], [5, 3], []], wide = [1.4, 1.4, 2]; /* they differ in grey too */
     list.forEach((c, i) => {
       const points = [], step = Math.max(1, Math.floor(frames / 1500));
@@ -554,7 +554,7 @@ function Animation(section) {
   function draw() {
     readColours();
     const step = niceStep(seconds, 400);
-    clock.textContent = "t = " + short(timeAt(frame), Math.min(step, 1));
+    clock.textContent = "t = " + short(timeAt(frame), Math.min(step, 1)) + (data.unit ? " " + data.unit : "");
     drawScene();
     if (data.states.length > 0) drawPhase();
     if (data.energies.length > 0) drawEnergies();

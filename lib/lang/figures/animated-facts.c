@@ -8,6 +8,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/figures/animated.h"
+#include "lang/session/units.h"
 
 enum { MOST_VALUES = 24 };
 
@@ -40,6 +41,7 @@ add_parameter_values(qdot_session *session, const qdot_named_run *run, qdot_anim
     QDOT_TRY(qdot_pool_check(pool));
     for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
         qdot_expr x = qdot_expr_arg(pool, atoms, i);
+        qdot_text unit = {0};
         qdot_status status;
         double value;
 
@@ -57,6 +59,11 @@ add_parameter_values(qdot_session *session, const qdot_named_run *run, qdot_anim
         }
         qdot_text_add(&text, " = ");
         qdot_number_text(&text, value, 0);
+        qdot_units_label(session, x, &unit);
+        if (unit.n > 0)
+            qdot_text_format(&text, " %s", qdot_text_str(&unit));
+        text.failed = text.failed || unit.failed;
+        qdot_text_clear(&unit);
     }
     if (shown > MOST_VALUES)
         qdot_text_format(&text, " and %zu more", shown - MOST_VALUES);

@@ -13,6 +13,7 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/figures/solid.h"
+#include "lang/session/units.h"
 #include "mech/study/rods.h"
 
 enum {
@@ -260,9 +261,11 @@ add_phase_portraits(builder *b)
 
         QDOT_TRY(find_or_add_column(b, q, &one.q));
         QDOT_TRY(find_or_add_column(b, v, &one.v));
-        if (qdot_print(pool, q, QDOT_UNICODE, &name) != QDOT_OK ||
-            qdot_print(pool, v, QDOT_UNICODE, &rate) != QDOT_OK ||
-            qdot_text_status(&name) != QDOT_OK || qdot_text_status(&rate) != QDOT_OK ||
+        if (qdot_print(pool, q, QDOT_UNICODE, &name) == QDOT_OK)
+            qdot_units_in_brackets(b->session, q, &name);
+        if (qdot_print(pool, v, QDOT_UNICODE, &rate) == QDOT_OK)
+            qdot_units_in_brackets(b->session, v, &rate);
+        if (qdot_pool_failed(pool) || qdot_text_status(&name) != QDOT_OK || qdot_text_status(&rate) != QDOT_OK ||
             qdot_vec_push(&b->a->states, one) != QDOT_OK) {
             qdot_text_clear(&name);
             qdot_text_clear(&rate);
@@ -310,6 +313,20 @@ kinetic_energy(qdot_scene *s)
     return qdot_mul(pool, QDOT_HALF, twice);
 }
 
+/* *unit: that of e; NULL if it has none. */
+static qdot_status
+find_unit(const builder *b, qdot_expr e, char **unit)
+{
+    qdot_text text = {0};
+
+    qdot_units_label(b->session, e, &text);
+    if (text.n > 0)
+        *unit = text.at;
+    else
+        qdot_text_clear(&text);
+    return text.failed ? QDOT_ENOMEM : QDOT_OK;
+}
+
 static qdot_status
 add_energy_parts(builder *b)
 {
@@ -341,6 +358,7 @@ add_energies(builder *b)
     qdot_scene *s = b->scene;
     qdot_animation_energy h = {"h", 0};
 
+    QDOT_TRY(find_unit(b, qdot_mech_numeric_energy(s), &b->a->energy));
     if (s->lagrangian == QDOT_NIL)
         return add_energy_parts(b);
     QDOT_TRY(find_or_add_column(b, qdot_mech_numeric_energy(s), &h.column));
@@ -354,6 +372,7 @@ set_time_span(builder *b, const qdot_animated_options *o)
     const qdot_run_report *r = qdot_run_get_report(b->run);
     const double lo = fmin(r->t0, r->t1), hi = fmax(r->t0, r->t1);
 
+    QDOT_TRY(find_unit(b, QDOT_T, &b->a->time));
     b->a->t0 = isnan(o->from) ? r->t0 : o->from;
     b->a->t1 = isnan(o->to) ? r->t1 : o->to;
     if (fmin(b->a->t0, b->a->t1) < lo || fmax(b->a->t0, b->a->t1) > hi)

@@ -30,3 +30,8 @@ plot x' to "plain.tikz"
 EOF
 qdot -q plain.lag | grep wrote
 grep -o '[xy]label={.*' plain.tikz
+# an animation: the time, the axes of the phase portrait, energies, values of parameters
+sed -e '/^plot/d' axes.lag >moving.lag
+echo 'animate to "moving.html"' >>moving.lag
+qdot -q moving.lag | grep wrote
+grep -o '"unit":"[^"]*"\|"states":.*\|"energies":.*\|"with",[^]]*' moving.html
