@@ -18,6 +18,7 @@ copy_term(qdot_scene *to, qdot_scene_kind kind, const qdot_term *term)
 qdot_status
 qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to)
 {
+    QDOT_TRY(qdot_higher_refuse(s, "other coordinates"));
     for (size_t i = 0; i < s->particles.n; i++)
         QDOT_TRY(qdot_scene_particle(to, s->particles.at[i].name, s->particles.at[i].mass,
                                      s->particles.at[i].position));
