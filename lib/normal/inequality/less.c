@@ -20,6 +20,7 @@
 #include "normal/inequality/constant-bounds.h"
 #include "normal/inequality/factor-signs.h"
 #include "normal/inequality/inequality.h"
+#include "normal/inequality/rising.h"
 #include "normal/refute/sample.h"
 
 enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200, FEW_TRIES = 8 };
@@ -406,7 +407,8 @@ static qdot_status
 less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
             const qdot_facts *facts, qdot_decision *d)
 {
-    qdot_expr gap, at;
+    qdot_expr gap, risen, at = QDOT_NIL;
+    qdot_decision simpler = {.verdict = QDOT_UNDECIDED};
     bool holds, given_up = false;
 
     *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
@@ -429,7 +431,12 @@ less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         QDOT_TRY(has_both_signs(pool, gap, facts, &given_up));
     if (d->verdict != QDOT_UNDECIDED || given_up)
         return QDOT_OK;
-    QDOT_TRY(qdot_inequality(pool, qdot_without_signed_factors(pool, gap), strict, facts, &holds, &at));
+    risen = qdot_without_rising(pool, gap, strict);
+    if (risen != gap && risen != QDOT_NIL)
+        QDOT_TRY(less_decide(pool, QDOT_ZERO, risen, strict, facts, &simpler));
+    holds = simpler.verdict == QDOT_PROVED;
+    if (!holds)
+        QDOT_TRY(qdot_inequality(pool, qdot_without_signed_factors(pool, gap), strict, facts, &holds, &at));
     if (holds)
         d->verdict = QDOT_PROVED;
     else if (at != QDOT_NIL)

@@ -103,7 +103,10 @@ replace_plain_function(substitutes *s, qdot_expr e)
         y = bounded_symbol(s, "atan", qdot_neg(pool, half), half, false, false);
         break;
     case QDOT_ASIN: y = bounded_symbol(s, "asin", qdot_neg(pool, half), half, true, true); break;
-    case QDOT_ACOS: y = bounded_symbol(s, "acos", QDOT_ZERO, QDOT_PI, true, true); break;
+    case QDOT_ACOS: /* pi/2 - asin */
+        y = bounded_symbol(s, "acos", QDOT_ZERO, QDOT_PI, true, true);
+        demand_sign(s, qdot_sub(pool, half, y), qdot_expr_sign(pool, qdot_expr_arg(pool, e, 0)));
+        break;
     case QDOT_ATAN2:
         y = bounded_symbol(s, "atan2", qdot_neg(pool, QDOT_PI), QDOT_PI, false, true);
         break;
@@ -293,7 +296,10 @@ qdot_question_reduce(qdot_pool *pool, qdot_question *q)
         else
             q->condition[i - 1].gap = now;
     }
-    for (size_t i = n; i < q->n && !q->too_much; i++) /* if conditions contain pi, bound it by rationals */
+    for (size_t i = n, stands = q->n; i < stands && !q->too_much; i++) /* if conditions contain pi, bound it by rationals */
+        if (qdot_expr_contains(pool, q->condition[i].gap, QDOT_PI) && replacement_of(&s, QDOT_PI) == QDOT_PI)
+            stand_for(&s, QDOT_PI, replace_pi(&s));
+    for (size_t i = n; i < q->n && !q->too_much; i++)
         q->condition[i].gap = qdot_subs(pool, q->condition[i].gap, s.n, s.from, s.to);
     q->too_much |= !qdot_field_goes(&f);
     qdot_field_end(&f);

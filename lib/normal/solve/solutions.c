@@ -360,6 +360,9 @@ append_members_within_bounds(const members *m, bool *bounded)
 
     for (int i = 0; i < 2; i++)
         e[i] = qdot_div(m->pool, qdot_sub(m->pool, e[i], m->root->value), m->root->period);
+    if (!qdot_expr_is_constant(m->pool, m->root->period)) /* 1/b for each term of a b */
+        for (int i = 0; i < 2; i++)
+            e[i] = qdot_simplify(m->pool, e[i], m->facts);
     QDOT_TRY(qdot_pool_check(m->pool));
     QDOT_TRY(find_bounds_over_domains(m->pool, 2, e, to));
     *bounded = to[1].hi - to[0].lo <= 2 * MOST_PERIODS;
@@ -459,13 +462,13 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
         if (few)
             return QDOT_OK;
     }
-    if (few && qdot_expr_is_constant(pool, root->period)) {
+    if (few && (qdot_expr_is_constant(pool, root->period) || (qdot_expr_sign(pool, root->period) & QDOT_POS) == QDOT_POS)) {
         QDOT_TRY(append_members_within_bounds(&m, &bounded));
         if (bounded) {
             out->recurs = recurs;
             return QDOT_OK;
         }
-        if (!w.recurs && is_beyond_end(&m, MOST_PERIODS) && is_beyond_end(&m, -MOST_PERIODS))
+        if (!w.recurs && qdot_expr_is_constant(pool, root->period) && is_beyond_end(&m, MOST_PERIODS) && is_beyond_end(&m, -MOST_PERIODS))
             return append_members_outward(&m);
         QDOT_TRY(qdot_pool_check(pool));
     }
