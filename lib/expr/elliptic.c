@@ -49,6 +49,24 @@ simplify_complete(qdot_pool *pool, qdot_fun_id f, qdot_expr n, qdot_expr m)
     return m == QDOT_ZERO && f != QDOT_ELLIPTIC_PI ? right : QDOT_NIL;
 }
 
+/* E(r pi, 1), the integral of |cos|: 2 n + sin(r pi - n pi) with n half turns between. */
+static qdot_expr
+area_of_cosine(qdot_pool *pool, const fmpq *r)
+{
+    qdot_expr n, rest;
+    fmpq_t x;
+
+    fmpq_init(x);
+    fmpq_add(x, r, (fmpq[]){{1, 2}});
+    fmpz_fdiv_q(fmpq_numref(x), fmpq_numref(x), fmpq_denref(x));
+    fmpz_one(fmpq_denref(x));
+    n = qdot_expr_fmpq(pool, x);
+    fmpq_sub(x, r, x);
+    rest = qdot_mul(pool, qdot_expr_fmpq(pool, x), QDOT_PI);
+    fmpq_clear(x);
+    return qdot_add(pool, qdot_mul(pool, qdot_expr_int(pool, 2), n), qdot_fun1(pool, QDOT_SIN, rest));
+}
+
 /* F, E and Pi at phi: odd in phi, and k times the complete integral at k pi/2. */
 static qdot_expr
 simplify_incomplete(qdot_pool *pool, qdot_fun_id f, qdot_expr n, qdot_expr phi, qdot_expr m)
@@ -68,8 +86,10 @@ simplify_incomplete(qdot_pool *pool, qdot_fun_id f, qdot_expr n, qdot_expr phi, 
     }
     fmpq_init(turns);
     if (qdot_expr_unscale(pool, phi, turns) == QDOT_PI) {
+        if (f == QDOT_ELLIPTIC_E && m == QDOT_ONE)
+            result = area_of_cosine(pool, turns);
         fmpq_mul(turns, turns, (fmpq[]){{2, 1}});
-        if (fmpz_is_one(fmpq_denref(turns)))
+        if (result == QDOT_NIL && fmpz_is_one(fmpq_denref(turns)))
             result = qdot_mul(pool, qdot_expr_fmpq(pool, turns),
                               n != QDOT_NIL ? elliptic(pool, f, n, m, QDOT_NIL)
                                             : elliptic(pool, f == QDOT_ELLIPTIC_F ? QDOT_ELLIPTIC_K : f, m, QDOT_NIL,

@@ -131,6 +131,9 @@ special_values_are_found(void **state)
     assert_int_equal(qdot_fun(p.pool, QDOT_ELLIPTIC_F, 2, (qdot_expr[]){half, m}), qdot_fun1(p.pool, QDOT_ELLIPTIC_K, m));
     assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_F, 2, (qdot_expr[]){times(number(-5, 1), half), m}), "-5*elliptic_K(m)");
     assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){qdot_neg(p.pool, phi), m}), "-elliptic_E(phi, m)");
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){times(number(17, 6), QDOT_PI), QDOT_ONE}), "11/2");
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){times(number(-2, 3), QDOT_PI), QDOT_ONE}),
+                  "1/2*sqrt(3) - 2");
     assert_int_equal(qdot_fun(p.pool, QDOT_ELLIPTIC_PI, 2, (qdot_expr[]){QDOT_ZERO, m}),
                      qdot_fun1(p.pool, QDOT_ELLIPTIC_K, m));
     assert_int_equal(qdot_fun(p.pool, QDOT_ELLIPTIC_PI, 3, (qdot_expr[]){c, QDOT_PI, m}),

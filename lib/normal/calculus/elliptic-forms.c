@@ -153,17 +153,32 @@ minus_quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_neg(pool, qdot_div(pool, a, b));
 }
 
+/* P + Q sin(v)^2 = P + Q - Q sin(v - pi/2)^2. */
+static void
+turn_by_right_angle(const integrand *f, radicand *r)
+{
+    r->constant = qdot_add(f->pool, r->constant, r->factor);
+    r->factor = qdot_neg(f->pool, r->factor);
+    r->v = qdot_sub(f->pool, r->v, qdot_mul(f->pool, QDOT_HALF, QDOT_PI));
+}
+
 /* The forms with sin(v): one root, or one root and one denominator. */
 static qdot_expr
-integral_of_waves(const integrand *f)
+integral_of_waves(integrand *f)
 {
     qdot_pool *pool = f->pool;
-    const radicand *root = &f->part[f->n == 2 && f->part[0].halves == -2], *below = root == f->part ? f->part + 1 : f->part;
-    const qdot_expr P = root->constant, m = minus_quotient(pool, root->factor, P);
-    const qdot_expr slope = qdot_diff(pool, root->v, f->x), scale = qdot_sqrt(pool, P);
+    radicand *root = &f->part[f->n == 2 && f->part[0].halves == -2], *below = root == f->part ? f->part + 1 : f->part;
+    qdot_expr P, m, slope, scale;
 
+    if (!is_positive(f, root->constant))
+        for (size_t i = 0; i < f->n; i++)
+            turn_by_right_angle(f, &f->part[i]);
+    P = root->constant;
     if (!is_positive(f, P))
         return QDOT_NIL;
+    m = minus_quotient(pool, root->factor, P);
+    slope = qdot_diff(pool, root->v, f->x);
+    scale = qdot_sqrt(pool, P);
     if (f->n == 1 && root->halves == 1)
         return qdot_div(pool, qdot_mul(pool, scale, qdot_fun(pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){root->v, m})), slope);
     if (f->n == 1 && root->halves == -1)
@@ -195,7 +210,7 @@ integral_of_roots(const integrand *f, const radicand *first, const radicand *sec
 }
 
 static qdot_expr
-find_form(const integrand *f)
+find_form(integrand *f)
 {
     qdot_expr found;
 

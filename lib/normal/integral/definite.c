@@ -10,7 +10,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
-#include "normal/inequality/inequality.h"
+#include "normal/inequality/less.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/integral/ends.h"
 #include "normal/prove/decide.h"
@@ -41,24 +41,46 @@ is_infinite(const qdot_pool *pool, qdot_expr e)
 static bool
 is_positive(range *r, qdot_expr e)
 {
-    qdot_expr at = QDOT_NIL;
-    bool proved = false;
+    qdot_decision decision = {.verdict = QDOT_UNDECIDED};
 
     if (e == QDOT_NIL || r->status != QDOT_OK)
         return false;
     if ((qdot_expr_sign(r->pool, e) & QDOT_POS) == QDOT_POS)
         return true;
-    r->status = qdot_inequality(r->pool, e, true, r->facts, &proved, &at);
-    return proved;
+    r->status = qdot_decide_less(r->pool, QDOT_ZERO, e, true, r->facts, &decision);
+    return decision.verdict == QDOT_PROVED;
 }
 
-/* The sign of g, which has no zeros inside the range: everywhere, or at one point; 0: not known. */
+/* Whether e has no steps: it is continuous wherever it is defined. */
+static bool
+is_without_steps(const range *r, qdot_expr e)
+{
+    static const qdot_fun_id steps[] = {QDOT_SIGN, QDOT_FLOOR, QDOT_MOD, QDOT_IF, QDOT_ATAN2};
+
+    return qdot_expr_find_function(r->pool, e, sizeof steps / sizeof *steps, steps, r->x) == QDOT_NIL;
+}
+
+/* The sign of g at a place; 0: not known. */
+static int
+sign_at(range *r, qdot_expr g, qdot_expr place)
+{
+    const qdot_expr value = qdot_subs(r->pool, g, 1, &r->x, &place);
+
+    if (value == QDOT_NIL) { /* not defined there */
+        r->status = qdot_grave(qdot_pool_check(r->pool));
+        return 0;
+    }
+    return is_positive(r, value) ? 1 : is_positive(r, qdot_neg(r->pool, value)) ? -1 : 0;
+}
+
+/* The sign of g, which has no zeros inside the range: everywhere, at an end where it is continuous, or at one point
+ * inside; 0: not known. */
 static int
 sign_inside(range *r, qdot_expr g)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr mid, at;
     bool no_lo = is_infinite(pool, r->lo), no_hi = is_infinite(pool, r->hi);
+    int sign = 0;
 
     if (is_positive(r, g))
         return 1;
@@ -66,12 +88,17 @@ sign_inside(range *r, qdot_expr g)
         return -1;
     if (!r->ordered || r->status != QDOT_OK)
         return 0;
-    mid = no_lo && no_hi ? QDOT_ZERO
-          : no_lo        ? qdot_sub(pool, r->hi, QDOT_ONE)
-          : no_hi        ? qdot_add(pool, r->lo, QDOT_ONE)
-                         : qdot_mul(pool, QDOT_HALF, qdot_add(pool, r->lo, r->hi));
-    at = qdot_subs(pool, g, 1, &r->x, &mid);
-    return is_positive(r, at) ? 1 : is_positive(r, qdot_neg(pool, at)) ? -1 : 0;
+    if (!no_lo && is_without_steps(r, g))
+        sign = sign_at(r, g, r->lo);
+    if (sign == 0 && !no_hi && is_without_steps(r, g))
+        sign = sign_at(r, g, r->hi);
+    if (sign == 0)
+        sign = sign_at(r, g,
+                       no_lo && no_hi ? QDOT_ZERO
+                       : no_lo        ? qdot_sub(pool, r->hi, QDOT_ONE)
+                       : no_hi        ? qdot_add(pool, r->lo, QDOT_ONE)
+                                      : qdot_mul(pool, QDOT_HALF, qdot_add(pool, r->lo, r->hi)));
+    return sign;
 }
 
 /* --- places at which something may happen ---------------------------------------------- */

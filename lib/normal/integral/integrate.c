@@ -142,6 +142,8 @@ integrate_what_was_read(qdot_integral_task *t, qdot_expr e, qdot_expr x, int dep
         F = qdot_linear_root_integrate(t, &r, x, depth);
     if (F == QDOT_NIL)
         F = qdot_gauss_integrate(t, &r, x);
+    if (F == QDOT_NIL)
+        F = qdot_wave_root_integrate(t, &r, e, x, depth);
     return F;
 }
 

@@ -19,6 +19,9 @@ qdot_expr qdot_linear_root_integrate(qdot_integral_task *t, const qdot_reading *
 /* Rational functions of x and y = sqrt(a x^2 + b x + c) (quadratic-root.c). */
 qdot_expr qdot_quadratic_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x);
 
+/* Functions of sines and cosines of one angle that hold roots, over the sine or the cosine (wave-root.c). */
+qdot_expr qdot_wave_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr e, qdot_expr x, int depth);
+
 /* Sums of x^n exp(a x) cos(b x), products of these, powers of constants included (waves.c). */
 qdot_expr qdot_waves_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x);
 

@@ -102,43 +102,42 @@ solve_linear_fraction(qdot_pool *pool, const qdot_poly *over, const qdot_poly *u
     return qdot_div(pool, qdot_sub(pool, b, qdot_mul(pool, d, wq)), qdot_sub(pool, qdot_mul(pool, c, wq), a));
 }
 
-/* Split u = base^(1/q); q = 0 for u = log(base); false: it is neither. */
-static bool
-read_inverse(qdot_pool *pool, qdot_expr u, qdot_expr *base, long *q)
-{
-    const fmpq *exponent;
-
-    *q = 0;
-    *base = qdot_expr_count(pool, u) > 0 ? qdot_expr_arg(pool, u, 0) : QDOT_NIL;
-    if (qdot_expr_is_function(pool, u, QDOT_LOG))
-        return true;
-    if (qdot_expr_kind(pool, u) != QDOT_PROD || qdot_expr_count(pool, u) != 3 || *base != QDOT_ONE)
-        return false;
-    *base = qdot_expr_arg(pool, u, 1);
-    exponent = qdot_expr_rational(pool, qdot_expr_arg(pool, u, 2));
-    if (exponent == NULL || !fmpz_is_one(fmpq_numref(exponent)) || fmpz_cmp_si(fmpq_denref(exponent), 6) > 0)
-        return false;
-    *q = fmpz_get_si(fmpq_denref(exponent));
-    return *q > 1;
-}
-
-/* int e dx over the root w = u of (a x + b)/(c x + d), or its logarithm: x is put in as a function of w. */
+/* int e dx over w, x put in as a function of w: the root w = base^(1/q) of (a x + b)/(c x + d), or for q = 0 its logarithm. */
 static qdot_expr
-substitute_inverse(qdot_integral_task *t, qdot_expr e, qdot_expr u, qdot_expr x, int depth)
+substitute_inverse(qdot_integral_task *t, qdot_expr e, qdot_expr base, long q, qdot_expr x, int depth)
 {
     qdot_pool *pool = t->pool;
-    qdot_expr w, base, X, f, F;
+    qdot_expr w, u, of_w, X, f, F;
     qdot_poly over, under;
-    long q;
 
-    if (!read_inverse(pool, u, &base, &q) || !read_linear_fraction(t, base, x, &over, &under))
+    if (!read_linear_fraction(t, base, x, &over, &under))
         return QDOT_NIL;
     w = qdot_integral_variable(t, q > 0);
-    X = solve_linear_fraction(pool, &over, &under, q == 0 ? qdot_fun1(pool, QDOT_EXP, w) : qdot_pow_int(pool, w, q));
-    f = qdot_subs(pool, e, 1, &u, &w);
+    u = q == 0 ? qdot_fun1(pool, QDOT_LOG, base) : qdot_pow(pool, base, qdot_expr_ratio(pool, 1, q));
+    of_w = q == 0 ? qdot_fun1(pool, QDOT_EXP, w) : qdot_pow_int(pool, w, q);
+    X = solve_linear_fraction(pool, &over, &under, of_w);
+    f = qdot_subs(pool, q == 0 ? qdot_subs(pool, e, 1, &u, &w) : e, 1, &base, &of_w);
     f = qdot_mul(pool, qdot_subs(pool, f, 1, &x, &X), qdot_diff(pool, X, w));
     F = qdot_integral_any(t, f, w, depth + 1);
     return F == QDOT_NIL ? F : qdot_subs(pool, F, 1, &w, &u);
+}
+
+/* The same over each root and logarithm that the node `at` of the integrand e is or holds as a factor. */
+static qdot_expr
+substitute_inverses(qdot_integral_task *t, qdot_expr e, qdot_expr at, qdot_expr x, int depth)
+{
+    qdot_pool *pool = t->pool;
+    qdot_expr F = QDOT_NIL;
+
+    if (qdot_expr_is_function(pool, at, QDOT_LOG))
+        return substitute_inverse(t, e, qdot_expr_arg(pool, at, 0), 0, x, depth);
+    for (uint32_t k = 1; qdot_expr_kind(pool, at) == QDOT_PROD && k < qdot_expr_count(pool, at) && F == QDOT_NIL && !t->failed; k += 2) {
+        const fmpq *exponent = qdot_expr_rational(pool, qdot_expr_arg(pool, at, k + 1));
+
+        if (exponent != NULL && !fmpz_is_one(fmpq_denref(exponent)) && fmpz_cmp_si(fmpq_denref(exponent), 6) <= 0)
+            F = substitute_inverse(t, e, qdot_expr_arg(pool, at, k), fmpz_get_si(fmpq_denref(exponent)), x, depth);
+    }
+    return F;
 }
 
 /* int e dx over w = exp(u), with exp(k u) as w^k. */
@@ -187,10 +186,10 @@ qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, 
     for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed; i++)
         F = substitute_part(t, term, tried[i], x, depth);
     if (F == QDOT_NIL && !t->failed && depth <= 1)
-        F = substitute_inverse(t, term, term, x, depth); /* a root alone */
+        F = substitute_inverses(t, term, term, x, depth);
     for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed && depth <= 1; i++)
         F = qdot_expr_is_function(t->pool, tried[i], QDOT_EXP) ? substitute_exponential(t, term, tried[i], x, depth)
-                                                               : substitute_inverse(t, term, tried[i], x, depth);
+                                                               : substitute_inverses(t, term, tried[i], x, depth);
     for (long k = 4; k >= 2 && F == QDOT_NIL && !t->failed && depth <= 1 && qdot_expr_contains(t->pool, term, x); k--)
         F = substitute_power(t, term, x, k, depth);
     return F;
