@@ -13,6 +13,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/calculus/growth.h"
+#include "normal/field/budget.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
@@ -326,7 +327,7 @@ qdot_status
 qdot_limit(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, qdot_expr at, int side,
            qdot_limit_answer *answer)
 {
-    const uint64_t before = qdot_pool_budget(pool, WORK);
+    const qdot_budget budget = qdot_budget_begin(pool, WORK);
     qdot_limit_answer left, right;
     qdot_status status;
 
@@ -340,6 +341,6 @@ qdot_limit(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, q
         if (status == QDOT_OK)
             status = join_sides(pool, facts, &left, &right, answer);
     }
-    qdot_pool_budget(pool, before);
+    qdot_budget_end(pool, &budget);
     return status;
 }

@@ -8,6 +8,7 @@
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/calculus/elliptic-forms.h"
+#include "normal/field/budget.h"
 #include "normal/field/flint.h"
 #include "normal/integral/methods.h"
 #include "normal/prove/decide.h"
@@ -145,14 +146,14 @@ static qdot_expr
 find_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts, bool by_cases)
 {
     struct search s = {pool, e, x, QDOT_NIL, facts, by_cases};
-    uint64_t before;
+    qdot_budget budget;
     qdot_status status;
 
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    before = qdot_pool_budget(pool, CONSTRUCTIONS);
+    budget = qdot_budget_begin(pool, CONSTRUCTIONS);
     status = qdot_flint_run(pool, search_antiderivative, &s);
-    qdot_pool_budget(pool, before);
+    qdot_budget_end(pool, &budget);
     if (qdot_grave(status) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (status != QDOT_OK || qdot_pool_failed(pool)) {

@@ -30,6 +30,12 @@ known_integrals_differentiate_back(void **state)
         "sin(x)/cos(x)^2",
         "exp(x)/(exp(x) + 1)",
         "log(x)/x",
+        "1/sqrt(4/cosh(x)^2 - 1)", /* over the hyperbolic sine */
+        "cosh(x)/sqrt(4 - cosh(x)^2)",
+        "sin(x)^3*sqrt(1 + cos(x)^2)",
+        "sin(2*x)/sqrt(2 + cos(x))",
+        "x*sqrt((x + 1)/(x + 3))", /* over the root */
+        "sqrt((x + 1)/(x + 3))/x",
     };
     qdot_expr x = text_read(pool, "x");
 
@@ -60,6 +66,25 @@ what_the_table_lacks_is_nil(void **state)
 }
 
 static void
+a_callers_budget_is_kept(void **state)
+{
+    qdot_expr x = text_read(pool, "x"), e = text_read(pool, "x^2*sin(3*x)");
+    uint64_t left;
+
+    (void)state;
+    (void)qdot_pool_budget(pool, 20);
+    assert_true(qdot_antiderivative(pool, e, x, NULL) == QDOT_NIL);
+    left = qdot_pool_budget(pool, UINT64_MAX);
+    assert_true(left < 20);
+    (void)qdot_pool_budget(pool, 1000000);
+    assert_true(qdot_antiderivative(pool, e, x, NULL) != QDOT_NIL);
+    left = qdot_pool_budget(pool, UINT64_MAX);
+    assert_true(left < 1000000 && left > 900000);
+    assert_true(qdot_antiderivative(pool, e, x, NULL) != QDOT_NIL);
+    assert_true(qdot_pool_budget(pool, UINT64_MAX) == UINT64_MAX);
+}
+
+static void
 potentials_of_exact_forms_only(void **state)
 {
     qdot_expr x[2] = {text_read(pool, "x"), text_read(pool, "y")}, a[2], F;
@@ -82,6 +107,8 @@ main(void)
         cmocka_unit_test_setup_teardown(known_integrals_differentiate_back, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(what_the_table_lacks_is_nil, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(a_callers_budget_is_kept, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(potentials_of_exact_forms_only, open_pool,
                                         close_pool),
