@@ -7,6 +7,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/integral.h"
 #include "expr/node.h"
@@ -23,6 +24,7 @@ typedef struct {
     qdot_growth growth;
     qdot_expr bounded[MOST_BOUNDED]; /* symbols for parts that are bounded but have no limit */
     size_t n;
+    bool expands_elliptic; /* complete elliptic integrals are expanded where m tends to 0 or 1 */
     qdot_status status;
 } approach;
 
@@ -152,6 +154,70 @@ resolve_wave(approach *a, qdot_expr e, qdot_expr u)
     return f == QDOT_COSH ? sum : f == QDOT_SINH ? difference : qdot_div(pool, difference, sum);
 }
 
+/* K(m) or E(m) where m tends to 0: the first terms of the series, and the rest. */
+static qdot_expr
+expand_elliptic_at_zero(approach *a, qdot_expr e, qdot_expr m)
+{
+    enum { TERMS = 4 };
+    qdot_pool *pool = a->growth.pool;
+    qdot_expr sum = qdot_mul(pool, bounded_symbol(a), qdot_pow_int(pool, m, TERMS));
+
+    for (long k = 0; k < TERMS; k++)
+        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_elliptic_coefficient(pool, (qdot_fun_id)qdot_expr_node(pool, e)->op, k),
+                                           qdot_pow_int(pool, m, k)));
+    return sum;
+}
+
+/* K(m) or E(m) where m tends to 1 from below, r = 1 - m, l = log(1/r)/2:
+ *
+ *     K = l + 2 log 2 + r/4 (l + 2 log 2 - 1) + 9/64 r^2 (l + 2 log 2 - 7/6) + O(r^3 (1 + l))
+ *     E = 1 + r/2 (l + 2 log 2 - 1/2) + 3/16 r^2 (l + 2 log 2 - 13/12) + O(r^3 (1 + l))
+ *
+ * Source  NIST DLMF, 19.12.1 and 19.12.2 */
+static qdot_expr
+expand_elliptic_at_one(approach *a, qdot_expr e, qdot_expr m)
+{
+    static const long of_K[3][4] = {{1, 1, 0, 1}, {1, 4, -1, 1}, {9, 64, -7, 6}},
+                      of_E[3][4] = {{0, 1, 0, 1}, {1, 2, -1, 2}, {3, 16, -13, 12}};
+    qdot_pool *pool = a->growth.pool;
+    const bool K = qdot_expr_is_function(pool, e, QDOT_ELLIPTIC_K);
+    const qdot_expr r = qdot_sub(pool, QDOT_ONE, m);
+    qdot_expr l, sum = K ? QDOT_ZERO : QDOT_ONE;
+    int sign;
+
+    if (!find_sign(a, r, &sign))
+        return QDOT_NIL;
+    if (sign <= 0) {
+        a->growth.undefined = true;
+        return fail_approach(a, QDOT_EFAILED);
+    }
+    l = qdot_mul(pool, qdot_neg(pool, QDOT_HALF), qdot_fun1(pool, QDOT_LOG, r));
+    for (int k = 0; k < 3; k++) {
+        const long *c = K ? of_K[k] : of_E[k];
+        const qdot_expr log_4 = qdot_mul(pool, qdot_expr_int(pool, 2), qdot_fun1(pool, QDOT_LOG, qdot_expr_int(pool, 2)));
+        const qdot_expr inner = qdot_sum(pool, 3, (qdot_expr[]){l, log_4, qdot_expr_ratio(pool, c[2], c[3])});
+
+        sum = qdot_add(pool, sum,
+                       qdot_product(pool, 3, (qdot_expr[]){qdot_expr_ratio(pool, c[0], c[1]), qdot_pow_int(pool, r, k), inner}));
+    }
+    return qdot_add(pool, sum,
+                    qdot_product(pool, 3, (qdot_expr[]){bounded_symbol(a), qdot_pow_int(pool, r, 3), qdot_add(pool, QDOT_ONE, l)}));
+}
+
+static qdot_expr
+resolve_complete_elliptic(approach *a, qdot_expr e, qdot_expr m)
+{
+    qdot_expr limit = QDOT_NIL;
+    const qdot_status status = holds_bounded(a, m) ? QDOT_EFAILED : qdot_growth_limit(&a->growth, m, &limit);
+
+    if (status != QDOT_OK)
+        return fail_approach(a, status);
+    limit = qdot_simplify(a->growth.pool, limit, a->growth.facts);
+    return limit == QDOT_ZERO  ? expand_elliptic_at_zero(a, e, m)
+           : limit == QDOT_ONE ? expand_elliptic_at_one(a, e, m)
+                               : e;
+}
+
 static qdot_expr
 resolve_function(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -179,6 +245,9 @@ resolve_function(qdot_pool *pool, qdot_expr e, void *user)
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH: return resolve_wave(a, e, u);
+    case QDOT_ELLIPTIC_K:
+    case QDOT_ELLIPTIC_E:
+        return a->expands_elliptic && qdot_expr_count(pool, e) == 1 ? resolve_complete_elliptic(a, e, u) : e;
     default: return e;
     }
 }
@@ -248,12 +317,13 @@ drop_bounded(approach *a, qdot_expr *e, bool *remain)
 
 /* The limit of e as x tends to a + sign/X, X to infinity; a may be infinite. */
 static qdot_status
-limit_on_side(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, qdot_expr at, int sign,
-              qdot_limit_answer *answer)
+limit_on_side_by(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, qdot_expr at, int sign,
+                 bool expands_elliptic, qdot_limit_answer *answer)
 {
     const qdot_expr X = qdot_symbol_get(pool, QDOT_FORMAL, "a large number"),
                     w = qdot_symbol_get(pool, QDOT_FORMAL, "a small number");
-    approach a = {.growth = {.pool = pool, .facts = facts, .x = X, .w = w, .work = QUESTIONS}};
+    approach a = {.growth = {.pool = pool, .facts = facts, .x = X, .w = w, .work = QUESTIONS},
+                  .expands_elliptic = expands_elliptic};
     qdot_expr place, limit = QDOT_NIL;
     bool remain = false;
     qdot_status status;
@@ -293,6 +363,35 @@ limit_on_side(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x
     if (answer->value == QDOT_NIL)
         answer->value = limit;
     return QDOT_OK;
+}
+
+/* The value of e at the place, where e has no steps: then it is continuous. */
+static qdot_status
+put_place(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr at, qdot_limit_answer *answer)
+{
+    static const qdot_fun_id steps[] = {QDOT_SIGN, QDOT_FLOOR, QDOT_MOD, QDOT_IF, QDOT_ATAN2};
+    qdot_expr value;
+
+    if (qdot_infinite(pool, at) != 0 || qdot_expr_find_function(pool, e, sizeof steps / sizeof *steps, steps, x) != QDOT_NIL)
+        return QDOT_OK;
+    value = qdot_subs(pool, e, 1, &x, &at);
+    if (value != QDOT_NIL)
+        *answer = (qdot_limit_answer){.kind = QDOT_LIMIT_VALUE, .value = value};
+    return qdot_grave(qdot_pool_check(pool));
+}
+
+/* The same; with complete elliptic integrals that are not expanded, expanded, and as functions that are continuous. */
+static qdot_status
+limit_on_side(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, qdot_expr at, int sign,
+              qdot_limit_answer *answer)
+{
+    static const qdot_fun_id complete[] = {QDOT_ELLIPTIC_K, QDOT_ELLIPTIC_E};
+
+    QDOT_TRY(limit_on_side_by(pool, facts, e, x, at, sign, false, answer));
+    if (answer->kind != QDOT_LIMIT_NOT_FOUND || qdot_expr_find_function(pool, e, 2, complete, x) == QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(limit_on_side_by(pool, facts, e, x, at, sign, true, answer));
+    return answer->kind == QDOT_LIMIT_NOT_FOUND ? put_place(pool, e, x, at, answer) : QDOT_OK;
 }
 
 /* Join what was found on both sides. */

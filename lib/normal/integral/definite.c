@@ -13,6 +13,7 @@
 #include "normal/inequality/less.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/integral/ends.h"
+#include "normal/integral/improper.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
@@ -213,16 +214,25 @@ danger_of(range *r, qdot_expr e, uint32_t i, bool jumps, bool *real)
     case QDOT_ABS: return u;
     case QDOT_SIGN: return jumps ? u : QDOT_NIL;
     case QDOT_MAX:
-    case QDOT_MIN:
-        return qdot_expr_count(pool, e) == 2 ? qdot_sub(pool, u, qdot_expr_arg(pool, e, 1)) : QDOT_NIL;
+    case QDOT_MIN: { /* where any two of them are equal */
+        qdot_expr product = QDOT_ONE;
+
+        for (uint32_t k = 0; k < qdot_expr_count(pool, e); k++)
+            for (uint32_t j = 0; j < k; j++)
+                product = qdot_mul(pool, product, qdot_sub(pool, qdot_expr_arg(pool, e, k), qdot_expr_arg(pool, e, j)));
+        return product;
+    }
     case QDOT_IF:
         return qdot_expr_kind(pool, u) != QDOT_REL ? QDOT_NIL
                : qdot_expr_contains(pool, u, r->x) && !jumps ? QDOT_NIL
                : qdot_expr_contains(pool, u, r->x) ? qdot_sub(pool, qdot_expr_arg(pool, u, 0), qdot_expr_arg(pool, u, 1))
                                                    : QDOT_ONE;
-    case QDOT_ATAN2:
-    case QDOT_MOD:
-    case QDOT_FLOOR: return QDOT_NIL;
+    case QDOT_MOD: /* where u is a multiple of the modulus */
+        return qdot_expr_contains(pool, qdot_expr_arg(pool, e, 1), r->x) || !jumps
+                   ? QDOT_NIL
+                   : qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, qdot_div(pool, u, qdot_expr_arg(pool, e, 1))));
+    case QDOT_FLOOR: return jumps ? qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, u)) : QDOT_NIL;
+    case QDOT_ATAN2: return QDOT_NIL;
     default: return QDOT_ONE;
     }
 }
@@ -376,33 +386,65 @@ find_smooth_piece(range *r, qdot_expr e)
     return between_ends_by_cases(r, F);
 }
 
-/* Replace abs, sign, max, min and if by what they are in the piece: by their values at a point of it. */
+/* floor(u) in the piece, in which it has no steps; nil if the ends of the piece are no numbers. */
+static qdot_expr
+floor_inside(range *r, qdot_expr u)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr middle = qdot_mul(pool, QDOT_HALF, qdot_add(pool, r->lo, r->hi)), value = qdot_subs(pool, u, 1, &r->x, &middle);
+
+    if (is_infinite(pool, r->lo) || is_infinite(pool, r->hi) || value == QDOT_NIL || !qdot_expr_is_constant(pool, value))
+        return QDOT_NIL;
+    value = qdot_fun1(pool, QDOT_FLOOR, value);
+    return value != QDOT_NIL && qdot_expr_rational(pool, value) != NULL ? value : QDOT_NIL;
+}
+
+/* The largest (or least) of the arguments of max (or min) in the piece, in which their order is the same everywhere. */
+static qdot_expr
+extreme_inside(range *r, qdot_expr node, bool max)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr best = qdot_expr_arg(pool, node, 0);
+
+    for (uint32_t i = 1; i < qdot_expr_count(pool, node); i++) {
+        const qdot_expr other = qdot_expr_arg(pool, node, i);
+        const int sign = sign_inside(r, qdot_sub(pool, other, best));
+
+        if (sign == 0)
+            return node;
+        best = (sign > 0) == max ? other : best;
+    }
+    return best;
+}
+
+/* Replace abs, sign, max, min, floor, mod and if by what they are in the piece: by their values at a point of it. */
 static qdot_expr
 without_kinks(qdot_pool *pool, qdot_expr node, void *user)
 {
     range *r = user;
     qdot_fun_id id = (qdot_fun_id)qdot_expr_node(pool, node)->op;
-    qdot_expr u = qdot_expr_arg(pool, node, 0), gap;
+    qdot_expr u = qdot_expr_arg(pool, node, 0), gap, modulus;
     int sign;
 
-    if ((id != QDOT_ABS && id != QDOT_SIGN && id != QDOT_MAX && id != QDOT_MIN && id != QDOT_IF) ||
-        !qdot_expr_contains(pool, node, r->x))
+    if (!qdot_expr_contains(pool, node, r->x))
         return node;
-    if (id == QDOT_IF && (qdot_expr_kind(pool, u) != QDOT_REL || !qdot_expr_contains(pool, u, r->x)))
+    if (id == QDOT_MAX || id == QDOT_MIN)
+        return extreme_inside(r, node, id == QDOT_MAX);
+    if (id == QDOT_FLOOR || id == QDOT_MOD) {
+        modulus = id == QDOT_MOD ? qdot_expr_arg(pool, node, 1) : QDOT_ONE;
+        gap = qdot_expr_contains(pool, modulus, r->x) ? QDOT_NIL : floor_inside(r, qdot_div(pool, u, modulus));
+        return gap == QDOT_NIL ? node : id == QDOT_FLOOR ? gap : qdot_sub(pool, u, qdot_mul(pool, modulus, gap));
+    }
+    if ((id != QDOT_ABS && id != QDOT_SIGN && id != QDOT_IF) ||
+        (id == QDOT_IF && (qdot_expr_kind(pool, u) != QDOT_REL || !qdot_expr_contains(pool, u, r->x))))
         return node;
-    if ((id == QDOT_MAX || id == QDOT_MIN) && qdot_expr_count(pool, node) != 2)
-        return node;
-    gap = id == QDOT_IF                        ? qdot_sub(pool, qdot_expr_arg(pool, u, 1), qdot_expr_arg(pool, u, 0))
-          : id == QDOT_MAX || id == QDOT_MIN ? qdot_sub(pool, u, qdot_expr_arg(pool, node, 1))
-                                               : u;
+    gap = id == QDOT_IF ? qdot_sub(pool, qdot_expr_arg(pool, u, 1), qdot_expr_arg(pool, u, 0)) : u;
     sign = sign_inside(r, gap);
     if (sign == 0)
         return node;
     switch (id) {
     case QDOT_ABS: return sign > 0 ? u : qdot_neg(pool, u);
     case QDOT_SIGN: return sign > 0 ? QDOT_ONE : QDOT_MINUS_ONE;
-    case QDOT_MAX: return qdot_expr_arg(pool, node, sign > 0 ? 0 : 1);
-    case QDOT_MIN: return qdot_expr_arg(pool, node, sign > 0 ? 1 : 0);
     default: return qdot_expr_arg(pool, node, sign > 0 ? 1 : 2);
     }
 }
@@ -476,7 +518,12 @@ qdot_definite(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr
     }
     if (ordered)
         QDOT_TRY(find_ordered(pool, e, x, lo, hi, facts, answer));
-    else
+    if (answer->kind == QDOT_DEFINITE_NOT_FOUND && qdot_infinite(pool, hi) > 0 && (lo == QDOT_ZERO || is_infinite(pool, lo))) {
+        QDOT_TRY(qdot_improper(pool, e, x, lo != QDOT_ZERO, facts, &answer->value));
+        if (answer->value != QDOT_NIL)
+            answer->kind = QDOT_DEFINITE_FOUND;
+    }
+    if (!ordered)
         QDOT_TRY(find_piece(pool, e, x, lo, hi, facts, false, answer));
     if (answer->kind == QDOT_DEFINITE_FOUND && answer->value != QDOT_NIL) {
         qdot_expr value = qdot_simplify(pool, backward ? qdot_neg(pool, answer->value) : answer->value, facts);

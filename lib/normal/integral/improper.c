@@ -1,0 +1,219 @@
+/* improper.c -- reads the numbers k, a, b, n off an integrand and compares it with the entries of the tables. */
+#include "normal/integral/improper.h"
+
+#include <flint/arith.h>
+#include <flint/fmpq.h>
+
+#include "expr/build.h"
+#include "expr/calculus.h"
+#include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/walk.h"
+#include "normal/field/normal-form.h"
+#include "normal/inequality/less.h"
+
+enum { MOST_RATES = 2, MOST_POWER = 15 };
+
+/* What the integrand e holds; nil: nothing such. */
+typedef struct {
+    qdot_pool *pool;
+    const qdot_facts *facts;
+    qdot_expr e, x;
+    qdot_expr k, k2;             /* sin or cos of k x; of k2 x^2 */
+    qdot_expr decay[MOST_RATES]; /* exp(-decay x), the first two; 0 where there is none */
+    qdot_expr grow;              /* exp(grow x) */
+    qdot_expr gauss;             /* exp(-gauss x^2) */
+    qdot_expr square;            /* x^2 + square */
+    qdot_expr value;
+    qdot_status status;
+} table;
+
+/* The factor c of u = c x^n; nil: u is another expression. */
+static qdot_expr
+factor_of_power(const table *t, qdot_expr u, long n)
+{
+    const qdot_expr c = qdot_normal(t->pool, qdot_div(t->pool, u, qdot_pow_int(t->pool, t->x, n)), NULL);
+
+    return c == QDOT_NIL || qdot_expr_contains(t->pool, c, t->x) ? QDOT_NIL : c;
+}
+
+static bool
+is_positive(table *t, qdot_expr e)
+{
+    qdot_decision d = {.verdict = QDOT_UNDECIDED};
+
+    if (e == QDOT_NIL || t->status != QDOT_OK)
+        return false;
+    t->status = qdot_decide_less(t->pool, QDOT_ZERO, e, true, t->facts, &d);
+    return d.verdict == QDOT_PROVED;
+}
+
+static void
+read_exponent(table *t, qdot_expr u)
+{
+    const qdot_expr linear = factor_of_power(t, u, 1), square = factor_of_power(t, u, 2);
+
+    if (square != QDOT_NIL)
+        t->gauss = qdot_neg(t->pool, square);
+    if (linear == QDOT_NIL)
+        return;
+    if (is_positive(t, linear))
+        t->grow = linear;
+    else
+        t->decay[t->decay[0] != QDOT_NIL] = qdot_neg(t->pool, linear);
+}
+
+/* Note what one node of the integrand says. */
+static void
+read_node(table *t, qdot_expr e)
+{
+    qdot_pool *pool = t->pool;
+
+    if (!qdot_expr_contains(pool, e, t->x))
+        return;
+    if (qdot_expr_is_function(pool, e, QDOT_SIN) || qdot_expr_is_function(pool, e, QDOT_COS)) {
+        const qdot_expr u = qdot_expr_arg(pool, e, 0), k = factor_of_power(t, u, 1), k2 = factor_of_power(t, u, 2);
+
+        t->k = k != QDOT_NIL ? k : t->k;
+        t->k2 = k2 != QDOT_NIL ? k2 : t->k2;
+    } else if (qdot_expr_is_function(pool, e, QDOT_EXP)) {
+        read_exponent(t, qdot_expr_arg(pool, e, 0));
+    } else if (qdot_expr_kind(pool, e) == QDOT_SUM) {
+        const qdot_expr slope = qdot_diff(pool, e, t->x), lead = slope == QDOT_NIL ? slope : factor_of_power(t, slope, 1);
+
+        if (lead != QDOT_NIL && lead != QDOT_ZERO) /* c x^2 + s, lead = 2 c */
+            t->square = qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), qdot_subs(pool, e, 1, &t->x, &(qdot_expr){QDOT_ZERO})),
+                                 lead);
+    }
+}
+
+/* If e is c f with a c free of x: its integral is c times that of f. */
+static bool
+compare(table *t, qdot_expr f, qdot_expr integral)
+{
+    qdot_expr c;
+
+    if (f == QDOT_NIL || f == QDOT_ZERO || t->value != QDOT_NIL || t->status != QDOT_OK)
+        return false;
+    c = qdot_normal(t->pool, qdot_div(t->pool, t->e, f), NULL);
+    if (c == QDOT_NIL || qdot_expr_contains(t->pool, c, t->x))
+        return false;
+    t->value = qdot_mul(t->pool, c, integral);
+    return true;
+}
+
+static qdot_expr
+function_of(const table *t, qdot_fun_id f, qdot_expr rate, long n)
+{
+    return qdot_fun1(t->pool, f, qdot_mul(t->pool, rate, qdot_pow_int(t->pool, t->x, n)));
+}
+
+/* Entries with sin(k x) or cos(k x). */
+static void
+look_up_waves(table *t)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr x = t->x, k = t->k, s = function_of(t, QDOT_SIN, k, 1), c = function_of(t, QDOT_COS, k, 1);
+    const qdot_expr half_pi = qdot_mul(pool, QDOT_HALF, QDOT_PI), ratio = qdot_div(pool, s, x), decay = t->decay[0];
+
+    compare(t, ratio, half_pi);
+    compare(t, qdot_mul(pool, ratio, ratio), qdot_mul(pool, half_pi, k));
+    compare(t, qdot_div(pool, qdot_sub(pool, QDOT_ONE, c), qdot_mul(pool, x, x)), qdot_mul(pool, half_pi, k));
+    if (t->value == QDOT_NIL && decay != QDOT_NIL && is_positive(t, decay))
+        compare(t, qdot_mul(pool, ratio, function_of(t, QDOT_EXP, qdot_neg(pool, decay), 1)),
+                qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, k, decay)));
+    if (t->value == QDOT_NIL && t->gauss != QDOT_NIL && is_positive(t, t->gauss)) {
+        const qdot_expr fall = qdot_div(pool, qdot_mul(pool, k, k), qdot_mul(pool, qdot_expr_int(pool, -4), t->gauss));
+
+        compare(t, qdot_mul(pool, c, function_of(t, QDOT_EXP, qdot_neg(pool, t->gauss), 2)),
+                qdot_product(pool, 3, (qdot_expr[]){QDOT_HALF, qdot_sqrt(pool, qdot_div(pool, QDOT_PI, t->gauss)),
+                                                    qdot_fun1(pool, QDOT_EXP, fall)}));
+    }
+    if (t->value == QDOT_NIL && t->square != QDOT_NIL && is_positive(t, t->square)) {
+        const qdot_expr a = qdot_sqrt(pool, t->square), under = qdot_add(pool, qdot_mul(pool, x, x), t->square);
+        const qdot_expr fall = qdot_mul(pool, half_pi, qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_mul(pool, a, k))));
+
+        compare(t, qdot_div(pool, c, under), qdot_div(pool, fall, a));
+        compare(t, qdot_div(pool, qdot_mul(pool, x, s), under), fall);
+    }
+}
+
+/* |B| (2 pi/k)^(n + 1)/(2 (n + 1)), B the Bernoulli number of n + 1. */
+static qdot_expr
+bernoulli_integral(const table *t, qdot_expr k, long n)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr power = qdot_pow_int(pool, qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), k), n + 1);
+    qdot_expr result;
+    fmpq_t B;
+
+    fmpq_init(B);
+    arith_bernoulli_number(B, (ulong)n + 1);
+    fmpq_abs(B, B);
+    fmpq_div_2exp(B, B, 1);
+    result = qdot_div(pool, qdot_mul(pool, qdot_expr_fmpq(pool, B), power), qdot_expr_int(pool, n + 1));
+    fmpq_clear(B);
+    return result;
+}
+
+/* Entries with exponentials of x alone. */
+static void
+look_up_exponentials(table *t)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr rate = t->grow != QDOT_NIL ? t->grow : t->decay[0], a = t->decay[0], b = t->decay[1];
+
+    if (a != QDOT_NIL && b != QDOT_NIL && is_positive(t, a) && is_positive(t, b))
+        compare(t, qdot_div(pool,
+                            qdot_sub(pool, function_of(t, QDOT_EXP, qdot_neg(pool, a), 1),
+                                     function_of(t, QDOT_EXP, qdot_neg(pool, b), 1)),
+                            t->x),
+                qdot_fun1(pool, QDOT_LOG, qdot_div(pool, b, a)));
+    if (t->value != QDOT_NIL || rate == QDOT_NIL || !is_positive(t, rate))
+        return;
+    for (long n = 1; n <= MOST_POWER && t->value == QDOT_NIL; n += 2) {
+        const qdot_expr up = qdot_pow_int(pool, t->x, n), E = function_of(t, QDOT_EXP, rate, 1);
+        const qdot_expr whole = bernoulli_integral(t, rate, n);
+
+        compare(t, qdot_div(pool, up, qdot_sub(pool, E, QDOT_ONE)), whole);
+        compare(t, qdot_div(pool, up, qdot_add(pool, E, QDOT_ONE)),
+                qdot_mul(pool, whole, qdot_expr_ratio(pool, (1L << n) - 1, 1L << n)));
+    }
+}
+
+/* Whether e(-x) = e(x). */
+static bool
+is_even(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    const qdot_expr opposite = qdot_neg(pool, x), other = qdot_subs(pool, e, 1, &x, &opposite);
+
+    return other == e || (other != QDOT_NIL && qdot_normal(pool, qdot_sub(pool, other, e), NULL) == QDOT_ZERO);
+}
+
+qdot_status
+qdot_improper(qdot_pool *pool, qdot_expr e, qdot_expr x, bool whole_line, const qdot_facts *facts, qdot_expr *value)
+{
+    table t = {.pool = pool, .facts = facts, .e = e, .x = x};
+    qdot_walk w;
+
+    *value = QDOT_NIL;
+    if (whole_line && !is_even(pool, e, x))
+        return qdot_grave(qdot_pool_check(pool));
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n && t.status == QDOT_OK; i++)
+        read_node(&t, w.at[i]);
+    qdot_walk_end(&w);
+    if (t.k != QDOT_NIL && is_positive(&t, t.k))
+        look_up_waves(&t);
+    else if (t.k2 != QDOT_NIL && is_positive(&t, t.k2))
+        for (int i = 0; i < 2; i++)
+            compare(&t, function_of(&t, i == 0 ? QDOT_SIN : QDOT_COS, t.k2, 2),
+                    qdot_sqrt(pool, qdot_div(pool, QDOT_PI, qdot_mul(pool, qdot_expr_int(pool, 8), t.k2))));
+    else
+        look_up_exponentials(&t);
+    QDOT_TRY(t.status);
+    if (t.value != QDOT_NIL)
+        *value = whole_line ? qdot_mul(pool, qdot_expr_int(pool, 2), t.value) : t.value;
+    return qdot_grave(qdot_pool_check(pool));
+}
