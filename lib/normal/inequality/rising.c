@@ -8,7 +8,7 @@
 #include "expr/walk.h"
 
 static bool
-is_positive(const qdot_pool *pool, qdot_expr e)
+has_positive_sign(const qdot_pool *pool, qdot_expr e)
 {
     return (qdot_expr_sign(pool, e) & QDOT_POS) == QDOT_POS;
 }
@@ -19,12 +19,12 @@ unsigned_factor(const qdot_pool *pool, qdot_expr e)
 {
     qdot_expr left = QDOT_NIL;
 
-    if (qdot_expr_kind(pool, e) != QDOT_PROD || !is_positive(pool, qdot_expr_arg(pool, e, 0)))
+    if (qdot_expr_kind(pool, e) != QDOT_PROD || !has_positive_sign(pool, qdot_expr_arg(pool, e, 0)))
         return e;
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, e, i);
 
-        if (is_positive(pool, base))
+        if (has_positive_sign(pool, base))
             continue;
         if (left != QDOT_NIL || qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
             return e;
@@ -56,7 +56,7 @@ square_sides(qdot_pool *pool, qdot_expr e)
         return QDOT_NIL;
     root = qdot_expr_arg(pool, e, 1);
     k = qdot_expr_arg(pool, e, 2);
-    if (!is_positive(pool, k) || !(qdot_expr_sign(pool, root) & QDOT_GE0) || !holds_square_root(pool, root))
+    if (!has_positive_sign(pool, k) || !(qdot_expr_sign(pool, root) & QDOT_GE0) || !holds_square_root(pool, root))
         return QDOT_NIL;
     c = qdot_div(pool, qdot_expr_arg(pool, e, 0), k);
     return c != QDOT_NIL && (qdot_expr_sign(pool, c) & QDOT_LE0) ? qdot_sub(pool, qdot_mul(pool, root, root), qdot_mul(pool, c, c))

@@ -39,7 +39,7 @@ factor_of_power(const table *t, qdot_expr u, long n)
 }
 
 static bool
-is_positive(table *t, qdot_expr e)
+is_proved_positive(table *t, qdot_expr e)
 {
     qdot_decision d = {.verdict = QDOT_UNDECIDED};
 
@@ -58,7 +58,7 @@ read_exponent(table *t, qdot_expr u)
         t->gauss = qdot_neg(t->pool, square);
     if (linear == QDOT_NIL)
         return;
-    if (is_positive(t, linear))
+    if (is_proved_positive(t, linear))
         t->grow = linear;
     else
         t->decay[t->decay[0] != QDOT_NIL] = qdot_neg(t->pool, linear);
@@ -120,17 +120,17 @@ look_up_waves(table *t)
     compare(t, ratio, half_pi);
     compare(t, qdot_mul(pool, ratio, ratio), qdot_mul(pool, half_pi, k));
     compare(t, qdot_div(pool, qdot_sub(pool, QDOT_ONE, c), qdot_mul(pool, x, x)), qdot_mul(pool, half_pi, k));
-    if (t->value == QDOT_NIL && decay != QDOT_NIL && is_positive(t, decay))
+    if (t->value == QDOT_NIL && decay != QDOT_NIL && is_proved_positive(t, decay))
         compare(t, qdot_mul(pool, ratio, function_of(t, QDOT_EXP, qdot_neg(pool, decay), 1)),
                 qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, k, decay)));
-    if (t->value == QDOT_NIL && t->gauss != QDOT_NIL && is_positive(t, t->gauss)) {
+    if (t->value == QDOT_NIL && t->gauss != QDOT_NIL && is_proved_positive(t, t->gauss)) {
         const qdot_expr fall = qdot_div(pool, qdot_mul(pool, k, k), qdot_mul(pool, qdot_expr_int(pool, -4), t->gauss));
 
         compare(t, qdot_mul(pool, c, function_of(t, QDOT_EXP, qdot_neg(pool, t->gauss), 2)),
                 qdot_product(pool, 3, (qdot_expr[]){QDOT_HALF, qdot_sqrt(pool, qdot_div(pool, QDOT_PI, t->gauss)),
                                                     qdot_fun1(pool, QDOT_EXP, fall)}));
     }
-    if (t->value == QDOT_NIL && t->square != QDOT_NIL && is_positive(t, t->square)) {
+    if (t->value == QDOT_NIL && t->square != QDOT_NIL && is_proved_positive(t, t->square)) {
         const qdot_expr a = qdot_sqrt(pool, t->square), under = qdot_add(pool, qdot_mul(pool, x, x), t->square);
         const qdot_expr fall = qdot_mul(pool, half_pi, qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_mul(pool, a, k))));
 
@@ -164,13 +164,13 @@ look_up_exponentials(table *t)
     qdot_pool *pool = t->pool;
     const qdot_expr rate = t->grow != QDOT_NIL ? t->grow : t->decay[0], a = t->decay[0], b = t->decay[1];
 
-    if (a != QDOT_NIL && b != QDOT_NIL && is_positive(t, a) && is_positive(t, b))
+    if (a != QDOT_NIL && b != QDOT_NIL && is_proved_positive(t, a) && is_proved_positive(t, b))
         compare(t, qdot_div(pool,
                             qdot_sub(pool, function_of(t, QDOT_EXP, qdot_neg(pool, a), 1),
                                      function_of(t, QDOT_EXP, qdot_neg(pool, b), 1)),
                             t->x),
                 qdot_fun1(pool, QDOT_LOG, qdot_div(pool, b, a)));
-    if (t->value != QDOT_NIL || rate == QDOT_NIL || !is_positive(t, rate))
+    if (t->value != QDOT_NIL || rate == QDOT_NIL || !is_proved_positive(t, rate))
         return;
     for (long n = 1; n <= MOST_POWER && t->value == QDOT_NIL; n += 2) {
         const qdot_expr up = qdot_pow_int(pool, t->x, n), E = function_of(t, QDOT_EXP, rate, 1);
@@ -204,9 +204,9 @@ qdot_improper(qdot_pool *pool, qdot_expr e, qdot_expr x, bool whole_line, const 
     for (size_t i = 0; i < w.n && t.status == QDOT_OK; i++)
         read_node(&t, w.at[i]);
     qdot_walk_end(&w);
-    if (t.k != QDOT_NIL && is_positive(&t, t.k))
+    if (t.k != QDOT_NIL && is_proved_positive(&t, t.k))
         look_up_waves(&t);
-    else if (t.k2 != QDOT_NIL && is_positive(&t, t.k2))
+    else if (t.k2 != QDOT_NIL && is_proved_positive(&t, t.k2))
         for (int i = 0; i < 2; i++)
             compare(&t, function_of(&t, i == 0 ? QDOT_SIN : QDOT_COS, t.k2, 2),
                     qdot_sqrt(pool, qdot_div(pool, QDOT_PI, qdot_mul(pool, qdot_expr_int(pool, 8), t.k2))));

@@ -143,7 +143,7 @@ integrate_what_was_read(qdot_integral_task *t, qdot_expr e, qdot_expr x, int dep
     if (F == QDOT_NIL)
         F = qdot_gauss_integrate(t, &r, x);
     if (F == QDOT_NIL)
-        F = qdot_wave_root_integrate(t, &r, e, x, depth);
+        F = qdot_exponential_rational_integrate(t, &r, x);
     return F;
 }
 
@@ -165,6 +165,8 @@ integrate_term(qdot_integral_task *t, qdot_expr e, qdot_expr x, int depth)
         F = qdot_substitution_integrate(t, e, x, depth);
     if (F == QDOT_NIL && depth < QDOT_INTEGRAL_DEPTH)
         F = qdot_parts_integrate(t, e, x, depth);
+    if (F == QDOT_NIL && !t->failed)
+        F = qdot_wave_root_integrate(t, e, x, depth);
     return F;
 }
 

@@ -13,6 +13,9 @@
 /* Rational functions of exp(k x + c): over the exponential. */
 qdot_expr qdot_exponential_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x);
 
+/* Rational functions of x times powers of exp(u), u rational in x (exponential.c). */
+qdot_expr qdot_exponential_rational_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x);
+
 /* Rational functions of x and roots of (a x + b)/(c x + d): over the root of highest order. */
 qdot_expr qdot_linear_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x, int depth);
 
@@ -20,7 +23,7 @@ qdot_expr qdot_linear_root_integrate(qdot_integral_task *t, const qdot_reading *
 qdot_expr qdot_quadratic_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr x);
 
 /* Functions of sines and cosines of one angle that hold roots, over the sine or the cosine (wave-root.c). */
-qdot_expr qdot_wave_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr e, qdot_expr x, int depth);
+qdot_expr qdot_wave_root_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, int depth);
 
 /* Sums of x^n exp(a x) cos(b x), products of these, powers of constants included (waves.c). */
 qdot_expr qdot_waves_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x);

@@ -22,10 +22,11 @@ typedef struct {
     bool hyperbolic;
 } waves;
 
-/* Whether a power of e that is no integer occurs in f. */
+/* Whether f holds a root of `square`, a polynomial in w, or of a multiple of it. */
 static bool
-holds_root_of(qdot_pool *pool, qdot_expr f, qdot_expr e)
+holds_root_of(qdot_integral_task *t, qdot_expr f, qdot_expr square, qdot_expr w)
 {
+    qdot_pool *pool = t->pool;
     bool found = false;
     qdot_walk walk;
 
@@ -33,10 +34,14 @@ holds_root_of(qdot_pool *pool, qdot_expr f, qdot_expr e)
         return true;
     for (size_t i = 0; i < walk.n && !found; i++)
         for (uint32_t k = 1; qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, walk.at[i]); k += 2) {
+            const qdot_expr base = qdot_expr_arg(pool, walk.at[i], k);
+            qdot_expr ratio;
             long n;
 
-            found = found || (qdot_expr_arg(pool, walk.at[i], k) == e &&
-                              !qdot_expr_to_int(pool, qdot_expr_arg(pool, walk.at[i], k + 1), &n));
+            if (found || qdot_expr_to_int(pool, qdot_expr_arg(pool, walk.at[i], k + 1), &n) || !qdot_expr_contains(pool, base, w))
+                continue;
+            ratio = qdot_integral_normal(t, qdot_div(pool, base, square));
+            found = ratio == QDOT_NIL || !qdot_expr_contains(pool, ratio, w);
         }
     qdot_walk_end(&walk);
     return found;
@@ -72,9 +77,9 @@ integrate_form(const waves *f, qdot_expr e, bool sine, int depth)
     e = qdot_div(pool, put_in(f, e, sine ? w : other, sine ? other : w), qdot_mul(pool, rate, f->slope));
     if (e == QDOT_NIL || qdot_expr_contains(pool, e, f->x))
         return QDOT_NIL;
-    if (holds_root_of(pool, e, square))
+    if (holds_root_of(f->t, e, square, w))
         e = qdot_integral_normal(f->t, e);
-    if (e == QDOT_NIL || holds_root_of(pool, e, square))
+    if (e == QDOT_NIL || holds_root_of(f->t, e, square, w))
         return QDOT_NIL;
     F = qdot_integral_any(f->t, e, w, depth + 1);
     return F == QDOT_NIL ? F
@@ -85,26 +90,28 @@ integrate_form(const waves *f, qdot_expr e, bool sine, int depth)
 }
 
 qdot_expr
-qdot_wave_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_expr e, qdot_expr x, int depth)
+qdot_wave_root_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, int depth)
 {
     waves f = {.t = t, .pool = t->pool, .x = x};
-    qdot_expr read = qdot_div(t->pool, qdot_mul(t->pool, r->rest, r->numerator), qdot_reading_denominator(t, r)), F = QDOT_NIL;
+    qdot_expr read, F = QDOT_NIL;
     bool root = false;
+    qdot_reading r;
 
-    if (r->bare || depth > 2)
+    if (depth > 2 || !qdot_reading_make(t, e, x, &r) || r.bare)
         return QDOT_NIL;
-    for (int i = 0; i < r->n; i++) {
-        const qdot_gen_kind kind = r->generator[i].kind;
+    read = qdot_div(t->pool, qdot_mul(t->pool, r.rest, r.numerator), qdot_reading_denominator(t, &r));
+    for (int i = 0; i < r.n; i++) {
+        const qdot_gen_kind kind = r.generator[i].kind;
         const bool hyperbolic = kind == QDOT_GEN_SINH || kind == QDOT_GEN_COSH;
 
-        read = qdot_subs(t->pool, read, 1, &r->generator[i].symbol, &r->generator[i].expr);
+        read = qdot_subs(t->pool, read, 1, &r.generator[i].symbol, &r.generator[i].expr);
         root |= kind == QDOT_GEN_ROOT;
         if (kind == QDOT_GEN_ROOT)
             continue;
         if (kind < QDOT_GEN_SIN || kind > QDOT_GEN_COSH ||
-            (f.u != QDOT_NIL && (f.u != r->generator[i].of || f.hyperbolic != hyperbolic)))
+            (f.u != QDOT_NIL && (f.u != r.generator[i].of || f.hyperbolic != hyperbolic)))
             return QDOT_NIL;
-        f.u = r->generator[i].of;
+        f.u = r.generator[i].of;
         f.hyperbolic = hyperbolic;
     }
     if (!root || f.u == QDOT_NIL)

@@ -36,6 +36,11 @@ known_integrals_differentiate_back(void **state)
         "sin(2*x)/sqrt(2 + cos(x))",
         "x*sqrt((x + 1)/(x + 3))", /* over the root */
         "sqrt((x + 1)/(x + 3))/x",
+        "exp(1/x)/x^3", /* rational times an exponential */
+        "x*exp(k*x)/(1 + k*x)^2",
+        "exp(x^3)*(3*x^3 - 1)/x^2",
+        "exp(x/(1 + x))*(x^2 + 3*x + 1)/(1 + x)^2",
+        "exp(x)*(x^2 + 1)/(x + 1)^2 + exp(2*x)*(2*x - 1)/x^2",
     };
     qdot_expr x = text_read(pool, "x");
 
@@ -55,7 +60,7 @@ static void
 what_the_table_lacks_is_nil(void **state)
 {
     static const char *const unknown[] = {"exp(x^2)", "sin(x)/x", "1/log(x)",
-                                          "sqrt(1 + x^3)"};
+                                          "sqrt(1 + x^3)", "exp(x)/x", "exp(1/x)/x", "exp(x)/(x + 1)^2"};
     qdot_expr x = text_read(pool, "x");
 
     (void)state;
