@@ -94,11 +94,12 @@ find_quadratic_inside(const block *k, form *m, bool *found)
 
     *found = false;
     QDOT_TRY(qdot_walk_begin(k->pool, k->F, &w));
-    for (size_t i = 0; i < w.n && !*found && !qdot_pool_failed(k->pool); i++) {
-        const qdot_expr e = w.at[i];
+    /* products after sums: a root of a product of two linear sums */
+    for (size_t i = 0; i < 2 * w.n && !*found && !qdot_pool_failed(k->pool); i++) {
+        const qdot_expr e = w.at[i % w.n];
 
-        *found = e != k->F && qdot_expr_kind(k->pool, e) == QDOT_SUM && holds_any(k, e) && is_function_of(k, e, m) &&
-                 is_quadratic(k, e, m->B);
+        *found = e != k->F && qdot_expr_kind(k->pool, e) == (i < w.n ? QDOT_SUM : QDOT_PROD) && holds_any(k, e) &&
+                 is_function_of(k, e, m) && is_quadratic(k, e, m->B);
     }
     qdot_walk_end(&w);
     return qdot_pool_check(k->pool);

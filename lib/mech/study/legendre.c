@@ -57,6 +57,38 @@ terms_of_block(const qdot_legendre *l, qdot_expr e, size_t of)
     return sum;
 }
 
+/* Whether a function of an x stands in e, such as sign(x), whose derivative is 0 though it is no constant. */
+static bool
+holds_function_of_variable(const qdot_legendre *l, qdot_expr e)
+{
+    qdot_walk w;
+    bool found = false;
+
+    if (e == QDOT_NIL || qdot_walk_begin(l->pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++)
+        found = qdot_expr_kind(l->pool, w.at[i]) == QDOT_FUN && holds_variable(l, w.at[i]);
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* Whether dF/dx_i is A x and what holds no x of the block, as the second derivatives say where nothing jumps. */
+static bool
+is_slope_linear(const qdot_legendre *l, uint32_t i)
+{
+    qdot_expr rest = qdot_diff(l->pool, l->F, l->x[i]);
+
+    if (!holds_function_of_variable(l, rest))
+        return true;
+    for (uint32_t j = 0; j < l->n; j++)
+        rest = qdot_sub(l->pool, rest, qdot_mul(l->pool, l->A[i * l->n + j], l->x[j]));
+    rest = qdot_simplify(l->pool, rest, &l->facts);
+    for (uint32_t j = 0; j < l->n; j++)
+        if (rest == QDOT_NIL || (l->block[j] == l->block[i] && qdot_expr_contains(l->pool, rest, l->x[j])))
+            return false;
+    return true;
+}
+
 /* Find A, its blocks, and those in which F is not quadratic. */
 static void
 find_hessian_blocks(qdot_legendre *l)
@@ -73,6 +105,10 @@ find_hessian_blocks(qdot_legendre *l)
             if (l->block[i] == l->block[j] && holds_variable(l, l->A[i * l->n + j]))
                 for (uint32_t k = 0; k < l->n; k++)
                     l->bent[k] |= l->block[k] == l->block[i];
+    for (uint32_t i = 0; i < l->n; i++)
+        if (!l->bent[i] && !is_slope_linear(l, i))
+            for (uint32_t k = 0; k < l->n; k++)
+                l->bent[k] |= l->block[k] == l->block[i];
 }
 
 /* --- errors ------------------------------------------------------------------------------ */

@@ -85,6 +85,19 @@ hamiltons_equations_of_a_stated_function_body(kit *k)
 }
 TEST(hamiltons_equations_of_a_stated_function)
 
+/* |p| has no second derivative but at 0: it is no part of a quadratic H, whose L would not know it. */
+static void
+kinks_are_not_quadratic_body(kit *k)
+{
+    qdot_expr H, L;
+
+    coords(k, "x");
+    H = qdot_add(k->pool, qdot_pow_int(k->pool, P(k, "x"), 2), qdot_fun1(k->pool, QDOT_ABS, P(k, "x")));
+    must(qdot_scene_hamiltonian(k->scene, H, QDOT_NIL));
+    assert_int_equal(qdot_hamilton_lagrangian(k->scene, &L), QDOT_EDOMAIN);
+}
+TEST(kinks_are_not_quadratic)
+
 int
 main(void)
 {
@@ -94,6 +107,7 @@ main(void)
         cmocka_unit_test(momenta_by_one_equation_return),
         cmocka_unit_test(first_degree_names_its_constraint),
         cmocka_unit_test(hamiltons_equations_of_a_stated_function),
+        cmocka_unit_test(kinks_are_not_quadratic),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
