@@ -30,6 +30,7 @@
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
+#include "mech/study/phase-symbols.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"
@@ -414,8 +415,8 @@ replace_momenta_by_velocities(qdot_session *session, question *q, qdot_assumed *
                             (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)))
             status = qdot_vec_push(&list, qdot_rel(session->pool, QDOT_EQ, f->from.at[i], f->to.at[i]));
     if (status == QDOT_OK && qdot_momenta_meet(session, (uint32_t)list.n, list.at)) {
-        q->left = qdot_momenta_to_velocities(session, q->left);
-        q->right = qdot_momenta_to_velocities(session, q->right);
+        q->left = qdot_momenta_unify(session, q->left);
+        q->right = qdot_momenta_unify(session, q->right);
         status = qdot_assumed_in_velocities(session, f);
     }
     qdot_free(list.at);
@@ -546,7 +547,7 @@ rate_of_component(qdot_pool *pool, qdot_expr e, void *user)
     qdot_expr rate = speeds ? qdot_session_speeds_rate(search->session, e) : qdot_mech_rate(search->session->scene, e);
 
     if (rate != QDOT_NIL || qdot_pool_failed(pool))
-        return rate;
+        return qdot_phase_space_needed(search->session->scene) ? qdot_phase_space_outward(search->session->scene, rate) : rate;
     search->missing = true;
     return QDOT_ZERO;
 }

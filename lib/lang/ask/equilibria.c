@@ -28,6 +28,7 @@ QDOT_STATEMENT(equilibria) = {
     .summary = "the equilibria of the scene, with their stability",
     .example = "equilibria",
     .alone = true,
+    .linear = true,
     .handler = carry_out_equilibria,
 };
 

@@ -27,6 +27,7 @@ QDOT_STATEMENT(linearize) = {
     .summary = "x' = A x + B u near an equilibrium, a state or a time of a run; with outputs y = C x + D u",
     .example = "linearize at equilibria[1]",
     .nameable = true,
+    .linear = true,
     .handler = carry_out_linearize,
 };
 

@@ -23,6 +23,7 @@ QDOT_STATEMENT(modes) = {
     .summary = "normal modes about an equilibrium or a steady motion: frequencies and amplitudes",
     .example = "modes at equilibria[2]",
     .alone = true,
+    .linear = true,
     .handler = carry_out_modes,
 };
 

@@ -14,6 +14,7 @@ QDOT_STATEMENT(steady) = {
     .example = "steady in phi'",
     .alone = true,
     .nameable = true,
+    .linear = true,
     .handler = carry_out_steady,
 };
 

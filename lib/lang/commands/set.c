@@ -11,7 +11,9 @@
 #include "lang/commands/value-check.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/measured.h"
+#include "lang/session/phase.h"
 #include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "mech/scene/things.h"
@@ -312,7 +314,21 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
     const qdot_session *session = r->cursor.session;
     const qdot_scene *scene = session->scene;
 
+    if (qdot_set_is_momentum(session, name)) {
+        QDOT_TRY(find_momentum(r, name, jet));
+        if (qdot_phase_has(session))
+            *jet = qdot_phase_space_coordinate(scene, qdot_expr_symbol(scene->pool, *jet)->base);
+        QDOT_TRY(qdot_pool_check(scene->pool));
+        return qdot_record_no_prime(r, name, "`=`");
+    }
     QDOT_TRY(qdot_record_coordinate(r, name, jet));
+    if (qdot_phase_has(session) && qdot_expr_symbol(scene->pool, *jet)->order == 1) {
+        const char *q = qdot_expr_symbol(scene->pool, qdot_expr_symbol(scene->pool, *jet)->base)->name;
+
+        qdot_record_blame(r, name);
+        (void)qdot_fail(QDOT_EINVAL, "%s' follows from the momenta: this scene has an H, and no Lagrangian", q);
+        return qdot_hint("p[%s] = ... gives the momentum", q);
+    }
     for (size_t i = 0; i < scene->states.n; i++)
         if (*jet == qdot_symbol_jet(scene->pool, scene->states.at[i].z, 1)) {
             const char *z = qdot_expr_symbol(scene->pool, scene->states.at[i].z)->name;
@@ -324,27 +340,13 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
     return check_is_position_or_velocity(&r->cursor, name->from, *jet);
 }
 
-/* Fail, because a run does not use a value given for the momentum p[q]. */
-static qdot_status
-refuse_momentum(qdot_record *r, const qdot_filled *part)
-{
-    qdot_expr p;
-    const char *name;
-
-    QDOT_TRY(find_momentum(r, part, &p));
-    name = qdot_expr_symbol(r->cursor.session->pool, p)->name;
-    qdot_record_blame(r, part);
-    (void)qdot_fail(QDOT_EINVAL, "a run begins with velocities and does not read %.100s", name);
-    return qdot_hint("%.*s' = ... gives the velocity", (int)strlen(name) - 3, name + 2);
-}
-
 bool
 qdot_set_is_read(const qdot_record *r, const qdot_filled *part, qdot_expr symbol)
 {
     const qdot_session *session = r->cursor.session;
     const char *name = qdot_expr_symbol(session->pool, symbol)->name;
 
-    return qdot_record_mentions_besides(r, part, name) || qdot_loop_index_is_read(session, symbol);
+    return qdot_expr_is_class(session->pool, symbol, QDOT_MOMENTUM) || qdot_record_mentions_besides(r, part, name) || qdot_loop_index_is_read(session, symbol);
 }
 
 qdot_status
@@ -366,7 +368,7 @@ qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
     const char *name;
 
     if (qdot_set_is_momentum(r->cursor.session, part))
-        return refuse_momentum(r, part);
+        return qdot_set_find_jet(r, part, symbol);
     QDOT_TRY(qdot_record_name(r, part, &name));
     known = qdot_names_find(r->cursor.session->names, name);
     return known != NULL && known->kind == QDOT_NAME_COORD ? qdot_set_find_jet(r, part, symbol)

@@ -13,7 +13,7 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_fi
                                                    qdot_expr *value);
 /* Whether the part p[NAME] is a momentum, because the script does not declare `p` itself. */
 bool qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part);
-/* Find a symbol for which a run can take a value: a parameter, q or q'. QDOT_EINVAL for a momentum p[NAME]. */
+/* Find a symbol for which a run can take a value: a parameter, q, q' or a momentum p[NAME]. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
 /* Whether `symbol`, whose name the part is, stands elsewhere in the statement, or something in the scene depends on it;
  * QDOT_EINVAL where neither is so. */

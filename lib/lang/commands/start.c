@@ -8,6 +8,7 @@
 #include "lang/commands/set.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/phase.h"
 #include "lang/session/runs.h"
 #include "lang/session/speeds.h"
 #include "lang/session/start-kind.h"
@@ -102,7 +103,8 @@ start_at_end_of_run(qdot_record *r, const char *name)
         }
         QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_session_start(session, q, q0));
-        QDOT_TRY(qdot_session_start(session, v, v0));
+        if (!qdot_phase_has(session))
+            QDOT_TRY(qdot_session_start(session, v, v0));
     }
     session->values->start_exactly = qdot_record_word(r, "exactly") != NULL;
     QDOT_TRY(store_start_errors(session, run));
@@ -129,7 +131,7 @@ static qdot_status
 find_start_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
 {
     if (qdot_set_is_momentum(r->cursor.session, part))
-        return qdot_set_find_parameter(r, part, symbol);
+        return qdot_set_find_jet(r, part, symbol);
     QDOT_TRY(find_speed(r, part, symbol));
     return *symbol != QDOT_NIL ? QDOT_OK : qdot_set_find_jet(r, part, symbol);
 }

@@ -12,6 +12,7 @@
 #include "lang/language/function.h"
 #include "lang/language/hints.h"
 #include "lang/language/token-text.h"
+#include "lang/session/phase.h"
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
 
@@ -274,6 +275,8 @@ qdot_warnings_start(qdot_session *session)
     return qdot_answer_notice_once(
         session, session->scene->constraints.n > 0
                      ? "no `start` was given: what the constraints leave open begins at 0"
+                     : qdot_phase_has(session)
+                     ? "no `start` was given: all coordinates and momenta begin at 0"
                      : "no `start` was given: all coordinates and velocities begin at 0");
 }
 

@@ -178,10 +178,10 @@ qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f)
     size_t kept = 0;
 
     for (size_t i = 0; i < f->from.n; i++) {
-        qdot_expr to = qdot_momenta_to_velocities(session, f->to.at[i]);
+        qdot_expr to = qdot_momenta_unify(session, f->to.at[i]);
 
         if (qdot_expr_is_class(pool, f->from.at[i], QDOT_MOMENTUM)) {
-            qdot_expr p = qdot_momenta_to_velocities(session, f->from.at[i]);
+            qdot_expr p = qdot_momenta_unify(session, f->from.at[i]);
 
             QDOT_TRY(qdot_vec_push(&f->relations, qdot_sub(pool, p, to)));
         } else {
@@ -191,9 +191,9 @@ qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f)
     }
     f->from.n = f->to.n = kept;
     for (size_t i = 0; i < f->relations.n; i++)
-        f->relations.at[i] = qdot_momenta_to_velocities(session, f->relations.at[i]);
+        f->relations.at[i] = qdot_momenta_unify(session, f->relations.at[i]);
     for (size_t i = 0; i < f->conditions.n; i++)
-        f->conditions.at[i] = qdot_momenta_to_velocities(session, f->conditions.at[i]);
+        f->conditions.at[i] = qdot_momenta_unify(session, f->conditions.at[i]);
     return qdot_pool_check(pool);
 }
 

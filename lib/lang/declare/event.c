@@ -1,6 +1,7 @@
 /* event.c -- the statement `event`: declares a condition at which a run stops or changes its state. */
 #include "lang/commands/set.h"
 #include "lang/session/measured.h"
+#include "lang/session/phase.h"
 
 static qdot_status declare_event(qdot_record *r);
 
@@ -22,6 +23,8 @@ find_target_of_event(qdot_record *r, const qdot_filled *part, qdot_expr *target)
     const qdot_name *known;
     const char *name;
 
+    if (qdot_phase_has(session) && qdot_set_is_momentum(session, part))
+        return qdot_set_find_jet(r, part, target);
     QDOT_TRY(qdot_record_name(r, part, &name));
     known = qdot_names_find(session->names, name);
     if (known != NULL && known->kind == QDOT_NAME_PARAM) {

@@ -17,6 +17,7 @@
 #include "lang/session/history.h"
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
+#include "lang/session/phase.h"
 #include "lang/session/runs.h"
 #include "lang/session/speeds.h"
 #include "lang/session/typed.h"
@@ -275,6 +276,7 @@ qdot_status
 qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 {
     qdot_text lost = {0};
+    unsigned paused;
     qdot_status status;
 
     if (what == QDOT_FILE_HISTORY) {
@@ -283,8 +285,10 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
         out->failed = out->failed || s->typed->all.failed;
         return qdot_text_status(out);
     }
+    paused = qdot_phase_pause(s);
     status = append_all_statements(s, what == QDOT_FILE_SESSION, &lost, out);
-
+    if (status == QDOT_OK)
+        status = qdot_phase_resume(s, paused);
     if (status == QDOT_OK)
         qdot_session_remarks_lost(s, &lost, out);
     qdot_text_clear(&lost);

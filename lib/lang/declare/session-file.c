@@ -15,6 +15,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/names.h"
+#include "lang/session/phase.h"
 #include "lang/session/runs.h"
 #include "lang/session/speeds.h"
 #include "lang/session/trial.h"
@@ -545,8 +546,8 @@ write_session_runs(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot
     return status;
 }
 
-qdot_status
-qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out)
+static qdot_status
+write_runs_in_order(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out)
 {
     const size_t n = s->runs->n;
     qdot_named_run *all = qdot_malloc((n + 1) * sizeof *all);
@@ -564,5 +565,16 @@ qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *o
     if (n > 0)
         memcpy(s->runs->at, all, n * sizeof *all);
     qdot_free(all);
+    return status;
+}
+
+qdot_status
+qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out)
+{
+    qdot_status status = qdot_phase_begin(s, false);
+
+    if (status == QDOT_OK)
+        status = write_runs_in_order(s, runs, lost, out);
+    qdot_phase_end(s);
     return status;
 }

@@ -6,6 +6,7 @@
 #include "lang/declare/export-scene.h"
 #include "lang/files/redirect.h"
 #include "lang/language/token-text.h"
+#include "lang/session/phase.h"
 #include "lang/syntax/record.h"
 
 static qdot_status carry_out_export(qdot_record *r);
@@ -89,6 +90,18 @@ write_latex(qdot_session *session, const operand *o, const char *path)
                              qdot_ask_answer(session, qdot_text_str(&o->name), o->value, QDOT_NIL));
 }
 
+/* Export the equations that runs integrate: in its phase space where the scene states H alone. */
+static qdot_status
+export_motion(qdot_session *session, const char *name, const qdot_export_language *language, qdot_text *source)
+{
+    qdot_status status = qdot_phase_begin(session, false);
+
+    if (status == QDOT_OK)
+        status = qdot_export_scene(session, name, language, source);
+    qdot_phase_end(session);
+    return status;
+}
+
 static qdot_status
 carry_out_export(qdot_record *r)
 {
@@ -109,8 +122,7 @@ carry_out_export(qdot_record *r)
     if (status == QDOT_OK && l->source == NULL) {
         status = write_latex(session, &o, path);
     } else if (status == QDOT_OK) {
-        status = o.motion ? qdot_export_scene(session, qdot_text_str(&name),
-                                              l->source, &source)
+        status = o.motion ? export_motion(session, qdot_text_str(&name), l->source, &source)
                           : qdot_export_value(session, qdot_text_str(&o.name), o.value,
                                               qdot_text_str(&name),
                                               l->source, &source);

@@ -6,6 +6,7 @@
 
 #include "lang/session/history.h"
 #include "lang/session/output.h"
+#include "lang/syntax/match.h"
 #include "show/animation.h"
 
 qdot_status
@@ -69,7 +70,7 @@ qdot_report_answer_of(const qdot_cursor *cursor, const qdot_statement *statement
     qdot_report_answer k;
 
     QDOT_TRY(qdot_report_answer_begin(cursor->session, QDOT_MATHML, &k));
-    return qdot_report_answer_end(cursor->session, &k, statement->handler(&r), text);
+    return qdot_report_answer_end(cursor->session, &k, qdot_match_handle(statement, &r), text);
 }
 
 qdot_status

@@ -7,6 +7,7 @@
 #include "lang/files/report-answer.h"
 #include "lang/files/report-run.h"
 #include "lang/files/report-work.h"
+#include "lang/session/phase.h"
 #include "lang/session/runs.h"
 #include "lang/session/text-list.h"
 #include "lang/syntax/record.h"
@@ -74,10 +75,15 @@ static qdot_status
 add_conserved(page *p)
 {
     qdot_session *s = p->session;
-    qdot_expr list = qdot_noether_conserved(s->scene);
+    qdot_expr list = QDOT_NIL;
     qdot_report_answer k;
-    qdot_status status = qdot_pool_check(s->pool);
+    qdot_status status = qdot_phase_begin(s, false);
 
+    if (status == QDOT_OK) {
+        list = qdot_noether_conserved(s->scene);
+        status = qdot_pool_check(s->pool);
+    }
+    qdot_phase_end(s);
     QDOT_TRY(qdot_grave(status));
     qdot_report_heading(&p->page, "Conserved quantities");
     if (status != QDOT_OK)
@@ -110,6 +116,18 @@ add_script(page *p)
     return status;
 }
 
+/* The runs, each in the scene of the runs: the phase space where H alone is stated. */
+static qdot_status
+add_runs(page *p)
+{
+    qdot_status status = qdot_phase_begin(p->session, false);
+
+    if (status == QDOT_OK)
+        status = qdot_report_runs(p->session, p->n, p->runs, &p->page);
+    qdot_phase_end(p->session);
+    return status;
+}
+
 static qdot_status
 write_sections(page *p)
 {
@@ -118,7 +136,7 @@ write_sections(page *p)
     QDOT_TRY(add_conserved(p));
     QDOT_TRY(add_answer(p, "Equilibria and their stability", qdot_statement_find("equilibria")));
     if (p->n > 0) {
-        QDOT_TRY(qdot_report_runs(p->session, p->n, p->runs, &p->page));
+        QDOT_TRY(add_runs(p));
         if (p->work)
             QDOT_TRY(qdot_report_work(p->session, p->n, p->runs, &p->page));
     } else {

@@ -10,6 +10,7 @@
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/phase.h"
 #include "mech/linear/first-order.h"
 #include "mech/linear/state-values.h"
 #include "normal/simplify/simplify.h"
@@ -221,7 +222,7 @@ qdot_linear_find(qdot_session *session, const qdot_linear_place *place, bool *mo
     qdot_first_order_clear(&x);
     if (status == QDOT_OK)
         status = write_output_matrices(session, &found);
-    found.version = session->scene->version;
+    found.version = qdot_phase_version(session);
     if (status == QDOT_OK)
         session->history->linear = found;
     return status;
@@ -233,7 +234,7 @@ qdot_linear_latest(qdot_session *session, const qdot_linear **linear)
     *linear = &session->history->linear;
     if ((*linear)->states == QDOT_NIL)
         (void)qdot_fail(QDOT_EINVAL, "there is no linear motion yet");
-    else if ((*linear)->version != session->scene->version)
+    else if ((*linear)->version != qdot_phase_version(session))
         (void)qdot_fail(QDOT_EINVAL, "the scene has changed since the latest `linearize`");
     else
         return QDOT_OK;

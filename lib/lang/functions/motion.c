@@ -9,6 +9,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
+#include "mech/study/phase-symbols.h"
 
 /* The rate of e in velocities or, as speeds and momenta have rates of their own, in these. */
 static qdot_expr
@@ -23,8 +24,9 @@ rate_of_scalar(qdot_pool *pool, qdot_expr e, void *session)
         return e;
     if ((qdot_expr_node(pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)) ||
         qdot_mech_holds_momentum_rate(s->scene, e))
-        e = qdot_momenta_to_velocities(session, e);
-    return e == QDOT_NIL ? e : qdot_rate_of(s->scene, e);
+        e = qdot_momenta_unify(session, e);
+    e = e == QDOT_NIL ? e : qdot_rate_of(s->scene, e);
+    return qdot_phase_space_needed(s->scene) ? qdot_phase_space_outward(s->scene, e) : e;
 }
 
 qdot_status
@@ -36,7 +38,7 @@ qdot_call_rate(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
     (void)n;
     if ((qdot_expr_node(s->pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM)) &&
         scene->particles.n == 0 &&
-        scene->bodies.n == 0 && scene->lagrangian == QDOT_NIL) {
+        scene->bodies.n == 0 && scene->lagrangian == QDOT_NIL && scene->hamiltonian == QDOT_NIL) {
         qdot_fail(QDOT_EINVAL, "the scene has nothing that moves, so accelerations are unknown");
         return qdot_hint("ddt(...) keeps them; or declare a `particle`, a `body` or a `lagrangian`");
     }

@@ -13,6 +13,7 @@
 #include "lang/functions/linear.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
+#include "lang/session/phase.h"
 #include "lang/session/speeds.h"
 #include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
@@ -22,6 +23,7 @@
 #include "mech/study/bodies.h"
 #include "mech/study/hamilton.h"
 #include "mech/study/noether.h"
+#include "mech/study/phase-space.h"
 #include "mech/study/reactions.h"
 
 /* --- checks before a quantity is evaluated ------------------------------------------ */
@@ -98,12 +100,10 @@ whole_angular_momentum(qdot_scene *s)
     }
 OF_SCENE(T, require_equations_of_motion, qdot_mech_kinetic)
 OF_SCENE(L, require_equations_of_motion, qdot_mech_lagrangian)
-OF_SCENE(energy, require_equations_of_motion, qdot_mech_energy)
 OF_SCENE(routhian, require_coordinates, cyclic_routhian)
 OF_SCENE(virtual_work, require_equations, qdot_mech_virtual_work)
 OF_SCENE(momentum, require_equations_of_motion, whole_momentum)
 OF_SCENE(angular_momentum, require_equations_of_motion, whole_angular_momentum)
-OF_SCENE(conserved, require_coordinates, qdot_noether_conserved)
 #undef OF_SCENE
 
 /* A stated H is known even where no Lagrangian follows from it. */
@@ -114,6 +114,35 @@ get_hamiltonian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
     if (s->scene->hamiltonian == QDOT_NIL)
         QDOT_TRY(require_coordinates(s));
     return qdot_value_kind_give(s->pool, qdot_hamilton_hamiltonian(s->scene), value);
+}
+
+/* With an H alone, sum p q' - L is H. */
+static qdot_status
+get_energy(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    if (qdot_phase_space_needed(s->scene))
+        return get_hamiltonian(s, n, index, value);
+    QDOT_TRY(require_equations_of_motion(s));
+    return qdot_value_kind_give(s->pool, qdot_mech_energy(s->scene), value);
+}
+
+/* With an H alone, those of its phase space, in momenta. */
+static qdot_status
+get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    qdot_expr found = QDOT_NIL;
+    qdot_status status = qdot_phase_begin(s, false);
+
+    (void)n, (void)index;
+    if (status == QDOT_OK)
+        status = require_coordinates(s);
+    if (status == QDOT_OK)
+        found = qdot_noether_conserved(s->scene);
+    qdot_phase_end(s);
+    QDOT_TRY(status);
+    if (qdot_phase_space_needed(s->scene))
+        found = qdot_phase_space_outward(s->scene, found);
+    return qdot_value_kind_give(s->pool, found, value);
 }
 
 static qdot_status
@@ -369,12 +398,14 @@ static qdot_status
 get_rests(qdot_session *s, const char *word, qdot_equilibria_search *find, uint32_t n, const qdot_expr *index,
           qdot_expr *value)
 {
-    qdot_equilibria all;
-    qdot_status status;
+    qdot_equilibria all = {0};
+    qdot_status status = qdot_phase_begin(s, true);
     long k = 0;
 
-    QDOT_TRY(require_equations(s));
-    status = find(s, &all);
+    if (status == QDOT_OK)
+        status = require_equations(s);
+    if (status == QDOT_OK)
+        status = find(s, &all);
     if (status == QDOT_OK)
         status = qdot_equilibria_list(s, &all, value);
     if (status == QDOT_OK && n > 0)
@@ -384,6 +415,9 @@ get_rests(qdot_session *s, const char *word, qdot_equilibria_search *find, uint3
     if (status == QDOT_OK && n > 0)
         status = qdot_equilibria_notice(s, word, k, &all.at[k - 1]);
     qdot_equilibria_clear(&all);
+    qdot_phase_end(s);
+    if (status == QDOT_OK && qdot_phase_space_needed(s->scene))
+        *value = qdot_phase_space_outward(s->scene, *value);
     return status;
 }
 

@@ -29,6 +29,7 @@
 #include "mech/dynamics/rate.h"
 #include "mech/scene/scene.h"
 #include "mech/scene/things.h"
+#include "mech/study/phase-symbols.h"
 
 bool
 qdot_resolve_is_function(const qdot_session *session, const char *name)
@@ -519,7 +520,7 @@ stands_beside_momenta(const qdot_cursor *c, const qdot_token *token)
 {
     const qdot_token *first = qdot_enclosing_statement(c, token);
 
-    if (is_definition(first) || is_claim_of_conservation(first))
+    if (is_definition(first) || is_claim_of_conservation(first) || qdot_phase_space_needed(c->session->scene))
         return true;
     for (token = first; token->kind != QDOT_TOKEN_END; token++)
         if (is_independent_momentum(c->session, token) ||

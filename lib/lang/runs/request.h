@@ -12,6 +12,7 @@ typedef struct {
     qdot_vec(qdot_expr) q0, v0;
     qdot_vec(bool) q_named, v_named;
     double *scales, *apart;
+    bool momenta_in_numbers; /* the velocities that follow from momenta were found as doubles */
     qdot_run_request request;
 } qdot_request;
 

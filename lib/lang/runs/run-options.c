@@ -156,7 +156,7 @@ bool
 qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o)
 {
     for (size_t i = 0; i < o->with.symbols.n; i++)
-        if (qdot_expr_is_class(pool, o->with.symbols.at[i], QDOT_COORD))
+        if (qdot_session_is_start(pool, o->with.symbols.at[i]))
             return true;
     return false;
 }
@@ -183,6 +183,8 @@ qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_exp
     if (status == QDOT_OK)
         status = qdot_request_limits(session, from, to, request);
     qdot_trial_end(&trial);
+    if (status == QDOT_OK && o->digits > 0 && request->momenta_in_numbers)
+        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: digits of runs whose start gives momenta that no formula turns into velocities");
     request->request.tol = o->tol;
     request->request.digits = (int)o->digits;
     request->request.method = o->method != NULL ? o->method : "auto";

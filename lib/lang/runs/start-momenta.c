@@ -1,14 +1,17 @@
 /* start-momenta.c -- a start that gives momenta: the velocities at the beginning of a run. */
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/runs/request.h"
 #include "lang/session/bind.h"
+#include "lang/session/measured.h"
 #include "lang/session/start-kind.h"
 #include "lang/session/values.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/legendre.h"
+#include "normal/solve/zeros.h"
 
 /* A start in momenta: of the coordinates q [n], numbers `at` of the scene, momenta p = value. */
 typedef struct {
@@ -56,12 +59,75 @@ lagrangian_at_start(qdot_session *session, const qdot_request *o, const start *s
     return L == QDOT_NIL ? L : qdot_session_bind(session, L);
 }
 
+/* Fail, because p = dL/dq' does not determine the velocities, or that is not known. */
+static qdot_status
+report_undetermined(const qdot_session *session, const start *s, const qdot_zeros *zeros)
+{
+    const char *q = qdot_expr_symbol(session->pool, s->q[0])->name;
+
+    if (zeros->complete && zeros->doubts == 0 && zeros->count == 1)
+        (void)qdot_fail(QDOT_EDOMAIN, "at the start the momenta do not determine the velocities: d2L/dq'dq' is singular there");
+    else if (zeros->complete && zeros->doubts == 0)
+        (void)(zeros->count == 0 ? qdot_fail(QDOT_EDOMAIN, "no velocity at the start has these momenta")
+                                 : qdot_fail(QDOT_EDOMAIN, "%zu velocities at the start have these momenta, such as %.80s' = %.12g",
+                                             zeros->count, q, zeros->at[0]));
+    else
+        (void)qdot_fail(QDOT_EDOMAIN, "the velocities that have these momenta at the start were not found, or others may have them");
+    return qdot_hint("start %s' = ... gives a velocity", q);
+}
+
+/* Solve p = dL/dq' in numbers, L at the start: the only zero, proved. */
+static qdot_status
+solve_in_numbers(qdot_session *session, qdot_request *o, const start *s, qdot_expr L)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr *F = qdot_calloc(2 * (size_t)s->n + 1, sizeof *F), *v = F + s->n;
+    qdot_zeros_range *range = qdot_calloc(s->n + 1, sizeof *range);
+    qdot_zeros zeros = {0};
+    qdot_status status = F == NULL || range == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (uint32_t i = 0; i < s->n && status == QDOT_OK; i++) {
+        v[i] = qdot_symbol_jet(pool, s->q[i], 1);
+        F[i] = qdot_sub(pool, qdot_diff(pool, L, v[i]), s->value[i]);
+        range[i] = (qdot_zeros_range){.lo = QDOT_NIL, .hi = QDOT_NIL, .held = QDOT_NIL};
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_zeros_find(pool, s->n, F, v, range, 0, &zeros);
+    if (status == QDOT_OK && (zeros.count != 1 || !zeros.complete || zeros.doubts > 0 || !zeros.simple[0]))
+        status = report_undetermined(session, s, &zeros);
+    for (uint32_t i = 0; i < s->n && status == QDOT_OK; i++)
+        o->v0.at[s->at[i]] = qdot_measured_rational(pool, zeros.at[i]);
+    o->momenta_in_numbers = true;
+    qdot_zeros_clear(&zeros);
+    qdot_free(F);
+    qdot_free(range);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* Solve p = dL/dq' at the start, by a formula or else in numbers. */
+static qdot_status
+solve_start_momenta(qdot_session *session, qdot_request *o, const start *s)
+{
+    const qdot_expr L = lagrangian_at_start(session, o, s);
+    qdot_legendre l = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    if (qdot_legendre_begin(&l, session->scene, QDOT_COORD, L, s->n, s->q))
+        for (uint32_t i = 0; i < s->n; i++)
+            o->v0.at[s->at[i]] = qdot_subs(session->pool, l.solved[i], s->n, s->p, s->value);
+    qdot_legendre_end(&l);
+    status = qdot_pool_check(session->pool);
+    return status == QDOT_EDOMAIN && s->n <= QDOT_ZEROS_MOST_UNKNOWNS ? solve_in_numbers(session, o, s, L) : status;
+}
+
 qdot_status
 qdot_request_momenta(qdot_session *session, qdot_request *o)
 {
     const size_t n = session->scene->coordinates.n;
     start s = {0};
-    qdot_legendre l = {0};
     qdot_status status = QDOT_OK;
 
     if (!qdot_session_starts_by_momenta(session))
@@ -75,11 +141,7 @@ qdot_request_momenta(qdot_session *session, qdot_request *o)
         s.p = s.q + n;
         s.value = s.p + n;
         collect_start_momenta(session, o, &s);
-        if (qdot_legendre_begin(&l, session->scene, QDOT_COORD, lagrangian_at_start(session, o, &s), s.n, s.q))
-            for (uint32_t i = 0; i < s.n; i++)
-                o->v0.at[s.at[i]] = qdot_subs(session->pool, l.solved[i], s.n, s.p, s.value);
-        qdot_legendre_end(&l);
-        status = qdot_pool_check(session->pool);
+        status = solve_start_momenta(session, o, &s);
     }
     qdot_free(s.q);
     qdot_free(s.at);

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "lang/session/parts.h"
 #include "lang/session/text-list.h"
+#include "mech/study/phase-space.h"
 
 /* Subexpressions of the two sides of a check: each must be defined wherever the sides are compared. */
 typedef struct {
@@ -29,6 +30,8 @@ typedef struct qdot_evaluation {
     unsigned calls;    /* depth of nested function calls */
     bool placed;       /* the error message already names a place in a function's definition */
     qdot_vec(qdot_held) held; /* parameters and coordinates set by open loops, innermost last */
+    unsigned phase_depth;         /* open statements that see the phase space of a stated H (lang/session/phase) */
+    qdot_phase_space phase_space;
     size_t loops;      /* number of open loops, whose sources must be kept */
     qdot_vec(struct qdot_partial_sum) partial_sums; /* values of sums reused by the outermost loop (language/partial-sum) */
     qdot_passed *passed; /* records what must be defined in a check or a call such as solve(...); NULL: none is being read */

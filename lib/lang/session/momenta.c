@@ -7,6 +7,7 @@
 #include "lang/session/speeds.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
+#include "mech/study/phase-symbols.h"
 
 static const uint32_t moving = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 
@@ -28,9 +29,17 @@ qdot_expr
 qdot_momenta_to_velocities(qdot_session *session, qdot_expr e)
 {
     e = qdot_session_speeds_replaced(session, e);
-    if (!(symbol_kinds_in(session, e) & QDOT_HAS_MOMENTUM) || !has_lagrangian(session->scene))
+    if (!(symbol_kinds_in(session, e) & QDOT_HAS_MOMENTUM)
+        || (!has_lagrangian(session->scene) && !qdot_phase_space_needed(session->scene)))
         return e;
     return qdot_hamilton_in_velocities(session->scene, e);
+}
+
+qdot_expr
+qdot_momenta_unify(qdot_session *session, qdot_expr e)
+{
+    return qdot_phase_space_needed(session->scene) ? qdot_hamilton_in_momenta(session->scene, e)
+                                                   : qdot_momenta_to_velocities(session, e);
 }
 
 static bool
@@ -60,6 +69,8 @@ qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e)
 
     for (uint32_t i = 0; i < n; i++)
         all |= symbol_kinds_in(session, e[i]);
+    if (qdot_phase_space_needed(scene))
+        return (all & QDOT_HAS_MOMENTUM) && (all & QDOT_HAS_VELOCITY);
     if (!(all & QDOT_HAS_MOMENTUM) || !has_lagrangian(scene))
         return false;
     for (size_t i = 0; i < scene->coordinates.n; i++) {

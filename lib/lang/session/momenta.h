@@ -15,6 +15,9 @@
 /* The expression e with every momentum p[q] replaced by dL/dq', and every speed by what it is in velocities. Nil, here and below: the pool keeps the failure. */
 qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);
 
+/* Where momenta and velocities meet: e in velocities; of a scene that states H alone, where these follow from the momenta, in momenta. */
+qdot_expr qdot_momenta_unify(qdot_session *session, qdot_expr e);
+
 /* e in the variables of `symbol`: in momenta for p[x]; in velocities if p[q] and q' of one coordinate q
  * stand in e and `symbol`, as p[x] for x'; else as it is: Routh's function keeps p[phi] for theta'. */
 qdot_expr qdot_momenta_for(qdot_session *session, qdot_expr e, qdot_expr symbol);

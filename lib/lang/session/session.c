@@ -112,6 +112,7 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->members->at);
     qdot_free(session->evaluation->held.at);
     qdot_free(session->evaluation->partial_sums.at);
+    qdot_phase_space_clear(&session->evaluation->phase_space);
     qdot_text_list_clear(session->told);
     qdot_text_list_clear(&session->evaluation->told);
     qdot_text_list_clear(session->remarks);

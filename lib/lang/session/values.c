@@ -30,6 +30,12 @@ qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
     }
 }
 
+bool
+qdot_session_is_start(const qdot_pool *pool, qdot_expr symbol)
+{
+    return qdot_expr_is_class(pool, symbol, QDOT_COORD) || qdot_expr_is_class(pool, symbol, QDOT_MOMENTUM);
+}
+
 /* Take out the start value of the velocity that a momentum determines, or of the momentum of a velocity. */
 static void
 remove_other_of_pair(qdot_session *session, qdot_expr jet)
@@ -81,7 +87,7 @@ qdot_session_put(qdot_session *session, qdot_expr symbol, qdot_expr value)
 {
     qdot_status status = QDOT_OK;
 
-    if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
+    if (qdot_session_is_start(session->pool, symbol))
         return qdot_session_start(session, symbol, value);
     qdot_session_set(session, symbol, value, &status);
     return status;

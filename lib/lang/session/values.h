@@ -29,6 +29,8 @@ QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr 
                                                qdot_expr value);
 /* The start gives no value to the symbol. */
 void qdot_session_start_forget(qdot_session *session, qdot_expr symbol);
+/* Whether the symbol is one that `start` gives a value: q, q', p[q]. */
+bool qdot_session_is_start(const qdot_pool *pool, qdot_expr symbol);
 /* Set a value as `set` or `start` does, depending on the kind of symbol. */
 QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
                                              qdot_expr value);

@@ -15,7 +15,12 @@ fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, co
 {
     const size_t n = session->scene->coordinates.n;
 
-    QDOT_TRY(qdot_session_need_velocities(session, "derivatives"));
+    for (size_t i = 0; i < k; i++)
+        if (qdot_expr_is_class(session->pool, unknowns[i], QDOT_MOMENTUM)) {
+            (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: fits and periodic orbits with a momentum among the unknowns");
+            return qdot_hint("q' = ... gives the velocity");
+        }
+    QDOT_TRY(qdot_session_need_velocities(session, "fits and periodic orbits"));
     for (size_t i = 0; i < had->n_values; i++) {
         const size_t at =
             qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, had->symbols[i]);

@@ -15,6 +15,7 @@
 #include "lang/session/start-kind.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
+#include "lang/slopes/momentum-slopes.h"
 #include "sim/model/substitute.h"
 #include "sim/run/slides.h"
 #include "sim/study/sizes.h"
@@ -90,7 +91,7 @@ qdot_slope_names_put(qdot_session *session, size_t n, const qdot_slope_name *nam
 bool
 qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
 {
-    return !qdot_expr_is_class(s->session->pool, s->names.at[k].symbol, QDOT_COORD);
+    return !qdot_session_is_start(s->session->pool, s->names.at[k].symbol);
 }
 
 /* What the session says of a symbol, where that follows the free parameter and is at its value what the
@@ -181,6 +182,8 @@ let_parameter_vary(qdot_slopes *s, size_t k)
                                         : qdot_substitute(pool, start[i], of->symbols.n,
                                                           of->symbols.at, of->values.at);
     }
+    if (status == QDOT_OK)
+        status = qdot_momentum_slopes(session, &(qdot_momentum_slopes_of){of, p, values}, start);
     qdot_trial_end(&trial);
     QDOT_TRY(status);
     s->by[k].parameter = p;
@@ -212,6 +215,8 @@ find_directions(qdot_slopes *s)
             .name = s->names.at[k].label, .parameter = QDOT_NIL, .start = start};
         if (qdot_slopes_is_parameter(s, k))
             QDOT_TRY(let_parameter_vary(s, k));
+        else
+            QDOT_TRY(qdot_momentum_slopes(s->session, &(qdot_momentum_slopes_of){s->conditions, s->names.at[k].symbol, NULL}, start));
     }
     return qdot_pool_check(pool);
 }
@@ -444,7 +449,8 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     qdot_run *run = NULL;
     qdot_status status;
 
-    QDOT_TRY(qdot_session_need_velocities(s->session, "derivatives"));
+    if (qdot_session_starts_by_speeds(s->session))
+        QDOT_TRY(qdot_session_need_velocities(s->session, "derivatives"));
     QDOT_TRY(find_run(s, name));
     QDOT_TRY(shorten_run(s, e, first));
     QDOT_TRY(find_directions(s));

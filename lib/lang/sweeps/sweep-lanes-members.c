@@ -192,7 +192,7 @@ find_varied_parameters(qdot_sweep_lanes *x, qdot_text *why)
     for (size_t i = 0; i < axes->at.n; i++) {
         const qdot_expr symbol = axes->at.at[i].symbol;
 
-        if (qdot_expr_is_class(x->s->c->session->pool, symbol, QDOT_COORD))
+        if (qdot_session_is_start(x->s->c->session->pool, symbol))
             continue;
         if (is_used_outside_equations(x->s, symbol)) {
             qdot_text_format(why, "other values depend on %s", axes->at.at[i].label);

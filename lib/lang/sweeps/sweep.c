@@ -16,6 +16,7 @@
 #include "lang/language/token-text.h"
 #include "lang/session/output.h"
 #include "lang/session/trial.h"
+#include "lang/session/values.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/syntax/record.h"
 
@@ -195,7 +196,7 @@ static bool
 sets_start_values(const qdot_session *session, const qdot_members *m)
 {
     for (size_t i = 0; i < m->axes.at.n; i++)
-        if (qdot_expr_is_class(session->pool, m->axes.at.at[i].symbol, QDOT_COORD))
+        if (qdot_session_is_start(session->pool, m->axes.at.at[i].symbol))
             return true;
     return qdot_run_options_name_start(session->pool, &m->run);
 }

@@ -11,6 +11,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/language/formals.h"
 #include "lang/language/hints.h"
+#include "lang/session/phase.h"
 #include "lang/session/row-tables.h"
 #include "lang/syntax/expected.h"
 #include "lang/syntax/hole-read.h"
@@ -384,13 +385,30 @@ qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end, const qdot_s
 }
 
 qdot_status
+qdot_match_handle(const qdot_statement *row, qdot_record *record)
+{
+    qdot_session *session = record->cursor.session;
+    qdot_status status;
+
+    if (strcmp(row->group, QDOT_NUMBERS) != 0 && !row->linear)
+        return row->handler(record);
+    status = qdot_phase_begin(session, row->linear);
+    if (status == QDOT_OK)
+        status = row->handler(record);
+    else
+        record->cursor.error_at = record->start->start;
+    qdot_phase_end(session);
+    return status;
+}
+
+qdot_status
 qdot_match_carry_out(qdot_cursor *c, const qdot_statement *row)
 {
     qdot_record record;
     qdot_status status = qdot_match_operands(c, row, &record);
 
     if (status == QDOT_OK)
-        status = row->handler(&record);
+        status = qdot_match_handle(row, &record);
     c->at = record.cursor.at;
     c->error_at = record.cursor.error_at;
     qdot_record_free(&record);

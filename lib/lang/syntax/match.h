@@ -27,6 +27,8 @@ QDOT_MUST_CHECK qdot_status qdot_match_operands(const qdot_cursor *c, const qdot
 /* As qdot_match_operands, for tokens that end before `end`, within a statement. */
 QDOT_MUST_CHECK qdot_status qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end,
                                                    const qdot_statement *row, qdot_record *record);
+/* Carry out what was read; statements of numbers see the phase space of a scene that states H alone (lang/session/phase). */
+QDOT_MUST_CHECK qdot_status qdot_match_handle(const qdot_statement *row, qdot_record *record);
 /* Read the operands and carry the statement out; the cursor ends after them, or its error_at at the failure. */
 QDOT_MUST_CHECK qdot_status qdot_match_carry_out(qdot_cursor *c, const qdot_statement *row);
 

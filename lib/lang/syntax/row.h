@@ -21,6 +21,7 @@ typedef struct {
     const char *usage, *summary, *example;
     const char *form; /* shown instead of `usage` in the hint at a missing clause; NULL: none */
     bool alone; /* the word is also a value; as a whole statement it prints more */
+    bool linear; /* concerns rest and motion near it: of a scene that states H alone the first-order equations */
     bool nameable; /* WORD = EXPR defines a name of the user's, beside which the statement goes on to work */
     qdot_status (*handler)(struct qdot_record *r); /* carries the statement out; NULL: not built in this version */
     /* Declares the names of the statement. A loop does so in all its passes before the first is carried out, so that a

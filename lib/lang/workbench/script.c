@@ -126,7 +126,7 @@ carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
     if (status == QDOT_OK && !x->naming)
         status = qdot_session_refuse_higher(record.cursor.session, row->word);
     if (status == QDOT_OK)
-        status = x->naming ? row->names(&record) : row->handler(&record);
+        status = x->naming ? row->names(&record) : qdot_match_handle(row, &record);
     c->at = record.cursor.at;
     c->error_at = record.cursor.error_at;
     qdot_record_free(&record);

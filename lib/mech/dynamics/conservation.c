@@ -112,10 +112,17 @@ difference_without_velocities(qdot_scene *s, qdot_expr E, qdot_expr known)
     return is_free_of_velocities(s, rest) ? rest : QDOT_NIL;
 }
 
+/* Whether H is stated, and no Lagrangian was found. */
+static bool
+has_hamiltonian_alone(const qdot_scene *s)
+{
+    return s->hamiltonian != QDOT_NIL && s->lagrangian == QDOT_NIL;
+}
+
 bool
 qdot_mech_lacks_mass(qdot_scene *s)
 {
-    const qdot_expr M = qdot_mech_mass_matrix(s);
+    const qdot_expr M = has_hamiltonian_alone(s) ? QDOT_NIL : qdot_mech_mass_matrix(s);
     const uint32_t n = (uint32_t)s->coordinates.n;
 
     for (uint32_t i = 0; i < n && M != QDOT_NIL; i++) {
@@ -160,6 +167,41 @@ rate_in_momenta(qdot_scene *s, qdot_expr E)
     return qdot_pool_failed(pool) ? QDOT_NIL : rate;
 }
 
+/* e with q' = dH/dp. */
+static qdot_expr
+with_velocities_of_hamiltonian(qdot_scene *s, qdot_expr e)
+{
+    for (size_t i = 0; i < s->coordinates.n && e != QDOT_NIL; i++) {
+        const qdot_expr v = qdot_mech_jet(s, i, 1),
+                        rate = qdot_diff(s->pool, s->hamiltonian, qdot_symbol_of(s->pool, QDOT_MOMENTUM, s->coordinates.at[i]));
+
+        if (!qdot_scene_state_of(s, s->coordinates.at[i]))
+            e = qdot_subs(s->pool, e, 1, &v, &rate);
+    }
+    return e;
+}
+
+/* dE/dt by Hamilton's equations, dE/dt + sum dE/dq dH/dp + dE/dp (Q - dH/dq), in momenta. Nil where E holds accelerations. */
+static qdot_expr
+rate_by_hamiltonian(qdot_scene *s, qdot_expr E)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr rate;
+
+    E = with_velocities_of_hamiltonian(s, E);
+    if (!is_free_of_velocities(s, E) || s->constraints.n > 0)
+        return QDOT_NIL;
+    rate = qdot_diff(pool, E, QDOT_T);
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr q = s->coordinates.at[i], p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+        const qdot_expr force = qdot_sub(pool, qdot_mech_force(s, q), qdot_diff(pool, s->hamiltonian, q));
+
+        rate = qdot_add(pool, rate, qdot_mul(pool, qdot_diff(pool, E, q), qdot_mech_jet(s, i, 1)));
+        rate = qdot_add(pool, rate, qdot_mul(pool, qdot_diff(pool, E, p), force));
+    }
+    return with_velocities_of_hamiltonian(s, qdot_scene_with_rates(s, rate));
+}
+
 /* qdot_mech_rate, with the velocities of states in it. */
 static qdot_expr
 rate_without_accelerations(qdot_scene *s, qdot_expr E)
@@ -184,7 +226,10 @@ rate_without_accelerations(qdot_scene *s, qdot_expr E)
 qdot_expr
 qdot_mech_rate(qdot_scene *s, qdot_expr E)
 {
-    return qdot_scene_with_rates(s, rate_without_accelerations(s, qdot_scene_with_rates(s, E)));
+    E = qdot_scene_with_rates(s, E);
+    if (E != QDOT_NIL && has_hamiltonian_alone(s))
+        return rate_by_hamiltonian(s, E);
+    return qdot_scene_with_rates(s, rate_without_accelerations(s, E));
 }
 
 qdot_status

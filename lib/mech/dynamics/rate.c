@@ -89,7 +89,7 @@ qdot_rate_of(qdot_scene *s, qdot_expr E)
     E = qdot_rate_on_motion(s, E);
     if (E == QDOT_NIL)
         return E;
-    if (qdot_mech_holds(s, E) & (QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM))
+    if ((qdot_mech_holds(s, E) & (QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM)) || s->hamiltonian != QDOT_NIL)
         rate = qdot_mech_rate(s, E);
     if (qdot_pool_failed(pool))
         return QDOT_NIL;

@@ -38,9 +38,8 @@ qdot_hamilton_need_lagrangian(qdot_scene *s)
     qdot_text_add(&why, qdot_last_error()->message);
     status = qdot_text_status(&why);
     if (status == QDOT_OK) {
-        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: what follows from H alone, without a Lagrangian: %s",
-                           qdot_text_str(&why));
-        qdot_hint("`eom`, `hamiltonian`, poisson(f, g) are known");
+        status = qdot_fail(QDOT_EINVAL, "this scene has no Lagrangian: %s", qdot_text_str(&why));
+        qdot_hint("`eom`, `hamiltonian`, `energy`, poisson(f, g) are known, and runs go by Hamilton's equations");
     }
     qdot_text_clear(&why);
     return status;

@@ -11,6 +11,7 @@
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 #include "mech/study/legendre.h"
+#include "mech/study/phase-symbols.h"
 #include "normal/simplify/simplify.h"
 
 /* e with q' = dH/dp of a stated H. */
@@ -20,14 +21,19 @@ put_velocities_of_hamiltonian(qdot_scene *s, qdot_expr e)
     qdot_pool *pool = s->pool;
     const size_t n = s->coordinates.n;
     qdot_expr *from = qdot_calloc(2 * n + 1, sizeof *from);
+    size_t held = 0;
 
     if (from == NULL)
         return qdot_pool_fail(pool);
     for (size_t i = 0; i < n; i++) {
-        from[i] = qdot_symbol_jet(pool, s->coordinates.at[i], 1);
-        from[n + i] = qdot_diff(pool, s->hamiltonian, qdot_symbol_of(pool, QDOT_MOMENTUM, s->coordinates.at[i]));
+        const qdot_expr q = s->coordinates.at[i];
+
+        if (qdot_phase_space_momentum(s, q) != QDOT_NIL)
+            continue;
+        from[held] = qdot_symbol_jet(pool, q, 1);
+        from[n + held++] = qdot_diff(pool, s->hamiltonian, qdot_symbol_of(pool, QDOT_MOMENTUM, q));
     }
-    e = qdot_subs(pool, e, n, from, from + n);
+    e = qdot_subs(pool, e, held, from, from + n);
     qdot_free(from);
     return e;
 }
@@ -63,6 +69,8 @@ qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e)
             qdot_pool_fail(s->pool);
         return QDOT_NIL;
     }
+    if (qdot_phase_space_needed(s))
+        e = qdot_phase_space_outward(s, e);
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
         return e;
     if (s->hamiltonian != QDOT_NIL)
@@ -93,6 +101,8 @@ qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
 
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM))
         return e;
+    if (qdot_phase_space_needed(s))
+        return qdot_phase_space_inward(s, e);
     for (size_t i = 0; i < s->coordinates.n && status == QDOT_OK; i++) {
         const qdot_expr q = s->coordinates.at[i], p = qdot_ostrogradsky_symbol(s, q);
 

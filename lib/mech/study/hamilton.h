@@ -25,7 +25,7 @@ qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
  * L = sum p q' - H is its Legendre transform where q' = dH/dp can be solved for p: QDOT_ESINGULAR, QDOT_EDOMAIN
  * where it cannot. */
 QDOT_MUST_CHECK qdot_status qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L);
-/* QDOT_ENOTBUILT if the scene states an H from which no Lagrangian follows. */
+/* QDOT_EINVAL if the scene states an H from which no Lagrangian follows. */
 QDOT_MUST_CHECK qdot_status qdot_hamilton_need_lagrangian(qdot_scene *s);
 /* Hamilton's equations of a coordinate, a LIST of two, or z' = rate of a state; of all, a LIST. The rate of p is the
  * symbol p[q]'. */

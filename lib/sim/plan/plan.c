@@ -35,10 +35,6 @@ qdot_plan_check(const qdot_scene *scene)
         qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
         return qdot_hint("coord theta");
     }
-    if (scene->hamiltonian != QDOT_NIL && scene->lagrangian == QDOT_NIL) {
-        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: motion by an H from which no Lagrangian follows");
-        return qdot_hint("`lagrange_function` says why none does; `eom`, `hamiltonian`, poisson(f, g) are known");
-    }
     if (scene->lagrangian == QDOT_NIL && scene->particles.n == 0
         && scene->bodies.n == 0 && scene->states.n < scene->coordinates.n) {
         qdot_fail(QDOT_EINVAL, "the scene has no masses");
