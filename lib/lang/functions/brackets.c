@@ -12,6 +12,8 @@
 #include "lang/answer/answer.h"
 #include "lang/functions/builtin.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
+#include "mech/study/generating.h"
 #include "mech/study/hamilton.h"
 #include "normal/prove/decide.h"
 
@@ -128,23 +130,86 @@ compare_bracket(qdot_session *s, qdot_expr a, qdot_expr b, qdot_expr wanted, qdo
     return qdot_answer_notice_text(s, status, &text);
 }
 
+/* Whether q, its momentum or its velocity stands in the equations. */
+static bool
+stands_among(const qdot_session *s, uint32_t n, const qdot_expr *equations, qdot_expr q)
+{
+    const qdot_expr symbols[] = {q, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q), qdot_symbol_jet(s->pool, q, 1)};
+    bool stands = false;
+
+    for (uint32_t k = 0; k < n; k++)
+        for (int j = 0; j < 3; j++)
+            stands |= qdot_expr_contains(s->pool, qdot_expr_arg(s->pool, equations[k], 1), symbols[j]);
+    return stands;
+}
+
 /* The number of coordinates of the scene that, or whose momenta or velocities, stand in the equations. */
 static size_t
 coordinates_in(const qdot_session *s, uint32_t n, const qdot_expr *equations)
 {
     size_t count = 0;
 
-    for (size_t i = 0; i < s->scene->coordinates.n; i++) {
-        const qdot_expr q = s->scene->coordinates.at[i], symbols[] = {q, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q),
-                                                                     qdot_symbol_jet(s->pool, q, 1)};
-        bool stands = false;
-
-        for (uint32_t k = 0; k < n; k++)
-            for (int j = 0; j < 3; j++)
-                stands |= qdot_expr_contains(s->pool, qdot_expr_arg(s->pool, equations[k], 1), symbols[j]);
-        count += stands;
-    }
+    for (size_t i = 0; i < s->scene->coordinates.n; i++)
+        count += stands_among(s, n, equations, s->scene->coordinates.at[i]);
     return count;
+}
+
+/* The old coordinates and momenta that occur, and the new ones with their functions; x->q has room for 6n. */
+static void
+fill_transformation(const qdot_session *s, uint32_t n, const qdot_expr *args, qdot_transformation *x, qdot_expr *room)
+{
+    size_t found = 0;
+
+    for (size_t i = 0; i < s->scene->coordinates.n; i++) {
+        const qdot_expr q = s->scene->coordinates.at[i];
+
+        if (stands_among(s, n, args, q)) {
+            room[found] = q;
+            room[n / 2 + found++] = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
+        }
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        room[(2 + k % 2) * (n / 2) + k / 2] = qdot_expr_arg(s->pool, args[k], 0);
+        room[(4 + k % 2) * (n / 2) + k / 2] = qdot_hamilton_in_momenta(s->scene, qdot_expr_arg(s->pool, args[k], 1));
+    }
+    *x = (qdot_transformation){n / 2, room, room + n / 2, room + n, room + 3 * (n / 2), room + 2 * n, room + 5 * (n / 2)};
+}
+
+/* Append "a, b" to the text. */
+static void
+add_names(const qdot_session *s, size_t n, const qdot_expr *symbols, qdot_text *text)
+{
+    for (size_t i = 0; i < n; i++)
+        qdot_text_format(text, "%s%s", i > 0 ? ", " : "", qdot_expr_symbol(s->pool, symbols[i])->name);
+}
+
+/* Give a notice of a generating function, if one is found. */
+static qdot_status
+tell_generating_function(qdot_session *s, uint32_t n, const qdot_expr *args)
+{
+    const qdot_facts facts = qdot_scene_facts(s->scene);
+    qdot_expr *room = qdot_calloc(3 * (size_t)n + 1, sizeof *room), F = QDOT_NIL;
+    qdot_transformation x;
+    qdot_text text = {0};
+    int type;
+    qdot_status status = room == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    if (status == QDOT_OK) {
+        fill_transformation(s, n, args, &x, room);
+        status = qdot_pool_check(s->pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_generating_find(s->pool, &x, &facts, &type, &F);
+    if (status == QDOT_OK && F != QDOT_NIL) {
+        qdot_text_format(&text, "generating function F%d(", type);
+        add_names(s, x.n, type <= 2 ? x.q : x.p, &text);
+        qdot_text_add(&text, ", ");
+        add_names(s, x.n, type % 2 == 1 ? x.Q : x.P, &text);
+        qdot_text_add(&text, ") = ");
+        status = qdot_answer_notice_text(s, qdot_print(s->pool, F, QDOT_PLAIN, &text), &text);
+    }
+    qdot_free(room);
+    return status;
 }
 
 /* canonical(Q = ..., P = ..., Q2 = ..., P2 = ...): whether {Q_i, Q_j} = {P_i, P_j} = 0, {Q_i, P_j} = 1 for i = j, else 0. */
@@ -178,6 +243,8 @@ qdot_call_canonical(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
             if (verdict == QDOT_UNDECIDED)
                 return qdot_fail(QDOT_EFAILED, "undecided whether this transformation is canonical");
         }
+    if (canonical && s->evaluation->asks)
+        QDOT_TRY(tell_generating_function(s, n, args));
     *value = canonical ? QDOT_TRUE : QDOT_FALSE;
     return QDOT_OK;
 }
