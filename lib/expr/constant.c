@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/elementary.h"
 #include "expr/elliptic-ball.h"
 #include "expr/exact.h"
 #include "expr/function-ball.h"
@@ -339,6 +340,8 @@ integral_of_node(evaluation *v, arb_t y, qdot_expr e, slong bits)
 
     if ((qdot_expr_node(v->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
         return report_unset_symbols(v);
+    if (qdot_expr_find_function((qdot_pool *)v->pool, e, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: the number of an integral of data");
     if (v->estimated && bits > 2 * (FIRST_BITS + v->wanted))
         return QDOT_OK; /* y stays: no number of bits makes an estimate a bound, that it is 0, say */
     arb_init(a);
@@ -406,6 +409,8 @@ evaluate_node(evaluation *v, size_t i, slong bits)
         arb_clear(x);
         return QDOT_OK;
     case QDOT_FUN:
+        if (node->op == QDOT_LOOKUP)
+            return qdot_lookup_value(y, v->args[0], v->args[1]);
         if (!ball_apply_function(y, (qdot_fun_id)node->op, n, v->args, bits))
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: the value of %s",
                              qdot_fun_name((qdot_fun_id)node->op));

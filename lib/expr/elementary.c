@@ -579,6 +579,7 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_MOD: return simplify_mod(pool, args);
     case QDOT_FLOOR: return simplify_floor(pool, args[0]);
     case QDOT_IF: return simplify_if(pool, args);
+    case QDOT_LOOKUP: return make_function_node(pool, id, n, args);
     default: return qdot_pool_refuse(pool, QDOT_EINVAL, "no such function");
     }
 }
@@ -654,6 +655,7 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
     case QDOT_ELLIPTIC_PI: return qdot_elliptic_derivative(pool, id, n, args, i);
     case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
+    case QDOT_LOOKUP:
     case QDOT_FLOOR: return QDOT_ZERO;
     case QDOT_HOLD: return QDOT_ONE;
     case QDOT_MOD:

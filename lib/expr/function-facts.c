@@ -28,6 +28,7 @@ static const qdot_fun_facts table[QDOT_FUNCTION_KINDS] = {
 #include "expr/function.def"
 #undef X
     [QDOT_HOLD] = {"hold", 1, 1, 0, NO, NO, QDOT_FUNCTION_KINDS},
+    [QDOT_LOOKUP] = {"data", 2, 2, 0, NO, NO, QDOT_FUNCTION_KINDS},
 };
 
 const qdot_fun_facts *

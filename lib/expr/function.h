@@ -12,7 +12,9 @@ typedef enum {
 #include "expr/function.def"
 #undef X
     QDOT_FUNCTION_COUNT,
-    QDOT_HOLD = QDOT_FUNCTION_COUNT, /* the operator of qdot_hold: it is not in function.def, and has no name in the language */
+    /* Operators that are not in function.def, and have no name in the language: */
+    QDOT_HOLD = QDOT_FUNCTION_COUNT, /* that of qdot_hold */
+    QDOT_LOOKUP, /* lookup(x, handle) of a table of data (num/samples.h): constant in pieces; in values of functions only */
     QDOT_FUNCTION_KINDS
 } qdot_fun_id;
 

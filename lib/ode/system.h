@@ -212,6 +212,10 @@ typedef struct qdot_ode_system {
     /* Whether a step of a method without series goes over a part of f that acts for less than the
      * step; NULL if there are no such parts. Errors end the run. */
     qdot_status (*look)(qdot_ode_look *step, void *user);
+    /* The first time beyond t, in the direction +1 or -1, at which f or a derivative of it jumps as t goes on, whatever y
+     * is: a step ends there. Infinite where there is none. At that time f is that of what follows; if
+     * f itself jumps there the double before is such a time, too, so that a step has one f at both ends. NULL: f is smooth. */
+    double (*until)(double t, int direction, void *user);
     /* The same system once more as parts, all of its components in one of them, if there are
      * two or more; borrowed. Each then takes its own steps where nobody looks at those of
      * the whole (ode/apart.h). */
@@ -223,6 +227,16 @@ typedef struct qdot_ode_system {
      * borrowed */
     const double *scales;
 } qdot_ode_system;
+
+/* The end of a step from t that would go on to t1: the next such time, or t1. */
+static inline double
+qdot_ode_until(const qdot_ode_system *system, double t, double t1)
+{
+    const int direction = t1 < t ? -1 : 1;
+    const double until = system->until ? system->until(t, direction, system->user) : t1;
+
+    return direction * (t1 - until) > 0 ? until : t1;
+}
 
 /* Whether a status can mean that f is undefined at a point, so that a shorter step may succeed. */
 static inline bool

@@ -142,6 +142,15 @@ find_defect(const run *r, double h)
     return most / fabs(h);
 }
 
+/* Whether the step does no more than go over a time at which f jumps (`until` of ode/system.h): nothing can be confirmed. */
+static bool
+is_over_jump(const run *r, double h)
+{
+    static const double nothing = 1e-11;
+
+    return r->system->until && fabs(h) <= nothing * fabs(r->t1 - r->t0);
+}
+
 /* Whether it also is inside the step, at places without a pattern. The series is
  * begun anew at y afterwards. */
 static qdot_status
@@ -307,7 +316,7 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
     QDOT_TRY(generate_code_if_useful(r, t_end));
     status = qdot_ode_taylor_run_begin(r, t_end, r->next);
     if (status == QDOT_OK)
-        *good = fixed || is_confirmed_at_end(r, h, 1, old_held);
+        *good = fixed || is_over_jump(r, h) || is_confirmed_at_end(r, h, 1, old_held);
     if (status == QDOT_OK && !*good)
         r->defect = find_defect(r, h);
     if (status == QDOT_OK && *good && r->noise > 0)
@@ -350,23 +359,24 @@ taylor_too_small(const run *r)
                      "what double precision can hold");
 }
 
-/* The end of a step of length h, rounded to a double; t1 itself if the end is near t1. */
+/* The end of a step of length h, rounded to a double; if it is near t1, or a time at which f is not smooth, `until`, that. */
 static double
-end_of_step(const run *r, double h)
+end_of_step(const run *r, double h, double until)
 {
-    double rest = r->direction * (r->t1 - r->t), end;
+    double rest = r->direction * (until - r->t), end;
 
     if (h >= rest * (1 - 1e-12))
-        return r->t1;
+        return until;
     end = r->t +
           r->direction * (h > 0.5 * rest && !(r->options->h_fixed > 0) ? 0.5 * rest : h);
-    return r->direction * (r->t1 - end) > 0 ? end : r->t1;
+    return r->direction * (until - end) > 0 ? end : until;
 }
 
 /* Make one step from the present state. */
 static qdot_status
 taylor_advance(run *r)
 {
+    const double until = r->options->h_fixed > 0 ? r->t1 : qdot_ode_until(r->system, r->t, r->t1);
     double h = 0, most = INFINITY, before = 0;
 
     for (int tries = 0;; tries++) {
@@ -390,9 +400,9 @@ taylor_advance(run *r)
             r->defect = 0;
             unsure = isinf(h);
             h = qdot_smaller(h, most);
-            end = end_of_step(r, h);
+            end = end_of_step(r, h, until);
             h = r->direction * (end - r->t);
-            if (end != r->t1 && qdot_step_is_too_short(r->t, h))
+            if (end != until && qdot_step_is_too_short(r->t, h))
                 return taylor_too_small(r);
             status = taylor_try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)

@@ -40,6 +40,7 @@ typedef struct {
     qdot_ode_result *result;
     double t, t_carry; /* the present time is t + t_carry */
     double t1;
+    double until; /* the end of the present step at the latest: t1, or a time before at which f is not smooth */
     double direction; /* direction of time: +1 or -1 */
     double h;         /* length of the next step to try, positive */
     uint64_t max_steps;
@@ -128,11 +129,12 @@ choose_first_step(run *r, double distance)
     return QDOT_OK;
 }
 
-/* The time left until the exact end t1 + t1_low, computed without rounding near the end. */
+/* The time left until r->until, the exact end t1 + t1_low or a time at which f is not smooth, computed without rounding
+ * near the end. */
 static double
 remaining_time(const run *r)
 {
-    return r->direction * ((r->t1 - r->t) - r->t_carry + r->options->t1_low);
+    return r->direction * ((r->until - r->t) - r->t_carry + (r->until == r->t1 ? r->options->t1_low : 0));
 }
 
 /* A step of about h that ends on a double of t, where a little more or less costs nothing: what is
@@ -181,8 +183,11 @@ control_step_length(run *r, double h, double ratio, bool accepted)
     if (accepted && r->s->method->kernel && r->s->method->kernel->keeps_step && factor >= 1
         && factor < worthwhile)
         factor = 1;
-    /* a step that was shortened to end at t1 does not reduce the next one */
-    r->h = accepted ? fmax(h * factor, h < r->h * (1 - 1e-9) ? fmin(r->h, 5 * h) : 0) : h * factor;
+    /* a step that was shortened to end at t1 does not reduce the next one; none that ends where f is not smooth does */
+    if (accepted && r->t + r->direction * h == r->until && r->until != r->t1)
+        r->h = fmax(h * factor, r->h);
+    else
+        r->h = accepted ? fmax(h * factor, h < r->h * (1 - 1e-9) ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
 
 /* Handle a step inside which f is undefined somewhere: try a shorter one, or fail. */
@@ -254,7 +259,7 @@ accept_step(run *r, double h, double ratio, bool last, bool *stop)
     double t = r->t, t_carry = r->t_carry;
 
     if (last) {
-        t = r->t1;
+        t = r->until;
         t_carry = 0;
     } else {
         qdot_sum_advance(&t, &t_carry, r->direction * h);
@@ -326,13 +331,13 @@ advance_one_step(run *r, bool *stop)
         return handle_undefined_step(r, h, status);
     if (ratio <= 1)
         status = qdot_ode_stepper_project(
-            r->s, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &ratio);
+            r->s, last ? r->until : r->t + (r->t_carry + r->direction * h), &ratio);
     if (status != QDOT_OK)
         return handle_undefined_step(r, h, status);
     if (r->options->h_fixed > 0 && ratio < INFINITY)
         ratio = fmin(ratio, 1);
     if (ratio <= 1) {
-        QDOT_TRY(look_for_missed_forces(r, h, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &clear));
+        QDOT_TRY(look_for_missed_forces(r, h, last ? r->until : r->t + (r->t_carry + r->direction * h), &clear));
         if (!clear)
             return QDOT_OK;
         QDOT_TRY(accept_step(r, h, ratio, last, stop));
@@ -382,10 +387,11 @@ look_for_stiffness(run *r)
 static qdot_status
 whole_loop(run *r)
 {
+    const bool fixed = r->options->h_fixed > 0;
     double distance = fabs(r->t1 - r->t);
     bool stop = false;
 
-    if (r->options->h_fixed > 0) {
+    if (fixed) {
         r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
     } else if (r->options->h_first > 0) {
         r->h = fmin(r->options->h_first, distance);
@@ -400,6 +406,7 @@ whole_loop(run *r)
         QDOT_TRY(status);
     }
     while (r->t != r->t1) {
+        r->until = fixed ? r->t1 : qdot_ode_until(r->s->system, r->t, r->t1);
         QDOT_TRY(advance_one_step(r, &stop));
         if (r->options->meter)
             QDOT_TRY(report_work_of_run(r));

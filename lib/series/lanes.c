@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/samples.h"
 #include "tape/code.h"
 #include "tape/shake.h"
 

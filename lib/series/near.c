@@ -142,6 +142,46 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
     return s;
 }
 
+/* --- knots of tables -------------------------------------------------------------------- */
+
+/* The step is looked at in so many places; the passage is then found by so many bisections. */
+enum { PLACES = 32, BISECTIONS = 50 };
+
+double
+qdot_near_knot(int p, const double *u, double lo, double hi, double s)
+{
+    const double size = fmax(fabs(u[0]), isfinite(hi - lo) ? hi - lo : 0), beyond = 8 * DBL_EPSILON * size;
+    double in = 0, out = 0;
+
+    if (!(u[0] >= lo && u[0] <= hi) || qdot_near_sum(p, u, s) <= fmin(u[0] - lo, hi - u[0]))
+        return s;
+    if (isinf(s)) { /* a polynomial, which passes a knot within this unless it is one number */
+        for (s = 1; isfinite(s) && qdot_near_sum(p, u, s) < 4 * size + fmin(u[0] - lo, hi - u[0]);)
+            s *= 2;
+        if (!isfinite(s))
+            return s;
+    }
+    for (int k = 1; k <= PLACES && out == 0; k++) {
+        const double at = evaluate_polynomial(p, u, s * k / PLACES);
+
+        if (at > hi + beyond || at < lo - beyond)
+            out = s * k / PLACES;
+        else
+            in = s * k / PLACES;
+    }
+    if (out == 0)
+        return s;
+    for (int k = 0; k < BISECTIONS; k++) {
+        const double middle = 0.5 * (in + out), at = evaluate_polynomial(p, u, middle);
+
+        if (at > hi + beyond || at < lo - beyond)
+            out = middle;
+        else
+            in = middle;
+    }
+    return out;
+}
+
 bool
 qdot_near_diverges(int p, const double *quotient, double s)
 {

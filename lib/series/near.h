@@ -18,6 +18,8 @@
  * quotient's own coefficients, seen by then, say. A quotient whose series converges at the end of
  * the step hides nothing, and a step that an order is chosen for ends before b falls so far.
  *
+ * A table of data (num/samples.h) is a polynomial in pieces: a step ends where its argument u(s) passes a knot.
+ *
  * Tests  tests/series/test_near.c, tests/script/events/far-away.lag, tests/script/contacts/narrow-forces.lag
  */
 #ifndef QDOT_SERIES_NEAR_H
@@ -56,6 +58,10 @@ bool qdot_near_may_fall(int p, const double *b, double s);
 /* Then as much of the step (INFINITY: any) as it does not fall so far in. Of a `root` of b all, if
  * b is negative there: what is undefined needs no search. */
 double qdot_near_divisor(int p, const double *b, bool root, double s);
+
+/* As much of a step of s as the argument u [p + 1] of a table of data stays in one piece [lo, hi) in, and as much more as
+ * rounding cannot take back: the step ends in the next piece. */
+double qdot_near_knot(int p, const double *u, double lo, double hi, double s);
 
 /* The shorter of two steps, the second of which is none below `least`. Exponentials are followed to
  * QDOT_NEAR_FINER of what divisors are: none of theirs hides a pole. */

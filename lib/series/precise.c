@@ -6,6 +6,7 @@
 
 #include "expr/constant.h"
 #include "num/real.h"
+#include "num/samples.h"
 #include "series/near.h"
 
 /* Number of temporaries: U1 and U2 of recurrence.def, and one for sums. */

@@ -221,6 +221,16 @@ along(builder *b, qdot_op f, row x, row slope)
     return to;
 }
 
+/* The row of a number of a table: f(x)' = x' 0. */
+static row
+constant_in_pieces(builder *b, qdot_op f, row x, row zero, row handle)
+{
+    const row to = program_emit(b, QDOT_T_ALONG, f, x, zero, handle);
+
+    add_row_d(b);
+    return to;
+}
+
 static row
 exponential(builder *b, row x)
 {

@@ -1,4 +1,7 @@
 /* taylor-near.c -- limits a step by arguments of exponentials and by divisors, for programs in doubles. */
+#include <math.h>
+
+#include "num/samples.h"
 #include "series/near.h"
 #include "series/taylor-steps.h"
 #include "series/taylor.h"
@@ -7,8 +10,8 @@ bool
 qdot_taylor_may_hide(const qdot_taylor *t)
 {
     for (size_t i = t->still; i < t->length; i++)
-        if (qdot_recurrence_exponential(t->steps[i].op) > 0
-            || qdot_recurrence_divisor(t->steps[i].op))
+        if (qdot_recurrence_exponential(t->steps[i].op) > 0 || qdot_recurrence_divisor(t->steps[i].op)
+            || t->steps[i].zero == QDOT_OP_LOOKUP)
             return true;
     return false;
 }
@@ -27,6 +30,18 @@ safe_step_for_divisor(const qdot_taylor_step *step, int p, double s)
     return qdot_near_divisor(p, b, step->op == QDOT_T_SQRT, s);
 }
 
+/* As much of a step as the argument of a table of data stays in one piece in. */
+static double
+safe_step_for_table(const qdot_taylor_step *step, int p, double s, double least)
+{
+    double lo, hi;
+
+    if (!qdot_samples_finds(step->z[0]))
+        return s;
+    qdot_samples_bounds(step->z[0], step->x[0], &lo, &hi);
+    return fmin(s, fmax(qdot_near_knot(p, step->x, lo, hi, s), QDOT_NEAR_FINER * least));
+}
+
 double
 qdot_taylor_near(const qdot_taylor *t, int p, double s, double least)
 {
@@ -34,7 +49,9 @@ qdot_taylor_near(const qdot_taylor *t, int p, double s, double least)
         const qdot_taylor_step *step = t->steps + i;
         const double times = qdot_recurrence_exponential(step->op);
 
-        if (times > 0)
+        if (step->zero == QDOT_OP_LOOKUP)
+            s = safe_step_for_table(step, p, s, least);
+        else if (times > 0)
             s = qdot_near_taken(s, qdot_near_argument(p, step->x, times, s),
                                 QDOT_NEAR_FINER * least);
         else if (qdot_recurrence_divisor(step->op))

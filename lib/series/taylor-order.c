@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "num/kinds.h"
+#include "num/samples.h"
 #include "series/taylor-code.h"
 #include "series/taylor.h"
 #include "series/taylor-order.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "num/kinds.h"
+#include "num/samples.h"
 
 struct qdot_tape_two {
     const qdot_program *program;

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "show/export-language.h"
+#include "tape/knots.h"
 
 enum { LONGEST = 44 }; /* in characters: longer expressions are not written inside other ones */
 
@@ -60,6 +61,10 @@ read_values_from_tape(writer *w)
     size_t loaded = t->inputs + t->constants;
     uint32_t *at = qdot_malloc(t->places * sizeof *at); /* [places] index of the value in each place */
 
+    if (qdot_knots_any(t)) {
+        qdot_free(at);
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: exports of functions given by data");
+    }
     w->values = qdot_calloc(loaded + 2 * t->length + 1, sizeof *w->values);
     w->outputs = qdot_malloc(t->outputs * sizeof *w->outputs);
     if (at == NULL || w->values == NULL || w->outputs == NULL) {

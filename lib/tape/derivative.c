@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "num/batch.h"
+#include "num/samples.h"
 #include "tape/instruction.h"
 
 #define BATCH_BODY "tape/derivative.def"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/samples.h"
 #include "tape/instruction.h"
 
 /* --- bounds of single operations ----------------------------------------------------- */
@@ -28,6 +29,13 @@ static double
 radius_of_quotient(double d, double ra, double b, double rb)
 {
     return fabs(b) > rb ? (ra + radius_times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
+}
+
+/* Radius of a number of a table of data: 0 if the disc is within one piece. */
+static double
+radius_of_lookup(double a, double ra, double handle)
+{
+    return ra == 0 || qdot_samples_lookup(handle, a - ra) == qdot_samples_lookup(handle, a + ra) ? 0 : NAN;
 }
 
 /* |f(c + w) - f(c)| for sine or cosine, from f(c + w) - f(c) = f'(c) sin w - f(c) (1 - cos w); also

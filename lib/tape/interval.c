@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/samples.h"
 #include "tape/instruction.h"
 
 /* --- operations that occur only in tapes ------------------------------------------------ */
@@ -30,6 +31,25 @@ static double
 softplus_of_double(double x)
 {
     return fmax(x, 0) + log1p(exp(-fabs(x)));
+}
+
+/* The numbers of a table for all places of an interval: of pieces, from the first to the last; of what pieces have, around
+ * those of these pieces. */
+static qdot_interval
+lookup_of_interval(qdot_interval a, qdot_interval handle)
+{
+    const double lo = qdot_samples_lookup(handle.lo, a.lo), hi = qdot_samples_lookup(handle.lo, a.hi), most_pieces = 64;
+    qdot_interval d = qdot_interval_point(lo);
+
+    if (isnan(lo) || isnan(hi))
+        return qdot_interval_whole;
+    if (qdot_samples_finds(handle.lo) && lo <= hi)
+        return (qdot_interval){lo, hi};
+    if (!(a.hi - a.lo <= most_pieces))
+        return qdot_interval_whole;
+    for (double piece = a.lo; piece <= a.hi; piece++)
+        d = qdot_interval_around(d, qdot_interval_point(qdot_samples_lookup(handle.lo, piece)));
+    return d;
 }
 
 /* --- evaluating a tape --------------------------------------------------------------- */

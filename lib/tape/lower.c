@@ -378,6 +378,11 @@ compile_function(lowering *l, qdot_expr e, known *k)
         compile_hold(l, x, k);
         return QDOT_OK;
     }
+    if (f == QDOT_LOOKUP) {
+        k->bare = qdot_code_op(&l->code, QDOT_OP_LOOKUP, value_of_node(l, x), qdot_code_constant(&l->code, QDOT_ZERO),
+                               value_of_node(l, qdot_expr_arg(l->pool, e, 1)));
+        return QDOT_OK;
+    }
     d = qdot_logistic_argument(l->pool, e);
     if (d != QDOT_NIL && !qdot_expr_is_constant(l->pool, d)) {
         k->bare = write_softplus(l, d);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/samples.h"
 #include "tape/instruction.h"
 #include "tape/shake.h"
 
@@ -72,6 +73,7 @@ own_rounding_error(uint32_t op)
     case QDOT_OP_MIN:
     case QDOT_OP_MAX:
     case QDOT_OP_FLOOR:
+    case QDOT_OP_LOOKUP:
     case QDOT_OP_LT:
     case QDOT_OP_LE:
     case QDOT_OP_EQ:

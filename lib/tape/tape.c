@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/samples.h"
 #include "tape/instruction.h"
 
 void

@@ -22,9 +22,9 @@ static const qdot_export_language *const languages[] = {
 
 /* + - * / and what is made of them are written by export-code.c. */
 static bool
-is_arithmetic(int op)
+is_arithmetic(int op) /* or, as what reads a table, no operation that is written */
 {
-    return op <= QDOT_OP_NMADD || op == QDOT_OP_SINCOS;
+    return op <= QDOT_OP_NMADD || op == QDOT_OP_SINCOS || op == QDOT_OP_LOOKUP;
 }
 
 static void

@@ -14,6 +14,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "num/samples.h"
 
 static double
 least(const double *x, uint32_t n)
@@ -44,6 +45,7 @@ function_value(qdot_fun_id id, const double *x, uint32_t n)
 #include "expr/function.def"
 #undef X
     case QDOT_HOLD: return x[0];
+    case QDOT_LOOKUP: return n == 2 ? qdot_samples_lookup(x[1], x[0]) : NAN;
     default: return NAN;
     }
 }

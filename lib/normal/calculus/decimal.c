@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/print.h"
@@ -34,6 +35,9 @@ evaluate_constant(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
     QDOT_TRY(qdot_decide_equal(pool, e, QDOT_ZERO, NULL, &seen));
     if (seen.verdict == QDOT_PROVED)
         return QDOT_OK;
+    /* what is read from a table is rational, and 0 if thousands of bits are */
+    if (qdot_expr_find_function(pool, e, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
+        return qdot_pool_check(pool);
     status = qdot_print(pool, e, QDOT_PLAIN, &text);
     if (status == QDOT_OK)
         status = qdot_fail(QDOT_EDOMAIN, "%.120s%s cannot be distinguished from 0",

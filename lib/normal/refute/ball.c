@@ -93,6 +93,8 @@ evaluate_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
         for (uint32_t i = 0; i < n; i++)
             x[i] = b->value + ball_argument_index(b, e, i);
         qdot_elliptic_ball(y, op, n, x, prec);
+    } else if (op == QDOT_LOOKUP) {
+        qdot_lookup_ball(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1));
     } else if (op == QDOT_MOD) {
         evaluate_mod(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1), prec);
     } else if (op == QDOT_MIN || op == QDOT_MAX) {

@@ -14,6 +14,7 @@
 #include "sim/form/tree-series.h"
 #include "sim/model/constrained.h"
 #include "sim/model/momenta.h"
+#include "tape/knots.h"
 
 typedef struct qdot_bind qdot_bind;
 
@@ -54,6 +55,7 @@ struct qdot_bind {
     double *part_scales;      /* [2n] scales of the states of the parts, one part after another; NULL: all 1 */
     const double *scales;
 
+    qdot_knots knots;   /* the tables of data that the equations read at times */
     qdot_pulses pulses; /* searches steps for forces shorter than a step, if the method has no series; made at first use */
 };
 

@@ -48,6 +48,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->work);
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
+    qdot_free(b->knots.at);
     qdot_pulses_clear(&b->pulses);
     qdot_free(b);
 }
@@ -273,6 +274,15 @@ may_hide_short_forces(const qdot_bind *b)
     return b->plan->tape && qdot_disc_may_hide(b->plan->tape, QDOT_HIDES_QUOTIENTS);
 }
 
+/* The next time at which a table of data that the equations read has a knot. */
+static double
+next_knot(double t, int direction, void *user)
+{
+    const qdot_bind *b = user;
+
+    return qdot_knots_next(b->knots.n, b->knots.at, t, direction);
+}
+
 qdot_constrained *
 qdot_bind_held(qdot_bind *b)
 {
@@ -294,6 +304,7 @@ qdot_bind_system(qdot_bind *b)
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
+        .until = b->knots.n > 0 ? next_knot : NULL,
         .look = may_hide_short_forces(b) ? inspect_step_for_pulses : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
@@ -481,6 +492,23 @@ make_equation_solvers(qdot_bind *b, bool shaken)
     return qdot_blocks_init(&b->blocks, b->plan, shaken);
 }
 
+/* Find the tables of data that the equations read at times, whichever form of them is integrated. */
+static qdot_status
+find_knots(const qdot_plan *p, qdot_knots *knots)
+{
+    const qdot_tape *const tapes[] = {p->tape,
+                                      p->reduced ? p->reduced->tape : NULL,
+                                      p->residual ? p->residual->places : NULL,
+                                      p->residual ? p->residual->forces : NULL,
+                                      p->constraints ? p->constraints->positions : NULL,
+                                      p->constraints ? p->constraints->velocities : NULL};
+
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k])
+            QDOT_TRY(qdot_knots_find(tapes[k], 2 * p->n, knots));
+    return QDOT_OK;
+}
+
 static qdot_status
 make_bind(qdot_bind *b, bool shaken)
 {
@@ -498,6 +526,7 @@ make_bind(qdot_bind *b, bool shaken)
     b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
+    QDOT_TRY(find_knots(p, &b->knots));
     QDOT_TRY(qdot_bind_make_slopes(b));
     if (p->phase_space)
         QDOT_TRY(qdot_phase_new(p->phase_space, &b->phase));

@@ -7,6 +7,7 @@
 #include "sim/bind/bind.h"
 #include "sim/course/stage.h"
 #include "sim/plan/plan.h"
+#include "tape/knots.h"
 
 static qdot_status
 copy_domain_bounds(const qdot_domains *domains, qdot_ensemble_bounds *bounds)
@@ -50,6 +51,10 @@ check_plan(const qdot_plan *plan, qdot_text *why)
 
     if (strcmp(plan->method->name, "taylor") != 0) {
         qdot_text_format(why, "method %s has no lanes", plan->method->name);
+        return qdot_text_status(why);
+    }
+    if (plan->tape && qdot_knots_any(plan->tape)) {
+        qdot_text_add(why, "the equations read tables of data");
         return qdot_text_status(why);
     }
     if (plan->leading) {
