@@ -160,6 +160,10 @@ set_read_function(qdot_record *r, const qdot_filled *part, qdot_expr *symbol, qd
         return qdot_hint(
             "%s(...) = ... defines a function; `function` declares an undefined one", name);
     }
+    if (known->body != NULL) {
+        (void)qdot_fail(QDOT_EINVAL, "`%s` has its values from a table, since %s:%u", name, known->file, known->line);
+        return qdot_hint("another name: `function f(x)`, then `set f(x) = ...`");
+    }
     status = qdot_record_formals(r, part, &f);
     if (status == QDOT_OK && f.n != qdot_ufun_get(session->pool, known->ufun)->arity)
         status = qdot_fail(QDOT_ETYPE, "`%s` has %u arguments, not %zu", name,

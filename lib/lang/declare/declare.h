@@ -13,6 +13,11 @@ QDOT_MUST_CHECK qdot_status qdot_declare_name(qdot_cursor *c, const qdot_token *
 /* Carry out the definition at the cursor: NAME = EXPR, NAME[K] = EXPR, NAME(X) = EXPR. */
 QDOT_MUST_CHECK qdot_status qdot_declare_definition(qdot_cursor *c);
 
+/* Declare an undefined function of n arguments by their names. data: the text of the statement that gives its values by a
+ * table, from its name on; NULL: there is none. */
+QDOT_MUST_CHECK qdot_status qdot_declare_undefined(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
+                                                   const char *const *arguments, struct qdot_function_body *data);
+
 /* After a symbol NAME is declared: let an earlier `function x(NAME)` become a function of that symbol. */
 QDOT_MUST_CHECK qdot_status qdot_declare_meet_functions(qdot_session *session,
                                                         const char *name,

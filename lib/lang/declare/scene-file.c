@@ -51,7 +51,10 @@ append_declarations(qdot_session *s, qdot_text *out)
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
-        if (name->kind == QDOT_NAME_UFUN) {
+        if (name->kind == QDOT_NAME_UFUN && name->body != NULL) {
+            qdot_text_add(out, "data ");
+            qdot_token_text(s, name->body->from, name->body->to, out);
+        } else if (name->kind == QDOT_NAME_UFUN) {
             QDOT_TRY(append_text_and_expression(s, "function ", name->value, out));
         } else if (name->kind == QDOT_NAME_SPEED) {
             qdot_text_format(out, "speed %s = ", name->name);
@@ -206,12 +209,24 @@ append_value_line(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr
     return QDOT_OK;
 }
 
+/* Whether a function that was set has its values from a table: its statement `data` is written. */
+static bool
+is_function_of_data(const qdot_session *s, qdot_expr symbol)
+{
+    const qdot_name *name = qdot_expr_kind(s->pool, symbol) == QDOT_UFUN
+                                ? qdot_names_find(s->names, qdot_ufun_get(s->pool, qdot_expr_node(s->pool, symbol)->op)->name)
+                                : NULL;
+
+    return name != NULL && name->kind == QDOT_NAME_UFUN && name->body != NULL;
+}
+
 static qdot_status
 append_value_lines(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols,
                    const qdot_expr *values, bool remarks, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++)
-        if (qdot_unit_symbol_base(s->pool, symbols[i]) < 0) /* a unit is always 1 */
+        if (qdot_unit_symbol_base(s->pool, symbols[i]) < 0 /* a unit is always 1 */
+            && !is_function_of_data(s, symbols[i]))
             QDOT_TRY(append_value_line(s, word, symbols[i], values[i], "", remarks, out));
     return QDOT_OK;
 }

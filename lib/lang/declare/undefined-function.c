@@ -39,17 +39,17 @@ symbol_of_argument(qdot_session *session, const char *name)
     return qdot_symbol_get(session->pool, QDOT_FORMAL, name);
 }
 
-static qdot_status
-declare_undefined_function(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
-                           const qdot_token *const *names)
+qdot_status
+qdot_declare_undefined(qdot_cursor *c, const qdot_token *start, const char *name, size_t n, const char *const *arguments,
+                       qdot_function_body *data)
 {
     qdot_pool *pool = c->session->pool;
-    qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN};
+    qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN, .body = data};
     qdot_vec(qdot_expr) formals = {0};
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&formals, symbol_of_argument(c->session, names[i]->text));
+        status = qdot_vec_push(&formals, symbol_of_argument(c->session, arguments[i]));
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
@@ -69,13 +69,17 @@ declare_undefined_function(qdot_cursor *c, const qdot_token *start, const char *
 static qdot_status
 declare_function_of_part(qdot_record *r, const qdot_filled *part, const char **name)
 {
+    qdot_vec(const char *) arguments = {0};
     qdot_formals f;
     qdot_status status;
 
     QDOT_TRY(qdot_record_name(r, part, name));
     status = qdot_record_formals(r, part, &f);
+    for (size_t i = 0; i < f.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&arguments, f.names[i]->text);
     if (status == QDOT_OK)
-        status = declare_undefined_function(&r->cursor, part->from, *name, f.n, f.names);
+        status = qdot_declare_undefined(&r->cursor, part->from, *name, arguments.n, arguments.at, NULL);
+    qdot_free(arguments.at);
     qdot_formals_leave(r->cursor.session, &f);
     return status;
 }

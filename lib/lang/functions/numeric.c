@@ -9,6 +9,7 @@
 #include "lang/functions/builtin.h"
 
 #include "expr/constant.h"
+#include "expr/elementary.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
@@ -82,11 +83,24 @@ number_of_scalar(qdot_pool *pool, qdot_expr e, void *user)
     return o->status == QDOT_OK ? qdot_measured_add(o->session, m) : e;
 }
 
+/* An expression with the values of `set`. What holds the time or a coordinate keeps functions given by data as they are: the
+ * polynomials between their points say nothing. */
+static qdot_expr
+bind_to_numbers(qdot_session *session, qdot_expr e)
+{
+    const qdot_expr bound = qdot_session_bind(session, e);
+
+    if (bound == QDOT_NIL || qdot_expr_is_constant(session->pool, bound) ||
+        qdot_expr_find_function(session->pool, bound, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) == QDOT_NIL)
+        return bound;
+    return e;
+}
+
 qdot_status
 qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
-    qdot_expr e = qdot_session_bind(session, args[0]), exact;
+    qdot_expr e = bind_to_numbers(session, args[0]), exact;
     order o = {.session = session, .plain = n == 1};
     long digits = DIGITS;
 

@@ -9,6 +9,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/list.h"
 #include "expr/node.h"
@@ -98,6 +99,8 @@ set_equation(question *q, size_t i, qdot_expr e)
     q->f[i] = e;
     q->F[i] = qdot_measured_as_rationals(q->session, e);
     QDOT_TRY(qdot_value_kind_check(pool, q->F[i]));
+    if (qdot_expr_find_function(pool, e, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: solve with functions given by data");
     q->measured |= q->F[i] != e;
     return require_values(q, q->F[i]);
 }

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/node.h"
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
@@ -88,8 +89,11 @@ call_function(qdot_session *s, const qdot_name *entry, const qdot_call *call,
 }
 
 static qdot_status
-report_not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
+report_not_a_function(const qdot_session *s, const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
 {
+    if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] != QDOT_NIL && args[0] != QDOT_T &&
+        (qdot_expr_node(s->pool, args[0])->holds & QDOT_HAS_TIME) != 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: delays, as %.80s at a time before t", name);
     qdot_fail(QDOT_ESYNTAX, "`%.200s` is not a function", name);
     if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] == QDOT_T)
         return qdot_hint("a coordinate depends on the time by itself: write %.80s", name);
@@ -134,7 +138,7 @@ qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
     else if (row != NULL && status == QDOT_OK)
         status = qdot_resolve_no_prime(name, "takes no prime: write diff(...)");
     else if (is_name_of_value(s, entry, name, spelled.at))
-        status = report_not_a_function(entry, spelled.at, call->n, args);
+        status = report_not_a_function(s, entry, spelled.at, call->n, args);
     else
         status = qdot_hints_unknown_function(c, call->token);
     qdot_text_clear(&spelled);

@@ -27,7 +27,7 @@ typedef struct {
     qdot_expr value, formals;
     qdot_expr over; /* for VALUE: a LIST of coordinates by which its entries are indexed; nil: none */
     uint32_t ufun;
-    qdot_function_body *body;   /* for FUNCTION and VALUE: the defining text */
+    qdot_function_body *body;   /* for FUNCTION and VALUE: the defining text; for a UFUN with values from a table: the statement `data` from the name on */
     const char *label; /* for ARGUMENT: label of the particle or body whose position it is; NULL: none */
     char *file; /* file in which the name was declared; owned */
     uint32_t line;

@@ -62,6 +62,21 @@ qdot_record_mentions_besides(const qdot_record *r, const qdot_filled *part, cons
     return qdot_mention_is_in(r->start, part->from, name) || qdot_mention_is_in(part->to, r->cursor.at, name);
 }
 
+const qdot_token *
+qdot_record_own_name(const qdot_record *r, const qdot_filled *part)
+{
+    const qdot_token *first = NULL;
+
+    for (const qdot_token *at = part->from; at < part->to; at++) {
+        if (at->kind != QDOT_TOKEN_NAME)
+            continue;
+        first = first ? first : at;
+        if (strcmp(at->text, "pi") != 0 && qdot_names_find(r->cursor.session->names, at->text) == NULL)
+            return at;
+    }
+    return first;
+}
+
 bool
 qdot_filled_is_text(const qdot_filled *part)
 {

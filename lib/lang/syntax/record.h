@@ -69,6 +69,8 @@ bool qdot_filled_is_word(const qdot_filled *part, const char *word);
 bool qdot_filled_is_member(const qdot_filled *part, const char *family);
 /* Whether the name occurs in the operands of the statement, other than in this part. */
 bool qdot_record_mentions_besides(const qdot_record *r, const qdot_filled *part, const char *name);
+/* The first name in the part that is the time or means nothing yet, as F in 9.81*F; else its first name; NULL: it has none. */
+const qdot_token *qdot_record_own_name(const qdot_record *r, const qdot_filled *part);
 /* Whether the part is a text in quotes. */
 bool qdot_filled_is_text(const qdot_filled *part);
 /* Whether the part contains, outside of brackets, an operator that begins with the sign. */

@@ -1,0 +1,46 @@
+# What a table cannot be, where it ends, and what is not built with one.
+printf 't,F\n0,1\n1,2\n2,0\n4,1\n' >d.csv
+printf 't,F\n0,1\n2,2\n1,0\n' >down.csv
+printf 't,F\n0,1\n1,2\n1,0\n' >twice.csv
+printf 't,F\n0,1\n1,2\n2,0\n' >open.csv
+printf 't,F\n0,1\n1,x2\n' >word.csv
+printf 't,F\n0,1\n' >short.csv
+printf '0,1,2\n1,2,3\n2,3,4\n' >three.csv
+printf 'a,v,c\n0,0,1\n0,1,2\n1,0,3\n1,2,4\n' >scattered.csv
+printf 'a,v,c\n0,0,1\n0,1,2\n1,0,3\n0,1,4\n1,1,4\n' >double.csv
+while read -r line; do
+    qdot -q -e "coord x; particle p mass 1 at x; start x = 0; $line" 2>&1
+    echo "exit $?"
+done <<'EOF2'
+data
+data d
+data d from d.csv : t, F
+data d from "d.csv"
+data d from "d.csv" : t
+data d from "d.csv" : t, F wavy
+data d from "none.csv" : t, F
+data d from "down.csv" : t, F
+data d from "twice.csv" : t, F
+data d from "word.csv" : t, F
+data d from "short.csv" : t, F
+data d from "three.csv" : t, F
+data d from "open.csv" : t, F periodic
+data d from "d.csv" : t, t
+data d from "d.csv" : t^2, F
+data d from "d.csv" : 3, F
+data d from "scattered.csv" : a, v, c
+data d from "double.csv" : a, v, c
+data d from "three.csv" : a, v, c steps
+data d from "three.csv" : a, v, c, e
+data x from "d.csv" : t, F
+data d from "d.csv" : t, F; set d(t) = t
+data d from "d.csv" : t, F; numeric(d(5))
+data d from "d.csv" : t, F; force d(t) on p; run 0..5
+data d from "d.csv" : t, F; force d(t) on p; run -1..1
+data d from "d.csv" : t, F; force d(x) on p; start x' = 2; run 0..5
+data d from "d.csv" : t, F; force d(t) on p; run 0..3 digits 30
+data d from "d.csv" : t, F; force d(t) on p; export c eom to "x.c"
+data d from "d.csv" : t, F; solve(d(t) = 1/2, t, 0..4)
+data d from "d.csv" : t, F; numeric(integral(d(t), t, 0, 4))
+force x(t - 0.1) on p
+EOF2
