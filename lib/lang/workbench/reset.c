@@ -1,9 +1,13 @@
 /* reset.c -- the statement `reset`: forgets everything, or the scene, the initial state, or the scales. */
+#include "base/text.h"
+#include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "lang/language/function.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/measured.h"
+#include "lang/session/names.h"
 #include "lang/session/output.h"
 #include "lang/session/session.h"
 #include "lang/session/transfer.h"
@@ -51,6 +55,57 @@ is_function_kept(const qdot_session *session, const qdot_name *function)
     return true;
 }
 
+/* Whether the name is a Routhian: its value holds velocities, and momenta only of coordinates that do not stand in it. */
+static bool
+is_routhian(const qdot_session *old, const qdot_name *name)
+{
+    const uint32_t holds = name->kind == QDOT_NAME_VALUE ? qdot_expr_node(old->pool, name->value)->holds : 0;
+
+    if (!(holds & QDOT_HAS_VELOCITY) || !(holds & QDOT_HAS_MOMENTUM) || !qdot_expr_is_scalar(old->pool, name->value))
+        return false;
+    for (size_t i = 0; i < old->scene->coordinates.n; i++) {
+        const qdot_expr q = old->scene->coordinates.at[i];
+
+        if (qdot_expr_contains(old->pool, name->value, qdot_symbol_of(old->pool, QDOT_MOMENTUM, q)) &&
+            (qdot_expr_contains(old->pool, name->value, q) ||
+             qdot_expr_contains(old->pool, name->value, qdot_symbol_jet(old->pool, q, 1))))
+            return false;
+    }
+    return true;
+}
+
+/* Keep a Routhian as a Lagrangian for the coordinates that are left: its momenta p[phi] become parameters p_phi. */
+static qdot_status
+copy_routhian(qdot_session *old, qdot_session *fresh, const qdot_name *name)
+{
+    qdot_name copy = *name;
+
+    copy.value = qdot_transfer(old->pool, fresh->pool, name->value);
+    for (size_t i = 0; i < old->scene->coordinates.n && copy.value != QDOT_NIL; i++) {
+        const qdot_expr q = qdot_transfer(old->pool, fresh->pool, old->scene->coordinates.at[i]),
+                        p = qdot_symbol_of(fresh->pool, QDOT_MOMENTUM, q);
+        qdot_name parameter = {.kind = QDOT_NAME_PARAM, .file = name->file, .line = name->line};
+        qdot_text spelled = {0};
+        qdot_status status = QDOT_OK;
+
+        if (!qdot_expr_contains(fresh->pool, copy.value, p))
+            continue;
+        qdot_text_format(&spelled, "p_%s", qdot_expr_symbol(fresh->pool, q)->name);
+        parameter.name = (char *)qdot_text_str(&spelled);
+        parameter.value = qdot_symbol_get(fresh->pool, QDOT_PARAM, parameter.name);
+        copy.value = qdot_subs(fresh->pool, copy.value, 1, &p, &parameter.value);
+        if (qdot_text_status(&spelled) != QDOT_OK)
+            status = QDOT_ENOMEM;
+        else if (qdot_names_find(fresh->names, parameter.name) == NULL)
+            status = qdot_names_declare(fresh->names, &parameter);
+        qdot_text_clear(&spelled);
+        QDOT_TRY(status);
+    }
+    copy.over = QDOT_NIL;
+    QDOT_TRY(qdot_pool_check(fresh->pool));
+    return qdot_names_declare(fresh->names, &copy);
+}
+
 /* Carry what is kept of `old` over into `fresh`, which has a pool and names of its
  * own. */
 static qdot_status
@@ -61,6 +116,10 @@ copy_surviving_names(qdot_session *old, qdot_session *fresh)
     for (size_t i = 0; (name = qdot_names_at(old->names, i)) != NULL; i++) {
         qdot_name copy = *name;
 
+        if (is_routhian(old, name)) {
+            QDOT_TRY(copy_routhian(old, fresh, name));
+            continue;
+        }
         if (!survives_reset_of_scene(old->pool, name) ||
             (name->kind == QDOT_NAME_FUNCTION && !is_function_kept(old, name)))
             continue;
