@@ -22,7 +22,7 @@ QDOT_STATEMENT(plan) = {
     .handler = answer_plan,
 };
 
-/* With the present forms of the equations q' and u' as first-order unknowns cost more (doc/measurements.md). */
+/* Runs of q' and u' as first-order unknowns cost 0.6 to 5 times as much (doc/measurements.md). */
 static qdot_status
 describe_speeds(const qdot_session *session, qdot_text *text)
 {
@@ -32,7 +32,7 @@ describe_speeds(const qdot_session *session, qdot_text *text)
     for (size_t k = 0; k < speeds.n; k++)
         qdot_text_format(text, "%s%s", k == 0 ? "speeds: " : ", ", qdot_expr_symbol(session->pool, speeds.symbol[k])->name);
     if (speeds.n > 0)
-        qdot_text_add(text, ": for equations and answers; the run integrates the coordinates, which costs less\n");
+        qdot_text_add(text, ": for equations and answers; the run integrates the coordinates\n");
     qdot_free((void *)speeds.symbol);
     return qdot_text_status(text);
 }

@@ -11,6 +11,7 @@
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/scene/access.h"
 #include "mech/scene/cache.h"
+#include "normal/field/normal-form.h"
 #include "normal/simplify/relative.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/linear.h"
@@ -29,6 +30,38 @@ insert_constraints(qdot_scene *s, qdot_expr e)
     return e;
 }
 
+/* The normal form of e modulo the constraints of positions, simplified: (q.q)^2 is 1 for a unit quaternion. Nil: there are none,
+ * or it cannot be found. */
+static qdot_expr
+reduce_by_constraints(qdot_scene *s, qdot_expr e, const qdot_facts *facts)
+{
+    qdot_facts known = *facts;
+    qdot_expr *f = qdot_calloc(facts->n_relations + s->constraints.n + 1, sizeof *f);
+    qdot_expr reduced = QDOT_NIL;
+
+    if (f == NULL)
+        return qdot_pool_fail(s->pool);
+    known.n_relations = 0;
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
+            f[known.n_relations++] = s->constraints.at[k].f;
+    if (known.n_relations > 0 && e != QDOT_NIL) {
+        for (size_t k = 0; k < facts->n_relations; k++)
+            f[known.n_relations++] = facts->relations[k];
+        known.relations = f;
+        reduced = qdot_normal(s->pool, e, &known);
+        reduced = reduced == QDOT_NIL ? reduced : qdot_simplify(s->pool, reduced, facts);
+    }
+    qdot_free(f);
+    return reduced;
+}
+
+static qdot_expr
+shorter_of(const qdot_scene *s, qdot_expr a, qdot_expr b)
+{
+    return a == QDOT_NIL || (b != QDOT_NIL && qdot_expr_size(s->pool, b) < qdot_expr_size(s->pool, a)) ? b : a;
+}
+
 /* e as a person would write it, in differences of angles where that is shorter. */
 static qdot_expr
 write_short(qdot_scene *s, qdot_expr e)
@@ -39,11 +72,12 @@ write_short(qdot_scene *s, qdot_expr e)
 
     if (relative == QDOT_NIL || qdot_expr_size(s->pool, e) < 2 * qdot_expr_size(s->pool, relative))
         shortest = qdot_simplify(s->pool, e, &facts);
-    if (relative != QDOT_NIL && shortest != QDOT_NIL &&
-        qdot_expr_size(s->pool, relative) < qdot_expr_size(s->pool, shortest))
-        shortest = relative;
+    if (relative != QDOT_NIL && shortest != QDOT_NIL)
+        shortest = shorter_of(s, shortest, relative);
     e = insert_constraints(s, shortest);
-    return e == shortest ? e : qdot_simplify(s->pool, e, &facts);
+    if (e != shortest)
+        e = qdot_simplify(s->pool, e, &facts);
+    return shorter_of(s, e, reduce_by_constraints(s, e, &facts));
 }
 
 /* e with every velocity q' set to 0. */
