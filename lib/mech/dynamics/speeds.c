@@ -239,7 +239,8 @@ typedef struct {
     qdot_expr *slope; /* [n * speeds] dq_i'/du_j; 0 of first-order unknowns, on which no force acts */
     qdot_expr *drift; /* [n] q_i'' at u' = 0 */
     qdot_expr *mass;  /* [n * n] M in q, u, t */
-    qdot_expr *force; /* [n] f in q, u, t */
+    qdot_expr *force; /* [n] f in q, u, t, without its value at rest */
+    qdot_expr *still; /* [n] f at rest, q' = 0: weights, springs */
 } projection;
 
 static qdot_expr
@@ -268,7 +269,9 @@ fill_projection(projection *p)
             drift = qdot_subs(pool, drift, 1, &from, &to);
         }
         p->drift[i] = in_speeds(p, drift);
-        p->force[i] = in_speeds(p, qdot_lagrange_people_forcing(s, i));
+        p->force[i] = qdot_lagrange_people_forcing(s, i);
+        p->still[i] = without_velocities(s, p->force[i]);
+        p->force[i] = in_speeds(p, qdot_sub(pool, p->force[i], p->still[i]));
         for (size_t l = i; l < p->n; l++)
             p->mass[i * p->n + l] = p->mass[l * p->n + i] = in_speeds(p, qdot_mass_of_lagrangian(s, i, l));
     }
@@ -291,20 +294,36 @@ project(const projection *p, size_t j, const qdot_expr *a, size_t stride)
     return sum;
 }
 
+/* The right side: forces at rest apart from what moves, or both together where that is shorter. */
+static qdot_expr
+write_right_side(qdot_scene *s, qdot_expr moving, qdot_expr still)
+{
+    enum { SHORT = 400 };
+    const qdot_expr apart = qdot_add(s->pool, write_short(s, moving), write_short(s, still));
+
+    if (still == QDOT_ZERO || apart == QDOT_NIL || qdot_expr_size(s->pool, apart) > SHORT)
+        return apart;
+    return shorter_of(s, write_short(s, qdot_add(s->pool, moving, still)), apart);
+}
+
 static qdot_expr
 equation_of_speed(const projection *p, size_t j)
 {
     qdot_pool *pool = p->s->pool;
-    qdot_expr left = QDOT_ZERO, right = qdot_neg(pool, project(p, j, p->drift, 1));
+    qdot_expr left = QDOT_ZERO, moving = qdot_neg(pool, project(p, j, p->drift, 1)), still = QDOT_ZERO;
 
     for (size_t k = 0; k < p->speeds->n; k++) {
         const qdot_expr m = write_short(p->s, project(p, j, p->slope + k, p->speeds->n));
 
         left = qdot_add(pool, left, qdot_mul(pool, m, qdot_symbol_jet(pool, p->speeds->symbol[k], 1)));
     }
-    for (size_t i = 0; i < p->n; i++)
-        right = qdot_add(pool, right, qdot_mul(pool, p->slope[i * p->speeds->n + j], p->force[i]));
-    return qdot_pool_failed(pool) ? QDOT_NIL : qdot_rel(pool, QDOT_EQ, left, write_short(p->s, right));
+    for (size_t i = 0; i < p->n; i++) {
+        const qdot_expr b = p->slope[i * p->speeds->n + j];
+
+        moving = qdot_add(pool, moving, qdot_mul(pool, b, p->force[i]));
+        still = qdot_add(pool, still, qdot_mul(pool, b, p->still[i]));
+    }
+    return qdot_pool_failed(pool) ? QDOT_NIL : qdot_rel(pool, QDOT_EQ, left, write_right_side(p->s, moving, still));
 }
 
 qdot_status
@@ -314,12 +333,13 @@ qdot_speeds_equations(qdot_scene *s, const qdot_speeds *speeds, const qdot_expr 
     projection p = {.s = s, .speeds = speeds, .velocity = velocity, .n = n};
     qdot_status status;
 
-    p.jets = qdot_calloc(3 * n + n * m + n * n + 1, sizeof *p.jets);
+    p.jets = qdot_calloc(4 * n + n * m + n * n + 1, sizeof *p.jets);
     if (p.jets == NULL)
         return QDOT_ENOMEM;
     p.drift = p.jets + n;
     p.force = p.drift + n;
-    p.slope = p.force + n;
+    p.still = p.force + n;
+    p.slope = p.still + n;
     p.mass = p.slope + n * m;
     status = fill_projection(&p);
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {
