@@ -1,0 +1,356 @@
+/* sign.c -- the sign of an expression by its structure. */
+#include "normal/inequality/sign.h"
+
+#include <flint/fmpq.h>
+
+#include "expr/build.h"
+#include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
+#include "normal/field/normal-form.h"
+#include "normal/inequality/inequality.h"
+
+enum { DEEPEST = 6, MOST_PROOFS = 16, LARGEST = 40 };
+
+typedef struct {
+    qdot_pool *pool;
+    const qdot_facts *facts;
+    int left; /* proofs that may still be tried */
+} prover;
+
+static qdot_status sign_at(prover *x, qdot_expr e, int depth, int *sign);
+
+/* b^k, b a factor: 1, -1, or 0: not known. */
+static qdot_status
+sign_of_factor_power(prover *x, qdot_expr b, qdot_expr k, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    long whole;
+
+    QDOT_TRY(sign_at(x, b, depth, sign));
+    if (qdot_expr_to_int(pool, k, &whole))
+        *sign = whole % 2 == 0 ? *sign * *sign : *sign;
+    else
+        *sign = *sign > 0 ? 1 : 0;
+    return QDOT_OK;
+}
+
+static qdot_status
+sign_of_factors(prover *x, qdot_expr e, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    const fmpq *c = qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0));
+
+    *sign = c == NULL ? 0 : fmpq_sgn(c);
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e) && *sign != 0; i += 2) {
+        int factor;
+
+        QDOT_TRY(sign_of_factor_power(x, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1), depth, &factor));
+        *sign *= factor;
+    }
+    return QDOT_OK;
+}
+
+/* e as c g(u), g a root of a power or a monotonic function; *way: 1 it rises with u, -1 it falls. False: it is none. */
+static bool
+read_monotonic(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *u, unsigned *g, int *way)
+{
+    qdot_expr part = e;
+    const fmpq *k;
+
+    *c = QDOT_ONE;
+    if (qdot_expr_kind(pool, e) == QDOT_PROD) {
+        part = QDOT_NIL;
+        *c = qdot_expr_arg(pool, e, 0);
+        for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+            const qdot_expr b = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
+
+            k = qdot_expr_rational(pool, power);
+            if (part == QDOT_NIL && k != NULL && !fmpz_is_one(fmpq_denref(k)) && fmpq_sgn(k) > 0 &&
+                (qdot_expr_kind(pool, b) == QDOT_SUM || qdot_expr_kind(pool, b) == QDOT_PROD))
+                part = qdot_pow(pool, b, power);
+            else if (part == QDOT_NIL && power == QDOT_ONE && qdot_expr_kind(pool, b) == QDOT_FUN)
+                part = b;
+            else
+                *c = qdot_mul(pool, *c, qdot_pow(pool, b, power));
+        }
+    }
+    if (part == QDOT_NIL)
+        return false;
+    *u = qdot_expr_arg(pool, part, 0);
+    *way = 1;
+    if (qdot_expr_kind(pool, part) == QDOT_PROD) {
+        *u = qdot_expr_arg(pool, part, 1);
+        *g = 1000 + qdot_expr_arg(pool, part, 2); /* the exponent */
+        return true;
+    }
+    if (qdot_expr_kind(pool, part) != QDOT_FUN)
+        return false;
+    *g = qdot_expr_node(pool, part)->op;
+    switch ((qdot_fun_id)*g) {
+    case QDOT_ACOS: *way = -1; return true;
+    case QDOT_LOG:
+    case QDOT_ASIN:
+    case QDOT_ATAN:
+    case QDOT_SINH:
+    case QDOT_ASINH:
+    case QDOT_ACOSH:
+    case QDOT_TANH:
+    case QDOT_ATANH:
+    case QDOT_EXP: return true;
+    default: return false;
+    }
+}
+
+/* a - b for terms c g(u) and -c g(v). */
+static qdot_status
+sign_of_difference(prover *x, qdot_expr a, qdot_expr b, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    qdot_expr c, d, u, v;
+    unsigned g, h;
+    int way, same, factor;
+
+    *sign = 0;
+    if (!read_monotonic(pool, a, &c, &u, &g, &way) || !read_monotonic(pool, b, &d, &v, &h, &same) || g != h ||
+        qdot_add(pool, c, d) != QDOT_ZERO)
+        return QDOT_OK;
+    QDOT_TRY(sign_at(x, c, depth, &factor));
+    if (factor != 0)
+        QDOT_TRY(sign_at(x, qdot_sub(pool, u, v), depth, sign));
+    *sign *= factor * way;
+    return QDOT_OK;
+}
+
+/* sum of c n_i log(u_i), n_i integers: by the product of u_i^n_i. */
+static qdot_status
+sign_of_logarithms(prover *x, qdot_expr e, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    qdot_expr product = QDOT_ONE, first = QDOT_NIL, c, u;
+    int way, factor;
+    unsigned g;
+
+    *sign = 0;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        long n;
+
+        if (!read_monotonic(pool, qdot_mul(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1)), &c, &u, &g, &way) || g != QDOT_LOG)
+            return QDOT_OK;
+        if (first == QDOT_NIL)
+            first = c;
+        if (!qdot_expr_to_int(pool, qdot_div(pool, c, first), &n))
+            return QDOT_OK;
+        product = qdot_mul(pool, product, qdot_pow_int(pool, u, n));
+    }
+    QDOT_TRY(sign_at(x, first, depth, &factor));
+    if (factor != 0)
+        QDOT_TRY(sign_at(x, qdot_normal(pool, qdot_sub(pool, product, QDOT_ONE), NULL), depth, sign));
+    *sign *= factor;
+    return QDOT_OK;
+}
+
+static qdot_expr
+term_of(qdot_pool *pool, qdot_expr e, uint32_t i)
+{
+    return i == 0 ? qdot_expr_arg(pool, e, 0) : qdot_mul(pool, qdot_expr_arg(pool, e, 2 * i - 1), qdot_expr_arg(pool, e, 2 * i));
+}
+
+/* Whether a factor of e is a square root. */
+static bool
+is_root(qdot_pool *pool, qdot_expr e)
+{
+    for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2) {
+        const fmpq *k = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i));
+
+        if (k != NULL && fmpz_cmp_ui(fmpq_denref(k), 2) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* A + root, by A^2 - root^2 where their signs differ. */
+static qdot_status
+sign_beside_root(prover *x, qdot_expr e, qdot_expr root, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_expr A = qdot_sub(pool, e, root);
+    qdot_expr squares;
+    int of_root, of_A;
+
+    *sign = 0;
+    QDOT_TRY(sign_at(x, root, depth, &of_root));
+    if (of_root == 0)
+        return QDOT_OK;
+    QDOT_TRY(sign_at(x, A, depth, &of_A));
+    if (of_A == of_root)
+        *sign = of_A;
+    if (of_A == 0 || of_A == of_root)
+        return QDOT_OK;
+    squares = qdot_normal(pool, qdot_sub(pool, qdot_mul(pool, A, A), qdot_mul(pool, root, root)), NULL);
+    QDOT_TRY(sign_at(x, squares, depth, sign));
+    *sign *= of_A;
+    return QDOT_OK;
+}
+
+static qdot_status
+sign_of_sum(prover *x, qdot_expr e, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    const uint32_t terms = (qdot_expr_count(pool, e) + 1) / 2;
+    int all = 0;
+
+    *sign = 0;
+    if (terms == 3 && term_of(pool, e, 0) == QDOT_ZERO) {
+        QDOT_TRY(sign_of_difference(x, term_of(pool, e, 1), term_of(pool, e, 2), depth, sign));
+        if (*sign != 0)
+            return QDOT_OK;
+    }
+    if (term_of(pool, e, 0) == QDOT_ZERO) {
+        QDOT_TRY(sign_of_logarithms(x, e, depth, sign));
+        if (*sign != 0)
+            return QDOT_OK;
+    }
+    for (uint32_t i = 0; i < terms; i++) {
+        const qdot_expr term = term_of(pool, e, i);
+        int one;
+
+        if (term == QDOT_ZERO)
+            continue;
+        QDOT_TRY(sign_at(x, term, depth, &one));
+        if (one == 0 || (all != 0 && one != all)) {
+            all = 0;
+            break;
+        }
+        all = one;
+    }
+    *sign = all;
+    for (uint32_t i = 1; i < terms && *sign == 0; i++)
+        if (is_root(pool, term_of(pool, e, i)))
+            QDOT_TRY(sign_beside_root(x, e, term_of(pool, e, i), depth, sign));
+    return QDOT_OK;
+}
+
+/* A sum as a quotient, which is a product. */
+static qdot_status
+sign_of_quotient(prover *x, qdot_expr e, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_expr q = qdot_normal(pool, e, NULL);
+
+    return q != QDOT_NIL && qdot_expr_kind(pool, q) == QDOT_PROD ? sign_of_factors(x, q, depth, sign)
+                                                                 : qdot_grave(qdot_pool_check(pool));
+}
+
+static qdot_status
+sign_of_function(prover *x, qdot_expr e, int depth, int *sign)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_expr u = qdot_expr_arg(pool, e, 0);
+
+    *sign = 0;
+    if (qdot_expr_is_function(pool, e, QDOT_LOG) || qdot_expr_is_function(pool, e, QDOT_ACOSH))
+        QDOT_TRY(sign_at(x, qdot_sub(pool, u, QDOT_ONE), depth, sign));
+    if (qdot_expr_is_function(pool, e, QDOT_ACOS))
+        QDOT_TRY(sign_at(x, qdot_sub(pool, QDOT_ONE, u), depth, sign));
+    if (!qdot_expr_is_function(pool, e, QDOT_LOG))
+        *sign = *sign > 0;
+    return QDOT_OK;
+}
+
+static qdot_status
+sign_by_proof(prover *x, qdot_expr e, int *sign)
+{
+    qdot_pool *pool = x->pool;
+
+    *sign = 0;
+    if (x->left == 0 || qdot_expr_size(pool, e) > LARGEST)
+        return QDOT_OK;
+    for (int s = 1; s >= -1; s -= 2) {
+        qdot_expr at = QDOT_NIL;
+        bool proved = false;
+
+        if (x->left > 0)
+            x->left--;
+        QDOT_TRY(qdot_grave(qdot_inequality(pool, s > 0 ? e : qdot_neg(pool, e), true, x->facts, &proved, &at)));
+        if (proved) {
+            *sign = s;
+            return QDOT_OK;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* Whether a root or a function stands in e. */
+static qdot_status
+is_rational_function(qdot_pool *pool, qdot_expr e, bool *yes)
+{
+    qdot_walk w;
+
+    *yes = false;
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    *yes = !(qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN);
+    for (size_t i = 0; i < w.n && *yes; i++)
+        for (uint32_t k = 2; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2) {
+            long n;
+
+            *yes = *yes && qdot_expr_to_int(pool, qdot_expr_arg(pool, w.at[i], k), &n);
+        }
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
+/* Whether a condition is known of the symbol e. */
+static bool
+is_conditioned(const prover *x, qdot_expr e)
+{
+    for (size_t i = 0; x->facts != NULL && i < x->facts->n_conditions; i++)
+        if (qdot_expr_contains(x->pool, x->facts->conditions[i], e))
+            return true;
+    return false;
+}
+
+static qdot_status
+sign_at(prover *x, qdot_expr e, int depth, int *sign)
+{
+    bool rational;
+
+    qdot_pool *pool = x->pool;
+    uint8_t known;
+
+    *sign = 0;
+    if (e == QDOT_NIL || depth > DEEPEST)
+        return qdot_grave(qdot_pool_check(pool));
+    known = qdot_expr_sign(pool, e);
+    if ((known & QDOT_POS) == QDOT_POS || (known & QDOT_NEG) == QDOT_NEG) {
+        *sign = (known & QDOT_POS) == QDOT_POS ? 1 : -1;
+        return QDOT_OK;
+    }
+    if (qdot_expr_kind(pool, e) == QDOT_SYM)
+        return is_conditioned(x, e) ? sign_by_proof(x, e, sign) : QDOT_OK;
+    QDOT_TRY(is_rational_function(pool, e, &rational));
+    if (rational && qdot_expr_kind(pool, e) == QDOT_SUM) {
+        QDOT_TRY(sign_by_proof(x, e, sign));
+        return *sign != 0 ? QDOT_OK : sign_of_quotient(x, e, depth + 1, sign);
+    }
+    switch (qdot_expr_kind(pool, e)) {
+    case QDOT_PROD: return sign_of_factors(x, e, depth + 1, sign);
+    case QDOT_SUM: QDOT_TRY(sign_of_sum(x, e, depth + 1, sign)); break;
+    case QDOT_FUN: QDOT_TRY(sign_of_function(x, e, depth + 1, sign)); break;
+    default: break;
+    }
+    if (*sign == 0)
+        QDOT_TRY(sign_by_proof(x, e, sign));
+    return *sign == 0 && qdot_expr_kind(pool, e) == QDOT_SUM ? sign_of_quotient(x, e, depth + 1, sign) : QDOT_OK;
+}
+
+qdot_status
+qdot_sign(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int *sign)
+{
+    prover x = {pool, facts, MOST_PROOFS};
+
+    return sign_at(&x, e, 0, sign);
+}
