@@ -11,6 +11,7 @@
 #include "lang/functions/entry.h"
 #include "lang/functions/equilibria.h"
 #include "lang/functions/linear.h"
+#include "lang/functions/separation.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "lang/session/phase.h"
@@ -603,6 +604,11 @@ static const qdot_quantity rows[] = {
      "forces of the constraints on each particle and body, by their multipliers",
      "reactions",
      false, NULL},
+    {"hamilton_jacobi", 0, 1, qdot_session_get_jacobi, "hamilton_jacobi or hamilton_jacobi[r]",
+     "the equation of Hamilton and Jacobi; the separated equation of a coordinate, p[r] = dS/dr", "hamilton_jacobi", false, NULL},
+    {"complete_integral", 0, 0, qdot_session_get_integral, "complete_integral",
+     "the solution S(q, t) of the equation of Hamilton and Jacobi with as many constants as coordinates", "complete_integral", false,
+     NULL},
     {"conserved", 0, 0, get_conserved, "conserved or conserved[2]",
      "every conserved quantity found: cyclic momenta, the energy, those of translations, "
      "rotations and boosts; each is proved",
