@@ -4,6 +4,7 @@
 
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/unit.h"
@@ -53,8 +54,7 @@ QDOT_STATEMENT(check) = {
 typedef enum { EQUAL, PROPORTIONAL, LESS, LESS_EQUAL } comparison;
 
 static qdot_status
-decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
-               const qdot_facts *known, qdot_decision *decision)
+decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, comparison how, const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     qdot_expr a, b;
@@ -174,14 +174,12 @@ decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, com
                     qdot_expr_node(pool, a)->op != qdot_expr_node(pool, b)->op)) {
             status = report_unequal_shapes(pool, a, b);
         } else if (how != EQUAL && how != PROPORTIONAL) {
-            status =
-                qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_in_words(pool, a));
+            status = qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_in_words(pool, a));
         } else if (kind == QDOT_REL) {
             status = decide_equations(session, a, b, how, known, &one);
         } else {
             for (uint32_t i = 2 * qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;)
-                status =
-                    qdot_vec_push(&todo, qdot_expr_arg(pool, i % 2 != 0 ? a : b, i / 2));
+                status = qdot_vec_push(&todo, qdot_expr_arg(pool, i % 2 != 0 ? a : b, i / 2));
             continue;
         }
         if (status == QDOT_OK && one.verdict != QDOT_PROVED)
@@ -218,8 +216,7 @@ compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparis
 
 /* Compare two values component by component within a tolerance; the first refuted component decides. */
 static qdot_status
-decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
-              double tol, qdot_decision *decision)
+decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison how, double tol, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     uint32_t n = qdot_expr_count(pool, left);
@@ -465,6 +462,15 @@ replace_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
     return qdot_assumed_motion(session, f);
 }
 
+/* Whether a side holds a function that is given by data. */
+static bool
+holds_data(qdot_session *session, const question *q)
+{
+    const qdot_expr both = qdot_session_bind(session, qdot_list(session->pool, 2, (qdot_expr[]){q->left, q->right}));
+
+    return both != QDOT_NIL && qdot_expr_find_function(session->pool, both, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL;
+}
+
 static qdot_status
 answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
 {
@@ -482,8 +488,7 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     }
     QDOT_TRY(replace_multipliers(session, q, f));
     QDOT_TRY(replace_momenta_by_velocities(session, q, f));
-    measured =
-        qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
+    measured = qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
     if (q->how == PROPORTIONAL && (measured || q->within))
         return qdot_fail(QDOT_EINVAL, "`~` compares equations, not numbers");
     if (measured && q->how == EQUAL && !q->within) {
@@ -509,6 +514,11 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
             QDOT_TRY(decide_by_components(session, left, right, q->how, &known, &decision));
         }
     }
+    if (!q->within && !measured && decision.verdict == QDOT_REFUTED && holds_data(session, q)) { /* it took other values than the data's */
+        decision = (qdot_decision){.verdict = QDOT_UNDECIDED, .left = NAN, .right = NAN};
+        QDOT_TRY(qdot_answer_notice(session, "the values of data are not read here: `check ... within 1e-9` compares numbers"));
+    }
+    QDOT_TRY(qdot_pool_check(pool));
     if (!q->within && !measured &&
         (decision.verdict == QDOT_PROVED || decision.points == 0 || f->from.n > 0))
         QDOT_TRY(report_contradiction(session, f, &known));

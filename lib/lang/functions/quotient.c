@@ -66,6 +66,10 @@ read_coefficients(qdot_session *session, qdot_expr f, qdot_expr s, qdot_coeffici
     const qdot_facts facts = qdot_scene_facts(session->scene);
     qdot_expr factorial = QDOT_ONE;
 
+    /* abs(s) and floor(s) have derivatives that end, but no coefficients */
+    (void)qdot_coefficient(session->pool, f, s, 0);
+    if (qdot_pool_check(session->pool) != QDOT_OK)
+        return refuse_quotient();
     for (long k = 0; f != QDOT_ZERO; k++) {
         qdot_expr value;
 

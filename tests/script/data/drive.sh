@@ -44,3 +44,5 @@ printf 't,F\n0,1\n1,nan\n2,3\n\n3,\n4,0\n' >gaps.csv
 qdot -q -e 'data g from "gaps.csv" : t, F; numeric(g(3))' -e 'scene to "out.lag"' && cat out.lag
 qdot -q -e 'data g from "gaps.csv" : t, F' -e 'undo' -e 'g' 2>&1
 qdot -q -e 'data g from "gaps.csv" : t, F' -e 'reset' -e 'param g = 3' -e 'g' 2>&1
+# what holds for any function is proved; what does not is not refuted by values that the data do not have
+qdot -q -e 'data drive from "drive.csv" : t, F; param x; check drive(x) + 1 > drive(x); check drive(0) > 0; check drive(0) == 2; check drive(0) > 0 within 0; check drive(0) == 1 within 1e-15' 2>&1
