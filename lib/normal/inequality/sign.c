@@ -21,7 +21,7 @@ typedef struct {
     int left; /* proofs that may still be tried */
 } prover;
 
-static qdot_status sign_at(prover *x, qdot_expr e, int depth, int *sign);
+static qdot_status prove_sign(prover *x, qdot_expr e, int depth, int *sign);
 
 /* b^k, b a factor: 1, -1, or 0: not known. */
 static qdot_status
@@ -30,7 +30,7 @@ sign_of_factor_power(prover *x, qdot_expr b, qdot_expr k, int depth, int *sign)
     qdot_pool *pool = x->pool;
     long whole;
 
-    QDOT_TRY(sign_at(x, b, depth, sign));
+    QDOT_TRY(prove_sign(x, b, depth, sign));
     if (qdot_expr_to_int(pool, k, &whole))
         *sign = whole % 2 == 0 ? *sign * *sign : *sign;
     else
@@ -118,9 +118,9 @@ sign_of_difference(prover *x, qdot_expr a, qdot_expr b, int depth, int *sign)
     if (!read_monotonic(pool, a, &c, &u, &g, &way) || !read_monotonic(pool, b, &d, &v, &h, &same) || g != h ||
         qdot_add(pool, c, d) != QDOT_ZERO)
         return QDOT_OK;
-    QDOT_TRY(sign_at(x, c, depth, &factor));
+    QDOT_TRY(prove_sign(x, c, depth, &factor));
     if (factor != 0)
-        QDOT_TRY(sign_at(x, qdot_sub(pool, u, v), depth, sign));
+        QDOT_TRY(prove_sign(x, qdot_sub(pool, u, v), depth, sign));
     *sign *= factor * way;
     return QDOT_OK;
 }
@@ -146,9 +146,9 @@ sign_of_logarithms(prover *x, qdot_expr e, int depth, int *sign)
             return QDOT_OK;
         product = qdot_mul(pool, product, qdot_pow_int(pool, u, n));
     }
-    QDOT_TRY(sign_at(x, first, depth, &factor));
+    QDOT_TRY(prove_sign(x, first, depth, &factor));
     if (factor != 0)
-        QDOT_TRY(sign_at(x, qdot_normal(pool, qdot_sub(pool, product, QDOT_ONE), NULL), depth, sign));
+        QDOT_TRY(prove_sign(x, qdot_normal(pool, qdot_sub(pool, product, QDOT_ONE), NULL), depth, sign));
     *sign *= factor;
     return QDOT_OK;
 }
@@ -182,16 +182,16 @@ sign_beside_root(prover *x, qdot_expr e, qdot_expr root, int depth, int *sign)
     int of_root, of_A;
 
     *sign = 0;
-    QDOT_TRY(sign_at(x, root, depth, &of_root));
+    QDOT_TRY(prove_sign(x, root, depth, &of_root));
     if (of_root == 0)
         return QDOT_OK;
-    QDOT_TRY(sign_at(x, A, depth, &of_A));
+    QDOT_TRY(prove_sign(x, A, depth, &of_A));
     if (of_A == of_root)
         *sign = of_A;
     if (of_A == 0 || of_A == of_root)
         return QDOT_OK;
     squares = qdot_normal(pool, qdot_sub(pool, qdot_mul(pool, A, A), qdot_mul(pool, root, root)), NULL);
-    QDOT_TRY(sign_at(x, squares, depth, sign));
+    QDOT_TRY(prove_sign(x, squares, depth, sign));
     *sign *= of_A;
     return QDOT_OK;
 }
@@ -220,7 +220,7 @@ sign_of_sum(prover *x, qdot_expr e, int depth, int *sign)
 
         if (term == QDOT_ZERO)
             continue;
-        QDOT_TRY(sign_at(x, term, depth, &one));
+        QDOT_TRY(prove_sign(x, term, depth, &one));
         if (one == 0 || (all != 0 && one != all)) {
             all = 0;
             break;
@@ -253,9 +253,9 @@ sign_of_function(prover *x, qdot_expr e, int depth, int *sign)
 
     *sign = 0;
     if (qdot_expr_is_function(pool, e, QDOT_LOG) || qdot_expr_is_function(pool, e, QDOT_ACOSH))
-        QDOT_TRY(sign_at(x, qdot_sub(pool, u, QDOT_ONE), depth, sign));
+        QDOT_TRY(prove_sign(x, qdot_sub(pool, u, QDOT_ONE), depth, sign));
     if (qdot_expr_is_function(pool, e, QDOT_ACOS))
-        QDOT_TRY(sign_at(x, qdot_sub(pool, QDOT_ONE, u), depth, sign));
+        QDOT_TRY(prove_sign(x, qdot_sub(pool, QDOT_ONE, u), depth, sign));
     if (!qdot_expr_is_function(pool, e, QDOT_LOG))
         *sign = *sign > 0;
     return QDOT_OK;
@@ -314,7 +314,7 @@ is_conditioned(const prover *x, qdot_expr e)
 }
 
 static qdot_status
-sign_at(prover *x, qdot_expr e, int depth, int *sign)
+prove_sign(prover *x, qdot_expr e, int depth, int *sign)
 {
     bool rational;
 
@@ -352,5 +352,5 @@ qdot_sign(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int *sign)
 {
     prover x = {pool, facts, MOST_PROOFS};
 
-    return sign_at(&x, e, 0, sign);
+    return prove_sign(&x, e, 0, sign);
 }

@@ -14,33 +14,33 @@ while read -r line; do
 done <<'EOF2'
 data
 data d
-data d from d.csv : t, F
-data d from "d.csv"
-data d from "d.csv" : t
-data d from "d.csv" : t, F wavy
-data d from "none.csv" : t, F
-data d from "down.csv" : t, F
-data d from "twice.csv" : t, F
-data d from "word.csv" : t, F
-data d from "short.csv" : t, F
-data d from "three.csv" : t, F
-data d from "open.csv" : t, F periodic
-data d from "d.csv" : t, t
-data d from "d.csv" : t^2, F
-data d from "d.csv" : 3, F
-data d from "scattered.csv" : a, v, c
-data d from "double.csv" : a, v, c
-data d from "three.csv" : a, v, c steps
-data d from "three.csv" : a, v, c, e
+data f from d.csv : t, F
+data f from "d.csv"
+data f from "d.csv" : t
+data f from "d.csv" : t, F wavy
+data f from "none.csv" : t, F
+data f from "down.csv" : t, F
+data f from "twice.csv" : t, F
+data f from "word.csv" : t, F
+data f from "short.csv" : t, F
+data f from "three.csv" : t, F
+data f from "open.csv" : t, F periodic
+data f from "d.csv" : t, t
+data f from "d.csv" : t^2, F
+data f from "d.csv" : 3, F
+data f from "scattered.csv" : a, v, c
+data f from "double.csv" : a, v, c
+data f from "three.csv" : a, v, c steps
+data f from "three.csv" : a, v, c, e
 data x from "d.csv" : t, F
-data d from "d.csv" : t, F; set d(t) = t
-data d from "d.csv" : t, F; numeric(d(5))
-data d from "d.csv" : t, F; force d(t) on p; run 0..5
-data d from "d.csv" : t, F; force d(t) on p; run -1..1
-data d from "d.csv" : t, F; force d(x) on p; start x' = 2; run 0..5
-data d from "d.csv" : t, F; force d(t) on p; run 0..3 digits 30
-data d from "d.csv" : t, F; force d(t) on p; export c eom to "x.c"
-data d from "d.csv" : t, F; solve(d(t) = 1/2, t, 0..4)
-data d from "d.csv" : t, F; numeric(integral(d(t), t, 0, 4))
+data f from "d.csv" : t, F; set f(t) = t
+data f from "d.csv" : t, F; numeric(f(5))
+data f from "d.csv" : t, F; force f(t) on p; run 0..5
+data f from "d.csv" : t, F; force f(t) on p; run -1..1
+data f from "d.csv" : t, F; force f(x) on p; start x' = 2; run 0..5
+data f from "d.csv" : t, F; force f(t) on p; run 0..3 digits 30
+data f from "d.csv" : t, F; force f(t) on p; export c eom to "x.c"
+data f from "d.csv" : t, F; solve(f(t) = 1/2, t, 0..4)
+data f from "d.csv" : t, F; numeric(integral(f(t), t, 0, 4))
 force x(t - 0.1) on p
 EOF2

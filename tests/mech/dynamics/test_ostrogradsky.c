@@ -12,14 +12,14 @@
 static qdot_expr
 stated(kit *k, const char *L)
 {
-    assert_int_equal(qdot_scene_lagrangian(k->scene, E(k, L)), QDOT_OK);
+    assert_int_equal(qdot_scene_lagrangian(k->scene, E(k, "%s", L)), QDOT_OK);
     return k->scene->coordinates.at[0];
 }
 
 static qdot_expr
 in_motion(kit *k, const char *e)
 {
-    return qdot_higher_in_motion(k->scene, E(k, e));
+    return qdot_higher_in_motion(k->scene, E(k, "%s", e));
 }
 
 static void
@@ -31,7 +31,7 @@ equation_is_eulers_body(kit *k)
 
     coords(k, "x");
     q = stated(k, L);
-    other = qdot_fields_euler_lagrange(k->scene, E(k, L), q, 1, &t);
+    other = qdot_fields_euler_lagrange(k->scene, E(k, "%s", L), q, 1, &t);
     assert_int_equal(k->scene->coordinates.n, 2);
     assert_int_equal(qdot_expand(k->pool, qdot_expr_arg(k->pool, qdot_ostrogradsky_equation(k->scene, q), 0)),
                      qdot_expand(k->pool, qdot_higher_in_motion(k->scene, qdot_expr_arg(k->pool, other, 0))));

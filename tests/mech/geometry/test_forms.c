@@ -8,7 +8,7 @@
 static qdot_expr
 two_form(kit *k, const char *a, const char *b)
 {
-    return qdot_forms_wedge(k->scene, E(k, a), E(k, b));
+    return qdot_forms_wedge(k->scene, E(k, "%s", a), E(k, "%s", b));
 }
 
 static void
@@ -86,7 +86,7 @@ what_is_no_form_is_refused_body(kit *k)
 
     coords(k, "x y");
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        assert_int_equal(qdot_forms_exterior_derivative(k->scene, E(k, wrong[i])), QDOT_NIL);
+        assert_int_equal(qdot_forms_exterior_derivative(k->scene, E(k, "%s", wrong[i])), QDOT_NIL);
         assert_int_equal(qdot_pool_check(k->pool), QDOT_ETYPE);
     }
     assert_int_equal(qdot_forms_hodge(k->scene, E(k, "dt"), E(k, "dx^2 + dy^2")), QDOT_NIL);
