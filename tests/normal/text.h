@@ -194,7 +194,7 @@ text_sum(text *s)
 }
 
 /* The expression that a text says. */
-static qdot_expr
+static inline qdot_expr
 text_read(qdot_pool *pool, const char *at)
 {
     text s = {.pool = pool, .at = at};
