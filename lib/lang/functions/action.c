@@ -18,6 +18,7 @@
 #include "lang/functions/solve-numbers.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "mech/scene/access.h"
 #include "mech/study/action.h"
 #include "normal/calculus/decimal.h"
 #include "normal/solve/conditions.h"
@@ -86,17 +87,34 @@ number_of_action(qdot_session *session, const qdot_separated *one, qdot_expr *va
 
 /* --- exact ------------------------------------------------------------------------------------------- */
 
-/* The relation of one set whose opposite is in the other; nil: there is none. */
+/* The relation of one set whose opposite is in the other, where all else in the other follows from the opposite and the scene;
+ * nil: there is none. */
 static qdot_expr
-deciding_relation(qdot_pool *pool, qdot_expr set, qdot_expr other)
+deciding_relation(qdot_session *session, qdot_expr set, qdot_expr other)
 {
-    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++)
-        for (uint32_t k = 0; other != QDOT_NIL && k < qdot_expr_count(pool, other); k++) {
-            const qdot_expr a = qdot_expr_arg(pool, set, i), b = qdot_expr_arg(pool, other, k);
+    qdot_pool *pool = session->pool;
+    const qdot_facts scene = qdot_scene_facts(session->scene);
 
-            if (qdot_expr_arg(pool, a, 0) == qdot_expr_arg(pool, b, 1) && qdot_expr_arg(pool, a, 1) == qdot_expr_arg(pool, b, 0))
-                return a;
+    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++) {
+        const qdot_expr a = qdot_expr_arg(pool, set, i);
+        const qdot_expr opposite = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, a, 1), qdot_expr_arg(pool, a, 0));
+        qdot_expr room[QDOT_CONDITIONS_MOST];
+        const qdot_facts there = qdot_facts_and(pool, &scene, qdot_list(pool, 1, &opposite), room);
+        bool holds = false;
+        uint32_t open = 0;
+
+        for (uint32_t k = 0; other != QDOT_NIL && k < qdot_expr_count(pool, other); k++) {
+            const qdot_expr b = qdot_expr_arg(pool, other, k);
+            const qdot_expr gap = qdot_sub(pool, qdot_expr_arg(pool, b, 1), qdot_expr_arg(pool, b, 0));
+
+            if (b == opposite)
+                holds = true;
+            else
+                open += qdot_condition(pool, gap, true, &there) != QDOT_TRUE;
         }
+        if (holds && open == 0)
+            return a;
+    }
     return QDOT_NIL;
 }
 
@@ -135,7 +153,7 @@ join_regimes(qdot_session *session, qdot_expr x, const qdot_action *a, qdot_expr
     QDOT_TRY(notice_of_regimes(session, x, a));
     for (size_t i = n - 1; i-- > 0;) {
         const qdot_action_regime *one = &a->regime.at[i];
-        const qdot_expr by = deciding_relation(pool, one->condition, a->regime.at[i + 1].condition);
+        const qdot_expr by = deciding_relation(session, one->condition, a->regime.at[i + 1].condition);
 
         if (by == QDOT_NIL) { /* the first alone, for its conditions */
             QDOT_TRY(qdot_solve_notice_all(session, "the action is this for ", a->regime.at[0].condition));
@@ -225,6 +243,8 @@ qdot_call_action(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_
         return qdot_fail(QDOT_ETYPE, "action(x) takes a coordinate");
     if (n == 2 && !qdot_expr_is_scalar(session->pool, args[1]))
         return qdot_fail(QDOT_ETYPE, "the energy in action(x, E) is a number, not %s", qdot_value_kind_words(session->pool, args[1]));
+    if (n == 2 && (qdot_mech_holds(session->scene, args[1]) & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME)))
+        return qdot_fail(QDOT_EDOMAIN, "the energy in action(x, E) is constant: it holds no coordinate, velocity or t");
     status = qdot_session_separate(session, n == 2 ? args[1] : QDOT_NIL, &x);
     if (status == QDOT_OK && x.energy == QDOT_NIL)
         status = qdot_fail(QDOT_EINVAL, "H depends on t: the motion has no action variables");

@@ -274,6 +274,9 @@ find_in_regime(search *a, size_t n, place *p, qdot_action_regime *out)
     qdot_pool *pool = a->pool;
     place all[MOST_PLACES + 2];
     int sign[MOST_PLACES + 1];
+    const place far = {FAR, QDOT_NIL, QDOT_NIL};
+    const qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
+    const bool round = a->lo == QDOT_NIL && a->hi == QDOT_NIL && qdot_is_angle(pool, a->f, a->x, &a->facts);
     size_t count = 0;
 
     for (size_t i = 0, sorted = sort_places(a, n, p); i < n && !sorted; i++)
@@ -282,14 +285,18 @@ find_in_regime(search *a, size_t n, place *p, qdot_action_regime *out)
         a->out->verdict = QDOT_ACTION_NO_POINTS;
         return QDOT_OK;
     }
-    all[count++] = (place){a->lo == QDOT_NIL ? FAR : WALL, a->lo, QDOT_NIL};
+    if (!round)
+        all[count++] = (place){a->lo == QDOT_NIL ? FAR : WALL, a->lo, QDOT_NIL};
     for (size_t i = 0; i < n; i++)
         all[count++] = p[i];
-    all[count++] = (place){a->hi == QDOT_NIL ? FAR : WALL, a->hi, QDOT_NIL};
+    if (!round)
+        all[count++] = (place){a->hi == QDOT_NIL ? FAR : WALL, a->hi, QDOT_NIL};
+    else if (n > 0) /* the last range of an angle ends at the first place, a turn later */
+        all[count++] = (place){p[0].kind, qdot_simplify(pool, qdot_add(pool, p[0].at, turn), &a->facts), QDOT_NIL};
     if (n > 0 && a->lo != QDOT_NIL && qdot_is_zero(pool, qdot_sub(pool, p[0].at, a->lo), &a->facts))
         all[0] = all[1];
-    if (count == 2 && a->lo == QDOT_NIL && a->hi == QDOT_NIL && qdot_is_angle(pool, a->f, a->x, &a->facts))
-        return sign_between(a, &all[0], &all[1]) > 0 ? integrate_turn(a, out) : QDOT_OK;
+    if (round && n == 0)
+        return sign_between(a, &far, &far) > 0 ? integrate_turn(a, out) : QDOT_OK;
     find_signs(a, count, all, sign);
     for (size_t i = 0; i + 1 < count; i++) {
         qdot_action_regime one = {0};
