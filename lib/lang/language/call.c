@@ -133,9 +133,11 @@ qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
         status = call_function(s, entry, call, value, over);
     else if (entry != NULL && entry->kind == QDOT_NAME_UFUN)
         status = qdot_resolve_undefined(s, entry, call->primes, call->n, args, value);
-    else if (row != NULL && call->primes == 0 && (status = qdot_session_refuse_higher(s, name)) == QDOT_OK)
-        status = call_builtin(s, row, call->n, args, call->run, value, over);
-    else if (row != NULL && status == QDOT_OK)
+    else if (row != NULL && call->primes == 0) {
+        status = qdot_session_refuse_higher(s, name);
+        if (status == QDOT_OK)
+            status = call_builtin(s, row, call->n, args, call->run, value, over);
+    } else if (row != NULL)
         status = qdot_resolve_no_prime(name, "takes no prime: write diff(...)");
     else if (is_name_of_value(s, entry, name, spelled.at))
         status = report_not_a_function(s, entry, spelled.at, call->n, args);

@@ -12,6 +12,7 @@ qdot_session_refuse_higher(const qdot_session *session, const char *word)
         "mass_matrix", "Q",          "virtual_work", "forces",   "cyclic",     "routhian",    "conserved", "equilibria",
         "steady",      "modes",      "linearize",    "transfer", "reactions",  "stability",  "continue",   "poisson",   "lie",
         "dof",         "constraint", "speed",        "derive",   "export",     "report",      "animate",
+        "action",      "hamilton_jacobi", "complete_integral", "canonical",
     };
 
     for (size_t i = 0; session->scene->higher.n > 0 && i < sizeof refused / sizeof *refused; i++)

@@ -269,6 +269,7 @@ require_energy_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
     default:
         QDOT_TRY(qdot_scene_refuse_states(s, e, "a dissipation function", 1));
         QDOT_TRY(refuse_multipliers_in_friction(s, e, "a dissipation function"));
+        e = qdot_higher_in_jets(s, e);
         return require_scalar(s, e, "a dissipation function", NO_ACCELERATION);
     }
 }
