@@ -19,7 +19,7 @@ static const struct {
     {"–", "-"},
     {"—", "-"},
     {"÷", "/"},
-    {"∧", "and"},
+    {"∧", "and, or wedge(a, b) of forms"},
     {"∨", "or"},
     {"¬", "not"},
     {"⟨", "("},
