@@ -29,7 +29,7 @@ answer_constants(qdot_session *session, const qdot_separation *x)
     for (size_t i = 0; i <= x->n; i++) {
         const qdot_expr c = i == 0 ? x->energy : x->of[i - 1].cyclic ? x->of[i - 1].p : x->of[i - 1].constant;
 
-        if (c == QDOT_NIL || qdot_expr_symbol(session->pool, c) == NULL)
+        if (c == QDOT_NIL || qdot_expr_symbol(session->pool, c) == NULL || (i == 0 && qdot_separation_is_free(x)))
             continue;
         qdot_text_format(&text, "%s%s", before, qdot_expr_symbol(session->pool, c)->name);
         before = ", ";

@@ -36,10 +36,12 @@ qdot_session_jacobi_equation(qdot_session *session, qdot_expr H, qdot_expr *equa
     return qdot_separation_equation(session->scene, H, &(qdot_constant_names){is_free_for_function, session}, equation);
 }
 
-/* Say that the equation does not separate, as far as that is known. */
+/* Say that the equation does not separate, as far as that is known, or was not solved. */
 static qdot_status
 refuse_unseparated(const qdot_separation *x)
 {
+    if (x->verdict == QDOT_SEPARATES)
+        return qdot_fail(QDOT_EFAILED, "a separated equation was not solved for its momentum");
     return qdot_fail(QDOT_EFAILED, "%s", x->verdict == QDOT_SEPARATES_NOT ? "the equation of Hamilton and Jacobi does not separate in these coordinates"
                                                                           : "no separation of the equation of Hamilton and Jacobi was found");
 }

@@ -51,6 +51,15 @@ qdot_separated_equation(qdot_pool *pool, const qdot_separated *x)
     return qdot_rel(pool, QDOT_EQ, qdot_mul(pool, p, p), x->square);
 }
 
+bool
+qdot_separation_is_free(const qdot_separation *x)
+{
+    for (size_t i = 0; i < x->n; i++)
+        if (!x->of[i].cyclic)
+            return false;
+    return x->verdict == QDOT_SEPARATES;
+}
+
 qdot_expr
 qdot_separation_integral(qdot_scene *s, const qdot_separation *x)
 {
@@ -58,7 +67,8 @@ qdot_separation_integral(qdot_scene *s, const qdot_separation *x)
     qdot_expr room[QDOT_CONDITIONS_MOST];
     const qdot_facts facts = qdot_facts_and(s->pool, &of_scene, x->signs, room);
     qdot_pool *pool = s->pool;
-    qdot_expr S = x->energy == QDOT_NIL ? QDOT_ZERO : qdot_neg(pool, qdot_mul(pool, x->energy, QDOT_T));
+    const qdot_expr E = qdot_separation_is_free(x) ? x->H : x->energy;
+    qdot_expr S = E == QDOT_NIL ? QDOT_ZERO : qdot_neg(pool, qdot_mul(pool, E, QDOT_T));
 
     if (x->verdict != QDOT_SEPARATES)
         return x->S;

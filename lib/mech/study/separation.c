@@ -105,6 +105,7 @@ solve_momentum(separating *x, qdot_separated *one)
     qdot_pool *pool = x->pool;
     const qdot_expr p = one->p;
     qdot_expr A[3], at = one->relation, zero = QDOT_ZERO;
+    qdot_decision d;
 
     for (int k = 0; k < 3; k++) { /* Taylor's coefficients */
         A[k] = qdot_subs(pool, at, 1, &p, &zero);
@@ -119,6 +120,10 @@ solve_momentum(separating *x, qdot_separated *one)
         (void)qdot_grave(qdot_pool_check(pool));
         return solve_other(x, one);
     }
+    /* |p| has a kink where the coefficients are taken */
+    QDOT_TRY(qdot_decide_equal(pool, one->relation, qdot_add(pool, A[0], qdot_mul(pool, p, qdot_add(pool, A[1], qdot_mul(pool, at, p)))), &x->facts, &d));
+    if (d.verdict == QDOT_REFUTED)
+        return QDOT_OK;
     if (at == QDOT_ZERO) {
         one->shift = qdot_simplify(pool, qdot_neg(pool, qdot_div(pool, A[0], A[1])), &x->facts);
         return qdot_pool_check(pool);

@@ -61,6 +61,8 @@ void qdot_separation_clear(qdot_separation *x);
 QDOT_MUST_CHECK qdot_status qdot_separation_equation(qdot_scene *s, qdot_expr H, const qdot_constant_names *names, qdot_expr *equation);
 /* The equation of one coordinate as `p^2 = ...` or `p = ...`, or relation = 0. */
 qdot_expr qdot_separated_equation(qdot_pool *pool, const qdot_separated *x);
+/* Whether all coordinates are cyclic: H is a function of the momenta, and the energy no constant of its own. */
+bool qdot_separation_is_free(const qdot_separation *x);
 /* The complete integral S; integrals that are not found stand. Nil: the equation did not separate. */
 qdot_expr qdot_separation_integral(qdot_scene *s, const qdot_separation *x);
 
