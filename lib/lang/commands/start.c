@@ -176,6 +176,27 @@ is_whole_state(const qdot_session *session)
     return true;
 }
 
+/* A momentum and the velocity of one coordinate are not both given. */
+static qdot_status
+refuse_momentum_and_velocity(qdot_record *r, const qdot_pairs *list)
+{
+    qdot_session *session = r->cursor.session;
+    const size_t n = list->symbols.n;
+
+    for (size_t i = 0; i < session->scene->coordinates.n; i++) {
+        const qdot_expr q = session->scene->coordinates.at[i];
+        const size_t p = qdot_expr_place(n, list->symbols.at, qdot_symbol_of(session->pool, QDOT_MOMENTUM, q));
+        const size_t v = qdot_expr_place(n, list->symbols.at, qdot_symbol_jet(session->pool, q, 1));
+        const char *name = qdot_expr_symbol(session->pool, q)->name;
+
+        if (p == n || v == n)
+            continue;
+        r->cursor.error_at = list->places.at[p > v ? p : v]->start;
+        return qdot_fail(QDOT_EINVAL, "%.100s' and p[%.100s] are both given: leave one out", name, name);
+    }
+    return qdot_pool_check(session->pool);
+}
+
 /* A start gives velocities or speeds; those of a whole state are turned into these. */
 static qdot_status
 keep_one_kind(qdot_record *r, const qdot_pairs *list)
@@ -222,6 +243,8 @@ carry_out_start(qdot_record *r)
     if (run != NULL)
         return carry_out_start_name(r, run);
     status = read_start_values(r, &list);
+    if (status == QDOT_OK)
+        status = refuse_momentum_and_velocity(r, &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
         if (!qdot_expr_is_coordinate(session->pool, list.symbols.at[i]))
             continue;
