@@ -226,6 +226,10 @@ qdot_call_canonical(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
             qdot_fail(QDOT_ETYPE, "canonical( ) takes new coordinates and momenta by pairs");
             return qdot_hint("canonical(Q = ..., P = ...), or canonical(Q1 = ..., P1 = ..., Q2 = ..., P2 = ...)");
         }
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < i; j++)
+            if (qdot_expr_arg(s->pool, args[i], 0) == qdot_expr_arg(s->pool, args[j], 0))
+                return qdot_fail(QDOT_EINVAL, "%.100s is given twice", qdot_expr_symbol(s->pool, qdot_expr_arg(s->pool, args[i], 0))->name);
     if (n % 2 != 0)
         return qdot_fail(QDOT_EINVAL, "the new momentum that belongs to %.100s is missing",
                          qdot_expr_symbol(s->pool, qdot_expr_arg(s->pool, args[n - 1], 0))->name);
