@@ -207,9 +207,8 @@ check_constant(qdot_cursor *c, const qdot_token *start, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* Where units are declared: whether the value, a bare number being one in SI units, has the dimension of the symbol. */
-static qdot_status
-check_dimension(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_expr value)
+qdot_status
+qdot_set_check_dimension(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_expr value)
 {
     qdot_session *session = r->cursor.session;
     qdot_text format = {0};
@@ -238,7 +237,7 @@ qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr symbol
 {
     QDOT_TRY(qdot_record_scalar(r, part, value));
     QDOT_TRY(check_constant(&r->cursor, part->from, value));
-    return check_dimension(r, part, symbol, *value);
+    return qdot_set_check_dimension(r, part, symbol, *value);
 }
 
 /* Read the value of a parameter; that of an input may hold the time, coordinates and velocities. */
@@ -252,7 +251,7 @@ set_read_value(qdot_record *r, const qdot_filled *part, qdot_expr symbol, qdot_e
             QDOT_TRY(qdot_record_scalar(r, part, value));
             QDOT_TRY(qdot_set_keep_measured(session, value));
             if (!(qdot_expr_node(session->pool, *value)->holds & QDOT_HAS_ACCELERATION))
-                return check_dimension(r, part, symbol, *value);
+                return qdot_set_check_dimension(r, part, symbol, *value);
             qdot_record_blame(r, part);
             return qdot_fail(QDOT_ETYPE, "an input depends on t, coordinates and velocities, not on accelerations");
         }

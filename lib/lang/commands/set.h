@@ -11,6 +11,10 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_f
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr symbol,
                                                    qdot_expr *value);
+/* Where units are declared: fails unless the value, a bare number being one in SI units, has the dimension of the
+ * symbol. */
+QDOT_MUST_CHECK qdot_status qdot_set_check_dimension(qdot_record *r, const qdot_filled *part, qdot_expr symbol,
+                                                     qdot_expr value);
 /* Whether the part p[NAME] is a momentum, because the script does not declare `p` itself. */
 bool qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part);
 /* Find a symbol for which a run can take a value: a parameter, q, q' or a momentum p[NAME]. */

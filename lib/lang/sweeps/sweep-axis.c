@@ -132,6 +132,8 @@ read_range_of_values(qdot_record *r, const qdot_filled *range, const axis_option
     if (range->n < 2)
         return refuse_single_value(r, range, x);
     QDOT_TRY(qdot_record_range(r, range, &from, &to));
+    QDOT_TRY(qdot_set_check_dimension(r, range, x->symbol, from));
+    QDOT_TRY(qdot_set_check_dimension(r, range, x->symbol, to));
     qdot_record_blame(r, range);
     QDOT_TRY(evaluate_to_constant(r->cursor.session, from, &x->from, &a));
     QDOT_TRY(evaluate_to_constant(r->cursor.session, to, &to, &b));
@@ -158,6 +160,8 @@ read_list_of_values(qdot_record *r, const qdot_filled *part, const axis_options 
     x->n = qdot_expr_kind(session->pool, x->list) == QDOT_LIST ? qdot_expr_count(session->pool, x->list) : 0;
     if (x->n == 0)
         return qdot_fail(QDOT_ETYPE, "a sweep runs over a list of numbers");
+    for (uint32_t k = 0; k < x->n; k++)
+        QDOT_TRY(qdot_set_check_dimension(r, part, x->symbol, qdot_expr_arg(session->pool, x->list, k)));
     x->list = qdot_session_bind(session, qdot_measured_as_rationals(session, x->list));
     QDOT_TRY(qdot_pool_check(session->pool));
     for (size_t k = 0; k < x->n; k++) {

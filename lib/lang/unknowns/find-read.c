@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/units.h"
 #include "lang/syntax/record-times.h"
 #include "sim/model/simple-zeros.h"
 
@@ -113,12 +114,12 @@ find_unknown_symbol(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
 }
 
 static qdot_status
-evaluate_bound(qdot_find *f, const qdot_compiled *program, double *value)
+evaluate_bound(qdot_find *f, const qdot_filled *part, qdot_expr e, double *value)
 {
-    qdot_expr e;
+    const qdot_expr x = f->unknowns.at[f->unknowns.n - 1].symbol;
 
-    QDOT_TRY(qdot_compiled_value(f->c, program, &e));
-    f->c->error_at = program->from->start;
+    QDOT_TRY(qdot_set_check_dimension(f->record, part, x, e));
+    qdot_record_blame(f->record, part);
     QDOT_TRY(qdot_session_number(f->c->session, e, value, NULL));
     return isfinite(*value) ? QDOT_OK
                             : qdot_fail(QDOT_EDOMAIN, "a guess is a finite number");
@@ -128,20 +129,20 @@ evaluate_bound(qdot_find *f, const qdot_compiled *program, double *value)
 static qdot_status
 read_bounds_or_guess(qdot_find *f, const qdot_filled *part)
 {
-    const qdot_compiled *ends = &f->record->compiled.at[part->first];
-    double low, high = INFINITY, guess;
+    double low = -INFINITY, high = INFINITY, guess;
+    qdot_expr from, to;
 
-    QDOT_TRY(evaluate_bound(f, &ends[0], &low));
-    guess = low;
     if (part->n == 2) {
-        QDOT_TRY(evaluate_bound(f, &ends[1], &high));
+        QDOT_TRY(qdot_record_range(f->record, part, &from, &to));
+        QDOT_TRY(evaluate_bound(f, part, from, &low));
+        QDOT_TRY(evaluate_bound(f, part, to, &high));
         guess = low + (high - low) / 2;
-        qdot_record_blame(f->record, part);
         if (!(low < high))
             return qdot_fail(QDOT_EINVAL, "nothing lies between %.10g and %.10g", low,
                              high);
     } else {
-        low = -INFINITY;
+        QDOT_TRY(qdot_record_scalar(f->record, part, &from));
+        QDOT_TRY(evaluate_bound(f, part, from, &guess));
     }
     QDOT_TRY(qdot_vec_push(&f->guess, guess));
     QDOT_TRY(qdot_vec_push(&f->low, low));
@@ -392,6 +393,8 @@ evaluate_equation(const qdot_find *f, const qdot_find_condition *x, qdot_expr *e
             return qdot_fail(QDOT_ETYPE, "a condition is between numbers");
         QDOT_TRY(qdot_slopes_at_end(session, &side[i]));
     }
+    if (!qdot_expr_is_constant(session->pool, side[0]) && !qdot_expr_is_constant(session->pool, side[1]))
+        QDOT_TRY(qdot_units_join(session, side[0], side[1], "%s is compared with %s"));
     /* replace u^9 by u: its zero would be known only to the ninth root of a rounding error, and
      * u^1001 underflows near it */
     *e = qdot_sub(session->pool, side[0], side[1]);
