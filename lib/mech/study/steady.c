@@ -30,6 +30,30 @@ qdot_steady_rate(qdot_pool *pool, qdot_expr rate)
     return qdot_symbol_get(pool, QDOT_PARAM, qdot_expr_symbol(pool, rate)->name);
 }
 
+/* The rates as constants: what the place gives for the coordinates and other rates in them. */
+static qdot_status
+insert_place(qdot_expr place, qdot_turning *x)
+{
+    const uint32_t n = qdot_expr_count(x->pool, place);
+
+    for (size_t i = 0; i < x->n; i++) {
+        for (uint32_t k = 0; k < n * n; k++) { /* as values hold others */
+            const qdot_expr one = qdot_expr_arg(x->pool, place, k % n), symbol = qdot_expr_arg(x->pool, one, 0),
+                            value = qdot_expr_arg(x->pool, one, 1);
+
+            x->w[i] = qdot_subs(x->pool, x->w[i], 1, &symbol, &value);
+        }
+        x->w[i] = qdot_subs(x->pool, x->w[i], x->n, x->rate, x->w);
+        QDOT_TRY(qdot_pool_check(x->pool));
+        if (!(qdot_expr_node(x->pool, x->w[i])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
+            continue;
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: modes about a steady motion whose rate %.100s depends on a free coordinate",
+                        qdot_expr_symbol(x->pool, x->rate[i])->name);
+        return qdot_hint("give coordinates and rates values, modes at [theta = 1, phi' = 2, psi' = 3], or linearize at steady[1]");
+    }
+    return QDOT_OK;
+}
+
 /* The cyclic coordinates whose momentum is conserved; of a place those whose rates it names. */
 static qdot_status
 find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
@@ -59,6 +83,8 @@ find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
     }
     qdot_free(list);
     QDOT_TRY(qdot_pool_check(s->pool));
+    if (place != QDOT_NIL)
+        QDOT_TRY(insert_place(place, x));
     if (x->n > 0 || place != QDOT_NIL)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "no coordinate is cyclic with a conserved momentum: steady motions are the equilibria");
