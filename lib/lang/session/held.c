@@ -7,6 +7,7 @@
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 
 /* --- values of `set` and `start` --------------------------------------------------------- */
@@ -32,6 +33,8 @@ qdot_held_begin(qdot_session *session, qdot_expr symbol, qdot_expr value)
     const size_t i = index_of_symbol(symbols, n, symbol);
     const qdot_held held = {symbol, value, i < n ? values[i] : QDOT_NIL};
 
+    if (!qdot_expr_is_constant(session->pool, value))
+        QDOT_TRY(qdot_units_join(session, symbol, value, "a value of %s is %s"));
     QDOT_TRY(qdot_vec_push(&session->evaluation->held, held));
     if (qdot_session_put(session, symbol, value) == QDOT_OK)
         return QDOT_OK;
