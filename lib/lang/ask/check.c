@@ -31,7 +31,7 @@
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/phase-symbols.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"

@@ -13,7 +13,7 @@
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/geometry/metric.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 #include "normal/form/common.h"
 #include "normal/simplify/simplify.h"
 

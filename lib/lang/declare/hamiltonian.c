@@ -5,7 +5,7 @@
 #include "lang/session/measured.h"
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 
 static qdot_status declare_hamiltonian(qdot_record *r);
 

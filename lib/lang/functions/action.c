@@ -19,7 +19,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "mech/scene/access.h"
-#include "mech/study/action.h"
+#include "mech/hamilton/action.h"
 #include "normal/calculus/decimal.h"
 #include "normal/solve/conditions.h"
 

@@ -13,8 +13,8 @@
 #include "lang/functions/builtin.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
-#include "mech/study/generating.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/generating.h"
+#include "mech/hamilton/hamilton.h"
 #include "normal/prove/decide.h"
 
 typedef struct {

@@ -9,7 +9,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/phase-symbols.h"
 
 /* The rate of e in velocities or, as speeds and momenta have rates of their own, in these. */
 static qdot_expr

@@ -22,9 +22,9 @@
 #include "mech/geometry/metric.h"
 #include "mech/scene/scene.h"
 #include "mech/study/bodies.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 #include "mech/study/noether.h"
-#include "mech/study/phase-space.h"
+#include "mech/hamilton/phase-space.h"
 #include "mech/study/reactions.h"
 
 /* --- checks before a quantity is evaluated ------------------------------------------ */

@@ -7,7 +7,7 @@
 #define QDOT_LANG_SEPARATION_H
 
 #include "lang/session/parts.h"
-#include "mech/study/separation.h"
+#include "mech/hamilton/separation.h"
 
 /* As qdot_separation_find. */
 QDOT_MUST_CHECK qdot_status qdot_session_separate(qdot_session *session, qdot_expr energy, qdot_separation *out);

@@ -8,7 +8,7 @@
 #include "lang/functions/builtin.h"
 #include "mech/geometry/geometry.h"
 #include "mech/geometry/metric.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 
 /* --- vectors and matrices ----------------------------------------------------------- */
 

@@ -29,7 +29,7 @@
 #include "mech/dynamics/rate.h"
 #include "mech/scene/scene.h"
 #include "mech/scene/things.h"
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/phase-symbols.h"
 
 bool
 qdot_resolve_is_function(const qdot_session *session, const char *name)

@@ -10,7 +10,7 @@
 #include "lang/session/start-kind.h"
 #include "lang/session/values.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/legendre.h"
+#include "mech/hamilton/legendre.h"
 #include "normal/solve/zeros.h"
 
 /* A start in momenta: of the coordinates q [n], numbers `at` of the scene, momenta p = value. */

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "lang/session/parts.h"
 #include "lang/session/text-list.h"
-#include "mech/study/phase-space.h"
+#include "mech/hamilton/phase-space.h"
 
 /* Subexpressions of the two sides of a check: each must be defined wherever the sides are compared. */
 typedef struct {

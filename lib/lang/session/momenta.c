@@ -6,8 +6,8 @@
 #include "expr/walk.h"
 #include "lang/session/speeds.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/phase-symbols.h"
 
 static const uint32_t moving = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 

@@ -1,6 +1,6 @@
 /* phase.h -- statements about the motion of a scene that states H alone see its phase space.
  *
- * While such a statement is carried out, the scene is that of mech/study/phase-space: p[q] is a coordinate of its own,
+ * While such a statement is carried out, the scene is that of mech/hamilton/phase-space: p[q] is a coordinate of its own,
  * with a start and without velocity; the start values of momenta are those of these coordinates.
  *
  * Tests  tests/script/derive/hamiltonian-runs.lag
@@ -10,7 +10,7 @@
 
 #include "lang/session/parts.h"
 
-/* Enter the phase space, if the scene needs it, with states in place of coordinates (mech/study/phase-space.h) or not;
+/* Enter the phase space, if the scene needs it, with states in place of coordinates (mech/hamilton/phase-space.h) or not;
  * _end, in any case, leaves it. They may be nested. */
 QDOT_MUST_CHECK qdot_status qdot_phase_begin(qdot_session *session, bool states);
 void qdot_phase_end(qdot_session *session);

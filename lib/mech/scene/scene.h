@@ -41,7 +41,7 @@ QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *fo
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
 /* State L; in place of an H stated before. */
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
-/* State H(q, p, t), without velocities; L: the Lagrangian that follows from it, or nil (mech/study/hamilton-stated.c). */
+/* State H(q, p, t), without velocities; L: the Lagrangian that follows from it, or nil (mech/hamilton/hamilton-stated.c). */
 QDOT_MUST_CHECK qdot_status qdot_scene_hamiltonian(qdot_scene *s, qdot_expr H, qdot_expr L);
 /* Fail if the scene states its Lagrangian or H, because then the declaration named by `what` would have no effect. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what);

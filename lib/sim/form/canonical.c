@@ -6,7 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 #include "sim/model/switch.h"
 
 /* The largest systems for which Hamilton's equations are used: beyond, the inverse of M costs too much. */

@@ -2,7 +2,7 @@
  *
  *     q_i' = dH/dp_i,   p_i' = -dH/dq_i + Q_i(q, q', t)
  *
- * with H(q, p, t) of mech/study/hamilton.h, the values put in, and Q what is applied beside the
+ * with H(q, p, t) of mech/hamilton/hamilton.h, the values put in, and Q what is applied beside the
  * potentials. No matrix is solved, no product of velocities formed, and the momentum of a cyclic
  * coordinate is a number: Kepler's problem in the plane takes 2.5 convolutions an order where
  * M q'' = f takes 5, a spherical pendulum 5.5 and 7.5. The state stays q, q': momenta are found

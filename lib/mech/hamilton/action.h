@@ -15,7 +15,7 @@
 #ifndef QDOT_MECH_ACTION_H
 #define QDOT_MECH_ACTION_H
 
-#include "mech/study/separation.h"
+#include "mech/hamilton/separation.h"
 
 typedef enum {
     QDOT_ACTION_FOUND,

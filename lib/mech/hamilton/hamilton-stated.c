@@ -7,8 +7,8 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/scene/constraint.h"
-#include "mech/study/hamilton.h"
-#include "mech/study/legendre.h"
+#include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/legendre.h"
 
 qdot_status
 qdot_hamilton_lagrangian(qdot_scene *s, qdot_expr *L)

@@ -1,11 +1,11 @@
 /* phase-space.c -- a scene that states H alone, as the Lagrangian scene of its phase space. */
-#include "mech/study/phase-space.h"
+#include "mech/hamilton/phase-space.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 
 /* Find L and the applied forces of the phase space. */
 static qdot_status

@@ -1,5 +1,5 @@
 /* legendre-bent.c -- y = dF/dx solved for x where F is not quadratic in x. */
-#include "mech/study/legendre.h"
+#include "mech/hamilton/legendre.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"

@@ -1,6 +1,6 @@
 /* phase-symbols.h -- p[q] as a momentum, and as a coordinate of phase space (phase-space.h).
  *
- * Tests   tests/mech/study/test_phase_space.c
+ * Tests   tests/mech/hamilton/test_phase_space.c
  */
 #ifndef QDOT_MECH_PHASE_SYMBOLS_H
 #define QDOT_MECH_PHASE_SYMBOLS_H

@@ -1,5 +1,5 @@
 /* hamilton.c -- replaces velocities by momenta: all of them, or those of the cyclic coordinates. */
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -10,8 +10,8 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
-#include "mech/study/legendre.h"
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/legendre.h"
+#include "mech/hamilton/phase-symbols.h"
 #include "normal/simplify/simplify.h"
 
 /* e with q' = dH/dp of a stated H. */

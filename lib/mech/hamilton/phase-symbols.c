@@ -1,5 +1,5 @@
 /* phase-symbols.c -- p[q] as a momentum, and as a coordinate of phase space. */
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/phase-symbols.h"
 
 #include <string.h>
 

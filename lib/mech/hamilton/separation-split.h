@@ -1,6 +1,6 @@
 /* separation-split.h -- divide an expression into one of (q, p) and one of the other coordinates and momenta.
  *
- * Tests  tests/mech/study/test_separation.c
+ * Tests  tests/mech/hamilton/test_separation.c
  */
 #ifndef QDOT_MECH_SEPARATION_SPLIT_H
 #define QDOT_MECH_SEPARATION_SPLIT_H

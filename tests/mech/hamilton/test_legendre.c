@@ -4,7 +4,7 @@
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 #include "normal/prove/decide.h"
 
 static qdot_expr

@@ -7,7 +7,7 @@
  * Nil on failure; the pool keeps the cause.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1 and 8.3, with the opposite sign of R.
- * Tests   tests/mech/study/test_hamilton.c
+ * Tests   tests/mech/hamilton/test_hamilton.c
  */
 #ifndef QDOT_MECH_HAMILTON_H
 #define QDOT_MECH_HAMILTON_H

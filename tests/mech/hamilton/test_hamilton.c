@@ -4,7 +4,7 @@
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
+#include "mech/hamilton/hamilton.h"
 
 static qdot_expr
 P(kit *k, const char *q)

@@ -2,8 +2,8 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/symbol.h"
-#include "mech/study/hamilton.h"
-#include "mech/study/separation.h"
+#include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/separation.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/solve/conditions.h"
 

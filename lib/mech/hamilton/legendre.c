@@ -1,5 +1,5 @@
 /* legendre.c -- Legendre's transform, block by block of the second derivatives. */
-#include "mech/study/legendre.h"
+#include "mech/hamilton/legendre.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"

@@ -1,5 +1,5 @@
 /* separation-split.c -- sums and products of a function of one coordinate and a function of the others. */
-#include "mech/study/separation-split.h"
+#include "mech/hamilton/separation-split.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"

@@ -7,13 +7,13 @@
  * alone was found. The coordinate that is p[q] has that name; elsewhere p[q] is the symbol of the momentum.
  *
  * Source  Landau, Lifshitz, Mechanics, 43 (the principle of least action in p and q).
- * Tests   tests/mech/study/test_phase_space.c, tests/script/derive/hamiltonian-runs.lag
+ * Tests   tests/mech/hamilton/test_phase_space.c, tests/script/derive/hamiltonian-runs.lag
  */
 #ifndef QDOT_MECH_PHASE_SPACE_H
 #define QDOT_MECH_PHASE_SPACE_H
 
 #include "mech/scene/scene.h"
-#include "mech/study/phase-symbols.h"
+#include "mech/hamilton/phase-symbols.h"
 
 /* What was in the scene before its phase space was entered, and what was found when it was entered first. All 0 at first. */
 typedef struct {

@@ -1,5 +1,5 @@
 /* separation.c -- separates the equation of Hamilton and Jacobi, coordinate by coordinate. */
-#include "mech/study/separation.h"
+#include "mech/hamilton/separation.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,8 +11,8 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
-#include "mech/study/separation-split.h"
+#include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/separation-split.h"
 #include "normal/inequality/inequality.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/prove/decide.h"

@@ -1,5 +1,5 @@
 /* action.c -- finds the ranges of a coordinate between turning points, and the loop integral of its momentum there. */
-#include "mech/study/action.h"
+#include "mech/hamilton/action.h"
 
 #include "expr/build.h"
 #include "expr/calculus.h"

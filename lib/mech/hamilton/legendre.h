@@ -14,7 +14,7 @@
  * transform: G is 0 and the y obey a relation, the primary constraint.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1; Dirac, Lectures on Quantum Mechanics, 1.
- * Tests   tests/mech/study/test_legendre.c
+ * Tests   tests/mech/hamilton/test_legendre.c
  */
 #ifndef QDOT_MECH_LEGENDRE_H
 #define QDOT_MECH_LEGENDRE_H

@@ -1,5 +1,5 @@
 /* generating.c -- a generating function of a canonical transformation. */
-#include "mech/study/generating.h"
+#include "mech/hamilton/generating.h"
 
 #include "base/memory.h"
 #include "expr/build.h"

@@ -17,7 +17,7 @@
  *
  * Source  Landau & Lifshitz, Mechanics, 48; Goldstein, Poole, Safko, Classical Mechanics, 10.4-10.5; Levi-Civita, Math.
  *         Ann. 59 (1904) 383.
- * Tests   tests/script/studies/hamilton-jacobi.lag, tests/mech/study/test_separation.c
+ * Tests   tests/script/studies/hamilton-jacobi.lag, tests/mech/hamilton/test_separation.c
  */
 #ifndef QDOT_MECH_SEPARATION_H
 #define QDOT_MECH_SEPARATION_H

@@ -4,8 +4,8 @@
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"
-#include "mech/study/hamilton.h"
-#include "mech/study/phase-space.h"
+#include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/phase-space.h"
 
 /* H = x p + p^4 of a scene with x. */
 static qdot_expr

@@ -8,7 +8,7 @@
 
 #include "normal/text.h"
 
-#include "mech/study/separation-split.h"
+#include "mech/hamilton/separation-split.h"
 #include "normal/prove/decide.h"
 
 static qdot_pool *pool;
