@@ -33,9 +33,8 @@ unsigned_factor(const qdot_pool *pool, qdot_expr e)
     return left == QDOT_NIL ? e : left;
 }
 
-/* Whether the product e holds a square root, to any odd power. */
-static bool
-holds_square_root(const qdot_pool *pool, qdot_expr e)
+bool
+qdot_has_square_root(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2) {
         const fmpq *power = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i));
@@ -56,7 +55,7 @@ square_sides(qdot_pool *pool, qdot_expr e)
         return QDOT_NIL;
     root = qdot_expr_arg(pool, e, 1);
     k = qdot_expr_arg(pool, e, 2);
-    if (!has_positive_sign(pool, k) || !(qdot_expr_sign(pool, root) & QDOT_GE0) || !holds_square_root(pool, root))
+    if (!has_positive_sign(pool, k) || !(qdot_expr_sign(pool, root) & QDOT_GE0) || !qdot_has_square_root(pool, root))
         return QDOT_NIL;
     c = qdot_div(pool, qdot_expr_arg(pool, e, 0), k);
     return c != QDOT_NIL && (qdot_expr_sign(pool, c) & QDOT_LE0) ? qdot_sub(pool, qdot_mul(pool, root, root), qdot_mul(pool, c, c))

@@ -13,4 +13,7 @@
  * where there is nothing to take away. */
 qdot_expr qdot_without_rising(qdot_pool *pool, qdot_expr e, bool strict);
 
+/* Whether e is a product with a factor u^(n/2), n odd: sqrt(u), 1/sqrt(u), u^(3/2) ... */
+bool qdot_has_square_root(const qdot_pool *pool, qdot_expr e);
+
 #endif

@@ -12,7 +12,9 @@
 #include "expr/walk.h"
 #include "normal/field/normal-form.h"
 #include "normal/inequality/inequality.h"
+#include "normal/inequality/rising.h"
 
+/* Of nested steps, of questions to the prover of inequalities, and of operations in what it is asked. */
 enum { DEEPEST = 6, MOST_PROOFS = 16, LARGEST = 40 };
 
 typedef struct {
@@ -23,7 +25,7 @@ typedef struct {
 
 static qdot_status prove_sign(prover *x, qdot_expr e, int depth, int *sign);
 
-/* b^k, b a factor: 1, -1, or 0: not known. */
+/* The sign of b^k, a factor of a product: 1, -1, or 0: not known. */
 static qdot_status
 sign_of_factor_power(prover *x, qdot_expr b, qdot_expr k, int depth, int *sign)
 {
@@ -54,9 +56,10 @@ sign_of_factors(prover *x, qdot_expr e, int depth, int *sign)
     return QDOT_OK;
 }
 
-/* e as c g(u), g a root of a power or a monotonic function; *way: 1 it rises with u, -1 it falls. False: it is none. */
+/* e as c g(u), g a positive power u^(m/n) that is no whole one, or a function that rises or falls everywhere. *which: the
+ * same number for the same g; *way: 1 g rises with u, -1 it falls. False: e is of another form. */
 static bool
-read_monotonic(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *u, unsigned *g, int *way)
+read_monotonic(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *u, unsigned *which, int *way)
 {
     qdot_expr part = e;
     const fmpq *k;
@@ -84,28 +87,16 @@ read_monotonic(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *u, unsigne
     *way = 1;
     if (qdot_expr_kind(pool, part) == QDOT_PROD) {
         *u = qdot_expr_arg(pool, part, 1);
-        *g = 1000 + qdot_expr_arg(pool, part, 2); /* the exponent */
+        *which = QDOT_FUNCTION_KINDS + qdot_expr_arg(pool, part, 2); /* the exponent */
         return true;
     }
-    if (qdot_expr_kind(pool, part) != QDOT_FUN)
-        return false;
-    *g = qdot_expr_node(pool, part)->op;
-    switch ((qdot_fun_id)*g) {
-    case QDOT_ACOS: *way = -1; return true;
-    case QDOT_LOG:
-    case QDOT_ASIN:
-    case QDOT_ATAN:
-    case QDOT_SINH:
-    case QDOT_ASINH:
-    case QDOT_ACOSH:
-    case QDOT_TANH:
-    case QDOT_ATANH:
-    case QDOT_EXP: return true;
-    default: return false;
-    }
+    *which = qdot_expr_node(pool, part)->op;
+    if (qdot_expr_is_function_that(pool, part, QDOT_FUN_FALLING))
+        *way = -1;
+    return *way < 0 || qdot_expr_is_function_that(pool, part, QDOT_FUN_RISING);
 }
 
-/* a - b for terms c g(u) and -c g(v). */
+/* The sign of a + b, if the terms are a = c g(u) and b = -c g(v): that of c and of u - v. */
 static qdot_status
 sign_of_difference(prover *x, qdot_expr a, qdot_expr b, int depth, int *sign)
 {
@@ -125,7 +116,7 @@ sign_of_difference(prover *x, qdot_expr a, qdot_expr b, int depth, int *sign)
     return QDOT_OK;
 }
 
-/* sum of c n_i log(u_i), n_i integers: by the product of u_i^n_i. */
+/* The sign of a sum of terms c n_i log(u_i), n_i integers, which is c log(P), P = prod u_i^n_i: that of c and of P - 1. */
 static qdot_status
 sign_of_logarithms(prover *x, qdot_expr e, int depth, int *sign)
 {
@@ -153,26 +144,14 @@ sign_of_logarithms(prover *x, qdot_expr e, int depth, int *sign)
     return QDOT_OK;
 }
 
+/* Term number i of a sum; number 0 is its constant, which may be 0. */
 static qdot_expr
 term_of(qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     return i == 0 ? qdot_expr_arg(pool, e, 0) : qdot_mul(pool, qdot_expr_arg(pool, e, 2 * i - 1), qdot_expr_arg(pool, e, 2 * i));
 }
 
-/* Whether a factor of e is a square root. */
-static bool
-is_root(qdot_pool *pool, qdot_expr e)
-{
-    for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2) {
-        const fmpq *k = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i));
-
-        if (k != NULL && fmpz_cmp_ui(fmpq_denref(k), 2) == 0)
-            return true;
-    }
-    return false;
-}
-
-/* A + root, by A^2 - root^2 where their signs differ. */
+/* The sign of e = A + root: where A and root differ in sign, that of A if A^2 > root^2, else the other one. */
 static qdot_status
 sign_beside_root(prover *x, qdot_expr e, qdot_expr root, int depth, int *sign)
 {
@@ -229,12 +208,12 @@ sign_of_sum(prover *x, qdot_expr e, int depth, int *sign)
     }
     *sign = all;
     for (uint32_t i = 1; i < terms && *sign == 0; i++)
-        if (is_root(pool, term_of(pool, e, i)))
+        if (qdot_has_square_root(pool, term_of(pool, e, i)))
             QDOT_TRY(sign_beside_root(x, e, term_of(pool, e, i), depth, sign));
     return QDOT_OK;
 }
 
-/* A sum as a quotient, which is a product. */
+/* The sign of the sum e brought to one denominator: where its normal form is n^j ... d^-k ..., by the signs of the factors. */
 static qdot_status
 sign_of_quotient(prover *x, qdot_expr e, int depth, int *sign)
 {
@@ -284,7 +263,7 @@ sign_by_proof(prover *x, qdot_expr e, int *sign)
     return QDOT_OK;
 }
 
-/* Whether a root or a function stands in e. */
+/* *yes: e holds neither roots nor functions. */
 static qdot_status
 is_rational_function(qdot_pool *pool, qdot_expr e, bool *yes)
 {
@@ -303,7 +282,7 @@ is_rational_function(qdot_pool *pool, qdot_expr e, bool *yes)
     return QDOT_OK;
 }
 
-/* Whether a condition is known of the symbol e. */
+/* Whether one of the conditions holds the symbol e. */
 static bool
 is_conditioned(const prover *x, qdot_expr e)
 {
@@ -316,9 +295,8 @@ is_conditioned(const prover *x, qdot_expr e)
 static qdot_status
 prove_sign(prover *x, qdot_expr e, int depth, int *sign)
 {
-    bool rational;
-
     qdot_pool *pool = x->pool;
+    bool rational;
     uint8_t known;
 
     *sign = 0;

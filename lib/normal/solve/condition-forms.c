@@ -12,6 +12,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/inequality/constant-bounds.h"
+#include "normal/inequality/rising.h"
 #include "normal/refute/ball.h"
 
 /* MOST_CHOICES: nodes such as |u| that are replaced by their possible values; LARGEST: operations
@@ -164,11 +165,7 @@ contains_square_root(qdot_pool *pool, qdot_expr e)
         return false;
     }
     for (size_t i = 0; i < w.n && !found; i++)
-        for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2) {
-            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
-
-            found = found || (q != NULL && fmpz_equal_si(fmpq_denref(q), 2));
-        }
+        found = qdot_has_square_root(pool, w.at[i]);
     qdot_walk_end(&w);
     return found;
 }
