@@ -14,6 +14,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/calculus/growth.h"
+#include "normal/calculus/switch.h"
 #include "normal/field/budget.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
@@ -315,7 +316,8 @@ drop_bounded(approach *a, qdot_expr *e, bool *remain)
 
 /* --- one side, both sides -------------------------------------------------------------------------------- */
 
-/* The limit of e as x tends to a + sign/X, X to infinity; a may be infinite. */
+/* The limit of e as x tends to at + sign/X, X to infinity; `at` may be infinite. Complete elliptic integrals are expanded, or
+ * stay as they are. */
 static qdot_status
 limit_on_side_by(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, qdot_expr at, int sign,
                  bool expands_elliptic, qdot_limit_answer *answer)
@@ -365,14 +367,13 @@ limit_on_side_by(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_exp
     return QDOT_OK;
 }
 
-/* The value of e at the place, where e has no steps: then it is continuous. */
+/* The limit of an e without steps, which is continuous: its value at the place, if it has one. */
 static qdot_status
 put_place(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr at, qdot_limit_answer *answer)
 {
-    static const qdot_fun_id steps[] = {QDOT_SIGN, QDOT_FLOOR, QDOT_MOD, QDOT_IF, QDOT_ATAN2};
     qdot_expr value;
 
-    if (qdot_infinite(pool, at) != 0 || qdot_expr_find_function(pool, e, sizeof steps / sizeof *steps, steps, x) != QDOT_NIL)
+    if (qdot_infinite(pool, at) != 0 || qdot_has_steps(pool, e, x))
         return QDOT_OK;
     value = qdot_subs(pool, e, 1, &x, &at);
     if (value != QDOT_NIL)
@@ -380,7 +381,8 @@ put_place(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr at, qdot_limit_an
     return qdot_grave(qdot_pool_check(pool));
 }
 
-/* The same; with complete elliptic integrals that are not expanded, expanded, and as functions that are continuous. */
+/* The limit of e as x tends to `at` from one side. Complete elliptic integrals in e stay as they are at first; if no limit
+ * is found so, they are expanded where m tends to 0 or 1; if none is found then, e has its value at the place as limit. */
 static qdot_status
 limit_on_side(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_expr x, qdot_expr at, int sign,
               qdot_limit_answer *answer)

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
@@ -108,4 +109,12 @@ qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray, const qdot_facts *
             *part = parts.at[i];
     qdot_free(parts.at);
     return status;
+}
+
+bool
+qdot_has_steps(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    static const qdot_fun_id steps[] = {QDOT_SIGN, QDOT_FLOOR, QDOT_MOD, QDOT_IF, QDOT_ATAN2};
+
+    return qdot_expr_find_function(pool, e, sizeof steps / sizeof *steps, steps, x) != QDOT_NIL;
 }

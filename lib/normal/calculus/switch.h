@@ -13,4 +13,8 @@ QDOT_MUST_CHECK qdot_status qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_
 bool qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there,
                     const qdot_facts *facts);
 
+/* Whether e holds a function of x that may jump where it is defined, such as sign, floor or if. Without one, e is
+ * continuous in x wherever it is defined. */
+bool qdot_has_steps(qdot_pool *pool, qdot_expr e, qdot_expr x);
+
 #endif

@@ -10,6 +10,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/calculus/switch.h"
 #include "normal/inequality/less.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/integral/ends.h"
@@ -52,13 +53,11 @@ is_positive(range *r, qdot_expr e)
     return decision.verdict == QDOT_PROVED;
 }
 
-/* Whether e has no steps: it is continuous wherever it is defined. */
-static bool
-is_without_steps(const range *r, qdot_expr e)
+/* The sign of e, proved: 1 or -1; 0: not known. */
+static int
+proved_sign(range *r, qdot_expr e)
 {
-    static const qdot_fun_id steps[] = {QDOT_SIGN, QDOT_FLOOR, QDOT_MOD, QDOT_IF, QDOT_ATAN2};
-
-    return qdot_expr_find_function(r->pool, e, sizeof steps / sizeof *steps, steps, r->x) == QDOT_NIL;
+    return is_positive(r, e) ? 1 : is_positive(r, qdot_neg(r->pool, e)) ? -1 : 0;
 }
 
 /* The sign of g at a place; 0: not known. */
@@ -71,7 +70,7 @@ sign_at(range *r, qdot_expr g, qdot_expr place)
         r->status = qdot_grave(qdot_pool_check(r->pool));
         return 0;
     }
-    return is_positive(r, value) ? 1 : is_positive(r, qdot_neg(r->pool, value)) ? -1 : 0;
+    return proved_sign(r, value);
 }
 
 /* The sign of g, which has no zeros inside the range: everywhere, at an end where it is continuous, or at one point
@@ -81,17 +80,13 @@ sign_inside(range *r, qdot_expr g)
 {
     qdot_pool *pool = r->pool;
     bool no_lo = is_infinite(pool, r->lo), no_hi = is_infinite(pool, r->hi);
-    int sign = 0;
+    int sign = proved_sign(r, g);
 
-    if (is_positive(r, g))
-        return 1;
-    if (is_positive(r, qdot_neg(pool, g)))
-        return -1;
-    if (!r->ordered || r->status != QDOT_OK)
-        return 0;
-    if (!no_lo && is_without_steps(r, g))
+    if (sign != 0 || !r->ordered || r->status != QDOT_OK)
+        return sign;
+    if (!no_lo && !qdot_has_steps(pool, g, r->x))
         sign = sign_at(r, g, r->lo);
-    if (sign == 0 && !no_hi && is_without_steps(r, g))
+    if (sign == 0 && !no_hi && !qdot_has_steps(pool, g, r->x))
         sign = sign_at(r, g, r->hi);
     if (sign == 0)
         sign = sign_at(r, g,
@@ -154,7 +149,7 @@ add_zeros(range *r, qdot_expr g)
 
     if (g == QDOT_NIL || !qdot_expr_contains(r->pool, g, r->x))
         return g != QDOT_NIL;
-    if (is_positive(r, g) || is_positive(r, qdot_neg(r->pool, g)))
+    if (proved_sign(r, g) != 0)
         return true;
     if (r->status != QDOT_OK)
         return false;
