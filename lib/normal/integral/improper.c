@@ -38,17 +38,19 @@ factor_of_power(const table *t, qdot_expr u, long n)
     return c == QDOT_NIL || qdot_expr_contains(t->pool, c, t->x) ? QDOT_NIL : c;
 }
 
+/* Whether e is there and proved to be positive; not asked any more once the integral is found. */
 static bool
 is_proved_positive(table *t, qdot_expr e)
 {
     qdot_decision d = {.verdict = QDOT_UNDECIDED};
 
-    if (e == QDOT_NIL || t->status != QDOT_OK)
+    if (e == QDOT_NIL || t->value != QDOT_NIL || t->status != QDOT_OK)
         return false;
     t->status = qdot_decide_less(t->pool, QDOT_ZERO, e, true, t->facts, &d);
     return d.verdict == QDOT_PROVED;
 }
 
+/* Note the exponent u of an exponential. */
 static void
 read_exponent(table *t, qdot_expr u)
 {
@@ -64,7 +66,7 @@ read_exponent(table *t, qdot_expr u)
         t->decay[t->decay[0] != QDOT_NIL] = qdot_neg(t->pool, linear);
 }
 
-/* Note what one node of the integrand says. */
+/* Note which of the numbers k, k2 ... the node e of the integrand shows, if any. */
 static void
 read_node(table *t, qdot_expr e)
 {
@@ -103,13 +105,14 @@ compare(table *t, qdot_expr f, qdot_expr integral)
     return true;
 }
 
+/* f(rate x^n) */
 static qdot_expr
 function_of(const table *t, qdot_fun_id f, qdot_expr rate, long n)
 {
     return qdot_fun1(t->pool, f, qdot_mul(t->pool, rate, qdot_pow_int(t->pool, t->x, n)));
 }
 
-/* Entries with sin(k x) or cos(k x). */
+/* Compare the integrand, which holds sin(k x) or cos(k x) with k > 0, with the entries of improper.h that hold these. */
 static void
 look_up_waves(table *t)
 {
@@ -120,17 +123,17 @@ look_up_waves(table *t)
     compare(t, ratio, half_pi);
     compare(t, qdot_mul(pool, ratio, ratio), qdot_mul(pool, half_pi, k));
     compare(t, qdot_div(pool, qdot_sub(pool, QDOT_ONE, c), qdot_mul(pool, x, x)), qdot_mul(pool, half_pi, k));
-    if (t->value == QDOT_NIL && decay != QDOT_NIL && is_proved_positive(t, decay))
+    if (is_proved_positive(t, decay))
         compare(t, qdot_mul(pool, ratio, function_of(t, QDOT_EXP, qdot_neg(pool, decay), 1)),
                 qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, k, decay)));
-    if (t->value == QDOT_NIL && t->gauss != QDOT_NIL && is_proved_positive(t, t->gauss)) {
+    if (is_proved_positive(t, t->gauss)) {
         const qdot_expr fall = qdot_div(pool, qdot_mul(pool, k, k), qdot_mul(pool, qdot_expr_int(pool, -4), t->gauss));
 
         compare(t, qdot_mul(pool, c, function_of(t, QDOT_EXP, qdot_neg(pool, t->gauss), 2)),
                 qdot_product(pool, 3, (qdot_expr[]){QDOT_HALF, qdot_sqrt(pool, qdot_div(pool, QDOT_PI, t->gauss)),
                                                     qdot_fun1(pool, QDOT_EXP, fall)}));
     }
-    if (t->value == QDOT_NIL && t->square != QDOT_NIL && is_proved_positive(t, t->square)) {
+    if (is_proved_positive(t, t->square)) {
         const qdot_expr a = qdot_sqrt(pool, t->square), under = qdot_add(pool, qdot_mul(pool, x, x), t->square);
         const qdot_expr fall = qdot_mul(pool, half_pi, qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_mul(pool, a, k))));
 
@@ -157,20 +160,21 @@ bernoulli_integral(const table *t, qdot_expr k, long n)
     return result;
 }
 
-/* Entries with exponentials of x alone. */
+/* Compare the integrand, which holds neither sin(k x) nor cos(k x) with k > 0, with the entries of improper.h that hold
+ * exponentials of x. */
 static void
 look_up_exponentials(table *t)
 {
     qdot_pool *pool = t->pool;
     const qdot_expr rate = t->grow != QDOT_NIL ? t->grow : t->decay[0], a = t->decay[0], b = t->decay[1];
 
-    if (a != QDOT_NIL && b != QDOT_NIL && is_proved_positive(t, a) && is_proved_positive(t, b))
+    if (is_proved_positive(t, a) && is_proved_positive(t, b))
         compare(t, qdot_div(pool,
                             qdot_sub(pool, function_of(t, QDOT_EXP, qdot_neg(pool, a), 1),
                                      function_of(t, QDOT_EXP, qdot_neg(pool, b), 1)),
                             t->x),
                 qdot_fun1(pool, QDOT_LOG, qdot_div(pool, b, a)));
-    if (t->value != QDOT_NIL || rate == QDOT_NIL || !is_proved_positive(t, rate))
+    if (!is_proved_positive(t, rate))
         return;
     for (long n = 1; n <= MOST_POWER && t->value == QDOT_NIL; n += 2) {
         const qdot_expr up = qdot_pow_int(pool, t->x, n), E = function_of(t, QDOT_EXP, rate, 1);
@@ -204,9 +208,9 @@ qdot_improper(qdot_pool *pool, qdot_expr e, qdot_expr x, bool whole_line, const 
     for (size_t i = 0; i < w.n && t.status == QDOT_OK; i++)
         read_node(&t, w.at[i]);
     qdot_walk_end(&w);
-    if (t.k != QDOT_NIL && is_proved_positive(&t, t.k))
+    if (is_proved_positive(&t, t.k))
         look_up_waves(&t);
-    else if (t.k2 != QDOT_NIL && is_proved_positive(&t, t.k2))
+    else if (is_proved_positive(&t, t.k2))
         for (int i = 0; i < 2; i++)
             compare(&t, function_of(&t, i == 0 ? QDOT_SIN : QDOT_COS, t.k2, 2),
                     qdot_sqrt(pool, qdot_div(pool, QDOT_PI, qdot_mul(pool, qdot_expr_int(pool, 8), t.k2))));
