@@ -13,7 +13,8 @@ typedef struct {
     qdot_expr value;        /* what was found */
 } qdot_loop_task;
 
-/* f (dx/du)^2 = Q H^2, H = over/prod base^power. */
+/* The integrand over a variable u in place of x: sqrt(f) dx = sqrt(f (dx/du)^2) du, and f (dx/du)^2 = Q H^2 with polynomials
+ * in u, Q square-free, H = over/(base[0]^power[0] ... base[n-1]^power[n-1]). */
 typedef struct {
     qdot_poly Q, over;
     int n;

@@ -14,14 +14,14 @@ typedef struct {
     qdot_expr sum;      /* what is found, over 2 pi */
 } residues;
 
-/* sum += c */
+/* Add c to what is found; times 2 pi it is a part of the loop. */
 static void
 add_part(residues *r, qdot_expr c)
 {
     r->sum = qdot_add(r->pool, r->sum, c);
 }
 
-/* The polynomial about another origin: coefficients of (u - s)^k. */
+/* The polynomial in u as one in u - s: c[k] is the coefficient of (u - s)^k. */
 static qdot_poly
 about(residues *r, const qdot_poly *p, qdot_expr s)
 {

@@ -7,6 +7,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/field/budget.h"
 #include "normal/field/flint.h"
 #include "normal/inequality/inequality.h"
 #include "normal/inequality/sign.h"
@@ -29,12 +30,13 @@ qdot_loop_sign(qdot_loop_task *l, qdot_expr e)
 
 /* --- f (dx/du)^2 = Q H^2 ------------------------------------------------------------------- */
 
-/* Take the part of base^power, power of either sign: an odd power leaves one base in Q. */
+/* Multiply Q H^2 by base^power, power of either sign: H by base^half, half = power/2 rounded down, and Q by the base that an
+ * odd power leaves. */
 static bool
 take_factor(qdot_loop_task *l, qdot_loop_square *s, qdot_expr base, long power, qdot_expr u)
 {
     const qdot_poly p = qdot_poly_read(&l->t, base, u);
-    const long half = power >= 0 ? power / 2 : (power - 1) / 2; /* of H; rounded down */
+    const long half = power >= 0 ? power / 2 : (power - 1) / 2;
     qdot_poly raised;
 
     if (p.degree < 1)
@@ -51,7 +53,7 @@ take_factor(qdot_loop_task *l, qdot_loop_square *s, qdot_expr base, long power, 
     return true;
 }
 
-/* The leading coefficient of the product of powers of the factors of a reading. */
+/* The coefficient of the highest power of u in the product of the factors of a reading. */
 static qdot_expr
 leading(qdot_loop_task *l, const qdot_reading *r, qdot_expr u)
 {
@@ -65,6 +67,8 @@ leading(qdot_loop_task *l, const qdot_reading *r, qdot_expr u)
     return c;
 }
 
+/* Write g, rational in u, as Q H^2. Its denominator is read factor by factor; so is its numerator, as that of 1/g, but for
+ * a constant factor, which goes into Q. */
 static bool
 divide_square(qdot_loop_task *l, qdot_expr g, qdot_expr u, qdot_loop_square *s)
 {
@@ -112,7 +116,7 @@ typedef struct {
     qdot_expr angle, slope; /* k x + ..., and k */
 } waves;
 
-/* n/d with V^2 = square, if V does not stand in it then; else nil. */
+/* n/d with `square` for V^2, where V cancels then; nil where it does not. */
 static qdot_expr
 without(qdot_loop_task *l, qdot_expr n, qdot_expr d, qdot_expr V, qdot_expr square)
 {
@@ -156,18 +160,31 @@ angle_between(qdot_loop_task *l, qdot_expr angle, long lo, long hi)
                                                value_between(l, qdot_subs(l->pool, angle, 1, &l->x, &l->hi), lo, hi));
 }
 
-/* loop of sqrt(n/d scale), u new: the variable that n/d holds is `from`. */
+/* The loop over u, with f as a quotient in u and (dx/du)^2; nil: f is nil, or the loop is not found. */
 static qdot_expr
-over_new(qdot_loop_task *l, qdot_expr ratio, qdot_expr from, qdot_expr scale)
+over_new(qdot_loop_task *l, qdot_expr f, qdot_expr u, qdot_expr scale)
 {
-    return ratio == QDOT_NIL ? QDOT_NIL : integrate_rational(l, qdot_mul(l->pool, ratio, scale), from, false);
+    return f == QDOT_NIL ? QDOT_NIL : integrate_rational(l, qdot_mul(l->pool, f, scale), u, false);
 }
 
-/* (dx/du)^2 = 1/(k^2 e) */
+/* (dx/du)^2 = 1/(k^2 e), where (du/dx)^2 is k^2 e, k the slope of the angle. */
 static qdot_expr
 scale_of(qdot_loop_task *l, const waves *w, qdot_expr e)
 {
     return qdot_pow_int(l->pool, qdot_mul(l->pool, qdot_mul(l->pool, w->slope, w->slope), e), -1);
+}
+
+/* Over the tangent u = S/C, circular or hyperbolic, with S = u C and C^2 = 1/e: e is 1 + u^2 or 1 - u^2. */
+static qdot_expr
+over_tangent(qdot_loop_task *l, const waves *w, bool hyperbolic)
+{
+    qdot_pool *pool = l->pool;
+    const qdot_expr u = qdot_integral_variable(&l->t, false), uu = qdot_mul(pool, u, u), S = qdot_mul(pool, u, w->C),
+                    e = hyperbolic ? qdot_sub(pool, QDOT_ONE, uu) : qdot_add(pool, QDOT_ONE, uu),
+                    f = without(l, qdot_subs(pool, w->n, 1, &w->S, &S), qdot_subs(pool, w->d, 1, &w->S, &S), w->C,
+                                qdot_pow_int(pool, e, -1));
+
+    return over_new(l, f, u, scale_of(l, w, qdot_mul(pool, e, e)));
 }
 
 /* Over the cosine, where the angle or its negative is in 0 ... pi, whose ends are branch points then. */
@@ -187,31 +204,22 @@ over_circular(qdot_loop_task *l, const waves *w)
 {
     qdot_pool *pool = l->pool;
     const qdot_expr ss = qdot_sub(pool, QDOT_ONE, qdot_mul(pool, w->S, w->S));
-    qdot_expr value, u, tt, to;
+    qdot_expr value;
 
     if (!angle_between(l, w->angle, -1, 1))
         return over_cosine(l, w);
     value = over_new(l, without(l, w->n, w->d, w->C, ss), w->S, scale_of(l, w, ss));
     if (value != QDOT_NIL)
         return value;
-    u = qdot_integral_variable(&l->t, false);
-    tt = qdot_add(pool, QDOT_ONE, qdot_mul(pool, u, u));
-    to = qdot_mul(pool, u, w->C);
-    value = over_new(l, without(l, qdot_subs(pool, w->n, 1, &w->S, &to), qdot_subs(pool, w->d, 1, &w->S, &to), w->C,
-                                qdot_pow_int(pool, tt, -1)),
-                     u, scale_of(l, w, qdot_mul(pool, tt, tt)));
+    value = over_tangent(l, w, false);
     return value != QDOT_NIL ? value : over_cosine(l, w);
 }
 
+/* Over the hyperbolic tangent or sine. */
 static qdot_expr
 over_hyperbolic(qdot_loop_task *l, const waves *w)
 {
-    qdot_pool *pool = l->pool;
-    const qdot_expr u = qdot_integral_variable(&l->t, false), tt = qdot_sub(pool, QDOT_ONE, qdot_mul(pool, u, u)),
-                    ss = qdot_add(pool, QDOT_ONE, qdot_mul(pool, w->S, w->S)), to = qdot_mul(pool, u, w->C);
-    qdot_expr value = over_new(l, without(l, qdot_subs(pool, w->n, 1, &w->S, &to), qdot_subs(pool, w->d, 1, &w->S, &to), w->C,
-                                          qdot_pow_int(pool, tt, -1)),
-                               u, scale_of(l, w, qdot_mul(pool, tt, tt)));
+    const qdot_expr ss = qdot_add(l->pool, QDOT_ONE, qdot_mul(l->pool, w->S, w->S)), value = over_tangent(l, w, true);
 
     return value != QDOT_NIL ? value : over_new(l, without(l, w->n, w->d, w->C, ss), w->S, scale_of(l, w, ss));
 }
@@ -245,6 +253,7 @@ over_square(qdot_loop_task *l, const qdot_reading *r)
                     qdot_pow_int(pool, qdot_mul(pool, qdot_expr_int(pool, 4), u), -1));
 }
 
+/* Over the hyperbolic cosine, where the range begins at angle 0. */
 static qdot_expr
 over_hyperbolic_cosine(qdot_loop_task *l, const waves *w)
 {
@@ -326,14 +335,14 @@ static qdot_expr
 find_loop(qdot_loop_task *l)
 {
     qdot_pool *pool = l->pool;
-    uint64_t before;
+    qdot_budget budget;
     qdot_status status;
 
     if (l->f == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    before = qdot_pool_budget(pool, CONSTRUCTIONS);
+    budget = qdot_budget_begin(pool, CONSTRUCTIONS);
     status = qdot_flint_run(pool, search_loop, l);
-    qdot_pool_budget(pool, before);
+    qdot_budget_end(pool, &budget);
     if (qdot_grave(status) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (status != QDOT_OK || qdot_pool_failed(pool))
