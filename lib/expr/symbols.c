@@ -100,6 +100,16 @@ qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
                       : make_coordinate_symbol(pool, QDOT_COORD, coordinate, order, "", "");
 }
 
+/* Whether the LIST holds coordinates and t only, at least one. */
+static bool
+is_list_of_coordinates(const qdot_pool *pool, qdot_expr list)
+{
+    for (uint32_t i = 0; i < NODE(pool, list)->n; i++)
+        if (ARGS(pool, list)[i] != QDOT_T && !qdot_expr_is_coordinate(pool, ARGS(pool, list)[i]))
+            return false;
+    return NODE(pool, list)->n > 0;
+}
+
 /* The product wedge(dr, dphi) of the differentials of a LIST of coordinates. */
 static qdot_expr
 make_wedge_symbol(qdot_pool *pool, qdot_expr list)
@@ -108,21 +118,12 @@ make_wedge_symbol(qdot_pool *pool, qdot_expr list)
     qdot_text name = {0};
     qdot_expr e;
 
-    for (uint32_t i = 0; i < NODE(pool, list)->n; i++) {
-        const qdot_expr q = ARGS(pool, list)[i];
-
-        if (q != QDOT_T && !qdot_expr_is_coordinate(pool, q))
-            break;
-        if (i == 0)
-            wanted.rank = qdot_expr_symbol(pool, q)->rank;
-        qdot_text_format(&name, i == 0 ? "wedge(d%s" : ", d%s", qdot_expr_symbol(pool, q)->name);
-        if (i + 1 == NODE(pool, list)->n)
-            qdot_text_char(&name, ')');
-    }
-    if (qdot_text_status(&name) == QDOT_OK && (name.n == 0 || name.at[name.n - 1] != ')')) {
-        qdot_text_clear(&name);
+    if (!is_list_of_coordinates(pool, list))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a list of coordinates is needed here");
-    }
+    wanted.rank = qdot_expr_symbol(pool, ARGS(pool, list)[0])->rank;
+    for (uint32_t i = 0; i < NODE(pool, list)->n; i++)
+        qdot_text_format(&name, i == 0 ? "wedge(d%s" : ", d%s", qdot_expr_symbol(pool, ARGS(pool, list)[i])->name);
+    qdot_text_char(&name, ')');
     wanted.name = qdot_text_str(&name);
     e = qdot_text_status(&name) == QDOT_OK ? qdot_pool_make_symbol(pool, &wanted) : qdot_pool_fail(pool);
     qdot_text_clear(&name);
