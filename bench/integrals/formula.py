@@ -137,7 +137,3 @@ def real_power(b, e):
 
 def read(text):
     return Reader(text).relation()
-
-
-def value(e, values, x):
-    return e(values, x)

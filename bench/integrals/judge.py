@@ -50,10 +50,10 @@ def disagreement(E, F):
         p = mpf(random.randint(-6000, 6000)) / 1000
 
         def integrand(x):
-            return formula.value(E, values, x)
+            return E(values, x)
 
         def primitive(x):
-            return formula.value(F, values, x)
+            return F(values, x)
 
         try:
             slope = mp.diff(primitive, p, h=mpf(10) ** -10)
