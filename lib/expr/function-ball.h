@@ -16,8 +16,8 @@ typedef void qdot_fun_ball(arb_t y, const arb_t x, slong bits);
 /* The ball (interval) arithmetic version of this elementary function; NULL if it has several arguments. */
 qdot_fun_ball *qdot_fun_ball_of(qdot_fun_id id);
 
-/* y = lookup(x, handle) of a table of data (num/samples.h), of the piece that holds the ball's middle: on a knot both
- * neighbours have one value, or the latter holds. QDOT_EDOMAIN: x is beyond the ends of the table. */
+/* y = lookup(x, handle) of a table of data (num/samples.h) at the middle of the ball x; a knot belongs to the piece
+ * that begins there. QDOT_EDOMAIN: x is beyond the ends of the table. */
 QDOT_MUST_CHECK qdot_status qdot_lookup_value(arb_t y, const arb_t x, const arb_t handle);
 /* y encloses lookup(x, handle) of a table of data (num/samples.h) for every x of the ball; not finite where that is not known. */
 void qdot_lookup_ball(arb_t y, const arb_t x, const arb_t handle);

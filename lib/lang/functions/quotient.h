@@ -10,7 +10,7 @@ qdot_expr qdot_quotient_laplace(qdot_session *session);
 /* Whether the name, which nothing declares, is this s: in what is asked, once a linear motion has inputs. */
 bool qdot_quotient_is_laplace(const qdot_session *session, const char *name);
 
-/* Numerator and denominator of e, by the signs of the powers of its factors. */
+/* e = top/bottom: the factors of e with negative whole powers make the denominator, the others the numerator. */
 void qdot_quotient_split(qdot_pool *pool, qdot_expr e, qdot_expr *top, qdot_expr *bottom);
 
 /* Coefficients in ascending powers; the last is not 0. */

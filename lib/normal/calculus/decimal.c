@@ -35,7 +35,7 @@ evaluate_constant(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
     QDOT_TRY(qdot_decide_equal(pool, e, QDOT_ZERO, NULL, &seen));
     if (seen.verdict == QDOT_PROVED)
         return QDOT_OK;
-    /* what is read from a table is rational, and 0 if thousands of bits are */
+    /* Values of data are rational numbers with short denominators: if so many bits of one are 0, it is 0. */
     if (qdot_expr_find_function(pool, e, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
         return qdot_pool_check(pool);
     status = qdot_print(pool, e, QDOT_PLAIN, &text);

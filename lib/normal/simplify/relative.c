@@ -32,6 +32,7 @@ is_wave(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_FUN && (op == QDOT_SIN || op == QDOT_COS);
 }
 
+/* Insert the symbol into the angles unless it is there; false: they are too many. */
 static bool
 add_angle(angles *a, qdot_expr symbol)
 {
@@ -49,6 +50,7 @@ add_angle(angles *a, qdot_expr symbol)
     return true;
 }
 
+/* Add the symbols in the argument of a sine or cosine; *fit becomes false if they are too many. */
 static qdot_status
 add_angles_of(const qdot_pool *pool, qdot_expr argument, angles *a, bool *fit)
 {
@@ -62,6 +64,7 @@ add_angles_of(const qdot_pool *pool, qdot_expr argument, angles *a, bool *fit)
     return QDOT_OK;
 }
 
+/* Collect the sines and cosines in e and their angles; *fit: there are two angles or more, but not too many. */
 static qdot_status
 collect_angles(const qdot_pool *pool, qdot_expr e, angles *a, bool *fit)
 {
@@ -101,6 +104,7 @@ find_multiples(qdot_pool *pool, const angles *a, qdot_expr argument, int *multip
     return rest == QDOT_ZERO;
 }
 
+/* Whether the sine or cosine changes when all angles grow alike: their multiples do not add up to 0, or are not known. */
 static bool
 turns_with_all(qdot_pool *pool, const angles *a, qdot_expr wave)
 {
@@ -113,7 +117,8 @@ turns_with_all(qdot_pool *pool, const angles *a, qdot_expr wave)
     return sum != 0;
 }
 
-/* Whether a divisor in e holds a sine or cosine of more than differences: with 0 for the last angle it might be 0. */
+/* Whether a divisor in e holds a sine or cosine that changes when all angles grow alike, such as sin(a_n). This way puts 0
+ * for the last angle a_n, so that the divisor could become 0. */
 static bool
 divides_by_turning_waves(qdot_pool *pool, qdot_expr e, const angles *a)
 {
@@ -131,17 +136,18 @@ divides_by_turning_waves(qdot_pool *pool, qdot_expr e, const angles *a)
     return divides;
 }
 
-/* sin or cos of the sum of multiple angle by those of the differences, with 0 for the last angle. */
+/* sin or cos of sum multiple[k] a_k as a polynomial in sines and cosines of the differences d_k, with 0 for the last angle:
+ * then a_k = d_k + d_(k+1) + ..., and one difference after the other is added to the argument by the addition theorem. */
 static qdot_expr
 expand_wave(qdot_pool *pool, const angles *a, bool sine, const int *multiple)
 {
     qdot_expr S = QDOT_ZERO, C = QDOT_ONE;
-    int times = 0;
+    int times = 0; /* d_k in the argument: multiple[0] + ... + multiple[k] */
 
     for (size_t k = 0; k + 1 < a->n; k++) {
         const qdot_expr c = qdot_fun1(pool, QDOT_COS, a->difference[k]);
 
-        times += multiple[k]; /* a_1 ... a_k hold d_k */
+        times += multiple[k];
         for (int i = 0; i < abs(times); i++) {
             const qdot_expr s = qdot_mul(pool, qdot_expr_int(pool, times < 0 ? -1 : 1), qdot_fun1(pool, QDOT_SIN, a->difference[k]));
             const qdot_expr next = qdot_add(pool, qdot_mul(pool, S, c), qdot_mul(pool, C, s));
@@ -178,6 +184,7 @@ in_differences(qdot_pool *pool, qdot_expr e, angles *a)
     return e;
 }
 
+/* e simplified in the differences of its angles, if that is proved to be equal; else nil. */
 static qdot_expr
 simplify_in_differences(qdot_pool *pool, qdot_expr e, angles *a, const qdot_facts *facts)
 {

@@ -10,7 +10,8 @@
 #include "normal/field/flint.h"
 #include "num/arb.h"
 
-/* Write the roots of a polynomial without multiple roots, each `times` times, from *at on. */
+/* Append the roots of f to re and im, which hold *at roots so far. The roots of f are simple; those of the whole polynomial,
+ * of which f is a factor, have the multiplicity `times`, and so often each is written. */
 static void
 write_roots(const fmpz_poly_t f, slong times, double *re, double *im, size_t *at)
 {
