@@ -257,5 +257,5 @@ qdot_mech_equation(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_mech_equations(qdot_scene *s)
 {
-    return qdot_mech_each(s, qdot_mech_equation);
+    return qdot_mech_each(s, s->coordinates.n, qdot_mech_equation);
 }

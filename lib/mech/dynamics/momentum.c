@@ -63,7 +63,7 @@ qdot_mech_holds_momentum_rate(qdot_scene *s, qdot_expr e)
 qdot_expr
 qdot_mech_momenta(qdot_scene *s)
 {
-    return qdot_mech_each(s, qdot_mech_momentum);
+    return qdot_mech_each(s, s->coordinates.n, qdot_mech_momentum);
 }
 
 /* Find whether coordinate i is cyclic, with its momentum and rate; the result may also be undecided. */

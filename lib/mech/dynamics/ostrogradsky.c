@@ -95,19 +95,17 @@ qdot_ostrogradsky_symbol(qdot_scene *s, qdot_expr q)
     return qdot_symbol_of(s->pool, QDOT_MOMENTUM, place_of_momentum(s, q));
 }
 
+/* The momentum that goes with coordinate q in lists. */
+static qdot_expr
+momentum_of(qdot_scene *s, qdot_expr q)
+{
+    return qdot_ostrogradsky_momentum(s, place_of_momentum(s, q));
+}
+
 qdot_expr
 qdot_ostrogradsky_momenta(qdot_scene *s)
 {
-    const size_t n = s->coordinates.n;
-    qdot_expr *p = qdot_calloc(n + 1, sizeof *p), list;
-
-    if (p == NULL)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++)
-        p[i] = qdot_ostrogradsky_momentum(s, place_of_momentum(s, s->coordinates.at[i]));
-    list = qdot_list(s->pool, (uint32_t)n, p);
-    qdot_free(p);
-    return list;
+    return qdot_mech_each(s, s->coordinates.n, momentum_of);
 }
 
 bool
@@ -173,26 +171,10 @@ qdot_ostrogradsky_equation(qdot_scene *s, qdot_expr q)
     return qdot_rel(s->pool, QDOT_EQ, finished(s, left_in_jets(s, q)), qdot_mech_tidy(s, qdot_mech_sources(s, i)));
 }
 
-/* The LIST of f(s, q) for the coordinates that stand for themselves. */
-static qdot_expr
-each_own(qdot_scene *s, qdot_expr (*f)(qdot_scene *s, qdot_expr q))
-{
-    const size_t n = count_own(s);
-    qdot_expr *all = qdot_calloc(n + 1, sizeof *all), list;
-
-    if (all == NULL)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++)
-        all[i] = f(s, s->coordinates.at[i]);
-    list = qdot_list(s->pool, (uint32_t)n, all);
-    qdot_free(all);
-    return list;
-}
-
 qdot_expr
 qdot_ostrogradsky_equations(qdot_scene *s)
 {
-    return each_own(s, qdot_ostrogradsky_equation);
+    return qdot_mech_each(s, count_own(s), qdot_ostrogradsky_equation);
 }
 
 /* --- solved for the highest derivatives ---------------------------------------------------------------------- */
@@ -317,5 +299,5 @@ qdot_ostrogradsky_accel(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_ostrogradsky_accels(qdot_scene *s)
 {
-    return each_own(s, qdot_ostrogradsky_accel);
+    return qdot_mech_each(s, count_own(s), qdot_ostrogradsky_accel);
 }

@@ -415,7 +415,7 @@ qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_mech_forces(qdot_scene *s)
 {
-    return qdot_mech_each(s, qdot_mech_force);
+    return qdot_mech_each(s, s->coordinates.n, qdot_mech_force);
 }
 
 bool

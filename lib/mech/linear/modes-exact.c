@@ -8,6 +8,7 @@
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "mech/linear/elimination.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
@@ -19,7 +20,7 @@ typedef struct {
     qdot_expr *M, *H; /* [n x n] */
 } motion;
 
-/* B^T X B, shortened. */
+/* out [n x n] = B^T X B, simplified: M or H of the part, X that of all unknowns. */
 static qdot_status
 project_on_part(const motion *x, const qdot_expr *X, qdot_expr *out)
 {
@@ -42,45 +43,28 @@ project_on_part(const motion *x, const qdot_expr *X, qdot_expr *out)
 }
 
 qdot_status
-qdot_modes_echelon(const qdot_modes_job *j, size_t n, qdot_expr *A, size_t *pivot, size_t *rank)
+qdot_modes_null_space(const qdot_modes_job *j, size_t n, qdot_expr *A, qdot_expr *z, size_t *count)
 {
-    qdot_pool *pool = j->pool;
+    qdot_elimination x = {.pool = j->pool, .facts = &j->facts};
+    qdot_echelon e;
+    qdot_status status = qdot_echelon_begin(&e, n, n, n);
 
-    *rank = 0;
-    for (size_t c = 0; c < n; c++) {
-        size_t r = *rank;
+    for (size_t r = 0; r < n && status == QDOT_OK; r++) {
+        bool independent;
 
-        while (r < n && qdot_modes_is_zero(j, A[r * n + c]))
-            r++;
-        if (r == n)
-            continue;
-        for (size_t k = 0; k < n; k++) {
-            qdot_expr keep = A[r * n + k];
-
-            A[r * n + k] = A[*rank * n + k];
-            A[*rank * n + k] = keep;
-        }
-        for (size_t k = n; k-- > 0;)
-            if (k != c)
-                A[*rank * n + k] = qdot_simplify(
-                    pool, qdot_div(pool, A[*rank * n + k], A[*rank * n + c]), &j->facts);
-        A[*rank * n + c] = QDOT_ONE;
-        for (r = 0; r < n; r++) {
-            qdot_expr by = A[r * n + c];
-
-            for (size_t k = 0; r != *rank && by != QDOT_ZERO && k < n; k++)
-                A[r * n + k] = qdot_simplify(
-                    pool,
-                    qdot_sub(pool, A[r * n + k], qdot_mul(pool, by, A[*rank * n + k])),
-                    &j->facts);
-        }
-        QDOT_TRY(qdot_pool_check(pool));
-        pivot[(*rank)++] = c;
+        status = qdot_echelon_add(&x, &e, A + r * n, &independent);
     }
-    return QDOT_OK;
+    *count = n - e.rank;
+    if (status == QDOT_OK)
+        qdot_echelon_null_space(j->pool, &e, A); /* vectors in columns: A is now [n x count] */
+    for (size_t i = 0; i < n * *count && status == QDOT_OK; i++)
+        z[i] = A[i % n * *count + i / n];
+    qdot_echelon_end(&e);
+    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
 }
 
-/* Make the vectors v [count x n] orthogonal in M, each to those before it. */
+/* Make the vectors v [count x n], a row each, orthogonal in M, v_a M v_b = 0, by Gram and Schmidt: from each its parts along
+ * those before it are subtracted. */
 static qdot_status
 make_orthogonal(const motion *x, size_t count, qdot_expr *v)
 {
@@ -106,7 +90,7 @@ make_orthogonal(const motion *x, size_t count, qdot_expr *v)
     return QDOT_OK;
 }
 
-/* Add the modes y = B z for z [count x n]. */
+/* Add modes of frequency w, y = B z for each row z of z [count x n], amplitudes of the part's unknowns. */
 static qdot_status
 add_modes_of_part(const motion *x, qdot_expr w, size_t count, const qdot_expr *z)
 {
@@ -134,10 +118,9 @@ static qdot_status
 add_modes_of_root(const motion *x, qdot_expr W)
 {
     qdot_pool *pool = x->j->pool;
-    size_t n = x->n, rank = 0, count = 0;
+    size_t n = x->n, count = 0;
     qdot_expr *A = qdot_calloc(2 * n * n, sizeof *A), *z = A + n * n, w = QDOT_NIL;
-    size_t *pivot = qdot_calloc(n, sizeof *pivot);
-    qdot_status status = A == NULL || pivot == NULL ? QDOT_ENOMEM : qdot_modes_frequency(x->j, W, &w);
+    qdot_status status = A == NULL ? QDOT_ENOMEM : qdot_modes_frequency(x->j, W, &w);
 
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
         A[i] = qdot_simplify(pool, qdot_sub(pool, x->H[i], qdot_mul(pool, W, x->M[i])), &x->j->facts);
@@ -146,26 +129,12 @@ add_modes_of_root(const motion *x, qdot_expr W)
     if (status == QDOT_EDOMAIN)
         status = qdot_modes_fail_unstable();
     if (status == QDOT_OK)
-        status = qdot_modes_echelon(x->j, n, A, pivot, &rank);
-    for (size_t c = 0; c < n && status == QDOT_OK; c++) {
-        bool dependent = false;
-
-        for (size_t r = 0; r < rank; r++)
-            dependent |= pivot[r] == c;
-        if (dependent)
-            continue;
-        for (size_t i = 0; i < n; i++)
-            z[count * n + i] = i == c ? QDOT_ONE : QDOT_ZERO;
-        for (size_t r = 0; r < rank; r++)
-            z[count * n + pivot[r]] = qdot_neg(pool, A[r * n + c]);
-        count++;
-    }
+        status = qdot_modes_null_space(x->j, n, A, z, &count);
     if (status == QDOT_OK && x->j->symmetric)
         status = make_orthogonal(x, count, z);
     if (status == QDOT_OK)
         status = add_modes_of_part(x, w, count, z);
     qdot_free(A);
-    qdot_free(pivot);
     return status;
 }
 

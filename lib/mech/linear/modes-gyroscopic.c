@@ -26,10 +26,10 @@
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/dynamics/generic.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
+#include "num/lu.h"
 
 /* --- exact -------------------------------------------------------------------------------- */
 
@@ -63,35 +63,24 @@ characteristic_polynomial(const qdot_modes_job *j, qdot_expr W)
 }
 
 /* Add the modes whose amplitude is in the null space of A [rows x rows], at most `most`: real ones if rows = n. If rows =
- * 2 n it is (re, im), and the null space holds i a with each a; QDOT_ELIMIT if that is not all of it. */
+ * 2 n it is (re, im), and the null space holds i a with each a: of one mode it has two dimensions, and where it has more
+ * (several modes of one frequency) this is QDOT_ELIMIT. */
 static qdot_status
 add_null_space(qdot_modes_job *j, qdot_expr w, size_t rows, qdot_expr *A, size_t most)
 {
     const size_t n = j->m.n;
-    qdot_expr *y = qdot_calloc(2 * n, sizeof *y);
-    size_t *pivot = qdot_calloc(rows, sizeof *pivot), rank = 0;
-    qdot_status status = y == NULL || pivot == NULL ? QDOT_ENOMEM : qdot_modes_echelon(j, rows, A, pivot, &rank);
+    const bool is_complex = rows > n;
+    qdot_expr *z = qdot_calloc(rows * rows + n, sizeof *z), *zero = z + rows * rows;
+    size_t count = 0;
+    qdot_status status = z == NULL ? QDOT_ENOMEM : qdot_modes_null_space(j, rows, A, z, &count);
 
-    if (status == QDOT_OK && rows > n && rank + 2 != rows)
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        zero[i] = QDOT_ZERO;
+    if (status == QDOT_OK && is_complex && count != 2)
         status = QDOT_ELIMIT;
-    if (rows > n)
-        most = 1;
-    for (size_t c = 0; c < rows && most > 0 && status == QDOT_OK; c++) {
-        bool leads = false;
-
-        for (size_t r = 0; r < rank; r++)
-            leads |= pivot[r] == c;
-        if (leads)
-            continue;
-        for (size_t i = 0; i < 2 * n; i++)
-            y[i] = i == c ? QDOT_ONE : QDOT_ZERO;
-        for (size_t r = 0; r < rank; r++)
-            y[pivot[r]] = qdot_neg(j->pool, A[r * rows + c]);
-        status = qdot_modes_add_complex(j, w, y, y + n);
-        most--;
-    }
-    qdot_free(y);
-    qdot_free(pivot);
+    for (size_t k = 0; k < count && k < (is_complex ? 1 : most) && status == QDOT_OK; k++)
+        status = qdot_modes_add_complex(j, w, z + k * rows, is_complex ? z + k * rows + n : zero);
+    qdot_free(z);
     return status;
 }
 
@@ -194,35 +183,29 @@ qdot_modes_gyroscopic(qdot_modes_job *j, bool *done)
 static qdot_status
 first_order_matrix(size_t n, const double *M, const double *Gamma, const double *H, gsl_matrix *F)
 {
-    gsl_matrix *m = gsl_matrix_alloc(n, n);
-    gsl_vector *b = gsl_vector_alloc(n), *x = gsl_vector_alloc(n);
-    gsl_permutation *order = gsl_permutation_alloc(n);
-    int sign, failed = m == NULL || b == NULL || x == NULL || order == NULL;
-    qdot_status status = failed ? QDOT_ENOMEM : QDOT_OK;
+    double *LU = qdot_calloc(n * n + n, sizeof *LU), *x = LU + n * n;
+    qdot_lu_row *rows = qdot_calloc(n, sizeof *rows);
+    qdot_status status = LU == NULL || rows == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    gsl_matrix_set_zero(F);
-    for (size_t i = 0; i < n * n && !failed; i++)
-        m->data[i] = M[i];
-    failed = failed || gsl_linalg_LU_decomp(m, order, &sign) != GSL_SUCCESS;
-    for (size_t c = 0; c < 2 * n && !failed; c++) {
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        LU[i] = M[i];
+    if (status == QDOT_OK && !qdot_lu_factor(n, LU, rows))
+        status = qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular there");
+    for (size_t c = 0; c < 2 * n && status == QDOT_OK; c++) {
         for (size_t r = 0; r < n; r++)
-            gsl_vector_set(b, r, -(c < n ? H : Gamma)[r * n + c % n]);
-        failed = gsl_linalg_LU_solve(m, order, b, x) != GSL_SUCCESS;
-        for (size_t r = 0; r < n && !failed; r++) {
-            gsl_matrix_set(F, n + r, c, gsl_vector_get(x, r));
+            x[r] = -(c < n ? H : Gamma)[r * n + c % n];
+        qdot_lu_solve(n, LU, rows, x);
+        for (size_t r = 0; r < n; r++) {
+            gsl_matrix_set(F, n + r, c, x[r]);
             gsl_matrix_set(F, r, c, c == n + r ? 1 : 0);
         }
     }
-    if (failed && status == QDOT_OK)
-        status = qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular there");
-    gsl_matrix_free(m);
-    gsl_vector_free(b);
-    gsl_vector_free(x);
-    gsl_permutation_free(order);
+    qdot_free(LU);
+    qdot_free(rows);
     return status;
 }
 
-/* Add the modes that do not move: the columns of V [n x n] that belong to the `most` smallest singular values of H. */
+/* Add the modes that do not move, H y = 0: the right singular vectors of H of its `most` smallest singular values. */
 static qdot_status
 add_numbers_at_rest(qdot_modes_job *j, size_t most, const double *H, const double *N)
 {

@@ -84,7 +84,7 @@ qdot_modes_add_numbers(qdot_modes_job *j, double w, const double *N, const doubl
     return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
 }
 
-/* out = B^T X B */
+/* out [n x n] = B^T X B: M or H of the part, X that of all unknowns. */
 static void
 project_numbers_on_part(const qdot_modes_part *part, const double *X, gsl_matrix *out)
 {

@@ -46,8 +46,8 @@ QDOT_MUST_CHECK qdot_status qdot_modes_add_complex(qdot_modes_job *j, qdot_expr 
 /* As that in numbers: x = N (re + i im), N [coordinates x n]. */
 QDOT_MUST_CHECK qdot_status qdot_modes_add_numbers(qdot_modes_job *j, double w, const double *N, const double *re,
                                                    const double *im);
-/* Bring A [n x n] into reduced echelon form; pivot [rank] columns. */
-QDOT_MUST_CHECK qdot_status qdot_modes_echelon(const qdot_modes_job *j, size_t n, qdot_expr *A, size_t *pivot, size_t *rank);
+/* A basis z [count x n] of the null space of A [n x n], a vector in each row; A is overwritten, z has room for n vectors. */
+QDOT_MUST_CHECK qdot_status qdot_modes_null_space(const qdot_modes_job *j, size_t n, qdot_expr *A, qdot_expr *z, size_t *count);
 
 /* Call `find` for each set of unknowns that M and H [n x n] do not couple with others, while *done. */
 QDOT_MUST_CHECK qdot_status qdot_modes_for_sets(size_t n, const qdot_expr *M, const qdot_expr *H, qdot_modes_of_set *find,

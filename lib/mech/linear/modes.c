@@ -141,20 +141,24 @@ check_is_equilibrium(const qdot_modes_job *j, qdot_expr place)
     return qdot_pool_check(j->pool);
 }
 
-/* Whether Gamma is antisymmetric, as rotation and magnetic fields have it, and not damping. */
+/* Whether X [n x n] is proved equal to its transpose (sign 1), or to minus its transpose (sign -1). */
 static bool
-is_antisymmetric(const qdot_modes_job *j)
+is_symmetric(const qdot_modes_job *j, const qdot_expr *X, int sign)
 {
     const size_t n = j->m.n;
 
     for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k <= i; k++)
-            if (!qdot_modes_is_zero(j, qdot_add(j->pool, j->m.Gamma[i * n + k], j->m.Gamma[k * n + i])))
+        for (size_t k = 0; k <= i; k++) {
+            const qdot_expr a = X[i * n + k], b = X[k * n + i];
+
+            if (!qdot_modes_is_zero(j, sign > 0 ? qdot_sub(j->pool, a, b) : qdot_add(j->pool, a, b)))
                 return false;
+        }
     return true;
 }
 
-/* Whether the equation of some unknown has no mass; by Gamma it has velocities, which condensation does not know. */
+/* Whether a row of M is 0, so that an unknown has no mass. Beside Gamma such an unknown follows the velocities of the others,
+ * too, while qdot_linear_motion_condense eliminates it as in statics, from the forces H y alone. */
 static bool
 something_is_without_mass(const qdot_modes_job *j)
 {
@@ -178,15 +182,12 @@ check_linear_motion(qdot_modes_job *j)
 
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "nothing can move there: there are no modes");
-    j->symmetric = true;
     for (size_t i = 0; i < n * n; i++)
         j->gyroscopic = j->gyroscopic || !qdot_modes_is_zero(j, j->m.Gamma[i]);
-    for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < i; k++)
-            j->symmetric = j->symmetric &&
-                           qdot_modes_is_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i]));
+    j->symmetric = is_symmetric(j, j->m.H, 1);
     QDOT_TRY(qdot_pool_check(j->pool));
-    if (j->gyroscopic && !is_antisymmetric(j)) {
+    /* rotation and magnetic fields have an antisymmetric Gamma, damping has not */
+    if (j->gyroscopic && !is_symmetric(j, j->m.Gamma, -1)) {
         (void)qdot_fail(QDOT_ETYPE, "the motion about the equilibrium has damping: it has no normal modes");
         return qdot_hint("linearize at equilibria[1]");
     }
@@ -214,7 +215,7 @@ qdot_modes_frequency(const qdot_modes_job *j, qdot_expr square, qdot_expr *w)
     return qdot_pool_check(pool) == QDOT_EDOMAIN ? qdot_modes_fail_unstable() : qdot_pool_check(pool);
 }
 
-/* x = N y for coordinate i. */
+/* The displacement of coordinate i, sum_a N_ia y_a, for amplitudes y of the unknowns. */
 static qdot_expr
 displacement(const qdot_modes_job *j, size_t i, const qdot_expr *y)
 {
@@ -224,7 +225,13 @@ displacement(const qdot_modes_job *j, size_t i, const qdot_expr *y)
     for (size_t a = 0; a < m; a++)
         if (j->m.N[i * m + a] != QDOT_ZERO && y[a] != QDOT_ZERO)
             x = qdot_add(j->pool, x, qdot_mul(j->pool, j->m.N[i * m + a], y[a]));
-    return qdot_simplify(j->pool, x, &j->facts);
+    return x;
+}
+
+static qdot_expr
+short_displacement(const qdot_modes_job *j, size_t i, const qdot_expr *y)
+{
+    return qdot_simplify(j->pool, displacement(j, i, y), &j->facts);
 }
 
 qdot_status
@@ -235,7 +242,7 @@ qdot_modes_add(qdot_modes_job *j, qdot_expr w, const qdot_expr *y)
 
     QDOT_TRY(qdot_vec_push(&j->frequency, w));
     for (size_t i = 0; i < j->s->coordinates.n; i++) {
-        qdot_expr x = displacement(j, i, y);
+        qdot_expr x = short_displacement(j, i, y);
 
         QDOT_TRY(qdot_pool_check(pool));
         if (first == QDOT_NIL && !qdot_modes_is_zero(j, x))
@@ -251,21 +258,13 @@ qdot_modes_add(qdot_modes_job *j, qdot_expr w, const qdot_expr *y)
 qdot_status
 qdot_modes_add_as_it_is(qdot_modes_job *j, qdot_expr w, const qdot_expr *y)
 {
-    const size_t m = j->m.n;
-
     QDOT_TRY(qdot_vec_push(&j->frequency, w));
-    for (size_t i = 0; i < j->s->coordinates.n; i++) {
-        qdot_expr x = QDOT_ZERO;
-
-        for (size_t a = 0; a < m; a++)
-            if (j->m.N[i * m + a] != QDOT_ZERO)
-                x = qdot_add(j->pool, x, qdot_mul(j->pool, j->m.N[i * m + a], y[a]));
-        QDOT_TRY(qdot_vec_push(&j->amplitude, x));
-    }
+    for (size_t i = 0; i < j->s->coordinates.n; i++)
+        QDOT_TRY(qdot_vec_push(&j->amplitude, displacement(j, i, y)));
     return qdot_pool_check(j->pool);
 }
 
-/* (a + i b)/(c + i d) as a real expression or a list [re, im]. */
+/* (a + i b)/(c + i d) with by = [c, d]: a real expression, or a list [re, im]. */
 static qdot_expr
 complex_quotient(const qdot_modes_job *j, const qdot_expr *by, qdot_expr a, qdot_expr b)
 {
@@ -289,7 +288,7 @@ qdot_modes_add_complex(qdot_modes_job *j, qdot_expr w, const qdot_expr *re, cons
 
     QDOT_TRY(qdot_vec_push(&j->frequency, w));
     for (size_t i = 0; i < j->s->coordinates.n; i++) {
-        qdot_expr a = displacement(j, i, re), b = displacement(j, i, im);
+        qdot_expr a = short_displacement(j, i, re), b = short_displacement(j, i, im);
 
         QDOT_TRY(qdot_pool_check(j->pool));
         if (first[0] == QDOT_ZERO && first[1] == QDOT_ZERO) {

@@ -90,9 +90,8 @@ qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order)
 }
 
 qdot_expr
-qdot_mech_each(qdot_scene *s, qdot_expr (*of)(qdot_scene *s, qdot_expr q))
+qdot_mech_each(qdot_scene *s, size_t n, qdot_expr (*of)(qdot_scene *s, qdot_expr q))
 {
-    size_t n = s->coordinates.n;
     qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
 
     if (!members)

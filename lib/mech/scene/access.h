@@ -30,8 +30,8 @@ qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
 qdot_expr qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order);
 /* Find the index of a coordinate in the scene; if there is none fail with QDOT_ENAME and return false. */
 bool qdot_mech_index(qdot_scene *s, qdot_expr q, size_t *i);
-/* The LIST of the values of(s, q), one for each coordinate q. */
-qdot_expr qdot_mech_each(qdot_scene *s, qdot_expr (*of)(qdot_scene *s, qdot_expr q));
+/* The LIST of the values of(s, q), one for each of the first n coordinates q. */
+qdot_expr qdot_mech_each(qdot_scene *s, size_t n, qdot_expr (*of)(qdot_scene *s, qdot_expr q));
 /* The expression e with every acceleration set to 0. */
 qdot_expr qdot_mech_at_rest(qdot_scene *s, qdot_expr e);
 bool qdot_mech_stated(const qdot_scene *s);
