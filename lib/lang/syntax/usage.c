@@ -154,12 +154,15 @@ static void
 compile_alternatives(compiler *c, int from, int to, piece_kind kind, const char *separator)
 {
     const int start = c->u->n;
+    char before[QDOT_USAGE_TEXT];
     int last = -1; /* index of the latest node that jumps to the end */
 
+    strcpy(before, c->before);
     for (;;) {
         const int end = find_piece(c, from, to, kind, separator);
         const int fork = end < to ? append_node(c, QDOT_USAGE_FORK, "") : -1;
 
+        strcpy(c->before, before); /* no alternative stands behind a word of another */
         compile(c, from, end);
         if (end >= to)
             break;
