@@ -161,7 +161,7 @@ qdot_definition_statement(assignment *a, const qdot_statement *row)
     bool stated = s->lagrangian != QDOT_NIL;
 
     /* with arguments, as in gravity(x) = ..., the name is that of a function */
-    if (!qdot_statement_is_built(row) || !qdot_definition_is_of_name(&a->as))
+    if (!qdot_definition_is_of_name(&a->as))
         return false;
     if ((stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0)) ||
         ((strcmp(word, "lagrangian") == 0 || strcmp(word, "hamiltonian") == 0) &&

@@ -189,8 +189,6 @@ static const qdot_builtin rows[] = {
 #undef X
 #define FUNCTION(word, least, most, flags, over, usage, summary, example) \
     {#word, least, most, qdot_call_##word, usage, summary, example, flags, over},
-#define UNBUILT(name, least, most, usage, summary, example) \
-    {name, least, most, NULL, usage, summary, example, QDOT_BUILTIN_UNBUILT, NULL},
 #include "lang/functions/builtin.def"
 };
 

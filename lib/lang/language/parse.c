@@ -124,10 +124,6 @@ parse_call(qdot_parser *p, const qdot_token *name, unsigned n_primes, uint32_t i
                                   : qdot_builtin_find(name->text);
     unsigned flags = row != NULL ? row->flags : 0;
 
-    if (flags & QDOT_BUILTIN_UNBUILT) {
-        qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name->text);
-        return fail_at_token(p, name, QDOT_ENOTBUILT);
-    }
     if (indices == 0 && qdot_hints_is_foreign(s, name->text)) {
         (void)qdot_hints_unknown_function(p->c, name);
         return fail_at_token(p, name, QDOT_ENAME);

@@ -426,11 +426,8 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         return qdot_hint("write a member, %.80s[1]", name);
     }
     if (qdot_builtin_find(name) != NULL &&
-        !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_SHORT)) {
-        if (qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT)
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name);
+        !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_SHORT))
         return qdot_hints_bare_function(c, token);
-    }
     if (is_side_of_limit(token) || (primes == 0 && qdot_enclosing_binds(c, token))) {
         *value = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
         return qdot_value_kind_check(s->pool, *value);
@@ -660,9 +657,7 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     if (entry != NULL || row == NULL) {
         if (entry == NULL && !qdot_scene_has_label(s->scene, name)) {
             if (qdot_builtin_find(name) != NULL)
-                return qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT
-                           ? qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name)
-                           : qdot_hints_bare_function(c, token);
+                return qdot_hints_bare_function(c, token);
             return report_unknown_index(c, token, n, index);
         }
         QDOT_TRY(qdot_resolve_name(c, token, 0, &whole, &over));

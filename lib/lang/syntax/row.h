@@ -23,7 +23,7 @@ typedef struct {
     bool alone; /* the word is also a value; as a whole statement it prints more */
     bool linear; /* concerns rest and motion near it: of a scene that states H alone the first-order equations */
     bool nameable; /* WORD = EXPR defines a name of the user's, beside which the statement goes on to work */
-    qdot_status (*handler)(struct qdot_record *r); /* carries the statement out; NULL: not built in this version */
+    qdot_status (*handler)(struct qdot_record *r); /* carries the statement out */
     /* Declares the names of the statement. A loop does so in all its passes before the first is carried out, so that a
      * pass may read names of a later one. NULL: the statement declares none that others of its loop read. */
     qdot_status (*names)(struct qdot_record *r);
@@ -33,12 +33,5 @@ typedef struct {
 #define QDOT_STATEMENT(word)                                                             \
     extern const qdot_statement qdot_statement_row_##word;                                   \
     const qdot_statement qdot_statement_row_##word
-
-/* Whether the statement is implemented. */
-static inline bool
-qdot_statement_is_built(const qdot_statement *row)
-{
-    return row->handler != NULL;
-}
 
 #endif

@@ -3,20 +3,11 @@
 
 #include <string.h>
 
-#define DECLARE QDOT_DECLARING
-#define ASK QDOT_ASKING
-#define NUMBERS QDOT_NUMBERS
-#define WORKBENCH QDOT_WORKBENCH
-
-#define UNBUILT(word, group, usage, summary, example)
 #define STATEMENT(word) extern const qdot_statement qdot_statement_row_##word;
 #include "lang/syntax/statement.def"
-#undef UNBUILT
 #undef STATEMENT
 
 static const qdot_statement *const table[] = {
-#define UNBUILT(word, group, usage, summary, example)                                    \
-    &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL, NULL},
 #define STATEMENT(word) &qdot_statement_row_##word,
 #include "lang/syntax/statement.def"
 };

@@ -148,16 +148,13 @@ offer_language_words(completion *c, unsigned kinds)
                                             "force",   "dissipation", "torque"};
 
     for (size_t i = 0; (kinds & BUILTINS) != 0 && qdot_builtin_at(i) != NULL; i++)
-        if ((qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT) == 0)
-            offer_word(c, qdot_builtin_at(i)->name);
+        offer_word(c, qdot_builtin_at(i)->name);
     for (int i = 0; (kinds & BUILTINS) != 0 && i < QDOT_FUNCTION_COUNT; i++)
         offer_word(c, qdot_fun_name((qdot_fun_id)i));
     for (size_t i = 0; (kinds & QUANTITIES) != 0 && qdot_quantity_at(i) != NULL; i++)
-        if (qdot_quantity_at(i)->example[0] != '\0')
-            offer_word(c, qdot_quantity_at(i)->name);
+        offer_word(c, qdot_quantity_at(i)->name);
     for (size_t i = 0; (kinds & STATEMENTS) != 0 && qdot_statement_at(i) != NULL; i++)
-        if (qdot_statement_is_built(qdot_statement_at(i)))
-            offer_word(c, qdot_statement_at(i)->word);
+        offer_word(c, qdot_statement_at(i)->word);
     for (size_t i = 0; (kinds & METHODS) != 0 && qdot_ode_method_at(i) != NULL; i++)
         offer_word(c, qdot_ode_method_at(i)->name);
     if ((kinds & METHODS) != 0)

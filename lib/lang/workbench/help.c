@@ -53,13 +53,6 @@ append_word_in_line(qdot_text *text, const char *word, running *line)
     line->column += n;
 }
 
-/* Whether a quantity is implemented (it then has an example). */
-static bool
-is_built(const qdot_quantity *row)
-{
-    return row->example[0] != '\0';
-}
-
 static void
 append_overview(qdot_text *text, size_t width)
 {
@@ -68,8 +61,6 @@ append_overview(qdot_text *text, size_t width)
     running values = {.width = width, .column = 1}, functions = values;
 
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++) {
-        if (!qdot_statement_is_built(row))
-            continue;
         if (strcmp(group, row->group) != 0)
             qdot_text_format(text, "%s%s\n", i > 0 ? "\n" : "", row->group);
         group = row->group;
@@ -77,12 +68,10 @@ append_overview(qdot_text *text, size_t width)
     }
     qdot_text_add(text, "\nvalues\n ");
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
-        if (is_built(qdot_quantity_at(i)))
-            append_word_in_line(text, qdot_quantity_at(i)->name, &values);
+        append_word_in_line(text, qdot_quantity_at(i)->name, &values);
     qdot_text_add(text, "\n\nfunctions\n ");
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
-        if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT))
-            append_word_in_line(text, qdot_builtin_at(i)->name, &functions);
+        append_word_in_line(text, qdot_builtin_at(i)->name, &functions);
     qdot_text_add(text, "\n\nhelp WORD says more of each, help search WORD finds it; any "
                         "statement may end in `for k = a..b`\n");
 }
@@ -104,11 +93,8 @@ list_statements_with_option(qdot_text *text, const char *word)
     if (word[0] < 'a' || word[0] > 'z')
         return;
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++)
-        if (qdot_has_word(row->usage, word)) {
+        if (qdot_has_word(row->usage, word))
             append_explanation(text, row->usage, row->summary, row->example);
-            if (!qdot_statement_is_built(row))
-                qdot_text_add(text, "    not built yet\n");
-        }
 }
 
 /* Explain a topic; for an option also list the statements that have it. */
@@ -120,7 +106,7 @@ explain_topic(qdot_text *text, const qdot_topic *topic)
 
     append_explanation(text, topic->usage, topic->summary, topic->example);
     for (size_t i = 0; topic->option && (row = qdot_statement_at(i)) != NULL; i++)
-        if (qdot_statement_is_built(row) && qdot_has_word(row->usage, topic->word))
+        if (qdot_has_word(row->usage, topic->word))
             qdot_text_format(text, "%s%s", n++ == 0 ? "    an option of " : ", ", row->word);
     qdot_text_add(text, n > 0 ? "\n" : "");
 }
@@ -134,23 +120,14 @@ explain_word(qdot_text *text, const char *word)
     const qdot_builtin *builtin = qdot_builtin_find(word);
     qdot_fun_id id;
 
-    if (statement != NULL) {
+    if (statement != NULL)
         append_explanation(text, statement->usage, statement->summary, statement->example);
-        if (!qdot_statement_is_built(statement))
-            qdot_text_add(text, "    not built yet\n");
-    }
-    if (quantity != NULL) {
+    if (quantity != NULL)
         append_explanation(text, quantity->usage, quantity->summary, quantity->example);
-        if (!is_built(quantity))
-            qdot_text_add(text, "    not built yet\n");
-    }
-    if (builtin != NULL) {
+    if (builtin != NULL)
         append_explanation(text, builtin->usage, builtin->summary, builtin->example);
-        if (builtin->flags & QDOT_BUILTIN_UNBUILT)
-            qdot_text_add(text, "    not built yet\n");
-    } else if (qdot_fun_find(word, &id)) {
+    else if (qdot_fun_find(word, &id))
         qdot_text_format(text, "%s: an elementary function\n", qdot_fun_name(id));
-    }
     for (size_t i = 0; qdot_topic_at(i) != NULL; i++)
         if (strcmp(word, qdot_topic_at(i)->word) == 0)
             explain_topic(text, qdot_topic_at(i));

@@ -155,13 +155,7 @@ dispatch_statement(engine *x, qdot_cursor *c)
     if (form == QDOT_FORM_DEFINITION) {
         QDOT_TRY(qdot_declare_definition(c));
     } else if (form == QDOT_FORM_WORD) {
-        const qdot_statement *row = qdot_statement_find(c->at->text);
-
-        if (!qdot_statement_is_built(row)) {
-            c->error_at = c->at->start;
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
-        }
-        QDOT_TRY(carry_out_row(x, c, row));
+        QDOT_TRY(carry_out_row(x, c, qdot_statement_find(c->at->text)));
     } else if (form == QDOT_FORM_UNKNOWN) {
         return report_unknown_word(c);
     } else if (form == QDOT_FORM_COMPARISON) {

@@ -75,16 +75,13 @@ list_all_matching(search *s)
     const qdot_builtin *builtin;
 
     for (size_t i = 0; (statement = qdot_statement_at(i)) != NULL; i++)
-        if (qdot_statement_is_built(statement) && qdot_quantity_find(statement->word) == NULL)
+        if (qdot_quantity_find(statement->word) == NULL)
             list_if_matching(s, statement->word, statement->usage, statement->summary,
                              statement->example);
     for (size_t i = 0; (quantity = qdot_quantity_at(i)) != NULL; i++)
-        if (quantity->example[0] != '\0')
-            list_if_matching(s, quantity->name, quantity->usage, quantity->summary,
-                             quantity->example);
+        list_if_matching(s, quantity->name, quantity->usage, quantity->summary, quantity->example);
     for (size_t i = 0; (builtin = qdot_builtin_at(i)) != NULL; i++)
-        if (!(builtin->flags & QDOT_BUILTIN_UNBUILT))
-            list_if_matching(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
+        list_if_matching(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
     for (size_t i = 0; qdot_topic_at(i) != NULL; i++)
         list_if_matching(s, qdot_topic_at(i)->word, qdot_topic_at(i)->usage, qdot_topic_at(i)->summary,
                          qdot_topic_at(i)->example);
