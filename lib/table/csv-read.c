@@ -349,6 +349,19 @@ qdot_csv_clear(qdot_csv *csv)
     *csv = (qdot_csv){0};
 }
 
+size_t
+qdot_csv_find(const qdot_csv *csv, const char *name)
+{
+    size_t at = csv->columns, found = 0;
+
+    for (size_t i = 0; i < csv->columns; i++)
+        if (strcmp(csv->names.at[i].word, name) == 0) {
+            at = i;
+            found++;
+        }
+    return found == 1 ? at : csv->columns;
+}
+
 /* --- reading files ----------------------------------------------------------------------------- */
 
 qdot_status

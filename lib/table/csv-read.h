@@ -43,6 +43,9 @@ QDOT_MUST_CHECK qdot_status qdot_csv_read_text(const char *name, const char *tex
                                                size_t length, qdot_csv *csv);
 void qdot_csv_clear(qdot_csv *csv);
 
+/* Of a file that names all its columns, the index of the only one with this name; csv->columns: none or several have it. */
+size_t qdot_csv_find(const qdot_csv *csv, const char *name);
+
 /* Fail with the position of a number: "NAME:LINE:COLUMN: MESSAGE". */
 qdot_status qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format, ...)
     QDOT_PRINTF(3, 4);

@@ -110,14 +110,8 @@ find_columns(reading *d, const char *path, const qdot_csv *csv)
     bool named = csv->names.n == csv->columns;
 
     for (size_t k = 0; k < d->n && named; k++) {
-        size_t found = 0;
-
-        for (size_t i = 0; i < csv->columns; i++)
-            if (strcmp(csv->names.at[i].word, d->columns[k].name) == 0) {
-                d->columns[k].at = i;
-                found++;
-            }
-        named = found == 1;
+        d->columns[k].at = qdot_csv_find(csv, d->columns[k].name);
+        named = d->columns[k].at < csv->columns;
     }
     if (named)
         return QDOT_OK;
@@ -214,21 +208,6 @@ read_how(const qdot_record *r, size_t columns, int *degree, qdot_samples_beyond 
 }
 
 static qdot_status
-read_file(qdot_record *r, const qdot_filled *file, qdot_csv *csv)
-{
-    qdot_text path = {0};
-    qdot_status status;
-
-    qdot_record_blame(r, file);
-    qdot_session_path(r->cursor.session, qdot_record_text(file), &path);
-    status = qdot_text_status(&path);
-    if (status == QDOT_OK)
-        status = qdot_csv_read(qdot_text_str(&path), csv);
-    qdot_text_clear(&path);
-    return status;
-}
-
-static qdot_status
 declare_data(qdot_record *r)
 {
     const qdot_filled *const part = qdot_record_hole(r, NULL, "NAME"), *const file = qdot_record_hole(r, "from", "\"FILE\"");
@@ -244,7 +223,8 @@ declare_data(qdot_record *r)
     points.n = d.n;
     qdot_record_blame(r, d.parts[0]);
     QDOT_TRY(read_how(r, d.n, &points.degree, &points.beyond));
-    status = read_file(r, file, &csv);
+    qdot_record_blame(r, file);
+    status = qdot_session_read_csv(r->cursor.session, points.path, &csv);
     if (status == QDOT_OK)
         status = find_columns(&d, points.path, &csv);
     if (status == QDOT_OK) {

@@ -162,16 +162,8 @@ find_column_indices(data_file *d)
 static qdot_status
 read_data_file(data_file *d)
 {
-    qdot_text path = {0};
-    qdot_status status;
-
     qdot_record_blame(d->record, d->file);
-    qdot_session_path(d->record->cursor.session, qdot_record_text(d->file), &path);
-    status = qdot_text_status(&path);
-    if (status == QDOT_OK)
-        status = qdot_csv_read(qdot_text_str(&path), &d->csv);
-    qdot_text_clear(&path);
-    return status;
+    return qdot_session_read_csv(d->record->cursor.session, qdot_record_text(d->file), &d->csv);
 }
 
 /* --- the curves -------------------------------------------------------------------------- */

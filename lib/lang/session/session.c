@@ -159,3 +159,17 @@ qdot_session_path(const qdot_session *session, const char *name, qdot_text *path
         qdot_text_add_n(path, own, (size_t)(slash + 1 - own));
     qdot_text_add(path, name);
 }
+
+qdot_status
+qdot_session_read_csv(const qdot_session *session, const char *name, qdot_csv *csv)
+{
+    qdot_text path = {0};
+    qdot_status status;
+
+    qdot_session_path(session, name, &path);
+    status = qdot_text_status(&path);
+    if (status == QDOT_OK)
+        status = qdot_csv_read(qdot_text_str(&path), csv);
+    qdot_text_clear(&path);
+    return status;
+}

@@ -99,20 +99,6 @@ name_of_column(const qdot_fit *f, const qdot_fit_column *column, qdot_text *name
     return qdot_text_status(name);
 }
 
-/* The index of the file's column with that name; the number of columns: there is not exactly one. */
-static size_t
-find_file_column(const qdot_csv *csv, const char *name)
-{
-    size_t at = csv->columns, found = 0;
-
-    for (size_t i = 0; i < csv->columns; i++)
-        if (strcmp(csv->names.at[i].word, name) == 0) {
-            at = i;
-            found++;
-        }
-    return found == 1 ? at : csv->columns;
-}
-
 /* Find the columns by the names in the file, in any order, if it has them all; *named: whether it does. Columns `sigma` and
  * `skip` are told by their order alone. */
 static qdot_status
@@ -125,7 +111,7 @@ find_columns_by_name(qdot_fit *f, const qdot_csv *csv, bool *named)
         qdot_status status = name_of_column(f, column, &name);
 
         if (status == QDOT_OK) {
-            column->at = find_file_column(csv, qdot_text_str(&name));
+            column->at = qdot_csv_find(csv, qdot_text_str(&name));
             *named = column->at < csv->columns && (column->kind == QDOT_FIT_TIME || column->kind == QDOT_FIT_VALUE);
             for (size_t k = 0; k < i; k++)
                 *named = *named && f->columns.at[k].at != column->at;
@@ -268,18 +254,13 @@ read_all_rows(qdot_cursor *c, qdot_fit *f, const qdot_csv *csv)
 qdot_status
 qdot_fit_read_data(qdot_cursor *c, qdot_fit *f)
 {
-    qdot_text path = {0};
     qdot_csv csv = {.gaps = true};
     qdot_status status;
 
     c->error_at = f->path_at->start;
-    qdot_session_path(f->session, f->path, &path);
-    status = qdot_text_status(&path);
-    if (status == QDOT_OK)
-        status = qdot_csv_read(qdot_text_str(&path), &csv);
+    status = qdot_session_read_csv(f->session, f->path, &csv);
     if (status == QDOT_OK)
         status = read_all_rows(c, f, &csv);
     qdot_csv_clear(&csv);
-    qdot_text_clear(&path);
     return status;
 }
