@@ -8,6 +8,7 @@
 #include "series/taylor.h"
 #include "sim/bind/bind-state.h"
 #include "sim/form/residual.h"
+#include "sim/form/tables.h"
 #include "tape/rounding.h"
 #include "tape/shake.h"
 
@@ -492,23 +493,6 @@ make_equation_solvers(qdot_bind *b, bool shaken)
     return qdot_blocks_init(&b->blocks, b->plan, shaken);
 }
 
-/* Find the tables of data that the equations read at times, whichever form of them is integrated. */
-static qdot_status
-find_knots(const qdot_plan *p, qdot_knots *knots)
-{
-    const qdot_tape *const tapes[] = {p->tape,
-                                      p->reduced ? p->reduced->tape : NULL,
-                                      p->residual ? p->residual->places : NULL,
-                                      p->residual ? p->residual->forces : NULL,
-                                      p->constraints ? p->constraints->positions : NULL,
-                                      p->constraints ? p->constraints->velocities : NULL};
-
-    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
-        if (tapes[k])
-            QDOT_TRY(qdot_knots_find(tapes[k], 2 * p->n, knots));
-    return QDOT_OK;
-}
-
 static qdot_status
 make_bind(qdot_bind *b, bool shaken)
 {
@@ -526,7 +510,7 @@ make_bind(qdot_bind *b, bool shaken)
     b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
-    QDOT_TRY(find_knots(p, &b->knots));
+    QDOT_TRY(qdot_tables_knots(p, &b->knots));
     QDOT_TRY(qdot_bind_make_slopes(b));
     if (p->phase_space)
         QDOT_TRY(qdot_phase_new(p->phase_space, &b->phase));

@@ -8,7 +8,7 @@
 #include "sim/digits/precise.h"
 #include "sim/error/companion.h"
 #include "sim/error/failure.h"
-#include "tape/knots.h"
+#include "sim/form/tables.h"
 
 enum { MOST_NAMES = 8 };
 
@@ -235,7 +235,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     qdot_error failure;
     qdot_status status;
 
-    if (run->plan->tape && qdot_knots_any(run->plan->tape))
+    if (qdot_tables_any(run->plan))
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: digits with functions given by data");
     QDOT_TRY(refuse_layers(run));
     if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {

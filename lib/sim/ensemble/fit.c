@@ -6,8 +6,8 @@
 
 #include "sim/bind/bind.h"
 #include "sim/course/stage.h"
+#include "sim/form/tables.h"
 #include "sim/plan/plan.h"
-#include "tape/knots.h"
 
 static qdot_status
 copy_domain_bounds(const qdot_domains *domains, qdot_ensemble_bounds *bounds)
@@ -53,7 +53,7 @@ check_plan(const qdot_plan *plan, qdot_text *why)
         qdot_text_format(why, "method %s has no lanes", plan->method->name);
         return qdot_text_status(why);
     }
-    if (plan->tape && qdot_knots_any(plan->tape)) {
+    if (qdot_tables_any(plan)) {
         qdot_text_add(why, "the equations read tables of data");
         return qdot_text_status(why);
     }

@@ -10,7 +10,7 @@
 #include "expr/symbol.h"
 #include "num/samples.h"
 #include "ode/scale.h"
-#include "tape/knots.h"
+#include "sim/form/tables.h"
 
 /* A singularity ahead explains a failure if it is nearer than this fraction of the run's duration. */
 static const double nothing = 1e-6;
@@ -45,7 +45,7 @@ explain_by_data(const qdot_plan *plan, double t, const double *y, qdot_text *rea
     for (size_t i = 0; i < 2 * plan->n; i++)
         in[i] = y[i];
     in[2 * plan->n] = t;
-    if (plan->tape && qdot_knots_ended(plan->tape, in, &handle, &at) && qdot_samples_range(handle, &lo, &hi)) {
+    if (qdot_tables_ended(plan, in, &handle, &at) && qdot_samples_range(handle, &lo, &hi)) {
         name = name_of_table(plan, handle);
         qdot_text_format(reason, "; the data%s%.100s go from %.10g to %.10g", name ? " of " : "", name ? name : "", lo, hi);
     }

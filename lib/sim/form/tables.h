@@ -1,0 +1,22 @@
+/* tables.h -- the tables of data (num/samples.h) that the equations of a plan read, whichever form of them is integrated:
+ * M q'' = f, what cyclic coordinates leave of it, d'Alembert's residual, constraints.
+ *
+ * Tests  tests/script/data/forms.sh
+ */
+#ifndef QDOT_SIM_TABLES_H
+#define QDOT_SIM_TABLES_H
+
+#include "sim/model/equations.h"
+#include "tape/knots.h"
+
+/* Whether there are any. */
+bool qdot_tables_any(const qdot_plan *plan);
+
+/* Append those that are read at a + b t (tape/knots.h). Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_tables_knots(const qdot_plan *plan, qdot_knots *knots);
+
+/* Whether one is read at or beyond its end at in [3n + 1]: q, q', t and, of a reduced plan, its kept momenta
+ * (qdot_knots_ended). */
+bool qdot_tables_ended(const qdot_plan *plan, const double *in, double *handle, double *at);
+
+#endif
