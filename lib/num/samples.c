@@ -11,7 +11,8 @@
 
 enum { MOST_TABLES = 4096, ITEMS = 32, PIECE = 0, KNOT = 2, COEFFICIENT = 4 };
 
-/* A place beyond an end by this part of the range is at the end: rounding of an argument. */
+/* A place outside the table is taken for the end if its distance is at most this times (length + largest |knot|): so large the
+ * rounding error of an argument may be. */
 static const double slack = 8 * DBL_EPSILON;
 
 /* Pieces along an axis of n knots have numbers: 0 before the first knot, 1 ... n - 1 between knots, n behind the last one;

@@ -29,7 +29,7 @@
 
 typedef enum { QDOT_SAMPLES_END, QDOT_SAMPLES_HOLD, QDOT_SAMPLES_PERIODIC } qdot_samples_beyond;
 
-/* What to make of numbers that the caller keeps. */
+/* A table that is to be made. The arrays belong to the caller; they are copied. */
 typedef struct {
     int axes;               /* number of arguments, 1 or 2 */
     size_t n[2];            /* numbers of knots, at least 2 each */
@@ -39,7 +39,8 @@ typedef struct {
     qdot_samples_beyond beyond; /* with two arguments: not periodic */
 } qdot_samples_given;
 
-/* The number of a table made of this. Errors: QDOT_ENOMEM. */
+/* The number of the table with these values: a new one, or an equal one that is there. Errors: QDOT_ENOMEM; QDOT_ELIMIT, more
+ * than 4096 tables. */
 QDOT_MUST_CHECK qdot_status qdot_samples_add(const qdot_samples_given *given, int *number);
 
 /* Handles of table `number`: of the piece along an axis that holds a place; of its knot, by the number of the piece; of a
@@ -49,19 +50,24 @@ long qdot_samples_knot(int number, int axis);
 long qdot_samples_coefficient(int number, int i, int j);
 long qdot_samples_width(int number);
 
-/* lookup(x, handle); NaN beyond the ends and of no handle. */
+/* lookup(x, handle). Of the handle of an axis' pieces, x is a place on the axis, and the result is the number of the piece that
+ * holds it. Of a handle of knots or coefficients, x is the number of a piece, and the result is its knot or its coefficient.
+ * NaN if a place is outside a table that has no values there, if x is NaN, and if there is no such handle. */
 double qdot_samples_lookup(double handle, double x);
 
-/* Whether a handle is that of a piece. Then the piece [*lo, *hi) that holds x; infinite where it has no end, NaN beyond. */
+/* Whether a handle is that of an axis' pieces. */
 bool qdot_samples_finds(double handle);
+/* Of such a handle, the piece *lo <= x < *hi that holds the place x. With `hold` the pieces outside the table are infinite on
+ * one side. NaN if no piece holds x. */
 void qdot_samples_bounds(double handle, double x, double *lo, double *hi);
-/* What rounding is relative to where a place is brought into the range of a periodic table; 0 of others. */
+/* |first knot| + |last knot| of a periodic table: whole periods are subtracted from a place, and the rounding error of that is
+ * some DBL_EPSILON times this. 0 for other tables, where places are taken as they are. */
 double qdot_samples_blur(double handle);
 /* Whether two handles are of one table. */
 bool qdot_samples_is_same(double a, double b);
-/* Whether the functions of the table jump at knots. */
+/* Whether the function jumps at knots: that of steps does. */
 bool qdot_samples_jumps(double handle);
-/* The range of the table along the axis of such a handle; whether it ends there. */
+/* Of the handle of an axis' pieces, the first and the last knot along the axis. Whether there are no values outside. */
 bool qdot_samples_range(double handle, double *lo, double *hi);
 
 #endif

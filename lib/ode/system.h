@@ -212,9 +212,10 @@ typedef struct qdot_ode_system {
     /* Whether a step of a method without series goes over a part of f that acts for less than the
      * step; NULL if there are no such parts. Errors end the run. */
     qdot_status (*look)(qdot_ode_look *step, void *user);
-    /* The first time beyond t, in the direction +1 or -1, at which f or a derivative of it jumps as t goes on, whatever y
-     * is: a step ends there. Infinite where there is none. At that time f is that of what follows; if
-     * f itself jumps there the double before is such a time, too, so that a step has one f at both ends. NULL: f is smooth. */
+    /* The first time beyond t, in the direction +1 or -1, at which f(t, y) or a derivative of it jumps for every y; infinite if
+     * there is none. A step ends there; at that time f has the values of what follows. If f itself jumps, the double
+     * before that time is returned first: a step up to it has values of one side only, and a step of one double follows,
+     * across the jump. NULL: f is smooth. */
     double (*until)(double t, int direction, void *user);
     /* The same system once more as parts, all of its components in one of them, if there are
      * two or more; borrowed. Each then takes its own steps where nobody looks at those of

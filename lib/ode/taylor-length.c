@@ -149,7 +149,7 @@ find_step_length(run *r, double most, double *h)
             avoid_ending_near_singularity(r, h, most);
             /* use the other coefficients if the last ones underflow; a polynomial allows any step */
             far = l < INFINITY ? l : fmax(0, log2_of_step_by_all_orders(r));
-            if (r->system->until) /* the step is no longer than this, which the unit is near already */
+            if (r->system->until) /* a step ends there at the latest: no unit of time above that length is of use */
                 far = fmin(far, 1 + log2(fabs(qdot_ode_until(r->system, r->t, r->t1) - r->t)) - log2(fabs(r->unit)));
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;

@@ -144,7 +144,7 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
 
 /* --- knots of tables -------------------------------------------------------------------- */
 
-/* The step is looked at in so many places; the passage is then found by so many bisections. */
+/* u is compared with the ends of the piece at so many places of a step; the passage is then found by so many bisections. */
 enum { PLACES = 32, BISECTIONS = 50 };
 
 double

@@ -59,8 +59,9 @@ bool qdot_near_may_fall(int p, const double *b, double s);
  * b is negative there: what is undefined needs no search. */
 double qdot_near_divisor(int p, const double *b, bool root, double s);
 
-/* As much of a step of s as the argument u [p + 1] of a table of data stays in one piece [lo, hi) in, and as much more as
- * rounding cannot take back: the step ends in the next piece. */
+/* The length of a step, at most s, in which the argument u(s) = sum u_k s^k, k = 0 .. p, of a table of data goes from the piece
+ * lo <= u < hi just into the next one: beyond the knot by more than the rounding error of u, so that the next step begins in
+ * the next piece. s if u does not reach a knot within it. */
 double qdot_near_knot(int p, const double *u, double lo, double hi, double s);
 
 /* The shorter of two steps, the second of which is none below `least`. Exponentials are followed to

@@ -30,7 +30,7 @@ safe_step_for_divisor(const qdot_taylor_step *step, int p, double s)
     return qdot_near_divisor(p, b, step->op == QDOT_T_SQRT, s);
 }
 
-/* As much of a step as the argument of a table of data stays in one piece in. */
+/* The part of a step of s until the argument of a table of data passes a knot; not below QDOT_NEAR_FINER `least`. */
 static double
 safe_step_for_table(const qdot_taylor_step *step, int p, double s, double least)
 {
