@@ -216,7 +216,7 @@ symbol_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
                     : qdot_form_constant(&d->forms, qdot_dimension_none());
     else if (unit >= 0)
         *form = qdot_form_constant(&d->forms, base_dimension(unit));
-    else if (qdot_symbol_is_number(d->pool, e)) /* the number of a result; its unit stands beside it */
+    else if (before == QDOT_NIL && qdot_symbol_is_number(d->pool, e)) /* the number of a result; its unit stands beside it */
         *form = qdot_form_constant(&d->forms, qdot_dimension_none());
     else if (s.class == QDOT_TIME)
         *form = qdot_form_constant(&d->forms, base_dimension(2));

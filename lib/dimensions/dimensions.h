@@ -14,6 +14,7 @@
  *     a + b                dim(a) = dim(b)
  *     a^x                  x dim(a) for a rational number x; else dim(a) = dim(x) = 0
  *     sin(a) ...           dim(a) = 0;   abs, min, max, mod, if: the dimension of their values; sign: 0
+ *     a number of a run    0, since its unit stands beside it, but for what stands for something
  *     f(a, b)              dim(f), less that of the arguments by which it is differentiated; dim(a) is the same everywhere
  *
  * Tests  tests/dimensions/test_dimensions.c

@@ -40,16 +40,12 @@ csv_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
         qdot_text_double(out, cell.value, c->exact > 0 ? c->exact : EXACT);
 }
 
-/* Append a row of the table; row == rows: append the names of the columns. */
 static void
 csv_add_row(const qdot_table *t, size_t row, qdot_text *out)
 {
     for (size_t j = 0; j < t->n; j++) {
         qdot_text_add(out, j > 0 ? "," : "");
-        if (row == t->rows)
-            csv_add_field(out, t->columns[j].name);
-        else
-            csv_add_cell(t, row, j, out);
+        csv_add_cell(t, row, j, out);
     }
     qdot_text_char(out, '\n');
 }
@@ -57,7 +53,17 @@ csv_add_row(const qdot_table *t, size_t row, qdot_text *out)
 static void
 csv_add_names(const qdot_table *t, qdot_text *out)
 {
-    csv_add_row(t, t->rows, out);
+    qdot_text name = {0};
+
+    for (size_t j = 0; j < t->n; j++) {
+        qdot_text_truncate(&name, 0);
+        qdot_table_add_name(t, j, &name);
+        qdot_text_add(out, j > 0 ? "," : "");
+        csv_add_field(out, qdot_text_str(&name));
+    }
+    qdot_text_char(out, '\n');
+    out->failed = out->failed || name.failed;
+    qdot_text_clear(&name);
 }
 
 qdot_status

@@ -330,6 +330,8 @@ append_column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_tex
     for (size_t j = 0; j < t->n; j++) {
         qdot_text_truncate(&messages, 0);
         append_data_set(&messages, t, j, numbers);
+        if (t->columns[j].unit != NULL)
+            append_attribute(&messages, &(qdot_table_fact){"units", t->columns[j].unit, 0});
         if (out != NULL)
             append_object(out, &messages);
         where[j] = header;

@@ -25,13 +25,19 @@ typedef struct {
 static void
 html_add_heads(const qdot_table *t, const html_style *style, qdot_text *out)
 {
+    qdot_text head = {0};
+
     qdot_text_add(out, "<tr>");
     for (size_t j = 0; j < t->n; j++) {
+        qdot_text_truncate(&head, 0);
+        (style->names ? qdot_table_add_name : qdot_table_add_head)(t, j, &head);
         qdot_text_add(out, "<th>");
-        html_add_text(style->names ? t->columns[j].name : qdot_table_head(t, j), out);
+        html_add_text(qdot_text_str(&head), out);
         qdot_text_add(out, "</th>");
     }
     qdot_text_add(out, "</tr>");
+    out->failed = out->failed || head.failed;
+    qdot_text_clear(&head);
 }
 
 static void

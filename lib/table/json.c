@@ -63,6 +63,28 @@ json_add_values(const qdot_table *t, size_t row, qdot_text *out)
     qdot_text_add(out, measured ? "]" : "");
 }
 
+/* Append `,"units":["s","m/s",null]` for the columns that stand there, if some column has a unit. */
+static void
+json_add_units(const qdot_table *t, unsigned where, qdot_text *out)
+{
+    const char *before = ",\"units\":[";
+    bool some = false;
+
+    for (size_t j = 0; j < t->n; j++)
+        some = some || t->columns[j].unit != NULL;
+    for (size_t j = 0; j < t->n && some; j++) {
+        if (where == QDOT_IN_ANSWERS ? !json_is_in_values(t, j) : !qdot_table_shows(t, j, where))
+            continue;
+        qdot_text_add(out, before);
+        if (t->columns[j].unit != NULL)
+            qdot_text_json(out, t->columns[j].unit);
+        else
+            qdot_text_add(out, "null");
+        before = ",";
+    }
+    qdot_text_add(out, some ? "]" : "");
+}
+
 void
 qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out)
 {
@@ -78,7 +100,9 @@ qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out)
         qdot_text_json(out, t->columns[j].name);
         before = ",";
     }
-    qdot_text_add(out, "]}\n");
+    qdot_text_char(out, ']');
+    json_add_units(t, QDOT_IN_ANSWERS, out);
+    qdot_text_add(out, "}\n");
 }
 
 void
@@ -133,7 +157,9 @@ json_add_head(const qdot_table *t, qdot_text *out)
         qdot_text_add(out, j > 0 ? "," : "");
         qdot_text_json(out, t->columns[j].name);
     }
-    qdot_text_add(out, "],\n\"rows\":[");
+    qdot_text_char(out, ']');
+    json_add_units(t, QDOT_IN_FILES, out);
+    qdot_text_add(out, ",\n\"rows\":[");
 }
 
 static void

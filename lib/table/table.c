@@ -146,12 +146,26 @@ qdot_table_select(const qdot_table *t, unsigned where, qdot_table *out)
     return QDOT_OK;
 }
 
-const char *
-qdot_table_head(const qdot_table *t, size_t column)
+static void
+table_add_with_unit(const char *text, const char *unit, qdot_text *out)
+{
+    qdot_text_add(out, text);
+    if (unit != NULL)
+        qdot_text_format(out, " [%s]", unit);
+}
+
+void
+qdot_table_add_head(const qdot_table *t, size_t column, qdot_text *out)
 {
     const qdot_table_column *c = &t->columns[column];
 
-    return c->head != NULL ? c->head : c->name;
+    table_add_with_unit(c->head != NULL ? c->head : c->name, c->unit, out);
+}
+
+void
+qdot_table_add_name(const qdot_table *t, size_t column, qdot_text *out)
+{
+    table_add_with_unit(t->columns[column].name, t->columns[column].unit, out);
 }
 
 static void

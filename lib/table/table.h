@@ -45,6 +45,7 @@ enum {
 typedef struct {
     const char *name; /* name of the column, UTF-8 */
     const char *head; /* heading of the column for a human reader; NULL: the name */
+    const char *unit; /* unit of its numbers, as "m/s"; NULL: none */
     unsigned in;      /* bits QDOT_IN_...: where the column appears; 0: everywhere */
     qdot_cell_kind kind;
 
@@ -124,8 +125,9 @@ qdot_table_shows(const qdot_table *t, size_t column, unsigned where)
  * QDOT_EINVAL: it has no column; QDOT_ENOMEM, also if cells could not be added. */
 QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_table *t, unsigned where, qdot_table *out);
 
-/* The heading of a column, for a human reader. */
-const char *qdot_table_head(const qdot_table *t, size_t column);
+/* Append the heading of a column for a human reader, its name in a file; with its unit: "v [m/s]". */
+void qdot_table_add_head(const qdot_table *t, size_t column, qdot_text *out);
+void qdot_table_add_name(const qdot_table *t, size_t column, qdot_text *out);
 /* Append a cell as text for reading, `none` if it has no number; digits 0: as many as the column states. */
 void qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
 

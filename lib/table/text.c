@@ -35,7 +35,7 @@ text_write_cell(text_writer *w, size_t row, size_t column)
 {
     qdot_text_truncate(&w->cell, 0);
     if (row == w->t->rows)
-        qdot_text_add(&w->cell, qdot_table_head(w->t, column));
+        qdot_table_add_head(w->t, column, &w->cell);
     else
         qdot_table_print_cell(w->t, row, column, w->options->digits, "-", &w->cell);
     return qdot_utf8_columns(qdot_text_str(&w->cell), w->cell.n);

@@ -58,13 +58,13 @@ static void
 file_holds_header_and_rows(void **state)
 {
     const double t[] = {0, 0.5}, x[] = {-2.25, 0.1};
-    qdot_table_column columns[] = {{.name = "t", .values = t}, {.name = "theta'", .values = x}};
+    qdot_table_column columns[] = {{.name = "t", .unit = "s", .values = t}, {.name = "theta'", .values = x}};
     char *text;
 
     (void)state;
     assert_int_equal(csv_write(2, columns, 2, "a.csv"), QDOT_OK);
     text = contents("a.csv");
-    assert_string_equal(text, "t,theta'\n0,-2.25\n0.5,0.10000000000000001\n");
+    assert_string_equal(text, "t [s],theta'\n0,-2.25\n0.5,0.10000000000000001\n");
     free(text);
 }
 

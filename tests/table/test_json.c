@@ -90,6 +90,11 @@ rows_are_answers(void **state)
     assert_string_equal(qdot_text_str(&out),
                         "{\"kind\":\"columns\",\"name\":\"curve\",\"columns\":[\"x\",\"y\",\"z\"]}\n");
     qdot_text_truncate(&out, 0);
+    all[3].unit = "m/s";
+    qdot_table_json_columns(&rows, "table", &out);
+    assert_string_equal(qdot_text_str(&out), "{\"kind\":\"columns\",\"name\":\"curve\",\"columns\":[\"x\",\"y\",\"z\"],"
+                                             "\"units\":[null,\"m/s\",null]}\n");
+    qdot_text_truncate(&out, 0);
     qdot_table_json_row(&rows, 0, &out);
     qdot_table_json_row(&rows, 1, &out);
     assert_string_equal(qdot_text_str(&out),

@@ -15,7 +15,10 @@ qdot_grid_free(qdot_grid *g)
 {
     for (size_t i = 0; g->labels != NULL && i < g->table.n; i++)
         qdot_free(g->labels[i]);
+    for (size_t i = 0; g->units != NULL && i < g->table.n; i++)
+        qdot_free(g->units[i]);
     qdot_free(g->labels);
+    qdot_free(g->units);
     qdot_free(g->values);
     qdot_free(g->table.columns);
 }
@@ -27,33 +30,31 @@ allocate_grid(qdot_grid *g, size_t n, size_t rows)
     g->table.rows = rows;
     g->values = qdot_calloc(n * rows, sizeof *g->values);
     g->labels = qdot_calloc(n, sizeof *g->labels);
+    g->units = qdot_calloc(n, sizeof *g->units);
     g->table.columns = qdot_calloc(n, sizeof *g->table.columns);
-    if (g->values == NULL || g->labels == NULL || g->table.columns == NULL)
+    if (g->values == NULL || g->labels == NULL || g->units == NULL || g->table.columns == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         g->table.columns[i] = (qdot_table_column){.digits = DIGITS, .gap = 2, .values = g->values + i * rows};
     return QDOT_OK;
 }
 
-/* Write the label of column i, of the expression e: "R", or "R[2]" for one of several components; in a session with units
- * "R [m]". */
+/* Write the label of column i, of the expression e: "R", or "R[2]" for one of several components; and its unit. */
 static qdot_status
 label_column(qdot_grid *g, size_t i, qdot_session *session, qdot_expr e, const char *label, size_t component,
              size_t components)
 {
-    qdot_text text = {0};
+    qdot_text text = {0}, unit = {0};
 
     qdot_text_add(&text, label);
     if (components > 1)
         qdot_text_format(&text, "[%zu]", component + 1);
-    qdot_units_in_brackets(session, e, &text);
-    if (qdot_text_status(&text) != QDOT_OK) {
-        qdot_text_clear(&text);
-        return QDOT_ENOMEM;
-    }
+    qdot_units_label(session, e, &unit);
     g->labels[i] = text.at;
+    g->units[i] = unit.at;
     g->table.columns[i].name = text.at;
-    return QDOT_OK;
+    g->table.columns[i].unit = unit.n > 0 ? unit.at : NULL;
+    return text.failed || unit.failed ? QDOT_ENOMEM : QDOT_OK;
 }
 
 qdot_status

@@ -8,7 +8,7 @@
 typedef struct {
     qdot_table table;
     double *values; /* all cells, column by column */
-    char **labels;
+    char **labels, **units; /* [table.n]; of a column without a unit: NULL */
 } qdot_grid;
 
 /* Evaluate t and every operand at these times [rows] into the grid's columns; free the grid in any case. */

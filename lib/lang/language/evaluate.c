@@ -216,6 +216,8 @@ evaluate_range_function(qdot_machine *m, const qdot_postfix *code)
     else
         QDOT_TRY(qdot_resolve_over_range(m->session, code->token->text, code->n, m->args.at,
                                          &value));
+    for (size_t i = code->n - 2; i < code->n && along; i++)
+        QDOT_TRY(qdot_units_time(m->session, m->args.at[i]));
     if (along && qdot_units_on(m->session))
         QDOT_TRY(qdot_units_of_call(m->session, code->token->text, code->n - 2, m->args.at, &value));
     return qdot_machine_push(m, value);

@@ -200,6 +200,7 @@ entry_of_arguments(const qdot_pool *pool, uint32_t n, const qdot_expr *args, uin
 qdot_status
 qdot_units_of_call(qdot_session *session, const char *name, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
+    static const char *const circular[] = {"sin", "cos", "tan"};
     static const char *const numbers[] = {"value", "numeric", "N", "mean", "min", "max"};
     qdot_pool *pool = session->pool;
     const bool scalar = qdot_expr_is_scalar(pool, *value);
@@ -207,10 +208,15 @@ qdot_units_of_call(qdot_session *session, const char *name, uint32_t n, const qd
     qdot_status status = QDOT_OK;
     size_t k = 0;
 
+    for (size_t i = 0; i < sizeof circular / sizeof *circular && n == 1; i++)
+        if (strcmp(circular[i], name) == 0)
+            return qdot_units_angles_in(session, args[0]);
     while (k < sizeof numbers / sizeof *numbers && strcmp(numbers[k], name) != 0)
         k++;
     if (k == sizeof numbers / sizeof *numbers || n == 0)
         return QDOT_OK;
+    if (k == 0 && n > 1)
+        QDOT_TRY(qdot_units_time(session, args[n - 1]));
     n = k == 0 && n > 1 ? n - 1 : k == 0 ? n : 1; /* the last argument of `value` is the time */
     for (uint32_t i = 0; i < (scalar ? 1 : qdot_expr_count(pool, *value)) && status == QDOT_OK; i++) {
         qdot_expr one = scalar ? *value : qdot_expr_arg(pool, *value, i);

@@ -2,6 +2,8 @@
 #include "lang/session/measured.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/text.h"
 #include "expr/calculus.h"
@@ -60,6 +62,18 @@ qdot_measured_add(qdot_session *session, qdot_measured m)
     return qdot_vec_push(session->measured, m) == QDOT_OK
                ? m.symbol
                : qdot_pool_fail(session->pool);
+}
+
+const qdot_measured *
+qdot_measured_find(const qdot_session *session, qdot_expr symbol)
+{
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, symbol);
+    const char *mark = s != NULL && s->class == QDOT_FORMAL ? strrchr(s->name, '#') : NULL;
+    const size_t i = mark != NULL ? (size_t)strtoul(mark + 1, NULL, 10) : 0;
+
+    return i >= 1 && i <= session->measured->n && session->measured->at[i - 1].symbol == symbol
+               ? &session->measured->at[i - 1]
+               : NULL;
 }
 
 qdot_expr

@@ -23,6 +23,8 @@ typedef struct qdot_measured_list {
 /* A new symbol for a result of a run; nil on failure, which the pool keeps. */
 qdot_expr qdot_measured_new(qdot_session *session, double value, double error);
 qdot_expr qdot_measured_add(qdot_session *session, qdot_measured m);
+/* The number of a run for which the symbol stands; NULL: it is another. Valid until the next number is added. */
+const qdot_measured *qdot_measured_find(const qdot_session *session, qdot_expr symbol);
 /* Whether e contains a number from a run. */
 bool qdot_measured_occurs(qdot_session *session, qdot_expr e);
 /* The expression e with the results of runs in it replaced by exact rationals. */

@@ -53,6 +53,7 @@ add_value_columns(const qdot_row_table *t, qdot_row_columns *x)
 {
     for (size_t i = 0; i < t->n; i++)
         x->table.columns[x->table.n++] = (qdot_table_column){.name = t->labels[i],
+                                                             .unit = t->units[i],
                                                              .form = QDOT_NUMBER_MEASURED,
                                                              .gap = GAP,
                                                              .measured = true,
@@ -63,6 +64,7 @@ add_value_columns(const qdot_row_table *t, qdot_row_columns *x)
         qdot_text_format(&x->labels[i], "error of %s", t->labels[t->n_swept + i]);
         QDOT_TRY(qdot_text_status(&x->labels[i]));
         x->table.columns[x->table.n++] = (qdot_table_column){.name = qdot_text_str(&x->labels[i]),
+                                                             .unit = t->units[t->n_swept + i],
                                                              .in = QDOT_IN_DATA,
                                                              .gap = GAP,
                                                              .values = t->errors + t->n_swept + i,

@@ -18,7 +18,8 @@ qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const
     t->n_swept = n_swept;
     t->name = qdot_strdup(name);
     t->labels = qdot_calloc(n + 1, sizeof *t->labels);
-    good = t->name && t->labels;
+    t->units = qdot_calloc(n + 1, sizeof *t->units);
+    good = t->name && t->labels && t->units;
     for (size_t i = 0; i < n && good; i++) {
         t->labels[i] = qdot_strdup(labels[i]);
         good = t->labels[i] != NULL;
@@ -27,6 +28,14 @@ qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const
         return t;
     qdot_row_table_release(t);
     return NULL;
+}
+
+qdot_status
+qdot_row_table_set_unit(qdot_row_table *t, size_t i, const char *unit)
+{
+    qdot_free(t->units[i]);
+    t->units[i] = *unit != '\0' ? qdot_strdup(unit) : NULL;
+    return *unit == '\0' || t->units[i] != NULL ? QDOT_OK : QDOT_ENOMEM;
 }
 
 static qdot_status
@@ -80,6 +89,8 @@ qdot_row_table_release(qdot_row_table *t)
         return;
     for (size_t i = 0; t->labels != NULL && i < t->n; i++)
         qdot_free(t->labels[i]);
+    for (size_t i = 0; t->units != NULL && i < t->n; i++)
+        qdot_free(t->units[i]);
     for (size_t i = 0; t->reasons != NULL && i < t->rows; i++)
         qdot_free(t->reasons[i]);
     for (size_t i = 0; i < t->n_parameters; i++)
@@ -90,6 +101,7 @@ qdot_row_table_release(qdot_row_table *t)
     qdot_row_table_release(t->marks);
     qdot_free(t->name);
     qdot_free(t->labels);
+    qdot_free(t->units);
     qdot_free(t->values);
     qdot_free(t->errors);
     qdot_free(t->reasons);

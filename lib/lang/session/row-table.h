@@ -20,6 +20,7 @@ typedef struct qdot_row_table {
     bool measured;           /* rows are measured data, drawn as points over the first column */
     qdot_function_body *members; /* for a sweep: the text of its statement up to the colon, with variables and run */
     char **labels;           /* [n] labels of the columns */
+    char **units;            /* [n] their units; NULL: none, or not known yet */
     size_t n_parameters;     /* parameters that had the same value in all rows */
     char **parameters;       /* [n_parameters] names of these parameters */
     double *parameter_values; /* [n_parameters] values of these parameters */
@@ -37,6 +38,8 @@ typedef struct qdot_row_table {
 /* Make a table without rows; labels are copied. NULL: no memory. */
 qdot_row_table *qdot_row_table_new(const char *name, size_t n_swept, size_t n,
                                    const char *const *labels);
+/* The numbers of column i are in this unit, a copy of which is made; "": they have none. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_row_table_set_unit(qdot_row_table *table, size_t i, const char *unit);
 /* Append one row filled with NaN. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add(qdot_row_table *table);
 /* Append `rows` rows, with no spare capacity. QDOT_ENOMEM. */

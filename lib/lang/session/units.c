@@ -6,6 +6,7 @@
 #include "expr/symbol.h"
 #include "expr/unit.h"
 #include "expr/walk.h"
+#include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/values.h"
 
@@ -43,13 +44,16 @@ qdot_units_back_to(qdot_session *session, size_t n)
 
 /* --- the solver ------------------------------------------------------------------------ */
 
-/* What a symbol of a.EXPR stands for. */
+/* What a symbol of a.EXPR stands for; for the time of an event, t. */
 static qdot_expr
 stands_for(const void *session, qdot_expr symbol)
 {
     const qdot_member *member = qdot_member_find(session, symbol);
+    const qdot_measured *measured = member == NULL ? qdot_measured_find(session, symbol) : NULL;
 
-    return member != NULL ? member->value : QDOT_NIL;
+    if (member != NULL)
+        return member->value;
+    return measured != NULL && measured->origin.kind == QDOT_ORIGIN_EVENT ? QDOT_T : QDOT_NIL;
 }
 
 static qdot_status
@@ -61,6 +65,22 @@ carry_out_fact(qdot_dimensions *known, const qdot_unit_fact *fact, const char *f
     case QDOT_FACT_FIX: return qdot_dimensions_fix(known, fact->a, fact->is, format);
     default: return QDOT_OK;
     }
+}
+
+/* Whether e is a symbol of which the fact is known, or a time derivative of one. */
+static bool
+has_fact(const qdot_session *session, qdot_expr e, qdot_unit_fact_kind kind)
+{
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, e);
+    const qdot_units *units = session->units;
+
+    if (s == NULL)
+        return false;
+    e = s->class == QDOT_COORD && s->base != QDOT_NIL ? s->base : e;
+    for (size_t i = 0; i < units->facts.n; i++)
+        if (units->facts.at[i].kind == kind && units->facts.at[i].a == e)
+            return true;
+    return false;
 }
 
 /* Make the solver from the facts that it does not have yet. */
@@ -121,6 +141,46 @@ qdot_units_angle(qdot_session *session, qdot_expr symbol)
     return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_ANGLE, .a = symbol}, NULL);
 }
 
+/* The term of a sum in the argument of a sine is an angle where it is a symbol, or a number times one. */
+static qdot_status
+note_angle(qdot_session *session, qdot_expr term)
+{
+    const qdot_pool *pool = session->pool;
+    const qdot_symbol *s;
+
+    if (qdot_expr_kind(pool, term) == QDOT_PROD && qdot_expr_count(pool, term) == 3 && qdot_expr_arg(pool, term, 2) == QDOT_ONE)
+        term = qdot_expr_arg(pool, term, 1);
+    s = qdot_expr_symbol(pool, term);
+    if (s == NULL || s->base != QDOT_NIL || (s->class != QDOT_COORD && s->class != QDOT_PARAM) ||
+        has_fact(session, term, QDOT_FACT_ANGLE))
+        return QDOT_OK;
+    return qdot_units_angle(session, term);
+}
+
+qdot_status
+qdot_units_angles_in(qdot_session *session, qdot_expr argument)
+{
+    const qdot_pool *pool = session->pool;
+
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    if (qdot_expr_kind(pool, argument) != QDOT_SUM)
+        return note_angle(session, argument);
+    for (uint32_t i = 1; i < qdot_expr_count(pool, argument); i += 2)
+        QDOT_TRY(note_angle(session, qdot_expr_arg(pool, argument, i)));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_units_time(qdot_session *session, qdot_expr e)
+{
+    static const int time[QDOT_BASES] = {0, 0, 1};
+
+    return qdot_expr_is_constant(session->pool, e)
+               ? QDOT_OK
+               : qdot_units_fix(session, e, qdot_dimension_make(time), "a time belongs here, not %s");
+}
+
 qdot_status
 qdot_units_scaled(qdot_session *session, qdot_expr symbol)
 {
@@ -138,20 +198,27 @@ qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension)
 
 /* --- units of numbers ------------------------------------------------------------------- */
 
-/* Whether e is a symbol of which the fact is known, or a time derivative of one. */
-static bool
-has_fact(const qdot_session *session, qdot_expr e, qdot_unit_fact_kind kind)
+/* The expression whose value the number e of a run is, such as value(theta', 1); others are themselves. */
+static qdot_expr
+expression_behind(const qdot_session *session, qdot_expr e)
 {
-    const qdot_symbol *s = qdot_expr_symbol(session->pool, e);
-    const qdot_units *units = session->units;
+    const qdot_pool *pool = session->pool;
+    const qdot_measured *measured;
+    const qdot_member *member;
+    qdot_expr number = e;
 
-    if (s == NULL)
-        return false;
-    e = s->class == QDOT_COORD && s->base != QDOT_NIL ? s->base : e;
-    for (size_t i = 0; i < units->facts.n; i++)
-        if (units->facts.at[i].kind == kind && units->facts.at[i].a == e)
-            return true;
-    return false;
+    for (uint32_t i = 1; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2) {
+        if (qdot_unit_symbol_base(pool, qdot_expr_arg(pool, e, i)) >= 0)
+            continue;
+        if (number != e || qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
+            return e;
+        number = qdot_expr_arg(pool, e, i);
+    }
+    measured = qdot_measured_find(session, number);
+    member = qdot_member_find(session, number);
+    if (measured != NULL && measured->origin.e != QDOT_NIL)
+        return measured->origin.e;
+    return member != NULL ? member->value : e;
 }
 
 bool
@@ -186,7 +253,10 @@ find_angle(const qdot_session *session, qdot_expr e, qdot_dimension is)
 {
     const qdot_exponent time = is.of[2];
 
-    return has_fact(session, e, QDOT_FACT_ANGLE) && time.n <= 0 && time.n >= -2 && time.d == 1 ? &angles[-time.n] : NULL;
+    for (int i = 0; i < QDOT_BASES; i++)
+        if (i != 2 && is.of[i].n != 0)
+            return NULL;
+    return has_fact(session, expression_behind(session, e), QDOT_FACT_ANGLE) && time.n <= 0 && time.n >= -2 && time.d == 1 ? &angles[-time.n] : NULL;
 }
 
 void

@@ -40,6 +40,10 @@ QDOT_MUST_CHECK qdot_status qdot_units_join(qdot_session *session, qdot_expr a, 
 QDOT_MUST_CHECK qdot_status qdot_units_fix(qdot_session *session, qdot_expr e, qdot_dimension is, const char *format);
 /* The symbol is an angle: its unit is written, as rad. */
 QDOT_MUST_CHECK qdot_status qdot_units_angle(qdot_session *session, qdot_expr symbol);
+/* The symbols that are summands of the argument of a sine, cosine or tangent, up to a number, are angles. */
+QDOT_MUST_CHECK qdot_status qdot_units_angles_in(qdot_session *session, qdot_expr argument);
+/* e is a time: one with its unit, or a bare number, in s. */
+QDOT_MUST_CHECK qdot_status qdot_units_time(qdot_session *session, qdot_expr e);
 
 /* The symbol was declared in a unit that is not 1 in SI units, such as cm or deg; whether it was, or is a derivative. */
 QDOT_MUST_CHECK qdot_status qdot_units_scaled(qdot_session *session, qdot_expr symbol);

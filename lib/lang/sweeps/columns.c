@@ -9,6 +9,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
 #include "lang/session/runs.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 
 qdot_status
@@ -30,12 +31,35 @@ qdot_columns_free(qdot_columns *x)
     *x = (qdot_columns){0};
 }
 
+/* Column k of the table is of the dimension of e. */
+static qdot_status
+set_unit(qdot_session *session, qdot_row_table *table, size_t k, qdot_expr e)
+{
+    qdot_text unit = {0};
+    qdot_status status;
+
+    if (table == NULL || e == QDOT_NIL || !qdot_units_on(session))
+        return QDOT_OK;
+    qdot_units_label(session, e, &unit);
+    status = qdot_text_status(&unit);
+    if (status == QDOT_OK)
+        status = qdot_row_table_set_unit(table, k, qdot_text_str(&unit));
+    qdot_text_clear(&unit);
+    return status;
+}
+
+qdot_status
+qdot_columns_note_unit(qdot_session *session, const qdot_columns *x, size_t i, qdot_expr e)
+{
+    return set_unit(session, x->table, x->table != NULL ? x->table->n_swept + i : 0, e);
+}
+
 qdot_status
 qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
 {
     QDOT_TRY(qdot_compiled_motion(c, x->at.at[i], e));
     c->error_at = x->at.at[i]->from->start;
-    return qdot_expr_is_scalar(c->session->pool, *e) ? QDOT_OK
+    return qdot_expr_is_scalar(c->session->pool, *e) ? qdot_columns_note_unit(c->session, x, i, *e)
                                                      : qdot_fail(QDOT_ETYPE, "a column is one number a row");
 }
 
@@ -100,15 +124,15 @@ qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t
 }
 
 qdot_status
-qdot_columns_table(qdot_session *session, const qdot_columns *x, const char *name, size_t n,
-                   const char *const *before, qdot_row_table **table)
+qdot_columns_table(qdot_session *session, qdot_columns *x, const char *name, size_t n,
+                   const qdot_columns_before *before, qdot_row_table **table)
 {
     const char **labels = qdot_calloc(n + x->at.n, sizeof *labels);
     qdot_text *texts = qdot_calloc(x->at.n, sizeof *texts);
     qdot_status status = labels && texts ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        labels[i] = before[i];
+        labels[i] = before[i].label;
     for (size_t i = 0; i < x->at.n && status == QDOT_OK; i++) {
         qdot_token_text(session, x->at.at[i]->from, x->at.at[i]->to, &texts[i]);
         status = qdot_text_status(&texts[i]);
@@ -117,7 +141,10 @@ qdot_columns_table(qdot_session *session, const qdot_columns *x, const char *nam
     if (status == QDOT_OK) {
         *table = qdot_row_table_new(name, n, n + x->at.n, labels);
         status = *table ? QDOT_OK : QDOT_ENOMEM;
+        x->table = *table;
     }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        status = set_unit(session, *table, i, before[i].of);
     for (size_t i = 0; texts && i < x->at.n; i++)
         qdot_text_clear(&texts[i]);
     qdot_free(texts);

@@ -12,6 +12,7 @@
 
 typedef struct {
     qdot_vec(const qdot_compiled *) at; /* the expressions; owned by the record */
+    qdot_row_table *table; /* the table of them, borrowed: their units are written there when they are read; NULL: none yet */
 } qdot_columns;
 
 /* Find all column expressions of the statement. x starts as {0}; free it in any case, before the record. */
@@ -27,10 +28,17 @@ QDOT_MUST_CHECK qdot_status qdot_columns_measure(qdot_cursor *c, const qdot_colu
 /* Whether column i uses value, max, min, mean or drift, which read a run at intermediate times, but
  * none of its events. */
 bool qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t i);
-/* Make a table without rows: the columns `before` [n], then these columns. */
-QDOT_MUST_CHECK qdot_status qdot_columns_table(qdot_session *session, const qdot_columns *x,
+/* A column before those that are asked for: its label, and what it is; nil: its unit is not said. */
+typedef struct {
+    const char *label;
+    qdot_expr of;
+} qdot_columns_before;
+/* Make a table without rows: the columns `before` [n], then these columns. It stays x->table until the table is freed. */
+QDOT_MUST_CHECK qdot_status qdot_columns_table(qdot_session *session, qdot_columns *x,
                                                const char *name, size_t n,
-                                               const char *const *before,
+                                               const qdot_columns_before *before,
                                                qdot_row_table **table);
+/* Column i is of the dimension of e. */
+QDOT_MUST_CHECK qdot_status qdot_columns_note_unit(qdot_session *session, const qdot_columns *x, size_t i, qdot_expr e);
 
 #endif

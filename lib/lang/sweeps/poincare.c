@@ -235,16 +235,19 @@ static qdot_status
 make_table(qdot_session *session, poincare *p)
 {
     const size_t n = p->sweep != NULL ? p->sweep->n_swept : 0;
-    const char **before = qdot_calloc(n + 1, sizeof *before);
+    qdot_columns_before *before = qdot_calloc(n + 1, sizeof *before);
     qdot_status status;
 
     if (before == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
-        before[i] = p->sweep->labels[i];
-    before[n] = "t";
+        before[i].label = p->sweep->labels[i];
+    before[n] = (qdot_columns_before){"t", QDOT_T};
     status = qdot_columns_table(session, &p->columns, p->name != NULL ? p->name : "poincare",
                                 n + 1, before, &p->table);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        if (p->sweep->units[i] != NULL)
+            status = qdot_row_table_set_unit(p->table, i, p->sweep->units[i]);
     if (p->table != NULL)
         p->table->scattered = true;
     qdot_free(before);

@@ -113,6 +113,7 @@ lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
 
         if ((event = event_time_of_column(x->s, i, &k)) != NULL) {
             QDOT_TRY(set_event_column(x, event, k, &x->columns[i]));
+            QDOT_TRY(qdot_columns_note_unit(x->s->c->session, &x->s->columns, i, QDOT_T));
             continue;
         }
         if (qdot_columns_read_way(x->s->c->session, &x->s->columns, i)) {

@@ -108,7 +108,7 @@ static qdot_status
 make_table(qdot_session *session, qdot_sweep *s)
 {
     const qdot_sweep_axes *axes = &s->members.axes;
-    const char **swept = qdot_calloc(axes->at.n + 1, sizeof *swept);
+    qdot_columns_before *swept = qdot_calloc(axes->at.n + 1, sizeof *swept);
     qdot_status status;
     char next[32];
 
@@ -117,7 +117,7 @@ make_table(qdot_session *session, qdot_sweep *s)
     if (s->name == NULL)
         qdot_row_tables_next_name(session, next, sizeof next);
     for (size_t i = 0; i < axes->at.n; i++)
-        swept[i] = axes->at.at[i].label;
+        swept[i] = (qdot_columns_before){axes->at.at[i].label, axes->at.at[i].symbol};
     status = qdot_columns_table(session, &s->columns, s->name != NULL ? s->name : next,
                                 axes->at.n, swept, &s->table);
     if (s->table != NULL)

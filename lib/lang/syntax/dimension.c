@@ -70,6 +70,8 @@ qdot_hole_dimension(qdot_session *session, const char *statement, const qdot_usa
     status = qdot_text_status(&format);
     if (status == QDOT_OK)
         status = qdot_units_fix(session, value, qdot_dimension_make(row->exponent), format.at);
+    if (status == QDOT_OK && suits("an angle", row->words))
+        status = qdot_units_angles_in(session, value);
     qdot_text_clear(&format);
     return status;
 }

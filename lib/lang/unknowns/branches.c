@@ -22,6 +22,12 @@ name_of_quantity(const qdot_branches *b, size_t i)
     return b->names[i];
 }
 
+static const char *
+unit_of_quantity(const qdot_branches *b, size_t i)
+{
+    return b->units != NULL ? b->units[i] : NULL;
+}
+
 /* --- tables of branches -------------------------------------------------------------------- */
 
 static qdot_status
@@ -96,6 +102,14 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     qdot_free(labels);
     if (all == NULL || points == NULL)
         status = QDOT_ENOMEM;
+    for (size_t q = 0; q <= k && status == QDOT_OK; q++) {
+        const char *unit = unit_of_quantity(b, q == 0 ? b->found->n : b->columns[q - 1]);
+
+        if (unit != NULL)
+            status = qdot_row_table_set_unit(all, 1 + q, unit);
+        if (unit != NULL && status == QDOT_OK)
+            status = qdot_row_table_set_unit(points, q, unit);
+    }
     if (status == QDOT_OK)
         status = fill_branch_table(b, all);
     if (status == QDOT_OK)
@@ -127,7 +141,8 @@ fill_columns(const qdot_branches *b, const double *y, size_t stride, qdot_table_
     for (size_t q = 0; q <= b->n_columns; q++) {
         const size_t k = q == 0 ? b->found->n : b->columns[q - 1];
 
-        columns[q] = (qdot_table_column){.name = name_of_quantity(b, k), .values = y + k, .stride = stride};
+        columns[q] = (qdot_table_column){
+            .name = name_of_quantity(b, k), .unit = unit_of_quantity(b, k), .values = y + k, .stride = stride};
     }
 }
 
@@ -495,12 +510,14 @@ begin_text_table(const qdot_branches *b, const char *first, const char *last, qd
     if (columns == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++) {
-        const char *name = i == 0       ? first
-                           : i == 1     ? name_of_quantity(b, b->found->n)
-                           : i + 1 == n ? last
-                                        : name_of_quantity(b, b->columns[i - 2]);
+        const bool quantity = i > 0 && i + 1 < n;
+        const size_t k = i == 1 ? b->found->n : quantity ? b->columns[i - 2] : 0;
 
-        columns[i] = (qdot_table_column){.name = name, .kind = QDOT_CELL_TEXT, .left = true, .gap = 2};
+        columns[i] = (qdot_table_column){.name = quantity ? name_of_quantity(b, k) : i == 0 ? first : last,
+                                         .unit = quantity ? unit_of_quantity(b, k) : NULL,
+                                         .kind = QDOT_CELL_TEXT,
+                                         .left = true,
+                                         .gap = 2};
     }
     status = qdot_table_begin(t, n, columns);
     qdot_free(columns);

@@ -18,6 +18,8 @@
 typedef struct {
     const qdot_continuation *found;
     const char *const *names; /* [found->width] names of unknowns, parameter, further quantities */
+    const qdot_expr *of;      /* [found->width] what these are, for their units; nil: plain numbers */
+    char *const *units;       /* [found->width] their units, NULL: none; or NULL: no units */
     const size_t *columns; /* [n_columns] indices of the quantities shown as columns, besides p */
     size_t n_columns, n_told, n_drawn; /* of the columns the first n_told appear in the text, the first n_drawn in the figure */
     bool orbits;

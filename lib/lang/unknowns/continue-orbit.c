@@ -11,6 +11,7 @@
 #include "lang/slopes/orbit-run.h"
 #include "lang/slopes/slopes.h"
 #include "lang/unknowns/continue-parts.h"
+#include "mech/dynamics/quantity.h"
 #include "sim/branches/orbit-continuation.h"
 
 enum { NAME_ROOM = 120 };
@@ -29,6 +30,7 @@ typedef struct {
     qdot_continuation found;
     char (*text)[NAME_ROOM]; /* [width] names of columns that are made here */
     const char **names;
+    qdot_expr *quantities; /* [width] what these are; nil: plain numbers */
     size_t *columns;
 } job;
 
@@ -131,10 +133,19 @@ make_column_names(job *j, qdot_branches *b)
     j->text = qdot_calloc(width, sizeof *j->text);
     j->names = qdot_calloc(width, sizeof *j->names);
     j->columns = qdot_calloc(width, sizeof *j->columns);
-    if (!j->text || !j->names || !j->columns)
+    j->quantities = qdot_calloc(width, sizeof *j->quantities);
+    if (!j->text || !j->names || !j->columns || !j->quantities)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < width; i++)
+    for (size_t i = 0; i < width; i++) {
         j->names[i] = j->text[i];
+        j->quantities[i] = QDOT_NIL;
+    }
+    for (size_t i = 0; i < 2 * n; i++)
+        j->quantities[i] = qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
+    for (size_t i = 0; i < n; i++)
+        j->quantities[behind + i] = s->coordinates.at[i];
+    j->quantities[2 * n] = QDOT_T;
+    j->quantities[j->found.n] = j->w->parameter == QDOT_NIL ? qdot_mech_energy(s) : j->w->parameter;
     for (size_t i = 0; i < 2 * n; i++) /* names are written as text, since after Ctrl-C no symbol can be made */
         snprintf(j->text[i], NAME_ROOM, "%s%s", qdot_expr_symbol(s->pool, s->coordinates.at[i % n])->name,
                  i < n ? "" : "'");
@@ -160,6 +171,7 @@ make_column_names(job *j, qdot_branches *b)
     b->n_columns = k;
     b->names = j->names;
     b->columns = j->columns;
+    b->of = j->quantities;
     return QDOT_OK;
 }
 
@@ -200,6 +212,7 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
     qdot_continuation_clear(&j.found);
     qdot_free(j.text);
     qdot_free(j.names);
+    qdot_free(j.quantities);
     qdot_free(j.columns);
     qdot_free(j.values);
     qdot_free(j.z);

@@ -11,6 +11,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/row-tables.h"
 #include "lang/session/trial.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "lang/slopes/slopes.h"
 #include "lang/syntax/record.h"
@@ -130,18 +131,43 @@ insert_session_values(void *session, qdot_expr e)
     return qdot_session_bind(session, e);
 }
 
+/* Keep the branches and answer them, with the units of their quantities. */
+static qdot_status
+present_branches(qdot_session *session, const qdot_continue_wish *w, qdot_branches b)
+{
+    const size_t n = qdot_units_on(session) ? b.found->width : 0;
+    char **units = qdot_calloc(n + 1, sizeof *units);
+    qdot_status status = units != NULL ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text unit = {0};
+
+        if (b.of[i] == QDOT_NIL)
+            continue;
+        qdot_units_label(session, b.of[i], &unit);
+        status = qdot_text_status(&unit);
+        units[i] = unit.at;
+    }
+    b.units = n > 0 ? units : NULL;
+    if (status == QDOT_OK)
+        status = qdot_branches_keep(session, &b, w->name, w->marks);
+    if (status == QDOT_OK && w->parameter != QDOT_NIL)
+        status = qdot_row_tables_note_parameters(session, qdot_row_tables_find(session, w->name), 1, &w->parameter);
+    if (status == QDOT_OK)
+        status = qdot_branches_answer(session, &b);
+    for (size_t i = 0; units != NULL && i < n; i++)
+        qdot_free(units[i]);
+    qdot_free(units);
+    return status;
+}
+
 qdot_status
 qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const qdot_branches *b, qdot_status status)
 {
     if (b->found->interrupted)
         qdot_interrupt_clear(); /* the interruption is handled here: report the branches found so far */
     if (status == QDOT_OK && b->found->branches.n > 0)
-        status = qdot_branches_keep(session, b, w->name, w->marks);
-    if (status == QDOT_OK && b->found->branches.n > 0 && w->parameter != QDOT_NIL)
-        status = qdot_row_tables_note_parameters(
-            session, qdot_row_tables_find(session, w->name), 1, &w->parameter);
-    if (status == QDOT_OK && b->found->branches.n > 0)
-        status = qdot_branches_answer(session, b);
+        status = present_branches(session, w, *b);
     if (status == QDOT_OK && b->found->interrupted)
         status = qdot_fail(QDOT_EINTR, b->found->branches.n > 0
                                            ? "interrupted: there may be more branches"
@@ -182,6 +208,7 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
     if (status == QDOT_OK) {
         const qdot_branches b = {.found = &found,
                                  .names = names,
+                                 .of = curve.unknown,
                                  .columns = columns,
                                  .n_columns = curve.coordinates,
                                  .n_told = curve.coordinates,
