@@ -310,6 +310,19 @@ qdot_units_groups(qdot_session *session, size_t n, const qdot_expr *x, size_t *c
     return qdot_dimensions_groups(session->units->known, n, x, count, power);
 }
 
+/* Add what was declared before the first unit that has a dimension: a scene of numbers may have angles in degrees. */
+static qdot_status
+look_back(qdot_session *session)
+{
+    const qdot_units *units = session->units;
+
+    for (size_t i = 0; i < units->facts.n; i++)
+        if (units->facts.at[i].kind == QDOT_FACT_SCENE)
+            return QDOT_OK;
+    QDOT_TRY(add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_SCENE}, NULL));
+    return qdot_units_of_scene(session);
+}
+
 qdot_status
 qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit)
 {
@@ -317,6 +330,8 @@ qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit
     qdot_status status = qdot_units_begin(session);
 
     *unit = QDOT_ONE;
+    if (status == QDOT_OK && !qdot_dimension_is_none(dimension))
+        status = look_back(session);
     for (int i = 0; i < QDOT_BASES && status == QDOT_OK; i++) {
         const qdot_exponent x = dimension.of[i];
         const qdot_expr base = x.n != 0 ? qdot_unit_symbol(pool, i) : QDOT_NIL;

@@ -11,9 +11,9 @@
 #include "dimensions/dimensions.h"
 #include "lang/session/parts.h"
 
-typedef enum { QDOT_FACT_BEGIN, QDOT_FACT_VISIT, QDOT_FACT_JOIN, QDOT_FACT_FIX, QDOT_FACT_ANGLE, QDOT_FACT_SCALED } qdot_unit_fact_kind;
+typedef enum { QDOT_FACT_BEGIN, QDOT_FACT_VISIT, QDOT_FACT_JOIN, QDOT_FACT_FIX, QDOT_FACT_ANGLE, QDOT_FACT_SCALED, QDOT_FACT_SCENE } qdot_unit_fact_kind;
 
-/* One fact; the fields that its kind does not use are 0. */
+/* One fact; SCENE: what was declared before the first unit has been added. The fields that its kind does not use are 0. */
 typedef struct {
     qdot_expr a, b;
     qdot_dimension is;
@@ -31,6 +31,8 @@ void qdot_units_clear(qdot_units *units);
 bool qdot_units_on(const qdot_session *session);
 /* The first unit has been written. */
 QDOT_MUST_CHECK qdot_status qdot_units_begin(qdot_session *session);
+/* What the scene and the definitions say that were there before; a failure names what does not agree. */
+QDOT_MUST_CHECK qdot_status qdot_units_of_scene(qdot_session *session);
 /* Drop all but the first n facts. */
 void qdot_units_back_to(qdot_session *session, size_t n);
 
