@@ -130,6 +130,25 @@ write_unit(const qdot_session *session, qdot_text *line)
         qdot_write_field(line, ",\"unit\":", session->output->unit);
 }
 
+/* Append the field of the units of the present answer's numbers, n of them, where these differ. */
+static void
+write_units(const qdot_session *session, size_t n, qdot_text *line)
+{
+    char *const *units = session->output->units;
+
+    if (units == NULL)
+        return;
+    qdot_text_add(line, ",\"units\":[");
+    for (size_t i = 0; i < n; i++) {
+        qdot_text_add(line, i > 0 ? "," : "");
+        if (units[i] != NULL)
+            qdot_text_json(line, units[i]);
+        else
+            qdot_text_add(line, "null");
+    }
+    qdot_text_char(line, ']');
+}
+
 static qdot_status
 answer_expression_as_json(qdot_session *session, const char *name, qdot_expr value)
 {
@@ -241,6 +260,8 @@ answer_numbers_as_text(qdot_session *session, const char *name, size_t n, const 
         if (i > 0)
             qdot_sheet_sign(&s, QDOT_SIGN_COMMA);
         append_number_with_error(&s, values[i], errors[i]);
+        if (session->output->units != NULL && session->output->units[i] != NULL)
+            qdot_sheet_format(&s, " [%s]", session->output->units[i]);
     }
     append_unit(&s);
     return qdot_sheet_end(&s, "", status);
@@ -249,7 +270,7 @@ answer_numbers_as_text(qdot_session *session, const char *name, size_t n, const 
 /* Write {"kind":"number"}, or {"kind":"numbers"} if there are several; values and errors are JSON,
  * with commas. */
 static qdot_status
-answer_numbers_as_json(qdot_session *session, const char *name, bool several,
+answer_numbers_as_json(qdot_session *session, const char *name, bool several, size_t n,
                        const qdot_text *values, const qdot_text *errors)
 {
     qdot_text line = {0};
@@ -262,6 +283,7 @@ answer_numbers_as_json(qdot_session *session, const char *name, bool several,
     qdot_text_add(&line, qdot_text_str(errors));
     qdot_text_add(&line, several ? "]" : "");
     write_unit(session, &line);
+    write_units(session, n, &line);
     qdot_text_add(&line, "}\n");
     line.failed = line.failed || values->failed || errors->failed;
     return qdot_write_object(session, session->output->out, &line);
@@ -280,7 +302,7 @@ answer_numbers(qdot_session *session, const char *name, bool several, size_t n,
         qdot_text_add(&list[i % 2], i > 1 ? "," : "");
         qdot_number_text_json(&list[i % 2], i % 2 == 0 ? values[i / 2] : errors[i / 2]);
     }
-    status = answer_numbers_as_json(session, name, several, &list[0], &list[1]);
+    status = answer_numbers_as_json(session, name, several, n, &list[0], &list[1]);
     qdot_text_clear(&list[0]);
     qdot_text_clear(&list[1]);
     return status;
@@ -324,7 +346,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     qdot_sheet s;
 
     if (session->output->json)
-        return answer_numbers_as_json(session, name, several, values, errors);
+        return answer_numbers_as_json(session, name, several, 0, values, errors);
     s = qdot_sheet_begin(session);
     status = begin_named_formula(&s, name);
     qdot_sheet_words(&s, qdot_text_str(values));

@@ -30,6 +30,32 @@
 
 /* --- answering expressions ---------------------------------------------------------- */
 
+/* The units [n] of the entries of a list, where these differ; *units NULL: they do not, or there are none. Free each and all. */
+static qdot_status
+find_units_of_entries(qdot_session *session, qdot_expr list, char ***units)
+{
+    const uint32_t n = qdot_expr_count(session->pool, list);
+    qdot_status status = QDOT_OK;
+
+    *units = NULL;
+    if (!qdot_units_on(session) || session->output->unit != NULL)
+        return QDOT_OK;
+    *units = qdot_calloc(n + 1, sizeof **units);
+    if (*units == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        status = qdot_units_label_of(session, qdot_expr_arg(session->pool, list, i), &(*units)[i]);
+    return status;
+}
+
+static void
+free_units(char **units, uint32_t n)
+{
+    for (uint32_t i = 0; units != NULL && i < n; i++)
+        qdot_free(units[i]);
+    qdot_free(units);
+}
+
 /* Answer a value that contains results of runs: a number, or a list of numbers. */
 static qdot_status
 answer_run_results(qdot_session *session, const char *name, qdot_expr value)
@@ -39,9 +65,12 @@ answer_run_results(qdot_session *session, const char *name, qdot_expr value)
     uint32_t n = several ? qdot_expr_count(session->pool, value) : 1;
     qdot_status status = QDOT_OK;
     int digits = qdot_digits_of(session, value);
+    char **units = NULL;
 
     if (digits > 0)
         return qdot_digits_answer(session, name, value, digits);
+    if (several)
+        status = find_units_of_entries(session, value, &units);
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_expr member = several ? qdot_expr_arg(session->pool, value, i) : value;
         double x, error;
@@ -52,9 +81,12 @@ answer_run_results(qdot_session *session, const char *name, qdot_expr value)
         if (status == QDOT_OK)
             status = qdot_vec_push(&errors, error);
     }
+    session->output->units = units;
     if (status == QDOT_OK)
         status = several ? qdot_answer_numbers(session, name, n, values.at, errors.at)
                          : qdot_answer_number(session, name, values.at[0], errors.at[0]);
+    session->output->units = NULL;
+    free_units(units, n);
     qdot_free(values.at);
     qdot_free(errors.at);
     return status;

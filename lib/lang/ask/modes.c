@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/history.h"
 #include "lang/session/output.h"
+#include "lang/session/units.h"
 #include "lang/syntax/record.h"
 
 static qdot_status carry_out_modes(qdot_record *r);
@@ -62,6 +63,8 @@ answer_frequency_or_amplitude(qdot_session *session, bool numeric, const char *n
     if (!pair)
         status = append_number(session, value, &line);
     qdot_text_add(&line, pair ? "]" : "");
+    if (session->output->unit != NULL)
+        qdot_text_format(&line, " [%s]", session->output->unit);
     return qdot_answer_written(session, name, status, &line);
 }
 
@@ -72,9 +75,15 @@ answer_modes(qdot_session *session, const qdot_modes *modes)
 
     for (size_t k = 0; k < modes->n; k++) {
         char name[400];
+        qdot_status status;
 
         snprintf(name, sizeof name, "modes[%zu]", k + 1);
-        QDOT_TRY(answer_frequency_or_amplitude(session, modes->numeric, name, modes->frequency[k]));
+        if (qdot_units_on(session) &&
+            (modes->numeric || session->output->json || qdot_expr_is_constant(session->pool, modes->frequency[k])))
+            session->output->unit = "rad/s";
+        status = answer_frequency_or_amplitude(session, modes->numeric, name, modes->frequency[k]);
+        session->output->unit = NULL;
+        QDOT_TRY(status);
         for (size_t i = 0; i < n; i++) {
             snprintf(
                 name, sizeof name, "modes[%zu, %.300s]", k + 1,

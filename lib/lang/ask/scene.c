@@ -30,7 +30,7 @@ carry_out_scene(qdot_record *r)
 
     if (file != NULL)
         return qdot_scene_file_write(&r->cursor, file->from, QDOT_FILE_SCENE);
-    status = qdot_scene_print(session->scene, &text);
+    status = qdot_scene_file_list(session, &text);
     for (size_t i = 0; status == QDOT_OK && (name = qdot_names_at(session->names, i)) != NULL; i++)
         if (name->kind == QDOT_NAME_SPEED) {
             status = qdot_declared_print(session, name, &text);

@@ -288,6 +288,24 @@ append_all_statements(qdot_session *s, bool session, qdot_text *lost, qdot_text 
 }
 
 qdot_status
+qdot_scene_file_list(qdot_session *session, qdot_text *out)
+{
+    const qdot_scene *s = session->scene;
+
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr q = s->coordinates.at[i];
+
+        if (qdot_scene_state_of(s, q) != NULL || qdot_higher_find(s, q) != NULL)
+            continue;
+        qdot_text_add(out, "coord ");
+        QDOT_TRY(qdot_scene_print_domain(s, q, out));
+        qdot_units_in_brackets(session, q, out);
+        qdot_text_char(out, '\n');
+    }
+    return qdot_scene_print_things(s, out);
+}
+
+qdot_status
 qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 {
     qdot_text lost = {0};

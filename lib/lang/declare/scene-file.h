@@ -30,6 +30,8 @@ typedef enum {
     QDOT_FILE_HISTORY  /* the statements that were typed and were successful */
 } qdot_scene_file;
 
+/* Append the scene as it is listed for a reader: the coordinates, with their units, and what is declared with them. */
+QDOT_MUST_CHECK qdot_status qdot_scene_file_list(qdot_session *session, qdot_text *out);
 /* Append the contents of a scene or session file. */
 QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, qdot_scene_file what,
                                                  qdot_text *out);

@@ -44,17 +44,17 @@ static qdot_status
 label_column(qdot_grid *g, size_t i, qdot_session *session, qdot_expr e, const char *label, size_t component,
              size_t components)
 {
-    qdot_text text = {0}, unit = {0};
+    qdot_text text = {0};
 
     qdot_text_add(&text, label);
     if (components > 1)
         qdot_text_format(&text, "[%zu]", component + 1);
-    qdot_units_label(session, e, &unit);
     g->labels[i] = text.at;
-    g->units[i] = unit.at;
     g->table.columns[i].name = text.at;
-    g->table.columns[i].unit = unit.n > 0 ? unit.at : NULL;
-    return text.failed || unit.failed ? QDOT_ENOMEM : QDOT_OK;
+    QDOT_TRY(qdot_text_status(&text));
+    QDOT_TRY(qdot_units_label_of(session, e, &g->units[i]));
+    g->table.columns[i].unit = g->units[i];
+    return QDOT_OK;
 }
 
 qdot_status

@@ -62,7 +62,7 @@ static qdot_status
 add_scene(page *p)
 {
     qdot_text text = {0};
-    qdot_status status = qdot_scene_print(p->session->scene, &text);
+    qdot_status status = qdot_scene_file_list(p->session, &text);
 
     qdot_report_heading(&p->page, "The system");
     if (status == QDOT_OK)

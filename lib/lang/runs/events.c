@@ -8,6 +8,7 @@
 #include "lang/session/event-time.h"
 #include "lang/session/output.h"
 #include "lang/session/runs.h"
+#include "lang/session/units.h"
 #include "lang/syntax/record.h"
 
 static qdot_status carry_out_events(qdot_record *r);
@@ -47,6 +48,18 @@ list_declared_events(qdot_session *session)
     return status;
 }
 
+/* Answer the times [n] of an event in JSON, with their unit. */
+static qdot_status
+answer_times(qdot_session *session, const char *event, size_t n, const double *times, const double *errors)
+{
+    qdot_status status;
+
+    session->output->unit = qdot_units_on(session) ? "s" : NULL;
+    status = qdot_answer_numbers(session, event, n, times, errors);
+    session->output->unit = NULL;
+    return status;
+}
+
 /* List in JSON: one object for each event, with all its times. */
 static qdot_status
 list_events_in_json(qdot_session *session, const qdot_run_occurrence *list, size_t n)
@@ -68,8 +81,7 @@ list_events_in_json(qdot_session *session, const qdot_run_occurrence *list, size
                 status = qdot_vec_push(&errors, list[k].error);
         }
         if (status == QDOT_OK)
-            status = qdot_answer_numbers(session, list[i].event, times.n, times.at,
-                                         errors.at);
+            status = answer_times(session, list[i].event, times.n, times.at, errors.at);
         qdot_free(times.at);
         qdot_free(errors.at);
         QDOT_TRY(status);
@@ -115,7 +127,7 @@ append_event_line(qdot_session *session, int digits, qdot_text *text, const qdot
         qdot_text_add(text, " ± ");
         qdot_number_text_bound(text, error);
     }
-    qdot_text_format(text, "  %s\n",
+    qdot_text_format(text, "%s  %s\n", qdot_units_on(session) ? " [s]" : "",
                      o->way > 0   ? "rising"
                      : o->way < 0 ? "falling"
                                   : "touching");

@@ -21,6 +21,7 @@ typedef struct qdot_output {
     struct qdot_formula_page *page;  /* page that collects answers for a file; NULL: none */
     struct qdot_formula_page *block; /* page with the present statement's equations (lang/answer/sheet); NULL: none yet */
     const char *unit; /* unit of the present answer, as "m/s"; NULL: none is written */
+    char *const *units; /* units of the numbers of the present answer, where these differ; each NULL: none; NULL: one unit for all */
     bool json, timing;
     FILE *console; /* the stream of notices; NULL: the same as that of answers */
     bool console_json;

@@ -274,6 +274,20 @@ qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out)
         qdot_dimension_unit(is, out);
 }
 
+qdot_status
+qdot_units_label_of(qdot_session *session, qdot_expr e, char **label)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    qdot_units_label(session, e, &text);
+    status = qdot_text_status(&text);
+    *label = status == QDOT_OK && text.n > 0 ? text.at : NULL;
+    if (*label == NULL)
+        qdot_text_clear(&text);
+    return status;
+}
+
 void
 qdot_units_in_brackets(qdot_session *session, qdot_expr e, qdot_text *out)
 {

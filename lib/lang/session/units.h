@@ -58,6 +58,8 @@ QDOT_MUST_CHECK qdot_status qdot_units_transfer(qdot_session *from, qdot_expr sy
 qdot_dimension_state qdot_units_of(qdot_session *session, qdot_expr e, qdot_dimension *dimension);
 /* Append the unit in which numbers of e are given, as "m/s" or "rad"; nothing: a number, or not known. */
 void qdot_units_label(qdot_session *session, qdot_expr e, qdot_text *out);
+/* The same as a string, which is to be freed; *label NULL: nothing. */
+QDOT_MUST_CHECK qdot_status qdot_units_label_of(qdot_session *session, qdot_expr e, char **label);
 /* The same in brackets: " [m/s]". */
 void qdot_units_in_brackets(qdot_session *session, qdot_expr e, qdot_text *out);
 /* Append the dimension of e in words: "a force", "an angular velocity"; where it is FREE, in terms of those of other names.

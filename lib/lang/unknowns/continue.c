@@ -139,15 +139,9 @@ present_branches(qdot_session *session, const qdot_continue_wish *w, qdot_branch
     char **units = qdot_calloc(n + 1, sizeof *units);
     qdot_status status = units != NULL ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_text unit = {0};
-
-        if (b.of[i] == QDOT_NIL)
-            continue;
-        qdot_units_label(session, b.of[i], &unit);
-        status = qdot_text_status(&unit);
-        units[i] = unit.at;
-    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        if (b.of[i] != QDOT_NIL)
+            status = qdot_units_label_of(session, b.of[i], &units[i]);
     b.units = n > 0 ? units : NULL;
     if (status == QDOT_OK)
         status = qdot_branches_keep(session, &b, w->name, w->marks);
