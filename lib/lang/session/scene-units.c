@@ -16,7 +16,7 @@ static const int none[QDOT_BASES] = {0}, length[QDOT_BASES] = {1}, mass[QDOT_BAS
 
 /* Fail again, with the thing of the scene that does not agree before the message. */
 static qdot_status
-blame(qdot_status status, const char *kind, const char *name)
+blame_thing(qdot_status status, const char *kind, const char *name)
 {
     const qdot_error why = *qdot_last_error();
 
@@ -29,7 +29,7 @@ blame(qdot_status status, const char *kind, const char *name)
 
 /* The summands of arguments of sines, cosines and tangents in e are angles. */
 static qdot_status
-note_angles(qdot_session *session, qdot_expr e)
+note_angles_within(qdot_session *session, qdot_expr e)
 {
     const qdot_pool *pool = session->pool;
     qdot_status status;
@@ -49,34 +49,34 @@ note_angles(qdot_session *session, qdot_expr e)
 
 /* e, where there is one, agrees in itself and is of this dimension. */
 static qdot_status
-add(qdot_session *session, qdot_expr e, const int *is, const char *format)
+infer(qdot_session *session, qdot_expr e, const int *is, const char *format)
 {
     if (e == QDOT_NIL || e == QDOT_ZERO)
         return QDOT_OK;
     QDOT_TRY(qdot_units_visit(session, e));
-    QDOT_TRY(note_angles(session, e));
+    QDOT_TRY(note_angles_within(session, e));
     return is != NULL ? qdot_units_fix(session, e, qdot_dimension_make(is), format) : QDOT_OK;
 }
 
 static qdot_status
-add_masses(qdot_session *session)
+infer_from_masses(qdot_session *session)
 {
     const qdot_scene *s = session->scene;
 
     for (size_t i = 0; i < s->particles.n; i++) {
         const qdot_particle *p = &s->particles.at[i];
 
-        QDOT_TRY(blame(add(session, p->mass, mass, "its mass is a mass, not %s"), "particle", p->name));
-        QDOT_TRY(blame(add(session, p->position, length, "its place has lengths, not %s"), "particle", p->name));
+        QDOT_TRY(blame_thing(infer(session, p->mass, mass, "its mass is a mass, not %s"), "particle", p->name));
+        QDOT_TRY(blame_thing(infer(session, p->position, length, "its place has lengths, not %s"), "particle", p->name));
     }
     for (size_t i = 0; i < s->bodies.n; i++) {
         const qdot_body *b = &s->bodies.at[i];
 
-        QDOT_TRY(blame(add(session, b->mass, mass, "its mass is a mass, not %s"), "body", b->name));
-        QDOT_TRY(blame(add(session, b->position, length, "its place has lengths, not %s"), "body", b->name));
-        QDOT_TRY(blame(add(session, b->inertia, inertia, "its inertia is a moment of inertia, not %s"), "body", b->name));
-        QDOT_TRY(blame(add(session, b->rotation, none, "its rotation has numbers, not %s"), "body", b->name));
-        QDOT_TRY(blame(add(session, b->angle, none, "its angle is an angle, not %s"), "body", b->name));
+        QDOT_TRY(blame_thing(infer(session, b->mass, mass, "its mass is a mass, not %s"), "body", b->name));
+        QDOT_TRY(blame_thing(infer(session, b->position, length, "its place has lengths, not %s"), "body", b->name));
+        QDOT_TRY(blame_thing(infer(session, b->inertia, inertia, "its inertia is a moment of inertia, not %s"), "body", b->name));
+        QDOT_TRY(blame_thing(infer(session, b->rotation, none, "its rotation has numbers, not %s"), "body", b->name));
+        QDOT_TRY(blame_thing(infer(session, b->angle, none, "its angle is an angle, not %s"), "body", b->name));
         if (b->angle != QDOT_NIL)
             QDOT_TRY(qdot_units_angles_in(session, b->angle));
     }
@@ -84,40 +84,40 @@ add_masses(qdot_session *session)
 }
 
 static qdot_status
-add_link(qdot_session *session, const char *kind, const qdot_link *x, const int *coefficient, const char *format)
+infer_from_link(qdot_session *session, const char *kind, const qdot_link *x, const int *coefficient, const char *format)
 {
     for (int k = 0; k < 2; k++)
-        QDOT_TRY(blame(add(session, x->at[k], length, "its end has lengths, not %s"), kind, x->name));
-    QDOT_TRY(blame(add(session, x->stiffness, coefficient, format), kind, x->name));
-    return blame(add(session, x->rest, length, "its rest length is a length, not %s"), kind, x->name);
+        QDOT_TRY(blame_thing(infer(session, x->at[k], length, "its end has lengths, not %s"), kind, x->name));
+    QDOT_TRY(blame_thing(infer(session, x->stiffness, coefficient, format), kind, x->name));
+    return blame_thing(infer(session, x->rest, length, "its rest length is a length, not %s"), kind, x->name);
 }
 
 static qdot_status
-add_forces(qdot_session *session)
+infer_from_forces(qdot_session *session)
 {
     const qdot_scene *s = session->scene;
 
     for (size_t i = 0; i < s->gravities.n; i++)
-        QDOT_TRY(blame(add(session, s->gravities.at[i].e, acceleration, "it is an acceleration, not %s"), "gravity",
+        QDOT_TRY(blame_thing(infer(session, s->gravities.at[i].e, acceleration, "it is an acceleration, not %s"), "gravity",
                        s->gravities.at[i].name));
     for (size_t i = 0; i < s->potentials.n; i++)
-        QDOT_TRY(blame(add(session, s->potentials.at[i].e, energy, "it is an energy, not %s"), "potential", s->potentials.at[i].name));
+        QDOT_TRY(blame_thing(infer(session, s->potentials.at[i].e, energy, "it is an energy, not %s"), "potential", s->potentials.at[i].name));
     for (size_t i = 0; i < s->dissipations.n; i++)
-        QDOT_TRY(blame(add(session, s->dissipations.at[i].e, power, "it is a power, not %s"), "dissipation",
+        QDOT_TRY(blame_thing(infer(session, s->dissipations.at[i].e, power, "it is a power, not %s"), "dissipation",
                        s->dissipations.at[i].name));
     for (size_t i = 0; i < s->springs.n; i++)
-        QDOT_TRY(add_link(session, "spring", &s->springs.at[i], stiffness, "its stiffness is a stiffness, not %s"));
+        QDOT_TRY(infer_from_link(session, "spring", &s->springs.at[i], stiffness, "its stiffness is a stiffness, not %s"));
     for (size_t i = 0; i < s->dampers.n; i++)
-        QDOT_TRY(add_link(session, "damper", &s->dampers.at[i], damping, "its coefficient is a damping coefficient, not %s"));
+        QDOT_TRY(infer_from_link(session, "damper", &s->dampers.at[i], damping, "its coefficient is a damping coefficient, not %s"));
     for (size_t i = 0; i < s->forces.n; i++) {
-        QDOT_TRY(blame(add(session, s->forces.at[i].force, force, "it is a force, not %s"), "force", s->forces.at[i].name));
-        QDOT_TRY(blame(add(session, s->forces.at[i].point, length, "its place has lengths, not %s"), "force", s->forces.at[i].name));
+        QDOT_TRY(blame_thing(infer(session, s->forces.at[i].force, force, "it is a force, not %s"), "force", s->forces.at[i].name));
+        QDOT_TRY(blame_thing(infer(session, s->forces.at[i].point, length, "its place has lengths, not %s"), "force", s->forces.at[i].name));
     }
     for (size_t i = 0; i < s->torques.n; i++) {
         const qdot_torque *x = &s->torques.at[i];
         const qdot_expr on = x->coordinate != QDOT_NIL ? x->coordinate : QDOT_ONE;
 
-        QDOT_TRY(blame(add(session, on == QDOT_ONE ? x->torque : qdot_mul(session->pool, x->torque, on), energy,
+        QDOT_TRY(blame_thing(infer(session, on == QDOT_ONE ? x->torque : qdot_mul(session->pool, x->torque, on), energy,
                            on == QDOT_ONE ? "it is a torque (as an energy), not %s" : "times its coordinate it is an energy, not %s"),
                        x->force ? "force" : "torque", x->name));
     }
@@ -126,60 +126,60 @@ add_forces(qdot_session *session)
 
 /* A stated L or H of which the dimension does not follow is an energy. */
 static qdot_status
-add_function_of_state(qdot_session *session, qdot_expr e, const char *kind)
+infer_from_function(qdot_session *session, qdot_expr e, const char *kind)
 {
     qdot_dimension is;
 
-    QDOT_TRY(blame(add(session, e, NULL, NULL), kind, NULL));
+    QDOT_TRY(blame_thing(infer(session, e, NULL, NULL), kind, NULL));
     return e != QDOT_NIL && qdot_units_of(session, e, &is) == QDOT_DIMENSION_FREE
                ? qdot_units_fix(session, e, qdot_dimension_make(energy), "%s")
                : QDOT_OK;
 }
 
 static qdot_status
-add_equations(qdot_session *session)
+infer_from_equations(qdot_session *session)
 {
     const qdot_scene *s = session->scene;
 
     for (size_t i = 0; i < s->constraints.n; i++) {
         const qdot_constraint *c = &s->constraints.at[i];
 
-        QDOT_TRY(note_angles(session, c->f));
-        QDOT_TRY(blame(qdot_units_join(session, c->left, c->right, "%s is set equal to %s"), "constraint", c->name));
+        QDOT_TRY(note_angles_within(session, c->f));
+        QDOT_TRY(blame_thing(qdot_units_join(session, c->left, c->right, "%s is set equal to %s"), "constraint", c->name));
     }
     for (size_t i = 0; i < s->states.n; i++) {
         const qdot_state *x = &s->states.at[i];
 
         if (x->rate != QDOT_NIL)
-            QDOT_TRY(blame(qdot_units_join(session, qdot_symbol_jet(session->pool, x->z, 1), x->rate,
+            QDOT_TRY(blame_thing(qdot_units_join(session, qdot_symbol_jet(session->pool, x->z, 1), x->rate,
                                            "the rate of the state is %s, its right side %s"),
                            "state", qdot_expr_symbol(session->pool, x->z)->name));
     }
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *e = &s->events.at[i];
 
-        QDOT_TRY(blame(qdot_units_join(session, e->left, e->right, "%s is set equal to %s"), "event", e->name));
+        QDOT_TRY(blame_thing(qdot_units_join(session, e->left, e->right, "%s is set equal to %s"), "event", e->name));
         for (size_t k = 0; k < e->targets.n; k++)
-            QDOT_TRY(blame(qdot_units_join(session, e->targets.at[k], e->values.at[k], "%s is set equal to %s"), "event", e->name));
+            QDOT_TRY(blame_thing(qdot_units_join(session, e->targets.at[k], e->values.at[k], "%s is set equal to %s"), "event", e->name));
     }
     return QDOT_OK;
 }
 
 /* Definitions agree in themselves; a value that is no bare number is of the dimension of what has it. */
 static qdot_status
-add_names(qdot_session *session)
+infer_from_names(qdot_session *session)
 {
     const qdot_values *v = session->values;
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
         if (name->kind == QDOT_NAME_VALUE)
-            QDOT_TRY(blame(add(session, name->value, NULL, NULL), "the definition of", name->name));
+            QDOT_TRY(blame_thing(infer(session, name->value, NULL, NULL), "the definition of", name->name));
     for (size_t i = 0; i < v->set_symbols.n; i++) {
         const qdot_symbol *s = qdot_expr_symbol(session->pool, v->set_symbols.at[i]);
 
         if (s != NULL && !qdot_expr_is_constant(session->pool, v->set_values.at[i]))
-            QDOT_TRY(blame(qdot_units_join(session, v->set_symbols.at[i], v->set_values.at[i], "a value of %s is %s"), "the value of",
+            QDOT_TRY(blame_thing(qdot_units_join(session, v->set_symbols.at[i], v->set_values.at[i], "a value of %s is %s"), "the value of",
                            s->name));
     }
     return QDOT_OK;
@@ -188,10 +188,10 @@ add_names(qdot_session *session)
 qdot_status
 qdot_units_of_scene(qdot_session *session)
 {
-    QDOT_TRY(add_masses(session));
-    QDOT_TRY(add_forces(session));
-    QDOT_TRY(add_equations(session));
-    QDOT_TRY(add_function_of_state(session, session->scene->lagrangian, "lagrangian"));
-    QDOT_TRY(add_function_of_state(session, session->scene->hamiltonian, "hamiltonian"));
-    return add_names(session);
+    QDOT_TRY(infer_from_masses(session));
+    QDOT_TRY(infer_from_forces(session));
+    QDOT_TRY(infer_from_equations(session));
+    QDOT_TRY(infer_from_function(session, session->scene->lagrangian, "lagrangian"));
+    QDOT_TRY(infer_from_function(session, session->scene->hamiltonian, "hamiltonian"));
+    return infer_from_names(session);
 }
