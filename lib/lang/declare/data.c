@@ -7,6 +7,7 @@
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/unit.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/data-points.h"
@@ -14,6 +15,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/function-body.h"
 #include "lang/session/session.h"
+#include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "lang/syntax/record.h"
 
@@ -38,6 +40,7 @@ typedef struct {
     const qdot_filled *parts[MOST_COLUMNS];
     const qdot_token *names[MOST_COLUMNS];
     qdot_data_column columns[MOST_COLUMNS];
+    qdot_expr units[MOST_COLUMNS]; /* a number in the unit of the column; nil: it has none */
     size_t n;
 } reading;
 
@@ -72,6 +75,7 @@ read_scale(reading *d, size_t k)
         (void)qdot_fail(QDOT_EINVAL, "a column is a name or a multiple of it");
         return qdot_hint("%s, %s*1e-3, %s - 5", column->name, column->name, column->name);
     }
+    d->units[k] = qdot_expr_has_units(pool, slope) ? slope : QDOT_NIL;
     QDOT_TRY(qdot_session_number(session, qdot_session_bind(session, slope), &column->a, NULL));
     return qdot_session_number(session, qdot_session_bind(session, qdot_subs(pool, e, 1, &x, &zero)), &column->b, NULL);
 }
@@ -165,6 +169,23 @@ value_of_table(qdot_pool *pool, int number, size_t arguments, int degree, const 
 }
 
 /* Declare the function, and set its value. */
+/* The arguments x and the function are of the dimensions of their columns, where these have units. */
+static qdot_status
+give_dimensions(reading *d, const qdot_expr *x, qdot_expr function)
+{
+    qdot_session *session = d->record->cursor.session;
+
+    QDOT_TRY(qdot_units_visit(session, function));
+    for (size_t k = 0; k < d->n; k++) {
+        if (d->units[k] == QDOT_NIL)
+            continue;
+        qdot_record_blame(d->record, d->parts[k]);
+        QDOT_TRY(qdot_units_join(session, k + 1 < d->n ? x[k] : function, d->units[k],
+                                 k + 1 < d->n ? "the argument is %s, its column %s" : "the function is %s, its column %s"));
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 declare_function(reading *d, const char *name, const qdot_filled *part, int number, int degree)
 {
@@ -188,7 +209,7 @@ declare_function(reading *d, const char *name, const qdot_filled *part, int numb
     value = value_of_table(session->pool, number, d->n - 1, degree, x);
     QDOT_TRY(qdot_pool_check(session->pool));
     qdot_session_set(session, known->value, value, &status);
-    return status;
+    return status == QDOT_OK ? give_dimensions(d, x, known->value) : status;
 }
 
 /* --- the statement ----------------------------------------------------------------------- */
