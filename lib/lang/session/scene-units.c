@@ -144,8 +144,8 @@ infer_from_equations(qdot_session *session)
     for (size_t i = 0; i < s->constraints.n; i++) {
         const qdot_constraint *c = &s->constraints.at[i];
 
-        QDOT_TRY(note_angles_within(session, c->f));
         QDOT_TRY(blame_thing(qdot_units_join(session, c->left, c->right, "%s is set equal to %s"), "constraint", c->name));
+        QDOT_TRY(blame_thing(infer(session, c->f, NULL, NULL), "constraint", c->name));
     }
     for (size_t i = 0; i < s->states.n; i++) {
         const qdot_state *x = &s->states.at[i];
@@ -165,7 +165,34 @@ infer_from_equations(qdot_session *session)
     return QDOT_OK;
 }
 
-/* Definitions agree in themselves; a value that is no bare number is of the dimension of what has it. */
+/* A value that is no bare number is of the dimension of the symbol or function that has it. */
+static qdot_status
+infer_from_values(qdot_session *session, size_t n, const qdot_expr *symbols, const qdot_expr *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        const qdot_symbol *x = qdot_expr_symbol(session->pool, symbols[i]);
+
+        if (!qdot_expr_is_constant(session->pool, values[i]))
+            QDOT_TRY(blame_thing(qdot_units_join(session, symbols[i], values[i], "a value of %s is %s"), "the value of",
+                                 x != NULL ? x->name : "a function"));
+    }
+    return QDOT_OK;
+}
+
+/* The bounds of a symbol are of its dimension. */
+static qdot_status
+infer_from_bounds(qdot_session *session, const qdot_name *name)
+{
+    const qdot_symbol x = *qdot_expr_symbol(session->pool, name->value);
+    const qdot_expr bounds[] = {x.lo, x.hi};
+
+    for (int k = 0; k < 2; k++)
+        if (bounds[k] != QDOT_NIL && !qdot_expr_is_constant(session->pool, bounds[k]))
+            QDOT_TRY(blame_thing(qdot_units_join(session, name->value, bounds[k], "the name is %s, its bound %s"), "the bounds of", name->name));
+    return QDOT_OK;
+}
+
+/* Definitions agree in themselves, bounds and values with their names. */
 static qdot_status
 infer_from_names(qdot_session *session)
 {
@@ -175,23 +202,22 @@ infer_from_names(qdot_session *session)
     for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
         if (name->kind == QDOT_NAME_VALUE)
             QDOT_TRY(blame_thing(infer(session, name->value, NULL, NULL), "the definition of", name->name));
-    for (size_t i = 0; i < v->set_symbols.n; i++) {
-        const qdot_symbol *s = qdot_expr_symbol(session->pool, v->set_symbols.at[i]);
-
-        if (s != NULL && !qdot_expr_is_constant(session->pool, v->set_values.at[i]))
-            QDOT_TRY(blame_thing(qdot_units_join(session, v->set_symbols.at[i], v->set_values.at[i], "a value of %s is %s"), "the value of",
-                           s->name));
-    }
-    return QDOT_OK;
+        else if (name->kind == QDOT_NAME_PARAM || name->kind == QDOT_NAME_COORD)
+            QDOT_TRY(infer_from_bounds(session, name));
+    QDOT_TRY(infer_from_values(session, v->set_symbols.n, v->set_symbols.at, v->set_values.at));
+    return infer_from_values(session, v->start_symbols.n, v->start_symbols.at, v->start_values.at);
 }
 
 qdot_status
 qdot_units_of_scene(qdot_session *session)
 {
+    const qdot_scene *s = session->scene;
+    const qdot_expr stated = s->higher_lagrangian != QDOT_NIL ? s->higher_lagrangian : s->lagrangian;
+
     QDOT_TRY(infer_from_masses(session));
     QDOT_TRY(infer_from_forces(session));
     QDOT_TRY(infer_from_equations(session));
-    QDOT_TRY(infer_from_function(session, session->scene->lagrangian, "lagrangian"));
-    QDOT_TRY(infer_from_function(session, session->scene->hamiltonian, "hamiltonian"));
+    QDOT_TRY(infer_from_function(session, stated, "lagrangian"));
+    QDOT_TRY(infer_from_function(session, s->hamiltonian, "hamiltonian"));
     return infer_from_names(session);
 }
