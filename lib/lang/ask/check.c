@@ -88,8 +88,7 @@ residual_of(qdot_pool *pool, qdot_expr e)
 /* Decide whether two equations are equivalent: the residual of one is that of the other times a factor without zeros, which
  * may hold velocities where `how` is PROPORTIONAL. */
 static qdot_status
-decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
-                 const qdot_facts *known, qdot_decision *decision)
+decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, comparison how, const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     qdot_expr a = residual_of(pool, left), b = residual_of(pool, right);
@@ -111,9 +110,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, compari
     status = qdot_sheet_text(&sheet, qdot_sheet_formula(&sheet, factor), &text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session,
-                                    "the equations differ by the factor %s: where it is "
-                                    "0 or undefined they need not "
-                                    "agree",
+                                    "the equations differ by the factor %s: where it is 0 or undefined they need not agree",
                                     qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
@@ -249,8 +246,7 @@ split_relation(qdot_record *r, const qdot_filled *part, question *q)
 {
     qdot_pool *pool = r->cursor.session->pool;
     qdot_expr e = q->left;
-    static const comparison how[] = {
-        [QDOT_EQ] = EQUAL, [QDOT_LT] = LESS, [QDOT_LE] = LESS_EQUAL};
+    static const comparison how[] = {[QDOT_EQ] = EQUAL, [QDOT_LT] = LESS, [QDOT_LE] = LESS_EQUAL};
 
     if (e == QDOT_TRUE || e == QDOT_FALSE) { /* a relation between numbers, decided when it was read */
         q->left = e == QDOT_TRUE ? QDOT_ZERO : QDOT_ONE;
@@ -332,8 +328,7 @@ exchange_sides(qdot_decision *decision)
 static qdot_expr
 list_defined_subexpressions(qdot_session *session, const qdot_assumed *f, const question *q)
 {
-    qdot_expr list =
-        qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
+    qdot_expr list = qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
 
     return list == QDOT_NIL ? list : qdot_assumed_replace(session, f, list);
 }
@@ -601,15 +596,13 @@ decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bo
     return qdot_answer_check(session, rate, zero, &decision);
 }
 
-/* `conserved E`: by its rate, else with accelerations put in; past the work budget that is
- * undecided, and where E jumps with time. */
+/* `conserved E`: by its rate, else with accelerations put in; undecided where E jumps with time. */
 static qdot_status
 answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
 {
     qdot_session *session = c->session;
     qdot_decision decision = {.verdict = QDOT_UNDECIDED};
     bool done, jumps;
-    qdot_status status;
 
     q->left = qdot_value_map(session->pool, q->left, function_of_state, session);
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -628,15 +621,20 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
         QDOT_TRY(qdot_answer_notice(session, "it jumps with time: its rate is that between jumps"));
         return qdot_answer_check(session, q->left, q->right, &decision);
     }
-    status = qdot_assumed_motion(session, f);
-    if (status == QDOT_ELIMIT) {
-        QDOT_TRY(qdot_answer_notice(session, "%s; with momenta p[q] in place of velocities, or with numbers as parameters, "
-                                             "it may be decided, and `drift(...)` is its change along a run",
-                                    qdot_last_error()->message));
-        return qdot_answer_check(session, q->left, q->right, &decision);
-    }
-    QDOT_TRY(status);
+    QDOT_TRY(qdot_assumed_motion(session, f));
     return answer_comparison(c, q, f);
+}
+
+/* The equations of motion could not be solved for q'' within the work budget: undecided, with what may help. */
+static qdot_status
+answer_past_budget(qdot_session *session, const question *q)
+{
+    const char *numbers = q->conserved ? "`drift(...)` is its change along a run"
+                                       : "`check ... within 1e-9` compares numbers of a run";
+
+    QDOT_TRY(qdot_answer_notice(session, "%s; with momenta p[q] in place of velocities, or with numbers as parameters, it may "
+                                         "be decided, and %s", qdot_last_error()->message, numbers));
+    return qdot_answer_check(session, q->left, q->right, &(qdot_decision){.verdict = QDOT_UNDECIDED});
 }
 
 static qdot_status
@@ -661,6 +659,8 @@ answer_claim(qdot_record *r)
         c->error_at = r->start->start;
         status = q.conserved ? answer_conserved(c, &q, &f) : answer_comparison(c, &q, &f);
     }
+    if (status == QDOT_ELIMIT && f.motion)
+        status = answer_past_budget(c->session, &q);
     qdot_free(q.passed.value.at);
     qdot_free(q.passed.root.at);
     qdot_assumed_free(&f);

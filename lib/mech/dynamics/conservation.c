@@ -15,6 +15,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "mech/dynamics/combination.h"
 #include "mech/dynamics/energy.h"
 #include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/potential.h"
@@ -202,6 +203,27 @@ rate_by_hamiltonian(qdot_scene *s, qdot_expr E)
     return with_velocities_of_hamiltonian(s, qdot_scene_with_rates(s, rate));
 }
 
+/* dE/dt of a combination of the momenta; nil where E is none. */
+static qdot_expr
+rate_of_combination(qdot_scene *s, qdot_expr E)
+{
+    qdot_pool *pool = s->pool;
+    const size_t n = s->coordinates.n;
+    qdot_expr *xi = qdot_calloc(n + 1, sizeof *xi), rate = QDOT_NIL, K;
+    bool is = false;
+
+    if (xi == NULL || qdot_combination_of_momenta(s, E, xi, &K, &is) != QDOT_OK)
+        qdot_pool_fail(pool);
+    if (is)
+        rate = qdot_ddt(pool, K);
+    for (size_t i = 0; i < n && is; i++) {
+        rate = qdot_add(pool, rate, qdot_mul(pool, qdot_ddt(pool, xi[i]), qdot_mech_momentum(s, s->coordinates.at[i])));
+        rate = qdot_add(pool, rate, qdot_mul(pool, xi[i], momentum_rate(s, i)));
+    }
+    qdot_free(xi);
+    return rate;
+}
+
 /* qdot_mech_rate, with the velocities of states in it. */
 static qdot_expr
 rate_without_accelerations(qdot_scene *s, qdot_expr E)
@@ -220,7 +242,7 @@ rate_without_accelerations(qdot_scene *s, qdot_expr E)
         if (rest != QDOT_NIL)
             return qdot_add(s->pool, momentum_rate(s, i), qdot_ddt(s->pool, rest));
     }
-    return QDOT_NIL;
+    return s->higher.n > 0 || s->states.n > 0 ? QDOT_NIL : rate_of_combination(s, E);
 }
 
 qdot_expr

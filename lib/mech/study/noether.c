@@ -4,16 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-#include <gsl/gsl_linalg.h>
-
-#include "base/interrupt.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
-#include "mech/dynamics/generic.h"
+#include "mech/dynamics/generic-null.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/virtual-work.h"
@@ -154,19 +151,19 @@ fill_conditions(const search *f, const unknown *u, size_t m, qdot_expr *e)
 
 /* --- excluding unknowns by numbers at random points --------------------------------------- */
 
-/* Values of e [m] stacked over many points, parameters the same at all: A [*height * columns],
- * each row of length about 1. */
+/* Set possible [columns]: whether some vector of the null space of e, with the same parameters at all points, has a
+ * component in the column. */
 static qdot_status
-sample_conditions(const search *f, const qdot_expr *e, size_t columns, double *A, size_t height)
+mark_reachable_columns(const search *f, const qdot_expr *e, size_t columns, bool *possible)
 {
     qdot_pool *pool = f->pool;
-    size_t m = number_of_conditions(f) * columns, at = 0;
     qdot_vec(qdot_expr) parameters = {0};
     qdot_vec(double) values = {0};
-    double *out = qdot_calloc(m, sizeof *out);
-    qdot_expr whole = qdot_list(pool, (uint32_t)m, e),
-              atoms = qdot_expr_atoms(pool, whole, false);
-    qdot_status status = out == NULL ? QDOT_ENOMEM : qdot_pool_check(pool);
+    double *basis = NULL;
+    size_t count = 0;
+    const qdot_expr whole = qdot_list(pool, (uint32_t)(number_of_conditions(f) * columns), e),
+                    atoms = qdot_expr_atoms(pool, whole, false);
+    qdot_status status = qdot_pool_check(pool);
 
     for (uint32_t i = 0; status == QDOT_OK && i < qdot_expr_count(pool, atoms); i++) {
         qdot_expr x = qdot_expr_arg(pool, atoms, i);
@@ -177,59 +174,19 @@ sample_conditions(const search *f, const qdot_expr *e, size_t columns, double *A
         if (status == QDOT_OK)
             status = qdot_vec_push(&values, qdot_generic_value(pool, x, 1));
     }
-    for (uint64_t seed = 2; status == QDOT_OK && at < height && seed < 4 * height + 20;
-         seed++) {
-        status = qdot_interrupt_check();
-        if (status == QDOT_OK)
-            status = qdot_generic_evaluate(
-                pool, m, e,
-                &(qdot_generic_point){parameters.n, parameters.at, values.at, seed}, out);
-        for (size_t i = 0; status == QDOT_OK && i < number_of_conditions(f) && at < height; i++) {
-            double length = 0;
+    if (status == QDOT_OK)
+        status = qdot_generic_null(pool, number_of_conditions(f), columns, e,
+                                   &(qdot_generic_point){parameters.n, parameters.at, values.at, 0}, &basis, &count);
+    for (size_t j = 0; status == QDOT_OK && j < columns; j++) {
+        double along = 0;
 
-            for (size_t j = 0; j < columns; j++)
-                length = hypot(length, out[i * columns + j]);
-            if (!isfinite(length) || length == 0)
-                continue;
-            for (size_t j = 0; j < columns; j++)
-                A[at * columns + j] = out[i * columns + j] / length;
-            at++;
-        }
+        for (size_t k = 0; k < count; k++)
+            along = hypot(along, basis[k * columns + j]);
+        possible[j] = along > 1e-6;
     }
     qdot_free(parameters.at);
     qdot_free(values.at);
-    qdot_free(out);
-    return status;
-}
-
-/* Set possible [columns]: whether some vector of the null space of e has a component in the column. */
-static qdot_status
-mark_reachable_columns(const search *f, const qdot_expr *e, size_t columns, bool *possible)
-{
-    size_t height = 3 * columns + 2 * number_of_conditions(f);
-    gsl_matrix *A = gsl_matrix_calloc(height, columns);
-    gsl_matrix *V = gsl_matrix_alloc(columns, columns);
-    gsl_vector *sigma = gsl_vector_alloc(columns), *work = gsl_vector_alloc(columns);
-    qdot_status status = QDOT_ENOMEM;
-
-    if (A != NULL && V != NULL && sigma != NULL && work != NULL)
-        status = sample_conditions(f, e, columns, A->data, height);
-    if (status == QDOT_OK) {
-        /* not Jacobi's method, because GSL's takes columns for rounding errors after many rotations */
-        gsl_linalg_SV_decomp(A, V, sigma, work);
-        for (size_t j = 0; j < columns; j++) {
-            double along = 0;
-
-            for (size_t k = 0; k < columns; k++)
-                if (gsl_vector_get(sigma, k) <= 1e-9 * gsl_vector_get(sigma, 0))
-                    along = hypot(along, gsl_matrix_get(V, j, k));
-            possible[j] = along > 1e-6;
-        }
-    }
-    gsl_matrix_free(A);
-    gsl_matrix_free(V);
-    gsl_vector_free(sigma);
-    gsl_vector_free(work);
+    qdot_free(basis);
     return status;
 }
 
@@ -506,6 +463,8 @@ search_linear(search *f)
     }
     if (status == QDOT_OK && m > 0)
         status = qdot_null_space(f->pool, number_of_conditions(f), m, e, &basis, &count);
+    if (status == QDOT_ELIMIT) /* what is guessed here is proved below */
+        status = qdot_generic_null_exact(f->pool, number_of_conditions(f), m, e, &basis, &count);
     for (size_t k = count; k-- > 0 && status == QDOT_OK;) {
         qdot_expr one = shortest_quantity(f, m, e, basis + k * m);
         bool jumps = true;

@@ -53,6 +53,29 @@ energy_and_momenta_have_the_rates_of_the_equations(void **state)
     kit_close(&k);
 }
 
+/* Momenta that are not linear in velocities: with and without accelerations solved for, the same. */
+static void
+combinations_of_momenta_have_the_rates_of_accelerations(void **state)
+{
+    static const char *const of[] = {"x*p_y - y*p_x", "2*p_x - t*p_y/3 + x^2*t", "x*p_x + y*p_y", "x'*p_y"};
+    kit k;
+
+    (void)state;
+    kit_open(&k);
+    coords(&k, "x y");
+    must(qdot_scene_lagrangian(k.scene, E(&k, "(x'^2 + y'^2)/2 + (x'^2 + 2*y'^2)^2/8 - x^2*y + t*y")));
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const qdot_expr from[] = {E(&k, "p_x"), E(&k, "p_y")},
+                        to[] = {qdot_mech_momentum(k.scene, k.scene->coordinates.at[0]),
+                                qdot_mech_momentum(k.scene, k.scene->coordinates.at[1])};
+        const qdot_expr e = qdot_subs(k.pool, E(&k, "%s", of[i]), 2, from, to);
+
+        assert_int_equal(qdot_mech_rate(k.scene, e) != QDOT_NIL, i < 3);
+        same_at(&k, qdot_rate_of(k.scene, e), by_accelerations(&k, e), (int)i);
+    }
+    kit_close(&k);
+}
+
 /* On a circle: the multiplier put in; the energy's rate is 0 where the constraint holds, which takes a proof. */
 static void
 multipliers_are_eliminated(void **state)
@@ -82,6 +105,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rates_are_those_of_accelerations),
         cmocka_unit_test(energy_and_momenta_have_the_rates_of_the_equations),
+        cmocka_unit_test(combinations_of_momenta_have_the_rates_of_accelerations),
         cmocka_unit_test(multipliers_are_eliminated),
     };
 
