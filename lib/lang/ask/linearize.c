@@ -2,7 +2,6 @@
  * order, as matrices with named states and inputs. */
 #include "base/memory.h"
 #include "expr/build.h"
-#include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -106,36 +105,31 @@ read_equations(qdot_record *r, const qdot_filled *place, state *x)
     return QDOT_OK;
 }
 
-/* The symbols of a state: coordinates and velocities or, where there are some, speeds. */
+/* The symbols of a state: coordinates and velocities. */
 static qdot_status
-list_symbols(const qdot_session *session, const qdot_speeds *speeds, state *x, qdot_runs_columns *columns)
+list_symbols(const qdot_session *session, state *x, qdot_runs_columns *columns)
 {
     const qdot_scene *scene = session->scene;
-    const unsigned orders = speeds->n > 0 ? 1 : 2;
 
-    for (size_t i = 0; i < orders * scene->coordinates.n; i++) {
-        const qdot_expr jet = qdot_symbol_jet(session->pool, scene->coordinates.at[i / orders], i % orders);
+    for (size_t i = 0; i < 2 * scene->coordinates.n; i++) {
+        const qdot_expr jet = qdot_symbol_jet(session->pool, scene->coordinates.at[i / 2], i % 2);
 
         QDOT_TRY(qdot_vec_push(&x->symbols, jet));
         QDOT_TRY(qdot_vec_push(columns, jet));
-    }
-    for (size_t k = 0; k < speeds->n; k++) {
-        QDOT_TRY(qdot_vec_push(&x->symbols, speeds->symbol[k]));
-        QDOT_TRY(qdot_vec_push(columns, speeds->value[k]));
     }
     return QDOT_OK;
 }
 
 /* The state of a run at a time, each value with its error. */
 static qdot_status
-read_run(qdot_record *r, const qdot_speeds *speeds, state *x)
+read_run(qdot_record *r, state *x)
 {
     qdot_session *session = r->cursor.session;
     qdot_runs_columns columns = {0};
-    qdot_measured *m = qdot_calloc(2 * session->scene->coordinates.n + speeds->n + 1, sizeof *m);
+    qdot_measured *m = qdot_calloc(2 * session->scene->coordinates.n + 1, sizeof *m);
     const char *run;
     qdot_expr time;
-    qdot_status status = m == NULL ? QDOT_ENOMEM : list_symbols(session, speeds, x, &columns);
+    qdot_status status = m == NULL ? QDOT_ENOMEM : list_symbols(session, x, &columns);
 
     if (status == QDOT_OK)
         status = qdot_record_name(r, qdot_record_hole(r, "along", NULL), &run);
@@ -162,45 +156,21 @@ read_run(qdot_record *r, const qdot_speeds *speeds, state *x)
     return status;
 }
 
-/* In the state of a place velocities are replaced by the speeds, which are 0 where neither is named. */
+/* A place gives velocities or speeds. */
 static qdot_status
-put_speeds(qdot_record *r, const qdot_filled *place, const qdot_speeds *speeds, state *x)
+need_one_kind(qdot_record *r, const qdot_filled *place, const state *x)
 {
-    qdot_session *session = r->cursor.session;
-    qdot_pool *pool = session->pool;
-    const size_t named = x->symbols.n;
-    bool velocities = false, given = false;
-    size_t kept = 0;
+    const qdot_session *session = r->cursor.session;
+    bool velocities = false, speeds = false;
 
-    for (size_t i = 0; i < named; i++) {
-        velocities |= qdot_expr_symbol(pool, x->symbols.at[i])->order == 1;
-        given |= qdot_session_is_speed(session, x->symbols.at[i]);
+    for (size_t i = 0; i < x->symbols.n; i++) {
+        velocities |= qdot_expr_symbol(session->pool, x->symbols.at[i])->order == 1;
+        speeds |= qdot_session_is_speed(session, x->symbols.at[i]);
     }
-    if (velocities && given) {
-        qdot_record_blame(r, place);
-        return qdot_fail(QDOT_EINVAL, "a state is given by speeds or by velocities");
-    }
-    for (size_t k = 0; k < speeds->n; k++) {
-        qdot_expr u = qdot_subs(pool, speeds->value[k], (uint32_t)named, x->symbols.at, x->values.at);
-
-        if (qdot_expr_place(named, x->symbols.at, speeds->symbol[k]) < named)
-            continue;
-        for (size_t i = 0; i < session->scene->coordinates.n && u != QDOT_NIL; i++) {
-            const qdot_expr from = qdot_symbol_jet(pool, session->scene->coordinates.at[i], 1), to = QDOT_ZERO;
-
-            u = qdot_subs(pool, u, 1, &from, &to);
-        }
-        QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(qdot_vec_push(&x->symbols, speeds->symbol[k]));
-        QDOT_TRY(qdot_vec_push(&x->values, u));
-    }
-    for (size_t i = 0; i < x->symbols.n; i++)
-        if (qdot_expr_symbol(pool, x->symbols.at[i])->order != 1) {
-            x->symbols.at[kept] = x->symbols.at[i];
-            x->values.at[kept++] = x->values.at[i];
-        }
-    x->symbols.n = x->values.n = kept;
-    return QDOT_OK;
+    if (!velocities || !speeds)
+        return QDOT_OK;
+    qdot_record_blame(r, place);
+    return qdot_fail(QDOT_EINVAL, "a state is given by speeds or by velocities");
 }
 
 /* Whether a value was found numerically: a rational of many digits. */
@@ -276,33 +246,12 @@ need_inputs_used(qdot_session *session)
 }
 
 static qdot_status
-read_state(qdot_record *r, const qdot_filled *place, const qdot_speeds *speeds, state *x)
+read_state(qdot_record *r, const qdot_filled *place, state *x)
 {
     if (place == NULL)
-        return read_run(r, speeds, x);
+        return read_run(r, x);
     QDOT_TRY(read_equations(r, place, x));
-    return speeds->n > 0 ? put_speeds(r, place, speeds, x) : QDOT_OK;
-}
-
-/* The linear motion near the state x, of the scene or of its equations in speeds. */
-static qdot_status
-find_linear_motion(qdot_session *session, const qdot_speeds *speeds, const state *x, bool *moves)
-{
-    qdot_scene *states = NULL;
-    qdot_linear_place where = {.scene = session->scene,
-                               .n = x->symbols.n,
-                               .symbols = x->symbols.at,
-                               .values = x->values.at,
-                               .errors = x->measured ? x->errors.at : NULL,
-                               .numbers = is_numeric(session, x)};
-    qdot_status status = speeds->n > 0 ? qdot_speeds_scene(session->scene, speeds, &states) : QDOT_OK;
-
-    if (states != NULL)
-        where.scene = states;
-    if (status == QDOT_OK)
-        status = qdot_linear_find(session, &where, moves);
-    qdot_scene_free(states);
-    return status;
+    return need_one_kind(r, place, x);
 }
 
 static qdot_status
@@ -316,7 +265,7 @@ carry_out_linearize(qdot_record *r)
     qdot_status status;
 
     QDOT_TRY(qdot_session_speeds(session, &speeds));
-    status = read_state(r, place, &speeds, &x);
+    status = read_state(r, place, &x);
     if (status == QDOT_OK)
         r->cursor.error_at = r->start[-1].start; /* errors point at the word `linearize` */
     if (status == QDOT_OK)
@@ -324,7 +273,12 @@ carry_out_linearize(qdot_record *r)
     if (status == QDOT_OK)
         status = need_inputs_without_rates(session);
     if (status == QDOT_OK)
-        status = find_linear_motion(session, &speeds, &x, &moves);
+        status = qdot_linear_find(session, &(qdot_linear_place){.speeds = speeds.n > 0 ? &speeds : NULL,
+                                                                .n = x.symbols.n,
+                                                                .symbols = x.symbols.at,
+                                                                .values = x.values.at,
+                                                                .errors = x.measured ? x.errors.at : NULL,
+                                                                .numbers = is_numeric(session, &x)}, &moves);
     state_free(&x);
     qdot_free((void *)speeds.symbol);
     QDOT_TRY(status);

@@ -26,7 +26,8 @@ static qdot_status
 linearise_displaced(qdot_session *session, const qdot_linear_place *place, bool numbers, size_t k, qdot_first_order *out)
 {
     qdot_pool *pool = session->pool;
-    qdot_first_order_request request = {.numbers = numbers, .bind = insert_values_of_session, .user = session};
+    qdot_first_order_request request = {.numbers = numbers, .bind = insert_values_of_session, .user = session,
+                                        .speeds = place->speeds};
     qdot_expr *equations = qdot_calloc(place->n + 1, sizeof *equations);
     qdot_status status = equations == NULL ? QDOT_ENOMEM : QDOT_OK;
 
@@ -39,7 +40,7 @@ linearise_displaced(qdot_session *session, const qdot_linear_place *place, bool 
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK)
-        status = qdot_first_order_about(place->scene, &request, out);
+        status = qdot_first_order_about(session->scene, &request, out);
     qdot_free(equations);
     return status;
 }

@@ -6,7 +6,7 @@
 
 /* Where and how the motion is made linear. */
 typedef struct {
-    struct qdot_scene *scene; /* that of the session or, where there are speeds, of its equations in these */
+    const struct qdot_speeds *speeds; /* states in place of velocities; NULL: there are none */
     size_t n;
     const qdot_expr *symbols; /* [n] t, q, q' or speeds, inputs that have a value */
     const qdot_expr *values;  /* [n] these values */

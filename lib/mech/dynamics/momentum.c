@@ -144,27 +144,34 @@ qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds)
     return QDOT_OK;
 }
 
+/* Whether x occurs in one of n expressions. */
+static bool
+is_in_one_of(const qdot_pool *pool, qdot_expr x, size_t n, const qdot_expr *e)
+{
+    for (size_t i = 0; i < n; i++)
+        if (e[i] != QDOT_NIL && qdot_expr_contains(pool, e[i], x))
+            return true;
+    return false;
+}
+
+/* Momenta are made of masses, places and what V says of velocities; they need not be derived to see whether x occurs. */
 qdot_status
 qdot_mech_rate_matters(qdot_scene *s, qdot_expr x, bool *matters)
 {
     qdot_pool *pool = s->pool;
+    const qdot_expr by_velocities = qdot_mech_stated(s) ? s->lagrangian : qdot_potential_with_velocities(s);
 
     *matters = false;
     for (size_t i = 0; i < s->particles.n; i++)
-        *matters |= qdot_expr_contains(pool, s->particles.at[i].position, x);
-    for (size_t i = 0; i < s->bodies.n; i++)
-        *matters |= qdot_expr_contains(pool, s->bodies.at[i].position, x) ||
-                    qdot_expr_contains(pool, s->bodies.at[i].rotation, x);
-    for (size_t i = 0; i < s->dampers.n; i++)
-        for (size_t k = 0; k < 2; k++)
-            *matters |= qdot_expr_contains(pool, s->dampers.at[i].at[k], x);
-    if (*matters || !qdot_scene_contains(s, x) || (s->particles.n == 0 && s->bodies.n == 0 && !qdot_mech_stated(s)))
-        return QDOT_OK;
-    for (size_t i = 0; i < s->coordinates.n && !*matters; i++) {
-        const qdot_expr p = qdot_mech_momentum(s, s->coordinates.at[i]);
+        *matters |= is_in_one_of(pool, x, 2, (qdot_expr[]){s->particles.at[i].mass, s->particles.at[i].position});
+    for (size_t i = 0; i < s->bodies.n; i++) {
+        const qdot_body *b = &s->bodies.at[i];
 
-        QDOT_TRY(qdot_pool_check(pool));
-        *matters = qdot_expr_contains(pool, p, x);
+        *matters |= is_in_one_of(pool, x, 4, (qdot_expr[]){b->mass, b->inertia, b->position, b->rotation});
     }
-    return QDOT_OK;
+    for (size_t i = 0; i < s->dampers.n; i++)
+        *matters |= is_in_one_of(pool, x, 2, s->dampers.at[i].at);
+    for (size_t i = 0; i < s->coordinates.n && !*matters && by_velocities != QDOT_NIL; i++)
+        *matters = is_in_one_of(pool, x, 1, (qdot_expr[]){qdot_diff(pool, by_velocities, qdot_mech_jet(s, i, 1))});
+    return qdot_pool_check(pool);
 }

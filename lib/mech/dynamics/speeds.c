@@ -99,12 +99,15 @@ static qdot_status
 fill_velocity_row(qdot_scene *s, qdot_expr e, qdot_expr right, const char *what, const char *name, qdot_expr *A, qdot_expr *b)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        A[i] = qdot_mech_tidy(s, qdot_diff(s->pool, e, qdot_mech_jet(s, i, 1)));
+        A[i] = qdot_diff(s->pool, e, qdot_mech_jet(s, i, 1));
+        QDOT_TRY(qdot_pool_check(s->pool));
+        if (qdot_mech_holds(s, A[i]) & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+            A[i] = qdot_mech_tidy(s, A[i]);
         QDOT_TRY(qdot_pool_check(s->pool));
         if (qdot_mech_holds(s, A[i]) & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
             return qdot_fail(QDOT_EINVAL, "%s `%.200s` is not linear in the velocities", what, name);
     }
-    *b = qdot_mech_tidy(s, qdot_sub(s->pool, right, without_velocities(s, e)));
+    *b = qdot_sub(s->pool, right, without_velocities(s, e));
     return qdot_pool_check(s->pool);
 }
 
@@ -213,6 +216,10 @@ qdot_speeds_kinematics(qdot_scene *s, const qdot_speeds *speeds, qdot_expr *velo
     if (A == NULL)
         return QDOT_ENOMEM;
     status = qdot_speeds_rows(s, speeds, A, A + n * n);
+    for (size_t i = 0; i < n * n + n && status == QDOT_OK; i++) {
+        A[i] = qdot_mech_tidy(s, A[i]);
+        status = qdot_pool_check(s->pool);
+    }
     if (status == QDOT_OK)
         status = qdot_solve_linear(s->pool, (uint32_t)n, A, A + n * n, velocity, &pivot, &facts);
     if (status == QDOT_ESINGULAR)

@@ -22,7 +22,7 @@
 
 /* symbol [n]: what a speed is called, a symbol that has jets (class QDOT_COORD) but is no coordinate of the scene;
  * value [n]: E_k. Borrowed. */
-typedef struct {
+typedef struct qdot_speeds {
     size_t n;
     const qdot_expr *symbol, *value;
 } qdot_speeds;

@@ -39,7 +39,36 @@ column_of_results(const qdot_first_order_job *j, size_t a)
     return a < motion ? a : a < motion + m ? a + s : a - m;
 }
 
-/* Write the first-order unknowns and their rates behind the other symbols: rows 3 n + c + inputs ... of the results. */
+/* Write the speeds and their rates: rows 3 n + c + inputs ... of the results. */
+static qdot_status
+write_speeds(qdot_first_order_job *j, qdot_first_order *out)
+{
+    const size_t m = j->speeds->n, columns = out->states + out->inputs, first = 3 * j->n + j->c + out->inputs;
+    qdot_expr *value = qdot_first_order_new(2 * m);
+    qdot_status status = value == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < m && status == QDOT_OK; k++) {
+        value[2 * k] = j->speeds->value[k];
+        value[2 * k + 1] = qdot_scene_with_rates(j->s, qdot_ddt(j->pool, j->speeds->value[k]));
+        status = qdot_pool_check(j->pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_state_values_of(&j->v, 2 * m, value);
+    for (size_t k = 0; k < 2 * m && status == QDOT_OK; k++) {
+        qdot_expr *own = out->change + (first + k) * columns;
+
+        out->symbol[first + k] = qdot_symbol_jet(j->pool, j->speeds->symbol[k / 2], k % 2);
+        out->value[first + k] = value[k];
+        if (k % 2 == 0)
+            own[j->y + k / 2] = QDOT_ONE;
+        for (size_t a = 0; a < j->y + j->z + j->inputs && k % 2 == 1; a++)
+            own[column_of_results(j, a)] = j->rates[k / 2 * j->width + a];
+    }
+    qdot_free(value);
+    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
+}
+
+/* Write the first-order unknowns and their rates, the last rows of the results. */
 static qdot_status
 write_first_order_unknowns(qdot_first_order_job *j, qdot_first_order *out)
 {
@@ -74,12 +103,12 @@ qdot_status
 qdot_first_order_write(qdot_first_order_job *j, qdot_first_order *out)
 {
     const size_t n = j->n, m = j->s->inputs.n, inner = j->y + j->z + j->inputs;
-    size_t at = 0, columns;
+    size_t at = 0, speeds = j->speeds == NULL ? 0 : j->speeds->n, columns;
 
     out->states = j->y + j->z + j->s->states.n;
     out->inputs = m;
     columns = out->states + m;
-    out->n = 3 * n + j->c + m + 2 * j->s->states.n;
+    out->n = 3 * n + j->c + m + 2 * speeds + 2 * j->s->states.n;
     out->state = qdot_first_order_new(out->states);
     out->symbol = qdot_first_order_new(2 * out->n);
     out->change = qdot_first_order_new(out->n * columns);
@@ -90,6 +119,8 @@ qdot_first_order_write(qdot_first_order_job *j, qdot_first_order *out)
         for (size_t i = 0; i < n; i++)
             if (!qdot_echelon_leads(&j->level[order], i))
                 out->state[at++] = qdot_first_order_jet(j, i, (uint32_t)order);
+    for (size_t k = 0; k < speeds; k++)
+        out->state[j->y + k] = j->speeds->symbol[k];
     for (size_t k = 0; k < j->s->states.n; k++)
         out->state[at++] = j->s->states.at[k].z;
     for (size_t i = 0; i < 3 * n + j->c + m; i++) {
@@ -106,5 +137,7 @@ qdot_first_order_write(qdot_first_order_job *j, qdot_first_order *out)
             out->change[i * columns + out->states + i - 3 * n - j->c] = QDOT_ONE;
         out->moves |= i >= 2 * n && i < 3 * n && is_moving(j, out->value[i]);
     }
+    if (speeds > 0)
+        QDOT_TRY(write_speeds(j, out));
     return write_first_order_unknowns(j, out);
 }

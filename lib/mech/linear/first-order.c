@@ -66,6 +66,8 @@ put_state(qdot_first_order_job *j, qdot_expr place)
         if (!qdot_expr_is_class(pool, symbol, QDOT_MULTIPLIER))
             QDOT_TRY(qdot_state_values_put(&j->v, symbol, qdot_expr_arg(pool, one, 1)));
     }
+    if (j->speeds != NULL)
+        QDOT_TRY(qdot_first_order_put_velocities(j));
     for (size_t i = 0; i < j->n; i++)
         QDOT_TRY(qdot_state_values_put(&j->v, qdot_first_order_jet(j, i, 1), QDOT_ZERO));
     for (size_t i = 0; i < j->s->inputs.n; i++)
@@ -208,8 +210,8 @@ reduce_level(qdot_first_order_job *j, int order)
 /* --- equations of motion ------------------------------------------------------------- */
 
 /* The sum of X[i] change[i] over the n coordinates, of columns a. */
-static qdot_expr
-change_along(const qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
+qdot_expr
+qdot_first_order_along(const qdot_first_order_job *j, const qdot_expr *X, const qdot_expr *change, size_t a)
 {
     qdot_expr sum = QDOT_ZERO;
 
@@ -233,17 +235,15 @@ qdot_expr
 qdot_first_order_change(qdot_first_order_job *j, const qdot_expr *slope, size_t a)
 {
     const size_t state = j->y + j->z;
-    qdot_expr sum = qdot_add(j->pool, change_along(j, slope, j->change[0], a), change_along(j, slope + j->n, j->change[1], a));
+    qdot_expr sum = qdot_add(j->pool, qdot_first_order_along(j, slope, j->change[0], a), qdot_first_order_along(j, slope + j->n, j->change[1], a));
 
     if (a >= state)
         sum = qdot_add(j->pool, sum, slope[2 * j->n + a - state]);
     return qdot_elimination_short(&j->v.x, sum);
 }
 
-/* Solve A x = b for several right sides; A is [n x n], X has a row of `columns` right sides for each unknown and is
- * replaced by the solutions. QDOT_ESINGULAR without a message. */
-static qdot_status
-solve_together(qdot_first_order_job *j, size_t n, const qdot_expr *A, size_t columns, qdot_expr *X)
+qdot_status
+qdot_first_order_solve(qdot_first_order_job *j, size_t n, const qdot_expr *A, size_t columns, qdot_expr *X)
 {
     qdot_echelon e;
     qdot_expr *row = qdot_first_order_new(n + columns);
@@ -305,13 +305,13 @@ solve_accelerations(qdot_first_order_job *j, const qdot_expr *F, size_t from, si
                 sum = qdot_sub(j->pool, sum,
                                qdot_mul(j->pool, N[h * m + i],
                                         qdot_add(j->pool, F[h * width + from + k],
-                                                 change_along(j, j->M + h * n, j->change[2], from + k))));
+                                                 qdot_first_order_along(j, j->M + h * n, j->change[2], from + k))));
             X[i * columns + k] = qdot_elimination_short(&j->v.x, sum);
         }
         status = qdot_pool_check(j->pool);
     }
     if (status == QDOT_OK && m > 0)
-        status = solve_together(j, m, A, columns, X);
+        status = qdot_first_order_solve(j, m, A, columns, X);
     if (status == QDOT_ESINGULAR)
         status = qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular there: something moves without mass");
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
@@ -350,12 +350,12 @@ solve_multipliers(qdot_first_order_job *j, const qdot_expr *G, const qdot_expr *
         for (size_t k = 0; k < columns; k++)
             X[i * columns + k] = qdot_elimination_short(
                 &j->v.x, qdot_add(j->pool, F[row * j->width + from + k],
-                                  change_along(j, j->M + row * n, j->change[2], from + k)));
+                                  qdot_first_order_along(j, j->M + row * n, j->change[2], from + k)));
     }
     if (status == QDOT_OK)
         status = qdot_pool_check(j->pool);
     if (status == QDOT_OK && r > 0)
-        status = solve_together(j, r, A, columns, X);
+        status = qdot_first_order_solve(j, r, A, columns, X);
     for (size_t k = 0; k < r && status == QDOT_OK; k++)
         for (size_t a = 0; a < columns; a++)
             j->lambda[which[k] * j->width + from + a] = X[k * columns + a];
@@ -507,6 +507,8 @@ linearise(qdot_first_order_job *j)
         status = reduce_accelerations_again(j);
     if (status == QDOT_OK)
         status = find_changes(j, M, f, G);
+    if (status == QDOT_OK && j->speeds != NULL)
+        status = qdot_first_order_turn_to_speeds(j);
     qdot_free(G);
     return status;
 }
@@ -524,6 +526,7 @@ qdot_status
 qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, qdot_first_order *out)
 {
     qdot_first_order_job j = {.s = s, .pool = s->pool, .c = s->constraints.n, .inputs = s->inputs.n + s->states.n,
+             .speeds = request->speeds,
              .own = qdot_calloc(s->coordinates.n + 1, sizeof *j.own)};
     qdot_status status;
     size_t at = 0;
@@ -563,6 +566,7 @@ qdot_first_order_about(qdot_scene *s, const qdot_first_order_request *request, q
     qdot_free(j.kept);
     qdot_free(j.M);
     qdot_free(j.lambda);
+    qdot_free(j.rates);
     if (status != QDOT_OK)
         qdot_first_order_clear(out);
     return status;

@@ -18,6 +18,9 @@
  * A first-order unknown z' = g (mech/scene/state.c) is beside the motion one more input; then it is a state behind the
  * others, x = (y, z, unknowns), with the change of g as its row.
  *
+ * Speeds u = E(q, q', t) may take the place of z: du = S z + P (others) is solved for z, and the row of u is the change of
+ * dE/dt.
+ *
  * Source  Peterson, Gede & Hubbard, "Symbolic linearization of equations of motion of constrained multibody systems",
  *         Multibody System Dynamics 33 (2015) 143.
  * Tests   tests/mech/linear/test_first_order.c
@@ -25,6 +28,7 @@
 #ifndef QDOT_MECH_FIRST_ORDER_H
 #define QDOT_MECH_FIRST_ORDER_H
 
+#include "mech/dynamics/speeds.h"
 #include "mech/linear/rest.h"
 #include "mech/scene/things.h"
 
@@ -34,13 +38,15 @@ typedef struct {
     bool numbers;     /* compute with the values of `bind`, and round to 30 digits */
     qdot_binder bind; /* used only with `numbers` */
     void *user;
+    const qdot_speeds *speeds; /* states in place of the independent velocities, which the place may name too; NULL: none */
 } qdot_first_order_request;
 
 typedef struct qdot_first_order {
     size_t states, inputs;
-    qdot_expr *state;   /* [states] the symbols of the independent coordinates, then of the independent velocities */
+    qdot_expr *state;   /* [states] the symbols of the independent coordinates, then of the independent velocities or speeds,
+                       * then the first-order unknowns */
     size_t n;           /* number of symbols that move with state and inputs */
-    qdot_expr *symbol;  /* [n] q, q', q'', lambda, u: */
+    qdot_expr *symbol;  /* [n] q, q', q'', lambda, inputs, speeds and unknowns with their rates: */
     qdot_expr *value;   /* [n] their values at the state */
     qdot_expr *change;  /* [n x (states + inputs)] their changes, by rows */
     bool moves;         /* some q'' or q' of a coordinate in the equations is not 0 there: no rest */

@@ -91,6 +91,54 @@ blade_body(kit *k)
 }
 TEST(blade)
 
+/* A free particle in speeds along turning axes, u' = w s, s' = -w u, and a pendulum that the rod leaves one speed. */
+static void
+speeds_body(kit *k)
+{
+    const qdot_expr symbol[3] = {qdot_symbol_get(k->pool, QDOT_COORD, "u"), qdot_symbol_get(k->pool, QDOT_COORD, "s"),
+                                 qdot_symbol_get(k->pool, QDOT_COORD, "w")};
+    qdot_first_order x;
+    qdot_expr value[3], place[3];
+    qdot_speeds speeds = {3, symbol, value};
+    qdot_first_order_request request = {.speeds = &speeds};
+
+    coords(k, "x y phi");
+    must(qdot_scene_lagrangian(k->scene, E(k, "m1*(x'^2 + y'^2)/2 + m2*phi'^2/2")));
+    value[0] = E(k, "x'*cos(phi) + y'*sin(phi)");
+    value[1] = E(k, "y'*cos(phi) - x'*sin(phi)");
+    value[2] = E(k, "phi'");
+    place[0] = equation(k, "phi", "0");
+    place[1] = qdot_rel(k->pool, QDOT_EQ, symbol[0], E(k, "L1"));
+    place[2] = qdot_rel(k->pool, QDOT_EQ, symbol[2], E(k, "m1"));
+    request.place = qdot_list(k->pool, 3, place);
+    must(qdot_first_order_about(k->scene, &request, &x));
+    assert_int_equal(x.states, 6);
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(x.state[3 + i], symbol[i]);
+    for (size_t i = 0; i < x.n; i++) {
+        const qdot_expr *row = x.change + i * x.states;
+
+        if (x.symbol[i] == qdot_symbol_jet(k->pool, symbol[0], 1)) {
+            SAME(k, row[2], "0");
+            SAME(k, row[4], "m1");
+        }
+        if (x.symbol[i] == qdot_symbol_jet(k->pool, symbol[1], 1)) {
+            SAME(k, x.value[i], "-m1*L1");
+            SAME(k, row[2], "0");
+            SAME(k, row[3], "-m1");
+            SAME(k, row[5], "-L1");
+        }
+    }
+    SAME(k, change_of(k, &x, "y'", 2), "L1");
+    SAME(k, change_of(k, &x, "y'", 4), "1");
+    qdot_first_order_clear(&x);
+    /* two speeds of three */
+    speeds.n = 2;
+    assert_int_equal(qdot_first_order_about(k->scene, &request, &x), QDOT_EINVAL);
+    must(qdot_pool_check(k->pool));
+}
+TEST(speeds)
+
 static void
 numbers_agree_with_symbols_body(kit *k)
 {
@@ -126,6 +174,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pendulum_in_the_plane),
         cmocka_unit_test(blade),
+        cmocka_unit_test(speeds),
         cmocka_unit_test(numbers_agree_with_symbols),
     };
 
