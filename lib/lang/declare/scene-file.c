@@ -94,6 +94,7 @@ static qdot_status
 evaluates_to_value(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
 {
     const qdot_linear linear = s->history->linear;
+    const size_t unit_facts = s->units->facts.n;
     qdot_source *source = NULL;
     qdot_expr read = QDOT_NIL, its_over = QDOT_NIL;
     qdot_status status;
@@ -111,6 +112,7 @@ evaluates_to_value(qdot_session *s, const qdot_text *text, qdot_expr value, qdot
     }
     qdot_source_free(source);
     s->history->linear = linear;
+    qdot_units_back_to(s, unit_facts);
     (void)!qdot_pool_check(s->pool); /* clear the failure: that a text cannot be evaluated here is no error */
     return qdot_grave(status);
 }
