@@ -12,9 +12,10 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
-#include "normal/inequality/inequality.h"
+#include "normal/inequality/sign.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
+#include "normal/simplify/simplify.h"
 
 enum { MOST_TERMS = 60, MOST_SPAN = 12, MOST_DEPTH = 60, LARGE = 1000000 };
 
@@ -96,24 +97,20 @@ int
 qdot_proved_sign(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
     const uint8_t known = qdot_expr_sign(pool, e);
-    bool proved = false;
+    int sign;
 
     if (e == QDOT_ZERO)
         return 0;
     if ((known & QDOT_POS) == QDOT_POS || (known & QDOT_NEG) == QDOT_NEG)
         return known & QDOT_GE0 ? 1 : -1;
     if (qdot_expr_is_constant(pool, e)) {
-        qdot_constant_sign sign;
+        qdot_constant_sign of;
 
-        if (qdot_constant_decide(pool, e, &sign) == QDOT_OK && sign != QDOT_CONSTANT_UNKNOWN)
-            return sign == QDOT_CONSTANT_ZERO ? 0 : sign == QDOT_CONSTANT_POSITIVE ? 1 : -1;
+        if (qdot_constant_decide(pool, e, &of) == QDOT_OK && of != QDOT_CONSTANT_UNKNOWN)
+            return of == QDOT_CONSTANT_ZERO ? 0 : of == QDOT_CONSTANT_POSITIVE ? 1 : -1;
         return 2;
     }
-    if (qdot_inequality(pool, e, true, facts, &proved, &(qdot_expr){QDOT_NIL}) == QDOT_OK && proved)
-        return 1;
-    if (qdot_inequality(pool, qdot_neg(pool, e), true, facts, &proved, &(qdot_expr){QDOT_NIL}) == QDOT_OK && proved)
-        return -1;
-    return 2;
+    return qdot_sign(pool, e, facts, &sign) == QDOT_OK && sign != 0 ? sign : 2;
 }
 
 /* --- arithmetic of series ----------------------------------------------------------------------------- */
@@ -407,6 +404,7 @@ apply_analytic(work *k, qdot_fun_id f, powers *s)
     powers made = {0};
     qdot_status status = take_constant(k, s, &c.at);
 
+    c.at = qdot_simplify(pool, c.at, k->x->facts); /* an end of the domain of f may stand in disguise */
     c.f = qdot_fun1(pool, f, c.z);
     if (status == QDOT_OK)
         status = drop_zeros(k, s);

@@ -21,6 +21,7 @@
 #include "normal/inequality/factor-signs.h"
 #include "normal/inequality/inequality.h"
 #include "normal/inequality/rising.h"
+#include "normal/inequality/sign.h"
 #include "normal/refute/sample.h"
 
 enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200, FEW_TRIES = 8 };
@@ -443,6 +444,12 @@ less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         QDOT_TRY(refute_at_point(pool, left, right, strict, facts, at, d));
     if (d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(by_rational_constants(pool, gap, strict, facts, &holds));
+    if (d->verdict == QDOT_UNDECIDED && !holds) {
+        int sign;
+
+        QDOT_TRY(qdot_sign(pool, gap, facts, &sign));
+        holds = sign == 1;
+    }
     if (d->verdict == QDOT_UNDECIDED && !holds && facts != NULL && facts->n_conditions > 0) {
         qdot_facts fewer = *facts; /* some conditions are in the way of a proof that needs none of them */
         qdot_decision without;

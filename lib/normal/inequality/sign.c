@@ -10,7 +10,9 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/field/flint.h"
 #include "normal/field/normal-form.h"
+#include "normal/inequality/factor-signs.h"
 #include "normal/inequality/inequality.h"
 #include "normal/inequality/rising.h"
 
@@ -246,8 +248,9 @@ sign_by_proof(prover *x, qdot_expr e, int *sign)
     qdot_pool *pool = x->pool;
 
     *sign = 0;
-    if (x->left == 0 || qdot_expr_size(pool, e) > LARGEST)
-        return QDOT_OK;
+    e = x->left == 0 ? QDOT_NIL : qdot_without_signed_factors(pool, e);
+    if (e == QDOT_NIL || qdot_expr_size(pool, e) > LARGEST)
+        return qdot_grave(qdot_pool_check(pool));
     for (int s = 1; s >= -1; s -= 2) {
         qdot_expr at = QDOT_NIL;
         bool proved = false;
@@ -292,6 +295,24 @@ is_conditioned(const prover *x, qdot_expr e)
     return false;
 }
 
+/* The sign of a symbol: that of a bound of its domain, which is an expression, or from the conditions. */
+static qdot_status
+sign_of_symbol(prover *x, qdot_expr e, int depth, int *sign)
+{
+    const qdot_expr lo = qdot_expr_symbol(x->pool, e)->lo, hi = qdot_expr_symbol(x->pool, e)->hi;
+
+    if (lo != QDOT_NIL && qdot_expr_rational(x->pool, lo) == NULL)
+        QDOT_TRY(prove_sign(x, lo, depth, sign));
+    if (*sign == 1)
+        return QDOT_OK;
+    if (hi != QDOT_NIL && qdot_expr_rational(x->pool, hi) == NULL)
+        QDOT_TRY(prove_sign(x, hi, depth, sign));
+    if (*sign == -1)
+        return QDOT_OK;
+    *sign = 0;
+    return is_conditioned(x, e) ? sign_by_proof(x, e, sign) : QDOT_OK;
+}
+
 static qdot_status
 prove_sign(prover *x, qdot_expr e, int depth, int *sign)
 {
@@ -308,7 +329,7 @@ prove_sign(prover *x, qdot_expr e, int depth, int *sign)
         return QDOT_OK;
     }
     if (qdot_expr_kind(pool, e) == QDOT_SYM)
-        return is_conditioned(x, e) ? sign_by_proof(x, e, sign) : QDOT_OK;
+        return sign_of_symbol(x, e, depth + 1, sign);
     QDOT_TRY(is_rational_function(pool, e, &rational));
     if (rational && qdot_expr_kind(pool, e) == QDOT_SUM) {
         QDOT_TRY(sign_by_proof(x, e, sign));
@@ -325,10 +346,27 @@ prove_sign(prover *x, qdot_expr e, int depth, int *sign)
     return *sign == 0 && qdot_expr_kind(pool, e) == QDOT_SUM ? sign_of_quotient(x, e, depth + 1, sign) : QDOT_OK;
 }
 
+struct sign_question {
+    prover x;
+    qdot_expr e;
+    int sign;
+    qdot_status status;
+};
+
+static void
+sign_task(void *user)
+{
+    struct sign_question *q = user;
+
+    q->status = prove_sign(&q->x, q->e, 0, &q->sign);
+}
+
 qdot_status
 qdot_sign(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int *sign)
 {
-    prover x = {pool, facts, MOST_PROOFS};
+    struct sign_question q = {.x = {pool, facts, MOST_PROOFS}, .e = e};
+    const qdot_status status = qdot_flint_run(pool, sign_task, &q);
 
-    return prove_sign(&x, e, 0, sign);
+    *sign = status == QDOT_OK && q.status == QDOT_OK ? q.sign : 0;
+    return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : q.status;
 }

@@ -53,6 +53,12 @@ limits_are_those_of_the_books(void **state)
         {"sqrt(x)", "0", 0, "0"},
         {"x + 3*sin(x)", "inf", 0, "inf"},
         {"x + floor(x)", "-inf", 0, "-inf"},
+        /* the sign of a product of roots; of a sum with a root, s (s - b) with s = sqrt(a + b^2) */
+        {"(x - b)/sqrt(a + 2*b*x - x^2)", "b - sqrt(a + b^2)", 1, "-inf"},
+        {"(a + b*x)/sqrt(a + 2*b*x - x^2)", "b - sqrt(a + b^2)", 1, "inf"},
+        {"atan((a + b*x)/sqrt(a + 2*b*x - x^2))", "b + sqrt(a + b^2)", -1, "pi/2"},
+        /* the end of the domain of a function, in disguise */
+        {"asin(x*sqrt(a + b)*sqrt(a + 2*b)/(a^2 + 3*a*b + 2*b^2))", "sqrt(a^2 + 3*a*b + 2*b^2)", -1, "pi/2"},
     };
 
     (void)state;
@@ -92,6 +98,7 @@ nothing_is_guessed(void **state)
     assert_int_equal(limit_of("sin(x)", "inf", 0).kind, QDOT_LIMIT_NOT_FOUND);
     assert_int_equal(limit_of("exp(k*x)", "inf", 0).kind, QDOT_LIMIT_NOT_FOUND); /* k has no sign */
     assert_int_equal(limit_of("x*sin(x)", "inf", 0).kind, QDOT_LIMIT_NOT_FOUND);
+    assert_int_equal(limit_of("(k - x)/sqrt(a + 2*b*x - x^2)", "b - sqrt(a + b^2)", 1).kind, QDOT_LIMIT_NOT_FOUND);
 }
 
 int

@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "expr/build.h"
+#include "expr/symbol.h"
 #include "normal/inequality/sign.h"
 
 /* a and b are positive. */
@@ -38,6 +39,33 @@ roots_beside_numbers(void **state)
     (void)state;
     assert_int_equal(sign_of("a - sqrt(a^2 - b)", "a^2 - b"), 1);
     assert_int_equal(sign_of("a - sqrt(a^2 + b)", NULL), -1);
+    assert_int_equal(sign_of("a^2 - b^2 - a*sqrt(a^2 - b^2)", "a - b"), -1);
+    assert_int_equal(sign_of("a*(a + sqrt(a^2 - b^2))/b^2 - 1", "a - b"), 1);
+}
+
+/* What is asked of a polynomial is asked of it without the factors whose signs are known. */
+static void
+factors_are_left_out(void **state)
+{
+    (void)state;
+    assert_int_equal(sign_of("a^2*b^2 - b^4", "a - b"), 1);
+    assert_int_equal(sign_of("b^3 - a*b^2", "a - b"), -1);
+}
+
+static void
+symbols_have_the_sign_of_their_bounds(void **state)
+{
+    const qdot_expr x = qdot_symbol_get(pool, QDOT_PARAM, "x1"), y = qdot_symbol_get(pool, QDOT_PARAM, "y1"),
+                    bound = text_read(pool, "a*b");
+    int sign;
+
+    (void)state;
+    qdot_symbol_domain(pool, x, bound, true, QDOT_NIL, false);
+    qdot_symbol_domain(pool, y, QDOT_NIL, false, qdot_neg(pool, bound), true);
+    assert_int_equal(qdot_sign(pool, x, NULL, &sign), QDOT_OK);
+    assert_int_equal(sign, 1);
+    assert_int_equal(qdot_sign(pool, y, NULL, &sign), QDOT_OK);
+    assert_int_equal(sign, -1);
 }
 
 /* Nothing is concluded where both signs occur. */
@@ -57,6 +85,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(roots_are_ordered, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_beside_numbers, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(factors_are_left_out, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(symbols_have_the_sign_of_their_bounds, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(what_depends_is_not_known, open_pool, close_pool),
     };
 
