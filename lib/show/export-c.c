@@ -48,7 +48,7 @@ const qdot_export_language qdot_export_c = {
         "register restrict return short signed sizeof static struct switch typedef union unsigned void volatile "
         "while main memset memcpy memmove NULL NAN INFINITY HUGE_VAL M_PI M_E t state p M f A gamma acc lambda R "
         "K solved occurs df J out unused solve step system_of abs tan log2 log10 expm1 cbrt hypot round trunc "
-        "ceil fmod j0 j1 jn y0 y1 yn tgamma lgamma ldexp frexp modf nan fma linux unix side own u level motion ",
+        "ceil fmod j0 j1 jn y0 y1 yn tgamma lgamma ldexp frexp modf nan fma linux unix side own u level motion velocity velocities settle ",
     .nan = "NAN",
     .number = "const double %s = %s;",
     .truth = "const int %s = %s;",

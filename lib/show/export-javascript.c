@@ -72,7 +72,7 @@ const qdot_export_language qdot_export_javascript = {
         "NODES STAGES FIFTH THIRD CURVE zeros table largest solve switches sides equations bordered "
         "accelerations derivative jacobian energy residuals project events effect combine plus step interpolate "
         "within watch place lowest firstPlace choose decide cross signs check integrate t state p side u level M "
-        "f A gamma acc lambda R J mass df occurs event out ",
+        "f A gamma acc lambda R J mass df occurs event out velocity velocities ",
     .nan = "NaN",
     .number = "const %s = %s;",
     .truth = "const %s = %s;",

@@ -53,7 +53,7 @@ const qdot_export_language qdot_export_julia = {
         "within watch place lowest choose decide cross signs check Parameters START SPAN TOLERANCE COORDINATES "
         "MULTIPLIERS EVENTS WAYS STOPS equations accelerations derivative jacobian energy residuals events "
         "effect bordered t state p M f A gamma acc lambda R J occurs df out event side u level switches sides "
-        "project ",
+        "project velocity velocities ",
     .nan = "NaN",
     .number = "%s = %s",
     .truth = "%s = %s",

@@ -44,7 +44,7 @@ const qdot_export_language qdot_export_matlab = {
         "Inf NaN inf nan eps ans zeros eye isreal error choose struct s steps step method watch first place "
         "lowest value decide cross signs check integrate within interpolate equations accelerations derivative "
         "jacobian energy residuals events effect bordered t state p M f A gamma acc lambda R J df h out event "
-        "condition parameters side u level switches sides project ",
+        "condition parameters side u level switches sides project velocity velocities ",
     .nan = "NaN",
     .number = "%s = %s;",
     .truth = "%s = %s;",

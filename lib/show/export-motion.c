@@ -285,6 +285,7 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
         const char *word;
         const qdot_export_function *function;
     } functions[] = {{"equations", &x->equations}, {"slopes", &x->slopes},
+                     {"velocities", &x->velocities},
                      {"energy", &x->energy},       {"constraints", &x->positions},
                      {"events", &x->events},       {"switches", &x->switches}};
     const struct {
@@ -343,7 +344,7 @@ qdot_export_tape_uses(const qdot_tape *tape, qdot_op first, qdot_op last)
 static bool
 any_tape_uses(const qdot_export_system *x, qdot_op first, qdot_op last)
 {
-    const qdot_tape *const tapes[] = {x->equations.tape, x->slopes.tape, x->energy.tape,
+    const qdot_tape *const tapes[] = {x->equations.tape, x->slopes.tape, x->velocities.tape, x->energy.tape,
                                       x->positions.tape, x->events.tape, x->switches.tape};
 
     for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++)
@@ -399,6 +400,7 @@ qdot_export_motion_has(const qdot_export_system *x, char what)
     case 'l': return x->s > 0 && x->switches.block[1].rows > 0;
     case 'p': return x->positions.tape != NULL;
     case 's': return x->s > 0;
+    case 'z': return x->velocities.tape != NULL;
     case 'w': return x->n_events + x->s > 0;
     default:
         return any_tape_uses(x, QDOT_OP_SQRT, QDOT_OP_POW) || any_tape_uses(x, QDOT_OP_ASIN, QDOT_OP_ACOS) ||

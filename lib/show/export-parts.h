@@ -62,7 +62,8 @@ typedef struct {
     double t0, t1, tol;
     qdot_export_function equations; /* M, f of M q'' = f; with constraints also A, gamma */
     qdot_export_function slopes;    /* d(residuals)/dy [(n + m) x 2n]; residuals: f + A^T lambda - M q'',
-                                       gamma - A q'' */
+                                       gamma - A q''; then, if there are velocities, d(velocities)/dy [n x 2n] */
+    qdot_export_function velocities; /* q', of first-order states their rates [n]; no tape: the scene has no states */
     qdot_export_function energy;    /* the energy, one number */
     qdot_export_function positions; /* f [m] of constraints without derivatives, df/dt and f of those
                                        on velocities [m], else 0 */

@@ -37,7 +37,7 @@ const qdot_export_language qdot_export_python = {
         "print repr copy fields Parameters START SPAN ORDERS SETS EFFECTS STEPS STAYS MOVES look march watch "
         "place lowest first choose decide cross signs check TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS "
         "equations accelerations derivative jacobian energy residuals events effect integrate bordered dataclass "
-        "t state p M f A gamma acc lambda_ R J occurs df out event side u level project switches sides ",
+        "t state p M f A gamma acc lambda_ R J occurs df out event side u level project switches sides velocity velocities ",
     .nan = "np.nan",
     .number = "%s = %s",
     .truth = "%s = %s",

@@ -105,13 +105,14 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         f[i] = qdot_expr_arg(scene->pool, forcing, (uint32_t)i);
         massless[i] = is_massless(scene, M, i);
-        *any = *any || massless[i];
+        *any = *any || (massless[i] && qdot_scene_state_of(scene, scene->coordinates.at[i]) == NULL);
         accelerations[i] = derivative_of_coordinate(scene, i, 2);
         accelerations[n + i] = QDOT_ZERO;
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         if (massless[i]) {
-            status = check_jumps(scene, massless, i, f[i]);
+            if (qdot_scene_state_of(scene, scene->coordinates.at[i]) == NULL)
+                status = check_jumps(scene, massless, i, f[i]);
             if (status != QDOT_OK)
                 break;
             split_equation(scene, accelerations, accelerations + n, accelerated_rate(scene, massless, f[i]), M + i * n, f + i);

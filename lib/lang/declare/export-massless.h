@@ -6,7 +6,7 @@
  *     M_ij = dF/dq''_j,   f_i = -F at q'' = 0,   F = df_i/dt, or d^2 f_i/dt^2 where f_i holds no velocity of such coordinates
  *
  * which is right from a start where f_i = 0 (and its rate) is, up to where f_i jumps (or, of positions, has a kink): that is
- * refused.
+ * refused. The rate of a first-order state may jump: other programs get it for itself, as z' = rate.
  *
  * Tests  tests/meta/exports.test, tests/bad/massless/massless-export-switch.lag
  */
@@ -15,7 +15,7 @@
 
 #include "mech/scene/scene.h"
 
-/* Write M [n x n], f [n]; *any: there are massless coordinates. QDOT_ENOTBUILT: a value determined
+/* Write M [n x n], f [n]; *any: there are massless coordinates beside states. QDOT_ENOTBUILT: a value determined
  * by one may jump. */
 QDOT_MUST_CHECK qdot_status qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any);
 

@@ -14,9 +14,8 @@
 #include "lang/answer/answer.h"
 #include "lang/declare/export-given.h"
 #include "lang/declare/export-massless.h"
+#include "lang/declare/export-start.h"
 #include "lang/session/bind.h"
-#include "lang/session/runs.h"
-#include "lang/session/start-kind.h"
 #include "lang/session/values.h"
 #include "sim/model/switch.h"
 
@@ -25,8 +24,6 @@ enum {
     MOST_OPERATIONS = 200000,
     MOST_SLOPES = 24 /* largest number of coordinates for which the Jacobian is exported */
 };
-
-#define LEAST_TOL 1e-13 /* smallest tolerance that methods in doubles reach over many steps */
 
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
@@ -40,7 +37,7 @@ typedef struct {
     qdot_switches switches;
     qdot_given_functions given; /* undefined functions to which the user has given a value */
     expressions held; /* [m] constraints as left - right, on the present sides of switches */
-    expressions equations, slopes, energy, positions, events, u;
+    expressions equations, slopes, velocities, energy, positions, events, u;
     qdot_vec(qdot_event) acts; /* the events with the quantities that they set and the new values */
     qdot_vec(expressions) effects; /* these new values as exported expressions */
     qdot_vec(int) orders;
@@ -48,7 +45,7 @@ typedef struct {
     qdot_vec(char *) texts; /* texts of the switching surfaces and of the ends of domains */
     names q, lambda, values;
     qdot_vec(double) start;
-    bool massless; /* a massless coordinate exists: its start velocity may follow from its equation */
+    bool massless; /* a massless coordinate exists that is no state: its start velocity may follow from its equation */
     qdot_vec(qdot_export_event) event;
     qdot_vec(size_t) targets; /* the symbols that all events set */
 } description;
@@ -58,18 +55,19 @@ typedef struct {
 static qdot_status
 append_bound_expression(description *d, expressions *to, qdot_expr e)
 {
-    e = qdot_export_bound(d->session, e);
+    e = qdot_export_bound(d->session, qdot_scene_with_rates(d->scene, e));
     QDOT_TRY(qdot_pool_check(d->session->pool));
     return qdot_vec_push(to, e);
 }
 
-/* Append the expression e with each switch, such as sign(u), replaced by a symbol for its present side. */
+/* Append the expression e with each switch, such as sign(u), replaced by a symbol for its present side. What reads the rate
+ * of a first-order state reads its right side, which may jump. */
 static qdot_status
 append_without_switches(description *d, expressions *to, qdot_expr e)
 {
     qdot_expr frozen;
 
-    e = qdot_export_bound(d->session, e);
+    e = qdot_export_bound(d->session, qdot_scene_with_rates(d->scene, e));
     QDOT_TRY(qdot_pool_check(d->session->pool));
     QDOT_TRY(qdot_switches_freeze(&d->switches, NULL, NULL, 1, &e, &frozen));
     return qdot_vec_push(to, frozen);
@@ -244,6 +242,28 @@ equation_residual(const description *d, size_t i)
     return sum;
 }
 
+/* Of a scene with first-order states, export the velocities: of states their rates. */
+static qdot_status
+export_velocities(description *d)
+{
+    for (size_t i = 0; i < d->x.n && d->scene->states.n > 0; i++)
+        QDOT_TRY(append_without_switches(d, &d->velocities, derivative_of_coordinate(d, i, 1)));
+    d->x.velocities.blocks = 1;
+    d->x.velocities.block[0] = (qdot_export_block){"velocity", d->x.n, 0};
+    return QDOT_OK;
+}
+
+/* Append the derivatives of e, an exported expression, by q and q'. */
+static qdot_status
+append_slopes(description *d, qdot_expr e)
+{
+    QDOT_TRY(qdot_pool_check(d->session->pool));
+    for (size_t j = 0; j < 2 * d->x.n; j++)
+        QDOT_TRY(append_bound_expression(
+            d, &d->slopes, qdot_diff(d->session->pool, e, derivative_of_coordinate(d, j % d->x.n, j >= d->x.n))));
+    return QDOT_OK;
+}
+
 static qdot_status
 export_jacobian(description *d)
 {
@@ -253,16 +273,13 @@ export_jacobian(description *d)
         return qdot_answer_notice(d->session,
                                   "no Jacobian is written for more than %d coordinates",
                                   MOST_SLOPES);
-    for (size_t i = 0; i < rows; i++) {
-        qdot_expr r = equation_residual(d, i);
-
-        QDOT_TRY(qdot_pool_check(d->session->pool));
-        for (size_t j = 0; j < 2 * n; j++)
-            QDOT_TRY(append_bound_expression(d, &d->slopes,
-                                             qdot_diff(d->session->pool, r, derivative_of_coordinate(d, j % n, j >= n))));
-    }
-    d->x.slopes.blocks = 1;
+    for (size_t i = 0; i < rows; i++)
+        QDOT_TRY(append_slopes(d, equation_residual(d, i)));
+    for (size_t i = 0; i < d->velocities.n; i++)
+        QDOT_TRY(append_slopes(d, d->velocities.at[i]));
+    d->x.slopes.blocks = 2;
     d->x.slopes.block[0] = (qdot_export_block){"R", rows, 2 * n};
+    d->x.slopes.block[1] = (qdot_export_block){"J", d->velocities.n, 2 * n};
     return QDOT_OK;
 }
 
@@ -396,6 +413,7 @@ find_all_parameters(description *d)
     const qdot_scene *s = d->scene;
 
     QDOT_TRY(find_parameters(d, &d->equations));
+    QDOT_TRY(find_parameters(d, &d->velocities));
     QDOT_TRY(find_parameters(d, &d->energy));
     QDOT_TRY(find_parameters(d, &d->positions));
     QDOT_TRY(find_parameters(d, &d->events));
@@ -443,87 +461,14 @@ list_all_names(description *d)
     return QDOT_OK;
 }
 
-/* Whether the run was made for the coordinates of the exported scene. */
-static bool
-run_has_scene_coordinates(const description *d, const qdot_run_report *r)
-{
-    if (r->n - r->n_states != d->x.n)
-        return false;
-    for (size_t i = 0; i < d->x.n; i++)
-        if (r->coordinates[i] != d->scene->coordinates.at[i])
-            return false;
-    return true;
-}
-
 static qdot_status
-use_start_of_run(description *d, qdot_run *run)
+export_start(description *d)
 {
-    const qdot_run_report *r = qdot_run_get_report(run);
-    expressions y = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t i = 0; i < 2 * d->x.n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&y, derivative_of_coordinate(d, i % d->x.n, i >= d->x.n));
-    if (status == QDOT_OK)
-        status = qdot_run_values(run, y.n, y.at, 1, &r->t0, d->start.at, NULL);
-    qdot_free(y.at);
-    /* parameter values, including those of `run ... with` */
-    for (size_t i = 0; i < d->parameters.n && status == QDOT_OK; i++) {
-        double value;
-
-        if (qdot_run_values(run, 1, &d->parameters.at[i], 1, &r->t0, &value, NULL) == QDOT_OK)
-            d->values.at[i].value = value;
-    }
-    d->x.t0 = r->t0;
-    d->x.t1 = qdot_run_requested_end(run);
-    d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* since the exported method has a lower order */
-    return status;
-}
-
-/* Find the number given by `start`; 0 if there is none, NaN if it has no numerical value yet. */
-static qdot_status
-find_start_value(qdot_session *s, qdot_expr symbol, double *value)
-{
-    *value = 0;
-    for (size_t i = 0; i < s->values->start_symbols.n; i++)
-        if (s->values->start_symbols.at[i] == symbol) {
-            qdot_status status = qdot_session_number(s, s->values->start_values.at[i], value, NULL);
-
-            if (status != QDOT_EUNSET)
-                return status;
-            *value = NAN;
-        }
-    return QDOT_OK;
-}
-
-static qdot_status
-find_start_values(description *d)
-{
-    qdot_session *s = d->session;
-
     for (size_t i = 0; i < 2 * d->x.n; i++)
         QDOT_TRY(qdot_vec_push(&d->start, 0));
     d->x.start = d->start.at;
-    if (s->runs->n > 0) {
-        qdot_run *run = s->runs->at[s->runs->n - 1].run;
-
-        if (run_has_scene_coordinates(d, qdot_run_get_report(run)))
-            return use_start_of_run(d, run);
-    }
-    if (d->massless) {
-        (void)qdot_fail(QDOT_EINVAL, "the start of a coordinate without mass follows from its equation: it is taken from a run");
-        return qdot_hint("run 0..10 before");
-    }
-    if (qdot_session_starts_by_momenta(s) || qdot_session_starts_by_speeds(s)) {
-        (void)qdot_fail(QDOT_EINVAL, "the start gives %s: the velocities are taken from a run",
-                        qdot_session_starts_by_speeds(s) ? "speeds" : "momenta");
-        return qdot_hint("run 0..10 before");
-    }
-    d->x.t1 = 10;
-    d->x.tol = LEAST_TOL;
-    for (size_t i = 0; i < 2 * d->x.n; i++)
-        QDOT_TRY(find_start_value(s, derivative_of_coordinate(d, i % d->x.n, i >= d->x.n), &d->start.at[i]));
-    return QDOT_OK;
+    return qdot_export_start(d->session, d->massless,
+                             &(qdot_export_started){&d->x, d->start.at, d->parameters.at, d->values.at});
 }
 
 /* --- lowering to tapes -------------------------------------------------------------------- */
@@ -585,6 +530,7 @@ lower_all_to_tapes(description *d)
 {
     QDOT_TRY(lower_to_tape(d, &d->equations, &d->x.equations.tape));
     QDOT_TRY(lower_to_tape(d, &d->slopes, &d->x.slopes.tape));
+    QDOT_TRY(lower_to_tape(d, &d->velocities, &d->x.velocities.tape));
     QDOT_TRY(lower_to_tape(d, &d->energy, &d->x.energy.tape));
     QDOT_TRY(lower_to_tape(d, &d->positions, &d->x.positions.tape));
     QDOT_TRY(lower_to_tape(d, &d->u, &d->x.switches.tape));
@@ -600,11 +546,10 @@ lower_all_to_tapes(description *d)
 static void
 free_description(description *d)
 {
-    expressions *const lists[] = {&d->inputs, &d->parameters, &d->equations, &d->slopes,
-                                  &d->energy, &d->positions, &d->events, &d->u, &d->held};
-    const qdot_export_function *const functions[] = {&d->x.equations, &d->x.slopes, &d->x.energy,
-                                                     &d->x.positions, &d->x.switches,
-                                                     &d->x.events};
+    expressions *const lists[] = {&d->inputs, &d->parameters, &d->equations, &d->slopes, &d->velocities,
+                                  &d->energy, &d->positions,  &d->events,    &d->u,      &d->held};
+    const qdot_export_function *const functions[] = {&d->x.equations, &d->x.slopes,   &d->x.velocities, &d->x.energy,
+                                                     &d->x.positions, &d->x.switches, &d->x.events};
 
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         qdot_free(lists[i]->at);
@@ -642,6 +587,7 @@ describe_scene(description *d)
     QDOT_TRY(export_switches(d));
     QDOT_TRY(export_constraints(d));
     QDOT_TRY(export_equations(d));
+    QDOT_TRY(export_velocities(d));
     QDOT_TRY(export_jacobian(d));
     QDOT_TRY(export_energy(d));
     QDOT_TRY(export_constraint_levels(d));
@@ -649,8 +595,7 @@ describe_scene(description *d)
     QDOT_TRY(find_all_parameters(d));
     QDOT_TRY(list_all_inputs(d));
     QDOT_TRY(list_all_names(d));
-    QDOT_TRY(find_start_values(d));
-    d->x.parameters = d->values.at;
+    QDOT_TRY(export_start(d));
     return lower_all_to_tapes(d);
 }
 
