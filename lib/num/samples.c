@@ -487,6 +487,30 @@ qdot_samples_lookup(double handle, double x)
 }
 
 bool
+qdot_samples_look(double handle, qdot_samples_view *view)
+{
+    int item = ITEMS;
+    const table *t = table_of(handle, &item);
+    const axis *x;
+
+    if (!t || (item < COEFFICIENT && item % KNOT >= t->axes))
+        return false;
+    x = &t->axis[item < COEFFICIENT ? item % KNOT : 0];
+    *view = (qdot_samples_view){
+        .item = item < KNOT ? QDOT_SAMPLES_PIECE : item < COEFFICIENT ? QDOT_SAMPLES_KNOT : QDOT_SAMPLES_COEFFICIENT,
+        .at = x->knots,
+        .n = x->n,
+        .period = t->beyond == QDOT_SAMPLES_PERIODIC ? x->n - 1 : 0,
+        .beyond = t->beyond,
+        .jumps = t->degree == 0};
+    if (item >= COEFFICIENT) {
+        view->at = t->coefficient[item - COEFFICIENT];
+        view->n = (t->axis[0].n + 1) * (t->axes == 2 ? t->axis[1].n + 1 : 1);
+    }
+    return view->at != NULL;
+}
+
+bool
 qdot_samples_finds(double handle)
 {
     int item = ITEMS;

@@ -55,6 +55,19 @@ long qdot_samples_width(int number);
  * NaN if a place is outside a table that has no values there, if x is NaN, and if there is no such handle. */
 double qdot_samples_lookup(double handle, double x);
 
+/* What the items of a table that a handle names are made of, for who reads them elsewhere. */
+typedef struct {
+    enum { QDOT_SAMPLES_PIECE, QDOT_SAMPLES_KNOT, QDOT_SAMPLES_COEFFICIENT } item;
+    const double *at; /* of pieces and knots the axis' knots; of a coefficient its values, by the number of a stored piece */
+    size_t n;         /* how many these are */
+    size_t period;    /* pieces in a period; 0: the table is not periodic */
+    qdot_samples_beyond beyond;
+    bool jumps;
+} qdot_samples_view;
+
+/* Of a handle; false: there is no such handle, or the coefficient is 0 in all pieces. The values stay with the table. */
+bool qdot_samples_look(double handle, qdot_samples_view *view);
+
 /* Whether a handle is that of an axis' pieces. */
 bool qdot_samples_finds(double handle);
 /* Of such a handle, the piece *lo <= x < *hi that holds the place x. With `hold` the pieces outside the table are infinite on

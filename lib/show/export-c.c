@@ -9,12 +9,21 @@ static const char motion_text[] = {
 #include "show/export-c-motion.inc"
 };
 
+static const char table_functions[] = {
+#include "show/export-c-tables.inc"
+};
+
+static const char knot_function[] = {
+#include "show/export-c-knots.inc"
+};
+
 static const char value_text[] =
     "/* $name$ -- written by qdot.\n"
     " *\n"
     "$origin$\n"
     " */\n"
     "#include <math.h>\n"
+    "?t $tables$\n"
     "\n"
     "double $name$($arguments$);\n"
     "\n"
@@ -31,6 +40,7 @@ static const char values_text[] =
     " */\n"
     "#include <math.h>\n"
     "#include <string.h>\n"
+    "?t $tables$\n"
     "\n"
     "void $name$($arguments,$double *out);\n"
     "\n"
@@ -48,7 +58,7 @@ const qdot_export_language qdot_export_c = {
         "register restrict return short signed sizeof static struct switch typedef union unsigned void volatile "
         "while main memset memcpy memmove NULL NAN INFINITY HUGE_VAL M_PI M_E t state p M f A gamma acc lambda R "
         "K solved occurs df J out unused solve step system_of abs tan log2 log10 expm1 cbrt hypot round trunc "
-        "ceil fmod j0 j1 jn y0 y1 yn tgamma lgamma ldexp frexp modf nan fma linux unix side own u level motion velocity velocities settle ",
+        "ceil fmod j0 j1 jn y0 y1 yn tgamma lgamma ldexp frexp modf nan fma linux unix side own u level motion velocity velocities find_piece knot_of entry_of settle ",
     .nan = "NAN",
     .number = "const double %s = %s;",
     .truth = "const int %s = %s;",
@@ -78,6 +88,10 @@ const qdot_export_language qdot_export_c = {
 #define X(op, c, ...) [QDOT_OP_##op] = c,
 #include "show/export-languages.def"
         },
+    .table_begin = "static const double %s[] = {\n    ",
+    .table_end = "\n};\n",
+    .table_functions = table_functions,
+    .knot_function = knot_function,
     .system = system_text,
     .motion = motion_text,
     .value = value_text,

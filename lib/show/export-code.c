@@ -10,7 +10,6 @@
 
 #include "base/memory.h"
 #include "show/export-language.h"
-#include "tape/knots.h"
 
 enum { LONGEST = 44 }; /* in characters: longer expressions are not written inside other ones */
 
@@ -61,10 +60,6 @@ read_values_from_tape(writer *w)
     size_t loaded = t->inputs + t->constants;
     uint32_t *at = qdot_malloc(t->places * sizeof *at); /* [places] index of the value in each place */
 
-    if (qdot_knots_any(t)) {
-        qdot_free(at);
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: exports of functions given by data");
-    }
     w->values = qdot_calloc(loaded + 2 * t->length + 1, sizeof *w->values);
     w->outputs = qdot_malloc(t->outputs * sizeof *w->outputs);
     if (at == NULL || w->values == NULL || w->outputs == NULL) {
@@ -203,6 +198,10 @@ write_value(const writer *w, const value *v, qdot_text *out)
 {
     const char *text = format_of_operation(w, v);
 
+    if (v->op == QDOT_OP_LOOKUP) {
+        qdot_export_lookup(w->frame->tables, w->tape->constant[v->args[2] - w->tape->inputs], w->values[v->args[0]].text, out);
+        return WHOLE;
+    }
     if (text == NULL)
         return write_arithmetic(w, v, out);
     for (; *text != '\0'; text++)

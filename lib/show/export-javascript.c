@@ -31,12 +31,21 @@ static const char system_text[] = {
     "?f     return Math.exp(-x*x)/Math.sqrt(Math.PI)/below;\n" \
     "?f }\n"
 
+static const char table_functions[] = {
+#include "show/export-javascript-tables.inc"
+};
+
+static const char knot_function[] = {
+#include "show/export-javascript-knots.inc"
+};
+
 static const char value_text[] =
     "$origin$\n"
     "//\n"
     "// Written by qdot.\n"
     "\"use strict\";\n"
     ERROR_FUNCTIONS
+    "?t $tables$\n"
     "\n"
     "function $name$($arguments$) {\n"
     "    $code$\n"
@@ -51,6 +60,7 @@ static const char values_text[] =
     "// Written by qdot.\n"
     "\"use strict\";\n"
     ERROR_FUNCTIONS
+    "?t $tables$\n"
     "\n"
     "function $name$($arguments$) {\n"
     "    const out = $shape$;\n"
@@ -72,7 +82,7 @@ const qdot_export_language qdot_export_javascript = {
         "NODES STAGES FIFTH THIRD CURVE zeros table largest solve switches sides equations bordered "
         "accelerations derivative jacobian energy residuals project events effect combine plus step interpolate "
         "within watch place lowest firstPlace choose decide cross signs check integrate t state p side u level M "
-        "f A gamma acc lambda R J mass df occurs event out velocity velocities ",
+        "f A gamma acc lambda R J mass df occurs event out velocity velocities find_piece knot_of entry_of ",
     .nan = "NaN",
     .number = "const %s = %s;",
     .truth = "const %s = %s;",
@@ -102,6 +112,10 @@ const qdot_export_language qdot_export_javascript = {
 #define X(op, c, python, julia, matlab, javascript, ...) [QDOT_OP_##op] = javascript,
 #include "show/export-languages.def"
         },
+    .table_begin = "const %s = [\n    ",
+    .table_end = "\n];\n",
+    .table_functions = table_functions,
+    .knot_function = knot_function,
     .system = system_text,
     .value = value_text,
     .values = values_text,

@@ -17,6 +17,14 @@ static const char system_text[] = {
     "?g real_acosh(x) = x < 1 ? oftype(float(x), NaN) : acosh(x)\n" \
     "?g real_atanh(x) = abs(x) > 1 ? oftype(float(x), NaN) : atanh(x)\n"
 
+static const char table_functions[] = {
+#include "show/export-julia-tables.inc"
+};
+
+static const char knot_function[] = {
+#include "show/export-julia-knots.inc"
+};
+
 static const char value_text[] =
     "$origin$\n"
     "#\n"
@@ -24,6 +32,7 @@ static const char value_text[] =
     "?f erf(x) = ccall((:erf, Base.Math.libm), Float64, (Float64,), x)\n"
     "?f erfc(x) = ccall((:erfc, Base.Math.libm), Float64, (Float64,), x)\n"
     REAL_FUNCTIONS
+    "?t $tables$\n"
     "\n"
     "function $name$($arguments$)\n"
     "    $code$\n"
@@ -36,6 +45,7 @@ static const char values_text[] =
     "?f erf(x) = ccall((:erf, Base.Math.libm), Float64, (Float64,), x)\n"
     "?f erfc(x) = ccall((:erfc, Base.Math.libm), Float64, (Float64,), x)\n"
     REAL_FUNCTIONS
+    "?t $tables$\n"
     "\n"
     "function $name$($arguments$)\n"
     "    out = zeros($shape$)\n"
@@ -53,7 +63,7 @@ const qdot_export_language qdot_export_julia = {
         "within watch place lowest choose decide cross signs check Parameters START SPAN TOLERANCE COORDINATES "
         "MULTIPLIERS EVENTS WAYS STOPS equations accelerations derivative jacobian energy residuals events "
         "effect bordered t state p M f A gamma acc lambda R J occurs df out event side u level switches sides "
-        "project velocity velocities ",
+        "project velocity velocities find_piece knot_of entry_of ",
     .nan = "NaN",
     .number = "%s = %s",
     .truth = "%s = %s",
@@ -84,6 +94,10 @@ const qdot_export_language qdot_export_julia = {
 #define X(op, c, python, julia, ...) [QDOT_OP_##op] = julia,
 #include "show/export-languages.def"
         },
+    .table_begin = "const %s = [\n    ",
+    .table_end = "\n]\n",
+    .table_functions = table_functions,
+    .knot_function = knot_function,
     .system = system_text,
     .value = value_text,
     .values = values_text,

@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "show/export-parts.h"
+#include "show/export-tables.h"
 #include "tape/instruction.h"
 
 struct qdot_export_language {
@@ -49,6 +50,10 @@ struct qdot_export_language {
      * NULL: + - * / and what is made of them. */
     const char *operation[QDOT_OP_COUNT];
 
+    /* Tables of data (export-tables.h): texts before (printf of the name) and after the numbers of one; the functions that read
+     * them, and the one that finds the next knot of a motion. */
+    const char *table_begin, *table_end, *table_functions, *knot_function;
+
     /* templates of files: for a motion (in two parts; motion NULL: in one), for an expression, for several expressions */
     const char *system, *motion, *value, *values;
 };
@@ -62,6 +67,7 @@ typedef struct {
     const char *const *words, *const *sources;
     const char *indent, *temporary;
     const char *const *targets;
+    const qdot_export_tables *tables;
 } qdot_export_frame;
 
 /* Write the source text of a file in the language. Errors: QDOT_EINVAL (a constant is not finite), QDOT_ENOMEM. */

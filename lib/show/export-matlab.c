@@ -16,6 +16,14 @@ static const char system_text[] = {
     "?h     end\n" \
     "?h end\n"
 
+static const char table_functions[] = {
+#include "show/export-matlab-tables.inc"
+};
+
+static const char knot_function[] = {
+#include "show/export-matlab-knots.inc"
+};
+
 static const char value_text[] =
     "function h = $name$($arguments$)\n"
     "% $name$ -- written by qdot, for Matlab and Octave.\n"
@@ -23,7 +31,8 @@ static const char value_text[] =
     "$origin$\n"
     "    $code$\n"
     "end\n"
-    CHOOSE;
+    CHOOSE
+    "?t $tables$\n";
 
 static const char values_text[] =
     "function out = $name$($arguments$)\n"
@@ -33,7 +42,8 @@ static const char values_text[] =
     "    out = zeros($shape$);\n"
     "    $code$\n"
     "end\n"
-    CHOOSE;
+    CHOOSE
+    "?t $tables$\n";
 
 const qdot_export_language qdot_export_matlab = {
     .comment = "%",
@@ -44,7 +54,7 @@ const qdot_export_language qdot_export_matlab = {
         "Inf NaN inf nan eps ans zeros eye isreal error choose struct s steps step method watch first place "
         "lowest value decide cross signs check integrate within interpolate equations accelerations derivative "
         "jacobian energy residuals events effect bordered t state p M f A gamma acc lambda R J df h out event "
-        "condition parameters side u level switches sides project velocity velocities ",
+        "condition parameters side u level switches sides project velocity velocities find_piece knot_of entry_of ",
     .nan = "NaN",
     .number = "%s = %s;",
     .truth = "%s = %s;",
@@ -75,6 +85,10 @@ const qdot_export_language qdot_export_matlab = {
 #define X(op, c, python, julia, matlab, ...) [QDOT_OP_##op] = matlab,
 #include "show/export-languages.def"
         },
+    .table_begin = "function x = %s()\n    x = [ ...\n    ",
+    .table_end = " ...\n    ];\nend\n\n",
+    .table_functions = table_functions,
+    .knot_function = knot_function,
     .system = system_text,
     .value = value_text,
     .values = values_text,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "show/export-writer.h"
+#include "show/export-data.h"
 
 typedef qdot_export_writer writer;
 
@@ -191,9 +191,8 @@ write_constraint_orders(writer *w)
 
 enum { A_LINE = 4, ROWS = 16, TERMS = 12 };
 
-/* Write the numbers x [n] as text, four in a line. */
-static void
-write_numbers(writer *w, size_t n, const double *x, const char *indent)
+void
+qdot_export_write_numbers(writer *w, size_t n, const double *x, const char *indent)
 {
     for (size_t i = 0; i < n; i++) {
         if (i % A_LINE == 0 && i > 0)
@@ -208,7 +207,7 @@ write_matrix(writer *w, size_t rows, size_t columns, const double *x, const char
 {
     for (size_t i = 0; i < rows; i++) {
         qdot_text_format(w->out, "%s%s", indent, w->language->row_begin);
-        write_numbers(w, columns, x + i * columns, indent);
+        qdot_export_write_numbers(w, columns, x + i * columns, indent);
         qdot_text_format(w->out, "%s\n", w->language->row_end);
     }
     return QDOT_OK;
@@ -219,7 +218,7 @@ static qdot_status
 write_number_row(writer *w, size_t n, const double *x, const char *indent)
 {
     qdot_text_add(w->out, indent);
-    write_numbers(w, n, x, indent);
+    qdot_export_write_numbers(w, n, x, indent);
     qdot_text_format(w->out, "%s\n", w->language->line_end);
     return QDOT_OK;
 }
@@ -324,6 +323,7 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
            : strcmp(word, "coordinates") == 0 ? write_names(w, x->n, x->q)
            : strcmp(word, "multipliers") == 0 ? write_names(w, x->m, x->lambda)
            : strcmp(word, "orders") == 0      ? write_constraint_orders(w)
+           : strcmp(word, "knots") == 0       ? qdot_export_write_knots(w, indent)
            : strcmp(word, "sets") == 0        ? write_event_target_matrix(w, indent)
            : strcmp(word, "effects") == 0
                ? write_all_event_effects(w, indent)

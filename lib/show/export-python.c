@@ -5,12 +5,21 @@ static const char system_text[] = {
 #include "show/export-python.inc"
 };
 
+static const char table_functions[] = {
+#include "show/export-python-tables.inc"
+};
+
+static const char knot_function[] = {
+#include "show/export-python-knots.inc"
+};
+
 static const char value_text[] =
     "$origin$\n"
     "#\n"
     "# Written by qdot.\n"
     "import numpy as np\n"
     "?f from scipy.special import erf, erfc\n"
+    "?t $tables$\n"
     "\n"
     "\n"
     "def $name$($arguments$):\n"
@@ -22,6 +31,7 @@ static const char values_text[] =
     "# Written by qdot.\n"
     "import numpy as np\n"
     "?f from scipy.special import erf, erfc\n"
+    "?t $tables$\n"
     "\n"
     "\n"
     "def $name$($arguments$):\n"
@@ -37,7 +47,7 @@ const qdot_export_language qdot_export_python = {
         "print repr copy fields Parameters START SPAN ORDERS SETS EFFECTS STEPS STAYS MOVES look march watch "
         "place lowest first choose decide cross signs check TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS "
         "equations accelerations derivative jacobian energy residuals events effect integrate bordered dataclass "
-        "t state p M f A gamma acc lambda_ R J occurs df out event side u level project switches sides velocity velocities ",
+        "t state p M f A gamma acc lambda_ R J occurs df out event side u level project switches sides velocity velocities find_piece knot_of entry_of ",
     .nan = "np.nan",
     .number = "%s = %s",
     .truth = "%s = %s",
@@ -67,6 +77,10 @@ const qdot_export_language qdot_export_python = {
 #define X(op, c, python, ...) [QDOT_OP_##op] = python,
 #include "show/export-languages.def"
         },
+    .table_begin = "%s = np.array([\n    ",
+    .table_end = "\n])\n",
+    .table_functions = table_functions,
+    .knot_function = knot_function,
     .system = system_text,
     .value = value_text,
     .values = values_text,

@@ -8,7 +8,7 @@
 
 #include "show/export-language.h"
 
-typedef struct {
+typedef struct qdot_export_writer {
     const qdot_export_language *language;
     const qdot_export_system *system;    /* the motion to be exported; NULL: an expression is */
     const qdot_export_expression *value; /* the expression to be exported; NULL: a motion is */
@@ -17,6 +17,7 @@ typedef struct {
     char **sources; /* [inputs] expressions from which the inputs are read; NULL: they are arguments of the function */
     char *name;     /* name of the function or the group of functions */
     char temporary[16];
+    qdot_export_tables tables;
     qdot_text *out;
 } qdot_export_writer;
 
@@ -33,6 +34,9 @@ QDOT_MUST_CHECK qdot_status qdot_export_write_code(qdot_export_writer *w,
                                                    const char *indent, const char *const *targets);
 /* Write a number; NaN in the syntax of the language. */
 void qdot_export_write_number(const qdot_export_writer *w, double x);
+
+/* Write n > 0 numbers, four in a line. */
+void qdot_export_write_numbers(qdot_export_writer *w, size_t n, const double *x, const char *indent);
 
 /* Write the text that replaces a word of a motion's template. */
 QDOT_MUST_CHECK qdot_status qdot_export_motion_word(qdot_export_writer *w, const char *word,

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "show/export-writer.h"
+#include "show/export-data.h"
 
 typedef qdot_export_writer writer;
 
@@ -164,20 +164,18 @@ name_expression_inputs(writer *w)
     return QDOT_OK;
 }
 
-/* Choose the prefix of intermediate variables, such that prefix and digit are not a name of the scene. */
+/* Choose a prefix [16] of names, such that prefix and digit are not a name of the scene; the last try is taken in any case. */
 static void
-choose_temporary_prefix(writer *w)
+choose_prefix(const writer *w, size_t n_tries, const char *const *tries, char *prefix)
 {
-    static const char *const tries[] = {"w", "u", "z", "w_", "temporary_"};
-
-    for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
+    for (size_t k = 0; k < n_tries; k++) {
         size_t n = strlen(tries[k]);
         bool free_ = true;
 
         for (size_t i = 0; i < w->inputs; i++)
             free_ &= strncmp(w->words[i], tries[k], n) != 0 ||
                      !isdigit((unsigned char)w->words[i][n]);
-        snprintf(w->temporary, sizeof w->temporary, "%s", tries[k]);
+        snprintf(prefix, sizeof w->temporary, "%s", tries[k]);
         if (free_)
             return;
     }
@@ -227,7 +225,8 @@ qdot_export_write_code(writer *w, const qdot_export_function *f, const char *ind
                                      .sources = (const char *const *)w->sources,
                                      .indent = indent,
                                      .temporary = w->temporary,
-                                     .targets = targets};
+                                     .targets = targets,
+                                     .tables = &w->tables};
 
     return f->tape == NULL ? QDOT_OK : qdot_export_code(&frame, f, w->out);
 }
@@ -310,6 +309,8 @@ write_common_word(writer *w, const char *word, const char *indent, bool *known)
         qdot_text_add(w->out, w->system != NULL ? w->system->file : w->value->file);
     else if (strcmp(word, "origin") == 0)
         return write_scene_comments(w, w->system != NULL ? w->system->origin : w->value->origin);
+    else if (strcmp(word, "tables") == 0)
+        return qdot_export_write_tables(w);
     else if (w->system == NULL && strncmp(word, "arguments", 9) == 0)
         return write_function_arguments(w, word[9] == ',');
     else if (w->system == NULL && strcmp(word, "code") == 0)
@@ -328,6 +329,8 @@ has_template_feature(const writer *w, char what)
 {
     const qdot_tape *tape = w->system == NULL ? w->value->value.tape : NULL;
 
+    if (what == 't' || what == 'n')
+        return (what == 't' ? w->tables.columns.n : w->tables.lines.n) > 0;
     if (w->system != NULL)
         return qdot_export_motion_has(w->system, what);
     switch (what) {
@@ -407,8 +410,11 @@ write_exported_file(writer *w, const char *file, const char *text)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = w->system != NULL ? name_motion_inputs(w) : name_expression_inputs(w);
+    if (status == QDOT_OK)
+        status = qdot_export_find_tables(w);
     if (status == QDOT_OK) {
-        choose_temporary_prefix(w);
+        choose_prefix(w, 5, (const char *const[]){"w", "u", "z", "w_", "temporary_"}, w->temporary);
+        choose_prefix(w, 3, (const char *const[]){"table_", "data_", "table__"}, w->tables.prefix);
         status = write_template_text(w, text);
         if (status == QDOT_OK && w->system != NULL && w->language->motion != NULL)
             status = write_template_text(w, w->language->motion);
@@ -420,6 +426,7 @@ write_exported_file(writer *w, const char *file, const char *text)
     qdot_free(w->words);
     qdot_free(w->sources);
     qdot_free(w->name);
+    qdot_export_tables_clear(&w->tables);
     return status;
 }
 

@@ -39,7 +39,6 @@ data f from "d.csv" : t, F; force f(t) on p; run 0..5
 data f from "d.csv" : t, F; force f(t) on p; run -1..1
 data f from "d.csv" : t, F; force f(x) on p; start x' = 2; run 0..5
 data f from "d.csv" : t, F; force f(t) on p; run 0..3 digits 30
-data f from "d.csv" : t, F; force f(t) on p; export c eom to "x.c"
 data f from "d.csv" : t, F; solve(f(t) = 1/2, t, 0..4)
 data f from "d.csv" : t, F; numeric(integral(f(t), t, 0, 4))
 force x(t - 0.1) on p
