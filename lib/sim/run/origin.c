@@ -9,6 +9,7 @@
 #include "expr/calculus.h"
 #include "expr/constant.h"
 #include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 /* A run counts times from its start if this is farther from t = 0 than this many durations of the run. */
@@ -63,8 +64,11 @@ rewrite_scene(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
     QDOT_TRY(qdot_scene_save(scene, &o->saved));
     o->scene = scene;
     n = 0;
-    for (; n < asked->n_values; n++)
-        o->values[n] = replace_time(asked->values[n], &w);
+    for (; n < asked->n_values; n++) { /* t in the value of a function is its argument */
+        const bool function = qdot_expr_kind(scene->pool, asked->symbols[n]) == QDOT_UFUN;
+
+        o->values[n] = function ? asked->values[n] : replace_time(asked->values[n], &w);
+    }
     o->request.values = o->values;
     for (size_t i = 0; i < scene->events.n; i++) {
         qdot_event *e = &scene->events.at[i];

@@ -46,3 +46,6 @@ qdot -q -e 'data g from "gaps.csv" : t, F' -e 'undo' -e 'g' 2>&1
 qdot -q -e 'data g from "gaps.csv" : t, F' -e 'reset' -e 'param g = 3' -e 'g' 2>&1
 # what holds for any function is proved; what does not is not refuted by values that the data do not have
 qdot -q -e 'data drive from "drive.csv" : t, F; param x; check drive(x) + 1 > drive(x); check drive(0) > 0; check drive(0) == 2; check drive(0) > 0 within 0; check drive(0) == 1 within 1e-15' 2>&1
+# far from t = 0 a run counts from its start; the function reads the same places
+printf 't,F\n9999,1\n10000,2\n10001,0\n10002,1\n' >far.csv
+qdot -q -e 'coord x; particle p mass 1 at x; data f from "far.csv" : t, F linear hold; force f(t) on p; start x = 0; run 10000..10001; check value(x, 10001) == 2/3 within 1e-14' -e 'reset' -e 'coord x; particle p mass 1 at x; function f(t); set f(t) = 10001 - t; force f(t) on p; start x = 0; run 10000..10001; check value(x, 10001) == 1/3 within 1e-12'
