@@ -242,7 +242,8 @@ iterate_search(search *s, gsl_multifit_nlinear_workspace *w)
         memcpy(x->u, gsl_multifit_nlinear_position(w)->data, x->p * sizeof *x->u);
         QDOT_TRY(evaluate_model(s, x->u)); /* evaluate again: does nothing unless the last step was rejected */
         QDOT_TRY(decompose_jacobian(s));
-        x->converged = over && step_is_rounding_error(s);
+        /* an unknown that is 0 at a perfect fit becomes smaller without end: the steps are used up, and the last is no more than rounding */
+        x->converged = (over || x->steps == x->most_steps) && step_is_rounding_error(s);
         if (reducible_part(s) <= near_offset)
             return take_gauss_newton_steps(s);
         if (over || x->steps == x->most_steps)

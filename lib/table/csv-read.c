@@ -24,6 +24,7 @@ typedef struct {
     piece line; /* the present line, without line end and comment */
     size_t number; /* number of the present line, from 1 */
     char separator; /* ',', ';' or ' ' (blanks and tabs) between cells; 0: not known yet */
+    char mark;      /* '.' or ',' within numbers; 0: none had one yet */
     qdot_vec(double) values;
     qdot_vec(qdot_csv_place) places;
     size_t columns, rows;
@@ -101,22 +102,25 @@ next_cell(const reader *r, const char **at, piece *cell)
     return true;
 }
 
-/* Whether a cell is a decimal number such as 1, -.5 or 2.5e-3. */
+/* Whether a cell is a decimal number such as 1, -.5, 2.5e-3 or, as many countries write it, 0,5; *mark: '.' or ',' if it has
+ * one, else 0. */
 static bool
-is_decimal_number(piece p)
+read_decimal_number(piece p, char *mark)
 {
     const char *c = p.at;
     size_t digits = 0;
 
+    *mark = 0;
     c += c < p.end && (*c == '+' || *c == '-');
     for (; c < p.end && *c >= '0' && *c <= '9'; c++)
         digits++;
-    c += c < p.end && *c == '.';
+    if (c < p.end && (*c == '.' || *c == ','))
+        *mark = *c++;
     for (; c < p.end && *c >= '0' && *c <= '9'; c++)
         digits++;
     if (digits == 0)
         return false;
-    if (c < p.end && (*c == 'e' || *c == 'E')) {
+    if (c < p.end && strchr("eEdD", *c) != NULL) {
         c++;
         c += c < p.end && (*c == '+' || *c == '-');
         if (c == p.end)
@@ -125,6 +129,14 @@ is_decimal_number(piece p)
             continue;
     }
     return c == p.end;
+}
+
+static bool
+is_decimal_number(piece p)
+{
+    char mark;
+
+    return read_decimal_number(p, &mark);
 }
 
 /* Whether a cell contains a word for a missing number, such as nan or n/a. */
@@ -145,18 +157,12 @@ fail_at_cell(const reader *r, piece cell)
 {
     const qdot_csv_place place = place_in_file(r, cell.at);
     const int shown = cell.end - cell.at > SHOWN ? SHOWN : (int)(cell.end - cell.at);
-    piece before = {cell.at, memchr(cell.at, ',', (size_t)(cell.end - cell.at))};
-    piece behind = {before.end ? before.end + 1 : cell.end, cell.end};
 
     if (cell.at == cell.end) {
         (void)qdot_csv_fail(r->name, &place, "a number is missing");
         return qdot_hint("take the row out: each has a number in every column");
     }
     (void)qdot_csv_fail(r->name, &place, "`%.*s` is not a number", shown, cell.at);
-    if (before.end && is_decimal_number(before) && is_decimal_number(behind) &&
-        !memchr(cell.at, '.', (size_t)(cell.end - cell.at)))
-        return qdot_hint("numbers have a decimal point: %.*s.%.*s", (int)(before.end - before.at),
-                         before.at, (int)(behind.end - behind.at), behind.at);
     if (is_missing_number(cell))
         return qdot_hint("take the row out: each has a number in every column");
     return qdot_hint("`#` begins a comment; the names of columns are above the first row");
@@ -164,41 +170,70 @@ fail_at_cell(const reader *r, piece cell)
 
 /* Read the number in a cell. */
 static qdot_status
-read_cell(const reader *r, piece cell, double *x)
+read_cell(reader *r, piece cell, double *x)
 {
     char buffer[64];
     const size_t n = (size_t)(cell.end - cell.at);
-    char *own = n < sizeof buffer ? buffer : NULL, *allocated = NULL;
-    qdot_csv_place place;
+    char *own = n < sizeof buffer ? buffer : NULL, *allocated = NULL, mark;
+    qdot_csv_place place = place_in_file(r, cell.at);
 
     if (r->csv->gaps && (n == 0 || is_missing_number(cell))) {
         *x = NAN;
         return QDOT_OK;
     }
-    if (!is_decimal_number(cell))
+    if (!read_decimal_number(cell, &mark))
         return fail_at_cell(r, cell);
+    if (mark != 0 && r->mark != 0 && mark != r->mark) {
+        (void)qdot_csv_fail(r->name, &place, "`%.*s` has a decimal %s, numbers before it a decimal %s", n > SHOWN ? SHOWN : (int)n,
+                            cell.at, mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
+        return qdot_hint("one of the two in the whole file, and none between thousands");
+    }
+    r->mark = mark != 0 ? mark : r->mark;
     if (own == NULL)
         own = allocated = qdot_malloc(n + 1);
     if (own == NULL)
         return QDOT_ENOMEM;
     memcpy(own, cell.at, n);
     own[n] = '\0';
+    for (char *c = own; *c != '\0'; c++)
+        *c = *c == ',' ? '.' : *c == 'd' || *c == 'D' ? 'e' : *c;
     *x = strtod(own, NULL);
     qdot_free(allocated);
     if (isfinite(*x))
         return QDOT_OK;
-    place = place_in_file(r, cell.at);
     return qdot_csv_fail(r->name, &place, "`%.*s` is too large for a double",
                          n > SHOWN ? SHOWN : (int)n, cell.at);
 }
 
 /* --- reading lines --------------------------------------------------------------------------- */
 
+/* Whether a line is numbers between blanks or tabs, some of them with a decimal comma. */
+static bool
+has_commas_within_numbers(piece line)
+{
+    const reader r = {.line = line, .separator = ' '};
+    const char *at = line.at;
+    size_t cells = 0, commas = 0;
+    piece cell;
+
+    while (next_cell(&r, &at, &cell)) {
+        char mark;
+
+        if (!(read_decimal_number(cell, &mark) && mark != '.' && cell.end[-1] != ',' && *cell.at != ',') && !is_missing_number(cell))
+            return false;
+        cells++;
+        commas += mark == ',';
+    }
+    return cells > 1 && commas > 0;
+}
+
 static char
 find_separator(piece line)
 {
     static const char in_order[] = {';', ','};
 
+    if (memchr(line.at, ';', (size_t)(line.end - line.at)) == NULL && has_commas_within_numbers(line))
+        return ' ';
     for (size_t i = 0; i < sizeof in_order; i++)
         if (memchr(line.at, in_order[i], (size_t)(line.end - line.at)))
             return in_order[i];
@@ -304,6 +339,10 @@ read_lines(reader *r, const char *text, size_t length)
 {
     const char *const end = text + length, *at = text;
 
+    if (length >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0)) {
+        (void)qdot_fail(QDOT_EINVAL, "%.150s is a text in UTF-16, not in UTF-8", r->name);
+        return qdot_hint("iconv -f UTF-16 -t UTF-8 turns one into the other");
+    }
     if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         at += 3;
     while (at < end) {
@@ -322,7 +361,7 @@ read_lines(reader *r, const char *text, size_t length)
     if (r->rows > 0)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "%.150s has no row of numbers", r->name);
-    return qdot_hint("rows are numbers with decimal points, between commas, semicolons, blanks or tabs");
+    return qdot_hint("rows are numbers between commas, semicolons, blanks or tabs");
 }
 
 qdot_status

@@ -29,6 +29,16 @@ fit 'fit k to "units.csv" : t*1e-3 - 1, 1000*x'
 # gaps
 awk -F, 'NR == 2 { print $1 ","; next } NR == 4 { print "NaN," $2; next } { print }' plain.csv >gaps.csv
 fit 'fit k to "gaps.csv" : t, x'
+# decimal commas between semicolons or tabs, quotes, a header with units, exponents of Fortran
+awk -F, 'NR == 1 { print "t [s];x [m]"; next } { gsub(/\./, ",", $1); gsub(/\./, ",", $2); print $1 ";" $2 }' whole.csv >commas.csv
+head -3 commas.csv
+fit 'fit k to "commas.csv" : t, x'
+tr ';' '\t' <commas.csv >tabs.csv
+fit 'fit k to "tabs.csv" : t, x'
+awk -F';' 'NR == 1 { print "t,x"; next } { print "\"" $1 "\",\"" $2 "\"" }' commas.csv >quotes.csv
+fit 'fit k to "quotes.csv" : t, x'
+awk -F, 'NR == 1 { print "t x"; next } { gsub(/e/, "D", $2); print $1 "D0 " $2 }' whole.csv >fortran.csv
+fit 'fit k to "fortran.csv" : t, x'
 # the time constant of a filter, a state
 cat >filter.lag <<'END'
 param tau = 0.5
@@ -41,3 +51,5 @@ fit tau, z to "filter.csv" : t, z
 check tau == 1/2 within 1e-8
 END
 qdot -q filter.lag 2>&1 | tail -6
+# a state that starts at 0, in data without noise: its estimate becomes smaller until the steps end
+qdot -q -e 'param k = 4; coord x; particle p mass 1 at x; potential k*x^2/2; state z'"'"' = 2*(x - z); force -z on p; start x = 1; run 0..4; table x, z every 0.25 to "zero.csv"; set k = 4.4; fit k, z to "zero.csv" : t, x, z; check k == 4 within 1e-12' 2>&1 | tail -3
