@@ -57,13 +57,13 @@ find_largest_residual(qdot_run *run, const qdot_scene *scene, qdot_constraint_ki
 
     for (size_t k = 0; k < c->m; k++) {
         /* take f from the scene, as the row's own f holds for one side only if the equations switch */
-        /* an equation of a massless coordinate; such equations have no switches */
+        /* an equation of a massless coordinate; only rates of states may switch, and pieces begin with these as they are */
         const bool massless = c->rows[k].multiplier == QDOT_NIL;
         qdot_drift f = {
             .quantity = massless ? c->rows[k].f : qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
         qdot_drifts one = {.n = 1, .at = &f};
 
-        if (c->rows[k].kind != kind)
+        if (c->rows[k].kind != kind || (massless && run->stage.switches.surfaces.n > 0))
             continue;
         QDOT_TRY(qdot_precise_pair_drifts(run->precise, &one));
         *most = fmax(*most, f.drift); /* fmax also replaces the NaN that *most is at first */

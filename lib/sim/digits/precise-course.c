@@ -173,6 +173,8 @@ qdot_precise_course_init(qdot_precise_side *s)
         if (!s->binds[mode])
             QDOT_TRY(qdot_precise_bind_new(mode_at_index(s, mode)->plan, s->order,
                                            s->start.bits, &s->binds[mode]));
+        if (mode_at_index(s, mode)->plan->n_massless > 0)
+            QDOT_TRY(add_projection(s, mode));
     }
     for (size_t i = 0; i < g->faded.n; i++)
         if (g->faded.at[i].touched && qdot_staged_event_acts(&g->stage->events.at[g->faded.at[i].event]))
@@ -296,6 +298,19 @@ add_to_result(qdot_precise_side *s, const qdot_ode_result *r)
     s->result.stats = sum;
 }
 
+/* Put the rates of first-order states into y at the start of a piece of that mode: they may have jumped. */
+static qdot_status
+take_rates(qdot_precise_side *s, size_t mode)
+{
+    const qdot_plan *p = mode_at_index(s, mode)->plan;
+
+    if (p->n_massless == 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < p->n; i++)
+        s->course->set[i] = !p->massless[i];
+    return qdot_precise_hold_put(s->course->holds.at[mode], s->course->numbers.at[0], s->course->y, NULL, s->course->set);
+}
+
 /* Integrate piece k from the time numbers.at[0] and the state y. */
 static qdot_status
 run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
@@ -307,6 +322,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
     qdot_status status;
 
+    QDOT_TRY(take_rates(s, piece->mode));
     if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* the piece ended in doubles without a root that is known */
         return qdot_precise_beyond_doubles(tr->t[last]);
     s->course->segment_of[k] = segment;

@@ -230,6 +230,13 @@ check_start_is_exact(const qdot_run_request *request)
                : QDOT_OK;
 }
 
+/* Whether coordinate i has no mass and is no first-order state, whose rate is given by its equation as it is. */
+static bool
+follows_from_equation(const qdot_plan *p, const qdot_scene *scene, size_t i)
+{
+    return p->massless[i] && qdot_scene_state_of(scene, scene->coordinates.at[i]) == NULL;
+}
+
 /* Refuse massless coordinates where a method cannot treat them, and `digits` where such coordinates
  * may jump. */
 static qdot_status
@@ -239,6 +246,10 @@ check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_reque
     size_t i = 0;
 
     if (p->n_massless == 0 || (!(request->digits > 0 && jumps) && !request->lanes && !p->method->geometric))
+        return QDOT_OK;
+    while (request->digits > 0 && i < scene->coordinates.n && !follows_from_equation(p, scene, i))
+        i++;
+    if (i == scene->coordinates.n)
         return QDOT_OK;
     while (!p->massless[i])
         i++;
