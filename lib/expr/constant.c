@@ -12,6 +12,7 @@
 #include "expr/elliptic-ball.h"
 #include "expr/exact.h"
 #include "expr/function-ball.h"
+#include "expr/integral-pieces.h"
 #include "expr/integral.h"
 #include "expr/integral-value.h"
 #include "expr/node.h"
@@ -329,6 +330,25 @@ sharpen_end(const qdot_pool *pool, qdot_expr e, arb_t end, slong bits)
         arb_set_fmpq(end, c, bits);
 }
 
+/* The value of an integral of what reads tables of data. */
+static qdot_status
+integral_of_data(evaluation *v, arb_t y, qdot_expr e, slong bits)
+{
+    qdot_expr sum;
+    mpfr_t x;
+    qdot_status status = qdot_integral_in_pieces((qdot_pool *)v->pool, e, qdot_constant_double, &sum);
+
+    if (status != QDOT_OK)
+        return status;
+    mpfr_init2(x, bits + 16);
+    status = qdot_constant_real((qdot_pool *)v->pool, sum, x);
+    arf_set_mpfr(arb_midref(y), x);
+    mag_zero(arb_radref(y));
+    mag_set_d(arb_radref(y), ldexp(fabs(mpfr_get_d(x, MPFR_RNDA)), (int)(-bits)));
+    mpfr_clear(x);
+    return status;
+}
+
 /* The value of a definite integral, whose integrand must hold nothing without a value. */
 static qdot_status
 integral_of_node(evaluation *v, arb_t y, qdot_expr e, slong bits)
@@ -341,7 +361,7 @@ integral_of_node(evaluation *v, arb_t y, qdot_expr e, slong bits)
     if ((qdot_expr_node(v->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
         return report_unset_symbols(v);
     if (qdot_expr_find_function((qdot_pool *)v->pool, e, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: the number of an integral of data");
+        return integral_of_data(v, y, e, bits);
     if (v->estimated && bits > 2 * (FIRST_BITS + v->wanted))
         return QDOT_OK; /* y stays: no number of bits makes an estimate a bound, that it is 0, say */
     arb_init(a);

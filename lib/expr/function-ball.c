@@ -41,17 +41,23 @@ qdot_fun_ball_of(qdot_fun_id id)
 }
 
 qdot_status
+qdot_lookup_check(double handle, double x)
+{
+    double lo, hi;
+
+    if (isnan(x) || !qdot_samples_range(handle, &lo, &hi) || !isnan(qdot_samples_lookup(handle, x)))
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EDOMAIN, "the data go from %.10g to %.10g: there is no value at %.10g", lo, hi, x);
+    return qdot_hint("`hold` or `periodic` behind the statement `data` go on beyond the ends");
+}
+
+qdot_status
 qdot_lookup_value(arb_t y, const arb_t x, const arb_t handle)
 {
     const double h = arf_get_d(arb_midref(handle), ARF_RND_NEAR), at = arf_get_d(arb_midref(x), ARF_RND_NEAR);
-    const double found = qdot_samples_lookup(h, at);
-    double lo, hi;
 
-    arb_set_d(y, found);
-    if (!isnan(found) || isnan(at) || !qdot_samples_range(h, &lo, &hi))
-        return QDOT_OK;
-    (void)qdot_fail(QDOT_EDOMAIN, "the data go from %.10g to %.10g: there is no value at %.10g", lo, hi, at);
-    return qdot_hint("`hold` or `periodic` behind the statement `data` go on beyond the ends");
+    arb_set_d(y, qdot_samples_lookup(h, at));
+    return qdot_lookup_check(h, at);
 }
 
 void

@@ -22,4 +22,7 @@ QDOT_MUST_CHECK qdot_status qdot_lookup_value(arb_t y, const arb_t x, const arb_
 /* y encloses lookup(x, handle) of a table of data (num/samples.h) for every x of the ball; not finite where that is not known. */
 void qdot_lookup_ball(arb_t y, const arb_t x, const arb_t handle);
 
+/* QDOT_EDOMAIN if the table of a handle has no value at the place x (num/samples.h). */
+QDOT_MUST_CHECK qdot_status qdot_lookup_check(double handle, double x);
+
 #endif

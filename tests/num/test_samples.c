@@ -141,6 +141,24 @@ equal_tables_are_one(void **state)
     assert_int_not_equal(table_of(3, x, f, 1, QDOT_SAMPLES_END), table_of(3, x, f, 3, QDOT_SAMPLES_END));
 }
 
+/* What a handle reads is told as it is stored; a coefficient that is 0 in all pieces is not. */
+static void
+items_are_shown(void **state)
+{
+    static const double x[] = {1, 2, 4}, f[] = {3, 5, 3};
+    const int number = table_of(3, x, f, 1, QDOT_SAMPLES_PERIODIC);
+    qdot_samples_view view;
+
+    (void)state;
+    assert_true(qdot_samples_look((double)qdot_samples_piece(number, 0), &view));
+    assert_true(view.item == QDOT_SAMPLES_PIECE && view.n == 3 && view.period == 2 && !view.jumps && view.at[2] == 4);
+    assert_true(qdot_samples_look((double)qdot_samples_coefficient(number, 1, 0), &view));
+    assert_true(view.item == QDOT_SAMPLES_COEFFICIENT && view.n == 4 && view.at[1] == 2 && view.at[2] == -1);
+    assert_false(qdot_samples_look((double)qdot_samples_coefficient(number, 2, 0), &view));
+    assert_false(qdot_samples_look((double)qdot_samples_piece(number, 1), &view));
+    assert_false(qdot_samples_look(-1, &view));
+}
+
 /* A product of cubics is met exactly on a grid. */
 static void
 grid_of_a_product(void **state)
@@ -182,6 +200,7 @@ main(void)
         cmocka_unit_test(pieces_are_found_at_every_place),
         cmocka_unit_test(beyond_the_ends),
         cmocka_unit_test(equal_tables_are_one),
+        cmocka_unit_test(items_are_shown),
         cmocka_unit_test(grid_of_a_product),
     };
 

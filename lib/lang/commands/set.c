@@ -311,6 +311,19 @@ check_is_position_or_velocity(qdot_cursor *c, const qdot_token *start, qdot_expr
     return qdot_fail(QDOT_EINVAL, "a start names coordinates and velocities");
 }
 
+/* Fail if q is a first-order state, which starts with its value alone. */
+static qdot_status
+refuse_rate_or_momentum(qdot_record *r, const qdot_filled *name, qdot_expr q, const char *why)
+{
+    const qdot_scene *scene = r->cursor.session->scene;
+
+    if (qdot_scene_state_of(scene, q) == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, name);
+    (void)qdot_fail(QDOT_EINVAL, "`%s` is a state: %s", qdot_expr_symbol(scene->pool, q)->name, why);
+    return qdot_hint("%s = ... gives its value", qdot_expr_symbol(scene->pool, q)->name);
+}
+
 qdot_status
 qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
 {
@@ -319,6 +332,7 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
 
     if (qdot_set_is_momentum(session, name)) {
         QDOT_TRY(find_momentum(r, name, jet));
+        QDOT_TRY(refuse_rate_or_momentum(r, name, qdot_expr_symbol(scene->pool, *jet)->base, "it has no momentum"));
         if (qdot_phase_has(session))
             *jet = qdot_phase_space_coordinate(scene, qdot_expr_symbol(scene->pool, *jet)->base);
         QDOT_TRY(qdot_pool_check(scene->pool));
@@ -332,14 +346,8 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
         (void)qdot_fail(QDOT_EINVAL, "%s' follows from the momenta: this scene has an H, and no Lagrangian", q);
         return qdot_hint("p[%s] = ... gives the momentum", q);
     }
-    for (size_t i = 0; i < scene->states.n; i++)
-        if (*jet == qdot_symbol_jet(scene->pool, scene->states.at[i].z, 1)) {
-            const char *z = qdot_expr_symbol(scene->pool, scene->states.at[i].z)->name;
-
-            qdot_record_blame(r, name);
-            (void)qdot_fail(QDOT_EINVAL, "`%s` is a state: its rate follows from its equation", z);
-            return qdot_hint("%s = ... gives its value", z);
-        }
+    if (qdot_expr_symbol(scene->pool, *jet)->order == 1)
+        QDOT_TRY(refuse_rate_or_momentum(r, name, qdot_expr_symbol(scene->pool, *jet)->base, "its rate follows from its equation"));
     return check_is_position_or_velocity(&r->cursor, name->from, *jet);
 }
 

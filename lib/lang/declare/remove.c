@@ -106,11 +106,19 @@ remove_thing_of_kind(qdot_record *r, const qdot_filled *number, size_t row)
 
 /* Fail because nothing has this label; the hint is the most similar label or kind. */
 static qdot_status
-report_unknown_label(const qdot_scene *scene, const char *label)
+report_unknown_label(const qdot_session *session, const char *label)
 {
+    const qdot_scene *scene = session->scene;
+    const qdot_name *name = qdot_names_find(session->names, label);
     qdot_words words = {0};
     const char *nearest;
     qdot_status status;
+
+    if (name != NULL && name->kind == QDOT_NAME_COORD) {
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: `remove` of a %s",
+                        qdot_scene_state_of(scene, name->value) != NULL ? "state" : "coordinate");
+        return qdot_hint("`undo` takes back the statements since, `reset scene` all of the scene");
+    }
 
     for (size_t i = 0; i < KINDS; i++)
         (void)qdot_vec_push(&words, kinds[i].word); /* if memory runs out the hint lacks this word */
@@ -141,7 +149,7 @@ carry_out_remove(qdot_record *r)
         return qdot_record_expected(r, number->from, "the end of the statement");
     r->cursor.error_at = r->start->start;
     if (!qdot_scene_has_label(scene, label))
-        return report_unknown_label(scene, label);
+        return report_unknown_label(r->cursor.session, label);
     QDOT_TRY(qdot_scene_remove(scene, label));
     return give_notice_of_removed(r->cursor.session, label);
 }

@@ -45,9 +45,15 @@ qdot_declare_undefined(qdot_cursor *c, const qdot_token *start, const char *name
 {
     qdot_pool *pool = c->session->pool;
     qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN, .body = data};
+    const qdot_name *old = qdot_names_find(c->session->names, name);
     qdot_vec(qdot_expr) formals = {0};
     qdot_status status = QDOT_OK;
 
+    if (data == NULL && old != NULL && old->kind == QDOT_NAME_UFUN && old->body != NULL) {
+        c->error_at = start->start;
+        (void)qdot_fail(QDOT_ENAME, "`%s` has its values from a table, since %s:%u", name, old->file, old->line);
+        return qdot_hint("another name, or no `function`: `data` declares one");
+    }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         status = qdot_vec_push(&formals, symbol_of_argument(c->session, arguments[i]));
     if (status == QDOT_OK)

@@ -4,34 +4,12 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "expr/elementary.h"
-#include "expr/exact.h"
-#include "expr/node.h"
-#include "expr/symbol.h"
 #include "num/samples.h"
 #include "ode/scale.h"
 #include "sim/form/tables.h"
 
 /* A singularity ahead explains a failure if it is nearer than this fraction of the run's duration. */
 static const double nothing = 1e-6;
-
-/* The function given by data that reads the table of a handle; NULL if it is not known. */
-static const char *
-name_of_table(const qdot_plan *plan, double handle)
-{
-    for (size_t i = 0; i < plan->n_values; i++) {
-        qdot_expr lookup;
-        long own;
-
-        if (qdot_expr_kind(plan->pool, plan->symbols[i]) != QDOT_UFUN)
-            continue;
-        lookup = qdot_expr_find_function(plan->pool, plan->values[i], 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL);
-        if (lookup != QDOT_NIL && qdot_expr_to_int(plan->pool, qdot_expr_arg(plan->pool, lookup, 1), &own) &&
-            qdot_samples_is_same(handle, (double)own))
-            return qdot_ufun_get(plan->pool, qdot_expr_node(plan->pool, plan->symbols[i])->op)->name;
-    }
-    return NULL;
-}
 
 /* Append a table of data that ends there. */
 static qdot_status
@@ -46,7 +24,7 @@ explain_by_data(const qdot_plan *plan, double t, const double *y, qdot_text *rea
         in[i] = y[i];
     in[2 * plan->n] = t;
     if (qdot_tables_ended(plan, in, &handle, &at) && qdot_samples_range(handle, &lo, &hi)) {
-        name = name_of_table(plan, handle);
+        name = qdot_tables_name(plan, handle);
         qdot_text_format(reason, "; the data%s%.100s go from %.10g to %.10g", name ? " of " : "", name ? name : "", lo, hi);
     }
     qdot_free(in);

@@ -1,6 +1,13 @@
 /* tables.c -- asks each tape that a plan's equations are evaluated from for the tables of data it reads. */
 #include "sim/form/tables.h"
 
+#include <math.h>
+
+#include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "num/samples.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
 
@@ -52,4 +59,52 @@ qdot_tables_ended(const qdot_plan *plan, const double *in, double *handle, doubl
         if (tapes[k] && qdot_knots_ended(tapes[k], in, handle, at))
             return true;
     return false;
+}
+
+const char *
+qdot_tables_name(const qdot_plan *plan, double handle)
+{
+    for (size_t i = 0; i < plan->n_values; i++) {
+        qdot_expr lookup;
+        long own;
+
+        if (qdot_expr_kind(plan->pool, plan->symbols[i]) != QDOT_UFUN)
+            continue;
+        lookup = qdot_expr_find_function(plan->pool, plan->values[i], 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL);
+        if (lookup != QDOT_NIL && qdot_expr_to_int(plan->pool, qdot_expr_arg(plan->pool, lookup, 1), &own) &&
+            qdot_samples_is_same(handle, (double)own))
+            return qdot_ufun_get(plan->pool, qdot_expr_node(plan->pool, plan->symbols[i])->op)->name;
+    }
+    return NULL;
+}
+
+/* Fail if the time t is outside the table that is read at a line. */
+static qdot_status
+check_time_in_table(const qdot_plan *plan, const qdot_knots_line *line, double t, bool starts)
+{
+    const double u = line->a + line->b * t;
+    const char *name = qdot_tables_name(plan, line->handle);
+    double lo, hi, end;
+
+    if (!qdot_samples_range(line->handle, &lo, &hi) || !isnan(qdot_samples_lookup(line->handle, u)))
+        return QDOT_OK;
+    end = ((u < lo ? lo : hi) - line->a) / line->b;
+    (void)qdot_fail(QDOT_EDOMAIN, "the data%s%.100s %s at t = %.10g: the run %s t = %.10g", name ? " of " : "", name ? name : "",
+                    end < t ? "end" : "begin", end, starts ? "starts at" : "goes to", t);
+    return qdot_hint("`hold` or `periodic` behind the statement `data` go on beyond the ends");
+}
+
+qdot_status
+qdot_tables_reach(const qdot_plan *plan, double t0, double t1)
+{
+    qdot_knots knots = {0};
+    qdot_status status = qdot_tables_knots(plan, &knots);
+
+    for (size_t k = 0; k < knots.n && status == QDOT_OK; k++) {
+        status = check_time_in_table(plan, &knots.at[k], t0, true);
+        if (status == QDOT_OK)
+            status = check_time_in_table(plan, &knots.at[k], t1, false);
+    }
+    qdot_free(knots.at);
+    return status;
 }

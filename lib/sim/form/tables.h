@@ -15,6 +15,12 @@ bool qdot_tables_any(const qdot_plan *plan);
 /* Append those that are read at a + b t (tape/knots.h). Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tables_knots(const qdot_plan *plan, qdot_knots *knots);
 
+/* The function given by data whose table a handle is of; NULL if it is not known. */
+const char *qdot_tables_name(const qdot_plan *plan, double handle);
+
+/* QDOT_EDOMAIN if a table has no values at t0 or t1, which is known before a run where the place of reading is a + b t. */
+QDOT_MUST_CHECK qdot_status qdot_tables_reach(const qdot_plan *plan, double t0, double t1);
+
 /* Whether one is read at or beyond its end at in [3n + 1]: q, q', t and, of a reduced plan, its kept momenta
  * (qdot_knots_ended). */
 bool qdot_tables_ended(const qdot_plan *plan, const double *in, double *handle, double *at);

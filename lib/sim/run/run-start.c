@@ -7,6 +7,7 @@
 #include "expr/build.h"
 #include "expr/node.h"
 #include "sim/digits/digits.h"
+#include "sim/form/tables.h"
 #include "sim/model/massless.h"
 #include "sim/start/start.h"
 #include "tape/shake.h"
@@ -154,12 +155,24 @@ project_and_check_start(qdot_run *run, qdot_scene *scene, const qdot_run_request
     return status;
 }
 
+/* Fail if the run would come to the end of a table of data, unless an event or a domain may end it before, or the equations
+ * switch: perhaps to others that do not read it. */
+static qdot_status
+check_tables(const qdot_run *run, const qdot_scene *scene)
+{
+    for (size_t i = 0; i < scene->events.n; i++)
+        if (scene->events.at[i].stop)
+            return QDOT_OK;
+    return run->stage.domains.n > 0 || run->stage.switches.surfaces.n > 0 ? QDOT_OK : qdot_tables_reach(run->plan, run->t0, run->t1);
+}
+
 qdot_status
 qdot_run_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(read_start(run, request));
     QDOT_TRY(read_start_errors(run, request));
     QDOT_TRY(check_spring_lengths(run, scene));
+    QDOT_TRY(check_tables(run, scene));
     return project_and_check_start(run, scene, request);
 }
 

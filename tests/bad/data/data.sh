@@ -40,6 +40,13 @@ data f from "d.csv" : t, F; force f(t) on p; run -1..1
 data f from "d.csv" : t, F; force f(x) on p; start x' = 2; run 0..5
 data f from "d.csv" : t, F; force f(t) on p; run 0..3 digits 30
 data f from "d.csv" : t, F; solve(f(t) = 1/2, t, 0..4)
-data f from "d.csv" : t, F; numeric(integral(f(t), t, 0, 4))
+data f from "d.csv" : t, F; numeric(integral(f(t), t, -1, 4))
+data f from "d.csv" : t, F; numeric(integral(f(t^2), t, 0, 2))
+data f from "d.csv" : t, F; numeric(integral(integral(f(t), t, 0, s), s, 0, 2))
+data f from "d.csv" : t, F; function f(t)
+data f from "d.csv" : t, F; force f(2*t + 1) on p; run 0..5
+data f from "d.csv" : t, F; force if(t < 3, f(t), 0) on p; run 0..5
+data f from "d.csv" : t, F; force f(t) on p; event near: x = 1 rising stop; run 0..5
+data f from "d.csv" : a, v, c periodic
 force x(t - 0.1) on p
 EOF2
