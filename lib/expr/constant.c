@@ -51,8 +51,10 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
     qdot_text text = {0};
 
-    if (s != NULL && s->class == QDOT_BOUND)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: an integral in the numbers of a run or a figure");
+    if (s != NULL && s->class == QDOT_BOUND) {
+        qdot_fail(QDOT_ENOTBUILT, "not built yet: an integral in the numbers of a run or a figure");
+        return qdot_hint("the integral of f(x) along a run is a state: `state z' = f(x)*x'`");
+    }
     if (s != NULL && s->class >= QDOT_WORDS)
         return qdot_fail(QDOT_EUNSET, "%s has no value", s->name);
     if (s) {
@@ -235,6 +237,8 @@ ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const 
     case QDOT_ELLIPTIC_E:
     case QDOT_ELLIPTIC_F:
     case QDOT_ELLIPTIC_PI:
+    case QDOT_JACOBI_AM:
+    case QDOT_JACOBI_DN:
         qdot_elliptic_ball(y, f, n, x, bits);
         return true;
     case QDOT_ATAN2:

@@ -5,6 +5,7 @@
 #include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/integral.h"
+#include "expr/jacobi.h"
 #include "expr/pool.h"
 #include "expr/walk.h"
 
@@ -572,6 +573,12 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_ELLIPTIC_PI:
         e = qdot_elliptic_simplify(pool, id, n, args);
         return e != QDOT_NIL || FAILED(pool) ? e : make_function_node(pool, id, n, args);
+    case QDOT_JACOBI_AM:
+    case QDOT_JACOBI_SN:
+    case QDOT_JACOBI_CN:
+    case QDOT_JACOBI_DN:
+        e = qdot_jacobi_simplify(pool, id, args);
+        return e != QDOT_NIL || FAILED(pool) ? e : make_function_node(pool, id, n, args);
     case QDOT_ABS: return simplify_absolute_value(pool, args[0]);
     case QDOT_SIGN: return simplify_sign(pool, args[0]);
     case QDOT_MIN:
@@ -653,6 +660,8 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
     case QDOT_ELLIPTIC_E:
     case QDOT_ELLIPTIC_F:
     case QDOT_ELLIPTIC_PI: return qdot_elliptic_derivative(pool, id, n, args, i);
+    case QDOT_JACOBI_AM:
+    case QDOT_JACOBI_DN: return qdot_jacobi_derivative(pool, id, args, i);
     case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
     case QDOT_LOOKUP:

@@ -1,6 +1,6 @@
-/* elliptic-ball.h -- Legendre's elliptic integrals in balls: enclosures, never rounded.
+/* elliptic-ball.h -- Legendre's elliptic integrals and Jacobi's am and dn in balls: enclosures, never rounded.
  *
- * Source  Arb's acb_elliptic
+ * Source  Arb's acb_elliptic; am by Landen's transformation (jacobi.h)
  * Tests   tests/expr/test_elliptic.c
  */
 #ifndef QDOT_EXPR_ELLIPTIC_BALL_H

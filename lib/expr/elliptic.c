@@ -10,7 +10,7 @@
 bool
 qdot_is_elliptic(unsigned f)
 {
-    return f >= QDOT_ELLIPTIC_K && f <= QDOT_ELLIPTIC_PI;
+    return f >= QDOT_ELLIPTIC_K && f <= QDOT_JACOBI_DN;
 }
 
 static qdot_expr
@@ -80,6 +80,8 @@ simplify_incomplete(qdot_pool *pool, qdot_fun_id f, qdot_expr n, qdot_expr phi, 
         return elliptic(pool, QDOT_ELLIPTIC_F, phi, m, QDOT_NIL);
     if (f != QDOT_ELLIPTIC_PI && m == QDOT_ZERO)
         return phi;
+    if (f == QDOT_ELLIPTIC_F && NODE(pool, phi)->kind == QDOT_FUN && NODE(pool, phi)->op == QDOT_JACOBI_AM && ARGS(pool, phi)[1] == m)
+        return ARGS(pool, phi)[0];
     if (qdot_expr_is_negative(pool, phi)) {
         phi = qdot_neg(pool, phi);
         return qdot_neg(pool, n != QDOT_NIL ? elliptic(pool, f, n, phi, m) : elliptic(pool, f, phi, m, QDOT_NIL));

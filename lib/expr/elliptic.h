@@ -15,7 +15,7 @@
 
 #include "expr/function.h"
 
-/* Whether f is one of the elliptic integrals. */
+/* Whether f is one of the elliptic integrals, or of Jacobi's functions (jacobi.h). */
 bool qdot_is_elliptic(unsigned f);
 /* A simpler expression for f(args); nil where there is none. QDOT_EDOMAIN: f is undefined there. */
 qdot_expr qdot_elliptic_simplify(qdot_pool *pool, qdot_fun_id f, uint32_t n, const qdot_expr *args);

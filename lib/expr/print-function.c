@@ -1,6 +1,7 @@
 /* print-function.c -- prints elementary and undefined functions, and their derivatives. */
 #include <string.h>
 
+#include "expr/elementary.h"
 #include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/print-parts.h"
@@ -27,6 +28,13 @@ qdot_print_function(printer *p, qdot_expr e, int context)
     qdot_fun_id id = NODE(p->pool, e)->op;
     const char *name = qdot_fun_name(id);
     const qdot_formula_id outer = p->at;
+    const qdot_expr am = NODE(p->pool, e)->n == 0 ? QDOT_NIL : ARGS(p->pool, e)[0];
+
+    if ((id == QDOT_SIN || id == QDOT_COS) && qdot_expr_is_function(p->pool, am, QDOT_JACOBI_AM)) {
+        id = id == QDOT_SIN ? QDOT_JACOBI_SN : QDOT_JACOBI_CN;
+        name = qdot_fun_name(id);
+        e = am;
+    }
 
     if (is_drawn(p) && id == QDOT_IF) {
         print_cases(p, e, context);
@@ -39,7 +47,7 @@ qdot_print_function(printer *p, qdot_expr e, int context)
         return;
     }
     print_begin(p, QDOT_FORMULA_APPLY, 0, 0);
-    if (is_drawn(p) && qdot_is_elliptic(id)) /* by its letter: K, E, F, Pi */
+    if (is_drawn(p) && qdot_is_elliptic(id)) /* by what books write: K, E, F, Pi, sn, am */
         qdot_print_spelled(p, strchr(name, '_') + 1);
     else
         qdot_formula_add_text(p->out, p->at, QDOT_TEXT_FUNCTION, name, strlen(name));

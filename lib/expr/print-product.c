@@ -8,6 +8,7 @@
 #include <flint/flint.h>
 #include <flint/fmpz.h>
 
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/print-parts.h"
 #include "expr/unit.h"
@@ -132,10 +133,12 @@ print_exponent(printer *p, qdot_expr e, bool turned)
     print_exponent_expression(p, e, turned, bare);
 }
 
+/* Whether e is sin ... cot; Jacobi's sn and cn, sin and cos of an amplitude, are written as other functions are. */
 static bool
 is_circular_function(const qdot_pool *pool, qdot_expr e)
 {
-    return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op <= QDOT_COT;
+    return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op <= QDOT_COT &&
+           !qdot_expr_is_function(pool, ARGS(pool, e)[0], QDOT_JACOBI_AM);
 }
 
 /* Print sin(x)^2 as sin²(x). */

@@ -36,6 +36,7 @@ typedef struct {
     qdot_keymap by_expr;       /* maps a constant expression to its value */
     /* [n] a factor f of n if x^n is computed as (x^f)^(n/f); 0: by one multiplication */
     unsigned char chain[QDOT_CODE_MOST_POWER + 1];
+    bool approximate;          /* see qdot_tape.approximate */
     qdot_pool *pool;
     qdot_status status;
 } qdot_code;

@@ -187,6 +187,7 @@ build_tape(finish *f, qdot_tape *tape)
     size_t n = f->code->values.n, computed = 0;
     places p = {0};
 
+    tape->approximate = f->code->approximate;
     tape->inputs = f->code->inputs;
     tape->outputs = f->m;
     for (size_t v = 0; v < n; v++) {

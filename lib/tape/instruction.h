@@ -31,6 +31,7 @@ typedef struct {
 } qdot_instruction;
 
 struct qdot_tape {
+    bool approximate; /* it holds limits of which a fixed number of steps is made, to 28 digits (elliptic.h) */
     size_t inputs, constants, outputs, length, places, operations, calls;
     double *constant;       /* [constants] the constants as doubles */
     signed char *side;      /* [constants] sign of the exact value less the double; of a factor 1, by

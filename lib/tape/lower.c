@@ -11,6 +11,7 @@
 #include "expr/walk.h"
 #include "tape/angle.h"
 #include "tape/code.h"
+#include "tape/elliptic.h"
 #include "tape/logistic.h"
 #include "tape/tape.h"
 
@@ -368,6 +369,20 @@ write_softplus(lowering *l, qdot_expr d)
 }
 
 static qdot_status
+compile_elliptic(lowering *l, qdot_expr e, qdot_fun_id f, known *k)
+{
+    const uint32_t n = qdot_expr_count(l->pool, e);
+    qdot_value x[3] = {0};
+
+    for (uint32_t i = 0; i < n && i < 3; i++)
+        x[i] = value_of_node(l, qdot_expr_arg(l->pool, e, i));
+    if (qdot_code_elliptic(&l->code, f, n, x, &k->bare))
+        return QDOT_OK;
+    return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s of %u arguments in the numbers of a run or a figure",
+                     qdot_fun_name(f), (unsigned)n);
+}
+
+static qdot_status
 compile_function(lowering *l, qdot_expr e, known *k)
 {
     qdot_fun_id f = (qdot_fun_id)qdot_expr_node(l->pool, e)->op;
@@ -412,9 +427,7 @@ compile_function(lowering *l, qdot_expr e, known *k)
     case QDOT_CSC:
     case QDOT_COT:
         break;
-    default:
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s in numbers",
-                         qdot_fun_name(f));
+    default: return compile_elliptic(l, e, f, k);
     }
     qdot_angles_pair(l->angles, &l->walk, &l->code, x, &s, &c);
     if (f == QDOT_SIN || f == QDOT_COS)

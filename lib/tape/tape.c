@@ -22,6 +22,12 @@ qdot_tape_free(qdot_tape *tape)
     qdot_free(tape);
 }
 
+qdot_status
+qdot_tape_check_digits(const qdot_tape *tape)
+{
+    return tape->approximate ? qdot_fail(QDOT_ENOTBUILT, "not built yet: digits with elliptic functions") : QDOT_OK;
+}
+
 size_t
 qdot_tape_inputs(const qdot_tape *tape)
 {

@@ -34,6 +34,9 @@ size_t qdot_tape_operations(const qdot_tape *tape); /* number of operations of o
 /* The number of calls of elementary functions in one evaluation (a sine with its cosine counts once). */
 size_t qdot_tape_calls(const qdot_tape *tape);
 
+/* QDOT_ENOTBUILT if values on the tape are limits of which a fixed number of steps is made, which is enough for 28 digits. */
+QDOT_MUST_CHECK qdot_status qdot_tape_check_digits(const qdot_tape *tape);
+
 /* Evaluate outputs out [m] at inputs in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
 void qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work);
 

@@ -186,9 +186,9 @@ formula_random(int n, int mode)
         if (s->op == CALL)
             s->p = mode == SMOOTH
                        ? (long)smooth[random_below(sizeof smooth / sizeof *smooth)]
-                       : (long)random_below(QDOT_FUNCTION_COUNT - 5);
-        if (s->op == CALL && s->p >= QDOT_ELLIPTIC_K) /* the elliptic integrals, four, have a test of their own */
-            s->p += 4;
+                       : (long)random_below(QDOT_FUNCTION_COUNT - 1 - (QDOT_ABS - QDOT_ELLIPTIC_K));
+        if (s->op == CALL && s->p >= QDOT_ELLIPTIC_K) /* elliptic integrals and functions have a test of their own */
+            s->p += QDOT_ABS - QDOT_ELLIPTIC_K;
     }
     return f;
 }

@@ -4,13 +4,23 @@
 #include "expr/constant.h"
 #include "expr/elliptic-ball.h"
 #include "expr/elliptic.h"
+#include "expr/jacobi.h"
+#include "expr/pool.h"
 
 static const struct {
     qdot_fun_id f;
     uint32_t n;
 } kinds[] = {{QDOT_ELLIPTIC_K, 1},  {QDOT_ELLIPTIC_E, 1},  {QDOT_ELLIPTIC_E, 2},
-             {QDOT_ELLIPTIC_F, 2},  {QDOT_ELLIPTIC_PI, 2}, {QDOT_ELLIPTIC_PI, 3}};
+             {QDOT_ELLIPTIC_F, 2},  {QDOT_ELLIPTIC_PI, 2}, {QDOT_ELLIPTIC_PI, 3},
+             {QDOT_JACOBI_AM, 2},  {QDOT_JACOBI_DN, 2}};
 enum { KINDS = sizeof kinds / sizeof *kinds, BITS = 256 };
+
+/* f at x [n] in double. */
+static double
+double_at(qdot_fun_id f, uint32_t n, const double *x)
+{
+    return f >= QDOT_JACOBI_AM ? qdot_jacobi_double(f, x) : qdot_elliptic_double(f, n, x);
+}
 
 /* f at x [n] eighths, args[i] moved by h; NAN where it is not defined. */
 static long double
@@ -66,7 +76,7 @@ doubles_agree_with_balls(void **state)
         for (int i = 0; i < 3; i++)
             d[i] = (double)x[i] / 8;
         wanted = value_at(kinds[k].f, kinds[k].n, x, 3, 0);
-        seen = qdot_elliptic_double(kinds[k].f, kinds[k].n, d);
+        seen = double_at(kinds[k].f, kinds[k].n, d);
         undefined += isnan(wanted);
         if (isnan(wanted) != isnan(seen))
             fail_msg("%s(%g, %g, %g): %Lg and %g", qdot_fun_name(kinds[k].f), d[0], d[1], d[2], wanted, seen);
@@ -88,7 +98,7 @@ derivatives_are_limits_of_differences(void **state)
     for (int trial = 0; trial < 3000; trial++) {
         const int k = trial % KINDS;
         const uint32_t n = kinds[k].n, i = (uint32_t)random_below(n);
-        const double h = 1e-4;
+        const double h = 1e-5;
         qdot_expr args[3];
         qdot_expr derivative;
         long double far, near_;
@@ -105,7 +115,7 @@ derivatives_are_limits_of_differences(void **state)
         if (isnan(far) || isnan(near_))
             continue;
         near_ = (4 * near_ - far) / 3;
-        derivative = qdot_elliptic_derivative(p.pool, kinds[k].f, n, args, i);
+        derivative = qdot_fun_derivative(p.pool, kinds[k].f, n, args, i);
         if (qdot_pool_check(p.pool) != QDOT_OK || qdot_constant_double(p.pool, derivative, &seen) != QDOT_OK)
             continue; /* at m = 0, n = m, n = 0 or 1 the formula is 0/0 */
         compared++;
@@ -140,6 +150,33 @@ special_values_are_found(void **state)
                      times(number(2, 1), qdot_fun(p.pool, QDOT_ELLIPTIC_PI, 2, (qdot_expr[]){c, m})));
 }
 
+static void
+jacobi_has_special_values(void **state)
+{
+    const qdot_expr m = qdot_symbol_get(p.pool, QDOT_PARAM, "m"), u = qdot_symbol_get(p.pool, QDOT_PARAM, "u");
+    const qdot_expr K = qdot_fun1(p.pool, QDOT_ELLIPTIC_K, m), four = number(4, 1);
+    const qdot_fun_id am = QDOT_JACOBI_AM, sn = QDOT_JACOBI_SN, cn = QDOT_JACOBI_CN, dn = QDOT_JACOBI_DN;
+
+    (void)state;
+#define OF(f, a, b) qdot_fun(p.pool, f, 2, (qdot_expr[]){a, b})
+    assert_int_equal(OF(sn, u, m), qdot_fun1(p.pool, QDOT_SIN, OF(am, u, m)));
+    assert_prints(p.pool, OF(sn, u, m), "jacobi_sn(u, m)");
+    assert_prints(p.pool, qdot_pow_int(p.pool, OF(cn, qdot_neg(p.pool, u), m), 2), "jacobi_cn(u, m)^2");
+    assert_int_equal(OF(am, u, QDOT_ZERO), u);
+    assert_int_equal(OF(sn, u, QDOT_ONE), qdot_fun1(p.pool, QDOT_TANH, u));
+    assert_int_equal(OF(dn, u, QDOT_ZERO), QDOT_ONE);
+    assert_prints(p.pool, OF(cn, u, QDOT_ONE), "1/cosh(u)");
+    assert_prints(p.pool, OF(sn, u, four), "1/2*jacobi_sn(2*u, 1/4)");
+    assert_prints(p.pool, OF(cn, u, four), "jacobi_dn(2*u, 1/4)");
+    assert_prints(p.pool, OF(dn, u, four), "jacobi_cn(2*u, 1/4)");
+    refuses(OF(am, u, four), QDOT_EDOMAIN);
+    assert_prints(p.pool, OF(am, times(number(3, 1), K), m), "3/2*pi");
+    assert_prints(p.pool, OF(dn, K, m), "sqrt(1 - m)");
+    assert_int_equal(OF(am, OF(QDOT_ELLIPTIC_F, u, m), m), u);
+    assert_int_equal(OF(QDOT_ELLIPTIC_F, OF(am, u, m), m), u);
+#undef OF
+}
+
 int
 main(void)
 {
@@ -147,6 +184,7 @@ main(void)
         MOVED_TEST(doubles_agree_with_balls),
         MOVED_TEST(derivatives_are_limits_of_differences),
         MOVED_TEST(special_values_are_found),
+        MOVED_TEST(jacobi_has_special_values),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

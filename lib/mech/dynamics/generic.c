@@ -11,6 +11,7 @@
 #include "expr/elliptic.h"
 #include "expr/exact.h"
 #include "expr/function.h"
+#include "expr/jacobi.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"

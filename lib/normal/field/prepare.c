@@ -6,6 +6,7 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
+#include "expr/jacobi.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/field/field.h"
@@ -398,6 +399,10 @@ prepare_function(qdot_pool *pool, qdot_expr e, int64_t work)
         return arg == QDOT_NIL ? arg : prepare_exponential(pool, arg);
     case QDOT_ABS: return qdot_split_abs(pool, arg);
     case QDOT_LOG: return qdot_split_log(pool, arg);
+    case QDOT_JACOBI_DN:
+        for (uint32_t i = 0; i < n; i++)
+            args[i] = qdot_prepare_flat(pool, qdot_expr_arg(pool, e, i), work);
+        return prepare_root(pool, qdot_jacobi_dn_squared(pool, args[0], args[1]));
     default:
         if (n > 4)
             return e;

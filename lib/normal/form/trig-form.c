@@ -2,6 +2,7 @@
  * either way, as a product, or by multiple angles and sums of angles.
  */
 #include "expr/build.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
@@ -196,7 +197,8 @@ fourier_multiply(struct fourier *y, const struct fourier *x, int j, bool sine, b
     fmpq_clear(minus);
 }
 
-/* Find the sine variables of the angles in p; -1 if there are too many, or both circular and hyperbolic ones. */
+/* Find the sine variables of the angles in p; -1 if there are too many, or both circular and hyperbolic ones, or Jacobi's
+ * sn and cn, which people write as powers and products. */
 static int
 find_angles(qdot_field *f, const slong *degree, slong *sine, bool *circular)
 {
@@ -209,7 +211,7 @@ find_angles(qdot_field *f, const slong *degree, slong *sine, bool *circular)
         total += degree[v];
         if (!s || (degree[v] == 0 && degree[f->gen[v].pair] == 0))
             continue;
-        if (n == MOST_ANGLES)
+        if (n == MOST_ANGLES || qdot_expr_is_function(f->pool, f->gen[v].of, QDOT_JACOBI_AM))
             return -1;
         kinds |= f->gen[v].kind == QDOT_GEN_SIN ? 1 : 2;
         sine[n++] = v;

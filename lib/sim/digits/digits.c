@@ -237,6 +237,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
 
     if (qdot_tables_any(run->plan))
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: digits with functions given by data");
+    QDOT_TRY(qdot_tables_check_digits(run->plan));
     QDOT_TRY(refuse_layers(run));
     if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {
         QDOT_TRY(make_guiding_run(run, request));

@@ -88,6 +88,8 @@ add_formula(qdot_precise_side *s, size_t mode, size_t function, size_t event)
                           & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
     }
     if (status == QDOT_OK)
+        status = qdot_tape_check_digits(tape);
+    if (status == QDOT_OK)
         status = qdot_precise_new(p->pool, tape, 0, (function == SIZE_MAX ? 1 : FLAT) * s->start.bits, &f.program);
     qdot_tape_free(own);
     if (status == QDOT_OK && (status = qdot_vec_push(&s->course->formulas, f)) != QDOT_OK)

@@ -33,6 +33,7 @@ reader_init(reader *r, const qdot_reading *of, qdot_precise_side *side)
 {
     *r = (reader){.of = of, .side = side};
     QDOT_TRY(qdot_reals_init(&r->numbers, 1 + 2 * of->plan->n, side->start.bits));
+    QDOT_TRY(qdot_tape_check_digits(of->tape));
     return qdot_precise_new(of->plan->pool, of->tape, 0, side->start.bits, &r->program);
 }
 

@@ -38,6 +38,18 @@ qdot_tables_any(const qdot_plan *plan)
 }
 
 qdot_status
+qdot_tables_check_digits(const qdot_plan *plan)
+{
+    const qdot_tape *tapes[TAPES];
+
+    tapes_of_plan(plan, tapes);
+    for (size_t k = 0; k < TAPES; k++)
+        if (tapes[k])
+            QDOT_TRY(qdot_tape_check_digits(tapes[k]));
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_tables_knots(const qdot_plan *plan, qdot_knots *knots)
 {
     const qdot_tape *tapes[TAPES];

@@ -11,6 +11,8 @@
 
 /* Whether there are any. */
 bool qdot_tables_any(const qdot_plan *plan);
+/* qdot_tape_check_digits of all tapes of the equations. */
+QDOT_MUST_CHECK qdot_status qdot_tables_check_digits(const qdot_plan *plan);
 
 /* Append those that are read at a + b t (tape/knots.h). Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tables_knots(const qdot_plan *plan, qdot_knots *knots);
