@@ -258,11 +258,29 @@ give_notice_of_special_values(qdot_session *session, qdot_expr special, const ch
     return qdot_answer_notice_text(session, status, &text);
 }
 
+/* Add `there may be others where y = 0 and f(x) = 0, or ...` for a LIST of LISTs of equations. */
+static qdot_status
+add_unsolved(qdot_pool *pool, qdot_expr branches, qdot_text *text)
+{
+    qdot_text_add(text, "there may be others where ");
+    for (uint32_t k = 0; k < qdot_expr_count(pool, branches); k++) {
+        const qdot_expr one = qdot_expr_arg(pool, branches, k);
+
+        qdot_text_add(text, k == 0 ? "" : ", or ");
+        for (uint32_t i = 0; i < qdot_expr_count(pool, one); i++) {
+            qdot_text_add(text, i == 0 ? "" : " and ");
+            QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, i), QDOT_PLAIN, text));
+        }
+    }
+    return QDOT_OK;
+}
+
 /* Give a notice that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
 give_notice_of_incompleteness(qdot_session *session, const char *word, const char *noun, const qdot_equilibria *all)
 {
     qdot_text text = {0};
+    qdot_status status = QDOT_OK;
 
     if (all->undefined != QDOT_NIL)
         QDOT_TRY(give_notice_of_special_values(session, all->undefined, " the energy or a force has no value"));
@@ -287,6 +305,9 @@ give_notice_of_incompleteness(qdot_session *session, const char *word, const cha
     } else if (all->pole != NULL && all->n == 0 && all->starts == 0 && all->unset == NULL) {
         qdot_text_format(&text, "no %s was found; there may be some: where the domain of `%.100s` ends these "
                                 "coordinates are singular, and rests there are not looked for", noun, all->pole);
+    } else if (all->unset != NULL && all->unsolved != QDOT_NIL) {
+        status = add_unsolved(session->pool, all->unsolved, &text);
+        qdot_text_format(&text, ": no formula is found for these, and numbers need a value of `%.100s`", all->unset);
     } else if (all->unset != NULL) {
         qdot_text_format(&text, "there may be others: they cannot be solved for exactly, and numbers "
                                 "need a value of `%.100s`", all->unset);
@@ -303,7 +324,7 @@ give_notice_of_incompleteness(qdot_session *session, const char *word, const cha
         qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
                                 "but none is proved to be %s %s", all->unproved,
                          noun[0] == 'e' ? "an" : "a", noun);
-    return qdot_answer_written(session, word, QDOT_OK, &text);
+    return qdot_answer_written(session, word, status, &text);
 }
 
 qdot_status

@@ -45,6 +45,7 @@ typedef struct {
     const char *pole;     /* a coordinate whose open domain ends where the chart alone is singular: a rest may be there,
                            * which is not looked for; NULL: none. The pool's */
     qdot_expr jump; /* the energy jumps where this function does; equilibria there are not searched; nil: none */
+    qdot_expr unsolved; /* a LIST of LISTs of equations: further equilibria fulfil one of these; nil: nothing is known of them */
     const char *unset; /* a parameter that the numerical search needs but has no value, in the pool; NULL: none */
 } qdot_equilibria;
 

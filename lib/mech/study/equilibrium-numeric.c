@@ -317,13 +317,12 @@ is_new_equilibrium(const double *found, size_t count, size_t n, const double *x)
     return true;
 }
 
-/* Sort the equilibria by the first unknown, then by the next ones. */
-static void
-sort_equilibria(double *found, size_t count, size_t n)
+void
+qdot_places_sort(qdot_places *places, size_t n)
 {
-    for (size_t a = 1; a < count; a++)
+    for (size_t a = 1; a < places->n; a++)
         for (size_t b = a; b > 0; b--) {
-            double *x = found + (b - 1) * n, *y = found + b * n;
+            double *x = places->at + (b - 1) * n, *y = places->at + b * n;
             size_t i = 0;
 
             while (i < n && fabs(x[i] - y[i]) < 1e-9)
@@ -367,7 +366,7 @@ search_equilibria(problem *p, qdot_isolate *isolate, qdot_places *out)
         if (normalise_angles(p, place) && is_new_equilibrium(out->at, out->n, n, place))
             out->n++;
     }
-    sort_equilibria(out->at, out->n, n);
+    qdot_places_sort(out, n);
     return QDOT_OK;
 }
 
@@ -413,7 +412,9 @@ qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
         rest->system.recurs = rest->system.recurs || qdot_rest_window(rest, k, equations).recurs;
     QDOT_TRY(qdot_pool_check(rest->pool));
     out->at = qdot_calloc((MOST + 1) * rest->system.unknowns.n + 1, sizeof *out->at);
-    status = out->at == NULL ? QDOT_ENOMEM : qdot_rest_exclude(rest, r, out);
+    status = out->at == NULL ? QDOT_ENOMEM : qdot_rest_search_branches(rest, out);
+    if (status == QDOT_OK && !out->complete)
+        status = qdot_rest_exclude(rest, r, out);
     if (status == QDOT_OK && out->complete)
         rest->system.complete = true;
     else if (status == QDOT_OK)

@@ -168,6 +168,14 @@ QDOT_MUST_CHECK qdot_status qdot_rest_exclude(qdot_rest *rest, const qdot_expr *
 /* Whether a proved zero at [n] is known to the digits in which places are listed, not merely enclosed.
  * (equilibrium-proved.c) */
 bool qdot_rest_is_sharp(size_t n, const double *at, const double *radius);
+/* Add to *out all equilibria on the branches that formulas left unsolved, each searched by exclusion for the unknowns
+ * left on it; out->complete: with those that formulas gave these are all. (equilibrium-branches.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_search_branches(const qdot_rest *rest, qdot_places *out);
+/* Those branches as equations, the values known and what is left of the equations at rest: a LIST of LISTs. Nil: equilibria
+ * may be elsewhere, or an equation is long. (equilibrium-branches.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_unsolved(const qdot_rest *rest, qdot_expr *list);
+/* Sort the places of n unknowns by the first one, then by the next ones. */
+void qdot_places_sort(qdot_places *places, size_t n);
 void qdot_places_clear(qdot_places *places);
 
 #endif

@@ -241,6 +241,7 @@ search_numerically(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *
             name = end == QDOT_NIL ? NULL : symbol_without_value(r, end);
         }
     if (name != NULL) {
+        QDOT_TRY(qdot_rest_unsolved(r, &out->unsolved));
         QDOT_TRY(qdot_rest_symmetric(r));
         out->unset = name;
         if (r->found.n > 0)

@@ -23,6 +23,9 @@
 
 enum { MOST_MEMBERS = 64 };
 
+/* How hard a factor is to solve for an unknown: effort_to_solve. */
+enum { ALONE, LINEAR, LINEAR_BY_UNKNOWNS, NOT_LINEAR, NOT_THERE = 9 };
+
 /* --- inserting values; special parameter values ---------------------------------- */
 
 qdot_expr
@@ -63,8 +66,8 @@ qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle)
     return angle ? qdot_window_turn(s->pool, w) : w;
 }
 
-static size_t
-count_unknowns(const qdot_simultaneous *s, qdot_expr e)
+size_t
+qdot_simultaneous_unknowns_in(const qdot_simultaneous *s, qdot_expr e)
 {
     size_t n = 0;
 
@@ -74,8 +77,8 @@ count_unknowns(const qdot_simultaneous *s, qdot_expr e)
 }
 
 /* Record that solutions may differ where d = 0, if d contains parameters only. */
-static qdot_status
-add_special_equation(qdot_simultaneous *s, qdot_expr d)
+qdot_status
+qdot_simultaneous_add_special(qdot_simultaneous *s, qdot_expr d)
 {
     if (!qdot_is_generic(s->pool, d) || qdot_expr_is_constant(s->pool, d) ||
         (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0 ||
@@ -128,26 +131,26 @@ effort_to_solve(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
     qdot_expr slope;
 
     if (!qdot_expr_contains(s->pool, factor, u))
-        return 9;
-    if (count_unknowns(s, factor) == 1)
-        return 0;
+        return NOT_THERE;
+    if (qdot_simultaneous_unknowns_in(s, factor) == 1)
+        return ALONE;
     slope = qdot_diff(s->pool, factor, u);
     if (slope == QDOT_NIL || qdot_expr_contains(s->pool, slope, u))
-        return 3;
+        return NOT_LINEAR;
     if (slope != QDOT_ZERO && contains_other_unknowns(s, factor) && has_kink_in(s, factor, u)) /* after what is linear everywhere */
-        return 2;
+        return LINEAR_BY_UNKNOWNS;
     if (has_bounded_unknowns(s, factor) && !has_bounded_unknowns(s, u)) /* a sign symbol: its bounds limit equilibria */
-        return 2;
+        return LINEAR_BY_UNKNOWNS;
     if (has_bounded_unknowns(s, u) && (qdot_expr_node(s->pool, slope)->sign & QDOT_NE0) != 0)
-        return 1;
-    return count_unknowns(s, slope) == 0 ? 1 : 2;
+        return LINEAR;
+    return qdot_simultaneous_unknowns_in(s, slope) == 0 ? LINEAR : LINEAR_BY_UNKNOWNS;
 }
 
 /* The index of the unknown for which a factor is solved most easily; of equally easy ones the last. */
 static int
 find_easiest_unknown(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
 {
-    int least = 9;
+    int least = NOT_THERE;
 
     for (size_t i = s->unknowns.n; i-- > 0;) {
         int one = effort_to_solve(s, factor, s->unknowns.at[i]);
@@ -365,6 +368,18 @@ normalise_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
     return any ? qdot_solve_sort(s->pool, found->root.n, found->root.at) : QDOT_OK;
 }
 
+/* Keep the branch on which factor = 0 (nil: none) and the LIST `others` holds: no formula gives all its solutions. */
+static qdot_status
+leave_branch(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr factor)
+{
+    qdot_simultaneous_branch one = *b;
+
+    one.equations = factor == QDOT_NIL ? others : qdot_list_appended(s->pool, others, 1, &factor);
+    one.first = QDOT_NIL;
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_vec_push(&s->left, one);
+}
+
 /* Solve factor = 0 for the unknown in it for which that is easiest, and continue a branch for each root. */
 static qdot_status
 solve_factor(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr factor)
@@ -374,13 +389,14 @@ solve_factor(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr 
     qdot_expr u;
     qdot_status status;
 
-    if (find_easiest_unknown(s, factor, &which) == 9) /* a factor without unknowns is not 0, because parameters are generic */
-        return add_special_equation(s, factor);
+    if (find_easiest_unknown(s, factor, &which) == NOT_THERE) /* a factor without unknowns is not 0, because parameters are generic */
+        return qdot_simultaneous_add_special(s, factor);
     u = s->unknowns.at[which];
     status = qdot_solve(s->pool, factor, u, &s->facts, &found);
-    s->complete = s->complete && found.complete;
+    if (status == QDOT_OK && !found.complete)
+        status = leave_branch(s, b, others, factor);
     for (size_t i = 0; i < found.special.n && status == QDOT_OK; i++)
-        status = add_special_equation(s, found.special.at[i]);
+        status = qdot_simultaneous_add_special(s, found.special.at[i]);
     if (status == QDOT_OK)
         status = normalise_families(s, u, &found);
     for (size_t i = found.root.n; i-- > 0 && status == QDOT_OK;)
@@ -389,70 +405,6 @@ solve_factor(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr 
         status = continue_with_zero_divisor(s, b, others, factor, found.divisor.at[i]);
     qdot_solutions_clear(&found);
     return status;
-}
-
-/* --- sides of switching functions ------------------------------------------------------ */
-
-/* Continue a branch on one side of a switch: with further conditions, and the equation `jump` (nil: none). */
-static qdot_status
-continue_on_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_sides *sides, size_t side,
-                 qdot_expr relations, qdot_expr jump)
-{
-    qdot_pool *pool = s->pool;
-    bool free = b->conditions == QDOT_NIL;
-    qdot_simultaneous_branch next = {
-        .equations = qdot_sides_put(sides, side, b->equations),
-        .known = qdot_sides_put(sides, side, b->known),
-        .conditions = free ? QDOT_NIL : qdot_sides_put(sides, side, b->conditions),
-        .first = b->first == QDOT_NIL ? QDOT_NIL : qdot_sides_put(sides, side, b->first),
-        .whole = qdot_sides_put(sides, side, b->whole == QDOT_NIL ? s->equations : b->whole)};
-    qdot_status status = qdot_pool_check(pool);
-
-    if (status != QDOT_OK) /* skip the side: an equation is not defined on it */
-        return status == QDOT_EDOMAIN ? QDOT_OK : status;
-    if (jump != QDOT_NIL)
-        next.equations = qdot_list_appended(pool, next.equations, 1, &jump);
-    next.conditions = qdot_conditions_all(pool, next.conditions, relations);
-    next.conditions = qdot_conditions_at(pool, next.conditions, 0, NULL, NULL, &s->facts);
-    QDOT_TRY(qdot_pool_check(pool));
-    return next.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->todo, next);
-}
-
-/* Continue with a branch for each side of the switching function `choice`; the first side is solved first. */
-static qdot_status
-continue_on_all_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr choice)
-{
-    qdot_expr all = qdot_list_appended(s->pool, b->equations, 1, &b->known);
-    qdot_sides sides = {0};
-    qdot_status status;
-
-    if (b->first != QDOT_NIL)
-        all = qdot_list_appended(s->pool, all, 1, &b->first);
-    if (b->conditions != QDOT_NIL)
-        all = qdot_list_appended(s->pool, all, 1, &b->conditions);
-    QDOT_TRY(qdot_pool_check(s->pool));
-    status = qdot_sides_of(s->pool, all, choice, &sides);
-    s->complete = s->complete && sides.n > 0;
-    if (status == QDOT_OK && sides.jump != QDOT_NIL)
-        status = continue_on_side(s, b, &sides, sides.n, QDOT_NIL, sides.jump);
-    for (size_t i = sides.n; i-- > 0 && status == QDOT_OK;)
-        status = continue_on_side(s, b, &sides, i, sides.relations[i], QDOT_NIL);
-    qdot_sides_clear(&sides);
-    return status;
-}
-
-/* The innermost switch in e that depends on unknowns; nil if e is the last equation, in one
- * unknown, as solving it treats the switch. */
-static qdot_expr
-find_common_switch(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
-{
-    qdot_expr choice = QDOT_NIL;
-
-    if (qdot_expr_count(s->pool, others) == 0 && count_unknowns(s, e) == 1)
-        return QDOT_NIL;
-    for (size_t i = 0; i < s->unknowns.n && choice == QDOT_NIL; i++)
-        choice = qdot_sides_choice(s->pool, e, s->unknowns.at[i]);
-    return choice;
 }
 
 /* --- choosing the next equation -------------------------------------------------------- */
@@ -466,7 +418,7 @@ is_never_zero(qdot_simultaneous *s, qdot_expr e, const qdot_facts *facts)
 
     QDOT_TRY(qdot_decide_equal(s->pool, e, QDOT_ZERO, facts, &d));
     s->complete = s->complete && d.verdict == QDOT_REFUTED;
-    return add_special_equation(s, e);
+    return qdot_simultaneous_add_special(s, e);
 }
 
 /* e = 0 without unknowns, with integers that count members of families: the branch for each integer that solves it. A
@@ -522,6 +474,7 @@ typedef struct {
     qdot_expr equation, factors; /* the equation, and its factors; nil if nothing is left to solve */
     qdot_expr others;            /* a LIST of the other equations */
     qdot_expr dead; /* an equation without unknowns that is not proved to hold; nil: none */
+    bool hard;      /* every equation has a factor that is linear in none of several unknowns */
 } next_equation;
 
 /* Factor every equation, and choose the one whose hardest factor is easiest to solve. */
@@ -531,7 +484,7 @@ choose_next_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts
     qdot_pool *pool = s->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
     qdot_expr *left = qdot_calloc(n + 1, sizeof *left);
-    int least = 10;
+    int least = NOT_THERE + 1;
     size_t which;
 
     if (left == NULL)
@@ -543,17 +496,17 @@ choose_next_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts
 
         if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &s->facts))
             continue;
-        if (count_unknowns(s, e) == 0 && qdot_is_zero(pool, e, facts))
+        if (qdot_simultaneous_unknowns_in(s, e) == 0 && qdot_is_zero(pool, e, facts))
             continue;
         list = qdot_solve_factors(pool, e);
         if (list == QDOT_NIL)
             break;
-        if (count_unknowns(s, e) == 0)
+        if (qdot_simultaneous_unknowns_in(s, e) == 0)
             next->dead = e;
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
             int one = find_easiest_unknown(s, qdot_expr_arg(pool, list, k), &which);
 
-            if (one < 9 && one > hardest)
+            if (one < NOT_THERE && one > hardest)
                 hardest = one;
         }
         left[count++] = e;
@@ -567,8 +520,31 @@ choose_next_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts
         next->equation = left[best];
         left[best] = left[count - 1];
     }
+    next->hard = count > 0 && least == NOT_LINEAR;
     next->others = qdot_list(pool, count == 0 ? 0 : count - 1, left);
     qdot_free(left);
+    return qdot_pool_check(pool);
+}
+
+/* Of an equation u v = 0, u an unknown, with v proved to be positive or negative leave u alone: z (a/r1^3 + b/r2^3) = 0. The
+ * factors as polynomials in their roots do not show the sign. */
+static qdot_status
+leave_out_definite_factor(qdot_simultaneous *s, const qdot_facts *facts, next_equation *next)
+{
+    qdot_pool *pool = s->pool;
+
+    for (uint32_t k = 0; k < 2 && qdot_expr_count(pool, next->factors) == 2; k++) {
+        const qdot_expr u = qdot_expr_arg(pool, next->factors, k);
+        qdot_expr v;
+
+        if (qdot_expr_symbol(pool, u) == NULL)
+            continue;
+        v = qdot_simplify(pool, qdot_expand(pool, qdot_div(pool, next->equation, u)), facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (qdot_condition(pool, v, true, facts) == QDOT_TRUE ||
+            qdot_condition(pool, qdot_neg(pool, v), true, facts) == QDOT_TRUE)
+            next->factors = qdot_list(pool, 1, &u);
+    }
     return qdot_pool_check(pool);
 }
 
@@ -583,7 +559,7 @@ choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
         return qdot_pool_check(pool);
     next->equation = e;
     next->factors = qdot_solve_factors(pool, e);
-    if (count_unknowns(s, e) == 0)
+    if (qdot_simultaneous_unknowns_in(s, e) == 0)
         next->dead = e;
     return qdot_pool_check(pool);
 }
@@ -607,7 +583,7 @@ test_known_equation(qdot_simultaneous *s, const qdot_simultaneous_branch *b, con
     if (choice == QDOT_NIL)
         return is_never_zero(s, next->dead, facts);
     simple.equations = qdot_list_appended(s->pool, b->equations, 1, &next->dead);
-    return continue_on_all_sides(s, &simple, choice);
+    return qdot_simultaneous_on_all_sides(s, &simple, choice);
 }
 
 /* The factors of the next equation, each solved where no choice is in it; else a branch with that factor alone, or, if it
@@ -618,7 +594,7 @@ continue_with_factors(qdot_simultaneous *s, const qdot_simultaneous_branch *b, c
     uint32_t n = qdot_expr_count(s->pool, next->factors);
 
     for (uint32_t k = n; k-- > 0;) {
-        qdot_expr one = qdot_expr_arg(s->pool, next->factors, k), choice = find_common_switch(s, one, next->others);
+        qdot_expr one = qdot_expr_arg(s->pool, next->factors, k), choice = qdot_simultaneous_common_switch(s, one, next->others);
         qdot_simultaneous_branch with = *b;
         qdot_expr *at = b->first == QDOT_NIL ? &with.equations : &with.first;
 
@@ -628,7 +604,7 @@ continue_with_factors(qdot_simultaneous *s, const qdot_simultaneous_branch *b, c
         }
         *at = b->first == QDOT_NIL ? qdot_list_appended(s->pool, next->others, 1, &one) : one;
         QDOT_TRY(qdot_pool_check(s->pool));
-        QDOT_TRY(n == 1 ? continue_on_all_sides(s, &with, choice) : qdot_vec_push(&s->todo, with));
+        QDOT_TRY(n == 1 ? qdot_simultaneous_on_all_sides(s, &with, choice) : qdot_vec_push(&s->todo, with));
     }
     return QDOT_OK;
 }
@@ -636,10 +612,11 @@ continue_with_factors(qdot_simultaneous *s, const qdot_simultaneous_branch *b, c
 static qdot_status
 step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
 {
-    next_equation next = {QDOT_NIL, QDOT_NIL, b->equations, QDOT_NIL};
+    next_equation next = {.others = b->equations};
     qdot_simultaneous_branch left = *b;
     qdot_expr room[QDOT_CONDITIONS_MOST];
     const qdot_facts facts = qdot_facts_and(s->pool, &s->facts, b->conditions, room);
+    bool done = false;
 
     QDOT_TRY(qdot_interrupt_check());
     if (b->first != QDOT_NIL)
@@ -650,21 +627,27 @@ step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
     }
     if (next.dead != QDOT_NIL)
         return test_known_equation(s, &left, &next, &facts);
+    if (next.hard)
+        QDOT_TRY(leave_out_definite_factor(s, &facts, &next));
+    if (next.hard)
+        QDOT_TRY(qdot_simultaneous_by_powers(s, b, qdot_list_appended(s->pool, next.others, 1, &next.equation), &done));
+    if (done)
+        return QDOT_OK;
     return next.factors == QDOT_NIL ? qdot_simultaneous_emit(s, b) : continue_with_factors(s, &left, &next);
 }
 
-/* Charge a step on these equations, whose factors and forms take more than their length; false when
- * the budget is spent. */
+/* Charge a step on these equations, whose factors and forms take more than their length; false if
+ * it is more than what is left of the budget, which is then spent. */
 static bool
 charge_work(qdot_simultaneous *s, qdot_expr equations)
 {
     uint64_t size = qdot_expr_size(s->pool, equations), work;
 
-    if (size > s->work)
+    work = size > s->work ? UINT64_MAX : 1 + size + size * size / 10;
+    if (work > s->work) {
+        s->work = 0;
         return false;
-    work = 1 + size + size * size / 10;
-    if (work > s->work)
-        return false;
+    }
     s->work -= work;
     return true;
 }
@@ -677,13 +660,10 @@ qdot_simultaneous_solve(qdot_simultaneous *s)
     while (status == QDOT_OK && s->todo.n > 0) {
         qdot_simultaneous_branch b = s->todo.at[--s->todo.n];
 
-        if (!charge_work(s, b.equations)) {
-            s->complete = false;
-            s->todo.n = 0;
-            break;
-        }
-        status = step(s, &b);
+        status = charge_work(s, b.equations) ? step(s, &b) : leave_branch(s, &b, b.equations, b.first);
     }
+    s->narrowed = s->complete && s->left.n > 0;
+    s->complete = s->complete && s->left.n == 0;
     return status;
 }
 
@@ -693,6 +673,7 @@ qdot_simultaneous_clear(qdot_simultaneous *s)
     qdot_free(s->unknowns.at);
     qdot_free(s->period.at);
     qdot_free(s->todo.at);
+    qdot_free(s->left.at);
     qdot_free(s->found.at);
     qdot_free(s->special.at);
     *s = (qdot_simultaneous){0};

@@ -53,6 +53,9 @@ typedef struct {
 
     qdot_vec(qdot_simultaneous_solution) found;
     bool complete; /* no solution has been lost; true at first */
+    bool narrowed; /* solutions have been lost on the branches `left` alone */
+    qdot_vec(qdot_simultaneous_branch) left; /* where no formula gives the next unknown, or the
+                                               * budget was spent: further solutions lie on these */
     bool recurs;   /* an angle has one declared bound: solutions within one turn are listed */
     qdot_vec(qdot_expr) special; /* expressions in parameters: where one is 0 the set of solutions may differ */
     qdot_vec(qdot_expr) period; /* periods of the unknowns that may be periodic; nil: not computed; QDOT_FALSE: none */
@@ -70,7 +73,7 @@ bool qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneo
                                const qdot_simultaneous_solution *all);
 
 /* Solve all branches that are left to do; their solutions are appended to s->found. More than 1024: QDOT_ELIMIT. Past
- * the budget: not complete. */
+ * the budget: not complete, and what is left to do is on `left`. */
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_solve(qdot_simultaneous *s);
 void qdot_simultaneous_clear(qdot_simultaneous *s);
 
@@ -86,5 +89,26 @@ QDOT_MUST_CHECK qdot_status qdot_simultaneous_period(qdot_simultaneous *s, qdot_
 /* Append the solutions of a branch without equations: all its members inside the declared domains, with the conditions
  * under which they exist. (simultaneous-members.c) */
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *b);
+
+/* --- steps by which a branch is continued -------------------------------------------------------------- */
+
+/* The number of unknowns that occur in e. */
+size_t qdot_simultaneous_unknowns_in(const qdot_simultaneous *s, qdot_expr e);
+/* Record that solutions may differ where d = 0, if d contains parameters only. */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_add_special(qdot_simultaneous *s, qdot_expr d);
+
+/* The innermost switch in e that depends on unknowns; nil if e is the last equation, in one unknown, as solving it treats
+ * the switch. `others`: a LIST of the other equations. (simultaneous-sides.c) */
+qdot_expr qdot_simultaneous_common_switch(const qdot_simultaneous *s, qdot_expr e, qdot_expr others);
+/* Continue with a branch for each side of the switching function `choice`; the first side is solved first.
+ * (simultaneous-sides.c) */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_on_all_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b,
+                                                           qdot_expr choice);
+
+/* Where k of the `equations`, a LIST, simplified, are linear in the k powers of sums in it, such as 1/r1^3 and 1/r2^3, and
+ * give these without unknowns: a branch with the powers' values in place of those k equations, and one on which their
+ * determinant is 0. *done: whether b was continued so. (simultaneous-powers.c) */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_by_powers(qdot_simultaneous *s, const qdot_simultaneous_branch *b,
+                                                        qdot_expr equations, bool *done);
 
 #endif

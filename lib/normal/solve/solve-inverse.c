@@ -5,6 +5,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "normal/solve/powers.h"
 #include "normal/solve/solver.h"
 
 /* --- equations for angles -------------------------------------------------------------- */
@@ -215,4 +216,28 @@ qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
     w = qdot_fun1(pool, qdot_fun_facts_of(h)->inverse, v);
     QDOT_TRY(qdot_solver_equation(s, qdot_sub(pool, u, w), when));
     return qdot_fun_is(h, QDOT_FUN_EVEN) ? qdot_solver_equation(s, qdot_add(pool, u, w), when) : QDOT_OK;
+}
+
+/* --- powers -------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_solver_power(qdot_solver *s, qdot_expr e, qdot_expr when, bool *done)
+{
+    qdot_pool *pool = s->pool;
+    qdot_powers p = {.unknowns = 1, .unknown = &s->x};
+    const qdot_expr with = qdot_powers_replace(pool, &p, e);
+    const fmpq *exponent = p.n == 1 ? qdot_expr_rational(pool, p.exponent[0]) : NULL;
+    qdot_expr a, b, v, condition;
+
+    *done = exponent != NULL && !fmpz_is_pm1(fmpq_numref(exponent)) && !qdot_expr_contains(pool, with, s->x) &&
+            qdot_is_linear_in(pool, with, 1, p.symbol, &a, &b);
+    if (!*done)
+        return qdot_pool_check(pool);
+    v = qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, b, a)));
+    QDOT_TRY(qdot_pool_check(pool));
+    *done = qdot_powers_invert(pool, &p, 0, v, s->facts, &e, &condition);
+    if (!*done)
+        return QDOT_OK;
+    QDOT_TRY(qdot_solver_divide(s, a));
+    return qdot_solver_equation(s, e, qdot_conditions_and(pool, when, condition));
 }

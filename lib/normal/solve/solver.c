@@ -589,7 +589,7 @@ qdot_status
 qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
 {
     uint32_t factors;
-    bool repeated;
+    bool repeated, done;
     qdot_expr choice;
     qdot_status status = qdot_pool_check(s->pool);
 
@@ -601,6 +601,11 @@ qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
         return QDOT_OK;
     }
     s->depth++;
+    status = qdot_solver_power(s, e, when, &done);
+    if (status != QDOT_OK || done) {
+        s->depth--;
+        return status;
+    }
     choice = qdot_sides_choice(s->pool, e, s->x);
     factors = count_factors_with_x(s, e, &repeated);
     /* leave a product with a power as it is: multiplied out it may not factor again */

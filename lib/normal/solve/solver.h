@@ -56,6 +56,10 @@ QDOT_MUST_CHECK qdot_status qdot_solver_turns(qdot_solver *s, qdot_expr u, size_
 QDOT_MUST_CHECK qdot_status qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a,
                                               qdot_expr b, qdot_expr d, qdot_expr when);
 
+/* Solve e = a b^p + c = 0 with x in b alone, a sum, and p = m/n, m above 1 (or below -1), n even: b = (-c/a)^(1/p), without
+ * raising the equation to the power n. *done: whether e is so (solve-inverse.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_power(qdot_solver *s, qdot_expr e, qdot_expr when, bool *done);
+
 /* Solve e = 0 on each side of the switch to which `choice` (sides.h) belongs (solve-cases.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_cases(qdot_solver *s, qdot_expr e, qdot_expr choice,
                                               qdot_expr when);

@@ -153,6 +153,23 @@ special_parameters_are_noted(void **state)
     HOLD(rows);
 }
 
+/* Two attracting centres: the powers of the distances follow from both equations, and then the distances. */
+static void
+equations_linear_in_powers_are_solved_for_them(void **state)
+{
+    static const row rows[] = {
+        {{"x - (1 - k)*(x + k)/((x + k)^2 + y^2)^(3/2) - k*(x + k - 1)/((x + k - 1)^2 + y^2)^(3/2)",
+          "y - (1 - k)*y/((x + k)^2 + y^2)^(3/2) - k*y/((x + k - 1)^2 + y^2)^(3/2)"}, {"x", "y"},
+         "[x = 1/2*(1 - 2*k), y = -1/2*sqrt(3)]; [x = 1/2*(1 - 2*k), y = 1/2*sqrt(3)] special k - 1, k ..."},
+        {{"1/sqrt(x + y) + 1/sqrt(x - y) - 3/2", "1/sqrt(x + y) - 1/sqrt(x - y) - 1/2"}, {"x", "y"},
+         "[x = 5/2, y = -3/2]"},
+        {{"1/sqrt(x + y) + 1/sqrt(x - y) - 1", "1/sqrt(x + y) - 1/sqrt(x - y) - 2"}, {"x", "y"}, ""},
+    };
+
+    (void)state;
+    HOLD(rows);
+}
+
 int
 main(void)
 {
@@ -162,6 +179,7 @@ main(void)
         cmocka_unit_test_setup_teardown(solutions_lie_in_the_domain_and_say_when_they_exist, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(families_keep_their_integer, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(equations_linear_in_powers_are_solved_for_them, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(special_parameters_are_noted, open_pool, close_pool),
     };
 

@@ -40,6 +40,8 @@ static const struct {
     {"a*cos(phi) + b*sin(phi) - g", "phi", NULL},
     {"x*(1 - L/sqrt(x^2 + a^2))", "x", NULL},
     {"sqrt(x + 2) - x", "x", "2"},
+    {"(x^2 + k)^(-3/2) - 8", "x", "-1/2*sqrt(1 - 4*k) |[4*k < 1]; 1/2*sqrt(1 - 4*k) |[4*k < 1]"},
+    {"(x + k)^(3/2) - c", "x", "c^(2/3) - k |[c >= 0]"},
     {"sqrt(x) + x", "x", "0"},
     {"exp(2*x) - 3*exp(x) + 2", "x", "0; log(2)"},
     {"cosh(x) - 2", "x", "-acosh(2); acosh(2)"},
