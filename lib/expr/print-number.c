@@ -149,6 +149,10 @@ note_argument_kinds(const qdot_pool *pool, qdot_expr e, struct numbers *seen)
         if (NODE(pool, k)->kind == QDOT_NUM)
             note_number_kind(RATIONAL(pool, k), seen);
     }
+    for (uint32_t i = 1; i < node->n; i += 2) /* 2/5*pi: a part of pi is a fraction; c*pi + ... is the pair pi, c of a sum */
+        if (ARGS(pool, e)[i] == QDOT_PI &&
+            (node->kind == QDOT_PROD || (node->kind == QDOT_SUM && ARGS(pool, e)[i + 1] != QDOT_ONE)))
+            seen->fraction = true;
 }
 
 qdot_status
