@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/history.h"
 #include "lang/session/output.h"
+#include "lang/session/phase.h"
 #include "lang/session/units.h"
 #include "lang/syntax/record.h"
 
@@ -133,6 +134,8 @@ carry_out_modes(qdot_record *r)
     status = qdot_pool_check(session->pool);
     if (status == QDOT_OK)
         status = qdot_vec_push(&session->history->values, value);
+    session->history->modes_at = at;
+    session->history->modes_version = qdot_phase_version(session);
     if (status == QDOT_OK)
         status = answer_modes(session, &modes);
     qdot_modes_clear(&modes);

@@ -447,11 +447,13 @@ VERDICT(to_first_order, QDOT_STABLE_TO_FIRST_ORDER)
 VERDICT(undecided, QDOT_STABILITY_UNDECIDED)
 #undef VERDICT
 
-/* Find the frequencies of the modes; modes[k, x]: the amplitude of x in mode k. */
+/* Find the frequencies of the modes, about the place of the latest `modes at` while the scene is the same; modes[k, x]: the
+ * amplitude of x in mode k. */
 static qdot_status
 get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
     const qdot_scene *scene = s->scene;
+    const bool shown = s->history->modes_version == qdot_phase_version(s);
     qdot_modes modes;
     qdot_status status = QDOT_OK;
     long k = 1;
@@ -461,7 +463,7 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
         QDOT_TRY(qdot_session_integer(s, index[0], &k));
     if (n == 2)
         QDOT_TRY(check_coordinate_index(s, "modes[k, q]: q", index[1]));
-    QDOT_TRY(qdot_equilibria_modes_at(s, QDOT_NIL, &modes));
+    QDOT_TRY(qdot_equilibria_modes_at(s, shown ? s->history->modes_at : QDOT_NIL, &modes));
     if (n > 0 && (k < 1 || (size_t)k > modes.n))
         status = qdot_fail(QDOT_EDOMAIN, "there are %zu modes, counted from 1", modes.n);
     else if (n == 0)

@@ -20,6 +20,8 @@ typedef struct qdot_history {
     qdot_vec(qdot_expr) over; /* for each answer a LIST of coordinates that index its entries; nil: none */
     qdot_expr series, series_in; /* the latest series(...) and a LIST of its variables; nil: none */
     qdot_expr steady_in; /* the rate for which the latest `steady in` solved; nil: the latest `steady` had none */
+    qdot_expr modes_at; /* the place of the latest `modes at`, a LIST; nil: the latest `modes` had none */
+    uint64_t modes_version; /* of the scene then */
     qdot_linear linear;
 } qdot_history;
 

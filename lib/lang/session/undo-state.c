@@ -46,6 +46,8 @@ qdot_undo_single_of(const qdot_session *s)
                     .series = s->history->series,
                     .series_in = s->history->series_in,
                     .steady_in = s->history->steady_in,
+                    .modes_at = s->history->modes_at,
+                    .modes_version = s->history->modes_version,
                     .linear = s->history->linear,
                     .style = s->output->style,
                     .flat = s->output->flat,

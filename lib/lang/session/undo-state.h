@@ -31,7 +31,8 @@ enum { /* numbered after the parts of the scene */
 /* The parts of the session's state that are not arrays. */
 typedef struct {
     qdot_expr lagrangian, higher_lagrangian, hamiltonian, series, series_in;
-    qdot_expr steady_in;
+    qdot_expr steady_in, modes_at;
+    uint64_t modes_version;
     qdot_linear linear;
     qdot_style style;
     bool flat, timing, start_exactly;

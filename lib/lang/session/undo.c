@@ -528,6 +528,8 @@ apply_record(qdot_session *s, record *r, int to)
     s->history->series = u->now.single.series;
     s->history->series_in = u->now.single.series_in;
     s->history->steady_in = u->now.single.steady_in;
+    s->history->modes_at = u->now.single.modes_at;
+    s->history->modes_version = u->now.single.modes_version;
     s->history->linear = u->now.single.linear;
     s->output->style = u->now.single.style;
     s->output->flat = u->now.single.flat;

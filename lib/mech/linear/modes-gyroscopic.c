@@ -62,24 +62,84 @@ characteristic_polynomial(const qdot_modes_job *j, qdot_expr W)
     return sum;
 }
 
+/* z = a z - b p in complex numbers, z and p [n] real parts, then [n] imaginary ones, simplified. */
+static qdot_status
+combine(const qdot_modes_job *j, const qdot_expr *a, qdot_expr *z, const qdot_expr *b, const qdot_expr *p)
+{
+    qdot_pool *pool = j->pool;
+    const size_t n = j->m.n;
+
+    for (size_t i = 0; i < n; i++) {
+        const qdot_expr re[4] = {qdot_mul(pool, a[0], z[i]), qdot_neg(pool, qdot_mul(pool, a[1], z[n + i])),
+                                 qdot_neg(pool, qdot_mul(pool, b[0], p[i])), qdot_mul(pool, b[1], p[n + i])},
+                        im[4] = {qdot_mul(pool, a[0], z[n + i]), qdot_mul(pool, a[1], z[i]),
+                                 qdot_neg(pool, qdot_mul(pool, b[0], p[n + i])), qdot_neg(pool, qdot_mul(pool, b[1], p[i]))};
+
+        z[i] = qdot_simplify(pool, qdot_sum(pool, 4, re), &j->facts);
+        z[n + i] = qdot_simplify(pool, qdot_sum(pool, 4, im), &j->facts);
+    }
+    return qdot_pool_check(pool);
+}
+
+/* Remove from z [2 n] its components along the vectors `kept` [count x 2 n]: each of these is not 0 at its `pivot`, where
+ * those after it are 0. *pivot_of_z: where z is not 0 then; n: it is 0, z depends on the kept ones. */
+static qdot_status
+reduce_by_kept(const qdot_modes_job *j, size_t count, const qdot_expr *kept, const size_t *pivot, qdot_expr *z,
+               size_t *pivot_of_z)
+{
+    const size_t n = j->m.n;
+
+    for (size_t k = 0; k < count; k++) {
+        const qdot_expr *p = kept + k * 2 * n, at_p[2] = {p[pivot[k]], p[n + pivot[k]]},
+                        at_z[2] = {z[pivot[k]], z[n + pivot[k]]};
+
+        if (at_z[0] != QDOT_ZERO || at_z[1] != QDOT_ZERO)
+            QDOT_TRY(combine(j, at_p, z, at_z, p));
+    }
+    *pivot_of_z = 0;
+    while (*pivot_of_z < n && qdot_modes_is_zero(j, z[*pivot_of_z]) && qdot_modes_is_zero(j, z[n + *pivot_of_z]))
+        ++*pivot_of_z;
+    return qdot_pool_check(j->pool);
+}
+
+/* Add count/2 complex modes of the frequency w from a real basis z [count x 2 n] of (re, im): it holds i a with each a. z is
+ * overwritten. */
+static qdot_status
+add_complex_modes(qdot_modes_job *j, qdot_expr w, size_t count, qdot_expr *z)
+{
+    const size_t n = j->m.n;
+    size_t pivot[QDOT_MODES_MOST_EXACT + 1], kept = 0;
+
+    for (size_t k = 0; k < count && 2 * kept < count; k++) {
+        qdot_expr *one = z + k * 2 * n;
+
+        QDOT_TRY(reduce_by_kept(j, kept, z, pivot, one, &pivot[kept]));
+        if (pivot[kept] == n)
+            continue;
+        QDOT_TRY(qdot_modes_add_complex(j, w, one, one + n));
+        for (size_t i = 0; i < 2 * n; i++) /* kept vectors stand first */
+            z[kept * 2 * n + i] = one[i];
+        kept++;
+    }
+    return QDOT_OK;
+}
+
 /* Add the modes whose amplitude is in the null space of A [rows x rows], at most `most`: real ones if rows = n. If rows =
- * 2 n it is (re, im), and the null space holds i a with each a: of one mode it has two dimensions, and where it has more
- * (several modes of one frequency) this is QDOT_ELIMIT. */
+ * 2 n it is (re, im), and of each mode the null space has two dimensions. */
 static qdot_status
 add_null_space(qdot_modes_job *j, qdot_expr w, size_t rows, qdot_expr *A, size_t most)
 {
     const size_t n = j->m.n;
-    const bool is_complex = rows > n;
     qdot_expr *z = qdot_calloc(rows * rows + n, sizeof *z), *zero = z + rows * rows;
     size_t count = 0;
     qdot_status status = z == NULL ? QDOT_ENOMEM : qdot_modes_null_space(j, rows, A, z, &count);
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         zero[i] = QDOT_ZERO;
-    if (status == QDOT_OK && is_complex && count != 2)
-        status = QDOT_ELIMIT;
-    for (size_t k = 0; k < count && k < (is_complex ? 1 : most) && status == QDOT_OK; k++)
-        status = qdot_modes_add_complex(j, w, z + k * rows, is_complex ? z + k * rows + n : zero);
+    if (status == QDOT_OK && rows > n)
+        status = count % 2 == 0 && count <= 2 * most ? add_complex_modes(j, w, count, z) : QDOT_ELIMIT;
+    for (size_t k = 0; rows == n && k < count && k < most && status == QDOT_OK; k++)
+        status = qdot_modes_add_complex(j, w, z + k * n, zero);
     qdot_free(z);
     return status;
 }
@@ -161,7 +221,7 @@ qdot_modes_gyroscopic(qdot_modes_job *j, bool *done)
     roots.complete = roots.complete && roots.root.n <= n;
     for (size_t k = 0; k < roots.root.n && roots.complete && status == QDOT_OK; k++)
         status = qdot_modes_frequency(j, roots.root.at[k].value, &w[k]);
-    if (n == 2 && roots.root.n == 2 && roots.complete && status == QDOT_OK)
+    if (roots.root.n == 2 && roots.complete && status == QDOT_OK)
         status = shorten_two_frequencies(j, roots.root.at, w);
     for (size_t k = 0; k < roots.root.n && roots.complete && status == QDOT_OK; k++) {
         const bool zero = qdot_modes_is_zero(j, roots.root.at[k].value);
