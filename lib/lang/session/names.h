@@ -31,6 +31,7 @@ typedef struct {
     const char *label; /* for ARGUMENT: label of the particle or body whose position it is; NULL: none */
     char *file; /* file in which the name was declared; owned */
     uint32_t line;
+    bool routhian; /* a Routhian of a former scene, with its momenta as parameters: every `reset scene` keeps it */
 } qdot_name;
 
 typedef struct qdot_names qdot_names;

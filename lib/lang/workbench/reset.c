@@ -55,12 +55,15 @@ is_function_kept(const qdot_session *session, const qdot_name *function)
     return true;
 }
 
-/* Whether the name is a Routhian: its value holds velocities, and momenta only of coordinates that do not stand in it. */
+/* Whether the name is a Routhian: its value holds velocities, and momenta only of coordinates that do not stand in it; or was
+ * one when it was kept. */
 static bool
 is_routhian(const qdot_session *old, const qdot_name *name)
 {
     const uint32_t holds = name->kind == QDOT_NAME_VALUE ? qdot_expr_node(old->pool, name->value)->holds : 0;
 
+    if (name->routhian)
+        return true;
     if (!(holds & QDOT_HAS_VELOCITY) || !(holds & QDOT_HAS_MOMENTUM) || !qdot_expr_is_scalar(old->pool, name->value))
         return false;
     for (size_t i = 0; i < old->scene->coordinates.n; i++) {
@@ -102,6 +105,7 @@ copy_routhian(qdot_session *old, qdot_session *fresh, const qdot_name *name)
         QDOT_TRY(status);
     }
     copy.over = QDOT_NIL;
+    copy.routhian = true;
     QDOT_TRY(qdot_pool_check(fresh->pool));
     return qdot_names_declare(fresh->names, &copy);
 }
