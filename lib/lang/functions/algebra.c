@@ -18,6 +18,7 @@
 #include "lang/session/evaluation.h"
 #include "lang/session/momenta.h"
 #include "lang/session/speeds.h"
+#include "mech/geometry/forms.h"
 #include "mech/scene/things.h"
 #include "normal/simplify/circle.h"
 #include "normal/simplify/kinks.h"
@@ -284,7 +285,7 @@ qdot_call_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
             e = qdot_momenta_for(s, e, r.from.at[i]);
     if (status == QDOT_OK)
         status = qdot_value_kind_give(
-            s->pool, qdot_circle_join(s->pool, qdot_subs(s->pool, e, r.from.n, r.from.at, r.to.at)), value);
+            s->pool, qdot_circle_join(s->pool, qdot_forms_subs(s->scene, e, r.from.n, r.from.at, r.to.at)), value);
     qdot_algebra_drop(&r);
     return status;
 }

@@ -1,6 +1,9 @@
-/* forms.c -- differential forms: d, wedge, hodge. */
+/* forms.c -- differential forms: d, wedge, hodge, pullback. */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
+#include "lang/functions/algebra.h"
 #include "lang/functions/builtin.h"
 #include "mech/geometry/forms.h"
 
@@ -41,4 +44,26 @@ qdot_call_hodge(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *v
 {
     (void)n;
     return qdot_value_kind_give(s->pool, qdot_forms_hodge(s->scene, args[0], args[1]), value);
+}
+
+qdot_status
+qdot_call_pullback(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_replacements r = {0};
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
+        status = qdot_algebra_gather(s, "pullback", args[i], &r);
+    for (size_t i = 0; i < r.from.n && status == QDOT_OK; i++) {
+        const qdot_symbol *q = qdot_expr_symbol(s->pool, r.from.at[i]);
+
+        if (r.from.at[i] != QDOT_T && (q == NULL || q->class != QDOT_COORD || q->order > 0)) {
+            status = qdot_fail(QDOT_ETYPE, "pullback replaces coordinates and their differentials");
+            qdot_hint("as in pullback(r*dphi, phi = t^2); subs replaces anything");
+        }
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_kind_give(s->pool, qdot_forms_pullback(s->scene, args[0], r.from.n, r.from.at, r.to.at), value);
+    qdot_algebra_drop(&r);
+    return status;
 }

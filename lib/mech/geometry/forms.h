@@ -33,4 +33,13 @@ qdot_expr qdot_forms_hodge(qdot_scene *s, qdot_expr w, qdot_expr R);
 bool qdot_forms_has_product(const qdot_scene *s, qdot_expr w);
 qdot_expr qdot_forms_lie(qdot_scene *s, qdot_expr w, qdot_expr X, uint32_t n, const qdot_expr *q);
 
+/* --- replacements (forms-replace.c) ---
+ *
+ *     phi* (f dy_1 ^ ... ^ dy_p) = f(phi(x)) d(phi_1(x)) ^ ... ^ d(phi_p(x))            pullback by y = phi(x)
+ *
+ * e with from [n] replaced by to, all at once; a replaced differential is replaced in products, too. */
+qdot_expr qdot_forms_subs(qdot_scene *s, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to);
+/* The pullback of a form, or of a line element, by q_i = to_i, coordinates or t [n]. */
+qdot_expr qdot_forms_pullback(qdot_scene *s, qdot_expr w, size_t n, const qdot_expr *q, const qdot_expr *to);
+
 #endif

@@ -79,6 +79,29 @@ dual_has_orientation_and_signature_body(kit *k)
 }
 TEST(dual_has_orientation_and_signature)
 
+/* dx ^ dy = r dr ^ dphi, which commutes with d. */
+static void
+pullback_replaces_differentials_body(kit *k)
+{
+    qdot_expr q[2], to[2], w, dx;
+
+    coords(k, "x y r phi");
+    q[0] = E(k, "x");
+    q[1] = E(k, "y");
+    to[0] = E(k, "r*cos(phi)");
+    to[1] = E(k, "r*sin(phi)");
+    assert_int_equal(qdot_forms_pullback(k->scene, two_form(k, "dx", "dy"), 2, q, to), qdot_mul(k->pool, E(k, "r"), two_form(k, "dr", "dphi")));
+    SAME(k, qdot_forms_pullback(k->scene, E(k, "dx^2 + dy^2"), 2, q, to), "dr^2 + r^2*dphi^2");
+    w = E(k, "x*y^2*dx");
+    assert_int_equal(qdot_forms_pullback(k->scene, qdot_forms_exterior_derivative(k->scene, w), 2, q, to),
+                     qdot_forms_exterior_derivative(k->scene, qdot_forms_pullback(k->scene, w, 2, q, to)));
+    dx = E(k, "dx");
+    w = E(k, "dy");
+    assert_int_equal(qdot_forms_subs(k->scene, two_form(k, "dx", "dy"), 1, &dx, &w), QDOT_ZERO);
+    assert_int_equal(qdot_forms_subs(k->scene, two_form(k, "dr", "dy"), 1, &dx, &w), two_form(k, "dr", "dy"));
+}
+TEST(pullback_replaces_differentials)
+
 static void
 what_is_no_form_is_refused_body(kit *k)
 {
@@ -105,6 +128,7 @@ main(void)
         cmocka_unit_test(derivative_of_a_derivative_is_zero),
         cmocka_unit_test(lie_derivative_is_cartans),
         cmocka_unit_test(dual_has_orientation_and_signature),
+        cmocka_unit_test(pullback_replaces_differentials),
         cmocka_unit_test(what_is_no_form_is_refused),
     };
 
