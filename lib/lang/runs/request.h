@@ -24,6 +24,19 @@ QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr
 /* If the start gives momenta p[q], the velocities that follow from them at its place and time; a momentum whose
  * velocity is not named either is 0 then. Called by _limits. QDOT_ESINGULAR, QDOT_EDOMAIN: they do not follow. */
 QDOT_MUST_CHECK qdot_status qdot_request_momenta(qdot_session *session, qdot_request *o);
+/* A start of which momenta are given: its places q0 [n] and time t0, and the velocities v0 [n] with whether each is named.
+ * The unknowns [k], parameters, coordinates, velocities and momenta, keep their symbols. */
+typedef struct {
+    const qdot_expr *q0;
+    qdot_expr *v0;
+    bool *v_named;
+    qdot_expr t0;
+    size_t k;
+    const qdot_expr *unknowns;
+} qdot_start_by_momenta;
+
+/* Fill in the velocities that follow. *in_numbers: as doubles, which no start with unknowns allows. Errors as above. */
+QDOT_MUST_CHECK qdot_status qdot_start_by_momenta_solve(qdot_session *session, const qdot_start_by_momenta *o, bool *in_numbers);
 /* If the start gives speeds, the velocities that follow from them and the constraints at its place and time. Called by
  * _limits. QDOT_EINVAL: they do not follow, or the place breaks a constraint. */
 QDOT_MUST_CHECK qdot_status qdot_request_speeds(qdot_session *session, qdot_request *o);

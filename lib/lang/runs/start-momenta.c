@@ -20,30 +20,30 @@ typedef struct {
     size_t *at;
 } start;
 
-/* Collect the coordinates whose momentum is named, or of which nothing is: that momentum is 0. */
+/* Collect the coordinates whose momentum is named or unknown, or of which nothing is named: that momentum is 0. */
 static void
-collect_start_momenta(qdot_session *session, const qdot_request *o, start *s)
+collect_start_momenta(qdot_session *session, const qdot_start_by_momenta *o, start *s)
 {
     const qdot_scene *scene = session->scene;
 
     for (size_t i = 0; i < scene->coordinates.n; i++) {
         const qdot_expr q = scene->coordinates.at[i], p = qdot_symbol_of(session->pool, QDOT_MOMENTUM, q);
         const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, p);
-        const bool named = at < session->values->start_symbols.n;
+        const bool unknown = qdot_expr_place(o->k, o->unknowns, p) < o->k, named = unknown || at < session->values->start_symbols.n;
 
-        if (!named && o->v_named.at[i])
+        if (!named && o->v_named[i])
             continue;
         s->q[s->n] = q;
         s->p[s->n] = p;
-        s->value[s->n] = named ? qdot_session_bind(session, session->values->start_values.at[at]) : QDOT_ZERO;
-        o->v_named.at[i] = named;
+        s->value[s->n] = unknown ? p : named ? qdot_session_bind(session, session->values->start_values.at[at]) : QDOT_ZERO;
+        o->v_named[i] = named;
         s->at[s->n++] = i;
     }
 }
 
 /* L at the start, as a function of the velocities that are sought. */
 static qdot_expr
-lagrangian_at_start(qdot_session *session, const qdot_request *o, const start *s)
+lagrangian_at_start(qdot_session *session, const qdot_start_by_momenta *o, const start *s)
 {
     qdot_pool *pool = session->pool;
     qdot_expr L = qdot_mech_lagrangian(session->scene), t = QDOT_T;
@@ -51,11 +51,11 @@ lagrangian_at_start(qdot_session *session, const qdot_request *o, const start *s
     for (size_t i = 0; i < session->scene->coordinates.n && L != QDOT_NIL; i++) {
         const qdot_expr q = session->scene->coordinates.at[i], v = qdot_symbol_jet(pool, q, 1);
 
-        L = qdot_subs(pool, L, 1, &q, &o->q0.at[i]);
+        L = qdot_subs(pool, L, 1, &q, &o->q0[i]);
         if (qdot_expr_place(s->n, s->q, q) == s->n)
-            L = qdot_subs(pool, L, 1, &v, &o->v0.at[i]);
+            L = qdot_subs(pool, L, 1, &v, &o->v0[i]);
     }
-    L = qdot_subs(pool, L, 1, &t, &o->request.t0);
+    L = qdot_subs(pool, L, 1, &t, &o->t0);
     return L == QDOT_NIL ? L : qdot_session_bind(session, L);
 }
 
@@ -78,7 +78,7 @@ report_undetermined(const qdot_session *session, const start *s, const qdot_zero
 
 /* Solve p = dL/dq' in numbers, L at the start: the only zero, proved. */
 static qdot_status
-solve_in_numbers(qdot_session *session, qdot_request *o, const start *s, qdot_expr L)
+solve_in_numbers(qdot_session *session, const qdot_start_by_momenta *o, const start *s, qdot_expr L)
 {
     qdot_pool *pool = session->pool;
     qdot_expr *F = qdot_calloc(2 * (size_t)s->n + 1, sizeof *F), *v = F + s->n;
@@ -98,8 +98,7 @@ solve_in_numbers(qdot_session *session, qdot_request *o, const start *s, qdot_ex
     if (status == QDOT_OK && (zeros.count != 1 || !zeros.complete || zeros.doubts > 0 || !zeros.simple[0]))
         status = report_undetermined(session, s, &zeros);
     for (uint32_t i = 0; i < s->n && status == QDOT_OK; i++)
-        o->v0.at[s->at[i]] = qdot_measured_rational(pool, zeros.at[i]);
-    o->momenta_in_numbers = true;
+        o->v0[s->at[i]] = qdot_measured_rational(pool, zeros.at[i]);
     qdot_zeros_clear(&zeros);
     qdot_free(F);
     qdot_free(range);
@@ -108,7 +107,7 @@ solve_in_numbers(qdot_session *session, qdot_request *o, const start *s, qdot_ex
 
 /* Solve p = dL/dq' at the start, by a formula or else in numbers. */
 static qdot_status
-solve_start_momenta(qdot_session *session, qdot_request *o, const start *s)
+solve_start_momenta(qdot_session *session, const qdot_start_by_momenta *o, const start *s, bool *in_numbers)
 {
     const qdot_expr L = lagrangian_at_start(session, o, s);
     qdot_legendre l = {0};
@@ -117,21 +116,20 @@ solve_start_momenta(qdot_session *session, qdot_request *o, const start *s)
     QDOT_TRY(qdot_pool_check(session->pool));
     if (qdot_legendre_begin(&l, session->scene, QDOT_COORD, L, s->n, s->q))
         for (uint32_t i = 0; i < s->n; i++)
-            o->v0.at[s->at[i]] = qdot_subs(session->pool, l.solved[i], s->n, s->p, s->value);
+            o->v0[s->at[i]] = qdot_subs(session->pool, l.solved[i], s->n, s->p, s->value);
     qdot_legendre_end(&l);
     status = qdot_pool_check(session->pool);
-    return status == QDOT_EDOMAIN && s->n <= QDOT_ZEROS_MOST_UNKNOWNS ? solve_in_numbers(session, o, s, L) : status;
+    *in_numbers = status == QDOT_EDOMAIN && o->k == 0 && s->n <= QDOT_ZEROS_MOST_UNKNOWNS;
+    return *in_numbers ? solve_in_numbers(session, o, s, L) : status;
 }
 
 qdot_status
-qdot_request_momenta(qdot_session *session, qdot_request *o)
+qdot_start_by_momenta_solve(qdot_session *session, const qdot_start_by_momenta *o, bool *in_numbers)
 {
     const size_t n = session->scene->coordinates.n;
     start s = {0};
     qdot_status status = QDOT_OK;
 
-    if (!qdot_session_starts_by_momenta(session))
-        return QDOT_OK;
     QDOT_TRY(qdot_higher_refuse(session->scene, "a start by momenta"));
     s.q = qdot_calloc(3 * n + 1, sizeof *s.q);
     s.at = qdot_calloc(n + 1, sizeof *s.at);
@@ -141,9 +139,19 @@ qdot_request_momenta(qdot_session *session, qdot_request *o)
         s.p = s.q + n;
         s.value = s.p + n;
         collect_start_momenta(session, o, &s);
-        status = solve_start_momenta(session, o, &s);
+        status = solve_start_momenta(session, o, &s, in_numbers);
     }
     qdot_free(s.q);
     qdot_free(s.at);
     return status;
+}
+
+qdot_status
+qdot_request_momenta(qdot_session *session, qdot_request *o)
+{
+    const qdot_start_by_momenta of = {.q0 = o->q0.at, .v0 = o->v0.at, .v_named = o->v_named.at, .t0 = o->request.t0};
+
+    if (!qdot_session_starts_by_momenta(session))
+        return QDOT_OK;
+    return qdot_start_by_momenta_solve(session, &of, &o->momenta_in_numbers);
 }

@@ -3,6 +3,7 @@
 
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "lang/runs/request.h"
 #include "lang/session/bind.h"
 #include "lang/session/start-kind.h"
 #include "lang/session/trial.h"
@@ -15,12 +16,8 @@ fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, co
 {
     const size_t n = session->scene->coordinates.n;
 
-    for (size_t i = 0; i < k; i++)
-        if (qdot_expr_is_class(session->pool, unknowns[i], QDOT_MOMENTUM)) {
-            (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: fits and periodic orbits with a momentum among the unknowns");
-            return qdot_hint("q' = ... gives the velocity");
-        }
-    QDOT_TRY(qdot_session_need_velocities(session, "fits and periodic orbits"));
+    if (qdot_session_starts_by_speeds(session))
+        QDOT_TRY(qdot_session_need_velocities(session, "fits and periodic orbits"));
     for (size_t i = 0; i < had->n_values; i++) {
         const size_t at =
             qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, had->symbols[i]);
@@ -44,6 +41,21 @@ fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, co
     return qdot_pool_check(session->pool);
 }
 
+/* Where momenta are given or unknown, the velocities that follow from them. */
+static qdot_status
+fill_velocities_of_momenta(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
+                           qdot_expr *start, bool *named)
+{
+    const size_t n = session->scene->coordinates.n;
+    const qdot_start_by_momenta of = {
+        .q0 = start, .v0 = start + n, .v_named = named + n, .t0 = had->t0, .k = k, .unknowns = unknowns};
+    bool momenta = qdot_session_starts_by_momenta(session), in_numbers;
+
+    for (size_t i = 0; i < k; i++)
+        momenta |= qdot_expr_is_class(session->pool, unknowns[i], QDOT_MOMENTUM);
+    return momenta ? qdot_start_by_momenta_solve(session, &of, &in_numbers) : QDOT_OK;
+}
+
 qdot_status
 qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
                   const qdot_run_request *had, qdot_expr *values, qdot_expr *start, bool *named,
@@ -59,6 +71,8 @@ qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
             qdot_session_set(session, unknowns[i], unknowns[i], &status);
     if (status == QDOT_OK)
         status = fill_free_request(session, k, unknowns, had, values, start, named);
+    if (status == QDOT_OK)
+        status = fill_velocities_of_momenta(session, k, unknowns, had, start, named);
     qdot_trial_end(&trial);
     *free = *had;
     free->values = values;

@@ -9,7 +9,7 @@
 #include "sim/model/request.h"
 
 /* From the request `had` of the session's present values: its values [n_values] and its start q, q' [2n], named [2n], in
- * the unknowns [k], parameters, coordinates or velocities; *free borrows all of them. */
+ * the unknowns [k], parameters, coordinates, velocities or momenta; *free borrows all of them. */
 QDOT_MUST_CHECK qdot_status qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
                                               const qdot_run_request *had, qdot_expr *values,
                                               qdot_expr *start, bool *named, qdot_run_request *free);
