@@ -4,10 +4,14 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "expr/build.h"
 #include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
+#include "lang/answer/answer.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/equilibria.h"
 #include "lang/functions/linear.h"
@@ -107,6 +111,33 @@ OF_SCENE(momentum, require_equations_of_motion, whole_momentum)
 OF_SCENE(angular_momentum, require_equations_of_motion, whole_angular_momentum)
 #undef OF_SCENE
 
+/* Say which momenta are functions of the coordinates. */
+static qdot_status
+notice_primary_constraints(qdot_session *s)
+{
+    const qdot_expr list = qdot_hamilton_linear(s->scene);
+    qdot_text text = {0};
+    qdot_status status = qdot_pool_check(s->pool);
+
+    if (status != QDOT_OK || list == QDOT_NIL)
+        return status;
+    qdot_text_add(&text, "L is linear in some velocities: ");
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, list) && status == QDOT_OK; i++) {
+        const qdot_expr q = qdot_expr_arg(s->pool, list, i);
+
+        qdot_text_format(&text, "%sp[%s] = ", i > 0 ? ", " : "", qdot_expr_symbol(s->pool, q)->name);
+        status = qdot_print(s->pool, qdot_mech_momentum(s->scene, q), QDOT_PLAIN, &text);
+    }
+    qdot_text_add(&text, qdot_expr_count(s->pool, list) > 1 ? " are constraints between coordinates and momenta"
+                                                            : " is a constraint between coordinates and momenta");
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice_once(s, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 /* A stated H is known even where no Lagrangian follows from it. */
 static qdot_status
 get_hamiltonian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -114,7 +145,8 @@ get_hamiltonian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
     (void)n, (void)index;
     if (s->scene->hamiltonian == QDOT_NIL)
         QDOT_TRY(require_coordinates(s));
-    return qdot_value_kind_give(s->pool, qdot_hamilton_hamiltonian(s->scene), value);
+    QDOT_TRY(qdot_value_kind_give(s->pool, qdot_hamilton_hamiltonian(s->scene), value));
+    return notice_primary_constraints(s);
 }
 
 /* With an H alone, sum p q' - L is H. */

@@ -190,6 +190,60 @@ hamiltonian_of_higher(qdot_scene *s)
     return qdot_higher_in_motion(s, H);
 }
 
+/* Of the coordinates q [n] move those in whose velocities L is linear behind the others; returns how many others there are. */
+static uint32_t
+sort_out_linear(qdot_scene *s, qdot_expr L, uint32_t n, qdot_expr *q, bool *linked)
+{
+    uint32_t curved = 0;
+
+    *linked = false;
+    for (uint32_t i = 0; i < n && L != QDOT_NIL; i++) {
+        const qdot_expr slope = qdot_diff(s->pool, L, qdot_symbol_jet(s->pool, q[i], 1)), own = q[i];
+
+        if (slope != QDOT_NIL && !(qdot_expr_node(s->pool, slope)->holds & QDOT_HAS_VELOCITY)) {
+            *linked |= slope != QDOT_ZERO;
+            continue;
+        }
+        q[i] = q[curved];
+        q[curved++] = own;
+    }
+    return curved;
+}
+
+qdot_expr
+qdot_hamilton_linear(qdot_scene *s)
+{
+    qdot_expr list = QDOT_NIL, *moving;
+    uint32_t n, curved;
+    bool linked;
+
+    if (s->hamiltonian != QDOT_NIL || s->higher.n > 0)
+        return QDOT_NIL;
+    moving = qdot_hamilton_moving(s, &n);
+    if (moving == NULL)
+        return QDOT_NIL;
+    curved = sort_out_linear(s, qdot_mech_lagrangian(s), n, moving, &linked);
+    if (linked)
+        list = qdot_list(s->pool, n - curved, moving + curved);
+    qdot_free(moving);
+    return list;
+}
+
+/* H of a Lagrangian that is linear in the velocities of some coordinates: their terms cancel in sum p q' - L. */
+static qdot_expr
+transform_lagrangian(qdot_scene *s, uint32_t n, qdot_expr *moving)
+{
+    qdot_expr L = qdot_mech_lagrangian(s);
+    bool linked;
+    const uint32_t curved = sort_out_linear(s, L, n, moving, &linked);
+
+    if (!linked)
+        return qdot_legendre_of(s, QDOT_COORD, L, n, moving);
+    for (uint32_t i = curved; i < n; i++)
+        L = qdot_subs(s->pool, L, 1, (qdot_expr[]){qdot_symbol_jet(s->pool, moving[i], 1)}, (qdot_expr[]){QDOT_ZERO});
+    return qdot_legendre_of(s, QDOT_COORD, L, curved, moving);
+}
+
 qdot_expr
 qdot_hamilton_hamiltonian(qdot_scene *s)
 {
@@ -203,7 +257,7 @@ qdot_hamilton_hamiltonian(qdot_scene *s)
     moving = qdot_hamilton_moving(s, &n);
     if (moving == NULL)
         return QDOT_NIL;
-    H = qdot_legendre_of(s, QDOT_COORD, qdot_mech_lagrangian(s), n, moving);
+    H = transform_lagrangian(s, n, moving);
     qdot_free(moving);
     return H;
 }

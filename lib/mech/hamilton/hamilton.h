@@ -15,6 +15,9 @@
 #include "mech/scene/things.h"
 
 qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
+/* A LIST of the coordinates in whose velocities L is linear, where some p = dL/dq' = b(q, t) is not 0: the terms b q' cancel in
+ * H, and p - b = 0 is a primary constraint. Nil: there is none, or the pool keeps a failure. */
+qdot_expr qdot_hamilton_linear(qdot_scene *s);
 /* The Routhian for the coordinates q [n], without repetition; n = 0: for the cyclic ones. */
 qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
 

@@ -253,10 +253,12 @@ solve_by_form(block *k, form *m, bool *found, qdot_expr *bound)
     lowest = simple(k, put(k, m->Q, m->x0));
     K = simple(k, qdot_div(pool, K, qdot_mul(pool, m->slope, m->slope)));
     if (lowest == QDOT_ZERO) { /* homogeneous in x: with Q of second degree f'(u)^-2 is c u, and 1 = K/u holds no u */
-        *bound = simple(k, qdot_sub(pool, QDOT_ONE, qdot_div(pool, K, k->u)));
-        if (*bound == QDOT_NIL || !qdot_expr_contains(pool, *bound, k->u))
+        const qdot_expr gap = qdot_sub(pool, QDOT_ONE, qdot_div(pool, K, k->u)), one = QDOT_ONE;
+
+        if (qdot_is_zero(pool, qdot_diff(pool, gap, k->u), k->facts)) {
+            *bound = simple(k, qdot_subs(pool, gap, 1, &k->u, &one));
             return qdot_pool_check(pool);
-        *bound = QDOT_NIL;
+        }
     }
     equation = qdot_sub(pool, k->u, qdot_add(pool, lowest, K));
     QDOT_TRY(qdot_pool_check(pool));

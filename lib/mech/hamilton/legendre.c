@@ -131,15 +131,49 @@ report_singular(const qdot_legendre *l, uint32_t i)
                        coordinate_name(l, i));
 }
 
-/* F is homogeneous of first degree in the block of variable i; bound: what is 0, or QDOT_ONE. */
+/* F is homogeneous of first degree in all x, F(x) = x_i F(x/x_i) for x_i > 0: what is 0 there is y_i + g, with g the transform
+ * of F at x_i = 1 in the other variables. *parameter is that x_i; nil: no g was found. */
+static qdot_expr
+find_primary_constraint(const qdot_legendre *l, qdot_expr *parameter)
+{
+    qdot_expr *others = qdot_calloc(l->n + 1, sizeof *others), bound = QDOT_NIL, one = QDOT_ONE;
+
+    if (others == NULL)
+        return qdot_pool_fail(l->pool);
+    for (uint32_t i = 0; i < l->n && bound == QDOT_NIL; i++) {
+        uint32_t m = 0;
+
+        for (uint32_t j = 0; j < l->n; j++)
+            if (j != i)
+                others[m++] = l->q[j];
+        *parameter = l->x[i];
+        bound = qdot_add(l->pool, l->y[i],
+                         qdot_legendre_of(l->s, l->of, qdot_subs(l->pool, l->F, 1, &l->x[i], &one), m, others));
+        if (qdot_pool_check(l->pool) != QDOT_OK)
+            bound = QDOT_NIL;
+    }
+    qdot_free(others);
+    return bound;
+}
+
+/* F is homogeneous of first degree in a block of variables, `alone`: in all; bound: what is 0, or QDOT_ONE: it was not found. */
 static void
-report_homogeneous(const qdot_legendre *l, qdot_expr bound)
+report_homogeneous(const qdot_legendre *l, qdot_expr bound, bool alone)
 {
     const bool of_velocities = l->of == QDOT_COORD;
+    qdot_expr parameter = QDOT_NIL;
     qdot_text text = {0};
 
+    if (bound == QDOT_ONE && alone && of_velocities) {
+        bound = find_primary_constraint(l, &parameter);
+        bound = bound == QDOT_NIL ? QDOT_ONE : bound;
+    }
     if (bound != QDOT_ONE) {
-        qdot_text_add(&text, of_velocities ? ", and the momenta obey " : ", and the velocities obey ");
+        if (parameter != QDOT_NIL)
+            qdot_text_format(&text, ", and where %s > 0", qdot_expr_symbol(l->pool, parameter)->name);
+        else
+            qdot_text_add(&text, ", and");
+        qdot_text_add(&text, of_velocities ? " the momenta obey " : " the velocities obey ");
         if (qdot_print(l->pool, bound, QDOT_PLAIN, &text) != QDOT_OK)
             text.failed = true;
         qdot_text_add(&text, " = 0");
@@ -260,7 +294,7 @@ solve_bent_block(qdot_legendre *l, uint32_t first)
     if (status != QDOT_OK)
         qdot_pool_fail(pool);
     else if (bound != QDOT_NIL)
-        report_homogeneous(l, bound);
+        report_homogeneous(l, bound, m == l->n);
     else if (!found)
         report_no_formula(l, first);
     return found && status == QDOT_OK;

@@ -1,5 +1,6 @@
 /* Legendre's transform there and back, where momenta are not linear in the velocities too. */
 #include "expr/build.h"
+#include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/kit.h"
 
@@ -98,6 +99,25 @@ kinks_are_not_quadratic_body(kit *k)
 }
 TEST(kinks_are_not_quadratic)
 
+/* L linear in y' and z': these terms cancel in H, and p[z] = y is a constraint. */
+static void
+linear_velocities_cancel_body(kit *k)
+{
+    qdot_expr list;
+
+    coords(k, "x y z");
+    must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 + y*z' - x*y - z^2")));
+    same_at(k, qdot_hamilton_hamiltonian(k->scene),
+            qdot_add(k->pool, E(k, "x*y + z^2"), qdot_div(k->pool, qdot_pow_int(k->pool, P(k, "x"), 2), E(k, "2*m"))), __LINE__);
+    list = qdot_hamilton_linear(k->scene);
+    assert_int_equal(qdot_expr_count(k->pool, list), 2);
+    assert_int_equal(qdot_expr_arg(k->pool, list, 1), E(k, "z"));
+    must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - x*y - z^2")));
+    assert_int_equal(qdot_hamilton_linear(k->scene), QDOT_NIL);
+    must(qdot_pool_check(k->pool));
+}
+TEST(linear_velocities_cancel)
+
 int
 main(void)
 {
@@ -106,6 +126,7 @@ main(void)
         cmocka_unit_test(relativistic_lagrangians_return),
         cmocka_unit_test(momenta_by_one_equation_return),
         cmocka_unit_test(first_degree_names_its_constraint),
+        cmocka_unit_test(linear_velocities_cancel),
         cmocka_unit_test(hamiltons_equations_of_a_stated_function),
         cmocka_unit_test(kinks_are_not_quadratic),
     };
