@@ -31,7 +31,7 @@
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
-#include "mech/hamilton/phase-symbols.h"
+#include "mech/hamilton/phase-constraints.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"
@@ -552,7 +552,7 @@ rate_of_component(qdot_pool *pool, qdot_expr e, void *user)
     qdot_expr rate = speeds ? qdot_session_speeds_rate(search->session, e) : qdot_mech_rate(search->session->scene, e);
 
     if (rate != QDOT_NIL || qdot_pool_failed(pool))
-        return qdot_phase_space_needed(search->session->scene) ? qdot_phase_space_outward(search->session->scene, rate) : rate;
+        return qdot_phase_constraints_put(search->session->scene, rate);
     search->missing = true;
     return QDOT_ZERO;
 }

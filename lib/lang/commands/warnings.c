@@ -273,7 +273,7 @@ qdot_warnings_start(qdot_session *session)
     if (session->values->start_symbols.n > 0)
         return QDOT_OK;
     return qdot_answer_notice_once(
-        session, session->scene->constraints.n > 0
+        session, session->scene->constraints.n + session->scene->eliminated.n > 0
                      ? "no `start` was given: what the constraints leave open begins at 0"
                      : qdot_phase_has(session)
                      ? "no `start` was given: all coordinates and momenta begin at 0"

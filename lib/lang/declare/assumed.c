@@ -10,6 +10,7 @@
 #include "expr/walk.h"
 #include "lang/session/held.h"
 #include "lang/session/momenta.h"
+#include "mech/hamilton/phase-symbols.h"
 #include "mech/dynamics/quantity.h"
 
 void
@@ -121,6 +122,8 @@ qdot_assumed_constraint(qdot_session *session, qdot_assumed *f, size_t i, bool a
         if (order == most && !accelerations)
             return QDOT_OK;
         relation = qdot_mech_constraint_derivative(session->scene, i, order);
+        if (qdot_phase_space_needed(session->scene))
+            relation = qdot_momenta_unify(session, relation);
         relation = qdot_assumed_replace(session, f, relation);
         QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_vec_push(&f->relations, relation));

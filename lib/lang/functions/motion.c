@@ -9,7 +9,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/rate.h"
 #include "mech/scene/things.h"
-#include "mech/hamilton/phase-symbols.h"
+#include "mech/hamilton/phase-constraints.h"
 
 /* The rate of e in velocities or, as speeds and momenta have rates of their own, in these. */
 static qdot_expr
@@ -25,8 +25,7 @@ rate_of_scalar(qdot_pool *pool, qdot_expr e, void *session)
     if ((qdot_expr_node(pool, e)->holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)) ||
         qdot_mech_holds_momentum_rate(s->scene, e))
         e = qdot_momenta_unify(session, e);
-    e = e == QDOT_NIL ? e : qdot_rate_of(s->scene, e);
-    return qdot_phase_space_needed(s->scene) ? qdot_phase_space_outward(s->scene, e) : e;
+    return e == QDOT_NIL ? e : qdot_phase_constraints_put(s->scene, qdot_rate_of(s->scene, e));
 }
 
 qdot_status

@@ -169,6 +169,9 @@ get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
     (void)n, (void)index;
     if (status == QDOT_OK)
         status = require_coordinates(s);
+    if (status == QDOT_OK && s->scene->eliminated.n > 0)
+        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: the list of conserved quantities with constraints by an H from which no "
+                                           "Lagrangian follows");
     if (status == QDOT_OK)
         found = qdot_noether_conserved(s->scene);
     qdot_phase_end(s);
@@ -320,6 +323,13 @@ get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 
 /* --- multipliers of constraints ----------------------------------------------------- */
 
+/* The number of constraints that are declared, also where the phase space of an H has them eliminated. */
+static size_t
+count_constraints(const qdot_scene *scene)
+{
+    return scene->constraints.n + scene->eliminated.n;
+}
+
 /* Nothing is called `name`, "rod, 2": the constraint before the comma, if there is one, has
  * fewer components. */
 static qdot_status
@@ -328,7 +338,7 @@ report_no_component(qdot_session *s, const char *name)
     const size_t length = strcspn(name, ",");
     size_t components = 0;
 
-    for (size_t i = 0; name[length] != '\0' && i < s->scene->constraints.n; i++) {
+    for (size_t i = 0; name[length] != '\0' && i < count_constraints(s->scene); i++) {
         const qdot_constraint *c = &s->scene->constraints.at[i];
 
         if (strlen(c->name) == length && strncmp(c->name, name, length) == 0) {
@@ -363,7 +373,7 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
         qdot_text_format(&name, ", %ld", k);
     if (status == QDOT_OK)
         status = qdot_text_status(&name);
-    for (size_t i = 0; status == QDOT_OK && i < s->scene->constraints.n; i++) {
+    for (size_t i = 0; status == QDOT_OK && i < count_constraints(s->scene); i++) {
         const qdot_constraint *c = &s->scene->constraints.at[i];
 
         if (strcmp(c->name, name.at) == 0)
@@ -372,7 +382,8 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
             first = c;
     }
     if (found != NULL) {
-        *value = found->multiplier;
+        *value = s->scene->eliminated.n > 0 ? s->scene->eliminated.at[found - s->scene->constraints.at].multiplier
+                                            : found->multiplier;
     } else if (status == QDOT_OK && first != NULL) {
         status = qdot_fail(QDOT_ENAME, "`%.200s` has a multiplier for each component",
                            name.at);

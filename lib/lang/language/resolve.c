@@ -29,6 +29,7 @@
 #include "mech/dynamics/rate.h"
 #include "mech/scene/scene.h"
 #include "mech/scene/things.h"
+#include "mech/hamilton/phase-constraints.h"
 #include "mech/hamilton/phase-symbols.h"
 
 bool
@@ -354,7 +355,7 @@ static qdot_expr
 scalar_on_motion(qdot_pool *pool, qdot_expr e, void *scene)
 {
     (void)pool;
-    return qdot_rate_on_motion(scene, e);
+    return qdot_rate_on_motion(scene, qdot_phase_constraints_put(scene, e));
 }
 
 /* Replace multipliers in the value at `token` by what the equations make of them, where these are asked for. */

@@ -52,7 +52,7 @@ arrange_start_values(qdot_session *session, qdot_request *o)
 
         QDOT_TRY(qdot_pool_check(session->pool));
         /* starting values that constraints determine are checked later, when the constraints are solved */
-        status = named || scene->constraints.n == 0
+        status = named || scene->constraints.n + scene->eliminated.n == 0
                      ? qdot_session_in_domain(session, q, q0)
                      : QDOT_OK;
         if (status != QDOT_OK)

@@ -4,9 +4,11 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/speeds.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/phase-constraints.h"
 #include "mech/hamilton/phase-symbols.h"
 
 static const uint32_t moving = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
@@ -29,6 +31,8 @@ qdot_expr
 qdot_momenta_to_velocities(qdot_session *session, qdot_expr e)
 {
     e = qdot_session_speeds_replaced(session, e);
+    if (!session->evaluation->declares)
+        e = qdot_phase_constraints_put(session->scene, e);
     if (!(symbol_kinds_in(session, e) & QDOT_HAS_MOMENTUM)
         || (!has_lagrangian(session->scene) && !qdot_phase_space_needed(session->scene)))
         return e;

@@ -20,6 +20,7 @@
 #include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/dynamics/rate.h"
 #include "mech/dynamics/virtual-work.h"
 #include "mech/scene/access.h"
 #include "mech/scene/cache.h"
@@ -168,39 +169,26 @@ rate_in_momenta(qdot_scene *s, qdot_expr E)
     return qdot_pool_failed(pool) ? QDOT_NIL : rate;
 }
 
-/* e with q' = dH/dp. */
-static qdot_expr
-with_velocities_of_hamiltonian(qdot_scene *s, qdot_expr e)
-{
-    for (size_t i = 0; i < s->coordinates.n && e != QDOT_NIL; i++) {
-        const qdot_expr v = qdot_mech_jet(s, i, 1),
-                        rate = qdot_diff(s->pool, s->hamiltonian, qdot_symbol_of(s->pool, QDOT_MOMENTUM, s->coordinates.at[i]));
-
-        if (!qdot_scene_state_of(s, s->coordinates.at[i]))
-            e = qdot_subs(s->pool, e, 1, &v, &rate);
-    }
-    return e;
-}
-
-/* dE/dt by Hamilton's equations, dE/dt + sum dE/dq dH/dp + dE/dp (Q - dH/dq), in momenta. Nil where E holds accelerations. */
+/* dE/dt by Hamilton's equations, dE/dt + sum dE/dq dH/dp + dE/dp (Q + R - dH/dq) with reactions R, in momenta. Nil where E holds accelerations. */
 static qdot_expr
 rate_by_hamiltonian(qdot_scene *s, qdot_expr E)
 {
     qdot_pool *pool = s->pool;
     qdot_expr rate;
 
-    E = with_velocities_of_hamiltonian(s, E);
-    if (!is_free_of_velocities(s, E) || s->constraints.n > 0)
+    E = qdot_rate_in_momenta(s, E);
+    if (!is_free_of_velocities(s, E))
         return QDOT_NIL;
     rate = qdot_diff(pool, E, QDOT_T);
     for (size_t i = 0; i < s->coordinates.n; i++) {
         const qdot_expr q = s->coordinates.at[i], p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
-        const qdot_expr force = qdot_sub(pool, qdot_mech_force(s, q), qdot_diff(pool, s->hamiltonian, q));
+        const qdot_expr force = qdot_sub(pool, qdot_add(pool, qdot_mech_force(s, q), qdot_constraint_reaction(s, i)),
+                                         qdot_diff(pool, s->hamiltonian, q));
 
         rate = qdot_add(pool, rate, qdot_mul(pool, qdot_diff(pool, E, q), qdot_mech_jet(s, i, 1)));
         rate = qdot_add(pool, rate, qdot_mul(pool, qdot_diff(pool, E, p), force));
     }
-    return with_velocities_of_hamiltonian(s, qdot_scene_with_rates(s, rate));
+    return qdot_rate_in_momenta(s, qdot_scene_with_rates(s, rate));
 }
 
 /* dE/dt of a combination of the momenta; nil where E is none. */

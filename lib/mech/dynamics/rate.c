@@ -63,6 +63,19 @@ qdot_rate_on_motion(qdot_scene *s, qdot_expr e)
     return qdot_scene_with_rates(s, e);
 }
 
+qdot_expr
+qdot_rate_in_momenta(qdot_scene *s, qdot_expr e)
+{
+    for (size_t i = 0; i < s->coordinates.n && e != QDOT_NIL; i++) {
+        const qdot_expr v = qdot_mech_jet(s, i, 1),
+                        rate = qdot_diff(s->pool, s->hamiltonian, qdot_symbol_of(s->pool, QDOT_MOMENTUM, s->coordinates.at[i]));
+
+        if (!qdot_scene_state_of(s, s->coordinates.at[i]))
+            e = qdot_subs(s->pool, e, 1, &v, &rate);
+    }
+    return e;
+}
+
 /* Whether e is proved to be 0, where the constraints hold. */
 static bool
 vanishes_on_constraints(qdot_scene *s, qdot_expr e)
@@ -73,8 +86,11 @@ vanishes_on_constraints(qdot_scene *s, qdot_expr e)
 
     if (e == QDOT_NIL || e == QDOT_ZERO)
         return e == QDOT_ZERO;
-    if (qdot_constraint_facts(s, &relations, &facts) == QDOT_OK)
+    if (qdot_constraint_facts(s, &relations, &facts) == QDOT_OK) {
+        for (size_t i = 0; s->hamiltonian != QDOT_NIL && s->lagrangian == QDOT_NIL && i < facts.n_relations; i++)
+            relations[i] = qdot_rate_in_momenta(s, relations[i]);
         zero = qdot_is_zero(s->pool, e, &facts);
+    }
     qdot_free(relations);
     return zero;
 }

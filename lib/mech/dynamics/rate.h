@@ -17,5 +17,7 @@
 qdot_expr qdot_rate_on_motion(qdot_scene *s, qdot_expr e);
 /* dE/dt along the motion for a scalar E of q, q', q'', t and multipliers, or of q, t and momenta p[q], simplified; 0 where the constraints prove it. */
 qdot_expr qdot_rate_of(qdot_scene *s, qdot_expr E);
+/* e with q' = dH/dp of a stated H. */
+qdot_expr qdot_rate_in_momenta(qdot_scene *s, qdot_expr e);
 
 #endif

@@ -6,8 +6,46 @@
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/phase-constraints.h"
+#include "mech/scene/constraint.h"
 
-/* Find L and the applied forces of the phase space. */
+/* Solve for the multipliers of the constraints. */
+static qdot_status
+eliminate_constraints(qdot_scene *s, qdot_phase_space *x)
+{
+    const size_t m = s->constraints.n;
+    qdot_expr *lambda = qdot_calloc(m + 1, sizeof *lambda);
+    qdot_status status = lambda == NULL ? QDOT_ENOMEM : m == 0 ? QDOT_OK : qdot_phase_constraints_multipliers(s, lambda);
+
+    x->eliminated.n = 0;
+    for (size_t k = 0; k < m && status == QDOT_OK; k++) {
+        const qdot_constraint *c = &s->constraints.at[k];
+
+        status = qdot_vec_push(&x->eliminated, ((qdot_eliminated){
+            .position = c->kind == QDOT_HOLONOMIC ? c->f : QDOT_NIL,
+            .rate = qdot_phase_space_inward(s, qdot_phase_constraints_rate(s, k)),
+            .multiplier = qdot_phase_space_inward(s, lambda[k])}));
+    }
+    qdot_free(lambda);
+    return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
+}
+
+/* What acts along coordinate i: applied forces and reactions, in q and p. */
+static qdot_expr
+find_force(qdot_scene *s, const qdot_phase_space *x, qdot_expr q)
+{
+    qdot_expr Q = qdot_mech_force(s, q);
+    size_t i = 0;
+
+    while (i < s->coordinates.n && s->coordinates.at[i] != q)
+        i++;
+    Q = qdot_add(s->pool, Q, qdot_constraint_reaction(s, i));
+    for (size_t k = 0; k < x->eliminated.n && Q != QDOT_NIL; k++)
+        Q = qdot_subs(s->pool, Q, 1, &s->constraints.at[k].multiplier, &x->eliminated.at[k].multiplier);
+    return qdot_phase_space_inward(s, qdot_hamilton_in_momenta(s, Q));
+}
+
+/* Find L and the forces of the phase space. */
 static qdot_status
 find_phase_space(qdot_scene *s, qdot_phase_space *x, uint32_t n, const qdot_expr *q)
 {
@@ -15,10 +53,10 @@ find_phase_space(qdot_scene *s, qdot_phase_space *x, uint32_t n, const qdot_expr
 
     x->of = 0;
     x->torques.n = 0;
+    QDOT_TRY(eliminate_constraints(s, x));
     x->L = qdot_neg(pool, qdot_phase_space_inward(s, s->hamiltonian));
     for (uint32_t i = 0; i < n; i++) {
-        const qdot_expr P = qdot_phase_space_coordinate(s, q[i]);
-        const qdot_expr Q = qdot_phase_space_inward(s, qdot_hamilton_in_momenta(s, qdot_mech_force(s, q[i])));
+        const qdot_expr P = qdot_phase_space_coordinate(s, q[i]), Q = find_force(s, x, q[i]);
 
         QDOT_TRY(qdot_pool_check(pool));
         x->L = qdot_add(pool, x->L, qdot_mul(pool, P, qdot_symbol_jet(pool, q[i], 1)));
@@ -70,8 +108,27 @@ turn_scene(qdot_scene *s, bool states, qdot_phase_space *x, uint32_t n, const qd
     s->torques.at = x->torques.at;
     s->torques.n = x->torques.n;
     s->torques.capacity = x->torques.capacity;
+    s->eliminated.at = x->eliminated.at;
+    s->eliminated.n = x->eliminated.n;
+    s->constraints.n = 0;
     s->lagrangian = x->L;
     return qdot_pool_check(s->pool);
+}
+
+/* Beside constraints: linear motion needs them in its equations, and an event that changes the state would leave them. */
+static qdot_status
+refuse_with_constraints(const qdot_scene *s, bool states)
+{
+    if (s->constraints.n == 0)
+        return QDOT_OK;
+    if (states)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: rest and linear motion with constraints by an H from which no Lagrangian follows");
+    for (size_t i = 0; i < s->events.n; i++)
+        for (size_t k = 0; k < s->events.at[i].targets.n; k++)
+            if (!qdot_expr_is_class(s->pool, s->events.at[i].targets.at[k], QDOT_PARAM))
+                return qdot_fail(QDOT_ENOTBUILT, "not built yet: event %s, which changes the state, beside constraints and an H from which "
+                                                 "no Lagrangian follows", s->events.at[i].name);
+    return QDOT_OK;
 }
 
 qdot_status
@@ -84,8 +141,7 @@ qdot_phase_space_enter(qdot_scene *s, bool states, qdot_phase_space *x)
 
     if (!qdot_phase_space_needed(s))
         return QDOT_OK;
-    if (s->constraints.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: motion with constraints by an H from which no Lagrangian follows");
+    QDOT_TRY(refuse_with_constraints(s, states));
     if (states)
         QDOT_TRY(qdot_scene_need_no_states(s, "the linear motion by H alone"));
     q = qdot_hamilton_moving(s, &n);
@@ -110,6 +166,8 @@ qdot_phase_space_leave(qdot_scene *s, qdot_phase_space *x)
     s->coordinates.n = x->before.coordinates.n;
     s->states.n = x->before.states.n;
     s->torques = x->before.torques;
+    s->constraints.n = x->before.constraints.n;
+    s->eliminated = x->before.eliminated;
     s->dampers.n = x->before.dampers.n;
     s->dissipations.n = x->before.dissipations.n;
     s->forces.n = x->before.forces.n;
@@ -123,5 +181,6 @@ void
 qdot_phase_space_clear(qdot_phase_space *x)
 {
     qdot_free(x->torques.at);
+    qdot_free(x->eliminated.at);
     *x = (qdot_phase_space){0};
 }

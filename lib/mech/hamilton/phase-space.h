@@ -22,12 +22,14 @@ typedef struct {
     uint64_t of, version[2]; /* versions of the scene and of its phase space, by L and by states, as long as the scene has
                                 version `of` */
     qdot_expr L;
-    qdot_vec(qdot_torque) torques; /* what is applied along q, with q' = dH/dp */
+    qdot_vec(qdot_torque) torques; /* what acts along q, with q' = dH/dp: forces, and reactions of constraints */
+    qdot_vec(qdot_eliminated) eliminated; /* [constraints] the multipliers in these reactions */
 } qdot_phase_space;
 
 /* Turn the scene into that of its phase space, until _leave; this does nothing if it was not turned. With `states` q and p
  * are first-order unknowns (qdot_scene_state) in place of the coordinates of L, for what is linear in them. Errors:
- * QDOT_ENOTBUILT, the scene has constraints, or states of its own beside `states`. */
+ * QDOT_ENOTBUILT, the scene has constraints beside `states` or events that change the state, or states of its own beside
+ * `states`; those of the multipliers (phase-constraints.h). */
 QDOT_MUST_CHECK qdot_status qdot_phase_space_enter(qdot_scene *s, bool states, qdot_phase_space *x);
 void qdot_phase_space_leave(qdot_scene *s, qdot_phase_space *x);
 void qdot_phase_space_clear(qdot_phase_space *x);

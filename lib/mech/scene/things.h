@@ -72,6 +72,13 @@ typedef struct {
     qdot_expr unused;
 } qdot_constraint;
 
+/* A constraint whose multiplier is solved for in the forces of the scene: the motion keeps it by itself from a start that
+ * fulfils it. */
+typedef struct {
+    qdot_expr position, rate; /* what vanishes on such a start: f (nil: it is of velocities), and what it says of velocities */
+    qdot_expr multiplier;     /* the value of lambda[name] */
+} qdot_eliminated;
+
 /* A first-order unknown: z' = rate, an expression of coordinates, velocities, states and t. It is among
  * the coordinates of the scene, but no mass moves with it, no force acts on it, and it pulls on nothing: for everything
  * else it is a function of time. A scene may have nothing but such unknowns. */
@@ -124,6 +131,7 @@ typedef struct qdot_scene {
     qdot_vec(qdot_force) forces;
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
+    qdot_vec(qdot_eliminated) eliminated; /* [i] belongs to constraints.at[i], and constraints.n is 0: phase space alone (mech/hamilton) */
     qdot_vec(qdot_state) states;
     qdot_vec(qdot_higher) higher;
     qdot_vec(qdot_event) events;

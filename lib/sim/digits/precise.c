@@ -38,6 +38,8 @@ qdot_precise_check(const qdot_scene *scene, const qdot_run_request *request)
         qdot_fail(QDOT_EINVAL, "`digits` carries enough of them to need no treatment of drift");
         return qdot_hint("digits %d", request->digits);
     }
+    if (scene->eliminated.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: digits beside constraints and an H from which no Lagrangian follows");
     if (request->digits < 1 || request->digits > QDOT_PRECISE_MOST_DIGITS) {
         qdot_fail(QDOT_EINVAL, "%d digits cannot be asked for: 1 to %d can",
                   request->digits, QDOT_PRECISE_MOST_DIGITS);

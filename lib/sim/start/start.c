@@ -9,6 +9,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
+#include "mech/hamilton/phase-symbols.h"
 #include "num/row-space.h"
 #include "sim/model/constraints.h"
 #include "sim/start/nearest.h"
@@ -23,8 +24,9 @@ typedef struct {
     const qdot_plan *plan;
     const qdot_run_request *request;
     bool velocities;
-    bool massless; /* the equations of coordinates without mass, which move alone; else the
-                      scene's constraints */
+    bool massless;   /* the equations of coordinates without mass, which move alone; else the
+                        scene's constraints */
+    enum { NOT_ELIMINATED, POSITIONS, MOMENTA } eliminated; /* the constraints that the forces keep, on positions or momenta; no others */
     size_t n;
     size_t m;
     qdot_expr *F;        /* [m] left sides of the equations */
@@ -46,7 +48,9 @@ constraint_at(const level *l, size_t k)
 
     qdot_expr mu;
 
-    return k < l->scene->constraints.n
+    return l->eliminated
+               ? (qdot_constraints_row){of_scene->name, QDOT_HOLONOMIC, of_scene->f, of_scene->multiplier}
+           : k < l->scene->constraints.n
                ? (qdot_constraints_row){of_scene->name, of_scene->kind,
                                         qdot_integrated_rate(l->scene, k, &mu),
                                         of_scene->multiplier}
@@ -68,10 +72,23 @@ append_equation(level *l, size_t k, qdot_expr F)
 }
 
 static qdot_status
+append_eliminated(level *l)
+{
+    for (size_t k = 0; k < l->scene->eliminated.n; k++) {
+        const qdot_eliminated *x = &l->scene->eliminated.at[k];
+        const qdot_expr F = l->eliminated == MOMENTA ? x->rate : x->position;
+
+        if (F != QDOT_NIL)
+            QDOT_TRY(append_equation(l, k, F));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
 begin_level(level *l)
 {
     const qdot_scene *scene = l->scene;
-    size_t c = scene->constraints.n + l->plan->n_massless;
+    size_t c = scene->constraints.n + l->plan->n_massless + scene->eliminated.n;
 
     l->F = qdot_calloc(c + 1, sizeof *l->F);
     l->constraint = qdot_calloc(c + 1, sizeof *l->constraint);
@@ -79,7 +96,9 @@ begin_level(level *l)
     l->free = qdot_calloc(l->n + 1, sizeof *l->free);
     if (!l->F || !l->constraint || !l->distance || !l->free)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < c; k++) {
+    if (l->eliminated)
+        return append_eliminated(l);
+    for (size_t k = 0; k < scene->constraints.n + l->plan->n_massless; k++) {
         const qdot_constraints_row row = constraint_at(l, k);
 
         if (l->massless != (k >= scene->constraints.n))
@@ -105,6 +124,8 @@ clear_level(level *l)
 static bool
 belongs_to_level(const level *l, size_t i)
 {
+    if (l->eliminated)
+        return (qdot_phase_space_momentum(l->scene, l->plan->inputs[i]) != QDOT_NIL) == (l->eliminated == MOMENTA);
     return l->massless == (l->plan->massless && l->plan->massless[i]);
 }
 
@@ -206,7 +227,7 @@ fail_no_solution(const level *l, const double *residual)
     status = print_violated_constraints(l, &text);
     for (size_t k = 0; k < l->m; k++)
         broken += !(l->distance[k] <= breaks);
-    qdot_text_add(&text, l->velocities && row.kind == QDOT_HOLONOMIC
+    qdot_text_add(&text, (l->velocities && row.kind == QDOT_HOLONOMIC) || l->eliminated == MOMENTA
                              ? ": the rate of left - right"
                              : ": left - right");
     if (broken > 1)
@@ -277,11 +298,11 @@ add_notice_of_moves(const level *l, const double *at, qdot_text *notice)
         qdot_text_add(notice, "\n");
     qdot_text_add(notice, "the start breaks ");
     QDOT_TRY(print_violated_constraints(l, notice));
-    qdot_text_add(notice, l->massless ? "; moved:" : "; moved least, in the metric of M:");
+    qdot_text_add(notice, l->massless || l->eliminated ? "; moved:" : "; moved least, in the metric of M:");
     for (size_t i = 0; i < l->n; i++) {
         double from = l->before[first + i], by = at[first + i] - from;
 
-        if (!(fabs(by) > breaks * fmax(1, fabs(from))))
+        if (!(fabs(by) > breaks * fmax(1, fabs(from))) || (l->eliminated && !belongs_to_level(l, i)))
             continue;
         if (listed == MOST_LISTED) {
             left++;
@@ -595,20 +616,23 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
                   const qdot_run_request *request, const qdot_domains *domains, double *y,
                   double *low, qdot_text *notice)
 {
+    const level levels[] = {{.velocities = false}, {.eliminated = POSITIONS}, {.eliminated = MOMENTA},
+                            {.massless = true}, {.velocities = true}, {.velocities = true, .massless = true}};
     size_t n = plan->n;
     double *before = qdot_calloc(2 * n + 1, sizeof *before);
     qdot_status status = before ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         memcpy(before, y, 2 * n * sizeof *before);
-    for (int part = 0; part < 4 && status == QDOT_OK; part++) {
+    for (size_t part = 0; part < sizeof levels / sizeof *levels && status == QDOT_OK; part++) {
         qdot_given given = {0};
         level l = {.scene = scene,
                    .plan = plan,
                    .given = &given,
                    .request = request,
-                   .velocities = part > 1,
-                   .massless = part % 2,
+                   .velocities = levels[part].velocities,
+                   .massless = levels[part].massless,
+                   .eliminated = levels[part].eliminated,
                    .n = n,
                    .before = before};
 

@@ -84,8 +84,10 @@ refuse_jumping_functions(const qdot_pool *pool, qdot_expr e, qdot_expr parameter
 }
 
 static qdot_status
-refuse_unsuitable_events(const qdot_scene *s)
+refuse_unsuitable_scene(const qdot_scene *s)
 {
+    if (s->eliminated.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes beside constraints and an H from which no Lagrangian follows");
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *e = &s->events.at[i];
 
@@ -605,7 +607,7 @@ static qdot_status
 make_variation(elimination *e, qdot_expr *b)
 {
     QDOT_TRY(name_derivative_coordinates(e->v));
-    QDOT_TRY(refuse_unsuitable_events(e->v->of));
+    QDOT_TRY(refuse_unsuitable_scene(e->v->of));
     QDOT_TRY(derive_and_factor(e));
     QDOT_TRY(solve_motion(e));
     QDOT_TRY(solve_for_derivatives(e, b));

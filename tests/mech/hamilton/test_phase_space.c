@@ -1,10 +1,12 @@
 /* The phase space of a scene that states H alone: its Lagrangian, its states, and the way back. */
 #include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"
 #include "mech/hamilton/hamilton.h"
+#include "mech/hamilton/phase-constraints.h"
 #include "mech/hamilton/phase-space.h"
 
 /* H = x p + p^4 of a scene with x. */
@@ -84,20 +86,54 @@ states_have_hamiltons_rates_body(kit *k)
 }
 TEST(states_have_hamiltons_rates)
 
+/* H = p^4/4 + p^2/2 + r^4/4 + r^2/2 + x with the momenta p, r of x, y, on x = 2 y. */
 static void
-constraints_are_refused_body(kit *k)
+constrained_scene(kit *k)
+{
+    qdot_expr H, p, r;
+
+    coords(k, "x y");
+    p = qdot_symbol_of(k->pool, QDOT_MOMENTUM, E(k, "x"));
+    r = qdot_symbol_of(k->pool, QDOT_MOMENTUM, E(k, "y"));
+    H = qdot_add(k->pool, E(k, "x"), qdot_mul(k->pool, QDOT_HALF, qdot_add(k->pool, qdot_pow_int(k->pool, p, 2), qdot_pow_int(k->pool, r, 2))));
+    H = qdot_add(k->pool, H, qdot_mul(k->pool, qdot_expr_ratio(k->pool, 1, 4), qdot_add(k->pool, qdot_pow_int(k->pool, p, 4), qdot_pow_int(k->pool, r, 4))));
+    assert_int_equal(qdot_scene_hamiltonian(k->scene, H, QDOT_NIL), QDOT_OK);
+    assert_int_equal(qdot_scene_constraint(k->scene, "rod", E(k, "x"), E(k, "2*y")), QDOT_OK);
+}
+
+/* x'' = (3 p^2 + 1)(lambda - 1) and y'' = -2 lambda (3 r^2 + 1) agree with x'' = 2 y''. */
+static void
+multipliers_keep_constraints_body(kit *k)
+{
+    qdot_expr lambda, p, r, a, b;
+
+    constrained_scene(k);
+    p = qdot_symbol_of(k->pool, QDOT_MOMENTUM, E(k, "x"));
+    r = qdot_symbol_of(k->pool, QDOT_MOMENTUM, E(k, "y"));
+    assert_int_equal(qdot_phase_constraints_multipliers(k->scene, &lambda), QDOT_OK);
+    a = qdot_add(k->pool, QDOT_ONE, qdot_mul(k->pool, qdot_expr_ratio(k->pool, 3, 1), qdot_pow_int(k->pool, p, 2)));
+    b = qdot_add(k->pool, QDOT_ONE, qdot_mul(k->pool, qdot_expr_ratio(k->pool, 3, 1), qdot_pow_int(k->pool, r, 2)));
+    same_at(k, qdot_mul(k->pool, lambda, qdot_add(k->pool, a, qdot_mul(k->pool, qdot_expr_ratio(k->pool, 4, 1), b))), a, __LINE__);
+}
+TEST(multipliers_keep_constraints)
+
+static void
+constraints_are_eliminated_body(kit *k)
 {
     qdot_phase_space x = {0};
 
-    coords(k, "x");
-    (void)state_hamiltonian(k);
-    assert_int_equal(qdot_scene_constraint(k->scene, NULL, E(k, "x^2"), E(k, "1")), QDOT_OK);
-    assert_int_equal(qdot_phase_space_enter(k->scene, false, &x), QDOT_ENOTBUILT);
+    constrained_scene(k);
+    assert_int_equal(qdot_phase_space_enter(k->scene, true, &x), QDOT_ENOTBUILT);
+    assert_int_equal(qdot_phase_space_enter(k->scene, false, &x), QDOT_OK);
+    assert_int_equal(k->scene->constraints.n, 0);
+    assert_int_equal(k->scene->eliminated.n, 1);
+    assert_true(k->scene->eliminated.at[0].position == k->scene->constraints.at[0].f);
     qdot_phase_space_leave(k->scene, &x);
-    assert_int_equal(k->scene->coordinates.n, 1);
+    assert_int_equal(k->scene->constraints.n, 1);
+    assert_int_equal(k->scene->eliminated.n, 0);
     qdot_phase_space_clear(&x);
 }
-TEST(constraints_are_refused)
+TEST(constraints_are_eliminated)
 
 int
 main(void)
@@ -106,7 +142,8 @@ main(void)
         cmocka_unit_test(lagrange_equations_are_hamiltons),
         cmocka_unit_test(phase_space_has_one_version),
         cmocka_unit_test(states_have_hamiltons_rates),
-        cmocka_unit_test(constraints_are_refused),
+        cmocka_unit_test(multipliers_keep_constraints),
+        cmocka_unit_test(constraints_are_eliminated),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
