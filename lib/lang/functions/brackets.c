@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "expr/build.h"
 #include "expr/exact.h"
+#include "expr/function.h"
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
@@ -108,6 +109,44 @@ qdot_call_lie(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 
 /* --- canonical transformations ---------------------------------------------------------- */
 
+/* Whether value = wanted is proved but for the places where a sign(u) in it jumps: sign(u)^2 = 1 elsewhere. A notice names them. */
+static qdot_status
+prove_beside_jumps(qdot_session *s, qdot_expr value, qdot_expr wanted, bool *proved)
+{
+    qdot_facts facts = qdot_scene_facts(s->scene);
+    qdot_vec(qdot_expr) relations = {0};
+    qdot_text text = {0};
+    qdot_walk w;
+    qdot_status status = qdot_walk_begin(s->pool, value, &w);
+
+    *proved = false;
+    QDOT_TRY(status);
+    qdot_text_add(&text, "except where");
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        if (qdot_expr_kind(s->pool, w.at[i]) != QDOT_FUN || qdot_expr_node(s->pool, w.at[i])->op != QDOT_SIGN)
+            continue;
+        qdot_text_add(&text, relations.n > 0 ? ", " : " ");
+        status = qdot_print(s->pool, qdot_expr_arg(s->pool, w.at[i], 0), QDOT_PLAIN, &text);
+        qdot_text_add(&text, " = 0");
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&relations, qdot_sub(s->pool, qdot_pow_int(s->pool, w.at[i], 2), QDOT_ONE));
+    }
+    qdot_walk_end(&w);
+    for (size_t i = 0; i < facts.n_relations && relations.n > 0 && status == QDOT_OK; i++)
+        status = qdot_vec_push(&relations, facts.relations[i]);
+    if (relations.n > 0 && status == QDOT_OK) {
+        facts.relations = relations.at;
+        facts.n_relations = relations.n;
+        *proved = qdot_is_zero(s->pool, qdot_sub(s->pool, value, wanted), &facts);
+        status = qdot_pool_check(s->pool);
+    }
+    if (*proved && status == QDOT_OK && qdot_text_status(&text) == QDOT_OK)
+        status = qdot_answer_notice_once(s, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    qdot_free(relations.at);
+    return status;
+}
+
 /* Whether {a, b} = wanted is proved; if it is refuted, a notice tells what it is. */
 static qdot_status
 compare_bracket(qdot_session *s, qdot_expr a, qdot_expr b, qdot_expr wanted, qdot_verdict *verdict)
@@ -121,6 +160,13 @@ compare_bracket(qdot_session *s, qdot_expr a, qdot_expr b, qdot_expr wanted, qdo
     QDOT_TRY(qdot_pool_check(s->pool));
     QDOT_TRY(qdot_decide_equal(s->pool, value, wanted, &facts, &decision));
     *verdict = decision.verdict;
+    if (*verdict != QDOT_PROVED) {
+        bool proved;
+
+        QDOT_TRY(prove_beside_jumps(s, value, wanted, &proved));
+        if (proved)
+            *verdict = QDOT_PROVED;
+    }
     if (*verdict == QDOT_PROVED)
         return QDOT_OK;
     qdot_text_format(&text, "the bracket {%s, %s} = ", qdot_expr_symbol(s->pool, qdot_expr_arg(s->pool, a, 0))->name,
