@@ -26,6 +26,8 @@ qdot_expr qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x);
  * two terms, so that a + b is computed once, and exp(-hold(log(a))) an exponential. For a
  * number, a symbol or another function: e itself. Only in equations for numerical runs. */
 qdot_expr qdot_hold(qdot_pool *pool, qdot_expr e);
+/* e without that, for people and for proofs: every hold(x) is x. */
+qdot_expr qdot_released(qdot_pool *pool, qdot_expr e);
 /* Find a function by its name; false if there is none. */
 bool qdot_fun_find(const char *name, qdot_fun_id *id);
 const char *qdot_fun_name(qdot_fun_id id);

@@ -13,6 +13,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/equilibria.h"
+#include "lang/commands/warnings.h"
 #include "lang/session/bind.h"
 #include "lang/session/history.h"
 #include "lang/session/output.h"
@@ -338,6 +339,8 @@ qdot_equilibria_answer(qdot_record *r, qdot_equilibria_search *find, const char 
 
     r->cursor.error_at = r->start[-1].start; /* errors point at the statement's word */
     status = find(session, &all);
+    if (status == QDOT_OK)
+        status = qdot_warnings_inputs(session, 0, NULL);
     if (status == QDOT_OK)
         status = qdot_equilibria_list(session, &all, &value);
     if (status == QDOT_OK)

@@ -9,6 +9,7 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/ask/ask.h"
+#include "lang/commands/warnings.h"
 #include "lang/functions/linear.h"
 #include "lang/session/history.h"
 #include "lang/session/runs.h"
@@ -105,7 +106,7 @@ read_equations(qdot_record *r, const qdot_filled *place, state *x)
     return QDOT_OK;
 }
 
-/* The symbols of a state: coordinates and velocities. */
+/* The symbols of a state: coordinates and velocities; and the inputs. */
 static qdot_status
 list_symbols(const qdot_session *session, state *x, qdot_runs_columns *columns)
 {
@@ -117,6 +118,10 @@ list_symbols(const qdot_session *session, state *x, qdot_runs_columns *columns)
         QDOT_TRY(qdot_vec_push(&x->symbols, jet));
         QDOT_TRY(qdot_vec_push(columns, jet));
     }
+    for (size_t i = 0; i < scene->inputs.n; i++) { /* with the values that they had in the run */
+        QDOT_TRY(qdot_vec_push(&x->symbols, scene->inputs.at[i]));
+        QDOT_TRY(qdot_vec_push(columns, scene->inputs.at[i]));
+    }
     return QDOT_OK;
 }
 
@@ -126,7 +131,7 @@ read_run(qdot_record *r, state *x)
 {
     qdot_session *session = r->cursor.session;
     qdot_runs_columns columns = {0};
-    qdot_measured *m = qdot_calloc(2 * session->scene->coordinates.n + 1, sizeof *m);
+    qdot_measured *m = qdot_calloc(2 * session->scene->coordinates.n + session->scene->inputs.n + 1, sizeof *m);
     const char *run;
     qdot_expr time;
     qdot_status status = m == NULL ? QDOT_ENOMEM : list_symbols(session, x, &columns);
@@ -251,6 +256,7 @@ read_state(qdot_record *r, const qdot_filled *place, state *x)
     if (place == NULL)
         return read_run(r, x);
     QDOT_TRY(read_equations(r, place, x));
+    QDOT_TRY(qdot_warnings_inputs(r->cursor.session, x->symbols.n, x->symbols.at));
     return need_one_kind(r, place, x);
 }
 

@@ -12,6 +12,7 @@
 #include "lang/language/function.h"
 #include "lang/language/hints.h"
 #include "lang/language/token-text.h"
+#include "lang/session/bind.h"
 #include "lang/session/phase.h"
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
@@ -278,6 +279,20 @@ qdot_warnings_start(qdot_session *session)
                      : qdot_phase_has(session)
                      ? "no `start` was given: all coordinates and momenta begin at 0"
                      : "no `start` was given: all coordinates and velocities begin at 0");
+}
+
+qdot_status
+qdot_warnings_inputs(qdot_session *session, size_t n, const qdot_expr *symbols)
+{
+    for (size_t i = 0; i < session->scene->inputs.n; i++) {
+        const qdot_expr input = session->scene->inputs.at[i], value = qdot_session_bind(session, input);
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        if (value != input && value != QDOT_ZERO && qdot_expr_place(n, symbols, input) >= n)
+            QDOT_TRY(qdot_answer_notice(session, "the input `%.100s` counts as 0 here: its value of `set` is for runs",
+                                        qdot_expr_symbol(session->pool, input)->name));
+    }
+    return QDOT_OK;
 }
 
 qdot_status

@@ -25,6 +25,9 @@ QDOT_MUST_CHECK qdot_status qdot_warnings_place(qdot_cursor *c, qdot_expr place,
 /* Give a notice for a run without any `start` statement. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_start(qdot_session *session);
 
+/* Give a notice of each input that is not among symbols [n] and counts as 0, though `set` gave it another value. */
+QDOT_MUST_CHECK qdot_status qdot_warnings_inputs(qdot_session *session, size_t n, const qdot_expr *symbols);
+
 /* Give a notice of what the equations assume about a particle or body whose mass depends on time. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_mass(qdot_session *session, const char *name, qdot_expr mass);
 

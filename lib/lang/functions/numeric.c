@@ -117,7 +117,7 @@ qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot
     QDOT_TRY(qdot_value_kind_check(pool, exact));
     if (exact == e && !(qdot_expr_is_constant(pool, e) && has_only_numbers(pool, e)))
         return qdot_decimals_beside_symbols(pool, e, (int)digits, value);
-    if (!qdot_expr_is_constant(pool, exact) || !has_only_numbers(pool, e))
+    if (!qdot_expr_is_constant(pool, exact) || !(has_only_numbers(pool, e) || qdot_expr_kind(pool, e) == QDOT_MAT))
         return qdot_fail(QDOT_ETYPE, "the expression contains a result of a run and a symbol without value");
     o.digits = (int)digits;
     *value = qdot_value_map(pool, e, number_of_scalar, &o);

@@ -7,6 +7,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
+#include "expr/function.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -483,7 +484,7 @@ static qdot_status
 linearise(qdot_first_order_job *j)
 {
     const size_t n = j->n;
-    const qdot_expr M = qdot_mech_numeric_mass(j->s), f = qdot_mech_numeric_forcing(j->s);
+    const qdot_expr M = qdot_released(j->pool, qdot_mech_numeric_mass(j->s)), f = qdot_released(j->pool, qdot_mech_numeric_forcing(j->s));
     qdot_expr *G = qdot_first_order_new(j->c * n);
     qdot_status status = G == NULL ? QDOT_ENOMEM : qdot_pool_check(j->pool);
 

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -205,7 +206,7 @@ reduced_end(reduced_motion *r)
 static qdot_status
 reduced_begin(reduced_motion *r, qdot_scene *s)
 {
-    const qdot_expr M = qdot_mech_numeric_mass(s), f = qdot_mech_numeric_forcing(s);
+    const qdot_expr M = qdot_released(s->pool, qdot_mech_numeric_mass(s)), f = qdot_released(s->pool, qdot_mech_numeric_forcing(s));
     const size_t n = s->coordinates.n;
 
     *r = (reduced_motion){.s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .n = n};

@@ -91,21 +91,13 @@ may_collide(const ground *g, const qdot_scene *s, bool *may)
 }
 
 static qdot_expr
-release_held_node(qdot_pool *pool, qdot_expr node, void *user)
-{
-    (void)user;
-    return qdot_expr_node(pool, node)->op == QDOT_HOLD ? qdot_expr_arg(pool, node, 0)
-                                                       : node;
-}
-
-static qdot_expr
 insert_numbers(const ground *g, qdot_expr e)
 {
     qdot_pool *pool = g->scene->pool;
 
     e = qdot_substitute(pool, e, g->request->n_values, g->request->symbols,
                         g->request->values);
-    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, release_held_node, NULL);
+    return qdot_released(pool, e);
 }
 
 /* Solve M q'' = f with constant M for symbols in place of f, as the expressions f may be long. */
