@@ -80,6 +80,26 @@ answer_all_names(qdot_session *session, qdot_text *out)
     return QDOT_OK;
 }
 
+/* Answer for an expression: of a list for each of its members, which may have different dimensions. */
+static qdot_status
+answer_expression(qdot_session *session, const char *name, qdot_expr e, qdot_text *out)
+{
+    if (qdot_expr_kind(session->pool, e) != QDOT_LIST)
+        return answer_dimension(session, name, e, out);
+    for (uint32_t k = 0; k < qdot_expr_count(session->pool, e); k++) {
+        qdot_text member = {0};
+        qdot_status status;
+
+        qdot_text_format(&member, "%s[%u]", name, k + 1);
+        status = qdot_text_status(&member);
+        if (status == QDOT_OK)
+            status = answer_dimension(session, qdot_text_str(&member), qdot_expr_arg(session->pool, e, k), out);
+        qdot_text_clear(&member);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 carry_out_units(qdot_record *r)
 {
@@ -98,7 +118,7 @@ carry_out_units(qdot_record *r)
     }
     if (one != NULL) {
         qdot_token_text(session, one->from, one->to, &name);
-        status = answer_dimension(session, qdot_text_str(&name), value, &text);
+        status = answer_expression(session, qdot_text_str(&name), value, &text);
     } else {
         status = answer_all_names(session, &text);
     }
