@@ -9,7 +9,9 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/ask/derive-lines.h"
+#include "lang/session/names.h"
 #include "lang/session/speeds.h"
+#include "lang/session/units.h"
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/geometry/metric.h"
@@ -85,6 +87,37 @@ write_assumptions(qdot_derivation *d)
         qdot_derive_step(d, "Assumed", NULL);
     for (size_t i = 0; i < s->assumed.n; i++)
         QDOT_TRY(qdot_derive_relation(d, s->assumed.at[i].relation));
+    return QDOT_OK;
+}
+
+/* Write what kind of quantity each parameter and coordinate is, with its unit, once a unit has been written. */
+static qdot_status
+write_units(qdot_derivation *d)
+{
+    qdot_session *session = d->session;
+    const qdot_name *name;
+
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    qdot_derive_step(d, "Units", NULL);
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++) {
+        qdot_text words = {0}, unit = {0};
+        qdot_status status = QDOT_OK;
+
+        if (name->kind == QDOT_NAME_FUNCTION ||
+            !(qdot_expr_is_class(session->pool, name->value, QDOT_PARAM) || qdot_expr_is_class(session->pool, name->value, QDOT_COORD)))
+            continue;
+        if (qdot_units_words(session, name->value, &words) == QDOT_DIMENSION_KNOWN) {
+            qdot_units_label(session, name->value, &unit);
+            qdot_sheet_format(&d->sheet, unit.n > 0 ? "    %s [%s]: " : "    %s: ", qdot_text_str(&words), qdot_text_str(&unit));
+            status = qdot_sheet_formula(&d->sheet, name->value);
+            qdot_sheet_words(&d->sheet, "\n");
+        }
+        d->sheet.formula.failed = d->sheet.formula.failed || words.failed || unit.failed;
+        qdot_text_clear(&words);
+        qdot_text_clear(&unit);
+        QDOT_TRY(status);
+    }
     return QDOT_OK;
 }
 
@@ -529,6 +562,8 @@ derive_print(qdot_record *r)
     d.sheet = qdot_sheet_begin(session);
     d.sheet.whole = true;
     status = write_assumptions(&d);
+    if (status == QDOT_OK)
+        status = write_units(&d);
     if (session->scene->states.n == session->scene->coordinates.n) /* nothing moves */
         return qdot_sheet_end(&d.sheet, "derive", status == QDOT_OK ? write_states(&d) : status);
     if (status == QDOT_OK && session->scene->hamiltonian != QDOT_NIL) {
