@@ -6,6 +6,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
@@ -146,22 +147,26 @@ make_variational_run(qdot_find_trial *t, const qdot_expr *e)
                             t->trial.measured);
 }
 
-/* Replace results of other runs in the expression e by constants. */
+/* Replace results of other runs, and numbers that were there before the search, in the expression e by constants. */
 static qdot_status
 replace_other_results(const qdot_find_trial *t, qdot_expr *e)
 {
     qdot_session *session = t->trial.session;
     qdot_named_run *named;
 
-    for (size_t i = t->trial.measured; i < session->measured->n; i++) {
+    for (size_t i = 0; i < session->measured->n; i++) {
         const qdot_measured *m = &session->measured->at[i];
         qdot_expr number;
 
-        if (m->origin.run == NULL)
+        if (!qdot_expr_contains(session->pool, *e, m->symbol))
             continue;
-        QDOT_TRY(qdot_runs_find(session, m->origin.run, &named));
-        if (named->run == t->trial.run)
-            continue;
+        if (i >= t->trial.measured) {
+            if (m->origin.run == NULL)
+                continue;
+            QDOT_TRY(qdot_runs_find(session, m->origin.run, &named));
+            if (named->run == t->trial.run)
+                continue;
+        }
         number = m->digits > 0 ? m->exact : qdot_measured_rational(session->pool, m->value);
         *e = qdot_subs(session->pool, *e, 1, &m->symbol, &number);
     }
