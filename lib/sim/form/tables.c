@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/memory.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
@@ -10,6 +11,7 @@
 #include "num/samples.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
+#include "tape/instruction.h"
 
 enum { TAPES = 6 };
 
@@ -119,4 +121,73 @@ qdot_tables_reach(const qdot_plan *plan, double t0, double t1)
     }
     qdot_free(knots.at);
     return status;
+}
+
+/* Whether a tape reads a table that jumps at knots. */
+static bool
+reads_steps(const qdot_tape *tape)
+{
+    for (size_t k = 0; k < tape->length; k++)
+        if (tape->code[k].op == QDOT_OP_LOOKUP && qdot_samples_jumps(tape->constant[tape->code[k].z - tape->inputs]))
+            return true;
+    return false;
+}
+
+/* Whether an output of the tape is another just before t, input `time`, and just behind. in [inputs]; out [2 x outputs], work. */
+static bool
+jumps_at(const qdot_tape *tape, size_t time, double *in, double t, double *out, double *work)
+{
+    const double near = 1e-9 * fmax(1, fabs(t));
+    const size_t n = qdot_tape_outputs(tape);
+
+    for (int side = 0; side < 2; side++) {
+        in[time] = t + (side == 0 ? -near : near);
+        qdot_tape_eval(tape, in, out + (size_t)side * n, work);
+    }
+    for (size_t k = 0; k < n; k++)
+        if (fabs(out[k] - out[n + k]) > 1e-5 * fmax(1, fabs(out[k])))
+            return true;
+    return false;
+}
+
+/* Whether the outputs of the tape jump at one of the first knots; y [n]. */
+static qdot_status
+jumps_at_knots(const qdot_tape *tape, size_t n, const double *y, double t0, double t1, bool *jumps)
+{
+    enum { LOOKED_AT = 16 };
+    const int direction = t1 < t0 ? -1 : 1;
+    qdot_knots knots = {0};
+    double *in = qdot_calloc(tape->inputs + 2 * tape->outputs + tape->places + 1, sizeof *in), t = t0;
+    qdot_status status = in ? qdot_knots_find(tape, n, &knots) : QDOT_ENOMEM;
+
+    for (size_t k = 0; in && k < n; k++)
+        in[k] = y[k] + 0.01 * (double)(k + 1) * fmax(1, fabs(y[k])); /* a factor that is 0 at the start hides no jump */
+    for (int k = 0; k < LOOKED_AT && status == QDOT_OK && !*jumps; k++) {
+        t = qdot_knots_next(knots.n, knots.at, t, direction);
+        if (direction * (t1 - t) < 0)
+            break;
+        *jumps = jumps_at(tape, n, in, t, in + tape->inputs, in + tape->inputs + 2 * tape->outputs);
+    }
+    qdot_free(knots.at);
+    qdot_free(in);
+    return status;
+}
+
+qdot_status
+qdot_tables_refuse_jumps(const qdot_plan *plan, const double *y, double t0, double t1)
+{
+    const qdot_tape *tapes[2] = {plan->constraints ? plan->constraints->positions : NULL,
+                                 plan->constraints ? plan->constraints->velocities : NULL};
+    bool jumps = false;
+
+    for (int k = 0; k < 2 && plan->n_massless > 0 && !jumps; k++)
+        if (tapes[k]) {
+            jumps = reads_steps(tapes[k]);
+            if (!jumps)
+                QDOT_TRY(jumps_at_knots(tapes[k], 2 * plan->n, y, t0, t1, &jumps));
+        }
+    if (!jumps)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: rates of states, and equations of other coordinates without mass, that jump at points of data");
+    return qdot_hint("`linear`, and two rows a moment apart where the data jump");
 }

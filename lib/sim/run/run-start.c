@@ -160,6 +160,7 @@ project_and_check_start(qdot_run *run, qdot_scene *scene, const qdot_run_request
 static qdot_status
 check_tables(const qdot_run *run, const qdot_scene *scene)
 {
+    QDOT_TRY(qdot_tables_refuse_jumps(run->plan, run->start, run->t0, run->t1));
     for (size_t i = 0; i < scene->events.n; i++)
         if (scene->events.at[i].stop)
             return QDOT_OK;
