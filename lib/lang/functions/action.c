@@ -22,6 +22,7 @@
 #include "mech/hamilton/action.h"
 #include "normal/calculus/decimal.h"
 #include "normal/solve/conditions.h"
+#include "normal/solve/solutions.h"
 
 /* --- in numbers ------------------------------------------------------------------------------------ */
 
@@ -51,36 +52,91 @@ number_between(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_solve
     return qdot_value_kind_give(pool, qdot_measured_add(session, m), value);
 }
 
-/* The action with the values of `set`, between the two zeros of f that have f > 0 inside. */
+/* The number *there of f at x = at; NAN where f is not defined. */
+static qdot_status
+number_at(qdot_session *session, qdot_expr f, qdot_expr x, double at, double *there)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_expr place = qdot_measured_rational(pool, at), value = qdot_subs(pool, f, 1, &x, &place);
+
+    *there = NAN;
+    return qdot_grave(value == QDOT_NIL ? qdot_pool_check(pool) : qdot_session_number(session, value, there, NULL));
+}
+
+/* A full turn of an angle: the integral of p = shift + sqrt(f) from -pi to pi. */
+static qdot_status
+number_of_turn(qdot_session *session, qdot_expr p, qdot_expr x, qdot_expr *value)
+{
+    enum { DIGITS = 16 };
+    qdot_pool *pool = session->pool;
+    qdot_measured m = {.plain = true};
+    const qdot_expr J = qdot_integral(pool, p, x, qdot_neg(pool, QDOT_PI), QDOT_PI);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_decimal(pool, J, DIGITS, &m.exact, &m.error));
+    QDOT_TRY(qdot_session_number(session, m.exact, &m.value, NULL));
+    return qdot_value_kind_give(pool, qdot_measured_add(session, m), value);
+}
+
+/* Find the only well, f > 0 between zeros i and i + 1, *at; of two that x -> -x exchanges the first. *wells: their number. */
+static qdot_status
+find_well(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_solve_zeros *zeros, size_t *wells, size_t *at)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_expr back = qdot_neg(pool, x);
+
+    *wells = 0;
+    for (size_t i = 0; i + 1 < zeros->n; i++) {
+        double there;
+
+        QDOT_TRY(number_at(session, f, x, (zeros->at[i].at + zeros->at[i + 1].at) / 2, &there));
+        if (there > 0 && (*wells)++ == 0)
+            *at = i;
+    }
+    if (*wells != 2 || qdot_subs(pool, f, 1, &x, &back) != f)
+        return qdot_pool_check(pool);
+    *wells = 1;
+    return qdot_answer_notice_once(session, "there are two equal wells: the action is that of one");
+}
+
+/* The action with the values of `set`, between the two zeros of f that have f > 0 inside, or over a turn of an angle. */
 static qdot_status
 number_of_action(qdot_session *session, const qdot_separated *one, qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
     const qdot_expr f = qdot_session_bind(session, one->square);
-    const qdot_window window = qdot_solve_window(pool, one->q, false);
+    const qdot_symbol *symbol = qdot_expr_symbol(pool, one->q);
+    const qdot_facts facts = qdot_scene_facts(session->scene);
+    const bool angle = symbol->lo == QDOT_NIL && symbol->hi == QDOT_NIL && qdot_is_angle(pool, f, one->q, &facts);
+    const qdot_window window = qdot_solve_window(pool, one->q, angle);
     qdot_solve_zeros zeros = {0};
     bool known = false, all = false;
     size_t wells = 0, at = 0;
+    double there = NAN;
     qdot_status status = qdot_pool_check(pool);
 
     if (status == QDOT_OK)
         status = qdot_solve_line(session, f, one->q, QDOT_NIL, &window, &zeros, &known, &all);
-    for (size_t i = 0; i + 1 < zeros.n && status == QDOT_OK && known; i++) {
-        const qdot_expr mid = qdot_measured_rational(pool, (zeros.at[i].at + zeros.at[i + 1].at) / 2);
-        double there;
+    if (status == QDOT_OK && angle && zeros.n > 0) { /* the last range ends at the first zero, a turn later */
+        qdot_solve_zero next = zeros.at[0];
 
-        status = qdot_session_number(session, qdot_subs(pool, f, 1, &one->q, &mid), &there, NULL);
-        if (status == QDOT_OK && there > 0) {
-            wells++;
-            at = i;
-        }
+        next.at += 2 * M_PI;
+        status = qdot_vec_push(&zeros, next);
     }
-    if (status == QDOT_OK && (!known || wells != 1)) {
+    if (status == QDOT_OK && known)
+        status = find_well(session, f, one->q, &zeros, &wells, &at);
+    if (status == QDOT_OK && angle && known && all && zeros.n == 0)
+        status = number_at(session, f, one->q, 0, &there);
+    if (status != QDOT_OK)
+        ;
+    else if (there > 0) {
+        status = number_of_turn(session, qdot_add(pool, qdot_session_bind(session, one->shift), qdot_sqrt(pool, f)), one->q, value);
+    } else if (!known || wells != 1) {
         status = qdot_fail(QDOT_EFAILED, wells > 1 ? "there are %zu wells at this energy" : "no turning points were found, neither by formulas nor in numbers", wells);
         qdot_hint(wells > 1 ? "the domain of a coordinate chooses one: coord x > 0" : "`set` gives values to the parameters and the energy");
-    }
-    if (status == QDOT_OK)
+    } else {
         status = number_between(session, f, one->q, &zeros.at[at], &zeros.at[at + 1], value);
+    }
     qdot_free(zeros.at);
     return status;
 }

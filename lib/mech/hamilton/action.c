@@ -267,6 +267,17 @@ integrate_turn(search *a, qdot_action_regime *out)
     return qdot_pool_check(pool);
 }
 
+/* Whether x -> -x exchanges the well that begins at a with the one that ends at d. */
+static bool
+are_mirrored(search *s, const place *a, const place *d)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_expr back = qdot_neg(pool, s->x);
+
+    return a->at != QDOT_NIL && d->at != QDOT_NIL && qdot_subs(pool, s->f, 1, &s->x, &back) == s->f &&
+           qdot_is_zero(pool, qdot_add(pool, a->at, d->at), &s->facts);
+}
+
 /* The regime whose places, n of them, are all there are; *out has a value if the motion is bounded. */
 static qdot_status
 find_in_regime(search *a, size_t n, place *p, qdot_action_regime *out)
@@ -277,7 +288,7 @@ find_in_regime(search *a, size_t n, place *p, qdot_action_regime *out)
     const place far = {FAR, QDOT_NIL, QDOT_NIL};
     const qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
     const bool round = a->lo == QDOT_NIL && a->hi == QDOT_NIL && qdot_is_angle(pool, a->f, a->x, &a->facts);
-    size_t count = 0;
+    size_t count = 0, first = 0;
 
     for (size_t i = 0, sorted = sort_places(a, n, p); i < n && !sorted; i++)
         p[i].at = qdot_simplify(pool, p[i].at, &a->facts);
@@ -308,10 +319,14 @@ find_in_regime(search *a, size_t n, place *p, qdot_action_regime *out)
         if (sign[i] <= 0)
             continue;
         QDOT_TRY(integrate_between(a, &all[i], &all[i + 1], &one));
+        if (out->value != QDOT_NIL && one.value != QDOT_NIL && are_mirrored(a, &all[first], &all[i + 1]))
+            *out = one; /* of two equal wells the one on the right, where roots of x^2 are x */
         if (out->value != QDOT_NIL && one.value != QDOT_NIL && !qdot_is_zero(pool, qdot_sub(pool, out->value, one.value), &a->facts))
             a->out->verdict = QDOT_ACTION_SEVERAL;
-        if (out->value == QDOT_NIL)
+        if (out->value == QDOT_NIL) {
             *out = one;
+            first = i;
+        }
     }
     return qdot_pool_check(pool);
 }
