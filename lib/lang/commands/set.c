@@ -14,6 +14,8 @@
 #include "lang/session/evaluation.h"
 #include "lang/session/measured.h"
 #include "lang/session/phase.h"
+#include "lang/session/speeds.h"
+#include "lang/session/start-kind.h"
 #include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "mech/scene/things.h"
@@ -357,7 +359,8 @@ qdot_set_is_read(const qdot_record *r, const qdot_filled *part, qdot_expr symbol
     const qdot_session *session = r->cursor.session;
     const char *name = qdot_expr_symbol(session->pool, symbol)->name;
 
-    return qdot_expr_is_class(session->pool, symbol, QDOT_MOMENTUM) || qdot_record_mentions_besides(r, part, name) || qdot_loop_index_is_read(session, symbol);
+    return qdot_expr_is_class(session->pool, symbol, QDOT_MOMENTUM) || qdot_session_is_speed(session, symbol) ||
+           qdot_record_mentions_besides(r, part, name) || qdot_loop_index_is_read(session, symbol);
 }
 
 qdot_status
@@ -373,15 +376,38 @@ qdot_set_need_read(qdot_record *r, const qdot_filled *part, qdot_expr symbol)
 }
 
 qdot_status
-qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
+qdot_set_find_speed(qdot_record *r, const qdot_filled *part, qdot_expr *speed)
 {
     const qdot_name *known;
     const char *name;
 
-    if (qdot_set_is_momentum(r->cursor.session, part))
-        return qdot_set_find_jet(r, part, symbol);
+    *speed = QDOT_NIL;
     QDOT_TRY(qdot_record_name(r, part, &name));
     known = qdot_names_find(r->cursor.session->names, name);
-    return known != NULL && known->kind == QDOT_NAME_COORD ? qdot_set_find_jet(r, part, symbol)
-                                                           : qdot_set_find_parameter(r, part, symbol);
+    if (known == NULL || known->kind != QDOT_NAME_SPEED)
+        return QDOT_OK;
+    *speed = known->value;
+    return qdot_record_no_prime(r, part, "`=`");
+}
+
+qdot_status
+qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
+{
+    const qdot_session *session = r->cursor.session;
+    const qdot_name *known;
+    const char *name;
+
+    if (qdot_set_is_momentum(session, part)) {
+        QDOT_TRY(qdot_set_find_jet(r, part, symbol));
+    } else {
+        QDOT_TRY(qdot_set_find_speed(r, part, symbol));
+        QDOT_TRY(qdot_record_name(r, part, &name));
+        known = qdot_names_find(session->names, name);
+        if (*symbol == QDOT_NIL && (known == NULL || known->kind != QDOT_NAME_COORD))
+            return qdot_set_find_parameter(r, part, symbol);
+        if (*symbol == QDOT_NIL)
+            QDOT_TRY(qdot_set_find_jet(r, part, symbol));
+    }
+    qdot_record_blame(r, part);
+    return qdot_session_goes_with_start(session, *symbol);
 }

@@ -17,7 +17,10 @@ QDOT_MUST_CHECK qdot_status qdot_set_check_dimension(qdot_record *r, const qdot_
                                                      qdot_expr value);
 /* Whether the part p[NAME] is a momentum, because the script does not declare `p` itself. */
 bool qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part);
-/* Find a symbol for which a run can take a value: a parameter, q, q' or a momentum p[NAME]. */
+/* The symbol of the speed that a part of a statement names; nil: it names none. */
+QDOT_MUST_CHECK qdot_status qdot_set_find_speed(qdot_record *r, const qdot_filled *part, qdot_expr *speed);
+/* Find a symbol for which a run can take a value: a parameter, q, q', a momentum p[NAME] or a speed. QDOT_EINVAL: a speed
+ * where the start gives velocities, or the other way round. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
 /* Whether `symbol`, whose name the part is, stands elsewhere in the statement, or something in the scene depends on it;
  * QDOT_EINVAL where neither is so. */

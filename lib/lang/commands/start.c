@@ -111,28 +111,12 @@ start_at_end_of_run(qdot_record *r, const char *name)
     return give_notice_of_parameters(session, run->name, report);
 }
 
-/* The symbol of the speed that a part names; nil: it names none. */
-static qdot_status
-find_speed(qdot_record *r, const qdot_filled *part, qdot_expr *speed)
-{
-    const qdot_name *known;
-    const char *name;
-
-    *speed = QDOT_NIL;
-    QDOT_TRY(qdot_record_name(r, part, &name));
-    known = qdot_names_find(r->cursor.session->names, name);
-    if (known == NULL || known->kind != QDOT_NAME_SPEED)
-        return QDOT_OK;
-    *speed = known->value;
-    return qdot_record_no_prime(r, part, "`=`");
-}
-
 static qdot_status
 find_start_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
 {
     if (qdot_set_is_momentum(r->cursor.session, part))
         return qdot_set_find_jet(r, part, symbol);
-    QDOT_TRY(find_speed(r, part, symbol));
+    QDOT_TRY(qdot_set_find_speed(r, part, symbol));
     return *symbol != QDOT_NIL ? QDOT_OK : qdot_set_find_jet(r, part, symbol);
 }
 

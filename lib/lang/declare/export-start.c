@@ -9,6 +9,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
 #include "lang/session/start-kind.h"
+#include "lang/session/start-speeds.h"
 #include "lang/session/values.h"
 
 #define LEAST_TOL 1e-13 /* smallest tolerance that methods in doubles reach over many steps */
@@ -87,6 +88,8 @@ stated_start(qdot_session *s, size_t n, const qdot_expr *y, qdot_expr *stated, c
     const qdot_scene *scene = s->scene;
 
     find_start(s, 2 * n, y, stated);
+    if (qdot_session_starts_by_speeds(s))
+        QDOT_TRY(qdot_session_start_velocities(s, 0, NULL, NULL, QDOT_ZERO, stated + n));
     to->x->t1 = 10;
     to->x->tol = LEAST_TOL;
     for (size_t i = 0; i < 2 * n; i++) {
@@ -116,9 +119,8 @@ find(qdot_session *s, bool massless, size_t n, const qdot_expr *y, const qdot_ex
         (void)qdot_fail(QDOT_EINVAL, "the start of a coordinate without mass follows from its equation: it is taken from a run");
         return qdot_hint("run 0..10 before");
     }
-    if (qdot_session_starts_by_momenta(s) || qdot_session_starts_by_speeds(s)) {
-        (void)qdot_fail(QDOT_EINVAL, "the start gives %s: the velocities are taken from a run",
-                        qdot_session_starts_by_speeds(s) ? "speeds" : "momenta");
+    if (qdot_session_starts_by_momenta(s)) {
+        (void)qdot_fail(QDOT_EINVAL, "the start gives momenta: the velocities are taken from a run");
         return qdot_hint("run 0..10 before");
     }
     stated = qdot_calloc(2 * n + 1, sizeof *stated);

@@ -39,14 +39,18 @@ qdot_session_starts_by_velocities(const qdot_session *session)
 }
 
 qdot_status
-qdot_session_need_velocities(const qdot_session *session, const char *what)
+qdot_session_goes_with_start(const qdot_session *session, qdot_expr symbol)
 {
-    const bool speeds = qdot_session_starts_by_speeds(session);
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, symbol);
 
-    if (!speeds && !qdot_session_starts_by_momenta(session))
+    if (qdot_session_is_speed(session, symbol) && qdot_session_starts_by_velocities(session)) {
+        (void)qdot_fail(QDOT_EINVAL, "the start gives velocities, and speeds determine all of them");
+        return qdot_hint("`reset start`, then `start %.100s = ...`", s->name);
+    }
+    if ((s->class != QDOT_MOMENTUM && s->order != 1) || !qdot_session_starts_by_speeds(session))
         return QDOT_OK;
-    (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: %s of runs whose start gives %s", what, speeds ? "speeds" : "momenta");
-    return qdot_hint("start x' = ... gives the velocity");
+    (void)qdot_fail(QDOT_EINVAL, "the start gives speeds, which determine all velocities");
+    return qdot_hint("a speed in its place, or `reset start`");
 }
 
 void

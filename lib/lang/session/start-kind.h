@@ -11,8 +11,8 @@ bool qdot_session_starts_by_momenta(const qdot_session *session);
 bool qdot_session_starts_by_speeds(const qdot_session *session);
 /* Whether the start gives a velocity or a momentum. */
 bool qdot_session_starts_by_velocities(const qdot_session *session);
-/* QDOT_ENOTBUILT for a start by momenta or speeds: it is not known how `what` follows it. */
-QDOT_MUST_CHECK qdot_status qdot_session_need_velocities(const qdot_session *session, const char *what);
+/* QDOT_EINVAL if `symbol` is a speed and the start gives velocities, or the other way round: one would be ignored. */
+QDOT_MUST_CHECK qdot_status qdot_session_goes_with_start(const qdot_session *session, qdot_expr symbol);
 /* Set the value of every speed with which runs start to what it is at the start's coordinates and velocities, in place of these. */
 QDOT_MUST_CHECK qdot_status qdot_session_start_by_speeds(qdot_session *session);
 /* The start gives no value to a speed. */

@@ -5,7 +5,9 @@
 #include "expr/walk.h"
 #include "lang/runs/request.h"
 #include "lang/session/bind.h"
+#include "lang/session/speeds.h"
 #include "lang/session/start-kind.h"
+#include "lang/session/start-speeds.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
 
@@ -15,9 +17,10 @@ fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, co
                   qdot_expr *values, qdot_expr *start, bool *named)
 {
     const size_t n = session->scene->coordinates.n;
+    bool by_speeds = qdot_session_starts_by_speeds(session);
 
-    if (qdot_session_starts_by_speeds(session))
-        QDOT_TRY(qdot_session_need_velocities(session, "fits and periodic orbits"));
+    for (size_t i = 0; i < k; i++)
+        by_speeds |= qdot_session_is_speed(session, unknowns[i]);
     for (size_t i = 0; i < had->n_values; i++) {
         const size_t at =
             qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, had->symbols[i]);
@@ -32,13 +35,14 @@ fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, co
         const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet);
         const bool unknown = qdot_expr_place(k, unknowns, jet) < k;
 
-        named[i] = unknown || at < session->values->start_symbols.n;
+        named[i] = unknown || (by_speeds && i >= n) || at < session->values->start_symbols.n;
         start[i] = unknown                          ? jet
                    : at == session->values->start_symbols.n ? QDOT_ZERO
                                                     : qdot_session_bind(
                                                         session, session->values->start_values.at[at]);
     }
-    return qdot_pool_check(session->pool);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    return by_speeds ? qdot_session_start_velocities(session, k, unknowns, start, had->t0, start + n) : QDOT_OK;
 }
 
 /* Where momenta are given or unknown, the velocities that follow from them. */

@@ -12,10 +12,9 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
-#include "lang/session/start-kind.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
-#include "lang/slopes/momentum-slopes.h"
+#include "lang/slopes/start-slopes.h"
 #include "sim/model/substitute.h"
 #include "sim/run/slides.h"
 #include "sim/study/sizes.h"
@@ -183,7 +182,7 @@ let_parameter_vary(qdot_slopes *s, size_t k)
                                                           of->symbols.at, of->values.at);
     }
     if (status == QDOT_OK)
-        status = qdot_momentum_slopes(session, &(qdot_momentum_slopes_of){of, p, values}, start);
+        status = qdot_start_slopes(session, &(qdot_start_slopes_of){of, p, values}, start);
     qdot_trial_end(&trial);
     QDOT_TRY(status);
     s->by[k].parameter = p;
@@ -216,7 +215,7 @@ find_directions(qdot_slopes *s)
         if (qdot_slopes_is_parameter(s, k))
             QDOT_TRY(let_parameter_vary(s, k));
         else
-            QDOT_TRY(qdot_momentum_slopes(s->session, &(qdot_momentum_slopes_of){s->conditions, s->names.at[k].symbol, NULL}, start));
+            QDOT_TRY(qdot_start_slopes(s->session, &(qdot_start_slopes_of){s->conditions, s->names.at[k].symbol, NULL}, start));
     }
     return qdot_pool_check(pool);
 }
@@ -449,8 +448,6 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     qdot_run *run = NULL;
     qdot_status status;
 
-    if (qdot_session_starts_by_speeds(s->session))
-        QDOT_TRY(qdot_session_need_velocities(s->session, "derivatives"));
     QDOT_TRY(find_run(s, name));
     QDOT_TRY(shorten_run(s, e, first));
     QDOT_TRY(find_directions(s));

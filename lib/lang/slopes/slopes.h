@@ -23,7 +23,7 @@
 typedef struct {
     const qdot_token *place;
     char *label;
-    qdot_expr symbol; /* its symbol: a parameter, coordinate or velocity */
+    qdot_expr symbol; /* its symbol: a parameter, coordinate, velocity, momentum or speed */
 } qdot_slope_name;
 
 typedef qdot_vec(qdot_slope_name) qdot_slope_names;

@@ -10,6 +10,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/session/bind.h"
 #include "lang/session/row-tables.h"
+#include "lang/session/speeds.h"
 #include "lang/session/trial.h"
 #include "lang/session/units.h"
 #include "lang/session/values.h"
@@ -46,7 +47,11 @@ find_varied_parameter(qdot_record *r, qdot_continue_wish *w)
         return qdot_set_find_parameter(r, part, &w->parameter);
     if (qdot_names_find(r->cursor.session->names, "energy") == NULL && qdot_filled_is_word(part, "energy"))
         return QDOT_OK;
-    return qdot_set_find_symbol(r, part, &w->parameter);
+    QDOT_TRY(qdot_set_find_symbol(r, part, &w->parameter));
+    if (!qdot_session_is_speed(r->cursor.session, w->parameter))
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: periodic orbits continued in a speed");
+    return qdot_hint("continue orbit in energy");
 }
 
 /* Check that the range A..B lies within the parameter's domain; it may reach the ends of that domain. */

@@ -10,6 +10,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/speeds.h"
 #include "lang/unknowns/find-trial.h"
 
 /* a start value counts as moved by the constraints if it changes by more than this, which exceeds rounding */
@@ -73,7 +74,7 @@ check_start_not_moved(const qdot_find_trial *t)
         const qdot_slope_name *one = &t->f->unknowns.at[i];
         double value;
 
-        if (!qdot_expr_is_class(session->pool, one->symbol, QDOT_COORD))
+        if (!qdot_expr_is_class(session->pool, one->symbol, QDOT_COORD) || qdot_session_is_speed(session, one->symbol))
             continue;
         QDOT_TRY(qdot_run_values(t->trial.run, 1, &one->symbol, 1, &t0, &value, NULL));
         if (!(fabs(value - t->at[i]) <= moved * fmax(1, fabs(value))))

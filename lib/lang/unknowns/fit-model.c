@@ -9,6 +9,7 @@
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/speeds.h"
 #include "lang/slopes/free-request.h"
 #include "lang/unknowns/fit-parts.h"
 #include "sim/study/response.h"
@@ -33,11 +34,26 @@ typedef struct {
 
 /* --- the request of the run ----------------------------------------------------------------- */
 
+/* What a speed is at the start of the run; 0 where the start does not name it. */
+static qdot_expr
+value_of_speed_at_start(qdot_session *session, qdot_expr speed, const qdot_run_request *r)
+{
+    qdot_expr e = qdot_session_bind(session, qdot_session_speeds_replaced(session, speed));
+    const qdot_expr t = QDOT_T;
+
+    for (size_t i = 0; i < session->scene->coordinates.n && e != QDOT_NIL; i++) {
+        const qdot_expr q = session->scene->coordinates.at[i], from[] = {q, qdot_symbol_jet(session->pool, q, 1)};
+
+        e = qdot_subs(session->pool, e, 2, from, (qdot_expr[]){r->q0[i], r->v0[i]});
+    }
+    return e == QDOT_NIL ? e : qdot_subs(session->pool, e, 1, &t, &r->t0);
+}
+
 /* Find the guesses for the unknowns: the values by `set`, and start values. */
 static qdot_status
 find_guesses(qdot_fit *f)
 {
-    const qdot_session *session = f->session;
+    qdot_session *session = f->session;
     const size_t n = session->scene->coordinates.n;
 
     for (size_t k = 0; k < f->unknowns.names.n; k++) {
@@ -58,6 +74,9 @@ find_guesses(qdot_fit *f)
             if (qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n)
                 == name->symbol)
                 e = (i < n ? r->q0 : r->v0)[i % n];
+        if (qdot_session_is_speed(session, name->symbol))
+            e = value_of_speed_at_start(session, name->symbol, r);
+        QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_session_number(f->session, e, &f->guess[k], NULL));
         f->u[k] = f->guess[k];
     }

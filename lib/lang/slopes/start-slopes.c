@@ -1,5 +1,5 @@
-/* momentum-slopes.c -- how velocities at the start of a run depend on an unknown, where momenta are given. */
-#include "lang/slopes/momentum-slopes.h"
+/* start-slopes.c -- how velocities at the start of a run depend on an unknown, where momenta or speeds are given. */
+#include "lang/slopes/start-slopes.h"
 
 #include "base/memory.h"
 #include "expr/build.h"
@@ -7,6 +7,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
+#include "lang/session/speeds.h"
 #include "lang/session/start-kind.h"
 #include "lang/session/values.h"
 #include "mech/dynamics/quantity.h"
@@ -15,9 +16,10 @@
 
 typedef struct {
     qdot_session *session;
-    const qdot_momentum_slopes_of *x;
+    const qdot_start_slopes_of *x;
     size_t n, m;         /* coordinates; those of S */
     size_t *of;          /* [m] the coordinates of S */
+    qdot_expr *P, *given; /* [m] what has a given value, and dp/du of this */
     qdot_expr *A, *b, *solved; /* [m*m], [m], [m] */
 } work;
 
@@ -55,13 +57,12 @@ at_start(const work *w, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_substitute(pool, e, c->symbols.n, c->symbols.at, c->values.at);
 }
 
-/* dp_i/du of the value that was given for the momentum of coordinate i. */
+/* dp/du of the value that was given for the momentum or speed p. */
 static qdot_expr
-slope_of_given_momentum(const work *w, size_t i)
+slope_of_given(const work *w, qdot_expr p)
 {
     const qdot_values *values = w->session->values;
     qdot_pool *pool = w->session->pool;
-    const qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, w->session->scene->coordinates.at[i]);
     const size_t at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, p);
 
     if (w->x->unknown == p)
@@ -78,8 +79,8 @@ make_equation(const work *w, size_t k, const qdot_expr *start)
     qdot_pool *pool = w->session->pool;
     const qdot_scene *scene = w->session->scene;
     const qdot_conditions *c = w->x->of;
-    const qdot_expr P = qdot_mech_momentum(w->session->scene, scene->coordinates.at[w->of[k]]);
-    qdot_expr b = slope_of_given_momentum(w, w->of[k]);
+    const qdot_expr P = w->P[k];
+    qdot_expr b = w->given[k];
 
     for (size_t j = 0; j < 2 * w->n; j++) {
         const qdot_expr jet = qdot_symbol_jet(pool, scene->coordinates.at[j % w->n], j >= w->n), slope = qdot_diff(pool, P, jet);
@@ -110,32 +111,94 @@ solve_equations(const work *w, qdot_expr *start)
     if (status == QDOT_OK)
         status = qdot_solve_linear(w->session->pool, (uint32_t)w->m, w->A, w->b, w->solved, &pivot, &facts);
     if (status == QDOT_ESINGULAR)
-        return qdot_fail(QDOT_ESINGULAR, "at the start the momenta do not determine the velocities");
+        return qdot_fail(QDOT_ESINGULAR, "at the start what is given does not determine the velocities");
     for (size_t k = 0; k < w->m && status == QDOT_OK; k++)
         start[w->n + w->of[k]] = w->solved[k];
     return status;
 }
 
-qdot_status
-qdot_momentum_slopes(qdot_session *session, const qdot_momentum_slopes_of *x, qdot_expr *start)
+/* S of momenta. */
+static qdot_status
+collect_momenta(work *w)
 {
-    work w = {.session = session, .x = x, .n = session->scene->coordinates.n};
-    qdot_status status = QDOT_OK;
+    qdot_pool *pool = w->session->pool;
+    qdot_scene *scene = w->session->scene;
 
-    w.of = qdot_calloc(w.n + 1, sizeof *w.of);
-    w.A = qdot_calloc(w.n * w.n + 2 * w.n + 1, sizeof *w.A);
-    if (w.of == NULL || w.A == NULL)
-        status = QDOT_ENOMEM;
-    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
-        if (starts_with_momentum(&w, i))
-            w.of[w.m++] = i;
-    if (status == QDOT_OK && w.m > 0 && session->scene->constraints.n > 0)
-        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: derivatives of runs with constraints whose start gives momenta");
-    if (status == QDOT_OK && w.m > 0) {
-        w.b = w.A + w.m * w.m;
-        w.solved = w.b + w.m;
-        status = solve_equations(&w, start);
+    for (size_t i = 0; i < w->n; i++)
+        if (starts_with_momentum(w, i)) {
+            const qdot_expr q = scene->coordinates.at[i];
+
+            w->P[w->m] = qdot_mech_momentum(scene, q);
+            w->given[w->m] = slope_of_given(w, qdot_symbol_of(pool, QDOT_MOMENTUM, q));
+            w->of[w->m++] = i;
+        }
+    QDOT_TRY(qdot_pool_check(pool));
+    return w->m == 0 || scene->constraints.n == 0
+               ? QDOT_OK
+               : qdot_fail(QDOT_ENOTBUILT, "not built yet: derivatives of runs with constraints whose start gives momenta");
+}
+
+/* All coordinates, by the equations A q' = b of speeds and constraints: P = A q' - b without the speed in b. */
+static qdot_status
+collect_speeds(work *w, const qdot_speeds *speeds)
+{
+    qdot_pool *pool = w->session->pool;
+    qdot_scene *scene = w->session->scene;
+    const size_t n = w->n;
+
+    QDOT_TRY(qdot_speeds_rows(scene, speeds, w->A, w->b));
+    for (size_t i = 0; i < n; i++) {
+        w->of[i] = i;
+        w->given[i] = QDOT_ZERO;
+        w->P[i] = qdot_neg(pool, w->b[i]);
+        for (size_t k = 0; k < speeds->n; k++) {
+            const qdot_expr zero = QDOT_ZERO;
+
+            w->given[i] = qdot_add(pool, w->given[i], qdot_mul(pool, qdot_diff(pool, w->b[i], speeds->symbol[k]),
+                                                               slope_of_given(w, speeds->symbol[k])));
+            w->P[i] = qdot_subs(pool, w->P[i], 1, &speeds->symbol[k], &zero);
+        }
+        for (size_t j = 0; j < n; j++)
+            w->P[i] = qdot_add(pool, w->P[i], qdot_mul(pool, w->A[i * n + j], qdot_symbol_jet(pool, scene->coordinates.at[j], 1)));
     }
+    w->m = n;
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+collect_given(work *w)
+{
+    qdot_session *session = w->session;
+    qdot_speeds speeds;
+    qdot_status status;
+
+    if (!qdot_session_is_speed(session, w->x->unknown) && !qdot_session_starts_by_speeds(session))
+        return collect_momenta(w);
+    QDOT_TRY(qdot_session_speeds(session, &speeds));
+    status = collect_speeds(w, &speeds);
+    qdot_free((void *)speeds.symbol);
+    return status;
+}
+
+qdot_status
+qdot_start_slopes(qdot_session *session, const qdot_start_slopes_of *x, qdot_expr *start)
+{
+    const size_t n = session->scene->coordinates.n;
+    work w = {.session = session, .x = x, .n = n};
+    qdot_status status;
+
+    w.of = qdot_calloc(n + 1, sizeof *w.of);
+    w.A = qdot_calloc(n * n + 4 * n + 1, sizeof *w.A);
+    status = w.of == NULL || w.A == NULL ? QDOT_ENOMEM : QDOT_OK;
+    if (status == QDOT_OK) {
+        w.b = w.A + n * n;
+        w.solved = w.b + n;
+        w.P = w.solved + n;
+        w.given = w.P + n;
+        status = collect_given(&w);
+    }
+    if (status == QDOT_OK && w.m > 0)
+        status = solve_equations(&w, start);
     qdot_free(w.of);
     qdot_free(w.A);
     return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
