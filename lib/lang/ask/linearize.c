@@ -178,14 +178,14 @@ need_one_kind(qdot_record *r, const qdot_filled *place, const state *x)
     return qdot_fail(QDOT_EINVAL, "a state is given by speeds or by velocities");
 }
 
-/* Whether a value was found numerically: a rational of many digits. */
+/* Whether a value was found numerically: a number with an error, or a rational of many digits. */
 static bool
-is_numeric(const qdot_session *session, const state *x)
+is_numeric(qdot_session *session, const state *x)
 {
     for (size_t i = 0; i < x->values.n; i++) {
         const fmpq *value = qdot_expr_rational(session->pool, x->values.at[i]);
 
-        if (value != NULL && fmpz_bits(fmpq_denref(value)) > 32)
+        if (qdot_measured_occurs(session, x->values.at[i]) || (value != NULL && fmpz_bits(fmpq_denref(value)) > 32))
             return true;
     }
     return x->measured;

@@ -27,7 +27,7 @@ set_place(place *p, qdot_expr symbol, qdot_expr value)
 
 /* The value that the start gives; 0: none. */
 static qdot_expr
-value_at_start(qdot_session *session, qdot_expr symbol)
+value_of_start(qdot_session *session, qdot_expr symbol)
 {
     const qdot_values *values = session->values;
     const size_t at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, symbol);
@@ -78,11 +78,11 @@ qdot_session_start_velocities(qdot_session *session, size_t n, const qdot_expr *
     if (status == QDOT_OK) {
         p.value = p.symbol + most;
         for (size_t i = 0; i < scene->coordinates.n; i++)
-            set_place(&p, scene->coordinates.at[i], q0 != NULL ? q0[i] : value_at_start(session, scene->coordinates.at[i]));
+            set_place(&p, scene->coordinates.at[i], q0 != NULL ? q0[i] : value_of_start(session, scene->coordinates.at[i]));
         for (size_t k = 0; k < speeds.n; k++) {
             const qdot_expr u = speeds.symbol[k];
 
-            set_place(&p, u, qdot_expr_place(n, unknowns, u) < n ? u : value_at_start(session, u));
+            set_place(&p, u, qdot_expr_place(n, unknowns, u) < n ? u : value_of_start(session, u));
         }
         set_place(&p, QDOT_T, t0);
         status = qdot_pool_check(session->pool);
