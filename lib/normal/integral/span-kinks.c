@@ -1,6 +1,9 @@
 /* span-kinks.c -- replaces what has kinks or steps by what it is in a range in which it has none inside. */
+#include <math.h>
+
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/integral.h"
@@ -9,18 +12,23 @@
 #include "expr/walk.h"
 #include "normal/integral/span.h"
 
-/* floor(u) in the piece, in which it has no steps; nil if the ends of the piece are no numbers. */
+/* floor(u) in the piece, inside which u is no integer: that of its value in the middle; nil if that is no number. */
 static qdot_expr
 floor_inside(qdot_span *r, qdot_expr u)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr middle = qdot_mul(pool, QDOT_HALF, qdot_add(pool, r->lo, r->hi)), value = qdot_subs(pool, u, 1, &r->x, &middle);
+    qdot_expr middle = qdot_mul(pool, QDOT_HALF, qdot_add(pool, r->lo, r->hi)), value = qdot_subs(pool, u, 1, &r->x, &middle), whole;
+    double near;
 
     if (qdot_infinite(pool, r->lo) != 0 || qdot_infinite(pool, r->hi) != 0 || value == QDOT_NIL ||
         !qdot_expr_is_constant(pool, value))
         return QDOT_NIL;
-    value = qdot_fun1(pool, QDOT_FLOOR, value);
-    return value != QDOT_NIL && qdot_expr_rational(pool, value) != NULL ? value : QDOT_NIL;
+    whole = qdot_fun1(pool, QDOT_FLOOR, value);
+    if (whole == QDOT_NIL || qdot_expr_rational(pool, whole) != NULL)
+        return whole;
+    if (qdot_constant_double(pool, value, &near) != QDOT_OK || !(fabs(near) < 1e9) || fabs(near - round(near)) < 1e-6)
+        return QDOT_NIL; /* too near to an integer to be told from it by a double */
+    return qdot_expr_int(pool, (long)floor(near));
 }
 
 /* The largest (or least) of the arguments of max (or min) in the piece, in which their order is the same everywhere. */

@@ -1,15 +1,20 @@
 /* span.c -- signs of expressions over a range, and the places inside it where an expression may not be smooth. */
 #include "normal/integral/span.h"
 
+#include <math.h>
+
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/integral.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/calculus/switch.h"
 #include "normal/inequality/less.h"
+#include "normal/refute/enclosure.h"
 #include "normal/solve/solve.h"
 
 enum { MOST_DANGERS = 40 };
@@ -118,6 +123,51 @@ add_place(qdot_span *r, qdot_expr at, bool *known)
     r->place[i] = at;
 }
 
+/* Bounds of e over the range; false: an end is no number, or e has none. */
+static bool
+find_bounds(qdot_span *r, qdot_expr e, qdot_interval *bounds)
+{
+    qdot_enclosure *enclosure = NULL;
+    double lo, hi;
+    qdot_interval over;
+
+    if (is_infinite(r->pool, r->lo) || is_infinite(r->pool, r->hi) || !qdot_expr_is_constant(r->pool, r->lo) ||
+        !qdot_expr_is_constant(r->pool, r->hi) || qdot_constant_double(r->pool, r->lo, &lo) != QDOT_OK ||
+        qdot_constant_double(r->pool, r->hi, &hi) != QDOT_OK)
+        return false;
+    r->status = qdot_enclosure_new(r->pool, 1, &e, 1, &r->x, &enclosure);
+    if (r->status != QDOT_OK) {
+        r->status = qdot_grave(r->status);
+        return false;
+    }
+    over = qdot_interval_outward(lo, hi);
+    qdot_enclosure_eval(enclosure, &over, false);
+    *bounds = qdot_enclosure_get(enclosure, 0)->y;
+    qdot_enclosure_free(enclosure);
+    return isfinite(bounds->lo) && isfinite(bounds->hi);
+}
+
+static bool add_zeros(qdot_span *r, qdot_expr g);
+
+/* The same for g = sin(u) with a bounded u: the zeros of u - n pi. */
+static bool
+add_zeros_of_sine(qdot_span *r, qdot_expr g)
+{
+    qdot_pool *pool = r->pool;
+    qdot_interval turns;
+    qdot_expr u;
+
+    if (!qdot_expr_is_function(pool, g, QDOT_SIN))
+        return false;
+    u = qdot_div(pool, qdot_expr_arg(pool, g, 0), QDOT_PI);
+    if (!find_bounds(r, u, &turns) || turns.hi - turns.lo > QDOT_SPAN_PLACES)
+        return false;
+    for (double n = ceil(turns.lo); n <= floor(turns.hi); n++)
+        if (!add_zeros(r, qdot_sub(pool, u, qdot_expr_int(pool, (long)n))))
+            return false;
+    return true;
+}
+
 /* Add the zeros of g inside the range; false: they are not all known. */
 static bool
 add_zeros(qdot_span *r, qdot_expr g)
@@ -146,7 +196,7 @@ add_zeros(qdot_span *r, qdot_expr g)
             add_place(r, root->value, &known);
     }
     qdot_solutions_clear(&roots);
-    return known && r->status == QDOT_OK;
+    return r->status == QDOT_OK && (known || add_zeros_of_sine(r, g));
 }
 
 /* The expression whose zeros are the places where the node may not be continuous; one: there are none. *real: the node
