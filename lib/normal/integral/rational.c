@@ -106,6 +106,31 @@ split_biquadratic(qdot_integral_task *t, const qdot_poly *f, qdot_poly *g, qdot_
     return sign != 0 && g->c[0] != QDOT_NIL && g->c[1] != QDOT_NIL && h->c[0] != QDOT_NIL;
 }
 
+/* Real factors of f = x^4 + a x^3 + b x^2 + a k x + k^2, which is x^2 (y^2 + a y + b - 2 k) in y = x + k/x: two x^2 - y x + k.
+ * False: f is another polynomial, or its roots y are not real. */
+static bool
+split_reciprocal(qdot_integral_task *t, const qdot_poly *f, qdot_poly *g, qdot_poly *h)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr a = f->c[3], two = qdot_expr_int(pool, 2);
+    qdot_expr k, d, s;
+
+    if (qdot_integral_zero(t, a))
+        return false;
+    k = qdot_integral_normal(t, qdot_div(pool, f->c[1], a));
+    if (k == QDOT_NIL || !qdot_integral_zero(t, qdot_sub(pool, qdot_mul(pool, k, k), f->c[0])))
+        return false;
+    d = qdot_sub(pool, qdot_mul(pool, a, a),
+                 qdot_mul(pool, qdot_expr_int(pool, 4), qdot_sub(pool, f->c[2], qdot_mul(pool, two, k))));
+    if (qdot_integral_sign(t, d) != 1)
+        return false;
+    s = qdot_integral_root(t, d);
+    *g = *h = (qdot_poly){.degree = 2, .c = {k, QDOT_ZERO, QDOT_ONE}};
+    g->c[1] = qdot_integral_normal(t, qdot_mul(pool, QDOT_HALF, qdot_add(pool, a, s)));
+    h->c[1] = qdot_integral_normal(t, qdot_mul(pool, QDOT_HALF, qdot_sub(pool, a, s)));
+    return g->c[1] != QDOT_NIL && h->c[1] != QDOT_NIL;
+}
+
 /* Real factors of f = x^3 + c. */
 static bool
 split_cubic(qdot_integral_task *t, const qdot_poly *f, qdot_poly *g, qdot_poly *h)
@@ -132,6 +157,10 @@ integrate_over_split(qdot_integral_task *t, const qdot_poly *n, const qdot_poly 
 
     if (monic.degree == -2)
         return false;
+    if (monic.degree == 4 && split_reciprocal(t, &monic, &g, &h)) {
+        top = qdot_poly_scale(t, n, qdot_div(pool, QDOT_ONE, lead));
+        return integrate_over_two(t, &top, &g, &h, out);
+    }
     s = qdot_integral_normal(t, qdot_div(pool, monic.c[monic.degree - 1], qdot_expr_int(pool, -monic.degree)));
     monic = shift_variable(t, &monic, s);
     if (monic.degree == 4 && qdot_integral_zero(t, monic.c[1]))

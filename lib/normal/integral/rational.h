@@ -4,8 +4,9 @@
  *
  * Partial fractions over the factors of d over Q(parameters); Hermite's reduction lowers their powers without
  * finding roots; what is left over a square-free denominator gives logarithms and arcs, of real factors of degree 1
- * and 2. An irreducible x^4 + p x^2 + q and x^3 + c (in x - s) splits into such with roots of parameters. A denominator in x^k, whose
- * numerator is x^(k-1) times such a one, is integrated over x^k.
+ * and 2. An irreducible x^4 + p x^2 + q and x^3 + c (in x - s), and a reciprocal x^4 + a x^3 + b x^2 + a k x + k^2, split
+ * into such with roots of parameters. A denominator in x^k, whose numerator is x^(k-1) times such a one, is integrated
+ * over x^k.
  *
  * All terms are continuous wherever n/d is: the polynomials p_j are linear, and so no atan jumps.
  *

@@ -25,6 +25,9 @@ known_integrals_differentiate_back(void **state)
         "x*exp(x^2)",
         "x/(x^2 + 1)",
         "x/sqrt(x^2 + 1)",
+        "1/(x^5 + 1)", /* reciprocal of degree 4 */
+        "x/(x^5 - a^5)",
+        "1/(x^4 + 3*x^3 + 5*x^2 + 6*x + 4)",
         "tan(x)",
         "sinh(x) + cosh(k*x)",
         "sin(x)/cos(x)^2",
