@@ -3,6 +3,7 @@ import argparse
 import os
 import random
 import re
+import resource
 import subprocess
 from pathlib import Path
 
@@ -13,11 +14,22 @@ import formula
 here = Path(__file__).parent
 POINTS = 20
 PARAMETERS = "a b c f g n".split()
+slowest = []
+
+
+def processor_time():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def ask(statements):
-    """What the program prints, a line each; its standard error follows after a line `--`."""
+    """What the program prints, a line each, and its standard error; a run of more than a second of CPU is told."""
+    before = processor_time()
     done = subprocess.run([os.environ["QDOT"], "-q", "-"], input="\n".join(statements), capture_output=True, text=True)
+    used = processor_time() - before
+    slowest.append((used, statements[-1]))
+    if used > 1:
+        print(f"slow: {used:.2f} s: {statements[-1]}", flush=True)
     return done.stdout.strip().splitlines(), done.stderr.strip()
 
 
@@ -161,4 +173,7 @@ if __name__ == "__main__":
     given = words.parse_args()
     mp.dps = 30
     random.seed(1)
-    raise SystemExit(judge_antiderivatives(given.table) + judge_definite(given.definite) > 0)
+    wrong = judge_antiderivatives(given.table) + judge_definite(given.definite)
+    used, statement = max(slowest)
+    print(f"slowest run of the program: {used:.2f} s of CPU, {statement}")
+    raise SystemExit(wrong > 0)
