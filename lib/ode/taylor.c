@@ -309,7 +309,7 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
     if (r->options->leading)
         QDOT_TRY(advance_in_two_doubles(r, t_end));
     QDOT_TRY(project_end_of_step(r, t_end, &moved));
-    *good = fixed || moved <= 100 * r->held + rounding_of_projection;
+    *good = fixed || is_over_jump(r, h) || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
         return QDOT_OK;
     qdot_ode_taylor_run_set_unit(r, qdot_step_unit(h));
