@@ -104,4 +104,11 @@ const qdot_ufun *qdot_ufun_get(const qdot_pool *pool, uint32_t id);
 qdot_expr qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args,
                           const uint32_t *orders);
 
+/* What a coordinate was at another time, x(u) or for order 1 x'(u): an undefined function called as the coordinate, which
+ * is its declared argument. qdot_ufun_delayed: the coordinate of such a function; nil of others. */
+qdot_expr qdot_delayed(qdot_pool *pool, qdot_expr coordinate, qdot_expr u, uint32_t order);
+qdot_expr qdot_ufun_delayed(const qdot_pool *pool, uint32_t id);
+/* Whether e holds such a function. */
+bool qdot_has_delayed(qdot_pool *pool, qdot_expr e);
+
 #endif

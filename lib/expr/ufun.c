@@ -3,8 +3,10 @@
 
 #include "expr/build.h"
 #include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/pool.h"
 #include "expr/printed.h"
+#include "expr/walk.h"
 
 qdot_status
 qdot_ufun_declare(qdot_pool *pool, const char *name, uint32_t arity,
@@ -63,4 +65,45 @@ qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args,
     if (all != few)
         qdot_free(all);
     return e;
+}
+
+qdot_expr
+qdot_delayed(qdot_pool *pool, qdot_expr coordinate, qdot_expr u, uint32_t order)
+{
+    const qdot_symbol *x = qdot_expr_symbol(pool, coordinate);
+    uint32_t id;
+
+    if (x == NULL || qdot_ufun_declare(pool, x->name, 1, &coordinate, &id) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    return qdot_ufun_apply(pool, id, &u, order > 0 ? &order : NULL);
+}
+
+qdot_expr
+qdot_ufun_delayed(const qdot_pool *pool, uint32_t id)
+{
+    const qdot_ufun *f = &pool->ufuns.at[id];
+    const qdot_expr x = f->arity == 1 ? qdot_expr_arg(pool, f->formals, 0) : QDOT_NIL;
+
+    return x != QDOT_NIL && qdot_expr_is_coordinate(pool, x) && strcmp(qdot_expr_symbol(pool, x)->name, f->name) == 0
+               ? x
+               : QDOT_NIL;
+}
+
+bool
+qdot_has_delayed(qdot_pool *pool, qdot_expr e)
+{
+    bool any = false, has = false;
+    qdot_expr atoms;
+
+    for (uint32_t id = 0; id < pool->ufuns.n && !any; id++)
+        any = qdot_ufun_delayed(pool, id) != QDOT_NIL;
+    if (!any || e == QDOT_NIL || !(NODE(pool, e)->holds & QDOT_HAS_UFUN))
+        return false;
+    atoms = qdot_expr_atoms(pool, e, true);
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms) && !has; i++) {
+        const qdot_expr atom = qdot_expr_arg(pool, atoms, i);
+
+        has = NODE(pool, atom)->kind == QDOT_UFUN && qdot_ufun_delayed(pool, NODE(pool, atom)->op) != QDOT_NIL;
+    }
+    return has;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/past.h"
 
 enum { MOST_TABLES = 4096, ITEMS = 32, PIECE = 0, KNOT = 2, COEFFICIENT = 4 };
 
@@ -475,6 +476,8 @@ qdot_samples_lookup(double handle, double x)
     const table *t = table_of(handle, &item);
     double shift;
 
+    if (qdot_past_has(handle))
+        return qdot_past_lookup(handle, x);
     if (!t || isnan(x) || (item < COEFFICIENT && item % KNOT >= t->axes))
         return NAN;
     if (item < KNOT)
@@ -515,7 +518,7 @@ qdot_samples_finds(double handle)
 {
     int item = ITEMS;
 
-    return table_of(handle, &item) && item < KNOT;
+    return qdot_past_finds(handle) || (table_of(handle, &item) && item < KNOT);
 }
 
 void
@@ -526,6 +529,10 @@ qdot_samples_bounds(double handle, double x, double *lo, double *hi)
     const double piece = t ? qdot_samples_lookup(handle, x) : NAN;
     const axis *along;
 
+    if (qdot_past_has(handle)) {
+        qdot_past_bounds(x, lo, hi);
+        return;
+    }
     *lo = *hi = NAN;
     if (isnan(piece))
         return;
@@ -559,12 +566,12 @@ qdot_samples_is_same(double a, double b)
 }
 
 bool
-qdot_samples_jumps(double handle)
+qdot_samples_jumps(double handle, double x)
 {
     int item;
     const table *t = table_of(handle, &item);
 
-    return t && t->degree == 0;
+    return qdot_past_has(handle) ? qdot_past_jumps(x) : t && t->degree == 0;
 }
 
 bool

@@ -78,8 +78,8 @@ void qdot_samples_bounds(double handle, double x, double *lo, double *hi);
 double qdot_samples_blur(double handle);
 /* Whether two handles are of one table. */
 bool qdot_samples_is_same(double a, double b);
-/* Whether the function jumps at knots: that of steps does. */
-bool qdot_samples_jumps(double handle);
+/* Whether the functions of the table jump at knots; of a history (num/past.h), where the piece that holds x ends. */
+bool qdot_samples_jumps(double handle, double x);
 /* Of the handle of an axis' pieces, the first and the last knot along the axis. Whether there are no values outside. */
 bool qdot_samples_range(double handle, double *lo, double *hi);
 

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "num/past.h"
 #include "num/samples.h"
 #include "tape/instruction.h"
 
@@ -60,9 +61,10 @@ static qdot_status
 add_line(const qdot_instruction *i, const line *at, qdot_knots *knots)
 {
     const line x = at[i->x], handle = at[i->z];
-    const qdot_knots_line new = {x.a, x.b, handle.a};
+    const bool followed = x.known && x.b != 0;
+    const qdot_knots_line new = {followed ? x.a : NAN, followed ? x.b : 0, handle.a};
 
-    if (i->op != QDOT_OP_LOOKUP || !qdot_samples_finds(handle.a) || !x.known || x.b == 0)
+    if (i->op != QDOT_OP_LOOKUP || !qdot_samples_finds(handle.a) || !(followed || qdot_past_has(handle.a)))
         return QDOT_OK;
     for (size_t k = 0; k < knots->n; k++)
         if (knots->at[k].a == new.a && knots->at[k].b == new.b && knots->at[k].handle == new.handle)
@@ -144,7 +146,7 @@ qdot_knots_next(size_t n, const qdot_knots_line *lines, double t, int direction)
         double last, first, end;
 
         end_of_piece(&lines[k], t, direction, &last, &first);
-        end = qdot_samples_jumps(lines[k].handle) && direction * (last - t) > 0 ? last : first;
+        end = qdot_samples_jumps(lines[k].handle, lines[k].a + lines[k].b * t) && direction * (last - t) > 0 ? last : first;
         if (direction * (end - t) > 0 && direction * (next - end) > 0)
             next = end;
     }

@@ -22,7 +22,8 @@ typedef struct {
 
 typedef qdot_vec(qdot_knots_line) qdot_knots; /* start from {0}; free with qdot_free(knots.at) */
 
-/* Append the tables that the tape, a borrowed one, reads at a + b t, t being input `time`. Errors: QDOT_ENOMEM. */
+/* Append the tables that the tape, a borrowed one, reads at a + b t, t being input `time`, and histories (num/past.h) that it
+ * reads at anything else, with a = NaN, b = 0. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_knots_find(const qdot_tape *tape, size_t time, qdot_knots *knots);
 
 /* Whether the tape, at its inputs `in`, reads a table without values outside at a place *at that is outside, or at an end within

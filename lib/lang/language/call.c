@@ -3,7 +3,9 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/build.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
@@ -11,7 +13,7 @@
 #include "lang/language/evaluator.h"
 #include "lang/language/function.h"
 #include "lang/language/hints.h"
-#include "lang/session/higher.h"
+#include "lang/session/unmade.h"
 #include "lang/session/along.h"
 #include "lang/session/member.h"
 #include "lang/session/range.h"
@@ -88,16 +90,40 @@ call_function(qdot_session *s, const qdot_name *entry, const qdot_call *call,
     return status;
 }
 
+/* A coordinate at an earlier time, x(t - tau). */
 static qdot_status
-report_not_a_function(const qdot_session *s, const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
+resolve_delayed(const qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr u, qdot_expr *value)
 {
-    if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] != QDOT_NIL && args[0] != QDOT_T &&
-        (qdot_expr_node(s->pool, args[0])->holds & QDOT_HAS_TIME) != 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: delays, as %.80s at a time before t", name);
+    const uint32_t moving = QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
+                            QDOT_HAS_MOMENTUM | QDOT_HAS_UFUN;
+    const qdot_expr delay = qdot_sub(s->pool, QDOT_T, u);
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (qdot_expr_node(s->pool, delay)->holds & moving) {
+        qdot_fail(QDOT_ENOTBUILT, "not built yet: delays that change in time");
+        return qdot_hint("%.80s(t - tau), tau a number or a parameter", entry->name);
+    }
+    if (primes > 1)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: delayed accelerations");
+    *value = qdot_delayed(s->pool, entry->value, u, primes);
+    return qdot_value_kind_check(s->pool, *value);
+}
+
+static qdot_status
+report_not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
+{
     qdot_fail(QDOT_ESYNTAX, "`%.200s` is not a function", name);
     if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] == QDOT_T)
         return qdot_hint("a coordinate depends on the time by itself: write %.80s", name);
     return qdot_hint("a product is written %.80s*(...)", name);
+}
+
+/* Whether the name is that of a coordinate, followed by a time other than t. */
+static bool
+is_delayed(const qdot_session *s, const qdot_name *entry, uint32_t n, const qdot_expr *args)
+{
+    return entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] != QDOT_NIL && args[0] != QDOT_T &&
+           qdot_expr_is_scalar(s->pool, args[0]) && (qdot_expr_node(s->pool, args[0])->holds & QDOT_HAS_TIME) != 0;
 }
 
 /* Whether the name stands for something that is not a function. */
@@ -134,13 +160,15 @@ qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
     else if (entry != NULL && entry->kind == QDOT_NAME_UFUN)
         status = qdot_resolve_undefined(s, entry, call->primes, call->n, args, value);
     else if (row != NULL && call->primes == 0) {
-        status = qdot_session_refuse_higher(s, name);
+        status = qdot_session_refuse_unmade(s, name);
         if (status == QDOT_OK)
             status = call_builtin(s, row, call->n, args, call->run, value, over);
     } else if (row != NULL)
         status = qdot_resolve_no_prime(name, "takes no prime: write diff(...)");
+    else if (is_delayed(s, entry, call->n, args))
+        status = resolve_delayed(s, entry, call->primes, args[0], value);
     else if (is_name_of_value(s, entry, name, spelled.at))
-        status = report_not_a_function(s, entry, spelled.at, call->n, args);
+        status = report_not_a_function(entry, spelled.at, call->n, args);
     else
         status = qdot_hints_unknown_function(c, call->token);
     qdot_text_clear(&spelled);

@@ -19,7 +19,7 @@
 #include "lang/language/enclosing.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
-#include "lang/session/higher.h"
+#include "lang/session/unmade.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/history.h"
 #include "lang/session/member.h"
@@ -226,7 +226,7 @@ static qdot_status
 evaluate_quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
                   const qdot_expr *index, qdot_expr *value)
 {
-    QDOT_TRY(qdot_session_refuse_higher(s, row->name));
+    QDOT_TRY(qdot_session_refuse_unmade(s, row->name));
     QDOT_TRY(qdot_short_names_note(s, row, row->get(s, n, index, value)));
     QDOT_TRY(qdot_value_kind_check(s->pool, *value));
     if (primes == 0 || strcmp(row->name, "p") == 0) /* p[x]' is the rate of dL/dx' */

@@ -25,7 +25,7 @@
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/foreign.h"
-#include "lang/session/higher.h"
+#include "lang/session/unmade.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/held.h"
 #include "lang/session/outcome.h"
@@ -124,7 +124,7 @@ carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
         return QDOT_ENOMEM;
     status = qdot_match(c, row, usage, &record);
     if (status == QDOT_OK && !x->naming)
-        status = qdot_session_refuse_higher(record.cursor.session, row->word);
+        status = qdot_session_refuse_unmade(record.cursor.session, row->word);
     if (status == QDOT_OK)
         status = x->naming ? row->names(&record) : qdot_match_handle(row, &record);
     c->at = record.cursor.at;

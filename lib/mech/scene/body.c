@@ -201,6 +201,10 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
     if ((qdot_mech_holds(s, inertia) | qdot_mech_holds(s, about)) & QDOT_HAS_COORD)
         return qdot_fail(QDOT_EINVAL, "inertia is fixed in the body: it cannot contain "
                                       "coordinates");
+    QDOT_TRY(qdot_scene_refuse_delays(s, mass, "a mass"));
+    QDOT_TRY(qdot_scene_refuse_delays(s, position, "a position"));
+    QDOT_TRY(qdot_scene_refuse_delays(s, plane ? angle : rotation, plane ? "an angle" : "a rotation"));
+    QDOT_TRY(qdot_scene_refuse_delays(s, inertia, "an inertia"));
     QDOT_TRY(qdot_scene_refuse_states(s, position, "a position", 0));
     QDOT_TRY(qdot_scene_refuse_states(s, plane ? angle : rotation, plane ? "an angle" : "a rotation", 0));
     QDOT_TRY(convert_inertia(s, mass, inertia, about, plane, &b.inertia));

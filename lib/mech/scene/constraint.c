@@ -193,6 +193,8 @@ qdot_scene_constraint(qdot_scene *s, const char *label, qdot_expr left, qdot_exp
     if (!((qdot_mech_holds(s, left) | qdot_mech_holds(s, right)) &
           (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)))
         return fail_without_coordinates();
+    QDOT_TRY(qdot_scene_refuse_delays(s, left, "a constraint"));
+    QDOT_TRY(qdot_scene_refuse_delays(s, right, "a constraint"));
     QDOT_TRY(qdot_scene_refuse_states(s, left, "a constraint", 0));
     QDOT_TRY(qdot_scene_refuse_states(s, right, "a constraint", 0));
     QDOT_TRY(qdot_scene_need_new_label(s, label));

@@ -24,6 +24,9 @@ enum {
     NO_PLACE = NO_VELOCITY | QDOT_HAS_COORD
 };
 
+/* Beside these: it may hold coordinates at an earlier time. */
+static const uint32_t may_be_delayed = 1u << 31;
+
 static const struct {
     uint32_t flag;
     const char *words;
@@ -105,7 +108,7 @@ refuse_forbidden_symbols(qdot_scene *s, qdot_expr e, const char *what, uint32_t 
     for (size_t i = 0; holds && i < sizeof contents / sizeof *contents; i++)
         if (holds & contents[i].flag)
             return qdot_fail(QDOT_EINVAL, "%s cannot contain %s", what, contents[i].words);
-    return QDOT_OK;
+    return forbidden & may_be_delayed ? QDOT_OK : qdot_scene_refuse_delays(s, e, what);
 }
 
 /* Refuse friction that depends on Lagrange multipliers: this is not implemented. */
@@ -391,7 +394,7 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_scene_need_new_label(s, force->name));
     QDOT_TRY(refuse_multipliers_in_friction(s, force->force, "a force"));
-    QDOT_TRY(require_vector(s, force->force, "a force", NO_ACCELERATION));
+    QDOT_TRY(require_vector(s, force->force, "a force", NO_ACCELERATION | may_be_delayed));
     QDOT_TRY(require_vector(s, force->point, "the point of a force", NO_VELOCITY));
     if (qdot_mech_dimension(s->pool, force->force) !=
         qdot_mech_dimension(s->pool, force->point))
@@ -417,7 +420,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
     if (torque->coordinate != QDOT_NIL) {
         size_t i;
 
-        QDOT_TRY(require_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION));
+        QDOT_TRY(require_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION | may_be_delayed));
         if (!qdot_mech_index(s, torque->coordinate, &i))
             return qdot_pool_check(s->pool);
         if (qdot_scene_state_of(s, torque->coordinate)) {
@@ -436,7 +439,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
             return qdot_fail(QDOT_ETYPE,
                              wanted == 3 ? "a torque on a body in space has 3 components"
                                          : "a torque on a plane body is a number");
-        QDOT_TRY(refuse_forbidden_symbols(s, torque->torque, "a torque", NO_ACCELERATION));
+        QDOT_TRY(refuse_forbidden_symbols(s, torque->torque, "a torque", NO_ACCELERATION | may_be_delayed));
     }
     QDOT_TRY(qdot_scene_copy_text(s, torque->name, &copy.name));
     QDOT_TRY(qdot_vec_push(&s->torques, copy));

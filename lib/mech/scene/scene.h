@@ -124,6 +124,10 @@ qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
 /* Whether a symbol occurs in any expression of the scene. */
 bool qdot_scene_contains(qdot_scene *s, qdot_expr symbol);
+/* Whether it, or an event, holds coordinates at an earlier time (qdot_delayed). QDOT_ENOTBUILT if e does, which is called `what`
+ * and may not. */
+bool qdot_scene_has_delays(const qdot_scene *s);
+QDOT_MUST_CHECK qdot_status qdot_scene_refuse_delays(const qdot_scene *s, qdot_expr e, const char *what);
 /* Replace every expression e of the scene by f(e); if that is nil the pool keeps the failure. */
 QDOT_MUST_CHECK qdot_status qdot_scene_map(qdot_scene *s,
                                            qdot_expr (*f)(qdot_expr e, void *user), void *user);

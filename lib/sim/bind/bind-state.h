@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "num/past.h"
 #include "ode/system.h"
 #include "sim/bind/pulses.h"
 #include "sim/form/blocks.h"
@@ -55,6 +56,9 @@ struct qdot_bind {
     double *part_scales;      /* [2n] scales of the states of the parts, one part after another; NULL: all 1 */
     const double *scales;
 
+    /* Of equations with delays: the history of the run that is integrated, borrowed, and callbacks of the series that read it. */
+    qdot_past *history;
+    qdot_ode_series remembering;
     qdot_knots knots;   /* the tables of data that the equations read at times */
     qdot_pulses pulses; /* searches steps for forces shorter than a step, if the method has no series; made at first use */
 };
@@ -72,6 +76,8 @@ qdot_bind_load(const qdot_bind *b, double t, const double *y)
 {
     size_t n = b->plan->n;
 
+    if (b->history)
+        qdot_past_read(b->history);
     memcpy(b->in, y, 2 * n * sizeof *y);
     b->in[2 * n] = t;
 }

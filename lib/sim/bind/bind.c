@@ -9,6 +9,7 @@
 #include "sim/bind/bind-state.h"
 #include "sim/form/residual.h"
 #include "sim/form/tables.h"
+#include "sim/model/delay.h"
 #include "tape/rounding.h"
 #include "tape/shake.h"
 
@@ -275,12 +276,79 @@ may_hide_short_forces(const qdot_bind *b)
     return b->plan->tape && qdot_disc_may_hide(b->plan->tape, QDOT_HIDES_QUOTIENTS);
 }
 
-/* The next time at which a table of data that the equations read has a knot. */
+/* --- delays --------------------------------------------------------------------------- */
+
+static const qdot_ode_series *
+series_that_reads(const qdot_bind *b)
+{
+    qdot_past_read(b->history);
+    return b->series;
+}
+
+static qdot_status
+begin_remembering(double t, const double *y, double unit, void *user)
+{
+    const qdot_ode_series *s = series_that_reads(user);
+
+    return s->begin(t, y, unit, s->user);
+}
+
+static qdot_status
+extend_remembering(int p, void *user)
+{
+    const qdot_ode_series *s = series_that_reads(user);
+
+    return s->extend(p, s->user);
+}
+
+static double
+near_remembering(int p, double step, double least, void *user)
+{
+    const qdot_ode_series *s = series_that_reads(user);
+
+    return s->near ? s->near(p, step, least, s->user) : step;
+}
+
+static qdot_status
+prepare_remembering(int p, void *user)
+{
+    const qdot_ode_series *s = series_that_reads(user);
+
+    return s->prepare ? s->prepare(p, s->user) : QDOT_OK;
+}
+
+void
+qdot_bind_remember(qdot_bind *b, qdot_past *history)
+{
+    b->history = history;
+    if (!b->series || !history)
+        return;
+    b->remembering = *b->series;
+    b->remembering.begin = begin_remembering;
+    b->remembering.extend = extend_remembering;
+    b->remembering.near = near_remembering;
+    b->remembering.prepare = prepare_remembering;
+    b->remembering.noise = NULL;
+    b->remembering.ahead = NULL;
+    b->remembering.crossed = NULL;
+    b->remembering.user = b;
+    b->remembering.most = b->series->most < QDOT_PAST_ORDER ? b->series->most : QDOT_PAST_ORDER;
+}
+
+qdot_status
+qdot_bind_remember_for(qdot_bind *b, const qdot_tape *tape)
+{
+    return b->history ? qdot_delay_find_knots(tape, 2 * b->plan->n, &b->knots) : QDOT_OK;
+}
+
+/* The next time at which a table of data that the equations read, or their history, has a knot. */
 static double
 next_knot(double t, int direction, void *user)
 {
     const qdot_bind *b = user;
 
+    if (b->history)
+        qdot_past_read(b->history);
     return qdot_knots_next(b->knots.n, b->knots.at, t, direction);
 }
 
@@ -302,7 +370,7 @@ qdot_bind_system(qdot_bind *b)
         .halves = b->plan->halves,
         .phase = b->phase ? qdot_phase_get(b->phase) : NULL,
         .bonds = b->phase && b->held ? &b->bonds : NULL,
-        .series = b->series,
+        .series = b->history && b->series ? &b->remembering : b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
         .until = b->knots.n > 0 ? next_knot : NULL,

@@ -13,6 +13,8 @@
 #include "sim/model/constrained.h"
 #include "sim/model/equations.h"
 
+struct qdot_past; /* num/past.h */
+
 typedef struct qdot_bind qdot_bind;
 
 /* The plan is borrowed. `shaken`: every rounded constant is rounded the other way
@@ -25,6 +27,11 @@ void qdot_bind_free(qdot_bind *bind);
 /* From now on the system has these scales [2 plan->n] (ode/scale.h), borrowed; NULL: they are 1.
  * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_bind_scale(qdot_bind *bind, const double *scales);
+
+/* From now on equations with delays read this history, borrowed, of a run that is one step after another by Taylor series. */
+void qdot_bind_remember(qdot_bind *bind, struct qdot_past *history);
+/* Let steps also end where a tape with inputs q, q', t reads the next piece of that history. Errors: as qdot_delay_find_knots. */
+QDOT_MUST_CHECK qdot_status qdot_bind_remember_for(qdot_bind *bind, const qdot_tape *tape);
 
 /* The system of a bind; n = 2 plan->n. Valid while the bind lives. Its rhs and Jacobian fail with
  * QDOT_ESINGULAR if M is singular, QDOT_EDOMAIN if q'' is undefined; both name the coordinate. */

@@ -7,6 +7,8 @@
 #include "sim/course/stage.h"
 #include "sim/watch/watch.h"
 
+struct qdot_past;
+
 typedef struct {
     size_t event;
     double t;
@@ -68,6 +70,7 @@ typedef struct qdot_course {
     const struct qdot_course *leader; /* for a companion run: the main run, which decides when a contact lasts; else NULL */
     size_t most_pieces; /* a companion run with more pieces than this is given up; 0: no limit */
     qdot_trajectory tr;
+    struct qdot_past *history; /* of a run with delays: its states so far (num/past.h); NULL: none; owned */
     qdot_vec(qdot_bind *) binds;         /* equations of each mode; NULL: the mode has not occurred yet */
     qdot_vec(qdot_ode_system) systems;   /* [modes] the equations of each mode as a system of differential equations */
     qdot_vec(qdot_watch *) watches;      /* [modes] root finders of the modes */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/past.h"
 #include "sim/course/piece.h"
 
 /* Allocate arrays for the largest number of watched functions that any mode has. */
@@ -217,6 +218,41 @@ qdot_course_cause(const char *reason)
 }
 
 qdot_status
+qdot_course_begin_history(qdot_course *c, double t0, const double *y)
+{
+    const size_t n = c->stage->modes.at[0]->plan->n;
+    qdot_status status;
+    double *was;
+
+    QDOT_TRY(qdot_course_remember(c, c->stage->modes.at[0]->plan));
+    if (!c->history)
+        return QDOT_OK;
+    qdot_past_read(c->history);
+    was = qdot_calloc(2 * n, sizeof *was);
+    if (!was)
+        return QDOT_ENOMEM;
+    memcpy(was, y, n * sizeof *was);
+    status = qdot_past_begin(c->history, t0, was);
+    qdot_free(was);
+    return status;
+}
+
+qdot_status
+qdot_course_remember(qdot_course *c, const qdot_plan *plan)
+{
+    uint32_t *called = plan->delayed && !c->history ? qdot_calloc(2 * plan->n, sizeof *called) : NULL;
+    qdot_status status;
+
+    if (!plan->delayed || c->history)
+        return QDOT_OK;
+    for (size_t i = 0; i < 2 * plan->n && called; i++)
+        called[i] = plan->inputs[i];
+    status = called ? qdot_past_new(2 * plan->n, called, &c->history) : QDOT_ENOMEM;
+    qdot_free(called);
+    return status;
+}
+
+qdot_status
 qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                 const qdot_ode_options *options, double t0, double t1, const double *y)
 {
@@ -228,6 +264,9 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                     .n = 2 * c->stage->modes.at[0]->plan->n,
                     .start.t = t0};
     qdot_status status = allocate_piece_arrays(&x);
+
+    if (status == QDOT_OK)
+        status = qdot_course_begin_history(c, t0, y);
 
     /* clear the results of an earlier integration of this course */
     c->occurrences.n = c->faded.n = c->ends.n = c->rests.n = 0;
@@ -276,7 +315,9 @@ qdot_course_prepare(qdot_course *c)
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&c->systems, (qdot_ode_system){0}));
     QDOT_TRY(qdot_vec_push(&c->watches, NULL));
+    QDOT_TRY(qdot_course_remember(c, c->stage->modes.at[0]->plan));
     QDOT_TRY(qdot_bind_new(c->stage->modes.at[0]->plan, c->shaken, &bind));
+    qdot_bind_remember(bind, c->history);
     if (qdot_bind_scale(bind, c->stage->scales) == QDOT_OK
         && qdot_vec_push(&c->binds, bind) == QDOT_OK) {
         c->systems.at[0] = qdot_bind_system(bind);
@@ -306,6 +347,7 @@ void
 qdot_course_clear(qdot_course *c)
 {
     qdot_trajectory_clear(&c->tr);
+    qdot_past_free(c->history);
     for (size_t i = 0; i < c->binds.n; i++)
         qdot_bind_free(c->binds.at[i]);
     for (size_t i = 0; i < c->watches.n; i++)

@@ -15,6 +15,7 @@ qdot_piece_enter(qdot_piece *x)
 {
     qdot_course *c = x->c;
     const qdot_mode *m;
+    bool made;
 
     QDOT_TRY(qdot_stage_mode(c->stage, x->side, &x->mode));
     while (c->binds.n <= x->mode) {
@@ -25,14 +26,18 @@ qdot_piece_enter(qdot_piece *x)
     m = qdot_piece_mode(x);
     if (!c->binds.at[x->mode])
         QDOT_TRY(qdot_bind_new(m->plan, c->shaken, &c->binds.at[x->mode]));
+    qdot_bind_remember(c->binds.at[x->mode], c->history);
     QDOT_TRY(qdot_bind_scale(c->binds.at[x->mode], c->stage->scales));
+    made = m->m > 0 && !c->watches.at[x->mode];
+    if (made) {
+        QDOT_TRY(qdot_watch_new(m->plan, m->m, m->functions, c->shaken, c->touch_tol, &c->watches.at[x->mode]));
+        QDOT_TRY(qdot_bind_remember_for(c->binds.at[x->mode], qdot_watch_tape(c->watches.at[x->mode])));
+    }
     c->systems.at[x->mode] = qdot_bind_system(c->binds.at[x->mode]);
     if (c->no_series)
         c->systems.at[x->mode].series = NULL;
-    if (m->m == 0 || c->watches.at[x->mode])
+    if (!made)
         return QDOT_OK;
-    QDOT_TRY(qdot_watch_new(m->plan, m->m, m->functions, c->shaken, c->touch_tol,
-                            &c->watches.at[x->mode]));
     for (size_t i = 0; i < m->m; i++)
         if (m->watched[i].kind == QDOT_WATCH_DOMAIN)
             qdot_watch_is_bound(c->watches.at[x->mode], i, m->watched[i].coordinate,

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/past.h"
 #include "ode/taylor.h"
 
 /* --- reading within a step ----------------------------------------------------------- */
@@ -83,8 +84,8 @@ touches_position_surface(const qdot_piece *x, const qdot_watched *w, const qdot_
            && w->index < qdot_switches_own(&x->c->stage->switches) && qdot_piece_is_of_places(x, w->index);
 }
 
-static bool
-is_occurrence(qdot_piece *x, const qdot_root *root)
+bool
+qdot_piece_is_occurrence(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     int way;
@@ -109,7 +110,7 @@ has_action(const qdot_piece *x, const qdot_root *root)
 static bool
 ends_piece(const qdot_root *root, void *user)
 {
-    return is_occurrence(user, root) && has_action(user, root);
+    return qdot_piece_is_occurrence(user, root) && has_action(user, root);
 }
 
 /* Companions of a run in two doubles share the rounding of the states that are looked at: by how much that
@@ -133,8 +134,8 @@ add_rounding_to_error(qdot_piece *x, const qdot_root *root, qdot_occurrence *o)
     return status;
 }
 
-static qdot_status
-record_occurrence(qdot_piece *x, const qdot_root *root)
+qdot_status
+qdot_piece_record(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     qdot_occurrence o = {w->index, root->t, direction_of_root(x, root),
@@ -150,139 +151,12 @@ record_occurrence(qdot_piece *x, const qdot_root *root)
 qdot_status
 qdot_piece_meet(qdot_piece *x, const qdot_root *root)
 {
-    if (!is_occurrence(x, root))
+    if (!qdot_piece_is_occurrence(x, root))
         return QDOT_OK;
-    QDOT_TRY(record_occurrence(x, root));
+    QDOT_TRY(qdot_piece_record(x, root));
     if (qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_EVENT)
         x->c->occurrences.at[x->c->occurrences.n - 1].blur = root->blur + root->moved;
     return qdot_vec_push(&x->roots, *root);
-}
-
-/* Find a bound of a coordinate's domain that the motion passes at once at the start of the piece; NULL: none. */
-static const qdot_watched *
-find_bound_passed_at_start(qdot_piece *x)
-{
-    const int *first = qdot_watch_first(qdot_piece_watch(x));
-    const qdot_mode *m = qdot_piece_mode(x);
-
-    for (size_t i = 0; i < m->m; i++)
-        if (m->watched[i].kind == QDOT_WATCH_DOMAIN && x->functions_on[i] &&
-            first[i] == -m->watched[i].inside)
-            return &m->watched[i];
-    return NULL;
-}
-
-/* If the run ends within this fraction of t after the start of a piece, a watched function cannot leave 0. */
-static const double no_time = 64 * DBL_EPSILON;
-
-/* Whether the motion stays on the zero of event i with a `then`: it leaves it so slowly that rounding
- * decides when, and to the side `way`, to which the event occurs. */
-static bool
-stays_at_zero(const qdot_piece *x, size_t i, int way)
-{
-    const qdot_watched *w =
-        i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
-
-    return w && way != 0 && x->c->stage->events.at[w->index].then && !x->c->stage->back && x->functions_on[i]
-           && fabs(x->t1 - x->start.t) > no_time * fabs(x->t1) && qdot_watch_slow(qdot_piece_watch(x))[i]
-           && qdot_watch_first(qdot_piece_watch(x))[i] == way && !qdot_piece_has_crossed_flatly(x, i);
-}
-
-/* Whether a contact persists: an event with `then` that ended the piece before, occurs again at once; or the motion
- * has been on it from the start of the run or all through that piece, or where blows at one instant have left it, and
- * would leave it now in the way of its statement. */
-static bool
-stays_in_contact(qdot_piece *x)
-{
-    const bool begins = x->c->tr.count == 1;
-
-    for (size_t k = 0; k < x->fired.n; k++)
-        if (stays_at_zero(x, x->fired.at[k].function, x->fired.at[k].way)) {
-            x->resting = qdot_piece_mode(x)->watched[x->fired.at[k].function].index;
-            x->resting_way = qdot_root_way(&x->fired.at[k]);
-            return true;
-        }
-    for (size_t i = 0; i < x->c->stage->events.n; i++)
-        if ((begins || ((x->start.jumped || x->left[i] == 0) && x->touching[i]))
-            && stays_at_zero(x, i, qdot_piece_way_asked(x, i))) {
-            x->resting = i;
-            x->resting_way = (int)x->direction * x->c->stage->events.at[i].way;
-            return true;
-        }
-    return false;
-}
-
-/* The piece ends where it starts, by an event, whose function is 0 there but for rounding of the places: in two doubles
- * that is more than rounding of the function. */
-static qdot_status
-end_piece_at_start(qdot_piece *x, double t0, const qdot_root *root)
-{
-    qdot_root met = *root;
-
-    x->intent = QDOT_PIECE_ENDS;
-    x->t_act = t0;
-    if (x->reader.read_two)
-        QDOT_TRY(qdot_watch_noise_of(qdot_piece_watch(x), t0, x->start.y, x->largest, root->function, &met.residual));
-    QDOT_TRY(record_occurrence(x, root));
-    return qdot_vec_push(&x->roots, met);
-}
-
-/* Whether the piece ends at once by event i, `root` of which is where it starts. Behind a change of the state: an event
- * with an action whose zero was reached at the start, or held until then, and is left at once because another event has
- * changed the state: bodies that touch, or roots that only rounding separates. A zero onto which the change has put the
- * motion does not count. Where a run starts: impacts on what it touches. */
-static qdot_status
-occurs_at_start(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
-{
-    const qdot_staged_event *e = &x->c->stage->events.at[i];
-    int way;
-
-    *acts = false;
-    if (!x->start.jumped && x->c->tr.count == 1)
-        return e->undoing ? qdot_piece_undone_at_start(x, i, acts) : qdot_piece_meets_at_start(x, i, acts);
-    if (!x->start.jumped) {
-        *acts = qdot_piece_meets_again(x, i) && is_occurrence(x, root);
-        return QDOT_OK;
-    }
-    if (!qdot_staged_event_acts(e) || !x->untouched[i] || !x->touching[i] || root->way == 0
-        || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, root))
-        return QDOT_OK;
-    /* the sign before a rising or falling event may be wrong by rounding: take the opposite sign */
-    if (root->way == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
-        return QDOT_OK;
-    QDOT_TRY(qdot_piece_way(x, i, &way));
-    *acts = way != 0;
-    return QDOT_OK;
-}
-
-/* Contacts into which the motion has been pushed are treated first, one at a time; else the events
- * at the start. */
-static qdot_status
-carry_out_events_at_start(qdot_piece *x, double t0)
-{
-    for (size_t k = 0; k < x->pushed.n; k++) {
-        const qdot_surface *contact = &x->c->stage->switches.surfaces.at[x->pushed.at[k]];
-
-        QDOT_TRY(end_piece_at_start(x, t0, &(qdot_root){.function = contact->event,
-                                                 .t = t0,
-                                                 .way = -contact->reaction,
-                                                 .exact = true,
-                                                 .late = x->start.late}));
-    }
-    for (size_t i = 0; i < x->c->stage->events.n && x->pushed.n == 0; i++) {
-        const qdot_root root = {.function = i,
-                                .t = t0,
-                                .way = qdot_watch_first(qdot_piece_watch(x))[i],
-                                .exact = true,
-                                .turned = qdot_watch_is_turned(qdot_piece_watch(x), t0, x->start.y, i),
-                                .late = x->start.late};
-        bool acts;
-
-        QDOT_TRY(occurs_at_start(x, i, &root, &acts));
-        if (acts)
-            QDOT_TRY(end_piece_at_start(x, t0, &root));
-    }
-    return QDOT_OK;
 }
 
 /* Judge after the first step whether the piece can continue with the sides it has assumed. */
@@ -339,7 +213,7 @@ end_of_simultaneous_switches(qdot_piece *x, const qdot_root *roots, size_t n, si
     for (size_t i = k + 1; i < n && fabs(roots[i].t - roots[k].t) <= same_time * fabs(t)
                            && is_surface_root(x, &roots[i]);
          i++)
-        if (is_occurrence(x, &roots[i]))
+        if (qdot_piece_is_occurrence(x, &roots[i]))
             t = roots[i].t;
     return t;
 }
@@ -360,7 +234,7 @@ record_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
     discard_step_results(x);
     x->intent = QDOT_PIECE_GOES_ON;
     if (x->first_step) {
-        const qdot_watched *w = find_bound_passed_at_start(x);
+        const qdot_watched *w = qdot_piece_bound_at_start(x);
 
         if (w) {
             qdot_root root = {.function = (size_t)(w - qdot_piece_mode(x)->watched),
@@ -375,11 +249,11 @@ record_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
         QDOT_TRY(check_assumed_sides(x));
         if (x->intent == QDOT_PIECE_RETRIED)
             return QDOT_OK;
-        if (stays_in_contact(x)) { /* end here: side-search.c decides how the motion continues */
+        if (qdot_piece_stays_in_contact(x)) { /* end here: side-search.c decides how the motion continues */
             x->intent = QDOT_PIECE_RETRIED;
             return QDOT_OK;
         }
-        QDOT_TRY(carry_out_events_at_start(x, t0));
+        QDOT_TRY(qdot_piece_events_at_start(x, t0));
     } else {
         QDOT_TRY(watch_surfaces_left(x, t0));
     }
@@ -388,7 +262,7 @@ record_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
     for (size_t i = 0; i < n; i++) {
         if (x->intent == QDOT_PIECE_ENDS && x->direction * (roots[i].t - x->t_act) > 0)
             break;
-        if (!is_occurrence(x, &roots[i])) {
+        if (!qdot_piece_is_occurrence(x, &roots[i])) {
             QDOT_TRY(qdot_piece_pass_touch(x, &roots[i]));
             continue;
         }
@@ -400,13 +274,13 @@ record_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
                  x->c->occurrences.n--) /* removed here; they are recorded again, in their order */
                 ;
             for (size_t k = 0; k < i; k++)
-                if (roots[k].t == x->t_act && is_occurrence(x, &roots[k])) {
-                    QDOT_TRY(record_occurrence(x, &roots[k]));
+                if (roots[k].t == x->t_act && qdot_piece_is_occurrence(x, &roots[k])) {
+                    QDOT_TRY(qdot_piece_record(x, &roots[k]));
                     QDOT_TRY(qdot_vec_push(&x->roots, roots[k]));
                 }
         }
         QDOT_TRY(qdot_piece_doubt_root(x, &roots[i]));
-        QDOT_TRY(record_occurrence(x, &roots[i]));
+        QDOT_TRY(qdot_piece_record(x, &roots[i]));
         if (x->intent == QDOT_PIECE_ENDS)
             QDOT_TRY(qdot_vec_push(&x->roots, roots[i]));
     }
@@ -506,9 +380,14 @@ static qdot_status
 inspect_series_step(qdot_ode_expanded *step, void *user)
 {
     qdot_piece *x = user;
+    const qdot_ode_series *s = x->c->systems.at[x->mode].series;
     const qdot_root *roots;
     size_t n;
 
+    if (x->c->history)
+        QDOT_TRY(qdot_past_add(x->c->history, step->t, step->unit, step->order, s->x, s->stride));
+    if (qdot_piece_mode(x)->m == 0)
+        return QDOT_OK;
     x->far = !x->first_step &&
              qdot_watch_is_far(qdot_piece_watch(x), step);
     if (x->far) {
@@ -573,6 +452,7 @@ inspect_accepted_step(double t, const double *y, bool *stop, void *user)
     if (x->first_step)
         memset(x->end_low, 0, x->n * sizeof *x->end_low);
     QDOT_TRY(check_accelerations(x, t, y));
+    qdot_past_reach(x->c->history, t);
     if (x->options->accepted)
         QDOT_TRY(x->options->accepted(t, y, stop, x->options->user));
     if (qdot_piece_mode(x)->m == 0)
@@ -654,7 +534,7 @@ qdot_piece_integrate(qdot_piece *x)
 
     options.accepted = inspect_accepted_step;
     options.expanded =
-        qdot_piece_mode(x)->m > 0 && (x->method->series || x->options->alternates)
+        (qdot_piece_mode(x)->m > 0 || c->history) && (x->method->series || x->options->alternates)
             ? inspect_series_step
             : NULL;
     options.now = &x->now;
@@ -665,7 +545,7 @@ qdot_piece_integrate(qdot_piece *x)
         options.carry = x->y;
     }
     options.at_doubles = qdot_piece_mode(x)->m > 0;
-    options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
+    options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted && !c->history;
     x->beyond = NULL;
     x->has_root = false;
     memset(x->end_low, 0, x->n * sizeof *x->end_low);

@@ -215,6 +215,17 @@ QDOT_MUST_CHECK qdot_status qdot_piece_take_faded(qdot_piece *x, double t);
 QDOT_MUST_CHECK qdot_status qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root);
 /* Record an occurrence so near others that rounding hides how many there are: in c->faded, its error unknown. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_root(qdot_piece *x, const qdot_root *root);
+/* (piece-start.c) A bound of a coordinate's domain that the motion passes at once at the start of the piece; NULL: none. */
+const qdot_watched *qdot_piece_bound_at_start(qdot_piece *x);
+/* Whether a contact persists where the piece starts, x->resting: an event with `then` that ended the piece before, occurs
+ * again at once; or the motion has been on it from the start of the run or all through that piece, or where blows at one
+ * instant have left it, and would leave it now in the way of its statement. */
+bool qdot_piece_stays_in_contact(qdot_piece *x);
+/* End the piece where it starts, by the events that occur there: first the contacts into which the motion has been pushed. */
+QDOT_MUST_CHECK qdot_status qdot_piece_events_at_start(qdot_piece *x, double t0);
+/* (piece.c) Whether a root of a watched function is what its statement asks for; record it, if it is one of an event. */
+bool qdot_piece_is_occurrence(qdot_piece *x, const qdot_root *root);
+QDOT_MUST_CHECK qdot_status qdot_piece_record(qdot_piece *x, const qdot_root *root);
 /* Record an event that occurs at the start of a piece, if its direction fits; also in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 

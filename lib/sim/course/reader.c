@@ -6,6 +6,7 @@
 
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "num/past.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/model/sliding.h"
@@ -99,6 +100,7 @@ read_sides(const qdot_plan *p, const qdot_reader_course *c)
 qdot_status
 qdot_reader_evaluate(qdot_reader *r, double t, double *out)
 {
+    qdot_past_read(r->n_courses == 1 ? r->courses[0].course->history : NULL);
     for (size_t k = 0; k < r->n_courses; k++) {
         r->courses[k].in[2 * r->courses[k].n] = t;
         if (r->of.accelerations)

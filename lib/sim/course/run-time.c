@@ -10,6 +10,7 @@
 #include "expr/calculus.h"
 #include "expr/exact.h"
 #include "num/two.h"
+#include "sim/model/delay.h"
 
 double
 qdot_run_time_told(const qdot_run *run, double s)
@@ -133,7 +134,6 @@ qdot_run_time_express(const qdot_run *run, size_t m, const qdot_expr *given, con
                       qdot_expr **made)
 {
     qdot_pool *pool = run->plan->pool;
-    const qdot_expr t = QDOT_T;
     qdot_expr from_origin;
 
     *own = given;
@@ -143,9 +143,9 @@ qdot_run_time_express(const qdot_run *run, size_t m, const qdot_expr *given, con
     *made = qdot_malloc((m + 1) * sizeof **made);
     if (!*made)
         return QDOT_ENOMEM;
-    from_origin = qdot_add(pool, t, qdot_expr_of_double(pool, run->origin));
+    from_origin = qdot_add(pool, QDOT_T, qdot_expr_of_double(pool, run->origin));
     for (size_t i = 0; i < m; i++)
-        (*made)[i] = given[i] == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, given[i], 1, &t, &from_origin);
+        (*made)[i] = qdot_delay_replace_time(pool, given[i], from_origin);
     *own = *made;
     return qdot_pool_check(pool);
 }

@@ -182,12 +182,13 @@ qdot_tables_refuse_jumps(const qdot_plan *plan, const double *y, double t0, doub
 
     for (int k = 0; k < 2 && plan->n_massless > 0 && !jumps; k++)
         if (tapes[k]) {
-            jumps = reads_steps(tapes[k]);
-            if (!jumps)
+            if (reads_steps(tapes[k]))
+                jumps = !plan->method->series; /* a Taylor step over the jump moves the rate onto its equation */
+            else
                 QDOT_TRY(jumps_at_knots(tapes[k], 2 * plan->n, y, t0, t1, &jumps));
         }
     if (!jumps)
         return QDOT_OK;
     (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: rates of states, and equations of other coordinates without mass, that jump at points of data");
-    return qdot_hint("`linear`, and two rows a moment apart where the data jump");
+    return qdot_hint("method taylor goes over jumps of `steps`; or `linear`, and two rows a moment apart where the data jump");
 }

@@ -24,8 +24,8 @@ const char *qdot_tables_name(const qdot_plan *plan, double handle);
 QDOT_MUST_CHECK qdot_status qdot_tables_reach(const qdot_plan *plan, double t0, double t1);
 
 /* QDOT_ENOTBUILT if the equation of a coordinate without mass, such as the rate of a first-order state, jumps where a table goes
- * to its next piece: its velocity would have to jump there. Told from tables of steps, and from the values of the equations y [2n],
- * moved a little, on both sides of the first knots from t0 on. */
+ * to its next piece: its velocity would have to jump there. Taylor series go over the jumps of `steps`. Told from tables of
+ * steps, and from the values of the equations y [2n], moved a little, on both sides of the first knots from t0 on. */
 QDOT_MUST_CHECK qdot_status qdot_tables_refuse_jumps(const qdot_plan *plan, const double *y, double t0, double t1);
 
 /* Whether one is read at or beyond its end at in [3n + 1]: q, q', t and, of a reduced plan, its kept momenta

@@ -99,6 +99,7 @@ struct qdot_plan {
      * that of `bordered`. */
     qdot_motion *motion;
 
+    bool delayed; /* the equations read the history of the run (sim/model/delay.h) */
     bool leading; /* compute the first Taylor coefficients in double-double precision (sim/form/leading.h) */
     bool smooth; /* the equations have Taylor series, for the method of the run or of its companion run */
     /* The equations as d'Alembert's residual if that form is taken, else NULL; convolutions an order

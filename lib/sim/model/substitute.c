@@ -7,6 +7,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "sim/model/delay.h"
 
 enum { MOST_NESTING = 64 };
 
@@ -15,10 +16,14 @@ typedef struct {
     const qdot_expr *symbols, *values;
 } table;
 
-/* The value given for the user-defined function that `node` applies; nil if none is given. */
+/* The value given for the user-defined function that `node` applies, or that of a delayed coordinate; nil if there is none. */
 static qdot_expr
 function_value(qdot_pool *pool, const table *t, qdot_expr node)
 {
+    const qdot_expr delayed = qdot_ufun_delayed(pool, qdot_expr_node(pool, node)->op);
+
+    if (delayed != QDOT_NIL)
+        return qdot_delay_value(pool, delayed, qdot_expr_arg(pool, node, 1) != QDOT_ZERO);
     for (size_t i = 0; i < t->n; i++)
         if (qdot_expr_kind(pool, t->symbols[i]) == QDOT_UFUN
             && qdot_expr_node(pool, t->symbols[i])->op == qdot_expr_node(pool, node)->op)
@@ -51,6 +56,8 @@ apply_derivative(qdot_pool *pool, qdot_expr node, void *user)
         from[i] = qdot_expr_arg(pool, formals, i);
         to[i] = qdot_expr_arg(pool, node, i);
         qdot_expr_to_int(pool, qdot_expr_arg(pool, node, arity + i), &order);
+        if (order > 0 && qdot_ufun_delayed(pool, qdot_expr_node(pool, node)->op) != QDOT_NIL)
+            order--; /* a delayed velocity has a value of its own */
         for (long k = 0; k < order; k++)
             value = qdot_diff(pool, value, from[i]);
     }
@@ -65,7 +72,7 @@ qdot_substitute(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols
 {
     const uint32_t constant = 1u << QDOT_CONST | QDOT_HAS_FUN;
     table t = {n, symbols, values};
-    bool functions = false;
+    bool functions = e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & QDOT_HAS_UFUN) != 0;
     qdot_expr *from, before;
     size_t count = 0;
 

@@ -8,10 +8,13 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/integrated.h"
+#include "mech/scene/scene.h"
 #include "ode/leading.h"
 #include "series/program.h"
 #include "sim/form/motion-of-constraints.h"
+#include "sim/form/residual.h"
 #include "sim/model/constraints.h"
+#include "sim/model/delay.h"
 #include "sim/model/massless.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/sliding.h"
@@ -261,6 +264,40 @@ check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_reque
     return qdot_hint("method taylor, radau, dop853");
 }
 
+/* Equations with delays, in the tapes that the plan has so far: what is not made for them is refused. */
+static qdot_status
+check_delays(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
+{
+    const qdot_tape *const tapes[] = {p->tape, p->residual ? p->residual->forces : NULL, p->residual ? p->residual->places : NULL};
+    const char *what = NULL;
+    qdot_knots knots = {0};
+    qdot_status status = QDOT_OK;
+
+    p->delayed = qdot_scene_has_delays(scene);
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        p->delayed |= qdot_delay_reads(tapes[k]);
+    if (!p->delayed)
+        return QDOT_OK;
+    if (request->digits > 0)
+        what = "digits";
+    else if (request->lanes)
+        what = "ensembles";
+    else if (!p->smooth)
+        what = "equations that switch";
+    if (what)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: delays with %s", what);
+    if (!p->method->series) {
+        qdot_fail(QDOT_ENOTBUILT, "not built yet: delays by method %s", p->method->name);
+        return qdot_hint("method taylor");
+    }
+    p->leading = false;
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes && status == QDOT_OK; k++)
+        if (tapes[k])
+            status = qdot_delay_find_knots(tapes[k], 2 * p->n, &knots);
+    qdot_free(knots.at);
+    return status;
+}
+
 /* --- plans of ensembles and runs ---------------------------------------------------- */
 
 /* Whether M couples coordinates and need not be positive definite. */
@@ -303,20 +340,25 @@ make_plan(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(name_coordinates(p, scene, request));
     QDOT_TRY(qdot_tree_alone_find(p, scene, request));
     if (p->residual)
-        return QDOT_OK;
+        return check_delays(p, scene, request);
     QDOT_TRY(derive_equations(p, scene));
     QDOT_TRY(qdot_massless_find(scene, p));
     QDOT_TRY(check_massless(p, scene, request));
     QDOT_TRY(check_start_is_exact(request));
     QDOT_TRY(qdot_plan_check_geometric(p, scene, request->treatment));
-    if (scene->constraints.n + p->n_massless > 0)
-        return make_constraints(p, scene, request);
+    if (scene->constraints.n + p->n_massless > 0) {
+        QDOT_TRY(make_constraints(p, scene, request));
+        return check_delays(p, scene, request);
+    }
     QDOT_TRY(qdot_plan_structure(p, NULL));
     QDOT_TRY(qdot_plan_lower(p, 2 * p->n + 1, 0, NULL));
     QDOT_TRY(check_series_possible(p, qdot_program_hindrance(p->tape)));
     p->leading = p->smooth && p->method->series && request->tol <= QDOT_ODE_LEADING_TOL;
     if (p->smooth)
         QDOT_TRY(qdot_plan_choose_form(p, scene, request));
+    QDOT_TRY(check_delays(p, scene, request));
+    if (p->delayed)
+        return QDOT_OK;
     if (request->digits > 0)
         return qdot_plan_choose_canonical(p, scene);
     if (request->lanes)

@@ -11,6 +11,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "sim/model/delay.h"
 
 /* A run counts times from its start if this is farther from t = 0 than this many durations of the run. */
 static const double far = 1024;
@@ -25,9 +26,8 @@ static qdot_expr
 replace_time(qdot_expr e, void *user)
 {
     const writing *w = user;
-    const qdot_expr t = QDOT_T;
 
-    return e == QDOT_NIL ? e : qdot_subs(w->pool, e, 1, &t, &w->time);
+    return qdot_delay_replace_time(w->pool, e, w->time);
 }
 
 /* Whether the scene, or the value of a parameter, depends explicitly on t. */

@@ -119,6 +119,7 @@ check_start_in_domains(qdot_run *run)
     }
     /* make the equations of the run itself now, as they remember what is found about the constraints */
     QDOT_TRY(qdot_course_prepare(&run->course));
+    QDOT_TRY(qdot_course_begin_history(&run->course, run->t0, run->start));
     return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
 }
 

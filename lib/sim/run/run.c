@@ -279,7 +279,7 @@ give_states_to_companion(qdot_run *run, qdot_companion *companion)
 static bool
 is_undivided(const qdot_run *run)
 {
-    return run->apart == NULL && run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
+    return !run->plan->delayed && run->apart == NULL && run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
 /* Whether nothing changes the motion suddenly: there are no switches, and no event has an effect. */
@@ -289,7 +289,7 @@ is_undisturbed(const qdot_run *run)
     for (size_t i = 0; i < run->stage.events.n; i++)
         if (qdot_staged_event_acts(&run->stage.events.at[i]))
             return false;
-    return run->stage.switches.surfaces.n == 0;
+    return !run->plan->delayed && run->stage.switches.surfaces.n == 0;
 }
 
 static qdot_status
@@ -542,6 +542,8 @@ make_run_once(qdot_scene *scene, const qdot_run_request *asked, double touch_tol
         run->plan = run->stage.modes.at[0]->plan;
         status = qdot_run_start(run, scene, request);
     }
+    if (status == QDOT_OK && run->plan->delayed && run->t1 < run->t0)
+        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: runs back in time with delays");
     *better = request->tol;
     qdot_progress_begin(run->t0, run->t1, "run");
     if (status == QDOT_OK && !request->digits)
@@ -662,7 +664,7 @@ make_run_with_parameter_states(qdot_scene *scene, const qdot_run_request *asked,
     status = make_best_run(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
         status = repeat_with_scales(scene, &states.request, out);
-    if (!asked->digits)
+    if (!asked->digits && !qdot_scene_has_delays(scene)) /* a history is one of the scene's own coordinates */
         status = qdot_run_change_chart(scene, &states.request, &by, status, out);
     qdot_parameter_states_clear(&states);
     return status;

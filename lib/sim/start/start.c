@@ -12,6 +12,7 @@
 #include "mech/hamilton/phase-symbols.h"
 #include "num/row-space.h"
 #include "sim/model/constraints.h"
+#include "sim/model/delay.h"
 #include "sim/start/nearest.h"
 
 static const double breaks = 1e-14; /* a constraint is violated beyond this error, relative to max(1, |x|) */
@@ -63,6 +64,8 @@ append_equation(level *l, size_t k, qdot_expr F)
     qdot_expr t = QDOT_T;
 
     F = qdot_plan_substitute(l->plan, F);
+    if (F != QDOT_NIL && l->plan->delayed)
+        F = qdot_delay_at_start(l->plan->pool, F);
     QDOT_TRY(qdot_pool_check(l->plan->pool));
     F = qdot_subs(l->plan->pool, F, 1, &t, &l->request->t0);
     QDOT_TRY(qdot_pool_check(l->plan->pool));

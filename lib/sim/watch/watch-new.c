@@ -4,6 +4,12 @@
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
+const qdot_tape *
+qdot_watch_tape(const qdot_watch *w)
+{
+    return w->tape;
+}
+
 void
 qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound)
 {

@@ -51,6 +51,9 @@ QDOT_MUST_CHECK qdot_status qdot_watch_new(const qdot_plan *plan, size_t m,
                                            qdot_watch **watch);
 void qdot_watch_free(qdot_watch *w);
 
+/* The tape of g: inputs q, q', t. Borrowed. */
+const qdot_tape *qdot_watch_tape(const qdot_watch *w);
+
 /* Declare that g_i is coordinate - bound: steps that stay far from the bound need not be searched. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 

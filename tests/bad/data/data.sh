@@ -48,7 +48,6 @@ data f from "d.csv" : t, F; force f(2*t + 1) on p; run 0..5
 data f from "d.csv" : t, F; force if(t < 3, f(t), 0) on p; run 0..5
 data f from "d.csv" : t, F; force f(t) on p; event near: x = 1 rising stop; run 0..5
 data f from "d.csv" : a, v, c periodic
-data f from "d.csv" : t, F steps; state z' = f(t) - z; run 0..3
+data f from "d.csv" : t, F steps; state z' = f(t) - z; run 0..3 method radau
 data f from "d.csv" : t, F linear; state z' = x*f'(t) - z; run 0..3
-force x(t - 0.1) on p
 EOF2
