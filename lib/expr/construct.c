@@ -1,9 +1,11 @@
 /* construct.c -- makes relations, logical expressions, vectors, matrices and lists; rebuilds nodes
  * with new children. */
 #include "expr/build.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/integral.h"
 #include "expr/pool.h"
+#include "expr/walk.h"
 
 #include <string.h>
 
@@ -187,4 +189,23 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     if (own != few)
         qdot_free(own);
     return result;
+}
+
+static qdot_expr
+release_node(qdot_pool *pool, qdot_expr node, void *user)
+{
+    (void)user;
+    return qdot_expr_is_function(pool, node, QDOT_HOLD) ? qdot_expr_arg(pool, node, 0) : node;
+}
+
+qdot_expr
+qdot_released(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr before = QDOT_NIL;
+
+    while (e != before && e != QDOT_NIL) { /* hold(-x) is -hold(x) when it is built again: no node to replace */
+        before = e;
+        e = qdot_walk_replace(pool, e, QDOT_FUN, release_node, NULL);
+    }
+    return e;
 }

@@ -525,25 +525,6 @@ qdot_hold(qdot_pool *pool, qdot_expr e)
     return make_function_node(pool, QDOT_HOLD, 1, &e);
 }
 
-static qdot_expr
-release_node(qdot_pool *pool, qdot_expr node, void *user)
-{
-    (void)user;
-    return NODE(pool, node)->op == QDOT_HOLD ? first_argument(pool, node) : node;
-}
-
-qdot_expr
-qdot_released(qdot_pool *pool, qdot_expr e)
-{
-    qdot_expr before = QDOT_NIL;
-
-    while (e != before && e != QDOT_NIL) { /* hold(-x) is -hold(x) when it is built again: no node to replace */
-        before = e;
-        e = qdot_walk_replace(pool, e, QDOT_FUN, release_node, NULL);
-    }
-    return e;
-}
-
 qdot_expr
 qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {

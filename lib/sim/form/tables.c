@@ -128,7 +128,7 @@ static bool
 reads_steps(const qdot_tape *tape)
 {
     for (size_t k = 0; k < tape->length; k++)
-        if (tape->code[k].op == QDOT_OP_LOOKUP && qdot_samples_jumps(tape->constant[tape->code[k].z - tape->inputs]))
+        if (tape->code[k].op == QDOT_OP_LOOKUP && qdot_samples_jumps(tape->constant[tape->code[k].z - tape->inputs], NAN))
             return true;
     return false;
 }
