@@ -190,5 +190,5 @@ qdot_tables_refuse_jumps(const qdot_plan *plan, const double *y, double t0, doub
     if (!jumps)
         return QDOT_OK;
     (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: rates of states, and equations of other coordinates without mass, that jump at points of data");
-    return qdot_hint("method taylor goes over jumps of `steps`; or `linear`, and two rows a moment apart where the data jump");
+    return qdot_hint(plan->method->series ? "`linear`, and two rows a moment apart where the data jump" : "method taylor goes over the jumps of `steps`");
 }
