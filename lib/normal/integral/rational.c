@@ -11,8 +11,8 @@
 
 static bool integrate_over_factor(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out);
 
-static bool
-primitive_add(qdot_integral_task *t, qdot_primitive *out, bool angle, qdot_expr c, qdot_poly p)
+bool
+qdot_primitive_add(qdot_integral_task *t, qdot_primitive *out, bool angle, qdot_expr c, qdot_poly p)
 {
     c = qdot_integral_normal(t, c);
     if (c == QDOT_NIL || p.degree == -2)
@@ -38,7 +38,7 @@ integrate_over_quadratic(qdot_integral_task *t, const qdot_poly *n, const qdot_p
     int sign;
 
     r = qdot_integral_normal(t, qdot_sub(pool, low, qdot_mul(pool, k, b)));
-    if (!primitive_add(t, out, false, k, *f))
+    if (!qdot_primitive_add(t, out, false, k, *f))
         return false;
     if (r == QDOT_NIL || qdot_integral_zero(t, r))
         return r != QDOT_NIL;
@@ -49,11 +49,11 @@ integrate_over_quadratic(qdot_integral_task *t, const qdot_poly *n, const qdot_p
     if (s == QDOT_NIL)
         return false;
     if (sign > 0)
-        return primitive_add(t, out, true, qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), r), s),
+        return qdot_primitive_add(t, out, true, qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), r), s),
                         qdot_poly_linear(t, qdot_div(pool, two_a, s), qdot_div(pool, b, s)));
     k = qdot_div(pool, r, s);
-    return primitive_add(t, out, false, k, qdot_poly_linear(t, two_a, qdot_sub(pool, b, s))) &&
-           primitive_add(t, out, false, qdot_neg(pool, k), qdot_poly_linear(t, two_a, qdot_add(pool, b, s)));
+    return qdot_primitive_add(t, out, false, k, qdot_poly_linear(t, two_a, qdot_sub(pool, b, s))) &&
+           qdot_primitive_add(t, out, false, qdot_neg(pool, k), qdot_poly_linear(t, two_a, qdot_add(pool, b, s)));
 }
 
 /* Integrate n over the product f of two factors g and h without a common root. */
@@ -146,7 +146,7 @@ split_cubic(qdot_integral_task *t, const qdot_poly *f, qdot_poly *g, qdot_poly *
     return sign != 0 && r != QDOT_NIL;
 }
 
-/* Split f, irreducible and of degree 3 or 4, over roots of parameters, and integrate n/f. */
+/* Split f, irreducible and of degree 3 or 4, over roots of parameters if it is of a kind that can be, and integrate n/f. */
 static bool
 integrate_over_split(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out)
 {
@@ -168,7 +168,7 @@ integrate_over_split(qdot_integral_task *t, const qdot_poly *n, const qdot_poly 
     else if (monic.degree == 3 && qdot_integral_zero(t, monic.c[1]))
         split = split_cubic(t, &monic, &g, &h);
     if (!split)
-        return false;
+        return qdot_residues_integrate(t, n, f, out);
     s = qdot_neg(pool, s);
     g = shift_variable(t, &g, s);
     h = shift_variable(t, &h, s);
@@ -185,10 +185,10 @@ integrate_over_factor(qdot_integral_task *t, const qdot_poly *n, const qdot_poly
     if (n->degree < 0)
         return true;
     if (f->degree == 1)
-        return primitive_add(t, out, false, qdot_div(t->pool, n->c[0], f->c[1]), *f);
+        return qdot_primitive_add(t, out, false, qdot_div(t->pool, n->c[0], f->c[1]), *f);
     if (f->degree == 2)
         return integrate_over_quadratic(t, n, f, out);
-    return integrate_over_split(t, n, f, out);
+    return f->degree > 4 ? qdot_residues_integrate(t, n, f, out) : integrate_over_split(t, n, f, out);
 }
 
 /* Integrate a/f^k: Hermite's reduction down to k = 1. */

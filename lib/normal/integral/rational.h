@@ -5,10 +5,11 @@
  * Partial fractions over the factors of d over Q(parameters); Hermite's reduction lowers their powers without
  * finding roots; what is left over a square-free denominator gives logarithms and arcs, of real factors of degree 1
  * and 2. An irreducible x^4 + p x^2 + q and x^3 + c (in x - s), and a reciprocal x^4 + a x^3 + b x^2 + a k x + k^2, split
- * into such with roots of parameters. A denominator in x^k, whose numerator is x^(k-1) times such a one, is integrated
+ * into such with roots of parameters; other irreducible denominators are integrated where their residues are roots of
+ * quadratic equations. A denominator in x^k, whose numerator is x^(k-1) times such a one, is integrated
  * over x^k.
  *
- * All terms are continuous wherever n/d is: the polynomials p_j are linear, and so no atan jumps.
+ * All terms are continuous wherever n/d is: the p_j are polynomials, and so no atan jumps.
  *
  * Source  Bronstein, Symbolic Integration I (2005), 2.2; Hardy, The Integration of Functions (1916), III.
  * Tests   tests/normal/integral/test_antiderivative.c
@@ -30,6 +31,13 @@ typedef struct {
         qdot_poly p;
     } term[QDOT_PRIMITIVE_TERMS];
 } qdot_primitive;
+
+/* Add c log|p(x)|, or c atan p(x); false: no room, or p is too large. */
+bool qdot_primitive_add(qdot_integral_task *t, qdot_primitive *out, bool angle, qdot_expr c, qdot_poly p);
+
+/* Add the integral of n/f by the residues of its poles (residues.c): f irreducible, of higher degree than n. False: not found, and
+ * then *out may hold a part. */
+bool qdot_residues_integrate(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out);
 
 /* Integrate e, rational in x; false: it is not, or no real factors of its denominator were found. */
 bool qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qdot_primitive *out);

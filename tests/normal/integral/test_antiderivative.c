@@ -28,6 +28,12 @@ known_integrals_differentiate_back(void **state)
         "1/(x^5 + 1)", /* reciprocal of degree 4 */
         "x/(x^5 - a^5)",
         "1/(x^4 + 3*x^3 + 5*x^2 + 6*x + 4)",
+        "(x^4 - 3*x^2 + 6)/(x^6 - 5*x^4 + 5*x^2 + 4)", /* residues i/2 and -i/2 (Bronstein 2.8) */
+        "(8*x^9 + x^8 - 12*x^7 - 4*x^6 - 26*x^5 - 6*x^4 + 30*x^3 + 23*x^2 - 2*x - 7)/(x^10 - 2*x^8 - 2*x^7 - 4*x^6 + 7*x^4 + 10*x^3 + 3*x^2 - 4*x - 2)",
+        "(6*x^5 + 6*x^4 - 8*x^3 - 18*x^2 + 8*x + 8)/(x^6 - 5*x^4 - 8*x^3 - 2*x^2 + 2*x + 1)", /* 1 + sqrt(3), 1 - sqrt(3) */
+        "(3*x^2 + a)/(x^3 + a*x + k)", /* 1 everywhere */
+        "a*(a - 2*x^3)/((x^3 + a)^2 + a^2*x^2)",
+        "x^4/(x^10 + 1)",
         "tan(x)",
         "sinh(x) + cosh(k*x)",
         "sin(x)/cos(x)^2",
