@@ -67,11 +67,34 @@ area_of_cosine(qdot_pool *pool, const fmpq *r)
     return qdot_add(pool, qdot_mul(pool, qdot_expr_int(pool, 2), n), qdot_fun1(pool, QDOT_SIN, rest));
 }
 
+/* F and E up to the angle at which the root ends, m sin(phi)^2 = 1, phi < pi/2, by the parameter k = 1/m < 1:
+ * F = K(k)/sqrt(m), E = sqrt(m) (E(k) - (1 - k) K(k)) (Byrd & Friedman, Handbook of Elliptic Integrals, 114.01). */
+static qdot_expr
+up_to_end_of_root(qdot_pool *pool, qdot_fun_id f, qdot_expr m)
+{
+    const qdot_expr k = qdot_div(pool, QDOT_ONE, m), root = qdot_sqrt(pool, m),
+                    first = elliptic(pool, QDOT_ELLIPTIC_K, k, QDOT_NIL, QDOT_NIL);
+
+    if (f == QDOT_ELLIPTIC_F)
+        return qdot_div(pool, first, root);
+    return qdot_mul(pool, root, qdot_sub(pool, elliptic(pool, QDOT_ELLIPTIC_E, k, QDOT_NIL, QDOT_NIL),
+                                         qdot_mul(pool, qdot_sub(pool, QDOT_ONE, k), first)));
+}
+
+/* Whether 0 < phi < pi/2 is certain: a multiple of pi [turns], or an arcsine. */
+static bool
+is_acute(const qdot_pool *pool, qdot_expr phi, const fmpq *turns)
+{
+    return turns != NULL ? fmpq_sgn(turns) > 0 && qdot_rational_cmp(turns, &(fmpq){1, 2}) < 0
+                         : NODE(pool, phi)->kind == QDOT_FUN && NODE(pool, phi)->op == QDOT_ASIN;
+}
+
 /* F, E and Pi at phi: odd in phi, and k times the complete integral at k pi/2. */
 static qdot_expr
 simplify_incomplete(qdot_pool *pool, qdot_fun_id f, qdot_expr n, qdot_expr phi, qdot_expr m)
 {
     fmpq_t turns;
+    bool of_pi;
     qdot_expr result = QDOT_NIL;
 
     if (phi == QDOT_ZERO)
@@ -87,7 +110,11 @@ simplify_incomplete(qdot_pool *pool, qdot_fun_id f, qdot_expr n, qdot_expr phi, 
         return qdot_neg(pool, n != QDOT_NIL ? elliptic(pool, f, n, phi, m) : elliptic(pool, f, phi, m, QDOT_NIL));
     }
     fmpq_init(turns);
-    if (qdot_expr_unscale(pool, phi, turns) == QDOT_PI) {
+    of_pi = qdot_expr_unscale(pool, phi, turns) == QDOT_PI;
+    if (f != QDOT_ELLIPTIC_PI && is_number_from(pool, m, 1, false) && is_acute(pool, phi, of_pi ? turns : NULL) &&
+        qdot_mul(pool, m, qdot_pow_int(pool, qdot_fun1(pool, QDOT_SIN, phi), 2)) == QDOT_ONE)
+        result = up_to_end_of_root(pool, f, m);
+    if (of_pi && result == QDOT_NIL) {
         if (f == QDOT_ELLIPTIC_E && m == QDOT_ONE)
             result = area_of_cosine(pool, turns);
         fmpq_mul(turns, turns, (fmpq[]){{2, 1}});

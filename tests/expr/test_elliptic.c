@@ -144,6 +144,13 @@ special_values_are_found(void **state)
     assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){times(number(17, 6), QDOT_PI), QDOT_ONE}), "11/2");
     assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){times(number(-2, 3), QDOT_PI), QDOT_ONE}),
                   "1/2*sqrt(3) - 2");
+    /* where the root ends, m sin(phi)^2 = 1 */
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_F, 2, (qdot_expr[]){times(number(-1, 6), QDOT_PI), number(4, 1)}),
+                  "-1/2*elliptic_K(1/4)");
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){times(number(1, 3), QDOT_PI), number(4, 3)}),
+                  "2/3*sqrt(3)*(elliptic_E(3/4) - 1/4*elliptic_K(3/4))");
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_ELLIPTIC_F, 2, (qdot_expr[]){times(number(2, 3), QDOT_PI), number(4, 3)}),
+                  "elliptic_F(2/3*pi, 4/3)");
     assert_int_equal(qdot_fun(p.pool, QDOT_ELLIPTIC_PI, 2, (qdot_expr[]){QDOT_ZERO, m}),
                      qdot_fun1(p.pool, QDOT_ELLIPTIC_K, m));
     assert_int_equal(qdot_fun(p.pool, QDOT_ELLIPTIC_PI, 3, (qdot_expr[]){c, QDOT_PI, m}),
