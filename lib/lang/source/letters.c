@@ -1,4 +1,4 @@
-/* letters.c -- the letters allowed in names, and the spelling of Greek ones. */
+/* letters.c -- the letters allowed in names, and the spelling of Greek ones and of the sign of infinity. */
 #include "lang/source/letters.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ static const struct {
     {0x03C4, "tau"},     {0x03C5, "upsilon"}, {0x03C6, "phi"},   {0x03C7, "chi"},
     {0x03C8, "psi"},     {0x03C9, "omega"},   {0x03D1, "theta"}, {0x03D5, "phi"},
     {0x03D6, "pi"},      {0x03F0, "kappa"},   {0x03F1, "rho"},   {0x03F4, "Theta"},
-    {0x03F5, "epsilon"}, {0x2126, "Omega"},
+    {0x03F5, "epsilon"}, {0x2126, "Omega"},   {0x221E, "infinity"},
 };
 
 const char *

@@ -315,10 +315,6 @@ qdot_refuse(const char *text, size_t at)
     }
     if (c == 0x2202)
         return refuse_partial(text, at);
-    if (c == 0x221E) {
-        qdot_fail(QDOT_ESYNTAX, "there is no infinity");
-        return qdot_hint("a run ends at a time, as in run 0..1000");
-    }
     if (c == '_') {
         return refuse_underscore(text, at);
     }
