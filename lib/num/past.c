@@ -194,6 +194,13 @@ qdot_past_is_value(double handle, uint32_t *called)
     return of % ITEMS == COEFFICIENT;
 }
 
+/* Whether u is behind the end by more than rounding of times: nothing is known of it yet. */
+static bool
+is_behind_end(const qdot_past *h, double u)
+{
+    return u - h->end > 1e-12 * (fabs(u) + fabs(h->end));
+}
+
 /* The number of the piece that holds u: 0 before the start, and from there on those that begin at t_1, t_2 ... */
 static size_t
 piece_at(const qdot_past *h, double u)
@@ -221,7 +228,7 @@ qdot_past_lookup(double handle, double x)
     if (of < 0 || !reading || reading->pieces.n == 0 || !isfinite(x) || item > COEFFICIENT + QDOT_PAST_ORDER)
         return NAN;
     if (item == PIECE)
-        return (double)piece_at(reading, x);
+        return is_behind_end(reading, x) ? NAN : (double)piece_at(reading, x);
     at = x >= 0 && x < (double)reading->pieces.n ? (size_t)x : reading->pieces.n - 1;
     if (item == KNOT)
         return reading->pieces.at[at].t;

@@ -54,7 +54,7 @@ bool qdot_past_finds(double handle);
 /* Whether it is that of c_0, and of which unknown. */
 bool qdot_past_is_value(double handle, uint32_t *called);
 
-/* lookup(handle, x), and the piece [*lo, *hi) that holds x, of the history that is read. */
+/* lookup(handle, x), NaN for a time behind the end, and the piece [*lo, *hi) that holds x, of the history that is read. */
 double qdot_past_lookup(double handle, double x);
 void qdot_past_bounds(double x, double *lo, double *hi);
 /* Whether an unknown jumps where that piece ends. */

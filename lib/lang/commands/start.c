@@ -12,6 +12,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/speeds.h"
 #include "lang/session/start-kind.h"
+#include "lang/session/unmade.h"
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
 
@@ -88,6 +89,7 @@ start_at_end_of_run(qdot_record *r, const char *name)
 
     r->cursor.error_at = r->start->start;
     QDOT_TRY(qdot_runs_find(session, name, &run));
+    QDOT_TRY(qdot_session_refuse_unmade(session, "start RUN")); /* what the run was before its end would be forgotten */
     report = qdot_run_get_report(run->run);
     qdot_session_start_forget_speeds(session);
     for (size_t i = 0; i < report->n - report->n_states; i++) {
