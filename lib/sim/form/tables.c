@@ -13,11 +13,8 @@
 #include "sim/model/constraints.h"
 #include "tape/instruction.h"
 
-enum { TAPES = 6 };
-
-/* The tapes of a plan; NULL: the plan has no such form. Inputs are q, q', t; of the last one kept momenta behind these. */
-static void
-tapes_of_plan(const qdot_plan *p, const qdot_tape *tapes[TAPES])
+void
+qdot_plan_tapes(const qdot_plan *p, const qdot_tape *tapes[QDOT_PLAN_TAPES])
 {
     tapes[0] = p->tape;
     tapes[1] = p->residual ? p->residual->places : NULL;
@@ -30,10 +27,10 @@ tapes_of_plan(const qdot_plan *p, const qdot_tape *tapes[TAPES])
 bool
 qdot_tables_any(const qdot_plan *plan)
 {
-    const qdot_tape *tapes[TAPES];
+    const qdot_tape *tapes[QDOT_PLAN_TAPES];
 
-    tapes_of_plan(plan, tapes);
-    for (size_t k = 0; k < TAPES; k++)
+    qdot_plan_tapes(plan, tapes);
+    for (size_t k = 0; k < QDOT_PLAN_TAPES; k++)
         if (tapes[k] && qdot_knots_any(tapes[k]))
             return true;
     return false;
@@ -42,10 +39,10 @@ qdot_tables_any(const qdot_plan *plan)
 qdot_status
 qdot_tables_check_digits(const qdot_plan *plan)
 {
-    const qdot_tape *tapes[TAPES];
+    const qdot_tape *tapes[QDOT_PLAN_TAPES];
 
-    tapes_of_plan(plan, tapes);
-    for (size_t k = 0; k < TAPES; k++)
+    qdot_plan_tapes(plan, tapes);
+    for (size_t k = 0; k < QDOT_PLAN_TAPES; k++)
         if (tapes[k])
             QDOT_TRY(qdot_tape_check_digits(tapes[k]));
     return QDOT_OK;
@@ -54,10 +51,10 @@ qdot_tables_check_digits(const qdot_plan *plan)
 qdot_status
 qdot_tables_knots(const qdot_plan *plan, qdot_knots *knots)
 {
-    const qdot_tape *tapes[TAPES];
+    const qdot_tape *tapes[QDOT_PLAN_TAPES];
 
-    tapes_of_plan(plan, tapes);
-    for (size_t k = 0; k < TAPES; k++)
+    qdot_plan_tapes(plan, tapes);
+    for (size_t k = 0; k < QDOT_PLAN_TAPES; k++)
         if (tapes[k])
             QDOT_TRY(qdot_knots_find(tapes[k], 2 * plan->n, knots));
     return QDOT_OK;
@@ -66,10 +63,10 @@ qdot_tables_knots(const qdot_plan *plan, qdot_knots *knots)
 bool
 qdot_tables_ended(const qdot_plan *plan, const double *in, double *handle, double *at)
 {
-    const qdot_tape *tapes[TAPES];
+    const qdot_tape *tapes[QDOT_PLAN_TAPES];
 
-    tapes_of_plan(plan, tapes);
-    for (size_t k = 0; k < TAPES - 1; k++) /* what a reduced plan reads the whole one reads */
+    qdot_plan_tapes(plan, tapes);
+    for (size_t k = 0; k < QDOT_PLAN_TAPES - 1; k++) /* what a reduced plan reads the whole one reads */
         if (tapes[k] && qdot_knots_ended(tapes[k], in, handle, at))
             return true;
     return false;

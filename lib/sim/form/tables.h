@@ -9,6 +9,12 @@
 #include "sim/model/equations.h"
 #include "tape/knots.h"
 
+enum { QDOT_PLAN_TAPES = 6 };
+
+/* The tapes from which the equations of a plan are evaluated; NULL: the plan has no such form. Inputs are q, q', t; of the last
+ * one, of a reduced plan, kept momenta behind these. */
+void qdot_plan_tapes(const qdot_plan *plan, const qdot_tape *tapes[QDOT_PLAN_TAPES]);
+
 /* Whether there are any. */
 bool qdot_tables_any(const qdot_plan *plan);
 /* qdot_tape_check_digits of all tapes of the equations. */

@@ -13,6 +13,7 @@
 #include "series/program.h"
 #include "sim/form/motion-of-constraints.h"
 #include "sim/form/residual.h"
+#include "sim/form/tables.h"
 #include "sim/model/constraints.h"
 #include "sim/model/delay.h"
 #include "sim/model/massless.h"
@@ -233,48 +234,41 @@ check_start_is_exact(const qdot_run_request *request)
                : QDOT_OK;
 }
 
-/* Whether coordinate i has no mass and is no first-order state, whose rate is given by its equation as it is. */
-static bool
-follows_from_equation(const qdot_plan *p, const qdot_scene *scene, size_t i)
-{
-    return p->massless[i] && qdot_scene_state_of(scene, scene->coordinates.at[i]) == NULL;
-}
-
-/* Refuse massless coordinates where a method cannot treat them, and `digits` where such coordinates
- * may jump. */
+/* Refuse coordinates without mass where ensembles, the method or `digits` cannot treat them. `digits` takes first-order states
+ * through events and switches, but no other coordinate without mass. */
 static qdot_status
 check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
-    const bool jumps = p->n_sides > 0 || p->n_states > 0 || scene->events.n > 0;
-    size_t i = 0;
+    const bool jumps = p->n_sides > 0 || p->n_states > 0 || scene->events.n > 0, digits = request->digits > 0;
 
-    if (p->n_massless == 0 || (!(request->digits > 0 && jumps) && !request->lanes && !p->method->geometric))
+    if (p->n_massless == 0 || (!(digits && jumps) && !request->lanes && !p->method->geometric))
         return QDOT_OK;
-    while (request->digits > 0 && i < scene->coordinates.n && !follows_from_equation(p, scene, i))
-        i++;
-    if (i == scene->coordinates.n)
-        return QDOT_OK;
-    while (!p->massless[i])
-        i++;
-    qdot_fail(QDOT_ENOTBUILT, "not built yet: %s where no mass moves with a coordinate (%s)",
-              request->digits > 0 ? "digits with events or switches"
-              : request->lanes    ? "ensembles"
-                                  : p->method->name,
-              p->names[i]);
-    return qdot_hint("method taylor, radau, dop853");
+    for (size_t i = 0; i < scene->coordinates.n; i++) {
+        if (!p->massless[i] || (digits && qdot_scene_state_of(scene, scene->coordinates.at[i]) != NULL))
+            continue;
+        qdot_fail(QDOT_ENOTBUILT, "not built yet: %s where no mass moves with a coordinate (%s)",
+                  digits           ? "digits with events or switches"
+                  : request->lanes ? "ensembles"
+                                   : p->method->name,
+                  p->names[i]);
+        return qdot_hint("method taylor, radau, dop853");
+    }
+    return QDOT_OK;
 }
 
-/* Equations with delays, in the tapes that the plan has so far: what is not made for them is refused. */
+/* Find whether the equations, in the tapes that the plan has so far, read a coordinate at an earlier time; refuse then what
+ * is not built for delays. */
 static qdot_status
 check_delays(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
-    const qdot_tape *const tapes[] = {p->tape, p->residual ? p->residual->forces : NULL, p->residual ? p->residual->places : NULL};
+    const qdot_tape *tapes[QDOT_PLAN_TAPES];
     const char *what = NULL;
     qdot_knots knots = {0};
     qdot_status status = QDOT_OK;
 
+    qdot_plan_tapes(p, tapes);
     p->delayed = qdot_scene_has_delays(scene);
-    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+    for (size_t k = 0; k < QDOT_PLAN_TAPES; k++)
         p->delayed |= qdot_delay_reads(tapes[k]);
     if (!p->delayed)
         return QDOT_OK;
@@ -291,7 +285,7 @@ check_delays(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *requ
         return qdot_hint("method taylor");
     }
     p->leading = false;
-    for (size_t k = 0; k < sizeof tapes / sizeof *tapes && status == QDOT_OK; k++)
+    for (size_t k = 0; k < QDOT_PLAN_TAPES && status == QDOT_OK; k++)
         if (tapes[k])
             status = qdot_delay_find_knots(tapes[k], 2 * p->n, &knots);
     qdot_free(knots.at);
