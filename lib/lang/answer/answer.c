@@ -567,23 +567,14 @@ qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e)
     return status;
 }
 
-qdot_status
-qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text)
-{
-    if (status == QDOT_OK)
-        status = qdot_text_status(text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(text));
-    qdot_text_clear(text);
-    return status;
-}
-
-/* Give the notice and add it to the list `told`, unless it is in the list already. */
+/* Give the notice and add it to the list `told`, unless it is in the list already; NULL: give it always. */
 static qdot_status
 give_notice_once(qdot_session *session, qdot_text_list *told, const char *message)
 {
     char *copy;
 
+    if (told == NULL)
+        return write_notice(session, message);
     for (size_t i = 0; i < told->n; i++)
         if (strcmp(told->at[i], message) == 0)
             return QDOT_OK;
@@ -595,6 +586,36 @@ give_notice_once(qdot_session *session, qdot_text_list *told, const char *messag
         return QDOT_ENOMEM;
     }
     return write_notice(session, message);
+}
+
+/* If `status` is QDOT_OK give the text as a notice, as give_notice_once does; free it. */
+static qdot_status
+give_text_once(qdot_session *session, qdot_text_list *told, qdot_status status, qdot_text *text)
+{
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK)
+        status = give_notice_once(session, told, qdot_text_str(text));
+    qdot_text_clear(text);
+    return status;
+}
+
+qdot_status
+qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text)
+{
+    return give_text_once(session, NULL, status, text);
+}
+
+qdot_status
+qdot_answer_notice_once_text(qdot_session *session, qdot_status status, qdot_text *text)
+{
+    return give_text_once(session, session->told, status, text);
+}
+
+qdot_status
+qdot_answer_condition_text(qdot_session *session, qdot_status status, qdot_text *text)
+{
+    return give_text_once(session, &session->evaluation->told, status, text);
 }
 
 qdot_status

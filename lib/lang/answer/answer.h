@@ -61,8 +61,6 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char
                                                ...) QDOT_PRINTF(2, 3);
 /* Give a notice in whose format %s stands for e, printed as plain text. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e);
-/* If `status` is QDOT_OK give the text as a notice; free it. Returns `status`, or the first failure after it. */
-QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text);
 /* Give a notice, unless this session has already given it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
                                                     const char *format, ...)
@@ -70,6 +68,11 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
 /* Give a notice that belongs to the answers of the present statement, as the condition of a solution, unless this
  * statement has already given it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_condition(qdot_session *session, const char *format, ...) QDOT_PRINTF(2, 3);
+/* Each of the three for a text that was written with `status`: if that is QDOT_OK give the text as a notice; free it in any
+ * case. Returns `status`, or the first failure after it. */
+QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text);
+QDOT_MUST_CHECK qdot_status qdot_answer_notice_once_text(qdot_session *session, qdot_status status, qdot_text *text);
+QDOT_MUST_CHECK qdot_status qdot_answer_condition_text(qdot_session *session, qdot_status status, qdot_text *text);
 
 /* The last failure: reported with line, caret and hint on session->output->err and, with
  * --json, as {"kind":"error"} on session->output->out. `at`: the byte of the source. source

@@ -23,14 +23,9 @@ static qdot_status
 tell_missing_lagrangian(qdot_session *session)
 {
     qdot_text text = {0};
-    qdot_status status;
 
     qdot_text_format(&text, "no Lagrangian follows: %s", qdot_last_error()->message);
-    status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_notice_text(session, QDOT_OK, &text);
 }
 
 static qdot_status

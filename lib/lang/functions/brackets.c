@@ -140,10 +140,10 @@ prove_beside_jumps(qdot_session *s, qdot_expr value, qdot_expr wanted, bool *pro
         *proved = qdot_is_zero(s->pool, qdot_sub(s->pool, value, wanted), &facts);
         status = qdot_pool_check(s->pool);
     }
-    if (*proved && status == QDOT_OK && qdot_text_status(&text) == QDOT_OK)
-        status = qdot_answer_notice_once(s, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
     qdot_free(relations.at);
+    if (*proved)
+        return qdot_answer_notice_once_text(s, status, &text);
+    qdot_text_clear(&text);
     return status;
 }
 

@@ -161,12 +161,7 @@ qdot_equilibria_notice(qdot_session *session, const char *word, long k, const qd
     status = qdot_solve_print_conditions(session->pool, "", e->exists, &text);
     if (now == QDOT_FALSE)
         qdot_text_add(&text, ": not with the values of `set`");
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_condition(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_condition_text(session, status, &text);
 }
 
 /* --- the verdict as a value ------------------------------------------------------------------ */

@@ -130,12 +130,7 @@ notice_primary_constraints(qdot_session *s)
     }
     qdot_text_add(&text, qdot_expr_count(s->pool, list) > 1 ? " are constraints between coordinates and momenta"
                                                             : " is a constraint between coordinates and momenta");
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice_once(s, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_notice_once_text(s, status, &text);
 }
 
 /* A stated H is known even where no Lagrangian follows from it. */

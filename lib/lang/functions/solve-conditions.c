@@ -46,14 +46,14 @@ qdot_solve_notice_conditions(qdot_session *session, qdot_expr solution, qdot_exp
 {
     qdot_pool *pool = session->pool;
     qdot_text text = {0};
-    qdot_status status = qdot_print(pool, solution, QDOT_PLAIN, &text);
+    qdot_status status;
 
+    if (conditions == QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_print(pool, solution, QDOT_PLAIN, &text);
     if (status == QDOT_OK)
         status = qdot_solve_print_conditions(pool, " exists when ", conditions, &text);
-    if (status == QDOT_OK && conditions != QDOT_NIL)
-        status = qdot_answer_condition(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_condition_text(session, status, &text);
 }
 
 /* The relation u != 0 if the given relation is 0 < |u|, which means the same; otherwise the given relation. */

@@ -226,16 +226,12 @@ give_notice_of_free_unknowns(const question *q, const qdot_simultaneous_solution
         qdot_text_add(&text, free++ == 0 ? "" : " and ");
         status = qdot_print(q->pool, q->u[j], QDOT_PLAIN, &text);
     }
-    if (status == QDOT_OK && free > 0) {
-        qdot_text_format(&text, " may have any value of %s in ", free == 1 ? "its domain" : "their domains");
-        status = qdot_print(q->pool, values, QDOT_PLAIN, &text);
-    }
+    if (free == 0)
+        return status;
+    qdot_text_format(&text, " may have any value of %s in ", free == 1 ? "its domain" : "their domains");
     if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK && free > 0)
-        status = qdot_answer_condition(q->session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+        status = qdot_print(q->pool, values, QDOT_PLAIN, &text);
+    return qdot_answer_condition_text(q->session, status, &text);
 }
 
 static qdot_status

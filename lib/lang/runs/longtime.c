@@ -159,9 +159,8 @@ answer_rows_as_json(qdot_session *session, const void *study)
     qdot_text_clear(&text);
     if (status == QDOT_OK && l->chosen != NULL) {
         write_choice_of_auto(l, &text);
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+        status = qdot_answer_notice_text(session, status, &text);
     }
-    qdot_text_clear(&text);
     return status;
 }
 
