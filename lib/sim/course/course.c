@@ -240,16 +240,7 @@ qdot_course_begin_history(qdot_course *c, double t0, const double *y)
 qdot_status
 qdot_course_remember(qdot_course *c, const qdot_plan *plan)
 {
-    uint32_t *called = plan->delayed && !c->history ? qdot_calloc(2 * plan->n, sizeof *called) : NULL;
-    qdot_status status;
-
-    if (!plan->delayed || c->history)
-        return QDOT_OK;
-    for (size_t i = 0; i < 2 * plan->n && called; i++)
-        called[i] = plan->inputs[i];
-    status = called ? qdot_past_new(2 * plan->n, called, &c->history) : QDOT_ENOMEM;
-    qdot_free(called);
-    return status;
+    return plan->delayed && !c->history ? qdot_past_new(2 * plan->n, plan->inputs, &c->history) : QDOT_OK;
 }
 
 qdot_status

@@ -39,9 +39,10 @@ QDOT_MUST_CHECK qdot_status qdot_course_run(qdot_course *c, const qdot_ode_metho
                                             const qdot_ode_options *options, double t0,
                                             double t1, const double *y);
 
-/* Make c->history if the plan has delays; let it begin at t0 with y [2n], before which nothing moved, and forget an earlier
- * run of this course. Errors: QDOT_ENOMEM. */
+/* Make c->history, of q and q', if the plan has delays and there is none yet. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_course_remember(qdot_course *c, const qdot_plan *plan);
+/* The same; and the history begins at t0 with y [2n], q and q', an earlier run of this course being forgotten: before t0 nothing
+ * moved, q had these values. */
 QDOT_MUST_CHECK qdot_status qdot_course_begin_history(qdot_course *c, double t0, const double *y);
 
 /* Make the bind of the first mode, before or without a run: to check a start, or to read a c->tr
