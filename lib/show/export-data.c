@@ -7,24 +7,25 @@
 
 typedef qdot_export_writer writer;
 
+static qdot_status
+find_tables_of_motion(const qdot_export_system *x, qdot_export_tables *tables)
+{
+    const qdot_tape *const tapes[] = {x->equations.tape, x->slopes.tape, x->velocities.tape, x->energy.tape,
+                                      x->positions.tape, x->events.tape, x->switches.tape};
+
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        QDOT_TRY(qdot_export_tables_find(tables, tapes[k]));
+    for (size_t k = 0; k < x->n_events; k++)
+        QDOT_TRY(qdot_export_tables_find(tables, x->event[k].effect));
+    QDOT_TRY(qdot_knots_find(x->equations.tape, 0, &tables->lines));
+    return x->velocities.tape == NULL ? QDOT_OK : qdot_knots_find(x->velocities.tape, 0, &tables->lines);
+}
+
 qdot_status
 qdot_export_find_tables(writer *w)
 {
-    const qdot_export_system *x = w->system;
-
-    if (x == NULL)
-        return qdot_export_tables_find(&w->tables, w->value->value.tape);
-    {
-        const qdot_tape *const tapes[] = {x->equations.tape, x->slopes.tape, x->velocities.tape, x->energy.tape,
-                                          x->positions.tape, x->events.tape, x->switches.tape};
-
-        for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
-            QDOT_TRY(qdot_export_tables_find(&w->tables, tapes[k]));
-    }
-    for (size_t k = 0; k < x->n_events; k++)
-        QDOT_TRY(qdot_export_tables_find(&w->tables, x->event[k].effect));
-    QDOT_TRY(qdot_knots_find(x->equations.tape, 0, &w->tables.lines));
-    return x->velocities.tape == NULL ? QDOT_OK : qdot_knots_find(x->velocities.tape, 0, &w->tables.lines);
+    return w->system != NULL ? find_tables_of_motion(w->system, &w->tables)
+                             : qdot_export_tables_find(&w->tables, w->value->value.tape);
 }
 
 #pragma GCC diagnostic push

@@ -4,6 +4,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/hamilton/hamilton.h"
 #include "mech/hamilton/phase-constraints.h"
@@ -30,16 +31,13 @@ eliminate_constraints(qdot_scene *s, qdot_phase_space *x)
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
-/* What acts along coordinate i: applied forces and reactions, in q and p. */
+/* What acts along the coordinate q: applied forces and reactions, in q and p. */
 static qdot_expr
 find_force(qdot_scene *s, const qdot_phase_space *x, qdot_expr q)
 {
-    qdot_expr Q = qdot_mech_force(s, q);
-    size_t i = 0;
+    const size_t i = qdot_expr_place(s->coordinates.n, s->coordinates.at, q);
+    qdot_expr Q = qdot_add(s->pool, qdot_mech_force(s, q), qdot_constraint_reaction(s, i));
 
-    while (i < s->coordinates.n && s->coordinates.at[i] != q)
-        i++;
-    Q = qdot_add(s->pool, Q, qdot_constraint_reaction(s, i));
     for (size_t k = 0; k < x->eliminated.n && Q != QDOT_NIL; k++)
         Q = qdot_subs(s->pool, Q, 1, &s->constraints.at[k].multiplier, &x->eliminated.at[k].multiplier);
     return qdot_phase_space_inward(s, qdot_hamilton_in_momenta(s, Q));
