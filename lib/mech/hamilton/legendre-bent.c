@@ -265,18 +265,73 @@ solve_by_form(block *k, form *m, bool *found, qdot_expr *bound)
     return choose_root(k, equation, k->u, fill_from_u, m, found);
 }
 
-/* Whether x.dF/dx = F, up to terms without x. */
+/* Whether a function that may jump, such as sign(x), stands in e with an x in its argument. */
 static bool
-is_homogeneous(const block *k)
+holds_function(const block *k, qdot_expr e)
 {
-    qdot_expr sum = qdot_neg(k->pool, k->F);
+    qdot_walk w;
+    bool found = false;
+
+    if (e == QDOT_NIL || qdot_walk_begin(k->pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++)
+        found = qdot_expr_kind(k->pool, w.at[i]) == QDOT_FUN && holds_any(k, w.at[i]);
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* The sum of the terms of e that hold no x. */
+static qdot_expr
+terms_without(const block *k, qdot_expr e)
+{
+    const bool several = e != QDOT_NIL && qdot_expr_kind(k->pool, e) == QDOT_SUM;
+    qdot_expr sum = several ? qdot_expr_arg(k->pool, e, 0) : QDOT_ZERO;
+
+    if (!several)
+        return e == QDOT_NIL || holds_any(k, e) ? sum : e;
+    for (uint32_t i = 1; i < qdot_expr_count(k->pool, e); i += 2)
+        if (!holds_any(k, qdot_expr_arg(k->pool, e, i)))
+            sum = qdot_add(k->pool, sum, qdot_mul(k->pool, qdot_expr_arg(k->pool, e, i + 1), qdot_expr_arg(k->pool, e, i)));
+    return sum;
+}
+
+/* Whether a = b is proved; by cases of signs, too, as abs(x) = x sign(x). */
+static bool
+is_equal_in_cases(const block *k, qdot_expr a, qdot_expr b)
+{
+    qdot_decision decision;
+
+    if (a == QDOT_NIL || b == QDOT_NIL)
+        return false;
+    if (qdot_decide_equal(k->pool, a, b, k->facts, &decision) != QDOT_OK)
+        return qdot_pool_fail(k->pool) != QDOT_NIL;
+    return decision.verdict == QDOT_PROVED;
+}
+
+qdot_expr
+qdot_legendre_lower(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x, const qdot_facts *facts)
+{
+    const block k = {.pool = pool, .facts = facts, .n = n, .x = x};
+    const qdot_expr lower = terms_without(&k, F);
+    qdot_expr rest = F;
+
+    for (uint32_t i = 0; i < n; i++)
+        rest = qdot_sub(pool, rest, qdot_mul(pool, x[i], qdot_diff(pool, F, x[i])));
+    rest = qdot_simplify(pool, rest, facts);
+    return rest == lower || (holds_function(&k, rest) && is_equal_in_cases(&k, rest, lower)) ? lower : rest;
+}
+
+/* What F - x.dF/dx says where it does not vary with x: FIRST where it holds none; where it is such as x sign(x - a) of
+ * F = abs(x - a), the second derivatives are 0, and F is not homogeneous. */
+static qdot_legendre_degree
+find_degree(const block *k)
+{
+    const qdot_expr lower = qdot_legendre_lower(k->pool, k->F, k->n, k->x, k->facts);
 
     for (uint32_t i = 0; i < k->n; i++)
-        sum = qdot_add(k->pool, sum, qdot_mul(k->pool, k->x[i], qdot_diff(k->pool, k->F, k->x[i])));
-    for (uint32_t i = 0; i < k->n; i++)
-        if (!qdot_is_zero(k->pool, qdot_diff(k->pool, sum, k->x[i]), k->facts))
-            return false;
-    return true;
+        if (!qdot_is_zero(k->pool, qdot_diff(k->pool, lower, k->x[i]), k->facts))
+            return QDOT_LEGENDRE_REGULAR;
+    return holds_function(k, lower) ? QDOT_LEGENDRE_SINGULAR : QDOT_LEGENDRE_FIRST;
 }
 
 /* What is 0 where e is: the product of the factors of its numerator. */
@@ -293,7 +348,7 @@ numerator(const block *k, qdot_expr e)
 
 qdot_status
 qdot_legendre_bent(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x, const qdot_expr *y,
-                   const qdot_facts *facts, qdot_expr *solved, bool *found, qdot_expr *bound, qdot_expr *there)
+                   const qdot_facts *facts, qdot_expr *solved, qdot_legendre_degree *degree, qdot_expr *bound, qdot_expr *there)
 {
     block k = {.pool = pool,
                .facts = facts,
@@ -305,27 +360,27 @@ qdot_legendre_bent(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x,
                .u = qdot_symbol_get(pool, QDOT_FORMAL, "(form)")};
     form m = {.B = qdot_calloc((size_t)n * n + 3 * n, sizeof *m.B)};
     qdot_status status = m.B == NULL ? QDOT_ENOMEM : qdot_pool_check(pool);
-    bool by_form = false, homogeneous;
+    bool by_form = false, found = false;
 
-    *found = false;
+    *degree = QDOT_LEGENDRE_REGULAR;
     *bound = *there = QDOT_NIL;
     if (m.B != NULL) {
         m.b = m.B + (size_t)n * n;
         m.x0 = m.b + n;
         m.X = m.x0 + n;
+        *degree = find_degree(&k);
     }
-    homogeneous = status == QDOT_OK && is_homogeneous(&k);
     if (status == QDOT_OK)
         status = find_quadratic_inside(&k, &m, &by_form);
     if (status == QDOT_OK && by_form)
-        status = solve_by_form(&k, &m, found, bound);
-    if (status == QDOT_OK && homogeneous && *bound == QDOT_NIL)
-        *bound = QDOT_ONE;
-    if (status == QDOT_OK && !*found && *bound == QDOT_NIL && n == 1)
-        status = choose_root(&k, qdot_sub(pool, y[0], qdot_diff(pool, F, x[0])), x[0], fill_itself, NULL, found);
-    if (status == QDOT_OK && *bound != QDOT_NIL && *bound != QDOT_ONE)
+        status = solve_by_form(&k, &m, &found, bound);
+    if (status == QDOT_OK && *bound != QDOT_NIL) {
         *bound = numerator(&k, *bound);
-    *there = *found ? k.there : QDOT_NIL;
+        *degree = *degree == QDOT_LEGENDRE_REGULAR ? QDOT_LEGENDRE_SINGULAR : *degree;
+    }
+    if (status == QDOT_OK && !found && *degree == QDOT_LEGENDRE_REGULAR && n == 1)
+        status = choose_root(&k, qdot_sub(pool, y[0], qdot_diff(pool, F, x[0])), x[0], fill_itself, NULL, &found);
+    *there = found ? k.there : QDOT_NIL;
     qdot_free(m.B);
     return status;
 }

@@ -134,7 +134,7 @@ report_singular(const qdot_legendre *l, uint32_t i)
 /* F is homogeneous of first degree in all x, F(x) = x_i F(x/x_i) for x_i > 0: what is 0 there is y_i + g, with g the transform
  * of F at x_i = 1 in the other variables. *parameter is that x_i; nil: no g was found. */
 static qdot_expr
-find_primary_constraint(const qdot_legendre *l, qdot_expr *parameter)
+find_primary_constraint(const qdot_legendre *l, qdot_expr F, qdot_expr *parameter)
 {
     qdot_expr *others = qdot_calloc(l->n + 1, sizeof *others), bound = QDOT_NIL, one = QDOT_ONE;
 
@@ -148,7 +148,7 @@ find_primary_constraint(const qdot_legendre *l, qdot_expr *parameter)
                 others[m++] = l->q[j];
         *parameter = l->x[i];
         bound = qdot_add(l->pool, l->y[i],
-                         qdot_legendre_of(l->s, l->of, qdot_subs(l->pool, l->F, 1, &l->x[i], &one), m, others));
+                         qdot_legendre_of(l->s, l->of, qdot_subs(l->pool, F, 1, &l->x[i], &one), m, others));
         if (qdot_pool_check(l->pool) != QDOT_OK)
             bound = QDOT_NIL;
     }
@@ -156,35 +156,60 @@ find_primary_constraint(const qdot_legendre *l, qdot_expr *parameter)
     return bound;
 }
 
-/* F is homogeneous of first degree in a block of variables, `alone`: in all; bound: what is 0, or QDOT_ONE: it was not found. */
+/* The names of v [n] in the block of the variable `first`, as "p[x], p[y]". Returns their number. */
+static uint32_t
+add_names(const qdot_legendre *l, const qdot_expr *v, uint32_t first, qdot_text *text)
+{
+    uint32_t n = 0;
+
+    for (uint32_t i = first; i < l->n; i++)
+        if (l->block[i] == first) {
+            qdot_text_add(text, n++ > 0 ? ", " : "");
+            if (qdot_print(l->pool, v[i], QDOT_PLAIN, text) != QDOT_OK)
+                text->failed = true;
+        }
+    return n;
+}
+
+/* y does not determine the x of the block of the variable `first`; bound: what is 0 then, nil: it was not found. */
 static void
-report_homogeneous(const qdot_legendre *l, qdot_expr bound, bool alone)
+report_undetermined(const qdot_legendre *l, uint32_t first, qdot_legendre_degree degree, qdot_expr bound)
 {
     const bool of_velocities = l->of == QDOT_COORD;
-    qdot_expr parameter = QDOT_NIL;
-    qdot_text text = {0};
+    const char *F = of_velocities ? "L" : "H", *y = of_velocities ? "momenta" : "velocities";
+    qdot_expr parameter = QDOT_NIL, lower = QDOT_NIL;
+    qdot_text text = {0}, names = {0};
+    const uint32_t m = add_names(l, l->x, first, &names);
 
-    if (bound == QDOT_ONE && alone && of_velocities) {
-        bound = find_primary_constraint(l, &parameter);
-        bound = bound == QDOT_NIL ? QDOT_ONE : bound;
+    if (m == l->n && degree == QDOT_LEGENDRE_FIRST) {
+        lower = qdot_legendre_lower(l->pool, l->F, l->n, l->x, &l->facts);
+        if (bound == QDOT_NIL && of_velocities)
+            bound = find_primary_constraint(l, qdot_sub(l->pool, l->F, lower), &parameter);
     }
-    if (bound != QDOT_ONE) {
+    if (degree != QDOT_LEGENDRE_FIRST)
+        qdot_text_format(&text, "the %s do not determine %s: %s is not regular in %s", y, qdot_text_str(&names), F,
+                         of_velocities ? "the velocities" : "the momenta");
+    else if (lower == QDOT_ZERO)
+        qdot_text_format(&text, "%s is homogeneous of first degree in the %s: sum p q' - %s is 0", F, of_velocities ? "velocities" : "momenta", F);
+    else
+        qdot_text_format(&text, "the %s do not determine %s: beside terms without %s %s is homogeneous of first degree in %s",
+                         y, qdot_text_str(&names), m > 1 ? "these" : "it", F, m > 1 ? "them" : "it");
+    if (bound != QDOT_NIL) {
         if (parameter != QDOT_NIL)
             qdot_text_format(&text, ", and where %s > 0", qdot_expr_symbol(l->pool, parameter)->name);
         else
             qdot_text_add(&text, ", and");
-        qdot_text_add(&text, of_velocities ? " the momenta obey " : " the velocities obey ");
+        qdot_text_format(&text, " the %s obey ", y);
         if (qdot_print(l->pool, bound, QDOT_PLAIN, &text) != QDOT_OK)
             text.failed = true;
         qdot_text_add(&text, " = 0");
     }
-    if (qdot_text_status(&text) != QDOT_OK)
+    if (qdot_text_status(&text) != QDOT_OK || qdot_text_status(&names) != QDOT_OK)
         qdot_pool_fail(l->pool);
     else
-        qdot_mech_fail(l->s, QDOT_ESINGULAR, "%s is homogeneous of first degree in the %s: sum p q' - L is 0%s",
-                       of_velocities ? "L" : "H", of_velocities ? "velocities" : "momenta",
-                       text.n > 0 ? qdot_text_str(&text) : "");
+        qdot_mech_fail(l->s, QDOT_ESINGULAR, "%s", qdot_text_str(&text));
     qdot_text_clear(&text);
+    qdot_text_clear(&names);
 }
 
 static void
@@ -261,7 +286,8 @@ solve_bent_block(qdot_legendre *l, uint32_t first)
     qdot_expr *x = qdot_calloc(3 * (size_t)l->n, sizeof *x), *y = x + l->n, *solved = y + l->n, bound = QDOT_NIL,
               there = QDOT_NIL, sum = QDOT_ZERO, own = terms_of_block(l, l->F_left, first), others = qdot_sub(pool, l->F_left, own);
     uint32_t m = 0;
-    bool found = false, apart;
+    bool apart;
+    qdot_legendre_degree degree = QDOT_LEGENDRE_REGULAR;
     qdot_status status = x == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     if (is_held(l, others, first)) { /* a product may hold a sum of terms of several blocks */
@@ -276,8 +302,8 @@ solve_bent_block(qdot_legendre *l, uint32_t first)
             y[m++] = l->y[i];
         }
     if (status == QDOT_OK)
-        status = qdot_legendre_bent(pool, apart ? own : l->F_left, m, x, y, &l->facts, solved, &found, &bound, &there);
-    for (uint32_t i = first, k = 0; i < l->n && found && status == QDOT_OK; i++)
+        status = qdot_legendre_bent(pool, apart ? own : l->F_left, m, x, y, &l->facts, solved, &degree, &bound, &there);
+    for (uint32_t i = first, k = 0; i < l->n && there != QDOT_NIL && status == QDOT_OK; i++)
         if (l->block[i] == first) {
             l->solved[i] = solved[k++];
             sum = qdot_add(pool, sum, qdot_mul(pool, l->solved[i], l->y[i]));
@@ -293,11 +319,11 @@ solve_bent_block(qdot_legendre *l, uint32_t first)
     l->G_bent = qdot_add(pool, l->G_bent, sum);
     if (status != QDOT_OK)
         qdot_pool_fail(pool);
-    else if (bound != QDOT_NIL)
-        report_homogeneous(l, bound, m == l->n);
-    else if (!found)
+    else if (degree != QDOT_LEGENDRE_REGULAR)
+        report_undetermined(l, first, degree, bound);
+    else if (there == QDOT_NIL)
         report_no_formula(l, first);
-    return found && status == QDOT_OK;
+    return there != QDOT_NIL && status == QDOT_OK;
 }
 
 bool

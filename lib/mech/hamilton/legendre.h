@@ -10,8 +10,8 @@
  *                                 u = Q(x0) + (y - b).X/2 f'(u)^2 is one equation for u, and x = x0 + X/f'(u)
  *     one variable                one equation (normal/solve)
  *
- * What is found so is put into y = dF/dx, and proved. F homogeneous of first degree in the block has no
- * transform: G is 0 and the y obey a relation, the primary constraint.
+ * What is found so is put into y = dF/dx, and proved. F homogeneous of first degree in the block, beside
+ * terms without it, has no transform: the y obey a relation, the primary constraint.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1; Dirac, Lectures on Quantum Mechanics, 1.
  * Tests   tests/mech/hamilton/test_legendre.c
@@ -46,11 +46,16 @@ void qdot_legendre_end(qdot_legendre *l);
 /* G(y). Nil: the pool has the cause, as of qdot_legendre_begin. */
 qdot_expr qdot_legendre_of(qdot_scene *s, qdot_class of, qdot_expr F, uint32_t n, const qdot_expr *q);
 
-/* Solve y_i = dF/dx_i, i < n, of one block in which F is not quadratic; *found false: no formula was found. *bound: an
- * expression in y that is 0 where F is homogeneous of first degree in x (QDOT_ONE: it is, but the relation was not
- * found); else nil. *there: F at the solution. */
+/* Whether y = dF/dx can determine x. FIRST: not, for F is homogeneous of first degree in x beside terms without x; SINGULAR:
+ * not, for another reason. */
+typedef enum { QDOT_LEGENDRE_REGULAR, QDOT_LEGENDRE_FIRST, QDOT_LEGENDRE_SINGULAR } qdot_legendre_degree;
+
+/* Solve y_i = dF/dx_i, i < n, of one block in which F is not quadratic. *bound: an expression in y that is 0 where x is not
+ * determined; nil: not found. *there: F at the solution; nil: no formula was found. */
 QDOT_MUST_CHECK qdot_status qdot_legendre_bent(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x,
                                                const qdot_expr *y, const qdot_facts *facts, qdot_expr *solved,
-                                               bool *found, qdot_expr *bound, qdot_expr *there);
+                                               qdot_legendre_degree *degree, qdot_expr *bound, qdot_expr *there);
+/* F - sum x_i dF/dx_i, simplified: the terms without x where the others are homogeneous of first degree. */
+qdot_expr qdot_legendre_lower(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x, const qdot_facts *facts);
 
 #endif
