@@ -218,8 +218,8 @@ evaluate_range_function(qdot_machine *m, const qdot_postfix *code)
                                          &value));
     for (size_t i = code->n - 2; i < code->n && along; i++)
         QDOT_TRY(qdot_units_time(m->session, m->args.at[i]));
-    if (along && qdot_units_on(m->session))
-        QDOT_TRY(qdot_units_of_call(m->session, code->token->text, code->n - 2, m->args.at, &value));
+    if (qdot_units_on(m->session))
+        QDOT_TRY(qdot_units_of_call(m->session, code->token->text, along ? code->n - 2 : code->n, m->args.at, &value));
     return qdot_machine_push(m, value);
 }
 
@@ -488,6 +488,21 @@ execute_instruction(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     return qdot_fail(QDOT_EFAILED, "the reader lost its way");
 }
 
+/* Whether the value of the instruction may hold sums or functions that were not written: a sum written in place adds by
+ * QDOT_POSTFIX_SUM, which names its summands. */
+static bool
+joins_summands(const qdot_postfix *code)
+{
+    switch ((qdot_postfix_kind)code->op) {
+    case QDOT_POSTFIX_CALL:
+    case QDOT_POSTFIX_RANGE:
+    case QDOT_POSTFIX_POWER:
+    case QDOT_POSTFIX_PRODUCT: /* of matrices and vectors */
+    case QDOT_POSTFIX_IF_END: return true;
+    default: return false;
+    }
+}
+
 static qdot_status
 execute_program(qdot_machine *m, uint32_t first, uint32_t end)
 {
@@ -498,7 +513,7 @@ execute_program(qdot_machine *m, uint32_t first, uint32_t end)
         if ((pc & 0x3FFF) == 0)
             QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(execute_instruction(m, code, &pc));
-        if (qdot_units_on(m->session) && (code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_POWER))
+        if (qdot_units_on(m->session) && joins_summands(code))
             QDOT_TRY(qdot_machine_units_value(m));
         if (m->frames.n > 0 && code->op >= QDOT_POSTFIX_NAME && code->op <= QDOT_POSTFIX_MEMBER)
             qdot_partial_sum_note(m, code);

@@ -11,7 +11,9 @@
 #include "expr/value-kind.h"
 #include "lang/language/condition.h"
 #include "lang/language/partial-sum.h"
+#include "lang/language/units.h"
 #include "lang/session/bind.h"
+#include "lang/session/units.h"
 #include "normal/calculus/closed-sum.h"
 
 /* Bind the index k of a sum to its next value, or finish the sum. */
@@ -38,6 +40,8 @@ begin_next_summand(qdot_machine *m, uint32_t *pc, uint32_t body)
     m->terms.n = f->terms;
     *pc = f->resume;
     m->frames.n--;
+    if (qdot_units_on(m->session))
+        QDOT_TRY(qdot_machine_units_terms(m));
     if (qdot_machine_all_scalars(m)) {
         const qdot_partial_sum sum = {f->place, f->first, f->last,
                                       qdot_sum(m->pool, m->args.n, m->args.at)};
@@ -102,7 +106,8 @@ finish_sum_by_formula(qdot_machine *m, uint32_t *pc)
     qdot_names_pop(m->session->names);
     *pc = f->resume;
     m->frames.n--;
-    return qdot_machine_push(m, value);
+    QDOT_TRY(qdot_machine_push(m, value));
+    return qdot_units_on(m->session) ? qdot_machine_units_value(m) : QDOT_OK;
 }
 
 qdot_status

@@ -5,6 +5,7 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/unit.h"
@@ -159,6 +160,19 @@ qdot_machine_units_sum(qdot_machine *m, size_t n)
 }
 
 qdot_status
+qdot_machine_units_terms(qdot_machine *m)
+{
+    size_t left = 0; /* the first term that is not 0 */
+
+    for (size_t i = 1; i < m->args.n; i++) {
+        if (m->args.at[left] == QDOT_ZERO)
+            left = i;
+        QDOT_TRY(qdot_units_join(m->session, m->args.at[left], m->args.at[i], "%s and %s are terms of one sum"));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_machine_units_relation(qdot_machine *m, const qdot_token *relation)
 {
     m->blame = relation;
@@ -197,20 +211,82 @@ entry_of_arguments(const qdot_pool *pool, uint32_t n, const qdot_expr *args, uin
     return QDOT_NIL;
 }
 
+/* x, or the left side of x = guess. */
+static qdot_expr
+unknown_of(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_REL ? qdot_expr_arg(pool, e, 0) : e;
+}
+
+/* The numbers of *value, one or the entries of a vector or list, have the units of those of args [n], from the first again
+ * where these are fewer. */
+static qdot_status
+give_units(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    const bool scalar = qdot_expr_is_scalar(pool, *value);
+    uint32_t count = 0;
+    qdot_vec(qdot_expr) entries = {0};
+    qdot_status status = QDOT_OK;
+
+    while (entry_of_arguments(pool, n, args, count) != QDOT_NIL)
+        count++;
+    for (uint32_t i = 0; i < (scalar ? 1 : qdot_expr_count(pool, *value)) && count > 0 && status == QDOT_OK; i++) {
+        qdot_expr one = scalar ? *value : qdot_expr_arg(pool, *value, i);
+
+        if (qdot_expr_is_scalar(pool, one))
+            status = give_unit(session, unknown_of(pool, entry_of_arguments(pool, n, args, i % count)), &one);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&entries, one);
+    }
+    if (status != QDOT_OK || entries.n == 0)
+        ;
+    else if (scalar)
+        *value = entries.at[0];
+    else if (qdot_expr_kind(pool, *value) == QDOT_VEC)
+        *value = qdot_vector(pool, (uint32_t)entries.n, entries.at);
+    else if (qdot_expr_kind(pool, *value) == QDOT_LIST)
+        *value = qdot_list(pool, (uint32_t)entries.n, entries.at);
+    qdot_free(entries.at);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* The zeros of solve(A = B, x, a..b) or solve(A = B, x = guess) have the unit of x, and so have a and b; a bare time is in s. */
+static qdot_status
+units_of_zeros(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    for (uint32_t i = 2; i < n; i++)
+        if (args[1] != QDOT_T || !qdot_expr_is_constant(session->pool, args[i]))
+            QDOT_TRY(qdot_units_join(session, args[1], args[i], "the range of %s has an end that is %s"));
+    return n > 1 ? give_units(session, 1, args + 1, value) : QDOT_OK;
+}
+
+/* The action of a coordinate q has the unit of p q, its energy that of p q'. */
+static qdot_status
+unit_of_action(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_expr q = args[0], p = qdot_symbol_of(pool, QDOT_MOMENTUM, q), action = qdot_mul(pool, p, q);
+
+    if (n == 2)
+        QDOT_TRY(qdot_units_join(session, qdot_mul(pool, p, qdot_symbol_jet(pool, q, 1)), args[1], "%s belongs here, not %s"));
+    return give_units(session, 1, &action, value);
+}
+
 qdot_status
 qdot_units_of_call(qdot_session *session, const char *name, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     static const char *const circular[] = {"sin", "cos", "tan"};
     static const char *const numbers[] = {"value", "numeric", "N", "mean", "min", "max"};
-    qdot_pool *pool = session->pool;
-    const bool scalar = qdot_expr_is_scalar(pool, *value);
-    qdot_vec(qdot_expr) entries = {0};
-    qdot_status status = QDOT_OK;
     size_t k = 0;
 
     for (size_t i = 0; i < sizeof circular / sizeof *circular && n == 1; i++)
         if (strcmp(circular[i], name) == 0)
             return qdot_units_angles_in(session, args[0]);
+    if (strcmp(name, "solve") == 0)
+        return units_of_zeros(session, n, args, value);
+    if (strcmp(name, "action") == 0 && n > 0 && qdot_expr_is_coordinate(session->pool, args[0]))
+        return unit_of_action(session, n, args, value);
     while (k < sizeof numbers / sizeof *numbers && strcmp(numbers[k], name) != 0)
         k++;
     if (k == sizeof numbers / sizeof *numbers || n == 0)
@@ -218,23 +294,7 @@ qdot_units_of_call(qdot_session *session, const char *name, uint32_t n, const qd
     if (k == 0 && n > 1)
         QDOT_TRY(qdot_units_time(session, args[n - 1]));
     n = k == 0 && n > 1 ? n - 1 : k == 0 ? n : 1; /* the last argument of `value` is the time */
-    for (uint32_t i = 0; i < (scalar ? 1 : qdot_expr_count(pool, *value)) && status == QDOT_OK; i++) {
-        qdot_expr one = scalar ? *value : qdot_expr_arg(pool, *value, i);
-        const qdot_expr of = entry_of_arguments(pool, n, args, i);
-
-        if (of != QDOT_NIL && qdot_expr_is_scalar(pool, one))
-            status = give_unit(session, of, &one);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&entries, one);
-    }
-    if (status == QDOT_OK && scalar)
-        *value = entries.at[0];
-    else if (status == QDOT_OK && qdot_expr_kind(pool, *value) == QDOT_VEC)
-        *value = qdot_vector(pool, (uint32_t)entries.n, entries.at);
-    else if (status == QDOT_OK && qdot_expr_kind(pool, *value) == QDOT_LIST)
-        *value = qdot_list(pool, (uint32_t)entries.n, entries.at);
-    qdot_free(entries.at);
-    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+    return give_units(session, n, args, value);
 }
 
 qdot_status

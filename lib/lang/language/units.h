@@ -29,8 +29,10 @@ QDOT_MUST_CHECK qdot_status qdot_unit_parse_in(qdot_cursor *c, qdot_postfix_list
 
 /* Multiply the value on top of the stack by the unit, or divide it by it, for `in`. */
 QDOT_MUST_CHECK qdot_status qdot_machine_unit(qdot_machine *m, const qdot_postfix *code);
-/* Where units are used: the top n values are summands; the two sides of a relation; a new value agrees in itself. */
+/* Where units are used: the top n values are summands; so are the arguments of the machine, terms of sum( ); the two sides of a
+ * relation; a new value agrees in itself. */
 QDOT_MUST_CHECK qdot_status qdot_machine_units_sum(qdot_machine *m, size_t n);
+QDOT_MUST_CHECK qdot_status qdot_machine_units_terms(qdot_machine *m);
 QDOT_MUST_CHECK qdot_status qdot_machine_units_relation(qdot_machine *m, const qdot_token *relation);
 QDOT_MUST_CHECK qdot_status qdot_machine_units_value(qdot_machine *m);
 
