@@ -150,7 +150,7 @@ find_step_length(run *r, double most, double *h)
             /* use the other coefficients if the last ones underflow; a polynomial allows any step */
             far = l < INFINITY ? l : fmax(0, log2_of_step_by_all_orders(r));
             if (r->system->until) /* a step ends there at the latest: no unit of time above that length is of use */
-                far = fmin(far, 1 + log2(fabs(qdot_ode_until(r->system, r->t, r->t1) - r->t)) - log2(fabs(r->unit)));
+                far = fmin(far, 1 + log2(fabs(r->until - r->t)) - log2(fabs(r->unit)));
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;
         }
@@ -167,11 +167,71 @@ find_step_length(run *r, double most, double *h)
     }
 }
 
+/* --- orders of steps that end where f is not smooth --------------------------------- */
+
+/* Steps from one point of a table of data to the next are often much shorter than the order of the run allows. The order is
+ * lowered from step to step as long as it allows the same length; after it allowed less it is lowered more rarely. */
+
+/* The lowest such order; log2 of the factor by which steps could be longer. */
+enum { least_of_short = 8 };
+static const double room = 1;
+
+void
+qdot_ode_taylor_run_set_order(run *r, int p)
+{
+    r->p = r->cut = p;
+    qdot_series_weights_set(&r->weights, p, r->log_term, qdot_step_fall(r->log_wanted, p));
+}
+
+/* Whether the order may change from step to step: machine code has one, and so have first orders in two doubles. */
+static bool
+may_change_order(const run *r, double most)
+{
+    const qdot_ode_code *code = &r->series->code;
+
+    return r->system->until && !r->options->leading && isinf(most) && !(code->there && code->there(r->most, code->user));
+}
+
+/* Whether one order less would allow the step to `until`, too; with so many more as a companion has. */
+static bool
+one_order_less_would_do(const run *r, double rest)
+{
+    const int p = r->p - 1 - r->options->order_more;
+    const qdot_series_reach reach = r->kernels->reach(r->n, r->series->x, r->series->stride, &r->weights, r->scale);
+
+    return p >= least_of_short && reach.upper + r->log_aim * r->weights.inverse[p] > log2(rest / fabs(r->unit)) + room;
+}
+
+/* Where the order does not allow the step to `until`, expand to the order of the run; then choose the order of the next step. */
+static qdot_status
+adapt_order(run *r, double most, double *h)
+{
+    const double rest = fabs(r->until - r->t);
+
+    if (*h < rest && r->p < r->most) {
+        r->next_p = r->p + 2 < r->most ? r->p + 2 : r->most;
+        r->cautious = r->patience = 2 * r->patience + 1;
+        qdot_ode_taylor_run_set_order(r, r->most);
+        QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
+        return find_step_length(r, most, h);
+    }
+    r->cautious -= r->cautious > 0;
+    r->next_p = *h < rest ? r->most : r->p - (r->cautious == 0 && one_order_less_would_do(r, rest));
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_ode_taylor_run_length(run *r, double most, double *h)
 {
-    if (!(r->options->h_fixed > 0))
-        return find_step_length(r, most, h);
-    *h = r->options->h_fixed;
-    return qdot_ode_taylor_run_expand(r);
+    const bool fixed = r->options->h_fixed > 0, changes = !fixed && may_change_order(r, most);
+    const int p = changes ? r->next_p : r->most;
+
+    if (p != r->p)
+        qdot_ode_taylor_run_set_order(r, p);
+    if (fixed) {
+        *h = r->options->h_fixed;
+        return qdot_ode_taylor_run_expand(r);
+    }
+    QDOT_TRY(find_step_length(r, most, h));
+    return changes ? adapt_order(r, most, h) : QDOT_OK;
 }

@@ -25,7 +25,12 @@ typedef struct {
     uint64_t max_steps;
     double work;      /* work of one Taylor expansion (unit: meter.h) */
     uint64_t counted; /* number of expansions whose work has been counted */
-    int p;
+    int p;         /* the order of the present step */
+    int most;      /* the order of the run, which steps that end at `until` need not have */
+    int next_p;    /* the order of the next step */
+    int cautious;  /* number of steps before the order is lowered again, and of those after it was too low the last time */
+    int patience;
+    double until;  /* the end of the present step at the latest: t1, or a time at which f is not smooth */
     int highest;   /* the highest order used by the run and its companion runs (companion.h) */
     int cut;       /* the order up to which the series is summed in the present step: p or less */
     double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
@@ -66,6 +71,9 @@ qdot_ode_taylor_run_set_unit(qdot_ode_taylor_run *r, double unit)
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_run_begin(qdot_ode_taylor_run *r, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_run_expand(qdot_ode_taylor_run *r);
+
+/* Expand series to order p from now on. */
+void qdot_ode_taylor_run_set_order(qdot_ode_taylor_run *r, int p);
 
 /* The length that a step should have, *h > 0, `most` being what a step tried before allows;
  * INFINITY where the series ends. The unit of the series is brought near it where it is far from

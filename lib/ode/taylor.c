@@ -359,26 +359,26 @@ taylor_too_small(const run *r)
                      "what double precision can hold");
 }
 
-/* The end of a step of length h, rounded to a double; if it is near t1, or a time at which f is not smooth, `until`, that. */
+/* The end of a step of length h, rounded to a double; if it is near r->until, that. */
 static double
-end_of_step(const run *r, double h, double until)
+end_of_step(const run *r, double h)
 {
-    double rest = r->direction * (until - r->t), end;
+    double rest = r->direction * (r->until - r->t), end;
 
     if (h >= rest * (1 - 1e-12))
-        return until;
+        return r->until;
     end = r->t +
           r->direction * (h > 0.5 * rest && !(r->options->h_fixed > 0) ? 0.5 * rest : h);
-    return r->direction * (until - end) > 0 ? end : until;
+    return r->direction * (r->until - end) > 0 ? end : r->until;
 }
 
 /* Make one step from the present state. */
 static qdot_status
 taylor_advance(run *r)
 {
-    const double until = r->options->h_fixed > 0 ? r->t1 : qdot_ode_until(r->system, r->t, r->t1);
     double h = 0, most = INFINITY, before = 0;
 
+    r->until = r->options->h_fixed > 0 ? r->t1 : qdot_ode_until(r->system, r->t, r->t1);
     for (int tries = 0;; tries++) {
         double end;
         bool good = false, unsure;
@@ -400,9 +400,9 @@ taylor_advance(run *r)
             r->defect = 0;
             unsure = isinf(h);
             h = qdot_smaller(h, most);
-            end = end_of_step(r, h, until);
+            end = end_of_step(r, h);
             h = r->direction * (end - r->t);
-            if (end != until && qdot_step_is_too_short(r->t, h))
+            if (end != r->until && qdot_step_is_too_short(r->t, h))
                 return taylor_too_small(r);
             status = taylor_try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)
@@ -567,13 +567,11 @@ taylor_prepare(run *r, double t0, double t1, const double *y)
         r->scale[i] = 1 / qdot_ode_size(r->least, i, y[i]);
     r->log_wanted = log2(qdot_step_aim(r->tol, r->options->leading));
     r->log_term = qdot_step_term(log2(qdot_step_aim(term_tol, r->options->leading)));
-    r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,
-                                 r->options->order_more);
+    r->most = r->next_p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading, r->options->order_more);
+    qdot_ode_taylor_run_set_order(r, r->most);
     r->highest = qdot_ode_taylor_highest(r->system, r->tol, r->options->leading,
                                          r->options->order_more);
     r->work = qdot_ode_expansion_work(r->series, r->p);
-    qdot_series_weights_set(&r->weights, r->p, r->log_term,
-                            qdot_step_fall(r->log_wanted, r->p));
     return r->series->prepare ? r->series->prepare(r->p, r->series->user) : QDOT_OK;
 }
 
@@ -626,6 +624,7 @@ qdot_ode_taylor_first_step(const qdot_ode_system *system, const qdot_ode_options
         qdot_ode_taylor_run_set_unit(&r, r.direction);
         status = qdot_ode_taylor_run_begin(&r, t, r.y);
     }
+    r.until = qdot_ode_until(system, t, t1);
     if (status == QDOT_OK)
         status = qdot_ode_taylor_run_length(&r, INFINITY, h);
     taylor_release(&r);

@@ -147,14 +147,27 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
 /* u is compared with the ends of the piece at so many places of a step; the passage is then found by so many bisections. */
 enum { PLACES = 32, BISECTIONS = 50 };
 
+/* The same of u_0 + u_1 s. */
+static double
+linear_near_knot(const double *u, double lo, double hi, double beyond, double s)
+{
+    const double at = (u[1] > 0 ? hi + beyond - u[0] : lo - beyond - u[0]) / u[1];
+
+    return at < s ? at : s;
+}
+
 double
 qdot_near_knot(int p, const double *u, double lo, double hi, double s)
 {
     const double size = fmax(fabs(u[0]), isfinite(hi - lo) ? hi - lo : 0), beyond = 8 * DBL_EPSILON * size;
     double in = 0, out = 0;
 
+    while (p > 1 && u[p] == 0)
+        p--;
     if (!(u[0] >= lo && u[0] <= hi) || qdot_near_sum(p, u, s) <= fmin(u[0] - lo, hi - u[0]))
         return s;
+    if (p == 1)
+        return linear_near_knot(u, lo, hi, beyond, s);
     if (isinf(s)) { /* a polynomial, which passes a knot within this unless it is one number */
         for (s = 1; isfinite(s) && qdot_near_sum(p, u, s) < 4 * size + fmin(u[0] - lo, hi - u[0]);)
             s *= 2;

@@ -183,6 +183,46 @@ backwards_and_back_again(void **state)
     assert_true(fabsl(y[0] - ref[0]) < 4e-15 && fabsl(y[1] - ref[1]) < 8e-15);
 }
 
+static int orders_expanded;
+
+static qdot_status
+extend_and_count(int p, void *user)
+{
+    orders_expanded += p;
+    return extend(p, user);
+}
+
+static double
+next_hundredth(double t, int direction, void *user)
+{
+    (void)user;
+    return direction * (floor(direction * t * 100 + 1e-9) + 1) / 100;
+}
+
+/* Steps that end at given times are expanded to no more orders than so short ones need, with the same error. */
+static void
+short_steps_have_low_orders(void **state)
+{
+    fixture f;
+
+    (void)state;
+    start(&f, 0);
+    f.system.until = next_hundredth;
+    f.series.extend = extend_and_count;
+    for (int e = 6; e <= 15; e += 3) {
+        double tol = pow(10, -e), y[2] = {2, 0}, back[2];
+        qdot_ode_result r = integrate(&f, tol, 20, y);
+
+        if (!(true_error(&pendulum, 20, y) <= 100 * tol + 5e-15))
+            fail_msg("tol %g: error %g", tol, true_error(&pendulum, 20, y));
+        assert_true(r.stats.steps >= 2000);
+        orders_expanded = 0;
+        r = integrate(&f, tol, 20, memcpy(back, (double[]){2, 0}, sizeof back));
+        if (!(orders_expanded < 14 * (int)r.stats.evaluations))
+            fail_msg("tol %g: %d orders in %d expansions", tol, orders_expanded, (int)r.stats.evaluations);
+    }
+}
+
 /* x'' = -x^5 from x = 0: five coefficients of six vanish; at order 6 all of the upper half
  * but the last. */
 static void
@@ -447,6 +487,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_follows_the_tolerance),
         cmocka_unit_test(backwards_and_back_again),
+        cmocka_unit_test(short_steps_have_low_orders),
         cmocka_unit_test(vanishing_coefficients_fool_no_step),
         cmocka_unit_test(what_ends_is_one_step),
         cmocka_unit_test(any_unit_of_time_will_do),

@@ -80,6 +80,22 @@ a_quotient_that_diverges_is_told(void **state)
     assert_false(qdot_near_diverges(4, sine, 1));
 }
 
+/* u = 3 + s/8, and the same with a cubic term that is hardly there: the knot at 3.01 is passed by roundings of u. */
+static void
+a_step_ends_behind_a_knot(void **state)
+{
+    const double forwards[] = {3, 0.125, 0, 0}, backwards[] = {3, -0.125, 0, 0}, bent[] = {3, 0.125, 0, 1e-12};
+    const double s = qdot_near_knot(3, forwards, 3, 3.01, 1), back = qdot_near_knot(3, backwards, 2.99, 3.01, 1);
+
+    (void)state;
+    assert_true(3 + s / 8 >= 3.01 && 3 + s / 8 < 3.01 + 1e-14);
+    assert_true(3 - back / 8 < 2.99 && 3 - back / 8 > 2.99 - 1e-14);
+    assert_true(fabs(qdot_near_knot(3, bent, 3, 3.01, 1) - s) < 1e-12);
+    assert_true(qdot_near_knot(3, forwards, 3, 3.01, 0.07) == 0.07);
+    assert_true(qdot_near_knot(3, forwards, 3, INFINITY, INFINITY) == INFINITY);
+    assert_true(qdot_near_knot(3, (const double[]){3, 0, 0, 0}, 3, 3.01, 5) == 5);
+}
+
 int
 main(void)
 {
@@ -90,6 +106,7 @@ main(void)
         cmocka_unit_test(a_divisor_may_fall_to_an_eighth),
         cmocka_unit_test(a_divisor_that_grows_bounds_little),
         cmocka_unit_test(a_quotient_that_diverges_is_told),
+        cmocka_unit_test(a_step_ends_behind_a_knot),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ QDOT_MUST_CHECK qdot_status qdot_motion_matrix_begin(qdot_motion_matrix *K, doub
                                                      const double *y);
 QDOT_MUST_CHECK qdot_status qdot_motion_matrix_take_rows(qdot_motion_matrix *K);
 
-/* Prepare to solve at the orders 1 ... p - 1: invert the blocks of K that are not constant. */
+/* Prepare to solve at the orders 1 ... p - 1, p as for other steps of the run: invert the blocks of K that are not constant. */
 void qdot_motion_matrix_prepare(qdot_motion_matrix *K, int p);
 
 /* Solve K d = -E at order k (E: the residual); K->by becomes the unknowns' coefficients. */

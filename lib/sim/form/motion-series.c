@@ -25,6 +25,7 @@ struct qdot_motion_series {
     bool begun;      /* an expansion has been begun at least once */
     qdot_ode_series series;
     double unit;
+    int order; /* the order of the run, of which some steps are expanded to a lower one; 0: not known */
 };
 
 /* --- one stage of the expansion -------------------------------------------------------- */
@@ -78,6 +79,13 @@ begin_expansion(qdot_motion_series *s, double t, const double *y)
 }
 
 static qdot_status
+prepare_for_order(int p, void *user)
+{
+    ((qdot_motion_series *)user)->order = p;
+    return QDOT_OK;
+}
+
+static qdot_status
 motion_series_begin(double t, const double *y, double unit, void *user)
 {
     qdot_motion_series *s = user;
@@ -112,7 +120,7 @@ motion_series_extend(int p, void *user)
     qdot_motion_series *s = user;
     const bool as_code = qdot_taylor_is_code(s->at.taylor, p - 1);
 
-    qdot_motion_matrix_prepare(&s->K, p);
+    qdot_motion_matrix_prepare(&s->K, p > s->order ? p : s->order);
     if (as_code)
         qdot_motion_matrix_hand_over(&s->K, s->at.taylor);
     if (as_code || gives_all_accelerations(s)) {
@@ -246,6 +254,7 @@ make_motion_series(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
         .stride = s->at.stride,
         .checked = p->n,
         .cost = p->expansions,
+        .prepare = prepare_for_order,
         .begin = motion_series_begin,
         .extend = motion_series_extend,
         .noise = s->K.saddle ? noise_of_series : NULL,
