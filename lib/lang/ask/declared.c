@@ -13,16 +13,6 @@
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
 
-/* The value that `set` or `param` gave a symbol; nil if it has none. */
-static qdot_expr
-value_given_by_set(const qdot_session *session, qdot_expr symbol)
-{
-    for (size_t i = 0; i < session->values->set_symbols.n; i++)
-        if (session->values->set_symbols.at[i] == symbol)
-            return session->values->set_values.at[i];
-    return QDOT_NIL;
-}
-
 /* Print a value, or only its size if it is too large. */
 static qdot_status
 print_value(qdot_session *session, qdot_expr value, qdot_text *out)
@@ -48,7 +38,7 @@ qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out
             return qdot_scene_print_state(session->scene, name->value, out);
         qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
         QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
-        value = value_given_by_set(session, name->value);
+        value = qdot_session_value_set(session, name->value);
         if (value != QDOT_NIL) {
             qdot_text_add(out, " = ");
             QDOT_TRY(print_value(session, value, out));

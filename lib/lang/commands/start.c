@@ -69,12 +69,11 @@ store_start_errors(qdot_session *session, const qdot_named_run *named)
     for (size_t i = 0; status == QDOT_OK && known && i < 2 * report->n; i++) {
         const bool velocity = i >= report->n;
         const qdot_expr z = qdot_symbol_jet(session->pool, report->coordinates[i % report->n], velocity);
-        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, z);
+        const qdot_expr value = qdot_session_value_started(session, z);
 
-        if (at < session->values->start_symbols.n)
+        if (value != QDOT_NIL)
             status = qdot_vec_push(&session->values->start_errors,
-                                   ((qdot_start_error){z, session->values->start_values.at[at],
-                                                       {apart[i], apart[2 * report->n + i]}}));
+                                   ((qdot_start_error){z, value, {apart[i], apart[2 * report->n + i]}}));
     }
     qdot_free(apart);
     return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
@@ -151,13 +150,11 @@ is_velocity(const qdot_session *session, qdot_expr symbol)
 static bool
 is_whole_state(const qdot_session *session)
 {
-    const qdot_values *values = session->values;
     const qdot_scene *scene = session->scene;
 
     for (size_t i = 0; i < 2 * scene->coordinates.n; i++)
         if (qdot_scene_state_of(scene, scene->coordinates.at[i / 2]) == NULL &&
-            qdot_expr_place(values->start_symbols.n, values->start_symbols.at,
-                            qdot_symbol_jet(session->pool, scene->coordinates.at[i / 2], i % 2)) == values->start_symbols.n)
+            qdot_session_value_started(session, qdot_symbol_jet(session->pool, scene->coordinates.at[i / 2], i % 2)) == QDOT_NIL)
             return false;
     return true;
 }

@@ -49,8 +49,5 @@ qdot_status
 qdot_export_value_of(qdot_session *s, qdot_expr parameter, double *value)
 {
     *value = NAN;
-    for (size_t i = 0; i < s->values->set_symbols.n; i++)
-        if (s->values->set_symbols.at[i] == parameter)
-            return qdot_session_number(s, parameter, value, NULL);
-    return QDOT_OK;
+    return qdot_session_value_set(s, parameter) == QDOT_NIL ? QDOT_OK : qdot_session_number(s, parameter, value, NULL);
 }

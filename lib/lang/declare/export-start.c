@@ -57,9 +57,9 @@ start_of_run(qdot_run *run, size_t n, const qdot_expr *y, const qdot_export_star
     return QDOT_OK;
 }
 
-/* The number of e, NaN if it has none yet. */
+/* *value: the number of e with the values of `set`; NaN if it holds a parameter to which no value was given. */
 static qdot_status
-number(qdot_session *s, qdot_expr e, double *value)
+number_or_nan(qdot_session *s, qdot_expr e, double *value)
 {
     const qdot_status status = qdot_session_number(s, e, value, NULL);
 
@@ -69,25 +69,18 @@ number(qdot_session *s, qdot_expr e, double *value)
     return QDOT_OK;
 }
 
-/* What the statements `start` say of the n symbols y: an expression each, 0 of those that they do not name. */
-static void
-find_start(const qdot_session *s, size_t n, const qdot_expr *y, qdot_expr *value)
-{
-    for (size_t i = 0; i < n; i++) {
-        value[i] = QDOT_ZERO;
-        for (size_t k = 0; k < s->values->start_symbols.n; k++)
-            if (s->values->start_symbols.at[k] == y[i])
-                value[i] = s->values->start_values.at[k];
-    }
-}
-
-/* The start as stated: y [2n]. The rate of a state follows from the rest. */
+/* Fill in the start that the statements `start` give to y [2n], q and q', and what is not stated: the span of time and the
+ * tolerance. stated [2n]: the values as expressions, 0 of those that are not named. The rate of a state follows from the rest. */
 static qdot_status
 stated_start(qdot_session *s, size_t n, const qdot_expr *y, qdot_expr *stated, const qdot_export_started *to)
 {
     const qdot_scene *scene = s->scene;
 
-    find_start(s, 2 * n, y, stated);
+    for (size_t i = 0; i < 2 * n; i++) {
+        const qdot_expr value = qdot_session_value_started(s, y[i]);
+
+        stated[i] = value == QDOT_NIL ? QDOT_ZERO : value;
+    }
     if (qdot_session_starts_by_speeds(s))
         QDOT_TRY(qdot_session_start_velocities(s, 0, NULL, NULL, QDOT_ZERO, stated + n));
     to->x->t1 = 10;
@@ -101,7 +94,7 @@ stated_start(qdot_session *s, size_t n, const qdot_expr *y, qdot_expr *stated, c
             e = qdot_subs(s->pool, e, 1, (qdot_expr[]){QDOT_T}, (qdot_expr[]){QDOT_ZERO});
         }
         QDOT_TRY(qdot_pool_check(s->pool));
-        QDOT_TRY(number(s, e, &to->start[i]));
+        QDOT_TRY(number_or_nan(s, e, &to->start[i]));
     }
     return QDOT_OK;
 }

@@ -243,10 +243,11 @@ append_start_lines(qdot_session *s, bool remarks, qdot_text *out)
         const qdot_expr q = s->scene->coordinates.at[i / 3];
         const qdot_expr jet = i % 3 == 2 ? qdot_symbol_of(s->pool, QDOT_MOMENTUM, q) : qdot_symbol_jet(s->pool, q, i % 3);
 
-        for (size_t k = 0; k < s->values->start_symbols.n; k++)
-            if (s->values->start_symbols.at[k] == jet)
-                QDOT_TRY(append_value_line(s, "start ", jet, s->values->start_values.at[k],
-                                           --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
+        const qdot_expr value = qdot_session_value_started(s, jet);
+
+        if (value != QDOT_NIL)
+            QDOT_TRY(append_value_line(s, "start ", jet, value,
+                                       --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
     }
     for (size_t k = 0; k < s->values->start_symbols.n; k++)
         if (qdot_session_is_speed(s, s->values->start_symbols.at[k]))

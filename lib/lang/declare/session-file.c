@@ -198,12 +198,9 @@ append_with_option(writer *w, const qdot_conditions *c, bool start, qdot_text *o
     for (int follows = 0; follows < 2; follows++)
         for (size_t i = 0; i < c->symbols.n; i++) {
             const qdot_expr symbol = c->symbols.at[i];
-            qdot_expr now = QDOT_NIL;
+            const qdot_expr now = qdot_session_value_set(s, symbol);
             qdot_status status = QDOT_OK;
 
-            for (size_t k = 0; k < s->values->set_symbols.n; k++)
-                if (s->values->set_symbols.at[k] == symbol)
-                    now = s->values->set_values.at[k];
             if (!qdot_expr_is_class(s->pool, symbol, QDOT_PARAM) ||
                 (now != QDOT_NIL && qdot_session_bind(s, now) == c->values.at[i]) ||
                 (follows == 0 && now != QDOT_NIL && qdot_expr_kind(s->pool, now) != QDOT_NUM))
@@ -236,14 +233,9 @@ is_repeatable(const qdot_session *s, const qdot_named_run *run)
 
     if (c == NULL || c->version != s->scene->version || c->q0.n != s->scene->coordinates.n)
         return false;
-    for (size_t i = 0; i < c->symbols.n; i++) {
-        bool same = qdot_expr_is_class(s->pool, c->symbols.at[i], QDOT_PARAM);
-
-        for (size_t k = 0; k < s->values->set_symbols.n && !same; k++)
-            same = s->values->set_symbols.at[k] == c->symbols.at[i] && s->values->set_values.at[k] == c->values.at[i];
-        if (!same)
+    for (size_t i = 0; i < c->symbols.n; i++)
+        if (!qdot_expr_is_class(s->pool, c->symbols.at[i], QDOT_PARAM) && qdot_session_value_set(s, c->symbols.at[i]) != c->values.at[i])
             return false;
-    }
     return true;
 }
 
@@ -423,20 +415,14 @@ qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c)
     c->exactly = s->values->start_exactly;
     for (size_t i = 0; i < 2 * s->scene->coordinates.n; i++) {
         const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
-        qdot_expr value = QDOT_ZERO;
-        bool named = false;
+        const qdot_expr given = qdot_session_value_started(s, jet), value = given == QDOT_NIL ? QDOT_ZERO : given;
 
-        for (size_t k = 0; k < s->values->start_symbols.n; k++)
-            if (s->values->start_symbols.at[k] == jet) {
-                value = s->values->start_values.at[k];
-                named = true;
-            }
         if (i % 2 == 0) {
             QDOT_TRY(qdot_vec_push(&c->q0, value));
-            QDOT_TRY(qdot_vec_push(&c->q_named, named));
+            QDOT_TRY(qdot_vec_push(&c->q_named, given != QDOT_NIL));
         } else {
             QDOT_TRY(qdot_vec_push(&c->v0, value));
-            QDOT_TRY(qdot_vec_push(&c->v_named, named));
+            QDOT_TRY(qdot_vec_push(&c->v_named, given != QDOT_NIL));
         }
     }
     return QDOT_OK;

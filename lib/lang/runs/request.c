@@ -26,16 +26,15 @@ qdot_request_free(qdot_request *o)
     qdot_free(o->apart);
 }
 
+/* The value with which q or q' starts; *named: it was given, and constraints may not change it. */
 static qdot_expr
 get_start_value(const qdot_session *session, qdot_expr jet, bool *named)
 {
-    for (size_t i = 0; i < session->values->start_symbols.n; i++)
-        if (session->values->start_symbols.at[i] == jet) {
-            *named = qdot_expr_place(session->values->start_open.n, session->values->start_open.at, jet) == session->values->start_open.n;
-            return session->values->start_values.at[i];
-        }
-    *named = false;
-    return QDOT_ZERO;
+    const qdot_values *values = session->values;
+    const qdot_expr value = qdot_session_value_started(session, jet);
+
+    *named = value != QDOT_NIL && qdot_expr_place(values->start_open.n, values->start_open.at, jet) == values->start_open.n;
+    return value == QDOT_NIL ? QDOT_ZERO : value;
 }
 
 static qdot_status
@@ -82,9 +81,8 @@ set_start_errors(const qdot_session *session, qdot_request *o)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < session->values->start_errors.n; k++) {
         const qdot_start_error *e = &session->values->start_errors.at[k];
-        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, e->symbol);
 
-        if (at == session->values->start_symbols.n || session->values->start_values.at[at] != e->value)
+        if (qdot_session_value_started(session, e->symbol) != e->value)
             continue;
         for (size_t i = 0; i < 2 * n; i++)
             if (qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n) == e->symbol) {

@@ -28,14 +28,14 @@ collect_start_momenta(qdot_session *session, const qdot_start_by_momenta *o, sta
 
     for (size_t i = 0; i < scene->coordinates.n; i++) {
         const qdot_expr q = scene->coordinates.at[i], p = qdot_symbol_of(session->pool, QDOT_MOMENTUM, q);
-        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, p);
-        const bool unknown = qdot_expr_place(o->k, o->unknowns, p) < o->k, named = unknown || at < session->values->start_symbols.n;
+        const qdot_expr given = qdot_session_value_started(session, p);
+        const bool unknown = qdot_expr_place(o->k, o->unknowns, p) < o->k, named = unknown || given != QDOT_NIL;
 
         if (!named && o->v_named[i])
             continue;
         s->q[s->n] = q;
         s->p[s->n] = p;
-        s->value[s->n] = unknown ? p : named ? qdot_session_bind(session, session->values->start_values.at[at]) : QDOT_ZERO;
+        s->value[s->n] = unknown ? p : named ? qdot_session_bind(session, given) : QDOT_ZERO;
         o->v_named[i] = named;
         s->at[s->n++] = i;
     }

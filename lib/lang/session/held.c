@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/units.h"
@@ -12,26 +13,11 @@
 
 /* --- values of `set` and `start` --------------------------------------------------------- */
 
-/* The index of the symbol in a list [n]; n if it is not in the list. */
-static size_t
-index_of_symbol(const qdot_expr *symbols, size_t n, qdot_expr symbol)
-{
-    size_t i = 0;
-
-    while (i < n && symbols[i] != symbol)
-        i++;
-    return i;
-}
-
 qdot_status
 qdot_held_begin(qdot_session *session, qdot_expr symbol, qdot_expr value)
 {
     const bool starts = qdot_expr_is_class(session->pool, symbol, QDOT_COORD);
-    const qdot_expr *symbols = starts ? session->values->start_symbols.at : session->values->set_symbols.at;
-    const qdot_expr *values = starts ? session->values->start_values.at : session->values->set_values.at;
-    const size_t n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
-    const size_t i = index_of_symbol(symbols, n, symbol);
-    const qdot_held held = {symbol, value, i < n ? values[i] : QDOT_NIL};
+    const qdot_held held = {symbol, value, starts ? qdot_session_value_started(session, symbol) : qdot_session_value_set(session, symbol)};
 
     if (!qdot_expr_is_constant(session->pool, value))
         QDOT_TRY(qdot_units_join(session, symbol, value, "a value of %s is %s"));
@@ -57,8 +43,7 @@ qdot_held_end(qdot_session *session)
     held = session->evaluation->held.at[--session->evaluation->held.n];
     starts = qdot_expr_is_class(session->pool, held.symbol, QDOT_COORD);
     n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
-    i = index_of_symbol(starts ? session->values->start_symbols.at : session->values->set_symbols.at, n,
-                        held.symbol);
+    i = qdot_expr_place(n, starts ? session->values->start_symbols.at : session->values->set_symbols.at, held.symbol);
     if (i == n) /* the symbol's value was removed by the statement, as `reset start` does */
         return;
     if (held.before != QDOT_NIL) {

@@ -25,14 +25,13 @@ set_place(place *p, qdot_expr symbol, qdot_expr value)
     p->value[p->n++] = value;
 }
 
-/* The value that the start gives; 0: none. */
+/* The number that the start gives, 0 where it gives none, with the values of parameters. */
 static qdot_expr
 value_of_start(qdot_session *session, qdot_expr symbol)
 {
-    const qdot_values *values = session->values;
-    const size_t at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, symbol);
+    const qdot_expr value = qdot_session_value_started(session, symbol);
 
-    return at < values->start_symbols.n ? qdot_session_bind(session, values->start_values.at[at]) : QDOT_ZERO;
+    return value == QDOT_NIL ? QDOT_ZERO : qdot_session_bind(session, value);
 }
 
 static qdot_status

@@ -5,7 +5,6 @@
 #include "expr/exact.h"
 #include "expr/symbol.h"
 #include "expr/unit.h"
-#include "expr/walk.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/values.h"
@@ -352,8 +351,7 @@ qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit
 
         if (base == QDOT_NIL)
             continue;
-        if (qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, base) ==
-            session->values->set_symbols.n)
+        if (qdot_session_value_set(session, base) == QDOT_NIL)
             qdot_session_set(session, base, QDOT_ONE, &status);
         *unit = qdot_mul(pool, *unit, qdot_pow(pool, base, qdot_expr_ratio(pool, x.n, x.d)));
     }

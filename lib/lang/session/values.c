@@ -30,6 +30,24 @@ qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
     }
 }
 
+qdot_expr
+qdot_session_value_set(const qdot_session *session, qdot_expr symbol)
+{
+    const qdot_values *values = session->values;
+    const size_t at = qdot_expr_place(values->set_symbols.n, values->set_symbols.at, symbol);
+
+    return at < values->set_symbols.n ? values->set_values.at[at] : QDOT_NIL;
+}
+
+qdot_expr
+qdot_session_value_started(const qdot_session *session, qdot_expr symbol)
+{
+    const qdot_values *values = session->values;
+    const size_t at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, symbol);
+
+    return at < values->start_symbols.n ? values->start_values.at[at] : QDOT_NIL;
+}
+
 bool
 qdot_session_is_start(const qdot_pool *pool, qdot_expr symbol)
 {
@@ -68,12 +86,14 @@ qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value)
 {
     qdot_values *values = session->values;
 
+    size_t at;
+
     remove_other_of_pair(session, jet);
-    for (size_t i = 0; i < values->start_symbols.n; i++)
-        if (values->start_symbols.at[i] == jet) {
-            values->start_values.at[i] = value;
-            return QDOT_OK;
-        }
+    at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, jet);
+    if (at < values->start_symbols.n) {
+        values->start_values.at[at] = value;
+        return QDOT_OK;
+    }
     QDOT_TRY(qdot_vec_push(&values->start_symbols, jet));
     if (qdot_vec_push(&values->start_values, value) != QDOT_OK) {
         values->start_symbols.n--;

@@ -24,6 +24,9 @@ typedef struct qdot_values {
  * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
 void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
                       qdot_status *status);
+/* The value that `set` gave to a symbol, or `start` to q, q', p[q] or a speed, as it was given; nil: none. */
+qdot_expr qdot_session_value_set(const qdot_session *session, qdot_expr symbol);
+qdot_expr qdot_session_value_started(const qdot_session *session, qdot_expr symbol);
 /* Set the value of q or q' with which runs start from now on. */
 QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
                                                qdot_expr value);

@@ -22,24 +22,18 @@ fill_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns, co
     for (size_t i = 0; i < k; i++)
         by_speeds |= qdot_session_is_speed(session, unknowns[i]);
     for (size_t i = 0; i < had->n_values; i++) {
-        const size_t at =
-            qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, had->symbols[i]);
+        const qdot_expr given = qdot_session_value_set(session, had->symbols[i]);
 
-        values[i] = at == session->values->set_symbols.n
-                        ? had->values[i]
-                        : qdot_session_bind(session, session->values->set_values.at[at]);
+        values[i] = given == QDOT_NIL ? had->values[i] : qdot_session_bind(session, given);
     }
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
-        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet);
+        const qdot_expr given = qdot_session_value_started(session, jet);
         const bool unknown = qdot_expr_place(k, unknowns, jet) < k;
 
-        named[i] = unknown || (by_speeds && i >= n) || at < session->values->start_symbols.n;
-        start[i] = unknown                          ? jet
-                   : at == session->values->start_symbols.n ? QDOT_ZERO
-                                                    : qdot_session_bind(
-                                                        session, session->values->start_values.at[at]);
+        named[i] = unknown || (by_speeds && i >= n) || given != QDOT_NIL;
+        start[i] = unknown ? jet : given == QDOT_NIL ? QDOT_ZERO : qdot_session_bind(session, given);
     }
     QDOT_TRY(qdot_pool_check(session->pool));
     return by_speeds ? qdot_session_start_velocities(session, k, unknowns, start, had->t0, start + n) : QDOT_OK;

@@ -115,13 +115,11 @@ static qdot_status
 values_with_free_parameter(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_t own, qdot_expr *values)
 {
     for (size_t i = 0; i < of->symbols.n; i++) {
-        const size_t at =
-            qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, of->symbols.at[i]);
+        const qdot_expr given = qdot_session_value_set(session, of->symbols.at[i]);
 
-        values[i] = i == own ? p
-                    : at == session->values->set_symbols.n
-                        ? of->values.at[i]
-                        : value_with_free_parameter(session, of, session->values->set_values.at[at], p, of->values.at[i]);
+        values[i] = i == own            ? p
+                    : given == QDOT_NIL ? of->values.at[i]
+                                        : value_with_free_parameter(session, of, given, p, of->values.at[i]);
     }
     return qdot_pool_check(session->pool);
 }
@@ -168,13 +166,12 @@ let_parameter_vary(qdot_slopes *s, size_t k)
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
-        const size_t at =
-            qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet);
+        const qdot_expr given = qdot_session_value_started(session, jet);
 
-        if (at == session->values->start_symbols.n)
+        if (given == QDOT_NIL)
             continue;
         start[i] = qdot_diff(pool,
-                             value_with_free_parameter(session, of, session->values->start_values.at[at], p,
+                             value_with_free_parameter(session, of, given, p,
                                                        (i < n ? of->q0.at : of->v0.at)[i % n]),
                              p);
         start[i] = start[i] == QDOT_NIL ? start[i]

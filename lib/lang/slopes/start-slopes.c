@@ -5,7 +5,6 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/symbol.h"
-#include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/speeds.h"
 #include "lang/session/start-kind.h"
@@ -27,7 +26,6 @@ typedef struct {
 static bool
 starts_with_momentum(const work *w, size_t i)
 {
-    const qdot_values *values = w->session->values;
     const qdot_expr q = w->session->scene->coordinates.at[i], v = qdot_symbol_jet(w->session->pool, q, 1),
                     p = qdot_symbol_of(w->session->pool, QDOT_MOMENTUM, q);
 
@@ -35,8 +33,7 @@ starts_with_momentum(const work *w, size_t i)
         return w->x->unknown == p;
     if (!qdot_session_starts_by_momenta(w->session))
         return false;
-    return qdot_expr_place(values->start_symbols.n, values->start_symbols.at, p) < values->start_symbols.n ||
-           qdot_expr_place(values->start_symbols.n, values->start_symbols.at, v) == values->start_symbols.n;
+    return qdot_session_value_started(w->session, p) != QDOT_NIL || qdot_session_value_started(w->session, v) == QDOT_NIL;
 }
 
 /* e at the start of the run. */
@@ -61,15 +58,13 @@ at_start(const work *w, qdot_expr e)
 static qdot_expr
 slope_of_given(const work *w, qdot_expr p)
 {
-    const qdot_values *values = w->session->values;
-    qdot_pool *pool = w->session->pool;
-    const size_t at = qdot_expr_place(values->start_symbols.n, values->start_symbols.at, p);
+    const qdot_expr given = qdot_session_value_started(w->session, p);
 
     if (w->x->unknown == p)
         return QDOT_ONE;
-    if (w->x->values == NULL || at == values->start_symbols.n)
+    if (w->x->values == NULL || given == QDOT_NIL)
         return QDOT_ZERO;
-    return qdot_diff(pool, qdot_session_bind(w->session, values->start_values.at[at]), w->x->unknown);
+    return qdot_diff(w->session->pool, qdot_session_bind(w->session, given), w->x->unknown);
 }
 
 /* The equation of coordinate number k of S. */
@@ -117,7 +112,7 @@ solve_equations(const work *w, qdot_expr *start)
     return status;
 }
 
-/* S of momenta. */
+/* Find S, the P_i and what is given where the start gives momenta. */
 static qdot_status
 collect_momenta(work *w)
 {

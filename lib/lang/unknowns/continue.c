@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"
 #include "lang/commands/value-check.h"
@@ -239,13 +240,14 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
     return status;
 }
 
-/* Set the parameter to its own symbol, so that values depending on it vary with it. */
+/* Set the parameter, if it has a value, to its own symbol, so that values depending on it vary with it. */
 static void
 let_parameter_vary(qdot_session *session, qdot_expr parameter)
 {
-    for (size_t i = 0; i < session->values->set_symbols.n; i++)
-        if (session->values->set_symbols.at[i] == parameter)
-            session->values->set_values.at[i] = parameter;
+    const size_t at = qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, parameter);
+
+    if (at < session->values->set_symbols.n)
+        session->values->set_values.at[at] = parameter;
 }
 
 static qdot_status

@@ -7,7 +7,6 @@
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
-#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -63,8 +62,7 @@ choose_open_start_values(const qdot_find *f, bool velocities)
 
         some = some || is_unknown(f, q) || is_unknown(f, jet);
         open -= is_unknown(f, jet);
-        if (is_unknown(f, jet)
-            || qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet) == session->values->start_symbols.n)
+        if (is_unknown(f, jet) || qdot_session_value_started(session, jet) == QDOT_NIL)
             continue;
         named++;
         QDOT_TRY(qdot_vec_push(&session->values->start_open, jet));
