@@ -189,7 +189,8 @@ part_of(const qdot_dimensions *d, qdot_expr e, uint32_t i)
     return x == QDOT_NIL ? qdot_expr_arg(d->pool, e, i) : qdot_integral_open(d->pool, e, x);
 }
 
-/* The node that must be visited before e in which it stands beside its args; nil: none. */
+/* What must be visited before the symbol or integral e though it is none of its args: the coordinate of a derivative or
+ * momentum, the expression that a symbol stands for, the variable of an integral; nil: nothing. */
 static qdot_expr
 what_comes_before(const qdot_dimensions *d, qdot_expr e)
 {

@@ -37,11 +37,11 @@ void qdot_dimensions_free(qdot_dimensions *d);
 /* Each of these fails with QDOT_ETYPE and a message that names both dimensions where what it says contradicts what is
  * known; QDOT_ENOMEM. */
 
-/* The expression agrees in itself. */
+/* The sums, relations and arguments of functions within e must agree. */
 QDOT_MUST_CHECK qdot_status qdot_dimensions_visit(qdot_dimensions *d, qdot_expr e);
 /* a and b (scalars, or both vectors) are of one dimension; `format` says how they meet: "%s is added to %s". */
 QDOT_MUST_CHECK qdot_status qdot_dimensions_join(qdot_dimensions *d, qdot_expr a, qdot_expr b, const char *format);
-/* e is of this dimension; what: words for the message, as "a mass". */
+/* e is of this dimension; `format` says what it should be, from the two dimensions in words: "its mass is %s, not %s". */
 QDOT_MUST_CHECK qdot_status qdot_dimensions_fix(qdot_dimensions *d, qdot_expr e, qdot_dimension is, const char *format);
 
 /* What is known of a dimension. */

@@ -55,7 +55,7 @@ length_of(size_t n, const int32_t *p)
     return length;
 }
 
-/* A power of a product without dimension is replaced by that product. */
+/* Divide the exponents by their greatest common divisor: with x^2/y^2 x/y has no dimension either. */
 static void
 divide_by_common_factor(size_t n, int32_t *power)
 {
@@ -94,7 +94,8 @@ shorten_groups(size_t count, size_t n, int32_t *power, int32_t *trial)
     }
 }
 
-/* The first factor of a group is above the bar unless more of them are below; shortest groups come first. */
+/* Turn groups over so that more factors stand above the bar than below it, or, where they are as many, the first one above; sort
+ * the groups, the shortest first. */
 static void
 order_groups(size_t count, size_t n, int32_t *power, int32_t *trial)
 {

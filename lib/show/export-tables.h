@@ -28,7 +28,8 @@ typedef struct {
 
 void qdot_export_tables_clear(qdot_export_tables *tables);
 
-/* Write the call that stands for lookup(x, handle), x a text. */
+/* Write find_piece(...), knot_of(...) or entry_of(...) for the tape's lookup(x, handle): which of them, and of which table, the
+ * handle tells. x: the source text of the place, or of the number of a piece. */
 void qdot_export_lookup(const qdot_export_tables *tables, double handle, const char *x, qdot_text *out);
 
 /* Write ", NAME, n, beyond": the axis of a view (num/samples.h) as an argument. */

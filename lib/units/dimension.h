@@ -34,7 +34,7 @@ qdot_exponent qdot_exponent_addmul(qdot_exponent a, qdot_exponent b, qdot_expone
 qdot_dimension qdot_dimension_make(const int exponent[QDOT_BASES]);
 /* The dimension of a number. */
 qdot_dimension qdot_dimension_none(void);
-/* Of a quantity a times the power b^x. */
+/* The dimension of A B^x, A and B being quantities of the dimensions a and b. */
 qdot_dimension qdot_dimension_addmul(qdot_dimension a, qdot_dimension b, qdot_exponent x);
 bool qdot_dimension_is_none(qdot_dimension a);
 bool qdot_dimension_equal(qdot_dimension a, qdot_dimension b);

@@ -168,7 +168,6 @@ value_of_table(qdot_pool *pool, int number, size_t arguments, int degree, const 
     return polynomial(pool, degree, outer, w[0]);
 }
 
-/* Declare the function, and set its value. */
 /* The arguments x and the function are of the dimensions of their columns, where these have units. */
 static qdot_status
 give_dimensions(reading *d, const qdot_expr *x, qdot_expr function)
@@ -186,6 +185,7 @@ give_dimensions(reading *d, const qdot_expr *x, qdot_expr function)
     return QDOT_OK;
 }
 
+/* Declare the function, and set its value. */
 static qdot_status
 declare_function(reading *d, const char *name, const qdot_filled *part, int number, int degree)
 {

@@ -9,12 +9,12 @@
 #include "lang/session/session.h"
 #include "show/export.h"
 
-/* What is filled in. */
+/* Where the start goes. */
 typedef struct {
-    qdot_export_system *x; /* its t0, t1, tol */
-    double *start;         /* [2n] q, q'; NaN: no number yet */
+    qdot_export_system *x; /* its fields t0, t1, tol are filled in */
+    double *start;         /* [2n] filled in: q, q'; NaN: it depends on a parameter without a value */
     const qdot_expr *parameters;
-    qdot_export_name *values; /* [k] of the parameters, as the run has them */
+    qdot_export_name *values; /* [k] filled in: the values of the parameters in the run that is continued */
 } qdot_export_started;
 
 /* massless: a coordinate has no mass, so that its start follows from its equation. QDOT_EINVAL: only a run has the start. */

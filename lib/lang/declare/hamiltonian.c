@@ -35,7 +35,7 @@ declare_hamiltonian(qdot_record *r)
     qdot_expr H, L = QDOT_NIL;
     qdot_status status;
 
-    session->evaluation->declares = false; /* momenta stay momenta, of a Lagrangian before too */
+    session->evaluation->declares = false; /* p[q] is the symbol of the momentum, not dL/dq' of an earlier Lagrangian */
     QDOT_TRY(qdot_record_scalar(r, qdot_record_hole(r, NULL, "H"), &H));
     H = qdot_measured_as_rationals(session, H);
     QDOT_TRY(qdot_pool_check(session->pool));

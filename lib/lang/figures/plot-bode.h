@@ -10,8 +10,8 @@
 
 /* Whether the panel is a Bode diagram. */
 bool qdot_plot_bode_is(const qdot_plot_said *said);
-/* Read the quotients and the options; compute the first points of the curves. Without a range that holds all zeros and poles,
- * and a decade on both sides. */
+/* Read the quotients and the options; compute the first points of the curves. Where no range of
+ * frequencies is given, it holds all zeros and poles and a decade on both sides. */
 QDOT_MUST_CHECK qdot_status qdot_plot_bode(const qdot_plot_said *said, qdot_plot_panel *magnitude, qdot_plot_panel *phase,
                                            qdot_figure_choice *figure);
 

@@ -240,7 +240,7 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
 
 /* --- momenta, forces, equations ----------------------------------------------------- */
 
-/* Where the Lagrangian holds second derivatives, others are asked. */
+/* Define higher_or_WORD: qdot_mech_WORD, but Ostrogradsky's where the Lagrangian holds second or higher derivatives. */
 #define HIGHER(all)                                                                      \
     static qdot_expr higher_or_##all(qdot_scene *s)                                      \
     {                                                                                    \

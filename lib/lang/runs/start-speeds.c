@@ -9,7 +9,8 @@
 #include "lang/session/start-speeds.h"
 #include "mech/scene/scene.h"
 
-/* Positions are not solved for beside speeds, whose meaning may depend on them. */
+/* Fail unless the coordinates keep the holonomic constraints: beside speeds, whose meaning may depend on coordinates, these are
+ * not solved for. */
 static qdot_status
 check_positions(qdot_session *session, const qdot_request *o)
 {

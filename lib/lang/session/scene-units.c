@@ -27,7 +27,7 @@ blame_thing(qdot_status status, const char *kind, const char *name)
     return qdot_hint("numbers in the scene that are no pure numbers need units, such as 1 [m]");
 }
 
-/* The summands of arguments of sines, cosines and tangents in e are angles. */
+/* Note that the summands of arguments of sines, cosines and tangents in e are angles. */
 static qdot_status
 note_angles_within(qdot_session *session, qdot_expr e)
 {
@@ -47,7 +47,8 @@ note_angles_within(qdot_session *session, qdot_expr e)
     return status;
 }
 
-/* e, where there is one, agrees in itself and is of this dimension. */
+/* Infer what e says of dimensions, which must agree within it, and, with `is`, that it is of this dimension; format words the
+ * failure. Nothing if e is nil or 0. */
 static qdot_status
 infer(qdot_session *session, qdot_expr e, const int *is, const char *format)
 {
@@ -124,7 +125,7 @@ infer_from_forces(qdot_session *session)
     return QDOT_OK;
 }
 
-/* A stated L or H of which the dimension does not follow is an energy. */
+/* Infer what a stated L or H says; it is an energy unless its dimension follows from what it holds. */
 static qdot_status
 infer_from_function(qdot_session *session, qdot_expr e, const char *kind)
 {
@@ -165,7 +166,7 @@ infer_from_equations(qdot_session *session)
     return QDOT_OK;
 }
 
-/* A value that is no bare number is of the dimension of the symbol or function that has it. */
+/* Infer from values of symbols or functions that these have the same dimension; a bare number says nothing. */
 static qdot_status
 infer_from_values(qdot_session *session, size_t n, const qdot_expr *symbols, const qdot_expr *values)
 {
@@ -179,7 +180,7 @@ infer_from_values(qdot_session *session, size_t n, const qdot_expr *symbols, con
     return QDOT_OK;
 }
 
-/* The bounds of a symbol are of its dimension. */
+/* Infer from the bounds of a symbol that these have its dimension; a bare number says nothing. */
 static qdot_status
 infer_from_bounds(qdot_session *session, const qdot_name *name)
 {
@@ -192,7 +193,7 @@ infer_from_bounds(qdot_session *session, const qdot_name *name)
     return QDOT_OK;
 }
 
-/* Definitions agree in themselves, bounds and values with their names. */
+/* Infer what the named expressions say, and the bounds and values of parameters and coordinates. */
 static qdot_status
 infer_from_names(qdot_session *session)
 {

@@ -29,9 +29,9 @@ typedef struct qdot_units {
 void qdot_units_clear(qdot_units *units);
 /* Whether a unit has been written in the session. */
 bool qdot_units_on(const qdot_session *session);
-/* The first unit has been written. */
+/* From now on dimensions count: the first unit has been written. */
 QDOT_MUST_CHECK qdot_status qdot_units_begin(qdot_session *session);
-/* What the scene and the definitions say that were there before; a failure names what does not agree. */
+/* Add what the scene and the definitions say that were there before the first unit; a failure names what does not agree. */
 QDOT_MUST_CHECK qdot_status qdot_units_of_scene(qdot_session *session);
 /* Drop all but the first n facts. */
 void qdot_units_back_to(qdot_session *session, size_t n);

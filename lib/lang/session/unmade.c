@@ -8,7 +8,7 @@
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
 
-/* --- Lagrangians with q'' --------------------------------------------------------------- */
+/* --- words that are not made for Lagrangians with q'' ----------------------------------- */
 
 static const char *const not_of_higher[] = {
     "mass_matrix", "Q",          "virtual_work", "forces",   "cyclic",     "routhian",    "conserved", "equilibria",
@@ -17,7 +17,7 @@ static const char *const not_of_higher[] = {
     "action",      "hamilton_jacobi", "complete_integral", "canonical",
 };
 
-/* --- delays ----------------------------------------------------------------------------- */
+/* --- words that are not made for delays ------------------------------------------------- */
 
 static const char *const not_of_delays[] = {
     "equilibria", "steady",      "modes",    "linearize", "transfer", "stability", "continue", "lyapunov", "sensitivity",
@@ -36,7 +36,7 @@ has_delays(const qdot_session *session)
     return has;
 }
 
-/* --- both ------------------------------------------------------------------------------- */
+/* --- refusing a word -------------------------------------------------------------------- */
 
 static bool
 is_listed(const char *word, const char *const *list, size_t n)

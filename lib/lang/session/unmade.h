@@ -7,8 +7,8 @@
 
 #include "lang/session/parts.h"
 
-/* QDOT_ENOTBUILT if the scene's Lagrangian holds second derivatives, or the scene coordinates at an earlier time, and this statement, value or function of the language is not
- * made for them. */
+/* QDOT_ENOTBUILT if the scene's Lagrangian holds second derivatives, or the scene coordinates at an earlier time, and the statement,
+ * value or function `word` of the language, or `start RUN`, is not made for them. */
 QDOT_MUST_CHECK qdot_status qdot_session_refuse_unmade(const qdot_session *session, const char *word);
 
 #endif

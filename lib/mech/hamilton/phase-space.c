@@ -90,7 +90,7 @@ add_states(qdot_scene *s, const qdot_phase_space *x, uint32_t n, const qdot_expr
     return qdot_pool_check(pool);
 }
 
-/* The scene as it is, and of its arrays those that change. */
+/* Keep the scene as it was in x->before, and put in what is different in its phase space. */
 static qdot_status
 turn_scene(qdot_scene *s, bool states, qdot_phase_space *x, uint32_t n, const qdot_expr *q)
 {
@@ -113,7 +113,8 @@ turn_scene(qdot_scene *s, bool states, qdot_phase_space *x, uint32_t n, const qd
     return qdot_pool_check(s->pool);
 }
 
-/* Beside constraints: linear motion needs them in its equations, and an event that changes the state would leave them. */
+/* Refuse beside constraints linear motion, which needs them in its equations, and events that change the state, which would leave
+ * them. */
 static qdot_status
 refuse_with_constraints(const qdot_scene *s, bool states)
 {

@@ -10,7 +10,7 @@
 /* Whether the scene states an H, and no Lagrangian was found. */
 bool qdot_phase_space_needed(const qdot_scene *s);
 
-/* The coordinate that p[q] is there; and p[q] of that coordinate (nil: it is none). */
+/* The coordinate of the phase space that is the momentum of q; and the symbol p[q] for such a coordinate, nil for another one. */
 qdot_expr qdot_phase_space_coordinate(const qdot_scene *s, qdot_expr q);
 qdot_expr qdot_phase_space_momentum(const qdot_scene *s, qdot_expr coordinate);
 /* The expression e with the coordinates p[q] and their rates in place of the momenta; and the other way. */

@@ -1,4 +1,4 @@
-/* state-values.h -- expressions at a state of a scene, in symbols or in numbers..
+/* state-values.h -- expressions at a state of a scene, in symbols or in numbers.
  *
  * In symbols the values are inserted and the result is shortened. In numbers the values of the parameters are inserted
  * too, the rest is evaluated in balls and rounded to 128 bits.

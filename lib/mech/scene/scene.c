@@ -24,7 +24,7 @@ enum {
     NO_PLACE = NO_VELOCITY | QDOT_HAS_COORD
 };
 
-/* Beside these: it may hold coordinates at an earlier time. */
+/* A bit beside those of what an expression may not hold: it may hold coordinates at an earlier time. */
 static const uint32_t may_be_delayed = 1u << 31;
 
 static const struct {

@@ -79,8 +79,8 @@ qdot_expr qdot_higher_in_jets(const qdot_scene *s, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_higher_refuse(const qdot_scene *s, const char *what);
 /* Take the coordinates of the derivatives away with their Lagrangian. */
 void qdot_higher_forget(qdot_scene *s);
-/* Make *L, in which second derivatives or higher may stand, that of the scene; then the Lagrangian to be stored as `lagrangian`.
- * QDOT_ENOTBUILT: equations of odd order, or a total derivative whose integral was not found. */
+/* Let *L, which may hold second and higher derivatives, be the Lagrangian of the scene. *L becomes what is to be stored as
+ * `lagrangian` (mech/scene/things.h). QDOT_ENOTBUILT: equations of odd order, or a total derivative whose integral was not found. */
 QDOT_MUST_CHECK qdot_status qdot_higher_state(qdot_scene *s, qdot_expr *L);
 /* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
  * does not know; a target twice. */
@@ -124,8 +124,8 @@ qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
 /* Whether a symbol occurs in any expression of the scene. */
 bool qdot_scene_contains(qdot_scene *s, qdot_expr symbol);
-/* Whether it, or an event, holds coordinates at an earlier time (qdot_delayed). QDOT_ENOTBUILT if e does, which is called `what`
- * and may not. */
+/* Whether the scene holds coordinates at an earlier time (qdot_delayed), in events too. QDOT_ENOTBUILT if e, which is called `what`,
+ * holds one. */
 bool qdot_scene_has_delays(const qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_refuse_delays(const qdot_scene *s, qdot_expr e, const char *what);
 /* Replace every expression e of the scene by f(e); if that is nil the pool keeps the failure. */

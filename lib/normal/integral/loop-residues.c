@@ -56,7 +56,7 @@ add_moments(residues *r, const qdot_poly *whole)
     return p.degree != -2;
 }
 
-/* over/(f1 (u - s))^power, s real. */
+/* Add the part of over/(f1 (u - s))^power, s real. */
 static bool
 add_real_pole(residues *r, const qdot_poly *over, qdot_expr f1, qdot_expr s, long power)
 {
@@ -88,7 +88,7 @@ add_real_pole(residues *r, const qdot_poly *over, qdot_expr f1, qdot_expr s, lon
     return true;
 }
 
-/* (n1 u + n0)/f, f of degree 2 with the zeros h +- iw, h = m. */
+/* Add the part of over/f, over of degree 1, f of degree 2 with the zeros h +- iw, h = m. */
 static bool
 add_complex_pair(residues *r, const qdot_poly *over, const qdot_poly *f, qdot_expr h, qdot_expr w)
 {
@@ -103,7 +103,7 @@ add_complex_pair(residues *r, const qdot_poly *over, const qdot_poly *f, qdot_ex
     return true;
 }
 
-/* over/f^power, f irreducible over the parameters. */
+/* Add the part of over/f^power, f irreducible over the parameters. */
 static bool
 add_pole(residues *r, const qdot_poly *over, const qdot_poly *f, long power)
 {

@@ -133,7 +133,7 @@ without(qdot_loop_task *l, qdot_expr n, qdot_expr d, qdot_expr V, qdot_expr squa
     return even[0] == QDOT_ZERO && even[1] == QDOT_ZERO && odd[1] != QDOT_ZERO ? qdot_div(l->pool, odd[0], odd[1]) : QDOT_NIL;
 }
 
-/* Whether lo <= angle <= hi, multiples of pi/2. */
+/* Whether lo pi/2 <= angle <= hi pi/2 is proved. */
 static bool
 value_between(qdot_loop_task *l, qdot_expr angle, long lo, long hi)
 {

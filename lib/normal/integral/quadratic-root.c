@@ -76,7 +76,7 @@ integral_of_inverse(const root *r)
 
 /* --- simple poles -------------------------------------------------------------------- */
 
-/* 1/((x - p) y) */
+/* The integral of 1/((x - p) y). */
 static qdot_expr
 integral_at_pole(const root *r, qdot_expr p)
 {
@@ -98,7 +98,7 @@ integral_at_pole(const root *r, qdot_expr p)
     return qdot_div(pool, qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, e, r->y)), s);
 }
 
-/* (p z + s)/(f y), z = x - h, f = f2 z^2 + f0 and q = a z^2 + c without linear terms. */
+/* The integral of (p z + s)/(f y), z = x - h, f = f2 z^2 + f0 and q = a z^2 + c without linear terms. */
 static qdot_expr
 integral_over_even(const root *r, const qdot_poly *n, const qdot_poly *f, qdot_expr h)
 {
@@ -123,7 +123,7 @@ integral_over_even(const root *r, const qdot_poly *n, const qdot_poly *f, qdot_e
     return F;
 }
 
-/* n/(f y), f irreducible over the parameters. */
+/* The integral of n/(f y), f irreducible over the parameters. */
 static qdot_expr
 integral_over_factor(const root *r, const qdot_poly *n, const qdot_poly *f)
 {
@@ -160,7 +160,7 @@ integral_over_factor(const root *r, const qdot_poly *n, const qdot_poly *f)
 
 /* --- reduction ----------------------------------------------------------------------- */
 
-/* a/(f^k y), reduced to a'/(f y) and a polynomial over y, which is added to *poly. */
+/* Integrate a/(f^k y) by way of a'/(f y); a polynomial over y that is left is added to *poly. */
 static bool
 reduce_power(root *r, qdot_poly a, const qdot_poly *f, long k, qdot_poly *poly)
 {
@@ -241,7 +241,7 @@ integrate_polynomial(root *r, qdot_poly P)
     return r->F != QDOT_NIL;
 }
 
-/* G/y */
+/* Integrate G/y. */
 static bool
 integrate_over_root(root *r, qdot_expr G)
 {

@@ -27,7 +27,7 @@ qdot_primitive_add(qdot_integral_task *t, qdot_primitive *out, bool angle, qdot_
     return true;
 }
 
-/* n/f with f = a x^2 + b x + c: the derivative of log f, and a rest r/f that is an atan or two logarithms. */
+/* Integrate n/f with f = a x^2 + b x + c: it is the derivative of log f, and a rest r/f that is an atan or two logarithms. */
 static bool
 integrate_over_quadratic(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out)
 {
@@ -294,7 +294,7 @@ qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, co
     return true;
 }
 
-/* n/prod f_i^power_i by partial fractions. */
+/* Integrate n/prod f_i^power_i by partial fractions. */
 static bool
 integrate_fraction(qdot_integral_task *t, const qdot_poly *n, int factors, const qdot_poly *f, const long *power,
                    qdot_expr x, qdot_primitive *out)

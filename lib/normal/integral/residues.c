@@ -16,14 +16,14 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 
-/* P + Q w */
+/* A polynomial P + Q w in x whose coefficients hold w = sqrt(D). */
 typedef struct {
     qdot_poly P, Q;
 } pair;
 
 typedef struct {
     qdot_integral_task *t;
-    qdot_expr square; /* of w */
+    qdot_expr square; /* D */
 } pairs;
 
 static int
@@ -34,7 +34,7 @@ degree_of_pair(const pair *x)
     return x->P.degree > x->Q.degree ? x->P.degree : x->Q.degree;
 }
 
-/* x (a + b w) */
+/* The polynomial x times a + b w. */
 static pair
 scale_pair(const pairs *k, const pair *x, qdot_expr a, qdot_expr b)
 {
@@ -45,7 +45,7 @@ scale_pair(const pairs *k, const pair *x, qdot_expr a, qdot_expr b)
     return (pair){qdot_poly_add(k->t, &aP, &bQ), qdot_poly_add(k->t, &aQ, &bP)};
 }
 
-/* x divided by its leading coefficient p + q w, which is times (p - q w)/(p^2 - q^2 w^2). */
+/* The polynomial x divided by its leading coefficient p + q w, which is times (p - q w)/(p^2 - q^2 w^2). */
 static pair
 make_monic(const pairs *k, const pair *x)
 {

@@ -130,7 +130,8 @@ reads_steps(const qdot_tape *tape)
     return false;
 }
 
-/* Whether an output of the tape is another just before t, input `time`, and just behind. in [inputs]; out [2 x outputs], work. */
+/* Whether an output of the tape jumps at the time t, for which input number `time` stands: its values just before and just behind
+ * are compared. in [inputs]; out [2 x outputs] and work are scratch. */
 static bool
 jumps_at(const qdot_tape *tape, size_t time, double *in, double t, double *out, double *work)
 {
