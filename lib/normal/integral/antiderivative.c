@@ -8,9 +8,11 @@
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/calculus/elliptic-forms.h"
+#include "normal/calculus/switch.h"
 #include "normal/field/budget.h"
 #include "normal/field/flint.h"
 #include "normal/integral/methods.h"
+#include "normal/integral/piecewise.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
@@ -165,16 +167,42 @@ find_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts 
     return s.F;
 }
 
+/* The same by the method that fits; what has kinks or steps may be smooth as a whole, and is integrated piece by piece
+ * where it is not. A piece is found by `find`. */
+static qdot_expr
+find_pieces(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts, qdot_piece_find *find, bool by_cases)
+{
+    qdot_expr F = QDOT_NIL;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (!qdot_piecewise_kinks(pool, e, x) && !qdot_piecewise_steps(pool, e, x))
+        return find_antiderivative(pool, e, x, facts, by_cases);
+    if (!qdot_piecewise_steps(pool, e, x))
+        F = find_antiderivative(pool, e, x, facts, by_cases);
+    if (F != QDOT_NIL && qdot_has_steps(pool, F, x)) /* it may jump */
+        F = QDOT_NIL;
+    if (F == QDOT_NIL && !qdot_pool_failed(pool))
+        e = qdot_piecewise_waves(pool, e, x);
+    if (F == QDOT_NIL && qdot_piecewise_kinks(pool, e, x))
+        F = qdot_kinks_antiderivative(pool, e, x, facts, find);
+    if (F == QDOT_NIL && qdot_piecewise_steps(pool, e, x))
+        F = qdot_steps_antiderivative(pool, e, x, facts, find);
+    if (qdot_grave(qdot_pool_check(pool)) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    return F;
+}
+
 qdot_expr
 qdot_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
 {
-    return find_antiderivative(pool, e, x, facts, false);
+    return find_pieces(pool, e, x, facts, qdot_antiderivative, false);
 }
 
 qdot_expr
 qdot_antiderivative_by_cases(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
 {
-    qdot_expr F = find_antiderivative(pool, e, x, facts, true);
+    qdot_expr F = find_pieces(pool, e, x, facts, qdot_antiderivative_by_cases, true);
 
     return F == QDOT_NIL && !qdot_pool_failed(pool) ? qdot_elliptic_antiderivative(pool, e, x, facts) : F;
 }

@@ -13,7 +13,7 @@
 #include "normal/integral/antiderivative.h"
 #include "normal/integral/ends.h"
 #include "normal/integral/improper.h"
-#include "normal/integral/methods.h"
+#include "normal/integral/piecewise.h"
 #include "normal/integral/span.h"
 #include "normal/simplify/simplify.h"
 
@@ -149,41 +149,20 @@ find_ordered(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr 
     return QDOT_OK;
 }
 
-/* int floor(u) du from 0 to u = [u] u - [u] ([u] + 1)/2, continuous; u at x = at. */
-static qdot_expr
-area_below_steps(qdot_pool *pool, qdot_expr u, qdot_expr x, qdot_expr at)
-{
-    const qdot_expr v = qdot_subs(pool, u, 1, &x, &at), n = qdot_fun1(pool, QDOT_FLOOR, v),
-                    half = qdot_mul(pool, QDOT_HALF, qdot_add(pool, n, QDOT_ONE));
-
-    return qdot_mul(pool, n, qdot_sub(pool, v, half));
-}
-
-/* p + q floor(u), q free of x and u linear in x, however many steps there are. */
+/* What is finite for all x, with kinks or steps at places that are not known or are too many: its antiderivative does not jump. */
 static qdot_status
-find_steps(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi, const qdot_facts *facts,
+find_whole(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi, const qdot_facts *facts,
            qdot_definite_answer *answer)
 {
-    static const qdot_fun_id step = QDOT_FLOOR;
-    const qdot_expr w = qdot_symbol_get(pool, QDOT_FORMAL, "whole#"), zero = QDOT_ZERO,
-                    whole = qdot_expr_find_function(pool, e, 1, &step, x);
-    qdot_expr u, slope, q, p, area;
+    qdot_expr F;
 
-    if (whole == QDOT_NIL || is_infinite(pool, lo) || is_infinite(pool, hi))
+    if (is_infinite(pool, lo) || is_infinite(pool, hi) || !qdot_piecewise_finite(pool, e, x) ||
+        (!qdot_piecewise_kinks(pool, e, x) && !qdot_piecewise_steps(pool, e, x)))
         return QDOT_OK;
-    u = qdot_expr_arg(pool, whole, 0);
-    slope = qdot_integral_slope(pool, u, x);
-    e = qdot_subs(pool, e, 1, &whole, &w);
-    q = qdot_diff(pool, e, w);
-    p = qdot_subs(pool, e, 1, &w, &zero);
-    if (slope == QDOT_NIL || q == QDOT_NIL || p == QDOT_NIL || !(qdot_expr_sign(pool, slope) & QDOT_NE0) ||
-        qdot_expr_contains(pool, q, x) ||
-        qdot_normal(pool, qdot_sub(pool, e, qdot_add(pool, p, qdot_mul(pool, q, w))), NULL) != QDOT_ZERO)
-        return qdot_grave(qdot_pool_check(pool)); /* sign(w) has the slope 0, but is not linear */
-    QDOT_TRY(qdot_definite(pool, p, x, lo, hi, facts, answer));
-    area = qdot_sub(pool, area_below_steps(pool, u, x, hi), area_below_steps(pool, u, x, lo));
-    if (answer->kind == QDOT_DEFINITE_FOUND)
-        answer->value = qdot_add(pool, answer->value, qdot_div(pool, qdot_mul(pool, q, area), slope));
+    F = qdot_antiderivative_by_cases(pool, e, x, facts);
+    F = qdot_sub(pool, qdot_piecewise_at(pool, F, x, hi, facts), qdot_piecewise_at(pool, F, x, lo, facts));
+    if (F != QDOT_NIL)
+        *answer = (qdot_definite_answer){QDOT_DEFINITE_FOUND, F, QDOT_NIL};
     return qdot_grave(qdot_pool_check(pool));
 }
 
@@ -222,7 +201,7 @@ qdot_definite(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr
     if (!ordered)
         QDOT_TRY(find_piece(pool, e, x, lo, hi, facts, false, answer));
     if (answer->kind == QDOT_DEFINITE_NOT_FOUND)
-        QDOT_TRY(find_steps(pool, e, x, lo, hi, facts, answer));
+        QDOT_TRY(find_whole(pool, e, x, lo, hi, facts, answer));
     if (answer->kind == QDOT_DEFINITE_FOUND && answer->value != QDOT_NIL) {
         qdot_expr value = qdot_simplify(pool, backward ? qdot_neg(pool, answer->value) : answer->value, facts);
 
