@@ -176,6 +176,18 @@ integrate_over_split(qdot_integral_task *t, const qdot_poly *n, const qdot_poly 
     return integrate_over_two(t, &top, &g, &h, out);
 }
 
+/* Integrate n/f for an irreducible f of a degree beyond 4. */
+static bool
+integrate_over_high(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out)
+{
+    const int before = out->n;
+
+    if (qdot_residues_integrate(t, n, f, out))
+        return true;
+    out->n = before;
+    return qdot_cyclotomic_integrate(t, n, f, out);
+}
+
 /* Integrate n/f, the degree of n below that of f, which has no multiple roots. */
 static bool
 integrate_over_factor(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out)
@@ -188,7 +200,7 @@ integrate_over_factor(qdot_integral_task *t, const qdot_poly *n, const qdot_poly
         return qdot_primitive_add(t, out, false, qdot_div(t->pool, n->c[0], f->c[1]), *f);
     if (f->degree == 2)
         return integrate_over_quadratic(t, n, f, out);
-    return f->degree > 4 ? qdot_residues_integrate(t, n, f, out) : integrate_over_split(t, n, f, out);
+    return f->degree > 4 ? integrate_over_high(t, n, f, out) : integrate_over_split(t, n, f, out);
 }
 
 /* Integrate a/f^k: Hermite's reduction down to k = 1. */

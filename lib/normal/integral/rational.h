@@ -6,7 +6,7 @@
  * finding roots; what is left over a square-free denominator gives logarithms and arcs, of real factors of degree 1
  * and 2. An irreducible x^4 + p x^2 + q and x^3 + c (in x - s), and a reciprocal x^4 + a x^3 + b x^2 + a k x + k^2, split
  * into such with roots of parameters; other irreducible denominators are integrated where their residues are roots of
- * quadratic equations. A denominator in x^k, whose numerator is x^(k-1) times such a one, is integrated
+ * quadratic equations, or their zeros roots of unity times one number. A denominator in x^k, whose numerator is x^(k-1) times such a one, is integrated
  * over x^k.
  *
  * All terms are continuous wherever n/d is: the p_j are polynomials, and so no atan jumps.
@@ -38,6 +38,9 @@ bool qdot_primitive_add(qdot_integral_task *t, qdot_primitive *out, bool angle, 
 /* Add the integral of n/f by the residues of its poles (residues.c): f irreducible, of higher degree than n. False: not found, and
  * then *out may hold a part. */
 bool qdot_residues_integrate(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out);
+
+/* The same where the roots of f are roots of unity times one number: f = x^n + c, or cyclotomic in x/r (cyclotomic.c). */
+bool qdot_cyclotomic_integrate(qdot_integral_task *t, const qdot_poly *n, const qdot_poly *f, qdot_primitive *out);
 
 /* Integrate e, rational in x; false: it is not, or no real factors of its denominator were found. */
 bool qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qdot_primitive *out);

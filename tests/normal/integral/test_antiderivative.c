@@ -34,6 +34,12 @@ known_integrals_differentiate_back(void **state)
         "(3*x^2 + a)/(x^3 + a*x + k)", /* 1 everywhere */
         "a*(a - 2*x^3)/((x^3 + a)^2 + a^2*x^2)",
         "x^4/(x^10 + 1)",
+        "1/(x^8 + 1)", /* roots of unity */
+        "(x^2 + 3)/(x^10 + 1)",
+        "x^3/(x^7 + 2)",
+        "x/(x^8 + a^8)",
+        "1/(x^6 + x^5 + x^4 + x^3 + x^2 + x + 1)",
+        "x^2/(x^8 + 1)^2",
         "tan(x)",
         "sinh(x) + cosh(k*x)",
         "sin(x)/cos(x)^2",
