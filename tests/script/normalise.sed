@@ -9,6 +9,8 @@ s/[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} *\(us\|µs\|ms\|s\|min\) \([Cc][Pp][Uu]\)/
 s/method \(rk8pd\|dop853\|taylor\), tol/method AUTO, tol/
 s/^\(  hint: auto\), .*/\1, .../
 s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
+s/"\(steps\|rejected\|evals\|jacobians\|factorizations\)":[0-9][0-9]*/"\1":N/g
+s/^\(fit of .*\), [0-9][0-9]* steps\{0,1\}$/\1, N steps/
 # Where a run failed or stopped is known to ten digits; how far many steps came, to none.
 / failed: .* steps: at this rate/s/\.\.[0-9.]*\(, .* failed: stopped at t = \)[0-9.]*/..N\1N/
 / \(failed\|stopped\): /s/^\([a-z]*[0-9]*: t = [^ ,]*\.\.[-0-9.]\{12\}\)[0-9]*/\1/
