@@ -7,10 +7,13 @@
  * (num/samples.h): the handle says of which unknown, and what of its piece. A tape has no place for which run it is
  * evaluated for, and a run and its companions have the same tape, so each thread has one history that is read.
  *
- * The knots t_j + tau are where a step of an equation with y(t - tau) ends. Among them are the breaking points: at
- * start + tau the derivative of y' jumps, at start + 2 tau the next one, and so on.
+ * Breaking points. At the start, and where an event, a switch or a table of data breaks the motion, a derivative of the unknowns
+ * jumps: let the k-th be the lowest one that does. Equations that read y(t - tau) hand that on to tau later, where a higher
+ * one jumps, the (k + gain)-th. A step ends there, unless the jump is beyond the order of the series or below rounding. All other ends of
+ * steps are no breaking points: a step may read the series of one earlier step beyond the end of that, to the time `valid` to
+ * which it holds, or that of a later one before its begin. Therefore ends of steps do not multiply.
  *
- * Source  Bellen & Zennaro, Numerical Methods for Delay Differential Equations (2003), chapters 2 and 3.
+ * Source  Bellen & Zennaro, Numerical Methods for Delay Differential Equations (2003), chapters 2 to 4.
  * Tests   tests/num/test_past.c
  */
 #ifndef QDOT_NUM_PAST_H
@@ -22,7 +25,7 @@
 
 #include "base/status.h"
 
-enum { QDOT_PAST_ORDER = 32 };
+enum { QDOT_PAST_ORDER = 32, QDOT_PAST_SMOOTH = 1000 }; /* SMOOTH: as the order of a breaking point, that there is none */
 
 typedef struct qdot_past qdot_past;
 
@@ -30,15 +33,30 @@ typedef struct qdot_past qdot_past;
 QDOT_MUST_CHECK qdot_status qdot_past_new(size_t n, const uint32_t *called, qdot_past **out);
 void qdot_past_free(qdot_past *h);
 
+/* The equations read a time tau > 0 ago, and a breaking point of order k there is one of order k + gain now. SMOOTH: nothing that
+ * is integrated depends on what is read. Known delays stay known. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_past_delay(qdot_past *h, double tau, int gain);
+
 /* The run starts at t with y [n]: nothing is known but these values, which were the same before. */
 QDOT_MUST_CHECK qdot_status qdot_past_begin(qdot_past *h, double t, const double *y);
+/* A step that begins at t begins with a breaking point, whatever was before; NULL as history: nothing. */
+void qdot_past_restart(qdot_past *h, double t);
 /* From t on, which is not before the start, the unknowns are x_ik s^k with s = (u - t)/unit, x_ik = x[i stride + k],
- * k <= p <= QDOT_PAST_ORDER. What was known from t on is forgotten, and a
- * piece before t that has hardly any length. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_past_add(qdot_past *h, double t, double unit, int p, const double *x, size_t stride);
+ * k <= p <= QDOT_PAST_ORDER; by its coefficients the series holds up to the time `holds`, which may be infinite. What was known
+ * from t on is forgotten, and a piece before t that has hardly any length. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_past_add(qdot_past *h, double t, double unit, int p, double holds, const double *x, size_t stride);
 
 /* The run has come to t: that is where the last piece ends so far. */
 void qdot_past_reach(qdot_past *h, double t);
+
+/* The time at which a step from t has to end: by a breaking point that it reads, or because no series of an earlier step
+ * that holds at its begin holds longer. Where an unknown that is read jumps, the last time before that, then the first one
+ * behind it. */
+double qdot_past_next(const qdot_past *h, double t);
+
+/* From now on, each time is read in the series that holds longest of those that hold there and were begun before t: for the
+ * series of a step from t. -INFINITY: in the one of the step that was taken there, for values. */
+void qdot_past_expand(qdot_past *h, double t);
 
 /* The history that this thread reads from now on, until it is freed; NULL: none, everything read is NaN. */
 void qdot_past_read(qdot_past *h);
@@ -54,10 +72,9 @@ bool qdot_past_finds(double handle);
 /* Whether it is that of c_0, and of which unknown. */
 bool qdot_past_is_value(double handle, uint32_t *called);
 
-/* lookup(handle, x), NaN for a time behind the end, and the piece [*lo, *hi) that holds x, of the history that is read. */
+/* lookup(handle, x), of the history that is read; NaN for a time behind the end. */
 double qdot_past_lookup(double handle, double x);
-void qdot_past_bounds(double x, double *lo, double *hi);
-/* Whether an unknown jumps where that piece ends. */
-bool qdot_past_jumps(double x);
+/* Whether the piece that holds x holds from x - r to x + r, without a breaking point between. */
+bool qdot_past_is_smooth(double x, double r);
 
 #endif

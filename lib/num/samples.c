@@ -529,10 +529,6 @@ qdot_samples_bounds(double handle, double x, double *lo, double *hi)
     const double piece = t ? qdot_samples_lookup(handle, x) : NAN;
     const axis *along;
 
-    if (qdot_past_has(handle)) {
-        qdot_past_bounds(x, lo, hi);
-        return;
-    }
     *lo = *hi = NAN;
     if (isnan(piece))
         return;
@@ -566,12 +562,12 @@ qdot_samples_is_same(double a, double b)
 }
 
 bool
-qdot_samples_jumps(double handle, double x)
+qdot_samples_jumps(double handle)
 {
     int item;
     const table *t = table_of(handle, &item);
 
-    return qdot_past_has(handle) ? qdot_past_jumps(x) : t && t->degree == 0;
+    return t && t->degree == 0;
 }
 
 bool

@@ -70,7 +70,7 @@ bool qdot_samples_look(double handle, qdot_samples_view *view);
 
 /* Whether a handle is that of an axis' pieces. */
 bool qdot_samples_finds(double handle);
-/* Of such a handle, the piece *lo <= x < *hi that holds the place x. With `hold` the pieces outside the table are infinite on
+/* Of such a handle of a table, the piece *lo <= x < *hi that holds the place x. With `hold` the pieces outside the table are infinite on
  * one side. NaN if no piece holds x. */
 void qdot_samples_bounds(double handle, double x, double *lo, double *hi);
 /* |first knot| + |last knot| of a periodic table: whole periods are subtracted from a place, and the rounding error of that is
@@ -78,8 +78,8 @@ void qdot_samples_bounds(double handle, double x, double *lo, double *hi);
 double qdot_samples_blur(double handle);
 /* Whether two handles are of one table. */
 bool qdot_samples_is_same(double a, double b);
-/* Whether the functions of the table jump at knots; of a history (num/past.h), where the piece that holds x ends. */
-bool qdot_samples_jumps(double handle, double x);
+/* Whether the functions of the table jump at knots. */
+bool qdot_samples_jumps(double handle);
 /* Of the handle of an axis' pieces, the first and the last knot along the axis. Whether there are no values outside. */
 bool qdot_samples_range(double handle, double *lo, double *hi);
 

@@ -44,6 +44,7 @@ typedef struct {
     int order;
     const double *y;
     const double *carry; /* [n] exact state minus its double y; NULL: 0 */
+    double holds; /* the time to which the coefficients allow a step, not before t_end; infinite: the series ends */
 } qdot_ode_expanded;
 
 typedef struct qdot_ode_meter qdot_ode_meter;

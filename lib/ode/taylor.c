@@ -280,10 +280,10 @@ is_defect_only_noise(run *r, double before, double h, double *most)
     return true;
 }
 
-/* Try a step of h from t to t_end. On QDOT_OK and *good it has been accepted, and the
+/* Try a step of h from t to t_end, where one of `longest` would do. On QDOT_OK and *good it has been accepted, and the
  * series is begun at its end. Otherwise only the series has changed. */
 static qdot_status
-taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
+taylor_try_step(run *r, double h, double t_end, double longest, bool unsure, bool *good)
 {
     const double old_held = r->held;
     const bool fixed = r->options->h_fixed > 0;
@@ -297,7 +297,7 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
         return QDOT_OK;
     if (r->options->expanded) {
         qdot_ode_expanded step = {
-            r->t, t_end, r->unit, qdot_ode_taylor_last_order(r->system, r->cut), r->y, r->carry};
+            r->t, t_end, r->unit, qdot_ode_taylor_last_order(r->system, r->cut), r->y, r->carry, r->t + r->direction * longest};
 
         QDOT_TRY(r->options->expanded(&step, r->options->user));
         t_end = step.t_end;
@@ -380,7 +380,7 @@ taylor_advance(run *r)
 
     r->until = r->options->h_fixed > 0 ? r->t1 : qdot_ode_until(r->system, r->t, r->t1);
     for (int tries = 0;; tries++) {
-        double end;
+        double end, longest;
         bool good = false, unsure;
         qdot_status status = QDOT_OK;
 
@@ -399,12 +399,12 @@ taylor_advance(run *r)
         if (status == QDOT_OK) {
             r->defect = 0;
             unsure = isinf(h);
-            h = qdot_smaller(h, most);
+            longest = h = qdot_smaller(h, most);
             end = end_of_step(r, h);
             h = r->direction * (end - r->t);
             if (end != r->until && qdot_step_is_too_short(r->t, h))
                 return taylor_too_small(r);
-            status = taylor_try_step(r, end - r->t, end, unsure, &good);
+            status = taylor_try_step(r, end - r->t, end, longest, unsure, &good);
             if (status == QDOT_OK && good)
                 return QDOT_OK;
         } else if (qdot_ode_may_be_undefined(status)) {

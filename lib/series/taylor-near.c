@@ -1,6 +1,7 @@
 /* taylor-near.c -- limits a step by arguments of exponentials and by divisors, for programs in doubles. */
 #include <math.h>
 
+#include "num/past.h"
 #include "num/samples.h"
 #include "series/near.h"
 #include "series/taylor-steps.h"
@@ -30,13 +31,14 @@ safe_step_for_divisor(const qdot_taylor_step *step, int p, double s)
     return qdot_near_divisor(p, b, step->op == QDOT_T_SQRT, s);
 }
 
-/* The part of a step of s until the argument of a table of data passes a knot; not below QDOT_NEAR_FINER `least`. */
+/* The part of a step of s until the argument of a table of data passes a knot; not below QDOT_NEAR_FINER `least`. Of a history
+ * of a run, steps end where qdot_past_next says. */
 static double
 safe_step_for_table(const qdot_taylor_step *step, int p, double s, double least)
 {
     double lo, hi;
 
-    if (!qdot_samples_finds(step->z[0]))
+    if (!qdot_samples_finds(step->z[0]) || qdot_past_has(step->z[0]))
         return s;
     qdot_samples_bounds(step->z[0], step->x[0], &lo, &hi);
     return fmin(s, fmax(qdot_near_knot(p, step->x, lo, hi, s), QDOT_NEAR_FINER * least));

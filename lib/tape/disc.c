@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/past.h"
 #include "num/samples.h"
 #include "tape/instruction.h"
 
@@ -31,10 +32,12 @@ radius_of_quotient(double d, double ra, double b, double rb)
     return fabs(b) > rb ? (ra + radius_times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
 }
 
-/* Radius of a number of a table of data: 0 if the disc is within one piece. */
+/* Radius of a number of a table of data: 0 if the disc is within one piece; of a history, if the piece holds there. */
 static double
 radius_of_lookup(double a, double ra, double handle)
 {
+    if (qdot_past_finds(handle))
+        return qdot_past_is_smooth(a, ra) ? 0 : NAN;
     return ra == 0 || qdot_samples_lookup(handle, a - ra) == qdot_samples_lookup(handle, a + ra) ? 0 : NAN;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/past.h"
 #include "num/samples.h"
 #include "tape/instruction.h"
 
@@ -34,15 +35,18 @@ softplus_of_double(double x)
 }
 
 /* The numbers of a table for all places of an interval: of pieces, from the first to the last; of what pieces have, around
- * those of these pieces. */
+ * those of these pieces. One piece of a history may hold for all. */
 static qdot_interval
 lookup_of_interval(qdot_interval a, qdot_interval handle)
 {
     const double lo = qdot_samples_lookup(handle.lo, a.lo), hi = qdot_samples_lookup(handle.lo, a.hi), most_pieces = 64;
+    const double middle = a.lo + (a.hi - a.lo) / 2;
     qdot_interval d = qdot_interval_point(lo);
 
     if (isnan(lo) || isnan(hi))
         return qdot_interval_whole;
+    if (qdot_past_finds(handle.lo) && qdot_past_is_smooth(middle, a.hi - middle))
+        return qdot_interval_point(qdot_past_lookup(handle.lo, middle));
     if (qdot_samples_finds(handle.lo) && lo <= hi)
         return (qdot_interval){lo, hi};
     if (!(a.hi - a.lo <= most_pieces))

@@ -146,7 +146,7 @@ qdot_knots_next(size_t n, const qdot_knots_line *lines, double t, int direction)
         double last, first, end;
 
         end_of_piece(&lines[k], t, direction, &last, &first);
-        end = qdot_samples_jumps(lines[k].handle, lines[k].a + lines[k].b * t) && direction * (last - t) > 0 ? last : first;
+        end = qdot_samples_jumps(lines[k].handle) && direction * (last - t) > 0 ? last : first;
         if (direction * (end - t) > 0 && direction * (next - end) > 0)
             next = end;
     }

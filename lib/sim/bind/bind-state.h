@@ -59,7 +59,8 @@ struct qdot_bind {
     /* Of equations with delays: the history of the run that is integrated, borrowed, and callbacks of the series that read it. */
     qdot_past *history;
     qdot_ode_series remembering;
-    qdot_knots knots;   /* the tables of data that the equations read at times */
+    qdot_knots knots;   /* the tables of data that the equations read at times, and their delays */
+    double knot;        /* the knot of such a table that the step before this one was to end at the latest */
     qdot_pulses pulses; /* searches steps for forces shorter than a step, if the method has no series; made at first use */
 };
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/symbol.h"
 #include "ode/apart.h"
 #include "series/taylor.h"
 #include "sim/bind/bind-state.h"
@@ -288,9 +289,16 @@ series_that_reads(const qdot_bind *b)
 static qdot_status
 begin_remembering(double t, const double *y, double unit, void *user)
 {
-    const qdot_ode_series *s = series_that_reads(user);
+    const qdot_bind *b = user;
+    const qdot_ode_series *s = series_that_reads(b);
+    qdot_status status;
 
-    return s->begin(t, y, unit, s->user);
+    if (t == b->knot)
+        qdot_past_restart(b->history, t);
+    qdot_past_expand(b->history, t);
+    status = s->begin(t, y, unit, s->user);
+    qdot_past_expand(b->history, -INFINITY);
+    return status;
 }
 
 static qdot_status
@@ -317,12 +325,27 @@ prepare_remembering(int p, void *user)
     return s->prepare ? s->prepare(p, s->user) : QDOT_OK;
 }
 
-void
+/* By how much the order of a breaking point grows where the unknown of a handle is read: accelerations and rates of states are one order
+ * below the unknowns, positions of what has mass one more; the unknowns are q and q' (num/past.h). */
+static int
+gain_of_delay(const qdot_plan *p, double handle)
+{
+    uint32_t called;
+
+    (void)qdot_past_is_value(handle, &called);
+    return (qdot_expr_is_coordinate(p->pool, called) ? 1 : 0) + (p->n_massless == 0 ? 1 : 0);
+}
+
+qdot_status
 qdot_bind_remember(qdot_bind *b, qdot_past *history)
 {
     b->history = history;
+    b->knot = NAN;
+    for (size_t k = 0; k < b->knots.n && history; k++)
+        if (qdot_past_has(b->knots.at[k].handle))
+            QDOT_TRY(qdot_past_delay(history, -b->knots.at[k].a, gain_of_delay(b->plan, b->knots.at[k].handle)));
     if (!b->series || !history)
-        return;
+        return QDOT_OK;
     b->remembering = *b->series;
     b->remembering.begin = begin_remembering;
     b->remembering.extend = extend_remembering;
@@ -333,23 +356,32 @@ qdot_bind_remember(qdot_bind *b, qdot_past *history)
     b->remembering.crossed = NULL;
     b->remembering.user = b;
     b->remembering.most = b->series->most < QDOT_PAST_ORDER ? b->series->most : QDOT_PAST_ORDER;
+    return QDOT_OK;
 }
 
 qdot_status
 qdot_bind_remember_for(qdot_bind *b, const qdot_tape *tape)
 {
-    return b->history ? qdot_delay_find_knots(tape, 2 * b->plan->n, &b->knots) : QDOT_OK;
+    qdot_knots knots = {0};
+    qdot_status status = b->history ? qdot_delay_find_knots(tape, 2 * b->plan->n, &knots) : QDOT_OK;
+
+    for (size_t k = 0; k < knots.n && status == QDOT_OK; k++)
+        status = qdot_past_delay(b->history, -knots.at[k].a, QDOT_PAST_SMOOTH);
+    qdot_free(knots.at);
+    return status;
 }
 
-/* The next time at which a table of data that the equations read, or their history, has a knot. */
+/* The next time at which a step ends because a table of data that the equations read has a knot, or because of their delays. */
 static double
 next_knot(double t, int direction, void *user)
 {
-    const qdot_bind *b = user;
+    qdot_bind *b = user;
+    const double knot = qdot_knots_next(b->knots.n, b->knots.at, t, direction);
 
-    if (b->history)
-        qdot_past_read(b->history);
-    return qdot_knots_next(b->knots.n, b->knots.at, t, direction);
+    if (!b->history)
+        return knot;
+    b->knot = knot;
+    return fmin(knot, qdot_past_next(b->history, t));
 }
 
 qdot_constrained *
@@ -373,7 +405,7 @@ qdot_bind_system(qdot_bind *b)
         .series = b->history && b->series ? &b->remembering : b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
-        .until = b->knots.n > 0 ? next_knot : NULL,
+        .until = b->knots.n > 0 || b->history ? next_knot : NULL,
         .look = may_hide_short_forces(b) ? inspect_step_for_pulses : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,

@@ -308,8 +308,7 @@ qdot_course_prepare(qdot_course *c)
     QDOT_TRY(qdot_vec_push(&c->watches, NULL));
     QDOT_TRY(qdot_course_remember(c, c->stage->modes.at[0]->plan));
     QDOT_TRY(qdot_bind_new(c->stage->modes.at[0]->plan, c->shaken, &bind));
-    qdot_bind_remember(bind, c->history);
-    if (qdot_bind_scale(bind, c->stage->scales) == QDOT_OK
+    if (qdot_bind_remember(bind, c->history) == QDOT_OK && qdot_bind_scale(bind, c->stage->scales) == QDOT_OK
         && qdot_vec_push(&c->binds, bind) == QDOT_OK) {
         c->systems.at[0] = qdot_bind_system(bind);
         return QDOT_OK;

@@ -26,7 +26,7 @@ qdot_piece_enter(qdot_piece *x)
     m = qdot_piece_mode(x);
     if (!c->binds.at[x->mode])
         QDOT_TRY(qdot_bind_new(m->plan, c->shaken, &c->binds.at[x->mode]));
-    qdot_bind_remember(c->binds.at[x->mode], c->history);
+    QDOT_TRY(qdot_bind_remember(c->binds.at[x->mode], c->history));
     QDOT_TRY(qdot_bind_scale(c->binds.at[x->mode], c->stage->scales));
     made = m->m > 0 && !c->watches.at[x->mode];
     if (made) {

@@ -385,7 +385,7 @@ inspect_series_step(qdot_ode_expanded *step, void *user)
     size_t n;
 
     if (x->c->history)
-        QDOT_TRY(qdot_past_add(x->c->history, step->t, step->unit, step->order, s->x, s->stride));
+        QDOT_TRY(qdot_past_add(x->c->history, step->t, step->unit, step->order, step->holds, s->x, s->stride));
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
     x->far = !x->first_step &&
@@ -560,6 +560,7 @@ qdot_piece_integrate(qdot_piece *x)
     x->searched.parts = 0;
     x->noted = c->occurrences.n;
     x->noted_faded = c->faded.n;
+    qdot_past_restart(c->history, x->start.t);
     status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped || x->start.followed, &options, x->t1,
                                     x->start.y);
     if (x->broken_off) {

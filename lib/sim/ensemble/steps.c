@@ -240,7 +240,7 @@ copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
         for (int k = 1; k <= step->order && i < 2 * s->n; k++)
             to[k] = from[(size_t)k * L];
     }
-    a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y, NULL};
+    a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y, NULL, step->t_end};
 }
 
 /* Start the search for an ensemble member's events, at the start of the member. */

@@ -125,7 +125,7 @@ static bool
 reads_steps(const qdot_tape *tape)
 {
     for (size_t k = 0; k < tape->length; k++)
-        if (tape->code[k].op == QDOT_OP_LOOKUP && qdot_samples_jumps(tape->constant[tape->code[k].z - tape->inputs], NAN))
+        if (tape->code[k].op == QDOT_OP_LOOKUP && qdot_samples_jumps(tape->constant[tape->code[k].z - tape->inputs]))
             return true;
     return false;
 }
