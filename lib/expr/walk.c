@@ -418,11 +418,20 @@ qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
     return found;
 }
 
-static bool
-contains_any(const qdot_pool *pool, qdot_expr e, size_t m, const qdot_expr *x)
+bool
+qdot_expr_contains_any(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 {
-    for (size_t j = 0; j < m; j++)
+    for (size_t j = 0; j < n; j++)
         if (qdot_expr_contains(pool, e, x[j]))
+            return true;
+    return false;
+}
+
+bool
+qdot_expr_is_in_any(const qdot_pool *pool, qdot_expr x, size_t n, const qdot_expr *e)
+{
+    for (size_t i = 0; i < n; i++)
+        if (qdot_expr_contains(pool, e[i], x))
             return true;
     return false;
 }
@@ -440,7 +449,7 @@ qdot_expr_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t 
         const uint32_t count = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
 
         for (uint32_t k = 1; k + 1 < count; k += 2)
-            if (contains_any(pool, qdot_expr_arg(pool, w.at[i], k + 1), m, x) &&
+            if (qdot_expr_contains_any(pool, qdot_expr_arg(pool, w.at[i], k + 1), m, x) &&
                 qdot_vec_push(&found, qdot_expr_arg(pool, w.at[i], k)) != QDOT_OK)
                 qdot_pool_fail(pool);
     }

@@ -65,8 +65,11 @@ qdot_expr qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e);
 /* The index of e in list [n]; n if it is not there. */
 size_t qdot_expr_place(size_t n, const qdot_expr *list, qdot_expr e);
 
-/* Whether x (any node) occurs in e. */
+/* Whether x (any node) occurs in e; in nil nothing does. */
 bool qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x);
+/* Whether one of x [n] occurs in e; whether x occurs in one of e [n]. */
+bool qdot_expr_contains_any(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x);
+bool qdot_expr_is_in_any(const qdot_pool *pool, qdot_expr x, size_t n, const qdot_expr *e);
 
 /* The bases of all powers in F [n] whose exponents contain one of the x [m], as a LIST. Nil: the pool failed. */
 qdot_expr qdot_expr_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x);

@@ -142,8 +142,11 @@ contains_agrees_with_the_walk(void **state)
         assert_int_equal(qdot_walk_begin(p.pool, e, &w), QDOT_OK);
         assert_int_equal(qdot_expr_contains(p.pool, e, x),
                          qdot_walk_index(&w, x) != SIZE_MAX);
+        assert_int_equal(qdot_expr_contains_any(p.pool, e, 2, (qdot_expr[]){QDOT_NIL, x}), qdot_expr_contains(p.pool, e, x));
+        assert_int_equal(qdot_expr_is_in_any(p.pool, x, 2, (qdot_expr[]){QDOT_NIL, e}), qdot_expr_contains(p.pool, e, x));
         qdot_walk_end(&w);
     }
+    assert_false(qdot_expr_contains_any(p.pool, p.symbol[0], 0, NULL));
 }
 
 static void

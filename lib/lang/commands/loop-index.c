@@ -18,15 +18,6 @@
 
 /* --- where a declared symbol occurs ------------------------------------------------------- */
 
-static bool
-occurs_in_any(const qdot_session *s, size_t n, const qdot_expr *list, qdot_expr symbol)
-{
-    for (size_t i = 0; i < n; i++)
-        if (qdot_expr_contains(s->pool, list[i], symbol))
-            return true;
-    return false;
-}
-
 /* Whether a declaration, a parameter value or a start value contains the symbol. */
 static bool
 occurs_in_scene(const qdot_session *s, qdot_expr symbol)
@@ -34,14 +25,14 @@ occurs_in_scene(const qdot_session *s, qdot_expr symbol)
     for (size_t i = 0; i < s->scene->events.n; i++) {
         const qdot_event *event = &s->scene->events.at[i];
 
-        if (occurs_in_any(s, event->values.n, event->values.at, symbol) ||
-            occurs_in_any(s, event->targets.n, event->targets.at, symbol) ||
+        if (qdot_expr_is_in_any(s->pool, symbol, event->values.n, event->values.at) ||
+            qdot_expr_is_in_any(s->pool, symbol, event->targets.n, event->targets.at) ||
             qdot_expr_contains(s->pool, event->left, symbol) ||
             qdot_expr_contains(s->pool, event->right, symbol))
             return true;
     }
-    return occurs_in_any(s, s->values->set_values.n, s->values->set_values.at, symbol) ||
-           occurs_in_any(s, s->values->start_values.n, s->values->start_values.at, symbol) ||
+    return qdot_expr_is_in_any(s->pool, symbol, s->values->set_values.n, s->values->set_values.at) ||
+           qdot_expr_is_in_any(s->pool, symbol, s->values->start_values.n, s->values->start_values.at) ||
            qdot_scene_contains(s->scene, symbol);
 }
 
@@ -51,8 +42,7 @@ occurs_in_domains(const qdot_session *s, qdot_expr symbol)
     for (size_t i = 0; i < s->scene->coordinates.n; i++) {
         const qdot_symbol *q = qdot_expr_symbol(s->pool, s->scene->coordinates.at[i]);
 
-        if ((q->lo != QDOT_NIL && qdot_expr_contains(s->pool, q->lo, symbol)) ||
-            (q->hi != QDOT_NIL && qdot_expr_contains(s->pool, q->hi, symbol)))
+        if (qdot_expr_contains(s->pool, q->lo, symbol) || qdot_expr_contains(s->pool, q->hi, symbol))
             return true;
     }
     return false;

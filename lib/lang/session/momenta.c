@@ -46,15 +46,6 @@ qdot_momenta_unify(qdot_session *session, qdot_expr e)
                                                    : qdot_momenta_to_velocities(session, e);
 }
 
-static bool
-occurs_in_any(const qdot_session *s, uint32_t n, const qdot_expr *e, qdot_expr symbol)
-{
-    for (uint32_t i = 0; i < n; i++)
-        if (e[i] != QDOT_NIL && qdot_expr_contains(s->pool, e[i], symbol))
-            return true;
-    return false;
-}
-
 /* Whether the momentum of q depends on coordinates and time only, as it does where L is linear in q'. */
 static bool
 momentum_is_without_velocity(const qdot_session *s, qdot_expr q)
@@ -80,9 +71,9 @@ qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e)
     for (size_t i = 0; i < scene->coordinates.n; i++) {
         const qdot_expr q = scene->coordinates.at[i];
 
-        if (occurs_in_any(session, n, e, qdot_symbol_of(pool, QDOT_MOMENTUM, q)) &&
-            (occurs_in_any(session, n, e, qdot_symbol_jet(pool, q, 1)) ||
-             occurs_in_any(session, n, e, qdot_symbol_jet(pool, q, 2)) || momentum_is_without_velocity(session, q)))
+        if (qdot_expr_is_in_any(pool, qdot_symbol_of(pool, QDOT_MOMENTUM, q), n, e) &&
+            (qdot_expr_is_in_any(pool, qdot_symbol_jet(pool, q, 1), n, e) ||
+             qdot_expr_is_in_any(pool, qdot_symbol_jet(pool, q, 2), n, e) || momentum_is_without_velocity(session, q)))
             return true;
     }
     return false;

@@ -77,15 +77,6 @@ qdot_session_speeds_replaced(const qdot_session *s, qdot_expr e)
     return e;
 }
 
-static bool
-occurs_in(const qdot_session *s, uint32_t n, const qdot_expr *e, qdot_expr symbol)
-{
-    for (uint32_t i = 0; i < n; i++)
-        if (e[i] != QDOT_NIL && qdot_expr_contains(s->pool, e[i], symbol))
-            return true;
-    return false;
-}
-
 bool
 qdot_session_speeds_meet(const qdot_session *s, uint32_t n, const qdot_expr *e)
 {
@@ -94,10 +85,11 @@ qdot_session_speeds_meet(const qdot_session *s, uint32_t n, const qdot_expr *e)
     bool held = false;
 
     for (size_t k = 0; !held && (speed = speed_at(s, k)) != NULL; k++)
-        held = occurs_in(s, n, e, speed->value) || occurs_in(s, n, e, qdot_symbol_jet(s->pool, speed->value, 1));
+        held = qdot_expr_is_in_any(s->pool, speed->value, n, e) ||
+               qdot_expr_is_in_any(s->pool, qdot_symbol_jet(s->pool, speed->value, 1), n, e);
     for (size_t i = 0; held && i < scene->coordinates.n; i++)
         for (unsigned order = 1; order <= 2; order++)
-            if (occurs_in(s, n, e, qdot_symbol_jet(s->pool, scene->coordinates.at[i], order)))
+            if (qdot_expr_is_in_any(s->pool, qdot_symbol_jet(s->pool, scene->coordinates.at[i], order), n, e))
                 return true;
     return false;
 }

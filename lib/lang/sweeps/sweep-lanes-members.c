@@ -251,10 +251,8 @@ drop_unused_parameters(qdot_sweep_lanes *x, const qdot_expr *e)
 
     for (size_t k = 0; k < x->varied.n; k++) {
         const qdot_expr symbol = x->varied.at[k];
-        bool read = x->ways > 0 || qdot_ensemble_reads(x->ensemble, k);
+        bool read = x->ways > 0 || qdot_ensemble_reads(x->ensemble, k) || qdot_expr_is_in_any(pool, symbol, x->outputs, e);
 
-        for (size_t i = 0; i < x->outputs; i++)
-            read = read || qdot_expr_contains(pool, e[i], symbol);
         for (size_t i = 0; i < x->events.n; i++)
             read = read || qdot_expr_contains(pool, x->events.at[i].function, symbol);
         if (!read)

@@ -2,12 +2,12 @@
  * errors. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "lang/session/bind.h"
 #include "lang/session/trial.h"
 #include "lang/sweeps/sweep-lanes-parts.h"
+#include "num/sort.h"
 #include "ode/companion.h"
 #include "sim/ensemble/path.h"
 #include "tape/rounding.h"
@@ -55,14 +55,6 @@ find_errors_at_time(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
     return true;
 }
 
-static int
-compare_doubles(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
 /* Whether an error may be due to rounding only, which needs two companion runs to be estimated. */
 static bool
 may_be_rounding_error(const qdot_sweep_lanes *x, size_t m, double error, double size)
@@ -101,7 +93,7 @@ evaluate_at_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, b
 
         for (size_t k = 0; k < x->places; k++)
             sorted[k] = between[k * n + i];
-        qsort(sorted, x->places, sizeof *sorted, compare_doubles);
+        qdot_sort(x->places, sorted);
         values[i] = x->out[i];
         x->unsure = x->unsure || may_be_rounding_error(x, m, errors[i], size)
                     || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);

@@ -13,10 +13,7 @@
 static bool
 contains_coordinates(const qdot_collision_equations *of, qdot_expr e)
 {
-    for (size_t i = 0; i < of->n; i++)
-        if (qdot_expr_contains(of->pool, e, of->q[i]))
-            return true;
-    return false;
+    return qdot_expr_contains_any(of->pool, e, of->n, of->q);
 }
 
 /* Whether e is a number. */

@@ -144,16 +144,6 @@ qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds)
     return QDOT_OK;
 }
 
-/* Whether x occurs in one of n expressions. */
-static bool
-is_in_one_of(const qdot_pool *pool, qdot_expr x, size_t n, const qdot_expr *e)
-{
-    for (size_t i = 0; i < n; i++)
-        if (e[i] != QDOT_NIL && qdot_expr_contains(pool, e[i], x))
-            return true;
-    return false;
-}
-
 /* Momenta are made of masses, places and what V says of velocities; they need not be derived to see whether x occurs. */
 qdot_status
 qdot_mech_rate_matters(qdot_scene *s, qdot_expr x, bool *matters)
@@ -163,15 +153,15 @@ qdot_mech_rate_matters(qdot_scene *s, qdot_expr x, bool *matters)
 
     *matters = false;
     for (size_t i = 0; i < s->particles.n; i++)
-        *matters |= is_in_one_of(pool, x, 2, (qdot_expr[]){s->particles.at[i].mass, s->particles.at[i].position});
+        *matters |= qdot_expr_is_in_any(pool, x, 2, (qdot_expr[]){s->particles.at[i].mass, s->particles.at[i].position});
     for (size_t i = 0; i < s->bodies.n; i++) {
         const qdot_body *b = &s->bodies.at[i];
 
-        *matters |= is_in_one_of(pool, x, 4, (qdot_expr[]){b->mass, b->inertia, b->position, b->rotation});
+        *matters |= qdot_expr_is_in_any(pool, x, 4, (qdot_expr[]){b->mass, b->inertia, b->position, b->rotation});
     }
     for (size_t i = 0; i < s->dampers.n; i++)
-        *matters |= is_in_one_of(pool, x, 2, s->dampers.at[i].at);
+        *matters |= qdot_expr_is_in_any(pool, x, 2, s->dampers.at[i].at);
     for (size_t i = 0; i < s->coordinates.n && !*matters && by_velocities != QDOT_NIL; i++)
-        *matters = is_in_one_of(pool, x, 1, (qdot_expr[]){qdot_diff(pool, by_velocities, qdot_mech_jet(s, i, 1))});
+        *matters = qdot_expr_contains(pool, qdot_diff(pool, by_velocities, qdot_mech_jet(s, i, 1)), x);
     return qdot_pool_check(pool);
 }

@@ -19,10 +19,7 @@ qdot_split_is_other(const qdot_split *x, qdot_expr e)
 bool
 qdot_split_is_own(const qdot_split *x, qdot_expr e)
 {
-    for (size_t i = 0; i < x->n; i++)
-        if (qdot_expr_contains(x->pool, e, x->oq[i]) || qdot_expr_contains(x->pool, e, x->op[i]))
-            return false;
-    return true;
+    return !qdot_expr_contains_any(x->pool, e, x->n, x->oq) && !qdot_expr_contains_any(x->pool, e, x->n, x->op);
 }
 
 /* Whether all derivatives by (q or p) and (an other q or p) are proved to be 0. */

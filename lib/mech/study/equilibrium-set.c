@@ -3,7 +3,6 @@
 #include "mech/study/equilibrium-set.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -17,6 +16,7 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 #include "normal/solve/zeros.h"
+#include "num/sort.h"
 
 enum { BUDGET = 20000, MOST_WALLS = 200 };
 
@@ -242,20 +242,12 @@ add_walls_of_member(qdot_equilibrium_set *set, qdot_equilibrium_member *one)
     return QDOT_OK;
 }
 
-static int
-compare_ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
 void
 qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set)
 {
     size_t kept = 1;
 
-    qsort(set->wall.at, set->wall.n, sizeof *set->wall.at, compare_ascending);
+    qdot_sort(set->wall.n, set->wall.at);
     for (size_t i = 1; i < set->wall.n; i++)
         if (set->wall.at[i] > set->wall.at[kept - 1])
             set->wall.at[kept++] = set->wall.at[i];

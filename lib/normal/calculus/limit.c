@@ -53,10 +53,7 @@ bounded_symbol(approach *a)
 static bool
 holds_bounded(const approach *a, qdot_expr e)
 {
-    for (size_t i = 0; i < a->n; i++)
-        if (qdot_expr_contains(a->growth.pool, e, a->bounded[i]))
-            return true;
-    return false;
+    return qdot_expr_contains_any(a->growth.pool, e, a->n, a->bounded);
 }
 
 /* The sign of u near the place. */

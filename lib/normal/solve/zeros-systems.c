@@ -17,15 +17,6 @@ enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, SIZE = 4000, FACTORS = 64 };
 
 /* --- factors of an equation ------------------------------------------------------------------------ */
 
-static bool
-contains_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
-{
-    for (size_t j = 0; j < n; j++)
-        if (qdot_expr_contains(pool, e, x[j]))
-            return true;
-    return false;
-}
-
 /* A factor without powers and without parts that never vanish: b for b^p with p > 0; nil if it
  * never vanishes. */
 static qdot_expr
@@ -48,7 +39,7 @@ factor_that_may_be_zero(const qdot_pool *pool, qdot_expr e, size_t n, const qdot
         }
         break;
     }
-    if (!contains_unknown(pool, e, n, x)) {
+    if (!qdot_expr_contains_any(pool, e, n, x)) {
         qdot_interval c = qdot_ball_bounds((qdot_pool *)pool, e);
 
         if (c.lo > 0 || c.hi < 0)

@@ -116,12 +116,7 @@ make_rate_tape(const qdot_plan *p, qdot_expr g, qdot_staged_undoing *u)
 static bool
 leaves_rate_unchanged(const qdot_plan *p, qdot_expr g, size_t n, const qdot_expr *targets)
 {
-    const qdot_expr rate = qdot_ddt(p->pool, g);
-
-    for (size_t i = 0; i < n; i++)
-        if (qdot_expr_contains(p->pool, rate, targets[i]))
-            return false;
-    return true;
+    return !qdot_expr_contains_any(p->pool, qdot_ddt(p->pool, g), n, targets);
 }
 
 /* Change e, which has an event's function and `then`, into the event that undoes it (for a backward run). */

@@ -70,10 +70,7 @@ contains_ratio(const sliding *s, qdot_expr e)
     for (size_t j = 0; j < s->k; j++)
         if (qdot_expr_contains(s->p->pool, e, symbol_of_ratio(s, j)))
             return true;
-    for (size_t j = 0; j < s->n_settled; j++)
-        if (qdot_expr_contains(s->p->pool, e, s->symbols[j]))
-            return true;
-    return false;
+    return qdot_expr_contains_any(s->p->pool, e, s->n_settled, s->symbols);
 }
 
 static qdot_status

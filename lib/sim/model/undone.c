@@ -120,11 +120,10 @@ static qdot_status
 find_lost_value(undoing *x)
 {
     for (size_t k = 0; k < x->n && !x->forgot; k++) {
-        bool read = x->before[k] != QDOT_NIL || !qdot_expr_contains(x->pool, x->f, x->unknown[k]);
+        const bool read = x->before[k] != QDOT_NIL || !qdot_expr_contains(x->pool, x->f, x->unknown[k]) ||
+                          qdot_expr_is_in_any(x->pool, x->unknown[k], x->n, x->after);
         qdot_expr slope, rest, value;
 
-        for (size_t i = 0; i < x->n && !read; i++)
-            read = qdot_expr_contains(x->pool, x->after[i], x->unknown[k]);
         if (read || !is_linear_system(x, x->f, 1, &k, &slope, &rest) || slope == QDOT_ZERO)
             continue;
         value = qdot_normal(x->pool, qdot_neg(x->pool, qdot_div(x->pool, rest, slope)), NULL);

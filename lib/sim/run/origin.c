@@ -34,16 +34,13 @@ replace_time(qdot_expr e, void *user)
 static bool
 is_time_dependent(qdot_scene *s, const qdot_run_request *r)
 {
-    bool found = qdot_scene_contains(s, QDOT_T);
+    bool found = qdot_scene_contains(s, QDOT_T) || qdot_expr_is_in_any(s->pool, QDOT_T, r->n_values, r->values);
 
-    for (size_t i = 0; i < r->n_values && !found; i++)
-        found = qdot_expr_contains(s->pool, r->values[i], QDOT_T);
     for (size_t i = 0; i < s->events.n && !found; i++) {
         const qdot_event *e = &s->events.at[i];
 
-        found = qdot_expr_contains(s->pool, e->left, QDOT_T) || qdot_expr_contains(s->pool, e->right, QDOT_T);
-        for (size_t k = 0; k < e->values.n && !found; k++)
-            found = qdot_expr_contains(s->pool, e->values.at[k], QDOT_T);
+        found = qdot_expr_contains(s->pool, e->left, QDOT_T) || qdot_expr_contains(s->pool, e->right, QDOT_T) ||
+                qdot_expr_is_in_any(s->pool, QDOT_T, e->values.n, e->values.at);
     }
     return found;
 }

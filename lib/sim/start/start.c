@@ -493,15 +493,11 @@ check_unconstrained_values(const level *l, const qdot_domains *domains, const do
     for (size_t i = 0; named && !l->velocities && i < domains->n; i++) {
         const qdot_domain *d = &domains->at[i];
         double x = y[d->coordinate];
-        bool held = named[d->coordinate];
 
         if (!belongs_to_level(l, d->coordinate) ||
             ((d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi)))
             continue;
-        for (size_t k = 0; k < l->m && !held; k++)
-            held = qdot_expr_contains(l->plan->pool, l->F[k],
-                                      l->plan->inputs[d->coordinate]);
-        if (held)
+        if (named[d->coordinate] || qdot_expr_is_in_any(l->plan->pool, l->plan->inputs[d->coordinate], l->m, l->F))
             continue;
         qdot_fail(QDOT_EDOMAIN, "the start %s = 0 is outside its domain %.200s",
                   l->plan->names[d->coordinate], d->text);
