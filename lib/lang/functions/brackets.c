@@ -221,12 +221,24 @@ fill_transformation(const qdot_session *s, uint32_t n, const qdot_expr *args, qd
     *x = (qdot_transformation){n / 2, room, room + n / 2, room + n, room + 3 * (n / 2), room + 2 * n, room + 5 * (n / 2)};
 }
 
-/* Append "a, b" to the text. */
+/* Append "a, b", of each pair the first, or where its bit is set the second. */
 static void
-add_names(const qdot_session *s, size_t n, const qdot_expr *symbols, qdot_text *text)
+add_names(const qdot_session *s, size_t n, const qdot_expr *first, const qdot_expr *second, unsigned bits, qdot_text *text)
 {
     for (size_t i = 0; i < n; i++)
-        qdot_text_format(text, "%s%s", i > 0 ? ", " : "", qdot_expr_symbol(s->pool, symbols[i])->name);
+        qdot_text_format(text, "%s%s", i > 0 ? ", " : "", qdot_expr_symbol(s->pool, bits >> i & 1 ? second[i] : first[i])->name);
+}
+
+/* Append "function F2(", or "function of mixed type F(". */
+static void
+add_type(const qdot_generating *F, size_t n, qdot_text *text)
+{
+    const unsigned all = (1u << n) - 1;
+
+    if ((F->of_p == 0 || F->of_p == all) && (F->of_P == 0 || F->of_P == all))
+        qdot_text_format(text, "function F%d(", 1 + (F->of_P != 0) + 2 * (F->of_p != 0));
+    else
+        qdot_text_add(text, "function of mixed type F(");
 }
 
 /* Give a notice of a generating function, if one is found. */
@@ -234,10 +246,10 @@ static qdot_status
 tell_generating_function(qdot_session *s, uint32_t n, const qdot_expr *args)
 {
     const qdot_facts facts = qdot_scene_facts(s->scene);
-    qdot_expr *room = qdot_calloc(3 * (size_t)n + 1, sizeof *room), F = QDOT_NIL;
+    qdot_expr *room = qdot_calloc(3 * (size_t)n + 1, sizeof *room);
+    qdot_generating found = {.F = QDOT_NIL};
     qdot_transformation x;
     qdot_text text = {0};
-    int type;
     qdot_status status = room == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     if (status == QDOT_OK) {
@@ -245,14 +257,15 @@ tell_generating_function(qdot_session *s, uint32_t n, const qdot_expr *args)
         status = qdot_pool_check(s->pool);
     }
     if (status == QDOT_OK)
-        status = qdot_generating_find(s->pool, &x, &facts, &type, &F);
-    if (status == QDOT_OK && F != QDOT_NIL) {
-        qdot_text_format(&text, "generating function F%d(", type);
-        add_names(s, x.n, type <= 2 ? x.q : x.p, &text);
+        status = qdot_generating_find(s->pool, &x, &facts, &found);
+    if (status == QDOT_OK && found.F != QDOT_NIL) {
+        qdot_text_add(&text, "generating ");
+        add_type(&found, x.n, &text);
+        add_names(s, x.n, x.q, x.p, found.of_p, &text);
         qdot_text_add(&text, ", ");
-        add_names(s, x.n, type % 2 == 1 ? x.Q : x.P, &text);
+        add_names(s, x.n, x.Q, x.P, found.of_P, &text);
         qdot_text_add(&text, ") = ");
-        status = qdot_answer_notice_text(s, qdot_print(s->pool, F, QDOT_PLAIN, &text), &text);
+        status = qdot_answer_notice_text(s, qdot_print(s->pool, found.F, QDOT_PLAIN, &text), &text);
     }
     qdot_free(room);
     return status;
