@@ -31,7 +31,7 @@ collect_start_momenta(qdot_session *session, const qdot_start_by_momenta *o, sta
         const qdot_expr given = qdot_session_value_started(session, p);
         const bool unknown = qdot_expr_place(o->k, o->unknowns, p) < o->k, named = unknown || given != QDOT_NIL;
 
-        if (!named && o->v_named[i])
+        if ((!named && o->v_named[i]) || qdot_scene_state_of(scene, q) != NULL) /* a state has no momentum */
             continue;
         s->q[s->n] = q;
         s->p[s->n] = p;
