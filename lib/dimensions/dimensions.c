@@ -196,6 +196,8 @@ what_comes_before(const qdot_dimensions *d, qdot_expr e)
 {
     const qdot_symbol *s = qdot_expr_symbol(d->pool, e);
 
+    if (s == NULL && qdot_expr_kind(d->pool, e) == QDOT_UFUN)
+        return qdot_ufun_delayed(d->pool, qdot_expr_node(d->pool, e)->op);
     if (s == NULL)
         return variable_of(d, e);
     if (s->base != QDOT_NIL)
@@ -324,10 +326,12 @@ static qdot_status
 undefined_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
 {
     const uint32_t id = qdot_expr_node(d->pool, e)->op, n = qdot_expr_count(d->pool, e) / 2;
+    const qdot_expr delayed = what_comes_before(d, e); /* x of x(t - tau) */
 
-    *form = unknown_of(d, key_of_function(id, 0));
+    *form = delayed != QDOT_NIL ? d->of.at[delayed] : unknown_of(d, key_of_function(id, 0));
     for (uint32_t i = 0; i < n; i++) {
-        const qdot_form *argument = unknown_of(d, key_of_function(id, i + 1));
+        const qdot_form *argument = delayed != QDOT_NIL ? qdot_form_constant(&d->forms, base_dimension(2))
+                                                        : unknown_of(d, key_of_function(id, i + 1));
         qdot_exponent order = {0, 1};
 
         QDOT_TRY(join_forms(d, of_arg(d, e, i), argument, "the argument of a function is %s, and elsewhere %s"));

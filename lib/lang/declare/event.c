@@ -52,6 +52,7 @@ add_changes_of_event(qdot_record *r, qdot_event *event)
 
         QDOT_TRY(find_target_of_event(r, part, &target));
         QDOT_TRY(qdot_record_scalar(r, qdot_record_next(r, part, "VALUE"), &value));
+        QDOT_TRY(qdot_set_check_dimension(r, qdot_record_next(r, part, "VALUE"), target, value));
         value = qdot_measured_as_rationals(session, value);
         QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_vec_push(&event->targets, target));

@@ -2,12 +2,14 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/node.h"
 #include "lang/figures/plot-parts.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/units.h"
 
 enum { FIRST_POINTS = 401 };
 
@@ -102,6 +104,16 @@ make_curves(const qdot_plot_said *said, const qdot_loop *loop, void *user)
     return QDOT_OK;
 }
 
+/* The ends of the range have the dimension of the variable; a bare number is one in SI units. */
+static qdot_status
+join_range(qdot_session *session, qdot_expr x, qdot_expr from, qdot_expr to)
+{
+    if (!qdot_expr_is_constant(session->pool, from))
+        QDOT_TRY(qdot_units_join(session, x, from, "the range of %s has an end that is %s"));
+    return qdot_expr_is_constant(session->pool, to) ? QDOT_OK
+                                                    : qdot_units_join(session, x, to, "the range of %s has an end that is %s");
+}
+
 /* Read the variable and its range in `vs NAME = A..B`. */
 static qdot_status
 read_variable(qdot_record *r, const qdot_filled *name, variable *v)
@@ -116,6 +128,9 @@ read_variable(qdot_record *r, const qdot_filled *name, variable *v)
                     ? known->value
                     : qdot_symbol_get(session->pool, QDOT_FORMAL, v->name);
     QDOT_TRY(qdot_record_range(r, qdot_record_next(r, name, "A..B"), &from, &to));
+    qdot_record_blame(r, qdot_record_next(r, name, "A..B"));
+    if (known != NULL)
+        QDOT_TRY(join_range(session, v->symbol, from, to));
     QDOT_TRY(qdot_session_number(session, from, &v->from, NULL));
     return qdot_session_number(session, to, &v->to, NULL);
 }

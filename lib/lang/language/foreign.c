@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lang/language/pattern.h"
+#include "lang/session/units.h"
 
 enum { LONGEST = 400 }; /* longest statement, in tokens, that is compared with the patterns */
 
@@ -150,6 +151,8 @@ qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
 
     if (status != QDOT_ESYNTAX && status != QDOT_ENAME && status != QDOT_ETYPE &&
         status != QDOT_EINVAL && status != QDOT_EUNSET)
+        return status;
+    if (qdot_units_take_disagreement(c->session))
         return status;
     if (to - from > LONGEST)
         to = from + LONGEST;

@@ -102,18 +102,30 @@ static qdot_status
 add_fact(qdot_session *session, const qdot_unit_fact *fact, const char *format)
 {
     qdot_units *units = session->units;
+    qdot_status status;
     size_t rank;
 
     if (!qdot_units_on(session))
         return QDOT_OK;
     QDOT_TRY(bring_up_to_date(session));
     rank = qdot_dimensions_rank(units->known);
-    QDOT_TRY(carry_out_fact(units->known, fact, format));
+    status = carry_out_fact(units->known, fact, format);
+    units->disagreed = status == QDOT_ETYPE;
+    QDOT_TRY(status);
     if (qdot_dimensions_rank(units->known) == rank && fact->kind < QDOT_FACT_ANGLE)
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&units->facts, *fact));
     units->done++;
     return QDOT_OK;
+}
+
+bool
+qdot_units_take_disagreement(qdot_session *session)
+{
+    const bool disagreed = session->units->disagreed;
+
+    session->units->disagreed = false;
+    return disagreed;
 }
 
 qdot_status

@@ -24,6 +24,7 @@ typedef struct qdot_units {
     qdot_vec(qdot_unit_fact) facts; /* the first is BEGIN */
     qdot_dimensions *known;         /* the solver; NULL: not made yet */
     size_t done;                    /* number of facts that it has */
+    bool disagreed;                 /* the latest fact contradicted those before */
 } qdot_units;
 
 void qdot_units_clear(qdot_units *units);
@@ -46,6 +47,9 @@ QDOT_MUST_CHECK qdot_status qdot_units_angle(qdot_session *session, qdot_expr sy
 QDOT_MUST_CHECK qdot_status qdot_units_angles_in(qdot_session *session, qdot_expr argument);
 /* e is a time: one with its unit, or a bare number, in s. */
 QDOT_MUST_CHECK qdot_status qdot_units_time(qdot_session *session, qdot_expr e);
+
+/* Whether the failure at hand is of dimensions that do not agree; it is asked once. */
+bool qdot_units_take_disagreement(qdot_session *session);
 
 /* The symbol was declared in a unit that is not 1 in SI units, such as cm or deg; whether it was, or is a derivative. */
 QDOT_MUST_CHECK qdot_status qdot_units_scaled(qdot_session *session, qdot_expr symbol);

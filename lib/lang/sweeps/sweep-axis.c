@@ -180,7 +180,8 @@ read_list_of_values(qdot_record *r, const qdot_filled *part, const axis_options 
 static qdot_status
 read_distribution(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x, bool *is)
 {
-    double ends[2];
+    qdot_session *session = r->cursor.session;
+    qdot_expr ends[2];
 
     x->kind = QDOT_AXIS_NORMAL;
     QDOT_TRY(qdot_record_call_of_two(r, part, "normal", ends, is));
@@ -190,9 +191,11 @@ read_distribution(qdot_record *r, const qdot_filled *part, const axis_options *o
     }
     if (!*is)
         return QDOT_OK;
-    x->a = ends[0];
-    x->b = ends[1];
+    for (int k = 0; k < 2; k++)
+        QDOT_TRY(qdot_set_check_dimension(r, part, x->symbol, ends[k]));
     qdot_record_blame(r, part);
+    QDOT_TRY(qdot_session_number(session, ends[0], &x->a, NULL));
+    QDOT_TRY(qdot_session_number(session, ends[1], &x->b, NULL));
     if (x->kind == QDOT_AXIS_NORMAL && !(x->b >= 0))
         return qdot_fail(QDOT_EINVAL, "a standard deviation is not negative");
     if (x->kind == QDOT_AXIS_UNIFORM && !(x->a <= x->b))

@@ -443,13 +443,12 @@ qdot_record_body(qdot_record *r, const qdot_filled *part, qdot_formals *f, qdot_
 }
 
 qdot_status
-qdot_record_call_of_two(qdot_record *r, const qdot_filled *part, const char *function, double *values,
+qdot_record_call_of_two(qdot_record *r, const qdot_filled *part, const char *function, qdot_expr *values,
                         bool *is)
 {
     const qdot_compiled *whole = &r->compiled.at[part->first];
     const size_t last = whole->code.list.n - 1;
     const qdot_postfix *call = &whole->code.list.at[last];
-    qdot_session *session = r->cursor.session;
     qdot_expr list = QDOT_NIL;
 
     *is = call->op == QDOT_POSTFIX_CALL && call->token == whole->from && call->to == 0 && call->n == 2 &&
@@ -458,7 +457,7 @@ qdot_record_call_of_two(qdot_record *r, const qdot_filled *part, const char *fun
         return QDOT_OK;
     QDOT_TRY(evaluate_as_list(r, whole, last, 2, &list));
     for (uint32_t i = 0; i < 2; i++)
-        QDOT_TRY(qdot_session_number(session, qdot_expr_arg(session->pool, list, i), &values[i], NULL));
+        values[i] = qdot_expr_arg(r->cursor.session->pool, list, i);
     return QDOT_OK;
 }
 

@@ -121,9 +121,9 @@ QDOT_MUST_CHECK qdot_status qdot_record_bare_name(qdot_record *r, const qdot_fil
 /* Find the label in FUNCTION(LABEL, ...), if the part is just such a call; otherwise *label is NULL. */
 QDOT_MUST_CHECK qdot_status qdot_record_label_in(qdot_record *r, const qdot_filled *part,
                                                  const char *function, const char **label);
-/* Find the arguments of FUNCTION(A, B) as numbers, if the part is just such a call; *is: whether it is. */
+/* Find the arguments of FUNCTION(A, B), if the part is just such a call; *is: whether it is. */
 QDOT_MUST_CHECK qdot_status qdot_record_call_of_two(qdot_record *r, const qdot_filled *part,
-                                                    const char *function, double *values, bool *is);
+                                                    const char *function, qdot_expr *values, bool *is);
 /* The text in quotes that was typed for a placeholder. */
 const char *qdot_record_text(const qdot_filled *part);
 

@@ -90,6 +90,8 @@ read_parameter_range(qdot_record *r, qdot_continue_wish *w)
 
     w->range_at = part->from;
     QDOT_TRY(qdot_record_range(r, part, &ends[0], &ends[1]));
+    for (int k = 0; k < 2 && w->parameter != QDOT_NIL; k++)
+        QDOT_TRY(qdot_set_check_dimension(r, part, w->parameter, ends[k]));
     qdot_record_blame(r, part);
     for (int k = 0; k < 2; k++)
         QDOT_TRY(qdot_session_number(r->cursor.session, ends[k], &at[k], NULL));
