@@ -37,7 +37,11 @@ struct qdot_past {
     qdot_vec(double) coefficients; /* [pieces x n x COEFFICIENTS] */
 };
 
-static _Thread_local qdot_past *reading;
+/* What this thread reads: one history, or several. */
+static _Thread_local qdot_past_reading only;
+static _Thread_local const qdot_past_reading *several;
+static _Thread_local size_t n_several;
+static _Thread_local double asked_within = INFINITY;
 
 qdot_status
 qdot_past_new(size_t n, const uint32_t *called, qdot_past **out)
@@ -65,8 +69,8 @@ qdot_past_free(qdot_past *h)
 {
     if (!h)
         return;
-    if (reading == h)
-        reading = NULL;
+    if (only.history == h)
+        only.history = NULL;
     qdot_free(h->called);
     qdot_free(h->delays.at);
     qdot_free(h->pieces.at);
@@ -78,7 +82,15 @@ qdot_past_free(qdot_past *h)
 void
 qdot_past_read(qdot_past *h)
 {
-    reading = h;
+    only = (qdot_past_reading){h, h ? h->called : NULL};
+    several = NULL;
+}
+
+void
+qdot_past_read_several(size_t n, const qdot_past_reading *of)
+{
+    several = of;
+    n_several = n;
 }
 
 void
@@ -400,6 +412,12 @@ qdot_past_is_value(double handle, uint32_t *called)
     return of % ITEMS == COEFFICIENT;
 }
 
+long long
+qdot_past_rename(double handle, uint32_t called)
+{
+    return (long long)handle_of(called, (int)((long long)(handle - first_handle) % ITEMS));
+}
+
 /* Whether u is behind the end by more than rounding of times: nothing is known of it yet. */
 static bool
 is_behind_end(const qdot_past *h, double u)
@@ -407,40 +425,75 @@ is_behind_end(const qdot_past *h, double u)
     return u - h->end > 1e-12 * (fabs(u) + fabs(h->end));
 }
 
+/* The history that is read and has the unknown of a handle, and which of its unknowns that is; NULL: none. */
+static const qdot_past *
+history_of(double handle, size_t *i)
+{
+    const size_t n = several ? n_several : 1;
+    uint32_t called;
+
+    if (!qdot_past_has(handle))
+        return NULL;
+    (void)qdot_past_is_value(handle, &called);
+    for (size_t k = 0; k < n; k++) {
+        const qdot_past_reading *r = several ? &several[k] : &only;
+
+        for (*i = 0; r->history && r->history->pieces.n > 0 && *i < r->history->n; ++*i)
+            if (r->called[*i] == called)
+                return r->history;
+    }
+    return NULL;
+}
+
 double
 qdot_past_lookup(double handle, double x)
 {
-    const long long of = qdot_past_has(handle) ? (long long)(handle - first_handle) : -1;
-    const int item = (int)(of % ITEMS);
-    size_t i = 0, at;
+    size_t i, at;
+    const qdot_past *h = history_of(handle, &i);
+    const int item = h ? (int)((long long)(handle - first_handle) % ITEMS) : 0;
 
-    if (of < 0 || !reading || reading->pieces.n == 0 || !isfinite(x) || item > COEFFICIENT + QDOT_PAST_ORDER)
+    if (!h || !isfinite(x) || item > COEFFICIENT + QDOT_PAST_ORDER)
         return NAN;
     if (item == PIECE)
-        return is_behind_end(reading, x) ? NAN : (double)longest_piece_at(reading, x, reading->expanded);
-    at = x >= 0 && x < (double)reading->pieces.n ? (size_t)x : reading->pieces.n - 1;
+        return is_behind_end(h, x) ? NAN : (double)longest_piece_at(h, x, h->expanded);
+    at = x >= 0 && x < (double)h->pieces.n ? (size_t)x : h->pieces.n - 1;
     if (item == KNOT)
-        return reading->pieces.at[at].t;
+        return h->pieces.at[at].t;
     if (item == RATE)
-        return reading->pieces.at[at].rate;
-    while (i < reading->n && reading->called[i] != (uint32_t)(of / ITEMS))
-        i++;
-    return i < reading->n ? reading->coefficients.at[(at * reading->n + i) * COEFFICIENTS + (size_t)(item - COEFFICIENT)]
-                          : NAN;
+        return h->pieces.at[at].rate;
+    return h->coefficients.at[(at * h->n + i) * COEFFICIENTS + (size_t)(item - COEFFICIENT)];
+}
+
+double
+qdot_past_piece_end(double handle, double x)
+{
+    size_t i;
+    const qdot_past *h = history_of(handle, &i);
+    const size_t j = h ? piece_at(h, x) : 0;
+
+    return h && j + 1 < h->pieces.n ? h->pieces.at[j + 1].t : INFINITY;
+}
+
+void
+qdot_past_ask_within(double real)
+{
+    asked_within = real;
 }
 
 bool
-qdot_past_is_smooth(double x, double r)
+qdot_past_is_smooth(double handle, double x, double r)
 {
+    const double real = fmin(r, asked_within), blur = 16 * DBL_EPSILON * (fabs(x) + real);
+    size_t i, j, next;
+    const qdot_past *h = history_of(handle, &i);
     const piece *p;
-    size_t j, next;
 
-    if (!reading || reading->pieces.n == 0 || !isfinite(x))
+    if (!h || !isfinite(x))
         return false;
-    j = piece_at(reading, x);
-    p = &reading->pieces.at[j];
-    next = break_after(reading, j);
-    return x + r <= fmax(p->valid, j + 1 < reading->pieces.n ? p[1].t : reading->end) &&
-           (next == reading->pieces.n || x + r < reading->pieces.at[next].t) &&
-           (j == 0 || x - r >= (p->order < QDOT_PAST_SMOOTH ? p->t : p->t - p->before));
+    j = piece_at(h, x);
+    p = &h->pieces.at[j];
+    next = break_after(h, j);
+    return x + real <= blur + fmax(p->valid, j + 1 < h->pieces.n ? p[1].t : h->end) &&
+           (next == h->pieces.n || x + real <= blur + h->pieces.at[next].t) &&
+           (j == 0 || x - real >= (p->order < QDOT_PAST_SMOOTH ? p->t : p->t - p->before) - blur);
 }

@@ -60,6 +60,12 @@ void qdot_past_expand(qdot_past *h, double t);
 
 /* The history that this thread reads from now on, until it is freed; NULL: none, everything read is NaN. */
 void qdot_past_read(qdot_past *h);
+/* Several histories, each with the numbers by which handles call its unknowns; borrowed until others are read. A NULL history: none. */
+typedef struct {
+    const qdot_past *history;
+    const uint32_t *called;
+} qdot_past_reading;
+void qdot_past_read_several(size_t n, const qdot_past_reading *of);
 
 /* Handles of the unknown called by a number: of the piece that holds a time; of the piece's t_j, 1/h_j and c_k by its
  * number. Whether a handle is one of a history, and that of a piece. */
@@ -69,12 +75,17 @@ long long qdot_past_rate(uint32_t called);
 long long qdot_past_coefficient(uint32_t called, int k);
 bool qdot_past_has(double handle);
 bool qdot_past_finds(double handle);
-/* Whether it is that of c_0, and of which unknown. */
+/* Whether it is that of c_0, and of which unknown. The same of another unknown. */
 bool qdot_past_is_value(double handle, uint32_t *called);
+long long qdot_past_rename(double handle, uint32_t called);
 
-/* lookup(handle, x), of the history that is read; NaN for a time behind the end. */
+/* lookup(handle, x), of the histories that are read; NaN for a time behind the end. */
 double qdot_past_lookup(double handle, double x);
-/* Whether the piece that holds x holds from x - r to x + r, without a breaking point between. */
-bool qdot_past_is_smooth(double x, double r);
+/* The end of the piece that holds the time x, in the history that has the unknown of the handle; infinite: it is the last. */
+double qdot_past_piece_end(double handle, double x);
+/* Whether there the piece that holds x is what is read from x - r to x + r, without a breaking point between. A disc about x in the complex
+ * plane, over whose real part up to `real` only the history is asked for, may be larger: a piece is a polynomial. INFINITY: as large. */
+bool qdot_past_is_smooth(double handle, double x, double r);
+void qdot_past_ask_within(double real);
 
 #endif

@@ -37,7 +37,7 @@ static double
 radius_of_lookup(double a, double ra, double handle)
 {
     if (qdot_past_finds(handle))
-        return qdot_past_is_smooth(a, ra) ? 0 : NAN;
+        return qdot_past_is_smooth(handle, a, ra) ? 0 : NAN;
     return ra == 0 || qdot_samples_lookup(handle, a - ra) == qdot_samples_lookup(handle, a + ra) ? 0 : NAN;
 }
 

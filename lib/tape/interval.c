@@ -45,7 +45,7 @@ lookup_of_interval(qdot_interval a, qdot_interval handle)
 
     if (isnan(lo) || isnan(hi))
         return qdot_interval_whole;
-    if (qdot_past_finds(handle.lo) && qdot_past_is_smooth(middle, a.hi - middle))
+    if (qdot_past_finds(handle.lo) && qdot_past_is_smooth(handle.lo, middle, a.hi - middle))
         return qdot_interval_point(qdot_past_lookup(handle.lo, middle));
     if (qdot_samples_finds(handle.lo) && lo <= hi)
         return (qdot_interval){lo, hi};

@@ -94,8 +94,8 @@ steps_end_at_breaking_points(void **state)
         /* neither at 1.75, where the first step ended, nor at 2, as what began at 1 was not seen: the delay is the longest step */
         add_decay(h, 1.2, 0.4);
         assert_float_equal(qdot_past_next(h, 1.6), 2.6, 1e-14);
-        assert_true(qdot_past_is_smooth(0.7, 0.3));
-        assert_false(qdot_past_is_smooth(0.1, 0.2));
+        assert_true(qdot_past_is_smooth((double)qdot_past_piece(7), 0.7, 0.3));
+        assert_false(qdot_past_is_smooth((double)qdot_past_piece(7), 0.1, 0.2));
     }
     qdot_past_free(h);
 }

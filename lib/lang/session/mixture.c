@@ -3,9 +3,11 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "expr/calculus.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -48,16 +50,32 @@ find_or_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
     return qdot_vec_push(&x->runs, run);
 }
 
-static qdot_status
-find_run_values(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
+/* A symbol for an atom of the expression: itself, or, of x(t - tau), one of its own, which takes its place in *e. */
+static qdot_expr
+symbol_for_atom(qdot_pool *pool, qdot_expr atom, qdot_expr *e)
 {
-    const qdot_expr atoms = qdot_expr_atoms(session->pool, e, false);
+    char name[32];
+    qdot_expr symbol;
 
-    QDOT_TRY(qdot_pool_check(session->pool));
-    for (uint32_t i = 0; i < qdot_expr_count(session->pool, atoms); i++) {
-        const qdot_expr atom = qdot_expr_arg(session->pool, atoms, i);
+    if (qdot_expr_kind(pool, atom) == QDOT_SYM)
+        return atom;
+    snprintf(name, sizeof name, "#%lu", (unsigned long)atom);
+    symbol = qdot_symbol_get(pool, QDOT_FORMAL, name);
+    *e = qdot_subs(pool, *e, 1, &atom, &symbol);
+    return symbol;
+}
+
+static qdot_status
+find_run_values(qdot_session *session, const char *run, qdot_expr *e, qdot_mixture *x)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_expr atoms = qdot_expr_atoms(pool, *e, qdot_has_delayed(pool, *e));
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+        const qdot_expr atom = qdot_expr_arg(pool, atoms, i);
         const qdot_member *m = qdot_member_find(session, atom);
-        qdot_run_member own = {.symbol = atom, .value = m != NULL ? m->value : atom};
+        qdot_run_member own = {.value = m != NULL ? m->value : atom};
         qdot_named_run *named;
 
         if (m == NULL &&
@@ -65,7 +83,8 @@ find_run_values(qdot_session *session, const char *run, qdot_expr e, qdot_mixtur
             continue;
         QDOT_TRY(qdot_runs_read(session, m != NULL ? m->run : run, &named));
         QDOT_TRY(find_or_add_run(x, named->run, &own.run));
-        QDOT_TRY(qdot_vec_push(&x->symbols, atom));
+        own.symbol = symbol_for_atom(pool, atom, e);
+        QDOT_TRY(qdot_vec_push(&x->symbols, own.symbol));
         QDOT_TRY(qdot_vec_push(&x->members, own));
     }
     return QDOT_OK;
@@ -74,7 +93,7 @@ find_run_values(qdot_session *session, const char *run, qdot_expr e, qdot_mixtur
 static qdot_status
 prepare_mixture(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
 {
-    QDOT_TRY(find_run_values(session, run, e, x));
+    QDOT_TRY(find_run_values(session, run, &e, x));
     x->e = e = qdot_session_bind(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_tape_new(session->pool, x->symbols.n, x->symbols.at, 1, &e, &x->tape));

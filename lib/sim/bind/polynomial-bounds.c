@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/past.h"
 #include "tape/disc.h"
 
 enum { MOST = QDOT_CHEBYSHEV_MOST, ELLIPSES = 3 };
@@ -164,8 +165,10 @@ bound_on_ellipse(qdot_polynomial_bounds *h, double a, double b, int nodes, doubl
     }
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = 0.25 * fabs(b - a) * (rho + 1 / rho);
+    qdot_past_ask_within(0.5 * fabs(b - a));
     if (known)
         evaluate_on_discs(h);
+    qdot_past_ask_within(INFINITY);
     return known;
 }
 

@@ -6,9 +6,9 @@
 
 #include "expr/node.h"
 #include "expr/symbol.h"
-#include "num/past.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
+#include "sim/model/delay.h"
 #include "sim/model/sliding.h"
 #include "tape/rounding.h"
 
@@ -23,6 +23,9 @@ qdot_reader_clear(qdot_reader *r)
 {
     for (size_t k = 0; k < r->n_courses; k++)
         qdot_trajectory_close(r->courses[k].cursor);
+    if (r->past)
+        qdot_past_read(NULL);
+    qdot_free(r->past);
     qdot_free(r->courses);
     qdot_free(r->in);
     qdot_free(r->work);
@@ -32,6 +35,36 @@ static const qdot_plan *
 plan_of_course(const qdot_reading *of, size_t k)
 {
     return k == 0 ? of->plan : of->more[k - 1];
+}
+
+qdot_expr
+qdot_reader_own_history(const qdot_plan *plan, qdot_expr e, const qdot_expr *own)
+{
+    return plan->delayed ? qdot_delay_rename(plan->pool, e, 2 * plan->n, plan->inputs, own) : e;
+}
+
+/* Note the history of course k, whose inputs begin at `begin`. */
+static qdot_status
+add_history(qdot_reader *r, size_t k, size_t begin)
+{
+    const qdot_reading *of = &r->of;
+    const qdot_past *history = r->courses[k].course->history;
+
+    if (!history)
+        return QDOT_OK;
+    if (!r->past)
+        r->past = qdot_calloc(1 + of->n_more, sizeof *r->past);
+    if (!r->past)
+        return QDOT_ENOMEM;
+    r->past[k] = (qdot_past_reading){history, of->n_more > 0 ? of->inputs + begin : of->plan->inputs};
+    return QDOT_OK;
+}
+
+void
+qdot_reader_recall(const qdot_reader *r)
+{
+    if (r->past)
+        qdot_past_read_several(r->n_courses, r->past);
 }
 
 qdot_status
@@ -50,6 +83,7 @@ qdot_reader_init_along(qdot_reader *r, const qdot_reading *of, const qdot_course
             .course = courses[k], .n = plan_of_course(of, k)->n, .in = r->in + begin};
         QDOT_TRY(qdot_trajectory_open(&courses[k]->tr, qdot_course_systems(courses[k]),
                                       &r->courses[k].cursor));
+        QDOT_TRY(add_history(r, k, begin));
         begin += qdot_plan_inputs(plan_of_course(of, k));
     }
     return QDOT_OK;
@@ -100,7 +134,6 @@ read_sides(const qdot_plan *p, const qdot_reader_course *c)
 qdot_status
 qdot_reader_evaluate(qdot_reader *r, double t, double *out)
 {
-    qdot_past_read(r->n_courses == 1 ? r->courses[0].course->history : NULL);
     for (size_t k = 0; k < r->n_courses; k++) {
         r->courses[k].in[2 * r->courses[k].n] = t;
         if (r->of.accelerations)
@@ -108,6 +141,7 @@ qdot_reader_evaluate(qdot_reader *r, double t, double *out)
         if (plan_of_course(&r->of, k)->read_side)
             QDOT_TRY(read_sides(plan_of_course(&r->of, k), r->courses + k));
     }
+    qdot_reader_recall(r);
     qdot_tape_eval(r->of.tape, r->in, out, r->work);
     return QDOT_OK;
 }
@@ -127,6 +161,7 @@ qdot_reader_roundings(qdot_reader *r, double t, double *bounds)
         status = qdot_bind_roundings(qdot_course_systems(c->course) + mode, t, c->in, a,
                                      e + (a - r->in));
     }
+    qdot_reader_recall(r);
     if (status == QDOT_OK)
         qdot_rounding_bounds(r->of.tape, r->in, e, bounds, e + inputs);
     qdot_free(e);

@@ -7,6 +7,7 @@
 #ifndef QDOT_SIM_READER_H
 #define QDOT_SIM_READER_H
 
+#include "num/past.h"
 #include "sim/course/course.h"
 
 /* Expressions along a run, compiled to a tape. */
@@ -37,6 +38,7 @@ typedef struct {
     qdot_reading of;
     size_t n_courses;
     qdot_reader_course *courses; /* [n_courses] the courses */
+    qdot_past_reading *past;     /* [n_courses] their histories, of runs with delays; NULL: none has delays */
     int moved; /* k = 1, 2: change states by one double, as at the start of companion run k - 1; 0: leave them */
     double *in; /* [inputs] inputs of the tape */
     double *work;
@@ -57,6 +59,12 @@ QDOT_MUST_CHECK qdot_status qdot_reader_init_along(qdot_reader *r, const qdot_re
 QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_reading *of,
                                              const qdot_course *course);
 void qdot_reader_clear(qdot_reader *r);
+
+/* e, by the inputs of a plan, with lookups in the history of the unknowns that are called as own [2n] says. */
+qdot_expr qdot_reader_own_history(const qdot_plan *plan, qdot_expr e, const qdot_expr *own);
+
+/* Let lookups of this thread read the histories of the courses (num/past.h). */
+void qdot_reader_recall(const qdot_reader *r);
 
 /* Evaluate the tape at t into out; course k is read in piece number pieces[k], or NULL: in the
  * piece that contains t. */

@@ -30,6 +30,44 @@ qdot_delay_value(qdot_pool *pool, qdot_expr u, bool velocity)
     return value;
 }
 
+/* Whether a node is a lookup in a history, and its handle. */
+static bool
+is_of_history(const qdot_pool *pool, qdot_expr node, long *handle)
+{
+    return qdot_expr_kind(pool, node) == QDOT_FUN && qdot_expr_node(pool, node)->op == QDOT_LOOKUP &&
+           qdot_expr_to_int(pool, qdot_expr_arg(pool, node, 1), handle) && qdot_past_has((double)*handle);
+}
+
+typedef struct {
+    size_t n;
+    const qdot_expr *from, *to;
+} names;
+
+static qdot_expr
+rename_history(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const names *of = user;
+    uint32_t called;
+    long handle;
+
+    if (!is_of_history(pool, node, &handle))
+        return QDOT_NIL;
+    (void)qdot_past_is_value((double)handle, &called);
+    for (size_t i = 0; i < of->n; i++)
+        if (of->from[i] == called)
+            return lookup(pool, qdot_walk_map(pool, qdot_expr_arg(pool, node, 0), rename_history, user),
+                          qdot_past_rename((double)handle, of->to[i]));
+    return QDOT_NIL;
+}
+
+qdot_expr
+qdot_delay_rename(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to)
+{
+    names of = {n, from, to};
+
+    return qdot_walk_map(pool, e, rename_history, &of);
+}
+
 /* Of a lookup in a history, its value in the piece before the start, where positions are those of the start and velocities 0. */
 static qdot_expr
 value_before_start(qdot_pool *pool, qdot_expr node, void *user)
@@ -38,8 +76,7 @@ value_before_start(qdot_pool *pool, qdot_expr node, void *user)
     long handle;
 
     (void)user;
-    if (qdot_expr_kind(pool, node) != QDOT_FUN || qdot_expr_node(pool, node)->op != QDOT_LOOKUP ||
-        !qdot_expr_to_int(pool, qdot_expr_arg(pool, node, 1), &handle) || !qdot_past_has((double)handle))
+    if (!is_of_history(pool, node, &handle))
         return QDOT_NIL;
     return qdot_past_is_value((double)handle, &called) && qdot_expr_is_coordinate(pool, called) ? called : QDOT_ZERO;
 }

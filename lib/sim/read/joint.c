@@ -48,6 +48,8 @@ express_member(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 
     j->of.accelerations =
         j->of.accelerations || qdot_reading_of_accelerations(plan->pool, e);
+    if (m->run > 0)
+        e = qdot_reader_own_history(plan, e, own);
     e = qdot_subs(plan->pool, e, time, plan->inputs, own);
     return qdot_subs(plan->pool, e, qdot_plan_inputs(plan) - behind, plan->inputs + behind,
                      own + behind);

@@ -9,6 +9,7 @@
 
 #include "expr/function.h"
 #include "expr/node.h"
+#include "num/past.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/course/run-time.h"
@@ -20,6 +21,7 @@
 #include "sim/read/passage.h"
 #include "sim/read/range-parts.h"
 #include "sim/read/stretches.h"
+#include "tape/knots.h"
 
 /* The scan of a step, for extrema or a mean, is given up after this many intervals. */
 enum { MOST_PARTS = 8192 };
@@ -50,12 +52,47 @@ include_value_at(scan *s, double t)
     return QDOT_OK;
 }
 
+/* The end of the first part of a stretch from a to b in which each delayed value of the expression is that of one step. */
+static double
+end_of_part(const qdot_knots *lines, double a, double b)
+{
+    static const double no_length = 1e-12;
+    const double least = no_length * (fabs(a) + fabs(b));
+    double end = b;
+
+    for (size_t k = 0; k < lines->n; k++)
+        if (qdot_past_has(lines->at[k].handle) && lines->at[k].b == 1) {
+            const double until = qdot_past_piece_end(lines->at[k].handle, a + lines->at[k].a + least) - lines->at[k].a;
+
+            end = until < end - least ? until : end;
+        }
+    return end;
+}
+
+static qdot_status
+scan_stretch(scan *s, const qdot_stretches *steps, const qdot_knots *lines)
+{
+    for (double a = steps->a, b; a != steps->b; a = b) {
+        qdot_reader_recall(&s->reader);
+        b = end_of_part(lines, a, steps->b);
+        s->odd[0] = a == steps->a && steps->odd[0];
+        s->odd[1] = b == steps->b && steps->odd[1];
+        QDOT_TRY(qdot_range_step(s, a, b));
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 scan_runs(scan *s, const question *q, const qdot_course *const *courses)
 {
+    const qdot_reading *of = &q->joint.of;
     qdot_stretches steps;
+    qdot_knots lines = {0};
     qdot_status status =
         qdot_stretches_init(&steps, q->x->n, courses, q->from, q->to);
+
+    if (status == QDOT_OK && s->reader.past)
+        status = qdot_knots_find(of->tape, 2 * of->plan->n, &lines);
 
     s->nodes = 16;
     s->largest = -INFINITY;
@@ -63,12 +100,10 @@ scan_runs(scan *s, const question *q, const qdot_course *const *courses)
     s->highest = s->sure[0] = -INFINITY;
     s->lowest = s->sure[1] = INFINITY;
     s->pieces = steps.pieces;
-    while (status == QDOT_OK && qdot_stretches_next(&steps)) {
-        memcpy(s->odd, steps.odd, sizeof s->odd);
-        status = q->from == q->to ? include_value_at(s, q->from)
-                                  : qdot_range_step(s, steps.a, steps.b);
-    }
+    while (status == QDOT_OK && qdot_stretches_next(&steps))
+        status = q->from == q->to ? include_value_at(s, q->from) : scan_stretch(s, &steps, &lines);
     s->pieces = NULL;
+    qdot_free(lines.at);
     qdot_stretches_clear(&steps);
     return status;
 }
