@@ -21,7 +21,7 @@ static const char *const not_of_higher[] = {
 
 static const char *const not_of_delays[] = {
     "equilibria", "steady",      "modes",    "linearize", "transfer", "stability", "continue", "lyapunov", "sensitivity",
-    "floquet",    "find",        "fit",      "sweep",     "longtime", "race",      "export",   "report",   "poisson",
+    "floquet",    "find",        "fit",      "longtime",  "race",      "export",   "report",   "poisson",
     "action",     "hamilton_jacobi", "workprecision", "start RUN",
 };
 

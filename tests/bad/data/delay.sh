@@ -29,7 +29,6 @@ force (x(t - 0.1), 0) on p; equilibria
 force (x(t - 0.1), 0) on p; modes
 force (x(t - 0.1), 0) on p; linearize at equilibria[1]
 force (x(t - 0.1), 0) on p; lyapunov 0..10
-force (x(t - tau), 0) on p; sweep tau = 1..2 step 1 run 0..1 : x
 force (x(t - tau), 0) on p; find tau = 1..2 such that value(x, 3) = 0
 force (x(t - 0.1), 0) on p; export c eom to "eom.c"
 state z' = z(t - 0.1); equilibria
