@@ -70,6 +70,7 @@ qdot_call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
     return qdot_value_kind_give(
         s->pool, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
 }
+
 /* --- Lie series ------------------------------------------------------------------------- */
 
 typedef struct {

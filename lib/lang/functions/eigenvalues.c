@@ -30,15 +30,11 @@ static qdot_status
 tell_condition(qdot_session *s, const char *what, qdot_expr condition)
 {
     qdot_text text = {0};
-    qdot_status status = QDOT_OK;
 
-    if (condition != QDOT_NIL) {
-        status = qdot_solve_print_conditions(s->pool, "", condition, &text);
-        if (status == QDOT_OK)
-            status = qdot_answer_condition(s, "these eigenvalues are %s where %s", what, qdot_text_str(&text));
-    }
-    qdot_text_clear(&text);
-    return status;
+    if (condition == QDOT_NIL)
+        return QDOT_OK;
+    qdot_text_format(&text, "these eigenvalues are %s where ", what);
+    return qdot_answer_condition_text(s, qdot_solve_print_conditions(s->pool, "", condition, &text), &text);
 }
 
 /* Add each real root of f = 0 as often as its multiplicity; *condition: nil, or under which they are all real. */
@@ -85,7 +81,7 @@ is_proved_negative(qdot_session *s, qdot_expr e)
     return qdot_decide_less(s->pool, e, QDOT_ZERO, false, &facts, &d) == QDOT_OK && d.verdict == QDOT_PROVED;
 }
 
-/* Add re - i im, re + i im. */
+/* Add re - i im and re + i im to the eigenvalues. */
 static qdot_status
 add_pair(qdot_session *s, qdot_expr re, qdot_expr im, expressions *values)
 {
@@ -284,7 +280,7 @@ find_with_errors(qdot_session *s, uint32_t n, qdot_expr M, expressions *values)
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
-/* --- both ----------------------------------------------------------------------------------------- */
+/* --- the function --------------------------------------------------------------------------------- */
 
 qdot_status
 qdot_call_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)

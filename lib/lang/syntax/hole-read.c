@@ -57,18 +57,25 @@ token_after_name(const qdot_token *t)
 
 /* --- parsing one hole ---------------------------------------------------------------- */
 
+/* If it was parsed with QDOT_OK, keep it as the next expression of the part; else free it. */
+static qdot_status
+keep_compiled(const reader *m, qdot_status status, qdot_compiled *one, qdot_filled *part)
+{
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&m->r->compiled, *one);
+    if (status != QDOT_OK)
+        qdot_compiled_free(one);
+    part->n += status == QDOT_OK;
+    return status;
+}
+
 static qdot_status
 read_expression(const reader *m, qdot_parse_extent extent, qdot_filled *part)
 {
     qdot_compiled one;
-    qdot_status status = qdot_compiled_parse(m->c, extent, &one);
+    const qdot_status status = qdot_compiled_parse(m->c, extent, &one);
 
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&m->r->compiled, one);
-    if (status != QDOT_OK)
-        qdot_compiled_free(&one);
-    part->n += status == QDOT_OK;
-    return status;
+    return keep_compiled(m, status, &one, part);
 }
 
 /* Parse name or name[i, j], with primes if it is a coordinate. */
@@ -137,15 +144,10 @@ static qdot_status
 read_unit(const reader *m, qdot_filled *part)
 {
     qdot_compiled one = {.from = m->c->at};
-    qdot_status status = qdot_unit_parse_alone(m->c, &one.code);
+    const qdot_status status = qdot_unit_parse_alone(m->c, &one.code);
 
     one.to = m->c->at;
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&m->r->compiled, one);
-    if (status != QDOT_OK)
-        qdot_compiled_free(&one);
-    part->n += status == QDOT_OK;
-    return status;
+    return keep_compiled(m, status, &one, part);
 }
 
 /* Parse a new name with bounds: name, LO < name, name > LO, LO < name < HI. */
