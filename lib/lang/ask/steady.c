@@ -22,10 +22,15 @@ static qdot_status
 carry_out_steady(qdot_record *r)
 {
     const qdot_filled *rate = qdot_record_hole(r, "in", NULL);
-    qdot_expr unknown = QDOT_NIL;
+    qdot_expr *in = &r->cursor.session->history->steady_in, unknown = QDOT_NIL;
+    const qdot_expr before = *in;
+    qdot_status status;
 
     if (rate != NULL)
         QDOT_TRY(qdot_record_coordinate(r, rate, &unknown));
-    r->cursor.session->history->steady_in = unknown;
-    return qdot_equilibria_answer(r, qdot_equilibria_steady, "steady motion");
+    *in = unknown;
+    status = qdot_equilibria_answer(r, qdot_equilibria_steady, "steady motion");
+    if (status != QDOT_OK) /* steady[1] stays one of the list that was answered */
+        *in = before;
+    return status;
 }
