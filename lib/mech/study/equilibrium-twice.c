@@ -1,11 +1,19 @@
 /* equilibrium-twice.c -- removes equilibria that belong to a family listed elsewhere. */
 #include "expr/node.h"
 #include "mech/study/equilibrium-search.h"
+#include "normal/solve/conditions.h"
+
+/* The conditions on parameters and on the coordinate of a range under which e is an equilibrium. */
+static qdot_expr
+conditions_of(const qdot_rest *r, const qdot_equilibrium *e)
+{
+    return e->range == QDOT_NIL ? e->exists : qdot_conditions_all(r->pool, e->exists, e->range);
+}
 
 static bool
 belongs_to_family(const qdot_rest *r, const qdot_equilibrium *one, const qdot_equilibrium *all)
 {
-    const qdot_simultaneous_solution a = {one->equations, one->exists}, b = {all->equations, all->exists};
+    const qdot_simultaneous_solution a = {one->equations, conditions_of(r, one)}, b = {all->equations, conditions_of(r, all)};
 
     return qdot_simultaneous_lies_in(&r->system, &a, &b);
 }

@@ -424,8 +424,8 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     r->formulas = r->system.complete;
     if (!r->system.complete && !contains_time(r, r->system.equations))
         QDOT_TRY(search_numerically(r, bind, user, out));
-    QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_ranges(r));
+    QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_tips(r));
     QDOT_TRY(qdot_rest_leave_out_jumps(r, &out->jump));
     r->system.complete = r->system.complete && !r->unresolved;
