@@ -10,6 +10,7 @@
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/equilibria.h"
@@ -33,6 +34,8 @@ QDOT_STATEMENT(equilibria) = {
     .handler = carry_out_equilibria,
 };
 
+enum { MOST_MAGNITUDE = 100 }; /* operations in relations that may be one about |b| */
+
 /* Combine a > b and a + b > 0 into a > |b| for positive a (with >= if both relations are >=); else nil. */
 static qdot_expr
 combine_to_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
@@ -42,7 +45,8 @@ combine_to_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
 
     if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_kind(pool, other) != QDOT_REL ||
         qdot_expr_node(pool, one)->op == QDOT_EQ ||
-        qdot_expr_node(pool, other)->op != qdot_expr_node(pool, one)->op)
+        qdot_expr_node(pool, other)->op != qdot_expr_node(pool, one)->op ||
+        qdot_expr_size(pool, one) + qdot_expr_size(pool, other) > MOST_MAGNITUDE)
         return QDOT_NIL;
     op = qdot_expr_node(pool, one)->op;
     one = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
@@ -183,7 +187,13 @@ print_stability(qdot_sheet *sheet, const qdot_equilibrium *e)
         qdot_sheet_words(sheet, " when ");
         QDOT_TRY(print_conditions(sheet, e->stable_when));
     }
-    return QDOT_OK;
+    if (e->otherwise_to_first_order == QDOT_NIL)
+        return QDOT_OK;
+    qdot_sheet_words(sheet, ", otherwise stable to first order");
+    if (qdot_expr_count(sheet->session->pool, e->otherwise_to_first_order) == 0)
+        return QDOT_OK;
+    qdot_sheet_words(sheet, " when ");
+    return print_conditions(sheet, e->otherwise_to_first_order);
 }
 
 /* Print `theta = 0`; a value found numerically as a decimal. */
@@ -294,8 +304,8 @@ give_notice_of_incompleteness(qdot_session *session, const char *word, const cha
         QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
                                              "domain each recurs after every whole turn"));
     if (all->pole != NULL && all->n > 0)
-        QDOT_TRY(qdot_answer_notice(session, "where the domain of `%.100s` ends these coordinates are singular: "
-                                             "equilibria there are not searched for", all->pole));
+        QDOT_TRY(qdot_answer_notice(session, "where the domain of `%.100s` ends these coordinates are singular: %s there are not "
+                                             "searched for", all->pole, noun[0] == 'e' ? "equilibria" : "steady motions"));
     if (all->jump != QDOT_NIL)
         QDOT_TRY(qdot_answer_notice_of(
             session, "the energy jumps with %s: equilibria at the jumps are not searched for", all->jump));

@@ -20,6 +20,8 @@ typedef struct {
     bool numeric_range; /* an end of the range is a decimal number, known to 12 digits */
     qdot_stability stability;
     qdot_expr stable_when; /* a LIST of conditions (REL) under which `stability` holds; nil: wherever the equilibrium exists */
+    qdot_expr otherwise_to_first_order; /* a LIST of conditions under which the linear motion alone is bounded, where
+                                         * `stable_when` does not hold; nil: of that nothing is known */
     bool numeric;
     bool may_jump; /* the energy may be discontinuous there: stability is not judged */
 } qdot_equilibrium;

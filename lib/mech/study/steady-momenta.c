@@ -72,6 +72,23 @@ energy_slopes(const fixed_momenta *x, const qdot_facts *facts, qdot_expr *H)
     return qdot_pool_check(x->pool);
 }
 
+/* e, stable to first order under conditions of its own, is stable wherever the conditions `when` hold: the first remain where
+ * they do not imply these. */
+static qdot_status
+join_verdicts(const fixed_momenta *x, const qdot_facts *facts, qdot_expr when, qdot_equilibrium *e)
+{
+    if (e->stability == QDOT_STABLE_TO_FIRST_ORDER && when != QDOT_NIL) {
+        qdot_expr room[QDOT_CONDITIONS_MOST];
+        const qdot_facts linear = qdot_facts_and(x->pool, facts, e->stable_when, room);
+
+        if (qdot_conditions_at(x->pool, when, 0, NULL, NULL, &linear) != QDOT_NIL)
+            e->otherwise_to_first_order = e->stable_when == QDOT_NIL ? qdot_list(x->pool, 0, NULL) : e->stable_when;
+    }
+    e->stability = QDOT_STABLE;
+    e->stable_when = when;
+    return qdot_pool_check(x->pool);
+}
+
 /* Ask that the leading minors of H are positive; their conditions into *when. */
 static qdot_status
 judge_energy(const fixed_momenta *x, const qdot_facts *facts, const qdot_expr *H, qdot_equilibrium *e)
@@ -89,7 +106,7 @@ judge_energy(const fixed_momenta *x, const qdot_facts *facts, const qdot_expr *H
         answer = qdot_positive(x->pool, minor, facts, m - 1, known);
         QDOT_TRY(qdot_pool_check(x->pool));
         if (answer == QDOT_FALSE && x->k == 1) {
-            QDOT_TRY(qdot_decide_less(x->pool, minor, QDOT_ZERO, false, facts, &d));
+            QDOT_TRY(qdot_decide_less(x->pool, minor, QDOT_ZERO, true, facts, &d));
             if (d.verdict == QDOT_PROVED) {
                 e->stability = QDOT_UNSTABLE;
                 e->stable_when = QDOT_NIL;
@@ -101,9 +118,7 @@ judge_energy(const fixed_momenta *x, const qdot_facts *facts, const qdot_expr *H
         if (answer != QDOT_TRUE)
             when = qdot_conditions_and(x->pool, when, answer);
     }
-    e->stability = QDOT_STABLE;
-    e->stable_when = when;
-    return qdot_pool_check(x->pool);
+    return join_verdicts(x, facts, when, e);
 }
 
 /* The coordinates that rest, and the values of the steady motion; *few: they are few enough. */

@@ -1,8 +1,6 @@
 /* steady-reduced.c -- steady motions by the equations of motion in independent velocities. */
 #include "mech/study/steady-reduced.h"
 
-#include <stdint.h>
-
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -10,507 +8,539 @@
 #include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
-#include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/dynamics/quantity.h"
-#include "mech/linear/elimination.h"
-#include "mech/scene/access.h"
 #include "mech/scene/scene.h"
+#include "mech/study/equilibrium-search.h"
+#include "mech/study/equilibrium.h"
 #include "mech/study/steady-momenta.h"
-#include "normal/inequality/less.h"
+#include "mech/study/steady-parts.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
-#include "normal/solve/solve.h"
+#include "normal/solve/simultaneous.h"
+#include "normal/solve/solve-factors.h"
 
-enum { MOST_WORK = 12000 };
+enum { MOST_EQUATIONS = 4, MOST_CHOICES = 12 };
 
+/* The equations of steady motions and what they may be solved for: resting coordinates and first-order unknowns, then rates. */
 typedef struct {
-    qdot_scene *s;
-    qdot_pool *pool;
-    qdot_facts facts;
-    qdot_elimination x;
-    size_t n, m;                /* numbers of coordinates and of independent velocities */
-    size_t *order, *independent; /* [n] coordinates, those that nothing holds first; [m] those of the independent velocities */
-    qdot_expr *N, *M, *R;       /* [n x m], [m x m], [m] */
-    bool *rests;                /* [n] the equations hold the coordinate */
-} reduced_motion;
+    qdot_reduced *r;
+    size_t n, unknowns;
+    qdot_expr e[MOST_EQUATIONS + 1]; /* [n], with a place for one more */
+    size_t equations;                /* number of these without one more */
+    qdot_expr *unknown;              /* [unknowns] */
+    size_t rates;                    /* of these, the last are rates, as parameters */
+    qdot_expr *rate, *as_parameter;  /* [rates] */
+    qdot_equilibria *out;
+} steady_system;
 
-static qdot_expr
-independent_rate(const reduced_motion *r, size_t a)
-{
-    return qdot_symbol_jet(r->pool, r->s->coordinates.at[r->independent[a]], 1);
-}
+/* --- the equations -------------------------------------------------------------------------------- */
 
-/* --- the equations in independent velocities --------------------------------------------------- */
-
-/* Coordinates that occur in no mass, force or constraint first: their velocities become the dependent ones. */
-static void
-order_coordinates(reduced_motion *r, qdot_expr M, qdot_expr f)
-{
-    size_t at = 0;
-
-    for (int held = 0; held < 2; held++)
-        for (size_t i = 0; i < r->n; i++) {
-            const qdot_expr q = r->s->coordinates.at[i];
-            bool is = qdot_expr_contains(r->pool, M, q) || qdot_expr_contains(r->pool, f, q);
-
-            for (size_t k = 0; k < r->s->constraints.n; k++)
-                is = is || qdot_expr_contains(r->pool, r->s->constraints.at[k].f, q);
-            if (is == (held == 1))
-                r->order[at++] = i;
-        }
-}
-
-/* The slopes of constraint k along the velocities, in that order. */
 static qdot_status
-read_velocity_constraint(reduced_motion *r, size_t k, qdot_expr *row)
+add_equation(steady_system *x, qdot_expr e)
 {
-    const qdot_constraint *c = &r->s->constraints.at[k];
-    qdot_expr rest = c->f;
-
-    if (c->kind != QDOT_VELOCITY)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: steady motions with velocity constraints beside others (%.100s)", c->name);
-    for (size_t i = 0; i < r->n; i++) {
-        const qdot_expr rate = qdot_symbol_jet(r->pool, r->s->coordinates.at[r->order[i]], 1), zero = QDOT_ZERO;
-
-        row[i] = qdot_elimination_short(&r->x, qdot_diff(r->pool, c->f, rate));
-        rest = qdot_subs(r->pool, rest, 1, &rate, &zero);
-    }
-    QDOT_TRY(qdot_pool_check(r->pool));
-    if (!qdot_elimination_is_zero(&r->x, rest) || (qdot_mech_holds(r->s, c->f) & QDOT_HAS_TIME) != 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: steady motions where constraint %.100s moves by itself", c->name);
+    QDOT_TRY(qdot_pool_check(x->r->pool));
+    for (size_t i = 0; i < x->n; i++)
+        if (e == x->e[i] || e == qdot_neg(x->r->pool, x->e[i]))
+            return qdot_pool_check(x->r->pool);
+    if (e == QDOT_ZERO)
+        return QDOT_OK;
+    if (x->n == MOST_EQUATIONS)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: steady motions of more than %d equations with velocity constraints or "
+                                         "unknown rates", MOST_EQUATIONS);
+    x->e[x->n++] = e;
     return QDOT_OK;
 }
 
-/* N from the constraints. */
+/* R = 0, first-order unknowns constant, the velocities of resting coordinates 0, holonomic constraints between these. */
 static qdot_status
-eliminate_velocities(reduced_motion *r)
+list_equations(steady_system *x)
 {
-    const size_t n = r->n, c = r->s->constraints.n;
-    qdot_expr *row = qdot_calloc(n + n * n + 1, sizeof *row), *N = row + n;
-    qdot_echelon e;
-    qdot_status status = row == NULL ? QDOT_ENOMEM : qdot_echelon_begin(&e, c, n, n);
-    size_t a = 0;
-
-    if (row == NULL)
-        return status;
-    for (size_t k = 0; k < c && status == QDOT_OK; k++) {
-        bool independent;
-
-        status = read_velocity_constraint(r, k, row);
-        if (status == QDOT_OK)
-            status = qdot_echelon_add(&r->x, &e, row, &independent);
-    }
-    if (status == QDOT_OK) {
-        r->m = n - e.rank;
-        qdot_echelon_null_space(r->pool, &e, N);
-        for (size_t i = 0; i < n * r->m; i++)
-            r->N[r->order[i / r->m] * r->m + i % r->m] = N[i];
-        for (size_t i = 0; i < n; i++)
-            if (!qdot_echelon_leads(&e, i))
-                r->independent[a++] = r->order[i];
-    }
-    qdot_echelon_end(&e);
-    qdot_free(row);
-    return status == QDOT_OK ? qdot_pool_check(r->pool) : status;
-}
-
-/* The velocity of coordinate i in the independent ones. */
-static qdot_expr
-velocity_of(const reduced_motion *r, size_t i)
-{
-    qdot_expr sum = QDOT_ZERO;
+    const qdot_reduced *r = x->r;
+    const qdot_scene *s = r->s;
 
     for (size_t a = 0; a < r->m; a++)
-        sum = qdot_add(r->pool, sum, qdot_mul(r->pool, r->N[i * r->m + a], independent_rate(r, a)));
-    return sum;
-}
+        QDOT_TRY(add_equation(x, qdot_reduced_resting(r, r->R[a])));
+    for (size_t k = 0; k < r->states; k++)
+        QDOT_TRY(add_equation(x, qdot_reduced_resting(r, r->g[k])));
+    for (size_t i = 0; i < r->n; i++)
+        if (r->rests[i])
+            QDOT_TRY(add_equation(x, qdot_reduced_resting(r, qdot_reduced_velocity(r, i))));
+    for (size_t k = 0; k < s->constraints.n; k++) {
+        bool rests = false;
 
-/* N' u of coordinate i: its acceleration while u is constant. */
-static qdot_expr
-drift_of(const reduced_motion *r, size_t i)
-{
-    qdot_expr sum = QDOT_ZERO;
-
-    for (size_t a = 0; a < r->m; a++)
-        for (size_t k = 0; k < r->n; k++) {
-            const qdot_expr slope = qdot_diff(r->pool, r->N[i * r->m + a], r->s->coordinates.at[k]);
-
-            if (slope != QDOT_ZERO)
-                sum = qdot_add(r->pool, sum, qdot_product(r->pool, 3, (qdot_expr[]){slope, velocity_of(r, k),
-                                                                                   independent_rate(r, a)}));
-        }
-    return sum;
-}
-
-static qdot_status
-reduce_equations(reduced_motion *r, qdot_expr M, qdot_expr f)
-{
-    const size_t n = r->n, m = r->m;
-    qdot_expr *from = qdot_calloc(4 * n + 1, sizeof *from), *to = from + n, *drift = to + n, *force = drift + n;
-
-    if (from == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++) {
-        from[i] = qdot_symbol_jet(r->pool, r->s->coordinates.at[i], 1);
-        to[i] = velocity_of(r, i);
-        drift[i] = drift_of(r, i);
+        for (size_t i = 0; i < r->n; i++)
+            rests = rests || (r->rests[i] && qdot_expr_contains(r->pool, s->constraints.at[k].f, r->q[i]));
+        if (s->constraints.at[k].kind == QDOT_HOLONOMIC && rests)
+            QDOT_TRY(add_equation(x, qdot_simplify(r->pool, s->constraints.at[k].f, &r->facts)));
     }
-    for (size_t i = 0; i < n; i++) {
-        force[i] = qdot_neg(r->pool, qdot_subs(r->pool, qdot_expr_arg(r->pool, f, (uint32_t)i), n, from, to));
-        for (size_t k = 0; k < n; k++)
-            if (drift[k] != QDOT_ZERO)
-                force[i] = qdot_add(r->pool, force[i], qdot_mul(r->pool, qdot_expr_arg(r->pool, M, (uint32_t)(i * n + k)), drift[k]));
-    }
-    for (size_t a = 0; a < m; a++) {
-        qdot_expr sum = QDOT_ZERO;
-
-        for (size_t i = 0; i < n; i++)
-            sum = qdot_add(r->pool, sum, qdot_mul(r->pool, r->N[i * m + a], force[i]));
-        r->R[a] = qdot_elimination_short(&r->x, sum);
-        for (size_t b = 0; b < m; b++) {
-            sum = QDOT_ZERO;
-            for (size_t i = 0; i < n * n; i++)
-                sum = qdot_add(r->pool, sum, qdot_product(r->pool, 3, (qdot_expr[]){r->N[i / n * m + a],
-                                                                                    qdot_expr_arg(r->pool, M, (uint32_t)i),
-                                                                                    r->N[i % n * m + b]}));
-            r->M[a * m + b] = qdot_elimination_short(&r->x, sum);
-        }
-    }
-    qdot_free(from);
+    x->equations = x->n;
+    for (size_t i = 0; i < x->n; i++)
+        x->e[i] = qdot_subs(r->pool, x->e[i], x->rates, x->rate, x->as_parameter);
     return qdot_pool_check(r->pool);
 }
 
-static void
-find_resting(reduced_motion *r)
+/* Rates are parameters while the equations are solved: those that stay free are generic. */
+static qdot_status
+list_unknowns(steady_system *x)
 {
-    for (size_t i = 0; i < r->n; i++) {
-        const qdot_expr q = r->s->coordinates.at[i];
+    const qdot_reduced *r = x->r;
+    size_t at = 0;
 
-        for (size_t k = 0; k < r->m * r->m; k++)
-            r->rests[i] = r->rests[i] || qdot_expr_contains(r->pool, r->M[k], q);
-        for (size_t k = 0; k < r->m; k++)
-            r->rests[i] = r->rests[i] || qdot_expr_contains(r->pool, r->R[k], q);
-    }
+    x->unknown = qdot_calloc(r->n + r->states + 3 * r->m + 1, sizeof *x->unknown);
+    if (x->unknown == NULL)
+        return QDOT_ENOMEM;
+    x->rate = x->unknown + r->n + r->states + r->m;
+    x->as_parameter = x->rate + r->m;
+    for (size_t i = 0; i < r->n; i++)
+        if (r->rests[i])
+            x->unknown[at++] = r->q[i];
+    for (size_t k = 0; k < r->states; k++)
+        x->unknown[at++] = r->s->states.at[k].z;
+    for (size_t a = r->m; a-- > 0;)
+        if (qdot_reduced_turns(r, a)) {
+            x->rate[x->rates] = r->u[a];
+            x->as_parameter[x->rates] = qdot_reduced_is_scaled(r, a)
+                                            ? r->u[a]
+                                            : qdot_symbol_get(r->pool, QDOT_PARAM, qdot_expr_symbol(r->pool, r->u[a])->name);
+            x->unknown[at++] = x->as_parameter[x->rates++];
+        }
+    x->unknowns = at;
+    return qdot_pool_check(r->pool);
 }
 
-static void
-reduced_end(reduced_motion *r)
+static qdot_expr
+with_rates(const steady_system *x, qdot_expr e)
 {
-    qdot_free(r->order);
-    qdot_free(r->N);
-    qdot_free(r->rests);
+    return e == QDOT_NIL ? e : qdot_subs(x->r->pool, e, x->rates, x->as_parameter, x->rate);
+}
+
+/* --- one motion ------------------------------------------------------------------------------------ */
+
+/* The value that a solution gives a symbol: its own where it is free. */
+static qdot_expr
+value_of(const qdot_pool *pool, qdot_expr values, qdot_expr symbol)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(pool, values); i++)
+        if (qdot_expr_arg(pool, qdot_expr_arg(pool, values, i), 0) == symbol)
+            return qdot_expr_arg(pool, qdot_expr_arg(pool, values, i), 1);
+    return symbol;
 }
 
 static qdot_status
-reduced_begin(reduced_motion *r, qdot_scene *s)
+append_equation(const qdot_reduced *r, qdot_expr symbol, qdot_expr value, qdot_expr *list)
 {
-    const qdot_expr M = qdot_released(s->pool, qdot_mech_numeric_mass(s)), f = qdot_released(s->pool, qdot_mech_numeric_forcing(s));
-    const size_t n = s->coordinates.n;
+    const qdot_expr one = qdot_rel(r->pool, QDOT_EQ, symbol, value == QDOT_NIL ? value : qdot_simplify(r->pool, value, &r->facts));
 
-    *r = (reduced_motion){.s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .n = n};
-    r->x = (qdot_elimination){.pool = s->pool, .facts = &r->facts, .most = MOST_WORK};
-    QDOT_TRY(qdot_pool_check(s->pool));
-    r->order = qdot_calloc(2 * n + 1, sizeof *r->order);
-    r->N = qdot_calloc(2 * n * n + n + 1, sizeof *r->N);
-    r->rests = qdot_calloc(n + 1, sizeof *r->rests);
-    if (r->order == NULL || r->N == NULL || r->rests == NULL)
+    *list = qdot_list_appended(r->pool, *list, 1, &one);
+    return qdot_pool_check(r->pool);
+}
+
+/* The velocity of coordinate i in a motion whose resting coordinates, first-order unknowns and rates have these values. */
+static qdot_expr
+velocity_in_motion(const steady_system *x, size_t i, qdot_expr values)
+{
+    const qdot_reduced *r = x->r;
+    qdot_expr e = qdot_reduced_resting(r, qdot_reduced_velocity(r, i));
+
+    for (uint32_t k = 0; k < qdot_expr_count(r->pool, values); k++) {
+        const qdot_expr one = qdot_expr_arg(r->pool, values, k), symbol = with_rates(x, qdot_expr_arg(r->pool, one, 0)),
+                        value = with_rates(x, qdot_expr_arg(r->pool, one, 1));
+
+        e = qdot_subs(r->pool, e, 1, &symbol, &value);
+    }
+    return e;
+}
+
+/* e with `value` in place of the speed u. */
+static qdot_expr
+without_speed(const steady_system *x, qdot_expr u, qdot_expr value, qdot_expr e)
+{
+    e = e == QDOT_NIL ? e : qdot_subs(x->r->pool, e, 1, &u, &value);
+    return e == QDOT_NIL ? e : qdot_simplify(x->r->pool, e, &x->r->facts);
+}
+
+/* Conditions with `value` in place of the speed u, in their shortest form. */
+static qdot_expr
+conditions_without_speed(const steady_system *x, qdot_expr u, qdot_expr value, qdot_expr set)
+{
+    qdot_pool *pool = x->r->pool;
+    qdot_expr out = QDOT_NIL;
+
+    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++) {
+        qdot_expr one = qdot_expr_arg(pool, set, i);
+
+        if (qdot_expr_contains(pool, one, u)) {
+            const qdot_expr gap = without_speed(x, u, value, qdot_positive_of(pool, one));
+
+            one = gap == QDOT_NIL ? gap : qdot_positive(pool, gap, &x->r->facts, 0, NULL);
+        }
+        if (one == QDOT_NIL)
+            return one;
+        if (one != QDOT_TRUE)
+            out = qdot_conditions_and(pool, out, one);
+    }
+    return out;
+}
+
+/* The coordinate whose velocity in the motion tells the speed u, with the slope by u: that of column a if it can, else one
+ * whose slope is not 0 anywhere, if there is one; r->n: none does. */
+static size_t
+coordinate_of_speed(const steady_system *x, size_t a, qdot_expr list, qdot_expr *slope)
+{
+    const qdot_reduced *r = x->r;
+    size_t best = r->n;
+    int quality = 0;
+
+    for (size_t k = 0; k < r->n; k++) {
+        const size_t i = k == 0 ? r->independent[a] : k <= r->independent[a] ? k - 1 : k;
+        const qdot_expr rate = qdot_symbol_jet(r->pool, r->q[i], 1), value = value_of(r->pool, list, rate);
+        const qdot_expr by = r->rests[i] ? QDOT_ZERO : qdot_diff(r->pool, value, r->u[a]);
+        const bool sure = by != QDOT_NIL && (qdot_expr_node(r->pool, by)->sign & QDOT_NE0) != 0;
+        const int now = by == QDOT_NIL || by == QDOT_ZERO ? 0 : sure ? 3 : k == 0 ? 2 : 1;
+
+        if (now > quality) {
+            quality = now;
+            best = i;
+            *slope = by;
+        }
+    }
+    return best;
+}
+
+/* Write a motion whose free speeds are no velocities with free velocities in place of these. */
+static qdot_status
+name_speeds(steady_system *x, qdot_equilibrium *one)
+{
+    const qdot_reduced *r = x->r;
+    qdot_pool *pool = r->pool;
+
+    for (size_t a = 0; a < r->m; a++) {
+        qdot_expr slope = QDOT_NIL, rate, value, rest = QDOT_ZERO, list = qdot_list(pool, 0, NULL);
+        size_t i;
+
+        if (!qdot_reduced_is_scaled(r, a) || !qdot_expr_contains(pool, one->equations, r->u[a]))
+            continue;
+        i = coordinate_of_speed(x, a, one->equations, &slope);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (i == r->n)
+            return QDOT_EDOMAIN;
+        rate = qdot_symbol_jet(pool, r->q[i], 1);
+        rest = qdot_subs(pool, value_of(pool, one->equations, rate), 1, &r->u[a], &rest);
+        value = qdot_div(pool, qdot_sub(pool, rate, rest), slope);
+        QDOT_TRY(qdot_rest_add_factors(pool, slope, &x->out->special));
+        for (uint32_t k = 0; k < qdot_expr_count(pool, one->equations); k++) {
+            const qdot_expr equation = qdot_expr_arg(pool, one->equations, k);
+
+            QDOT_TRY(append_equation(r, qdot_expr_arg(pool, equation, 0),
+                                     without_speed(x, r->u[a], value, qdot_expr_arg(pool, equation, 1)), &list));
+        }
+        one->equations = list;
+        one->exists = conditions_without_speed(x, r->u[a], value, one->exists);
+        one->stable_when = conditions_without_speed(x, r->u[a], value, one->stable_when);
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    return QDOT_OK;
+}
+
+/* Add a motion: coordinates and first-order unknowns that are constant, then rates. Where the chart is singular there is none. */
+static qdot_status
+add_steady_motion(steady_system *x, const qdot_simultaneous_solution *found)
+{
+    const qdot_reduced *r = x->r;
+    qdot_expr list = qdot_list(r->pool, 0, NULL);
+    qdot_equilibrium one = {.exists = with_rates(x, found->conditions)}, *at;
+    const size_t free = x->unknowns - qdot_expr_count(r->pool, found->values), regular = x->unknowns - x->equations;
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < r->n && status == QDOT_OK; i++)
+        if (r->rests[i])
+            status = append_equation(r, r->q[i], with_rates(x, value_of(r->pool, found->values, r->q[i])), &list);
+    for (size_t k = 0; k < r->states && status == QDOT_OK; k++) {
+        const qdot_expr z = r->s->states.at[k].z;
+
+        status = append_equation(r, z, with_rates(x, value_of(r->pool, found->values, z)), &list);
+    }
+    for (size_t i = 0; i < r->n && status == QDOT_OK; i++)
+        if (!r->rests[i])
+            status = append_equation(r, qdot_symbol_jet(r->pool, r->q[i], 1), velocity_in_motion(x, i, found->values), &list);
+    one.equations = list;
+    if (status == QDOT_OK)
+        status = qdot_reduced_judge(r, with_rates(x, found->values), free, regular, &one);
+    if (status == QDOT_OK)
+        status = name_speeds(x, &one);
+    if (status == QDOT_EDOMAIN) {
+        x->out->complete = false;
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
+    for (size_t i = 0; i < x->out->n; i++)
+        if (x->out->at[i].equations == one.equations && x->out->at[i].exists == one.exists)
+            return QDOT_OK;
+    at = qdot_realloc(x->out->at, (x->out->n + 1) * sizeof *at);
+    if (at == NULL)
         return QDOT_ENOMEM;
-    r->independent = r->order + n;
-    r->M = r->N + n * n;
-    r->R = r->M + n * n;
-    if ((qdot_mech_holds(s, f) & (QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER)) != 0 || (qdot_mech_holds(s, M) & QDOT_HAS_TIME) != 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: unknown rates of steady motions where forces hold t or multipliers");
-    order_coordinates(r, M, f);
-    QDOT_TRY(eliminate_velocities(r));
-    QDOT_TRY(reduce_equations(r, M, f));
-    find_resting(r);
+    x->out->at = at;
+    x->out->at[x->out->n++] = one;
     return QDOT_OK;
 }
 
 /* --- solving -------------------------------------------------------------------------------------- */
 
-static bool
-turns(const reduced_motion *r, size_t a)
-{
-    return !r->rests[r->independent[a]];
-}
-
-/* e where the resting coordinates rest. */
-static qdot_expr
-while_resting(const reduced_motion *r, qdot_expr e)
-{
-    const qdot_expr zero = QDOT_ZERO;
-
-    for (size_t a = 0; a < r->m; a++) {
-        const qdot_expr rate = independent_rate(r, a);
-
-        if (!turns(r, a))
-            e = qdot_subs(r->pool, e, 1, &rate, &zero);
-    }
-    return e == QDOT_NIL ? e : qdot_simplify(r->pool, e, &r->facts);
-}
-
-/* The equation of steady motions: R = 0, and the velocities of resting coordinates 0. *e is 0 where there is none. */
+/* What must not be 0 for the solutions to be all: divisors in their values, factors of equations without unknowns u [n]. */
 static qdot_status
-steady_equation(const reduced_motion *r, qdot_expr *e)
+add_special_values(const steady_system *x, const qdot_expr *u, const qdot_simultaneous *all, qdot_expr *special)
 {
-    *e = QDOT_ZERO;
-    for (size_t a = 0; a < r->m + r->n; a++) {
-        const qdot_expr one = a < r->m                 ? while_resting(r, r->R[a])
-                              : r->rests[a - r->m] ? while_resting(r, velocity_of(r, a - r->m))
-                                                       : QDOT_ZERO;
+    qdot_pool *pool = x->r->pool;
 
-        QDOT_TRY(qdot_pool_check(r->pool));
-        if (one == QDOT_ZERO || one == *e)
-            continue;
-        if (*e != QDOT_ZERO)
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: steady motions of several equations with velocity constraints or "
-                                             "unknown rates");
-        *e = one;
+    for (size_t i = 0; i < all->special.n; i++)
+        QDOT_TRY(qdot_rest_add_factors(pool, all->special.at[i], special));
+    for (size_t i = 0; i < all->found.n; i++) {
+        const qdot_expr divisors = qdot_conditions_of_divisors(pool, all->found.at[i].values, QDOT_NIL);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        for (uint32_t k = 0; divisors != QDOT_NIL && k < qdot_expr_count(pool, divisors); k++)
+            QDOT_TRY(qdot_rest_add_factors(pool, qdot_conditions_nonzero(pool, qdot_expr_arg(pool, divisors, k)), special));
     }
-    return QDOT_OK;
-}
+    for (size_t i = 0; i < x->n; i++) {
+        const qdot_expr factors = qdot_solve_factors(pool, x->e[i]);
 
-/* Add the motion in which `unknown` has a value: coordinates and rates as equations. */
-static qdot_status
-add_steady_motion(const reduced_motion *r, qdot_expr unknown, const qdot_root *root, qdot_equilibria *out)
-{
-    qdot_expr list = qdot_list(r->pool, 0, NULL);
-    qdot_equilibrium one = {.exists = root->condition}, *at;
+        QDOT_TRY(qdot_pool_check(pool));
+        for (uint32_t k = 0; k < qdot_expr_count(pool, factors); k++) {
+            const qdot_expr one = qdot_expr_arg(pool, factors, k);
+            bool holds = false;
 
-    for (int order = 0; order < 2; order++)
-        for (size_t i = 0; i < r->n; i++) {
-            const qdot_expr q = r->s->coordinates.at[i], symbol = qdot_symbol_jet(r->pool, q, (uint32_t)order);
-            qdot_expr value = order == 0 ? q : while_resting(r, velocity_of(r, i)), equation;
-
-            if (r->rests[i] == (order == 1))
-                continue;
-            value = qdot_subs(r->pool, value, 1, &unknown, &root->value);
-            equation = qdot_rel(r->pool, QDOT_EQ, symbol, value == QDOT_NIL ? value : qdot_simplify(r->pool, value, &r->facts));
-            list = qdot_list_appended(r->pool, list, 1, &equation);
+            for (size_t a = 0; a < x->n; a++)
+                holds = holds || qdot_expr_contains(pool, one, u[a]);
+            if (!holds)
+                QDOT_TRY(qdot_rest_add_factors(pool, one, special));
         }
-    QDOT_TRY(qdot_pool_check(r->pool));
-    one.equations = list;
-    one.stability = QDOT_STABILITY_UNDECIDED;
-    at = qdot_realloc(out->at, (out->n + 1) * sizeof *at);
-    if (at == NULL)
-        return QDOT_ENOMEM;
-    out->at = at;
-    out->at[out->n++] = one;
+    }
     return QDOT_OK;
 }
 
-/* Solve the equation for one unknown, if it occurs and a formula is found that has at most so many roots: *solved. */
+/* Solve the equations for the unknowns `choice` [n]; *solved: these are all their solutions, and not none. *special: of
+ * what is not 0 in these. */
 static qdot_status
-solve_for(const reduced_motion *r, qdot_expr e, qdot_expr unknown, size_t most, qdot_equilibria *out, bool *solved)
+solve_for(steady_system *x, const size_t *choice, size_t most, qdot_expr *special, bool *solved)
 {
-    qdot_solutions roots = {0};
-    qdot_status status = QDOT_OK;
+    qdot_reduced *r = x->r;
+    qdot_simultaneous all;
+    qdot_expr u[MOST_EQUATIONS + 1];
+    qdot_status status;
 
     *solved = false;
-    if (e != QDOT_ZERO && !qdot_expr_contains(r->pool, e, unknown))
-        return QDOT_OK;
-    if (e != QDOT_ZERO)
-        status = qdot_expr_is_class(r->pool, unknown, QDOT_COORD) && qdot_expr_symbol(r->pool, unknown)->order == 0
-                     ? qdot_solve_inside(r->pool, e, unknown, QDOT_NIL, &r->facts, &roots)
-                     : qdot_solve(r->pool, e, unknown, &r->facts, &roots);
-    *solved = status == QDOT_OK && e != QDOT_ZERO && roots.complete && roots.root.n <= most;
-    for (size_t i = 0; i < roots.root.n && status == QDOT_OK && *solved; i++)
-        status = add_steady_motion(r, unknown, &roots.root.at[i], out);
-    for (size_t i = 0; i < roots.divisor.n && status == QDOT_OK && *solved; i++) {
-        out->special = out->special == QDOT_NIL ? qdot_list(r->pool, 0, NULL) : out->special;
-        out->special = qdot_list_appended(r->pool, out->special, 1, &roots.divisor.at[i]);
+    for (size_t i = 0; i < x->n; i++) {
+        bool holds = false;
+
+        u[i] = x->unknown[choice[i]];
+        for (size_t k = 0; k < x->n; k++)
+            holds = holds || qdot_expr_contains(r->pool, x->e[k], u[i]);
+        if (!holds)
+            return QDOT_OK;
     }
-    out->complete = true;
-    qdot_solutions_clear(&roots);
-    return status == QDOT_OK ? qdot_pool_check(r->pool) : status;
+    status = qdot_simultaneous_all(r->pool, x->n, x->e, u, QDOT_NIL, &r->facts, &all);
+    *solved = status == QDOT_OK && all.complete && all.found.n > 0 && all.found.n <= most;
+    for (size_t i = 0; i < all.found.n && status == QDOT_OK && *solved; i++)
+        status = add_steady_motion(x, &all.found.at[i]);
+    if (status == QDOT_OK && *solved)
+        status = add_special_values(x, u, &all, special);
+    x->out->recurs = x->out->recurs || (*solved && all.recurs);
+    qdot_simultaneous_clear(&all);
+    return status == QDOT_ELIMIT ? QDOT_OK : status;
 }
 
-static qdot_status
-refuse_unknown(const reduced_motion *r, qdot_expr unknown)
+/* The next choice of n from m in lexical order; false: there is none. */
+static bool
+next_choice(size_t n, size_t m, size_t *choice)
 {
-    (void)qdot_fail(QDOT_EINVAL, "`%.100s` is no free rate of the steady motions", qdot_expr_symbol(r->pool, unknown)->name);
-    for (size_t a = 0; a < r->m; a++)
-        if (turns(r, a))
-            return qdot_hint("steady in %.100s", qdot_expr_symbol(r->pool, independent_rate(r, a))->name);
-    return qdot_hint("equilibria");
-}
+    size_t i = n;
 
-/* Solve for the rate that is asked for. */
-static qdot_status
-solve_for_rate(const reduced_motion *r, qdot_expr e, qdot_expr unknown, qdot_equilibria *out)
-{
-    bool is = false, solved;
-
-    for (size_t a = 0; a < r->m; a++)
-        is = is || (turns(r, a) && independent_rate(r, a) == unknown);
-    if (!is)
-        return refuse_unknown(r, unknown);
-    QDOT_TRY(solve_for(r, e, unknown, SIZE_MAX, out, &solved));
-    return solved ? QDOT_OK
-                  : qdot_fail(QDOT_EFAILED, "the relation of the steady motions is not solved for `%.100s`",
-                              qdot_expr_symbol(r->pool, unknown)->name);
-}
-
-/* Solve for the resting coordinate, else for a rate: one of which there is a single value, if there is such a one. */
-static qdot_status
-solve_for_any(const reduced_motion *r, qdot_expr e, qdot_equilibria *out)
-{
-    bool solved = false;
-
-    for (size_t i = 0; i < r->n && !solved; i++)
-        if (r->rests[i])
-            QDOT_TRY(solve_for(r, e, r->s->coordinates.at[i], SIZE_MAX, out, &solved));
-    for (int several = 0; several < 2; several++)
-        for (size_t a = r->m; a-- > 0 && !solved;)
-            if (turns(r, a))
-                QDOT_TRY(solve_for(r, e, independent_rate(r, a), several ? SIZE_MAX : 1, out, &solved));
-    if (!solved && e == QDOT_ZERO)
-        return add_steady_motion(r, QDOT_T, &(qdot_root){.value = QDOT_T}, out);
-    return solved ? QDOT_OK : qdot_fail(QDOT_EFAILED, "no formula is found for the steady motions");
-}
-
-/* --- stability ------------------------------------------------------------------------------------ */
-
-/* The value of e at the steady motion `one`. */
-static qdot_expr
-value_in_motion(const reduced_motion *r, const qdot_equilibrium *one, qdot_expr e)
-{
-    e = while_resting(r, e);
-    for (uint32_t i = 0; i < qdot_expr_count(r->pool, one->equations) && e != QDOT_NIL; i++) {
-        const qdot_expr equation = qdot_expr_arg(r->pool, one->equations, i), symbol = qdot_expr_arg(r->pool, equation, 0),
-                        value = qdot_expr_arg(r->pool, equation, 1);
-
-        e = qdot_subs(r->pool, e, 1, &symbol, &value);
-    }
-    return e == QDOT_NIL ? e : qdot_simplify(r->pool, e, &r->facts);
-}
-
-/* The matrix of the linear motion, [k + m] rows: of the resting coordinates, then of the independent velocities. */
-static qdot_status
-characteristic_polynomial(const reduced_motion *r, const qdot_equilibrium *one, qdot_expr lambda, qdot_expr *p)
-{
-    size_t k = 0, size, at = 0, *resting = qdot_calloc(r->n + 1, sizeof *resting);
-    qdot_expr *A;
-
-    if (resting == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < r->n; i++)
-        if (r->rests[i])
-            resting[k++] = i;
-    size = k + r->m;
-    A = qdot_calloc(size * size + 1, sizeof *A);
-    for (size_t row = 0; row < size && A != NULL; row++)
-        for (size_t column = 0; column < size; column++, at++) {
-            const qdot_expr e = row < k ? qdot_neg(r->pool, velocity_of(r, resting[row])) : r->R[row - k];
-            const qdot_expr by = column < k ? r->s->coordinates.at[resting[column]] : independent_rate(r, column - k);
-
-            A[at] = value_in_motion(r, one, qdot_diff(r->pool, e, by));
-            if (row < k && row == column)
-                A[at] = qdot_add(r->pool, A[at], lambda);
-            if (row >= k && column >= k)
-                A[at] = qdot_add(r->pool, A[at], qdot_mul(r->pool, lambda, value_in_motion(r, one, r->M[(row - k) * r->m + column - k])));
+    while (i-- > 0)
+        if (choice[i] + (n - i) < m) {
+            choice[i]++;
+            for (size_t k = i + 1; k < n; k++)
+                choice[k] = choice[k - 1] + 1;
+            return true;
         }
-    *p = A == NULL ? QDOT_NIL : qdot_expand(r->pool, qdot_det(r->pool, qdot_matrix(r->pool, (uint32_t)size, (uint32_t)size, A)));
-    qdot_free(resting);
-    qdot_free(A);
-    return A == NULL ? QDOT_ENOMEM : qdot_pool_check(r->pool);
+    return false;
 }
 
-/* Ask that e is positive: a condition is added; *never: it is proved negative. */
+/* Solve for the first choice of unknowns that formulas give, among them `asked` (nil: any): one for which there is a single
+ * motion before one with several, unless coordinates alone are solved for. */
 static qdot_status
-ask_positive(const reduced_motion *r, const qdot_facts *facts, qdot_expr e, qdot_equilibrium *one, bool *open, bool *never)
+solve_for_some(steady_system *x, qdot_expr asked, qdot_expr *special, bool *solved)
 {
-    const qdot_expr answer = qdot_positive(r->pool, e, facts, 0, NULL);
-    qdot_decision d;
+    const size_t coordinates = x->unknowns - x->rates;
 
-    QDOT_TRY(qdot_pool_check(r->pool));
-    if (answer == QDOT_FALSE) {
-        QDOT_TRY(qdot_decide_less(r->pool, e, QDOT_ZERO, false, facts, &d));
-        *never = d.verdict == QDOT_PROVED;
-        *open = !*never;
-    } else if (answer != QDOT_TRUE) {
-        one->stable_when = qdot_conditions_and(r->pool, one->stable_when, answer);
+    *solved = false;
+    if (x->n > x->unknowns)
+        return QDOT_OK;
+    for (int several = asked != QDOT_NIL; several < 2; several++) {
+        size_t choice[MOST_EQUATIONS + 1];
+        size_t tried = 0;
+
+        for (size_t i = 0; i < x->n; i++)
+            choice[i] = i;
+        do {
+            const bool any = several || choice[x->n - 1] < coordinates;
+            bool has = asked == QDOT_NIL;
+
+            for (size_t i = 0; i < x->n; i++)
+                has = has || x->unknown[choice[i]] == asked;
+            if (has && tried++ < MOST_CHOICES)
+                QDOT_TRY(solve_for(x, choice, any ? SIZE_MAX : 1, special, solved));
+        } while (!*solved && next_choice(x->n, x->unknowns, choice));
+        if (*solved)
+            return QDOT_OK;
     }
     return QDOT_OK;
 }
 
-/* By the quadratic a lambda^2 + b lambda + c that is left when lambda is divided out. */
+/* The motions at which a divisor d vanishes, which formulas for the others leave out; where they are not found d stays among
+ * the special values. */
 static qdot_status
-judge_by_roots(const reduced_motion *r, qdot_equilibrium *one)
+solve_where_zero(steady_system *x, qdot_expr d)
 {
-    const qdot_expr lambda = qdot_symbol_get(r->pool, QDOT_FORMAL, "lambda#steady");
-    qdot_expr p, c[3] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO}, room[QDOT_CONDITIONS_MOST];
-    const qdot_facts facts = qdot_facts_and(r->pool, &r->facts, one->exists, room);
-    bool open = false, never = false;
-    size_t rates = 0, degree = 0;
+    qdot_expr more = QDOT_NIL;
+    bool solved = false, unknown = false;
 
-    for (size_t i = 0; i < r->n; i++)
-        degree += r->rests[i];
-    for (size_t a = 0; a < r->m; a++)
-        rates += turns(r, a);
-    if (degree + r->m != rates + 2) /* more than one coordinate rests */
-        return QDOT_OK;
-    QDOT_TRY(characteristic_polynomial(r, one, lambda, &p));
-    for (size_t k = 0; k < 3; k++)
-        c[k] = qdot_simplify(r->pool, qdot_coefficient(r->pool, p, lambda, (long)(rates + k)), &facts);
-    for (size_t k = 0; k < rates; k++)
-        open = open || qdot_simplify(r->pool, qdot_coefficient(r->pool, p, lambda, (long)k), &facts) != QDOT_ZERO;
-    QDOT_TRY(qdot_pool_check(r->pool));
-    for (size_t k = 0; k < 2 && !open; k++)
-        if (k == 0 || c[k] != QDOT_ZERO)
-            QDOT_TRY(ask_positive(r, &facts, qdot_simplify(r->pool, qdot_div(r->pool, c[k], c[2]), &facts), one, &open, &never));
-    if (never)
-        one->stable_when = QDOT_NIL;
-    one->stability = never ? QDOT_UNSTABLE : open ? QDOT_STABILITY_UNDECIDED : QDOT_STABLE_TO_FIRST_ORDER;
-    if (open)
-        one->stable_when = QDOT_NIL;
-    return qdot_pool_check(r->pool);
+    for (size_t i = 0; i < x->unknowns; i++)
+        unknown = unknown || qdot_expr_contains(x->r->pool, d, x->unknown[i]);
+    if (unknown && x->n < MOST_EQUATIONS + 1) {
+        const size_t n = x->n;
+        qdot_status status;
+
+        x->e[x->n++] = d;
+        status = solve_for_some(x, QDOT_NIL, &more, &solved);
+        x->n = n;
+        QDOT_TRY(status);
+    }
+    if (!solved) {
+        d = with_rates(x, d);
+        if (!qdot_list_has(x->r->pool, x->out->special, d))
+            x->out->special = qdot_list_appended(x->r->pool, x->out->special, 1, &d);
+    }
+    return qdot_pool_check(x->r->pool);
 }
 
 static qdot_status
-judge_all(const reduced_motion *r, qdot_equilibria *out)
+refuse_unknown(const steady_system *x, qdot_expr unknown)
 {
-    qdot_expr *turning = qdot_calloc(r->m + 1, sizeof *turning);
-    size_t n = 0;
-    bool conservative = false;
-    qdot_status status = turning == NULL ? QDOT_ENOMEM : qdot_steady_is_conservative(r->s, &conservative);
+    (void)qdot_fail(QDOT_EINVAL, "`%.100s` is no free rate of the steady motions", qdot_expr_symbol(x->r->pool, unknown)->name);
+    for (size_t k = x->rates; k-- > 0;)
+        if (qdot_expr_is_class(x->r->pool, x->rate[k], QDOT_COORD))
+            return qdot_hint("steady in %.100s", qdot_expr_symbol(x->r->pool, x->rate[k])->name);
+    return qdot_hint("steady");
+}
 
-    for (size_t a = 0; a < r->m && status == QDOT_OK; a++)
-        if (turns(r, a))
-            turning[n++] = r->s->coordinates.at[r->independent[a]];
-    for (size_t i = 0; i < out->n && status == QDOT_OK; i++) {
-        status = judge_by_roots(r, &out->at[i]);
-        if (status == QDOT_OK && conservative && out->at[i].stability != QDOT_UNSTABLE)
-            status = qdot_steady_at_momenta(r->s, n, turning, &out->at[i]);
-    }
+static qdot_status
+find_motions(steady_system *x, qdot_expr unknown)
+{
+    qdot_pool *pool = x->r->pool;
+    const size_t k = qdot_expr_place(x->rates, x->rate, unknown);
+    qdot_expr special = QDOT_NIL;
+    bool solved = false;
+
+    if (unknown != QDOT_NIL && k == x->rates)
+        return refuse_unknown(x, unknown);
+    x->out->complete = true;
+    if (x->n == 0 && unknown == QDOT_NIL)
+        return add_steady_motion(x, &(qdot_simultaneous_solution){.values = qdot_list(pool, 0, NULL)});
+    if (x->n > 0)
+        QDOT_TRY(solve_for_some(x, unknown == QDOT_NIL ? QDOT_NIL : x->as_parameter[k], &special, &solved));
+    if (!solved && unknown != QDOT_NIL)
+        return qdot_fail(QDOT_EFAILED, "the relation of the steady motions is not solved for `%.100s`",
+                         qdot_expr_symbol(pool, unknown)->name);
+    if (!solved)
+        return qdot_fail(QDOT_EFAILED, "no formula is found for the steady motions");
+    for (uint32_t i = 0; special != QDOT_NIL && i < qdot_expr_count(pool, special); i++)
+        QDOT_TRY(solve_where_zero(x, qdot_expr_arg(pool, special, i)));
+    return qdot_pool_check(pool);
+}
+
+/* Of those that the linear motion leaves open or finds stable, the stability at fixed momenta. */
+static qdot_status
+judge_at_momenta(const steady_system *x)
+{
+    const qdot_reduced *r = x->r;
+    qdot_expr *turning;
+    size_t n = 0;
+    bool conservative;
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_steady_is_conservative(r->s, &conservative));
+    if (!conservative)
+        return QDOT_OK;
+    turning = qdot_calloc(r->m + 1, sizeof *turning);
+    if (turning == NULL)
+        return QDOT_ENOMEM;
+    for (size_t a = 0; a < r->m; a++)
+        if (qdot_reduced_turns(r, a))
+            turning[n++] = r->q[r->independent[a]];
+    for (size_t i = 0; i < x->out->n && status == QDOT_OK; i++)
+        if (qdot_steady_is_open(&x->out->at[i]))
+            status = qdot_steady_at_momenta(r->s, n, turning, &x->out->at[i]);
     qdot_free(turning);
     return status;
 }
 
 qdot_status
+qdot_steady_judge_linear(qdot_scene *s, qdot_equilibria *all)
+{
+    qdot_reduced r;
+    steady_system x = {.r = &r, .out = all};
+    qdot_status status = qdot_reduced_begin(&r, s, QDOT_NIL);
+
+    if (status == QDOT_OK)
+        status = list_unknowns(&x);
+    if (status == QDOT_OK)
+        status = list_equations(&x);
+    for (size_t i = 0; i < all->n && status == QDOT_OK; i++) {
+        qdot_equilibrium one = all->at[i];
+        size_t free = x.unknowns;
+
+        if (!qdot_steady_is_open(&one))
+            continue;
+        for (uint32_t k = 0; k < qdot_expr_count(r.pool, one.equations); k++) {
+            const qdot_expr equation = qdot_expr_arg(r.pool, one.equations, k);
+
+            free -= qdot_expr_arg(r.pool, equation, 0) != qdot_expr_arg(r.pool, equation, 1);
+        }
+        status = qdot_reduced_judge(&r, one.equations, free, x.unknowns - x.equations, &one);
+        if (status == QDOT_EDOMAIN)
+            status = QDOT_OK;
+        else if (status == QDOT_OK && one.stability != QDOT_STABILITY_UNDECIDED)
+            all->at[i] = one;
+    }
+    qdot_free(x.unknown);
+    qdot_reduced_end(&r);
+    return status == QDOT_ELIMIT || status == QDOT_ENOTBUILT ? QDOT_OK : status;
+}
+
+qdot_status
 qdot_steady_reduced(qdot_scene *s, qdot_expr unknown, qdot_equilibria *out)
 {
-    reduced_motion r;
-    qdot_expr e = QDOT_ZERO;
-    bool free_rate = false;
-    qdot_status status = reduced_begin(&r, s);
+    qdot_reduced r;
+    steady_system x = {.r = &r, .out = out};
+    qdot_status status = qdot_reduced_begin(&r, s, unknown);
 
     *out = (qdot_equilibria){0};
-    for (size_t a = 0; a < r.m && status == QDOT_OK; a++)
-        free_rate = free_rate || turns(&r, a);
-    if (status == QDOT_OK && !free_rate) {
-        (void)qdot_fail(QDOT_EINVAL, "the equations of motion hold every coordinate: steady motions are the equilibria");
+    if (status == QDOT_OK)
+        status = list_unknowns(&x);
+    if (status == QDOT_OK && x.rates == 0) {
+        (void)qdot_fail(QDOT_EINVAL, "the equations of motion hold every coordinate, so none turns at a constant rate");
         status = qdot_hint("equilibria");
     }
     if (status == QDOT_OK)
-        status = steady_equation(&r, &e);
+        status = list_equations(&x);
     if (status == QDOT_OK)
-        status = unknown != QDOT_NIL ? solve_for_rate(&r, e, unknown, out) : solve_for_any(&r, e, out);
+        status = find_motions(&x, unknown);
     if (status == QDOT_OK)
-        status = judge_all(&r, out);
-    reduced_end(&r);
+        status = judge_at_momenta(&x);
+    qdot_free(x.unknown);
+    qdot_reduced_end(&r);
+    if (status != QDOT_OK)
+        qdot_equilibria_clear(out);
     return status;
 }

@@ -8,6 +8,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/study/equilibrium-search.h"
 #include "mech/study/steady-momenta.h"
 #include "mech/study/steady-reduced.h"
 
@@ -91,13 +92,24 @@ find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
     return qdot_hint("equilibria");
 }
 
-static bool
-has_velocity_constraints(const qdot_scene *s)
+/* Whether rates may be constant of which no conserved momentum tells: there are velocity constraints, or a coordinate is
+ * cyclic and its momentum not conserved. */
+static qdot_status
+has_other_rates(qdot_scene *s, bool *yes)
 {
+    qdot_cyclic *list = NULL;
+    size_t n = 0;
+
+    *yes = false;
     for (size_t k = 0; k < s->constraints.n; k++)
-        if (s->constraints.at[k].kind == QDOT_VELOCITY)
-            return true;
-    return false;
+        *yes = *yes || s->constraints.at[k].kind == QDOT_VELOCITY;
+    if (*yes)
+        return QDOT_OK;
+    QDOT_TRY(qdot_mech_cyclic(s, &list, &n));
+    for (size_t i = 0; i < n; i++)
+        *yes = *yes || list[i].rate != QDOT_NIL;
+    qdot_free(list);
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -187,6 +199,7 @@ write_rates(const qdot_turning *x, qdot_binder bind, void *user, qdot_equilibria
         one->exists = qdot_turning_with_rates(x, one->exists);
         one->range = qdot_turning_with_rates(x, one->range);
         one->stable_when = qdot_turning_with_rates(x, one->stable_when);
+        one->otherwise_to_first_order = qdot_turning_with_rates(x, one->otherwise_to_first_order);
         for (size_t k = 0; k < x->n; k++) {
             const qdot_expr constant =
                 qdot_rel(x->pool, QDOT_EQ, x->rate[k], one->numeric ? bind(user, x->w[k]) : x->rate[k]);
@@ -201,15 +214,19 @@ write_rates(const qdot_turning *x, qdot_binder bind, void *user, qdot_equilibria
     return qdot_pool_check(x->pool);
 }
 
-/* Of those that the turning scene's energy does not decide, the stability at fixed momenta. */
+/* Of those that the turning scene's energy does not decide, the stability by their linear motion and at fixed momenta. */
 static qdot_status
 judge_undecided(qdot_scene *s, const qdot_turning *x, qdot_equilibria *all)
 {
-    bool conservative;
+    bool conservative, open = false;
 
     QDOT_TRY(qdot_steady_is_conservative(s, &conservative));
     for (size_t i = 0; i < all->n && conservative; i++)
-        if (all->at[i].stability != QDOT_UNSTABLE && (all->at[i].stability != QDOT_STABLE || all->at[i].stable_when != QDOT_NIL))
+        open = open || qdot_steady_is_open(&all->at[i]);
+    if (open)
+        QDOT_TRY(qdot_steady_judge_linear(s, all));
+    for (size_t i = 0; i < all->n && open; i++)
+        if (qdot_steady_is_open(&all->at[i]))
             QDOT_TRY(qdot_steady_at_momenta(s, x->n, x->q, &all->at[i]));
     return QDOT_OK;
 }
@@ -224,27 +241,43 @@ suggest_rate(const qdot_turning *x, qdot_binder bind, void *user, qdot_status st
     return status;
 }
 
+/* Where generic rates have no steady motion, single ones may, as in m r (w^2 - k/m) = 0: *out is replaced if some are found. */
+static qdot_status
+find_at_single_rates(qdot_scene *s, qdot_equilibria *out)
+{
+    qdot_equilibria found;
+    const qdot_status status = qdot_steady_reduced(s, QDOT_NIL, &found);
+
+    if (status == QDOT_EFAILED || status == QDOT_ENOTBUILT || status == QDOT_ELIMIT || status == QDOT_EINVAL)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    qdot_equilibria_clear(out);
+    *out = found;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_steady_find(qdot_scene *s, qdot_expr unknown, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_turning x;
+    bool reduced = unknown != QDOT_NIL;
     qdot_status status;
 
     *out = (qdot_equilibria){0};
-    if (unknown != QDOT_NIL)
+    if (!reduced)
+        QDOT_TRY(has_other_rates(s, &reduced));
+    if (reduced)
         return qdot_steady_reduced(s, unknown, out);
     status = qdot_turning_begin(s, QDOT_NIL, &x, NULL);
-    if (status == QDOT_EINVAL && has_velocity_constraints(s)) {
-        qdot_turning_clear(&x);
-        return qdot_steady_reduced(s, QDOT_NIL, out);
-    }
     if (status == QDOT_OK)
         status = suggest_rate(&x, bind, user, qdot_equilibrium_find(s, bind, user, out));
     qdot_turning_end(s, &x);
+    if (status == QDOT_OK && out->pole == NULL) /* coordinates that turn along hide it */
+        status = qdot_rest_pole(&(qdot_rest){.s = s, .pool = s->pool}, &out->pole);
     if (status == QDOT_OK)
         status = write_rates(&x, bind, user, out);
     if (status == QDOT_OK)
         status = judge_undecided(s, &x, out);
     qdot_turning_clear(&x);
-    return status;
+    return status == QDOT_OK && out->n == 0 ? find_at_single_rates(s, out) : status;
 }

@@ -18,8 +18,8 @@ qdot_expr qdot_steady_rate(qdot_pool *pool, qdot_expr rate);
 
 /* *out is cleared by the caller; each has an equation q' = q' for every cyclic coordinate, whose rate is free; where places are
  * found in numbers, with the values that `bind` gives to the rates. unknown: a rate q' that is solved for instead of the
- * coordinates, which are then free, or nil. With velocity constraints and without cyclic coordinates, and for an unknown rate, the
- * equations are those of mech/study/steady-reduced.h. QDOT_EINVAL: there is no free rate, or `unknown` is none. The scene is as
+ * coordinates, which are then free, or nil. With velocity constraints, where a cyclic coordinate's momentum is not conserved, and for an
+ * unknown rate, the equations are those of mech/study/steady-reduced.h. QDOT_EINVAL: there is no free rate, or `unknown` is none. The scene is as
  * before. */
 QDOT_MUST_CHECK qdot_status qdot_steady_find(qdot_scene *s, qdot_expr unknown, qdot_binder bind, void *user, qdot_equilibria *out);
 
