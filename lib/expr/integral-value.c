@@ -1,6 +1,8 @@
 /* integral-value.c -- numbers of integrals: enclosed by Arb's integration, or by a double exponential substitution. */
 #include "expr/integral-value.h"
 
+#include <math.h>
+
 #include "base/interrupt.h"
 #include "expr/complex-ball.h"
 #include "expr/exact.h"
@@ -8,7 +10,8 @@
 #include "expr/integral.h"
 #include "expr/node.h"
 
-enum { EVALUATIONS = 4000, AT_KINKS = 40000, LEVELS = 9, MOST_STEPS = 4096, MOST_PIECES = 8 };
+/* LEAST_REACH: the range of t that is looked through if it can be: distances from an end from 1e-7 to 7e6. */
+enum { EVALUATIONS = 4000, AT_KINKS = 40000, LEVELS = 9, MOST_STEPS = 4096, MOST_PIECES = 8, LEAST_REACH = 3 };
 
 static int
 integrand(acb_ptr y, const acb_t z, void *user, slong order, slong bits)
@@ -60,6 +63,7 @@ typedef struct {
     const arb_struct *a, *b;
     int kind;
     slong bits; /* of the sum; the places are computed with six times as many, to tell them from the ends */
+    double from, to; /* the range of t in which the terms are not negligible; out */
 } substitution;
 
 /* y = f(x) dx/dt at t; false where it is not known. */
@@ -121,7 +125,7 @@ evaluate_substituted(const substitution *s, arb_t y, const arb_t t)
 /* Add to sum the terms at t = h (first + step k), k = 0, 1, ..., until they are negligible; false where they do not
  * become so. */
 static bool
-sum_outward(const substitution *s, arb_t sum, const arb_t h, long first, long step)
+sum_outward(substitution *s, arb_t sum, const arb_t h, long first, long step)
 {
     arb_t t, term;
     mag_t size, least;
@@ -143,6 +147,10 @@ sum_outward(const substitution *s, arb_t sum, const arb_t h, long first, long st
         arb_get_mag(least, sum);
         mag_mul_2exp_si(least, least, -s->bits - 12);
         small = mag_cmp(size, least) <= 0 || mag_cmp_2exp_si(size, -4 * s->bits) < 0 ? small + 1 : 0;
+        if (small == 0) {
+            s->from = fmin(s->from, arf_get_d(arb_midref(t), ARF_RND_NEAR));
+            s->to = fmax(s->to, arf_get_d(arb_midref(t), ARF_RND_NEAR));
+        }
     }
     arb_clear(t);
     arb_clear(term);
@@ -151,9 +159,121 @@ sum_outward(const substitution *s, arb_t sum, const arb_t h, long first, long st
     return small >= 6 || (lost && small > 0);
 }
 
+/* --- whether the sums saw all ----------------------------------------------------------------------------- */
+
+/* f(x) dx over u, x = end + side e^u. */
+typedef struct {
+    qdot_complex_ball *f;
+    const arb_struct *end;
+    int side;
+} distance;
+
+static int
+integrand_by_distance(acb_ptr y, const acb_t u, void *user, slong order, slong bits)
+{
+    const distance *d = user;
+    acb_t x, e;
+
+    acb_init(x);
+    acb_init(e);
+    acb_exp(e, u, bits);
+    if (d->side < 0)
+        acb_neg(x, e);
+    else
+        acb_set(x, e);
+    acb_add_arb(x, x, d->end, bits);
+    qdot_complex_ball_eval(d->f, y, x, order != 0, bits);
+    acb_mul(y, y, e, bits);
+    acb_clear(x);
+    acb_clear(e);
+    return 0;
+}
+
+/* Add to y the integral of f between the distances e^lo and e^hi from an end, enclosed. */
+static bool
+add_enclosed(arb_t y, const substitution *s, const arb_t end, int side, double lo, double hi, double farthest)
+{
+    distance d = {s->f, end, side};
+    acb_calc_integrate_opt_t options;
+    const slong bits = 6 * s->bits + 64;
+    acb_t from, to, sum;
+    mag_t tolerance;
+    bool known;
+
+    acb_init(from);
+    acb_init(to);
+    acb_init(sum);
+    mag_init(tolerance);
+    acb_set_d(from, lo);
+    acb_set_d(to, hi);
+    if (hi == farthest) { /* half of the range, exactly */
+        arb_sub(acb_realref(to), s->b, s->a, bits);
+        arb_mul_2exp_si(acb_realref(to), acb_realref(to), -1);
+        arb_log(acb_realref(to), acb_realref(to), bits);
+    }
+    mag_set_ui_2exp_si(tolerance, 1, -s->bits);
+    acb_calc_integrate_opt_init(options);
+    options->eval_limit = AT_KINKS + 20 * s->bits;
+    acb_calc_integrate(sum, integrand_by_distance, &d, from, to, s->bits + 20, tolerance, options, bits);
+    known = acb_is_finite(sum) && arb_contains_zero(acb_imagref(sum)) && is_known_well(acb_realref(sum), s->bits / 2);
+    arb_add(y, y, acb_realref(sum), bits);
+    acb_clear(from);
+    acb_clear(to);
+    acb_clear(sum);
+    mag_clear(tolerance);
+    return known;
+}
+
+/* The integral over the range of t, enclosed. A peak between the places of the sums is in it. */
+static bool
+enclose_range(arb_t y, const substitution *s, double lo, double hi)
+{
+    const double pi = 3.141592653589793;
+    double width;
+    arf_t h;
+
+    arb_zero(y);
+    if (s->kind == 1 || s->kind == -1)
+        return add_enclosed(y, s, s->kind > 0 ? s->a : s->b, s->kind, pi / 2 * sinh(lo), pi / 2 * sinh(hi), NAN);
+    arf_init(h);
+    arf_sub(h, arb_midref(s->b), arb_midref(s->a), 53, ARF_RND_NEAR);
+    width = arf_get_d(h, ARF_RND_NEAR);
+    arf_clear(h);
+    return s->kind == 0 && add_enclosed(y, s, s->a, 1, log(width) + pi * sinh(lo), log(width / 2), log(width / 2)) &&
+           add_enclosed(y, s, s->b, -1, log(width) - pi * sinh(hi), log(width / 2), log(width / 2));
+}
+
+/* Whether y is what the enclosure of the range gives; if it differs, y is replaced by that. False: it is not known. */
+static bool
+see_all(arb_t y, const substitution *s)
+{
+    arb_t all, change;
+    mag_t size;
+    bool known;
+
+    arb_init(all);
+    arb_init(change);
+    mag_init(size);
+    known = enclose_range(all, s, fmin(s->from, -LEAST_REACH), fmax(s->to, LEAST_REACH)) || enclose_range(all, s, s->from, s->to);
+    if (known) {
+        arb_sub(change, all, y, 3 * s->bits);
+        arb_get_mag(size, all);
+        mag_mul_2exp_si(size, size, 6 - s->bits); /* of what lies beyond the range */
+        arb_add_error_mag(change, size);
+        if (!arb_contains_zero(change)) {
+            arb_set(y, all);
+            arb_add_error_mag(y, size);
+        }
+    }
+    arb_clear(all);
+    arb_clear(change);
+    mag_clear(size);
+    return known;
+}
+
 /* Halve the step until two sums agree to the bits wanted; the radius of y is what they differ by. */
 static bool
-substitute(arb_t y, const substitution *s)
+substitute(arb_t y, substitution *s)
 {
     arb_t h, sum, value, before, change;
     bool found = false, going = true;
@@ -184,7 +304,7 @@ substitute(arb_t y, const substitution *s)
     arb_clear(value);
     arb_clear(before);
     arb_clear(change);
-    return found;
+    return found && see_all(y, s);
 }
 
 /* --- on pieces ------------------------------------------------------------------------------------------ */
@@ -194,7 +314,7 @@ substitute_between(arb_t y, qdot_complex_ball *f, const arb_t a, const arb_t b, 
 {
     const bool from = arb_is_finite(a), to = arb_is_finite(b);
 
-    return substitute(y, &(substitution){f, a, b, from && to ? 0 : from ? 1 : to ? -1 : 2, bits});
+    return substitute(y, &(substitution){f, a, b, from && to ? 0 : from ? 1 : to ? -1 : 2, bits, 0, 0});
 }
 
 /* From a to b in two parts that are not alike: over the whole, poles that lie symmetrically cancel in the sums, and an

@@ -8,6 +8,9 @@
  *     x = (a + b)/2 + (b - a)/2 tanh(pi/2 sinh t),   x = a + exp(pi/2 sinh t),   x = sinh(pi/2 sinh t),
  *
  * and the trapezoidal rule, its step halved until two sums agree. Their difference is the error: an estimate, not a bound.
+ * A narrow peak between the places of the sums is found by a second way: over the range in which the sums have terms, or
+ * a wider one, the integral is enclosed, with the logarithm of the distance from an end as variable. If the sums are not in the enclosure,
+ * that is the value; if none is found, there is no number.
  *
  * Source  Johansson, "Numerical integration in arbitrary-precision ball arithmetic", ICMS 2018 (acb_calc_integrate);
  *         Takahasi & Mori, "Double exponential formulas for numerical integration", Publ. RIMS 9 (1974) 721
