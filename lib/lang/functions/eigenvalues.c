@@ -10,9 +10,11 @@
 #include "expr/value-kind.h"
 #include "lang/answer/answer.h"
 #include "lang/functions/builtin.h"
+#include "lang/functions/linear.h"
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/units.h"
 #include "mech/scene/things.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
@@ -327,6 +329,8 @@ qdot_call_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_e
     }
     if (status == QDOT_OK)
         status = qdot_value_kind_give(pool, qdot_list(pool, size, values.at), value);
+    if (status == QDOT_OK && args[0] == s->history->linear.A)
+        status = qdot_units_give_rate(s, value);
     qdot_free(values.at);
     qdot_free(entries);
     return status;

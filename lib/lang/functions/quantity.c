@@ -20,6 +20,7 @@
 #include "lang/session/labels.h"
 #include "lang/session/phase.h"
 #include "lang/session/speeds.h"
+#include "lang/session/units.h"
 #include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/statics.h"
@@ -512,6 +513,7 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
         if (scene->coordinates.at[i] == index[1])
             *value = modes.amplitude[(size_t)(k - 1) * scene->coordinates.n + i];
     qdot_modes_clear(&modes);
+    status = status == QDOT_OK && n < 2 ? qdot_units_give_rate(s, value) : status;
     return status == QDOT_OK ? qdot_value_kind_check(s->pool, *value) : status;
 }
 

@@ -4,6 +4,7 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/symbol.h"
+#include "expr/tensor.h"
 #include "expr/unit.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
@@ -368,4 +369,31 @@ qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit
         *unit = qdot_mul(pool, *unit, qdot_pow(pool, base, qdot_expr_ratio(pool, x.n, x.d)));
     }
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+typedef struct {
+    qdot_session *session;
+    qdot_expr unit;
+} rate;
+
+static qdot_expr
+with_rate(qdot_pool *pool, qdot_expr e, void *user)
+{
+    const rate *r = user;
+    const bool number = qdot_expr_is_constant(pool, e) || qdot_measured_occurs(r->session, e);
+
+    return number && !qdot_expr_has_units(pool, e) ? qdot_mul(pool, e, r->unit) : e;
+}
+
+qdot_status
+qdot_units_give_rate(qdot_session *session, qdot_expr *value)
+{
+    static const int exponent[QDOT_BASES] = {0, 0, -1};
+    rate r = {.session = session};
+
+    if (!qdot_units_on(session))
+        return QDOT_OK;
+    QDOT_TRY(qdot_units_base(session, qdot_dimension_make(exponent), &r.unit));
+    *value = qdot_value_map(session->pool, *value, with_rate, &r);
+    return qdot_pool_check(session->pool);
 }

@@ -75,5 +75,7 @@ QDOT_MUST_CHECK qdot_status qdot_units_groups(qdot_session *session, size_t n, c
 
 /* The SI unit of a dimension as an expression of base units, whose numbers are 1. */
 QDOT_MUST_CHECK qdot_status qdot_units_base(qdot_session *session, qdot_dimension dimension, qdot_expr *unit);
+/* Bare numbers in *value, one or a list, are rates: they get the unit 1/s. Without units nothing is done. */
+QDOT_MUST_CHECK qdot_status qdot_units_give_rate(qdot_session *session, qdot_expr *value);
 
 #endif
