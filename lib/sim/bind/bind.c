@@ -360,15 +360,16 @@ qdot_bind_remember(qdot_bind *b, qdot_past *history)
 }
 
 qdot_status
-qdot_bind_remember_for(qdot_bind *b, const qdot_tape *tape)
+qdot_bind_add_knots(qdot_bind *b, const qdot_tape *tape)
 {
-    qdot_knots knots = {0};
-    qdot_status status = b->history ? qdot_delay_find_knots(tape, 2 * b->plan->n, &knots) : QDOT_OK;
+    qdot_knots delays = {0};
+    qdot_status status = b->history ? qdot_delay_find_knots(tape, 2 * b->plan->n, &delays) : QDOT_OK;
 
-    for (size_t k = 0; k < knots.n && status == QDOT_OK; k++)
-        status = qdot_past_delay(b->history, -knots.at[k].a, QDOT_PAST_SMOOTH);
-    qdot_free(knots.at);
-    return status;
+    for (size_t k = 0; k < delays.n && status == QDOT_OK; k++)
+        status = qdot_past_delay(b->history, -delays.at[k].a, QDOT_PAST_SMOOTH);
+    qdot_free(delays.at);
+    QDOT_TRY(status);
+    return qdot_knots_find(tape, 2 * b->plan->n, &b->knots);
 }
 
 /* The next time at which a step ends because a table of data that the equations read has a knot, or because of their delays. */

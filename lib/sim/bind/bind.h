@@ -31,8 +31,9 @@ QDOT_MUST_CHECK qdot_status qdot_bind_scale(qdot_bind *bind, const double *scale
 /* From now on equations with delays read this history, borrowed, of a run that is one step after another by Taylor series; their
  * delays become known to it. NULL: there are none. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_bind_remember(qdot_bind *bind, struct qdot_past *history);
-/* Let steps also end at breaking points that a tape with inputs q, q', t reads in that history. Errors: as qdot_delay_find_knots. */
-QDOT_MUST_CHECK qdot_status qdot_bind_remember_for(qdot_bind *bind, const qdot_tape *tape);
+/* Let steps also end where a tape with inputs q, q', t reads the next piece of a table of data, or a breaking point of that history.
+ * Errors: QDOT_ENOMEM; as qdot_delay_find_knots. */
+QDOT_MUST_CHECK qdot_status qdot_bind_add_knots(qdot_bind *bind, const qdot_tape *tape);
 
 /* The system of a bind; n = 2 plan->n. Valid while the bind lives. Its rhs and Jacobian fail with
  * QDOT_ESINGULAR if M is singular, QDOT_EDOMAIN if q'' is undefined; both name the coordinate. */

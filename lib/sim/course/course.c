@@ -168,7 +168,7 @@ integrate_pieces(qdot_piece *x, const double *y0)
             break;
         }
         x->start.from = x->mode;
-        x->start.jumped = false;
+        x->start.jumped = x->start.anew = false;
         qdot_piece_find_delay(x);
         if ((velocity_may_jump(x) || crosses_position_surface(x)) && x->has_root)
             status = qdot_piece_go_to_root(x);
@@ -181,7 +181,7 @@ integrate_pieces(qdot_piece *x, const double *y0)
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);
         if (status == QDOT_OK && !over)
-            status = qdot_piece_sides(x, x->start.jumped ? NULL : qdot_piece_mode(x)->side);
+            status = qdot_piece_sides(x, x->start.jumped || x->start.anew ? NULL : qdot_piece_mode(x)->side);
         if (status == QDOT_OK && !over)
             status = stop_resting_bodies(x, x->start.jumped, &over);
         if (status == QDOT_OK && over && x->start.jumped)

@@ -533,7 +533,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
             continue;
         if (w->kind == QDOT_WATCH_SURFACE) {
             x->side[w->index] = w->inside == 0 ? root->way : w->beyond;
-            if (w->inside != 0)
+            x->start.anew = x->start.anew || root->jump;
+            if (w->inside != 0 && !root->jump)
                 status = qdot_vec_push(&x->crossed, w->index);
         } else {
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];

@@ -31,7 +31,7 @@ qdot_piece_enter(qdot_piece *x)
     made = m->m > 0 && !c->watches.at[x->mode];
     if (made) {
         QDOT_TRY(qdot_watch_new(m->plan, m->m, m->functions, c->shaken, c->touch_tol, &c->watches.at[x->mode]));
-        QDOT_TRY(qdot_bind_remember_for(c->binds.at[x->mode], qdot_watch_tape(c->watches.at[x->mode])));
+        QDOT_TRY(qdot_bind_add_knots(c->binds.at[x->mode], qdot_watch_tape(c->watches.at[x->mode])));
     }
     c->systems.at[x->mode] = qdot_bind_system(c->binds.at[x->mode]);
     if (c->no_series)

@@ -96,6 +96,8 @@ qdot_piece_is_occurrence(qdot_piece *x, const qdot_root *root)
     if (w->kind == QDOT_WATCH_EVENT)
         return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
                                x->c->stage->events.at[w->index].way == way);
+    if (root->jump)
+        return !(root->stays && qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES);
     return (root->way != 0 && root->way != w->inside && !root->stays) || touches_position_surface(x, w, root);
 }
 

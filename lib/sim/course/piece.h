@@ -57,6 +57,7 @@ typedef struct {
         double late;  /* time by which the state at that root was then advanced */
         size_t from;  /* index of the mode of the previous piece */
         bool jumped;  /* an event has changed the state at the start */
+        bool anew;    /* a table of data jumped there: sides are decided anew */
         bool followed; /* massless coordinates jumped, because their equations changed */
         bool slipped; /* massless coordinates slipped against dry friction; `bare` is the state after that */
     } start;

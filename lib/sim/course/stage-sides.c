@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/calculus.h"
+#include "expr/elementary.h"
+#include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
@@ -52,6 +55,29 @@ qdot_stage_inputs(const qdot_stage *s, qdot_expr *in)
     return k;
 }
 
+/* Whether e has a lookup and derivatives 0 by all of these symbols [k]: it is constant between the points of tables. */
+static bool
+is_constant_in_pieces(qdot_pool *pool, qdot_expr e, size_t k, const qdot_expr *in)
+{
+    bool constant = qdot_expr_find_function(pool, e, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL;
+
+    for (size_t i = 0; i < k && constant; i++)
+        constant = qdot_diff(pool, e, in[i]) == QDOT_ZERO;
+    return constant;
+}
+
+/* Fill s->in_pieces for surfaces with functions u of the symbols in [k]. */
+static qdot_status
+find_surfaces_in_pieces(qdot_stage *s, size_t k, const qdot_expr *in, const qdot_expr *u)
+{
+    const size_t m = qdot_switches_own(&s->switches);
+
+    s->in_pieces = qdot_calloc(m + 1, sizeof *s->in_pieces);
+    for (size_t i = 0; i < m && s->in_pieces; i++)
+        s->in_pieces[i] = is_constant_in_pieces(s->scene->pool, u[i], k, in);
+    return s->in_pieces ? QDOT_OK : QDOT_ENOMEM;
+}
+
 qdot_status
 qdot_stage_lower_sides(qdot_stage *s)
 {
@@ -70,6 +96,8 @@ qdot_stage_lower_sides(qdot_stage *s)
                                       u + i);
         u[m + i] = qdot_term_magnitude(pool, u[i]);
     }
+    if (status == QDOT_OK)
+        status = find_surfaces_in_pieces(s, 2 * n + 1, in, u);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
@@ -132,6 +160,8 @@ is_parameter(const decision *d, size_t i)
 static void
 measure_surfaces(decision *d, const long *side)
 {
+    const double forwards = d->s->back ? -1 : 1; /* in time, where tables of data are read on */
+
     evaluate_surfaces(d, side);
     for (size_t i = 0; i < d->m; i++) {
         d->u[i] = d->out[i];
@@ -139,7 +169,7 @@ measure_surfaces(decision *d, const long *side)
         d->flat[i] = true;
     }
     for (size_t k = 0; k <= d->n; k++) {
-        d->in[k] *= 1 + 2 * DBL_EPSILON;
+        d->in[k] += (k == d->n ? forwards : 1) * 2 * DBL_EPSILON * (k == d->n ? fabs(d->in[k]) : d->in[k]);
         evaluate_surfaces(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->noise[i] += isfinite(d->out[i]) ? fabs(d->out[i] - d->u[i]) : 0;
@@ -147,11 +177,11 @@ measure_surfaces(decision *d, const long *side)
     for (size_t k = 0; k < 2; k++) {
         for (size_t i = 0; i <= d->n; i++)
             if (!is_parameter(d, i))
-                d->in[i] += test_displacement(k, i) * fmax(1, fabs(d->in[i]));
+                d->in[i] += (i == d->n ? forwards * fabs(test_displacement(k, i)) : test_displacement(k, i)) * fmax(1, fabs(d->in[i]));
         evaluate_surfaces(d, side);
         for (size_t i = 0; i < d->m; i++)
-            d->flat[i] = d->flat[i] && fabs(d->out[i] - d->u[i]) <=
-                                           fmax(d->noise[i], rounding * d->out[d->m + i]);
+            d->flat[i] = d->flat[i] && (d->s->in_pieces[i] || fabs(d->out[i] - d->u[i]) <=
+                                                                  fmax(d->noise[i], rounding * d->out[d->m + i]));
     }
 }
 

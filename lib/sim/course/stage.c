@@ -45,6 +45,7 @@ qdot_stage_clear(qdot_stage *s)
     qdot_domains_clear(&s->domains);
     qdot_parameter_conditions_clear(&s->conditions);
     qdot_tape_free(s->sides);
+    qdot_free(s->in_pieces);
     qdot_tape_free(s->pucks);
     qdot_free(s->scales);
     *s = (qdot_stage){0};
@@ -412,6 +413,7 @@ make_side_tape_with_layers(qdot_stage *s)
     if (!some)
         return QDOT_OK;
     qdot_tape_free(s->sides);
+    qdot_free(s->in_pieces);
     s->sides = NULL;
     return qdot_stage_lower_sides(s);
 }

@@ -90,6 +90,7 @@ typedef struct {
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;
                          NULL: no surface */
+    bool *in_pieces; /* [own surfaces] u is constant between the points of tables of data */
     qdot_tape *pucks; /* from q, q', t: quantities qdot_stage_puck of each sliding disc; NULL: no discs */
 } qdot_stage;
 

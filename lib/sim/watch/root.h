@@ -12,6 +12,7 @@ typedef struct {
     double residual; /* larger magnitude of g at the two doubles of t next to the root */
     bool exact;      /* the watched function g is exactly 0 at the double t */
     bool pole;       /* g changes its sign by a pole (through infinity): this is not a root */
+    bool jump; /* g is made of another piece of a table of data from t on: on the side `way` of 0 or, if it `stays`, 0 */
     bool turned; /* the user's function changes its sign in the opposite direction to g (qdot_watch_turns) */
     bool stays; /* g stays 0 for some time after t; `way` is the direction from g's sign before t to 0 */
     /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the

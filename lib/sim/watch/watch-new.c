@@ -33,6 +33,7 @@ qdot_watch_free(qdot_watch *w)
     qdot_free(w->state_two);
     qdot_watch_clear_flat(w);
     qdot_watch_clear_turns(w);
+    qdot_free(w->jumps.at);
     qdot_free(w->smooth);
     qdot_polynomial_bounds_clear(&w->bounds);
     qdot_free(w->coordinate);
@@ -140,6 +141,8 @@ qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
     status = qdot_watch_lower(w, g, shaken);
     if (status == QDOT_OK)
         status = watch_make_room(w);
+    if (status == QDOT_OK)
+        status = qdot_watch_find_jumps(w);
     if (status == QDOT_OK)
         status = qdot_polynomial_bounds_init(&w->bounds, w->tape, 2 * w->n);
     if (status != QDOT_OK) {

@@ -38,6 +38,8 @@ qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double lea
         double at = k < 2 * w->n ? y[k] : t,
                to = at + by * copysign(fmax(least, fabs(at)), at), change;
 
+        if (k == 2 * w->n)
+            to = qdot_watch_time_beside(w, t, to - t);
         if (to == at)
             continue;
         QDOT_TRY(change_by_component(w, k < 2 * w->n ? t : to, y, k, to, i, g, &change));
@@ -121,7 +123,7 @@ qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i, dou
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->moved));
     g = w->moved[i];
-    QDOT_TRY(change_by_component(w, t + h, y, 2 * w->n, 0, i, g, noise));
+    QDOT_TRY(change_by_component(w, qdot_watch_time_beside(w, t, h), y, 2 * w->n, 0, i, g, noise));
     *noise *= 4 * DBL_EPSILON / 0x1p-20;
     return QDOT_OK;
 }

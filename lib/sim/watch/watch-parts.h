@@ -17,6 +17,7 @@
 #include "sim/bind/polynomial-bounds.h"
 #include "sim/watch/root.h"
 #include "sim/model/equations.h"
+#include "tape/knots.h"
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
 
@@ -66,8 +67,10 @@ struct qdot_watch {
     bool *may_be_flat; /* [m] g may have flat roots, to be located in multiple precision */
     int *leaves;     /* [m] sign of g just after the start of the step */
     struct qdot_watch_turn *turns; /* [m] directions of the user's functions (watch-turns.c); NULL: the same as those of g */
+    qdot_knots jumps; /* tables of steps that the functions read at a + b t */
     bool *smooth;         /* [m] g contains no switching function, and is not a bound of a coordinate */
     bool *clock;          /* [m] g depends on t only */
+    bool *reads_tables;   /* [m] g reads tables of data */
     bool expanded;        /* the step has a Taylor series */
     bool *wants;          /* [m] the sign of g_i in this interval must be determined in double-double precision */
     bool fine;            /* values of the functions in `wants` are double-double at present */
@@ -386,6 +389,21 @@ QDOT_MUST_CHECK qdot_status qdot_watch_end_on_zero(qdot_watch *w, double t);
 
 /* Remove a zero found only because the start was shifted by a rounding error: there the function was 0. */
 QDOT_MUST_CHECK qdot_status qdot_watch_forget_start(qdot_watch *w);
+
+/* --- jumps of tables of data (watch-jumps.c) ----------------------------------------- */
+
+/* Fill w->jumps. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_watch_find_jumps(qdot_watch *w);
+
+/* Whether one is between two times. A step that goes over one does no more, since steps end on both sides of it. */
+bool qdot_watch_is_over_jump(const qdot_watch *w, double from, double to);
+/* t + by, or on the other side of t where there is none between; else t. */
+double qdot_watch_time_beside(const qdot_watch *w, double t, double by);
+
+/* Append roots for the functions whose signs, or being 0, that step changes. A function that jumps over 0 has a pole there. */
+QDOT_MUST_CHECK qdot_status qdot_watch_pass_jump(qdot_watch *w, double t);
+/* Mark roots at which such a function goes over to being 0 for some time: equations that switch by it read the value at 0. */
+void qdot_watch_mark_pieces(qdot_watch *w);
 
 /* --- roots where a function jumps or has a kink (watch-rough.c) ---------------------- */
 

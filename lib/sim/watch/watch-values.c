@@ -20,22 +20,24 @@ enum {
     OF_STATE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER
 };
 
-/* Find which watched functions contain no switching functions, and which depend on t only. */
+/* Find which watched functions contain no switching functions, and which depend on t only, and which read tables. */
 static qdot_status
 find_function_kinds(qdot_watch *w, const qdot_expr *e)
 {
     const qdot_plan *p = w->plan;
 
-    w->smooth = qdot_calloc(2 * w->m + 1, sizeof *w->smooth);
+    w->smooth = qdot_calloc(3 * w->m + 1, sizeof *w->smooth);
     if (!w->smooth)
         return QDOT_ENOMEM;
     w->clock = w->smooth + w->m;
+    w->reads_tables = w->clock + w->m;
     for (size_t i = 0; i < w->m; i++) {
         qdot_tape *one = NULL;
 
         QDOT_TRY(qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, 1, e + i, &one));
         w->smooth[i] = qdot_program_hindrance(one) == NULL;
         w->clock[i] = (qdot_expr_node(p->pool, e[i])->holds & OF_STATE) == 0;
+        w->reads_tables[i] = qdot_knots_any(one);
         qdot_tape_free(one);
     }
     return QDOT_OK;

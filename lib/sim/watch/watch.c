@@ -401,8 +401,11 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         w->hides[i] = QDOT_WATCH_UNKNOWN;
     }
     QDOT_TRY(qdot_watch_claim_hidden(w));
-    if (any)
+    if (qdot_watch_is_over_jump(w, w->t, t))
+        QDOT_TRY(qdot_watch_pass_jump(w, t));
+    else if (any)
         QDOT_TRY(search_step_by_intervals(w, t, step != NULL, &whole));
+    qdot_watch_mark_pieces(w);
     if (last && whole)
         QDOT_TRY(qdot_watch_end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
