@@ -18,6 +18,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/history.h"
 #include "lang/session/output.h"
+#include "lang/session/units.h"
 #include "lang/syntax/record.h"
 #include "normal/solve/conditions.h"
 
@@ -217,6 +218,7 @@ print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
         qdot_session_number(session, qdot_expr_arg(session->pool, one, 1), &value, NULL));
     QDOT_TRY(qdot_sheet_formula(sheet, qdot_expr_arg(session->pool, one, 0)));
     qdot_number_text(&number, value, 0);
+    qdot_units_in_brackets(session, qdot_expr_arg(session->pool, one, 0), &number);
     qdot_sheet_format(sheet, " = %s", qdot_text_str(&number));
     status = qdot_text_status(&number);
     qdot_text_clear(&number);

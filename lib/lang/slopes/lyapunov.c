@@ -8,6 +8,8 @@
 #include "lang/runs/data-file.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
+#include "lang/session/output.h"
+#include "lang/session/units.h"
 #include "lang/syntax/record.h"
 #include "sim/study/exponents.h"
 
@@ -47,13 +49,17 @@ write_exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
 static qdot_status
 answer_exponents(qdot_session *session, const qdot_exponents *x)
 {
-    for (size_t k = 0; k < x->n; k++) {
+    qdot_status status = QDOT_OK;
+
+    session->output->unit = qdot_units_on(session) ? "1/s" : NULL;
+    for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
         char name[40];
 
         write_exponent_name(x, k, name, sizeof name);
-        QDOT_TRY(qdot_answer_number(session, name, x->value[k], x->error[k]));
+        status = qdot_answer_number(session, name, x->value[k], x->error[k]);
     }
-    return QDOT_OK;
+    session->output->unit = NULL;
+    return status;
 }
 
 /* Write a row for each time t: the estimates of the exponents from the run up to t. */
