@@ -19,7 +19,8 @@
  *
  *     stable     an energy that never grows (mech/study/lyapunov.h) has a strict minimum there: M
  *     and
- *                H positive definite, or one degree of freedom whose force points back on either side;
+ *                H positive definite, or the lowest terms of the potential (stability-degenerate.c),
+ *                or one degree of freedom whose force points back on either side;
  *                or all roots of det(M s^2 + Gamma s + H) have negative real parts; or the
  *                equations are linear and the next holds; or nothing can move
  *     unstable   one of the roots has a positive real part: H falls in some direction without gyroscopic

@@ -470,6 +470,8 @@ judge_exact_equilibrium(qdot_judgement *j, qdot_equilibrium *e)
     if (e->stability == QDOT_STABILITY_UNDECIDED && s->coordinates.n == 1 &&
         s->constraints.n == 0 && j->judge->law != QDOT_ENERGY_UNKNOWN)
         QDOT_TRY(judge_by_forces_beside(j, e));
+    if (e->stability == QDOT_STABILITY_UNDECIDED && !kink && j->judge->law != QDOT_ENERGY_UNKNOWN && !j->judge->timed)
+        QDOT_TRY(qdot_stability_by_degenerate_minimum(j, e));
     if (e->stability == QDOT_STABILITY_UNDECIDED && kink && s->coordinates.n > 1 && j->judge->law != QDOT_ENERGY_UNKNOWN)
         QDOT_TRY(qdot_stability_by_corner(j, e));
     if (e->stability != QDOT_STABILITY_UNDECIDED) {

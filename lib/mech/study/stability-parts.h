@@ -77,6 +77,10 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_one_side(qdot_judgement *j, qdot_expr
  * conditions (stability-corners.c). */
 QDOT_MUST_CHECK qdot_status qdot_stability_by_corner(qdot_judgement *j, qdot_equilibrium *e);
 
+/* A strict minimum of the potential by its lowest terms, where the linear motion does not decide. Sets e->stability
+ * (stability-degenerate.c). */
+QDOT_MUST_CHECK qdot_status qdot_stability_by_degenerate_minimum(qdot_judgement *j, qdot_equilibrium *e);
+
 /* --- the linear motion (stability-roots.c) ----
  * By the roots s of det(M s^2 + Gamma s + H), block by block of coordinates that are coupled:
  * unstable, asymptotically stable, or bounded: stable where nothing is neglected, else to first order.
