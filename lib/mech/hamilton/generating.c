@@ -4,9 +4,11 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/tensor.h"
+#include "expr/walk.h"
 #include "normal/integral/antiderivative.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
@@ -40,15 +42,36 @@ equation_of(const search *s, size_t k)
     return qdot_sub(pool, e, Q);
 }
 
-/* The derivatives of F, in its variables, by a solution for the sought ones. */
+/* e with u for each |u|. */
+static qdot_expr
+without_magnitudes(qdot_pool *pool, qdot_expr e)
+{
+    qdot_walk w;
+    qdot_expr out = e;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return QDOT_NIL;
+    for (size_t i = 0; i < w.n; i++)
+        if (qdot_expr_is_function(pool, w.at[i], QDOT_ABS)) {
+            const qdot_expr u = qdot_expr_arg(pool, w.at[i], 0);
+
+            out = qdot_subs(pool, out, 1, &w.at[i], &u);
+        }
+    qdot_walk_end(&w);
+    return out;
+}
+
+/* The derivatives of F, in its variables, by a solution for the sought ones. Of sqrt(q) cos(p) = Q follows q = Q^2/cos(p)^2,
+ * and sqrt(q) as |Q/cos(p)|, which is Q/cos(p): `plain` tries that, and what follows is proved. */
 static void
-find_derivatives(const search *s, qdot_expr values)
+find_derivatives(const search *s, qdot_expr values, bool plain)
 {
     for (size_t k = 0; k < 2 * s->n; k++) {
         const bool new = k >= s->n;
         qdot_expr e = qdot_simultaneous_put(s->pool, new ? s->other[k - s->n] : s->sought[k], values);
 
         e = qdot_simplify(s->pool, e, s->facts);
+        e = plain ? qdot_simplify(s->pool, without_magnitudes(s->pool, e), s->facts) : e;
         s->a[k] = s->sign[k] < 0 ? qdot_neg(s->pool, e) : e;
     }
 }
@@ -120,8 +143,8 @@ try_type(search *s, unsigned old, unsigned new, qdot_generating *out)
     }
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_simultaneous_all(pool, s->n, s->f, s->sought, QDOT_NIL, s->facts, &found);
-    for (size_t i = 0; status == QDOT_OK && i < found.found.n && F == QDOT_NIL; i++) {
-        find_derivatives(s, found.found.at[i].values);
+    for (size_t i = 0; status == QDOT_OK && i < 2 * found.found.n && F == QDOT_NIL; i++) {
+        find_derivatives(s, found.found.at[i / 2].values, i % 2 == 1);
         status = qdot_pool_check(pool);
         if (status == QDOT_OK)
             F = qdot_potential_of(pool, 2 * s->n, s->u, s->a, s->facts);
