@@ -533,8 +533,26 @@ gather_conditions(qdot_scene *s, qdot_expr set, qdot_expr sign, qdot_expr *all)
     }
 }
 
-/* Join a regime with E < 0 and one with E > 0 that have the same value, where the conditions of each hold for the other
- * sign of E. */
+/* The conditions of a set but the sign of E, each as it is written where nothing is replaced. */
+static qdot_expr
+without_sign(qdot_scene *s, qdot_expr set, qdot_expr sign)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr rest = QDOT_NIL;
+
+    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++) {
+        const qdot_expr relation = qdot_expr_arg(pool, set, i);
+        const qdot_expr gap = qdot_sub(pool, qdot_expr_arg(pool, relation, 1), qdot_expr_arg(pool, relation, 0));
+
+        if (relation != sign)
+            rest = qdot_conditions_and(pool, rest, qdot_condition(pool, qdot_simplify(pool, gap, &facts), qdot_expr_node(pool, relation)->op == QDOT_LT, &facts));
+    }
+    return rest;
+}
+
+/* Join a regime with E < 0 and one with E > 0 that have the same value, where beside the sign of E their conditions are the
+ * same, or the conditions of each hold for the other sign of E. */
 static void
 join_signs(qdot_scene *s, qdot_expr E, qdot_action *out)
 {
@@ -548,9 +566,13 @@ join_signs(qdot_scene *s, qdot_expr E, qdot_action *out)
 
             if (a->value != b->value)
                 continue;
-            gather_conditions(s, a->condition, positive, &all);
-            if (all != QDOT_FALSE)
-                gather_conditions(s, b->condition, negative, &all);
+            all = without_sign(s, a->condition, negative);
+            if (all != without_sign(s, b->condition, positive)) {
+                all = QDOT_NIL;
+                gather_conditions(s, a->condition, positive, &all);
+                if (all != QDOT_FALSE)
+                    gather_conditions(s, b->condition, negative, &all);
+            }
             if (all == QDOT_FALSE)
                 continue;
             a->condition = all;

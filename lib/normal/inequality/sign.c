@@ -4,6 +4,7 @@
 #include <flint/fmpq.h>
 
 #include "expr/build.h"
+#include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -242,12 +243,54 @@ sign_of_function(prover *x, qdot_expr e, int depth, int *sign)
     return QDOT_OK;
 }
 
+/* The number c for which a term of g other than its constant has in c g the coefficient that it has in e, sums; nil: none. */
+static qdot_expr
+common_multiple(qdot_pool *pool, qdot_expr e, qdot_expr g)
+{
+    for (uint32_t i = 1; i < qdot_expr_count(pool, g); i += 2)
+        for (uint32_t k = 1; k < qdot_expr_count(pool, e); k += 2)
+            if (qdot_expr_arg(pool, g, i) == qdot_expr_arg(pool, e, k))
+                return qdot_div(pool, qdot_expr_arg(pool, e, k + 1), qdot_expr_arg(pool, g, i + 1));
+    return QDOT_NIL;
+}
+
+/* The sign of the sum e = c g + r, of a condition 0 < g or 0 <= g, a number c and terms r with the sign of c. */
+static int
+sign_beside_condition(const prover *x, qdot_expr e)
+{
+    qdot_pool *pool = x->pool;
+
+    e = qdot_expand(pool, e);
+    for (size_t i = 0; x->facts != NULL && i < x->facts->n_conditions && e != QDOT_NIL && qdot_expr_kind(pool, e) == QDOT_SUM; i++) {
+        const qdot_expr condition = x->facts->conditions[i];
+        const bool strict = qdot_expr_kind(pool, condition) == QDOT_REL && qdot_expr_node(pool, condition)->op == QDOT_LT;
+        qdot_expr g, c, r;
+
+        if (!strict && !(qdot_expr_kind(pool, condition) == QDOT_REL && qdot_expr_node(pool, condition)->op == QDOT_LE))
+            continue;
+        g = qdot_expand(pool, qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0)));
+        c = g != QDOT_NIL && qdot_expr_kind(pool, g) == QDOT_SUM ? common_multiple(pool, e, g) : QDOT_NIL;
+        if (c == QDOT_NIL)
+            continue;
+        r = qdot_expand(pool, qdot_sub(pool, e, qdot_mul(pool, c, g)));
+        for (int s = 1; s >= -1 && r != QDOT_NIL; s -= 2) {
+            const uint8_t strictly = s > 0 ? QDOT_POS : QDOT_NEG, wanted = strict ? (s > 0 ? QDOT_GE0 : QDOT_LE0) : strictly;
+
+            if ((qdot_expr_sign(pool, c) & strictly) == strictly && ((strict && r == QDOT_ZERO) || (qdot_expr_sign(pool, r) & wanted) == wanted))
+                return s;
+        }
+    }
+    return 0;
+}
+
 static qdot_status
 sign_by_proof(prover *x, qdot_expr e, int *sign)
 {
     qdot_pool *pool = x->pool;
 
-    *sign = 0;
+    *sign = sign_beside_condition(x, e);
+    if (*sign != 0 || qdot_pool_failed(pool))
+        return qdot_grave(qdot_pool_check(pool));
     e = x->left == 0 ? QDOT_NIL : qdot_without_signed_factors(pool, e);
     if (e == QDOT_NIL || qdot_expr_size(pool, e) > LARGEST)
         return qdot_grave(qdot_pool_check(pool));

@@ -5,6 +5,7 @@
  *
  *     A + c sqrt(B): by A^2 - c^2 B where the signs of A and c differ
  *     sum of c n_i log(u_i), n_i integers: by prod u_i^n_i - 1
+ *     c g + r: by a condition 0 < g, where the number c and all of r have one sign
  *     a symbol: by a bound of its domain;   a polynomial: without the factors whose signs are known
  *
  * So the order of two roots of an equation is found, which differ in the argument of one function.

@@ -52,6 +52,17 @@ factors_are_left_out(void **state)
     assert_int_equal(sign_of("b^3 - a*b^2", "a - b"), -1);
 }
 
+/* c g + r of a condition 0 < g: where c and r have one sign. */
+static void
+a_condition_is_a_summand(void **state)
+{
+    (void)state;
+    assert_int_equal(sign_of("2*u*a^2*b + 4*a*b^3", "u*a^2*b + a*b^3"), 1);
+    assert_int_equal(sign_of("2*u*a^2*b + 4*a*b^3", "u*a + b^2"), 1);
+    assert_int_equal(sign_of("-3*u*a*b - 4*a*b^3 - a", "u*a*b + a*b^3"), -1);
+    assert_int_equal(sign_of("2*u*a*b + a*b^3", "u*a*b + a*b^3"), 0);
+}
+
 static void
 symbols_have_the_sign_of_their_bounds(void **state)
 {
@@ -86,6 +97,7 @@ main(void)
         cmocka_unit_test_setup_teardown(roots_are_ordered, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_beside_numbers, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(factors_are_left_out, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(a_condition_is_a_summand, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(symbols_have_the_sign_of_their_bounds, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(what_depends_is_not_known, open_pool, close_pool),
     };
