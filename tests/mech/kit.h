@@ -65,6 +65,16 @@ kit_close(kit *k)
     qdot_pool_free(k->pool);
 }
 
+/* What the scene answered is the status `want` with these words in its message; the pool is as before. */
+static inline void
+refused(kit *k, qdot_status got, qdot_status want, const char *words)
+{
+    assert_int_equal(got, want);
+    if (!strstr(qdot_last_error()->message, words))
+        fail_msg("said: %s", qdot_last_error()->message);
+    must(qdot_pool_check(k->pool));
+}
+
 /* angle nil in space, rotation nil in the plane */
 static inline qdot_status
 declare_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inertia, qdot_expr about,

@@ -1,53 +1,15 @@
 /* test_hdf5.c -- a table as HDF5: what stands in the file, read back, and failures. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "table/kit.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/interrupt.h"
-#include "base/memory.h"
 #include "table/hdf5-read.h"
 #include "table/hdf5.h"
 
-static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
-static qdot_table_column columns[4] = {{.name = "t", .values = t},
-                                       {.name = "a/b < c", .values = x},
-                                       {.name = "hidden", .in = QDOT_IN_TERMINAL | QDOT_IN_ANSWERS, .values = t},
-                                       {.name = "t", .values = x}};
-static const qdot_table_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
-                             parameters[1] = {{"m[1]", NULL, 2.5}};
-static const qdot_table data = {.title = "a table",
-                                .n = 4,
-                                .rows = 3,
-                                .columns = columns,
-                                .n_facts = 2,
-                                .n_parameters = 1,
-                                .facts = facts,
-                                .parameters = parameters};
-
 static const char path[] = "test_hdf5.out"; /* in the folder of the run */
-
-/* The file's bytes, to be freed; *n of them. */
-static char *
-read_back(size_t *n)
-{
-    FILE *file = fopen(path, "rb");
-    char *bytes = calloc(1, 100000);
-
-    assert_non_null(file);
-    assert_non_null(bytes);
-    *n = fread(bytes, 1, 99999, file);
-    fclose(file);
-    return bytes;
-}
 
 static uint64_t
 number(const char *at, int bytes)
@@ -69,7 +31,7 @@ hdf5_ends_where_it_says(void **state)
 
     (void)state;
     assert_int_equal(qdot_table_hdf5(&data, path), QDOT_OK);
-    bytes = read_back(&n);
+    bytes = read_back(path, &n);
     assert_memory_equal(bytes, "\211HDF\r\n\032\n\2\10\10", 11);
     assert_int_equal(number(bytes + 28, 8), n);
     assert_int_equal(number(bytes + 36, 8), 48);
@@ -120,7 +82,7 @@ hdf5_is_read_back(void **state)
     qdot_hdf5_columns_clear(&c);
 
     /* cut anywhere it is refused; with any byte changed it is read or refused */
-    bytes = read_back(&n);
+    bytes = read_back(path, &n);
     for (size_t k = 0; k < n; k++) {
         put(bytes, k);
         assert_int_equal(read_columns(&c), QDOT_EINVAL);
@@ -183,28 +145,14 @@ static void
 failing_memory_is_told(void **state)
 {
     (void)state;
-    for (long n = 0;; n++) {
-        qdot_status status;
-
-        qdot_memory_fail_at(n);
-        status = qdot_table_hdf5(&data, path);
-        qdot_memory_fail_at(-1);
-        if (status == QDOT_OK) {
-            assert_true(n > 0);
-            break;
-        }
-        assert_int_equal(status, QDOT_ENOMEM);
-    }
+    failing_memory_is_told_by(qdot_table_hdf5, path);
 }
 
 static void
 files_that_cannot_be_written_are_told(void **state)
 {
-    const qdot_table empty = {.title = ""};
-
     (void)state;
-    assert_int_equal(qdot_table_hdf5(&data, "/nowhere/x.h5"), QDOT_EIO);
-    assert_int_equal(qdot_table_hdf5(&empty, path), QDOT_EINVAL);
+    what_cannot_be_written_is_told_by(qdot_table_hdf5, path);
 }
 
 int

@@ -1,50 +1,12 @@
 /* test_html.c -- a table as a page and as a part of one. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "table/kit.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "table/html.h"
 
-static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
-static qdot_table_column columns[4] = {{.name = "t", .values = t},
-                                       {.name = "a/b < c", .values = x},
-                                       {.name = "hidden", .in = QDOT_IN_TERMINAL | QDOT_IN_ANSWERS, .values = t},
-                                       {.name = "t", .values = x}};
-static const qdot_table_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
-                             parameters[1] = {{"m[1]", NULL, 2.5}};
-static const qdot_table data = {.title = "a table",
-                                .n = 4,
-                                .rows = 3,
-                                .columns = columns,
-                                .n_facts = 2,
-                                .n_parameters = 1,
-                                .facts = facts,
-                                .parameters = parameters};
-
 static const char path[] = "test_html.out"; /* in the folder of the run */
-
-/* The file's bytes, to be freed; *n of them. */
-static char *
-read_back(size_t *n)
-{
-    FILE *file = fopen(path, "rb");
-    char *bytes = calloc(1, 100000);
-
-    assert_non_null(file);
-    assert_non_null(bytes);
-    *n = fread(bytes, 1, 99999, file);
-    fclose(file);
-    return bytes;
-}
 
 static void
 html_is_escaped(void **state)
@@ -54,7 +16,7 @@ html_is_escaped(void **state)
 
     (void)state;
     assert_int_equal(qdot_table_html(&data, path), QDOT_OK);
-    text = read_back(&n);
+    text = read_back(path, &n);
     assert_non_null(strstr(text, "<dt>program</dt><dd>q &amp; \"p\"</dd>"));
     assert_non_null(strstr(text, "<th>t</th><th>a/b &lt; c</th><th>t</th>"));
     assert_non_null(strstr(text, "<tr><td>0</td><td>2.385</td><td>2.385</td></tr>"));
@@ -85,28 +47,14 @@ static void
 failing_memory_is_told(void **state)
 {
     (void)state;
-    for (long n = 0;; n++) {
-        qdot_status status;
-
-        qdot_memory_fail_at(n);
-        status = qdot_table_html(&data, path);
-        qdot_memory_fail_at(-1);
-        if (status == QDOT_OK) {
-            assert_true(n > 0);
-            break;
-        }
-        assert_int_equal(status, QDOT_ENOMEM);
-    }
+    failing_memory_is_told_by(qdot_table_html, path);
 }
 
 static void
 files_that_cannot_be_written_are_told(void **state)
 {
-    const qdot_table empty = {.title = ""};
-
     (void)state;
-    assert_int_equal(qdot_table_html(&data, "/nowhere/x.html"), QDOT_EIO);
-    assert_int_equal(qdot_table_html(&empty, path), QDOT_EINVAL);
+    what_cannot_be_written_is_told_by(qdot_table_html, path);
 }
 
 int

@@ -1,50 +1,12 @@
 /* test_json.c -- a table as rows of JSON and as a file of JSON. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "table/kit.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "table/json.h"
 
-static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
-static qdot_table_column columns[4] = {{.name = "t", .values = t},
-                                       {.name = "a/b < c", .values = x},
-                                       {.name = "hidden", .in = QDOT_IN_TERMINAL | QDOT_IN_ANSWERS, .values = t},
-                                       {.name = "t", .values = x}};
-static const qdot_table_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
-                             parameters[1] = {{"m[1]", NULL, 2.5}};
-static const qdot_table data = {.title = "a table",
-                                .n = 4,
-                                .rows = 3,
-                                .columns = columns,
-                                .n_facts = 2,
-                                .n_parameters = 1,
-                                .facts = facts,
-                                .parameters = parameters};
-
 static const char path[] = "test_json.out"; /* in the folder of the run */
-
-/* The file's bytes, to be freed; *n of them. */
-static char *
-read_back(size_t *n)
-{
-    FILE *file = fopen(path, "rb");
-    char *bytes = calloc(1, 100000);
-
-    assert_non_null(file);
-    assert_non_null(bytes);
-    *n = fread(bytes, 1, 99999, file);
-    fclose(file);
-    return bytes;
-}
 
 static void
 json_has_facts_and_rows(void **state)
@@ -54,7 +16,7 @@ json_has_facts_and_rows(void **state)
 
     (void)state;
     assert_int_equal(qdot_table_json(&data, path), QDOT_OK);
-    text = read_back(&n);
+    text = read_back(path, &n);
     assert_string_equal(text, "{\"program\":\"q & \\\"p\\\"\",\"tol\":0.25,\n"
                               "\"parameters\":{\"m[1]\":2.5},\n"
                               "\"columns\":[\"t\",\"a/b < c\",\"t\"],\n\"rows\":[\n"
@@ -115,28 +77,14 @@ static void
 failing_memory_is_told(void **state)
 {
     (void)state;
-    for (long n = 0;; n++) {
-        qdot_status status;
-
-        qdot_memory_fail_at(n);
-        status = qdot_table_json(&data, path);
-        qdot_memory_fail_at(-1);
-        if (status == QDOT_OK) {
-            assert_true(n > 0);
-            break;
-        }
-        assert_int_equal(status, QDOT_ENOMEM);
-    }
+    failing_memory_is_told_by(qdot_table_json, path);
 }
 
 static void
 files_that_cannot_be_written_are_told(void **state)
 {
-    const qdot_table empty = {.title = ""};
-
     (void)state;
-    assert_int_equal(qdot_table_json(&data, "/nowhere/x.json"), QDOT_EIO);
-    assert_int_equal(qdot_table_json(&empty, path), QDOT_EINVAL);
+    what_cannot_be_written_is_told_by(qdot_table_json, path);
 }
 
 int

@@ -11,15 +11,6 @@
 #include "sanitized.h"
 
 static void
-refused(kit *k, qdot_status got, qdot_status want, const char *words)
-{
-    assert_int_equal(got, want);
-    if (!strstr(qdot_last_error()->message, words))
-        fail_msg("said: %s", qdot_last_error()->message);
-    must(qdot_pool_check(k->pool));
-}
-
-static void
 wrong_declarations_are_refused(void **state)
 {
     kit k_, *k = &k_;

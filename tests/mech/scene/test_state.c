@@ -17,15 +17,6 @@ state(kit *k, const char *name, const char *rate)
 }
 
 static void
-refused(kit *k, qdot_status got, qdot_status want, const char *words)
-{
-    assert_int_equal(got, want);
-    if (!strstr(qdot_last_error()->message, words))
-        fail_msg("said: %s", qdot_last_error()->message);
-    must(qdot_pool_check(k->pool));
-}
-
-static void
 wrong_states_are_refused(void **unused)
 {
     kit k_, *k = &k_;
