@@ -1,4 +1,4 @@
-/* export.h -- equations as source text in C, Python, Julia, Matlab (and Octave).
+/* export.h -- equations as source text in C, Python, Julia, Matlab (and Octave), JavaScript.
  *
  * What is written is described neutrally: names, tapes, start values. The motion is
  *
