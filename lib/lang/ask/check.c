@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "expr/build.h"
-#include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -15,12 +14,11 @@
 #include "lang/answer/digits.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
-#include "lang/declare/assumed.h"
+#include "lang/ask/check-parts.h"
 #include "lang/declare/constraints.h"
 #include "lang/functions/equilibria.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
-#include "lang/session/evaluation.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
@@ -29,9 +27,6 @@
 #include "lang/session/speeds.h"
 #include "lang/session/units.h"
 #include "lang/syntax/match.h"
-#include "mech/dynamics/quantity.h"
-#include "mech/dynamics/rate.h"
-#include "mech/hamilton/phase-constraints.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"
@@ -51,16 +46,14 @@ QDOT_STATEMENT(check) = {
 
 /* --- deciding a claim --------------------------------------------------------------- */
 
-typedef enum { EQUAL, PROPORTIONAL, LESS, LESS_EQUAL } comparison;
-
 static qdot_status
-decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, comparison how, const qdot_facts *known, qdot_decision *decision)
+decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, qdot_check_comparison how, const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     qdot_expr a, b;
 
-    if (how != EQUAL)
-        return qdot_decide_less(pool, left, right, how == LESS, known, decision);
+    if (how != QDOT_CHECK_EQUAL)
+        return qdot_decide_less(pool, left, right, how == QDOT_CHECK_LESS, known, decision);
     QDOT_TRY(qdot_decide_equal(pool, left, right, known, decision));
     if (decision->verdict != QDOT_UNDECIDED)
         return QDOT_OK;
@@ -86,9 +79,9 @@ residual_of(qdot_pool *pool, qdot_expr e)
 }
 
 /* Decide whether two equations are equivalent: the residual of one is that of the other times a factor without zeros, which
- * may hold velocities where `how` is PROPORTIONAL. */
+ * may hold velocities where `how` is QDOT_CHECK_PROPORTIONAL. */
 static qdot_status
-decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, comparison how, const qdot_facts *known, qdot_decision *decision)
+decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, qdot_check_comparison how, const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     qdot_expr a = residual_of(pool, left), b = residual_of(pool, right);
@@ -102,7 +95,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, compari
     if ((qdot_expr_kind(pool, left) == QDOT_REL && qdot_expr_node(pool, left)->op != QDOT_EQ) ||
         (qdot_expr_kind(pool, right) == QDOT_REL && qdot_expr_node(pool, right)->op != QDOT_EQ))
         return qdot_fail(QDOT_ETYPE, "inequalities are not compared with one another");
-    QDOT_TRY(qdot_decide_proportional(pool, a, b, how == PROPORTIONAL ? QDOT_FACTOR_OF_STATE : QDOT_FACTOR_OF_PLACE, known, decision,
+    QDOT_TRY(qdot_decide_proportional(pool, a, b, how == QDOT_CHECK_PROPORTIONAL ? QDOT_FACTOR_OF_STATE : QDOT_FACTOR_OF_PLACE, known, decision,
                                       &factor, &may_vanish));
     if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
         return QDOT_OK;
@@ -141,10 +134,10 @@ report_unequal_shapes(const qdot_pool *pool, qdot_expr left, qdot_expr right)
                      kind_in_words(pool, right));
 }
 
-/* The verdict of all components is the worst of theirs: the first refutation, else the
- * last undecided, else proved. Members of lists may be vectors: an explicit stack. */
-static qdot_status
-decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+/* The worst verdict is the first refutation, else the last undecided, else proved. Members of lists may be vectors: an explicit
+ * stack. */
+qdot_status
+qdot_check_by_components(qdot_session *session, qdot_expr left, qdot_expr right, qdot_check_comparison how,
                      const qdot_facts *known, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
@@ -159,9 +152,9 @@ decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, com
         qdot_kind kind = qdot_expr_kind(pool, a);
         qdot_decision one = {.left = NAN, .right = NAN};
 
-        if (how == EQUAL && is_text_value(pool, a) && is_text_value(pool, b)) {
+        if (how == QDOT_CHECK_EQUAL && is_text_value(pool, a) && is_text_value(pool, b)) {
             one.verdict = a == b ? QDOT_PROVED : QDOT_REFUTED;
-        } else if (how == PROPORTIONAL && is_equation_or_scalar(pool, a) && is_equation_or_scalar(pool, b)) {
+        } else if (how == QDOT_CHECK_PROPORTIONAL && is_equation_or_scalar(pool, a) && is_equation_or_scalar(pool, b)) {
             status = decide_equations(session, a, b, how, known, &one);
         } else if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
             status = decide_scalars(session, a, b, how, known, &one);
@@ -170,7 +163,7 @@ decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, com
                    (kind == QDOT_MAT &&
                     qdot_expr_node(pool, a)->op != qdot_expr_node(pool, b)->op)) {
             status = report_unequal_shapes(pool, a, b);
-        } else if (how != EQUAL && how != PROPORTIONAL) {
+        } else if (how != QDOT_CHECK_EQUAL && how != QDOT_CHECK_PROPORTIONAL) {
             status = qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_in_words(pool, a));
         } else if (kind == QDOT_REL) {
             status = decide_equations(session, a, b, how, known, &one);
@@ -190,7 +183,7 @@ decide_by_components(qdot_session *session, qdot_expr left, qdot_expr right, com
 
 /* Compare numbers of runs: |a - b| <= tol max(1, |b|) for equality, or a < b. */
 static qdot_status
-compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, qdot_check_comparison how,
                 double tol, qdot_decision *decision)
 {
     double difference, errors[2];
@@ -201,10 +194,10 @@ compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparis
     difference = decision->left - decision->right;
     if (qdot_digits_of(session, left) > 0 || qdot_digits_of(session, right) > 0)
         QDOT_TRY(qdot_digits_difference(session, left, right, &difference));
-    if (how == EQUAL)
+    if (how == QDOT_CHECK_EQUAL)
         holds = fabs(difference) <= tol * fmax(1, fabs(decision->right));
     else
-        holds = how == LESS ? difference < 0 : difference <= 0;
+        holds = how == QDOT_CHECK_LESS ? difference < 0 : difference <= 0;
     decision->verdict = holds ? QDOT_PROVED : QDOT_REFUTED;
     if (holds || !(isnan(errors[0]) || isnan(errors[1])))
         return QDOT_OK;
@@ -213,7 +206,7 @@ compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparis
 
 /* Compare two values component by component within a tolerance; the first refuted component decides. */
 static qdot_status
-decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison how, double tol, qdot_decision *decision)
+decide_within(qdot_session *session, qdot_expr left, qdot_expr right, qdot_check_comparison how, double tol, qdot_decision *decision)
 {
     qdot_pool *pool = session->pool;
     uint32_t n = qdot_expr_count(pool, left);
@@ -231,22 +224,13 @@ decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison
 
 /* --- the statement `check` ---------------------------------------------------------- */
 
-typedef struct {
-    bool not, conserved, within, integrable;
-    bool turned; /* the claim was a > b; decided as b < a */
-    qdot_expr left, right;
-    comparison how;
-    double tol;
-    qdot_passed passed; /* subexpressions that were evaluated while the sides of the claim were read */
-} question;
-
 /* Split a relation such as `check (a = b)`, or a name that stands for one, into its two sides. */
 static qdot_status
-split_relation(qdot_record *r, const qdot_filled *part, question *q)
+split_relation(qdot_record *r, const qdot_filled *part, qdot_check_question *q)
 {
     qdot_pool *pool = r->cursor.session->pool;
     qdot_expr e = q->left;
-    static const comparison how[] = {[QDOT_EQ] = EQUAL, [QDOT_LT] = LESS, [QDOT_LE] = LESS_EQUAL};
+    static const qdot_check_comparison how[] = {[QDOT_EQ] = QDOT_CHECK_EQUAL, [QDOT_LT] = QDOT_CHECK_LESS, [QDOT_LE] = QDOT_CHECK_LESS_EQUAL};
 
     if (e == QDOT_TRUE || e == QDOT_FALSE) { /* a relation between numbers, decided when it was read */
         q->left = e == QDOT_TRUE ? QDOT_ZERO : QDOT_ONE;
@@ -262,7 +246,7 @@ split_relation(qdot_record *r, const qdot_filled *part, question *q)
 }
 
 static qdot_status
-read_comparison(qdot_record *r, const qdot_filled *part, question *q)
+read_comparison(qdot_record *r, const qdot_filled *part, qdot_check_question *q)
 {
     const char *relation = r->compiled.at[part->first].to->text;
 
@@ -270,14 +254,14 @@ read_comparison(qdot_record *r, const qdot_filled *part, question *q)
     if (part->n == 1)
         return split_relation(r, part, q);
     q->turned = relation[0] == '>';
-    q->how = relation[0] == '=' ? EQUAL : relation[0] == '~' ? PROPORTIONAL : relation[1] == '=' ? LESS_EQUAL : LESS;
+    q->how = relation[0] == '=' ? QDOT_CHECK_EQUAL : relation[0] == '~' ? QDOT_CHECK_PROPORTIONAL : relation[1] == '=' ? QDOT_CHECK_LESS_EQUAL : QDOT_CHECK_LESS;
     QDOT_TRY(qdot_record_side(r, part, 1, &q->right));
     r->cursor.error_at = r->compiled.at[part->first].to->start;
     return qdot_units_join(r->cursor.session, q->left, q->right, "%s is compared with %s");
 }
 
 static qdot_status
-read_question(qdot_record *r, question *q, qdot_assumed *f)
+read_question(qdot_record *r, qdot_check_question *q, qdot_assumed *f)
 {
     const qdot_filled *sides = qdot_record_hole(r, NULL, "A"), *within = qdot_record_hole(r, "within", NULL);
     qdot_session *session = r->cursor.session;
@@ -326,16 +310,15 @@ exchange_sides(qdot_decision *decision)
 
 /* The LIST of subexpressions that must be defined, with the replacements after `when` made; nil on failure. */
 static qdot_expr
-list_defined_subexpressions(qdot_session *session, const qdot_assumed *f, const question *q)
+list_defined_subexpressions(qdot_session *session, const qdot_assumed *f, const qdot_check_question *q)
 {
     qdot_expr list = qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
 
     return list == QDOT_NIL ? list : qdot_assumed_replace(session, f, list);
 }
 
-/* If nothing was refuted: give a notice if the conditions contradict each other. */
-static qdot_status
-report_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
+qdot_status
+qdot_check_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
 {
     qdot_pool *pool = session->pool;
     qdot_vec(qdot_expr) conditions = {0};
@@ -369,9 +352,8 @@ report_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_fa
     return status;
 }
 
-/* All facts known for the decision of the claim, in the form that the functions qdot_decide_... take. */
-static qdot_facts
-collect_known_facts(qdot_session *session, const qdot_assumed *f, const question *q)
+qdot_facts
+qdot_check_known_facts(qdot_session *session, const qdot_assumed *f, const qdot_check_question *q)
 {
     /* a given function of time leaves its second derivative free, so accelerations count as known */
     return (qdot_facts){f->relations.n, f->relations.at,
@@ -382,7 +364,7 @@ collect_known_facts(qdot_session *session, const qdot_assumed *f, const question
 
 /* If momenta and velocities both occur, on either side of the claim or in its assumptions, write all in velocities. */
 static qdot_status
-replace_momenta_by_velocities(qdot_session *session, question *q, qdot_assumed *f)
+replace_momenta_by_velocities(qdot_session *session, qdot_check_question *q, qdot_assumed *f)
 {
     const qdot_expr sides[] = {q->left, q->right};
     qdot_vec(qdot_expr) list = {0};
@@ -418,19 +400,19 @@ replace_momenta_by_velocities(qdot_session *session, question *q, qdot_assumed *
 /* Whether both sides contain multipliers and are equal for all values of them, as a reaction and
  * its components. */
 static qdot_status
-holds_for_all_multipliers(qdot_session *session, const question *q, const qdot_assumed *f, bool *is)
+holds_for_all_multipliers(qdot_session *session, const qdot_check_question *q, const qdot_assumed *f, bool *is)
 {
     qdot_pool *pool = session->pool;
     qdot_decision decision;
     qdot_facts known;
 
-    *is = q->how == EQUAL && (qdot_expr_node(pool, q->left)->holds & QDOT_HAS_MULTIPLIER) &&
+    *is = q->how == QDOT_CHECK_EQUAL && (qdot_expr_node(pool, q->left)->holds & QDOT_HAS_MULTIPLIER) &&
           (qdot_expr_node(pool, q->right)->holds & QDOT_HAS_MULTIPLIER);
     if (!*is)
         return QDOT_OK;
-    known = collect_known_facts(session, f, q);
+    known = qdot_check_known_facts(session, f, q);
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(decide_by_components(session, qdot_assumed_replace(session, f, q->left),
+    QDOT_TRY(qdot_check_by_components(session, qdot_assumed_replace(session, f, q->left),
                                   qdot_assumed_replace(session, f, q->right), q->how, &known, &decision));
     *is = decision.verdict == QDOT_PROVED;
     return QDOT_OK;
@@ -439,7 +421,7 @@ holds_for_all_multipliers(qdot_session *session, const question *q, const qdot_a
 /* A multiplier among values is what the equations make of it; beside accelerations, in an equation or in
  * numbers of a run it stays itself. */
 static qdot_status
-replace_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
+replace_multipliers(qdot_session *session, const qdot_check_question *q, qdot_assumed *f)
 {
     bool formal;
     const qdot_pool *pool = session->pool;
@@ -459,15 +441,23 @@ replace_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
 
 /* Whether a side holds a function that is given by data. */
 static bool
-holds_data(qdot_session *session, const question *q)
+holds_data(qdot_session *session, const qdot_check_question *q)
 {
     const qdot_expr both = qdot_session_bind(session, qdot_list(session->pool, 2, (qdot_expr[]){q->left, q->right}));
 
     return both != QDOT_NIL && qdot_expr_find_function(session->pool, both, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL;
 }
 
-static qdot_status
-answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
+qdot_status
+qdot_check_answer(qdot_session *session, const qdot_check_question *q, qdot_expr left, qdot_expr right, const qdot_decision *decision)
+{
+    if (decision->verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
+        session->outcome->refuted = true;
+    return qdot_answer_check(session, left, right, decision);
+}
+
+qdot_status
+qdot_check_compare(qdot_cursor *c, qdot_check_question *q, qdot_assumed *f)
 {
     qdot_session *session = c->session;
     qdot_pool *pool = session->pool;
@@ -484,9 +474,9 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     QDOT_TRY(replace_multipliers(session, q, f));
     QDOT_TRY(replace_momenta_by_velocities(session, q, f));
     measured = qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
-    if (q->how == PROPORTIONAL && (measured || q->within))
+    if (q->how == QDOT_CHECK_PROPORTIONAL && (measured || q->within))
         return qdot_fail(QDOT_EINVAL, "`~` compares equations, not numbers");
-    if (measured && q->how == EQUAL && !q->within) {
+    if (measured && q->how == QDOT_CHECK_EQUAL && !q->within) {
         (void)qdot_fail(QDOT_EINVAL, "numbers of a run are never exactly equal");
         return qdot_hint("check ... within 1e-9");
     }
@@ -500,13 +490,13 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
         left = qdot_assumed_replace(session, f, q->left);
         right = qdot_assumed_replace(session, f, q->right);
         QDOT_TRY(qdot_pool_check(pool));
-        known = collect_known_facts(session, f, q);
+        known = qdot_check_known_facts(session, f, q);
         QDOT_TRY(qdot_pool_check(pool));
         if (q->turned) {
-            QDOT_TRY(decide_by_components(session, right, left, q->how, &known, &decision));
+            QDOT_TRY(qdot_check_by_components(session, right, left, q->how, &known, &decision));
             exchange_sides(&decision);
         } else {
-            QDOT_TRY(decide_by_components(session, left, right, q->how, &known, &decision));
+            QDOT_TRY(qdot_check_by_components(session, left, right, q->how, &known, &decision));
         }
     }
     if (!q->within && !measured && decision.verdict == QDOT_REFUTED && holds_data(session, q)) { /* it took other values than the data's */
@@ -516,118 +506,13 @@ answer_comparison(qdot_cursor *c, question *q, qdot_assumed *f)
     QDOT_TRY(qdot_pool_check(pool));
     if (!q->within && !measured &&
         (decision.verdict == QDOT_PROVED || decision.points == 0 || f->from.n > 0))
-        QDOT_TRY(report_contradiction(session, f, &known));
-    if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
-        session->outcome->refuted = true;
-    return qdot_answer_check(session, q->left, q->right, &decision);
-}
-
-/* A scalar as a function of the state: accelerations, and rates of momenta, by the equations of motion. */
-static qdot_expr
-function_of_state(qdot_pool *pool, qdot_expr e, void *user)
-{
-    qdot_session *session = user;
-
-    if (!qdot_session_in_speeds(session, e))
-        e = qdot_session_speeds_replaced(session, e);
-    if (e == QDOT_NIL)
-        return e;
-    if (qdot_mech_holds_momentum_rate(session->scene, e))
-        e = qdot_momenta_to_velocities(session, e);
-    return e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & QDOT_HAS_ACCELERATION) && session->scene->coordinates.n > 0
-               ? qdot_rate_on_motion(session->scene, e) : e;
-}
-
-/* The rate of a scalar where it needs no accelerations; *missing: it does. */
-typedef struct {
-    qdot_session *session;
-    bool missing;
-} rate_search;
-
-static qdot_expr
-rate_of_component(qdot_pool *pool, qdot_expr e, void *user)
-{
-    rate_search *search = user;
-    const bool speeds = qdot_session_in_speeds(search->session, e);
-    qdot_expr rate = speeds ? qdot_session_speeds_rate(search->session, e) : qdot_mech_rate(search->session->scene, e);
-
-    if (rate != QDOT_NIL || qdot_pool_failed(pool))
-        return qdot_phase_constraints_put(search->session->scene, rate);
-    search->missing = true;
-    return QDOT_ZERO;
-}
-
-/* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so.
- * Where multipliers are left, which the state tells, or a coordinate has no mass, only a proof
- * counts. */
-static qdot_status
-decide_conserved_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
-{
-    qdot_pool *pool = session->pool;
-    qdot_decision decision;
-    qdot_facts known;
-    rate_search search = {.session = session};
-    qdot_expr rate, zero;
-
-    *done = false;
-    if (session->scene->coordinates.n == 0 ||
-        f->from.n > 0 || qdot_measured_occurs(session, q->left))
-        return QDOT_OK;
-    rate = qdot_value_map(pool, q->left, rate_of_component, &search);
-    zero = qdot_value_sub(pool, rate, rate);
-    QDOT_TRY(qdot_pool_check(pool));
-    if (search.missing)
-        return QDOT_OK;
-    f->motion = true;
-    for (size_t i = 0; i < session->scene->constraints.n; i++)
-        QDOT_TRY(qdot_assumed_constraint(session, f, i, false));
-    known = collect_known_facts(session, f, q);
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(decide_by_components(session, rate, zero, EQUAL, &known, &decision));
-    *done = decision.verdict == QDOT_PROVED ||
-            ((qdot_expr_node(pool, rate)->holds & QDOT_HAS_MULTIPLIER) == 0 &&
-             !qdot_mech_lacks_mass(session->scene));
-    if (!*done)
-        return QDOT_OK;
-    if (decision.verdict == QDOT_PROVED)
-        QDOT_TRY(report_contradiction(session, f, &known));
-    if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
-        session->outcome->refuted = true;
-    return qdot_answer_check(session, rate, zero, &decision);
-}
-
-/* `conserved E`: by its rate, else with accelerations put in; undecided where E jumps with time. */
-static qdot_status
-answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
-{
-    qdot_session *session = c->session;
-    qdot_decision decision = {.verdict = QDOT_UNDECIDED};
-    bool done, jumps;
-
-    q->left = qdot_value_map(session->pool, q->left, function_of_state, session);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
-    if (!jumps) {
-        QDOT_TRY(decide_conserved_by_rate(session, q, f, &done));
-        if (done)
-            return QDOT_OK;
-    }
-    q->left = qdot_momenta_to_velocities(session, q->left); /* and speeds */
-    QDOT_TRY(qdot_pool_check(session->pool));
-    q->left = qdot_ddt(session->pool, q->left);
-    q->right = qdot_value_sub(session->pool, q->left, q->left);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    if (jumps) {
-        QDOT_TRY(qdot_answer_notice(session, "it jumps with time: its rate is that between jumps"));
-        return qdot_answer_check(session, q->left, q->right, &decision);
-    }
-    QDOT_TRY(qdot_assumed_motion(session, f));
-    return answer_comparison(c, q, f);
+        QDOT_TRY(qdot_check_contradiction(session, f, &known));
+    return qdot_check_answer(session, q, q->left, q->right, &decision);
 }
 
 /* The equations of motion could not be solved for q'' within the work budget: undecided, with what may help. */
 static qdot_status
-answer_past_budget(qdot_session *session, const question *q)
+answer_past_budget(qdot_session *session, const qdot_check_question *q)
 {
     const char *numbers = q->conserved ? "`drift(...)` is its change along a run"
                                        : "`check ... within 1e-9` compares numbers of a run";
@@ -641,7 +526,7 @@ static qdot_status
 answer_claim(qdot_record *r)
 {
     qdot_cursor *c = &r->cursor;
-    question q = {.right = QDOT_ZERO};
+    qdot_check_question q = {.right = QDOT_ZERO};
     qdot_assumed f = {0};
     qdot_status status = qdot_assumed_begin(c->session, &f);
 
@@ -657,7 +542,7 @@ answer_claim(qdot_record *r)
         status = qdot_constraints_check_integrable(r, qdot_record_hole(r, NULL, "LABEL"), q.not);
     } else if (status == QDOT_OK) {
         c->error_at = r->start->start;
-        status = q.conserved ? answer_conserved(c, &q, &f) : answer_comparison(c, &q, &f);
+        status = q.conserved ? qdot_check_conserved(c, &q, &f) : qdot_check_compare(c, &q, &f);
     }
     if (status == QDOT_ELIMIT && f.motion)
         status = answer_past_budget(c->session, &q);
