@@ -453,6 +453,8 @@ simplify_mod(qdot_pool *pool, const qdot_expr *args)
 {
     if (args[1] == QDOT_ZERO)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "mod by zero");
+    if (args[0] == QDOT_ZERO && (NODE(pool, args[1])->sign & QDOT_NE0))
+        return QDOT_ZERO;
     if (NUMBER(pool, args[0]) == NULL ||
         NUMBER(pool, args[1]) == NULL)
         return make_function_node(pool, QDOT_MOD, 2, args);

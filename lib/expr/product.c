@@ -661,6 +661,8 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return a;
     if (b == QDOT_ZERO)
         return QDOT_ONE;
+    if (a == QDOT_ZERO && (NODE(pool, b)->sign & QDOT_POS) == QDOT_POS)
+        return QDOT_ZERO;
     if (qdot_expr_is_atom(pool, a)) {
         qdot_expr args[] = {QDOT_ONE, a, b};
 

@@ -43,7 +43,7 @@ integrate_between(integration *i, qdot_expr e, const qdot_facts *facts)
 {
     qdot_definite_answer answer;
 
-    i->status = qdot_definite(i->session->pool, e, i->x, i->lo, i->hi, facts, &answer);
+    i->status = qdot_definite_by_cases(i->session->pool, e, i->x, i->lo, i->hi, facts, &answer);
     if (i->status != QDOT_OK)
         return QDOT_NIL;
     switch (answer.kind) {

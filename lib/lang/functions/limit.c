@@ -46,6 +46,21 @@ fail_with_both_sides(task *t, const qdot_limit_answer *found)
     return status;
 }
 
+/* Fail because the limit depends on a sign that is not known. */
+static qdot_status
+fail_with_sign(task *t, qdot_expr undecided)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(t->session->pool, undecided, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "the limit depends on the sign of %.100s", qdot_text_str(&text));
+    if (status == QDOT_EDOMAIN)
+        (void)qdot_hint("declare a domain from which it follows, as in param a > 0, b < 1");
+    qdot_text_clear(&text);
+    return status;
+}
+
 static qdot_expr
 limit_of_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -65,6 +80,10 @@ limit_of_scalar(qdot_pool *pool, qdot_expr e, void *user)
         t->status = qdot_fail(QDOT_EDOMAIN, "the expression is not defined there");
         return e;
     case QDOT_LIMIT_NOT_FOUND: break;
+    }
+    if (found.undecided != QDOT_NIL) {
+        t->status = fail_with_sign(t, found.undecided);
+        return e;
     }
     t->status = qdot_fail(QDOT_EDOMAIN, "no limit was found");
     (void)qdot_hint("it may depend on a sign (param a > 0), or not exist; series(E, x = a, n) shows more");

@@ -271,6 +271,8 @@ answer_sign(qdot_growth *g, qdot_expr e, int *sign)
     if (qdot_expr_contains(g->pool, c, g->x))
         return qdot_growth_sign(g, c, sign);
     *sign = qdot_proved_sign(g->pool, c, g->facts);
+    if (*sign == 2 && g->undecided == QDOT_NIL)
+        g->undecided = c;
     return *sign == 2 ? QDOT_EFAILED : QDOT_OK;
 }
 
@@ -314,9 +316,72 @@ is_power_with_logarithm(const qdot_growth *g, qdot_expr e, qdot_expr *c, int *or
     return *c != QDOT_NIL;
 }
 
+/* e = front exp(log), front free of x: e is an exponential or a product with one; nil in *log: it is neither. */
+static qdot_status
+read_logarithm(qdot_growth *g, qdot_expr e, qdot_expr *front, qdot_expr *log)
+{
+    qdot_pool *pool = g->pool;
+    bool is_one = false;
+
+    *front = QDOT_ONE;
+    *log = is_exponential(pool, e) ? qdot_expr_arg(pool, e, 0) : QDOT_NIL;
+    if (qdot_expr_kind(pool, e) != QDOT_PROD)
+        return QDOT_OK;
+    *front = qdot_expr_arg(pool, e, 0);
+    *log = QDOT_ZERO;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
+        const bool odd = qdot_expr_to_int(pool, p, &(long){0}) && !qdot_expr_to_int(pool, qdot_mul(pool, QDOT_HALF, p), &(long){0});
+        int sign = 1;
+
+        if (!qdot_expr_contains(pool, b, g->x)) {
+            *front = qdot_mul(pool, *front, qdot_pow(pool, b, p));
+        } else if (is_exponential(pool, b)) {
+            *log = qdot_add(pool, *log, qdot_mul(pool, p, qdot_expr_arg(pool, b, 0)));
+            is_one = true;
+        } else {
+            QDOT_TRY(qdot_growth_sign(g, b, &sign));
+            if (sign == 0 || (sign < 0 && !qdot_expr_to_int(pool, p, &(long){0})))
+                return QDOT_EFAILED;
+            *log = qdot_add(pool, *log, qdot_mul(pool, p, qdot_fun1(pool, QDOT_LOG, sign < 0 ? qdot_neg(pool, b) : b)));
+        }
+        *front = sign < 0 && odd ? qdot_neg(pool, *front) : *front;
+    }
+    *log = is_one ? qdot_expand(pool, *log) : QDOT_NIL;
+    return QDOT_OK;
+}
+
+/* The limit by that of the logarithm, for exponents whose ratio is no rational number; QDOT_EFAILED: not found. */
+static qdot_status
+answer_by_logarithm(qdot_growth *g, qdot_expr e, qdot_expr *limit)
+{
+    qdot_pool *pool = g->pool;
+    qdot_expr front, log;
+    int sign;
+
+    e = qdot_walk_replace(pool, e, QDOT_PROD, power_as_exponential, g);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(read_logarithm(g, e, &front, &log));
+    if (log == QDOT_NIL)
+        return QDOT_EFAILED;
+    QDOT_TRY(qdot_growth_limit(g, log, limit));
+    if (qdot_infinite(pool, *limit) == 0) {
+        *limit = qdot_mul(pool, front, qdot_fun1(pool, QDOT_EXP, *limit));
+        return QDOT_OK;
+    }
+    if (qdot_infinite(pool, *limit) < 0) {
+        *limit = QDOT_ZERO;
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_growth_sign(g, front, &sign));
+    *limit = sign > 0 ? QDOT_INFINITY : qdot_neg(pool, QDOT_INFINITY);
+    return sign == 0 ? QDOT_EFAILED : QDOT_OK;
+}
+
 static qdot_status
 answer_limit(qdot_growth *g, qdot_expr e, qdot_expr *limit)
 {
+    qdot_status status;
     qdot_expr c;
     long n, d;
     int sign;
@@ -325,7 +390,10 @@ answer_limit(qdot_growth *g, qdot_expr e, qdot_expr *limit)
         n = -sign;
         d = 1;
     } else {
-        QDOT_TRY(find_first_term(g, e, &c, &n, &d));
+        status = find_first_term(g, e, &c, &n, &d);
+        if (status == QDOT_EFAILED && !g->undefined)
+            return answer_by_logarithm(g, e, limit);
+        QDOT_TRY(status);
     }
     if (n > 0 || c == QDOT_ZERO) {
         *limit = QDOT_ZERO;

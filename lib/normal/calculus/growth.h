@@ -13,6 +13,7 @@ typedef struct {
     int depth;      /* questions within questions */
     long work;      /* how many more may be asked */
     bool undefined; /* what was asked for is not real near infinity */
+    qdot_expr undecided; /* the first expression free of x whose sign was needed and is not known; nil: none */
 } qdot_growth;
 
 /* The limit of e: a value, or QDOT_INFINITY or minus it. QDOT_EFAILED: not found. */

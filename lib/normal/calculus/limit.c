@@ -137,8 +137,13 @@ resolve_wave(approach *a, qdot_expr e, qdot_expr u)
     qdot_pool *pool = a->growth.pool;
     const qdot_fun_id f = (qdot_fun_id)qdot_expr_node(pool, e)->op;
     qdot_expr limit = QDOT_NIL, up, down, sum, difference;
+    const qdot_expr undecided = a->growth.undecided;
     const qdot_status status = holds_bounded(a, u) ? QDOT_EFAILED : qdot_growth_limit(&a->growth, u, &limit);
 
+    if (status == QDOT_EFAILED && (f == QDOT_SIN || f == QDOT_COS)) { /* whatever u does */
+        a->growth.undecided = undecided;
+        return qdot_pool_check(pool) == QDOT_OK ? bounded_symbol(a) : fail_approach(a, status);
+    }
     if (status != QDOT_OK)
         return fail_approach(a, status);
     if (qdot_infinite(pool, limit) == 0)
@@ -311,6 +316,28 @@ drop_bounded(approach *a, qdot_expr *e, bool *remain)
     return QDOT_OK;
 }
 
+/* Whether e holds a power whose base is negative near the place and whose exponent moves: it has no real values on an interval. */
+static bool
+has_power_of_negative(approach *a, qdot_expr e)
+{
+    qdot_pool *pool = a->growth.pool;
+    bool found = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++)
+        for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]) && !found; k += 2) {
+            const qdot_expr b = qdot_expr_arg(pool, w.at[i], k), p = qdot_expr_arg(pool, w.at[i], k + 1);
+            int sign;
+
+            found = qdot_expr_contains(pool, p, a->growth.x) && !holds_bounded(a, b) &&
+                    qdot_growth_sign(&a->growth, b, &sign) == QDOT_OK && sign < 0;
+        }
+    qdot_walk_end(&w);
+    return found;
+}
+
 /* --- one side, both sides -------------------------------------------------------------------------------- */
 
 /* The limit of e as x tends to at + sign/X, X to infinity; `at` may be infinite. Complete elliptic integrals are expanded, or
@@ -342,6 +369,10 @@ limit_on_side_by(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_exp
         e = qdot_walk_replace(pool, e, QDOT_FUN, resolve_function, &a);
     if (status == QDOT_OK)
         status = a.status != QDOT_OK ? a.status : qdot_pool_check(pool);
+    if (status == QDOT_OK && has_power_of_negative(&a, e)) {
+        a.growth.undefined = true;
+        status = QDOT_EFAILED;
+    }
     if (status == QDOT_OK)
         status = drop_bounded(&a, &e, &remain);
     if (status == QDOT_OK)
@@ -353,6 +384,7 @@ limit_on_side_by(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, qdot_exp
     if (status != QDOT_OK) {
         if (a.growth.undefined)
             answer->kind = QDOT_LIMIT_UNDEFINED;
+        answer->undecided = a.growth.undecided;
         QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
         return QDOT_OK;
     }
@@ -403,7 +435,8 @@ join_sides(qdot_pool *pool, const qdot_facts *facts, const qdot_limit_answer *le
     *answer = left->kind == QDOT_LIMIT_UNDEFINED ? *right : *left;
     if (left->kind == QDOT_LIMIT_UNDEFINED || right->kind == QDOT_LIMIT_UNDEFINED)
         return QDOT_OK;
-    *answer = (qdot_limit_answer){.kind = QDOT_LIMIT_NOT_FOUND};
+    *answer = (qdot_limit_answer){.kind = QDOT_LIMIT_NOT_FOUND,
+                                  .undecided = left->undecided != QDOT_NIL ? left->undecided : right->undecided};
     if (left->kind == QDOT_LIMIT_NOT_FOUND || right->kind == QDOT_LIMIT_NOT_FOUND)
         return QDOT_OK;
     if (left->value == right->value) {

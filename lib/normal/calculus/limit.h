@@ -29,6 +29,7 @@ typedef enum {
 typedef struct {
     qdot_limit_kind kind;
     qdot_expr value, left, right;
+    qdot_expr undecided; /* NOT_FOUND: an expression of parameters whose sign must be known; nil: there may be none */
 } qdot_limit_answer;
 
 /* The limit of the scalar e as the symbol x tends to a, which may be QDOT_INFINITY or minus it. side: 1 from the right,

@@ -51,6 +51,8 @@ between_ends(qdot_span *r, qdot_expr F, qdot_expr lo, qdot_expr hi, qdot_definit
     } else if (from.kind == QDOT_END_VALUE && to.kind == QDOT_END_VALUE) {
         answer->kind = QDOT_DEFINITE_FOUND;
         answer->value = qdot_sub(r->pool, to.value, from.value);
+    } else {
+        answer->undecided = from.undecided != QDOT_NIL ? from.undecided : to.undecided;
     }
     return QDOT_OK;
 }
@@ -69,7 +71,7 @@ between_ends_by_cases(qdot_span *r, qdot_expr F, qdot_definite_answer *answer)
         if (answer->kind != QDOT_DEFINITE_FOUND)
             return QDOT_OK;
         first = *answer;
-        *answer = (qdot_definite_answer){QDOT_DEFINITE_NOT_FOUND, QDOT_NIL, QDOT_NIL};
+        *answer = (qdot_definite_answer){.kind = QDOT_DEFINITE_NOT_FOUND};
         QDOT_TRY(between_ends_by_cases(r, qdot_expr_arg(pool, F, 2), answer));
         if (answer->kind == QDOT_DEFINITE_FOUND && first.value != answer->value)
             answer->value = qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){condition, first.value, answer->value});
@@ -113,7 +115,7 @@ find_piece(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi
 {
     qdot_span r = {.pool = pool, .facts = facts, .lo = lo, .hi = hi, .ordered = ordered, .status = QDOT_OK};
 
-    *answer = (qdot_definite_answer){QDOT_DEFINITE_NOT_FOUND, QDOT_NIL, QDOT_NIL};
+    *answer = (qdot_definite_answer){.kind = QDOT_DEFINITE_NOT_FOUND};
     r.x = ordered ? variable_between(pool, lo, hi) : x;
     e = qdot_subs(pool, e, 1, &x, &r.x);
     if (ordered)
@@ -162,7 +164,7 @@ find_whole(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi
     F = qdot_antiderivative_by_cases(pool, e, x, facts);
     F = qdot_sub(pool, qdot_piecewise_at(pool, F, x, hi, facts), qdot_piecewise_at(pool, F, x, lo, facts));
     if (F != QDOT_NIL)
-        *answer = (qdot_definite_answer){QDOT_DEFINITE_FOUND, F, QDOT_NIL};
+        *answer = (qdot_definite_answer){.kind = QDOT_DEFINITE_FOUND, .value = F};
     return qdot_grave(qdot_pool_check(pool));
 }
 
@@ -173,9 +175,9 @@ qdot_definite(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr
     qdot_span r = {.pool = pool, .facts = facts, .status = QDOT_OK};
     bool backward = false, ordered = true;
 
-    *answer = (qdot_definite_answer){QDOT_DEFINITE_NOT_FOUND, QDOT_NIL, QDOT_NIL};
+    *answer = (qdot_definite_answer){.kind = QDOT_DEFINITE_NOT_FOUND};
     if (lo == hi) {
-        *answer = (qdot_definite_answer){QDOT_DEFINITE_FOUND, QDOT_ZERO, QDOT_NIL};
+        *answer = (qdot_definite_answer){.kind = QDOT_DEFINITE_FOUND, .value = QDOT_ZERO};
         return QDOT_OK;
     }
     if (is_infinite(pool, lo) || is_infinite(pool, hi)) {

@@ -28,10 +28,17 @@ typedef struct {
     qdot_definite_kind kind;
     qdot_expr value;
     qdot_expr at; /* DIVERGES, UNDEFINED: where; nil: not known */
+    qdot_expr undecided; /* NOT_FOUND: an expression of parameters whose sign must be known; nil: there may be none */
 } qdot_definite_answer;
 
 /* Integrate the scalar e over x from lo to hi, scalars free of x. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_definite(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi,
                                           const qdot_facts *facts, qdot_definite_answer *answer);
+
+/* The same; where the value or whether there is one depends on the sign of an expression s of parameters, if(s > 0, A, B).
+ * What is not found in one of the cases, or diverges there, stands as an integral. For s = 0 the value is that of B, if B is
+ * defined there. */
+QDOT_MUST_CHECK qdot_status qdot_definite_by_cases(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr lo, qdot_expr hi,
+                                                   const qdot_facts *facts, qdot_definite_answer *answer);
 
 #endif

@@ -43,6 +43,12 @@ zero_matters(qdot_pool *pool, qdot_expr e, uint32_t k)
            (k % 2 == 1 && !(qdot_expr_to_int(pool, qdot_expr_arg(pool, e, k + 1), &n) && n > 0));
 }
 
+static bool
+has_known_sign(const qdot_pool *pool, qdot_expr e)
+{
+    return (qdot_expr_sign(pool, e) & (QDOT_GE0 | QDOT_LE0)) != 0;
+}
+
 /* F at x = at, with 0 for arguments and bases that are 0 there in disguise; nil: F has no value there, it divides by 0. */
 static qdot_expr
 value_at(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, const qdot_facts *facts)
@@ -62,6 +68,8 @@ value_at(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, const qdot_fac
             if (!qdot_expr_contains(pool, u, x) || !zero_matters(pool, w.at[i], k))
                 continue;
             value = qdot_subs(pool, u, 1, &x, &at);
+            if (value == QDOT_ZERO && kind == QDOT_PROD) /* 0^p with a p that may be negative */
+                defined = defined && has_known_sign(pool, qdot_expr_arg(pool, w.at[i], k + 1));
             if (value == QDOT_NIL || value == QDOT_ZERO || !qdot_is_zero(pool, value, facts))
                 continue;
             defined = defined && (kind == QDOT_FUN || (qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k + 1)) & QDOT_GE0));
@@ -77,7 +85,7 @@ qdot_end_value(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, int side
 {
     qdot_limit_answer limit;
 
-    *end = (qdot_end){QDOT_END_UNKNOWN, QDOT_NIL};
+    *end = (qdot_end){QDOT_END_UNKNOWN, QDOT_NIL, QDOT_NIL};
     if (qdot_infinite(pool, at) == 0) {
         end->value = value_at(pool, F, x, at, facts);
         QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
@@ -92,6 +100,8 @@ qdot_end_value(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, int side
     if (limit.kind == QDOT_LIMIT_VALUE || limit.kind == QDOT_LIMIT_INFINITE) {
         end->kind = limit.kind == QDOT_LIMIT_VALUE ? QDOT_END_VALUE : QDOT_END_INFINITE;
         end->value = limit.value;
+    } else {
+        end->undecided = limit.undecided;
     }
     return QDOT_OK;
 }

@@ -16,6 +16,7 @@ typedef enum {
 typedef struct {
     qdot_end_kind kind;
     qdot_expr value;
+    qdot_expr undecided; /* UNKNOWN: an expression of parameters whose sign must be known; nil: there may be none */
 } qdot_end;
 
 /* The limit of F as x tends to `at`, which may be QDOT_INFINITY or its negative, from the side: 1 above, -1 below.

@@ -107,6 +107,30 @@ steps_without_number_are_summed(void **state)
     assert_string_equal(shown(definite("abs(x - k)", "0", "1").value), "1/2*((1 - k)*abs(k - 1) + k*abs(k))");
 }
 
+static qdot_expr
+by_cases(const char *e, const char *lo, const char *hi)
+{
+    qdot_definite_answer answer;
+
+    assert_int_equal(qdot_definite_by_cases(pool, text_read(pool, e), text_read(pool, "x"), place_read(lo), place_read(hi), NULL,
+                                            &answer),
+                     QDOT_OK);
+    assert_int_equal(qdot_pool_check(pool), QDOT_OK);
+    return answer.kind == QDOT_DEFINITE_FOUND ? answer.value : QDOT_NIL;
+}
+
+static void
+signs_of_parameters_are_conditions(void **state)
+{
+    (void)state;
+    assert_int_equal(definite("x^k", "0", "1").kind, QDOT_DEFINITE_NOT_FOUND);
+    assert_string_equal(shown(by_cases("x^k", "0", "1")), "if(k > -1, 1/(k + 1), integral(x^k, x, 0, 1))");
+    assert_string_equal(shown(by_cases("exp(k*x)", "0", "inf")), "if(k < 0, -1/k, integral(exp(k*x), x, 0, infinity))");
+    assert_string_equal(shown(by_cases("sin(k*x)/x", "0", "inf")), "1/2*pi*sign(k)"); /* 0 at k = 0, too */
+    assert_string_equal(shown(by_cases("1/x", "k", "2*k")), "if(k > 0, log(2), if(k < 0, log(2), 0))");
+    assert_true(by_cases("sin(k*x)/(x^3 + x + 1)", "0", "inf") == QDOT_NIL);
+}
+
 static void
 nothing_is_guessed(void **state)
 {
@@ -125,6 +149,7 @@ main(void)
         cmocka_unit_test_setup_teardown(kinks_and_steps_divide_the_range, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(divergence_is_told, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(steps_without_number_are_summed, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(signs_of_parameters_are_conditions, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(nothing_is_guessed, open_pool, close_pool),
     };
 
