@@ -95,6 +95,25 @@ append_unit(qdot_sheet *s)
         qdot_sheet_format(s, " [%s]", unit);
 }
 
+/* Whether a unit follows a number that is written as a quotient: (1/3) [m], as in 1/3 [m] it would belong to 3 alone. */
+static qdot_status
+is_quotient_with_unit(const qdot_session *session, qdot_expr value, bool *quotient)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    *quotient = false;
+    if (session->output->unit == NULL)
+        return QDOT_OK;
+    status = qdot_print(session->pool, value, QDOT_PLAIN, &text);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        *quotient = strchr(text.at, '/') != NULL && strspn(text.at, "-0123456789/") == text.n;
+    qdot_text_clear(&text);
+    return status;
+}
+
 static qdot_status
 answer_expression_as_text(qdot_session *session, const char *name, qdot_expr value)
 {
@@ -103,6 +122,7 @@ answer_expression_as_text(qdot_session *session, const char *name, qdot_expr val
                           contains_relations(session->pool, value);
     bool bare = name == NULL || strlen(name) > 200 ||
                 (relation && strpbrk(name, "=<>") != NULL);
+    bool quotient = false;
     qdot_status status = QDOT_OK;
 
     s.operations = qdot_expr_size(session->pool, value);
@@ -115,7 +135,11 @@ answer_expression_as_text(qdot_session *session, const char *name, qdot_expr val
                                                                                  : QDOT_SIGN_COLON);
     }
     if (status == QDOT_OK)
+        status = is_quotient_with_unit(session, value, &quotient);
+    qdot_sheet_format(&s, quotient ? "(" : "");
+    if (status == QDOT_OK)
         status = qdot_sheet_expr(&s, value);
+    qdot_sheet_format(&s, quotient ? ")" : "");
     append_unit(&s);
     return qdot_sheet_end(&s, "", status);
 }
