@@ -38,6 +38,7 @@ declare_speed(qdot_record *r, const qdot_filled *part)
         (void)qdot_fail(QDOT_EINVAL, "a speed is a combination of velocities");
         return qdot_hint("as in speed v = x'*cos(phi) + y'*sin(phi)");
     }
+    QDOT_TRY(qdot_speeds_check_linear(s->scene, E, name));
     entry.name = (char *)name;
     entry.value = qdot_symbol_get(pool, QDOT_COORD, name);
     entry.formals = qdot_list(pool, 1, &E);

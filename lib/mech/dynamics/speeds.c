@@ -94,19 +94,36 @@ without_velocities(qdot_scene *s, qdot_expr e)
 
 /* --- q' of the speeds ------------------------------------------------------------------ */
 
-/* Fill a row of A q' = b from e = right, where e is linear in the velocities; `what` says what e is in an error. */
+/* *factor = de/dq_i', where e is linear in the velocities; `what` says what e is in an error. */
+static qdot_status
+find_velocity_factor(qdot_scene *s, qdot_expr e, size_t i, const char *what, const char *name, qdot_expr *factor)
+{
+    *factor = qdot_diff(s->pool, e, qdot_mech_jet(s, i, 1));
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (qdot_mech_holds(s, *factor) & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+        *factor = qdot_mech_tidy(s, *factor);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (qdot_mech_holds(s, *factor) & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+        return qdot_fail(QDOT_EINVAL, "%s `%.200s` is not linear in the velocities", what, name);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_speeds_check_linear(qdot_scene *s, qdot_expr e, const char *name)
+{
+    qdot_expr factor;
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        QDOT_TRY(find_velocity_factor(s, e, i, "the speed", name, &factor));
+    return QDOT_OK;
+}
+
+/* Fill a row of A q' = b from e = right. */
 static qdot_status
 fill_velocity_row(qdot_scene *s, qdot_expr e, qdot_expr right, const char *what, const char *name, qdot_expr *A, qdot_expr *b)
 {
-    for (size_t i = 0; i < s->coordinates.n; i++) {
-        A[i] = qdot_diff(s->pool, e, qdot_mech_jet(s, i, 1));
-        QDOT_TRY(qdot_pool_check(s->pool));
-        if (qdot_mech_holds(s, A[i]) & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
-            A[i] = qdot_mech_tidy(s, A[i]);
-        QDOT_TRY(qdot_pool_check(s->pool));
-        if (qdot_mech_holds(s, A[i]) & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
-            return qdot_fail(QDOT_EINVAL, "%s `%.200s` is not linear in the velocities", what, name);
-    }
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        QDOT_TRY(find_velocity_factor(s, e, i, what, name, &A[i]));
     *b = qdot_sub(s->pool, right, without_velocities(s, e));
     return qdot_pool_check(s->pool);
 }

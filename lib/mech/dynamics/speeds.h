@@ -27,6 +27,8 @@ typedef struct qdot_speeds {
     const qdot_expr *symbol, *value;
 } qdot_speeds;
 
+/* QDOT_EINVAL: E, what the speed `name` stands for, is not linear in the velocities. */
+QDOT_MUST_CHECK qdot_status qdot_speeds_check_linear(qdot_scene *s, qdot_expr E, const char *name);
 /* Whether n speeds are as many as the scene needs, and its constraints are of positions or velocities. */
 bool qdot_speeds_suffice(qdot_scene *s, size_t n);
 /* The equations of the velocities, A q' = b with A [n * n], b [n], n coordinates: a row for each speed, E_k = u_k, and for
