@@ -107,6 +107,25 @@ read_columns(reading *d)
     return qdot_record_expected(r, d->parts[0]->to, "`,` and the column of the values: `t, F`");
 }
 
+/* Fail because the file has a column of one of the names elsewhere, and none of another name. */
+static qdot_status
+fail_at_unknown_column(reading *d, const char *path, const qdot_csv *csv)
+{
+    size_t k = 0;
+    qdot_text names = {0};
+
+    while (k + 1 < d->n && qdot_csv_find(csv, d->columns[k].name) < csv->columns)
+        k++;
+    qdot_record_blame(d->record, d->parts[k]);
+    for (size_t i = 0; i < csv->names.n; i++)
+        qdot_text_format(&names, "%s`%.60s`", i > 0 ? ", " : "", csv->names.at[i].word);
+    (void)qdot_csv_fail(path, &csv->places[0], "the file has no column `%s`", d->columns[k].name);
+    if (!names.failed)
+        (void)qdot_hint("there are %s", qdot_text_str(&names));
+    qdot_text_clear(&names);
+    return QDOT_ENAME;
+}
+
 /* Find the columns in the file: by the names that it has for all of them, else in its order. */
 static qdot_status
 find_columns(reading *d, const char *path, const qdot_csv *csv)
@@ -119,8 +138,13 @@ find_columns(reading *d, const char *path, const qdot_csv *csv)
     }
     if (named)
         return QDOT_OK;
-    for (size_t k = 0; k < d->n; k++)
+    for (size_t k = 0; k < d->n; k++) {
+        const size_t at = csv->names.n == csv->columns ? qdot_csv_find(csv, d->columns[k].name) : csv->columns;
+
+        if (at < csv->columns && at != k)
+            return fail_at_unknown_column(d, path, csv);
         d->columns[k].at = k;
+    }
     if (csv->columns == d->n)
         return QDOT_OK;
     qdot_record_blame(d->record, d->parts[d->n - 1]);
