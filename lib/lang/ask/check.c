@@ -92,6 +92,8 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, qdot_ch
     qdot_sheet sheet;
 
     QDOT_TRY(qdot_pool_check(pool));
+    if (a != b && qdot_expr_is_constant(pool, a) && qdot_expr_is_constant(pool, b))
+        return qdot_fail(QDOT_ETYPE, "`~` compares equations up to a factor: numbers are compared by `==`, or `within` a tolerance");
     if ((qdot_expr_kind(pool, left) == QDOT_REL && qdot_expr_node(pool, left)->op != QDOT_EQ) ||
         (qdot_expr_kind(pool, right) == QDOT_REL && qdot_expr_node(pool, right)->op != QDOT_EQ))
         return qdot_fail(QDOT_ETYPE, "inequalities are not compared with one another");
@@ -102,8 +104,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right, qdot_ch
     sheet = qdot_sheet_begin_text(session, session->output->style);
     status = qdot_sheet_text(&sheet, qdot_sheet_formula(&sheet, factor), &text);
     if (status == QDOT_OK)
-        status = qdot_answer_notice(session,
-                                    "the equations differ by the factor %s: where it is 0 or undefined they need not agree",
+        status = qdot_answer_notice(session, "the equations differ by the factor %s: where it is 0 or undefined they need not agree",
                                     qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
