@@ -4,6 +4,7 @@
  * earlier one, or a declared domain.
  */
 #include "expr/build.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "lang/commands/value-check.h"
 #include "lang/syntax/record.h"
@@ -35,6 +36,8 @@ read_assumption_relation(qdot_record *r, const qdot_filled *part, assumptions *s
     uint32_t n;
 
     QDOT_TRY(qdot_record_value(r, part, &e));
+    qdot_record_blame(r, part);
+    QDOT_TRY(qdot_infinity_refuse(pool, e));
     several = qdot_expr_kind(pool, e) == QDOT_LOGIC && qdot_expr_node(pool, e)->op == QDOT_AND;
     n = several ? qdot_expr_count(pool, e) : 1;
     for (uint32_t i = 0; i < n; i++) {

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/unit.h"
@@ -30,12 +31,15 @@ store_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
     if (!qdot_expr_is_scalar(pool, b->value) || (qdot_expr_node(pool, b->value)->holds & MOVING))
         return qdot_fail(QDOT_ETYPE,
                          "a bound is a number or an expression of parameters");
+    x->own = true;
+    if (qdot_infinite(pool, b->value) == (b->upper ? 1 : -1)) /* 0 < r < infinity: no bound */
+        return QDOT_OK;
+    QDOT_TRY(qdot_infinity_refuse(pool, b->value));
     if ((b->upper ? x->hi : x->lo) != QDOT_NIL)
         return qdot_fail(QDOT_EINVAL, "`%s` has two %s bounds", x->name,
                          b->upper ? "upper" : "lower");
     *(b->upper ? &x->hi : &x->lo) = b->value;
     *(b->upper ? &x->hi_open : &x->lo_open) = b->strict;
-    x->own = true;
     return QDOT_OK;
 }
 

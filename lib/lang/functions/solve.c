@@ -20,6 +20,7 @@
 #include "base/text.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
@@ -336,6 +337,7 @@ qdot_call_solve(qdot_session *session, uint32_t n, const qdot_expr *args,
                         "solve takes one equation and one unknown, then a range");
         return qdot_hint("as in solve(cos(x) = x, x, 0..2)");
     }
+    QDOT_TRY(qdot_infinity_refuse(pool, args[0]));
     if (n == 2 && qdot_value_kind_are_equations(pool, args[1]))
         return qdot_solve_system_near(session, args[0], args[1],
                                       domain_of_typed_equation(session, QDOT_NIL), value);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/integral.h"
 #include "expr/node.h"
 #include "expr/value-kind.h"
 #include "lang/language/compiled.h"
@@ -168,6 +169,8 @@ qdot_compiled_scalar(qdot_cursor *c, const qdot_compiled *program, qdot_expr *va
     QDOT_TRY(qdot_compiled_value(c, program, value));
     if (!is_number(c->session->pool, *value))
         return report_wrong_kind(c, program->from, "a number", *value);
+    c->error_at = program->from->start;
+    QDOT_TRY(qdot_infinity_refuse(c->session->pool, *value));
     return refuse_value_along_run(c, program->from, *value);
 }
 
@@ -178,6 +181,8 @@ qdot_compiled_point(qdot_cursor *c, const qdot_compiled *program, qdot_expr *val
     const qdot_pool *pool = c->session->pool;
 
     QDOT_TRY(qdot_compiled_value(c, program, value));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_infinity_refuse(pool, *value));
     QDOT_TRY(refuse_value_along_run(c, start, *value));
     if (qdot_expr_kind(pool, *value) == QDOT_VEC) {
         if (qdot_expr_count(pool, *value) <= 3)
