@@ -68,6 +68,8 @@ static const unit_row *
 find_unit(const char *name, size_t n, int *power)
 {
     *power = 0;
+    if (n == 4 && memcmp(name, "hbar", 4) == 0) /* Planck's constant to most, not hectobar */
+        return NULL;
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (strlen(units[i].name) == n && memcmp(units[i].name, name, n) == 0)
             return &units[i];
@@ -238,11 +240,46 @@ unit_read_exponent(reader *r, qdot_exponent *x)
     return QDOT_OK;
 }
 
+/* What was meant by a name that is no unit: s^2 where s2 is written, another word or other letters for a unit, the nearest name; NULL: not known. */
+static const char *
+guess_unit(const char *name, size_t n, qdot_text *meant)
+{
+    static const struct {
+        const char *theirs, *ours;
+    } words[] = {{"sec", "s"}, {"secs", "s"}, {"degrees", "deg"}, {"radians", "rad"}, {"radian", "rad"}, {"hour", "h"}, {"hours", "h"},
+                 {"hr", "h"}, {"minutes", "min"}, {"minute", "min"}, {"metres", "m"}, {"meters", "m"}, {"Kelvin", "K"}, {"kph", "km/h"},
+                 {"kmh", "km/h"}};
+    const size_t letters = strcspn(name, "0123456789");
+    qdot_spelling near;
+    int power;
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i].theirs) == n && memcmp(words[i].theirs, name, n) == 0)
+            return qdot_text_add(meant, words[i].ours), qdot_text_str(meant);
+    if (letters > 0 && letters < n && find_unit(name, letters, &power) != NULL) {
+        qdot_text_format(meant, "%.*s^%.*s", (int)letters, name, (int)(n - letters), name + letters);
+        return qdot_text_str(meant);
+    }
+    for (size_t i = 0; i < n; i++)
+        qdot_text_char(meant, (char)tolower((unsigned char)name[i]));
+    if (n > 1 && !meant->failed && find_unit(qdot_text_str(meant), n, &power) != NULL)
+        return qdot_text_str(meant);
+    qdot_text_truncate(meant, 0);
+    qdot_text_add_n(meant, name, n);
+    qdot_spelling_begin(&near, qdot_text_str(meant));
+    for (size_t i = 0; n > 2 && i < sizeof units / sizeof *units; i++)
+        qdot_spelling_offer(&near, units[i].name);
+    if (near.best == NULL)
+        return NULL;
+    qdot_text_truncate(meant, 0);
+    return qdot_text_add(meant, near.best), qdot_text_str(meant);
+}
+
 static qdot_status
 report_unknown(reader *r, const char *name, size_t n)
 {
-    qdot_text spelled = {0};
-    qdot_spelling near;
+    qdot_text spelled = {0}, meant = {0};
+    const char *guess;
 
     qdot_text_add_n(&spelled, name, n);
     for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++)
@@ -252,12 +289,11 @@ report_unknown(reader *r, const char *name, size_t n)
             r->at = name;
             return qdot_hint("%s", offsets[i].hint);
         }
-    qdot_spelling_begin(&near, qdot_text_str(&spelled));
-    for (size_t i = 0; n > 2 && i < sizeof units / sizeof *units; i++)
-        qdot_spelling_offer(&near, units[i].name);
+    guess = guess_unit(name, n, &meant);
     qdot_fail(QDOT_ENAME, "there is no unit `%.40s`", qdot_text_str(&spelled));
-    if (n > 2 && near.best != NULL)
-        qdot_hint("did you mean `%s`?", near.best);
+    if (guess != NULL)
+        qdot_hint("did you mean `%s`?", qdot_text_str(&meant));
+    qdot_text_clear(&meant);
     qdot_text_clear(&spelled);
     r->at = name;
     return QDOT_ENAME;
@@ -332,7 +368,7 @@ unit_read_product(reader *r, qdot_unit *unit)
     while (*r->at == '*' || *r->at == '/') {
         if (below && *r->at == '*') {
             (void)fail_at(r, r->at, "a `*` after a `/` in a unit: is it above or below?");
-            return qdot_hint("write J/(kg*K) or J*K/kg");
+            return qdot_hint("as in [J/(kg*K)] or [J*K/kg]");
         }
         below = *r->at++ == '/';
         QDOT_TRY(unit_read_factor(r, below, unit));
@@ -349,7 +385,7 @@ qdot_unit_read(const char *text, qdot_unit *unit, size_t *at)
     if (status == QDOT_OK && *r.at != '\0') {
         status = fail_at(&r, r.at, "a unit is a product of powers, as in [kg*m/s^2]");
         if (isalpha((unsigned char)*r.at) || *r.at == ' ')
-            status = qdot_hint("write `*` between units: [N*m]");
+            status = qdot_hint("`*` stands between units, as in [N*m]");
     }
     *at = (size_t)(r.at - text);
     return status;

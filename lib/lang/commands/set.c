@@ -222,7 +222,7 @@ qdot_set_check_dimension(qdot_record *r, const qdot_filled *part, qdot_expr symb
     if (qdot_expr_is_constant(session->pool, value) && value != QDOT_ZERO && qdot_units_is_scaled(session, symbol)) {
         (void)qdot_fail(QDOT_EINVAL, "a number without a unit for %.100s, which was declared in one that is not SI",
                         qdot_expr_symbol(session->pool, symbol)->name);
-        return qdot_hint("write the unit: 50 [cm], 30 [deg]");
+        return qdot_hint("with its unit, as in 50 [cm], 30 [deg]");
     }
     if (qdot_expr_is_constant(session->pool, value))
         return QDOT_OK;

@@ -34,7 +34,7 @@ qdot_value_check_rest(qdot_session *session, const char *spring, qdot_expr rest)
     (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative: %.10g",
                     spring != NULL ? "spring " : "a spring", spring != NULL ? spring : "",
                     length);
-    return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
+    return qdot_hint("`rest 0`, or none, makes a spring that pulls at any length");
 }
 
 /* Fail with a message such as "b > a is assumed, and 1 > 2 does not hold", which states values that violate an assumption. */

@@ -284,7 +284,10 @@ qdot_call_canonical(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
             qdot_expr_symbol(s->pool, qdot_expr_arg(s->pool, args[i], 0)) == NULL ||
             !qdot_expr_is_scalar(s->pool, qdot_expr_arg(s->pool, args[i], 1))) {
             qdot_fail(QDOT_ETYPE, "canonical( ) takes new coordinates and momenta by pairs");
-            return qdot_hint("canonical(Q = ..., P = ...), or canonical(Q1 = ..., P1 = ..., Q2 = ..., P2 = ...)");
+            return s->scene->coordinates.n == 0
+                       ? qdot_hint("as in canonical(Q = p[x], P = -x)")
+                       : qdot_hint("as in canonical(Q = p[%.60s], P = -%.60s)", qdot_expr_symbol(s->pool, s->scene->coordinates.at[0])->name,
+                                   qdot_expr_symbol(s->pool, s->scene->coordinates.at[0])->name);
         }
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < i; j++)

@@ -33,11 +33,10 @@ index_as_number(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
                 *i = (long)k + 1;
                 return QDOT_OK;
             }
-        return qdot_fail(QDOT_ETYPE,
-                         over != QDOT_NIL
-                             ? "`%.200s` is none of its coordinates"
-                             : "entries are counted from 1: `%.200s` is no index",
-                         qdot_expr_symbol(s->pool, index)->name);
+        if (over != QDOT_NIL)
+            return qdot_fail(QDOT_ETYPE, "`%.200s` is none of its coordinates", qdot_expr_symbol(s->pool, index)->name);
+        (void)qdot_fail(QDOT_ETYPE, "entries are counted from 1: `%.200s` is no index", qdot_expr_symbol(s->pool, index)->name);
+        return qdot_hint("as in [1]");
     }
     return qdot_session_integer(s, index, i);
 }
@@ -55,7 +54,7 @@ qdot_entry_of(qdot_session *session, qdot_expr e, qdot_expr over, uint32_t n,
         case QDOT_MAT:
             if (k + 1 >= n) {
                 qdot_fail(QDOT_ETYPE, "an entry of a matrix has two indices");
-                return qdot_hint("write M[1, 2]");
+                return qdot_hint("as in [1, 2]: its row, then its column");
             }
             QDOT_TRY(index_as_number(session, over, index[k], &i));
             QDOT_TRY(index_as_number(session, over, index[k + 1], &j));

@@ -75,6 +75,10 @@ integrate_scalar(qdot_pool *pool, qdot_expr e, void *user)
 static qdot_status
 check_variable(qdot_session *s, qdot_expr x)
 {
+    if (qdot_expr_is_class(s->pool, x, QDOT_DIFFERENTIAL)) {
+        (void)qdot_fail(QDOT_ETYPE, "the variable of an integral is the symbol, not its differential");
+        return qdot_hint("write `%.60s` in place of `%.60s`", qdot_expr_symbol(s->pool, x)->name + 1, qdot_expr_symbol(s->pool, x)->name);
+    }
     if (qdot_expr_kind(s->pool, x) == QDOT_SYM && x != QDOT_PI && x != QDOT_TRUE && x != QDOT_FALSE)
         return QDOT_OK;
     return qdot_fail(QDOT_ETYPE, "integral(e, x) takes a symbol for x: a parameter, a coordinate, a velocity or t");

@@ -28,19 +28,25 @@ typedef struct {
 } task;
 
 static qdot_status
-fail_with_both_sides(task *t, const qdot_limit_answer *found)
+fail_with_both_sides(task *t, qdot_expr e, const qdot_limit_answer *found)
 {
-    qdot_text left = {0}, right = {0};
+    qdot_text left = {0}, right = {0}, of = {0}, at = {0};
     qdot_status status = qdot_print(t->session->pool, found->left, QDOT_PLAIN, &left);
 
     if (status == QDOT_OK)
         status = qdot_print(t->session->pool, found->right, QDOT_PLAIN, &right);
     if (status == QDOT_OK)
+        status = qdot_print(t->session->pool, e, QDOT_PLAIN, &of);
+    if (status == QDOT_OK)
+        status = qdot_print(t->session->pool, t->at, QDOT_PLAIN, &at);
+    if (status == QDOT_OK)
         status = qdot_fail(QDOT_EDOMAIN, "the limit does not exist: from the left it is %.100s, from the right %.100s",
                            qdot_text_str(&left), qdot_text_str(&right));
-    if (status == QDOT_EDOMAIN)
-        (void)qdot_hint("limit(E, %.60s = ..., right) is the one from the right",
-                        qdot_expr_symbol(t->session->pool, t->x)->name);
+    if (status == QDOT_EDOMAIN && of.n < 100)
+        (void)qdot_hint("from one side: `limit(%s, %.60s = %.60s, right)`", qdot_text_str(&of),
+                        qdot_expr_symbol(t->session->pool, t->x)->name, qdot_text_str(&at));
+    qdot_text_clear(&of);
+    qdot_text_clear(&at);
     qdot_text_clear(&left);
     qdot_text_clear(&right);
     return status;
@@ -75,7 +81,7 @@ limit_of_scalar(qdot_pool *pool, qdot_expr e, void *user)
     switch (found.kind) {
     case QDOT_LIMIT_VALUE:
     case QDOT_LIMIT_INFINITE: return found.value;
-    case QDOT_LIMIT_NONE: t->status = fail_with_both_sides(t, &found); return e;
+    case QDOT_LIMIT_NONE: t->status = fail_with_both_sides(t, e, &found); return e;
     case QDOT_LIMIT_UNDEFINED:
         t->status = qdot_fail(QDOT_EDOMAIN, "the expression is not defined there");
         return e;

@@ -12,6 +12,7 @@
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "lang/answer/answer.h"
+#include "lang/functions/cyclic-momenta.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/equilibria.h"
 #include "lang/functions/linear.h"
@@ -333,6 +334,8 @@ report_no_component(qdot_session *s, const char *name)
 {
     const size_t length = strcspn(name, ",");
     size_t components = 0;
+    qdot_words names = {0};
+    qdot_status status;
 
     for (size_t i = 0; name[length] != '\0' && i < count_constraints(s->scene); i++) {
         const qdot_constraint *c = &s->scene->constraints.at[i];
@@ -344,8 +347,14 @@ report_no_component(qdot_session *s, const char *name)
         components += c->label != NULL && strlen(c->label) == length &&
                       strncmp(c->label, name, length) == 0;
     }
-    if (components == 0)
-        return qdot_labels_unknown(s->scene, "constraint", name);
+    if (components == 0) {
+        for (size_t i = 0; i < count_constraints(s->scene); i++)
+            (void)qdot_vec_push(&names, s->scene->constraints.at[i].name); /* if memory runs out the hint lacks this name */
+        (void)qdot_fail(QDOT_ENAME, "there is no constraint `%.200s`", name);
+        status = qdot_labels_hint(name, &names);
+        qdot_free(names.at);
+        return status;
+    }
     return qdot_fail(QDOT_ENAME, "constraint `%.*s` has %zu components, and no `%.200s`",
                      (int)length, name, components, name);
 }
@@ -393,30 +402,11 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
 
 /* --- cyclic coordinates, degrees of freedom ----------------------------------------- */
 
-/* List each cyclic coordinate with its momentum, p[phi] = dL/dphi'. */
 static qdot_status
 get_cyclic(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
-    qdot_cyclic *list = NULL;
-    qdot_expr *equations;
-    size_t count = 0;
-
-    (void)n, (void)index;
     QDOT_TRY(require_coordinates(s));
-    QDOT_TRY(qdot_mech_cyclic(s->scene, &list, &count));
-    equations = qdot_malloc(count * sizeof *equations);
-    if (equations == NULL) {
-        qdot_free(list);
-        return QDOT_ENOMEM;
-    }
-    for (size_t i = 0; i < count; i++)
-        equations[i] = qdot_rel(
-            s->pool, QDOT_EQ, qdot_symbol_of(s->pool, QDOT_MOMENTUM, list[i].coordinate),
-            list[i].momentum);
-    *value = qdot_list(s->pool, (uint32_t)count, equations);
-    qdot_free(equations);
-    qdot_free(list);
-    return qdot_value_kind_check(s->pool, *value);
+    return qdot_session_cyclic(s, n, index, value);
 }
 
 /* Find the number of degrees of freedom. */
@@ -630,7 +620,7 @@ static const qdot_quantity rows[] = {
      "accel[theta]", true, make_acceleration_symbol},
     {"lambda", 1, 2, get_lambda, "lambda[rod] or lambda[pin, 1]",
      "multiplier of a constraint", "lambda[rod]", false, NULL},
-    {"cyclic", 0, 0, get_cyclic, "cyclic",
+    {"cyclic", 0, 1, get_cyclic, "cyclic or cyclic[phi]",
      "coordinates absent from L, with their momenta", "cyclic", false, NULL},
     {"dof", 0, 0, get_dof, "dof", "degrees of freedom", "dof", false, NULL},
     {"hamiltonian", 0, 0, get_hamiltonian, "hamiltonian",

@@ -1,6 +1,7 @@
 /* separation.c -- hamilton_jacobi[q] and complete_integral as values; names of separation constants. */
 #include "lang/functions/separation.h"
 
+#include "expr/node.h"
 #include "expr/print-name.h"
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
@@ -16,12 +17,23 @@ is_free_for_constant(void *user, const char *name)
     return declared == NULL || declared->kind == QDOT_NAME_PARAM;
 }
 
+/* So with functions: one that was declared of the coordinates and t, in this order, is that solution. */
 static bool
 is_free_for_function(void *user, const char *name)
 {
     const qdot_session *session = user;
+    const qdot_name *declared = qdot_names_find(session->names, name);
+    qdot_expr formals;
 
-    return qdot_names_find(session->names, name) == NULL;
+    if (declared == NULL || declared->kind != QDOT_NAME_UFUN)
+        return declared == NULL;
+    formals = qdot_ufun_get(session->pool, declared->ufun)->formals;
+    if (qdot_expr_count(session->pool, formals) != session->scene->coordinates.n + 1)
+        return false;
+    for (uint32_t i = 0; i < session->scene->coordinates.n; i++)
+        if (qdot_expr_arg(session->pool, formals, i) != session->scene->coordinates.at[i])
+            return false;
+    return qdot_expr_arg(session->pool, formals, (uint32_t)session->scene->coordinates.n) == QDOT_T;
 }
 
 qdot_status

@@ -1,5 +1,5 @@
 /* separation.h -- the separation of the scene's equation of Hamilton and Jacobi, with names for its constants that the
- * session does not use otherwise. A declared parameter of such a name is that constant.
+ * session does not use otherwise. A declared parameter of such a name is that constant, a declared function S(q, t) the solution.
  *
  * Tests  tests/script/studies/hamilton-jacobi.lag, action.lag
  */

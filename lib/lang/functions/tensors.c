@@ -1,4 +1,5 @@
 /* tensors.c -- covariant and Lie derivatives, commutators of vector fields; vectors in forms. */
+#include "base/text.h"
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -37,6 +38,19 @@ find_coordinates(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *
     return QDOT_OK;
 }
 
+/* Hint that a third argument names the coordinates, as [r, phi] where the vector has two components. */
+static void
+hint_at_coordinates(qdot_session *s, const qdot_expr *q, size_t n, size_t components)
+{
+    qdot_text list = {0};
+
+    for (size_t i = 0; i < n && (i < components || i == 0); i++)
+        qdot_text_format(&list, "%s%.60s", i > 0 ? ", " : "", qdot_expr_symbol(s->pool, q[i])->name);
+    if (!list.failed)
+        (void)qdot_hint("a third argument names the coordinates, as in [%s]", qdot_text_str(&list));
+    qdot_text_clear(&list);
+}
+
 typedef qdot_expr derivative(qdot_scene *s, qdot_expr a, qdot_expr b, uint32_t n, const qdot_expr *q);
 
 /* Call `take` with the coordinates of the arguments. */
@@ -54,7 +68,7 @@ over_coordinates(qdot_session *s, uint32_t n, const qdot_expr *args, derivative 
     if (status == QDOT_OK)
         status = qdot_value_kind_give(s->pool, take(s->scene, args[0], args[1], (uint32_t)q.n, q.at), value);
     if (status != QDOT_OK && n == 2 && q.n > 0)
-        (void)qdot_hint("a third argument names the coordinates: [%.100s, ...]", qdot_expr_symbol(s->pool, q.at[0])->name);
+        hint_at_coordinates(s, &q.at[0], q.n, qdot_expr_count(s->pool, args[qdot_expr_kind(s->pool, args[1]) == QDOT_VEC]));
     qdot_free(q.at);
     return status;
 }

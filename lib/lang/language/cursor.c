@@ -141,7 +141,7 @@ hint_at_foreign_syntax(const qdot_token *t)
         {"&", "write `and`"},
         {"||", "write `or`"},
         {"|", "the absolute value is abs(x), or is written `or`"},
-        {"!=", "write not (a = b), or `check not a == b`"},
+        {"!=", "`not (1 = 2)` is a condition, `check not 1 == 2` a claim"},
         {"!", "write `not`"},
         {"%", "the remainder is mod(a, b)"},
     };
@@ -194,6 +194,20 @@ qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t)
     return t->start + t->length;
 }
 
+/* Whether the token names a function of the language and nothing that was declared. */
+static bool
+is_function(const qdot_cursor *c, const qdot_token *t)
+{
+    return t->kind == QDOT_TOKEN_NAME && qdot_builtin_find(t->text) != NULL && qdot_names_find(c->session->names, t->text) == NULL;
+}
+
+/* Whether the operand [from, last] is no single word without a meaning, as `of` is. */
+static bool
+is_factor(const qdot_cursor *c, const qdot_token *from, const qdot_token *last)
+{
+    return from != last || from->kind != QDOT_TOKEN_NAME || qdot_cursor_knows(c->session, from->text);
+}
+
 /* Report that `*` is missing between the token `before` and the next one. */
 static qdot_status
 report_missing_times(qdot_cursor *c, const qdot_token *before)
@@ -206,8 +220,10 @@ report_missing_times(qdot_cursor *c, const qdot_token *before)
     qdot_fail(QDOT_ESYNTAX, "a `*` is missing");
     from = find_operand_start(c, before);
     to = qdot_cursor_operand_end(c, t);
-    if (to - from->start > 100)
+    if (to - from->start > 100 || !is_factor(c, from, before) || (t->kind == QDOT_TOKEN_NAME && is_function(c, t) && !qdot_token_is(t + 1, "(")))
         return qdot_hint("a product is written with `*`");
+    if (from == before && is_function(c, from) && qdot_builtin_find(from->text)->least <= 1) /* momentum bob: also a value by itself */
+        return qdot_hint("write %s(%.*s)", from->text, (int)(to - t->start), c->source->text + t->start);
     left = (int)(before->start + before->length - from->start);
     return qdot_hint("write %.*s*%.*s", left, c->source->text + from->start,
                      (int)(to - t->start), c->source->text + t->start);
@@ -261,7 +277,9 @@ hint_at_nearest_word(const char *what, const char *name)
         c += length + 2;
     }
     nearest = qdot_spelling_nearest(name, n, list);
-    if (nearest != NULL)
+    if (nearest != NULL && strcmp(nearest, name) == 0)
+        qdot_hint("only one of such words may stand there");
+    else if (nearest != NULL)
         qdot_hint("did you mean `%s`?", nearest);
     return QDOT_ESYNTAX;
 }

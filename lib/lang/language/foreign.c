@@ -1,12 +1,16 @@
 /* foreign.c -- recognises the syntax of other systems and of beginners, and suggests the line to type. */
 #include "lang/language/foreign.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "lang/language/foreign-words.h"
 #include "lang/language/pattern.h"
 #include "lang/session/units.h"
 
 enum { LONGEST = 400 }; /* longest statement, in tokens, that is compared with the patterns */
+enum { DEEPEST = 32, LONGEST_WORD = 32 }; /* of calls in a suggested line: brackets within each other, bytes of a name */
+#define LETTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 typedef enum { WHOLE, BEGIN, PART } extent;
 
@@ -57,18 +61,19 @@ find_matching_pattern(const qdot_cursor *c, const form *f, const qdot_token *fro
                                     m) &&
                (f->extent == WHOLE || match_contains_position(m, f->extent, c->error_at));
     for (const qdot_token *k = from; k < to && k->start <= c->error_at; k++)
-        if (qdot_pattern_matches(c->session, f->pattern, k, to, false, m) &&
+        if ((k == from || !qdot_token_is(k - 1, ".")) && qdot_pattern_matches(c->session, f->pattern, k, to, false, m) &&
             match_contains_position(m, f->extent, c->error_at))
             return true;
     return false;
 }
 
-/* Whether only a single unknown letter matched: it is often a mistyped declared letter, so the usual hint is kept. */
+/* Whether only a single unknown letter matched: it is often a mistyped declared letter, or a constant that an answer has, so
+ * the usual hint is kept. */
 static bool
 is_doubtful_match(const qdot_pattern_match *m)
 {
     return m->to == m->from + 1 && m->from->length == 1 &&
-           strstr(qdot_last_error()->hint, "did you mean") != NULL;
+           (strstr(qdot_last_error()->hint, "did you mean") != NULL || strncmp(qdot_last_error()->hint, "write param ", 12) == 0);
 }
 
 /* Whether the suggested line is the same as the typed one. */
@@ -101,12 +106,49 @@ suggestion_has_unknown_name(const qdot_cursor *c, const form *f, const qdot_patt
     return f->message != NULL ? operand : t > m->from && strncmp(line, m->from->text, n) == 0 && line[n] == ' ';
 }
 
+/* Append the line with calls as other systems write them, `Sin[x]`, as ours, `sin(x)`. */
+static void
+add_translated_calls(const qdot_session *session, const char *line, qdot_text *out)
+{
+    char closers[DEEPEST], name[LONGEST_WORD];
+    size_t depth = 0;
+
+    while (*line != '\0') {
+        const size_t n = strspn(line, LETTERS "0123456789_");
+        const char *ours = NULL;
+
+        if (n > 0) {
+            snprintf(name, sizeof name, "%.*s", (int)n, line);
+            if (n < sizeof name && (line[n] == '[' || line[n] == '(') && depth < DEEPEST && !qdot_cursor_knows(session, name))
+                ours = qdot_foreign_word(name);
+            qdot_text_add(out, ours != NULL ? ours : "");
+            qdot_text_add_n(out, line, ours != NULL ? 0 : n);
+            line += n;
+            if (ours == NULL)
+                continue;
+            qdot_text_char(out, '(');
+            closers[depth++] = ')';
+            line++;
+            continue;
+        }
+        if (strchr("([{", *line) != NULL && depth < DEEPEST) {
+            closers[depth++] = *line == '(' ? ')' : *line == '[' ? ']' : '}';
+            qdot_text_char(out, *line++);
+        } else if (strchr(")]}", *line) != NULL && depth > 0) {
+            qdot_text_char(out, closers[--depth]);
+            line++;
+        } else {
+            qdot_text_char(out, *line++);
+        }
+    }
+}
+
 /* Replace the error by the message of the pattern; false if the pattern has no better line to suggest. */
 static bool
 report_by_pattern(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
 {
     const qdot_error error = *qdot_last_error();
-    qdot_text message = {0}, line = {0};
+    qdot_text message = {0}, line = {0}, written = {0};
     bool fits;
 
     if (f->message != NULL)
@@ -115,7 +157,13 @@ report_by_pattern(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
         qdot_text_add(&message, "this is no form of the language");
     else
         qdot_text_add(&message, error.message);
-    qdot_pattern_write(c, f->line, m, &line);
+    qdot_pattern_write(c, f->line, m, &written);
+    if (f->say)
+        qdot_text_add(&line, qdot_text_str(&written));
+    else
+        add_translated_calls(c->session, qdot_text_str(&written), &line);
+    line.failed = line.failed || written.failed;
+    qdot_text_clear(&written);
     fits = line.n < sizeof error.hint - 8 && !line.failed && !message.failed &&
            !is_suggestion_as_typed(c, m, &line) && !suggestion_has_unknown_name(c, f, m, qdot_text_str(&line));
     if (fits) {

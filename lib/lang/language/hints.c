@@ -5,13 +5,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/spelling.h"
+#include "expr/symbol.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/foreign-words.h"
 #include "lang/session/labels.h"
 #include "lang/session/names.h"
+#include "mech/scene/scene.h"
 
 /* --- the nearest of all known names ------------------------------------------------- */
+
+/* Whether a value of the scene is one by its bare name: `p` alone, without [ ], is none. */
+static bool
+is_value_alone(const qdot_quantity *row)
+{
+    return row->least == 0;
+}
 
 const char *
 qdot_hints_nearest(qdot_session *session, const char *name)
@@ -21,13 +31,34 @@ qdot_hints_nearest(qdot_session *session, const char *name)
 
     qdot_labels_add(session->scene, &list);
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
-        (void)qdot_vec_push(&list, qdot_quantity_at(i)->name); /* if memory runs out the hint lacks this word */
+        if (is_value_alone(qdot_quantity_at(i)) || strchr(name, '[') != NULL)
+            (void)qdot_vec_push(&list, qdot_quantity_at(i)->name); /* if memory runs out the hint lacks this word */
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
         if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_SHORT))
             (void)qdot_vec_push(&list, qdot_builtin_at(i)->name);
     nearest = qdot_names_nearest(session->names, name, list.n, list.at);
     qdot_free(list.at);
     return nearest;
+}
+
+/* The nearest name of a function that takes n arguments (0: any number); NULL: there is none. */
+static const char *
+find_nearest_function(const qdot_session *session, const char *name, size_t n)
+{
+    const qdot_name *declared;
+    qdot_spelling s;
+
+    qdot_spelling_begin(&s, name);
+    for (size_t i = 0; (declared = qdot_names_at(session->names, i)) != NULL; i++)
+        if (declared->kind == QDOT_NAME_UFUN || declared->kind == QDOT_NAME_FUNCTION)
+            qdot_spelling_offer(&s, declared->name);
+    for (size_t i = 0; qdot_builtin_at(i) != NULL; i++) {
+        const qdot_builtin *row = qdot_builtin_at(i);
+
+        if (!(row->flags & QDOT_BUILTIN_SHORT) && (n == 0 || (n >= (size_t)row->least && (row->most < 0 || n <= (size_t)row->most))))
+            qdot_spelling_offer(&s, row->name);
+    }
+    return s.best;
 }
 
 /* --- syntax of other systems -------------------------------------------------------- */
@@ -167,10 +198,42 @@ hint_at_function(const qdot_token *token)
 
 /* --- errors for unknown names ------------------------------------------------------- */
 
+/* Give the hint for p, Q, delta, lambda without [ ]: a member that the scene has, else how the name is declared. */
+static qdot_status
+hint_at_member(const qdot_session *session, const char *name)
+{
+    const qdot_scene *scene = session->scene;
+
+    if (strcmp(name, "lambda") == 0) {
+        if (scene->constraints.n > 0)
+            return qdot_hint("write lambda[%.60s]", scene->constraints.at[0].name);
+    } else if (scene->coordinates.n > 0) {
+        return qdot_hint("write %s[%.60s]", name, qdot_expr_symbol(session->pool, scene->coordinates.at[0])->name);
+    }
+    return qdot_hint("`param %s` declares a parameter", name);
+}
+
+/* Whether the statement of the token holds a value whose answer has names of its own: S, the constant E and others. */
+static bool
+is_beside_separation(const qdot_cursor *c, const qdot_token *token)
+{
+    static const char *const words[] = {"hamilton_jacobi", "complete_integral", "action"};
+    const qdot_token *t = token;
+
+    while (t > c->source->tokens.at && t[-1].kind != QDOT_TOKEN_END && !qdot_token_is(t - 1, ";"))
+        t--;
+    for (; t->kind != QDOT_TOKEN_END && !qdot_token_is(t, ";"); t++)
+        for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+            if (qdot_token_is_word(t, words[i]))
+                return true;
+    return false;
+}
+
 static qdot_status
 hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, bool coordinate)
 {
     const char *name = token->text, *nearest, *ours;
+    const qdot_builtin *row;
     char text[100];
 
     qdot_fail(QDOT_ENAME, "unknown name `%.200s`", member != NULL ? member : name);
@@ -189,7 +252,12 @@ hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, b
         return qdot_hint("write pi");
     if (member == NULL && (strcmp(name, "p") == 0 || strcmp(name, "Q") == 0 ||
                            strcmp(name, "delta") == 0 || strcmp(name, "lambda") == 0))
-        return qdot_hint("write %s[NAME], or declare `%s`", name, name);
+        return hint_at_member(c->session, name);
+    row = member == NULL && !coordinate ? qdot_builtin_find(name) : NULL;
+    if (row != NULL && name[1] != '\0') /* a function whose name may be taken, as `rate` */
+        return qdot_hints_bare_function(c, token);
+    if (member == NULL && !coordinate && is_beside_separation(c, token))
+        return qdot_hint("write param %.60s", name);
     nearest = coordinate ? qdot_names_nearest(c->session->names, member != NULL ? member : name, 0, NULL)
                          : qdot_hints_nearest(c->session, member != NULL ? member : name);
     if (nearest != NULL && strlen(name) < CLEAR && qdot_builtin_find(nearest) != NULL &&
@@ -234,7 +302,11 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
     }
     if (strcmp(name, "pow") == 0)
         return qdot_hint("a power is written a^b");
-    nearest = qdot_hints_nearest(c->session, name);
+    if (strcmp(name, "S") == 0 && is_beside_separation(c, token)) {
+        copy_bracket_text(c, token + 1, text, sizeof text);
+        return qdot_hint("write function S(%s)", text);
+    }
+    nearest = find_nearest_function(c->session, name, count_arguments(token + 1));
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
     return hint_at_function(token);

@@ -39,7 +39,7 @@ parse_chained_relation(qdot_parser *p, qdot_waiting *w, const qdot_token *token)
 {
     if (token->text[0] == '=' || w->token->text[0] == '=') {
         qdot_fail(QDOT_ESYNTAX, "two relations in one: `%s` after `%s`", token->text, w->token->text);
-        qdot_hint("write (a = b) = c with brackets, or two statements");
+        qdot_hint("an equation within another stands in brackets, as in (1 = 2) = 3; or in a statement of its own");
         return fail_at_token(p, token, QDOT_ESYNTAX);
     }
     w->count++;

@@ -302,9 +302,8 @@ qdot_pattern_matches(const qdot_session *session, const char *pattern,
     bool word = pattern[0] != '$' && from->kind == QDOT_TOKEN_NAME;
 
     *m = (qdot_pattern_match){.from = from, .to = from, .place = from};
-    if (word && qdot_names_find(session->names, from->text) != NULL)
-        return false;
-    return match_pattern(&x, pattern, from);
+    return match_pattern(&x, pattern, from) &&
+           !(word && (qdot_names_find(session->names, from->text) != NULL || qdot_names_is_family(session->names, from->text)));
 }
 
 /* --- suggested lines ------------------------------------------------------------------ */
@@ -382,6 +381,13 @@ find_first_coordinate(const qdot_session *s)
     return "x";
 }
 
+/* The label of the particle, else of the body, that was declared first; bob where there is none. */
+static const char *
+find_first_label(const qdot_scene *scene)
+{
+    return scene->particles.n > 0 ? scene->particles.at[0].name : scene->bodies.n > 0 ? scene->bodies.at[0].name : "bob";
+}
+
 /* The first name of that kind among the matched tokens; NULL if there is none. */
 static const char *
 find_matched_name(const qdot_session *s, const qdot_pattern_match *m, qdot_name_kind kind)
@@ -436,6 +442,10 @@ add_placeholder(const qdot_cursor *c, const char *line, const qdot_pattern_match
 
     if (line[1] == 'q' || line[1] == 'x') {
         qdot_text_add(out, line[1] == 'x' ? unknown_of_equation(c->session, m) : find_first_coordinate(c->session));
+        return line + 2;
+    }
+    if (line[1] == 'b') {
+        qdot_text_add(out, find_first_label(c->session->scene));
         return line + 2;
     }
     if (line[1] == 'g') {

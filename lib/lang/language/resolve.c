@@ -215,6 +215,9 @@ resolve_label(qdot_session *s, const char *name, unsigned primes, bool *found,
     if (qdot_scene_find_particle(s->scene, name) == NULL &&
         qdot_scene_find_body(s->scene, name) == NULL) {
         qdot_fail(QDOT_ENAME, "`%.200s` is a label without a value", name);
+        for (size_t i = 0; i < s->scene->constraints.n; i++)
+            if (s->scene->constraints.at[i].label != NULL && strcmp(s->scene->constraints.at[i].label, name) == 0)
+                return qdot_hint("its multiplier is `lambda[%.80s]`", s->scene->constraints.at[i].name);
         return qdot_hint("only particles and bodies have a position");
     }
     *value = qdot_scene_position(s->scene, name);
@@ -424,7 +427,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         return QDOT_OK;
     if (qdot_names_is_family(s->names, name)) {
         qdot_fail(QDOT_ENAME, "`%.200s` is a family", name);
-        return qdot_hint("write a member, %.80s[1]", name);
+        return qdot_hint("write %.80s[1]", name);
     }
     if (qdot_builtin_find(name) != NULL &&
         !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_SHORT))

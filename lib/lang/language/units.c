@@ -102,7 +102,7 @@ qdot_unit_parse(qdot_cursor *c, bool below, qdot_postfix_list *program)
         return QDOT_OK;
     qdot_fail(QDOT_ESYNTAX, "a power behind a unit: of the unit alone, or of the number too?");
     c->error_at = c->at->start;
-    return qdot_hint("write `2 [m^2]` or `(2 [m])^2`");
+    return qdot_hint("brackets say it: `2 [m^2]` or `(2 [m])^2`");
 }
 
 qdot_status

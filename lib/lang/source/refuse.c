@@ -11,26 +11,23 @@
 
 enum { SHOWN = 120 }; /* longest line in a hint, in bytes */
 
-/* Typographic characters that are not accepted, with what to write for them. */
+/* Characters that are not accepted and have one spelling: the hint is the line with it. */
 static const struct {
     const char *text, *ours;
+} spelled[] = {
+    {"–", "-"}, {"—", "-"}, {"÷", "/"}, {"∨", "or"}, {"¬", "not "}, {"⟨", "("}, {"⟩", ")"}, {"→", "="}, {"≈", "="}, {"≡", "="}, {"≠", "!="},
+};
+
+/* Other characters that are not accepted, with a hint. */
+static const struct {
+    const char *text, *hint;
 } foreign[] = {
-    {"∑", "sum(e, k, a, b)"},
-    {"–", "-"},
-    {"—", "-"},
-    {"÷", "/"},
-    {"∧", "and, or wedge(a, b) of forms"},
-    {"∨", "or"},
-    {"¬", "not"},
-    {"⟨", "("},
-    {"∇", "gradient(f, R)"},
-    {"→", "="},
-    {"≈", "="},
-    {"≡", "="},
-    {"$", "the formula without `$`"},
-    {"∈", "coord 0 < x < 1"},
-    {"∫", "integral(e, x, a, b)"},
-    {"`", "a text in double quotes: \"text\""},
+    {"∑", "as in sum(k^2, k, 1, 3)"},
+    {"∇", "gradient(f, R), divergence(F, R), curl(F, R), laplacian(f, R) are functions"},
+    {"$", "write the formula without `$`"},
+    {"∈", "a domain is declared, as in coord 0 < u < 1"},
+    {"`", "a text stands in double quotes: \"text\""},
+    {"±", "numbers are compared within a tolerance, as in check 3.14 == pi within 1e-2"},
 };
 
 /* Find the line that contains the byte `at`: it is [*from, *to), without blanks at its ends. */
@@ -79,6 +76,27 @@ refuse_quotes(const char *text, size_t at)
     return QDOT_ESYNTAX;
 }
 
+/* Give as a hint the line with `ours` in place of each `theirs`. */
+static qdot_status
+hint_at_spelling(const char *text, size_t at, const char *theirs, const char *ours)
+{
+    const size_t n = strlen(theirs);
+    qdot_text line = {0};
+    size_t from, to;
+
+    find_line_at(text, at, &from, &to);
+    while (from < to)
+        if (to - from >= n && memcmp(text + from, theirs, n) == 0) {
+            qdot_text_add(&line, ours);
+            from += n;
+        } else {
+            qdot_text_char(&line, text[from++]);
+        }
+    qdot_hint("write %s", line.n <= SHOWN ? qdot_text_str(&line) : ours);
+    qdot_text_clear(&line);
+    return QDOT_ESYNTAX;
+}
+
 /* Whether the byte may be part of a name or of its primes. */
 static bool
 may_be_in_name(char c)
@@ -106,8 +124,14 @@ refuse_partial(const char *text, size_t at)
     const size_t by = of + n + strlen("/∂");
 
     qdot_fail(QDOT_ESYNTAX, "`∂` has no meaning here");
+    if (text[of] == '(') { /* ∂(...)/∂x */
+        const size_t close = of + strcspn(text + of, ")\n"), under = close + strlen(")/∂");
+
+        if (strncmp(text + close, ")/∂", under - close) == 0 && memchr(text + of + 1, '(', close - of - 1) == NULL && name_length(text, under) > 0)
+            return qdot_hint("write diff(%.*s, %.*s)", (int)(close - of - 1), text + of + 1, (int)name_length(text, under), text + under);
+    }
     if (n == 0 || strncmp(text + of + n, "/∂", by - of - n) != 0)
-        return qdot_hint("write diff(e, x)");
+        return qdot_hint("a partial derivative is diff(E, x), as in diff(t^2, t)");
     return qdot_hint("write diff(%.*s, %.*s)", (int)n, text + of,
                      (int)name_length(text, by), text + by);
 }
@@ -142,6 +166,42 @@ refuse_at(const char *text, size_t at)
                      (int)(to - at - 1), text + at + 1);
 }
 
+/* Refuse ∧ between conditions or forms. */
+static qdot_status
+refuse_wedge(const char *text, size_t at)
+{
+    size_t from, to, left = at, right = at + strlen("∧"), begin;
+
+    find_line_at(text, at, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "`∧` has no meaning here");
+    while (left > from && text[left - 1] == ' ')
+        left--;
+    for (begin = left; begin > from && may_be_in_name(text[begin - 1]);)
+        begin--;
+    while (right < to && text[right] == ' ')
+        right++;
+    if (text[begin] == 'd' && left > begin + 1 && text[right] == 'd' && name_length(text, right) > 1)
+        return qdot_hint("write wedge(%.*s, %.*s)", (int)(left - begin), text + begin, (int)name_length(text, right), text + right);
+    return hint_at_spelling(text, at, "∧", "and");
+}
+
+/* Refuse ∫ E dx. */
+static qdot_status
+refuse_integral(const char *text, size_t at)
+{
+    size_t from, to, body = at + strlen("∫"), d;
+    int n;
+
+    find_line_at(text, at, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "`∫` has no meaning here");
+    for (d = to; d > body && may_be_in_name(text[d - 1]);)
+        d--;
+    n = trim_blanks(text, &body, d);
+    if (n > 0 && n <= SHOWN && text[d] == 'd' && to > d + 1)
+        return qdot_hint("write integral(%.*s, %.*s)", n, text + body, (int)(to - d - 1), text + d + 1);
+    return qdot_hint("as in integral(t^2, t, 0, 1)");
+}
+
 /* Refuse 30°; the hint has the angle in radians. */
 static qdot_status
 refuse_degrees(const char *text, size_t at)
@@ -150,6 +210,12 @@ refuse_degrees(const char *text, size_t at)
 
     while (from > 0 && strchr("0123456789.", text[from - 1]) != NULL)
         from--;
+    if (from == at && at > 0 && text[at - 1] == '[') { /* [°], [°C] as units */
+        qdot_fail(QDOT_ESYNTAX, "there is no unit `°`");
+        if (strncmp(text + at, "°C", 3) == 0)
+            return qdot_hint("20 degrees Celsius are `293.15 [K]`; a difference of them is in [K]");
+        return qdot_hint("did you mean `deg`?");
+    }
     qdot_fail(QDOT_ESYNTAX, "an angle is in radians");
     return qdot_hint("write %.*s*pi/180", (int)(at - from), text + from);
 }
@@ -318,10 +384,17 @@ qdot_refuse(const char *text, size_t at)
     if (c == '_') {
         return refuse_underscore(text, at);
     }
+    if (c == 0x2227)
+        return refuse_wedge(text, at);
+    if (c == 0x222B)
+        return refuse_integral(text, at);
     qdot_fail(QDOT_ESYNTAX, "`%.*s` has no meaning here", (int)length, here);
+    for (size_t i = 0; i < sizeof spelled / sizeof *spelled; i++)
+        if (strncmp(here, spelled[i].text, length) == 0 && spelled[i].text[length] == '\0')
+            return hint_at_spelling(text, at, spelled[i].text, spelled[i].ours);
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (strncmp(here, foreign[i].text, length) == 0 &&
             foreign[i].text[length] == '\0')
-            return qdot_hint("write %s", foreign[i].ours);
+            return qdot_hint("%s", foreign[i].hint);
     return c < 0x80 ? QDOT_ESYNTAX : qdot_hint("letters of names are Latin or Greek");
 }

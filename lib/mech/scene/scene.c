@@ -374,7 +374,7 @@ qdot_scene_spring(qdot_scene *s, const qdot_link *spring)
     QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a spring"));
     if ((qdot_expr_node(s->pool, spring->rest)->sign & QDOT_NEG) == QDOT_NEG) {
         qdot_fail(QDOT_EINVAL, "the rest length of a spring cannot be negative");
-        return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
+        return qdot_hint("`rest 0`, or none, makes a spring that pulls at any length");
     }
     return add_spring_or_damper(s, spring, false);
 }

@@ -51,7 +51,7 @@ check_rate(qdot_scene *s, qdot_expr rate)
         return qdot_fail(QDOT_ETYPE, "the rate of a state must be a number, not a vector");
     if (holds & QDOT_HAS_ACCELERATION) {
         qdot_fail(QDOT_ENOTBUILT, "not built yet: a state whose rate holds accelerations");
-        return qdot_hint("write the rate with the forces that make the acceleration");
+        return qdot_hint("the forces that make the acceleration may stand there in its place");
     }
     if (holds & QDOT_HAS_MULTIPLIER)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: a state whose rate holds multipliers");

@@ -81,7 +81,7 @@ check_spring_lengths(const qdot_run *run, const qdot_scene *scene)
             (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
                             spring->name ? "spring " : "a spring",
                             spring->name ? spring->name : "");
-            return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
+            return qdot_hint("`rest 0`, or none, makes a spring that pulls at any length");
         }
     }
     return QDOT_OK;

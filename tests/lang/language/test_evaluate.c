@@ -140,7 +140,7 @@ functions_map_over_what_holds_numbers(void **state)
     assert_fails(&r, "atan2((1, 2), 1)", QDOT_ETYPE, 0, "not a vector", "");
     assert_fails(&r, "m[1]", QDOT_ETYPE, 0, "no entries", "");
     assert_fails(&r, "(1, 2)[3]", QDOT_EDOMAIN, 6, "", "");
-    assert_fails(&r, "[1, 2; 3, 4][1]", QDOT_ETYPE, 12, "two indices", "M[1, 2]");
+    assert_fails(&r, "[1, 2; 3, 4][1]", QDOT_ETYPE, 12, "two indices", "its row, then its column");
     reading_close(&r);
 }
 
@@ -158,7 +158,7 @@ reserved_names_mean_themselves(void **state)
     assert_string_equal(reading_plain(&r, "dt"), "dt");
     assert_same(&r, "δθ", "delta[theta]");
     assert_fails(&r, "dm", QDOT_ENAME, 0, "unknown name `dm`", "");
-    assert_fails(&r, "p", QDOT_ENAME, 0, "unknown name `p`", "p[NAME]");
+    assert_fails(&r, "p", QDOT_ENAME, 0, "unknown name `p`", "write p[theta]");
     reading_close(&r);
 }
 

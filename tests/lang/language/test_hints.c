@@ -21,6 +21,7 @@ static const struct {
 #define SHOWS(scene, column, input, hint, line) {scene, column, input, hint, line, false},
 #define LEAVES(scene, column, input, hint) {scene, column, input, hint, NULL, false},
 #include "lang/hints.def"
+#include "lang/hints-calls.def"
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 

@@ -162,7 +162,7 @@ forms_of_other_systems_have_hints(void **state)
     assert_fails(&r, "sqrt m", QDOT_ESYNTAX, 0, "is a function", "write sqrt(m)");
     assert_fails(&r, "ln(m)", QDOT_ENAME, 0, "`ln`", "write log(m)");
     assert_fails(&r, "m < g && g < s", QDOT_ESYNTAX, 6, "`&&`", "write `and`");
-    assert_fails(&r, "m != g", QDOT_ESYNTAX, 2, "`!=`", "not (a = b)");
+    assert_fails(&r, "m != g", QDOT_ESYNTAX, 2, "`!=`", "`not (1 = 2)` is a condition");
     assert_fails(&r, "m % g", QDOT_ESYNTAX, 2, "`%`", "mod(a, b)");
     assert_fails(&r, "5. + m", QDOT_ESYNTAX, 1, "decimal point", "5.0");
     /* a declared name wins over the hint */

@@ -232,7 +232,8 @@ operands_are_read_without_their_word(void **state)
     qdot_record record;
     qdot_source *source;
     qdot_expr from, to;
-    double tol, values[2];
+    qdot_expr values[2];
+    double tol;
     bool is;
 
     assert_int_equal(qdot_source_new("a test", "0..3 tol normal(1/4, 2) for k", 29, &source, &c.error_at), QDOT_OK);
@@ -246,7 +247,7 @@ operands_are_read_without_their_word(void **state)
     assert_true(to == qdot_expr_int(r->session->pool, 3));
     assert_int_equal(qdot_record_call_of_two(&record, qdot_record_hole(&record, "tol", "E"), "normal", values, &is),
                      QDOT_OK);
-    assert_true(is && values[0] == 0.25 && values[1] == 2);
+    assert_true(is && values[0] == qdot_expr_ratio(r->session->pool, 1, 4) && values[1] == qdot_expr_int(r->session->pool, 2));
     assert_int_equal(qdot_record_number(&record, qdot_record_hole(&record, "tol", "E"), &tol), QDOT_ENAME);
     qdot_record_free(&record);
     qdot_source_free(source);

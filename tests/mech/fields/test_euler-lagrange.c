@@ -65,7 +65,7 @@ coordinates_move_with_time_body(kit *k)
 TEST(coordinates_move_with_time)
 
 static void
-refused(kit *k, const char *density, const char *field, const char *variables, qdot_status status)
+no_density(kit *k, const char *density, const char *field, const char *variables, qdot_status status)
 {
     assert_int_equal(equation(k, density, field, variables), QDOT_NIL);
     assert_int_equal(qdot_pool_check(k->pool), status);
@@ -76,15 +76,15 @@ what_is_no_density_is_refused_body(kit *k)
 {
     coords(k, "q");
     function(k, "y", "x, t");
-    refused(k, "(1, 2)", "y(x, t)", "x, t", QDOT_ETYPE);
-    refused(k, "y(x, t)^2", "m", "x, t", QDOT_ETYPE);
-    refused(k, "y(x, t)^2", "diff(y(x, t), x)", "x, t", QDOT_ETYPE);
-    refused(k, "y(x, t)*y(x, 2*t)", "y(x, t)", "x, t", QDOT_EINVAL);
-    refused(k, "diff(y(x, t), t)^2", "y(x, t)", "x", QDOT_EINVAL);
-    refused(k, "y(x, t)^2", "y(x, t)", "x, z", QDOT_EINVAL);
-    refused(k, "y(x, t)^2", "y(x, t)", "x, x", QDOT_EINVAL);
-    refused(k, "q'*y(x, t)", "y(x, t)", "x, t", QDOT_EINVAL);
-    refused(k, "q*y(x, t)", "y(x, t)", "x, t", QDOT_EINVAL);
+    no_density(k, "(1, 2)", "y(x, t)", "x, t", QDOT_ETYPE);
+    no_density(k, "y(x, t)^2", "m", "x, t", QDOT_ETYPE);
+    no_density(k, "y(x, t)^2", "diff(y(x, t), x)", "x, t", QDOT_ETYPE);
+    no_density(k, "y(x, t)*y(x, 2*t)", "y(x, t)", "x, t", QDOT_EINVAL);
+    no_density(k, "diff(y(x, t), t)^2", "y(x, t)", "x", QDOT_EINVAL);
+    no_density(k, "y(x, t)^2", "y(x, t)", "x, z", QDOT_EINVAL);
+    no_density(k, "y(x, t)^2", "y(x, t)", "x, x", QDOT_EINVAL);
+    no_density(k, "q'*y(x, t)", "y(x, t)", "x, t", QDOT_EINVAL);
+    no_density(k, "q*y(x, t)", "y(x, t)", "x, t", QDOT_EINVAL);
 }
 TEST(what_is_no_density_is_refused)
 
