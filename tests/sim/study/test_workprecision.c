@@ -145,6 +145,7 @@ equations_that_can_hide_forces_are_looked_at(void **state)
         qdot_expr x, square;
 
         oscillator(&f, false);
+        f.request.t1 = QDOT_ONE;
         x = qdot_symbol_get(f.pool, QDOT_COORD, "x");
         square = times(&f, x, x);
         must(qdot_scene_potential(
@@ -181,6 +182,7 @@ without_conservation_there_is_no_energy_error(void **state)
 
     (void)state;
     oscillator(&f, true);
+    f.request.t1 = QDOT_ONE;
     must(qdot_workprecision_measure(f.scene, &f.request, &w));
     for (size_t k = 0; k < w.n; k++)
         assert_true(isnan(w.rows[k].energy_err));
