@@ -28,7 +28,11 @@ qdot_reduced_is_scaled(const qdot_reduced *r, size_t a)
 bool
 qdot_reduced_turns(const qdot_reduced *r, size_t a)
 {
-    return qdot_reduced_is_scaled(r, a) || !r->rests[r->independent[a]];
+    bool turns = !r->rests[r->independent[a]];
+
+    for (size_t i = 0; i < r->n && qdot_reduced_is_scaled(r, a); i++)
+        turns = turns || (!r->rests[i] && r->N[i * r->m + a] != QDOT_ZERO);
+    return turns;
 }
 
 qdot_expr

@@ -33,7 +33,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_reduced_begin(qdot_reduced *r, qdot_scene *s, qdot_expr keep);
 void qdot_reduced_end(qdot_reduced *r);
 
-/* Whether u_a is no velocity. Whether it may be constant: it is no velocity of a coordinate that rests. */
+/* Whether u_a is no velocity. Whether it may be constant: it moves some coordinate that does not rest. */
 bool qdot_reduced_is_scaled(const qdot_reduced *r, size_t a);
 bool qdot_reduced_turns(const qdot_reduced *r, size_t a);
 /* (N u)_i */

@@ -503,9 +503,11 @@ qdot_steady_judge_linear(qdot_scene *s, qdot_equilibria *all)
         if (!qdot_steady_is_open(&one))
             continue;
         for (uint32_t k = 0; k < qdot_expr_count(r.pool, one.equations); k++) {
-            const qdot_expr equation = qdot_expr_arg(r.pool, one.equations, k);
+            const qdot_expr equation = qdot_expr_arg(r.pool, one.equations, k), symbol = qdot_expr_arg(r.pool, equation, 0);
+            const bool unknown = qdot_expr_place(x.unknowns, x.unknown, symbol) < x.unknowns ||
+                                 qdot_expr_place(x.rates, x.rate, symbol) < x.rates;
 
-            free -= qdot_expr_arg(r.pool, equation, 0) != qdot_expr_arg(r.pool, equation, 1);
+            free -= unknown && symbol != qdot_expr_arg(r.pool, equation, 1);
         }
         status = qdot_reduced_judge(&r, one.equations, free, x.unknowns - x.equations, &one);
         if (status == QDOT_EDOMAIN)
@@ -529,7 +531,7 @@ qdot_steady_reduced(qdot_scene *s, qdot_expr unknown, qdot_equilibria *out)
     if (status == QDOT_OK)
         status = list_unknowns(&x);
     if (status == QDOT_OK && x.rates == 0) {
-        (void)qdot_fail(QDOT_EINVAL, "the equations of motion hold every coordinate, so none turns at a constant rate");
+        (void)qdot_fail(QDOT_EINVAL, "the equations of motion and the constraints hold every coordinate: motions with a constant rate are not looked for");
         status = qdot_hint("equilibria");
     }
     if (status == QDOT_OK)

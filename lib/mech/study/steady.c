@@ -11,6 +11,7 @@
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/steady-momenta.h"
 #include "mech/study/steady-reduced.h"
+#include "normal/prove/decide.h"
 
 /* The value that `place` gives the rate; nil: none. */
 static qdot_expr
@@ -55,6 +56,62 @@ insert_place(qdot_expr place, qdot_turning *x)
     return QDOT_OK;
 }
 
+/* Whether e is the same after a small rotation of coordinates a, b: -b de/da + a de/db, with their velocities too, is 0. */
+static bool
+rotation_leaves(qdot_scene *s, qdot_expr a, qdot_expr b, qdot_expr e)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr sum = QDOT_ZERO;
+
+    for (uint32_t order = 0; order < 2; order++) {
+        const qdot_expr x = qdot_symbol_jet(s->pool, a, order), y = qdot_symbol_jet(s->pool, b, order);
+
+        sum = qdot_add(s->pool, sum, qdot_sub(s->pool, qdot_mul(s->pool, x, qdot_diff(s->pool, e, y)),
+                                              qdot_mul(s->pool, y, qdot_diff(s->pool, e, x))));
+    }
+    return sum != QDOT_NIL && qdot_is_zero(s->pool, sum, &facts);
+}
+
+/* Two coordinates that can be rotated: L and the constraints hold them and stay the same; false: there are none. */
+static bool
+find_rotation(qdot_scene *s, qdot_expr *a, qdot_expr *b)
+{
+    const qdot_expr L = qdot_mech_lagrangian(s);
+
+    for (size_t i = 0; i < s->coordinates.n && L != QDOT_NIL; i++)
+        for (size_t k = i + 1; k < s->coordinates.n; k++) {
+            bool same;
+
+            *a = s->coordinates.at[i];
+            *b = s->coordinates.at[k];
+            same = rotation_leaves(s, *a, *b, L);
+            for (size_t c = 0; c < s->constraints.n && same; c++)
+                same = rotation_leaves(s, *a, *b, s->constraints.at[c].f);
+            if (same)
+                return true;
+        }
+    return false;
+}
+
+/* Fail; where a rotation is a symmetry the hint has the coordinates whose angle is cyclic. */
+static qdot_status
+report_nothing_cyclic(qdot_scene *s)
+{
+    qdot_expr a, b;
+    const bool rotates = find_rotation(s, &a, &b);
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (!rotates) {
+        (void)qdot_fail(QDOT_EINVAL, "no coordinate is cyclic with a conserved momentum: steady motions are the equilibria");
+        return qdot_hint("equilibria");
+    }
+    const char *x = qdot_expr_symbol(s->pool, a)->name, *y = qdot_expr_symbol(s->pool, b)->name;
+
+    (void)qdot_fail(QDOT_EINVAL, "no coordinate is cyclic with a conserved momentum, but a rotation of `%.50s` and `%.50s` leaves the "
+                                 "scene as it is: its angle is cyclic if it is a coordinate", x, y);
+    return qdot_hint("reset scene; coord r > 0, phi; %.50s = r*cos(phi); %.50s = r*sin(phi)", x, y);
+}
+
 /* The cyclic coordinates whose momentum is conserved; of a place those whose rates it names. */
 static qdot_status
 find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
@@ -88,8 +145,16 @@ find_turning(qdot_scene *s, qdot_expr place, qdot_turning *x)
         QDOT_TRY(insert_place(place, x));
     if (x->n > 0 || place != QDOT_NIL)
         return QDOT_OK;
-    (void)qdot_fail(QDOT_EINVAL, "no coordinate is cyclic with a conserved momentum: steady motions are the equilibria");
-    return qdot_hint("equilibria");
+    return report_nothing_cyclic(s);
+}
+
+static bool
+has_holonomic_constraints_alone(const qdot_scene *s)
+{
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
+            return false;
+    return true;
 }
 
 /* Whether rates may be constant of which no conserved momentum tells: there are velocity constraints, or a coordinate is
@@ -100,9 +165,7 @@ has_other_rates(qdot_scene *s, bool *yes)
     qdot_cyclic *list = NULL;
     size_t n = 0;
 
-    *yes = false;
-    for (size_t k = 0; k < s->constraints.n; k++)
-        *yes = *yes || s->constraints.at[k].kind == QDOT_VELOCITY;
+    *yes = !has_holonomic_constraints_alone(s);
     if (*yes)
         return QDOT_OK;
     QDOT_TRY(qdot_mech_cyclic(s, &list, &n));
@@ -220,12 +283,13 @@ judge_undecided(qdot_scene *s, const qdot_turning *x, qdot_equilibria *all)
 {
     bool conservative, open = false;
 
+    for (size_t i = 0; i < all->n; i++)
+        open = open || qdot_steady_is_open(&all->at[i]);
+    if (!open)
+        return QDOT_OK;
+    QDOT_TRY(qdot_steady_judge_linear(s, all));
     QDOT_TRY(qdot_steady_is_conservative(s, &conservative));
     for (size_t i = 0; i < all->n && conservative; i++)
-        open = open || qdot_steady_is_open(&all->at[i]);
-    if (open)
-        QDOT_TRY(qdot_steady_judge_linear(s, all));
-    for (size_t i = 0; i < all->n && open; i++)
         if (qdot_steady_is_open(&all->at[i]))
             QDOT_TRY(qdot_steady_at_momenta(s, x->n, x->q, &all->at[i]));
     return QDOT_OK;
@@ -266,8 +330,11 @@ qdot_steady_find(qdot_scene *s, qdot_expr unknown, qdot_binder bind, void *user,
     *out = (qdot_equilibria){0};
     if (!reduced)
         QDOT_TRY(has_other_rates(s, &reduced));
-    if (reduced)
-        return qdot_steady_reduced(s, unknown, out);
+    if (reduced) {
+        status = qdot_steady_reduced(s, unknown, out);
+        if (unknown != QDOT_NIL || !has_holonomic_constraints_alone(s) || (status != QDOT_EINVAL && status != QDOT_ENOTBUILT))
+            return status;
+    }
     status = qdot_turning_begin(s, QDOT_NIL, &x, NULL);
     if (status == QDOT_OK)
         status = suggest_rate(&x, bind, user, qdot_equilibrium_find(s, bind, user, out));
@@ -279,5 +346,8 @@ qdot_steady_find(qdot_scene *s, qdot_expr unknown, qdot_binder bind, void *user,
     if (status == QDOT_OK)
         status = judge_undecided(s, &x, out);
     qdot_turning_clear(&x);
+    if (status == QDOT_OK && reduced && out->n == 0) /* its failure stands */
+        return qdot_steady_reduced(s, QDOT_NIL, out);
+    out->complete = out->complete && !reduced;
     return status == QDOT_OK && out->n == 0 ? find_at_single_rates(s, out) : status;
 }
