@@ -162,6 +162,16 @@ turn_by_right_angle(const integrand *f, radicand *r)
     r->v = qdot_sub(f->pool, r->v, qdot_mul(f->pool, QDOT_HALF, QDOT_PI));
 }
 
+/* 1/sqrt(P + Q sin(v)^2) where the root vanishes within a quarter turn, -Q > P > 0. */
+static qdot_expr
+integral_between_zeros(qdot_pool *pool, const radicand *root, qdot_expr slope)
+{
+    const qdot_expr minus_Q = qdot_neg(pool, root->factor), m = qdot_div(pool, root->constant, minus_Q);
+    const qdot_expr phi = qdot_fun1(pool, QDOT_ASIN, qdot_div(pool, qdot_fun1(pool, QDOT_SIN, root->v), qdot_sqrt(pool, m)));
+
+    return qdot_div(pool, qdot_fun(pool, QDOT_ELLIPTIC_F, 2, (qdot_expr[]){phi, m}), qdot_mul(pool, qdot_sqrt(pool, minus_Q), slope));
+}
+
 /* The forms with sin(v): one root, or one root and one denominator. */
 static qdot_expr
 integral_of_waves(integrand *f)
@@ -178,6 +188,8 @@ integral_of_waves(integrand *f)
         return QDOT_NIL;
     m = minus_quotient(pool, root->factor, P);
     slope = qdot_diff(pool, root->v, f->x);
+    if (f->n == 1 && root->halves == -1 && is_positive(f, qdot_neg(pool, qdot_add(pool, P, root->factor))))
+        return integral_between_zeros(pool, root, slope);
     scale = qdot_sqrt(pool, P);
     if (f->n == 1 && root->halves == 1)
         return qdot_div(pool, qdot_mul(pool, scale, qdot_fun(pool, QDOT_ELLIPTIC_E, 2, (qdot_expr[]){root->v, m})), slope);

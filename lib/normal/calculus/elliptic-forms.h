@@ -3,6 +3,8 @@
  *     c/sqrt(P + Q sin(v)^2) = d/dx  c F(v, -Q/P)/(sqrt(P) v'),   c sqrt(P + Q sin(v)^2) = d/dx  c sqrt(P) E(v, -Q/P)/v',
  *     c/((N + M sin(v)^2) sqrt(P + Q sin(v)^2)) = d/dx  c Pi(-M/N, v, -Q/P)/(N sqrt(P) v')
  *
+ *     c/sqrt(P + Q sin(v)^2) = d/dx  c F(asin(sin(v) sqrt(-Q/P)), -P/Q)/(sqrt(-Q) v')   if -Q > P, where cos(v) > 0
+ *
  * for v linear in x and P > 0; a + b cos(u) is (a + b) - 2 b sin(u/2)^2, a + b sin(u) the same of u - pi/2. With
  * sin(v) = x sqrt(-B/A), of A > 0, B < 0, C > 0:
  *

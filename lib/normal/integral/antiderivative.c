@@ -11,6 +11,7 @@
 #include "normal/calculus/switch.h"
 #include "normal/field/budget.h"
 #include "normal/field/flint.h"
+#include "normal/integral/elliptic-algebraic.h"
 #include "normal/integral/methods.h"
 #include "normal/integral/piecewise.h"
 #include "normal/prove/decide.h"
@@ -204,7 +205,9 @@ qdot_antiderivative_by_cases(qdot_pool *pool, qdot_expr e, qdot_expr x, const qd
 {
     qdot_expr F = find_pieces(pool, e, x, facts, qdot_antiderivative_by_cases, true);
 
-    return F == QDOT_NIL && !qdot_pool_failed(pool) ? qdot_elliptic_antiderivative(pool, e, x, facts) : F;
+    if (F == QDOT_NIL && !qdot_pool_failed(pool))
+        F = qdot_elliptic_antiderivative(pool, e, x, facts);
+    return F == QDOT_NIL && !qdot_pool_failed(pool) ? qdot_elliptic_algebraic(pool, e, x, facts) : F;
 }
 
 qdot_expr

@@ -12,6 +12,25 @@
 #include "normal/calculus/limit.h"
 #include "normal/prove/decide.h"
 
+/* F with elliptic_F(phi, m), m free of x, where phi has a limit. */
+static qdot_status
+settle_elliptic_integral(qdot_pool *pool, qdot_expr *F, qdot_expr x, qdot_expr at, const qdot_facts *facts)
+{
+    const qdot_fun_id id = QDOT_ELLIPTIC_F;
+    const qdot_expr e = qdot_expr_find_function(pool, *F, 1, &id, x);
+    qdot_limit_answer limit;
+    qdot_expr value;
+
+    if (e == QDOT_NIL || qdot_expr_contains(pool, qdot_expr_arg(pool, e, 1), x))
+        return QDOT_OK;
+    QDOT_TRY(qdot_limit(pool, facts, qdot_expr_arg(pool, e, 0), x, at, 0, &limit));
+    if (limit.kind != QDOT_LIMIT_VALUE)
+        return QDOT_OK;
+    value = qdot_fun(pool, id, 2, (qdot_expr[]){limit.value, qdot_expr_arg(pool, e, 1)});
+    *F = qdot_subs(pool, *F, 1, &e, &value);
+    return QDOT_OK;
+}
+
 /* F with -1 or 1 for an erf(u) that stands in it with a constant factor, u tending to minus infinity or infinity. */
 static qdot_status
 settle_error_function(qdot_pool *pool, qdot_expr *F, qdot_expr x, qdot_expr at, const qdot_facts *facts)
@@ -96,6 +115,8 @@ qdot_end_value(qdot_pool *pool, qdot_expr F, qdot_expr x, qdot_expr at, int side
     }
     if (qdot_infinite(pool, at) != 0)
         QDOT_TRY(settle_error_function(pool, &F, x, at, facts));
+    if (qdot_infinite(pool, at) != 0)
+        QDOT_TRY(settle_elliptic_integral(pool, &F, x, at, facts));
     QDOT_TRY(qdot_limit(pool, facts, F, x, at, qdot_infinite(pool, at) == 0 ? side : 0, &limit));
     if (limit.kind == QDOT_LIMIT_VALUE || limit.kind == QDOT_LIMIT_INFINITE) {
         end->kind = limit.kind == QDOT_LIMIT_VALUE ? QDOT_END_VALUE : QDOT_END_INFINITE;
