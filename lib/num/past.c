@@ -23,6 +23,7 @@ typedef struct {
 typedef struct {
     double tau;
     int gain;
+    bool watched; /* what is read is looked at for its sign */
 } delay;
 
 struct qdot_past {
@@ -180,7 +181,7 @@ qdot_past_next(const qdot_past *h, double t)
 
         if (k < h->pieces.n && h->pieces.at[k].t <= until) {
             until = h->pieces.at[k].t;
-            jumps = h->pieces.at[k].order == 0;
+            jumps = h->pieces.at[k].order == 0 || h->delays.at[d].watched;
         }
         end = jumps && until - blur + tau > t ? until - blur + tau : until + blur + tau;
         next = end > t && end < next ? end : next;
@@ -203,9 +204,10 @@ qdot_past_delay(qdot_past *h, double tau, int gain)
     for (size_t d = 0; d < h->delays.n; d++)
         if (h->delays.at[d].tau == tau) {
             h->delays.at[d].gain = gain < h->delays.at[d].gain ? gain : h->delays.at[d].gain;
+            h->delays.at[d].watched |= gain == QDOT_PAST_SMOOTH;
             return QDOT_OK;
         }
-    return qdot_vec_push(&h->delays, ((delay){tau, gain}));
+    return qdot_vec_push(&h->delays, ((delay){tau, gain, gain == QDOT_PAST_SMOOTH}));
 }
 
 /* Unknown i of a piece at w = (u - t)/unit; *size: the sum of the sizes of its terms. */

@@ -34,7 +34,7 @@ QDOT_MUST_CHECK qdot_status qdot_past_new(size_t n, const uint32_t *called, qdot
 void qdot_past_free(qdot_past *h);
 
 /* The equations read a time tau > 0 ago, and a breaking point of order k there is one of order k + gain now. SMOOTH: nothing that
- * is integrated depends on what is read. Known delays stay known. Errors: QDOT_ENOMEM. */
+ * is integrated depends on what is read, but on its sign, so steps end before and behind each breaking point. Known delays stay known. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_past_delay(qdot_past *h, double tau, int gain);
 
 /* The run starts at t with y [n]: nothing is known but these values, which were the same before. */

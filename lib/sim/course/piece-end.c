@@ -231,6 +231,12 @@ report_accumulation(qdot_piece *x, const qdot_watched *w, double t, double left)
     qdot_text text = {0};
 
     describe_end(x, w, &text);
+    if (w->kind == QDOT_WATCH_SURFACE && qdot_piece_is_of_the_past(x, w->index)) {
+        snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: the motion cannot be followed at %.200s%s", t,
+                 qdot_text_str(&text), QDOT_PIECE_PAST_SWITCHES);
+        qdot_text_clear(&text);
+        return;
+    }
     snprintf(
         x->c->reason, sizeof x->c->reason,
         "stopped at t = %.15g: %.200s comes ever faster there, without end before t = "

@@ -151,6 +151,10 @@ qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
     return system->rhs(x->start.t, x->start.y, rates, system->user);
 }
 
+/* Whether u of a surface is a function of the time and of delayed values alone; what is said where such a one cannot be followed. */
+bool qdot_piece_is_of_the_past(const qdot_piece *x, size_t surface);
+#define QDOT_PIECE_PAST_SWITCHES ": the equations switch where what is delayed leaves 0, or comes to it ever faster"
+
 /* Make the mode with the sides x->side, its equations and its root finder; it becomes the mode x->mode. */
 QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 

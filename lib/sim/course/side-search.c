@@ -13,10 +13,13 @@
  */
 #include "sim/course/piece.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 
 /* The most surfaces whose sides are uncertain at the same time: 4^4 combinations. */
 enum { MOST_DOUBTS = 4 };
@@ -36,6 +39,15 @@ fail_at_surface(qdot_piece *x, size_t surface, const char *before, const char *b
             && x->functions_on[i])
             side = m->side[surface] + (m->watched[i].inside < 0);
     qdot_piece_stop_at(x, surface, side, before, behind);
+}
+
+bool
+qdot_piece_is_of_the_past(const qdot_piece *x, size_t surface)
+{
+    const qdot_switches *s = &x->c->stage->switches;
+
+    return x->c->history != NULL && surface < qdot_switches_own(s) &&
+           !(qdot_expr_node(s->pool, s->surfaces.at[surface].u)->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY));
 }
 
 /* The surface of the first disc about to come to rest; 0 if there is no such disc. */
@@ -58,6 +70,10 @@ report_cannot_slide(qdot_piece *x)
 
     if (x->c->stage->switches.surfaces.at[surface].puck > 0) {
         fail_at_surface(x, surface, "the motion cannot be followed at", x->hindrance);
+        return;
+    }
+    if (qdot_piece_is_of_the_past(x, surface)) {
+        fail_at_surface(x, surface, "the motion cannot be followed at", QDOT_PIECE_PAST_SWITCHES);
         return;
     }
     snprintf(why, sizeof why, ", where the equations switch: both sides lead back to it%s",
@@ -320,6 +336,88 @@ take_side_by_crossing(qdot_piece *x, bool *decided)
     return integrate_on_sides(x);
 }
 
+/* The next end of a step that is further away than what rounding makes of a breaking point. */
+static double
+next_end(const qdot_piece *x)
+{
+    static const double near = 1e-9;
+    const qdot_ode_system *system = &x->c->systems.at[x->mode];
+    double end = x->start.t;
+
+    for (int k = 0; k < 8 && fabs(end - x->start.t) <= near * fmax(1, fabs(x->start.t)) && end != x->t1; k++)
+        end = qdot_ode_until(system, end, x->t1);
+    return end;
+}
+
+/* Whether the equations of the present mode and of the one before, at the start, are the same, so that it is of no
+ * consequence that the time of the change is known up to rounding only. */
+static qdot_status
+is_change_continuous(const qdot_piece *x, bool *is)
+{
+    static const double same = 1e-9;
+    double *rates = qdot_malloc((2 * x->n + 1) * sizeof *rates);
+    qdot_status status = rates ? qdot_piece_rates(x, x->start.from, rates) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_piece_rates(x, x->mode, rates + x->n);
+    *is = status == QDOT_OK;
+    for (size_t i = 0; i < x->n && *is; i++)
+        *is = fabs(rates[i] - rates[x->n + i]) <= same * fmax(1, fabs(rates[i]));
+    qdot_free(rates);
+    return qdot_grave(status);
+}
+
+/* Whether the equations jump where u of a surface, a function of delayed values, was 0 and leaves 0: the time of that is known up to
+ * rounding only, which no companion run shows. c->reason is then set. */
+static qdot_status
+refuse_jump_of_the_past(qdot_piece *x)
+{
+    const long *from = x->c->stage->modes.at[x->start.from]->side;
+    bool is = true;
+
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n && is; i++)
+        if (qdot_piece_is_of_the_past(x, i) && from[i] == 0 && x->side[i] != 0 && !x->c->stage->switches.surfaces.at[i].steps) {
+            QDOT_TRY(is_change_continuous(x, &is));
+            if (!is)
+                fail_at_surface(x, i, "the motion cannot be followed at", QDOT_PIECE_PAST_SWITCHES);
+        }
+    return QDOT_OK;
+}
+
+/* No sides fit by the first step, as u, a function of delayed values, was 0 up to a breaking point: what u is behind that is known.
+ * *decided: it is not 0, and the equations change continuously. */
+static qdot_status
+take_side_ahead(qdot_piece *x, bool *decided)
+{
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    const double until = next_end(x);
+    bool can;
+
+    *decided = x->doubts.n > 0 && x->c->history != NULL && x->tried.n >= surfaces;
+    if (!*decided)
+        return QDOT_OK;
+    memcpy(x->side, x->tried.at, surfaces * sizeof *x->side);
+    for (size_t i = 0; i < x->doubts.n && *decided; i++) {
+        const size_t surface = x->doubts.at[i].surface;
+        int sign;
+
+        QDOT_TRY(qdot_stage_sign_ahead(x->c->stage, surface, x->start.t, until, x->bare, x->side, &sign));
+        x->side[surface] = sign;
+        *decided = sign != 0;
+    }
+    if (!*decided)
+        return QDOT_OK;
+    restore_start(x, x->bare);
+    QDOT_TRY(enter_sides(x, &can));
+    *decided = can;
+    if (can)
+        QDOT_TRY(is_change_continuous(x, decided));
+    if (!*decided)
+        return QDOT_OK;
+    x->search = QDOT_SIDES_KNOWN;
+    return integrate_on_sides(x);
+}
+
 static qdot_status
 search_sides(qdot_piece *x)
 {
@@ -340,7 +438,9 @@ search_sides(qdot_piece *x)
         if (over) {
             bool decided;
 
-            QDOT_TRY(take_side_by_crossing(x, &decided));
+            QDOT_TRY(take_side_ahead(x, &decided));
+            if (!decided)
+                QDOT_TRY(take_side_by_crossing(x, &decided));
             if (!decided)
                 report_cannot_slide(x);
             return QDOT_OK;
@@ -354,8 +454,10 @@ search_sides(qdot_piece *x)
         QDOT_TRY(integrate_on_sides(x));
         if (x->intent != QDOT_PIECE_RETRIED || x->resting != SIZE_MAX)
             return QDOT_OK;
-        if (x->well)
-            return integrate_with_found_sides(x);
+        if (x->well) {
+            QDOT_TRY(refuse_jump_of_the_past(x));
+            return x->c->reason[0] != '\0' ? QDOT_OK : integrate_with_found_sides(x);
+        }
         QDOT_TRY(qdot_piece_sides(x, qdot_piece_mode(x)->side));
     }
 }

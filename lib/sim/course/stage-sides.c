@@ -10,6 +10,7 @@
 #include "expr/print.h"
 #include "expr/symbol.h"
 #include "sim/course/stage.h"
+#include "sim/model/delay.h"
 #include "sim/model/layer.h"
 #include "sim/model/term-magnitude.h"
 
@@ -361,6 +362,28 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
 }
 
 qdot_status
+qdot_stage_sign_ahead(const qdot_stage *s, size_t surface, double t, double until, const double *y, const long *side, int *sign)
+{
+    const qdot_expr u = s->switches.surfaces.at[surface].u;
+    decision d;
+    qdot_status status;
+
+    *sign = 0;
+    if (surface >= qdot_switches_own(&s->switches) || s->switches.surfaces.at[surface].steps ||
+        (qdot_expr_node(s->switches.pool, u)->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
+        return QDOT_OK;
+    status = begin_decision(&d, s, t, y);
+    for (double part = 0x1p-30; status == QDOT_OK && part < 1 && *sign == 0; part *= 2) {
+        d.in[d.n] = t + part * (until - t);
+        evaluate_surfaces(&d, side);
+        if (fabs(d.out[surface]) > rounding * d.out[d.m + surface])
+            *sign = d.out[surface] > 0 ? 1 : -1;
+    }
+    free_decision(&d);
+    return status;
+}
+
+qdot_status
 qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *out)
 {
     const qdot_surface *x = &s->switches.surfaces.at[surface];
@@ -371,7 +394,7 @@ qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *o
                             out));
     }
     if (x->puck == 0)
-        QDOT_TRY(qdot_print(s->switches.pool, x->u, QDOT_PLAIN, out));
+        QDOT_TRY(qdot_print(s->switches.pool, qdot_delay_written(s->switches.pool, x->u), QDOT_PLAIN, out));
     qdot_text_format(out, " = %ld", x->steps ? side : 0);
     return qdot_text_status(out);
 }

@@ -119,6 +119,10 @@ size_t qdot_stage_inputs(const qdot_stage *stage, qdot_expr *in);
 /* Make stage->sides, the tape that evaluates the functions of all surfaces. Errors: as qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
 
+/* The sign of u of a surface just behind t, seen before `until`, if u is a function of the time alone, as of delayed values; else, and if
+ * u is 0 so long, 0. Sides as below. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_stage_sign_ahead(const qdot_stage *s, size_t surface, double t, double until, const double *y,
+                                                  const long *side, int *sign);
 /* The sides of all surfaces at a state, the inner ones first, into side [surfaces].
  *   old  [surfaces] the sides before; NULL: all are decided anew. If u has the same value with
  *   the

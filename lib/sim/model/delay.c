@@ -38,6 +38,30 @@ is_of_history(const qdot_pool *pool, qdot_expr node, long *handle)
            qdot_expr_to_int(pool, qdot_expr_arg(pool, node, 1), handle) && qdot_past_has((double)*handle);
 }
 
+/* Of a polynomial in a piece all coefficients but c_0 become 0, and that x(u). */
+static qdot_expr
+value_as_written(qdot_pool *pool, qdot_expr node, void *user)
+{
+    qdot_expr piece;
+    uint32_t called;
+    long handle;
+
+    (void)user;
+    if (!is_of_history(pool, node, &handle))
+        return QDOT_NIL;
+    piece = qdot_expr_arg(pool, node, 0);
+    if (!qdot_past_is_value((double)handle, &called) || qdot_expr_kind(pool, piece) != QDOT_FUN)
+        return QDOT_ZERO;
+    return qdot_delayed(pool, qdot_symbol_jet(pool, called, 0), qdot_expr_arg(pool, piece, 0),
+                        qdot_expr_is_coordinate(pool, called) ? 0 : 1);
+}
+
+qdot_expr
+qdot_delay_written(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_walk_map(pool, e, value_as_written, NULL);
+}
+
 typedef struct {
     size_t n;
     const qdot_expr *from, *to;

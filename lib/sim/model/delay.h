@@ -18,6 +18,9 @@ qdot_expr qdot_delay_value(qdot_pool *pool, qdot_expr coordinate, bool velocity)
  * x(t - tau) and 0 for x'(t - tau). */
 qdot_expr qdot_delay_at_start(qdot_pool *pool, qdot_expr e);
 
+/* e, of numbers of a run as above, with x(t - tau) for what is read, as it is written. */
+qdot_expr qdot_delay_written(qdot_pool *pool, qdot_expr e);
+
 /* e with the histories of other unknowns in place of those of from [n]: to [n], as where several runs are read at once. */
 qdot_expr qdot_delay_rename(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to);
 

@@ -34,6 +34,7 @@ force (x(t - 0.1), 0) on p; export c eom to "eom.c"
 state z' = z(t - 0.1); equilibria
 force (x(t - 0.1), 0) on p; run 0..1 as a; start a
 force (x(t - 0.1), 0) on p; run 0..1 as a; value(a.x(t + 0.1), 0.95)
+force (-sign(x(t - 1)), 0) on p; start x' = 1; run 0..3
 EOF2
 qdot -q -e "coord x; lagrangian x'^2/2 - x*x(t - 1)" 2>&1
 echo "exit $?"
