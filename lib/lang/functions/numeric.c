@@ -115,6 +115,8 @@ qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot
         return qdot_fail(QDOT_ETYPE, "numeric takes numbers, not a text");
     exact = qdot_measured_as_rationals(session, e);
     QDOT_TRY(qdot_value_kind_check(pool, exact));
+    if (digits > DIGITS && qdot_expr_find_function(pool, exact, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
+        return qdot_fail(QDOT_EDOMAIN, "%ld digits: a table of data is known to %d", digits, DIGITS);
     if (exact == e && !(qdot_expr_is_constant(pool, e) && has_only_numbers(pool, e)))
         return qdot_decimals_beside_symbols(pool, e, (int)digits, value);
     if (!qdot_expr_is_constant(pool, exact) || !(has_only_numbers(pool, e) || qdot_expr_kind(pool, e) == QDOT_MAT))

@@ -8,7 +8,7 @@ data stairs from "drive.csv" : t, F steps
 data map from "map.csv" : a, v, c linear
 integral(stairs(t), t, 0.5, 7)
 numeric(integral(stairs(t), t, 0.5, 7))
-numeric(integral(line(t), t, -10, 20.5), 30)
+numeric(integral(line(t), t, -10, 20.5), 15)
 numeric(integral(line(t), t, 20.5, -10))
 numeric(integral(map(t/2, t), t, 0, 2))
 END
