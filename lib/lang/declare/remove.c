@@ -1,9 +1,15 @@
-/* remove.c -- the statement `remove`: removes things from the scene, by label or by kind and number. */
+/* remove.c -- the statement `remove`: removes things from the scene, by label or by kind and number, and states. */
 #include <string.h>
 
 #include "base/spelling.h"
+#include "expr/print.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
+#include "lang/language/function.h"
 #include "lang/session/labels.h"
+#include "lang/session/names.h"
+#include "lang/session/scales.h"
+#include "lang/session/values.h"
 #include "lang/syntax/record.h"
 
 static qdot_status carry_out_remove(qdot_record *r);
@@ -12,7 +18,7 @@ QDOT_STATEMENT(remove) = {
     .word = "remove",
     .group = QDOT_DECLARING,
     .usage = "remove NAME | remove KIND [K]",
-    .summary = "take a thing out of the scene again: by its label; the only one of its kind (gravity, "
+    .summary = "take a thing out of the scene again: by its label; a state by its name; the only one of its kind (gravity, "
                "potential, spring, damper, dissipation, force, torque), or the K-th",
     .example = "remove d1",
     .handler = carry_out_remove,
@@ -115,8 +121,7 @@ report_unknown_label(const qdot_session *session, const char *label)
     qdot_status status;
 
     if (name != NULL && name->kind == QDOT_NAME_COORD) {
-        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: `remove` of a %s",
-                        qdot_scene_state_of(scene, name->value) != NULL ? "state" : "coordinate");
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: `remove` of a coordinate");
         return qdot_hint("`undo` takes back the statements since, `reset scene` all of the scene");
     }
 
@@ -133,9 +138,61 @@ report_unknown_label(const qdot_session *session, const char *label)
     return status;
 }
 
+/* Whether the definition, function or speed reads the state z. */
+static bool
+definition_reads(qdot_session *session, const qdot_name *name, const char *state, qdot_expr z)
+{
+    if (name->kind == QDOT_NAME_FUNCTION && qdot_function_mentions(session->pool, name, state))
+        return true;
+    return name->kind != QDOT_NAME_COORD && (qdot_reads_coordinate(session->pool, name->value, z) ||
+                                             qdot_reads_coordinate(session->pool, name->formals, z));
+}
+
+/* Fail if a definition or a value given by `set` reads the state z. */
+static qdot_status
+refuse_readers(qdot_session *session, const char *state, qdot_expr z)
+{
+    const qdot_values *v = session->values;
+    const qdot_name *name;
+    qdot_text symbol = {0};
+    qdot_expr reader = QDOT_NIL;
+    qdot_status status;
+
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
+        if (definition_reads(session, name, state, z)) {
+            (void)qdot_fail(QDOT_EINVAL, "%s is read by `%s`", state, name->name);
+            return qdot_hint("`%s` was declared at %s:%u; `undo` takes back the statements since", name->name, name->file, name->line);
+        }
+    for (size_t i = 0; i < v->set_symbols.n; i++)
+        reader = qdot_reads_coordinate(session->pool, v->set_values.at[i], z) ? v->set_symbols.at[i] : reader;
+    if (reader == QDOT_NIL)
+        return qdot_pool_check(session->pool);
+    status = qdot_print(session->pool, reader, QDOT_PLAIN, &symbol);
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EINVAL, "%s is read by the value of %s", state, qdot_text_str(&symbol));
+    if (status == QDOT_EINVAL)
+        status = qdot_hint("give %s another value first", qdot_text_str(&symbol));
+    qdot_text_clear(&symbol);
+    return status;
+}
+
+/* Remove a state with its rate, its start and its scale. */
+static qdot_status
+remove_state(qdot_session *session, const char *state, qdot_expr z)
+{
+    QDOT_TRY(refuse_readers(session, state, z));
+    QDOT_TRY(qdot_scene_remove_state(session->scene, z));
+    qdot_session_start_forget(session, z);
+    qdot_scales_forget(session, z);
+    qdot_names_remove(session->names, state);
+    qdot_symbol_hide(session->pool, z);
+    return QDOT_OK;
+}
+
 static qdot_status
 carry_out_remove(qdot_record *r)
 {
+    const qdot_name *name;
     qdot_scene *scene = r->cursor.session->scene;
     const qdot_filled *number = qdot_record_hole(r, NULL, "K");
     const char *label;
@@ -148,6 +205,9 @@ carry_out_remove(qdot_record *r)
     if (number != NULL)
         return qdot_record_expected(r, number->from, "the end of the statement");
     r->cursor.error_at = r->start->start;
+    name = qdot_names_declared(r->cursor.session->names, label);
+    if (!qdot_scene_has_label(scene, label) && name != NULL && qdot_scene_state_of(scene, name->value) != NULL)
+        return remove_state(r->cursor.session, label, name->value);
     if (!qdot_scene_has_label(scene, label))
         return report_unknown_label(r->cursor.session, label);
     QDOT_TRY(qdot_scene_remove(scene, label));

@@ -25,6 +25,21 @@ qdot_scales_set(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return QDOT_ENOMEM;
 }
 
+void
+qdot_scales_forget(qdot_session *session, qdot_expr q)
+{
+    qdot_values *v = session->values;
+    size_t kept = 0;
+
+    for (size_t i = 0; i < v->scale_symbols.n; i++) {
+        if (v->scale_symbols.at[i] == q || qdot_expr_symbol(session->pool, v->scale_symbols.at[i])->base == q)
+            continue;
+        v->scale_symbols.at[kept] = v->scale_symbols.at[i];
+        v->scale_values.at[kept++] = v->scale_values.at[i];
+    }
+    v->scale_symbols.n = v->scale_values.n = kept;
+}
+
 /* Evaluate the scale of a symbol; QDOT_EINVAL if it is not positive. */
 static qdot_status
 evaluate_scale(qdot_session *session, qdot_expr symbol, qdot_expr value, double *number)

@@ -10,6 +10,8 @@
 /* Set the scale of q, q' or t. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_scales_set(qdot_session *session, qdot_expr symbol,
                                             qdot_expr value);
+/* No scale is said of q and q' any more. */
+void qdot_scales_forget(qdot_session *session, qdot_expr q);
 
 /* QDOT_EINVAL if the scale is not positive; it may contain parameters that have no value yet. */
 QDOT_MUST_CHECK qdot_status qdot_scales_check(qdot_session *session, qdot_expr symbol,

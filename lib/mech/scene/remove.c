@@ -1,6 +1,9 @@
-/* remove.c -- removes items of a scene by their labels, with the forces that act on them. */
+/* remove.c -- removes items of a scene by their labels, with the forces that act on them, and states. */
+#include <ctype.h>
 #include <string.h>
 
+#include "expr/symbol.h"
+#include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
@@ -104,4 +107,109 @@ qdot_scene_remove(qdot_scene *s, const char *label)
     FILTER(s->constraints, p, qdot_label_is(p->label, label));
     qdot_scene_changed(s);
     return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
+}
+
+/* --- states ---------------------------------------------------------------------------- */
+
+/* Whether a declaration holds the name, with no letter, digit or _ next to it. */
+static bool
+holds_name(const char *text, const char *name)
+{
+    const size_t n = strlen(name);
+
+    for (const char *at = strstr(text, name); at; at = strstr(at + 1, name))
+        if ((at == text || !(isalnum((unsigned char)at[-1]) || at[-1] == '_')) && !(isalnum((unsigned char)at[n]) || at[n] == '_'))
+            return true;
+    return false;
+}
+
+/* Append the first declaration that reads the state, as it would be typed; nothing: none was found. */
+static qdot_status
+print_reader(const qdot_scene *s, const char *name, qdot_text *out)
+{
+    qdot_text all = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t k = 0; k < s->states.n && out->n == 0 && status == QDOT_OK; k++) { /* each by itself */
+        qdot_text_clear(&all);
+        status = qdot_scene_print_state(s, s->states.at[k].z, &all);
+        if (holds_name(qdot_text_str(&all), name))
+            qdot_text_add(out, qdot_text_str(&all));
+    }
+    qdot_text_clear(&all);
+    if (status == QDOT_OK)
+        status = qdot_scene_print_things(s, &all);
+    for (char *line = all.at, *end; status == QDOT_OK && out->n == 0 && line && *line; line = end + 1) {
+        end = line + strcspn(line, "\n");
+        *end = '\0';
+        if (holds_name(line, name) && strncmp(line, "state ", 6) != 0)
+            qdot_text_add(out, line);
+    }
+    qdot_text_clear(&all);
+    return status == QDOT_OK ? qdot_text_status(out) : status;
+}
+
+/* The label in a printed declaration: "push" of "force push: -z on p", "w" of "state w' = z"; *length 0: it has none. */
+static const char *
+label_in(const char *reader, size_t *length)
+{
+    const char *label = reader + strcspn(reader, " ");
+
+    label += *label == ' ';
+    *length = strcspn(label, " :'");
+    if (label[*length] != ':' && strncmp(reader, "state ", 6) != 0 && strncmp(reader, "particle ", 9) != 0 &&
+        strncmp(reader, "body ", 5) != 0)
+        *length = 0;
+    return label;
+}
+
+/* Fail because the scene reads a state, with the declaration that does. */
+static qdot_status
+refuse_removal(const qdot_scene *s, const char *name)
+{
+    enum { LONGEST = 200 };
+    qdot_text reader = {0};
+    qdot_status status = print_reader(s, name, &reader);
+    size_t length;
+    const char *label = label_in(qdot_text_str(&reader), &length);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EINVAL, "%s is read by `%.*s%s`", name, LONGEST, reader.n ? qdot_text_str(&reader) : "the scene",
+                           reader.n > LONGEST ? "..." : "");
+    if (status == QDOT_EINVAL)
+        status = length > 0 ? qdot_hint("`remove %.*s` first", (int)length, label)
+                            : qdot_hint("take that out first; `undo` takes back the statements since");
+    qdot_text_clear(&reader);
+    return status;
+}
+
+qdot_status
+qdot_scene_remove_state(qdot_scene *s, qdot_expr z)
+{
+    const size_t i = qdot_expr_place(s->coordinates.n, s->coordinates.at, z);
+    const char *name = qdot_expr_symbol(s->pool, z)->name;
+    qdot_state gone;
+    size_t k = 0;
+
+    while (k < s->states.n && s->states.at[k].z != z)
+        k++;
+    if (k == s->states.n || i == s->coordinates.n)
+        return qdot_fail(QDOT_ENAME, "%s is no state", name);
+    qdot_scene_forget_dropped(s);
+    gone = s->states.at[k];
+    memmove(&s->states.at[k], &s->states.at[k + 1], (s->states.n - k - 1) * sizeof gone);
+    s->states.n--;
+    if (qdot_scene_reads(s, z)) { /* its own rate may read it */
+        const qdot_status status = refuse_removal(s, name);
+
+        memmove(&s->states.at[k + 1], &s->states.at[k], (s->states.n - k) * sizeof gone);
+        s->states.at[k] = gone;
+        s->states.n++;
+        return status;
+    }
+    QDOT_TRY(qdot_pool_check(s->pool));
+    memmove(&s->coordinates.at[i], &s->coordinates.at[i + 1], (s->coordinates.n - i - 1) * sizeof z);
+    s->coordinates.n--;
+    qdot_scene_changed(s);
+    return QDOT_OK;
 }

@@ -3,6 +3,8 @@
  * A function may be declared, and used, before the coordinate that is its argument.
  */
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/scene/scene.h"
 
@@ -91,6 +93,51 @@ qdot_scene_contains(qdot_scene *s, qdot_expr symbol)
     search x = {s->pool, symbol, false};
 
     map_all_expressions(s, (mapping){search_symbol_in_expression, &x});
+    return x.found;
+}
+
+bool
+qdot_reads_coordinate(qdot_pool *pool, qdot_expr e, qdot_expr q)
+{
+    const qdot_expr atoms = e == QDOT_NIL ? QDOT_NIL : qdot_expr_atoms(pool, e, true);
+    bool reads = false;
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms) && !reads; i++) {
+        const qdot_expr atom = qdot_expr_arg(pool, atoms, i);
+        const qdot_symbol *symbol = qdot_expr_symbol(pool, atom);
+
+        reads = symbol ? atom == q || symbol->base == q : qdot_ufun_delayed(pool, qdot_expr_node(pool, atom)->op) == q;
+    }
+    return reads;
+}
+
+static qdot_expr
+search_coordinate_in_expression(qdot_expr e, void *user)
+{
+    search *x = user;
+
+    x->found = x->found || qdot_reads_coordinate(x->pool, e, x->symbol);
+    return e;
+}
+
+bool
+qdot_scene_reads(qdot_scene *s, qdot_expr q)
+{
+    search x = {s->pool, q, false};
+
+    map_all_expressions(s, (mapping){search_coordinate_in_expression, &x});
+    for (size_t i = 0; i < s->torques.n; i++)
+        x.found = x.found || s->torques.at[i].coordinate == q;
+    for (size_t i = 0; i < s->events.n; i++) {
+        const qdot_event *e = &s->events.at[i];
+
+        (void)search_coordinate_in_expression(e->left, &x);
+        (void)search_coordinate_in_expression(e->right, &x);
+        for (size_t k = 0; k < e->targets.n; k++) {
+            (void)search_coordinate_in_expression(e->targets.at[k], &x);
+            (void)search_coordinate_in_expression(e->values.at[k], &x);
+        }
+    }
     return x.found;
 }
 

@@ -97,6 +97,8 @@ QDOT_MUST_CHECK qdot_status qdot_scene_outputs(qdot_scene *s, size_t n, const qd
 /* Take the thing of that label out again. What was declared to act on a removed particle or body
  * goes with it, named in s->dropped. */
 QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
+/* Take the state z and its rate out again. QDOT_EINVAL, and nothing is changed: something reads it, which the message names. */
+QDOT_MUST_CHECK qdot_status qdot_scene_remove_state(qdot_scene *s, qdot_expr z);
 /* The number of items of a kind, with and without label; remove item k, counted from 0. */
 size_t qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind);
 QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k);
@@ -122,8 +124,12 @@ qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot
 
 /* Replace a symbol by another expression in all declarations but events. */
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
-/* Whether a symbol occurs in any expression of the scene. */
+/* Whether a symbol occurs in any expression of the scene but events. */
 bool qdot_scene_contains(qdot_scene *s, qdot_expr symbol);
+/* Whether e holds the coordinate q, a derivative of it, its momentum or q(t - tau); whether an expression of the scene does, one
+ * of an event too. */
+bool qdot_reads_coordinate(qdot_pool *pool, qdot_expr e, qdot_expr q);
+bool qdot_scene_reads(qdot_scene *s, qdot_expr q);
 /* Whether the scene holds coordinates at an earlier time (qdot_delayed), in events too. QDOT_ENOTBUILT if e, which is called `what`,
  * holds one. */
 bool qdot_scene_has_delays(const qdot_scene *s);
