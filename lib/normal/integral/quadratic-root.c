@@ -267,30 +267,75 @@ integrate_over_root(root *r, qdot_expr G)
     return integrate_polynomial(r, P);
 }
 
+/* The integrand (n0 + n1 y)/(d0 + d1 y) with y^2 = q. */
+typedef struct {
+    qdot_expr q, y, n0, n1, d0, d1;
+} quotient;
+
+/* Read an integrand that holds one square root. */
+static bool
+read_one_root(qdot_integral_task *t, const qdot_reading *g, quotient *e)
+{
+    const qdot_expr Y = g->generator[0].symbol;
+
+    e->q = g->generator[0].of;
+    e->y = g->generator[0].expr;
+    return qdot_poly_read_root(t, qdot_mul(t->pool, g->rest, g->numerator), Y, e->q, &e->n0, &e->n1) &&
+           qdot_poly_read_root(t, qdot_reading_denominator(t, g), Y, e->q, &e->d0, &e->d1);
+}
+
+/* e = lo + hi y, or e = (lo + hi y)/Y1 where it is *odd, y = Y1 Y2: it changes by its sign alone, if at all, where both roots do. */
+static bool
+read_product_of_roots(qdot_integral_task *t, const qdot_reading *g, qdot_expr e, bool *odd, qdot_expr *lo, qdot_expr *hi)
+{
+    const qdot_expr q1 = g->generator[0].of, Y1 = g->generator[0].symbol, q2 = g->generator[1].of, Y2 = g->generator[1].symbol;
+    qdot_expr e0, e1, e00, e01, e10, e11; /* e_ij Y1^i Y2^j */
+
+    if (!qdot_poly_read_root(t, e, Y1, q1, &e0, &e1) || !qdot_poly_read_root(t, e0, Y2, q2, &e00, &e01) ||
+        !qdot_poly_read_root(t, e1, Y2, q2, &e10, &e11))
+        return false;
+    *odd = e00 == QDOT_ZERO && e11 == QDOT_ZERO;
+    *lo = *odd ? qdot_mul(t->pool, q1, e10) : e00;
+    *hi = *odd ? e01 : e11;
+    return *odd || (e10 == QDOT_ZERO && e01 == QDOT_ZERO);
+}
+
+/* Read an integrand that holds the roots of two linear factors of q by their product only: sqrt(4 - x^2) is
+ * sqrt(2 - x) sqrt(2 + x) where x > 0 is known. */
+static bool
+read_two_roots(qdot_integral_task *t, const qdot_reading *g, quotient *e)
+{
+    bool odd_over, odd_under;
+
+    e->q = qdot_mul(t->pool, g->generator[0].of, g->generator[1].of);
+    e->y = qdot_mul(t->pool, g->generator[0].expr, g->generator[1].expr);
+    return read_product_of_roots(t, g, qdot_mul(t->pool, g->rest, g->numerator), &odd_over, &e->n0, &e->n1) &&
+           read_product_of_roots(t, g, qdot_reading_denominator(t, g), &odd_under, &e->d0, &e->d1) && odd_over == odd_under;
+}
+
 qdot_expr
 qdot_quadratic_root_integrate(qdot_integral_task *t, const qdot_reading *g, qdot_expr x)
 {
     qdot_pool *pool = t->pool;
     root r = {.t = t, .pool = pool, .x = x, .F = QDOT_ZERO};
-    qdot_expr q, Y, n0, n1, d0, d1, under, A, G;
+    qdot_expr under, A, G;
+    quotient e;
 
-    if (g->n != 1 || g->generator[0].kind != QDOT_GEN_ROOT || g->generator[0].order != 2)
+    for (int i = 0; i < g->n; i++)
+        if (g->generator[i].kind != QDOT_GEN_ROOT || g->generator[i].order != 2)
+            return QDOT_NIL;
+    if ((g->n != 1 || !read_one_root(t, g, &e)) && (g->n != 2 || !read_two_roots(t, g, &e)))
         return QDOT_NIL;
-    q = g->generator[0].of;
-    Y = g->generator[0].symbol;
-    r.q = qdot_poly_read(t, q, x);
+    r.q = qdot_poly_read(t, e.q, x);
     if (r.q.degree != 2)
         return QDOT_NIL;
-    r.y = g->generator[0].expr;
+    r.y = e.y;
     r.dq = qdot_poly_diff(t, &r.q);
-    if (!qdot_poly_read_root(t, qdot_mul(pool, g->rest, g->numerator), Y, q, &n0, &n1) ||
-        !qdot_poly_read_root(t, qdot_reading_denominator(t, g), Y, q, &d0, &d1))
-        return QDOT_NIL;
-    under = qdot_sub(pool, qdot_mul(pool, d0, d0), qdot_mul(pool, q, qdot_mul(pool, d1, d1)));
-    A = qdot_sub(pool, qdot_mul(pool, n0, d0), qdot_mul(pool, q, qdot_mul(pool, n1, d1)));
+    under = qdot_sub(pool, qdot_mul(pool, e.d0, e.d0), qdot_mul(pool, e.q, qdot_mul(pool, e.d1, e.d1)));
+    A = qdot_sub(pool, qdot_mul(pool, e.n0, e.d0), qdot_mul(pool, e.q, qdot_mul(pool, e.n1, e.d1)));
     A = qdot_integral_normal(t, qdot_div(pool, A, under));
-    G = qdot_sub(pool, qdot_mul(pool, n1, d0), qdot_mul(pool, n0, d1));
-    G = qdot_integral_normal(t, qdot_div(pool, qdot_mul(pool, q, G), under));
+    G = qdot_sub(pool, qdot_mul(pool, e.n1, e.d0), qdot_mul(pool, e.n0, e.d1));
+    G = qdot_integral_normal(t, qdot_div(pool, qdot_mul(pool, e.q, G), under));
     if (A == QDOT_NIL || G == QDOT_NIL)
         return QDOT_NIL;
     if (A != QDOT_ZERO)
