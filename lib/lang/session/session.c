@@ -146,6 +146,9 @@ qdot_session_exchange(qdot_session *session, qdot_session *other)
     FORGOTTEN(X)
 #undef X
 #undef EXCHANGE
+    /* solvers of dimensions ask the session that made them: each makes a new one when it needs it */
+    qdot_units_back_to(session, session->units->facts.n);
+    qdot_units_back_to(other, other->units->facts.n);
 }
 
 void
