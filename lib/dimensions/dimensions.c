@@ -189,20 +189,22 @@ part_of(const qdot_dimensions *d, qdot_expr e, uint32_t i)
     return x == QDOT_NIL ? qdot_expr_arg(d->pool, e, i) : qdot_integral_open(d->pool, e, x);
 }
 
-/* What must be visited before the symbol or integral e though it is none of its args: the coordinate of a derivative or
- * momentum, the expression that a symbol stands for, the variable of an integral; nil: nothing. */
+/* What must be visited before the symbol or integral e though it is none of its args: the expression that a symbol stands for,
+ * the coordinate of a derivative or momentum, the variable of an integral; nil: nothing. */
 static qdot_expr
 what_comes_before(const qdot_dimensions *d, qdot_expr e)
 {
     const qdot_symbol *s = qdot_expr_symbol(d->pool, e);
+    qdot_expr base, other = QDOT_NIL;
 
     if (s == NULL && qdot_expr_kind(d->pool, e) == QDOT_UFUN)
         return qdot_ufun_delayed(d->pool, qdot_expr_node(d->pool, e)->op);
     if (s == NULL)
         return variable_of(d, e);
-    if (s->base != QDOT_NIL)
-        return s->base;
-    return s->class == QDOT_FORMAL && d->stands_for != NULL ? d->stands_for(d->user, e) : QDOT_NIL;
+    base = s->base;
+    if (d->stands_for != NULL && (s->class == QDOT_FORMAL || s->class == QDOT_MOMENTUM || s->class == QDOT_MULTIPLIER))
+        other = d->stands_for(d->user, e);
+    return other != QDOT_NIL ? other : base;
 }
 
 static qdot_status
@@ -228,7 +230,7 @@ symbol_form(qdot_dimensions *d, qdot_expr e, const qdot_form **form)
     else if (s.class == QDOT_COORD)
         *form = qdot_form_addmul(&d->forms, d->of.at[before], qdot_form_constant(&d->forms, base_dimension(2)),
                                  (qdot_exponent){-(int32_t)s.order, 1});
-    else if (s.class == QDOT_MOMENTUM)
+    else if (s.class == QDOT_MOMENTUM && before == s.base)
         *form = qdot_form_addmul(&d->forms, qdot_form_constant(&d->forms, qdot_dimension_make(action)), d->of.at[before],
                                  minus);
     else

@@ -9,7 +9,7 @@
  *     number               0; the number 0 has every dimension
  *     t                    time
  *     q', q''              dim(q) - time, dim(q) - 2 time
- *     p[q], dq, delta[q]   energy + time - dim(q), dim(q), dim(q)
+ *     p[q], dq, delta[q]   energy + time - dim(q), or that of what p[q] stands for, dim(q), dim(q)
  *     a unit, [kg]         itself: units are symbols whose value is 1 (expr/unit.h)
  *     a + b                dim(a) = dim(b)
  *     a^x                  x dim(a) for a rational number x; else dim(a) = dim(x) = 0
@@ -27,7 +27,8 @@
 
 typedef struct qdot_dimensions qdot_dimensions;
 
-/* What a symbol stands for, such as a value along a run: an expression of the same dimension; nil: nothing. */
+/* What a symbol stands for, such as a value along a run, a momentum, a multiplier: an expression of the same dimension; nil:
+ * nothing. */
 typedef qdot_expr (*qdot_stands_for)(const void *user, qdot_expr symbol);
 
 /* NULL: no memory. The pool is borrowed. */

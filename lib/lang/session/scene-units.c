@@ -11,7 +11,7 @@
 #include "mech/scene/things.h"
 
 static const int none[QDOT_BASES] = {0}, length[QDOT_BASES] = {1}, mass[QDOT_BASES] = {0, 1}, inertia[QDOT_BASES] = {2, 1},
-                 acceleration[QDOT_BASES] = {1, 0, -2}, energy[QDOT_BASES] = {2, 1, -2}, power[QDOT_BASES] = {2, 1, -3},
+                 acceleration[QDOT_BASES] = {1, 0, -2}, energy[QDOT_BASES] = {2, 1, -2},
                  force[QDOT_BASES] = {1, 1, -2}, stiffness[QDOT_BASES] = {0, 1, -2}, damping[QDOT_BASES] = {0, 1, -1};
 
 /* Fail again, with the thing of the scene that does not agree before the message. */
@@ -59,6 +59,14 @@ infer(qdot_session *session, qdot_expr e, const int *is, const char *format)
     return is != NULL ? qdot_units_fix(session, e, qdot_dimension_make(is), format) : QDOT_OK;
 }
 
+/* Infer what e says, and that e times x is of the dimension of L. */
+static qdot_status
+infer_energy(qdot_session *session, qdot_expr e, qdot_expr x, const char *format)
+{
+    QDOT_TRY(infer(session, e, NULL, NULL));
+    return qdot_units_energy(session, qdot_mul(session->pool, e, x), format);
+}
+
 static qdot_status
 infer_from_masses(qdot_session *session)
 {
@@ -104,8 +112,8 @@ infer_from_forces(qdot_session *session)
     for (size_t i = 0; i < s->potentials.n; i++)
         QDOT_TRY(blame_thing(infer(session, s->potentials.at[i].e, energy, "it is an energy, not %s"), "potential", s->potentials.at[i].name));
     for (size_t i = 0; i < s->dissipations.n; i++)
-        QDOT_TRY(blame_thing(infer(session, s->dissipations.at[i].e, power, "it is a power, not %s"), "dissipation",
-                       s->dissipations.at[i].name));
+        QDOT_TRY(blame_thing(infer_energy(session, s->dissipations.at[i].e, QDOT_T, "times time it is %s, not %s"), "dissipation",
+                             s->dissipations.at[i].name));
     for (size_t i = 0; i < s->springs.n; i++)
         QDOT_TRY(infer_from_link(session, "spring", &s->springs.at[i], stiffness, "its stiffness is a stiffness, not %s"));
     for (size_t i = 0; i < s->dampers.n; i++)
@@ -116,11 +124,11 @@ infer_from_forces(qdot_session *session)
     }
     for (size_t i = 0; i < s->torques.n; i++) {
         const qdot_torque *x = &s->torques.at[i];
-        const qdot_expr on = x->coordinate != QDOT_NIL ? x->coordinate : QDOT_ONE;
+        const qdot_status status = x->coordinate != QDOT_NIL
+                                       ? infer_energy(session, x->torque, x->coordinate, "times its coordinate it is %s, not %s")
+                                       : infer(session, x->torque, energy, "it is a torque (as an energy), not %s");
 
-        QDOT_TRY(blame_thing(infer(session, on == QDOT_ONE ? x->torque : qdot_mul(session->pool, x->torque, on), energy,
-                           on == QDOT_ONE ? "it is a torque (as an energy), not %s" : "times its coordinate it is an energy, not %s"),
-                       x->force ? "force" : "torque", x->name));
+        QDOT_TRY(blame_thing(status, x->force ? "force" : "torque", x->name));
     }
     return QDOT_OK;
 }
@@ -216,9 +224,9 @@ qdot_units_of_scene(qdot_session *session)
     const qdot_expr stated = s->higher_lagrangian != QDOT_NIL ? s->higher_lagrangian : s->lagrangian;
 
     QDOT_TRY(infer_from_masses(session));
-    QDOT_TRY(infer_from_forces(session));
-    QDOT_TRY(infer_from_equations(session));
     QDOT_TRY(infer_from_function(session, stated, "lagrangian"));
     QDOT_TRY(infer_from_function(session, s->hamiltonian, "hamiltonian"));
+    QDOT_TRY(infer_from_forces(session));
+    QDOT_TRY(infer_from_equations(session));
     return infer_from_names(session);
 }

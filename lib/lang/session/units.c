@@ -9,6 +9,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/values.h"
+#include "mech/scene/things.h"
 
 void
 qdot_units_clear(qdot_units *units)
@@ -44,13 +45,61 @@ qdot_units_back_to(qdot_session *session, size_t n)
 
 /* --- the solver ------------------------------------------------------------------------ */
 
-/* What a symbol of a.EXPR stands for; for the time of an event, t. */
+static const int energy[QDOT_BASES] = {2, 1, -2};
+
+/* The Lagrangian that is stated, or found from a stated H; nil: none. */
 static qdot_expr
-stands_for(const void *session, qdot_expr symbol)
+stated_lagrangian(const qdot_session *session)
 {
+    const qdot_scene *s = session->scene;
+
+    return s->higher_lagrangian != QDOT_NIL ? s->higher_lagrangian : s->lagrangian;
+}
+
+static qdot_expr
+energy_unit(qdot_pool *pool)
+{
+    qdot_expr unit = QDOT_ONE;
+
+    for (int k = 0; k < QDOT_BASES; k++)
+        unit = qdot_mul(pool, unit, qdot_pow_int(pool, qdot_unit_symbol(pool, k), energy[k]));
+    return unit;
+}
+
+/* An expression of the dimension of a multiplier: lambda f, times t for each derivative in the constraint f = 0, is an energy, or
+ * what the stated L is; nil: the constraint is not known. */
+static qdot_expr
+like_multiplier(qdot_session *session, qdot_expr multiplier)
+{
+    const qdot_scene *s = session->scene;
+    qdot_pool *pool = session->pool;
+    const qdot_expr L = stated_lagrangian(session);
+    qdot_expr f_t;
+    size_t i = 0;
+
+    while (i < s->constraints.n && s->constraints.at[i].multiplier != multiplier)
+        i++;
+    if (i == s->constraints.n || s->constraints.at[i].f == QDOT_ZERO)
+        return QDOT_NIL;
+    f_t = qdot_mul(pool, s->constraints.at[i].f, qdot_pow_int(pool, QDOT_T, (long)s->constraints.at[i].kind));
+    return qdot_div(pool, L != QDOT_NIL ? L : energy_unit(pool), f_t);
+}
+
+/* An expression of the dimension of a symbol: what one of a.EXPR stands for; for the time of an event, t; for p[q] L t/q where
+ * L is stated. */
+static qdot_expr
+stands_for(const void *user, qdot_expr symbol)
+{
+    qdot_session *session = (qdot_session *)(uintptr_t)user;
+    const qdot_symbol s = *qdot_expr_symbol(session->pool, symbol);
     const qdot_member *member = qdot_member_find(session, symbol);
     const qdot_measured *measured = member == NULL ? qdot_measured_find(session, symbol) : NULL;
+    const qdot_expr L = stated_lagrangian(session);
 
+    if (s.class == QDOT_MULTIPLIER)
+        return like_multiplier(session, symbol);
+    if (s.class == QDOT_MOMENTUM)
+        return L == QDOT_NIL ? QDOT_NIL : qdot_mul(session->pool, L, qdot_div(session->pool, QDOT_T, s.base));
     if (member != NULL)
         return member->value;
     return measured != NULL && measured->origin.kind == QDOT_ORIGIN_EVENT ? QDOT_T : QDOT_NIL;
@@ -145,6 +194,14 @@ qdot_status
 qdot_units_fix(qdot_session *session, qdot_expr e, qdot_dimension is, const char *format)
 {
     return add_fact(session, &(qdot_unit_fact){.kind = QDOT_FACT_FIX, .a = e, .is = is}, format);
+}
+
+qdot_status
+qdot_units_energy(qdot_session *session, qdot_expr e, const char *format)
+{
+    const qdot_expr L = stated_lagrangian(session);
+
+    return L != QDOT_NIL ? qdot_units_join(session, e, L, format) : qdot_units_fix(session, e, qdot_dimension_make(energy), format);
 }
 
 qdot_status

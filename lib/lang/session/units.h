@@ -41,6 +41,8 @@ void qdot_units_back_to(qdot_session *session, size_t n);
 QDOT_MUST_CHECK qdot_status qdot_units_visit(qdot_session *session, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_units_join(qdot_session *session, qdot_expr a, qdot_expr b, const char *format);
 QDOT_MUST_CHECK qdot_status qdot_units_fix(qdot_session *session, qdot_expr e, qdot_dimension is, const char *format);
+/* e is of the dimension of the stated Lagrangian, which may be one for a unit of mass; where none is stated, an energy. */
+QDOT_MUST_CHECK qdot_status qdot_units_energy(qdot_session *session, qdot_expr e, const char *format);
 /* The symbol is an angle: its unit is written, as rad. */
 QDOT_MUST_CHECK qdot_status qdot_units_angle(qdot_session *session, qdot_expr symbol);
 /* The symbols that are summands of the argument of a sine, cosine or tangent, up to a number, are angles. */

@@ -6,6 +6,7 @@
 #include "expr/build.h"
 #include "expr/symbol.h"
 #include "lang/session/units.h"
+#include "mech/scene/things.h"
 
 static const struct row {
     const char *statement, *before, *text, *words;
@@ -29,23 +30,35 @@ static qdot_status
 give_action(qdot_session *session, qdot_expr value, qdot_expr on, bool torque)
 {
     if (on != QDOT_NIL)
-        return qdot_units_fix(session, qdot_mul(session->pool, value, on), qdot_dimension_make(energy),
-                              "force times displacement is %s, not %s");
+        return qdot_units_energy(session, qdot_mul(session->pool, value, on), "force times displacement is %s, not %s");
     return torque ? qdot_units_fix(session, value, qdot_dimension_make(energy), "a torque belongs here (as an energy), not %s")
                   : qdot_units_fix(session, value, qdot_dimension_make(force), "a force belongs here, not %s");
 }
 
 /* A Lagrangian or Hamiltonian of which that is not determined is an energy; it may be another, such as one for a unit of
- * mass. */
+ * mass. What acts on coordinates does work of the same dimension. */
 static qdot_status
 give_energy_if_free(qdot_session *session, qdot_expr value)
 {
+    const qdot_scene *s = session->scene;
+    qdot_pool *pool = session->pool;
     qdot_dimension is;
+    qdot_status status;
 
     QDOT_TRY(qdot_units_visit(session, value));
-    return qdot_units_of(session, value, &is) == QDOT_DIMENSION_FREE
-               ? qdot_units_fix(session, value, qdot_dimension_make(energy), "%s is not %s")
-               : QDOT_OK;
+    if (qdot_units_of(session, value, &is) == QDOT_DIMENSION_FREE)
+        QDOT_TRY(qdot_units_fix(session, value, qdot_dimension_make(energy), "%s is not %s"));
+    status = QDOT_OK;
+    for (size_t i = 0; i < s->torques.n && status == QDOT_OK; i++)
+        if (s->torques.at[i].coordinate != QDOT_NIL)
+            status = qdot_units_join(session, value, qdot_mul(pool, s->torques.at[i].torque, s->torques.at[i].coordinate),
+                                     "the Lagrangian is %s, but force times displacement %s");
+    for (size_t i = 0; i < s->dissipations.n && status == QDOT_OK; i++)
+        status = qdot_units_join(session, value, qdot_mul(pool, s->dissipations.at[i].e, QDOT_T),
+                                 "the Lagrangian is %s, but dissipation times time %s");
+    if (status == QDOT_ETYPE)
+        (void)qdot_hint("with the Lagrangian first, what acts on coordinates gets its dimension from it");
+    return status;
 }
 
 qdot_status
@@ -62,6 +75,8 @@ qdot_hole_dimension(qdot_session *session, const char *statement, const qdot_usa
         return give_action(session, value, on, true);
     if ((strcmp(statement, "lagrangian") == 0 && suits("L", text)) || strcmp(statement, "hamiltonian") == 0)
         return give_energy_if_free(session, value);
+    if (strcmp(statement, "dissipation") == 0 && suits("D", text) && session->scene->lagrangian != QDOT_NIL)
+        return qdot_units_energy(session, qdot_mul(session->pool, value, QDOT_T), "dissipation times time is %s, not %s");
     while (row < end && !(suits(row->statement, statement) && suits(row->before, before) && suits(row->text, text)))
         row++;
     if (row == end || (suits("a time", row->words) && qdot_expr_is_constant(session->pool, value)))
