@@ -9,6 +9,7 @@
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/normal-form.h"
 #include "normal/inequality/less.h"
@@ -25,6 +26,7 @@ typedef struct {
     qdot_expr grow;              /* exp(grow x) */
     qdot_expr gauss;             /* exp(-gauss x^2) */
     qdot_expr square;            /* x^2 + square */
+    qdot_expr p, q;              /* x^4 + p x^2 + q */
     qdot_expr value;
     qdot_status status;
 } table;
@@ -66,6 +68,30 @@ read_exponent(table *t, qdot_expr u)
         t->decay[t->decay[0] != QDOT_NIL] = qdot_neg(t->pool, linear);
 }
 
+/* Note p and q if the sum e is c (x^4 + p x^2 + q). */
+static void
+read_quartic(table *t, qdot_expr e)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr zero = QDOT_ZERO, constant = qdot_subs(pool, e, 1, &t->x, &zero);
+    const qdot_expr slope = qdot_diff(pool, e, t->x), curvature = slope == QDOT_NIL ? slope : qdot_diff(pool, slope, t->x);
+    const qdot_expr c2 = curvature == QDOT_NIL ? curvature
+                                               : qdot_mul(pool, QDOT_HALF, qdot_subs(pool, curvature, 1, &t->x, &zero));
+    const qdot_expr square = qdot_mul(pool, t->x, t->x);
+    qdot_expr c4;
+
+    if (constant == QDOT_NIL || c2 == QDOT_NIL)
+        return;
+    c4 = factor_of_power(t, qdot_sub(pool, e, qdot_add(pool, constant, qdot_mul(pool, c2, square))), 4);
+    if (c4 == QDOT_NIL || c4 == QDOT_ZERO)
+        return;
+    t->p = qdot_div(pool, c2, c4);
+    t->q = qdot_div(pool, constant, c4);
+    c4 = qdot_sub(pool, qdot_mul(pool, t->p, t->p), qdot_mul(pool, qdot_expr_int(pool, 4), t->q));
+    if (qdot_normal(pool, c4, NULL) == QDOT_ZERO) /* (x^2 + p/2)^2 */
+        t->square = qdot_mul(pool, QDOT_HALF, t->p);
+}
+
 /* Note which of the numbers k, k2 ... the node e of the integrand shows, if any. */
 static void
 read_node(table *t, qdot_expr e)
@@ -87,6 +113,8 @@ read_node(table *t, qdot_expr e)
         if (lead != QDOT_NIL && lead != QDOT_ZERO) /* c x^2 + s, lead = 2 c */
             t->square = qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), qdot_subs(pool, e, 1, &t->x, &(qdot_expr){QDOT_ZERO})),
                                  lead);
+        else
+            read_quartic(t, e);
     }
 }
 
@@ -112,6 +140,56 @@ function_of(const table *t, qdot_fun_id f, qdot_expr rate, long n)
     return qdot_fun1(t->pool, f, qdot_mul(t->pool, rate, qdot_pow_int(t->pool, t->x, n)));
 }
 
+/* The integral of cos(k x)/(x^4 + p x^2 + q), by residues; nil: the signs that it needs are not proved. */
+static qdot_expr
+quartic_integral(table *t, qdot_expr k)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr two = qdot_expr_int(pool, 2), four = qdot_expr_int(pool, 4), p = t->p, q = t->q;
+    qdot_expr gap = p == QDOT_NIL ? p : qdot_sub(pool, qdot_mul(pool, four, q), qdot_mul(pool, p, p)), c, u, w, fall, wave;
+
+    if (!is_proved_positive(t, q))
+        return QDOT_NIL;
+    if (is_proved_positive(t, gap)) { /* poles at u + i w and -u + i w */
+        c = qdot_sqrt(pool, q);
+        u = qdot_mul(pool, QDOT_HALF, qdot_sqrt(pool, qdot_sub(pool, qdot_mul(pool, two, c), p)));
+        w = qdot_mul(pool, QDOT_HALF, qdot_sqrt(pool, qdot_add(pool, qdot_mul(pool, two, c), p)));
+        fall = qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_mul(pool, k, w)));
+        wave = qdot_add(pool, qdot_mul(pool, u, qdot_fun1(pool, QDOT_COS, qdot_mul(pool, k, u))),
+                        qdot_mul(pool, w, qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, k, u))));
+        return qdot_div(pool, qdot_product(pool, 3, (qdot_expr[]){QDOT_PI, fall, wave}),
+                        qdot_product(pool, 4, (qdot_expr[]){four, u, w, c}));
+    }
+    gap = qdot_neg(pool, gap);
+    if (!is_proved_positive(t, gap) || !is_proved_positive(t, p))
+        return QDOT_NIL;
+    gap = qdot_sqrt(pool, gap); /* poles at i u and i w */
+    u = qdot_sqrt(pool, qdot_mul(pool, QDOT_HALF, qdot_sub(pool, p, gap)));
+    w = qdot_sqrt(pool, qdot_mul(pool, QDOT_HALF, qdot_add(pool, p, gap)));
+    fall = qdot_sub(pool, qdot_div(pool, qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_mul(pool, k, u))), u),
+                    qdot_div(pool, qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_mul(pool, k, w))), w));
+    return qdot_div(pool, qdot_product(pool, 3, (qdot_expr[]){QDOT_HALF, QDOT_PI, fall}), gap);
+}
+
+/* Compare with x^n cos(k x) or x^n sin(k x) over x^4 + p x^2 + q, n = 0 ... 3: derivatives by k of the integral for n = 0. */
+static void
+look_up_quartic(table *t, qdot_expr s, qdot_expr c)
+{
+    qdot_pool *pool = t->pool;
+    const qdot_expr k = qdot_symbol_get(pool, QDOT_FORMAL, "rate#"), x2 = qdot_mul(pool, t->x, t->x);
+    qdot_expr under, F = quartic_integral(t, k);
+
+    if (F == QDOT_NIL)
+        return;
+    under = qdot_add(pool, qdot_mul(pool, x2, qdot_add(pool, x2, t->p)), t->q);
+    for (long n = 0; n <= 3 && F != QDOT_NIL; n++) { /* d/dk cos(k x) = -x sin(k x), d/dk sin(k x) = x cos(k x) */
+        compare(t, qdot_div(pool, qdot_mul(pool, n % 2 == 0 ? c : s, qdot_pow_int(pool, t->x, n)), under),
+                qdot_subs(pool, F, 1, &k, &t->k));
+        F = qdot_diff(pool, F, k);
+        F = F == QDOT_NIL || n % 2 == 1 ? F : qdot_neg(pool, F);
+    }
+}
+
 /* Compare the integrand, which holds sin(k x) or cos(k x) with k > 0, with the entries of improper.h that hold these. */
 static void
 look_up_waves(table *t)
@@ -119,10 +197,16 @@ look_up_waves(table *t)
     qdot_pool *pool = t->pool;
     const qdot_expr x = t->x, k = t->k, s = function_of(t, QDOT_SIN, k, 1), c = function_of(t, QDOT_COS, k, 1);
     const qdot_expr half_pi = qdot_mul(pool, QDOT_HALF, QDOT_PI), ratio = qdot_div(pool, s, x), decay = t->decay[0];
+    const qdot_expr root = qdot_sqrt(pool, x);
 
     compare(t, ratio, half_pi);
     compare(t, qdot_mul(pool, ratio, ratio), qdot_mul(pool, half_pi, k));
     compare(t, qdot_div(pool, qdot_sub(pool, QDOT_ONE, c), qdot_mul(pool, x, x)), qdot_mul(pool, half_pi, k));
+    compare(t, qdot_div(pool, s, root), qdot_sqrt(pool, qdot_div(pool, half_pi, k)));
+    compare(t, qdot_div(pool, c, root), qdot_sqrt(pool, qdot_div(pool, half_pi, k)));
+    compare(t, qdot_div(pool, ratio, root), qdot_sqrt(pool, qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, 2), QDOT_PI, k})));
+    compare(t, qdot_div(pool, qdot_sub(pool, QDOT_ONE, c), qdot_mul(pool, x, root)),
+            qdot_sqrt(pool, qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, 2), QDOT_PI, k})));
     if (is_proved_positive(t, decay))
         compare(t, qdot_mul(pool, ratio, function_of(t, QDOT_EXP, qdot_neg(pool, decay), 1)),
                 qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, k, decay)));
@@ -139,7 +223,13 @@ look_up_waves(table *t)
 
         compare(t, qdot_div(pool, c, under), qdot_div(pool, fall, a));
         compare(t, qdot_div(pool, qdot_mul(pool, x, s), under), fall);
+        compare(t, qdot_div(pool, c, qdot_mul(pool, under, under)),
+                qdot_div(pool, qdot_mul(pool, fall, qdot_add(pool, QDOT_ONE, qdot_mul(pool, a, k))),
+                         qdot_mul(pool, qdot_expr_int(pool, 2), qdot_pow_int(pool, a, 3))));
+        compare(t, qdot_div(pool, qdot_mul(pool, x, s), qdot_mul(pool, under, under)),
+                qdot_div(pool, qdot_mul(pool, fall, k), qdot_mul(pool, qdot_expr_int(pool, 2), a)));
     }
+    look_up_quartic(t, s, c);
 }
 
 /* |B| (2 pi/k)^(n + 1)/(2 (n + 1)), B the Bernoulli number of n + 1. */
