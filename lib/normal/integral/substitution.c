@@ -225,7 +225,8 @@ qdot_linear_root_integrate(qdot_integral_task *t, const qdot_reading *r, qdot_ex
     qdot_expr w, wq, X, e, F, from[QDOT_READING_GENERATORS + 1], to[QDOT_READING_GENERATORS + 1];
 
     for (int i = 0; i < r->n; i++) {
-        if (r->generator[i].kind != QDOT_GEN_ROOT)
+        /* a root of higher degree goes first: sqrt(16 - x^4) is sqrt(2 - x) times that of a cubic where x > 0 */
+        if (r->generator[i].kind != QDOT_GEN_ROOT || qdot_poly_read(t, r->generator[i].of, x).degree > 1)
             return QDOT_NIL;
         if ((at < 0 || r->generator[i].order > r->generator[at].order) &&
             read_linear_fraction(t, r->generator[i].of, x, &over, &under))
