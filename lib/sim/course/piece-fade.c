@@ -18,15 +18,17 @@ qdot_piece_let_fade(qdot_piece *x)
         const qdot_watched *w = &m->watched[i];
 
         const qdot_staged_event *e = w->kind == QDOT_WATCH_EVENT ? &s->events.at[w->index] : NULL;
+        size_t contact;
 
         if (!e)
             continue;
         if (!e->then && !e->stop)
             qdot_watch_may_fade(qdot_piece_watch(x), i, !held && !x->options->leading);
+        contact = e->way != 0 ? qdot_contacts_surface(&s->switches, w->index, e->way) : SIZE_MAX;
         qdot_watch_may_hide(qdot_piece_watch(x), i,
-                            e->way != 0 && e->turn == QDOT_NIL && !held && !x->options->leading
-                                && qdot_contacts_surface(&s->switches, w->index, e->way) != SIZE_MAX,
-                            e->way);
+                            contact != SIZE_MAX && x->side[contact] != QDOT_SIDE_SLIDES && e->turn == QDOT_NIL
+                                && !x->options->leading,
+                            e->way, held);
     }
 }
 

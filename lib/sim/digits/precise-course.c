@@ -500,6 +500,15 @@ find_occurrence_times(qdot_precise_side *s)
     return QDOT_OK;
 }
 
+/* Whether an end belongs to piece k: also one at which the next piece, which has steps, begins: bodies that touch behind the blow that
+ * ended piece k are pushed together there. */
+static bool
+is_end_of_piece(const qdot_course *g, const qdot_course_end *end, size_t k)
+{
+    return end->piece == k
+           || (end->piece == k + 1 && piece_duration(g, k + 1) > 0 && end->t == g->tr.t[g->tr.pieces.at[k + 1].first]);
+}
+
 static qdot_status
 follow_pieces(qdot_precise_side *s)
 {
@@ -518,7 +527,7 @@ follow_pieces(qdot_precise_side *s)
         size_t first = at;
 
         QDOT_TRY(qdot_interrupt_check());
-        while (at < g->ends.n && g->ends.at[at].piece == k)
+        while (at < g->ends.n && is_end_of_piece(g, &g->ends.at[at], k))
             at++;
         QDOT_TRY(run_piece(s, k, g->ends.at + first, at - first));
         rest = find_start_of_contact(g, k, g->ends.at + first, at - first, &many);

@@ -54,11 +54,11 @@ watch_make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 3 * 2 * n + 1 + 2 * work + 16 * m + 3 * QDOT_WATCH_NODES * m +
+    double *at = qdot_calloc(inputs + 3 * 2 * n + 1 + 2 * work + 19 * m + 3 * QDOT_WATCH_NODES * m +
                                  (QDOT_WATCH_DEEPEST + 2) * m + m,
                              sizeof *at);
     int *signs = qdot_calloc(9 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(16 * m + 1, sizeof *flags);
+    bool *flags = qdot_calloc(19 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -94,6 +94,9 @@ watch_make_room(qdot_watch *w)
     w->faded_since = w->most + m;
     w->settled = w->faded_since + m;
     w->hidden = w->settled + m;
+    w->start.apart = w->hidden + m;
+    w->now.apart = w->start.apart + m;
+    w->gap = w->now.apart + m;
     for (size_t i = 0; i < m; i++)
         w->settled[i] = NAN;
     w->start.sign = signs + m;
@@ -119,6 +122,9 @@ watch_make_room(qdot_watch *w)
     w->deep = flags + 13 * m;
     w->may_be_flat = flags + 14 * m;
     w->may_hide = flags + 15 * m;
+    w->start.joined = flags + 16 * m;
+    w->now.joined = flags + 17 * m;
+    w->beside = flags + 18 * m;
     return QDOT_OK;
 }
 

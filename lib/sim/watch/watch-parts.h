@@ -47,6 +47,8 @@ struct qdot_watch_state {
     double *g0; /* [m] the value computed for g at its zero, or at the start of the present interval */
     bool *sharp; /* [m] g0 has been computed in double-double precision */
     double *offset; /* [m] value of g at its zero due to rounding, subtracted from double-double values */
+    bool *joined; /* [m] bodies of g touch and have moved alike since the piece began (watch-hidden.c) */
+    double *apart; /* [m] the largest distance between them since then, beyond that at its begin */
 };
 
 typedef struct qdot_watch qdot_watch;
@@ -125,6 +127,8 @@ struct qdot_watch {
     /* Fields for functions that rounding makes (watch-hidden.c). */
     bool *may_hide;  /* [m] crossings of g that rounding makes are passed over */
     int *meets;      /* [m] sign of g behind a crossing that counts */
+    bool *beside;    /* [m] other contacts last */
+    double *gap;     /* [m] how far the bodies were apart when the piece began, which is rounding if they touch; at least 0 */
     int *hides;      /* [m] whether rounding is all of g in this step; QDOT_WATCH_UNKNOWN: not found out yet */
     int nodes;       /* number of Chebyshev nodes that sufficed last time */
     double *samples; /* [m x QDOT_WATCH_NODES] values of g at the Chebyshev nodes */
@@ -245,10 +249,13 @@ void qdot_watch_take_fading(qdot_watch *w);
 
 /* Whether rounding of the state is all of g_i and of dg_i/dt in the step to w->end: its roots there are no crossings.
  * _drop_hidden: such functions are not searched any further in this step; *any: others are. _claim_hidden: add a root at
- * the start of the step from where on g is more than rounding, and has the sign behind a crossing. */
+ * the start of the step from where on g is more than rounding, and has the sign behind a crossing; `several`: the bodies
+ * may have been apart before, and then they bounce. _doubt_missed: add a touch where g has crossed 0, so near to where the
+ * step starts that no root was told from rounding. */
 QDOT_MUST_CHECK qdot_status qdot_watch_is_hidden(qdot_watch *w, size_t i, bool *hidden);
 QDOT_MUST_CHECK qdot_status qdot_watch_drop_hidden(qdot_watch *w, bool *any);
 QDOT_MUST_CHECK qdot_status qdot_watch_claim_hidden(qdot_watch *w);
+QDOT_MUST_CHECK qdot_status qdot_watch_doubt_missed(qdot_watch *w);
 
 /* --- rounding of the functions (watch-noise.c) -------------------------------------- */
 

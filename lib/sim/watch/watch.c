@@ -362,6 +362,8 @@ copy_search_state(const qdot_watch *w, struct qdot_watch_state *to,
     memcpy(to->sharp, from->sharp, w->m * sizeof *to->sharp);
     memcpy(to->g0, from->g0, w->m * sizeof *to->g0);
     memcpy(to->offset, from->offset, w->m * sizeof *to->offset);
+    memcpy(to->joined, from->joined, w->m * sizeof *to->joined);
+    memcpy(to->apart, from->apart, w->m * sizeof *to->apart);
 }
 
 qdot_status
@@ -393,7 +395,6 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = !qdot_watch_has_faded(w, i)
                      && (w->start.on[i] || qdot_watch_sign(w->final[i]) != w->start.sign[i] || !is_bound_far(w, i, t, y, step));
-        any |= w->live[i];
         w->first_noise[i] = NAN;
         w->fresh[i] = true;
         w->first[i] = w->start.sign[i];
@@ -401,10 +402,14 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         w->hides[i] = QDOT_WATCH_UNKNOWN;
     }
     QDOT_TRY(qdot_watch_claim_hidden(w));
+    for (size_t i = 0; i < w->m; i++)
+        any |= w->live[i];
     if (qdot_watch_is_over_jump(w, w->t, t))
         QDOT_TRY(qdot_watch_pass_jump(w, t));
     else if (any)
         QDOT_TRY(search_step_by_intervals(w, t, step != NULL, &whole));
+    if (whole)
+        QDOT_TRY(qdot_watch_doubt_missed(w));
     qdot_watch_mark_pieces(w);
     if (last && whole)
         QDOT_TRY(qdot_watch_end_on_zero(w, t));

@@ -75,8 +75,9 @@ void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
 double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 
 /* Let crossings of g_i be passed over that rounding of the state makes (watch-hidden.c): of bodies that touch, and that
- * meet where g changes its sign to `way`, in the direction of the run. Until this is called none are. */
-void qdot_watch_may_hide(qdot_watch *w, size_t i, bool may, int way);
+ * meet where g changes its sign to `way`, in the direction of the run; `beside`: other contacts last. Until this is called
+ * none are. */
+void qdot_watch_may_hide(qdot_watch *w, size_t i, bool may, int way, bool beside);
 
 /* Values and signs of the watched functions g at the start of a piece of the run. */
 typedef struct {

@@ -1,5 +1,4 @@
 # the force has begun when the blow comes, but is as small as 1e-15: it pushes the first against the second until t = 8
-# (Whether its companions meet the same events is a matter of rounding, and so whether the error is known.)
 qdot -q - <<'END' 2>&1 | grep '^proved\|^refuted\|^undecided\|error:'
 coord x, y, z
 particle a mass 1 at x
