@@ -428,6 +428,20 @@ qdot_expr_contains_any(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_
 }
 
 bool
+qdot_expr_has_function_of(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
+{
+    qdot_walk w;
+    bool found = false;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++)
+        found = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && qdot_expr_contains_any(pool, w.at[i], n, x);
+    qdot_walk_end(&w);
+    return found;
+}
+
+bool
 qdot_expr_is_in_any(const qdot_pool *pool, qdot_expr x, size_t n, const qdot_expr *e)
 {
     for (size_t i = 0; i < n; i++)

@@ -70,6 +70,8 @@ bool qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x);
 /* Whether one of x [n] occurs in e; whether x occurs in one of e [n]. */
 bool qdot_expr_contains_any(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x);
 bool qdot_expr_is_in_any(const qdot_pool *pool, qdot_expr x, size_t n, const qdot_expr *e);
+/* Whether a function of one of x [n], such as sign(x), occurs in e. Also false: no memory for the walk. */
+bool qdot_expr_has_function_of(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x);
 
 /* The bases of all powers in F [n] whose exponents contain one of the x [m], as a LIST. Nil: the pool failed. */
 qdot_expr qdot_expr_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x);

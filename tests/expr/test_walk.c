@@ -147,6 +147,15 @@ contains_agrees_with_the_walk(void **state)
         qdot_walk_end(&w);
     }
     assert_false(qdot_expr_contains_any(p.pool, p.symbol[0], 0, NULL));
+    {
+        const qdot_expr a = p.symbol[0], b = p.symbol[1], sine = qdot_fun1(p.pool, QDOT_SIN, qdot_mul(p.pool, a, a)),
+                        e = qdot_add(p.pool, b, qdot_mul(p.pool, b, sine));
+
+        assert_true(qdot_expr_has_function_of(p.pool, e, 2, (qdot_expr[]){b, a}));
+        assert_false(qdot_expr_has_function_of(p.pool, e, 1, &b));
+        assert_false(qdot_expr_has_function_of(p.pool, qdot_mul(p.pool, a, b), 2, (qdot_expr[]){a, b}));
+        assert_false(qdot_expr_has_function_of(p.pool, QDOT_NIL, 1, &a));
+    }
 }
 
 static void

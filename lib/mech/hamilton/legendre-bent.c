@@ -36,10 +36,7 @@ typedef struct {
 static bool
 holds_any(const block *k, qdot_expr e)
 {
-    for (uint32_t i = 0; i < k->n; i++)
-        if (qdot_expr_contains(k->pool, e, k->x[i]))
-            return true;
-    return false;
+    return qdot_expr_contains_any(k->pool, e, k->n, k->x);
 }
 
 static qdot_expr
@@ -265,33 +262,17 @@ solve_by_form(block *k, form *m, bool *found, qdot_expr *bound)
     return choose_root(k, equation, k->u, fill_from_u, m, found);
 }
 
-/* Whether a function that may jump, such as sign(x), stands in e with an x in its argument. */
-static bool
-holds_function(const block *k, qdot_expr e)
+qdot_expr
+qdot_legendre_terms_without(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *x)
 {
-    qdot_walk w;
-    bool found = false;
-
-    if (e == QDOT_NIL || qdot_walk_begin(k->pool, e, &w) != QDOT_OK)
-        return false;
-    for (size_t i = 0; i < w.n && !found; i++)
-        found = qdot_expr_kind(k->pool, w.at[i]) == QDOT_FUN && holds_any(k, w.at[i]);
-    qdot_walk_end(&w);
-    return found;
-}
-
-/* The sum of the terms of e that hold no x. */
-static qdot_expr
-terms_without(const block *k, qdot_expr e)
-{
-    const bool several = e != QDOT_NIL && qdot_expr_kind(k->pool, e) == QDOT_SUM;
-    qdot_expr sum = several ? qdot_expr_arg(k->pool, e, 0) : QDOT_ZERO;
+    const bool several = e != QDOT_NIL && qdot_expr_kind(pool, e) == QDOT_SUM;
+    qdot_expr sum = several ? qdot_expr_arg(pool, e, 0) : QDOT_ZERO;
 
     if (!several)
-        return e == QDOT_NIL || holds_any(k, e) ? sum : e;
-    for (uint32_t i = 1; i < qdot_expr_count(k->pool, e); i += 2)
-        if (!holds_any(k, qdot_expr_arg(k->pool, e, i)))
-            sum = qdot_add(k->pool, sum, qdot_mul(k->pool, qdot_expr_arg(k->pool, e, i + 1), qdot_expr_arg(k->pool, e, i)));
+        return e == QDOT_NIL || qdot_expr_contains_any(pool, e, n, x) ? sum : e;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2)
+        if (!qdot_expr_contains_any(pool, qdot_expr_arg(pool, e, i), n, x))
+            sum = qdot_add(pool, sum, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), qdot_expr_arg(pool, e, i)));
     return sum;
 }
 
@@ -312,13 +293,13 @@ qdot_expr
 qdot_legendre_lower(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x, const qdot_facts *facts)
 {
     const block k = {.pool = pool, .facts = facts, .n = n, .x = x};
-    const qdot_expr lower = terms_without(&k, F);
+    const qdot_expr lower = qdot_legendre_terms_without(pool, F, n, x);
     qdot_expr rest = F;
 
     for (uint32_t i = 0; i < n; i++)
         rest = qdot_sub(pool, rest, qdot_mul(pool, x[i], qdot_diff(pool, F, x[i])));
     rest = qdot_simplify(pool, rest, facts);
-    return rest == lower || (holds_function(&k, rest) && is_equal_in_cases(&k, rest, lower)) ? lower : rest;
+    return rest == lower || (qdot_expr_has_function_of(pool, rest, n, x) && is_equal_in_cases(&k, rest, lower)) ? lower : rest;
 }
 
 /* What F - x.dF/dx says where it does not vary with x: FIRST where it holds none; where it is such as x sign(x - a) of
@@ -331,7 +312,7 @@ find_degree(const block *k)
     for (uint32_t i = 0; i < k->n; i++)
         if (!qdot_is_zero(k->pool, qdot_diff(k->pool, lower, k->x[i]), k->facts))
             return QDOT_LEGENDRE_REGULAR;
-    return holds_function(k, lower) ? QDOT_LEGENDRE_SINGULAR : QDOT_LEGENDRE_FIRST;
+    return qdot_expr_has_function_of(k->pool, lower, k->n, k->x) ? QDOT_LEGENDRE_SINGULAR : QDOT_LEGENDRE_FIRST;
 }
 
 /* What is 0 where e is: the product of the factors of its numerator. */

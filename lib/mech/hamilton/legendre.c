@@ -26,24 +26,20 @@ at_zero(const qdot_legendre *l, qdot_expr e)
 static bool
 holds_variable(const qdot_legendre *l, qdot_expr e)
 {
-    for (uint32_t i = 0; i < l->n; i++)
-        if (e != QDOT_NIL && qdot_expr_contains(l->pool, e, l->x[i]))
-            return true;
-    return false;
+    return qdot_expr_contains_any(l->pool, e, l->n, l->x);
 }
 
-/* The sum of those terms of e that hold an x of the block `of`, and none of other blocks; without a block (n): of those
- * that hold no x at all. */
+/* The sum of those terms of e that hold an x of the block `of`, and none of other blocks. */
 static qdot_expr
 terms_of_block(const qdot_legendre *l, qdot_expr e, size_t of)
 {
     const bool several = e != QDOT_NIL && qdot_expr_kind(l->pool, e) == QDOT_SUM;
     const uint32_t n = several ? qdot_expr_count(l->pool, e) : 2;
-    qdot_expr sum = several && of == l->n ? qdot_expr_arg(l->pool, e, 0) : QDOT_ZERO;
+    qdot_expr sum = QDOT_ZERO;
 
     for (uint32_t i = 1; i < n && e != QDOT_NIL; i += 2) {
         const qdot_expr term = several ? qdot_expr_arg(l->pool, e, i) : e;
-        bool own = of == l->n, other = false;
+        bool own = false, other = false;
 
         for (uint32_t k = 0; k < l->n; k++)
             if (qdot_expr_contains(l->pool, term, l->x[k])) {
@@ -57,28 +53,13 @@ terms_of_block(const qdot_legendre *l, qdot_expr e, size_t of)
     return sum;
 }
 
-/* Whether a function of an x stands in e, such as sign(x), whose derivative is 0 though it is no constant. */
-static bool
-holds_function_of_variable(const qdot_legendre *l, qdot_expr e)
-{
-    qdot_walk w;
-    bool found = false;
-
-    if (e == QDOT_NIL || qdot_walk_begin(l->pool, e, &w) != QDOT_OK)
-        return false;
-    for (size_t i = 0; i < w.n && !found; i++)
-        found = qdot_expr_kind(l->pool, w.at[i]) == QDOT_FUN && holds_variable(l, w.at[i]);
-    qdot_walk_end(&w);
-    return found;
-}
-
 /* Whether dF/dx_i is A x and what holds no x of the block, as the second derivatives say where nothing jumps. */
 static bool
 is_slope_linear(const qdot_legendre *l, uint32_t i)
 {
     qdot_expr rest = qdot_diff(l->pool, l->F, l->x[i]);
 
-    if (!holds_function_of_variable(l, rest))
+    if (!qdot_expr_has_function_of(l->pool, rest, l->n, l->x)) /* the derivative of sign(x) is 0, though it is no constant */
         return true;
     for (uint32_t j = 0; j < l->n; j++)
         rest = qdot_sub(l->pool, rest, qdot_mul(l->pool, l->A[i * l->n + j], l->x[j]));
@@ -410,7 +391,7 @@ rest_of_transform(qdot_legendre *l)
     qdot_pool *pool = l->pool;
     const bool stated = l->of == QDOT_MOMENTUM || l->s->lagrangian != QDOT_NIL;
     const qdot_expr F = at_zero(l, l->F_left);
-    const qdot_expr apart = l->mixed ? terms_of_block(l, l->F, l->n) : F;
+    const qdot_expr apart = l->mixed ? qdot_legendre_terms_without(l->pool, l->F, l->n, l->x) : F;
 
     if (l->mixed)
         return qdot_sub(pool, qdot_simplify(pool, qdot_sub(pool, l->G_bent, qdot_sub(pool, F, apart)), &l->facts), apart);

@@ -55,6 +55,9 @@ typedef enum { QDOT_LEGENDRE_REGULAR, QDOT_LEGENDRE_FIRST, QDOT_LEGENDRE_SINGULA
 QDOT_MUST_CHECK qdot_status qdot_legendre_bent(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x,
                                                const qdot_expr *y, const qdot_facts *facts, qdot_expr *solved,
                                                qdot_legendre_degree *degree, qdot_expr *bound, qdot_expr *there);
+/* The sum of those terms of e that hold no x [n]. Nil: the pool failed. */
+qdot_expr qdot_legendre_terms_without(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *x);
+
 /* F - sum x_i dF/dx_i, simplified: the terms without x where the others are homogeneous of first degree. */
 qdot_expr qdot_legendre_lower(qdot_pool *pool, qdot_expr F, uint32_t n, const qdot_expr *x, const qdot_facts *facts);
 
