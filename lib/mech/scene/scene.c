@@ -24,7 +24,8 @@ enum {
     NO_PLACE = NO_VELOCITY | QDOT_HAS_COORD
 };
 
-/* A bit beside those of what an expression may not hold: it may hold coordinates at an earlier time. */
+/* Beside the flags of what an expression must not hold, such as QDOT_HAS_VELOCITY: coordinates at an earlier time, x(t - 1), are
+ * allowed in it. */
 static const uint32_t may_be_delayed = 1u << 31;
 
 static const struct {

@@ -38,7 +38,7 @@ typedef struct {
  * qdot_turning_end brings the scene back, also after a failure. QDOT_EINVAL: a rate is none of a steady motion. */
 QDOT_MUST_CHECK qdot_status qdot_turning_begin(qdot_scene *s, qdot_expr place, qdot_turning *x, qdot_expr *at);
 void qdot_turning_end(qdot_scene *s, qdot_turning *x);
-/* e with free rates written as q' again, also after qdot_turning_end; nil stays nil. */
+/* The expression e with the symbols that stood for constant velocities replaced by these, q'. After qdot_turning_end, too. Nil of nil. */
 qdot_expr qdot_turning_with_rates(const qdot_turning *x, qdot_expr e);
 void qdot_turning_clear(qdot_turning *x);
 

@@ -241,7 +241,7 @@ integrate_polynomial(root *r, qdot_poly P)
     return r->F != QDOT_NIL;
 }
 
-/* Integrate G/y. */
+/* Add the integral of G/y to F, y = sqrt(a x^2 + b x + c), G a rational function of x; false: it is not found. */
 static bool
 integrate_over_root(root *r, qdot_expr G)
 {

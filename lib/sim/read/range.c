@@ -52,7 +52,8 @@ include_value_at(scan *s, double t)
     return QDOT_OK;
 }
 
-/* The end of the first part of a stretch from a to b in which each delayed value of the expression is that of one step. */
+/* From the time a on, up to b: where the first delayed value, x(t - tau), begins to be read from another step of the
+ * run; b if none does before. */
 static double
 end_of_part(const qdot_knots *lines, double a, double b)
 {

@@ -399,12 +399,13 @@ QDOT_MUST_CHECK qdot_status qdot_watch_forget_start(qdot_watch *w);
 
 /* --- jumps of tables of data (watch-jumps.c) ----------------------------------------- */
 
-/* Fill w->jumps. Errors: QDOT_ENOMEM. */
+/* Fill w->jumps: the tables that watched functions read at a function of time, and that jump at their knots. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_watch_find_jumps(qdot_watch *w);
 
-/* Whether one is between two times. A step that goes over one does no more, since steps end on both sides of it. */
+/* Whether one of w->jumps has a knot between two times. Steps end just before and just behind such a knot: a step across it is
+ * as short as times can be, and nothing else happens in it. */
 bool qdot_watch_is_over_jump(const qdot_watch *w, double from, double to);
-/* t + by, or on the other side of t where there is none between; else t. */
+/* The time t + by, if no knot of w->jumps is between; else t - by, if none is there; else t. */
 double qdot_watch_time_beside(const qdot_watch *w, double t, double by);
 
 /* Append roots for the functions whose signs, or being 0, that step changes. A function that jumps over 0 has a pole there. */
