@@ -22,7 +22,7 @@ _qdot()
     case $word in
     -*)
         mapfile -t COMPREPLY < <(compgen -W '-e --execute= -i --interactive --json --no-init -q --quiet
-            --processor= --help --version' -- "$word")
+            --processor= -h --help -V --version' -- "$word")
         [[ ${COMPREPLY[0]-} != *= ]] || compopt -o nospace
         ;;
     *)

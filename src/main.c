@@ -44,8 +44,8 @@ static const char usage[] =
     "  -q, --quiet               print no banner\n"
     "      --processor=KIND      compute as if the processor had no more than KIND:\n"
     "                            any, avx2, avx512\n"
-    "      --help                print this help and exit\n"
-    "      --version             print the version and exit\n"
+    "  -h, --help                print this help and exit\n"
+    "  -V, --version             print the version and exit\n"
     "  -                         standard input as a script\n"
     "\n"
     "Exit status: 0 if all went well; 1 if a statement failed or a check was\n"
@@ -84,7 +84,7 @@ static const struct option names[] = {
     {"no-init", no_argument, NULL, 'n'},
     {"processor", required_argument, NULL, 'p'},
     {"help", no_argument, NULL, 'h'},
-    {"version", no_argument, NULL, 'v'},
+    {"version", no_argument, NULL, 'V'},
     {NULL, 0, NULL, 0},
 };
 
@@ -116,7 +116,7 @@ options_read(int argc, char **argv, options *o)
     int c;
 
     /* the leading `-` makes getopt return other arguments as option 1, in their order */
-    while ((c = getopt_long(argc, argv, "-e:iq", names, NULL)) != -1) {
+    while ((c = getopt_long(argc, argv, "-e:hiqV", names, NULL)) != -1) {
         switch (c) {
         case 1: QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, false}))); break;
         case 'e': QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, true}))); break;
@@ -125,7 +125,7 @@ options_read(int argc, char **argv, options *o)
         case 'n': o->no_init = true; break;
         case 'q': o->quiet = true; break;
         case 'h': o->print = o->print != NULL ? o->print : usage; break;
-        case 'v': o->print = o->print != NULL ? o->print : version; break;
+        case 'V': o->print = o->print != NULL ? o->print : version; break;
         case 'p': QDOT_TRY(limit_processor(optarg)); break;
         default: return fail_usage();
         }

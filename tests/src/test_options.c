@@ -82,6 +82,10 @@ version_and_help_are_printed(void **state)
     assert_memory_equal(said, "Usage: qdot ", 12);
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
         assert_non_null(strstr(said, options[i]));
+    assert_int_equal(run("-V"), 0);
+    assert_memory_equal(said, "qdot ", 5);
+    assert_int_equal(run("-h"), 0);
+    assert_memory_equal(said, "Usage: qdot ", 12);
     /* whatever else there is */
     assert_int_equal(run("--version -e '1/0'"), 0);
 }
