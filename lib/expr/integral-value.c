@@ -283,7 +283,7 @@ substitute(arb_t y, substitution *s)
     arb_init(value);
     arb_init(before);
     arb_init(change);
-    for (int level = 0; level < LEVELS && going && !found && !qdot_interrupt_flag; level++) {
+    for (int level = 0; level < LEVELS && going && !found && !qdot_interrupt_is_set(); level++) {
         arb_one(h);
         arb_mul_2exp_si(h, h, -level - 1);
         going = level == 0 ? sum_outward(s, sum, h, 0, 1) && sum_outward(s, sum, h, -1, -1)

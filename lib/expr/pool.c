@@ -153,7 +153,7 @@ append_node(qdot_pool *pool, const qdot_node *node)
 bool
 qdot_pool_interrupted(qdot_pool *pool)
 {
-    if (!qdot_interrupt_flag)
+    if (!qdot_interrupt_is_set())
         return false;
     (void)qdot_interrupt_check();
     qdot_pool_fail(pool);

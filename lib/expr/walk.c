@@ -132,7 +132,7 @@ begin_walk_from_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, u
         for (uint32_t i = 0; i < count && status == QDOT_OK; i++)
             if (holds == UINT32_MAX || WHERE(pool, children[i], holds, touches))
                 status = add_node(w, &capacity, children[i]);
-        if (status == QDOT_OK && qdot_interrupt_flag)
+        if (status == QDOT_OK && qdot_interrupt_is_set())
             status = qdot_interrupt_check();
     }
     if (w->n <= QDOT_WALK_FEW)

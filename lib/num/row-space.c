@@ -98,7 +98,7 @@ qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_or
         size_t k = f->rank, next = next_row(f, k, tol, in_order), row;
         double *v, norm, head;
 
-        if (next == f->m || qdot_interrupt_flag)
+        if (next == f->m || qdot_interrupt_is_set())
             break;
         row = f->order[next];
         memmove(f->order + k + 1, f->order + k, (next - k) * sizeof *f->order);

@@ -349,7 +349,7 @@ form_Q(qdot_saddle *s)
     const size_t n = s->n;
 
     memset(s->Q, 0, n * n * sizeof *s->Q);
-    for (size_t j = 0; j < n && !qdot_interrupt_flag; j++) {
+    for (size_t j = 0; j < n && !qdot_interrupt_is_set(); j++) {
         double *column = s->Q + j * n;
 
         column[j] = 1;

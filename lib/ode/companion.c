@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "ode/scale.h"
 
@@ -58,6 +59,7 @@ typedef struct {
     bool running;  /* whether the companion's thread is running */
     bool finished; /* whether the companion's thread has ended, so that `result` is valid */
     pthread_t thread;
+    qdot_interrupt *interrupt; /* the flag of the thread that computes the run */
 } follower;
 
 struct qdot_companion {
@@ -198,6 +200,7 @@ companion_thread(void *user)
 {
     follower *f = user;
 
+    qdot_interrupt_own = f->interrupt;
     integrate_all_companions(f);
     return NULL;
 }
@@ -399,9 +402,11 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
         release_companions(c);
         return status;
     }
-    for (size_t k = 0; k < c->count && request->threaded; k++)
+    for (size_t k = 0; k < c->count && request->threaded; k++) {
+        c->at[k].interrupt = qdot_interrupt_own;
         c->at[k].running =
             pthread_create(&c->at[k].thread, NULL, companion_thread, c->at + k) == 0;
+    }
     *out = c;
     return QDOT_OK;
 }

@@ -33,7 +33,7 @@
  *                 singular beyond it, or the step fell below 16 spacings of the numbers
  *                 near t
  *   QDOT_ELIMIT   max_steps
- *   QDOT_EINTR    qdot_interrupt_flag, looked at before every step
+ *   QDOT_EINTR    an interruption (base/interrupt.h), looked at before every step
  *   QDOT_ENOMEM, or what f, the Jacobian or `accepted` returned
  * and the message recorded is result->reason. */
 QDOT_MUST_CHECK qdot_status qdot_ode_integrate(const qdot_ode_system *system,

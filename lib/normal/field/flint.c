@@ -45,7 +45,7 @@ flint_check_budget(size_t size)
     size_t caches = guard.library.bytes < guard.cached ? guard.library.bytes : guard.cached;
     size_t held = guard.own.bytes + guard.library.bytes - caches;
 
-    if (qdot_interrupt_flag)
+    if (qdot_interrupt_is_set())
         flint_leave(qdot_interrupt_check());
     if (size > QDOT_FLINT_MEMORY || held > QDOT_FLINT_MEMORY - size)
         flint_leave(qdot_fail(QDOT_ELIMIT, "more than %zu MB of memory",
@@ -227,6 +227,7 @@ typedef struct {
     enum { WAITING, ASKED, ENDING } state;
     void (*work)(void *user);
     void *user;
+    qdot_interrupt *interrupt; /* flag of the system for which the caller computes */
     qdot_status status;
     qdot_error error; /* the last failure: first of the caller's thread, then of this one */
 } worker;
@@ -274,6 +275,7 @@ worker_main(void *user)
         if (w->state == ENDING)
             break;
         (void)qdot_fail_again(&w->error);
+        qdot_interrupt_own = w->interrupt;
         if (!begun)
             w->status = qdot_fail(QDOT_ENOMEM, "out of memory");
         w->state = begun && run_computation(w) && guard.library.bytes <= KEPT ? WAITING : ENDING;
@@ -375,6 +377,7 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
     pthread_mutex_lock(&mine->lock);
     mine->work = work;
     mine->user = user;
+    mine->interrupt = qdot_interrupt_own;
     mine->error = *qdot_last_error();
     mine->state = ASKED;
     pthread_cond_signal(&mine->changed);

@@ -23,7 +23,7 @@ qdot_field_charge(qdot_field *f, slong a, slong b)
 {
     if (f->state != QDOT_FIELD_GOES)
         return false;
-    if (qdot_interrupt_flag) {
+    if (qdot_interrupt_is_set()) {
         f->state = QDOT_FIELD_FAILED;
         f->status = qdot_interrupt_check();
         return false;

@@ -542,7 +542,7 @@ qdot_shortest(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 
     if (!keep || !qdot_memo_find(pool, e, QDOT_MEMO_SHORTEST, &s, sizeof s)) {
         s.result = qdot_shortest_within(pool, e, facts, QDOT_SHORTEST_WORK, &s.spent);
-        if (keep && s.result != QDOT_NIL && !qdot_interrupt_flag)
+        if (keep && s.result != QDOT_NIL && !qdot_interrupt_is_set())
             qdot_memo_keep(pool, e, QDOT_MEMO_SHORTEST, &s, sizeof s);
     }
     if (s.spent)

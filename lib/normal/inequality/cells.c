@@ -54,7 +54,7 @@ static bool
 charge_work(cells *c, int64_t work)
 {
     *c->work -= work;
-    c->too_much |= *c->work < 0 || qdot_interrupt_flag;
+    c->too_much |= *c->work < 0 || qdot_interrupt_is_set();
     return !c->too_much;
 }
 
@@ -693,7 +693,7 @@ qdot_cells_decide(qdot_pool *pool, qdot_expr e, size_t n,
     arb_clear(c.root);
     qdot_field_end(&c.f);
     qdot_free(c.all);
-    if (qdot_interrupt_flag)
+    if (qdot_interrupt_is_set())
         return qdot_interrupt_check();
     return QDOT_OK;
 }

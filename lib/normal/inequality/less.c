@@ -129,7 +129,7 @@ is_positive_on_box(qdot_pool *pool, qdot_expr e)
         if (value != NULL && arb_is_positive(value))
             continue;
         positive = ++done < MOST_BOXES && depth + 2 < MOST_BOXES && b.n > 0 &&
-                   !(value != NULL && arb_is_nonpositive(value)) && !qdot_interrupt_flag;
+                   !(value != NULL && arb_is_nonpositive(value)) && !qdot_interrupt_is_set();
         for (uint32_t i = 1; i < b.n; i++)
             if (box.hi[i] - box.lo[i] > box.hi[widest] - box.lo[widest])
                 widest = i;
@@ -278,7 +278,7 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     QDOT_TRY(qdot_sample_begin(&s, pool, 3, e, facts));
     arb_init(gap);
     for (int k = 0; s.possible && k < TRIES && d->verdict == QDOT_UNDECIDED; k++) {
-        if (qdot_interrupt_flag)
+        if (qdot_interrupt_is_set())
             break;
         qdot_sample_point(&s, k);
         for (slong prec = 64; prec <= 1024; prec *= 4) {
@@ -308,7 +308,7 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     }
     arb_clear(gap);
     qdot_sample_end(&s);
-    QDOT_TRY(qdot_interrupt_flag ? qdot_interrupt_check() : QDOT_OK);
+    QDOT_TRY(qdot_interrupt_is_set() ? qdot_interrupt_check() : QDOT_OK);
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
@@ -527,7 +527,7 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     known = (struct decided){*d, qdot_pool_unfinished_taken(pool)};
     if (before || known.unfinished)
         qdot_pool_unfinished(pool);
-    if (status == QDOT_OK && x.status == QDOT_OK && !qdot_pool_failed(pool) && !qdot_interrupt_flag)
+    if (status == QDOT_OK && x.status == QDOT_OK && !qdot_pool_failed(pool) && !qdot_interrupt_is_set())
         qdot_memo_keep(pool, question, asked, &known, sizeof known);
     return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
 }

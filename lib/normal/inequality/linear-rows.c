@@ -204,10 +204,10 @@ rows_decide(const rows *given, const fmpz *c, bool weak)
         rows_add_copy(&s, given->row.at[i].c, given->row.at[i].weak);
     if (c != NULL)
         rows_add_copy(&s, c, weak);
-    while (!s.wrong && !s.too_much && !qdot_interrupt_flag && (v = rows_next_symbol(&s)) >= 0)
+    while (!s.wrong && !s.too_much && !qdot_interrupt_is_set() && (v = rows_next_symbol(&s)) >= 0)
         rows_eliminate(&s, v);
     rows_clear(&s);
-    return s.too_much || qdot_interrupt_flag ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
+    return s.too_much || qdot_interrupt_is_set() ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
 }
 
 /* Find the sign of e under the conditions, by eliminating symbols from their rows together with the row of -e. */
@@ -260,7 +260,7 @@ qdot_linear_decide(qdot_pool *pool, qdot_expr e, size_t n, const qdot_cells_cond
     if (minus_e != NULL)
         _fmpz_vec_clear(minus_e, given.width);
     rows_clear(&given);
-    if (qdot_interrupt_flag)
+    if (qdot_interrupt_is_set())
         return qdot_interrupt_check();
     return qdot_grave(qdot_pool_check(pool));
 }

@@ -166,7 +166,7 @@ isolate_positive(isolation *s, const fmpz_poly_t p)
         part *last = &s->stack.at[s->stack.n - 1];
         int most = good ? bound_number_of_zeros(s, last->p) : 0;
 
-        good = good && s->work < MOST_WORK && !qdot_interrupt_flag;
+        good = good && s->work < MOST_WORK && !qdot_interrupt_is_set();
         if (most == 2 && good) {
             good = isolation_split(s);
             continue;

@@ -167,7 +167,7 @@ compare_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *fact
     for (int k = 0; s.possible && k < look->tries && d->points < wanted; k++) {
         int digits = 0, here;
 
-        if (qdot_interrupt_flag) {
+        if (qdot_interrupt_is_set()) {
             qdot_sample_end(&s);
             return qdot_interrupt_check();
         }

@@ -244,7 +244,7 @@ unify_function(job *j, qdot_expr old, qdot_expr *now)
         *now = qdot_fun(pool, op, n, args);
     }
     fmpq_clear(c);
-    return qdot_interrupt_flag ? qdot_interrupt_check() : QDOT_OK;
+    return qdot_interrupt_is_set() ? qdot_interrupt_check() : QDOT_OK;
 }
 
 static qdot_status

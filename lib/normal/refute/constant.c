@@ -260,7 +260,7 @@ find_sign_by_enclosure(qdot_pool *pool, qdot_expr e, double bits, qdot_constant_
     for (slong prec = 64; prec < 2 * most && *sign == QDOT_CONSTANT_UNKNOWN; prec *= 2) {
         arb_srcptr value;
 
-        if (qdot_interrupt_flag) {
+        if (qdot_interrupt_is_set()) {
             status = qdot_interrupt_check();
             break;
         }

@@ -2,6 +2,7 @@
 #ifndef QDOT_SIM_PRECISE_PAIR_H
 #define QDOT_SIM_PRECISE_PAIR_H
 
+#include "base/interrupt.h"
 #include "series/precise.h"
 #include "sim/course/course-state.h"
 #include "sim/form/precise-bind.h"
@@ -29,6 +30,7 @@ typedef struct {
     int order;
     size_t near, near_segment; /* index of the point expanded last into a series (qdot_precise_at); index of its segment */
     qdot_status status;
+    qdot_interrupt *interrupt; /* the flag of the thread that started this side's own */
     qdot_domains *domains; /* domains of coordinates, checked along the run; NULL for the companion run */
     double *y;             /* [2n] state in doubles, for checking the domains */
 } qdot_precise_side;

@@ -264,7 +264,10 @@ integrate_side(qdot_precise_side *s)
 static void *
 side_thread(void *user)
 {
-    integrate_side(user);
+    qdot_precise_side *s = user;
+
+    qdot_interrupt_own = s->interrupt;
+    integrate_side(s);
     mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);
     return NULL;
 }
@@ -332,6 +335,7 @@ integrate_pair(qdot_precise_pair *pair, double digits, qdot_domains *domains)
     a->domains = domains;
     qdot_progress_begin(mpfr_get_d(a->start.at[0], RN), mpfr_get_d(a->start.at[1], RN),
                         "run in %.0f digits", digits);
+    b->interrupt = qdot_interrupt_own;
     running = pthread_create(&thread, NULL, side_thread, b) == 0;
     integrate_side(a);
     if (running)

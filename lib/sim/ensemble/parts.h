@@ -3,6 +3,7 @@
 #ifndef QDOT_SIM_ENSEMBLE_PARTS_H
 #define QDOT_SIM_ENSEMBLE_PARTS_H
 
+#include "base/interrupt.h"
 #include "sim/form/ensemble-series.h"
 #include "sim/plan/plan.h"
 #include "sim/ensemble/momenta.h"
@@ -19,6 +20,7 @@ typedef struct {
     double *momenta;  /* [n_kept] conserved momenta of one member */
     double *replaced; /* [members x n_kept] velocities that momenta replace in the state */
     qdot_status status;
+    qdot_interrupt *interrupt; /* flag of the thread that runs the ensemble (base/interrupt.h) */
     qdot_error error; /* failure of a pass that runs on another thread */
 } qdot_ensemble_pass;
 

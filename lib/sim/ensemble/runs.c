@@ -193,10 +193,9 @@ begin_pass(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const 
     return p->steps ? qdot_ensemble_steps_begin(p->steps, members) : QDOT_OK;
 }
 
-static void *
-run_pass(void *user)
+static void
+run_pass(qdot_ensemble_pass *p)
 {
-    qdot_ensemble_pass *p = user;
     qdot_ode_batch system = qdot_ensemble_series_system(p->series);
 
     if (p->steps)
@@ -204,6 +203,15 @@ run_pass(void *user)
     p->status = qdot_ode_batch_run(&system, &p->run);
     if (p->status != QDOT_OK)
         p->error = *qdot_last_error();
+}
+
+static void *
+pass_thread(void *user)
+{
+    qdot_ensemble_pass *p = user;
+
+    qdot_interrupt_own = p->interrupt;
+    run_pass(p);
     return NULL;
 }
 
@@ -363,8 +371,10 @@ run_passes_in_threads(qdot_ensemble *e, size_t passes)
     pthread_t thread[QDOT_ENSEMBLE_PASSES];
     bool threaded[QDOT_ENSEMBLE_PASSES] = {false};
 
+    for (size_t k = 1; k < passes; k++)
+        e->passes[k].interrupt = qdot_interrupt_own;
     for (size_t k = 1; k < passes && !e->watching; k++)
-        threaded[k] = pthread_create(&thread[k], NULL, run_pass, e->passes + k) == 0;
+        threaded[k] = pthread_create(&thread[k], NULL, pass_thread, e->passes + k) == 0;
     run_pass(e->passes);
     for (size_t m = 0; m < e->passes->run.members && e->watching; m++)
         for (size_t k = 1; k < passes && qdot_ensemble_left(e, m); k++)

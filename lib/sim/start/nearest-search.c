@@ -175,7 +175,7 @@ restore_constraints(search *s, double *at)
     for (int k = 0; k < MOST_NEWTON; k++) {
         double before = search_evaluate(s, at, true), scale = 1, after = INFINITY, left;
 
-        if (!isfinite(before) || qdot_interrupt_flag)
+        if (!isfinite(before) || qdot_interrupt_is_set())
             return false;
         transform_to_metric(s);
         for (size_t i = 0; i < p->m; i++)
@@ -213,7 +213,7 @@ descend_on_constraints(search *s, double *at)
 
         (void)search_evaluate(s, at, true);
         transform_to_metric(s);
-        if (s->rows.rank >= s->n || qdot_interrupt_flag)
+        if (s->rows.rank >= s->n || qdot_interrupt_is_set())
             return;
         near = distance_from_centre(s, at);
         qdot_row_space_tangent(&s->rows, s->away);

@@ -250,6 +250,7 @@ a_pool_is_usable_after_failures(void **state)
 struct product {
     bool interrupted, ended;
     slong n;
+    qdot_interrupt *own; /* the flag of a system that is set; NULL: that of the process */
 };
 
 /* (1 + x + y + z + w)^n (1 + x + 2 y + 3 z + 4 w)^n: many seconds in one call. */
@@ -268,7 +269,9 @@ multiply(void *user)
     (void)!fmpz_mpoly_set_str_pretty(b, "1+x+2*y+3*z+4*w", variables, ctx);
     (void)!fmpz_mpoly_pow_ui(a, a, (ulong)p->n, ctx);
     (void)!fmpz_mpoly_pow_ui(b, b, (ulong)p->n, ctx);
-    if (p->interrupted)
+    if (p->own != NULL)
+        qdot_interrupt_ask(p->own); /* as another thread would */
+    else if (p->interrupted)
         qdot_interrupt_set(); /* as a signal would, any time from now on */
     fmpz_mpoly_mul(a, a, b, ctx);
     p->ended = true;
@@ -281,7 +284,7 @@ static void
 ctrl_c_leaves_flint(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
-    struct product p = {true, false, 24};
+    struct product p = {true, false, 24, NULL};
 
     (void)state;
     for (int i = 0; i < 3; i++) {
@@ -290,9 +293,32 @@ ctrl_c_leaves_flint(void **state)
         assert_false(p.ended);
         assert_int_equal(qdot_last_error()->status, QDOT_EINTR);
     }
-    p = (struct product){false, false, 3};
+    p = (struct product){false, false, 3, NULL};
     assert_int_equal(qdot_flint_run(pool, multiply, &p), QDOT_OK);
     assert_true(p.ended);
+    qdot_pool_free(pool);
+}
+
+/* The flag of a system is that of the thread which computes for it. */
+static void
+the_flag_of_a_system_leaves_flint(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_interrupt own = {0}, other = {0};
+    struct product p = {true, false, 24, &own}, small = {true, false, 3, &other};
+
+    (void)state;
+    qdot_interrupt_begin(&own);
+    qdot_interrupt_begin(&other);
+    qdot_interrupt_own = &own;
+    assert_int_equal(qdot_flint_run(pool, multiply, &p), QDOT_EINTR);
+    qdot_interrupt_clear();
+    assert_int_equal(qdot_interrupt_check(), QDOT_OK);
+    assert_int_equal(qdot_flint_run(pool, multiply, &small), QDOT_OK); /* asks for another */
+    qdot_interrupt_own = &other;
+    assert_int_equal(qdot_interrupt_check(), QDOT_EINTR);
+    qdot_interrupt_own = NULL;
+    assert_int_equal(qdot_interrupt_check(), QDOT_OK);
     qdot_pool_free(pool);
 }
 
@@ -588,6 +614,7 @@ main(void)
         cmocka_unit_test(ctrl_c_is_heard_at_every_allocation),
         cmocka_unit_test(a_pool_is_usable_after_failures),
         cmocka_unit_test(ctrl_c_leaves_flint),
+        cmocka_unit_test(the_flag_of_a_system_leaves_flint),
         cmocka_unit_test(numbers_outlive_what_made_them),
         cmocka_unit_test(nothing_is_left_behind),
         cmocka_unit_test(failures_pass_over),
