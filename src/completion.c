@@ -43,27 +43,6 @@ next_completion(const char *prefix, int again)
     return NULL;
 }
 
-/* Whether the text ends within a comment or a quoted text. */
-typedef enum { PLAIN, QUOTED, COMMENT } place;
-
-static place
-text_place_at(const char *text, int length)
-{
-    place p = PLAIN;
-
-    for (int i = 0; i < length; i++) {
-        if (p == COMMENT)
-            p = text[i] == '\n' ? PLAIN : COMMENT;
-        else if (text[i] == '"')
-            p = p == QUOTED ? PLAIN : QUOTED;
-        else if (text[i] == '#' && p == PLAIN)
-            p = COMMENT;
-        else if (text[i] == '\\' && p == QUOTED && i + 1 < length)
-            i++;
-    }
-    return p;
-}
-
 static qdot_status
 find_words(const char *prefix, int start)
 {
@@ -86,14 +65,14 @@ find_words(const char *prefix, int start)
 static char **
 complete_word(const char *prefix, int start, int end)
 {
-    const place p = text_place_at(rl_line_buffer, start);
+    const qdot_place p = qdot_complete_place(rl_line_buffer, (size_t)start);
 
     (void)end;
     rl_completion_append_character = '\0';
-    if (p == QUOTED)
+    if (p == QDOT_PLACE_QUOTED)
         return NULL; /* readline then completes file names and their closing quote */
     rl_attempted_completion_over = 1;
-    if (p == COMMENT || find_words(prefix, start) != QDOT_OK)
+    if (p == QDOT_PLACE_COMMENT || find_words(prefix, start) != QDOT_OK)
         return NULL;
     return rl_completion_matches(prefix, next_completion);
 }
@@ -104,7 +83,7 @@ word_break_characters(void)
 {
     static char quote[] = "\"";
 
-    return text_place_at(rl_line_buffer, rl_point) == QUOTED ? quote : NULL;
+    return qdot_complete_place(rl_line_buffer, (size_t)rl_point) == QDOT_PLACE_QUOTED ? quote : NULL;
 }
 
 void
@@ -112,7 +91,7 @@ qdot_completion_install(qdot_session *s)
 {
     session = s;
     rl_attempted_completion_function = complete_word;
-    rl_basic_word_break_characters = " \t\n\"'`@$><=;|&{}()[]+-*/^,:.!%~#";
+    rl_basic_word_break_characters = QDOT_COMPLETE_BREAKS;
     rl_completer_quote_characters = "\"";
     rl_completion_word_break_hook = word_break_characters;
     rl_variable_bind("expand-tilde", "on"); /* ~ has no meaning in the language */

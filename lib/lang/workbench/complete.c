@@ -505,3 +505,46 @@ qdot_complete_greek(const char *prefix, bool letter, char ***words, size_t *n)
     }
     return return_sorted_words(&c, words, n);
 }
+
+/* --- completions at a place of a text ----------------------------------------------------- */
+
+qdot_place
+qdot_complete_place(const char *text, size_t length)
+{
+    qdot_place place = QDOT_PLACE_PLAIN;
+
+    for (size_t i = 0; i < length; i++) {
+        if (place == QDOT_PLACE_COMMENT)
+            place = text[i] == '\n' ? QDOT_PLACE_PLAIN : QDOT_PLACE_COMMENT;
+        else if (text[i] == '"')
+            place = place == QDOT_PLACE_QUOTED ? QDOT_PLACE_PLAIN : QDOT_PLACE_QUOTED;
+        else if (text[i] == '#' && place == QDOT_PLACE_PLAIN)
+            place = QDOT_PLACE_COMMENT;
+        else if (text[i] == '\\' && place == QDOT_PLACE_QUOTED && i + 1 < length)
+            i++;
+    }
+    return place;
+}
+
+qdot_status
+qdot_complete_at(qdot_session *session, const char *text, size_t cursor, size_t *start, char ***words, size_t *n)
+{
+    qdot_text prefix = {0};
+    qdot_status status;
+
+    *words = NULL;
+    *n = 0;
+    *start = cursor;
+    while (*start > 0 && strchr(QDOT_COMPLETE_BREAKS, text[*start - 1]) == NULL)
+        --*start;
+    if (qdot_complete_place(text, *start) != QDOT_PLACE_PLAIN)
+        return QDOT_OK;
+    qdot_text_add_n(&prefix, text + *start, cursor - *start);
+    status = qdot_text_status(&prefix);
+    if (status == QDOT_OK && qdot_text_str(&prefix)[0] == '\\')
+        status = qdot_complete_greek(qdot_text_str(&prefix) + 1, true, words, n);
+    else if (status == QDOT_OK)
+        status = qdot_complete(session, text, *start, qdot_text_str(&prefix), words, n);
+    qdot_text_clear(&prefix);
+    return status;
+}
