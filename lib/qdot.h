@@ -21,7 +21,8 @@
  * Text      UTF-8, ended by a NUL. A `const char *` that a function returns is borrowed: do not free
  *           it. A `char **` receives a string of the caller's: free it with qdot_string_free().
  * Threads   Two threads may use two systems at the same time. One system and its motions must not be
- *           used by two threads at the same time. qdot_interrupt_set() concerns all systems.
+ *           used by two threads at the same time; only qdot_system_interrupt() may be called by any.
+ *           qdot_interrupt_set() concerns all systems.
  * Process   The library never exits, prints or installs a signal handler. It reads and writes files only
  *           where a statement says so (`include`, `to "FILE"`, `save`); `plot` starts gnuplot. It expects
  *           the numeric locale to be that of C (LC_NUMERIC) and turns GSL's error handler off. Exact
@@ -54,7 +55,7 @@ typedef enum {
     QDOT_RESULT_NOT_BUILT = 10,  /* a word of the language that this version does not carry out */
     QDOT_RESULT_IO = 11,         /* a file or pipe cannot be read or written */
     QDOT_RESULT_NO_MEMORY = 12,
-    QDOT_RESULT_INTERRUPTED = 13 /* interrupted by qdot_interrupt_set() */
+    QDOT_RESULT_INTERRUPTED = 13 /* interrupted by qdot_interrupt_set() or qdot_system_interrupt() */
 } qdot_result;
 
 /* A result code in a few words, such as "unknown or taken name"; never NULL. */
@@ -96,6 +97,20 @@ qdot_result qdot_system_new(qdot_system **system);
  * last of them. */
 void qdot_system_free(qdot_system *system);
 
+/* Stop the computation of this system, which returns QDOT_RESULT_INTERRUPTED; other systems go on. If none
+ * is under way, nothing happens. May be called from another thread while the system is in use, or from a
+ * signal handler; not after qdot_system_free(). NULL is allowed. */
+void qdot_system_interrupt(qdot_system *system);
+
+/* Called in the computing thread when a run, sweep or other integration has lasted half a second, then a few
+ * times a second: what is computed ("run", borrowed), the part that is done, 0..1, and the seconds that are
+ * left by estimate (NaN: not known yet). It may call qdot_system_interrupt() and functions of other systems,
+ * none else of this one. Derivations tell nothing. */
+typedef void (*qdot_progress_hook)(void *data, const char *what, double done, double left);
+
+/* Set the hook of this system; NULL: none. */
+qdot_result qdot_system_progress(qdot_system *system, qdot_progress_hook hook, void *data);
+
 /* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
  * line is "CALL:LINE:COLUMN: error: ..." where a text is to blame, CALL being `declare`, `ask`,
  * `derive`, `decide`, `number`, `run`, `values` or `over`; then come the line, a caret below the place
@@ -129,6 +144,33 @@ qdot_result qdot_system_decide(qdot_system *system, const char *claim, qdot_trut
  * what it may be off by where numbers of a run stand in it; 0: exact but for rounding; NaN: unknown. */
 qdot_result qdot_system_number(qdot_system *system, const char *expression, double *value,
                                double *error);
+
+/* --- texts that are being typed --------------------------------------------------------- */
+
+/* The words that may stand where the text is being typed: they complete the word that begins at byte *start and
+ * ends at byte `cursor` <= strlen(text). *words: the caller's; one a line, sorted, "" if there are none. What
+ * stands in `text` is not carried out: names declared in it are not known. INVALID: no such byte. */
+qdot_result qdot_system_complete(qdot_system *system, const char *text, size_t cursor, size_t *start,
+                                 char **words);
+
+/* 1 if the text cannot be a whole yet, because a bracket is open or its last line ends in a backslash; else 0. */
+int qdot_text_unfinished(const char *text);
+
+/* What a byte of a text belongs to, for colours. */
+typedef enum {
+    QDOT_LEXEME_PLAIN = 0,
+    QDOT_LEXEME_WORD = 1,  /* the word of a statement, or of an option in its place */
+    QDOT_LEXEME_NAME = 2,  /* a declared name or label, a value or function of the language */
+    QDOT_LEXEME_NUMBER = 3,
+    QDOT_LEXEME_STRING = 4,
+    QDOT_LEXEME_COMMENT = 5,
+    QDOT_LEXEME_WRONG = 6  /* a closing bracket without an opening one, a character without meaning */
+} qdot_lexeme;
+
+/* A qdot_lexeme for each byte of the text [length], into kinds [length]. Names are those of the system; the text
+ * is not carried out. */
+qdot_result qdot_system_highlight(qdot_system *system, const char *text, size_t length,
+                                  unsigned char *kinds);
 
 /* --- making and reading motions ------------------------------------------------------- */
 

@@ -138,11 +138,7 @@ qdot_system_derive(qdot_system *system, const char *expression, qdot_notation no
     status = qdot_api_begin(system);
     if (status == QDOT_OK)
         status = qdot_api_read(system, "derive", expression, read_formula, &f);
-    if (status == QDOT_OK)
-        *text = f.text.at;
-    else
-        qdot_text_clear(&f.text);
-    return qdot_api_end(system, status);
+    return qdot_api_end_with_text(system, status, &f.text, text);
 }
 
 /* --- claims and numbers --------------------------------------------------------------- */

@@ -1,12 +1,15 @@
 /* system.c -- creates and frees a system, and begins and ends each call on it, with its messages and errors. */
 #include "api/system.h"
 
+#include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "lang/answer/answer.h"
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
@@ -128,6 +131,60 @@ qdot_system_notices(const qdot_system *system)
     return system->stream[QDOT_API_NOTICES].text;
 }
 
+/* --- interruption and progress --------------------------------------------------------- */
+
+void
+qdot_system_interrupt(qdot_system *system)
+{
+    if (system != NULL)
+        qdot_interrupt_ask(&system->interrupt);
+}
+
+/* Tell the hook of the system to which the progress belongs. */
+static void
+tell_hook(const qdot_progress *p)
+{
+    const qdot_system *system = (const qdot_system *)(const void *)((const char *)p - offsetof(qdot_system, watcher));
+    const double done = (p->t - p->t0) / (p->t1 - p->t0);
+
+    system->watcher.hook(system->watcher.data, p->what, fmin(fmax(done, 0), 1), p->left);
+}
+
+static void
+remove_nothing(void)
+{
+}
+
+qdot_result
+qdot_system_progress(qdot_system *system, qdot_progress_hook hook, void *data)
+{
+    if (system == NULL)
+        return QDOT_RESULT_INVALID;
+    system->watcher.hook = hook;
+    system->watcher.data = data;
+    return qdot_api_accept(system);
+}
+
+/* Make the flag and the progress of the system those of this thread, which computes for it from now on. */
+static void
+enter_thread(qdot_system *system)
+{
+    system->outer_interrupt = qdot_interrupt_own;
+    system->outer_progress = qdot_progress_open;
+    qdot_interrupt_begin(&system->interrupt);
+    qdot_interrupt_own = &system->interrupt;
+    system->watcher.progress = (qdot_progress){.show = tell_hook, .clear = remove_nothing};
+    qdot_progress_open = system->watcher.hook != NULL ? &system->watcher.progress : NULL;
+}
+
+static void
+leave_thread(qdot_system *system)
+{
+    qdot_progress_open = system->outer_progress;
+    qdot_interrupt_own = system->outer_interrupt;
+    qdot_interrupt_end(&system->interrupt);
+}
+
 /* --- beginning and ending calls ------------------------------------------------------- */
 
 qdot_status
@@ -136,6 +193,7 @@ qdot_api_begin(qdot_system *system)
     qdot_session *session = system->session;
 
     system->error = (qdot_error){0};
+    enter_thread(system);
     for (int i = 0; i < QDOT_API_STREAMS; i++) {
         free(system->stream[i].text);
         system->stream[i].text = NULL;
@@ -180,7 +238,21 @@ qdot_api_end(qdot_system *system, qdot_status status)
             system->error = *qdot_last_error();
         }
     }
+    leave_thread(system);
     return (qdot_result)status;
+}
+
+qdot_result
+qdot_api_end_with_text(qdot_system *system, qdot_status status, qdot_text *text, char **out)
+{
+    const qdot_result result = qdot_api_end(system, status);
+
+    *out = NULL;
+    if (result == QDOT_RESULT_OK)
+        *out = text->at;
+    else
+        qdot_text_clear(text);
+    return result;
 }
 
 qdot_result

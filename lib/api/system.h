@@ -11,6 +11,9 @@
 
 #include <stdio.h>
 
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "base/text.h"
 #include "lang/language/cursor.h"
 #include "qdot.h"
 
@@ -25,12 +28,24 @@ struct qdot_system {
         size_t length;
     } stream[QDOT_API_STREAMS];
     qdot_error error; /* failure of the latest call; QDOT_OK: none */
+    qdot_interrupt interrupt; /* set by qdot_system_interrupt */
+    struct {
+        qdot_progress progress; /* first, so that what it is part of is found from it */
+        qdot_progress_hook hook; /* NULL: nobody wants to know */
+        void *data;
+    } watcher;
+    /* what the thread of a call had before it; a hook may call another system */
+    qdot_interrupt *outer_interrupt;
+    qdot_progress *outer_progress;
 };
 
 /* Begin a call of the library. If it returns QDOT_ENOMEM, qdot_api_end must still be called. */
 QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
 /* End a call with this status and return it as a result; QDOT_ENOMEM if its messages found no memory. */
 qdot_result qdot_api_end(qdot_system *system, qdot_status status);
+
+/* The same for a call that returns a text: on success it becomes *out, the caller's; else it is cleared and *out is NULL. */
+qdot_result qdot_api_end_with_text(qdot_system *system, qdot_status status, qdot_text *text, char **out);
 
 /* Record the success of a call that needs neither begin nor end. */
 qdot_result qdot_api_accept(qdot_system *system);

@@ -8,7 +8,7 @@
  *
  * Processes started by fork are ended by the one that started them.
  *
- * Tests  tests/normal/field/test_flint.c
+ * Tests  tests/api/test_interrupt.c, tests/normal/field/test_flint.c
  */
 #ifndef QDOT_BASE_INTERRUPT_H
 #define QDOT_BASE_INTERRUPT_H
