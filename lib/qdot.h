@@ -81,7 +81,8 @@ typedef enum {
     QDOT_NOTATION_UNICODE = 1,
     QDOT_NOTATION_LATEX = 2,
     QDOT_NOTATION_MATHML = 3,
-    QDOT_NOTATION_JSON = 4 /* qdot_system_ask() only: one object a line */
+    QDOT_NOTATION_JSON = 4,   /* qdot_system_ask() only: one object a line, as of `qdot --json` */
+    QDOT_NOTATION_DISPLAY = 5 /* qdot_system_ask() only: such objects, for a program that shows them */
 } qdot_notation;
 
 typedef enum {
@@ -127,7 +128,16 @@ const char *qdot_system_notices(const qdot_system *system);
 qdot_result qdot_system_declare(qdot_system *system, const char *text);
 
 /* The same, with the answers as the program prints them. *answers: the caller's; after a failure the
- * answers up to there, or NULL. */
+ * answers up to there, or NULL.
+ *
+ * In QDOT_NOTATION_DISPLAY each line is a JSON object. A formula has "plain", "latex", "mathml" (as of those
+ * notations) and "typeset", an object with the whole answer `name = formula` in "latex" and "mathml" (an
+ * element <math>). What would be shown in a window or go to a file that no statement names is
+ *     {"kind":"figure","mime":"image/svg+xml","name":"theta","data":"<svg ..."}
+ * and `animate` and `report` need no file; then they give
+ *     {"kind":"page","mime":"text/html","name":"run1","data":"<!DOCTYPE html>..."}
+ * Each has "statement", a number that counts over all calls, and "line" of the text. Notices are objects among
+ * the answers, so qdot_system_notices() is empty; the error of a failed text is the last object. */
 qdot_result qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation,
                             char **answers);
 

@@ -65,16 +65,21 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
         return QDOT_RESULT_INVALID;
     if (text == NULL || answers == NULL)
         return qdot_api_refuse(system, "ask: the %s is NULL", text == NULL ? "text" : "answer");
-    if ((unsigned)notation > QDOT_NOTATION_JSON)
+    if ((unsigned)notation > QDOT_NOTATION_DISPLAY)
         return qdot_api_refuse(system, "ask: there is no notation %d", (int)notation);
     session = system->session;
     before = session->output->style;
     status = qdot_api_begin(system);
-    session->output->json = notation == QDOT_NOTATION_JSON;
+    session->output->display = notation == QDOT_NOTATION_DISPLAY;
+    session->output->json = notation == QDOT_NOTATION_JSON || session->output->display;
     session->output->style = session->output->json ? QDOT_PLAIN : (qdot_style)notation;
+    if (session->output->display) { /* notices stand among the answers */
+        session->output->console = session->output->out;
+        session->output->console_json = true;
+    }
     if (status == QDOT_OK)
         status = qdot_script_carry_out(session, "ask", 0, text, strlen(text));
-    session->output->json = false;
+    session->output->json = session->output->display = session->output->console_json = false;
     session->output->style = before;
     result = qdot_api_end(system, status);
     *answers = take_answer_text(system);

@@ -203,42 +203,86 @@ check_list_length(const char *list, size_t n, size_t curves)
                                              curves == 1 ? "is" : "are", curves);
 }
 
-qdot_status
-qdot_figure_write(const qdot_figure *figure, const char *path)
+static qdot_status
+check_curves(const qdot_figure *figure)
 {
-    qdot_text script = {0}, image = {0};
-    qdot_figure_drawing d = {.figure = figure, .script = &script};
-    qdot_status status;
-
-    if (qdot_rank() > 0)
-        return QDOT_OK;
     for (size_t i = 0; i < figure->n; i++) {
         if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
         QDOT_TRY(check_list_length("the legend", figure->panels[i].n_legend, figure->panels[i].n));
         QDOT_TRY(check_list_length("`colour`", figure->panels[i].n_colours, figure->panels[i].n));
     }
-    if (path != NULL) {
-        d.kind = find_image_kind(path);
-        if (d.kind == NULL) {
-            qdot_fail(QDOT_EINVAL, "`%.200s` does not say which kind of figure to write", path);
-            return qdot_hint("end its name in .svg, .png, .pdf, .eps or .tikz");
-        }
-    }
-    if (path != NULL && d.kind->before == NULL)
-        return write_tikz(figure, d.kind, path);
-    if (path != NULL && figure->keep)
-        QDOT_TRY(check_kept_files(path));
-    QDOT_TRY(qdot_figure_size(figure, &d.width, &d.height, &d.points));
-    add_terminal_command(&d);
-    status = qdot_figure_add_script(&d);
+    return QDOT_OK;
+}
+
+/* Draw the figure as an image of this kind, which is appended; kind and image NULL: in a window. */
+static qdot_status
+draw_by_gnuplot(qdot_figure_drawing *d, qdot_text *image)
+{
+    qdot_text script = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_figure_size(d->figure, &d->width, &d->height, &d->points));
+    d->script = &script;
+    add_terminal_command(d);
+    status = qdot_figure_add_script(d);
     if (status == QDOT_OK)
-        status = path != NULL ? qdot_gnuplot_run(&script, d.kind->end, &image) : qdot_gnuplot_run(&script, NULL, NULL);
-    if (status == QDOT_OK && path != NULL)
-        status = qdot_sink_write(path, image.at, image.n);
-    if (status == QDOT_OK && path != NULL && figure->keep)
-        status = write_kept_script(&d, path);
+        status = qdot_gnuplot_run(&script, image != NULL ? d->kind->end : NULL, image);
+    d->script = NULL;
     qdot_text_clear(&script);
+    return status;
+}
+
+/* Draw an image by gnuplot into a file, and what `keep` leaves beside it. */
+static qdot_status
+write_image(qdot_figure_drawing *d, const char *path)
+{
+    qdot_text image = {0};
+    qdot_status status = d->figure->keep ? check_kept_files(path) : QDOT_OK;
+
+    if (status == QDOT_OK)
+        status = draw_by_gnuplot(d, &image);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(path, image.at, image.n);
+    if (status == QDOT_OK && d->figure->keep)
+        status = write_kept_script(d, path);
     qdot_text_clear(&image);
     return status;
+}
+
+qdot_status
+qdot_figure_svg(const qdot_figure *figure, qdot_text *element)
+{
+    qdot_figure_drawing d = {.figure = figure, .kind = find_image_kind(".svg")};
+    qdot_text image = {0};
+    const char *begin;
+    qdot_status status = check_curves(figure);
+
+    if (status == QDOT_OK)
+        status = draw_by_gnuplot(&d, &image);
+    if (status == QDOT_OK) {
+        begin = strstr(image.at, "<svg");
+        qdot_text_add(element, begin != NULL ? begin : image.at);
+        status = qdot_text_status(element);
+    }
+    qdot_text_clear(&image);
+    return status;
+}
+
+qdot_status
+qdot_figure_write(const qdot_figure *figure, const char *path)
+{
+    qdot_figure_drawing d = {.figure = figure};
+
+    if (qdot_rank() > 0)
+        return QDOT_OK;
+    QDOT_TRY(check_curves(figure));
+    if (path == NULL)
+        return draw_by_gnuplot(&d, NULL);
+    d.kind = find_image_kind(path);
+    if (d.kind == NULL) {
+        qdot_fail(QDOT_EINVAL, "`%.200s` does not say which kind of figure to write", path);
+        return qdot_hint("end its name in .svg, .png, .pdf, .eps or .tikz");
+    }
+    return d.kind->before == NULL ? write_tikz(figure, d.kind, path) : write_image(&d, path);
 }

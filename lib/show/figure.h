@@ -95,6 +95,10 @@ bool qdot_figure_is_file(const char *path);
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);
 
+/* The figure as an element <svg> for a page of HTML, appended; `keep` is not looked at. Errors as of
+ * qdot_figure_write. */
+QDOT_MUST_CHECK qdot_status qdot_figure_svg(const qdot_figure *figure, qdot_text *element);
+
 /* Find the ranges and axis lengths of panel i from its settings and curves. Errors: QDOT_EDOMAIN. */
 QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size_t i,
                                                  qdot_figure_view *view);

@@ -114,10 +114,11 @@ is_quotient_with_unit(const qdot_session *session, qdot_expr value, bool *quotie
     return status;
 }
 
+/* Append `name = value`, `name: left = right`, or the value alone where the name says nothing. */
 static qdot_status
-answer_expression_as_text(qdot_session *session, const char *name, qdot_expr value)
+append_named_value(qdot_sheet *s, const char *name, qdot_expr value)
 {
-    qdot_sheet s = qdot_sheet_begin(session);
+    qdot_session *session = s->session;
     const bool relation = qdot_value_kind_is_equation(session->pool, value) ||
                           contains_relations(session->pool, value);
     bool bare = name == NULL || strlen(name) > 200 ||
@@ -125,22 +126,31 @@ answer_expression_as_text(qdot_session *session, const char *name, qdot_expr val
     bool quotient = false;
     qdot_status status = QDOT_OK;
 
-    s.operations = qdot_expr_size(session->pool, value);
+    s->operations = qdot_expr_size(session->pool, value);
     if (!bare)
         status = prints_as_its_name(session, name, value, &bare);
-    qdot_sheet_open(&s);
+    qdot_sheet_open(s);
     if (status == QDOT_OK && !bare) {
-        status = qdot_sheet_name(&s, name, QDOT_FORMULA_LABEL);
-        qdot_sheet_sign(&s, !relation && value != QDOT_TRUE && value != QDOT_FALSE ? QDOT_SIGN_EQUALS
+        status = qdot_sheet_name(s, name, QDOT_FORMULA_LABEL);
+        qdot_sheet_sign(s, !relation && value != QDOT_TRUE && value != QDOT_FALSE ? QDOT_SIGN_EQUALS
                                                                                  : QDOT_SIGN_COLON);
     }
     if (status == QDOT_OK)
         status = is_quotient_with_unit(session, value, &quotient);
-    qdot_sheet_format(&s, quotient ? "(" : "");
+    qdot_sheet_format(s, quotient ? "(" : "");
     if (status == QDOT_OK)
-        status = qdot_sheet_expr(&s, value);
-    qdot_sheet_format(&s, quotient ? ")" : "");
-    append_unit(&s);
+        status = qdot_sheet_expr(s, value);
+    qdot_sheet_format(s, quotient ? ")" : "");
+    append_unit(s);
+    return status;
+}
+
+static qdot_status
+answer_expression_as_text(qdot_session *session, const char *name, qdot_expr value)
+{
+    qdot_sheet s = qdot_sheet_begin(session);
+    const qdot_status status = append_named_value(&s, name, value);
+
     return qdot_sheet_end(&s, "", status);
 }
 
@@ -171,24 +181,63 @@ write_units(const qdot_session *session, size_t n, qdot_text *line)
     qdot_text_char(line, ']');
 }
 
+/* Append the field of a JSON object in which a value stands in this style. */
+static qdot_status
+write_value(qdot_session *session, const char *field, qdot_expr value, qdot_style style, qdot_text *line)
+{
+    qdot_text part = {0};
+    const qdot_status status = qdot_expression_print(session, value, style, &part);
+
+    qdot_write_field(line, field, qdot_text_str(&part));
+    line->failed = line->failed || part.failed;
+    qdot_text_clear(&part);
+    return status;
+}
+
+/* Append the field in which the whole answer stands in this style, as `name = value`. */
+static qdot_status
+write_named_value(qdot_session *session, const char *field, const char *name, qdot_expr value, qdot_style style,
+                  qdot_text *line)
+{
+    qdot_sheet s = qdot_sheet_begin_text(session, style);
+    qdot_text part = {0};
+    qdot_status status = append_named_value(&s, name, value);
+
+    status = qdot_sheet_text(&s, status, &part);
+    qdot_write_field(line, field, qdot_text_str(&part));
+    line->failed = line->failed || part.failed;
+    qdot_text_clear(&part);
+    return status;
+}
+
+/* Append what a program that typesets answers needs besides: the value in MathML, the whole answer in two notations. */
+static qdot_status
+write_typeset(qdot_session *session, const char *name, qdot_expr value, qdot_text *line)
+{
+    if (!qdot_write_displays(session))
+        return QDOT_OK;
+    QDOT_TRY(write_value(session, ",\"mathml\":", value, QDOT_MATHML, line));
+    QDOT_TRY(write_named_value(session, ",\"typeset\":{\"latex\":", name, value, QDOT_LATEX, line));
+    QDOT_TRY(write_named_value(session, ",\"mathml\":", name, value, QDOT_MATHML, line));
+    qdot_text_char(line, '}');
+    return QDOT_OK;
+}
+
 static qdot_status
 answer_expression_as_json(qdot_session *session, const char *name, qdot_expr value)
 {
-    qdot_text line = {0}, part = {0};
+    qdot_text line = {0};
     qdot_status status;
 
     qdot_write_field(&line, "{\"kind\":\"expr\",\"name\":", name == NULL ? "" : name);
-    status = qdot_expression_print(session, value, QDOT_PLAIN, &part);
-    qdot_write_field(&line, ",\"plain\":", qdot_text_str(&part));
-    qdot_text_truncate(&part, 0);
+    status = write_value(session, ",\"plain\":", value, QDOT_PLAIN, &line);
     if (status == QDOT_OK)
-        status = qdot_expression_print(session, value, QDOT_LATEX, &part);
-    qdot_write_field(&line, ",\"latex\":", qdot_text_str(&part));
+        status = write_value(session, ",\"latex\":", value, QDOT_LATEX, &line);
+    if (status == QDOT_OK)
+        status = write_typeset(session, name, value, &line);
     qdot_text_format(&line, ",\"ops\":%" PRIu64, qdot_expr_size(session->pool, value));
     write_unit(session, &line);
     qdot_text_add(&line, "}\n");
-    line.failed = line.failed || part.failed;
-    qdot_text_clear(&part);
     return finish_json_object(session, status, &line);
 }
 

@@ -73,6 +73,14 @@ qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
     return qdot_write(session, file, object);
 }
 
+bool
+qdot_write_displays(const qdot_session *session)
+{
+    const qdot_output *o = session->output;
+
+    return o->display && o->json && (o->console == NULL || o->out == o->console);
+}
+
 FILE *
 qdot_write_stream(const qdot_session *session)
 {
@@ -145,4 +153,25 @@ qdot_status
 qdot_answer_drawn(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
 {
     return write_and_clear_text(session, name, status, text, true);
+}
+
+qdot_status
+qdot_answer_shown(qdot_session *session, const char *kind, const char *mime, const char *name, qdot_status status,
+                  qdot_text *text)
+{
+    qdot_text line = {0};
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK) {
+        qdot_write_field(&line, "{\"kind\":", kind);
+        qdot_write_field(&line, ",\"mime\":", mime);
+        qdot_write_field(&line, ",\"name\":", name);
+        qdot_write_field(&line, ",\"data\":", qdot_text_str(text));
+        qdot_text_add(&line, "}\n");
+        status = qdot_write_object(session, session->output->out, &line);
+    }
+    qdot_text_clear(text);
+    qdot_text_clear(&line);
+    return status;
 }

@@ -16,6 +16,14 @@ QDOT_MUST_CHECK qdot_status qdot_write(const qdot_session *session, FILE *file, 
 /* Write a JSON object `{...}` and a newline; to an answer add which statement it belongs to. */
 QDOT_MUST_CHECK qdot_status qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object);
 
+/* Whether answers are shown by a program that can draw (output.h, `display`), and do not go to a file now. */
+bool qdot_write_displays(const qdot_session *session);
+
+/* Answer {"kind":KIND}, "figure" or "page": what a displaying program shows, such as the text of an image; mime: its
+ * type, "image/svg+xml"; name: what it is of. Written if `status`, that of the text, is QDOT_OK; the text is cleared. */
+QDOT_MUST_CHECK qdot_status qdot_answer_shown(qdot_session *session, const char *kind, const char *mime,
+                                              const char *name, qdot_status status, qdot_text *text);
+
 /* The columns of the terminal to which `file` is connected; 0 if it is none, or if JSON is written. */
 size_t qdot_write_width(const qdot_session *session, const FILE *file);
 

@@ -11,10 +11,13 @@
 
 static qdot_status carry_out_animate(qdot_record *r);
 
+#define OPTIONS "animate [RUN] [from A [to B]] [title TEXT] [trail T] [speed S] "
+
 QDOT_STATEMENT(animate) = {
     .word = "animate",
     .group = QDOT_NUMBERS,
-    .usage = "animate [RUN] [from A [to B]] [title TEXT] [trail T] [speed S] to \"FILE.html\"",
+    .usage = OPTIONS "to \"FILE.html\"",
+    .displayed = OPTIONS "[to \"FILE.html\"]",
     .summary = "an animation of a run: particles, bodies, rods, springs, dampers, with a phase portrait "
                "and the energies beside it",
     .example = "animate to \"double.html\"",
@@ -61,11 +64,15 @@ read_options(qdot_record *r, qdot_animated_options *drawn)
 }
 
 static qdot_status
-write_picture(qdot_session *session, const qdot_animation *a, const char *path)
+write_picture(qdot_session *session, const char *run, const qdot_animation *a, const char *path)
 {
     qdot_text page = {0};
     qdot_status status;
 
+    if (path == NULL) {
+        status = qdot_animation_page(a, &page);
+        return qdot_answer_shown(session, "page", "text/html", a->title != NULL ? a->title : run, status, &page);
+    }
     if (qdot_ends_in(path, ".gif")) {
         QDOT_TRY(qdot_animation_gif(a, path));
         return qdot_answer_file(session, path);
@@ -81,7 +88,8 @@ static qdot_status
 carry_out_animate(qdot_record *r)
 {
     const qdot_filled *name = qdot_record_hole(r, "animate", "RUN");
-    const char *path = qdot_record_text(qdot_record_hole(r, "to", "\"FILE.html\"")), *of = NULL;
+    const qdot_filled *file = qdot_record_hole(r, "to", "\"FILE.html\"");
+    const char *path = file != NULL ? qdot_record_text(file) : NULL, *of = NULL;
     qdot_session *session = r->cursor.session;
     qdot_animated_options drawn = {NAN, NAN, NULL, NAN, NAN, false};
     qdot_named_run *run;
@@ -92,7 +100,7 @@ carry_out_animate(qdot_record *r)
         QDOT_TRY(qdot_record_name(r, name, &of));
     QDOT_TRY(read_options(r, &drawn));
     r->cursor.error_at = r->start->start;
-    if (!qdot_ends_in(path, ".html") && !qdot_ends_in(path, ".gif")) {
+    if (path != NULL && !qdot_ends_in(path, ".html") && !qdot_ends_in(path, ".gif")) {
         (void)qdot_fail(QDOT_EINVAL,
                         "`%.200s` does not say which kind of animation to write", path);
         return qdot_hint("end its name in .html or .gif");
@@ -100,7 +108,7 @@ carry_out_animate(qdot_record *r)
     QDOT_TRY(qdot_runs_find(session, of, &run));
     status = qdot_animated_make(session, run, &drawn, &a);
     if (status == QDOT_OK)
-        status = write_picture(session, &a, path);
+        status = write_picture(session, run->name, &a, path);
     qdot_animation_clear(&a);
     return status;
 }

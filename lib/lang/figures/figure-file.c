@@ -109,6 +109,41 @@ try_to_open_window(qdot_session *session, const qdot_figure *figure, bool *open)
                                    qdot_last_error()->message);
 }
 
+/* --- in a program that shows answers ---------------------------------------------------- */
+
+/* Append what the figure is of: its title, else the labels of its curves. */
+static void
+append_subject(const qdot_figure *figure, qdot_text *name)
+{
+    const qdot_panel *panel = &figure->panels[0];
+
+    if (panel->title.text != NULL) {
+        qdot_text_add(name, panel->title.text);
+        return;
+    }
+    for (size_t i = 0; i < panel->n; i++)
+        if (panel->curves[i].label.text != NULL)
+            qdot_text_format(name, "%s%s", name->n > 0 ? ", " : "", panel->curves[i].label.text);
+    if (name->n == 0 && panel->axis[1].text != NULL)
+        qdot_text_add(name, panel->axis[1].text);
+    if (name->n == 0 && panel->map != NULL && panel->map->label.text != NULL)
+        qdot_text_add(name, panel->map->label.text);
+}
+
+static qdot_status
+answer_image(qdot_session *session, const qdot_figure *figure)
+{
+    qdot_text name = {0}, image = {0};
+    qdot_status status = qdot_figure_svg(figure, &image);
+
+    append_subject(figure, &name);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&name);
+    status = qdot_answer_shown(session, "figure", "image/svg+xml", qdot_text_str(&name), status, &image);
+    qdot_text_clear(&name);
+    return status;
+}
+
 qdot_status
 qdot_figure_file_show(qdot_session *session, const qdot_figure *figure, const char *path)
 {
@@ -116,6 +151,8 @@ qdot_figure_file_show(qdot_session *session, const qdot_figure *figure, const ch
     qdot_status status = QDOT_OK;
     bool open = false;
 
+    if (path == NULL && !figure->keep && qdot_write_displays(session))
+        return answer_image(session, figure);
     if (path == NULL && !figure->keep && should_open_window(session))
         QDOT_TRY(try_to_open_window(session, figure, &open));
     if (open)

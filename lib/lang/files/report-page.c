@@ -18,10 +18,14 @@
 
 static qdot_status carry_out_report(qdot_record *r);
 
+#define OPTIONS "report [RUN, ...] [title TEXT] [workprecision] "
+#define FILES "to \"FILE.html\"|\"FILE.pdf\""
+
 QDOT_STATEMENT(report) = {
     .word = "report",
     .group = QDOT_WORKBENCH,
-    .usage = "report [RUN, ...] [title TEXT] [workprecision] to \"FILE.html\"|\"FILE.pdf\"",
+    .usage = OPTIONS FILES,
+    .displayed = OPTIONS "[" FILES "]",
     .summary = "everything as one page: scene, derivation, conserved quantities, equilibria, run with its "
                "error, curves, moving picture, script; several runs are compared",
     .example = "report to \"x.html\"",
@@ -228,13 +232,14 @@ static qdot_status
 carry_out_report(qdot_record *r)
 {
     const qdot_filled *title = qdot_record_hole(r, "title", NULL);
-    const char *path = qdot_record_text(qdot_record_hole(r, "to", NULL));
-    const bool pdf = qdot_ends_in(path, ".pdf");
+    const qdot_filled *file = qdot_record_hole(r, "to", NULL);
+    const char *path = file != NULL ? qdot_record_text(file) : NULL;
+    const bool pdf = path != NULL && qdot_ends_in(path, ".pdf");
     page p = {.c = &r->cursor, .session = r->cursor.session, .work = qdot_record_word(r, "workprecision") != NULL};
     qdot_status status;
 
     r->cursor.error_at = r->start->start;
-    if (!pdf && !qdot_ends_in(path, ".html")) {
+    if (path != NULL && !pdf && !qdot_ends_in(path, ".html")) {
         (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say which kind of page to write", path);
         return qdot_hint("end its name in .html or .pdf");
     }
@@ -253,6 +258,8 @@ carry_out_report(qdot_record *r)
         status = qdot_pdf_print(qdot_text_str(&p.page), p.page.n, path);
         if (status == QDOT_OK)
             status = qdot_answer_file(p.session, path);
+    } else if (path == NULL) {
+        status = qdot_answer_shown(p.session, "page", "text/html", "report", status, &p.page);
     } else if (status == QDOT_OK) {
         status = qdot_answer_in_file(p.session, path, &p.page);
     }

@@ -23,6 +23,7 @@ typedef struct qdot_output {
     const char *unit; /* unit of the present answer, as "m/s"; NULL: none is written */
     char *const *units; /* units of the numbers of the present answer, where these differ; each NULL: none; NULL: one unit for all */
     bool json, timing;
+    bool display; /* with `json`: figures and pages without a file are answers, and formulas are also in MathML */
     FILE *console; /* the stream of notices; NULL: the same as that of answers */
     bool console_json;
     FILE *pages, *screen; /* `out` is `pages` while answers to the terminal `screen` are collected */

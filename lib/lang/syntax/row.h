@@ -19,6 +19,7 @@ struct qdot_record;
 typedef struct {
     const char *word, *group;
     const char *usage, *summary, *example;
+    const char *displayed; /* the usage where a program displays answers, which need no file; NULL: no other one */
     const char *form; /* shown instead of `usage` in the hint at a missing clause; NULL: none */
     bool alone; /* the word is also a value; as a whole statement it prints more */
     bool linear; /* concerns rest and motion near it: of a scene that states H alone the first-order equations */

@@ -98,13 +98,14 @@ report_unknown_word(qdot_cursor *c)
 static const qdot_usage *
 find_usage(engine *x, const qdot_statement *row)
 {
+    const bool displayed = row->displayed != NULL && qdot_write_displays(x->session);
     qdot_usage *usage;
 
     for (size_t i = 0; i < x->usages.n; i++)
         if (strcmp(x->usages.at[i]->word, row->word) == 0)
             return x->usages.at[i];
     usage = qdot_malloc(sizeof *usage);
-    if (usage == NULL || !qdot_usage_compile(usage, row->word, row->usage, NULL) ||
+    if (usage == NULL || !qdot_usage_compile(usage, row->word, displayed ? row->displayed : row->usage, NULL) ||
         qdot_vec_push(&x->usages, usage) != QDOT_OK) {
         qdot_free(usage);
         return NULL;

@@ -1,0 +1,176 @@
+/* test_display.c -- answers for a program that shows them: objects with figures and pages in them, no files. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "qdot.h"
+
+static const char scene[] = "coord theta\n"
+                            "particle bob mass 1 at (sin(theta), -cos(theta))\n"
+                            "gravity (0, -9.81)\n"
+                            "start theta = 2\n"
+                            "run 0..10\n";
+
+static int
+begin(void **state)
+{
+    qdot_system *s;
+
+    if (qdot_system_new(&s) != QDOT_RESULT_OK)
+        return 1;
+    *state = s;
+    return qdot_system_declare(s, scene) != QDOT_RESULT_OK;
+}
+
+static int
+end(void **state)
+{
+    qdot_system_free(*state);
+    return 0;
+}
+
+/* The objects with which the system answers, one a line; the caller's. */
+static char *
+display(qdot_system *s, const char *text, qdot_result wanted)
+{
+    char *answers;
+
+    assert_int_equal(qdot_system_ask(s, text, QDOT_NOTATION_DISPLAY, &answers), wanted);
+    assert_non_null(answers);
+    assert_string_equal(qdot_system_notices(s), "");
+    return answers;
+}
+
+static size_t
+count(const char *text, const char *part)
+{
+    size_t n = 0;
+
+    for (; (text = strstr(text, part)) != NULL; text++)
+        n++;
+    return n;
+}
+
+/* The place of the part in the text, which has it. */
+static const char *
+find(const char *text, const char *part)
+{
+    const char *at = strstr(text, part);
+
+    if (at == NULL)
+        fail_msg("no `%s` in `%.300s`", part, text);
+    return at;
+}
+
+static bool
+has_gnuplot(void)
+{
+    return system("gnuplot --version >/dev/null 2>&1") == 0;
+}
+
+static void
+formulas_are_typeset(void **state)
+{
+    char *text = display(*state, "T", QDOT_RESULT_OK);
+
+    find(text, "{\"kind\":\"expr\",\"name\":\"T\",\"plain\":\"1/2*theta'^2\",\"latex\":\"\\\\frac{1}{2} \\\\dot{\\\\theta}^{2}\"");
+    find(text, ",\"mathml\":\"<mfrac>");
+    find(text, ",\"typeset\":{\"latex\":\"T = \\\\frac{1}{2}");
+    find(text, ",\"mathml\":\"<math xmlns");
+    find(text, ",\"statement\":6,\"line\":1}\n");
+    qdot_string_free(text);
+}
+
+static void
+figures_are_answers_in_their_order(void **state)
+{
+    char *text;
+    const char *first, *number, *second;
+
+    if (!has_gnuplot())
+        skip();
+    text = display(*state, "plot theta\n1 + 1\nplot theta' title \"speed\"", QDOT_RESULT_OK);
+    first = find(text, "{\"kind\":\"figure\",\"mime\":\"image/svg+xml\",\"name\":\"theta\",\"data\":\"<svg");
+    number = find(first, "\"plain\":\"2\"");
+    second = find(number, "{\"kind\":\"figure\",\"mime\":\"image/svg+xml\",\"name\":\"speed\",\"data\":\"<svg");
+    find(find(first, "</svg>"), "\",\"statement\":6,\"line\":1}\n");
+    find(second, ",\"statement\":8,\"line\":3}\n");
+    assert_int_equal(count(text, "\"kind\":\"file\""), 0);
+    qdot_string_free(text);
+    assert_int_not_equal(access("qdot-1.svg", F_OK), 0);
+}
+
+static void
+pages_are_answers(void **state)
+{
+    char *text = display(*state, "animate from 0 to 5 title \"swing\"; animate; report", QDOT_RESULT_OK);
+
+    assert_int_equal(count(text, "{\"kind\":\"page\",\"mime\":\"text/html\",\"name\":"), 3);
+    assert_int_equal(count(text, "\"data\":\"<!DOCTYPE html>"), 3);
+    find(find(find(text, "\"name\":\"swing\""), "\"name\":\"run1\""), "\"name\":\"report\"");
+    qdot_string_free(text);
+}
+
+/* What names a file is a file; elsewhere animations and reports need one. */
+static void
+named_files_stay_files(void **state)
+{
+    qdot_system *s = *state;
+    char *text = display(s, "animate to \"test_display-a.html\"; T to \"test_display-b.json\"", QDOT_RESULT_OK);
+    char written[300] = "";
+    FILE *file = fopen("test_display-b.json", "r");
+
+    find(find(text, "{\"kind\":\"file\",\"path\":\"test_display-a.html\""), "{\"kind\":\"file\",\"path\":\"test_display-b.json\"");
+    qdot_string_free(text);
+    assert_non_null(file);
+    assert_non_null(fgets(written, sizeof written, file));
+    assert_null(strstr(written, "typeset"));
+    fclose(file);
+    (void)unlink("test_display-a.html");
+    (void)unlink("test_display-b.json");
+    assert_int_equal(qdot_system_ask(s, "animate", QDOT_NOTATION_JSON, &text), QDOT_RESULT_SYNTAX);
+    qdot_string_free(text);
+    assert_int_equal(qdot_system_declare(s, "report"), QDOT_RESULT_SYNTAX);
+}
+
+static void
+notices_and_errors_stand_among_the_answers(void **state)
+{
+    qdot_system *s;
+    char *text;
+
+    (void)state;
+    assert_int_equal(qdot_system_new(&s), QDOT_RESULT_OK);
+    text = display(s, "coord x; particle p mass 1 at (x, 0)\nrun 0..1\nplot x for", QDOT_RESULT_SYNTAX);
+    find(text, "{\"kind\":\"notice\",\"message\":");
+    find(find(text, "{\"kind\":\"run\""), "{\"kind\":\"error\",\"file\":\"ask\",\"line\":3,\"column\":");
+    assert_non_null(strstr(qdot_system_error(s), "ask:3:"));
+    qdot_string_free(text);
+    assert_int_equal(qdot_system_ask(s, "1", QDOT_NOTATION_PLAIN, &text), QDOT_RESULT_OK);
+    assert_string_equal(text, "1\n");
+    qdot_string_free(text);
+    qdot_system_free(s);
+}
+
+int
+main(void)
+{
+#define IN_A_SCENE(test) cmocka_unit_test_setup_teardown(test, begin, end)
+    const struct CMUnitTest tests[] = {
+        IN_A_SCENE(formulas_are_typeset),
+        IN_A_SCENE(figures_are_answers_in_their_order),
+        IN_A_SCENE(pages_are_answers),
+        IN_A_SCENE(named_files_stay_files),
+        cmocka_unit_test(notices_and_errors_stand_among_the_answers),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
