@@ -1,0 +1,68 @@
+"""qdot: Lagrangian mechanics, derived exactly and integrated with known errors.
+
+A `System` holds what has been declared in the language of the program `qdot`; it derives formulas,
+decides claims and integrates motions, which are read as NumPy arrays.
+
+>>> import qdot
+>>> s = qdot.System('''
+...     param m, l, g > 0
+...     coord theta
+...     particle bob mass m at (l*sin(theta), -l*cos(theta))
+...     gravity (0, -g)
+...     set m = 1, l = 1, g = 9.81; start theta = 2
+... ''')
+>>> print(s.derive("eom"))
+m*l^2*theta'' = -m*l*g*sin(theta)
+>>> motion = s.run("0..10")
+>>> round(motion.end["theta"], 9)
+0.015728632
+"""
+
+from .errors import (
+    DomainError,
+    Error,
+    FailedError,
+    FileError,
+    Interrupted,
+    InvalidError,
+    KindError,
+    LanguageError,
+    LimitError,
+    NotBuiltError,
+    Notice,
+    OutOfMemoryError,
+    SingularError,
+    UnknownNameError,
+    UnsetError,
+)
+from .formula import Formula
+from .library import unfinished, version
+from .motion import Conserved, Event, Motion, Summary
+from .system import System, Truth
+
+__all__ = [
+    "Conserved",
+    "DomainError",
+    "Error",
+    "Event",
+    "FailedError",
+    "FileError",
+    "Formula",
+    "Interrupted",
+    "InvalidError",
+    "KindError",
+    "LanguageError",
+    "LimitError",
+    "Motion",
+    "NotBuiltError",
+    "Notice",
+    "OutOfMemoryError",
+    "SingularError",
+    "Summary",
+    "System",
+    "Truth",
+    "UnknownNameError",
+    "UnsetError",
+    "unfinished",
+    "version",
+]

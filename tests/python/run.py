@@ -1,0 +1,90 @@
+"""run.py -- run the tests of the Python package and the examples in its docstrings, and print TAP.
+
+    QDOT_LIBRARY=build/.libs/libqdot.so.0 PYTHONPATH=python python3 tests/python/run.py [test_NAME...]
+"""
+import doctest
+import importlib
+import os
+import pkgutil
+import sys
+import unittest
+
+import qdot
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+class Points(unittest.TestResult):
+    """Prints a point for each test, with what went wrong."""
+
+    def point(self, test, verdict, skipped="", said=""):
+        name = test.id().replace("_", " ").replace("#", "")
+        more = f" # SKIP {skipped}" if skipped else ""
+        print(f"{verdict} {self.testsRun} - {name}{more}", flush=True)
+        for line in said.splitlines():
+            print("#", line, flush=True)
+
+    def addSuccess(self, test):
+        self.point(test, "ok")
+
+    def addSkip(self, test, reason):
+        self.point(test, "ok", skipped=reason)
+
+    def addFailure(self, test, error):
+        super().addFailure(test, error)
+        self.point(test, "not ok", said=self.failures[-1][1])
+
+    def addError(self, test, error):
+        super().addError(test, error)
+        self.point(test, "not ok", said=self.errors[-1][1])
+
+    def addSubTest(self, test, subtest, error):
+        super().addSubTest(test, subtest, error)
+        if error is not None:
+            self.testsRun += 1
+            said = (self.failures + self.errors)[-1][1]
+            self.point(subtest, "not ok", said=said)
+
+
+def modules(package):
+    """Yield the package's modules that can be imported with what is installed here."""
+    yield package
+    for found in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        if found.name.endswith("__main__"):
+            continue
+        try:
+            yield importlib.import_module(found.name)
+        except ImportError as error:
+            if error.name and error.name.startswith("qdot"):
+                raise
+            print(f"# {found.name} is left out: {error}")
+
+
+def main():
+    names = sys.argv[1:]
+    suite = unittest.TestSuite()
+    sys.path.insert(0, HERE)
+    suite.addTests(unittest.defaultTestLoader.discover(HERE, top_level_dir=HERE))
+    for module in modules(qdot):
+        suite.addTests(doctest.DocTestSuite(module))
+    tests = [test for part in suite for test in flat(part)]
+    tests = [test for test in tests if not names or any(name in test.id() for name in names)]
+    if not tests:
+        sys.exit("run.py: no tests")
+    result = Points()
+    unittest.TestSuite(tests).run(result)
+    print(f"1..{result.testsRun}")
+    sys.exit(0 if result.wasSuccessful() else 1)
+
+
+def flat(part):
+    """Yield the tests of a suite of suites."""
+    if isinstance(part, unittest.TestSuite):
+        for member in part:
+            yield from flat(member)
+    else:
+        yield part
+
+
+if __name__ == "__main__":
+    main()
