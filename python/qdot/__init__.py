@@ -35,18 +35,23 @@ from .errors import (
     UnknownNameError,
     UnsetError,
 )
+from .figures import Animation, Figure, Page, Report
 from .formula import Formula
 from .library import unfinished, version
 from .motion import Conserved, Event, Motion, Summary
 from .system import System, Truth
+from .table import Fit, Numbers, Table
 
 __all__ = [
+    "Animation",
     "Conserved",
     "DomainError",
     "Error",
     "Event",
     "FailedError",
+    "Figure",
     "FileError",
+    "Fit",
     "Formula",
     "Interrupted",
     "InvalidError",
@@ -56,10 +61,14 @@ __all__ = [
     "Motion",
     "NotBuiltError",
     "Notice",
+    "Numbers",
     "OutOfMemoryError",
+    "Page",
+    "Report",
     "SingularError",
     "Summary",
     "System",
+    "Table",
     "Truth",
     "UnknownNameError",
     "UnsetError",

@@ -11,6 +11,7 @@ from typing import (
     Any,
     Dict,
     List,
+    Literal,
     Mapping,
     Optional,
     Sequence,
@@ -27,7 +28,6 @@ from .session import Session
 if TYPE_CHECKING:
     import numpy
     import numpy.typing
-    from typing_extensions import Literal
 
     Array = numpy.typing.NDArray[numpy.float64]
     Times = numpy.typing.ArrayLike

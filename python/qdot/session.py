@@ -178,7 +178,7 @@ class Session:
         if self._hook_failures:
             raise self._hook_failures[0]
         for notice in notices.splitlines() if noted else ():
-            _warn(notice)
+            warn(notice)
         return value
 
     def look(self, body: Callable[[], T]) -> T:
@@ -244,7 +244,7 @@ class Session:
         return value
 
 
-def _warn(notice: str) -> None:
+def warn(notice: str) -> None:
     """Warn at the line outside of this package that made the call."""
     level, frame = 1, sys._getframe()
     package = __name__.partition(".")[0]

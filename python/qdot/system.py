@@ -10,10 +10,12 @@ import os
 from ctypes import byref, c_double, c_int, c_size_t, c_void_p
 from types import TracebackType
 from typing import (
+    TYPE_CHECKING,
     Any,
     Callable,
     Dict,
     List,
+    Literal,
     Mapping,
     Optional,
     Sequence,
@@ -23,16 +25,14 @@ from typing import (
     overload,
 )
 
-from typing import TYPE_CHECKING
-
 from .errors import Error, InvalidError
+from .figures import Animation, Figure, Report
 from .formula import Formula
 from .library import DISPLAY, JSON, NOTATIONS, utf8
-from .session import Session
+from .session import Session, warn
+from .table import Fit, Numbers, Table, fit_of, numbers_of, table_of
 
 if TYPE_CHECKING:
-    from typing_extensions import Literal
-
     from .motion import Motion
 
 #: What a parameter or an initial value may be set to: a number or a text of the language.
@@ -181,8 +181,7 @@ class System:
         ['expr', 'error']
         """
         try:
-            objects = DISPLAY if self._session.library.has("qdot_system_table") else JSON
-            lines = self._answers(text, objects, noted=False)
+            lines = self._answers(text, DISPLAY, noted=False)
         except Error as error:
             if error.answers is None:
                 raise
@@ -304,6 +303,60 @@ class System:
         session.changes += 1
         return session.call(body)
 
+    def sweep(self, text: str) -> Table:
+        """Carry out `sweep`: "m = 1..3 step 0.1 run 0..20 : value(theta, 20) as res"."""
+        return self._table("sweep", text)
+
+    def table(self, text: str) -> Table:
+        """Return values along the latest run, "theta, theta' every 0.1", or a table of the session by name.
+
+        Examples
+        --------
+        >>> import qdot
+        >>> s = qdot.System("coord x; particle p mass 1 at (x, 0); start x' = 2")
+        >>> motion = s.run("0..2 as a")
+        >>> s.table("x, x' every 1")["x"]
+        array([0., 2., 4.])
+        """
+        return self._table("table", text)
+
+    def numbers(self, text: str) -> Numbers:
+        """Carry out statements that answer with numbers: `find`, `sensitivity`, `lyapunov`, `floquet`, ..."""
+        return numbers_of(self._objects(text))
+
+    def fit(self, text: str) -> Fit:
+        """Carry out `fit`: "g, theta to \\"data.csv\\" : t, theta sigma 0.01".
+
+        A file is looked for where the process is.
+        """
+        return fit_of(self._objects(f"fit {text}"))
+
+    # --- figures and pages --------------------------------------------------------------
+
+    def plot(self, text: str) -> Figure:
+        """Draw what may stand behind `plot`: "theta, theta'", "theta' vs theta", a name of a sweep.
+
+        Examples
+        --------
+        >>> import qdot
+        >>> s = qdot.System("coord x; particle p mass 1 at (x, 0); start x' = 2")
+        >>> motion = s.run("0..2 as a")
+        >>> s.plot("x")  # doctest: +SKIP
+        <qdot.Figure: x>
+        """
+        shown = self._shown(f"plot {text}", "figure")
+        return Figure(shown["data"], shown["name"])
+
+    def animate(self, text: str = "") -> Animation:
+        """Return the animation of the latest run, or of what may stand behind `animate`."""
+        shown = self._shown(f"animate {text}", "page")
+        return Animation(shown["data"], shown["name"])
+
+    def report(self, text: str = "") -> Report:
+        """Return the report of all that has been asked: the derivation, the runs, their figures."""
+        shown = self._shown(f"report {text}", "page")
+        return Report(shown["data"], shown["name"])
+
     # --- what a prompt or an editor asks ------------------------------------------------
 
     def complete(self, text: str, cursor: Optional[int] = None) -> Tuple[int, List[str]]:
@@ -418,6 +471,26 @@ class System:
 
         session.changes += 1
         return session.call(body, noted)
+
+    def _objects(self, text: str) -> List[Dict[str, Any]]:
+        """Return the objects that `display` returns, but raise errors and warn of notices."""
+        objects = [json.loads(line) for line in self._answers(text, DISPLAY).splitlines()]
+        for answer in objects:
+            if answer["kind"] == "notice":
+                warn(answer["message"])
+        return objects
+
+    def _table(self, statement: str, text: str) -> Table:
+        table = table_of(self._objects(f"{statement} {text}"))
+        if table is None:
+            raise InvalidError(f"{statement} {text}: the answer is no table")
+        return table
+
+    def _shown(self, text: str, kind: str) -> Dict[str, Any]:
+        for answer in reversed(self._objects(text)):
+            if answer["kind"] == kind:
+                return answer
+        raise InvalidError(f"{text}: there is nothing to show; what it was to write, it has written")
 
     def _assign(
         self, word: str, values: Optional[Mapping[str, Value]], more: Mapping[str, Value]
