@@ -163,6 +163,16 @@ qdot_result qdot_system_number(qdot_system *system, const char *expression, doub
 qdot_result qdot_system_complete(qdot_system *system, const char *text, size_t cursor, size_t *start,
                                  char **words);
 
+/* What the word at byte `cursor` <= strlen(text) is, or the one that ends there: of a word of the language how it
+ * is used, of a name its declaration; "" if nothing is known. *explanation: the caller's. PLAIN, UNICODE, LATEX:
+ * lines of text, in which a formula is in that notation; JSON: an object with those of the fields that are known,
+ *     "word", "from", "to" (bytes of the text), "kind" ("statement", "option", "quantity", "function", "name",
+ *     "label", "run", "topic"), "usage", "text", "example", "formula" (LaTeX), "dimension", "file", "line", "column"
+ * Quantities of the scene have a formula only if it comes at once: T, V, L, eom, p[q] ... in scenes of up to 8
+ * coordinates. The text is not carried out. INVALID: no such byte, another notation. */
+qdot_result qdot_system_explain(qdot_system *system, const char *text, size_t cursor, qdot_notation notation,
+                                char **explanation);
+
 /* 1 if the text cannot be a whole yet, because a bracket is open or its last line ends in a backslash; else 0. */
 int qdot_text_unfinished(const char *text);
 

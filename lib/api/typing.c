@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "lang/workbench/complete.h"
+#include "lang/workbench/explain.h"
 #include "lang/workbench/highlight.h"
 #include "lang/workbench/script.h"
 
@@ -57,6 +58,40 @@ qdot_system_complete(qdot_system *system, const char *text, size_t cursor, size_
         status = qdot_text_status(&joined);
     }
     return qdot_api_end_with_text(system, status, &joined, words);
+}
+
+qdot_result
+qdot_system_explain(qdot_system *system, const char *text, size_t cursor, qdot_notation notation,
+                    char **explanation)
+{
+    const bool json = notation == QDOT_NOTATION_JSON;
+    qdot_explained explained = {0};
+    qdot_text out = {0};
+    qdot_status status;
+
+    if (explanation != NULL)
+        *explanation = NULL;
+    if (system == NULL)
+        return QDOT_RESULT_INVALID;
+    if (text == NULL || explanation == NULL)
+        return qdot_api_refuse(system, "explain: the %s is NULL", text == NULL ? "text" : "explanation");
+    if (cursor > strlen(text))
+        return qdot_api_refuse(system, "explain: the text has no byte %zu", cursor);
+    if ((unsigned)notation > QDOT_NOTATION_JSON || notation == QDOT_NOTATION_MATHML)
+        return qdot_api_refuse(system, "explain: there is no notation %d", (int)notation);
+    status = qdot_api_begin(system);
+    if (status == QDOT_OK)
+        status = qdot_explain(system->session, text, strlen(text), cursor, json ? QDOT_LATEX : (qdot_style)notation,
+                              &explained);
+    if (status == QDOT_OK && json && explained.kind != QDOT_EXPLAINED_NOTHING)
+        qdot_explained_json(&explained, &out);
+    else if (status == QDOT_OK)
+        qdot_explained_print(&explained, &out);
+    qdot_text_add(&out, ""); /* nothing gives the empty text, not NULL */
+    if (status == QDOT_OK)
+        status = qdot_text_status(&out);
+    qdot_explained_clear(&explained);
+    return qdot_api_end_with_text(system, status, &out, explanation);
 }
 
 int

@@ -67,6 +67,28 @@ words_are_completed_in_their_place(void **state)
 }
 
 static void
+words_are_explained(void **state)
+{
+    qdot_system *s = *state;
+    char *text;
+
+    assert_int_equal(qdot_system_explain(s, "2*thickness", 5, QDOT_NOTATION_JSON, &text), QDOT_RESULT_OK);
+    assert_string_equal(text, "{\"word\":\"thickness\",\"from\":2,\"to\":11,\"kind\":\"name\",\"usage\":\"param thickness = 1\","
+                              "\"text\":\"a parameter\",\"file\":\"declare\",\"line\":2,\"column\":7}");
+    qdot_string_free(text);
+    assert_int_equal(qdot_system_explain(s, "units", 2, QDOT_NOTATION_PLAIN, &text), QDOT_RESULT_OK);
+    assert_int_equal(strncmp(text, "units [EXPR]\n    the dimension", 30), 0);
+    qdot_string_free(text);
+    assert_int_equal(qdot_system_explain(s, "1 + 1", 2, QDOT_NOTATION_JSON, &text), QDOT_RESULT_OK);
+    assert_string_equal(text, "");
+    qdot_string_free(text);
+    assert_int_equal(qdot_system_explain(s, "T", 2, QDOT_NOTATION_JSON, &text), QDOT_RESULT_INVALID);
+    assert_null(text);
+    assert_int_equal(qdot_system_explain(s, "T", 0, QDOT_NOTATION_MATHML, &text), QDOT_RESULT_INVALID);
+    assert_int_equal(qdot_system_explain(s, NULL, 0, QDOT_NOTATION_JSON, &text), QDOT_RESULT_INVALID);
+}
+
+static void
 unfinished_texts_are_known(void **state)
 {
     static const char *const open[] = {"{ print k", "f(1,", "1 + \\\n", "\"}\" [", "{ # }"};
@@ -105,6 +127,7 @@ main(void)
 #define IN_A_SCENE(test) cmocka_unit_test_setup_teardown(test, begin, end)
     const struct CMUnitTest tests[] = {
         IN_A_SCENE(words_are_completed_in_their_place),
+        IN_A_SCENE(words_are_explained),
         cmocka_unit_test(unfinished_texts_are_known),
         IN_A_SCENE(every_byte_has_its_kind),
     };

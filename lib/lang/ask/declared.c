@@ -2,6 +2,7 @@
 #include "lang/ask/declared.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 #include "expr/node.h"
 #include "expr/print.h"
@@ -9,6 +10,7 @@
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
 #include "lang/language/function.h"
+#include "lang/session/runs.h"
 #include "lang/session/units.h"
 #include "lang/session/values.h"
 #include "mech/scene/scene.h"
@@ -57,4 +59,36 @@ qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out
         qdot_text_format(out, "%s = ", name->name);
         return print_value(session, name->value, out);
     }
+}
+
+qdot_status
+qdot_declared_label(qdot_session *session, const char *label, qdot_text *out)
+{
+    qdot_text scene = {0};
+    qdot_status status = qdot_scene_print(session->scene, &scene);
+    size_t n = strlen(label);
+
+    for (const char *line = qdot_text_str(&scene); status == QDOT_OK && *line != '\0';) {
+        const char *end = strchrnul(line, '\n'), *word = strchr(line, ' ');
+
+        if (word != NULL && word < end && strncmp(word + 1, label, n) == 0 &&
+            strchr(" :", word[1 + n]) != NULL) {
+            qdot_text_add_n(out, line, (size_t)(end - line));
+            break;
+        }
+        line = *end == '\0' ? end : end + 1;
+    }
+    qdot_text_clear(&scene);
+    return status;
+}
+
+bool
+qdot_declared_run(const qdot_session *session, const char *name, qdot_text *out)
+{
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (strcmp(session->runs->at[i].name, name) == 0) {
+            qdot_text_format(out, "run %s as %s", session->runs->at[i].text, name);
+            return true;
+        }
+    return false;
 }

@@ -5,9 +5,9 @@
 #include "lang/ask/declared.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
-#include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 #include "lang/syntax/statement.h"
+#include "mech/scene/scene.h"
 
 static qdot_status show_meaning_of_name(qdot_record *r);
 
@@ -19,40 +19,6 @@ QDOT_STATEMENT(show) = {
     .example = "show m",
     .handler = show_meaning_of_name,
 };
-
-/* Print the line of the scene that declares a label. */
-static qdot_status
-show_declaration_of_label(qdot_session *session, const char *label, qdot_text *out)
-{
-    qdot_text scene = {0};
-    qdot_status status = qdot_scene_print(session->scene, &scene);
-    size_t n = strlen(label);
-
-    for (const char *line = qdot_text_str(&scene); status == QDOT_OK && *line != '\0';) {
-        const char *end = strchrnul(line, '\n'), *word = strchr(line, ' ');
-
-        if (word != NULL && word < end && strncmp(word + 1, label, n) == 0 &&
-            strchr(" :", word[1 + n]) != NULL) {
-            qdot_text_add_n(out, line, (size_t)(end - line));
-            break;
-        }
-        line = *end == '\0' ? end : end + 1;
-    }
-    qdot_text_clear(&scene);
-    return status;
-}
-
-/* Print the `run` statement by which the run of this name was made; false if there is no such run. */
-static bool
-show_statement_of_run(const qdot_session *session, const char *name, qdot_text *out)
-{
-    for (size_t i = 0; i < session->runs->n; i++)
-        if (strcmp(session->runs->at[i].name, name) == 0) {
-            qdot_text_format(out, "run %s as %s", session->runs->at[i].text, name);
-            return true;
-        }
-    return false;
-}
 
 static qdot_status
 show_meaning_of_name(qdot_record *r)
@@ -75,8 +41,8 @@ show_meaning_of_name(qdot_record *r)
         if (status == QDOT_OK && known->file != NULL)
             qdot_text_format(&text, "    # %s:%u", known->file, known->line);
     } else if (qdot_scene_has_label(session->scene, name)) {
-        status = show_declaration_of_label(session, name, &text);
-    } else if (show_statement_of_run(session, name, &text)) {
+        status = qdot_declared_label(session, name, &text);
+    } else if (qdot_declared_run(session, name, &text)) {
         status = qdot_text_status(&text);
     } else if (quantity != NULL) {
         qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);

@@ -14,14 +14,12 @@
 #include "lang/source/source.h"
 #include "lang/syntax/outline.h"
 
-/* Give a declared name the file and line of the token `start`. */
+/* Give a declared name the place of the token `start`. */
 static void
 set_declared_at(const qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 {
-    uint32_t column;
-
     entry->file = c->source->name;
-    qdot_source_locate(c->source, start->start, &entry->line, &column);
+    qdot_source_locate(c->source, start->start, &entry->line, &entry->column);
 }
 
 qdot_status

@@ -30,7 +30,7 @@ typedef struct {
     qdot_function_body *body;   /* for FUNCTION and VALUE: the defining text; for a UFUN with values from a table: the statement `data` from the name on */
     const char *label; /* for ARGUMENT: label of the particle or body whose position it is; NULL: none */
     char *file; /* file in which the name was declared; owned */
-    uint32_t line;
+    uint32_t line, column; /* where in the file; 0: not known */
     bool routhian; /* a Routhian of a former scene, with its momenta as parameters: every `reset scene` keeps it */
 } qdot_name;
 

@@ -55,9 +55,9 @@ begins_end_of_statement(const qdot_token *name)
            (qdot_token_is_word(name, "to") && name[1].kind == QDOT_TOKEN_STRING);
 }
 
-static qdot_highlight
-name_kind(const qdot_session *session, const qdot_token *first, const qdot_token *name,
-          bool in_brackets)
+qdot_highlight
+qdot_highlight_name(const qdot_session *session, const qdot_token *first, const qdot_token *name,
+                    bool in_brackets)
 {
     const qdot_statement *row = find_statement(first);
 
@@ -77,7 +77,7 @@ find_kind_of_token(const qdot_session *session, const qdot_token *first, const q
                    bool in_brackets)
 {
     switch (token->kind) {
-    case QDOT_TOKEN_NAME: return name_kind(session, first, token, in_brackets);
+    case QDOT_TOKEN_NAME: return qdot_highlight_name(session, first, token, in_brackets);
     case QDOT_TOKEN_NUMBER: return QDOT_HIGHLIGHT_NUMBER;
     case QDOT_TOKEN_STRING: return QDOT_HIGHLIGHT_STRING;
     default: return QDOT_HIGHLIGHT_PLAIN;

@@ -6,6 +6,7 @@
 #define QDOT_LANG_HIGHLIGHT_H
 
 #include "lang/session/parts.h"
+#include "lang/source/token.h"
 
 typedef enum {
     QDOT_HIGHLIGHT_PLAIN,
@@ -22,5 +23,9 @@ typedef enum {
 QDOT_MUST_CHECK qdot_status qdot_highlight_text(const qdot_session *session,
                                                 const char *text, size_t length,
                                                 uint8_t *kinds);
+
+/* What the name is in the statement that begins at `first`: WORD, NAME or PLAIN; in_brackets: it stands within them. */
+qdot_highlight qdot_highlight_name(const qdot_session *session, const qdot_token *first, const qdot_token *name,
+                                   bool in_brackets);
 
 #endif

@@ -87,7 +87,7 @@ copy_routhian(qdot_session *old, qdot_session *fresh, const qdot_name *name)
     for (size_t i = 0; i < old->scene->coordinates.n && copy.value != QDOT_NIL; i++) {
         const qdot_expr q = qdot_transfer(old->pool, fresh->pool, old->scene->coordinates.at[i]),
                         p = qdot_symbol_of(fresh->pool, QDOT_MOMENTUM, q);
-        qdot_name parameter = {.kind = QDOT_NAME_PARAM, .file = name->file, .line = name->line};
+        qdot_name parameter = {.kind = QDOT_NAME_PARAM, .file = name->file, .line = name->line, .column = name->column};
         qdot_text spelled = {0};
         qdot_status status = QDOT_OK;
 
