@@ -6,6 +6,7 @@ import doctest
 import importlib
 import os
 import pkgutil
+import re
 import sys
 import unittest
 
@@ -60,6 +61,16 @@ def modules(package):
             print(f"# {found.name} is left out: {error}")
 
 
+def manual():
+    """Return the examples of the manual's chapter as a test."""
+    path = os.path.join(HERE, "..", "..", "doc", "python.texi")
+    with open(path, encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    lines = ["" if re.match(r"@[a-z]", line) else re.sub(r"@([@{}])", r"\1", line) for line in lines]
+    test = doctest.DocTestParser().get_doctest("\n".join(lines) + "\n", {}, "the manual", path, 0)
+    return doctest.DocTestCase(test)
+
+
 def main():
     names = sys.argv[1:]
     suite = unittest.TestSuite()
@@ -67,6 +78,7 @@ def main():
     suite.addTests(unittest.defaultTestLoader.discover(HERE, top_level_dir=HERE))
     for module in modules(qdot):
         suite.addTests(doctest.DocTestSuite(module))
+    suite.addTest(unittest.TestSuite([manual()]))
     tests = [test for part in suite for test in flat(part)]
     tests = [test for test in tests if not names or any(name in test.id() for name in names)]
     if not tests:
