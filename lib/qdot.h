@@ -114,8 +114,8 @@ qdot_result qdot_system_progress(qdot_system *system, qdot_progress_hook hook, v
 
 /* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
  * line is "CALL:LINE:COLUMN: error: ..." where a text is to blame, CALL being `declare`, `ask`,
- * `derive`, `decide`, `number`, `run`, `values` or `over`; then come the line, a caret below the place
- * and often a hint. Borrowed until the next such call. */
+ * `derive`, `decide`, `number`, `run`, `values`, `over`, `compile` or `variables`; then come the line, a
+ * caret below the place and often a hint. Borrowed until the next such call. */
 const char *qdot_system_error(const qdot_system *system);
 
 /* What should be known of the last call although it succeeded, a line each: "notice: ...";
@@ -191,6 +191,30 @@ typedef enum {
  * is not carried out. */
 qdot_result qdot_system_highlight(qdot_system *system, const char *text, size_t length,
                                   unsigned char *kinds);
+
+/* --- functions of many values ----------------------------------------------------------- */
+
+typedef struct qdot_function qdot_function;
+
+/* Compile expressions, "T, V" or "[theta', accel[theta]]", as functions of variables such as
+ * "theta, theta', t": coordinates, velocities, parameters, t, momenta p[theta]; a parameter among them is one,
+ * also if it has a value, others have that which they have now. Components of vectors, entries of matrices (row
+ * by row) and members of lists are outputs of their own. *function: the caller's, NULL on failure.
+ * UNSET: a symbol that has no value and is no variable. TYPE: equations; a variable that is none. */
+qdot_result qdot_system_compile(qdot_system *system, const char *expressions, const char *variables,
+                                qdot_function **function);
+
+/* Free a function; NULL is allowed. It may outlive its system, and be freed in another thread. */
+void qdot_function_free(qdot_function *function);
+
+/* The numbers of variables and of outputs. */
+size_t qdot_function_inputs(const qdot_function *function);
+size_t qdot_function_outputs(const qdot_function *function);
+
+/* The values at n points: inputs [n][qdot_function_inputs], outputs [n][qdot_function_outputs], row by row, which
+ * may not overlap. NaN: undefined, or larger than a double can be. Rounding errors are those of doubles: nothing is
+ * estimated. Threads may use one function at the same time. INVALID, NO_MEMORY. */
+qdot_result qdot_function_values(const qdot_function *function, size_t n, const double *inputs, double *outputs);
 
 /* --- making and reading motions ------------------------------------------------------- */
 

@@ -98,7 +98,7 @@ qdot_system_new(qdot_system **system)
 void
 qdot_api_release(qdot_system *system)
 {
-    if (--system->uses > 0)
+    if (atomic_fetch_sub(&system->uses, 1) > 1)
         return;
     qdot_session_free(system->session);
     for (int i = 0; i < QDOT_API_STREAMS; i++)

@@ -9,6 +9,7 @@
 #ifndef QDOT_API_SYSTEM_H
 #define QDOT_API_SYSTEM_H
 
+#include <stdatomic.h>
 #include <stdio.h>
 
 #include "base/interrupt.h"
@@ -21,7 +22,7 @@ enum { QDOT_API_ANSWERS, QDOT_API_ERRORS, QDOT_API_NOTICES, QDOT_API_STREAMS };
 
 struct qdot_system {
     qdot_session *session;
-    size_t uses; /* number of holders: the caller, and one for each motion */
+    atomic_size_t uses; /* number of holders: the caller, one for each motion and each function */
     struct {
         FILE *file; /* stream for output, open during a call */
         char *text; /* output of the latest call, from open_memstream; NULL: none */
