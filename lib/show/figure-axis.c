@@ -393,21 +393,40 @@ add_scaled_label(qdot_text *markup, char name, const qdot_figure_axis *a,
         qdot_text_format(markup, " / 10^{%s%d}", a->power < 0 ? "−" : "", abs(a->power));
 }
 
+/* Whether the label of an axis is set as it is, without offset, power of ten or unit. */
+static bool
+is_label_alone(const qdot_figure_axis *a, const qdot_figure_label *label, const char *unit)
+{
+    const bool named = label->text != NULL && label->text[0] != '\0', in_unit = unit != NULL && *unit != '\0';
+
+    return a->offset_text[0] == '\0' && a->power == 0 && !(named && in_unit);
+}
+
+void
+qdot_figure_add_axis_markup(qdot_text *markup, char name, const qdot_figure_axis *a, const qdot_figure_label *label,
+                            const char *unit)
+{
+    if (is_label_alone(a, label, unit)) {
+        qdot_figure_add_markup(markup, label);
+        return;
+    }
+    add_scaled_label(markup, name, a, label);
+    if (label->text != NULL && label->text[0] != '\0')
+        qdot_figure_add_unit_markup(markup, unit);
+}
+
 /* Append the label in quotes, with gnuplot's keyword for reading it as markup or as plain text. */
 static void
 axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
                const qdot_figure_label *label, const char *unit)
 {
-    const bool named = label->text != NULL && label->text[0] != '\0', in_unit = unit != NULL && *unit != '\0';
     qdot_text markup = {0};
 
-    if (a->offset_text[0] == '\0' && a->power == 0 && !(named && in_unit)) {
+    if (is_label_alone(a, label, unit)) {
         qdot_figure_add_label(script, label);
         return;
     }
-    add_scaled_label(&markup, name, a, label);
-    if (named)
-        qdot_figure_add_unit_markup(&markup, unit);
+    qdot_figure_add_axis_markup(&markup, name, a, label, unit);
     qdot_figure_add_quoted(script, qdot_text_str(&markup));
     qdot_text_add(script, " enhanced");
     script->failed = script->failed || markup.failed;

@@ -233,7 +233,23 @@ draw_by_gnuplot(qdot_figure_drawing *d, qdot_text *image)
     return status;
 }
 
-/* Draw an image by gnuplot into a file, and what `keep` leaves beside it. */
+/* The same as SVG, without gnuplot. */
+static qdot_status
+draw_svg(qdot_figure_drawing *d, qdot_text *image)
+{
+    QDOT_TRY(qdot_figure_size(d->figure, &d->width, &d->height, &d->points));
+    d->script = image;
+    return qdot_figure_add_svg(d);
+}
+
+/* Draw an image: by gnuplot, or where it is missing and the image is a .svg, without it. */
+static qdot_status
+draw_image(qdot_figure_drawing *d, qdot_text *image)
+{
+    return strcmp(d->kind->ending, ".svg") == 0 && !qdot_gnuplot_is_here() ? draw_svg(d, image) : draw_by_gnuplot(d, image);
+}
+
+/* Draw an image into a file, and what `keep` leaves beside it. */
 static qdot_status
 write_image(qdot_figure_drawing *d, const char *path)
 {
@@ -241,7 +257,7 @@ write_image(qdot_figure_drawing *d, const char *path)
     qdot_status status = d->figure->keep ? check_kept_files(path) : QDOT_OK;
 
     if (status == QDOT_OK)
-        status = draw_by_gnuplot(d, &image);
+        status = draw_image(d, &image);
     if (status == QDOT_OK)
         status = qdot_sink_write(path, image.at, image.n);
     if (status == QDOT_OK && d->figure->keep)
@@ -259,7 +275,7 @@ qdot_figure_svg(const qdot_figure *figure, qdot_text *element)
     qdot_status status = check_curves(figure);
 
     if (status == QDOT_OK)
-        status = draw_by_gnuplot(&d, &image);
+        status = draw_image(&d, &image);
     if (status == QDOT_OK) {
         begin = strstr(image.at, "<svg");
         qdot_text_add(element, begin != NULL ? begin : image.at);

@@ -6,9 +6,24 @@
 
 /* Dark to light: legible on grey paper and by eyes that do not see all colours. From Matplotlib's
  * viridis (N. Smith, S. van der Walt, E. Firing, 2015; public domain), every eighth of it. */
-static const char palette[] =
-    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', "
-    "5 '#1f9e89', 6 '#35b779', 7 '#b4de2c', 8 '#fde725')\n";
+static const unsigned palette[] = {0x440154, 0x482878, 0x3e4a89, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0xb4de2c, 0xfde725};
+
+enum { PALETTE = sizeof palette / sizeof *palette };
+
+void
+qdot_figure_map_colour(double part, char colour[8])
+{
+    const double at = fmin(fmax(part, 0), 1) * (PALETTE - 1);
+    const int low = (int)fmin(at, PALETTE - 2);
+    unsigned rgb = 0;
+
+    for (int shift = 16; shift >= 0; shift -= 8) {
+        const double from = palette[low] >> shift & 255, to = palette[low + 1] >> shift & 255;
+
+        rgb |= (unsigned)lround(from + (at - low) * (to - from)) << shift;
+    }
+    snprintf(colour, 8, "#%06x", rgb & 0xffffff);
+}
 
 double
 qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i)
@@ -80,7 +95,9 @@ qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script)
 {
     double ends[2];
 
-    qdot_text_add(script, palette);
+    for (int i = 0; i < PALETTE; i++)
+        qdot_text_format(script, "%s%d '#%06x'", i == 0 ? "set palette defined (" : ", ", i, palette[i]);
+    qdot_text_add(script, ")\n");
     qdot_figure_map_ends(map, ends);
     if (ends[0] == ends[1]) {
         ends[0] -= 1;

@@ -63,7 +63,10 @@ void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *
 /* What is written before the offset and power of ten of an axis: its label, or its letter if it has none; *compound: it
  * needs brackets there. */
 qdot_figure_label qdot_figure_moved_label(char name, const qdot_figure_label *label, bool *compound);
-/* Append `set xlabel` with offset and power of ten, if any, and the unit: (E - 9.81) / 10^-12 [J]. */
+/* Append the label of an axis in gnuplot's markup with offset and power of ten, if any, and the unit: (E - 9.81) / 10^-12 [J].
+ * Then `set xlabel` with it. */
+void qdot_figure_add_axis_markup(qdot_text *markup, char name, const qdot_figure_axis *axis, const qdot_figure_label *label,
+                                 const char *unit);
 void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *axis,
                                 const qdot_figure_label *label, const char *unit);
 /* The same at the edge k of the box of a path in space, all three axes given; width: letters of the
@@ -118,6 +121,8 @@ void qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, 
 QDOT_MUST_CHECK qdot_status qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out);
 /* Append the map's colour palette, its range of values, and the colour scale. */
 void qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script);
+/* The colour of a part 0..1 of the range of values, as #rrggbb. */
+void qdot_figure_map_colour(double part, char colour[8]);
 /* Find the smallest and the largest value of a map into ends [2]; 0 if it has none. */
 void qdot_figure_map_ends(const qdot_figure_map *map, double *ends);
 /* Whether dot (i, j) of a sketch, at these parts [2] of the axes, is black: the more often the
@@ -147,11 +152,32 @@ typedef struct {
     qdot_text *script;
 } qdot_figure_drawing;
 
+/* --- where its parts stand (figure-place.c) -------------------------------------------- */
+
 /* Choose the axes [3] of a panel. Those with one scale have one power of ten and, unless one is short, one step. Errors:
  * QDOT_EDOMAIN, QDOT_EINVAL, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes);
+/* The width of the widest entry of a legend in characters, with the sample of its line. */
+size_t qdot_figure_legend_width(const qdot_panel *panel);
+/* The rows of a legend above the axes; 0: there is none. Whether it stands beside them instead, and the spacing of its
+ * lines there, relative to the usual one. */
+size_t qdot_figure_legend_rows(const qdot_figure_drawing *d, const qdot_panel *panel);
+bool qdot_figure_has_legend_beside(const qdot_figure_drawing *d, const qdot_panel *panel);
+double qdot_figure_legend_spacing(const qdot_figure_drawing *d, const qdot_panel *panel);
+/* Where the axes of a panel stand, in cm from the lower left corner of the figure; the strip that the panel has from low
+ * to high. All panels have the same horizontal ends and the same height. */
+typedef struct {
+    double left, right, bottom, top, low, high;
+} qdot_figure_place;
+/* Errors: as of qdot_figure_choose_axes. */
+QDOT_MUST_CHECK qdot_status qdot_figure_place_panel(const qdot_figure_drawing *d, size_t i, qdot_figure_place *at);
+
+/* --- its writers ------------------------------------------------------------------------ */
+
 /* Write the figure as a tikzpicture of pgfplots (figure-tikz.c). Errors: as qdot_figure_add_script. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_tikz(const qdot_figure_drawing *d);
+/* Write the figure as SVG (figure-svg.c). Errors: as qdot_figure_add_script. */
+QDOT_MUST_CHECK qdot_status qdot_figure_add_svg(const qdot_figure_drawing *d);
 /* Write the gnuplot script from after `set terminal` on. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_script(const qdot_figure_drawing *d);
 /* Write all curves as data sets for gnuplot, separated by two blank lines, with names as comments. */

@@ -103,137 +103,19 @@ qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
 
 /* --- drawing one panel -------------------------------------------------------------- */
 
-/* The number of characters of the widest number along an axis. */
-static size_t
-widest_number(const qdot_figure_axis *a)
-{
-    qdot_text unused = {0};
-    size_t width = 0;
-
-    qdot_figure_add_axis(&unused, 'x', a, false, &width);
-    qdot_text_clear(&unused);
-    return width;
-}
-
-/* Between two tics of axis k, in cm, so that their numbers do not touch: more beside each other than one
- * above the other. */
-static double
-space_for_tic(const qdot_figure_drawing *d, const qdot_figure_view *v, int k,
-              const qdot_figure_axis *a)
-{
-    const double letter = d->points / 28.35;
-
-    if (v->length[2] > 0) /* the axes lie along the edges of a box, drawn in perspective */
-        return (k == 2 ? 1.8 : 2.2) * letter;
-    return (k == 1 ? 1.4 : 0.6 + 0.64 * (double)widest_number(a)) * letter;
-}
-
-/* Axis k of a panel with about `steps` tics; more where these are fewer than three and there is room,
- * fewer where their numbers would touch. */
-static qdot_figure_axis
-choose_axis(const qdot_figure_drawing *d, const qdot_figure_view *v, int k, double steps,
-            const int *power)
-{
-    const double length = v->length[k];
-    const qdot_figure_tics tics = v->log[k]              ? QDOT_TICS_LOG
-                                  : v->pi[k]             ? QDOT_TICS_PI
-                                  : k == 1 && v->degrees ? QDOT_TICS_DEGREES
-                                                         : QDOT_TICS_DECIMAL;
-    qdot_figure_axis a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
-
-    while (a.step > 0 && qdot_figure_count_tics(&a) < 3 &&
-           length > (steps + 1) * space_for_tic(d, v, k, &a))
-        a = qdot_figure_axis_of(v->least[k], v->most[k], tics, ++steps, power);
-    while (a.step > 0 && steps > 1 &&
-           length * a.step < space_for_tic(d, v, k, &a) * (a.most - a.least)) {
-        steps = fmax(steps - 1, 1);
-        a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
-    }
-    return a;
-}
-
-qdot_status
-qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
-{
-    static const double apart[] = {1.9, 1.2, 1.2};
-    const qdot_panel *panel = &d->figure->panels[i];
-    const bool space = qdot_figure_is_space(panel);
-    qdot_figure_view v;
-    double of_path; /* distance of tics in cm, common to both axes of a panel with equal scales */
-    int power = 0;
-
-    QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
-    of_path = space ? 1.5 : fmin(fmax(fmin(v.length[0], v.length[1]) / 2.4, 1.5), 2);
-    for (int k = 0; k < 3; k++) {
-        int own = qdot_figure_power(v.least[k], v.most[k]);
-
-        if (v.most[k] > v.least[k] && (k == 0 || power == 0 || own > power))
-            power = own;
-    }
-    for (int k = 0; k < 3; k++) {
-        double steps = panel->equal ? v.length[k] / of_path
-                                    : fmin(fmax(v.length[k] / apart[k], 2), 12);
-
-        axes[k] = choose_axis(d, &v, k, steps, panel->equal ? &power : NULL);
-    }
-    return QDOT_OK;
-}
-
-/* The width of the widest entry of the legend (with its line sample) in characters. */
-static size_t
-legend_entry_width(const qdot_panel *panel)
-{
-    size_t most = 0;
-
-    for (size_t i = 0; i < panel->n; i++) {
-        const qdot_figure_label label = qdot_figure_curve_label(panel, i);
-        const size_t width = qdot_figure_label_width(&label);
-
-        most = width > most ? width : most;
-    }
-    return most + 7;
-}
-
-/* The number of rows that a legend above the axes has; 0: there is no legend. */
-static size_t
-legend_row_count(const qdot_figure_drawing *d, const qdot_panel *panel)
-{
-    const double letter = 0.5 * d->points / 28.35;
-    const double columns = floor((d->width - 2.5) / letter / (double)legend_entry_width(panel));
-
-    return panel->n < 2 ? 0 : (size_t)ceil((double)panel->n / fmax(columns, 1));
-}
-
-/* Whether the legend stands beside the axes: many short entries, and only one panel in the figure. */
-static bool
-has_legend_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
-{
-    return d->figure->n == 1 && legend_row_count(d, panel) > 2 &&
-           0.5 * d->points / 28.35 * (double)legend_entry_width(panel) < 0.3 * d->width;
-}
-
-/* The line spacing of a legend beside the axes, relative to the usual one: below 1 if it has many rows. */
-static double
-legend_line_spacing(const qdot_figure_drawing *d, const qdot_panel *panel)
-{
-    const double line = 1.5 * d->points / 28.35, around = 3.6; /* gnuplot's line height and the legend's margins in cm */
-
-    return fmax(0.5, fmin(1, (d->height - around) / (line * (double)panel->n)));
-}
-
 /* Write the legend; `high` is the height of the axes in cm if it was fixed. */
 static void
 add_legend(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
 {
-    const size_t rows = legend_row_count(d, panel);
+    const size_t rows = qdot_figure_legend_rows(d, panel);
 
     if (rows == 0)
         qdot_text_add(d->script, "unset key\n");
-    else if (has_legend_beside(d, panel))
+    else if (qdot_figure_has_legend_beside(d, panel))
         qdot_text_format(d->script,
                          "set key at graph 1.02, graph 1 left top vertical maxrows %zu Left reverse "
                          "samplen 2.5 spacing %.2f\n",
-                         panel->n, legend_line_spacing(d, panel));
+                         panel->n, qdot_figure_legend_spacing(d, panel));
     else if (qdot_figure_is_space(panel))
         qdot_text_add(d->script, "set key inside right top vertical Left reverse samplen 2.5\n");
     else {
@@ -269,8 +151,8 @@ add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
         qdot_figure_add_quoted(s, qdot_text_str(&both));
         qdot_text_add(s, ".\"}\" enhanced");
     }
-    if (!has_legend_beside(d, panel) && !qdot_figure_is_space(panel))
-        qdot_text_format(s, " offset 0,%.1f", 1.1 * (double)legend_row_count(d, panel));
+    if (!qdot_figure_has_legend_beside(d, panel) && !qdot_figure_is_space(panel))
+        qdot_text_format(s, " offset 0,%.1f", 1.1 * (double)qdot_figure_legend_rows(d, panel));
     qdot_text_char(s, '\n');
     s->failed = s->failed || both.failed;
     qdot_text_clear(&both);
@@ -422,91 +304,26 @@ set_margin_position(qdot_text *s, const char *what, double at)
     qdot_text_char(s, '\n');
 }
 
-/* Find the space needed above and below the axes of panel i, in cm. */
-static void
-space_above_and_below(const qdot_figure_drawing *d, size_t i, double *above, double *below)
-{
-    const qdot_panel *panel = &d->figure->panels[i];
-    const double line = (d->kind != NULL ? d->kind->lead : 1.4) * d->points / 28.35;
-    const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
-
-    *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) +
-                     (has_legend_beside(d, panel) ? 0 : (double)legend_row_count(d, panel)));
-    if (legend_row_count(d, panel) == 0 && panel->axis[1].text != NULL) /* space for a power of ten above the axis */
-        *above += line * 0.8;
-    *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
-}
-
-/* Whether a label and its unit contain a superscript, which would be cut off at the edge of the figure. */
-static bool
-has_superscript(const qdot_figure_label *label, const char *unit)
-{
-    qdot_text markup = {0};
-    bool found;
-
-    qdot_figure_add_markup(&markup, label);
-    qdot_figure_add_unit_markup(&markup, unit);
-    found = strchr(qdot_text_str(&markup), '^') != NULL;
-    qdot_text_clear(&markup);
-    return found;
-}
-
-/* The space right of the axes in characters: for half of the last number, the legend or the colour scale. */
-static double
-space_right_of_axes(const qdot_figure_drawing *d, const qdot_panel *panel)
-{
-    if (panel->map != NULL)
-        return 11;
-    return has_legend_beside(d, panel) ? 1 + 0.62 * (double)legend_entry_width(panel) : 1;
-}
-
-/* Find the space left of the axes in characters, for numbers, tics and label; the same for all panels. */
+/* Set the margins of panel i, `high` cm above each other: all panels have the same horizontal ends. */
 static qdot_status
-space_left_of_axes(const qdot_figure_drawing *d, double *letters)
+set_margins(const qdot_figure_drawing *d, size_t i, double *high)
 {
-    *letters = 0;
-    for (size_t i = 0; i < d->figure->n; i++) {
-        qdot_figure_axis axes[3];
+    qdot_figure_place at;
 
-        QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
-        *letters = fmax(*letters, 3.2 + 0.72 * (double)widest_number(&axes[1]) +
-                                      (has_superscript(&d->figure->panels[i].axis[1], d->figure->panels[i].unit[1]) ? 0.6 : 0));
-    }
-    return QDOT_OK;
-}
-
-/* Set the margins of panel i: the axes of all panels have the same height and the same horizontal ends. */
-static qdot_status
-place_panel(const qdot_figure_drawing *d, size_t i, double *high)
-{
-    const qdot_figure *f = d->figure;
-    double free = d->height, top = d->height, above, below, left;
-    const double letter = d->points / 28.35;
-
-    for (size_t k = 0; k < f->n; k++) {
-        space_above_and_below(d, k, &above, &below);
-        free -= above + below;
-    }
-    *high = free = fmax(free / (double)f->n, 0.1);
-    for (size_t k = 0; k <= i; k++) {
-        space_above_and_below(d, k, &above, &below);
-        top -= above + (k > 0 ? free : 0);
-        if (k < i)
-            top -= below;
-    }
-    if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot scales a three-dimensional box to its place by itself */
+    QDOT_TRY(qdot_figure_place_panel(d, i, &at));
+    *high = at.top - at.bottom;
+    if (qdot_figure_is_space(&d->figure->panels[i])) { /* gnuplot scales a three-dimensional box to its place by itself */
         qdot_text_add(d->script, "unset xlabel\nunset ylabel\nunset label 1\nunset margins\nset origin 0,");
-        qdot_text_double(d->script, (top - free - below) / d->height, 6);
+        qdot_text_double(d->script, at.low / d->height, 6);
         qdot_text_add(d->script, "\nset size 1,");
-        qdot_text_double(d->script, (free + above + below) / d->height, 6);
+        qdot_text_double(d->script, (at.high - at.low) / d->height, 6);
         qdot_text_char(d->script, '\n');
         return QDOT_OK;
     }
-    QDOT_TRY(space_left_of_axes(d, &left));
-    set_margin_position(d->script, "l", fmin(left * letter / d->width, 0.4));
-    set_margin_position(d->script, "r", 1 - space_right_of_axes(d, &f->panels[i]) * letter / d->width);
-    set_margin_position(d->script, "t", top / d->height);
-    set_margin_position(d->script, "b", (top - free) / d->height);
+    set_margin_position(d->script, "l", at.left / d->width);
+    set_margin_position(d->script, "r", at.right / d->width);
+    set_margin_position(d->script, "t", at.top / d->height);
+    set_margin_position(d->script, "b", at.bottom / d->height);
     return QDOT_OK;
 }
 
@@ -519,7 +336,7 @@ add_panel(const qdot_figure_drawing *d, size_t i)
 
     QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
     if (d->figure->n > 1 || !qdot_figure_is_space(panel))
-        QDOT_TRY(place_panel(d, i, &high));
+        QDOT_TRY(set_margins(d, i, &high));
     add_title(d, panel);
     add_axes(d, i, axes);
     add_legend(d, panel, high);

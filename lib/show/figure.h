@@ -88,7 +88,8 @@ typedef struct {
 /* Whether the ending of the name is that of a figure: .svg .png .pdf .eps .tikz. */
 bool qdot_figure_is_file(const char *path);
 
-/* Type by ending: .svg .png .pdf .eps, drawn by gnuplot; .tikz for LaTeX. path NULL: a window of gnuplot that persists.
+/* Type by ending: .svg .png .pdf .eps, drawn by gnuplot, or a .svg without it where it is missing; .tikz for LaTeX. path NULL: a window of
+ * gnuplot that persists.
  *
  * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend or colours of more curves than there are;
  * QDOT_EDOMAIN if no point can be shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -123,7 +124,25 @@ static qdot_status
 fail_gnuplot_missing(void)
 {
     qdot_fail(QDOT_EIO, "figures are drawn by gnuplot, which is not installed");
-    return qdot_hint("apt install gnuplot-nox");
+    return qdot_hint("apt install gnuplot-nox; only a .svg needs no gnuplot");
+}
+
+bool
+qdot_gnuplot_is_here(void)
+{
+    const char *path = getenv("PATH");
+    bool found = false;
+
+    for (size_t n; path != NULL && !found; path = path[n] == ':' ? path + n + 1 : NULL) {
+        qdot_text name = {0};
+
+        n = strcspn(path, ":");
+        qdot_text_add_n(&name, path, n);
+        qdot_text_add(&name, n > 0 ? "/gnuplot" : "./gnuplot");
+        found = access(qdot_text_str(&name), X_OK) == 0;
+        qdot_text_clear(&name);
+    }
+    return found;
 }
 
 static qdot_status

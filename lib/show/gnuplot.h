@@ -4,6 +4,9 @@
 
 #include "base/text.h"
 
+/* Whether there is a gnuplot to run. */
+bool qdot_gnuplot_is_here(void);
+
 /* Carry out `script`. image: what gnuplot writes to its standard output, appended, which ends with the bytes
  * `end` but for blanks; NULL: nothing is wanted of it (a window, which stays when gnuplot is gone).
  *

@@ -712,12 +712,12 @@ a_missing_gnuplot_is_said_with_a_hint(void **state)
 
     (void)state;
     setenv("PATH", "/nowhere", 1);
-    status = write_panel(&figure, "a.svg");
+    status = write_panel(&figure, "a.png");
     setenv("PATH", path, 1);
     free(path);
     assert_int_equal(status, QDOT_EIO);
-    assert_string_equal(qdot_last_error()->hint, "apt install gnuplot-nox");
-    assert_int_equal(access("a.svg", F_OK), -1);
+    assert_string_equal(qdot_last_error()->hint, "apt install gnuplot-nox; only a .svg needs no gnuplot");
+    assert_int_equal(access("a.png", F_OK), -1);
 }
 
 /* Put a program `gnuplot` with this body first in the path, draw, take it away again. */
@@ -754,7 +754,7 @@ a_gnuplot_that_fails_is_told(void **state)
     assert_int_equal(with_gnuplot("echo half; exit 3", "a.svg"), QDOT_EIO);
     assert_int_equal(with_gnuplot("echo half; kill -9 $$", "a.svg"), QDOT_EIO);
     assert_int_equal(with_gnuplot("exit 127", "a.svg"), QDOT_EIO); /* a spawn that failed late */
-    assert_string_equal(qdot_last_error()->hint, "apt install gnuplot-nox");
+    assert_string_equal(qdot_last_error()->hint, "apt install gnuplot-nox; only a .svg needs no gnuplot");
     assert_int_equal(with_gnuplot("echo 'plot x' >&2; echo '     ^' >&2;"
                                   "echo '     line 0: no such thing' >&2; exit 1",
                                   "a.svg"),
