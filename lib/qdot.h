@@ -216,6 +216,36 @@ size_t qdot_function_outputs(const qdot_function *function);
  * estimated. Threads may use one function at the same time. INVALID, NO_MEMORY. */
 qdot_result qdot_function_values(const qdot_function *function, size_t n, const double *inputs, double *outputs);
 
+/* --- tables ------------------------------------------------------------------------------ */
+
+typedef struct qdot_table qdot_table;
+
+/* A copy of a table that the system has by name: the rows of `sweep`, `poincare`, `continue` (`branches`), `fit`
+ * (`residuals`). name NULL: the one that was made last. *table: the caller's, NULL on failure; it may outlive
+ * its system. NAME: there is no such table. */
+qdot_result qdot_system_table(qdot_system *system, const char *name, qdot_table **table);
+
+/* Free a table; NULL is allowed. */
+void qdot_table_free(qdot_table *table);
+
+/* The numbers of rows and of columns. */
+size_t qdot_table_rows(const qdot_table *table);
+size_t qdot_table_columns(const qdot_table *table);
+
+/* The name of column i, as "max(theta)", and the unit of its numbers, as "m/s", "" if none. Borrowed from the
+ * table, like all below; NULL for a column that is not there. */
+const char *qdot_table_column_name(const qdot_table *table, size_t i);
+const char *qdot_table_column_unit(const qdot_table *table, size_t i);
+
+/* The numbers of column i [rows], NaN: none, as in a row that failed; and their errors [rows], estimated,
+ * absolute, 0: exact, NaN: unknown. NULL: a column of text. */
+const double *qdot_table_numbers(const qdot_table *table, size_t i);
+const double *qdot_table_errors(const qdot_table *table, size_t i);
+
+/* A cell of a column of text, "" if it is empty: why the row failed, or the kind of a point. NULL: a column of
+ * numbers, or there is no such cell. */
+const char *qdot_table_cell(const qdot_table *table, size_t i, size_t row);
+
 /* --- making and reading motions ------------------------------------------------------- */
 
 typedef struct qdot_motion qdot_motion;
