@@ -11,6 +11,7 @@ Python handles Ctrl-C only between two instructions of the main thread.
 from __future__ import annotations
 
 import atexit
+import collections
 import os
 import queue
 import sys
@@ -19,7 +20,7 @@ import time
 import warnings
 import weakref
 from ctypes import byref, c_void_p
-from typing import Any, Callable, Dict, Generic, List, Optional, Tuple, TypeVar
+from typing import Any, Callable, Deque, Dict, Generic, List, Optional, Tuple, TypeVar
 
 from .errors import Error, Notice, error_of
 from .library import Library, ProgressHook, load
@@ -157,6 +158,7 @@ class Session:
         self._hook: Any = None  # the library calls it: it must live as long as it may
         self._hook_failures: List[BaseException] = []
         self._lock = threading.Lock()
+        self._garbage: Deque[_Belonging] = collections.deque()  # to be freed when the lock is
         self._callers: Tuple[int, ...] = ()  # the threads of the call under way
         self.keep(self, self.library.qdot_system_free, self.handle)
         _sessions.add(self)
@@ -218,7 +220,8 @@ class Session:
     def keep(self, owner: object, free: Callable[[c_void_p], None], handle: c_void_p) -> None:
         """Have what belongs to the system freed when `owner`, which holds this session, is collected."""
         belonging = _Belonging(owner, _gone.put)
-        belonging.free, belonging.handle, belonging.lock = free, handle, self._lock
+        belonging.free, belonging.handle = free, handle
+        belonging.lock, belonging.garbage = self._lock, self._garbage
         _belongings[id(belonging)] = belonging
         _reaper_start()
 
@@ -239,6 +242,8 @@ class Session:
                     value = body()
                 finally:
                     self._callers = ()
+                    _free(self._garbage)
+            _try_to_free(self._lock, self._garbage)
         finally:
             _park_if_closing()
         return value
@@ -262,10 +267,11 @@ def warn(notice: str) -> None:
 class _Belonging(weakref.ref[object]):
     """A reference to an owner of something of the library's, with how that is freed."""
 
-    __slots__ = "free", "handle", "lock"
+    __slots__ = "free", "handle", "lock", "garbage"
     free: Callable[[c_void_p], None]
     handle: c_void_p
     lock: threading.Lock
+    garbage: Deque[_Belonging]
 
 
 _belongings: Dict[int, _Belonging] = {}
@@ -276,32 +282,44 @@ _reaper: Optional[threading.Thread] = None
 
 
 def _reap() -> None:
-    waiting: List[_Belonging] = []  # their systems are computing
     while True:
-        try:
-            waiting.append(_gone.get(timeout=0.1 if waiting else None))
-        except queue.Empty:
-            pass
-        waiting = [belonging for belonging in waiting if not _freed(belonging)]
+        belonging = _gone.get()
+        _belongings.pop(id(belonging), None)
+        lock, garbage = belonging.lock, belonging.garbage
+        garbage.append(belonging)
+        del belonging
+        _try_to_free(lock, garbage)
 
 
-def _freed(belonging: _Belonging) -> bool:
-    with _freeing:
-        if not belonging.lock.acquire(blocking=False):
-            return False
-        try:
-            belonging.free(belonging.handle)
-        finally:
-            belonging.lock.release()
-    _belongings.pop(id(belonging), None)
-    return True
+def _free(garbage: Deque[_Belonging]) -> None:
+    """Free what is in the queue of a system whose lock the caller has."""
+    while garbage:
+        belonging = garbage.popleft()
+        belonging.free(belonging.handle)
+
+
+def _try_to_free(lock: threading.Lock, garbage: Deque[_Belonging]) -> None:
+    """Free it, unless a call is under way, which does so at its end, or the process ends."""
+    while garbage and not _closing:
+        with _freeing:
+            if not lock.acquire(blocking=False):
+                return
+            try:
+                _free(garbage)
+            finally:
+                lock.release()
 
 
 def _reaper_start() -> None:
+    """Start the thread that frees; where it lags behind, wait for it."""
     global _reaper
     if _reaper is None:
         _reaper = threading.Thread(target=_reap, name="qdot garbage", daemon=True)
         _reaper.start()
+    for _ in range(100):
+        if _gone.qsize() < 8:
+            break
+        time.sleep(0.001)
 
 
 # --- the end of the process -------------------------------------------------------------
@@ -328,7 +346,7 @@ def _close() -> None:
                 return
             time.sleep(0.01)
         session._lock.release()
-    _freeing.acquire(timeout=5)  # for ever: nothing is freed any more
+    _freeing.acquire(timeout=5)  # for ever: nothing is freed by other threads any more
 
 
 def _forked() -> None:
