@@ -82,7 +82,8 @@ typedef enum {
     QDOT_NOTATION_LATEX = 2,
     QDOT_NOTATION_MATHML = 3,
     QDOT_NOTATION_JSON = 4,   /* qdot_system_ask() only: one object a line, as of `qdot --json` */
-    QDOT_NOTATION_DISPLAY = 5 /* qdot_system_ask() only: such objects, for a program that shows them */
+    QDOT_NOTATION_DISPLAY = 5, /* qdot_system_ask() only: such objects, for a program that shows them */
+    QDOT_NOTATION_TREE = 6 /* qdot_system_derive() only: an array of JSON, for a program that computes */
 } qdot_notation;
 
 typedef enum {
@@ -142,7 +143,19 @@ qdot_result qdot_system_ask(qdot_system *system, const char *text, qdot_notation
                             char **answers);
 
 /* The value of one expression: "T", "eom", "H", "diff(L, theta)", "accel[x]". A list is written with a
- * member a line. *formula: the caller's, NULL on failure. TYPE: numbers of a run stand in it. */
+ * member a line. *formula: the caller's, NULL on failure. TYPE: numbers of a run stand in it.
+ *
+ * QDOT_NOTATION_TREE is exact, an array of JSON in prefix form:
+ *     "3", ["/","1","3"]                  numbers, in decimal digits
+ *     "m", "theta[1]", "pi", "t"          names; ["'","theta",1] is theta', ["p","theta"] its momentum
+ *     ["+",a,b,...]  ["*",a,b,...]  ["^",a,b]  ["sin",a]  ["atan2",a,b]
+ *     ["=",a,b]  ["<",a,b]  ["<=",a,b]  ["and",a,...]  ["or",a,...]  ["not",a]  "true"  "false"
+ *     ["if",condition,a,condition,b,...,else]
+ *     ["list",a,...]  ["vector",a,b,...]  ["matrix",[a,b],[c,d]]
+ *     ["integral",f,"x",a,b], without ends a function of x with the derivative f; "infinity"
+ *     ["apply","f","x"], an undefined function; its derivative ["diff",["apply","f","x"],"x"], in general
+ *     ["D",[1,0],"f",a,b], by the first argument
+ *     ["delta","theta"]  ["d","theta"]  ["wedge",["d","r"],["d","phi"]]  ["unit","kg"] */
 qdot_result qdot_system_derive(qdot_system *system, const char *expression, qdot_notation notation,
                                char **formula);
 

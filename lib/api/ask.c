@@ -89,6 +89,7 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
 /* --- deriving formulas ---------------------------------------------------------------- */
 
 typedef struct {
+    bool tree; /* as an array of JSON, not in a style */
     qdot_style style;
     qdot_text text;
 } formula;
@@ -99,6 +100,10 @@ print_value(qdot_session *session, qdot_expr value, formula *f)
     const bool several = qdot_expr_kind(session->pool, value) == QDOT_LIST;
     const uint32_t n = several ? qdot_expr_count(session->pool, value) : 1;
 
+    if (f->tree) {
+        QDOT_TRY(qdot_expression_tree(session, value, &f->text));
+        return qdot_text_status(&f->text);
+    }
     for (uint32_t i = 0; i < n; i++) {
         qdot_text_add(&f->text, i > 0 ? "\n" : "");
         QDOT_TRY(qdot_expression_print(session,
@@ -128,7 +133,7 @@ qdot_result
 qdot_system_derive(qdot_system *system, const char *expression, qdot_notation notation,
                    char **text)
 {
-    formula f = {.style = (qdot_style)notation};
+    formula f = {.tree = notation == QDOT_NOTATION_TREE, .style = (qdot_style)notation};
     qdot_status status;
 
     if (text != NULL)
@@ -138,7 +143,7 @@ qdot_system_derive(qdot_system *system, const char *expression, qdot_notation no
     if (expression == NULL || text == NULL)
         return qdot_api_refuse(system, "derive: the %s is NULL",
                                expression == NULL ? "expression" : "formula");
-    if ((unsigned)notation > QDOT_NOTATION_MATHML)
+    if ((unsigned)notation > QDOT_NOTATION_MATHML && !f.tree)
         return qdot_api_refuse(system, "derive: there is no notation %d", (int)notation);
     status = qdot_api_begin(system);
     if (status == QDOT_OK)

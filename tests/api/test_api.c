@@ -67,6 +67,8 @@ formulas_come_in_every_notation(void **state)
     expect_formula(s, "T", QDOT_NOTATION_UNICODE, "½ m l² θ̇²");
     expect_formula(s, "eom", QDOT_NOTATION_PLAIN, "m*l^2*theta'' = -m*l*g*sin(theta)");
     expect_formula(s, "[1, theta, 2*3]", QDOT_NOTATION_PLAIN, "1\ntheta\n6");
+    expect_formula(s, "[T, theta]", QDOT_NOTATION_TREE,
+                   "[\"list\",[\"*\",[\"/\",\"1\",\"2\"],\"m\",[\"^\",\"l\",\"2\"],[\"^\",[\"'\",\"theta\",1],\"2\"]],\"theta\"]");
 }
 
 static void

@@ -5,6 +5,7 @@
 
 #include "expr/node.h"
 #include "expr/print-formula.h"
+#include "expr/print-tree.h"
 #include "expr/print.h"
 #include "expr/walk.h"
 #include "lang/session/history.h"
@@ -53,4 +54,11 @@ qdot_expression_print(qdot_session *session, qdot_expr e, qdot_style style, qdot
     QDOT_TRY(check_size(session, e));
     return is_series(session, e) ? qdot_print_series(session->pool, e, session->history->series_in, style, out)
                                  : qdot_print(session->pool, e, style, out);
+}
+
+qdot_status
+qdot_expression_tree(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    QDOT_TRY(check_size(session, e));
+    return qdot_print_tree(session->pool, e, out);
 }
