@@ -75,3 +75,10 @@ __all__ = [
     "unfinished",
     "version",
 ]
+
+
+def load_ipython_extension(shell: object) -> None:
+    """Make `%qdot` and `%%qdot` known to IPython, for `%load_ext qdot`."""
+    from .magic import load
+
+    load(shell)
