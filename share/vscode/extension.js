@@ -5,13 +5,14 @@ const {LanguageClient} = require("vscode-languageclient/node");
 const {findProgram} = require("./program");
 const {Panels} = require("./panels");
 
-/* What a person runs, with the command of the server that does it and what is told meanwhile. */
+/* What a person runs, with the command of the server that does it, what is told meanwhile, and what a page
+ * in the answer is. */
 const commands = {
-    "qdot.runFile": {server: "qdot.run", title: "Running"},
-    "qdot.showEquations": {server: "qdot.equations", title: "Deriving the equations of"},
-    "qdot.plotFile": {server: "qdot.plot", title: "Plotting"},
-    "qdot.animateFile": {server: "qdot.animate", title: "Animating"},
-    "qdot.reportFile": {server: "qdot.report", title: "Writing the report of"}
+    "qdot.runFile": {server: "qdot.run", title: "Running", page: "page"},
+    "qdot.showEquations": {server: "qdot.equations", title: "Deriving the equations of", page: "page"},
+    "qdot.plotFile": {server: "qdot.plot", title: "Plotting", page: "page"},
+    "qdot.animateFile": {server: "qdot.animate", title: "Animating", page: "animation"},
+    "qdot.reportFile": {server: "qdot.report", title: "Writing the report of", page: "report"}
 };
 
 let panels, output, client = null, starting = null;
@@ -29,12 +30,12 @@ async function complain(message) {
 
 /* A command of the server: what it answers comes into a panel. Code lenses come here, too. */
 function answer(command, [uri, ...more]) {
-    const own = Object.values(commands).find((row) => row.server === command);
+    const row = Object.values(commands).find((one) => one.server === command) || {title: command, page: "page"};
     const name = uri.split("/").pop();
 
     return vscode.window.withProgress({
         location: vscode.ProgressLocation.Notification,
-        title: `${own ? own.title : command} ${decodeURIComponent(name)}`,
+        title: `${row.title} ${decodeURIComponent(name)}`,
         cancellable: true
     }, async (progress, token) => {
         try {
@@ -42,7 +43,7 @@ function answer(command, [uri, ...more]) {
             const result = await client.sendRequest("workspace/executeCommand", request, token);
 
             if (!token.isCancellationRequested)
-                panels.show(uri, own ? own.title : command, result);
+                panels.show(uri, row, result);
             return result;
         } catch (error) {
             if (!token.isCancellationRequested)

@@ -38,16 +38,18 @@ class Panels {
         this.open = new Map(); /* by script and kind */
     }
 
-    /* Show what the command `title` answered for the script. */
-    show(uri, title, result) {
+    /* Show what a command answered for the script: `title`, what it did, and `page`, what its pages are. */
+    show(uri, {title, page}, result) {
         const objects = objectsOf(result), name = decodeURIComponent(uri.split("/").pop());
         const pages = objects.filter((object) => object.kind === "page");
 
         if (pages.length === 0 || objects.length > pages.length)
-            this.fill(`${uri} answers`, name, answersPage(`${title} ${name}`, objects), false);
-        for (const page of pages)
-            this.fill(`${uri} ${page.name || page.statement || "page"}`, `${name}: ${page.name || "page"}`,
-                      wholePage(page.data), true);
+            this.fill(`${uri} answers`, `${name}: answers`, answersPage(`${title} ${name}`, objects), false);
+        pages.forEach((object, i) => {
+            const what = i > 0 ? `${page} ${i + 1}` : page;
+
+            this.fill(`${uri} ${what}`, `${name}: ${what}`, wholePage(object.data), true);
+        });
     }
 
     /* Fill the panel of this key, which is made where there is none. */
