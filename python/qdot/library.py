@@ -98,7 +98,9 @@ _FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "qdot_table_rows": (c_size_t, [c_void_p]),
     "qdot_table_columns": (c_size_t, [c_void_p]),
     "qdot_table_column_name": (c_char_p, [c_void_p, c_size_t]),
+    "qdot_table_column_unit": (c_char_p, [c_void_p, c_size_t]),
     "qdot_table_numbers": (_numbers, [c_void_p, c_size_t]),
+    "qdot_table_errors": (_numbers, [c_void_p, c_size_t]),
     "qdot_table_cell": (c_char_p, [c_void_p, c_size_t, c_size_t]),
     "qdot_table_free": (None, [c_void_p]),
 }

@@ -30,7 +30,7 @@ from .figures import Animation, Figure, Report
 from .formula import Formula
 from .library import DISPLAY, JSON, NOTATIONS, utf8
 from .session import Session, warn
-from .table import Fit, Numbers, Table, fit_of, numbers_of, table_of
+from .table import Fit, Numbers, Table, copied, fit_of, numbers_of, table_of
 
 if TYPE_CHECKING:
     from .motion import Motion
@@ -305,7 +305,26 @@ class System:
 
     def sweep(self, text: str) -> Table:
         """Carry out `sweep`: "m = 1..3 step 0.1 run 0..20 : value(theta, 20) as res"."""
-        return self._table("sweep", text)
+        self.declare(f"sweep {text}")
+        return self.rows()
+
+    def rows(self, name: Optional[str] = None) -> Table:
+        """Return a table that the system has by name.
+
+        Those are made by `sweep`, `poincare`, `continue` ("branches") and `fit` ("residuals"); without a
+        name it is the one that was made last.
+        """
+        session, handle = self._session, c_void_p()
+        wanted = None if name is None else utf8(name)
+
+        def body() -> Table:
+            session.check(session.library.qdot_system_table(session.handle, wanted, byref(handle)))
+            try:
+                return copied(session.library, handle, name or "table")
+            finally:
+                session.library.qdot_table_free(handle)
+
+        return session.call(body)
 
     def table(self, text: str) -> Table:
         """Return values along the latest run, "theta, theta' every 0.1", or a table of the session by name.
@@ -318,7 +337,10 @@ class System:
         >>> s.table("x, x' every 1")["x"]
         array([0., 2., 4.])
         """
-        return self._table("table", text)
+        table = table_of(self._objects(f"table {text}"))
+        if table is None:
+            raise InvalidError(f"table {text}: the answer is no table")
+        return table
 
     def numbers(self, text: str) -> Numbers:
         """Carry out statements that answer with numbers: `find`, `sensitivity`, `lyapunov`, `floquet`, ..."""
@@ -479,12 +501,6 @@ class System:
             if answer["kind"] == "notice":
                 warn(answer["message"])
         return objects
-
-    def _table(self, statement: str, text: str) -> Table:
-        table = table_of(self._objects(f"{statement} {text}"))
-        if table is None:
-            raise InvalidError(f"{statement} {text}: the answer is no table")
-        return table
 
     def _shown(self, text: str, kind: str) -> Dict[str, Any]:
         for answer in reversed(self._objects(text)):

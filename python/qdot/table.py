@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import html
+from ctypes import c_void_p
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Sequence
+
+from .library import Library
 
 if TYPE_CHECKING:
     import numpy
@@ -21,10 +24,9 @@ class Table:
     ----------
     name : str
     columns : list of str
-    status : list of str or None
-        Of each row of a sweep: "done", "stopped", "failed".
-    reason : list of str or None
-        Why a row is not done.
+        Where rows of a sweep failed, there is a column "reason" of texts.
+    units : dict
+        The unit of a column, where it has one.
 
     Examples
     --------
@@ -39,31 +41,33 @@ class Table:
     True
     """
 
-    def __init__(self, name: str, columns: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
+    def __init__(
+        self,
+        name: str,
+        columns: Mapping[str, Array],
+        errors: Mapping[str, Array],
+        units: Optional[Mapping[str, str]] = None,
+    ) -> None:
         self.name = name
         self.columns = list(columns)
-        self.status: List[Optional[str]] = [row.get("status") for row in rows]
-        self.reason: List[Optional[str]] = [row.get("reason") for row in rows]
-        self._values = [_array([row["values"][i] for row in rows]) for i in range(len(columns))]
-        self._errors = [
-            _array([(row.get("errors") or [None] * len(columns))[i] for row in rows])
-            for i in range(len(columns))
-        ]
+        self.units = dict(units or {})
+        self._values = dict(columns)
+        self._errors = dict(errors)
 
     def __getitem__(self, column: str) -> Array:
-        return self._values[self._index(column)]
+        return self._values[self._known(column)]
 
     def errors(self, column: str) -> Array:
         """Return the errors of a column, absolute, estimated; NaN: unknown."""
-        return self._errors[self._index(column)]
+        return self._errors[self._known(column)]
 
-    def _index(self, column: str) -> int:
-        if column not in self.columns:
+    def _known(self, column: str) -> str:
+        if column not in self._values:
             raise KeyError(f"no column {column!r}: {', '.join(self.columns)}")
-        return self.columns.index(column)
+        return column
 
     def __len__(self) -> int:
-        return len(self.status)
+        return len(self._values[self.columns[0]]) if self.columns else 0
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
@@ -77,10 +81,10 @@ class Table:
         import pandas
 
         data = {}
-        for i, column in enumerate(self.columns):
-            data[column] = self._values[i]
-            if errors:
-                data[f"error of {column}"] = self._errors[i]
+        for column in self.columns:
+            data[column] = self._values[column]
+            if errors and column in self._errors:
+                data[f"error of {column}"] = self._errors[column]
         return pandas.DataFrame(data)
 
     def __repr__(self) -> str:
@@ -95,8 +99,9 @@ class Table:
     def _html_row(self, i: int) -> str:
         if i < 0:
             return f'<tr><td colspan="{len(self.columns)}">… {len(self) - 60} more rows</td></tr>'
-        pairs = zip(self._values, self._errors)
-        cells = "".join(f"<td>{html.escape(shown(v[i], e[i]))}</td>" for v, e in pairs)
+        pairs = [(self._values[name][i], self._errors.get(name)) for name in self.columns]
+        texts = [shown(value, None if errors is None else errors[i]) for value, errors in pairs]
+        cells = "".join(f"<td>{html.escape(text)}</td>" for text in texts)
         return f"<tr>{cells}</tr>"
 
 
@@ -210,17 +215,47 @@ def _array(cells: Sequence[Any]) -> Array:
 
 def table_of(answers: Sequence[Mapping[str, Any]]) -> Optional[Table]:
     """Return the last table among the answers."""
-    found: Optional[Table] = None
     head: Optional[Mapping[str, Any]] = None
     rows: List[Mapping[str, Any]] = []
-    for answer in [*answers, {"kind": "columns"}]:
+    for answer in answers:
         if answer["kind"] == "columns":
-            if head is not None:
-                found = Table(head.get("name") or "table", head["columns"], rows)
             head, rows = answer, []
         elif answer["kind"] == "row":
             rows.append(answer)
-    return found
+    if head is None:
+        return None
+    names = head["columns"]
+    none = [None] * len(names)
+    columns = {name: _array([row["values"][i] for row in rows]) for i, name in enumerate(names)}
+    errors = {
+        name: _array([(row.get("errors") or none)[i] for row in rows]) for i, name in enumerate(names)
+    }
+    if any(row.get("reason") for row in rows):
+        columns["reason"] = _array([row.get("reason") or "" for row in rows])
+    return Table(head.get("name") or "table", columns, errors)
+
+
+def copied(library: Library, handle: c_void_p, name: str) -> Table:
+    """Return a qdot_table as a table of arrays of its own."""
+    import numpy
+
+    def numbers(given: Any) -> Any:
+        return numpy.ctypeslib.as_array(given, (n,)).copy() if n > 0 else numpy.empty(0)
+
+    n = library.qdot_table_rows(handle)
+    columns, errors, units = {}, {}, {}
+    for i in range(library.qdot_table_columns(handle)):
+        column = library.qdot_table_column_name(handle, i).decode()
+        unit = library.qdot_table_column_unit(handle, i).decode()
+        if unit:
+            units[column] = unit
+        if library.qdot_table_numbers(handle, i):
+            columns[column] = numbers(library.qdot_table_numbers(handle, i))
+            errors[column] = numbers(library.qdot_table_errors(handle, i))
+        else:
+            cells = [library.qdot_table_cell(handle, i, row).decode() for row in range(n)]
+            columns[column] = numpy.array(cells, dtype=object)
+    return Table(name, columns, errors, units)
 
 
 def numbers_of(answers: Sequence[Mapping[str, Any]]) -> Numbers:

@@ -68,11 +68,12 @@ class Tables(unittest.TestCase):
         for column, exact in ("value(x, 10)", numpy.cos(10)), ("value(x', 10)", -numpy.sin(10)):
             off = abs(table[column] - exact * table["x"])
             self.assertTrue((off <= table.errors(column) + 1e-15).all())
-        self.assertEqual(table.status, ["done"] * 3)
         self.assertEqual(len(table), 3)
-        again = s.table("res")
-        self.assertEqual(again.columns, table.columns)
-        self.assertTrue((again["value(x, 10)"] == table["value(x, 10)"]).all())
+        for again in s.table("res"), s.rows("res"):
+            self.assertEqual(again.columns, table.columns)
+            for column in table:
+                self.assertTrue((again[column] == table[column]).all())
+                self.assertTrue((again.errors(column) == table.errors(column)).all())
         self.assertEqual(list(dict(table)), table.columns)
         with self.assertRaisesRegex(KeyError, "value"):
             table["y"]
@@ -80,9 +81,13 @@ class Tables(unittest.TestCase):
     def test_rows_that_fail_stay(self):
         s = qdot.System("coord x; particle p mass 1 at (x, 0); force (x'^2, 0) on p")
         table = s.sweep("x' = [0.1, 1] run 0..2 : value(x, 2) as res")
-        self.assertEqual(table.status, ["done", "failed"])
-        self.assertTrue(numpy.isnan(table["value(x, 2)"]).tolist() == [False, True])
-        self.assertTrue(table.reason[1])
+        for again in table, s.table("res"):
+            self.assertEqual(numpy.isnan(again["value(x, 2)"]).tolist(), [False, True])
+            self.assertEqual(again["reason"][0], "")
+            self.assertIn("singularity", again["reason"][1])
+            self.assertIn("singularity", again._repr_html_())
+        with self.assertRaises(qdot.UnknownNameError):
+            s.rows("nothing")
 
     def test_a_table_is_shown_with_its_errors(self):
         table = oscillator().sweep("x = 1..100 step 1 run 0..1 : value(x, 1) as res")
