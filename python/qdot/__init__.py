@@ -37,6 +37,7 @@ from .errors import (
 )
 from .figures import Animation, Figure, Page, Report
 from .formula import Formula
+from .function import Function
 from .library import unfinished, version
 from .motion import Conserved, Event, Motion, Summary
 from .system import System, Truth
@@ -53,6 +54,7 @@ __all__ = [
     "FileError",
     "Fit",
     "Formula",
+    "Function",
     "Interrupted",
     "InvalidError",
     "KindError",

@@ -1,12 +1,17 @@
-"""Formulas: what `System.derive` returns, in several notations."""
+"""Formulas: what `System.derive` returns, in several notations, for SymPy, and compiled."""
 
 from __future__ import annotations
 
+import json
 from ctypes import byref, c_void_p
-from typing import Any, Iterator
+from typing import TYPE_CHECKING, Any, FrozenSet, Iterator, Mapping, Optional, Tuple
 
-from .library import LATEX, MATHML, PLAIN, UNICODE, utf8
+from .errors import Error
+from .library import LATEX, MATHML, PLAIN, TREE, UNICODE, utf8
 from .session import Session
+
+if TYPE_CHECKING:
+    from .function import Function
 
 
 class Formula:
@@ -100,6 +105,87 @@ class Formula:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
         return {"text/plain": self.unicode, "text/latex": self._repr_latex_()}
+
+    def tree(self) -> Any:
+        """Return the formula as nested lists in prefix form, numbers and names as strings.
+
+        `qdot.h` describes it under QDOT_NOTATION_TREE.
+
+        Examples
+        --------
+        >>> import qdot
+        >>> qdot.System("coord x").derive("2*x'^2/3").tree()
+        ['*', ['/', '2', '3'], ['^', ["'", 'x', 1], '2']]
+        """
+        return json.loads(self._in(TREE))
+
+    def sympy(self, symbols: Optional[Mapping[str, Any]] = None) -> Any:
+        """Return the formula as an expression of SymPy, exact.
+
+        Coordinates and what else moves are functions of ``t``, as `dynamicsymbols` of
+        `sympy.physics.mechanics` makes them, velocities their derivatives, parameters symbols without
+        assumptions. Vectors and matrices are matrices, a list is a list of Python.
+
+        Parameters
+        ----------
+        symbols : mapping, optional
+            What stands for a name: ``{"m": sympy.Symbol("m", positive=True)}``.
+
+        Examples
+        --------
+        >>> import qdot
+        >>> s = qdot.System("param m; coord x; particle p mass m at (x, 0)")
+        >>> s.derive("T").sympy()
+        m*Derivative(x(t), t)**2/2
+        """
+        from .tree import to_sympy
+
+        return to_sympy(self.tree(), self._moving(), symbols)
+
+    def _moving(self) -> FrozenSet[str]:
+        """Return the names in the formula whose derivatives by time are not 0."""
+        from .tree import names_of
+
+        moving = set()
+        for name in names_of(self.tree()):
+            try:
+                if name != "t" and _derive(self._session, f"ddt({name})", PLAIN) != "0":
+                    moving.add(name)
+            except Error:  # a name that is none of this system any more
+                pass
+        return frozenset(moving)
+
+    def lambdify(self, *arguments: Any) -> Function:
+        """Compile the formula to a function of arrays.
+
+        Parameters
+        ----------
+        *arguments : str, or symbol, function or derivative of SymPy
+            What varies: "theta", "theta'", "t", "m", "p[theta]". A parameter that is not among them has its
+            present value.
+
+        Returns
+        -------
+        Function
+            Called with a number or an array for each argument, which are broadcast, it returns an array of
+            their shape; components of a vector, list or matrix come in front of it.
+
+        Examples
+        --------
+        >>> import numpy, qdot
+        >>> f = qdot.System("param a = 2; coord x, y").derive("a*sin(x)*y").lambdify("x", "y")
+        >>> f(numpy.pi/2, numpy.array([1.0, 2.0]))
+        array([2., 4.])
+        """
+        from .function import Function, named
+
+        tree = self.tree()
+        shape: Tuple[int, ...] = ()
+        if tree[0] == "matrix":
+            shape = len(tree) - 1, len(tree[1])
+        elif tree[0] in ("list", "vector"):
+            shape = (len(tree) - 1,)
+        return Function(self._session, _language(self), [named(a) for a in arguments], shape)
 
 
 def _language(formula: Formula) -> str:
