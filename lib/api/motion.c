@@ -1,6 +1,7 @@
 /* motion.c -- makes runs, and answers questions about a run as a whole. */
 #include "api/motion.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #include "expr/symbol.h"
@@ -174,9 +175,9 @@ qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, s
         .energy_drift = r->energy_drift,
         .constraint_drift = r->constraint_drift,
         .cpu = r->cpu,
-        .steps = r->steps,
-        .rejected = r->rejected,
-        .evaluations = r->evals,
+        .steps = (size_t)r->steps,
+        .rejected = (size_t)r->rejected,
+        .evaluations = r->evals < SIZE_MAX ? (size_t)r->evals : SIZE_MAX,
         .method = r->method,
         .reason = r->reason,
         .doubt = r->doubt,

@@ -9,7 +9,7 @@ volatile sig_atomic_t qdot_interrupt_flag = 0;
 _Thread_local qdot_interrupt *qdot_interrupt_own;
 
 /* interrupt checks left until the simulated Ctrl-C; atomic, because other threads make checks, too */
-static atomic_long checks_left = -1;
+static atomic_int checks_left = -1;
 
 void
 qdot_interrupt_set(void)
@@ -55,7 +55,7 @@ qdot_interrupt_clear(void)
 }
 
 void
-qdot_interrupt_set_at(long n)
+qdot_interrupt_set_at(int n)
 {
     atomic_store(&checks_left, n);
 }

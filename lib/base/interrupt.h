@@ -48,6 +48,6 @@ bool qdot_interrupt_is_set(void);
 qdot_status qdot_interrupt_check(void);
 
 /* For tests: simulate Ctrl-C at the n-th check from now (n = 0: the next); n < 0: never. */
-void qdot_interrupt_set_at(long n);
+void qdot_interrupt_set_at(int n);
 
 #endif

@@ -11,10 +11,10 @@ bool qdot_memory_ran_out(void);
 /* For tests: the n-th allocation from now (n = 0: the next) fails and no other (qdot_memory_fail_at: it and all after
  * it); n < 0: none. Returns how many were still to come before the failure asked for last; negative if that one failed,
  * or none was asked for. */
-long qdot_memory_fail_once_at(long n);
+int64_t qdot_memory_fail_once_at(int64_t n);
 
 /* For tests: `who` is called before the n-th allocation from now (n = 0: the next), by the thread that allocates, and
  * may ask to be called again; n < 0: nothing is called. Only one `who` can be set: qdot_memory_press_at sets it too. */
-void qdot_memory_visit_at(long n, void (*who)(void));
+void qdot_memory_visit_at(int64_t n, void (*who)(void));
 
 #endif

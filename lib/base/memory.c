@@ -11,7 +11,7 @@
 #include "base/scope.h"
 
 static atomic_bool ran_out; /* whether any thread ran out of memory */
-static long fail_after = -1, fail_once_after = -1, visit_after = -1;
+static int64_t fail_after = -1, fail_once_after = -1, visit_after = -1;
 static void (*visit)(void);
 
 static void *
@@ -47,29 +47,29 @@ allocation_must_fail(void)
 }
 
 void
-qdot_memory_fail_at(long n)
+qdot_memory_fail_at(int64_t n)
 {
     fail_after = n;
 }
 
-long
-qdot_memory_fail_once_at(long n)
+int64_t
+qdot_memory_fail_once_at(int64_t n)
 {
-    const long left = fail_once_after;
+    const int64_t left = fail_once_after;
 
     fail_once_after = n;
     return left;
 }
 
 void
-qdot_memory_visit_at(long n, void (*who)(void))
+qdot_memory_visit_at(int64_t n, void (*who)(void))
 {
     visit = who;
     visit_after = n;
 }
 
 void
-qdot_memory_press_at(long n)
+qdot_memory_press_at(int64_t n)
 {
     qdot_memory_visit_at(n, qdot_interrupt_set);
 }

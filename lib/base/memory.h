@@ -6,6 +6,7 @@
 #define QDOT_BASE_MEMORY_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 
@@ -27,9 +28,9 @@ QDOT_MUST_CHECK qdot_status qdot_calloc_parts(double **block, size_t count,
                                               const qdot_part *parts);
 
 /* For tests: make the n-th allocation from now (0: the next) and all later ones fail; n < 0: none. */
-void qdot_memory_fail_at(long n);
+void qdot_memory_fail_at(int64_t n);
 /* For tests: simulate Ctrl-C at the n-th allocation from now (n = 0: the next); n < 0: never. */
-void qdot_memory_press_at(long n);
+void qdot_memory_press_at(int64_t n);
 
 /* Grow *block (items of `size` bytes, *capacity of them) until it holds `wanted` items.
  * On failure the block is unchanged. */

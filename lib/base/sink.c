@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -66,7 +67,7 @@ create_temporary_file(qdot_sink *sink, const struct stat *old)
     for (int k = 0; fd < 0; k++) {
         qdot_text name = {0};
 
-        qdot_text_format(&name, "%.*s.qdot-%ld-%d.part", folder, sink->place, (long)getpid(), k);
+        qdot_text_format(&name, "%.*s.qdot-%" PRId64 "-%d.part", folder, sink->place, (int64_t)getpid(), k);
         qdot_free(sink->beside);
         sink->beside = NULL;
         if (qdot_text_status(&name) != QDOT_OK) {

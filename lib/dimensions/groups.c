@@ -45,13 +45,13 @@ reduce_rows(size_t rows, size_t n, qdot_exponent *a, size_t *rank, size_t *pivot
 }
 
 /* How long a group is to read: its symbols, then its powers. */
-static long
+static int64_t
 length_of(size_t n, const int32_t *p)
 {
-    long length = 0;
+    int64_t length = 0;
 
     for (size_t i = 0; i < n; i++)
-        length += p[i] == 0 ? 0 : 8 + (p[i] < 0 ? -(long)p[i] : p[i]);
+        length += p[i] == 0 ? 0 : 8 + (p[i] < 0 ? -(int64_t)p[i] : p[i]);
     return length;
 }
 
@@ -100,7 +100,7 @@ static void
 order_groups(size_t count, size_t n, int32_t *power, int32_t *trial)
 {
     for (size_t i = 0; i < count; i++) {
-        long sum = 0;
+        int64_t sum = 0;
         size_t first = n;
 
         for (size_t j = n; j-- > 0;) {

@@ -19,7 +19,7 @@ clear_bound(struct bound *b)
 }
 
 static void
-set_bound(struct bound *b, int64_t n, int64_t d, bool open)
+set_bound(struct bound *b, int n, int d, bool open)
 {
     b->x = (fmpq){n, d};
     b->known = true;

@@ -15,7 +15,7 @@ qdot_expr qdot_neg(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b);
 qdot_expr qdot_div(qdot_pool *pool, qdot_expr a, qdot_expr b); /* fails with QDOT_EDOMAIN for b = 0 */
 qdot_expr qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b); /* 0^-1, (-1)^(1/2): fails with QDOT_EDOMAIN */
-qdot_expr qdot_pow_int(qdot_pool *pool, qdot_expr a, long n);
+qdot_expr qdot_pow_int(qdot_pool *pool, qdot_expr a, int64_t n);
 qdot_expr qdot_sqrt(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_sum(qdot_pool *pool, size_t n, const qdot_expr *terms);     /* n = 0: returns 0 */
 qdot_expr qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors); /* n = 0: returns 1 */

@@ -91,7 +91,7 @@ derive_undefined_function(derivation *d, qdot_expr e)
         if (inner == QDOT_ZERO)
             continue;
         for (uint32_t k = 0; k < n; k++) {
-            long order = 0;
+            int64_t order = 0;
 
             args[k] = ARGS(pool, e)[k];
             qdot_expr_to_int(pool, ARGS(pool, e)[n + k], &order);

@@ -30,7 +30,7 @@ qdot_expr qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x);
 
 /* Coefficient of x^n in e, a polynomial in x, after collecting powers. QDOT_EDOMAIN if e is no
  * polynomial in x. */
-qdot_expr qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n);
+qdot_expr qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, int64_t n);
 
 /* Whether e holds floor, mod, sign or `if` of something that moves with one of `holds`
  * (QDOT_HAS_...): its derivative is that between the jumps. */

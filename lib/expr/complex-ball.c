@@ -26,7 +26,7 @@ value_of(const evaluation *v, qdot_expr e, uint32_t i)
 
 /* Whether z may lie on the real line at or below `most`. */
 static bool
-may_be_below(const acb_t z, long most)
+may_be_below(const acb_t z, int most)
 {
     arb_t end;
     bool may;

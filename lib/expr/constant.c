@@ -452,7 +452,9 @@ free_evaluation(evaluation *v)
 static bool
 is_exact_double(const fmpz x)
 {
-    return !COEFF_IS_MPZ(x) && x <= (slong)1 << 53 && x >= -((slong)1 << 53);
+    const int64_t n = x;
+
+    return !COEFF_IS_MPZ(x) && n <= INT64_C(1) << 53 && n >= -(INT64_C(1) << 53);
 }
 
 /* n/d of integers that are doubles, as most numbers of a scene and all tolerances are: the remainder

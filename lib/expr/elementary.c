@@ -77,7 +77,7 @@ split_multiple_of_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
 
 /* sin(k pi/12) for 0 <= k <= 6, as a sum of two terms of the form a sqrt(b). */
 static qdot_expr
-sine_of_twelfths(qdot_pool *pool, long k)
+sine_of_twelfths(qdot_pool *pool, int64_t k)
 {
     qdot_expr root2 = qdot_sqrt(pool, qdot_expr_int(pool, 2));
     qdot_expr root3 = qdot_sqrt(pool, qdot_expr_int(pool, 3));
@@ -101,7 +101,7 @@ sine_of_twelfths(qdot_pool *pool, long k)
 
 /* sin(k pi/12) for any integer k. */
 static qdot_expr
-sine_of_any_twelfth(qdot_pool *pool, long k)
+sine_of_any_twelfth(qdot_pool *pool, int64_t k)
 {
     k = ((k % 24) + 24) % 24;
     if (k >= 12)
@@ -123,7 +123,7 @@ quotient_of_values(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 /* The circular functions at k pi/12, by those of the double angle, which hold one root only:
  * tan x = (1 - cos 2x)/sin 2x, cot x = (1 + cos 2x)/sin 2x, 1/cos x = 2 sin x/sin 2x. */
 static qdot_expr
-circular_value_at_twelfth(qdot_pool *pool, qdot_fun_id id, long k)
+circular_value_at_twelfth(qdot_pool *pool, qdot_fun_id id, int64_t k)
 {
     qdot_expr s = sine_of_any_twelfth(pool, k), c = sine_of_any_twelfth(pool, k + 6);
     qdot_expr s2 = sine_of_any_twelfth(pool, 2 * k), c2 = sine_of_any_twelfth(pool, 2 * k + 6);
@@ -149,7 +149,7 @@ circular_value_at_twelfth(qdot_pool *pool, qdot_fun_id id, long k)
 
 /* Write f(x + quarters pi/2), with f a circular function, by f or its co-function at x. */
 static qdot_expr
-shift_by_quarter_turns(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
+shift_by_quarter_turns(qdot_pool *pool, qdot_fun_id id, qdot_expr x, int64_t quarters)
 {
     static const struct {
         qdot_fun_id to;
@@ -197,13 +197,13 @@ simplify_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     rest = split_multiple_of_pi(pool, x, c);
     qdot_rational_mul(twelve, c, &(fmpq){12, 1});
     if (rest == QDOT_ZERO && fmpz_is_one(fmpq_denref(twelve))) {
-        long k = (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24);
+        int64_t k = (int64_t)fmpz_fdiv_ui(fmpq_numref(twelve), 24);
 
         e = circular_value_at_twelfth(pool, id, k);
     } else if (rest != QDOT_ZERO && rest != QDOT_NIL && !fmpq_is_zero(c) &&
                fmpz_divisible_si(fmpq_numref(twelve), 6) &&
                fmpz_is_one(fmpq_denref(twelve))) {
-        e = shift_by_quarter_turns(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
+        e = shift_by_quarter_turns(pool, id, rest, (int64_t)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
     } else {
         e = apply_parity(pool, id, x);
     }
@@ -234,7 +234,7 @@ simplify_inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     if (id == QDOT_ASIN && out)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "asin is defined from -1 to 1");
     if (!(NODE(pool, x)->holds)) {
-        for (long k = -6; k <= 6; k++) {
+        for (int64_t k = -6; k <= 6; k++) {
             qdot_expr value = QDOT_NIL;
 
             if (id == QDOT_ASIN)
@@ -602,14 +602,14 @@ qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 /* --- derivatives of elementary functions -------------------------------------------------------- */
 
 static qdot_expr
-one_plus_scaled_square(qdot_pool *pool, long c, qdot_expr x) /* 1 + c x^2 */
+one_plus_scaled_square(qdot_pool *pool, int64_t c, qdot_expr x) /* 1 + c x^2 */
 {
     return qdot_add(pool, QDOT_ONE,
                     qdot_mul(pool, qdot_expr_int(pool, c), qdot_pow_int(pool, x, 2)));
 }
 
 static qdot_expr
-scaled_gaussian(qdot_pool *pool, long c, qdot_expr x) /* c e^(-x^2)/sqrt(pi) */
+scaled_gaussian(qdot_pool *pool, int64_t c, qdot_expr x) /* c e^(-x^2)/sqrt(pi) */
 {
     return qdot_mul(
         pool,

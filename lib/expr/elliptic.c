@@ -22,7 +22,7 @@ elliptic(qdot_pool *pool, qdot_fun_id f, qdot_expr a, qdot_expr b, qdot_expr c)
 /* --- special values --------------------------------------------------------------------------- */
 
 static bool
-is_number_from(const qdot_pool *pool, qdot_expr m, long least, bool with_least)
+is_number_from(const qdot_pool *pool, qdot_expr m, int least, bool with_least)
 {
     const fmpq *x = NUMBER(pool, m);
     const int side = x == NULL ? -1 : qdot_rational_cmp(x, &(fmpq){least, 1});
@@ -310,13 +310,13 @@ incomplete_double(unsigned f, double n, double s, double c, double m)
 }
 
 qdot_expr
-qdot_elliptic_coefficient(qdot_pool *pool, qdot_fun_id f, long k)
+qdot_elliptic_coefficient(qdot_pool *pool, qdot_fun_id f, int64_t k)
 {
     qdot_expr c = QDOT_ONE;
 
     if (f != QDOT_ELLIPTIC_K && f != QDOT_ELLIPTIC_E)
         return QDOT_NIL;
-    for (long i = 1; i <= k; i++)
+    for (int64_t i = 1; i <= k; i++)
         c = qdot_mul(pool, c, qdot_div(pool, qdot_expr_int(pool, 2 * i - 1), qdot_expr_int(pool, 2 * i)));
     c = qdot_mul(pool, qdot_div(pool, QDOT_PI, qdot_expr_int(pool, 2)), qdot_mul(pool, c, c));
     return f == QDOT_ELLIPTIC_K ? c : qdot_div(pool, c, qdot_expr_int(pool, 1 - 2 * k));

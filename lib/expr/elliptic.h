@@ -23,7 +23,7 @@ qdot_expr qdot_elliptic_simplify(qdot_pool *pool, qdot_fun_id f, uint32_t n, con
 qdot_expr qdot_elliptic_derivative(qdot_pool *pool, qdot_fun_id f, uint32_t n, const qdot_expr *args, uint32_t i);
 /* The coefficient of m^k in the series of K(m) or E(m) at m = 0, where their derivatives are written 0/0: (pi/2) c_k and
  * (pi/2) c_k/(1 - 2 k) with c_k = ((2 k)!/(4^k k!^2))^2; nil: f is another function. */
-qdot_expr qdot_elliptic_coefficient(qdot_pool *pool, qdot_fun_id f, long k);
+qdot_expr qdot_elliptic_coefficient(qdot_pool *pool, qdot_fun_id f, int64_t k);
 /* The value of f at x [n] in double; NaN where it is undefined. */
 double qdot_elliptic_double(unsigned f, uint32_t n, const double *x);
 

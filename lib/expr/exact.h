@@ -11,11 +11,12 @@
 
 /* The rational value of a NUM; NULL for any other kind. It stays valid as long as the pool. */
 const fmpq *qdot_expr_rational(const qdot_pool *pool, qdot_expr e);
-/* Whether e is an integer that fits a long; *value is the integer. */
-bool qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value);
+/* Whether e is an integer that fits 64 bits; *value is the integer. */
+bool qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, int64_t *value);
 
-qdot_expr qdot_expr_int(qdot_pool *pool, long n);
-qdot_expr qdot_expr_ratio(qdot_pool *pool, long n, long d);
+qdot_expr qdot_expr_int(qdot_pool *pool, int64_t n);
+qdot_expr qdot_expr_ratio(qdot_pool *pool, int64_t n, int64_t d);
+qdot_expr qdot_expr_fmpz(qdot_pool *pool, const fmpz_t n);
 qdot_expr qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x);
 /* Make the exact number written as a decimal: "9.81" is 981/100; QDOT_ELIMIT: more than 10^6 digits. */
 qdot_expr qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length);

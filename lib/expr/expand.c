@@ -65,7 +65,7 @@ multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 
 /* Compute s^n, n >= 1, for an expanded sum s, by repeated squaring. */
 static qdot_expr
-expand_power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
+expand_power(qdot_pool *pool, qdot_expr s, uint64_t n, uint64_t *work)
 {
     qdot_expr result = QDOT_ONE;
 
@@ -99,16 +99,16 @@ expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w, uint64_t *work)
     for (uint32_t i = 1; i < n && !FAILED(pool); i += 2) {
         qdot_expr base = (qdot_expr)qdot_walk_get(w, ARGS(pool, e)[i]);
         qdot_expr exponent = (qdot_expr)qdot_walk_get(w, ARGS(pool, e)[i + 1]);
-        long k;
+        int64_t k;
 
         if (base == QDOT_NIL || exponent == QDOT_NIL)
             return QDOT_NIL;
         if (!qdot_expr_to_int(pool, exponent, &k) || NODE(pool, base)->kind != QDOT_SUM)
             result = multiply_expanded(pool, result, qdot_pow(pool, base, exponent), work);
         else if (k > 0)
-            result = multiply_expanded(pool, result, expand_power(pool, base, (unsigned long)k, work), work);
+            result = multiply_expanded(pool, result, expand_power(pool, base, (uint64_t)k, work), work);
         else
-            below = multiply_expanded(pool, below, expand_power(pool, base, 0ul - (unsigned long)k, work), work);
+            below = multiply_expanded(pool, below, expand_power(pool, base, -(uint64_t)k, work), work);
     }
     if (below == QDOT_ONE || below == QDOT_NIL)
         return below == QDOT_NIL ? QDOT_NIL : result;
@@ -246,7 +246,7 @@ qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x)
 static bool
 is_whole_power(const qdot_pool *pool, qdot_expr power, qdot_expr x)
 {
-    long n;
+    int64_t n;
 
     return power == QDOT_ONE || power == x ||
            (NODE(pool, power)->kind == QDOT_PROD && ARGS(pool, power)[1] == x &&
@@ -254,7 +254,7 @@ is_whole_power(const qdot_pool *pool, qdot_expr power, qdot_expr x)
 }
 
 qdot_expr
-qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
+qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, int64_t n)
 {
     groups all = {0};
     qdot_expr wanted = qdot_pow_int(pool, x, n), result = QDOT_ZERO;

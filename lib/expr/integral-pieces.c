@@ -36,7 +36,7 @@ typedef struct {
 static double
 handle_of(const qdot_pool *pool, qdot_expr e)
 {
-    long handle;
+    int64_t handle;
 
     return qdot_expr_is_function(pool, e, QDOT_LOOKUP) && qdot_expr_to_int(pool, qdot_expr_arg(pool, e, 1), &handle) ? (double)handle
                                                                                                                     : NAN;

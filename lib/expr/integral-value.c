@@ -125,7 +125,7 @@ evaluate_substituted(const substitution *s, arb_t y, const arb_t t)
 /* Add to sum the terms at t = h (first + step k), k = 0, 1, ..., until they are negligible; false where they do not
  * become so. */
 static bool
-sum_outward(substitution *s, arb_t sum, const arb_t h, long first, long step)
+sum_outward(substitution *s, arb_t sum, const arb_t h, slong first, slong step)
 {
     arb_t t, term;
     mag_t size, least;
@@ -136,7 +136,7 @@ sum_outward(substitution *s, arb_t sum, const arb_t h, long first, long step)
     arb_init(term);
     mag_init(size);
     mag_init(least);
-    for (long k = 0; k < MOST_STEPS && small < 6; k++) {
+    for (slong k = 0; k < MOST_STEPS && small < 6; k++) {
         arb_mul_si(t, h, first + step * k, 6 * s->bits + 64);
         if (!evaluate_substituted(s, term, t)) { /* the place is not told from the end any more, or f is not defined */
             lost = true;
@@ -363,7 +363,7 @@ static qdot_expr
 base_of_singularity(const qdot_pool *pool, qdot_expr e, uint32_t k)
 {
     const qdot_node *node = qdot_expr_node(pool, e);
-    long whole;
+    int64_t whole;
 
     if (node->kind == QDOT_FUN && k == 0 && (node->op == QDOT_ABS || node->op == QDOT_LOG || node->op == QDOT_SIGN))
         return qdot_expr_arg(pool, e, 0);

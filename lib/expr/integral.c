@@ -29,7 +29,7 @@ bound_symbol(qdot_pool *pool, uint32_t number)
 uint32_t
 qdot_bound_number(const qdot_pool *pool, qdot_expr e)
 {
-    return qdot_expr_is_class(pool, e, QDOT_BOUND) ? (uint32_t)strtoul(qdot_expr_symbol(pool, e)->name, NULL, 10) : 0;
+    return qdot_expr_is_class(pool, e, QDOT_BOUND) ? (uint32_t)strtoull(qdot_expr_symbol(pool, e)->name, NULL, 10) : 0;
 }
 
 bool

@@ -59,7 +59,7 @@ static qdot_expr
 amplitude_of_quarters(qdot_pool *pool, qdot_expr u, qdot_expr m)
 {
     const qdot_expr r = qdot_div(pool, u, qdot_fun1(pool, QDOT_ELLIPTIC_K, m));
-    long whole;
+    int64_t whole;
 
     return r != QDOT_NIL && qdot_expr_to_int(pool, r, &whole) ? qdot_mul(pool, r, qdot_mul(pool, QDOT_HALF, QDOT_PI))
                                                               : QDOT_NIL;

@@ -512,14 +512,14 @@ qdot_expr_rational(const qdot_pool *pool, qdot_expr e)
 }
 
 bool
-qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value)
+qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, int64_t *value)
 {
     const fmpq *x = NUMBER(pool, e);
 
     if (x == NULL || !fmpz_is_one(fmpq_denref(x)))
         return false;
-    if (COEFF_IS_MPZ(x->num) && !fmpz_fits_si(fmpq_numref(x)))
+    if (COEFF_IS_MPZ(x->num) && !qdot_integer_fits(fmpq_numref(x)))
         return false;
-    *value = COEFF_IS_MPZ(x->num) ? fmpz_get_si(fmpq_numref(x)) : x->num;
+    *value = COEFF_IS_MPZ(x->num) ? qdot_integer_get(fmpq_numref(x)) : x->num;
     return true;
 }

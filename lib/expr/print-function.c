@@ -73,7 +73,7 @@ print_arguments(printer *p, qdot_expr e, bool declared)
 static uint32_t
 order_of_derivative(const qdot_pool *pool, qdot_expr e, uint32_t i)
 {
-    long order = 0;
+    int64_t order = 0;
 
     qdot_expr_to_int(pool, ARGS(pool, e)[NODE(pool, e)->n / 2 + i], &order);
     return (uint32_t)order;

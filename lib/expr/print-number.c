@@ -1,4 +1,5 @@
 /* print-number.c -- prints numbers in formulas. */
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,7 +33,7 @@ fraction_character(const fmpq_t x)
 
 /* The absolute value of x = p/q as a decimal number: |p| times factor^times times 10^-places. */
 struct decimal {
-    ulong factor, times, places;
+    uint64_t factor, times, places;
 };
 
 /* A decimal number with more digits than its fraction is used only up to this many digits. */
@@ -40,7 +41,7 @@ enum { LONGEST_DECIMAL = 40 };
 
 /* Find the exponents of 5 and 2 in q; whether q has no other prime factors. Small q are treated without FLINT. */
 static bool
-count_fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
+count_fives_and_twos(const fmpz_t q, uint64_t *fives, uint64_t *twos)
 {
     fmpz_t rest, five, two;
     bool all;
@@ -58,8 +59,8 @@ count_fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
     fmpz_init(rest);
     fmpz_init_set_ui(five, 5);
     fmpz_init_set_ui(two, 2);
-    *fives = (ulong)fmpz_remove(rest, q, five);
-    *twos = (ulong)fmpz_remove(rest, rest, two);
+    *fives = (uint64_t)fmpz_remove(rest, q, five);
+    *twos = (uint64_t)fmpz_remove(rest, rest, two);
     all = fmpz_is_one(rest);
     fmpz_clear(rest);
     fmpz_clear(five);
@@ -84,7 +85,7 @@ count_digits(const fmpz_t n)
 static bool
 find_decimal_form(const fmpq_t x, struct decimal *d)
 {
-    ulong fives, twos;
+    uint64_t fives, twos;
     size_t more;
 
     if (!count_fives_and_twos(fmpq_denref(x), &fives, &twos) || fives == 0)
@@ -124,7 +125,7 @@ static void
 note_number_kind(const fmpq_t x, struct numbers *seen)
 {
     static const fmpz largest[1] = {LARGEST_SHORT};
-    ulong fives, twos;
+    uint64_t fives, twos;
 
     if (fmpz_is_one(fmpq_denref(x)))
         return;
@@ -223,19 +224,19 @@ append_numerator_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
     fmpz_t whole;
 
     if (!COEFF_IS_MPZ(*n)) {
-        const ulong limit = UINT64_MAX / 5;
-        ulong product = *n < 0 ? -(ulong)*n : (ulong)*n, k = 0;
+        const uint64_t limit = UINT64_MAX / 5;
+        uint64_t product = *n < 0 ? -(uint64_t)*n : (uint64_t)*n, k = 0;
 
         for (; k < d->times && product <= limit; k++)
             product *= d->factor;
         if (k == d->times) {
-            qdot_text_format(out, "%lu", product);
+            qdot_text_format(out, "%" PRIu64, product);
             return;
         }
     }
     fmpz_init(whole);
-    fmpz_set_ui(whole, d->factor);
-    fmpz_pow_ui(whole, whole, d->times);
+    fmpz_set_ui(whole, (ulong)d->factor);
+    fmpz_pow_ui(whole, whole, (ulong)d->times);
     fmpz_mul(whole, whole, n);
     fmpz_abs(whole, whole);
     append_integer(whole, out);
@@ -244,7 +245,7 @@ append_numerator_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
 
 /* Append the digits [n] with a decimal point, such as 9.81 or 0.05; small: only the mantissa 6.67 of 6.67e-11. */
 static void
-append_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
+append_decimal(const char *digits, size_t n, uint64_t places, bool small, qdot_text *out)
 {
     const size_t whole = small ? 1 : n > places ? n - places : 0;
 
@@ -257,16 +258,16 @@ append_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text
 
 /* Append the absolute value of x as a decimal number within a line of text, such as 9.81 or 6.67e-11. */
 static void
-append_decimal_in_line(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
+append_decimal_in_line(const char *digits, size_t n, uint64_t places, bool small, qdot_text *out)
 {
     append_decimal(digits, n, places, small, out);
     if (small)
-        qdot_text_format(out, "e-%lu", places - n + 1);
+        qdot_text_format(out, "e-%" PRIu64, places - n + 1);
 }
 
 /* Append a decimal number as a drawn formula: 6.67 10^-11. */
 static void
-print_drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small)
+print_drawn_decimal(printer *p, const char *digits, size_t n, uint64_t places, bool small)
 {
     qdot_formula *f = p->out;
     size_t from = f->text.n;
@@ -282,7 +283,7 @@ print_drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool
     row = qdot_formula_add(f, power, QDOT_FORMULA_ROW, 0, 0);
     qdot_formula_add_sign(f, row, QDOT_SIGN_NEGATIVE);
     from = f->text.n;
-    qdot_text_format(&f->text, "%lu", places - n + 1);
+    qdot_text_format(&f->text, "%" PRIu64, places - n + 1);
     qdot_formula_add_tail(f, row, QDOT_TEXT_NUMBER, from);
 }
 

@@ -521,12 +521,12 @@ print_unit(printer *p, qdot_dimension unit)
 static bool
 print_binary_fraction(printer *p, const fmpq *x)
 {
-    const slong k = fmpz_fits_si(fmpq_denref(x)) ? __builtin_ctzl((unsigned long)fmpz_get_si(fmpq_denref(x))) : 0;
+    const slong k = fmpz_fits_si(fmpq_denref(x)) ? __builtin_ctzll((uint64_t)fmpz_get_si(fmpq_denref(x))) : 0;
     qdot_text digits = {0};
     char *all;
     fmpz_t n;
 
-    if (k < 1 || k > 9 || !qdot_integer_is(fmpq_denref(x), 1L << k) || fmpz_sizeinbase(fmpq_numref(x), 10) > 30)
+    if (k < 1 || k > 9 || !qdot_integer_is(fmpq_denref(x), 1 << k) || fmpz_sizeinbase(fmpq_numref(x), 10) > 30)
         return false;
     fmpz_init(n);
     fmpz_abs(n, fmpq_numref(x));

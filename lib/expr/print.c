@@ -14,6 +14,7 @@
 #include "expr/printed.h"
 #include "expr/walk.h"
 #include "formula/write.h"
+#include "num/integer.h"
 
 /* --- printing sums ---------------------------------------------------------------------------- */
 
@@ -177,25 +178,25 @@ order_terms(const printer *p, qdot_expr e, bool turned, uint32_t *order)
 }
 
 /* The degree of b^x in the expansion symbols: b one of them or a sum that contains one, x an integer. */
-static long
+static int64_t
 degree_of_power(const printer *p, qdot_expr b, qdot_expr x)
 {
     const fmpq *k = qdot_expr_rational(p->pool, x);
     uint8_t kind = NODE(p->pool, b)->kind;
 
     if ((kind != QDOT_SYM && kind != QDOT_SUM) || k == NULL ||
-        !fmpz_is_one(fmpq_denref(k)) || !fmpz_fits_si(fmpq_numref(k)))
+        !fmpz_is_one(fmpq_denref(k)) || !qdot_integer_fits(fmpq_numref(k)))
         return 0;
     for (uint32_t i = 0; i < NODE(p->pool, p->ascending)->n; i++)
         if (qdot_expr_contains(p->pool, b, ARGS(p->pool, p->ascending)[i]))
-            return fmpz_get_si(fmpq_numref(k));
+            return qdot_integer_get(fmpq_numref(k));
     return 0;
 }
 
-static long
+static int64_t
 degree_of_term(const printer *p, qdot_expr term)
 {
-    long sum = 0;
+    int64_t sum = 0;
 
     if (NODE(p->pool, term)->kind != QDOT_PROD)
         return degree_of_power(p, term, QDOT_ONE);
@@ -214,7 +215,7 @@ order_terms_by_degree(const printer *p, qdot_expr e, uint32_t *order)
     if (args[0] != QDOT_ZERO)
         order[count++] = 0;
     for (uint32_t i = 1; i < n; i += 2) {
-        long of = degree_of_term(p, args[i]);
+        int64_t of = degree_of_term(p, args[i]);
         uint32_t k = count++;
 
         for (; k > 0 && (order[k - 1] == 0 ? 0 : degree_of_term(p, args[order[k - 1]])) > of; k--)

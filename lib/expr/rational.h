@@ -16,7 +16,10 @@
 
 #include <flint/fmpq.h>
 
-/* Numbers up to 2^30 are small: products of two, and their sums, fit into FLINT's small integers. */
+#include "num/integer.h"
+
+/* Numbers up to 2^30 are small: products of two, and their sums, have less than 62 bits and are small integers of FLINT, too,
+ * where its words have 64 bits. */
 #define QDOT_SMALL (INT64_C(1) << 30)
 
 static inline bool
@@ -42,10 +45,15 @@ qdot_rational_make(fmpq *y, int64_t n, int64_t d)
         n /= (int64_t)b;
         d /= (int64_t)b;
     }
+#if FLINT_BITS == 64
     _fmpz_demote(&y->num);
     _fmpz_demote(&y->den);
     y->num = n;
     y->den = d;
+#else
+    qdot_integer_set(&y->num, n);
+    qdot_integer_set(&y->den, d);
+#endif
 }
 
 static inline void
@@ -64,7 +72,7 @@ static inline void
 qdot_rational_mul(fmpq *y, const fmpq *a, const fmpq *b)
 {
     if (qdot_rational_is_small(a) && qdot_rational_is_small(b))
-        qdot_rational_make(y, a->num * b->num, a->den * b->den);
+        qdot_rational_make(y, (int64_t)a->num * b->num, (int64_t)a->den * b->den);
     else
         fmpq_mul(y, a, b);
 }
@@ -73,7 +81,7 @@ static inline void
 qdot_rational_add(fmpq *y, const fmpq *a, const fmpq *b)
 {
     if (qdot_rational_is_small(a) && qdot_rational_is_small(b))
-        qdot_rational_make(y, a->num * b->den + b->num * a->den, a->den * b->den);
+        qdot_rational_make(y, (int64_t)a->num * b->den + (int64_t)b->num * a->den, (int64_t)a->den * b->den);
     else
         fmpq_add(y, a, b);
 }
@@ -99,15 +107,15 @@ qdot_rational_gcd(fmpq *y, const fmpq *a, const fmpq *b)
         fmpq_gcd(y, a, b);
         return;
     }
-    u = (a->num < 0 ? -a->num : a->num) * b->den;
-    v = (b->num < 0 ? -b->num : b->num) * a->den;
+    u = (int64_t)(a->num < 0 ? -a->num : a->num) * b->den;
+    v = (int64_t)(b->num < 0 ? -b->num : b->num) * a->den;
     while (v != 0) {
         int64_t rest = u % v;
 
         u = v;
         v = rest;
     }
-    qdot_rational_make(y, u, a->den * b->den);
+    qdot_rational_make(y, u, (int64_t)a->den * b->den);
 }
 
 static inline int
@@ -120,7 +128,7 @@ static inline int
 qdot_rational_cmp(const fmpq *a, const fmpq *b)
 {
     if (qdot_rational_is_small(a) && qdot_rational_is_small(b)) {
-        int64_t x = a->num * b->den, y = b->num * a->den;
+        const int64_t x = (int64_t)a->num * b->den, y = (int64_t)b->num * a->den;
 
         return (x > y) - (x < y);
     }
@@ -133,13 +141,6 @@ qdot_rational_equal(const fmpq *a, const fmpq *b)
     if (COEFF_IS_MPZ(a->num) || COEFF_IS_MPZ(a->den))
         return fmpq_equal(a, b);
     return a->num == b->num && a->den == b->den; /* a is small, and FLINT stores a small number in only one way */
-}
-
-/* Whether the integer x equals k, where |k| < 2^62. */
-static inline bool
-qdot_integer_is(const fmpz_t x, int64_t k)
-{
-    return *x == k;
 }
 
 #endif

@@ -37,7 +37,7 @@ qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
         return true;
     }
     if (!fmpz_fits_si(n) ||
-        (ulong)labs(fmpz_get_si(n)) > QDOT_MAX_BITS / (bits > 1 ? bits - 1 : 1)) {
+        (ulong)llabs(fmpz_get_si(n)) > QDOT_MAX_BITS / (bits > 1 ? bits - 1 : 1)) {
         qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
         return false;
     }
@@ -117,7 +117,7 @@ qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
     fmpq_init(rest);
     small = fmpz_cmp_ui(fmpq_denref(e), LARGEST_ROOT) <= 0;
     q = small ? fmpz_get_ui(fmpq_denref(e)) : 0;
-    small = small && (ulong)(fmpz_bits(fmpq_numref(b)) + fmpz_bits(fmpq_denref(b))) * q <=
+    small = small && (uint64_t)(fmpz_bits(fmpq_numref(b)) + fmpz_bits(fmpq_denref(b))) * q <=
                          QDOT_MAX_BITS;
     fmpz_fdiv_qr(whole, part, fmpq_numref(e), fmpq_denref(e));
     good = qdot_number_power(pool, c, b, whole);
@@ -138,7 +138,7 @@ qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
             q = reduce_degree_of_root(inside, q);
             fmpq_set_fmpz(rest, inside);
             *base = qdot_expr_fmpq(pool, rest);
-            *exponent = qdot_expr_ratio(pool, 1, (long)q);
+            *exponent = qdot_expr_ratio(pool, 1, (int64_t)q);
         }
     }
     fmpq_clear(rest);

@@ -190,7 +190,7 @@ qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
 }
 
 qdot_expr
-qdot_pow_int(qdot_pool *pool, qdot_expr a, long n)
+qdot_pow_int(qdot_pool *pool, qdot_expr a, int64_t n)
 {
     return qdot_pow(pool, a, qdot_expr_int(pool, n));
 }

@@ -1,6 +1,7 @@
 /* tensor.c -- arithmetic on scalars, vectors, matrices, lists and equations. */
 #include "expr/tensor.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "expr/build.h"
@@ -218,7 +219,7 @@ qdot_value_div(qdot_pool *pool, qdot_expr a, qdot_expr b)
 qdot_expr
 qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    long n;
+    int64_t n;
     qdot_expr result = QDOT_NIL;
 
     if (!check_operands(pool, a, b))
@@ -229,7 +230,7 @@ qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot raise %s to the power of %s",
                                 name_of_kind(pool, a), name_of_kind(pool, b));
     if (n < -1000000 || n > 1000000)
-        return qdot_pool_refuse(pool, QDOT_ELIMIT, "the power %ld of a matrix", n);
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "the power %" PRId64 " of a matrix", n);
     if (n < 0) {
         a = qdot_inverse(pool, a);
         n = -n;
@@ -499,7 +500,7 @@ qdot_inverse(qdot_pool *pool, qdot_expr a)
 /* --- entries of vectors and matrices ------------------------------------------------------------ */
 
 qdot_expr
-qdot_entry(qdot_pool *pool, qdot_expr a, long i)
+qdot_entry(qdot_pool *pool, qdot_expr a, int64_t i)
 {
     const qdot_node *node;
 
@@ -511,8 +512,8 @@ qdot_entry(qdot_pool *pool, qdot_expr a, long i)
     if (node->kind == QDOT_MAT) {
         uint32_t columns = node->op;
 
-        if (i < 1 || (unsigned long)i > node->n / columns)
-            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "row %ld of a matrix of %u rows",
+        if (i < 1 || (uint64_t)i > node->n / columns)
+            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "row %" PRId64 " of a matrix of %u rows",
                                     i, node->n / columns);
         return columns > 1 ? qdot_vector(pool, columns, ARGS(pool, a) + (i - 1) * columns)
                            : ARGS(pool, a)[i - 1];
@@ -520,15 +521,15 @@ qdot_entry(qdot_pool *pool, qdot_expr a, long i)
     if (node->kind != QDOT_VEC && node->kind != QDOT_LIST)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "%s has no entries",
                                 name_of_kind(pool, a));
-    if (i < 1 || (unsigned long)i > node->n)
+    if (i < 1 || (uint64_t)i > node->n)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN,
-                                "entry %ld of %s of %u: they are counted from 1", i,
+                                "entry %" PRId64 " of %s of %u: they are counted from 1", i,
                                 name_of_kind(pool, a), node->n);
     return ARGS(pool, a)[i - 1];
 }
 
 qdot_expr
-qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j)
+qdot_entry2(qdot_pool *pool, qdot_expr a, int64_t i, int64_t j)
 {
     uint32_t rows, columns;
 
@@ -540,10 +541,10 @@ qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j)
         return QDOT_NIL;
     columns = NODE(pool, a)->op;
     rows = NODE(pool, a)->n / columns;
-    if (i < 1 || j < 1 || (unsigned long)i > rows || (unsigned long)j > columns)
+    if (i < 1 || j < 1 || (uint64_t)i > rows || (uint64_t)j > columns)
         return qdot_pool_refuse(
             pool, QDOT_EDOMAIN,
-            "entry [%ld, %ld] of a %ux%u matrix: they are counted from 1", i, j, rows,
+            "entry [%" PRId64 ", %" PRId64 "] of a %ux%u matrix: they are counted from 1", i, j, rows,
             columns);
     return ARGS(pool, a)[(i - 1) * columns + j - 1];
 }

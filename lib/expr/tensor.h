@@ -24,8 +24,8 @@ qdot_expr qdot_trace(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_det(qdot_pool *pool, qdot_expr a);     /* computed without fractions if possible */
 qdot_expr qdot_inverse(qdot_pool *pool, qdot_expr a); /* inverse as adjugate / det; fails with QDOT_ESINGULAR for det = 0 */
 /* The i-th entry of a value, counted from 1; QDOT_EDOMAIN, with the allowed range, if there is none. */
-qdot_expr qdot_entry(qdot_pool *pool, qdot_expr a, long i);
-qdot_expr qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j);
+qdot_expr qdot_entry(qdot_pool *pool, qdot_expr a, int64_t i);
+qdot_expr qdot_entry2(qdot_pool *pool, qdot_expr a, int64_t i, int64_t j);
 
 /* Apply f to every scalar inside a value (vector, matrix, list, relation or logical expression). */
 qdot_expr qdot_value_map(qdot_pool *pool, qdot_expr e,

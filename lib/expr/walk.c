@@ -223,7 +223,7 @@ compute_heights(qdot_walk *w)
         w->value[k] = height;
         most = height > most ? height : most;
     }
-    return most;
+    return (size_t)most;
 }
 
 qdot_status

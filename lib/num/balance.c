@@ -26,7 +26,7 @@ qdot_balance(size_t n, const double *A, double *d)
                 }
             if (!(row > 0) || !(column > 0) || !isfinite(row / column))
                 continue;
-            power = (int)lround(0.5 * log2(row / column));
+            power = (int)llround(0.5 * log2(row / column));
             if (power == 0)
                 continue;
             d[i] = ldexp(d[i], power);

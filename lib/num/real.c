@@ -1,6 +1,7 @@
 /* real.c -- arrays of MPFR numbers (of any precision), sums of products, linear equations. */
 #include "num/real.h"
 
+#include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -28,8 +29,8 @@ qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits)
 
     *v = (qdot_reals){0};
     if (bits < MPFR_PREC_MIN || bits > 1 << 24)
-        return qdot_fail(QDOT_EINVAL, "a precision of %ld bits is out of range",
-                         (long)bits);
+        return qdot_fail(QDOT_EINVAL, "a precision of %" PRId64 " bits is out of range",
+                         (int64_t)bits);
     bits = round_to_whole_limbs(bits);
     per = (size_t)bits / GMP_NUMB_BITS;
     v->at = qdot_calloc(n + 1, sizeof *v->at);
@@ -56,7 +57,7 @@ qdot_reals_clear(qdot_reals *v)
 double
 qdot_real_log2(mpfr_srcptr x)
 {
-    long exponent;
+    mpfr_exp_t exponent;
     double m;
 
     if (!mpfr_number_p(x))
@@ -116,7 +117,7 @@ set_sum(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
         mpfr_set_zero(sum, 1);
         return;
     }
-    zeros = (unsigned)__builtin_clzl(acc[m - 1]);
+    zeros = (unsigned)__builtin_clzll(acc[m - 1]);
     if (zeros > 0)
         mpn_lshift(acc, acc, (mp_size_t)m, zeros);
     if (m >= limbs)

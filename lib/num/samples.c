@@ -364,30 +364,30 @@ qdot_samples_add(const qdot_samples_given *given, int *number)
 
 /* --- reading ---------------------------------------------------------------------------- */
 
-long
+int64_t
 qdot_samples_piece(int number, int axis_)
 {
-    return (long)number * ITEMS + PIECE + axis_;
+    return (int64_t)number * ITEMS + PIECE + axis_;
 }
 
-long
+int64_t
 qdot_samples_knot(int number, int axis_)
 {
-    return (long)number * ITEMS + KNOT + axis_;
+    return (int64_t)number * ITEMS + KNOT + axis_;
 }
 
-long
+int64_t
 qdot_samples_coefficient(int number, int i, int j)
 {
-    return (long)number * ITEMS + COEFFICIENT + 4 * i + j;
+    return (int64_t)number * ITEMS + COEFFICIENT + 4 * i + j;
 }
 
-long
+int64_t
 qdot_samples_width(int number)
 {
     const table *t = tables[number];
 
-    return (long)t->axis[1].n + 1;
+    return (int64_t)t->axis[1].n + 1;
 }
 
 /* The number of knots that are not beyond u, within the range: by where u is in it, which is right for equal distances,

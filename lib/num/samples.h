@@ -24,6 +24,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 
@@ -45,10 +46,10 @@ QDOT_MUST_CHECK qdot_status qdot_samples_add(const qdot_samples_given *given, in
 
 /* Handles of table `number`: of the piece along an axis that holds a place; of its knot, by the number of the piece; of a
  * coefficient of w^i v^j, by the number of the piece, or of two arguments by (piece of x) * qdot_samples_width + (piece of y). */
-long qdot_samples_piece(int number, int axis);
-long qdot_samples_knot(int number, int axis);
-long qdot_samples_coefficient(int number, int i, int j);
-long qdot_samples_width(int number);
+int64_t qdot_samples_piece(int number, int axis);
+int64_t qdot_samples_knot(int number, int axis);
+int64_t qdot_samples_coefficient(int number, int i, int j);
+int64_t qdot_samples_width(int number);
 
 /* lookup(x, handle). Of the handle of an axis' pieces, x is a place on the axis, and the result is the number of the piece that
  * holds it. Of a handle of knots or coefficients, x is the number of a piece, and the result is its knot or its coefficient.

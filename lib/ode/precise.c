@@ -179,13 +179,13 @@ precise_evaluate(const qdot_precise_system *system, int p, mpfr_srcptr h, mpfr_t
 
         mpfr_set(y[i], x[p], RN);
         if (slope)
-            mpfr_mul_ui(slope[i], x[p], (unsigned long)p, RN);
+            mpfr_mul_ui(slope[i], x[p], (uint64_t)p, RN);
         for (int k = p - 1; k >= 0; k--) {
             mpfr_mul(y[i], y[i], h, RN);
             mpfr_add(y[i], y[i], x[k], RN);
             if (slope && k > 0) {
                 mpfr_mul(slope[i], slope[i], h, RN);
-                mpfr_mul_ui(w, x[k], (unsigned long)k, RN);
+                mpfr_mul_ui(w, x[k], (uint64_t)k, RN);
                 mpfr_add(slope[i], slope[i], w, RN);
             }
         }
@@ -200,7 +200,7 @@ sample_step_in_doubles(const state *s)
     const qdot_precise_system *system = s->system;
     double *to = s->run->inside
                  + (s->run->count - 1) * QDOT_PRECISE_INSIDE * (s->n + 1);
-    long e;
+    mpfr_exp_t e;
     const double m = mpfr_get_d_2exp(&e, s->h, RN), t = mpfr_get_d(s->t, RN);
 
     for (int i = 1; i <= QDOT_PRECISE_INSIDE; i++, to += s->n + 1) {
@@ -212,7 +212,7 @@ sample_step_in_doubles(const state *s)
             double y = 0;
 
             for (int k = s->p; k >= 0; k--) {
-                long exponent;
+                mpfr_exp_t exponent;
                 double c = mpfr_get_d_2exp(&exponent, x[k], RN);
 
                 y = y * part * m
@@ -335,7 +335,7 @@ set_step_end(state *s, double log2_h)
         double whole = floor(log2_h);
 
         mpfr_set_d(s->h, s->direction * floor(exp2(log2_h - whole + 20)), RN);
-        mpfr_mul_2si(s->h, s->h, (long)whole - 20, RN);
+        mpfr_mul_2si(s->h, s->h, (mpfr_exp_t)whole - 20, RN);
     }
     mpfr_add(s->end, s->t, s->h, RN);
     mpfr_sub(s->h, s->end, s->t, RN);

@@ -38,7 +38,7 @@ typedef struct qdot_worker {
 size_t
 qdot_workers_processors(void)
 {
-    long n;
+    int64_t n;
 
 #ifdef CPU_COUNT
     cpu_set_t set;

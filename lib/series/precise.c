@@ -142,7 +142,7 @@ evaluate_step(qdot_precise *precise, const qdot_program_step *i, int k)
 #define PAIR(r, s, a, b, c) SUM(r, a, b, 1, 0) SUM(s, a, c, 1, 0)
 #define SQUARED(r, a, from) convolve_square(precise, r, ROW(a), k, from);
 #include "series/precise.def"
-    case QDOT_T_RATE: mpfr_mul_ui(ROW(to)[k], ROW(x)[k + 1], (unsigned long)k + 1, RN);
+    case QDOT_T_RATE: mpfr_mul_ui(ROW(to)[k], ROW(x)[k + 1], (uint64_t)k + 1, RN);
     }
 }
 
@@ -175,9 +175,9 @@ precise_integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcp
     mpfr_ptr once = precise_at(p, u->once, k + 1), twice = precise_at(p, u->twice, k + 2);
 
     if (once)
-        mpfr_div_ui(once, a, (unsigned long)k + 1, RN);
+        mpfr_div_ui(once, a, (uint64_t)k + 1, RN);
     if (once && twice)
-        mpfr_div_ui(twice, once, (unsigned long)k + 2, RN);
+        mpfr_div_ui(twice, once, (uint64_t)k + 2, RN);
 }
 
 static void
@@ -239,7 +239,7 @@ change_of_step(qdot_precise *precise, const qdot_program_step *i, int k)
     mpfr_mul(r, ROW(a)[0], note_##a, RN);                                                \
     mpfr_mul_ui(r, r, (from) > 0 ? 0 : 2, RN);
 #include "series/precise.def"
-    case QDOT_T_RATE: mpfr_mul_ui(note_to, note_x, (unsigned long)k + 1, RN);
+    case QDOT_T_RATE: mpfr_mul_ui(note_to, note_x, (uint64_t)k + 1, RN);
     }
 }
 
@@ -266,9 +266,9 @@ record_change_of_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_src
     if (u->row != QDOT_NO_ROW)
         mpfr_set(note[u->row], d, RN);
     if (u->once != QDOT_NO_ROW)
-        mpfr_div_ui(note[u->once], d, (unsigned long)k + 1, RN);
+        mpfr_div_ui(note[u->once], d, (uint64_t)k + 1, RN);
     if (u->twice != QDOT_NO_ROW)
-        mpfr_div_ui(note[u->twice], note[u->once], (unsigned long)k + 2, RN);
+        mpfr_div_ui(note[u->twice], note[u->once], (uint64_t)k + 2, RN);
 }
 
 /* Compute the changes of the rows of all steps, or (all false) only of steps that later orders read. */

@@ -99,9 +99,8 @@ add_base64(qdot_text *out, const unsigned char *bytes, size_t n)
     size_t used = 0;
 
     for (size_t i = 0; i < n; i += 3) {
-        unsigned long three = (unsigned long)bytes[i] << 16 |
-                              (unsigned long)(i + 1 < n ? bytes[i + 1] : 0) << 8 |
-                              (unsigned long)(i + 2 < n ? bytes[i + 2] : 0);
+        const unsigned three = (unsigned)bytes[i] << 16 | (unsigned)(i + 1 < n ? bytes[i + 1] : 0) << 8 |
+                               (unsigned)(i + 2 < n ? bytes[i + 2] : 0);
 
         block[used++] = digit[three >> 18];
         block[used++] = digit[three >> 12 & 63];

@@ -3,6 +3,7 @@
  * Tics are listed one by one, so that they are the same whatever gnuplot's version, and differ
  * from each other however near the values are.
  */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,11 +76,11 @@ qdot_figure_add_pi(qdot_text *out, double x)
 {
     enum { PARTS = 12 };
     const double parts = round(x * PARTS / M_PI);
-    long above = labs((long)parts), below = PARTS;
+    int64_t above = llabs((int64_t)parts), below = PARTS;
 
     if (!(fabs(parts) < 1e9) || fabs(x * PARTS / M_PI - parts) > 1e-9 * fmax(1, fabs(parts)))
         return false;
-    for (long k = PARTS; k > 1; k--)
+    for (int64_t k = PARTS; k > 1; k--)
         if (above % k == 0 && below % k == 0) {
             above /= k;
             below /= k;
@@ -90,10 +91,10 @@ qdot_figure_add_pi(qdot_text *out, double x)
     }
     qdot_text_add(out, parts < 0 ? "−" : "");
     if (above > 1)
-        qdot_text_format(out, "%ld", above);
+        qdot_text_format(out, "%" PRId64, above);
     qdot_text_add(out, "π");
     if (below > 1)
-        qdot_text_format(out, "/%ld", below);
+        qdot_text_format(out, "/%" PRId64, below);
     return true;
 }
 

@@ -84,7 +84,7 @@ start_browser(char *const arguments[], pid_t *child)
 static qdot_status
 wait_for_browser(pid_t child)
 {
-    const struct timespec nap = {0, 1000000000L / A_SECOND};
+    const struct timespec nap = {0, 1000000000 / A_SECOND};
     int status = 0;
 
     for (int k = 0; k < SECONDS * A_SECOND; k++) {

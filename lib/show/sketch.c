@@ -15,7 +15,7 @@ typedef struct {
     unsigned char *looks; /* [rows x columns] 1 + the curve drawn there last, up to CURVES; 0: none */
     size_t look;          /* index of the curve being drawn */
     bool solid;           /* draw lines without gaps, as the curves differ by their marks */
-    long last[2], along;  /* the last dot drawn of a curve, and the number of dots before it */
+    int64_t last[2], along;  /* the last dot drawn of a curve, and the number of dots before it */
 } grid;
 
 /* Curves are told apart by dashes, in ASCII by marks, on a terminal with colours by colours. */
@@ -29,13 +29,13 @@ set_dot(grid *g, double x, double y)
 {
     static const unsigned char bits[DOWN][ACROSS] = {
         {0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
-    long i = lround(x), j = lround(y);
+    int64_t i = llround(x), j = llround(y);
 
     if (i != g->last[0] || j != g->last[1])
         g->along++;
     g->last[0] = i;
     g->last[1] = j;
-    if (i < 0 || j < 0 || i >= (long)(ACROSS * g->columns) || j >= (long)(DOWN * g->rows) ||
+    if (i < 0 || j < 0 || i >= (int64_t)(ACROSS * g->columns) || j >= (int64_t)(DOWN * g->rows) ||
         (!g->solid && dashes[g->look % LOOKS][g->along % DASHES] == ' '))
         return;
     g->cells[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] |= bits[j % DOWN][i % ACROSS];
@@ -235,7 +235,7 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
     const bool coloured = how->colours && (panel->n > 1 || panel->n_colours > 0);
     char ends[2][END_TEXT];
     qdot_text label = {0};
-    long free;
+    int64_t free;
 
     write_axis_ends(v->least[1], v->most[1], margin - 1, ends);
     if (named)
@@ -255,10 +255,10 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
         return;
     write_axis_ends(v->least[0], v->most[0], g->columns / 2 - 2, ends);
     sketch_add_axis_label(&label, panel, 0, how->ascii);
-    free = (long)g->columns - (long)strlen(ends[0]) - (long)strlen(ends[1]);
-    if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
+    free = (int64_t)g->columns - (int64_t)strlen(ends[0]) - (int64_t)strlen(ends[1]);
+    if (free < (int64_t)qdot_utf8_columns(qdot_text_str(&label), label.n))
         qdot_text_truncate(&label, 0); /* without room for both, leave out the label: the numbers are more important */
-    free = (long)fmax((double)free - (double)qdot_utf8_columns(qdot_text_str(&label), label.n), 0);
+    free = (int64_t)fmax((double)free - (double)qdot_utf8_columns(qdot_text_str(&label), label.n), 0);
     qdot_text_format(out, "%*s%s%*s%s%*s%s\n", (int)margin + 1, "", ends[0], (int)(free / 2 + 1), "",
                      qdot_text_str(&label), (int)(free - free / 2), "", ends[1]);
     out->failed = out->failed || label.failed;

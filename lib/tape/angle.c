@@ -13,7 +13,7 @@ enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 
 /* Cost of a call of sine and cosine, and of an addition formula: in operations for numbers; in products for Taylor series. */
 static const struct {
-    long call, addition;
+    int64_t call, addition;
 } number = {20, 6}, of_series = {2, 4};
 
 /* A base angle, unit * term, from which other angles are composed; term nil: a constant, at no cost. */
@@ -61,7 +61,7 @@ typedef struct {
 
 struct qdot_angles {
     qdot_pool *pool;
-    long call, addition; /* costs of calling a sine and cosine, and of an addition formula */
+    int64_t call, addition; /* costs of calling a sine and cosine, and of an addition formula */
     qdot_vec(part) parts;
     qdot_vec(argument) arguments;
     qdot_vec(base) bases;
@@ -196,10 +196,10 @@ common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
 }
 
 /* The number `coefficient` as an integer multiple of the unit; 0 if it is not a small integer multiple. */
-static long
+static int64_t
 multiple_of_unit(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 {
-    long k = 0;
+    int64_t k = 0;
 
     if (!qdot_expr_to_int(pool, qdot_div(pool, coefficient, unit), &k) || k < 1
         || k > MOST_MULTIPLE)
@@ -296,10 +296,10 @@ find_or_add_sums(qdot_angles *a)
 /* --- which arguments to compose ----------------------------------------------------- */
 
 /* Choose whether an argument is composed from base angles, or has its own sine call; returns the added cost. */
-static long
+static int64_t
 choose_composition(qdot_angles *a, argument *arg, bool composed)
 {
-    long change = composed ? -a->call : a->call;
+    int64_t change = composed ? -a->call : a->call;
     const uint32_t before = composed ? 0 : 1; /* number of uses with which an angle begins (or ceases) to cost something */
 
     if (arg->composed == composed)
@@ -309,7 +309,7 @@ choose_composition(qdot_angles *a, argument *arg, bool composed)
         angle_sum *sum = a->sums.at + s;
         multiple *m = a->multiples.at + sum->multiple;
         base *b = a->bases.at + m->base;
-        long cost = 0;
+        int64_t cost = 0;
 
         cost += sum->uses == before && sum->parent != NONE ? a->addition : 0;
         cost += m->uses == before && m->multiple > 1 ? a->addition : 0;
@@ -346,7 +346,7 @@ static bool
 is_cheaper_without_base(qdot_angles *a, uint32_t b, bool *changed)
 {
     size_t n = 0;
-    long change = 0;
+    int64_t change = 0;
 
     for (size_t i = 0; i < a->arguments.n; i++) {
         argument *arg = a->arguments.at + i;

@@ -130,7 +130,7 @@ qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine, qdot_value *co
 }
 
 qdot_value
-qdot_code_power(qdot_code *code, qdot_value a, long n)
+qdot_code_power(qdot_code *code, qdot_value a, int64_t n)
 {
     const unsigned char *chain = code->chain;
     struct {

@@ -55,7 +55,7 @@ void qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine,
                       qdot_value *cosine);
 /* a^n, n != 0, by the fewest multiplications a factor method finds; inverse powers by
  * 1/a. */
-qdot_value qdot_code_power(qdot_code *code, qdot_value a, long n);
+qdot_value qdot_code_power(qdot_code *code, qdot_value a, int64_t n);
 
 /* Make the finished tape from the code, with these values as outputs [m]. */
 QDOT_MUST_CHECK qdot_status qdot_code_finish(qdot_code *code, size_t m,

@@ -44,7 +44,7 @@ root(qdot_code *code, qdot_value x)
 }
 
 static qdot_value
-constant(qdot_code *code, long p, long q)
+constant(qdot_code *code, int64_t p, int64_t q)
 {
     return qdot_code_constant(code, qdot_expr_ratio(code->pool, p, q));
 }
@@ -80,7 +80,7 @@ share_of_second_kind(const means *w, qdot_value m)
     qdot_value sum = times(w->code, qdot_code_constant(w->code, QDOT_HALF), m);
 
     for (int n = 1; n <= STEPS; n++)
-        sum = added(w->code, sum, times(w->code, constant(w->code, 1L << (n - 1), 1), times(w->code, w->c[n], w->c[n])));
+        sum = added(w->code, sum, times(w->code, constant(w->code, INT64_C(1) << (n - 1), 1), times(w->code, w->c[n], w->c[n])));
     return sum;
 }
 
@@ -132,7 +132,7 @@ incomplete(const means *w, qdot_value phi, qdot_value *waves)
     }
     qdot_code_sincos(code, phi, &s, &c);
     *waves = added(code, *waves, times(code, w->c[STEPS], s));
-    return over(code, times(code, constant(code, 1, 1L << STEPS), phi), w->b[STEPS]);
+    return over(code, times(code, constant(code, 1, INT64_C(1) << STEPS), phi), w->b[STEPS]);
 }
 
 /* am(u, m). */
@@ -143,7 +143,7 @@ amplitude(const means *w, qdot_value u)
     const qdot_value half = qdot_code_constant(code, QDOT_HALF);
     /* b_N from b_N^2: no number for m = 1, where both means tend to 0 */
     const qdot_value limit = over(code, times(code, w->a[STEPS - 1], w->b[STEPS - 1]), w->b[STEPS]);
-    qdot_value phi = times(code, times(code, constant(code, 1L << STEPS, 1), limit), u);
+    qdot_value phi = times(code, times(code, constant(code, INT64_C(1) << STEPS, 1), limit), u);
 
     for (int n = STEPS; n > 0; n--) {
         qdot_value s, c, below;

@@ -194,7 +194,7 @@ record_denominator(quotients *q, qdot_expr b, qdot_expr p)
     qdot_pool *pool = q->pool;
     denominator *x = &q->under[q->n];
     qdot_expr own;
-    long whole;
+    int64_t whole;
 
     if (q->n == MOST || !is_negative_number(pool, p) || !read_sum_of_exponentials(pool, b, x) ||
         !(has_sign_flags(pool, x->c, QDOT_POS) || qdot_expr_to_int(pool, p, &whole)))
@@ -245,7 +245,7 @@ static qdot_expr rewrite_product(qdot_pool *pool, qdot_expr e, void *user);
 /* A term c cosh(u)^a sinh(u)^b with a, b >= 0; u nil: the constant c. */
 typedef struct {
     qdot_expr c, u;
-    long a, b;
+    int64_t a, b;
 } cosines;
 
 /* Whether base^exponent is a power k > 0 of cosh(u) or sinh(u) with the u of t; then k is added to t. */
@@ -253,7 +253,7 @@ static bool
 add_hyperbolic_power(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
 {
     const bool cosine = qdot_expr_is_function(pool, base, QDOT_COSH);
-    long k;
+    int64_t k;
 
     if ((!cosine && !qdot_expr_is_function(pool, base, QDOT_SINH)) || !qdot_expr_to_int(pool, exponent, &k) ||
         k < 1 || (t->u != QDOT_NIL && t->u != qdot_expr_arg(pool, base, 0)))
@@ -296,7 +296,7 @@ factor_out_cosh(qdot_pool *pool, qdot_expr e, factored *f)
 {
     const uint32_t n = qdot_expr_count(pool, e);
     qdot_expr u = QDOT_NIL, cosine, tangent;
-    long N = 0;
+    int64_t N = 0;
     cosines t;
 
     for (uint32_t i = 1; i + 1 < n; i += 2) {

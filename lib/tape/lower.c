@@ -203,7 +203,7 @@ multiply_product(lowering *l, product *p, qdot_value v)
 }
 
 /* Twice a rational exponent if that is an integer of moderate size; otherwise 0. */
-static long
+static int64_t
 twice_exponent(const qdot_pool *pool, qdot_expr exponent)
 {
     const fmpq *x = qdot_expr_rational(pool, exponent);
@@ -216,7 +216,7 @@ twice_exponent(const qdot_pool *pool, qdot_expr exponent)
 /* Multiply the numerator (over) or the denominator (under) by v^(half/2). */
 static void
 multiply_by_power(lowering *l, product *over, product *under, const known *k, qdot_value v,
-                  long half)
+                  int64_t half)
 {
     bool shared = k->negatives > 1;
     qdot_value root;
@@ -254,7 +254,7 @@ compile_product(lowering *l, qdot_expr e, known *k)
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
         bool constant = qdot_expr_is_constant(pool, b);
-        long half = twice_exponent(pool, p);
+        int64_t half = twice_exponent(pool, p);
 
         if (constant && qdot_expr_is_constant(pool, p))
             factor = qdot_mul(pool, factor, qdot_pow(pool, b, p));
@@ -291,7 +291,7 @@ count_negative_powers(lowering *l)
         if (qdot_expr_kind(l->pool, e) != QDOT_PROD)
             continue;
         for (uint32_t k = 1; k + 1 < n; k += 2) {
-            long half = twice_exponent(l->pool, qdot_expr_arg(l->pool, e, k + 1));
+            int64_t half = twice_exponent(l->pool, qdot_expr_arg(l->pool, e, k + 1));
             known *b = l->known + qdot_walk_index(&l->walk, qdot_expr_arg(l->pool, e, k));
 
             if (half < 0) {

@@ -98,7 +98,7 @@ qdot_unit_is_name(const char *text)
 
 /* 10^power as a rational number. */
 static void
-set_power_of_ten(fmpq_t x, long power)
+set_power_of_ten(fmpq_t x, int64_t power)
 {
     fmpz_t ten;
 
@@ -114,7 +114,7 @@ set_power_of_ten(fmpq_t x, long power)
 static void
 set_decimal(fmpq_t x, const char *text, const char *end)
 {
-    long power = 0;
+    int64_t power = 0;
     bool fraction = false;
     fmpq_t scale;
 
@@ -129,7 +129,7 @@ set_decimal(fmpq_t x, const char *text, const char *end)
         power -= fraction;
     }
     if (text < end)
-        power += strtol(text + 1, NULL, 10);
+        power += strtoll(text + 1, NULL, 10);
     fmpq_init(scale);
     set_power_of_ten(scale, power);
     fmpq_mul(x, x, scale);
@@ -206,7 +206,7 @@ fail_at(reader *r, const char *at, const char *message)
 
 /* Read digits, up to three of them. */
 static qdot_status
-unit_read_integer(reader *r, long *value)
+unit_read_integer(reader *r, int64_t *value)
 {
     const char *begin = r->at;
 
@@ -221,7 +221,7 @@ static qdot_status
 unit_read_exponent(reader *r, qdot_exponent *x)
 {
     const bool bracket = *r->at == '(';
-    long n, d = 1;
+    int64_t n, d = 1;
     bool minus;
 
     r->at += bracket;

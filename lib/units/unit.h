@@ -17,7 +17,7 @@
 
 typedef struct {
     fmpq_t factor;
-    long pi;         /* the power of pi beside the factor */
+    int64_t pi;         /* the power of pi beside the factor */
     bool angle;      /* it holds rad, deg ... : of its dimension a number, yet written */
     qdot_dimension dimension;
 } qdot_unit;

@@ -346,7 +346,7 @@ static void
 failing_memory_is_reported(void **state)
 {
     static const double t = 1;
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (bool done = false; !done; n += 1 + n / 50) {

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 #include <cmocka.h>
+#include <inttypes.h>
 
 #include "base/memory-failure.h"
 #include "base/memory.h"
@@ -70,7 +71,7 @@ static void
 the_nth_allocation_and_all_after_it_fail(void **state)
 {
     (void)state;
-    for (long n = 0; n < 6; n++) {
+    for (int64_t n = 0; n < 6; n++) {
         void *got[6], *old = qdot_malloc(4);
 
         qdot_memory_fail_at(n);
@@ -81,9 +82,9 @@ the_nth_allocation_and_all_after_it_fail(void **state)
         got[4] = qdot_realloc(old, 100);
         got[5] = qdot_malloc(1);
         qdot_memory_fail_at(-1);
-        for (long i = 0; i < 6; i++) {
+        for (int64_t i = 0; i < 6; i++) {
             if ((got[i] != NULL) != (i < n))
-                fail_msg("fail_at(%ld): allocation %ld is %p", n, i, got[i]);
+                fail_msg("fail_at(%" PRId64 "): allocation %" PRId64 " is %p", n, i, got[i]);
             if (i != 4)
                 qdot_free(got[i]);
         }

@@ -120,7 +120,7 @@ failing_memory_leaves_the_old_one(void **state)
 
     (void)state;
     assert_int_equal(qdot_sink_write("a", "old", 3), QDOT_OK);
-    for (long n = 0; status != QDOT_OK; n++) {
+    for (int64_t n = 0; status != QDOT_OK; n++) {
         assert_holds("a", "old");
         qdot_memory_fail_at(n);
         status = qdot_sink_write("a", "new", 3);

@@ -213,7 +213,7 @@ a_failed_append_marks_the_string_for_good(void **state)
     bool passed = false;
 
     (void)state;
-    for (long n = 0; !passed; n++) {
+    for (int64_t n = 0; !passed; n++) {
         qdot_text s = {0};
 
         assert_true(n < 100);

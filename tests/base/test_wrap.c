@@ -183,7 +183,7 @@ static void
 no_memory_is_told(void **state)
 {
     (void)state;
-    for (long k = 0;; k++) {
+    for (int64_t k = 0;; k++) {
         qdot_text out = {0};
         bool failed;
 

@@ -195,10 +195,10 @@ groups_are_a_basis(void **state)
         assert_int_equal(count, n - rank);
         for (size_t k = 0; k < count; k++)
             for (int b = 0; b < 3; b++) {
-                long sum = 0;
+                int64_t sum = 0;
 
                 for (size_t i = 0; i < n; i++)
-                    sum += (long)power[k * n + i] * exponent[i][b];
+                    sum += (int64_t)power[k * n + i] * exponent[i][b];
                 assert_int_equal(sum, 0);
             }
         qdot_free(power);

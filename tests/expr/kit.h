@@ -34,7 +34,7 @@ close_place(void **state)
 #define MOVED_TEST(f) cmocka_unit_test_setup_teardown(f, open_moved_place, close_place)
 
 static inline qdot_expr
-number(long n, long d)
+number(int64_t n, int64_t d)
 {
     return qdot_expr_ratio(p.pool, n, d);
 }

@@ -66,7 +66,7 @@ read_call(reader *r, const char *name, uint32_t primes)
     if (strcmp(name, "sqrt") == 0)
         return qdot_sqrt(r->pool, args[0]);
     if (strcmp(name, "diff") == 0) {
-        long times = 1;
+        int64_t times = 1;
 
         if (n == 3)
             assert_true(qdot_expr_to_int(r->pool, args[2], &times));

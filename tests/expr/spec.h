@@ -12,6 +12,7 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include <inttypes.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -148,7 +149,7 @@ typedef enum {
 
 typedef struct {
     operation op;
-    long p, q; /* NUMBER p/q; SYMBOL p; POWER ^p; ROOT ^(p/q); CALL function p */
+    int64_t p, q; /* NUMBER p/q; SYMBOL p; POWER ^p; ROOT ^(p/q); CALL function p */
     int a, b;  /* operands: earlier steps */
 } step;
 
@@ -177,16 +178,16 @@ formula_random(int n, int mode)
             s->op = TIMES;
         s->a = i > 0 ? (int)random_below((uint32_t)i) : 0;
         s->b = i > 0 ? (int)random_below((uint32_t)i) : 0;
-        s->p = (long)random_below(7) - 3;
-        s->q = 1 + (long)random_below(4);
+        s->p = (int64_t)random_below(7) - 3;
+        s->q = 1 + (int64_t)random_below(4);
         if (s->op == SYMBOL)
-            s->p = (long)random_below(SYMBOLS);
+            s->p = (int64_t)random_below(SYMBOLS);
         if (s->op == ROOT)
-            s->q = 2 + (long)random_below(3);
+            s->q = 2 + (int64_t)random_below(3);
         if (s->op == CALL)
             s->p = mode == SMOOTH
-                       ? (long)smooth[random_below(sizeof smooth / sizeof *smooth)]
-                       : (long)random_below(QDOT_FUNCTION_COUNT - 1 - (QDOT_ABS - QDOT_ELLIPTIC_K));
+                       ? (int64_t)smooth[random_below(sizeof smooth / sizeof *smooth)]
+                       : (int64_t)random_below(QDOT_FUNCTION_COUNT - 1 - (QDOT_ABS - QDOT_ELLIPTIC_K));
         if (s->op == CALL && s->p >= QDOT_ELLIPTIC_K) /* elliptic integrals and functions have a test of their own */
             s->p += QDOT_ABS - QDOT_ELLIPTIC_K;
     }
@@ -264,7 +265,7 @@ formula_show(const formula *f, const long double *v)
                                         "/",      "power",  "root", "call"};
 
     for (int i = 0; i < f->n; i++)
-        print_error("%2d: %s p=%ld q=%ld of %d, %d -> %.12Lg\n", i, names[f->at[i].op],
+        print_error("%2d: %s p=%" PRId64 " q=%" PRId64 " of %d, %d -> %.12Lg\n", i, names[f->at[i].op],
                     f->at[i].p, f->at[i].q, f->at[i].a, f->at[i].b, v[i]);
 }
 

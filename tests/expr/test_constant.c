@@ -46,16 +46,16 @@ rationals_round_to_nearest(void **state)
 
     (void)state;
     mpfr_init2(x, 53);
-    for (long p = -500; p < 500; p += 7)
-        for (long q = 1; q < 1000; q += 31) {
+    for (int64_t p = -500; p < 500; p += 7)
+        for (int64_t q = 1; q < 1000; q += 31) {
             mpfr_set_si(x, p, MPFR_RNDN);
             mpfr_div_si(x, x, q, MPFR_RNDN);
             assert_true(constant(pool, qdot_expr_ratio(pool, p, q))
                         == mpfr_get_d(x, MPFR_RNDN));
         }
     /* up to what a double holds and beyond, with what it leaves */
-    for (long k = 0; k < 200; k++) {
-        const long p = ((1L << 57) - 1) / (k + 1) - 7 * k, q = 1000000000000 + 13 * k;
+    for (int64_t k = 0; k < 200; k++) {
+        const int64_t p = ((INT64_C(1) << 57) - 1) / (k + 1) - 7 * k, q = 1000000000000 + 13 * k;
         double value, low;
         int side;
 
@@ -101,7 +101,7 @@ functions_round_to_nearest(void **state)
     mpfr_init2(x, 300);
     mpfr_init2(y, 300);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        for (long n = 1; n < 40; n++) {
+        for (int64_t n = 1; n < 40; n++) {
             mpfr_set_d(x, (double)n / 8, MPFR_RNDN);
             rows[i].f(y, x, MPFR_RNDN);
             if (mpfr_nan_p(y) || mpfr_inf_p(y))

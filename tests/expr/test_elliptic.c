@@ -24,7 +24,7 @@ double_at(qdot_fun_id f, uint32_t n, const double *x)
 
 /* f at x [n] eighths, args[i] moved by h; NAN where it is not defined. */
 static long double
-value_at(qdot_fun_id f, uint32_t n, const long *x, uint32_t i, double h)
+value_at(qdot_fun_id f, uint32_t n, const int64_t *x, uint32_t i, double h)
 {
     arb_t arg[3], y;
     const arb_struct *at[3];
@@ -36,7 +36,7 @@ value_at(qdot_fun_id f, uint32_t n, const long *x, uint32_t i, double h)
         at[k] = arg[k];
         if (k >= n)
             continue;
-        arb_set_si(arg[k], x[k]);
+        arb_set_si(arg[k], (slong)x[k]);
         arb_mul_2exp_si(arg[k], arg[k], -3);
         if (k == i) {
             arb_set_d(y, h);
@@ -54,10 +54,10 @@ value_at(qdot_fun_id f, uint32_t n, const long *x, uint32_t i, double h)
 
 /* Random arguments in eighths: angles and parameters of both signs. */
 static void
-choose_arguments(long *x)
+choose_arguments(int64_t *x)
 {
     for (int k = 0; k < 3; k++)
-        x[k] = (long)random_below(160) - 100;
+        x[k] = (int64_t)random_below(160) - 100;
 }
 
 static void
@@ -68,7 +68,7 @@ doubles_agree_with_balls(void **state)
     (void)state;
     for (int trial = 0; trial < 6000; trial++) {
         const int k = trial % KINDS;
-        long x[3];
+        int64_t x[3];
         double d[3], seen;
         long double wanted;
 
@@ -103,7 +103,7 @@ derivatives_are_limits_of_differences(void **state)
         qdot_expr derivative;
         long double far, near_;
         double d[3], seen;
-        long x[3];
+        int64_t x[3];
 
         choose_arguments(x);
         for (uint32_t j = 0; j < 3; j++) {

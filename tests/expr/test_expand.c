@@ -7,7 +7,7 @@ holds_brackets(qdot_expr e)
 {
     qdot_walk w;
     bool found = false;
-    long k;
+    int64_t k;
 
     assert_int_equal(qdot_walk_begin(p.pool, e, &w), QDOT_OK);
     for (size_t i = 0; i < w.n; i++)
@@ -101,7 +101,7 @@ coefficients_rebuild_the_polynomial(void **state)
         qdot_expr c[5], e = QDOT_ZERO;
 
         for (int i = 0; i < 5; i++) {
-            c[i] = qdot_mul(p.pool, qdot_expr_int(p.pool, (long)random_below(5) - 2),
+            c[i] = qdot_mul(p.pool, qdot_expr_int(p.pool, (int64_t)random_below(5) - 2),
                             p.symbol[random_below(3)]);
             e = qdot_add(p.pool, e, qdot_mul(p.pool, c[i], qdot_pow_int(p.pool, x, i)));
         }

@@ -11,7 +11,7 @@ call(qdot_fun_id id, qdot_expr x)
 }
 
 static qdot_expr
-of_pi(long n, long d)
+of_pi(int64_t n, int64_t d)
 {
     return qdot_mul(p.pool, qdot_expr_ratio(p.pool, n, d), QDOT_PI);
 }
@@ -27,7 +27,7 @@ twelfths_of_pi_have_exact_values(void **state)
 {
     (void)state;
     for (int id = QDOT_SIN; id <= QDOT_COT; id++)
-        for (long k = -30; k <= 30; k++) {
+        for (int64_t k = -30; k <= 30; k++) {
             bool pole = ((id == QDOT_TAN || id == QDOT_SEC) && (k - 6) % 12 == 0) ||
                         ((id == QDOT_CSC || id == QDOT_COT) && k % 12 == 0);
             long double x = k * acosl(-1) / 12;
@@ -48,13 +48,13 @@ static void
 inverse_functions_know_the_twelfths(void **state)
 {
     (void)state;
-    for (long k = -6; k <= 6; k++) {
+    for (int64_t k = -6; k <= 6; k++) {
         qdot_expr angle = of_pi(k, 12);
 
         assert_int_equal(call(QDOT_ASIN, call(QDOT_SIN, angle)), angle);
         assert_int_equal(call(QDOT_ACOS, call(QDOT_SIN, angle)),
                          qdot_sub(p.pool, of_pi(1, 2), angle));
-        if (labs(k) < 6)
+        if (llabs(k) < 6)
             assert_int_equal(call(QDOT_ATAN, call(QDOT_TAN, angle)), angle);
     }
 }
@@ -66,7 +66,7 @@ a_quarter_turn_changes_the_function(void **state)
 
     (void)state;
     for (int id = QDOT_SIN; id <= QDOT_COT; id++)
-        for (long k = -9; k <= 9; k++) {
+        for (int64_t k = -9; k <= 9; k++) {
             qdot_expr e = call((qdot_fun_id)id, qdot_add(p.pool, x, of_pi(k, 2)));
             long double at = p.value[5] + k * acosl(-1) / 2;
 

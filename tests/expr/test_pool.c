@@ -1,6 +1,8 @@
 /* test_pool.c -- the pool: interning, the first cause, symbols, budget, Ctrl-C, no memory. */
 #include "expr/kit.h"
 
+#include <inttypes.h>
+
 static void
 first_ids_are_the_constants(void **state)
 {
@@ -43,7 +45,7 @@ numbers_stay_where_they_are(void **state)
     const fmpq *small_one = qdot_expr_rational(p.pool, third), *large_one = qdot_expr_rational(p.pool, big);
 
     (void)state;
-    for (long i = 0; i < 50000; i++)
+    for (int64_t i = 0; i < 50000; i++)
         (void)qdot_expr_ratio(p.pool, i, 100003);
     assert_ptr_equal(qdot_expr_rational(p.pool, third), small_one);
     assert_ptr_equal(qdot_expr_rational(p.pool, big), large_one);
@@ -57,7 +59,7 @@ numbers_are_interned_by_value(void **state)
     qdot_expr big = qdot_pow_int(p.pool, qdot_expr_int(p.pool, 10), 50);
 
     (void)state;
-    for (long i = 0; i < 100000; i++) {
+    for (int64_t i = 0; i < 100000; i++) {
         qdot_expr a = qdot_expr_ratio(p.pool, i - 5000, 1 + i % 7);
         qdot_expr b = qdot_add(p.pool, big, a);
 
@@ -272,7 +274,7 @@ workload(qdot_pool *pool)
 static void
 no_memory_is_told_wherever_it_happens(void **state)
 {
-    long n = 0;
+    int64_t n = 0;
     bool passed = false;
 
     (void)state;
@@ -286,7 +288,7 @@ no_memory_is_told_wherever_it_happens(void **state)
             status = workload(pool);
         qdot_memory_fail_at(-1);
         if (status != QDOT_OK && status != QDOT_ENOMEM)
-            fail_msg("call %ld: %d, %s", n, status, qdot_last_error()->message);
+            fail_msg("call %" PRId64 ": %d, %s", n, status, qdot_last_error()->message);
         passed = status == QDOT_OK;
         if (pool != NULL) {
             qdot_expr x = qdot_symbol_get(pool, QDOT_COORD, "x");

@@ -180,7 +180,7 @@ one_root_is_written(void **state)
     says(times(number(1, 2), root(times(k, x))), "1/2*sqrt(K*x)", "½ √(K x)",
          "\\frac{1}{2} \\sqrt{K x}");
     for (int trial = 0; trial < 20000; trial++) {
-        e = number((long)random_below(9) - 4, 1 + (long)random_below(12));
+        e = number((int64_t)random_below(9) - 4, 1 + (int64_t)random_below(12));
         for (int i = 0; i < 4; i++) {
             qdot_expr b = all[random_below(3)];
 
@@ -188,8 +188,8 @@ one_root_is_written(void **state)
                 b = qdot_add(p.pool, all[random_below(3)],
                              times(number(2, 3), all[random_below(3)]));
             if (random_below(5) == 0)
-                b = number(1 + (long)random_below(30), 1 + (long)random_below(9));
-            e = times(e, qdot_pow(p.pool, b, number((long)random_below(9) - 4, 2)));
+                b = number(1 + (int64_t)random_below(30), 1 + (int64_t)random_below(9));
+            e = times(e, qdot_pow(p.pool, b, number((int64_t)random_below(9) - 4, 2)));
         }
         if (random_below(2))
             e = qdot_add(p.pool, e, x);
@@ -359,7 +359,7 @@ undefined_functions_read_back(void **state)
         if (random_below(2))
             args[1] = QDOT_T;
         e = qdot_ufun_apply(p.pool, u[which], args, orders);
-        e = qdot_add(p.pool, qdot_pow_int(p.pool, e, (long)random_below(5) - 2),
+        e = qdot_add(p.pool, qdot_pow_int(p.pool, e, (int64_t)random_below(5) - 2),
                      p.symbol[5]);
         assert_int_equal(read_text(&r, text_of(p.pool, e, QDOT_PLAIN)), e);
     }
@@ -420,7 +420,7 @@ formulas_share_what_stands_twice(void **state)
             continue;
         assert_int_equal(qdot_print(p.pool, e, style, &alone), QDOT_OK);
         if (trial % 3 == 0) {
-            qdot_memory_fail_at((long)random_below(12));
+            qdot_memory_fail_at((int64_t)random_below(12));
             qdot_status status = qdot_print(p.pool, e, styles[(trial + 1) % 4], &twice);
             assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
             qdot_memory_fail_at(-1);
@@ -453,7 +453,7 @@ a_name_alone_is_whole_or_no_memory(void **state)
 
     (void)state;
     for (size_t i = 0; i < 2; i++)
-        for (long n = 1; n < 40; n++) {
+        for (int64_t n = 1; n < 40; n++) {
             qdot_text failed = {0}, next = {0};
             qdot_status status;
 

@@ -2,7 +2,7 @@
 #include "expr/kit.h"
 
 static qdot_expr
-power(qdot_expr b, long n, long d)
+power(qdot_expr b, int64_t n, int64_t d)
 {
     return qdot_pow(p.pool, b, number(n, d));
 }
@@ -204,17 +204,17 @@ products_are_canonical(void **state)
             uint32_t what = random_below(4);
             uint32_t first_symbol = random_below(3), second_symbol = random_below(3);
             qdot_expr base =
-                what == 0   ? number(1 + (long)random_below(9), 1 + (long)random_below(4))
+                what == 0   ? number(1 + (int64_t)random_below(9), 1 + (int64_t)random_below(4))
                 : what == 1 ? difference(first_symbol, second_symbol)
                             : p.symbol[random_below(SYMBOLS)];
 
-            e[i] = power(base, (long)random_below(9) - 4,
+            e[i] = power(base, (int64_t)random_below(9) - 4,
                          what == 3 && base == p.symbol[2] ? 2 : 1);
             if (what == 0 && random_below(2))
                 e[i] = qdot_sqrt(p.pool, e[i]);
             /* a - b and b - a cannot both have a root */
             if (what == 1 && first_symbol >= second_symbol && random_below(4) == 0)
-                e[i] = power(base, 2 * (long)random_below(3) - 1, 2);
+                e[i] = power(base, 2 * (int64_t)random_below(3) - 1, 2);
         }
         for (int again = 0; again < 4; again++) {
             qdot_expr product = QDOT_ONE;

@@ -190,7 +190,7 @@ bounds_of_long_sums_are_short_and_sound(void **state)
 {
     enum { TERMS = 3000 };
     static qdot_expr term[2 * TERMS + 1];
-    const long d[] = {1000000000, -1000000000};
+    const int64_t d[] = {1000000000, -1000000000};
 
     (void)state;
     for (int i = 0; i < 2; i++) {
@@ -198,13 +198,13 @@ bounds_of_long_sums_are_short_and_sound(void **state)
         qdot_expr e;
 
         place_open(&p);
-        for (long k = 1; k <= TERMS; k++) {
+        for (int64_t k = 1; k <= TERMS; k++) {
             qdot_expr kx = qdot_mul(p.pool, qdot_expr_int(p.pool, k), p.symbol[5]);
 
             term[2 * k - 2] = qdot_expr_ratio(p.pool, 1, k);
             term[2 * k - 1] = qdot_mul(p.pool, term[2 * k - 2], qdot_fun1(p.pool, QDOT_SIN, kx));
         }
-        term[2 * TERMS] = qdot_expr_ratio(p.pool, d[i] < 0 ? -1 : 1, labs(d[i]));
+        term[2 * TERMS] = qdot_expr_ratio(p.pool, d[i] < 0 ? -1 : 1, llabs(d[i]));
         e = qdot_sum(p.pool, 2 * TERMS + 1, term);
         assert_int_equal(qdot_pool_check(p.pool), QDOT_OK);
         assert_int_equal(qdot_expr_node(p.pool, e)->sign, d[i] > 0 ? QDOT_GE0 | QDOT_NE0 : 0);

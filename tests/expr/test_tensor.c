@@ -8,14 +8,14 @@ matrix(uint32_t rows, uint32_t columns)
 
     for (uint32_t i = 0; i < rows * columns; i++)
         entry[i] = random_below(3) == 0
-                       ? qdot_expr_int(p.pool, (long)random_below(9) - 4)
+                       ? qdot_expr_int(p.pool, (int64_t)random_below(9) - 4)
                        : qdot_add(p.pool, p.symbol[random_below(SYMBOLS)],
-                                  qdot_expr_int(p.pool, (long)random_below(4)));
+                                  qdot_expr_int(p.pool, (int64_t)random_below(4)));
     return qdot_matrix(p.pool, rows, columns, entry);
 }
 
 static long double
-entry(qdot_expr m, long i, long j)
+entry(qdot_expr m, int64_t i, int64_t j)
 {
     return node_value(&p, qdot_entry2(p.pool, m, i, j), NULL);
 }

@@ -170,7 +170,7 @@ static void
 memory_that_runs_out_is_told(void **state)
 {
     qdot_status status = QDOT_ENOMEM;
-    long n;
+    int64_t n;
 
     (void)state;
     for (n = 0; status != QDOT_OK; n++) {

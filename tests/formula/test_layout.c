@@ -298,7 +298,7 @@ failing_allocations_are_told(void **state)
     bool failed = true;
 
     (void)state;
-    for (long n = 0; failed; n++) {
+    for (int64_t n = 0; failed; n++) {
         qdot_text out = {0};
         qdot_status status;
 

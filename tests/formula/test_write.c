@@ -244,7 +244,7 @@ memory_that_runs_out_is_told(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof writers / sizeof *writers; i++) {
         qdot_status status = QDOT_ENOMEM;
-        long n;
+        int64_t n;
 
         for (n = 0; status != QDOT_OK; n++) {
             qdot_text out = {0};

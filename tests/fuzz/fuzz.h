@@ -69,7 +69,7 @@ fuzz_press(int signal)
 
 /* After so long, and every LIMIT from then on. */
 static void
-fuzz_limit(long milliseconds)
+fuzz_limit(int64_t milliseconds)
 {
     struct itimerspec when = {
         .it_value = {milliseconds / 1000, milliseconds % 1000 * 1000000},

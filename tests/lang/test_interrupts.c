@@ -4,6 +4,7 @@
 #include "lang/talk.h"
 #include "own-folder.h"
 
+#include <inttypes.h>
 #include <pthread.h>
 
 /* Scenes and statements that run, search, read or write; each short, for it is done once for every check. */
@@ -59,7 +60,7 @@ static const struct {
 
 /* Carry out the statement with Ctrl-C at the n-th place, then once more; whether none was reached. */
 static bool
-survives(size_t i, const char *place, void (*press_at)(long n), long n)
+survives(size_t i, const char *place, void (*press_at)(int64_t n), int64_t n)
 {
     bool done;
     void *data;
@@ -78,29 +79,35 @@ survives(size_t i, const char *place, void (*press_at)(long n), long n)
     (void)complaint(k);
     ended = say(k, cases[i].statement);
     if (ended != 0)
-        fail_msg("%s: after %s %ld the same statement ends with %d: %s", cases[i].name, place, n, ended,
+        fail_msg("%s: after %s %" PRId64 " the same statement ends with %d: %s", cases[i].name, place, n, ended,
                  complaint(k));
     end(&data);
     return done;
 }
 
 static void
-at_every_place(const char *place, void (*press_at)(long n), long dense)
+at_every_place(const char *place, void (*press_at)(int64_t n), int64_t dense)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        long n = 0;
+        int64_t n = 0;
 
         for (int ends = 0; ends < 3; n += 1 + n / dense) /* the last ones may be behind the last check */
             ends = survives(i, place, press_at, n) ? ends + 1 : 0;
-        print_message("# %s: %s up to %ld\n", cases[i].name, place, n);
+        print_message("# %s: %s up to %" PRId64 "\n", cases[i].name, place, n);
     }
+}
+
+static void
+press_at_check(int64_t n)
+{
+    qdot_interrupt_set_at((int)n);
 }
 
 static void
 every_check_may_be_the_one(void **state)
 {
     (void)state;
-    at_every_place("check", qdot_interrupt_set_at, 100);
+    at_every_place("check", press_at_check, 100);
 }
 
 static void

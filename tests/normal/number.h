@@ -19,7 +19,7 @@ static void
 number_of_symbol(const qdot_pool *pool, qdot_expr e, unsigned k, mpfr_t x)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
-    unsigned long hash = 5381 + 7919ul * k;
+    uint64_t hash = 5381 + 7919ul * k;
     double u;
 
     if (e == QDOT_PI) {
@@ -46,16 +46,16 @@ number_of_symbol(const qdot_pool *pool, qdot_expr e, unsigned k, mpfr_t x)
 static void
 number_of_ufun(const qdot_pool *pool, qdot_expr e, const mpfr_t u, mpfr_t x)
 {
-    long order = 0;
+    int64_t order = 0;
     mpfr_t power;
 
     (void)qdot_expr_to_int(pool, qdot_expr_arg(pool, e, 1), &order);
     mpfr_init2(power, mpfr_get_prec(x));
     mpfr_div_ui(x, u, 2, MPFR_RNDN);
     mpfr_exp(x, x, MPFR_RNDN);
-    mpfr_div_2si(x, x, order, MPFR_RNDN);
+    mpfr_div_2si(x, x, (mpfr_exp_t)order, MPFR_RNDN);
     if (order <= 3) {
-        mpfr_pow_ui(power, u, (unsigned long)(3 - order), MPFR_RNDN);
+        mpfr_pow_ui(power, u, (unsigned)(3 - order), MPFR_RNDN);
         mpfr_mul_ui(power, power, order == 0 ? 1 : order == 1 ? 3 : 6, MPFR_RNDN);
         mpfr_add(x, x, power, MPFR_RNDN);
     }

@@ -73,7 +73,7 @@ pairs_begin(pairs *g, uint64_t seed)
 /* --- short names for what is built ------------------------------------------------------ */
 
 static qdot_expr
-num(pairs *g, long n, long d)
+num(pairs *g, int64_t n, int64_t d)
 {
     return qdot_expr_ratio(g->pool, n, d);
 }
@@ -103,7 +103,7 @@ quo(pairs *g, qdot_expr a, qdot_expr b)
 }
 
 static qdot_expr
-power(pairs *g, qdot_expr a, long n)
+power(pairs *g, qdot_expr a, int64_t n)
 {
     return qdot_pow_int(g->pool, a, n);
 }
@@ -362,7 +362,7 @@ static pair
 pairs_number(pairs *g)
 {
     qdot_pool *p = g->pool;
-    long m = 2 + pairs_random(g, 20), n = 1 + pairs_random(g, 12),
+    int64_t m = 2 + pairs_random(g, 20), n = 1 + pairs_random(g, 12),
          k = pairs_random(g, 30);
     qdot_expr rm = qdot_sqrt(p, num(g, m, 1)), rn = qdot_sqrt(p, num(g, n, 3));
     qdot_expr two = num(g, 2, 1), angle = mul(g, num(g, k, n), QDOT_PI);
@@ -572,7 +572,7 @@ pairs_powers(pairs *g, int depth)
 {
     qdot_pool *p = g->pool;
     pair s = pairs_positive(g, depth), q = pairs_positive(g, 0), u = pairs_make(g, 0);
-    long d = 2 + (long)pairs_random(g, 4), n = 1 + (long)pairs_random(g, 6);
+    int64_t d = 2 + (int64_t)pairs_random(g, 4), n = 1 + (int64_t)pairs_random(g, 6);
     qdot_expr x = num(g, n, d), y = num(g, 1 + pairs_random(g, 4), 2 + pairs_random(g, 3));
     qdot_expr root = num(g, 1, d);
 
@@ -731,7 +731,7 @@ pairs_near(pairs *g, qdot_expr e)
 {
     qdot_walk w;
     qdot_expr node, other, small;
-    long k = 1 + (long)pairs_random(g, 40);
+    int64_t k = 1 + (int64_t)pairs_random(g, 40);
 
     if (qdot_walk_begin(g->pool, e, &w) != QDOT_OK)
         return QDOT_NIL;

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -15,14 +16,14 @@
 static void
 some_number(mpfr_ptr x, gmp_randstate_t random)
 {
-    unsigned long kind = gmp_urandomm_ui(random, 10);
+    uint64_t kind = gmp_urandomm_ui(random, 10);
 
     mpfr_urandomb(x, random);
     if (kind == 0)
         mpfr_set_zero(x, 1);
     if (kind > 5)
         mpfr_neg(x, x, MPFR_RNDN);
-    mpfr_mul_2si(x, x, (long)gmp_urandomm_ui(random, kind == 1 ? 1000 : 20) - 10,
+    mpfr_mul_2si(x, x, (mpfr_exp_t)gmp_urandomm_ui(random, kind == 1 ? 1000 : 20) - 10,
                  MPFR_RNDN);
 }
 
@@ -61,10 +62,10 @@ dot_is_the_rounded_sum(void **state)
         }
         mpfr_sub(part, v.at[2 * n], exact, MPFR_RNDN);
         mpfr_mul_ui(size, size, n + 1, MPFR_RNDN);
-        mpfr_mul_2si(size, size, 3 - (long)bits, MPFR_RNDN);
+        mpfr_mul_2si(size, size, 3 - (mpfr_exp_t)bits, MPFR_RNDN);
         if (mpfr_cmpabs(part, size) > 0)
-            fail_msg("%zu terms of %ld bits: off by 2^%.1f, allowed 2^%.1f", n,
-                     (long)bits, qdot_real_log2(part), qdot_real_log2(size));
+            fail_msg("%zu terms of %" PRId64 " bits: off by 2^%.1f, allowed 2^%.1f", n,
+                     (int64_t)bits, qdot_real_log2(part), qdot_real_log2(size));
         mpfr_clears(exact, size, part, (mpfr_ptr)0);
         qdot_reals_clear(&v);
         free(work);
@@ -81,7 +82,7 @@ what_is_not_finite_makes_the_sum_nan(void **state)
     (void)state;
     assert_int_equal(qdot_reals_init(&v, 5, 128), QDOT_OK);
     for (size_t i = 0; i < 4; i++)
-        mpfr_set_si(v.at[i], (long)i - 2, MPFR_RNDN);
+        mpfr_set_si(v.at[i], (int64_t)i - 2, MPFR_RNDN);
     mpfr_set_inf(v.at[1], 1);
     qdot_real_dot(v.at[4], (const mpfr_t *)v.at, (const mpfr_t *)v.at + 3, 2, work);
     assert_true(mpfr_nan_p(v.at[4]));
@@ -103,7 +104,7 @@ equations_are_solved(void **state)
     a = v.at, b = a + N * N, y = b + N, w = y + N;
     for (size_t i = 0; i < N; i++)
         for (size_t j = 0; j < N; j++) {
-            mpfr_set_si(a[i * N + j], (long)((3 * i * i + 5 * j * j + i * j * j + 2) % 13) - 6,
+            mpfr_set_si(a[i * N + j], (int64_t)((3 * i * i + 5 * j * j + i * j * j + 2) % 13) - 6,
                         MPFR_RNDN);
             if (i == 0 && j == 0)
                 mpfr_set_zero(a[0], 1);
@@ -121,7 +122,7 @@ equations_are_solved(void **state)
     for (size_t j = 0; j < N; j++) {
         mpfr_set_zero(a[(N - 1) * N + j], 1);
         for (size_t i = 0; i + 1 < N; i++) {
-            mpfr_set_si(a[i * N + j], (long)((i * 3 + j * 7) % 5), MPFR_RNDN);
+            mpfr_set_si(a[i * N + j], (int64_t)((i * 3 + j * 7) % 5), MPFR_RNDN);
             mpfr_add(a[(N - 1) * N + j], a[(N - 1) * N + j], a[i * N + j], MPFR_RNDN);
         }
     }
@@ -135,7 +136,7 @@ failing_allocations_are_told(void **state)
     qdot_reals v;
 
     (void)state;
-    for (long n = 0; n < 2; n++) {
+    for (int64_t n = 0; n < 2; n++) {
         qdot_memory_fail_at(n);
         assert_int_equal(qdot_reals_init(&v, 5, 128), QDOT_ENOMEM);
         qdot_memory_fail_at(-1);

@@ -86,7 +86,7 @@ every_failed_allocation_is_told(void **state)
     int failures = 0;
 
     (void)state;
-    for (long k = 0;; k++) {
+    for (int64_t k = 0;; k++) {
         qdot_status status;
 
         qdot_memory_fail_at(k);

@@ -10,7 +10,7 @@
 static inline void
 failed_allocations_are_told(const qdot_ode_method *method)
 {
-    for (long k = 0;; k++) {
+    for (int64_t k = 0;; k++) {
         qdot_trajectory tr = {0};
         double y[2];
         qdot_status status;

@@ -44,12 +44,12 @@ pendulum_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *u
 static inline void
 pendulum_at(const double *y0, double t, long double *y)
 {
-    long n = (long)ceil(fabs(t) / 0.05);
+    int64_t n = (int64_t)ceil(fabs(t) / 0.05);
     long double h = (long double)t / n, a[series + 2], s[series], c[series];
 
     y[0] = y0[0];
     y[1] = y0[1];
-    for (long step = 0; step < n; step++) {
+    for (int64_t step = 0; step < n; step++) {
         a[0] = y[0];
         a[1] = y[1];
         s[0] = sinl(a[0]);
@@ -102,12 +102,12 @@ henon_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user
 static inline void
 henon_at(const double *y0, double t, long double *y)
 {
-    long n = (long)ceil(fabs(t) / 0.1);
+    int64_t n = (int64_t)ceil(fabs(t) / 0.1);
     long double h = (long double)t / n, a[series + 2], b[series + 2];
 
     for (int i = 0; i < 4; i++)
         y[i] = y0[i];
-    for (long step = 0; step < n; step++) {
+    for (int64_t step = 0; step < n; step++) {
         a[0] = y[0];
         b[0] = y[1];
         a[1] = y[2];

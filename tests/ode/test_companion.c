@@ -211,7 +211,7 @@ failed_allocations_are_told(void **state)
     qdot_companion *c;
 
     (void)state;
-    for (long k = 0; k < 10; k++) {
+    for (int64_t k = 0; k < 10; k++) {
         qdot_memory_fail_at(k);
         assert_int_equal(qdot_companion_start(&request, &c), QDOT_ENOMEM);
         assert_null(c);

@@ -471,7 +471,7 @@ every_failed_allocation_is_told(void **state)
     int failures = 0;
 
     (void)state;
-    for (long k = 0;; k++) {
+    for (int64_t k = 0;; k++) {
         double y[2] = {2, 0};
         qdot_ode_result r;
         qdot_status status;

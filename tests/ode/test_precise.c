@@ -31,7 +31,7 @@ derive(problem *p, int k)
             mpfr_add_ui(x[1], x[1], 1, MPFR_RNDN);
     } else
         mpfr_set(x[k + 1], x[k], MPFR_RNDN);
-    mpfr_div_ui(x[k + 1], x[k + 1], (unsigned long)k + 1, MPFR_RNDN);
+    mpfr_div_ui(x[k + 1], x[k + 1], (uint64_t)k + 1, MPFR_RNDN);
 }
 
 static qdot_status

@@ -21,7 +21,7 @@
 
 enum { ITEMS = 300 };
 
-static long writes_left = -1; /* of this process, until one fails; negative: none does */
+static int64_t writes_left = -1; /* of this process, until one fails; negative: none does */
 static pid_t writer;
 
 /* In place of that of the C library. */
@@ -118,7 +118,7 @@ a_worker_that_cannot_be_told_is_replaced(void **state)
 {
     (void)state;
     writer = getpid();
-    for (long n = 0; n < 5; n++) {
+    for (int64_t n = 0; n < 5; n++) {
         world w = {.deadly = ITEMS, .once = ITEMS};
 
         writes_left = n;

@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -38,7 +39,7 @@ enum { OUTPUTS = sizeof outputs / sizeof *outputs };
 
 /* --- calls that fail ------------------------------------------------------------------ */
 
-static long calls_left = -1; /* until the one that fails; negative: none does */
+static int64_t calls_left = -1; /* until the one that fails; negative: none does */
 
 static bool
 must_fail(void)
@@ -117,14 +118,14 @@ put_old(const char *path)
 }
 
 static void
-fail_call(long n)
+fail_call(int64_t n)
 {
     calls_left = n;
 }
 
 /* The statement with the n-th call failing; whether none did. */
 static bool
-survives(size_t i, void (*fail_at)(long n), long n, const char *whole, size_t length)
+survives(size_t i, void (*fail_at)(int64_t n), int64_t n, const char *whole, size_t length)
 {
     const char *path = outputs[i].file;
     struct stat st;
@@ -150,15 +151,15 @@ survives(size_t i, void (*fail_at)(long n), long n, const char *whole, size_t le
     assert_non_null(bytes);
     is_whole = after == length && memcmp(bytes, whole, length) == 0;
     if (!is_whole && after != before)
-        fail_msg("%s: call %ld fails, and the file that was there is lost", path, n);
+        fail_msg("%s: call %" PRId64 " fails, and the file that was there is lost", path, n);
     if (!is_whole && ended == 0)
-        fail_msg("%s: call %ld fails, and nobody hears of it", path, n);
+        fail_msg("%s: call %" PRId64 " fails, and nobody hears of it", path, n);
     (void)complaint(k);
     if (say(k, outputs[i].statement) != 0)
-        fail_msg("%s: after call %ld: %s", path, n, complaint(k));
+        fail_msg("%s: after call %" PRId64 ": %s", path, n, complaint(k));
     end(&data);
     if (own_folder_clean(path) > 0)
-        fail_msg("%s: call %ld fails, and other files are left", path, n);
+        fail_msg("%s: call %" PRId64 " fails, and other files are left", path, n);
     return done;
 }
 
@@ -173,7 +174,7 @@ files_are_old_or_whole(void **state)
         void *data;
         talk *k;
         char *bytes;
-        long calls, n;
+        int64_t calls, n;
 
         assert_int_equal(begin(&data), 0);
         k = data;
@@ -189,15 +190,15 @@ files_are_old_or_whole(void **state)
             ;
         for (n = 0; !survives(i, qdot_memory_fail_at, n, whole, length); n += is_form("long") ? 1 : 1 + n / 10)
             ;
-        print_message("# %s: each of %ld calls, allocations up to %ld\n", outputs[i].file, calls, n);
+        print_message("# %s: each of %" PRId64 " calls, allocations up to %" PRId64 "\n", outputs[i].file, calls, n);
         if (calls < 3)
-            fail_msg("%s: only %ld calls could fail", outputs[i].file, calls);
+            fail_msg("%s: only %" PRId64 " calls could fail", outputs[i].file, calls);
     }
 }
 
 /* A script with the n-th allocation failing; whether none did. */
 static bool
-goes_on(const char *path, long n)
+goes_on(const char *path, int64_t n)
 {
     void *data;
     talk *k;
@@ -210,7 +211,7 @@ goes_on(const char *path, long n)
     qdot_memory_fail_at(-1);
     (void)complaint(k);
     if (say(k, "reset\ncheck 1 + 1 == 2") != 0)
-        fail_msg("%s: after allocation %ld: %s", path, n, complaint(k));
+        fail_msg("%s: after allocation %" PRId64 ": %s", path, n, complaint(k));
     end(&data);
     return ended == 0;
 }
@@ -224,7 +225,7 @@ any_allocation_may_fail(void **state)
     (void)state;
     for (size_t i = 0; i < SCRIPTS; i++) {
         char path[4096];
-        long n = (long)(i % 7), times = 0;
+        int64_t n = (int64_t)(i % 7), times = 0;
 
         snprintf(path, sizeof path, "%s/examples/%s.lag", root != NULL ? root : ".", scripts[i]);
         if (access(path, R_OK) != 0)
@@ -233,7 +234,7 @@ any_allocation_may_fail(void **state)
         for (; !goes_on(path, n); times++)
             n += 1 + n / (i < 3 ? 20 : 4);
         (void)own_folder_clean(NULL);
-        print_message("# %s: %ld of %ld allocations\n", scripts[i], times, n);
+        print_message("# %s: %" PRId64 " of %" PRId64 " allocations\n", scripts[i], times, n);
     }
     if (root != NULL)
         assert_int_equal(seen, SCRIPTS);

@@ -14,6 +14,7 @@
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #endif
 #include <execinfo.h>
+#include <inttypes.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -27,18 +28,18 @@
 #include "reliability/scripts.h"
 
 /* n where QDOT_RELIABILITY is a number n: every n-th allocation fails; else 0. */
-static long
+static int64_t
 stride(void)
 {
     const char *form = getenv("QDOT_RELIABILITY");
 
-    return form != NULL ? strtol(form, NULL, 10) : 0;
+    return form != NULL ? strtoll(form, NULL, 10) : 0;
 }
 
 /* What a copy of this process found: it carries out one statement with one failure and ends. Each costs no more than
  * the statement, for what the script did before is there. */
 static struct found {
-    long left; /* allocations until the failure; negative: it came */
+    int64_t left; /* allocations until the failure; negative: it came */
     int ended; /* the statement's status */
     size_t n;
     char text[1 << 20]; /* what it said */
@@ -69,7 +70,7 @@ without_times(char *text, size_t n)
 }
 
 static void
-begin_to_fail(long n)
+begin_to_fail(int64_t n)
 {
     signal(SIGSEGV, SIG_DFL); /* cmocka's would go on with its tests */
     signal(SIGABRT, SIG_DFL);
@@ -110,18 +111,18 @@ static struct {
     const char *script, *statement;
 } now;
 static struct counts {
-    long times, bad, seen;
+    int64_t times, bad, seen;
 } *counts; /* shared with copies of this process */
 
 /* Whether a copy of this process ended well. */
 static bool
-copy_ends_well(pid_t copy, long n)
+copy_ends_well(pid_t copy, int64_t n)
 {
     int status;
 
     assert_int_equal(waitpid(copy, &status, 0), copy);
     if (status != 0)
-        print_message("# %s: allocation %ld fails, and the status is %#x:\n%s\n", now.script, n, status,
+        print_message("# %s: allocation %" PRId64 " fails, and the status is %#x:\n%s\n", now.script, n, status,
                       now.statement);
     return status == 0;
 }
@@ -143,7 +144,7 @@ says_why(void)
 /* Wait for the copy in which the n-th allocation was to fail and count its result; false if it had fewer
  * allocations. */
 static bool
-count_copy(pid_t copy, long n)
+count_copy(pid_t copy, int64_t n)
 {
     const bool well = copy_ends_well(copy, n);
 
@@ -154,7 +155,7 @@ count_copy(pid_t copy, long n)
         counts->bad++;
     else if (found->ended == 0 && !says_the_usual() && !says_why()) {
         counts->bad++;
-        print_message("# %s: allocation %ld fails, and what is said is another:\n%s\n# usual\n%.*s# now\n%.*s",
+        print_message("# %s: allocation %" PRId64 " fails, and what is said is another:\n%s\n# usual\n%.*s# now\n%.*s",
                       now.script, n, now.statement, (int)usual->n, usual->text, (int)found->n, found->text);
     }
     return true;
@@ -162,7 +163,7 @@ count_copy(pid_t copy, long n)
 
 /* The statement from its beginning in a copy of this process, with the n-th allocation failing (negative: none). */
 static pid_t
-carry_out_in_copy(long n, struct found *told)
+carry_out_in_copy(int64_t n, struct found *told)
 {
     const pid_t copy = fork();
 
@@ -192,7 +193,7 @@ static struct places {
         uint64_t frames;
         int times;
     } at[PLACES];
-    long n;
+    int64_t n;
     bool is_new[MOST_OF_SPAN]; /* of the allocations of a span */
 } *places; /* NULL: all fail */
 
@@ -228,7 +229,7 @@ is_new_place(uint64_t frames)
 
 static pid_t walker; /* the copy that carries out the statement with nothing failing */
 static pthread_t main_thread;
-static long passed, *span; /* allocations since copies were made; how many until the next are, or the statement ends */
+static int64_t passed, *span; /* allocations since copies were made; how many until the next are, or the statement ends */
 
 /* In a copy: count the allocations up to the next at which copies can be made, in *span, and end there. */
 static void
@@ -257,7 +258,7 @@ fail_each_of_span(void)
     }
     if (!copy_ends_well(copy, -1))
         counts->bad++;
-    for (long n = 0; n < *span + SLACK; n += is_form("share") && n >= SPAN ? SHARE : 1) {
+    for (int64_t n = 0; n < *span + SLACK; n += is_form("share") && n >= SPAN ? SHARE : 1) {
         if (places != NULL && (n >= *span || (n < MOST_OF_SPAN && !places->is_new[n])))
             continue;
         found->left = -1;
@@ -312,7 +313,7 @@ fail_each_on_the_way(void)
 static void
 fail_some(void)
 {
-    for (long n = 0; count_copy(carry_out_in_copy(n, found), n); n += stride() > 0 ? stride() : 3 + n)
+    for (int64_t n = 0; count_copy(carry_out_in_copy(n, found), n); n += stride() > 0 ? stride() : 3 + n)
         found->left = -1;
 }
 
@@ -385,10 +386,10 @@ fail_each_of(const char *script, const char *path)
     fclose(file);
     end(&data);
     (void)own_folder_clean(NULL);
-    print_message("# %s: each alone of %ld allocations, %ld of them not survived or without a word\n", script,
+    print_message("# %s: each alone of %" PRId64 " allocations, %" PRId64 " of them not survived or without a word\n", script,
                   counts->times, counts->bad);
     if (counts->seen > 0)
-        print_message("# %s: %ld allocations in all\n", script, counts->seen);
+        print_message("# %s: %" PRId64 " allocations in all\n", script, counts->seen);
     assert_int_equal(counts->bad, 0);
 }
 
@@ -415,7 +416,7 @@ one_allocation_alone_may_fail(void **state)
         struct found found, usual;
         struct counts counts;
         struct places places;
-        long span;
+        int64_t span;
     } *shared;
 
     (void)state;

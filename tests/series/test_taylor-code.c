@@ -630,13 +630,13 @@ outputs_of(scene *f, size_t n, qdot_expr *out)
     qdot_pool *pool = f->pool;
 
     for (size_t i = 0; i < n; i++)
-        out[i] = i % 2 ? qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, (long)i),
+        out[i] = i % 2 ? qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, (int64_t)i),
                                                             f->in[Q]))
                        : qdot_mul(pool, f->in[V], f->in[i % T]);
     out += n;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) {
-            const qdot_expr part = qdot_expr_int(pool, (long)(1 + i + j));
+            const qdot_expr part = qdot_expr_int(pool, (int64_t)(1 + i + j));
 
             if (i == j)
                 *out++ = i % 3 ? qdot_add(pool, part, qdot_add(pool, part, f->above))

@@ -61,11 +61,11 @@ decode(const char *at, double *values)
     assert_int_equal(sscanf(at, "{\"a\":%lf,\"b\":%lf", &a, &b), 2);
     assert_non_null(data);
     for (data += 5; *data != '"'; data += 4) {
-        unsigned long three = 0;
+        uint64_t three = 0;
         int kept = data[3] != '=' ? 3 : data[2] != '=' ? 2 : 1;
 
         for (int i = 0; i < 4; i++)
-            three = three << 6 | (unsigned long)digit_of(data[i]);
+            three = three << 6 | (uint64_t)digit_of(data[i]);
         for (int i = 0; i < 3; i++)
             bytes[i] = (unsigned char)(three >> (16 - 8 * i));
         for (int i = 0; i < kept; i++) {
@@ -166,7 +166,7 @@ memory_may_run_out(void **state)
 
     (void)state;
     make(&a, "a run");
-    for (long n = 0; status != QDOT_OK && n < 1000; n++) {
+    for (int64_t n = 0; status != QDOT_OK && n < 1000; n++) {
         qdot_text page = {0};
 
         qdot_memory_fail_at(n);

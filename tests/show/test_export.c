@@ -102,7 +102,7 @@ failing_memory_is_told(void **state)
                                       .value = {.tape = tape, .blocks = 1}};
 
     (void)state;
-    for (long n = 0;; n++) {
+    for (int64_t n = 0;; n++) {
         qdot_text out = {0};
         qdot_status status;
 

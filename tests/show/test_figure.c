@@ -840,7 +840,7 @@ static void
 no_memory_is_an_error(void **state)
 {
     const qdot_panel figure = two_curves();
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {

@@ -192,7 +192,7 @@ static void
 failing_memory_is_told(void **state)
 {
     (void)state;
-    for (long n = 0;; n++) {
+    for (int64_t n = 0;; n++) {
         qdot_formula_page page = {.kind = QDOT_PAGE_MATHML};
         const qdot_formula_id line = LINE(SPAN(NAME("a"), EQUALS, NAME("b")));
         qdot_text out = {0};

@@ -4,6 +4,7 @@
 
 #include "sim/scenes.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 #include "sim/ensemble/ensemble.h"
@@ -62,11 +63,11 @@ prepare(fixture *f, size_t n_varied, const qdot_expr *varied)
 
 /* Ends the failing of allocation k; whether all went well without it. */
 static inline bool
-went_well(long k, qdot_status status)
+went_well(int64_t k, qdot_status status)
 {
     qdot_memory_fail_at(-1);
     if (status != QDOT_OK && status != QDOT_ENOMEM)
-        fail_msg("allocation %ld: %s", k, qdot_last_error()->message);
+        fail_msg("allocation %" PRId64 ": %s", k, qdot_last_error()->message);
     return status == QDOT_OK;
 }
 

@@ -169,7 +169,7 @@ static inline void
 survives_failed_allocations(fixture *f)
 {
     qdot_status status = QDOT_ENOMEM;
-    long n = 0;
+    int64_t n = 0;
 
     f->request.t1 = QDOT_ZERO; /* no second thread, whose allocations would count */
     for (; status != QDOT_OK && n < 100000; n += 1 + n / 40) {

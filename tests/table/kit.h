@@ -51,7 +51,7 @@ typedef qdot_status writer_of_file(const qdot_table *table, const char *path);
 static inline void
 failing_memory_is_told_by(writer_of_file *write, const char *path)
 {
-    for (long n = 0;; n++) {
+    for (int64_t n = 0;; n++) {
         qdot_status status;
 
         qdot_memory_fail_at(n);

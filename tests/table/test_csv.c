@@ -187,7 +187,7 @@ no_memory_is_an_error(void **state)
 {
     static double x[10];
     qdot_table_column column = {.name = "x", .values = x};
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {

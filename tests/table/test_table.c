@@ -86,7 +86,7 @@ rows_of_its_own_are_added(void **state)
 static void
 failing_memory_is_told_once(void **state)
 {
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {

@@ -155,7 +155,7 @@ no_memory_is_an_error(void **state)
 {
     const double x[] = {1, 2};
     qdot_table_column column = {.name = "x", .gap = 2, .values = x};
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {

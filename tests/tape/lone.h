@@ -16,7 +16,7 @@ unit(void)
 }
 
 /* The handle of the pieces of a table, which lookup(a, 0, handle) finds. */
-static inline long
+static inline int64_t
 lone_table(void)
 {
     static const double knots[] = {-2.385, -0.377, 1.137, 2.61}, values[] = {1, -2, 0.5, 3};

@@ -28,7 +28,7 @@ coordinate(qdot_pool *pool, const char *family, int k)
 static inline qdot_expr
 small_number(qdot_pool *pool)
 {
-    return qdot_expr_ratio(pool, (long)roll(9) - 4, 1 + (long)roll(4));
+    return qdot_expr_ratio(pool, (int64_t)roll(9) - 4, 1 + (int64_t)roll(4));
 }
 
 /* One more node above some of the first n of `have`. */
@@ -48,9 +48,9 @@ random_node(qdot_pool *pool, const qdot_expr *have, unsigned n)
     case 2: return qdot_add(pool, qdot_mul(pool, small_number(pool), x),
                             qdot_mul(pool, small_number(pool), y));
     case 3: return qdot_mul(pool, x, y);
-    case 4: return qdot_pow_int(pool, x, 2 + (long)roll(3));
-    case 5: return qdot_pow_int(pool, square, -1 - (long)roll(3));
-    case 6: return qdot_pow(pool, square, qdot_expr_ratio(pool, (long)roll(7) - 3, 2));
+    case 4: return qdot_pow_int(pool, x, 2 + (int64_t)roll(3));
+    case 5: return qdot_pow_int(pool, square, -1 - (int64_t)roll(3));
+    case 6: return qdot_pow(pool, square, qdot_expr_ratio(pool, (int64_t)roll(7) - 3, 2));
     case 7: return qdot_fun1(pool, QDOT_SIN, qdot_add(pool, qdot_mul(pool, small_number(pool), x),
                                                       qdot_add(pool, small_number(pool), y)));
     case 8: return x == y ? x : qdot_fun(pool, roll(2) ? QDOT_MIN : QDOT_MAX, 2, two);

@@ -69,9 +69,9 @@ values_and_slopes_agree(void **state)
         double x[2], slope, seen, wanted;
 
         for (uint32_t j = 0; j < 2; j++) {
-            const long eighths = (long)roll(160) - 100; /* the last one, m, and n of Pi: up to 1 */
+            const int64_t eighths = (int64_t)roll(160) - 100; /* the last one, m, and n of Pi: up to 1 */
 
-            args[j] = qdot_expr_ratio(pool, j + 1 == n || kinds[k].f == QDOT_ELLIPTIC_PI ? 8 - labs(eighths) : eighths, 8);
+            args[j] = qdot_expr_ratio(pool, j + 1 == n || kinds[k].f == QDOT_ELLIPTIC_PI ? 8 - llabs(eighths) : eighths, 8);
             assert_int_equal(qdot_constant_double(pool, args[j], x + j), QDOT_OK);
         }
         seen = on_tape(pool, k, x, i, &slope);

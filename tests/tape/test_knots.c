@@ -12,7 +12,7 @@
 
 static const double x[] = {0, 1, 2.5, 4}, f[] = {1, 0.5, 2, -1};
 
-static long
+static int64_t
 piece_of_table(int degree, qdot_samples_beyond beyond)
 {
     int number;
@@ -30,12 +30,12 @@ piece_of_table(int degree, qdot_samples_beyond beyond)
 
 /* A tape that reads a table at a + b t; its knots. */
 static void
-read_at_line(double a, double b, long handle, qdot_knots *knots)
+read_at_line(double a, double b, int64_t handle, qdot_knots *knots)
 {
     qdot_pool *pool = qdot_pool_new();
     const qdot_expr inputs[] = {QDOT_T};
-    const qdot_expr u = qdot_add(pool, qdot_expr_ratio(pool, (long)(a * 8), 8),
-                                 qdot_mul(pool, qdot_expr_ratio(pool, (long)(b * 8), 8), QDOT_T));
+    const qdot_expr u = qdot_add(pool, qdot_expr_ratio(pool, (int64_t)(a * 8), 8),
+                                 qdot_mul(pool, qdot_expr_ratio(pool, (int64_t)(b * 8), 8), QDOT_T));
     const qdot_expr e = qdot_fun(pool, QDOT_LOOKUP, 2, (qdot_expr[]){u, qdot_expr_int(pool, handle)});
     qdot_tape *tape;
 
@@ -50,7 +50,7 @@ read_at_line(double a, double b, long handle, qdot_knots *knots)
 static void
 knots_of_time_are_exact(void **state)
 {
-    const long handle = piece_of_table(3, QDOT_SAMPLES_HOLD);
+    const int64_t handle = piece_of_table(3, QDOT_SAMPLES_HOLD);
     qdot_knots knots = {0};
 
     (void)state;
@@ -70,7 +70,7 @@ static void
 knots_of_lines_are_passed(void **state)
 {
     static const double lines[][2] = {{0.25, 1}, {-3, 0.125}, {5, -2}, {100, -1}};
-    const long handle = piece_of_table(1, QDOT_SAMPLES_PERIODIC);
+    const int64_t handle = piece_of_table(1, QDOT_SAMPLES_PERIODIC);
 
     (void)state;
     for (size_t k = 0; k < 4; k++)

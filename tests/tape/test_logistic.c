@@ -29,14 +29,14 @@ fun(fixture *f, qdot_fun_id id, qdot_expr u)
 }
 
 static qdot_expr
-power(fixture *f, qdot_expr b, long n)
+power(fixture *f, qdot_expr b, int64_t n)
 {
     return qdot_pow_int(f->pool, b, n);
 }
 
 /* c + e^(k x) */
 static qdot_expr
-shifted(fixture *f, long c, long k)
+shifted(fixture *f, int64_t c, int64_t k)
 {
     qdot_expr e = fun(f, QDOT_EXP, qdot_mul(f->pool, qdot_expr_int(f->pool, k), f->x));
 
@@ -45,7 +45,7 @@ shifted(fixture *f, long c, long k)
 
 /* c + d cosh(x) + sinh(x)/2 */
 static qdot_expr
-cosine(fixture *f, long c, long d)
+cosine(fixture *f, int64_t c, int64_t d)
 {
     qdot_expr e = qdot_mul(f->pool, qdot_expr_int(f->pool, d), fun(f, QDOT_COSH, f->x));
 

@@ -290,7 +290,7 @@ powers_up_to_70_are_right(void **state)
     size_t m = 0;
 
     (void)state;
-    for (long n = -70; n <= 70; n++)
+    for (int64_t n = -70; n <= 70; n++)
         if (n != 0)
             out[m++] = qdot_pow_int(pool, x, n);
     assert_int_equal(compare(pool, 1, &x, m, out, &at), 140);
@@ -409,7 +409,7 @@ static void
 every_failed_allocation_is_survived(void **state)
 {
     qdot_status status = QDOT_ENOMEM;
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (; status != QDOT_OK && n < 10000; n++) {

@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include <inttypes.h>
 
 #include <math.h>
 #include <string.h>
@@ -75,7 +76,7 @@ factors_are_exact(void **state)
 {
     static const struct {
         const char *text, *factor;
-        long pi;
+        int64_t pi;
     } rows[] = {
         {"km/h", "5/18", 0},       {"deg", "1/180", 1},      {"rpm", "1/30", 1},      {"deg^2", "1/32400", 2},
         {"rev/min", "1/30", 1},    {"1/deg", "180", -1},     {"cm^3", "1/1000000", 0}, {"kWh", "3600000", 0},
@@ -100,7 +101,7 @@ factors_are_exact(void **state)
             read_good(rows[i].text, &unit);
             factor = fmpq_get_str(NULL, 10, unit.factor);
             if (strcmp(factor, rows[i].factor) != 0 || unit.pi != rows[i].pi)
-                fail_msg("%s is %s*pi^%ld", rows[i].text, factor, unit.pi);
+                fail_msg("%s is %s*pi^%" PRId64, rows[i].text, factor, unit.pi);
             flint_free(factor);
         }
         qdot_unit_clear(&unit);

@@ -1,6 +1,7 @@
 /* digits.c -- prints numbers of runs that were made with the option `digits`: as many digits as are known. */
 #include "lang/answer/digits.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -42,7 +43,7 @@ static int
 count_meaningful_digits(mpfr_srcptr x, int digits, double error)
 {
     double known, mantissa;
-    long power;
+    mpfr_exp_t power;
 
     if (isnan(error)) /* error unknown: show no more digits than a double has */
         return digits < 16 ? digits : 16;
@@ -55,20 +56,20 @@ count_meaningful_digits(mpfr_srcptr x, int digits, double error)
 
 /* Write x, given by its digits as 0.d1 d2 ... 10^exponent. */
 static void
-write_number(const char *d, long exponent, qdot_text *out)
+write_number(const char *d, int64_t exponent, qdot_text *out)
 {
-    long n;
+    int64_t n;
 
     if (*d == '-')
         qdot_text_char(out, *d++);
-    n = (long)strlen(d);
+    n = (int64_t)strlen(d);
     if (exponent > n || exponent < -4) {
         qdot_text_add_n(out, d, 1);
         if (n > 1) {
             qdot_text_char(out, '.');
             qdot_text_add(out, d + 1);
         }
-        qdot_text_format(out, "e%ld", exponent - 1);
+        qdot_text_format(out, "e%" PRId64, exponent - 1);
     } else if (exponent > 0) {
         qdot_text_add_n(out, d, (size_t)exponent);
         if (exponent < n)
@@ -76,7 +77,7 @@ write_number(const char *d, long exponent, qdot_text *out)
         qdot_text_add(out, d + exponent);
     } else {
         qdot_text_add(out, "0.");
-        for (long i = exponent; i < 0; i++)
+        for (int64_t i = exponent; i < 0; i++)
             qdot_text_char(out, '0');
         qdot_text_add(out, d);
     }
@@ -84,7 +85,7 @@ write_number(const char *d, long exponent, qdot_text *out)
 
 /* Drop trailing zeros after the decimal point of an exact number. */
 static void
-drop_trailing_zeros(char *d, long exponent)
+drop_trailing_zeros(char *d, int64_t exponent)
 {
     size_t sign = *d == '-', n = strlen(d), least = sign + 1;
 
@@ -109,8 +110,8 @@ write_real(mpfr_srcptr x, int digits, double error, bool shortly, qdot_text *out
     if (d == NULL)
         return QDOT_ENOMEM;
     if (shortly)
-        drop_trailing_zeros(d, (long)exponent);
-    write_number(d, (long)exponent, out);
+        drop_trailing_zeros(d, (int64_t)exponent);
+    write_number(d, (int64_t)exponent, out);
     mpfr_free_str(d);
     return QDOT_OK;
 }

@@ -1,6 +1,7 @@
 /* report.c -- prints the report of a run, as text or as JSON. */
 #include "lang/answer/report.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -158,7 +159,7 @@ append_groups_as_json(qdot_text *line, const qdot_run_report *r)
     for (size_t i = 0; i < r->n_parts; i++) {
         qdot_text_add(line, i > 0 ? ",{\"coordinates\":" : "{\"coordinates\":");
         qdot_text_json(line, r->parts[i].coordinates);
-        qdot_text_format(line, ",\"steps\":%zu,\"rejected\":%zu}", r->parts[i].steps,
+        qdot_text_format(line, ",\"steps\":%" PRIu64 ",\"rejected\":%" PRIu64 "}", r->parts[i].steps,
                          r->parts[i].rejected);
     }
     qdot_text_char(line, ']');
@@ -174,7 +175,7 @@ append_constraints_as_json(qdot_session *session, const qdot_run_report *r, qdot
 
     qdot_text_format(line,
                      ",\"constraints\":{\"count\":%zu,\"independent\":%zu,"
-                     "\"treatment\":\"%s\",\"projections\":%zu",
+                     "\"treatment\":\"%s\",\"projections\":%" PRIu64,
                      r->m, r->independent,
                      r->digits > 0 ? "digits" : treatments[r->treatment], r->projections);
     append_json_number(line, "velocity_drift", r->velocity_drift);
@@ -209,8 +210,8 @@ write_run_as_json(qdot_session *session, const char *name, const qdot_run_report
     qdot_text_char(line, ']');
     append_json_number(line, "tol", r->tol);
     qdot_text_format(line,
-                     ",\"steps\":%zu,\"rejected\":%zu,\"evals\":%zu,\"jacobians\":%zu,"
-                     "\"factorizations\":%zu",
+                     ",\"steps\":%" PRIu64 ",\"rejected\":%" PRIu64 ",\"evals\":%" PRIu64
+                     ",\"jacobians\":%" PRIu64 ",\"factorizations\":%" PRIu64,
                      r->steps, r->rejected, r->evals, r->jacobians, r->factorizations);
     append_json_number(line, "cpu", r->cpu);
     append_json_number(line, "cpu_total", r->cpu_total);
@@ -238,9 +239,9 @@ write_run_as_json(qdot_session *session, const char *name, const qdot_run_report
 
 /* Write a number with a noun in the right form: 1 step, 12 steps. */
 static void
-add_count(qdot_text *line, size_t n, const char *noun)
+add_count(qdot_text *line, uint64_t n, const char *noun)
 {
-    qdot_text_format(line, "%zu %s%s", n, noun, n == 1 ? "" : "s");
+    qdot_text_format(line, "%" PRIu64 " %s%s", n, noun, n == 1 ? "" : "s");
 }
 
 static void
@@ -362,7 +363,7 @@ write_run_as_text(qdot_session *session, const char *name, const qdot_run_report
         qdot_text_format(line, ": %s", r->reason);
     qdot_text_add(line, "\n  ");
     add_count(line, r->steps, "step");
-    qdot_text_format(line, ", %zu rejected; ", r->rejected);
+    qdot_text_format(line, ", %" PRIu64 " rejected; ", r->rejected);
     add_count(line, r->evals, "evaluation");
     qdot_text_add(line, " of ");
     add_count(line, r->operations, "operation");

@@ -96,7 +96,7 @@ answer_run_results(qdot_session *session, const char *name, qdot_expr value)
 static bool
 is_sum_or_product(const char *text)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     for (; *text != '\0'; text++) {
         depth += (strchr("([", *text) != NULL) - (strchr(")]", *text) != NULL);

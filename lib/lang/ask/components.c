@@ -84,8 +84,8 @@ get_component(const tensor *t, const uint32_t *at)
 
     for (uint32_t k = 0; k + 2 < t->rank; k++)
         e = qdot_expr_arg(t->session->pool, e, at[k]);
-    return qdot_entry2(t->session->pool, e, (long)at[t->rank - 2] + 1,
-                       (long)at[t->rank - 1] + 1);
+    return qdot_entry2(t->session->pool, e, (int64_t)at[t->rank - 2] + 1,
+                       (int64_t)at[t->rank - 1] + 1);
 }
 
 /* Advance to the next set of indices; false after the last one. */

@@ -26,7 +26,7 @@ carry_out_dof(qdot_record *r)
     qdot_dof dof;
 
     QDOT_TRY(qdot_mech_dof(session->scene, &dof));
-    value = qdot_expr_int(session->pool, (long)dof.freedom);
+    value = qdot_expr_int(session->pool, (int64_t)dof.freedom);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_vec_push(&session->history->values, value));
     QDOT_TRY(qdot_answer_expr(session, "dof", value));

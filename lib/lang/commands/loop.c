@@ -1,6 +1,8 @@
 /* loop.c -- `for` loops: steps through the values of their indices. */
 #include "lang/commands/loop.h"
 
+#include <inttypes.h>
+
 #include "base/interrupt.h"
 #include "expr/exact.h"
 #include "expr/node.h"
@@ -88,9 +90,9 @@ read_range(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
     qdot_record_blame(loop->record, values);
     QDOT_TRY(qdot_session_integer(loop->session, from, &index->at));
     QDOT_TRY(qdot_session_integer(loop->session, to, &index->last));
-    if (index->at <= index->last && (unsigned long)index->last - (unsigned long)index->at >= QDOT_LOOP_PASSES) {
-        (void)qdot_fail(QDOT_ELIMIT, "a loop of %lu passes: more than %d",
-                        (unsigned long)index->last - (unsigned long)index->at + 1, QDOT_LOOP_PASSES);
+    if (index->at <= index->last && (uint64_t)index->last - (uint64_t)index->at >= QDOT_LOOP_PASSES) {
+        (void)qdot_fail(QDOT_ELIMIT, "a loop of %" PRIu64 " passes: more than %d",
+                        (uint64_t)index->last - (uint64_t)index->at + 1, QDOT_LOOP_PASSES);
         return qdot_hint("a function of k needs no member for each: a(k) = ...");
     }
     return QDOT_OK;

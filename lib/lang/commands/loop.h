@@ -8,7 +8,7 @@ typedef struct {
     char *name;
     const qdot_filled *behind; /* the part of the statement after the values of the index */
     bool listed;               /* the index runs over the values of a list; otherwise over the integers at..last */
-    long at, last;
+    int64_t at, last;
     qdot_vec(qdot_expr) values;
     size_t next;
     bool held; /* the index is a declared parameter or coordinate, whose value is set for each pass of the loop */

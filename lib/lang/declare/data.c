@@ -156,7 +156,7 @@ find_columns(reading *d, const char *path, const qdot_csv *csv)
 /* --- the function ----------------------------------------------------------------------- */
 
 static qdot_expr
-lookup(qdot_pool *pool, qdot_expr x, long handle)
+lookup(qdot_pool *pool, qdot_expr x, int64_t handle)
 {
     return qdot_fun(pool, QDOT_LOOKUP, 2, (qdot_expr[]){x, qdot_expr_int(pool, handle)});
 }

@@ -98,7 +98,7 @@ remove_thing_of_kind(qdot_record *r, const qdot_filled *number, size_t row)
 {
     qdot_scene *scene = r->cursor.session->scene;
     size_t n = qdot_scene_count(scene, kinds[row].kind);
-    long k = 1;
+    int64_t k = 1;
 
     r->cursor.error_at = r->start->start;
     if (number != NULL)

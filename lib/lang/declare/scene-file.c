@@ -365,7 +365,7 @@ qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file wh
         c->error_at = name->start;
         (void)qdot_fail(QDOT_ESYNTAX, "`%.200s`: statements are written to a file whose name ends in `.lag`", path);
         return qdot_hint("save %s to \"%.*s.lag\"", what == QDOT_FILE_HISTORY ? "history" : "session",
-                         (int)(dot != NULL ? dot - path : (long)strlen(path)), path);
+                         (int)(dot != NULL ? dot - path : (int64_t)strlen(path)), path);
     }
     status = qdot_scene_file_text(c->session, what, &text);
     c->error_at = name->start;

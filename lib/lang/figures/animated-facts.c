@@ -1,4 +1,5 @@
 /* animated-facts.c -- the lines below an animation: which run it shows, and its accuracy. */
+#include <inttypes.h>
 #include <math.h>
 
 #include "base/number-text.h"
@@ -99,7 +100,7 @@ qdot_animated_facts(qdot_session *session, const qdot_named_run *run, qdot_anima
     QDOT_TRY(add_parameter_values(session, run, a));
     qdot_text_format(&text, "%s, tol ", r->method);
     qdot_number_text(&text, r->tol, 0);
-    qdot_text_format(&text, ", %zu step%s", r->steps, r->steps == 1 ? "" : "s");
+    qdot_text_format(&text, ", %" PRIu64 " step%s", r->steps, r->steps == 1 ? "" : "s");
     QDOT_TRY(add_fact(a, "method", &text));
     if (r->status != QDOT_RUN_DONE) {
         qdot_text_format(

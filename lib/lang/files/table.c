@@ -160,7 +160,7 @@ make_table_with_digits(qdot_session *session, const qdot_operands *list, const d
     if (rows > 1 && times[1] < times[0])
         step = qdot_neg(pool, step);
     for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
-        at[k] = qdot_add(pool, from, qdot_mul(pool, qdot_expr_int(pool, (long)k), step));
+        at[k] = qdot_add(pool, from, qdot_mul(pool, qdot_expr_int(pool, (int64_t)k), step));
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK)

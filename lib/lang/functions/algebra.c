@@ -1,6 +1,8 @@
 /* algebra.c -- functions that differentiate, take the sides of equations, substitute and factor. */
 #include "lang/functions/algebra.h"
 
+#include <inttypes.h>
+
 #include "base/memory.h"
 #include "base/text.h"
 #include "expr/build.h"
@@ -81,7 +83,7 @@ qdot_status
 qdot_call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     qdot_expr e = args[0];
-    long times = 1;
+    int64_t times = 1;
 
     if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] == QDOT_PI ||
         args[1] == QDOT_TRUE || args[1] == QDOT_FALSE) {
@@ -99,7 +101,7 @@ qdot_call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
     if (n == 3)
         QDOT_TRY(qdot_session_integer(s, args[2], &times));
     if (times < 0)
-        return qdot_fail(QDOT_EDOMAIN, "a derivative is taken 0, 1, 2 ... times, not %ld",
+        return qdot_fail(QDOT_EDOMAIN, "a derivative is taken 0, 1, 2 ... times, not %" PRId64,
                          times);
     if (args[1] == QDOT_T && times > 0)
         QDOT_TRY(give_notice_of_partial_derivative(s, e));

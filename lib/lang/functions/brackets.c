@@ -76,7 +76,7 @@ qdot_call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
 typedef struct {
     qdot_session *session;
     qdot_expr W;
-    long order;
+    int64_t order;
 } lie_series;
 
 /* f + {f, W} + {{f, W}, W}/2! + ... */
@@ -86,7 +86,7 @@ lie_series_of(qdot_pool *pool, qdot_expr f, void *user)
     const lie_series *l = user;
     qdot_expr sum = f, term = f;
 
-    for (long k = 1; k <= l->order && term != QDOT_ZERO && term != QDOT_NIL; k++) {
+    for (int64_t k = 1; k <= l->order && term != QDOT_ZERO && term != QDOT_NIL; k++) {
         term = qdot_div(pool, qdot_hamilton_poisson(l->session->scene, term, l->W), qdot_expr_int(pool, k));
         sum = qdot_add(pool, sum, term);
     }

@@ -69,7 +69,7 @@ degree_in(qdot_pool *pool, qdot_expr f, qdot_expr x, uint32_t most)
     uint32_t degree = 0;
 
     for (uint32_t k = 1; k <= most; k++)
-        if (qdot_coefficient(pool, f, x, (long)k) != QDOT_ZERO)
+        if (qdot_coefficient(pool, f, x, (int64_t)k) != QDOT_ZERO)
             degree = k;
     return degree;
 }
@@ -126,11 +126,11 @@ add_complex_roots(qdot_session *s, qdot_expr f, qdot_expr x, uint32_t degree, bo
                                 qdot_div(pool, qdot_sqrt(pool, qdot_neg(pool, D)), twice), values);
     }
     for (uint32_t k = 0; k <= degree; k++) {
-        const qdot_expr coefficient = qdot_coefficient(pool, f, x, (long)k);
+        const qdot_expr coefficient = qdot_coefficient(pool, f, x, (int64_t)k);
 
         if (k % 2 == 1 && coefficient != QDOT_ZERO)
             return QDOT_OK;
-        even = qdot_add(pool, even, qdot_mul(pool, coefficient, qdot_pow_int(pool, square, (long)k / 2)));
+        even = qdot_add(pool, even, qdot_mul(pool, coefficient, qdot_pow_int(pool, square, (int64_t)k / 2)));
     }
     status = qdot_solve(pool, even, square, &facts, &roots);
     *all = status == QDOT_OK && roots.complete && 2 * roots.root.n == degree;
@@ -162,7 +162,7 @@ find_exact(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, bool *all, e
     for (uint32_t i = 1; i < (qdot_expr_kind(pool, product) == QDOT_PROD ? qdot_expr_count(pool, product) : 2); i += 2) {
         const bool whole = qdot_expr_kind(pool, product) != QDOT_PROD;
         const qdot_expr f = qdot_expand(pool, whole ? product : qdot_expr_arg(pool, product, i));
-        long power = 1;
+        int64_t power = 1;
         const size_t before = values->n;
         uint32_t degree;
 

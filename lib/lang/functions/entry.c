@@ -1,6 +1,8 @@
 /* entry.c -- finds an entry of a value by its indices, and writes the name of a family member. */
 #include "lang/functions/entry.h"
 
+#include <inttypes.h>
+
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
@@ -13,10 +15,10 @@ qdot_entry_name(qdot_session *session, const char *name, uint32_t n,
 {
     qdot_text_add(member, name);
     for (uint32_t i = 0; i < n; i++) {
-        long k;
+        int64_t k;
 
         QDOT_TRY(qdot_session_integer(session, index[i], &k));
-        qdot_text_format(member, "%c%ld", i == 0 ? '[' : ',', k);
+        qdot_text_format(member, "%c%" PRId64, i == 0 ? '[' : ',', k);
     }
     if (n > 0)
         qdot_text_char(member, ']');
@@ -25,12 +27,12 @@ qdot_entry_name(qdot_session *session, const char *name, uint32_t n,
 
 /* Find an index as a number from 1: an integer, or a coordinate if entries are indexed by coordinates. */
 static qdot_status
-index_as_number(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
+index_as_number(qdot_session *s, qdot_expr over, qdot_expr index, int64_t *i)
 {
     if (qdot_expr_is_coordinate(s->pool, index) || (index == QDOT_T && over != QDOT_NIL)) {
         for (uint32_t k = 0; over != QDOT_NIL && k < qdot_expr_count(s->pool, over); k++)
             if (qdot_expr_arg(s->pool, over, k) == index) {
-                *i = (long)k + 1;
+                *i = (int64_t)k + 1;
                 return QDOT_OK;
             }
         if (over != QDOT_NIL)
@@ -46,7 +48,7 @@ qdot_entry_of(qdot_session *session, qdot_expr e, qdot_expr over, uint32_t n,
               const qdot_expr *index, qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
-    long i, j;
+    int64_t i, j;
 
     *value = e;
     for (uint32_t k = 0; k < n;) {

@@ -1,6 +1,8 @@
 /* equilibria.c -- finds equilibria and modes of a scene; numerical ones with the session's parameter values. */
 #include "lang/functions/equilibria.h"
 
+#include <inttypes.h>
+
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
@@ -145,7 +147,7 @@ existence_with_values(qdot_session *session, qdot_expr exists)
 }
 
 qdot_status
-qdot_equilibria_notice(qdot_session *session, const char *word, long k, const qdot_equilibrium *e)
+qdot_equilibria_notice(qdot_session *session, const char *word, int64_t k, const qdot_equilibrium *e)
 {
     qdot_text text = {0};
     qdot_expr now;
@@ -157,7 +159,7 @@ qdot_equilibria_notice(qdot_session *session, const char *word, long k, const qd
     QDOT_TRY(qdot_pool_check(session->pool));
     if (now == QDOT_NIL) /* the condition holds */
         return QDOT_OK;
-    qdot_text_format(&text, "%s[%ld] exists when ", word, k);
+    qdot_text_format(&text, "%s[%" PRId64 "] exists when ", word, k);
     status = qdot_solve_print_conditions(session->pool, "", e->exists, &text);
     if (now == QDOT_FALSE)
         qdot_text_add(&text, ": not with the values of `set`");

@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
 /* One equilibrium as a LIST of its equations. */
 qdot_expr qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e);
 /* When equilibrium k is used as a value: give a notice of its conditions, unless the session's values satisfy them. */
-QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, const char *word, long k,
+QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, const char *word, int64_t k,
                                                    const qdot_equilibrium *e);
 /* Find the stability of one equilibrium, given as a LIST of equations: a word, or if(CONDITION,
  * word, undecided). */

@@ -16,7 +16,7 @@ part_of_polynomial(qdot_pool *pool, const qdot_coefficients *c, qdot_expr w, siz
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t k = part; k < c->n; k += 2) {
-        const qdot_expr term = qdot_mul(pool, c->at[k], qdot_pow_int(pool, w, (long)k));
+        const qdot_expr term = qdot_mul(pool, c->at[k], qdot_pow_int(pool, w, (int64_t)k));
 
         sum = k / 2 % 2 == 0 ? qdot_add(pool, sum, term) : qdot_sub(pool, sum, term);
     }

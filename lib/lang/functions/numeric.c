@@ -8,6 +8,8 @@
  */
 #include "lang/functions/builtin.h"
 
+#include <inttypes.h>
+
 #include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/node.h"
@@ -102,13 +104,13 @@ qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot
     qdot_pool *pool = session->pool;
     qdot_expr e = bind_to_numbers(session, args[0]), exact;
     order o = {.session = session, .plain = n == 1};
-    long digits = DIGITS;
+    int64_t digits = DIGITS;
 
     QDOT_TRY(qdot_value_kind_check(pool, e));
     if (n == 2) {
         QDOT_TRY(qdot_session_integer(session, args[1], &digits));
         if (digits < 1 || digits > MOST_DIGITS)
-            return qdot_fail(QDOT_EDOMAIN, "%ld digits: from 1 to %d can be asked for", digits,
+            return qdot_fail(QDOT_EDOMAIN, "%" PRId64 " digits: from 1 to %d can be asked for", digits,
                              MOST_DIGITS);
     }
     if (qdot_expr_is_class(pool, e, QDOT_WORDS))
@@ -116,7 +118,7 @@ qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot
     exact = qdot_measured_as_rationals(session, e);
     QDOT_TRY(qdot_value_kind_check(pool, exact));
     if (digits > DIGITS && qdot_expr_find_function(pool, exact, 1, (qdot_fun_id[]){QDOT_LOOKUP}, QDOT_NIL) != QDOT_NIL)
-        return qdot_fail(QDOT_EDOMAIN, "%ld digits: a table of data is known to %d", digits, DIGITS);
+        return qdot_fail(QDOT_EDOMAIN, "%" PRId64 " digits: a table of data is known to %d", digits, DIGITS);
     if (exact == e && !(qdot_expr_is_constant(pool, e) && has_only_numbers(pool, e)))
         return qdot_decimals_beside_symbols(pool, e, (int)digits, value);
     if (!qdot_expr_is_constant(pool, exact) || !(has_only_numbers(pool, e) || qdot_expr_kind(pool, e) == QDOT_MAT))

@@ -1,6 +1,7 @@
 /* quantity.c -- the table of quantities of a scene: T, V, L, eom, p[theta] ... */
 #include "lang/functions/quantity.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -367,15 +368,15 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
     qdot_text name = {0};
     const qdot_constraint *found = NULL, *first = NULL;
     qdot_status status = QDOT_OK;
-    long k;
+    int64_t k;
 
     if (label != NULL && label->class == QDOT_FORMAL)
         qdot_text_add(&name, label->name);
     else if ((status = qdot_session_integer(s, index[0], &k)) == QDOT_OK)
-        qdot_text_format(&name, "%ld", k);
+        qdot_text_format(&name, "%" PRId64, k);
     if (status == QDOT_OK && n == 2 &&
         (status = qdot_session_integer(s, index[1], &k)) == QDOT_OK)
-        qdot_text_format(&name, ", %ld", k);
+        qdot_text_format(&name, ", %" PRId64, k);
     if (status == QDOT_OK)
         status = qdot_text_status(&name);
     for (size_t i = 0; status == QDOT_OK && i < count_constraints(s->scene); i++) {
@@ -417,7 +418,7 @@ get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 
     (void)n, (void)index;
     QDOT_TRY(qdot_mech_dof(s->scene, &dof));
-    return qdot_value_kind_give(s->pool, qdot_expr_int(s->pool, (long)dof.freedom),
+    return qdot_value_kind_give(s->pool, qdot_expr_int(s->pool, (int64_t)dof.freedom),
                                 value);
 }
 
@@ -430,7 +431,7 @@ get_rests(qdot_session *s, const char *word, qdot_equilibria_search *find, uint3
 {
     qdot_equilibria all = {0};
     qdot_status status = qdot_phase_begin(s, true);
-    long k = 0;
+    int64_t k = 0;
 
     if (status == QDOT_OK)
         status = require_equations(s);
@@ -485,7 +486,7 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     const bool shown = s->history->modes_version == qdot_phase_version(s);
     qdot_modes modes;
     qdot_status status = QDOT_OK;
-    long k = 1;
+    int64_t k = 1;
 
     QDOT_TRY(require_coordinates(s));
     if (n > 0)

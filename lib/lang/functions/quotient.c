@@ -42,7 +42,7 @@ qdot_quotient_split(qdot_pool *pool, qdot_expr e, qdot_expr *top, qdot_expr *bot
     *top = qdot_expr_arg(pool, e, 0);
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
-        long k;
+        int64_t k;
 
         if (qdot_expr_to_int(pool, power, &k) && k < 0)
             *bottom = qdot_mul(pool, *bottom, qdot_pow_int(pool, base, -k));
@@ -70,7 +70,7 @@ read_coefficients(qdot_session *session, qdot_expr f, qdot_expr s, qdot_coeffici
     (void)qdot_coefficient(session->pool, f, s, 0);
     if (qdot_pool_check(session->pool) != QDOT_OK)
         return refuse_quotient();
-    for (long k = 0; f != QDOT_ZERO; k++) {
+    for (int64_t k = 0; f != QDOT_ZERO; k++) {
         qdot_expr value;
 
         if (k > HIGHEST_DEGREE)

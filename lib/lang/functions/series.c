@@ -1,6 +1,8 @@
 /* series.c -- series(E, x = a, ..., n): reads its arguments, and stores the Taylor series for printing by degree. */
 #include "lang/functions/builtin.h"
 
+#include <inttypes.h>
+
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/node.h"
@@ -25,7 +27,7 @@ read_expansion_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_re
 }
 
 static qdot_status
-expand_in_series(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long most,
+expand_in_series(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, int64_t most,
                  qdot_expr *value)
 {
     const qdot_facts facts = qdot_scene_facts(s->scene);
@@ -50,11 +52,11 @@ qdot_call_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *
     uint32_t count = list ? qdot_expr_count(s->pool, args[0]) : 1;
     qdot_expr *members;
     qdot_status status = QDOT_OK;
-    long most;
+    int64_t most;
 
     QDOT_TRY(qdot_session_integer(s, args[n - 1], &most));
     if (most < 0 || most > 1000)
-        return qdot_fail(QDOT_EDOMAIN, "a series goes up to degree 0 ... 1000, not %ld",
+        return qdot_fail(QDOT_EDOMAIN, "a series goes up to degree 0 ... 1000, not %" PRId64,
                          most);
     members = qdot_malloc((count + 1) * sizeof *members);
     if (members == NULL)

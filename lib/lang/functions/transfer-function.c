@@ -70,20 +70,20 @@ quotient_in_s(job *j, qdot_expr s)
 {
     qdot_pool *pool = j->pool;
     const size_t n = j->n;
-    qdot_expr p = qdot_pow_int(pool, s, (long)n), top = QDOT_ZERO;
+    qdot_expr p = qdot_pow_int(pool, s, (int64_t)n), top = QDOT_ZERO;
 
     for (size_t i = 0; i < n * n; i++)
         j->N[i] = i % (n + 1) == 0 ? QDOT_ONE : QDOT_ZERO;
     for (size_t k = 1; k <= n; k++) {
         qdot_expr trace = QDOT_ZERO;
 
-        top = qdot_add(pool, top, qdot_mul(pool, numerator_term(j), qdot_pow_int(pool, s, (long)(n - k))));
+        top = qdot_add(pool, top, qdot_mul(pool, numerator_term(j), qdot_pow_int(pool, s, (int64_t)(n - k))));
         for (size_t i = 0; i < n * n; i++)
             j->next[i] = product_sum(j, n, j->A + i / n * n, 1, j->N + i % n, n);
         for (size_t i = 0; i < n; i++)
             trace = qdot_add(pool, trace, j->next[i * (n + 1)]);
-        trace = qdot_simplify(pool, qdot_div(pool, qdot_neg(pool, trace), qdot_expr_int(pool, (long)k)), &j->facts);
-        p = qdot_add(pool, p, qdot_mul(pool, trace, qdot_pow_int(pool, s, (long)(n - k))));
+        trace = qdot_simplify(pool, qdot_div(pool, qdot_neg(pool, trace), qdot_expr_int(pool, (int64_t)k)), &j->facts);
+        p = qdot_add(pool, p, qdot_mul(pool, trace, qdot_pow_int(pool, s, (int64_t)(n - k))));
         for (size_t i = 0; i < n * n; i++)
             j->N[i] = i % (n + 1) == 0 ? qdot_simplify(pool, qdot_add(pool, j->next[i], trace), &j->facts) : j->next[i];
         if (qdot_pool_failed(pool))

@@ -28,7 +28,7 @@ const char *qdot_compiled_next_name(const qdot_compiled *program, uint32_t *k);
 /* Whether the whole program is a list [a, b, ...], or a matrix. */
 bool qdot_compiled_is_list(const qdot_compiled *program);
 /* If the whole program is NAME[K] with a number K: the name, and *k = K; else NULL. */
-const char *qdot_compiled_member_of(const qdot_compiled *program, long *k);
+const char *qdot_compiled_member_of(const qdot_compiled *program, int64_t *k);
 /* Whether this instruction calls value, max, min, mean or drift, which read a run at intermediate times. */
 bool qdot_postfix_reads_way(const qdot_postfix *code);
 /* Whether any instruction of the program reads a run at intermediate times. */
@@ -50,6 +50,6 @@ QDOT_MUST_CHECK qdot_status qdot_compiled_point(qdot_cursor *c, const qdot_compi
 QDOT_MUST_CHECK qdot_status qdot_compiled_number(qdot_cursor *c, const qdot_compiled *program,
                                                 double *value);
 QDOT_MUST_CHECK qdot_status qdot_compiled_integer(qdot_cursor *c, const qdot_compiled *program,
-                                                 long *value);
+                                                 int64_t *value);
 
 #endif

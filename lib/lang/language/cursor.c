@@ -160,7 +160,7 @@ static const qdot_token *
 find_operand_start(const qdot_cursor *c, const qdot_token *last)
 {
     const qdot_token *t = last, *first = c->source->tokens.at;
-    long depth = 0;
+    int64_t depth = 0;
 
     while (t > first + 1 && t->kind == QDOT_TOKEN_NUMBER && qdot_token_is(t - 1, "^") && t->start == t[-1].start)
         t -= 2; /* skip an exponent that was written as a superscript: x² */
@@ -180,7 +180,7 @@ size_t
 qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t)
 {
     const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1;
-    long depth = 0;
+    int64_t depth = 0;
 
     if (t->kind == QDOT_TOKEN_NAME && t[1].glued && qdot_token_bracket(t + 1) > 0)
         t++;

@@ -15,7 +15,7 @@ qdot_enclosing_statement(const qdot_cursor *c, const qdot_token *token)
 const qdot_token *
 qdot_enclosing_bracket(const qdot_token *first, const qdot_token *token)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     while (token > first) {
         token--;
@@ -44,7 +44,7 @@ qdot_enclosing_is_variable(const qdot_token *first, const qdot_token *token)
 static const qdot_token *
 second_argument(const qdot_token *open)
 {
-    long depth = 1;
+    int64_t depth = 1;
 
     for (const qdot_token *k = open + 1; k->kind != QDOT_TOKEN_END && depth > 0; k++) {
         if (depth == 1 && qdot_token_is(k, ","))

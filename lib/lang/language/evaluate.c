@@ -1,4 +1,5 @@
 /* evaluate.c -- evaluates an expression, translated to postfix code, in a loop with stacks of its own (no recursion). */
+#include <inttypes.h>
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -301,7 +302,7 @@ evaluate_event_times(qdot_machine *m, const qdot_postfix *code, bool *found)
     qdot_text spelled = {0};
     qdot_status status = QDOT_OK;
     qdot_expr value;
-    long k = 0;
+    int64_t k = 0;
 
     *found = false;
     if (code->primes > 0 || code->n > 1 || qdot_names_find(m->session->names, text) ||
@@ -309,7 +310,7 @@ evaluate_event_times(qdot_machine *m, const qdot_postfix *code, bool *found)
         return QDOT_OK;
     if (indexed && qdot_expr_kind(m->pool, qdot_machine_top(m, 1)->value) == QDOT_NUM) {
         QDOT_TRY(qdot_session_integer(m->session, qdot_machine_top(m, 1)->value, &k));
-        qdot_text_format(&spelled, "%s[%ld]", text, k);
+        qdot_text_format(&spelled, "%s[%" PRId64 "]", text, k);
         if (qdot_event_is(m->session, run, qdot_text_str(&spelled))) {
             text = qdot_text_str(&spelled);
             k = 0;

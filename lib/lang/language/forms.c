@@ -1,6 +1,8 @@
 /* forms.c -- evaluates sum(EXPR, k, a, b) and if(C, A, B), which do not evaluate all arguments first. */
 #include "lang/language/forms.h"
 
+#include <inttypes.h>
+
 #include "base/interrupt.h"
 #include "expr/build.h"
 #include "expr/exact.h"
@@ -77,7 +79,7 @@ qdot_forms_sum(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
         f.k = known->last + 1;
         QDOT_TRY(qdot_vec_push(&m->terms, known->value));
     }
-    if (f.last > f.k && (unsigned long)f.last - (unsigned long)f.k >= QDOT_SUM_TERMS) {
+    if (f.last > f.k && (uint64_t)f.last - (uint64_t)f.k >= QDOT_SUM_TERMS) {
         f.symbol = qdot_symbol_get(m->pool, QDOT_FORMAL, "a summation index");
         QDOT_TRY(qdot_value_kind_check(m->pool, f.symbol));
         QDOT_TRY(qdot_names_push(m->session->names, f.index, f.symbol));
@@ -115,8 +117,8 @@ qdot_forms_too_many_terms(const qdot_sum_frame *f, qdot_status status)
 {
     if (f->symbol == QDOT_NIL || qdot_grave(status) != QDOT_OK)
         return status;
-    (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula",
-                    (unsigned long)f->last - (unsigned long)f->k + 1);
+    (void)qdot_fail(QDOT_ELIMIT, "a sum of %" PRIu64 " terms, and none is known by a formula",
+                    (uint64_t)f->last - (uint64_t)f->k + 1);
     return qdot_hint("more than %d terms must be polynomials in %.40s or powers r^%.40s",
                      QDOT_SUM_TERMS, f->index, f->index);
 }

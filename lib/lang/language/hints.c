@@ -1,6 +1,7 @@
 /* hints.c -- suggestions for mistyped input: the nearest name, or the notation of this language. */
 #include "lang/language/hints.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +76,7 @@ copy_bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size
 {
     const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1, *t = open;
     size_t from = open->start + open->length;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (; t < last && t < open + 64; t++) {
         const int step = qdot_token_bracket(t);
@@ -147,16 +148,16 @@ static qdot_status
 hint_at_declaration(const qdot_token *token, const char *member, bool coordinate)
 {
     const char *name = token->text, *open = member != NULL ? strchr(member, '[') : NULL;
-    const long k = open != NULL ? strtol(open + 1, NULL, 10) : 0;
+    const int64_t k = open != NULL ? strtoll(open + 1, NULL, 10) : 0;
 
     if (strlen(name) > LONGEST_NAME)
         return QDOT_ENAME;
     if (open != NULL && strchr(open, ',') == NULL && coordinate)
-        return qdot_hint("`coord %s[k] for k = %d..%ld` declares coordinates", name, k > 0,
+        return qdot_hint("`coord %s[k] for k = %d..%" PRId64 "` declares coordinates", name, k > 0,
                          k > 0 ? k : 3);
     if (open != NULL && strchr(open, ',') == NULL)
-        return qdot_hint("`param %s[k] for k = %d..%ld` declares parameters, "
-                         "`coord %s[k] for k = %d..%ld` coordinates",
+        return qdot_hint("`param %s[k] for k = %d..%" PRId64 "` declares parameters, "
+                         "`coord %s[k] for k = %d..%" PRId64 "` coordinates",
                          name, k > 0, k > 0 ? k : 3, name, k > 0, k > 0 ? k : 3);
     if (open != NULL)
         return qdot_hint("`%s %s` declares it", coordinate ? "coord" : "param", member);
@@ -170,7 +171,7 @@ static size_t
 count_arguments(const qdot_token *open)
 {
     size_t n = 1;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *t = open; t->kind != QDOT_TOKEN_END; t++) {
         depth += qdot_token_bracket(t);

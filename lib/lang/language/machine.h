@@ -20,7 +20,7 @@ typedef struct {
     const char *index;
     const qdot_token *place; /* the token where the sum stands in the text */
     bool varies;             /* the terms depend on more than the index (language/partial-sum) */
-    long first, k, last;
+    int64_t first, k, last;
     uint32_t resume; /* index of the instruction at which to go on after the sum */
     size_t terms;    /* index, in the list `terms`, of the first term of this sum */
     bool bound;      /* the index has a value at present */

@@ -8,8 +8,8 @@
 #include "expr/symbol.h"
 
 const qdot_partial_sum *
-qdot_partial_sum_find(const qdot_session *session, const qdot_token *place, long first,
-                      long last)
+qdot_partial_sum_find(const qdot_session *session, const qdot_token *place, int64_t first,
+                      int64_t last)
 {
     for (size_t i = 0; i < session->evaluation->partial_sums.n; i++) {
         const qdot_partial_sum *sum = session->evaluation->partial_sums.at + i;

@@ -16,14 +16,14 @@
 
 typedef struct qdot_partial_sum {
     const qdot_token *place; /* the token of the sum's index, which identifies the sum */
-    long first, last;
+    int64_t first, last;
     qdot_expr value;
 } qdot_partial_sum;
 
 /* The sum at this place from `first` as far as it is known, not beyond `last`; NULL: none. Valid
  * until the next is kept. */
 const qdot_partial_sum *qdot_partial_sum_find(const qdot_session *session,
-                                              const qdot_token *place, long first, long last);
+                                              const qdot_token *place, int64_t first, int64_t last);
 /* Store the sum for the next pass of a loop, in place of one with fewer terms; nothing outside of loops. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum);
 

@@ -192,7 +192,7 @@ match_token_sequence(matcher *x, char kind, const qdot_token *t, const char *res
 {
     const bool longest = kind == 'e' && !x->whole && *rest == '\0';
     const qdot_token *last = t;
-    long depth = 0;
+    int64_t depth = 0;
 
     if (kind == '.' && match_placeholder_and_rest(x, kind, t, t, rest))
         return true;
@@ -312,7 +312,7 @@ qdot_pattern_matches(const qdot_session *session, const char *pattern,
 static bool
 contains_sum(const qdot_token *from, const qdot_token *to)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *k = from; k < to; k++) {
         depth += qdot_token_bracket(k);

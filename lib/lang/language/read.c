@@ -1,6 +1,7 @@
 /* read.c -- reads operands of statements: parses an expression and evaluates it, at once or later. */
 #include "lang/language/read.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,7 +64,7 @@ qdot_compiled_is_list(const qdot_compiled *program)
 }
 
 const char *
-qdot_compiled_member_of(const qdot_compiled *program, long *k)
+qdot_compiled_member_of(const qdot_compiled *program, int64_t *k)
 {
     const qdot_postfix *code = program->code.list.at;
     char *rest;
@@ -71,7 +72,7 @@ qdot_compiled_member_of(const qdot_compiled *program, long *k)
     if (program->code.list.n != 2 || code[0].op != QDOT_POSTFIX_NUMBER || code[1].op != QDOT_POSTFIX_INDEX_NAME ||
         code[1].primes > 0)
         return NULL;
-    *k = strtol(code[0].token->text, &rest, 10);
+    *k = strtoll(code[0].token->text, &rest, 10);
     return *rest == '\0' ? code[1].token->text : NULL;
 }
 
@@ -207,7 +208,7 @@ qdot_compiled_number(qdot_cursor *c, const qdot_compiled *program, double *value
 }
 
 qdot_status
-qdot_compiled_integer(qdot_cursor *c, const qdot_compiled *program, long *value)
+qdot_compiled_integer(qdot_cursor *c, const qdot_compiled *program, int64_t *value)
 {
     qdot_expr e;
 
@@ -258,7 +259,7 @@ qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 
 /* Read an index of a name and evaluate it with the values of parameters. */
 static qdot_status
-read_name_index(qdot_cursor *c, long *value)
+read_name_index(qdot_cursor *c, int64_t *value)
 {
     qdot_compiled program;
     qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
@@ -278,10 +279,10 @@ read_indices(qdot_cursor *c, qdot_text *name)
     char separator = '[';
 
     do {
-        long k;
+        int64_t k;
 
         QDOT_TRY(read_name_index(c, &k));
-        qdot_text_format(name, "%c%ld", separator, k);
+        qdot_text_format(name, "%c%" PRId64, separator, k);
         separator = ',';
     } while (qdot_cursor_accept_op(c, ","));
     qdot_text_char(name, ']');
@@ -346,7 +347,7 @@ qdot_cursor_accept_run(qdot_cursor *c, const qdot_token **run)
     const qdot_token *behind = c->at + 1;
     qdot_token *spelled;
     const char *name;
-    long depth = 0;
+    int64_t depth = 0;
 
     *run = NULL;
     for (;; behind++) {

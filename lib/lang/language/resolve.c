@@ -493,7 +493,7 @@ static bool
 is_definition(const qdot_token *name)
 {
     const qdot_token *next = name + 1;
-    long depth = 0;
+    int64_t depth = 0;
 
     if (name->kind != QDOT_TOKEN_NAME || next->kind != QDOT_TOKEN_OPERATOR)
         return false;

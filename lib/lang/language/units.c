@@ -15,7 +15,7 @@
 const qdot_token *
 qdot_unit_end(const qdot_token *open)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *t = open; t->kind != QDOT_TOKEN_END; t++) {
         depth += qdot_token_bracket(t);

@@ -1,6 +1,7 @@
 /* run-options.c -- reads the options of a run. */
 #include "lang/runs/run-options.h"
 
+#include <inttypes.h>
 #include <limits.h>
 
 #include "expr/print.h"
@@ -105,7 +106,7 @@ read_digits(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
     qdot_record_blame(r, word);
     if (o->digits >= 1 && o->digits <= INT_MAX)
         return QDOT_OK;
-    qdot_fail(QDOT_EINVAL, "%ld digits cannot be asked for", o->digits);
+    qdot_fail(QDOT_EINVAL, "%" PRId64 " digits cannot be asked for", o->digits);
     return qdot_hint("digits 30");
 }
 

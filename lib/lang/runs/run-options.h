@@ -16,7 +16,7 @@
 typedef struct {
     qdot_expr from, to;
     double tol;
-    long digits; /* requested number of digits; 0: the run is computed in doubles */
+    int64_t digits; /* requested number of digits; 0: the run is computed in doubles */
     const char *method, *name;
     const qdot_token *method_at;
     qdot_run_treatment treatment;

@@ -31,7 +31,7 @@ insert_function_definition(qdot_pool *pool, qdot_expr application, qdot_expr hea
 
     for (uint32_t i = 0; i < n; i++) {
         qdot_expr formal = qdot_expr_arg(pool, head, i);
-        long order = 0;
+        int64_t order = 0;
 
         if (qdot_vec_push(&formals, formal) != QDOT_OK ||
             qdot_vec_push(&actual, qdot_expr_arg(pool, application, i)) != QDOT_OK) {
@@ -241,7 +241,7 @@ qdot_session_split(qdot_session *session, qdot_expr e, double *value, double *lo
 }
 
 qdot_status
-qdot_session_integer(qdot_session *session, qdot_expr e, long *value)
+qdot_session_integer(qdot_session *session, qdot_expr e, int64_t *value)
 {
     qdot_text text = {0};
     qdot_status status;

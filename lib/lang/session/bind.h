@@ -16,7 +16,7 @@ QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr 
                                                double *value, double *low);
 /* Evaluate e as an integer; QDOT_ETYPE, with the value in the message, if it is no integer. */
 QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
-                                                 long *value);
+                                                 int64_t *value);
 /* QDOT_EDOMAIN where the value is a number already and lies outside the symbol's
  * domain. */
 QDOT_MUST_CHECK qdot_status qdot_session_in_domain(qdot_session *session,

@@ -1,6 +1,7 @@
 /* event-time.c -- finds when the events of a run occurred. */
 #include "lang/session/event-time.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,13 +30,13 @@ qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o)
 /* Fail because occurrence k is not among the n known ones; say since when it is unknown whether the
  * event occurs. */
 static qdot_status
-report_unknown_occurrence(const qdot_named_run *named, const char *name, long k, size_t n)
+report_unknown_occurrence(const qdot_named_run *named, const char *name, int64_t k, size_t n)
 {
     const qdot_run_faded *list;
     size_t count;
 
     QDOT_TRY(qdot_run_faded_events(named->run, &list, &count));
-    (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name, k, n, n == 1 ? "" : "s",
+    (void)qdot_fail(QDOT_EDOMAIN, "%s[%" PRId64 "]: the event occurred %zu time%s in %s", name, k, n, n == 1 ? "" : "s",
                     named->name);
     for (size_t i = 0; i < count; i++) {
         char when[96];
@@ -45,7 +46,7 @@ report_unknown_occurrence(const qdot_named_run *named, const char *name, long k,
         snprintf(when, sizeof when, list[i].touched ? "about t = %.6g its sides touch within rounding"
                                                     : "from t = %.6g on its sides are equal within their errors",
                  list[i].from);
-        (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: %zu occurrence%s of the event %s known in %s: %s", name, k, n,
+        (void)qdot_fail(QDOT_EDOMAIN, "%s[%" PRId64 "]: %zu occurrence%s of the event %s known in %s: %s", name, k, n,
                         n == 1 ? "" : "s", n == 1 ? "is" : "are", named->name, when);
         break;
     }
@@ -53,7 +54,7 @@ report_unknown_occurrence(const qdot_named_run *named, const char *name, long k,
 }
 
 qdot_status
-qdot_event_time(qdot_session *session, const char *run, const char *name, long k,
+qdot_event_time(qdot_session *session, const char *run, const char *name, int64_t k,
                 qdot_expr *value)
 {
     const qdot_run_occurrence *list;

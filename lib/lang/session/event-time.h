@@ -13,6 +13,6 @@ int qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o);
 
 /* Find the time of occurrence k of the event, counted from 1; for k = 0 a list of all. */
 QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *run,
-                                            const char *name, long k, qdot_expr *value);
+                                            const char *name, int64_t k, qdot_expr *value);
 
 #endif

@@ -69,7 +69,7 @@ qdot_measured_find(const qdot_session *session, qdot_expr symbol)
 {
     const qdot_symbol *s = qdot_expr_symbol(session->pool, symbol);
     const char *mark = s != NULL && s->class == QDOT_FORMAL ? strrchr(s->name, '#') : NULL;
-    const size_t i = mark != NULL ? (size_t)strtoul(mark + 1, NULL, 10) : 0;
+    const size_t i = mark != NULL ? (size_t)strtoull(mark + 1, NULL, 10) : 0;
 
     return i >= 1 && i <= session->measured->n && session->measured->at[i - 1].symbol == symbol
                ? &session->measured->at[i - 1]

@@ -2,6 +2,7 @@
 #include "lang/session/mixture.h"
 
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -59,7 +60,7 @@ symbol_for_atom(qdot_pool *pool, qdot_expr atom, qdot_expr *e)
 
     if (qdot_expr_kind(pool, atom) == QDOT_SYM)
         return atom;
-    snprintf(name, sizeof name, "#%lu", (unsigned long)atom);
+    snprintf(name, sizeof name, "#%" PRIu64, (uint64_t)atom);
     symbol = qdot_symbol_get(pool, QDOT_FORMAL, name);
     *e = qdot_subs(pool, *e, 1, &atom, &symbol);
     return symbol;

@@ -54,7 +54,7 @@ copy_undefined_function(const qdot_pool *from, qdot_pool *to, qdot_expr e, const
         return qdot_pool_fail(to);
     }
     for (uint32_t i = 0; i < f->arity; i++) {
-        long order = 0;
+        int64_t order = 0;
 
         (void)qdot_expr_to_int(from, qdot_expr_arg(from, e, f->arity + i), &order);
         orders[i] = (uint32_t)order;

@@ -81,7 +81,7 @@ like_multiplier(qdot_session *session, qdot_expr multiplier)
         i++;
     if (i == s->constraints.n || s->constraints.at[i].f == QDOT_ZERO)
         return QDOT_NIL;
-    f_t = qdot_mul(pool, s->constraints.at[i].f, qdot_pow_int(pool, QDOT_T, (long)s->constraints.at[i].kind));
+    f_t = qdot_mul(pool, s->constraints.at[i].f, qdot_pow_int(pool, QDOT_T, (int64_t)s->constraints.at[i].kind));
     return qdot_div(pool, L != QDOT_NIL ? L : energy_unit(pool), f_t);
 }
 

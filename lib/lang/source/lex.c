@@ -332,7 +332,7 @@ read_superscripts(lexer *x, bool *found)
     size_t start = x->i, i = start, length;
     bool order = strncmp(text + i, open, sizeof open - 1) == 0;
     bool negative = strncmp(text + i, minus, sizeof minus - 1) == 0;
-    unsigned long n = 0;
+    uint64_t n = 0;
     qdot_text digits = {0};
     const char *copy;
     int digit;
@@ -343,7 +343,7 @@ read_superscripts(lexer *x, bool *found)
     i += order ? sizeof open - 1 : negative ? sizeof minus - 1 : 0;
     while ((digit = superscript_digit_value(text + i, &length)) >= 0) {
         qdot_text_char(&digits, (char)('0' + digit));
-        n = n < 1000 ? 10 * n + (unsigned long)digit : n;
+        n = n < 1000 ? 10 * n + (uint64_t)digit : n;
         i += length;
     }
     if (digits.n == 0 || (order && strncmp(text + i, close, sizeof close - 1) != 0)) {

@@ -1,6 +1,8 @@
 /* sweep-axis.c -- the parameters that a sweep varies, and their values. */
 #include "lang/sweeps/sweep-axis.h"
 
+#include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -18,11 +20,27 @@
 static const double most_members = 1e7;
 
 /* The largest seed: the generator uses only 32 bits of it. */
-static const long most_seed = 0xffffffff;
+static const int64_t most_seed = 0xffffffff;
 
-/* Seed used instead of 0, which GSL replaces by 4357; GSL uses the lower 32 bits, and those of this
- * number are 0. */
-static const unsigned long instead_of_0 = (unsigned long)UINT64_C(0x100000000);
+/* Begin the sequence of random numbers of a seed. GSL replaces the seed 0 by 4357, but uses the lower 32 bits only: where its
+ * `long` has 64, a number whose lower ones are 0 stands for it; else 0 is spread over the generator's words here, as GSL does it
+ * with other seeds (Matsumoto and Nishimura, init_genrand of 2002). */
+static void
+seed_generator(gsl_rng *random, uint64_t seed)
+{
+#if ULONG_MAX > UINT32_MAX
+    gsl_rng_set(random, seed != 0 ? seed : UINT64_C(1) << 32);
+#else
+    gsl_rng_set(random, (unsigned long)seed);
+    if (seed == 0) {
+        unsigned long *word = gsl_rng_state(random);
+
+        word[0] = 0;
+        for (unsigned long i = 1; i < 624; i++)
+            word[i] = 1812433253 * (word[i - 1] ^ word[i - 1] >> 30) + i;
+    }
+#endif
+}
 
 void
 qdot_sweep_axes_free(qdot_sweep_axes *axes)
@@ -69,14 +87,14 @@ static qdot_status
 read_count(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axis *x)
 {
     qdot_pool *pool = r->cursor.session->pool;
-    long n;
+    int64_t n;
 
     QDOT_TRY(qdot_record_integer(r, part, &n));
     qdot_record_blame(r, part);
     if (n < 1)
-        return qdot_fail(QDOT_EINVAL, "a sweep of %ld values has none", n);
+        return qdot_fail(QDOT_EINVAL, "a sweep of %" PRId64 " values has none", n);
     if ((double)n > most_members)
-        return qdot_fail(QDOT_ELIMIT, "%ld values: more than %.0e", n, most_members);
+        return qdot_fail(QDOT_ELIMIT, "%" PRId64 " values: more than %.0e", n, most_members);
     x->n = (size_t)n;
     x->step = n == 1 ? QDOT_ZERO
                      : qdot_div(pool, qdot_sub(pool, to, x->from), qdot_expr_int(pool, n - 1));
@@ -248,7 +266,7 @@ draw_random_values(qdot_sweep_axes *axes)
             gsl_rng_free(random);
         return qdot_fail(QDOT_ENOMEM, "no memory for %zu members", axes->members);
     }
-    gsl_rng_set(random, axes->seed != 0 ? axes->seed : instead_of_0);
+    seed_generator(random, axes->seed);
     for (size_t k = 0; k < axes->members; k++)
         for (size_t i = 0; i < n; i++) {
             const qdot_sweep_axis *x = &axes->at.at[i];
@@ -268,7 +286,7 @@ read_count_and_seed(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes
     const qdot_filled *last = axes->at.at[axes->at.n - 1].place + 2;
     const axis_options o = find_axis_options(last, to);
     const qdot_token *start = last->to;
-    long count = 0, seed = 0;
+    int64_t count = 0, seed = 0;
 
     if (o.count != NULL)
         QDOT_TRY(qdot_record_integer(r, o.count + 1, &count));
@@ -279,11 +297,11 @@ read_count_and_seed(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes
         return qdot_record_expected(r, to < r->parts.at + r->parts.n ? to->from : r->cursor.at,
                                     "`count` and how many are drawn");
     if ((double)count > most_members)
-        return qdot_fail(QDOT_ELIMIT, "%ld members: more than %.0e", count, most_members);
+        return qdot_fail(QDOT_ELIMIT, "%" PRId64 " members: more than %.0e", count, most_members);
     if (seed < 0 || seed > most_seed)
-        return qdot_fail(QDOT_EINVAL, "a seed is a whole number from 0 to %ld", most_seed);
+        return qdot_fail(QDOT_EINVAL, "a seed is a whole number from 0 to %" PRId64, most_seed);
     axes->members = (size_t)count;
-    axes->seed = (unsigned long)seed;
+    axes->seed = (uint64_t)seed;
     return draw_random_values(axes);
 }
 
@@ -367,5 +385,5 @@ qdot_sweep_axes_value(qdot_session *session, const qdot_sweep_axes *axes, size_t
     k %= x->n;
     if (x->kind == QDOT_AXIS_LIST)
         return qdot_measured_as_rationals(session, qdot_expr_arg(pool, x->list, (uint32_t)k));
-    return qdot_add(pool, x->from, qdot_mul(pool, qdot_expr_int(pool, (long)k), x->step));
+    return qdot_add(pool, x->from, qdot_mul(pool, qdot_expr_int(pool, (int64_t)k), x->step));
 }

@@ -33,7 +33,7 @@ typedef struct {
     qdot_vec(qdot_sweep_axis) at;
     size_t members;
     bool random;
-    unsigned long seed;
+    uint64_t seed;
     double *drawn; /* [members x axes] values of the random axes, for each run (member) of the sweep; NULL: none */
 } qdot_sweep_axes;
 

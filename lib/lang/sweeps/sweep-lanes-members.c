@@ -60,7 +60,7 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
 
 /* Whether column i is the time NAME[K] of an event of the scene; *k: its number K. */
 static const qdot_event *
-event_time_of_column(const qdot_sweep *s, size_t i, long *k)
+event_time_of_column(const qdot_sweep *s, size_t i, int64_t *k)
 {
     const char *name = qdot_compiled_member_of(s->columns.at.at[i], k);
 
@@ -68,7 +68,7 @@ event_time_of_column(const qdot_sweep *s, size_t i, long *k)
 }
 
 static qdot_status
-set_event_column(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_column *to)
+set_event_column(qdot_sweep_lanes *x, const qdot_event *e, int64_t k, qdot_sweep_lanes_column *to)
 {
     qdot_pool *pool = x->s->c->session->pool;
     size_t i = 0;
@@ -109,7 +109,7 @@ lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
     for (size_t i = 0; i < n; i++) {
         const qdot_event *event;
         qdot_status status;
-        long k;
+        int64_t k;
 
         if ((event = event_time_of_column(x->s, i, &k)) != NULL) {
             QDOT_TRY(set_event_column(x, event, k, &x->columns[i]));

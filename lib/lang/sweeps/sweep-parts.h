@@ -14,7 +14,7 @@ typedef struct {
     qdot_members members;
     qdot_columns columns;
     const char *name;
-    long threads;     /* number of parallel processes; 0: one for each processor */
+    int64_t threads;     /* number of parallel processes; 0: one for each processor */
     const char *path; /* name of the file that stores the rows; NULL: none */
     const qdot_token *path_at;
     qdot_file_lock lock; /* lock of that file */

@@ -1,5 +1,6 @@
 /* sweep-plan.c -- `plan sweep`: the number of members, whether they run in lanes, an estimate of
  * time and memory. */
+#include <inttypes.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -57,7 +58,7 @@ write_number_of_members(const qdot_sweep *s, qdot_text *text)
         qdot_text_format(text, "%s%s %zu", i == 0 ? ": " : " x ", axes->at.at[i].label,
                          axes->at.at[i].n);
     if (axes->random)
-        qdot_text_format(text, ", seed %lu", axes->seed);
+        qdot_text_format(text, ", seed %" PRIu64, axes->seed);
     qdot_text_char(text, '\n');
 }
 

@@ -4,6 +4,7 @@
  * while it is the latest run, with its values in force. So whatever stands after `value`, `print`
  * or `check` can be a column.
  */
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -151,7 +152,7 @@ answer_sweep(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t
         return QDOT_OK;
     qdot_text_format(&text, "%s: %zu row%s", t->name, t->rows, t->rows == 1 ? "" : "s");
     if (s->members.axes.random)
-        qdot_text_format(&text, ", seed %lu", s->members.axes.seed);
+        qdot_text_format(&text, ", seed %" PRIu64, s->members.axes.seed);
     if (s->failed > 0)
         qdot_text_format(&text, ", %zu failed", s->failed);
     if (count_rows_of_unknown_error(t) > 0)

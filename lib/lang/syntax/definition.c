@@ -11,7 +11,7 @@ read_right(qdot_definition *d, const qdot_token *end)
     const qdot_token *from = d->equals + 1;
     const bool bracket = qdot_token_is(from, "(");
     size_t commas = 0;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (d->behind = from; d->behind < end; d->behind++) {
         const qdot_token *k = d->behind;
@@ -63,7 +63,7 @@ qdot_definition_component(qdot_session *session, const qdot_definition *d, size_
 {
     const bool vector = d->components > 1;
     const qdot_token *k = d->equals + 1 + vector, *const end = d->behind - vector, *from = k;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (; k < end; k++) {
         if (depth == 0 && qdot_token_is(k, ",")) {

@@ -19,7 +19,7 @@ qdot_statement_row(const qdot_token *word)
 const qdot_token *
 qdot_statement_behind_bracket(const qdot_token *open)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
         const int step = qdot_token_bracket(k);
@@ -195,7 +195,7 @@ static bool
 is_comparison(const qdot_token *first)
 {
     bool equal = false;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *k = first; k->kind != QDOT_TOKEN_END; k++) {
         depth += qdot_token_bracket(k);

@@ -42,7 +42,7 @@ may_be_followed_by(const qdot_usage *u, int node, const qdot_token *token)
 static const qdot_token *
 token_after_name(const qdot_token *t)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     t++;
     if (!t->glued || !qdot_token_is(t, "["))

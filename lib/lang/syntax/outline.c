@@ -36,7 +36,7 @@ qdot_outline_statement(const qdot_session *session, const qdot_token *first)
 {
     const bool plot = qdot_token_is_word(first, "plot");
     bool own = false;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *k = first;; k++) {
         if (k->kind == QDOT_TOKEN_END)

@@ -1,6 +1,7 @@
 /* record.c -- a parsed statement: its words and placeholders ("holes"), and the values of the placeholders. */
 #include "lang/syntax/record.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "expr/build.h"
@@ -86,7 +87,7 @@ qdot_filled_is_text(const qdot_filled *part)
 bool
 qdot_filled_holds_sign(const qdot_filled *part, char sign)
 {
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *t = part->from; t < part->to; t++) {
         depth += qdot_token_bracket(t);
@@ -216,7 +217,7 @@ qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from, qdot
 }
 
 qdot_status
-qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value)
+qdot_record_integer(qdot_record *r, const qdot_filled *part, int64_t *value)
 {
     return qdot_compiled_integer(&r->cursor, &r->compiled.at[part->first], value);
 }
@@ -260,14 +261,14 @@ qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion, qdot_
 
 /* Write name[i,j] with evaluated indices, as a text in the arena of the source. */
 static qdot_status
-write_indexed_name(const qdot_record *r, const char *name, size_t n, const long *index, const char **spelled)
+write_indexed_name(const qdot_record *r, const char *name, size_t n, const int64_t *index, const char **spelled)
 {
     qdot_text text = {0};
     qdot_status status;
 
     qdot_text_add(&text, name);
     for (size_t i = 0; i < n; i++)
-        qdot_text_format(&text, "%c%ld", i == 0 ? '[' : ',', index[i]);
+        qdot_text_format(&text, "%c%" PRId64, i == 0 ? '[' : ',', index[i]);
     qdot_text_char(&text, ']');
     status = qdot_text_status(&text);
     *spelled = status == QDOT_OK ? qdot_arena_strndup(r->cursor.source->arena, text.at, text.n) : NULL;
@@ -278,13 +279,13 @@ write_indexed_name(const qdot_record *r, const char *name, size_t n, const long 
 qdot_status
 qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name)
 {
-    qdot_vec(long) index = {0};
+    qdot_vec(int64_t) index = {0};
     qdot_status status = QDOT_OK;
 
     *name = part->name->text;
     for (size_t i = 0; i < part->n && status == QDOT_OK; i++) {
         const qdot_compiled *one = &r->compiled.at[part->first + i];
-        long value = 0;
+        int64_t value = 0;
 
         if (one->from < part->name || one->from >= part->primes)
             continue; /* these tokens belong to a bound, not to the name */
@@ -381,7 +382,7 @@ write_name_of_code(qdot_record *r, const qdot_compiled *whole, size_t at, const 
 {
     const qdot_postfix *last = &whole->code.list.at[at];
     qdot_session *session = r->cursor.session;
-    long index[QDOT_RECORD_INDICES];
+    int64_t index[QDOT_RECORD_INDICES];
     qdot_expr list = QDOT_NIL;
 
     *name = last->token->text;

@@ -85,7 +85,7 @@ QDOT_MUST_CHECK qdot_status qdot_record_named(qdot_record *r, const qdot_filled 
 QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_number(qdot_record *r, const qdot_filled *part, double *value);
-QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);
+QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, int64_t *value);
 /* Evaluate the two ends of a range a..b exactly. */
 QDOT_MUST_CHECK qdot_status qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from,
                                               qdot_expr *to);

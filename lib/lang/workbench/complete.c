@@ -357,7 +357,7 @@ static void
 offer_at_end_of_tokens(completion *c, const qdot_token *tokens, size_t n)
 {
     const qdot_token *end = tokens + n, *first = tokens, *open = NULL;
-    long depth = 0;
+    int64_t depth = 0;
 
     for (const qdot_token *k = tokens; k < end; k++)
         if (k->kind == QDOT_TOKEN_END || qdot_token_is(k, "{"))

@@ -100,7 +100,7 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
             size_t *end)
 {
     const qdot_token *first = source->tokens.at;
-    long depth = 0; /* depth of brackets within the statement */
+    int64_t depth = 0; /* depth of brackets within the statement */
 
     for (size_t i = 0; i < source->tokens.n; i++) {
         const qdot_token *token = source->tokens.at + i;

@@ -127,7 +127,7 @@ qdot_script_takes_long(const char *text, size_t length)
 bool
 qdot_script_is_incomplete(const char *text, size_t length)
 {
-    long open = 0;
+    int64_t open = 0;
     bool more = false; /* the line ends in a backslash */
 
     for (size_t i = 0; i < length; i++) {

@@ -7,6 +7,7 @@
 #include "lang/ask/ask.h"
 #include "lang/workbench/script.h"
 
+#include <inttypes.h>
 #include <string.h>
 #include <time.h>
 
@@ -294,7 +295,7 @@ add_loop_values_to_error(const engine *x, const qdot_loop *loop)
 
         qdot_text_format(&text, "%s%s = ", i > 0 ? ", " : "", index->name);
         if (!index->listed)
-            qdot_text_format(&text, "%ld", index->at);
+            qdot_text_format(&text, "%" PRId64, index->at);
         else if (qdot_print(x->session->pool, index->values.at[index->next], QDOT_PLAIN,
                             &text) != QDOT_OK)
             break;

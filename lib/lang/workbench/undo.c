@@ -1,4 +1,5 @@
 /* undo.c -- the statements `undo` and `redo`, which take statements back or repeat them. */
+#include <inttypes.h>
 #include <string.h>
 
 #include "lang/answer/answer.h"
@@ -29,10 +30,10 @@ QDOT_STATEMENT(redo) = {
 };
 
 static qdot_status
-report_nothing_to_undo(const qdot_session *session, const char *word, size_t n, long wanted)
+report_nothing_to_undo(const qdot_session *session, const char *word, size_t n, int64_t wanted)
 {
     if (n > 0)
-        (void)qdot_fail(QDOT_EINVAL, "%zu statement%s can be %s, not %ld", n,
+        (void)qdot_fail(QDOT_EINVAL, "%zu statement%s can be %s, not %" PRId64, n,
                         n == 1 ? "" : "s", word, wanted);
     else
         (void)qdot_fail(QDOT_EINVAL, "there is nothing to be %s", word);
@@ -52,7 +53,7 @@ undo_or_redo(qdot_record *r, const char *name, const char *word, bool again)
     qdot_session *s = r->cursor.session;
     const qdot_filled *number = qdot_record_hole(r, NULL, "N");
     const size_t n = qdot_undo_statements(s, again);
-    long wanted = 1;
+    int64_t wanted = 1;
 
     if (number != NULL)
         QDOT_TRY(qdot_record_integer(r, number, &wanted));

@@ -87,16 +87,16 @@ find_cosine_and_sine(const rewriting *r, qdot_expr angle, bool hyperbolic, direc
     for (size_t i = 0; i < r->c->moved.n; i++) {
         const qdot_chart_moved *m = r->c->moved.at + i;
         direction one = {m->cosine, m->sine};
-        long times;
+        int64_t times;
 
         if (!is_given_by_functions(m, hyperbolic) || !qdot_expr_contains(pool, angle, m->q))
             continue;
         if (!qdot_expr_to_int(pool, qdot_diff(pool, angle, m->q), &times) ||
-            labs(times) > MOST_MULTIPLE)
+            llabs(times) > MOST_MULTIPLE)
             return false;
         if (times < 0)
             one.sine = qdot_neg(pool, one.sine);
-        for (long k = 0; k < labs(times); k++)
+        for (int64_t k = 0; k < llabs(times); k++)
             sum = add_directions(pool, sum, one, hyperbolic);
         angle = qdot_subs(pool, angle, 1, &m->q, (qdot_expr[]){QDOT_ZERO});
     }
@@ -246,7 +246,7 @@ replace_root_powers(qdot_pool *pool, qdot_expr node, void *user)
 
     for (uint32_t f = 0; f < factor_count(pool, node); f++) {
         const qdot_expr base = factor_base(pool, node, f), exponent = factor_exponent(pool, node, f);
-        long twice;
+        int64_t twice;
 
         if (!qdot_expr_to_int(pool, qdot_mul(pool, two, exponent), &twice) || twice % 2 == 0)
             continue;
@@ -287,10 +287,10 @@ insert_new_coordinates(const qdot_chart *c, qdot_expr e)
 }
 
 /* The exponent of `symbol` in a product if it is an integer; 0 otherwise. */
-static long
+static int64_t
 exponent_in_product(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
 {
-    long k = 0;
+    int64_t k = 0;
 
     for (uint32_t f = 0; f < factor_count(pool, product); f++)
         if (factor_base(pool, product, f) == symbol
@@ -301,7 +301,7 @@ exponent_in_product(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
 
 /* The expression e times (to/from)^times: replaces factors `from` by `to`. */
 static qdot_expr
-replace_factor(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
+replace_factor(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, int64_t times)
 {
     return qdot_mul(pool, e,
                     qdot_mul(pool, qdot_pow_int(pool, from, -times),
@@ -316,8 +316,8 @@ replace_root_squares(qdot_pool *pool, qdot_expr node, void *user)
 
     for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_root *root = c->roots.at + i;
-        const long own = exponent_in_product(pool, node, root->symbol);
-        const long both =
+        const int64_t own = exponent_in_product(pool, node, root->symbol);
+        const int64_t both =
             root->partner == QDOT_NIL ? 0 : exponent_in_product(pool, node, root->partner);
 
         if (own > 0 && both > 0)
@@ -326,14 +326,14 @@ replace_root_squares(qdot_pool *pool, qdot_expr node, void *user)
     }
     for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_root *root = c->roots.at + i;
-        const long half = exponent_in_product(pool, node, root->symbol) / 2;
+        const int64_t half = exponent_in_product(pool, node, root->symbol) / 2;
 
         if (half != 0)
             node = replace_factor(pool, node, qdot_pow_int(pool, root->symbol, 2), root->square, half);
     }
     for (size_t i = 0; i < c->signs.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_sign *s = c->signs.at + i;
-        const long half = s->branch ? 0 : exponent_in_product(pool, node, s->symbol) / 2;
+        const int64_t half = s->branch ? 0 : exponent_in_product(pool, node, s->symbol) / 2;
 
         if (half != 0)
             node = replace_factor(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
@@ -350,7 +350,7 @@ qdot_chart_put(const qdot_chart *c, qdot_expr e)
 
 /* The angle of m, atan2(y, x) with its components x and y, minus `quarters` quarter turns. */
 static qdot_expr
-angle_minus_quarters(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
+angle_minus_quarters(qdot_pool *pool, const qdot_chart_moved *m, int64_t quarters)
 {
     const qdot_expr x[] = {m->x, m->y, qdot_neg(pool, m->x), qdot_neg(pool, m->y)};
     const size_t k = (size_t)(((quarters % 4) + 4) % 4);
@@ -369,7 +369,7 @@ cosine_and_sine(qdot_pool *pool, qdot_expr angle)
 /* The angle of m in e, within half a turn of so many quarters. Of its half, which may be at a zero of
  * sin or cos, the quarters are taken apart: no rounding of pi is left there. */
 static qdot_expr
-insert_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters)
+insert_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, int64_t quarters)
 {
     const qdot_expr turns = qdot_mul(pool, qdot_expr_ratio(pool, quarters, 2), QDOT_PI);
     const qdot_expr beyond = angle_minus_quarters(pool, m, quarters);
@@ -384,7 +384,7 @@ insert_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quart
 
 /* Replace the angles, roots and signs in e by their values, which may contain other angles, roots and signs. */
 static qdot_expr
-insert_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
+insert_values(const qdot_chart *c, qdot_expr e, const int64_t *quarters, bool *turns)
 {
     qdot_pool *pool = c->pool;
 
@@ -408,7 +408,7 @@ insert_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turn
     }
     for (size_t i = 0; i < c->signs.n && e != QDOT_NIL; i++) {
         const qdot_chart_sign *s = c->signs.at + i;
-        const long now = quarters ? quarters[c->moved.n + i] : s->start;
+        const int64_t now = quarters ? quarters[c->moved.n + i] : s->start;
         const qdot_expr value = qdot_expr_int(pool, now);
 
         if (!qdot_expr_contains(pool, e, s->symbol))
@@ -421,7 +421,7 @@ insert_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turn
 }
 
 qdot_expr
-qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
+qdot_chart_express(const qdot_chart *c, qdot_expr e, const int64_t *quarters, bool *turns)
 {
     bool some = false;
 
@@ -435,7 +435,7 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
 }
 
 const qdot_chart_sign *
-qdot_chart_beyond(const qdot_chart *c, qdot_expr e, const long *quarters)
+qdot_chart_beyond(const qdot_chart *c, qdot_expr e, const int64_t *quarters)
 {
     for (size_t i = 0; i < c->signs.n; i++)
         if (c->signs.at[i].branch && quarters[c->moved.n + i] < 0
@@ -496,7 +496,7 @@ is_singular(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
         for (uint32_t f = 0;
              qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && f < factor_count(pool, w.at[i]);
              f++) {
-            long k;
+            int64_t k;
 
             singular =
                 singular ||

@@ -155,12 +155,12 @@ qdot_expr qdot_chart_given(const qdot_chart *c, qdot_expr e);
  * counted from so many quarter turns, of which it is within half a turn; quarters [moved], and
  * behind them the signs [signs]; NULL: no quarters, and the signs of the start. *turns (may be
  * NULL): whether it holds such an angle, or a sign. Nil: the pool keeps the failure. */
-qdot_expr qdot_chart_express(const qdot_chart *chart, qdot_expr e, const long *quarters,
+qdot_expr qdot_chart_express(const qdot_chart *chart, qdot_expr e, const int64_t *quarters,
                              bool *turns);
 
 /* A root w contained in e (in new coordinates) that is negative there, judged by `quarters`; NULL: none. */
 const qdot_chart_sign *qdot_chart_beyond(const qdot_chart *chart, qdot_expr e,
-                                         const long *quarters);
+                                         const int64_t *quarters);
 
 /* Inside (chart-formulas.c): how many coordinates a group has; what is 0 at its singular place, in
  * the coordinates given. */

@@ -137,7 +137,7 @@ find_divisors(const qdot_collision_equations *of, size_t m, const qdot_expr *exp
              f += 2) {
             const qdot_expr base = qdot_expr_arg(pool, w.at[i], f),
                             exponent = qdot_expr_arg(pool, w.at[i], f + 1);
-            long k;
+            int64_t k;
 
             if (is_numeral(of, exponent) && qdot_expr_is_negative(pool, exponent) &&
                 contains_coordinates(of, base))

@@ -226,7 +226,7 @@ eliminate_pivots(const work *k, qdot_expr e)
 static void
 split_accelerations(work *k)
 {
-    const long power = k->d > 1 ? 3 : 2;
+    const int64_t power = k->d > 1 ? 3 : 2;
 
     for (size_t i = 0; i < k->of->n && !has_hindrance(k); i++) {
         qdot_expr e =

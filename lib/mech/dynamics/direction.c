@@ -18,7 +18,7 @@ typedef struct {
 } direction;
 
 bool
-qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, long *power)
+qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, int64_t *power)
 {
     return qdot_expr_is_function(pool, qdot_expr_arg(pool, product, k), QDOT_ABS)
            && qdot_expr_to_int(pool, qdot_expr_arg(pool, product, k + 1), power) && *power < 0
@@ -31,7 +31,7 @@ static qdot_expr
 find_speed_power(qdot_pool *pool, size_t m, const qdot_expr *e, size_t n, const qdot_expr *tried)
 {
     qdot_expr found = QDOT_NIL;
-    long power;
+    int64_t power;
     qdot_walk walk;
 
     if (qdot_walk_begin_n(pool, m, e, &walk) != QDOT_OK)
@@ -59,7 +59,7 @@ static qdot_expr
 replace_magnitude(qdot_pool *pool, qdot_expr node, void *user)
 {
     const direction *d = user;
-    long power;
+    int64_t power;
 
     if (node == d->length)
         return d->symbol;

@@ -17,6 +17,6 @@
 void qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e);
 
 /* Whether the k-th argument of a product, a base, is |u| for some u, with an odd negative exponent, *power. */
-bool qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, long *power);
+bool qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, int64_t *power);
 
 #endif

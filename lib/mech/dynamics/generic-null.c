@@ -111,9 +111,9 @@ reduce_rows(double *B, size_t count, size_t columns)
 static qdot_expr
 small_fraction(qdot_pool *pool, double x)
 {
-    for (long d = 1; d <= MOST_DENOMINATOR && fabs(x) < 1000; d++)
+    for (int64_t d = 1; d <= MOST_DENOMINATOR && fabs(x) < 1000; d++)
         if (fabs(d * x - round(d * x)) < 1e-7)
-            return qdot_expr_ratio(pool, lround(d * x), d);
+            return qdot_expr_ratio(pool, llround(d * x), d);
     return QDOT_NIL;
 }
 

@@ -24,7 +24,7 @@ has_smooth_powers(const qdot_pool *pool, qdot_expr product)
         qdot_expr base = qdot_expr_arg(pool, product, k),
                   power = qdot_expr_arg(pool, product, k + 1);
         uint8_t sign = qdot_expr_node(pool, base)->sign;
-        long p;
+        int64_t p;
         bool whole = qdot_expr_to_int(pool, power, &p);
 
         if (whole && p >= 0)

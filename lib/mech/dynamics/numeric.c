@@ -179,7 +179,7 @@ add_cost_of_product(bill *b, qdot_expr e)
 
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
         qdot_expr x = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
-        long n;
+        int64_t n;
 
         if (!depends_on_motion(b, x) && !depends_on_motion(b, power))
             continue;
@@ -187,7 +187,7 @@ add_cost_of_product(bill *b, qdot_expr e)
         if (!qdot_expr_to_int(pool, power, &n))
             b->units += qdot_expr_rational(pool, power) ? 2 : 15;
         else
-            for (long k = n < 0 ? -n : n; k > 1; k /= 2)
+            for (int64_t k = n < 0 ? -n : n; k > 1; k /= 2)
                 b->units++;
     }
     b->units += factors - (factors > 0);

@@ -188,7 +188,7 @@ by_derivative(const variation *v, qdot_expr a)
 static uint32_t
 order_of(const variation *v, qdot_expr atom, uint32_t k)
 {
-    long order = 0;
+    int64_t order = 0;
 
     if (v->is_coordinate)
         return atom == v->field ? 0 : qdot_expr_symbol(v->pool, atom)->order;

@@ -171,8 +171,8 @@ weyl_down(qdot_manifold *m, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
     both = both == QDOT_ZERO ? both : qdot_mul(pool, scalar_curvature(m), both);
     return qdot_sum(pool, 3,
                     (qdot_expr[]){qdot_manifold_riemann(m, i, j, k, l),
-                                  qdot_neg(pool, qdot_div(pool, traces, qdot_expr_int(pool, (long)n - 2))),
-                                  qdot_div(pool, both, qdot_expr_int(pool, ((long)n - 1) * ((long)n - 2)))});
+                                  qdot_neg(pool, qdot_div(pool, traces, qdot_expr_int(pool, (int64_t)n - 2))),
+                                  qdot_div(pool, both, qdot_expr_int(pool, ((int64_t)n - 1) * ((int64_t)n - 2)))});
 }
 
 /* C^i_jkl = g^ia C_ajkl. */

@@ -163,7 +163,7 @@ holds_root_of_u(const block *k, qdot_expr f)
 {
     qdot_walk w;
     bool root = false;
-    long whole;
+    int64_t whole;
 
     if (f == QDOT_NIL || qdot_walk_begin(k->pool, f, &w) != QDOT_OK)
         return false;

@@ -108,7 +108,7 @@ is_chain(chain *c)
 
 /* sin(pi p/q), with the angle brought to 0 .. pi/2. */
 static qdot_expr
-sine(const chain *c, long p, long q)
+sine(const chain *c, int64_t p, int64_t q)
 {
     bool negative = false;
     qdot_expr u;
@@ -128,15 +128,15 @@ sine(const chain *c, long p, long q)
 
 /* The value of M (k = 0) or H (k = 1) for u = pi p/q, as that for u = 0 and what the wave adds. */
 static void
-value_of_wave(const chain *c, int k, long p, long q, qdot_expr *constant, qdot_expr *wave)
+value_of_wave(const chain *c, int k, int64_t p, int64_t q, qdot_expr *constant, qdot_expr *wave)
 {
     qdot_expr all = chain_entry(c, k, 1, 1), sum = QDOT_ZERO;
     const size_t reach = c->is_ring ? c->n / 2 : 1;
 
     for (size_t l = 1; l <= reach; l++) {
         const qdot_expr x = c->is_ring ? chain_entry(c, k, 0, l) : chain_entry(c, k, 0, 1);
-        const long times = c->is_ring && 2 * l == c->n ? 1 : 2;
-        const qdot_expr root = sine(c, (long)l * p, 2 * q);
+        const int64_t times = c->is_ring && 2 * l == c->n ? 1 : 2;
+        const qdot_expr root = sine(c, (int64_t)l * p, 2 * q);
 
         /* times x cos(l u) = times x - 2 times x sin(l u/2)^2 */
         all = qdot_add(c->pool, all, qdot_mul(c->pool, qdot_expr_int(c->pool, times), x));
@@ -160,7 +160,7 @@ neighbours_alone_couple(const chain *c)
 
 /* The frequency for u = pi p/q, 0 <= u <= pi: 2 sqrt(-h'/m) sin(u/2) of masses m that equal springs alone couple. */
 static qdot_status
-frequency_of_wave(const chain *c, long p, long q, qdot_expr *w)
+frequency_of_wave(const chain *c, int64_t p, int64_t q, qdot_expr *w)
 {
     qdot_pool *pool = c->pool;
     qdot_expr constant[2], wave[2], square;
@@ -199,7 +199,7 @@ unknowns_are_coordinates(const qdot_modes_job *j)
 /* Add the mode y_k = sin((k - p) u), or cos where `even`, with u = pi t/q, p = twice/2; its first component that is not 0
  * is 1. */
 static qdot_status
-add_wave(const chain *c, bool even, long twice, long t, long q)
+add_wave(const chain *c, bool even, int64_t twice, int64_t t, int64_t q)
 {
     qdot_expr *y = qdot_calloc(c->j->m.n + 1, sizeof *y), w = QDOT_NIL, first = QDOT_ZERO;
     qdot_status status = y == NULL ? QDOT_ENOMEM : frequency_of_wave(c, t, q, &w);
@@ -207,7 +207,7 @@ add_wave(const chain *c, bool even, long twice, long t, long q)
     for (size_t i = 0; i < c->j->m.n && status == QDOT_OK; i++)
         y[i] = QDOT_ZERO;
     for (size_t i = 0; i < c->n && status == QDOT_OK; i++) {
-        const qdot_expr x = sine(c, (2 * (long)(i + 1) - twice) * t + (even ? q : 0), 2 * q);
+        const qdot_expr x = sine(c, (2 * (int64_t)(i + 1) - twice) * t + (even ? q : 0), 2 * q);
 
         first = first == QDOT_ZERO ? x : first;
         y[c->which[i]] = first == QDOT_ZERO ? QDOT_ZERO : qdot_div(c->pool, x, first);
@@ -222,11 +222,11 @@ add_wave(const chain *c, bool even, long twice, long t, long q)
 static qdot_status
 add_waves_of_chain(const chain *c)
 {
-    static const long twice_p[] = {[FIXED] = 0, [FREE] = 1, [HELD] = 1, [HALF] = 2};
+    static const int64_t twice_p[] = {[FIXED] = 0, [FREE] = 1, [HELD] = 1, [HALF] = 2};
     const bool odd = c->first == FIXED || c->first == HELD, odd_last = c->last == FIXED || c->last == HELD;
-    const long twice_L = 2 * (long)c->n + 2 - twice_p[c->first] - twice_p[c->last];
+    const int64_t twice_L = 2 * (int64_t)c->n + 2 - twice_p[c->first] - twice_p[c->last];
 
-    for (long k = odd ? 1 : odd_last ? 1 : 0, i = 0; i < (long)c->n; k++, i++)
+    for (int64_t k = odd ? 1 : odd_last ? 1 : 0, i = 0; i < (int64_t)c->n; k++, i++)
         QDOT_TRY(odd == odd_last
                      ? add_wave(c, !odd, twice_p[c->first], 2 * k, twice_L)
                      : add_wave(c, !odd, twice_p[c->first], 2 * k - 1, twice_L));
@@ -236,10 +236,10 @@ add_waves_of_chain(const chain *c)
 static qdot_status
 add_waves_of_ring(const chain *c)
 {
-    for (long k = 0; 2 * k <= (long)c->n; k++) {
-        QDOT_TRY(add_wave(c, true, 0, 2 * k, (long)c->n));
-        if (k > 0 && 2 * k < (long)c->n)
-            QDOT_TRY(add_wave(c, false, 0, 2 * k, (long)c->n));
+    for (int64_t k = 0; 2 * k <= (int64_t)c->n; k++) {
+        QDOT_TRY(add_wave(c, true, 0, 2 * k, (int64_t)c->n));
+        if (k > 0 && 2 * k < (int64_t)c->n)
+            QDOT_TRY(add_wave(c, false, 0, 2 * k, (int64_t)c->n));
     }
     return QDOT_OK;
 }

@@ -41,7 +41,7 @@ characteristic_polynomial(const qdot_modes_job *j, qdot_expr W)
     const size_t n = j->m.n;
     const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "s");
     qdot_expr *A = qdot_calloc(n * n, sizeof *A), e, sum = QDOT_ZERO, by = QDOT_ONE;
-    long factorial = 1;
+    int64_t factorial = 1;
 
     if (A == NULL)
         return qdot_pool_fail(pool);
@@ -57,7 +57,7 @@ characteristic_polynomial(const qdot_modes_job *j, qdot_expr W)
             by = qdot_neg(pool, qdot_mul(pool, by, W));
         }
         e = qdot_diff(pool, e, s);
-        factorial *= (long)k + 1;
+        factorial *= (int64_t)k + 1;
     }
     return sum;
 }

@@ -128,12 +128,12 @@ print_torque(const qdot_scene *s, const qdot_torque *t, qdot_text *out)
 
 /* Components of a vector constraint stand together; the place of one that was left out,
  * as it holds identically, is 0 = 0. */
-static long
+static int64_t
 constraint_component_number(const qdot_constraint *c)
 {
     const char *comma = strchr(c->name, ',');
 
-    return comma ? strtol(comma + 1, NULL, 10) : 0;
+    return comma ? strtoll(comma + 1, NULL, 10) : 0;
 }
 
 static bool
@@ -149,7 +149,7 @@ static qdot_status
 print_constraint_side(const qdot_scene *s, size_t from, size_t to, bool right, qdot_text *out)
 {
     const qdot_constraint *c = s->constraints.at;
-    long place = 1, last = constraint_component_number(&c[to - 1]);
+    int64_t place = 1, last = constraint_component_number(&c[to - 1]);
 
     if (last == 0)
         return print_expression(s, right ? c[from].right : c[from].left, out);

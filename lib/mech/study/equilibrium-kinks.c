@@ -9,6 +9,7 @@
  * b >= 0 vanishes, forces with a root of b in the denominator have a direction but no value: at the tip of a cone,
  * sqrt(x^2 + y^2). No rest is there if they point away from it, as at the end of a spring with a natural length.
  */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -60,7 +61,7 @@ replace_sign_by_symbol(qdot_pool *pool, qdot_expr e, void *user)
 
     if (!qdot_expr_is_function(pool, e, QDOT_SIGN) || !contains_coordinate(user, e))
         return e;
-    snprintf(name, sizeof name, "(side of %lu)", (unsigned long)e);
+    snprintf(name, sizeof name, "(side of %" PRIu64 ")", (uint64_t)e);
     return qdot_symbol_get(pool, QDOT_FORMAL, name);
 }
 
@@ -259,7 +260,7 @@ rewrite_odd_powers_by_sign(qdot_pool *pool, qdot_expr e, void *user)
     (void)user;
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr size = qdot_expr_arg(pool, e, i), u;
-        long k;
+        int64_t k;
 
         if (!qdot_is_inverse_magnitude(pool, e, i, &k))
             continue;
@@ -280,7 +281,7 @@ simplify_powers_of_sign(qdot_pool *pool, qdot_expr e, void *user)
     (void)user;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
         qdot_expr sign = qdot_expr_arg(pool, e, i);
-        long k;
+        int64_t k;
 
         if (qdot_expr_is_function(pool, sign, QDOT_SIGN) &&
             qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) && k > 1)

@@ -35,12 +35,12 @@ typedef struct {
     qdot_pool *pool;
     size_t n;
     qdot_expr y[MOST_COORDINATES], place[MOST_COORDINATES], eps;
-    long w[MOST_COORDINATES]; /* weights; 0: the coordinate is held at the place */
+    int64_t w[MOST_COORDINATES]; /* weights; 0: the coordinate is held at the place */
 } degenerate;
 
 /* The lowest order in eps of eps dV/deps along these weights, up to HIGHEST, and its coefficient; 0: there is none. */
 static qdot_status
-find_lowest_order(const degenerate *x, long *order, qdot_expr *coefficient)
+find_lowest_order(const degenerate *x, int64_t *order, qdot_expr *coefficient)
 {
     qdot_pool *pool = x->pool;
     const qdot_expr *q = x->j->s->coordinates.at, zero = QDOT_ZERO;
@@ -56,7 +56,7 @@ find_lowest_order(const degenerate *x, long *order, qdot_expr *coefficient)
                                                                       qdot_subs(pool, qdot_expr_arg(pool, x->j->judge->forces, (uint32_t)i),
                                                                                 x->n, q, at)}));
     QDOT_TRY(qdot_pool_check(pool));
-    for (long k = 1, factorial = 1; k <= HIGHEST; k++) {
+    for (int64_t k = 1, factorial = 1; k <= HIGHEST; k++) {
         e = qdot_diff(pool, e, x->eps);
         factorial *= k;
         *coefficient = qdot_simplify(pool, qdot_subs(pool, e, 1, &x->eps, &zero), &x->j->facts);
@@ -70,10 +70,10 @@ find_lowest_order(const degenerate *x, long *order, qdot_expr *coefficient)
     return QDOT_OK;
 }
 
-static long
-least_common_multiple(long a, long b)
+static int64_t
+least_common_multiple(int64_t a, int64_t b)
 {
-    long m = a;
+    int64_t m = a;
 
     while (m % b != 0)
         m += a;
@@ -82,9 +82,9 @@ least_common_multiple(long a, long b)
 
 /* The weights from the orders along the axes; *W: the order that eps dV/deps must have. *found: all are even and W is low. */
 static qdot_status
-find_weights(degenerate *x, long *W, bool *found)
+find_weights(degenerate *x, int64_t *W, bool *found)
 {
-    long order[MOST_COORDINATES];
+    int64_t order[MOST_COORDINATES];
 
     *W = 1;
     *found = true;
@@ -129,7 +129,7 @@ qdot_stability_by_degenerate_minimum(qdot_judgement *j, qdot_equilibrium *e)
     qdot_scene *s = j->s;
     degenerate x = {.j = j, .pool = s->pool, .n = s->coordinates.n};
     qdot_expr P;
-    long W, order;
+    int64_t W, order;
     bool yes;
     qdot_status status;
 

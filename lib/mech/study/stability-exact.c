@@ -154,7 +154,7 @@ judge_by_forces_with_conditions(qdot_judgement *j, qdot_equilibrium *e, const qd
 
 /* Find the least common denominator of the exponents of powers that contain q; 1 if it exceeds MOST_ROOT. */
 static qdot_status
-common_exponent_denominator(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
+common_exponent_denominator(qdot_pool *pool, qdot_expr e, qdot_expr q, int64_t *root)
 {
     qdot_walk w;
 
@@ -166,7 +166,7 @@ common_exponent_denominator(qdot_pool *pool, qdot_expr e, qdot_expr q, long *roo
         for (uint32_t k = 1; k + 1 < n; k += 2) {
             const fmpq *p = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
             bool known = p != NULL && fmpz_cmp_si(fmpq_denref(p), MOST_ROOT) <= 0;
-            long d = known ? fmpz_get_si(fmpq_denref(p)) : 1, all = *root;
+            int64_t d = known ? fmpz_get_si(fmpq_denref(p)) : 1, all = *root;
 
             if (!qdot_expr_contains(pool, qdot_expr_arg(pool, w.at[i], k), q))
                 continue;
@@ -182,7 +182,7 @@ common_exponent_denominator(qdot_pool *pool, qdot_expr e, qdot_expr q, long *roo
 /* Find the leading term in eps of the restoring force at q = place + eps^root, or (below) at place
  * - eps^root. */
 static qdot_status
-restoring_force_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, long root, qdot_expr *leading, int *sign,
+restoring_force_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, int64_t root, qdot_expr *leading, int *sign,
                        bool *known)
 {
     qdot_pool *pool = j->s->pool;
@@ -215,7 +215,7 @@ judge_by_forces_beside(qdot_judgement *j, qdot_equilibrium *e)
     qdot_expr q = s->coordinates.at[0], mass, up, place;
     qdot_expr back[2]; /* leading terms of the force towards the equilibrium: [0] above it, [1] below it */
     int sign[2];
-    long root;
+    int64_t root;
 
     if (qdot_expr_count(pool, e->equations) != 1 || qdot_expr_count(pool, j->judge->at_rest) != 1)
         return QDOT_OK;

@@ -88,7 +88,7 @@ characteristic_polynomial(const qdot_reduced *r, qdot_expr values, const qdot_fa
     det = qdot_expand(r->pool, qdot_det(r->pool, qdot_matrix(r->pool, (uint32_t)*size, (uint32_t)*size, A)));
     QDOT_TRY(qdot_pool_check(r->pool));
     for (size_t i = 0; i <= *size; i++)
-        p[i] = qdot_simplify(r->pool, qdot_coefficient(r->pool, det, s, (long)i), facts);
+        p[i] = qdot_simplify(r->pool, qdot_coefficient(r->pool, det, s, (int64_t)i), facts);
     return qdot_pool_check(r->pool);
 }
 

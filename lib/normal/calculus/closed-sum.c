@@ -14,7 +14,7 @@ enum { MOST_POWER = 200 };
 typedef struct {
     qdot_pool *pool;
     qdot_expr k;
-    long first, last;
+    int64_t first, last;
 } range;
 
 static qdot_status
@@ -26,16 +26,16 @@ fail_without_formula(void)
 /* Sums of k^0 ... k^p over 0..n, for negative n too: with them
  * (n+1)^(p+1) = sum_j binomial(p+1, j) S_j(n). */
 static qdot_status
-sums_of_powers(range *r, long n, long p, qdot_expr *S)
+sums_of_powers(range *r, int64_t n, int64_t p, qdot_expr *S)
 {
     qdot_pool *pool = r->pool;
     const qdot_expr next = qdot_add(pool, qdot_expr_int(pool, n), QDOT_ONE);
 
-    for (long i = 0; i <= p; i++) {
+    for (int64_t i = 0; i <= p; i++) {
         qdot_expr sum = qdot_pow(pool, next, qdot_expr_int(pool, i + 1)),
                   binomial = QDOT_ONE; /* the binomial coefficient (i+1 over j) */
 
-        for (long j = 0; j < i; j++) {
+        for (int64_t j = 0; j < i; j++) {
             sum = qdot_sub(pool, sum, qdot_mul(pool, binomial, S[j]));
             binomial = qdot_div(pool, qdot_mul(pool, binomial, qdot_expr_int(pool, i + 1 - j)),
                                 qdot_expr_int(pool, j + 1));
@@ -46,7 +46,7 @@ sums_of_powers(range *r, long n, long p, qdot_expr *S)
 }
 
 static qdot_status
-sum_of_power(range *r, long p, qdot_expr *value)
+sum_of_power(range *r, int64_t p, qdot_expr *value)
 {
     qdot_expr *S;
     qdot_status status;
@@ -96,7 +96,7 @@ sum_of_product(range *r, qdot_expr e, qdot_expr *value)
     const uint32_t n = product ? qdot_expr_count(pool, e) : 3;
     qdot_expr outside = product ? qdot_expr_arg(pool, e, 0) : QDOT_ONE, base = QDOT_NIL,
               exponent = QDOT_ZERO, sum = QDOT_NIL;
-    long p = 0;
+    int64_t p = 0;
 
     for (uint32_t i = 1; i < n; i += 2) {
         const qdot_expr b = product ? qdot_expr_arg(pool, e, i) : e,
@@ -129,7 +129,7 @@ sum_of_product(range *r, qdot_expr e, qdot_expr *value)
 }
 
 qdot_status
-qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first, long last,
+qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, int64_t first, int64_t last,
                 qdot_expr *value)
 {
     range r = {.pool = pool, .k = k, .first = first, .last = last};

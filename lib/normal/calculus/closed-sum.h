@@ -15,7 +15,7 @@
 enum { QDOT_SUM_TERMS = 1000000 };
 
 /* Find the sum of the scalar e over k = first..last by a formula. QDOT_EFAILED: no formula is known. */
-QDOT_MUST_CHECK qdot_status qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first,
-                                            long last, qdot_expr *value);
+QDOT_MUST_CHECK qdot_status qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, int64_t first,
+                                            int64_t last, qdot_expr *value);
 
 #endif

@@ -2,6 +2,7 @@
 #include "normal/calculus/decimal.h"
 
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <mpfr.h>
 
@@ -58,7 +59,7 @@ text_distance(mpfr_srcptr x, const char *text)
     mpfr_set_str(y, text, 10, MPFR_RNDN);
     mpfr_sub(y, y, x, MPFR_RNDA);
     mpfr_abs(y, y, MPFR_RNDU);
-    mpfr_mul_2si(slack, x, 3 - (long)mpfr_get_prec(x), MPFR_RNDA);
+    mpfr_mul_2si(slack, x, 3 - (mpfr_exp_t)mpfr_get_prec(x), MPFR_RNDA);
     mpfr_abs(slack, slack, MPFR_RNDU);
     mpfr_add(y, y, slack, MPFR_RNDU);
     error = mpfr_get_d(y, MPFR_RNDU);
@@ -84,12 +85,12 @@ round_to_digits(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, do
     if (d == NULL)
         return QDOT_ENOMEM;
     minus = *d == '-';
-    qdot_text_format(&text, "%s0.%se%ld", minus ? "-" : "", d + minus, (long)exponent);
+    qdot_text_format(&text, "%s0.%se%" PRId64, minus ? "-" : "", d + minus, (int64_t)exponent);
     mpfr_free_str(d);
     if (exponent > DBL_MAX_10_EXP || exponent < LEAST_EXPONENT) {
         qdot_text_clear(&text);
-        return qdot_fail(QDOT_ELIMIT, "a number near 10^%ld is not written in digits",
-                         (long)exponent - 1);
+        return qdot_fail(QDOT_ELIMIT, "a number near 10^%" PRId64 " is not written in digits",
+                         (int64_t)exponent - 1);
     }
     *value = QDOT_NIL;
     if (qdot_text_status(&text) == QDOT_OK) {

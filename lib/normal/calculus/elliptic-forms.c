@@ -126,7 +126,7 @@ read_integrand(integrand *f, qdot_expr e)
     for (uint32_t i = 1; product && i < qdot_expr_count(pool, e); i += 2) {
         const qdot_expr R = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
         qdot_expr a, b, atom;
-        long halves;
+        int64_t halves;
 
         if (!qdot_expr_contains(pool, R, f->x) && !qdot_expr_contains(pool, p, f->x)) {
             f->front = qdot_mul(pool, f->front, qdot_pow(pool, R, p));

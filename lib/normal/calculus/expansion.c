@@ -20,7 +20,7 @@
 enum { MOST_TERMS = 60, MOST_SPAN = 12, MOST_DEPTH = 60, LARGE = 1000000 };
 
 typedef struct {
-    long n, d; /* n/d, d > 0 */
+    int64_t n, d; /* n/d, d > 0 */
 } ratio;
 
 typedef struct {
@@ -45,11 +45,11 @@ static qdot_status expand(work *k, qdot_expr e, powers *s);
 
 /* --- rational exponents ---------------------------------------------------------------------------- */
 
-static long
-gcd(long a, long b)
+static int64_t
+gcd(int64_t a, int64_t b)
 {
     while (b != 0) {
-        const long r = a % b;
+        const int64_t r = a % b;
 
         a = b;
         b = r;
@@ -58,9 +58,9 @@ gcd(long a, long b)
 }
 
 static ratio
-ratio_of(long n, long d)
+ratio_of(int64_t n, int64_t d)
 {
-    const long g = gcd(n, d);
+    const int64_t g = gcd(n, d);
 
     return (ratio){n / (g ? g : 1), d / (g ? g : 1)};
 }
@@ -74,7 +74,7 @@ plus(ratio a, ratio b)
 static int
 compare(ratio a, ratio b)
 {
-    const long l = a.n * b.d, r = b.n * a.d;
+    const int64_t l = a.n * b.d, r = b.n * a.d;
 
     return l < r ? -1 : l > r;
 }
@@ -82,7 +82,7 @@ compare(ratio a, ratio b)
 static bool
 is_too_large(ratio a)
 {
-    return labs(a.n) > LARGE || a.d > 1000;
+    return llabs(a.n) > LARGE || a.d > 1000;
 }
 
 static ratio
@@ -245,7 +245,7 @@ split_first(work *k, powers *s, term *first, powers *rest)
 
 /* s = sum c[i] d^i of a d that vanishes with w; next(i) gives c[i]. */
 static qdot_status
-compose(work *k, const powers *d, qdot_expr (*next)(void *user, long i), void *user, powers *s)
+compose(work *k, const powers *d, qdot_expr (*next)(void *user, int64_t i), void *user, powers *s)
 {
     qdot_pool *pool = k->x->pool;
     powers power = {.exact = true};
@@ -253,7 +253,7 @@ compose(work *k, const powers *d, qdot_expr (*next)(void *user, long i), void *u
     qdot_status status = put_term(pool, &power, (ratio){0, 1}, QDOT_ONE);
 
     *s = (powers){.exact = true};
-    for (long i = 0; status == QDOT_OK; i++) {
+    for (int64_t i = 0; status == QDOT_OK; i++) {
         const qdot_expr c = next(user, i);
 
         status = c == QDOT_NIL ? QDOT_EFAILED : add_powers(pool, s, &power, c);
@@ -283,7 +283,7 @@ struct coefficients {
 };
 
 static qdot_expr
-binomial_coefficient(void *user, long i)
+binomial_coefficient(void *user, int64_t i)
 {
     struct coefficients *c = user;
 
@@ -295,15 +295,15 @@ binomial_coefficient(void *user, long i)
 }
 
 static qdot_expr
-logarithm_coefficient(void *user, long i)
+logarithm_coefficient(void *user, int64_t i)
 {
     struct coefficients *c = user;
 
-    return i == 0 ? QDOT_ZERO : qdot_expr_ratio(c->pool, i % 2 ? 1 : -1, (unsigned long)i);
+    return i == 0 ? QDOT_ZERO : qdot_expr_ratio(c->pool, i % 2 ? 1 : -1, (uint64_t)i);
 }
 
 static qdot_expr
-taylor_coefficient(void *user, long i)
+taylor_coefficient(void *user, int64_t i)
 {
     struct coefficients *c = user;
     qdot_expr value;
@@ -333,7 +333,7 @@ raise_to(work *k, powers *s, const fmpq *p)
         k->x->undefined = true;
         status = QDOT_EFAILED;
     }
-    if (status == QDOT_OK && (!fmpz_fits_si(fmpq_numref(p)) || labs(fmpz_get_si(fmpq_numref(p))) > 1000 ||
+    if (status == QDOT_OK && (!fmpz_fits_si(fmpq_numref(p)) || llabs(fmpz_get_si(fmpq_numref(p))) > 1000 ||
                               !fmpz_fits_si(fmpq_denref(p)) || fmpz_get_si(fmpq_denref(p)) > 1000))
         status = QDOT_EFAILED;
     if (status == QDOT_OK)
@@ -370,7 +370,7 @@ take_logarithm(work *k, powers *s)
     if (status == QDOT_OK)
         status = put_term(pool, &made, (ratio){0, 1},
                           qdot_add(pool, qdot_fun1(pool, QDOT_LOG, first.c),
-                                   qdot_mul(pool, qdot_expr_ratio(pool, first.q.n, (unsigned long)first.q.d),
+                                   qdot_mul(pool, qdot_expr_ratio(pool, first.q.n, (uint64_t)first.q.d),
                                             k->x->log_w)));
     powers_clear(&rest);
     powers_clear(s);
@@ -591,11 +591,11 @@ expand(work *k, qdot_expr e, powers *s)
 }
 
 qdot_status
-qdot_expansion_lead(qdot_expansion *x, qdot_expr e, qdot_expr *coefficient, long *numerator, long *denominator)
+qdot_expansion_lead(qdot_expansion *x, qdot_expr e, qdot_expr *coefficient, int64_t *numerator, int64_t *denominator)
 {
     qdot_status status = QDOT_EFAILED;
 
-    for (long span = 2; span <= MOST_SPAN && status == QDOT_EFAILED && !x->undefined; span += span < 4 ? 2 : 4) {
+    for (int64_t span = 2; span <= MOST_SPAN && status == QDOT_EFAILED && !x->undefined; span += span < 4 ? 2 : 4) {
         work k = {.x = x, .span = {span, 1}};
         powers s = {0};
 

@@ -20,8 +20,8 @@ typedef struct {
 
 /* The first term of e: *coefficient w^(numerator/denominator). QDOT_EFAILED: it was not found. Others: QDOT_ENOMEM,
  * QDOT_EINTR, the pool's. */
-QDOT_MUST_CHECK qdot_status qdot_expansion_lead(qdot_expansion *x, qdot_expr e, qdot_expr *coefficient, long *numerator,
-                                                long *denominator);
+QDOT_MUST_CHECK qdot_status qdot_expansion_lead(qdot_expansion *x, qdot_expr e, qdot_expr *coefficient, int64_t *numerator,
+                                                int64_t *denominator);
 /* 1, -1 or 0 where the sign of a constant or of an expression in symbols is proved; 2: it is not known. */
 int qdot_proved_sign(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 

@@ -209,7 +209,7 @@ write_in_small(qdot_growth *g, class fastest, qdot_expr *e, qdot_expr *log_w)
 
 /* e = coefficient w^(n/d) + ..., where the coefficient varies more slowly. */
 static qdot_status
-find_first_term(qdot_growth *g, qdot_expr e, qdot_expr *coefficient, long *n, long *d)
+find_first_term(qdot_growth *g, qdot_expr e, qdot_expr *coefficient, int64_t *n, int64_t *d)
 {
     qdot_pool *pool = g->pool;
     qdot_expansion expansion = {.pool = pool, .facts = g->facts, .w = g->w};
@@ -265,7 +265,7 @@ static qdot_status
 answer_sign(qdot_growth *g, qdot_expr e, int *sign)
 {
     qdot_expr c;
-    long n, d;
+    int64_t n, d;
 
     QDOT_TRY(find_first_term(g, e, &c, &n, &d));
     if (qdot_expr_contains(g->pool, c, g->x))
@@ -331,7 +331,7 @@ read_logarithm(qdot_growth *g, qdot_expr e, qdot_expr *front, qdot_expr *log)
     *log = QDOT_ZERO;
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
-        const bool odd = qdot_expr_to_int(pool, p, &(long){0}) && !qdot_expr_to_int(pool, qdot_mul(pool, QDOT_HALF, p), &(long){0});
+        const bool odd = qdot_expr_to_int(pool, p, &(int64_t){0}) && !qdot_expr_to_int(pool, qdot_mul(pool, QDOT_HALF, p), &(int64_t){0});
         int sign = 1;
 
         if (!qdot_expr_contains(pool, b, g->x)) {
@@ -341,7 +341,7 @@ read_logarithm(qdot_growth *g, qdot_expr e, qdot_expr *front, qdot_expr *log)
             is_one = true;
         } else {
             QDOT_TRY(qdot_growth_sign(g, b, &sign));
-            if (sign == 0 || (sign < 0 && !qdot_expr_to_int(pool, p, &(long){0})))
+            if (sign == 0 || (sign < 0 && !qdot_expr_to_int(pool, p, &(int64_t){0})))
                 return QDOT_EFAILED;
             *log = qdot_add(pool, *log, qdot_mul(pool, p, qdot_fun1(pool, QDOT_LOG, sign < 0 ? qdot_neg(pool, b) : b)));
         }
@@ -383,7 +383,7 @@ answer_limit(qdot_growth *g, qdot_expr e, qdot_expr *limit)
 {
     qdot_status status;
     qdot_expr c;
-    long n, d;
+    int64_t n, d;
     int sign;
 
     if (is_power_with_logarithm(g, e, &c, &sign)) {

@@ -11,7 +11,7 @@ typedef struct {
     const qdot_facts *facts;
     qdot_expr x, w;
     int depth;      /* questions within questions */
-    long work;      /* how many more may be asked */
+    int64_t work;      /* how many more may be asked */
     bool undefined; /* what was asked for is not real near infinity */
     qdot_expr undecided; /* the first expression free of x whose sign was needed and is not known; nil: none */
 } qdot_growth;

@@ -74,7 +74,7 @@ resolve_floor(approach *a, qdot_expr u)
     qdot_pool *pool = a->growth.pool;
     qdot_expr limit = QDOT_NIL;
     const qdot_status status = holds_bounded(a, u) ? QDOT_EFAILED : qdot_growth_limit(&a->growth, u, &limit);
-    long whole;
+    int64_t whole;
     int sign;
 
     if (status != QDOT_OK)
@@ -165,7 +165,7 @@ expand_elliptic_at_zero(approach *a, qdot_expr e, qdot_expr m)
     qdot_pool *pool = a->growth.pool;
     qdot_expr sum = qdot_mul(pool, bounded_symbol(a), qdot_pow_int(pool, m, TERMS));
 
-    for (long k = 0; k < TERMS; k++)
+    for (int64_t k = 0; k < TERMS; k++)
         sum = qdot_add(pool, sum, qdot_mul(pool, qdot_elliptic_coefficient(pool, (qdot_fun_id)qdot_expr_node(pool, e)->op, k),
                                            qdot_pow_int(pool, m, k)));
     return sum;
@@ -180,7 +180,7 @@ expand_elliptic_at_zero(approach *a, qdot_expr e, qdot_expr m)
 static qdot_expr
 expand_elliptic_at_one(approach *a, qdot_expr e, qdot_expr m)
 {
-    static const long of_K[3][4] = {{1, 1, 0, 1}, {1, 4, -1, 1}, {9, 64, -7, 6}},
+    static const int64_t of_K[3][4] = {{1, 1, 0, 1}, {1, 4, -1, 1}, {9, 64, -7, 6}},
                       of_E[3][4] = {{0, 1, 0, 1}, {1, 2, -1, 2}, {3, 16, -13, 12}};
     qdot_pool *pool = a->growth.pool;
     const bool K = qdot_expr_is_function(pool, e, QDOT_ELLIPTIC_K);
@@ -196,7 +196,7 @@ expand_elliptic_at_one(approach *a, qdot_expr e, qdot_expr m)
     }
     l = qdot_mul(pool, qdot_neg(pool, QDOT_HALF), qdot_fun1(pool, QDOT_LOG, r));
     for (int k = 0; k < 3; k++) {
-        const long *c = K ? of_K[k] : of_E[k];
+        const int64_t *c = K ? of_K[k] : of_E[k];
         const qdot_expr log_4 = qdot_mul(pool, qdot_expr_int(pool, 2), qdot_fun1(pool, QDOT_LOG, qdot_expr_int(pool, 2)));
         const qdot_expr inner = qdot_sum(pool, 3, (qdot_expr[]){l, log_4, qdot_expr_ratio(pool, c[2], c[3])});
 
@@ -270,7 +270,7 @@ split_bounded(const approach *a, qdot_expr t, qdot_expr *rest)
         return false;
     for (uint32_t i = 1; i < qdot_expr_count(pool, t); i += 2) {
         const qdot_expr b = qdot_expr_arg(pool, t, i), p = qdot_expr_arg(pool, t, i + 1);
-        long k;
+        int64_t k;
 
         if (qdot_expr_place(a->n, a->bounded, b) < a->n) {
             if (!qdot_expr_to_int(pool, p, &k) || k < 1)

@@ -44,11 +44,11 @@ typedef struct {
 
 /* A truncated Laurent series: sum c[i] ray^(least + i). */
 typedef struct {
-    long least;
+    int64_t least;
     qdot_vec(qdot_expr) c;
 } laurent;
 
-static qdot_status laurent_series(course *x, qdot_expr e, long most, laurent *s);
+static qdot_status laurent_series(course *x, qdot_expr e, int64_t most, laurent *s);
 
 /* --- the terms of the answer -------------------------------------------------------- */
 
@@ -126,9 +126,9 @@ check_no_switches(course *x, qdot_expr e)
 /* --- arithmetic of series ----------------------------------------------------------- */
 
 static qdot_expr
-coefficient(const laurent *s, long k)
+coefficient(const laurent *s, int64_t k)
 {
-    return k < s->least || k - s->least >= (long)s->c.n ? QDOT_ZERO : s->c.at[k - s->least];
+    return k < s->least || k - s->least >= (int64_t)s->c.n ? QDOT_ZERO : s->c.at[k - s->least];
 }
 
 static void
@@ -156,20 +156,20 @@ drop_leading_zeros(course *x, laurent *s)
     for (size_t i = zeros; i < s->c.n; i++)
         s->c.at[i - zeros] = s->c.at[i];
     s->c.n -= zeros;
-    s->least += (long)zeros;
+    s->least += (int64_t)zeros;
 }
 
 /* Multiply the series s by b, truncated after ray^most. */
 static qdot_status
-multiply_series(course *x, laurent *s, const laurent *b, long most)
+multiply_series(course *x, laurent *s, const laurent *b, int64_t most)
 {
     laurent made = {.least = s->least + b->least};
     qdot_status status = QDOT_OK;
 
-    for (long k = made.least; k <= most && status == QDOT_OK; k++) {
+    for (int64_t k = made.least; k <= most && status == QDOT_OK; k++) {
         qdot_expr sum = QDOT_ZERO;
 
-        for (long i = s->least; i <= k - b->least; i++)
+        for (int64_t i = s->least; i <= k - b->least; i++)
             sum = qdot_add(x->pool, sum,
                            qdot_mul(x->pool, coefficient(s, i), coefficient(b, k - i)));
         status = qdot_value_kind_check(x->pool, sum);
@@ -186,16 +186,16 @@ multiply_series(course *x, laurent *s, const laurent *b, long most)
 /* Find b^q for a series b with b_0 != 0, by Miller's recurrence: k b_0 a_k = sum_j (q j - k + j)
  * b_j a_{k-j}. */
 static qdot_status
-laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
+laurent_power(course *x, const laurent *b, qdot_expr q, int64_t least, int64_t most, laurent *s)
 {
     qdot_pool *pool = x->pool;
     qdot_expr a = qdot_pow(pool, b->c.at[0], q);
 
     s->least = least;
-    for (long k = 0; k <= most - least; k++) {
+    for (int64_t k = 0; k <= most - least; k++) {
         if (k > 0) {
             a = QDOT_ZERO;
-            for (long j = 1; j <= k; j++) {
+            for (int64_t j = 1; j <= k; j++) {
                 qdot_expr weight = qdot_add(pool, qdot_mul(pool, q, qdot_expr_int(pool, j)),
                                             qdot_expr_int(pool, j - k));
 
@@ -234,10 +234,10 @@ contains_power_of_zero(const qdot_pool *pool, qdot_expr e)
 
 /* Find the Taylor coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN if one of them does not exist. */
 static qdot_status
-derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, laurent *s)
+derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, int64_t most, laurent *s)
 {
     s->least = 0;
-    for (long k = 0; k <= most; k++) {
+    for (int64_t k = 0; k <= most; k++) {
         qdot_expr c;
 
         if (k > 0 && e != QDOT_ZERO)
@@ -255,9 +255,9 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
 
 /* Find the order of the first term of e that does not vanish. */
 static qdot_status
-find_leading_order(course *x, qdot_expr e, long *least)
+find_leading_order(course *x, qdot_expr e, int64_t *least)
 {
-    for (long most = 4; most <= MOST_LEADING; most *= 2) {
+    for (int64_t most = 4; most <= MOST_LEADING; most *= 2) {
         laurent s = {0};
         qdot_status status = laurent_series(x, e, most, &s);
         bool found;
@@ -275,11 +275,11 @@ find_leading_order(course *x, qdot_expr e, long *least)
 }
 
 static qdot_status
-series_of_sum(course *x, qdot_expr e, long most, laurent *s)
+series_of_sum(course *x, qdot_expr e, int64_t most, laurent *s)
 {
     const uint32_t n = qdot_expr_count(x->pool, e);
     laurent *parts = qdot_calloc(n + 1, sizeof *parts);
-    long least = 0;
+    int64_t least = 0;
     qdot_status status = parts == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
@@ -287,7 +287,7 @@ series_of_sum(course *x, qdot_expr e, long most, laurent *s)
         least = parts[i].least < least ? parts[i].least : least;
     }
     s->least = least;
-    for (long k = least; k <= most && status == QDOT_OK; k++) {
+    for (int64_t k = least; k <= most && status == QDOT_OK; k++) {
         qdot_expr sum = k == 0 ? qdot_expr_arg(x->pool, e, 0) : QDOT_ZERO;
 
         for (uint32_t i = 1; i < n; i += 2)
@@ -306,10 +306,10 @@ series_of_sum(course *x, qdot_expr e, long most, laurent *s)
 
 /* Find the series of base^q up to the power ray^most, where the series of the base begins with ray^first. */
 static qdot_status
-series_of_power(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
+series_of_power(course *x, qdot_expr base, qdot_expr q, int64_t first, int64_t most, laurent *s)
 {
     laurent b = {0};
-    long times = 0;
+    int64_t times = 0;
     qdot_status status;
 
     if (qdot_expr_contains(x->pool, q, x->ray) ||
@@ -329,12 +329,12 @@ series_of_power(course *x, qdot_expr base, qdot_expr q, long first, long most, l
 }
 
 static qdot_status
-series_of_product(course *x, qdot_expr e, long most, laurent *s)
+series_of_product(course *x, qdot_expr e, int64_t most, laurent *s)
 {
     qdot_pool *pool = x->pool;
     const uint32_t n = qdot_expr_count(pool, e);
     qdot_expr outside = qdot_expr_arg(pool, e, 0);
-    long *first = qdot_calloc(n + 1, sizeof *first), total = 0, times;
+    int64_t *first = qdot_calloc(n + 1, sizeof *first), total = 0, times;
     qdot_status status = first == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
@@ -360,7 +360,7 @@ series_of_product(course *x, qdot_expr e, long most, laurent *s)
     for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
         laurent part = {0};
-        long own = 0;
+        int64_t own = 0;
 
         if (!qdot_expr_contains(pool, base, x->ray) && !qdot_expr_contains(pool, q, x->ray))
             continue;
@@ -395,21 +395,21 @@ as_quotient(qdot_pool *pool, qdot_expr e)
 
 /* Find the Taylor coefficients of a function of one argument at a; QDOT_EDOMAIN if one of them does not exist. */
 static qdot_status
-function_coefficients(course *x, qdot_fun_id id, qdot_expr a, long most, laurent *s)
+function_coefficients(course *x, qdot_fun_id id, qdot_expr a, int64_t most, laurent *s)
 {
     const qdot_expr z = qdot_symbol_get(x->pool, QDOT_FORMAL, "a place");
 
     if (a != QDOT_ZERO || qdot_elliptic_coefficient(x->pool, id, 0) == QDOT_NIL)
         return derivatives(x, qdot_fun1(x->pool, id, z), z, a, most, s);
     s->least = 0;
-    for (long k = 0; k <= most; k++)
+    for (int64_t k = 0; k <= most; k++)
         QDOT_TRY(qdot_vec_push(&s->c, qdot_elliptic_coefficient(x->pool, id, k)));
     return qdot_pool_check(x->pool);
 }
 
 /* Find the series of f(a + h), where h has no term of order 0. */
 static qdot_status
-series_of_function(course *x, qdot_expr e, long most, laurent *s)
+series_of_function(course *x, qdot_expr e, int64_t most, laurent *s)
 {
     qdot_pool *pool = x->pool;
     const qdot_node *node = qdot_expr_node(pool, e);
@@ -438,13 +438,13 @@ series_of_function(course *x, qdot_expr e, long most, laurent *s)
         inner.c.at[0] = QDOT_ZERO;
     }
     s->least = 0;
-    for (long k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner's scheme */
+    for (int64_t k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner's scheme */
         if (s->c.n > 0)
             status = multiply_series(x, s, &inner, most);
         while (status == QDOT_OK && s->least > 0) { /* add zeros so that the list starts at order 0 */
             laurent whole = {0};
 
-            for (long i = 0; i < s->least + (long)s->c.n && status == QDOT_OK; i++)
+            for (int64_t i = 0; i < s->least + (int64_t)s->c.n && status == QDOT_OK; i++)
                 status = qdot_vec_push(&whole.c, coefficient(s, i));
             laurent_clear(s);
             *s = whole;
@@ -461,7 +461,7 @@ series_of_function(course *x, qdot_expr e, long most, laurent *s)
 
 /* Find the series of e up to the power `most` of the variable. */
 static qdot_status
-laurent_series(course *x, qdot_expr e, long most, laurent *s)
+laurent_series(course *x, qdot_expr e, int64_t most, laurent *s)
 {
     qdot_status status;
 
@@ -493,7 +493,7 @@ static bool
 has_whole_powers(qdot_pool *pool, qdot_expr product, qdot_expr step)
 {
     for (uint32_t j = 1; j < qdot_expr_node(pool, product)->n; j += 2) {
-        long times;
+        int64_t times;
 
         if (qdot_expr_contains(pool, qdot_expr_arg(pool, product, j), step) &&
             (!qdot_expr_to_int(pool, qdot_expr_arg(pool, product, j + 1), &times) ||
@@ -524,7 +524,7 @@ is_polynomial(const course *x, qdot_expr e)
 
 typedef struct {
     course *x;
-    long most;
+    int64_t most;
 } degree;
 
 /* The Taylor series of a scalar along the ray through the expansion point. */
@@ -542,10 +542,10 @@ series_along_ray(qdot_pool *pool, qdot_expr scalar, void *user)
     if (status == QDOT_OK)
         status = laurent_series(x, f, d->most, &s);
     if (status == QDOT_OK)
-        for (long k = s.least; k < 0 && status == QDOT_OK; k++)
+        for (int64_t k = s.least; k < 0 && status == QDOT_OK; k++)
             if (!qdot_is_zero(pool, coefficient(&s, k), &x->facts))
                 status = fail_without_series(x, f, "it grows without bound at the point");
-    for (long k = 0; k <= d->most && status == QDOT_OK; k++) {
+    for (int64_t k = 0; k <= d->most && status == QDOT_OK; k++) {
         qdot_expr c = qdot_circle_join(pool, coefficient(&s, k));
 
         if (!is_polynomial(x, c)) {
@@ -584,7 +584,7 @@ set_expansion_rays(course *x, const qdot_expr *at)
 
 qdot_status
 qdot_series(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, size_t n,
-            const qdot_expr *symbols, const qdot_expr *at, long most, qdot_expr *value)
+            const qdot_expr *symbols, const qdot_expr *at, int64_t most, qdot_expr *value)
 {
     course x = {.pool = pool,
                 .facts = *facts,

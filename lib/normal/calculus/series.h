@@ -13,6 +13,6 @@
  * the part of e that has no such series (QDOT_EDOMAIN); else the pool's, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_series(qdot_pool *pool, const qdot_facts *facts, qdot_expr e,
                                         size_t n, const qdot_expr *symbols, const qdot_expr *at,
-                                        long most, qdot_expr *value);
+                                        int64_t most, qdot_expr *value);
 
 #endif

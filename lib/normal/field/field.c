@@ -96,7 +96,7 @@ add_number_root(qdot_pool *pool, struct found *g, qdot_expr base, ulong q)
     fmpz_factor_init(factors);
     fmpz_factor(factors, n);
     for (slong i = 0; i < factors->num && status == QDOT_OK; i++) {
-        qdot_expr prime = qdot_expr_int(pool, fmpz_get_si(factors->p + i));
+        qdot_expr prime = qdot_expr_fmpz(pool, factors->p + i);
 
         status = nodes_push(g, prime);
         if (status == QDOT_OK)
@@ -395,7 +395,7 @@ field_settle_generators(qdot_field *f, struct found *g)
     for (size_t i = 0; i < g->n; i++)
         if (g->at[i].kind == QDOT_GEN_ROOT) {
             g->at[i].expr = qdot_pow(f->pool, g->at[i].of,
-                                     qdot_expr_ratio(f->pool, 1, (long)g->at[i].order));
+                                     qdot_expr_ratio(f->pool, 1, (int64_t)g->at[i].order));
             if (g->at[i].expr == QDOT_NIL)
                 return qdot_pool_check(f->pool);
         }

@@ -23,7 +23,7 @@ static bool
 is_monomial(const qdot_pool *pool, qdot_expr e)
 {
     uint32_t n = qdot_expr_count(pool, e);
-    long k;
+    int64_t k;
 
     if (qdot_expr_kind(pool, e) == QDOT_SYM || qdot_expr_kind(pool, e) == QDOT_NUM)
         return true;
@@ -47,7 +47,7 @@ is_flat_sum(const qdot_pool *pool, qdot_expr e, bool polynomial)
         return is_monomial(pool, e);
     for (uint32_t i = 1; i < n; i += 2) {
         qdot_expr term = qdot_expr_arg(pool, e, i);
-        long k;
+        int64_t k;
 
         if (!is_monomial(pool, term))
             return false;
@@ -155,7 +155,7 @@ expand_angle(qdot_pool *pool, qdot_expr e, int64_t work)
 /* --- functions of inverse functions ------------------------------------------------ */
 
 static qdot_expr
-one_plus(qdot_pool *pool, qdot_expr u, long sign)
+one_plus(qdot_pool *pool, qdot_expr u, int64_t sign)
 {
     return qdot_add(pool, QDOT_ONE,
                     qdot_mul(pool, qdot_expr_int(pool, sign), qdot_pow_int(pool, u, 2)));
@@ -235,11 +235,11 @@ halve_angle(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr 
 
 /* Sine s and cosine c of n/d times an inverse function, d a power of 2; false for other arguments. */
 static bool
-sine_cosine_of_part(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular, long *n,
+sine_cosine_of_part(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular, int64_t *n,
                     qdot_expr *s, qdot_expr *c)
 {
     unsigned op = qdot_expr_kind(pool, e) == QDOT_FUN ? qdot_expr_node(pool, e)->op : 0;
-    long d;
+    int64_t d;
     bool first;
 
     if (fmpz_cmp_ui(fmpq_denref(factor), MOST_PARTS) > 0 ||
@@ -302,7 +302,7 @@ resolve_inverse_functions(qdot_pool *pool, uint32_t op, qdot_expr arg)
 {
     bool circular = op != QDOT_SINH && op != QDOT_COSH && op != QDOT_TANH, any = false;
     qdot_expr left = arg, s = QDOT_ZERO, c = QDOT_ONE, s1, c1, s2, c2;
-    long n;
+    int64_t n;
 
     if (op == QDOT_TAN && (s1 = tangent_of_half(pool, arg)) != QDOT_NIL)
         return s1;
@@ -318,7 +318,7 @@ resolve_inverse_functions(qdot_pool *pool, uint32_t op, qdot_expr arg)
         left = qdot_sub(pool, left, qdot_mul(pool, factor, rest));
         if (n < 0)
             s1 = qdot_neg(pool, s1);
-        for (long k = 0; k < (n < 0 ? -n : n); k++) {
+        for (int64_t k = 0; k < (n < 0 ? -n : n); k++) {
             s2 = qdot_add(pool, qdot_mul(pool, s, c1), qdot_mul(pool, c, s1));
             c2 = qdot_add(pool, qdot_mul(pool, c, c1),
                           qdot_mul(pool, qdot_expr_int(pool, circular ? -1 : 1),
@@ -453,7 +453,7 @@ prepare_product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr result;
     bool special = false;
-    long k;
+    int64_t k;
 
     for (uint32_t i = 2; i < n && !special; i += 2)
         special = !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i), &k);

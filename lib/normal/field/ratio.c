@@ -19,7 +19,7 @@ qdot_field_goes(const qdot_field *f)
 }
 
 bool
-qdot_field_charge(qdot_field *f, slong a, slong b)
+qdot_field_charge(qdot_field *f, int64_t a, int64_t b)
 {
     if (f->state != QDOT_FIELD_GOES)
         return false;
@@ -29,7 +29,7 @@ qdot_field_charge(qdot_field *f, slong a, slong b)
         return false;
     }
     if (a > 1000000000 || b > 1000000000 ||
-        (f->work -= (int64_t)(a + 1) * (int64_t)(b + 1) * (1 + f->n / 8)) < 0) {
+        (f->work -= (a + 1) * (b + 1) * (1 + f->n / 8)) < 0) {
         f->state = QDOT_FIELD_OVER;
         return false;
     }
@@ -51,7 +51,7 @@ qdot_field_reduce(qdot_field *f, fmpz_mpoly_t p)
         degree = fmpz_mpoly_degree_si(p, rule->var, f->ctx);
         if (degree < rule->power)
             continue;
-        if (!qdot_field_charge(f, fmpz_mpoly_length(p, f->ctx) * (degree / rule->power),
+        if (!qdot_field_charge(f, (int64_t)fmpz_mpoly_length(p, f->ctx) * (degree / rule->power),
                                fmpz_mpoly_length(rule->poly, f->ctx)))
             break;
         fmpz_mpoly_divrem(q, p, p, rule->poly, f->ctx);
@@ -73,7 +73,7 @@ qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_m
 {
     slong la = fmpz_mpoly_length(a, f->ctx), lb = fmpz_mpoly_length(b, f->ctx);
 
-    if (!qdot_field_charge(f, la, lb) || la == 0 || lb == 0 || la * lb > GCD_COST ||
+    if (!qdot_field_charge(f, la, lb) || la == 0 || lb == 0 || (int64_t)la * lb > GCD_COST ||
         f->n > GCD_VARIABLES || !fmpz_mpoly_gcd(g, a, b, f->ctx))
         fmpz_mpoly_one(g, f->ctx);
 }
@@ -192,20 +192,20 @@ qdot_ratio_div(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, const qdot_rat
 }
 
 /* An upper bound of the number of terms of the n-th power of a polynomial with `length` terms. */
-static slong
-bound_terms_of_power(slong length, slong n)
+static int64_t
+bound_terms_of_power(int64_t length, int64_t n)
 {
     double terms = 1;
 
     if (length <= 1)
         return length;
-    for (slong k = 1; k < length && terms < 1e9; k++)
+    for (int64_t k = 1; k < length && terms < 1e9; k++)
         terms = terms * (double)(n + k) / (double)k;
-    return (slong)terms;
+    return (int64_t)terms;
 }
 
 static void
-poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, slong n)
+poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, int64_t n)
 {
     slong length = fmpz_mpoly_length(a, f->ctx);
 
@@ -226,7 +226,7 @@ poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, slong n)
 }
 
 void
-qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n)
+qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, int64_t n)
 {
     if (!qdot_field_goes(f))
         return;
@@ -300,7 +300,7 @@ qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p)
         factor[n++] = qdot_expr_fmpq(f->pool, c);
         for (slong v = 0; v < f->n; v++)
             if (exp[v] != 0)
-                factor[n++] = qdot_pow_int(f->pool, f->gen[v].expr, (long)exp[v]);
+                factor[n++] = qdot_pow_int(f->pool, f->gen[v].expr, (int64_t)exp[v]);
         term[i] = qdot_product(f->pool, n, factor);
     }
     if (length >= 0 && !qdot_pool_failed(f->pool))

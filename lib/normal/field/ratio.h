@@ -81,7 +81,7 @@ void qdot_field_primitive(qdot_field *f, fmpz_t c, fmpz_mpoly_t primitive, const
                           bool positive);
 
 /* Charge the cost of multiplying a terms by b terms to the budget; false if that is exhausted. */
-bool qdot_field_charge(qdot_field *f, slong a, slong b);
+bool qdot_field_charge(qdot_field *f, int64_t a, int64_t b);
 
 /* Reduce p modulo the rules of the field. */
 void qdot_field_reduce(qdot_field *f, fmpz_mpoly_t p);
@@ -104,7 +104,7 @@ void qdot_ratio_mul(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
 /* Set r to a/b; if b is zero the field gets the status QDOT_FIELD_UNDEFINED. */
 void qdot_ratio_div(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
                     const qdot_ratio *b);
-void qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n);
+void qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, int64_t n);
 void qdot_ratio_scale(qdot_field *f, qdot_ratio *r, const fmpq_t c);
 /* Cancel common factors, and make the leading coefficient of the denominator positive. */
 void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);

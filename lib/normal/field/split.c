@@ -18,7 +18,7 @@ struct parts {
     fmpq_t c;
     struct {
         qdot_expr base;
-        long m;
+        int64_t m;
     } * at;
     size_t n, capacity;
     qdot_expr rest; /* product of factors whose signs are not known one by one; 1: none */
@@ -41,7 +41,7 @@ parts_clear(struct parts *p)
 }
 
 static qdot_status
-parts_add(struct parts *p, qdot_expr base, long m)
+parts_add(struct parts *p, qdot_expr base, int64_t m)
 {
     QDOT_TRY(qdot_grow(&p->at, &p->capacity, p->n + 1, sizeof *p->at));
     p->at[p->n].base = base;
@@ -71,7 +71,7 @@ polynomial_shorten(qdot_field *f, fmpz_mpoly_t p)
 
 struct unknown {
     qdot_expr base[32];
-    long m[32];
+    int64_t m[32];
     size_t n;
 };
 
@@ -94,7 +94,7 @@ take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t pol
         fmpq_div_fmpz(p->c, p->c, factors.content);
     for (slong i = 0; i < factors.n && status == QDOT_OK; i++) {
         qdot_expr base = qdot_field_expr(f, factors.poly + i);
-        long m = side * factors.exp[i];
+        int64_t m = side * factors.exp[i];
         uint8_t sign;
 
         if (base == QDOT_NIL) {
@@ -220,22 +220,15 @@ log_of_integer(qdot_pool *pool, const fmpz_t n)
 
     if (fmpz_is_one(n))
         return e;
-    if (fmpz_bits(n) > 62) {
-        fmpq_t x;
-
-        fmpq_init(x);
-        fmpq_set_fmpz(x, n);
-        e = qdot_fun1(pool, QDOT_LOG, qdot_expr_fmpq(pool, x));
-        fmpq_clear(x);
-        return e;
-    }
+    if (fmpz_bits(n) > 62)
+        return qdot_fun1(pool, QDOT_LOG, qdot_expr_fmpz(pool, n));
     fmpz_factor_init(f);
     fmpz_factor(f, n);
     for (slong i = 0; i < f->num; i++)
         e = qdot_add(pool, e,
-                     qdot_mul(pool, qdot_expr_int(pool, (long)f->exp[i]),
+                     qdot_mul(pool, qdot_expr_int(pool, (int64_t)f->exp[i]),
                               qdot_fun1(pool, QDOT_LOG,
-                                        qdot_expr_int(pool, fmpz_get_si(f->p + i)))));
+                                        qdot_expr_fmpz(pool, f->p + i))));
     fmpz_factor_clear(f);
     return e;
 }
@@ -249,7 +242,7 @@ log_of_factor(qdot_pool *pool, qdot_expr e)
 
     if (qdot_expr_kind(pool, e) == QDOT_PROD && qdot_expr_count(pool, e) == 3 &&
         qdot_expr_arg(pool, e, 0) == QDOT_ONE) {
-        long k;
+        int64_t k;
 
         b = qdot_expr_arg(pool, e, 1);
         x = qdot_expr_arg(pool, e, 2);

@@ -10,6 +10,7 @@
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
+#include "num/integer.h"
 
 static void
 value_of_generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
@@ -133,11 +134,11 @@ value_of_sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
 /* r = g^k, g the root at v; a negative power is made free of roots below the line by
  * the rule. */
 static void
-power_of_root(qdot_field *f, qdot_ratio *r, slong v, slong k)
+power_of_root(qdot_field *f, qdot_ratio *r, slong v, int64_t k)
 {
     qdot_ratio base, lift;
     qdot_rule *rule = qdot_field_rule(f, v);
-    slong q = (slong)f->gen[v].order, up = k < 0 ? (-k + q - 1) / q : 0;
+    const int64_t q = f->gen[v].order, up = k < 0 ? (-k + q - 1) / q : 0;
 
     qdot_ratio_init(f, &base);
     qdot_ratio_init(f, &lift);
@@ -185,7 +186,7 @@ fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
     p = fmpz_get_si(fmpq_numref(x));
     q = fmpz_get_si(fmpq_denref(x));
     if (v >= 0) {
-        power_of_root(f, r, v, p * (slong)f->gen[v].order / q);
+        power_of_root(f, r, v, (int64_t)p * f->gen[v].order / q);
         return;
     }
     fmpz_init(n);
@@ -195,9 +196,9 @@ fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
     fmpz_mpoly_one(r->n, f->ctx);
     for (slong i = 0; i < factors->num; i++) {
         qdot_ratio_init(f, &one);
-        v = find_root_generator(f, qdot_expr_int(f->pool, fmpz_get_si(factors->p + i)));
+        v = find_root_generator(f, qdot_expr_fmpz(f->pool, factors->p + i));
         power_of_root(f, &one, v,
-                      p * (slong)factors->exp[i] * (slong)f->gen[v].order / q);
+                      (int64_t)p * (int64_t)factors->exp[i] * f->gen[v].order / q);
         qdot_ratio_mul(f, r, r, &one);
         qdot_ratio_clear(f, &one);
     }
@@ -214,10 +215,10 @@ value_of_power(qdot_field *f, qdot_ratio *r, qdot_expr base, qdot_expr exponent)
         value_of_generator(f, r, qdot_pow(f->pool, base, exponent));
     else if (!fmpz_is_one(fmpq_denref(x)))
         fractional_power(f, r, base, x);
-    else if (!fmpz_fits_si(fmpq_numref(x)))
+    else if (!qdot_integer_fits(fmpq_numref(x)))
         f->state = QDOT_FIELD_OVER;
     else
-        qdot_ratio_pow(f, r, node_value(f, base), fmpz_get_si(fmpq_numref(x)));
+        qdot_ratio_pow(f, r, node_value(f, base), qdot_integer_get(fmpq_numref(x)));
 }
 
 static void
@@ -306,7 +307,7 @@ angle_turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int
 
     fmpz_mpoly_init(s1, f->ctx);
     fmpz_mpoly_init(c1, f->ctx);
-    find_multiple_angle(f, s1, c1, vs, (slong)f->gen[vs].pair, labs(n));
+    find_multiple_angle(f, s1, c1, vs, (slong)f->gen[vs].pair, n < 0 ? -n : n);
     if (n < 0)
         fmpz_mpoly_neg(s1, s1, f->ctx);
     add_angles(f, s, c, s1, c1, sign);

@@ -169,7 +169,7 @@ try_collecting_power(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong po
 {
     qdot_field *f = form->f;
     qdot_pool *pool = f->pool;
-    qdot_expr x = qdot_pow_int(pool, f->gen[v].expr, (long)power), collected;
+    qdot_expr x = qdot_pow_int(pool, f->gen[v].expr, (int64_t)power), collected;
     fmpz_mpoly_t q, r;
 
     fmpz_mpoly_init(q, f->ctx);

@@ -22,7 +22,7 @@ write_tangents(qdot_pool *pool, qdot_expr e, void *user)
         for (uint32_t j = 1; j < n; j += 2) {
             qdot_expr s = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, j), t;
             qdot_fun_id quotient = QDOT_TAN;
-            long m, k;
+            int64_t m, k;
 
             if (qdot_expr_kind(pool, s) != QDOT_FUN ||
                 qdot_expr_kind(pool, c) != QDOT_FUN ||
@@ -73,7 +73,7 @@ move_signs_to_front(qdot_pool *pool, qdot_expr e, void *user)
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr few[24], *factor = few, result;
     bool any = false;
-    long k;
+    int64_t k;
 
     (void)user;
     if (n > 24 || n < 5)
@@ -212,7 +212,7 @@ take_out_function(qdot_pool *pool, qdot_expr sum, void *user)
 
         for (uint32_t k = 1; k < qdot_expr_count(pool, sum) && all; k += 2) {
             qdot_expr term = qdot_expr_arg(pool, sum, k);
-            long power = 0;
+            int64_t power = 0;
 
             for (uint32_t v = 1; qdot_expr_kind(pool, term) == QDOT_PROD &&
                                  v < qdot_expr_count(pool, term);

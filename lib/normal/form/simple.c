@@ -42,7 +42,7 @@ is_simple_product(const qdot_pool *pool, qdot_expr e)
 {
     int functions = 0, sums = 0;
     bool below = false;
-    long k;
+    int64_t k;
 
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i);
@@ -89,7 +89,7 @@ static bool
 read_collected_term(const qdot_pool *pool, qdot_expr t, qdot_expr *fast, qdot_expr *power)
 {
     int functions = 0, sums = 0, moving = 0;
-    long k;
+    int64_t k;
 
     if (qdot_expr_kind(pool, t) != QDOT_PROD)
         return false;
@@ -161,7 +161,7 @@ static bool
 read_two_angle_term(const qdot_pool *pool, qdot_expr e, two_angles *t)
 {
     uint32_t found = 0;
-    long k;
+    int64_t k;
 
     if (qdot_expr_kind(pool, e) != QDOT_PROD)
         return false;

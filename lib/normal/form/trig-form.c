@@ -89,7 +89,7 @@ qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp)
     factor[n++] = qdot_expr_fmpq(f->pool, c);
     for (slong v = 0; v < f->n; v++)
         if (exp[v] != 0)
-            factor[n++] = qdot_pow_int(f->pool, f->gen[v].expr, (long)exp[v]);
+            factor[n++] = qdot_pow_int(f->pool, f->gen[v].expr, (int64_t)exp[v]);
     e = qdot_product(f->pool, n, factor);
     if (factor != few)
         qdot_free(factor);

@@ -79,7 +79,7 @@ is_small_enough(const cells *c, const fmpz_mpoly_t p)
     return fmpz_mpoly_length(p, c->f.ctx) <= MOST_TERMS &&
            fmpz_mpoly_total_degree_fits_si(p, c->f.ctx) &&
            fmpz_mpoly_total_degree_si(p, c->f.ctx) <= MOST_DEGREE &&
-           labs(fmpz_mpoly_max_bits(p)) < MOST_BITS;
+           llabs(fmpz_mpoly_max_bits(p)) < MOST_BITS;
 }
 
 /* The index of the last symbol in the polynomial p, its level; -1 if p is constant. */

@@ -144,7 +144,7 @@ qdot_sign_by_factors(qdot_pool *pool, qdot_expr e)
 /* The product of those factors of p whose sign is not known, once or twice, to the power `turn`, 1 or -1. *sign: times
  * that of the others, 0 where p cannot be factored; *less: there are others. */
 static qdot_expr
-product_of_unsigned_factors(qdot_field *f, const fmpz_mpoly_t p, long turn, int *sign,
+product_of_unsigned_factors(qdot_field *f, const fmpz_mpoly_t p, int64_t turn, int *sign,
                             bool *less)
 {
     qdot_pool *pool = f->pool;

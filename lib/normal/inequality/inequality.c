@@ -323,7 +323,7 @@ is_smooth_on_domain(qdot_pool *pool, qdot_expr e)
         return false;
     for (size_t i = 0; i < w.n && good; i++) {
         qdot_expr at = w.at[i];
-        long k;
+        int64_t k;
 
         switch (qdot_expr_kind(pool, at)) {
         case QDOT_NUM:

@@ -195,7 +195,7 @@ polynomial(substitutes *s, qdot_field *f, const fmpz_mpoly_t p)
             if (exp[v] > 0)
                 term = qdot_mul(
                     s->pool, term,
-                    qdot_pow_int(s->pool, replacement_of(s, f->gen[v].expr), (long)exp[v]));
+                    qdot_pow_int(s->pool, replacement_of(s, f->gen[v].expr), (int64_t)exp[v]));
         sum = qdot_add(s->pool, sum, term);
     }
     fmpq_clear(c);
@@ -235,7 +235,7 @@ replace_generator(substitutes *s, qdot_field *f, slong v)
         if (!qdot_expr_is_constant(pool, g->of))
             stand_for(s, g->expr,
                       qdot_pow(pool, value_with_replacements(s, f, g->of),
-                               qdot_expr_ratio(pool, 1, (long)g->order)));
+                               qdot_expr_ratio(pool, 1, (int64_t)g->order)));
         break;
     default: s->q->too_much |= g->kind == QDOT_GEN_ABS; break;
     }

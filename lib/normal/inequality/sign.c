@@ -33,7 +33,7 @@ static qdot_status
 sign_of_factor_power(prover *x, qdot_expr b, qdot_expr k, int depth, int *sign)
 {
     qdot_pool *pool = x->pool;
-    long whole;
+    int64_t whole;
 
     QDOT_TRY(prove_sign(x, b, depth, sign));
     if (qdot_expr_to_int(pool, k, &whole))
@@ -130,7 +130,7 @@ sign_of_logarithms(prover *x, qdot_expr e, int depth, int *sign)
 
     *sign = 0;
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
-        long n;
+        int64_t n;
 
         if (!read_monotonic(pool, qdot_mul(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1)), &c, &u, &g, &way) || g != QDOT_LOG)
             return QDOT_OK;
@@ -320,7 +320,7 @@ is_rational_function(qdot_pool *pool, qdot_expr e, bool *yes)
     *yes = !(qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN);
     for (size_t i = 0; i < w.n && *yes; i++)
         for (uint32_t k = 2; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2) {
-            long n;
+            int64_t n;
 
             *yes = *yes && qdot_expr_to_int(pool, qdot_expr_arg(pool, w.at[i], k), &n);
         }

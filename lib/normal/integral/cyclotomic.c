@@ -42,21 +42,21 @@ totient(int m)
 
 /* The coefficients [degree + 1] of Phi_m: x^m - 1 divided by Phi_d for all d < m that divide m. */
 static int
-cyclotomic_polynomial(int m, long *c)
+cyclotomic_polynomial(int m, int64_t *c)
 {
     int degree = m;
 
     for (int i = 0; i <= m; i++)
         c[i] = i == 0 ? -1 : i == m;
     for (int d = 1; d < m; d++) {
-        long by[MOST_ORDER + 1];
+        int64_t by[MOST_ORDER + 1];
         int n;
 
         if (m % d != 0)
             continue;
         n = cyclotomic_polynomial(d, by);
         for (int i = degree - n; i >= 0; i--) { /* monic */
-            const long q = c[i + n];
+            const int64_t q = c[i + n];
 
             for (int j = 0; j < n; j++)
                 c[i + j] -= q * by[j];
@@ -168,7 +168,7 @@ find_order(qdot_integral_task *t, const qdot_poly *f, qdot_expr r)
     qdot_pool *pool = t->pool;
 
     for (int m = 5; m <= MOST_ORDER; m++) {
-        long c[MOST_ORDER + 1];
+        int64_t c[MOST_ORDER + 1];
         bool same = totient(m) == f->degree && (m % 2 == 0 ? m / 2 : m) <= QDOT_POLY_MOST;
 
         if (!same)

@@ -56,7 +56,7 @@ settle_error_function(qdot_pool *pool, qdot_expr *F, qdot_expr x, qdot_expr at, 
 static bool
 zero_matters(qdot_pool *pool, qdot_expr e, uint32_t k)
 {
-    long n;
+    int64_t n;
 
     return qdot_expr_kind(pool, e) == QDOT_FUN ||
            (k % 2 == 1 && !(qdot_expr_to_int(pool, qdot_expr_arg(pool, e, k + 1), &n) && n > 0));

@@ -23,11 +23,11 @@ typedef struct {
     qdot_poly over, under;
     int factors;
     qdot_poly factor[QDOT_READING_FACTORS];
-    long power[QDOT_READING_FACTORS];
+    int64_t power[QDOT_READING_FACTORS];
 } fraction;
 
 static bool
-add_factor(qdot_integral_task *t, fraction *f, const qdot_poly *p, long power)
+add_factor(qdot_integral_task *t, fraction *f, const qdot_poly *p, int64_t power)
 {
     const qdot_poly raised = qdot_poly_power(t, p, power);
 
@@ -57,7 +57,7 @@ read_fraction(qdot_integral_task *t, qdot_expr e, qdot_expr x, fraction *f)
 }
 
 /* The order of the pole of f at the zeros of p. */
-static long
+static int64_t
 order_at(qdot_integral_task *t, const fraction *f, const qdot_poly *p)
 {
     for (int i = 0; i < f->factors; i++) {
@@ -142,7 +142,7 @@ solve_for_factor(qdot_integral_task *t, qdot_expr f_expr, qdot_expr g_expr, qdot
     if (!read_fraction(t, f_expr, x, &f) || !read_fraction(t, g_expr, x, &g))
         return QDOT_NIL;
     for (int i = 0; i < g.factors; i++) {
-        const long order = g.power[i] - (order_at(t, &f, &g.factor[i]) > 0 ? order_at(t, &f, &g.factor[i]) : 1);
+        const int64_t order = g.power[i] - (order_at(t, &f, &g.factor[i]) > 0 ? order_at(t, &f, &g.factor[i]) : 1);
         const qdot_poly raised = qdot_poly_power(t, &g.factor[i], order > 0 ? order : 0);
 
         Q = qdot_poly_mul(t, &Q, &raised);
@@ -162,7 +162,7 @@ qdot_exponential_rational_integrate(qdot_integral_task *t, const qdot_reading *r
     qdot_pool *pool = t->pool;
     qdot_expr E, u, under = QDOT_ONE, F = QDOT_ZERO, du;
     qdot_poly over;
-    long lower = 0;
+    int64_t lower = 0;
 
     if (r->n != 1 || r->generator[0].kind != QDOT_GEN_EXP)
         return QDOT_NIL;

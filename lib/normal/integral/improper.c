@@ -33,7 +33,7 @@ typedef struct {
 
 /* The factor c of u = c x^n; nil: u is another expression. */
 static qdot_expr
-factor_of_power(const table *t, qdot_expr u, long n)
+factor_of_power(const table *t, qdot_expr u, int64_t n)
 {
     const qdot_expr c = qdot_normal(t->pool, qdot_div(t->pool, u, qdot_pow_int(t->pool, t->x, n)), NULL);
 
@@ -135,7 +135,7 @@ compare(table *t, qdot_expr f, qdot_expr integral)
 
 /* f(rate x^n) */
 static qdot_expr
-function_of(const table *t, qdot_fun_id f, qdot_expr rate, long n)
+function_of(const table *t, qdot_fun_id f, qdot_expr rate, int64_t n)
 {
     return qdot_fun1(t->pool, f, qdot_mul(t->pool, rate, qdot_pow_int(t->pool, t->x, n)));
 }
@@ -182,7 +182,7 @@ look_up_quartic(table *t, qdot_expr s, qdot_expr c)
     if (F == QDOT_NIL)
         return;
     under = qdot_add(pool, qdot_mul(pool, x2, qdot_add(pool, x2, t->p)), t->q);
-    for (long n = 0; n <= 3 && F != QDOT_NIL; n++) { /* d/dk cos(k x) = -x sin(k x), d/dk sin(k x) = x cos(k x) */
+    for (int64_t n = 0; n <= 3 && F != QDOT_NIL; n++) { /* d/dk cos(k x) = -x sin(k x), d/dk sin(k x) = x cos(k x) */
         compare(t, qdot_div(pool, qdot_mul(pool, n % 2 == 0 ? c : s, qdot_pow_int(pool, t->x, n)), under),
                 qdot_subs(pool, F, 1, &k, &t->k));
         F = qdot_diff(pool, F, k);
@@ -234,7 +234,7 @@ look_up_waves(table *t)
 
 /* |B| (2 pi/k)^(n + 1)/(2 (n + 1)), B the Bernoulli number of n + 1. */
 static qdot_expr
-bernoulli_integral(const table *t, qdot_expr k, long n)
+bernoulli_integral(const table *t, qdot_expr k, int64_t n)
 {
     qdot_pool *pool = t->pool;
     const qdot_expr power = qdot_pow_int(pool, qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), k), n + 1);
@@ -266,13 +266,13 @@ look_up_exponentials(table *t)
                 qdot_fun1(pool, QDOT_LOG, qdot_div(pool, b, a)));
     if (!is_proved_positive(t, rate))
         return;
-    for (long n = 1; n <= MOST_POWER && t->value == QDOT_NIL; n += 2) {
+    for (int64_t n = 1; n <= MOST_POWER && t->value == QDOT_NIL; n += 2) {
         const qdot_expr up = qdot_pow_int(pool, t->x, n), E = function_of(t, QDOT_EXP, rate, 1);
         const qdot_expr whole = bernoulli_integral(t, rate, n);
 
         compare(t, qdot_div(pool, up, qdot_sub(pool, E, QDOT_ONE)), whole);
         compare(t, qdot_div(pool, up, qdot_add(pool, E, QDOT_ONE)),
-                qdot_mul(pool, whole, qdot_expr_ratio(pool, (1L << n) - 1, 1L << n)));
+                qdot_mul(pool, whole, qdot_expr_ratio(pool, (INT64_C(1) << n) - 1, INT64_C(1) << n)));
     }
 }
 

@@ -68,7 +68,7 @@ integral_of_derivative(qdot_pool *pool, qdot_expr e, qdot_expr x)
     if (n == 0 || n > 8)
         return QDOT_NIL;
     for (uint32_t i = 0; i < n; i++) {
-        long order;
+        int64_t order;
 
         args[i] = qdot_expr_arg(pool, e, i);
         if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, n + i), &order))

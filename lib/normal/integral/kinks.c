@@ -174,7 +174,7 @@ is_finite_product(const qdot_pool *pool, qdot_expr e, qdot_expr x)
     for (uint32_t k = 1; k < qdot_expr_count(pool, e); k += 2) {
         const qdot_expr base = qdot_expr_arg(pool, e, k);
         const uint8_t sign = qdot_expr_sign(pool, base);
-        long power;
+        int64_t power;
 
         if (!qdot_expr_contains(pool, base, x) || (sign & QDOT_POS) == QDOT_POS)
             continue;

@@ -15,7 +15,7 @@ complete(qdot_pool *pool, qdot_expr p, qdot_expr q, qdot_expr m)
 
 /* a + k b */
 static qdot_expr
-combined(qdot_pool *pool, qdot_expr a, long k, qdot_expr b)
+combined(qdot_pool *pool, qdot_expr a, int64_t k, qdot_expr b)
 {
     return qdot_add(pool, a, qdot_mul(pool, qdot_expr_int(pool, k), b));
 }

@@ -19,7 +19,7 @@ typedef struct {
     qdot_poly Q, over;
     int n;
     qdot_poly base[QDOT_READING_FACTORS];
-    long power[QDOT_READING_FACTORS];
+    int64_t power[QDOT_READING_FACTORS];
 } qdot_loop_square;
 
 /* The sign of e, proved: 1 or -1; 0: not known. */

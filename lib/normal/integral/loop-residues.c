@@ -58,7 +58,7 @@ add_moments(residues *r, const qdot_poly *whole)
 
 /* Add the part of over/(f1 (u - s))^power, s real. */
 static bool
-add_real_pole(residues *r, const qdot_poly *over, qdot_expr f1, qdot_expr s, long power)
+add_real_pole(residues *r, const qdot_poly *over, qdot_expr f1, qdot_expr s, int64_t power)
 {
     qdot_pool *pool = r->pool;
     const qdot_expr at = qdot_integral_variable(r->t, false);
@@ -71,7 +71,7 @@ add_real_pole(residues *r, const qdot_poly *over, qdot_expr f1, qdot_expr s, lon
     root = qdot_sqrt(pool, qdot_integral_normal(r->t, qdot_neg(pool, qdot_poly_expr(r->t, r->Q, at))));
     simple = qdot_sub(pool, qdot_mul(pool, qdot_sqrt(pool, r->A), qdot_sub(pool, r->m, at)),
                       qdot_mul(pool, qdot_expr_int(pool, sigma), root));
-    for (long order = 1; order <= power; order++) { /* of (u - s)^-order: derivative number order - 1 over (order - 1)! */
+    for (int64_t order = 1; order <= power; order++) { /* of (u - s)^-order: derivative number order - 1 over (order - 1)! */
         const qdot_expr c = qdot_poly_coefficient(&p, (int)(power - order));
         qdot_expr value;
 
@@ -105,7 +105,7 @@ add_complex_pair(residues *r, const qdot_poly *over, const qdot_poly *f, qdot_ex
 
 /* Add the part of over/f^power, f irreducible over the parameters. */
 static bool
-add_pole(residues *r, const qdot_poly *over, const qdot_poly *f, long power)
+add_pole(residues *r, const qdot_poly *over, const qdot_poly *f, int64_t power)
 {
     qdot_pool *pool = r->pool;
     qdot_expr h, disc, w, slope, two_a;

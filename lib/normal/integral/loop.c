@@ -33,10 +33,10 @@ qdot_loop_sign(qdot_loop_task *l, qdot_expr e)
 /* Multiply Q H^2 by base^power, power of either sign: H by base^half, half = power/2 rounded down, and Q by the base that an
  * odd power leaves. */
 static bool
-take_factor(qdot_loop_task *l, qdot_loop_square *s, qdot_expr base, long power, qdot_expr u)
+take_factor(qdot_loop_task *l, qdot_loop_square *s, qdot_expr base, int64_t power, qdot_expr u)
 {
     const qdot_poly p = qdot_poly_read(&l->t, base, u);
-    const long half = power >= 0 ? power / 2 : (power - 1) / 2;
+    const int64_t half = power >= 0 ? power / 2 : (power - 1) / 2;
     qdot_poly raised;
 
     if (p.degree < 1)
@@ -135,7 +135,7 @@ without(qdot_loop_task *l, qdot_expr n, qdot_expr d, qdot_expr V, qdot_expr squa
 
 /* Whether lo pi/2 <= angle <= hi pi/2 is proved. */
 static bool
-value_between(qdot_loop_task *l, qdot_expr angle, long lo, long hi)
+value_between(qdot_loop_task *l, qdot_expr angle, int64_t lo, int64_t hi)
 {
     qdot_pool *pool = l->pool;
     const qdot_expr right = qdot_mul(pool, QDOT_HALF, QDOT_PI);
@@ -154,7 +154,7 @@ value_between(qdot_loop_task *l, qdot_expr angle, long lo, long hi)
 
 /* The same in the whole range of x, if not by the declared domain of x then at the ends. */
 static bool
-angle_between(qdot_loop_task *l, qdot_expr angle, long lo, long hi)
+angle_between(qdot_loop_task *l, qdot_expr angle, int64_t lo, int64_t hi)
 {
     return value_between(l, angle, lo, hi) || (value_between(l, qdot_subs(l->pool, angle, 1, &l->x, &l->lo), lo, hi) &&
                                                value_between(l, qdot_subs(l->pool, angle, 1, &l->x, &l->hi), lo, hi));

@@ -39,7 +39,7 @@ qdot_parts_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, int dep
     for (uint32_t i = 1; i < n && !t->failed; i += 2) {
         qdot_expr base = product ? qdot_expr_arg(pool, term, i) : term, u;
         qdot_expr exponent = product ? qdot_expr_arg(pool, term, i + 1) : QDOT_ONE;
-        long k;
+        int64_t k;
 
         if (!qdot_expr_contains(pool, base, x) || !has_simpler_slope(pool, base) ||
             !qdot_expr_to_int(pool, exponent, &k) || k < 1 || k > QDOT_INTEGRAL_DEPTH)
@@ -48,7 +48,7 @@ qdot_parts_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, int dep
         return integrate_with(t, u, qdot_div(pool, term, u), x, depth);
     }
     for (uint32_t i = 1; i < n && product && !t->failed && depth < 4; i += 2) { /* x^k lowers its power */
-        long k;
+        int64_t k;
 
         if (qdot_expr_arg(pool, term, i) == x && qdot_expr_to_int(pool, qdot_expr_arg(pool, term, i + 1), &k) && k >= 1 &&
             k <= 3 && n > 3)

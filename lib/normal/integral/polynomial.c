@@ -67,7 +67,7 @@ qdot_poly_read(qdot_integral_task *t, qdot_expr e, qdot_expr x)
     n = qdot_expr_kind(pool, e) == QDOT_SUM ? qdot_expr_count(pool, e) : 1;
     for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) {
         qdot_expr term = n == 1 ? e : qdot_expr_arg(pool, e, i), power = QDOT_ZERO, rest;
-        long k = 0;
+        int64_t k = 0;
 
         if (n > 1 && i > 0)
             term = qdot_mul(pool, term, qdot_expr_arg(pool, e, i + 1));
@@ -170,11 +170,11 @@ qdot_poly_scale(qdot_integral_task *t, const qdot_poly *a, qdot_expr c)
 }
 
 qdot_poly
-qdot_poly_power(qdot_integral_task *t, const qdot_poly *a, long n)
+qdot_poly_power(qdot_integral_task *t, const qdot_poly *a, int64_t n)
 {
     qdot_poly r = qdot_poly_constant(t, QDOT_ONE);
 
-    for (long i = 0; i < n && r.degree != -2; i++)
+    for (int64_t i = 0; i < n && r.degree != -2; i++)
         r = qdot_poly_mul(t, &r, a);
     return r;
 }

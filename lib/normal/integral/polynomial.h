@@ -33,7 +33,7 @@ qdot_poly qdot_poly_add(qdot_integral_task *t, const qdot_poly *a, const qdot_po
 qdot_poly qdot_poly_sub(qdot_integral_task *t, const qdot_poly *a, const qdot_poly *b);
 qdot_poly qdot_poly_mul(qdot_integral_task *t, const qdot_poly *a, const qdot_poly *b);
 qdot_poly qdot_poly_scale(qdot_integral_task *t, const qdot_poly *a, qdot_expr c);
-qdot_poly qdot_poly_power(qdot_integral_task *t, const qdot_poly *a, long n);
+qdot_poly qdot_poly_power(qdot_integral_task *t, const qdot_poly *a, int64_t n);
 qdot_poly qdot_poly_diff(qdot_integral_task *t, const qdot_poly *a);
 /* The integral with constant 0. */
 qdot_poly qdot_poly_integral(qdot_integral_task *t, const qdot_poly *a);

@@ -162,7 +162,7 @@ integral_over_factor(const root *r, const qdot_poly *n, const qdot_poly *f)
 
 /* Integrate a/(f^k y) by way of a'/(f y); a polynomial over y that is left is added to *poly. */
 static bool
-reduce_power(root *r, qdot_poly a, const qdot_poly *f, long k, qdot_poly *poly)
+reduce_power(root *r, qdot_poly a, const qdot_poly *f, int64_t k, qdot_poly *poly)
 {
     qdot_integral_task *t = r->t;
     qdot_poly df = qdot_poly_diff(t, f), g, rest, m, T, u;
@@ -176,7 +176,7 @@ reduce_power(root *r, qdot_poly a, const qdot_poly *f, long k, qdot_poly *poly)
     m = qdot_poly_mul(t, &df, &g);
     for (; k > (divides ? 0 : 1) && a.degree >= 0 && qdot_integral_goes(t); k--) {
         /* (T y/f^j)', j = k or k - 1, has over f^k y the numerator T' q + T q'/2 - j T f' q/f ... = a modulo f */
-        long j = divides ? k : k - 1;
+        int64_t j = divides ? k : k - 1;
         qdot_expr by = divides ? qdot_expr_ratio(t->pool, 1 - 2 * j, 2) : qdot_expr_int(t->pool, -j);
         qdot_poly by_m = qdot_poly_scale(t, &m, by), over;
 
@@ -248,7 +248,7 @@ integrate_over_root(root *r, qdot_expr G)
     qdot_integral_task *t = r->t;
     qdot_reading g;
     qdot_poly n, P, f[QDOT_READING_FACTORS], over[QDOT_READING_FACTORS];
-    long power[QDOT_READING_FACTORS];
+    int64_t power[QDOT_READING_FACTORS];
 
     if (G == QDOT_ZERO)
         return true;

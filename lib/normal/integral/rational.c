@@ -205,7 +205,7 @@ integrate_over_factor(qdot_integral_task *t, const qdot_poly *n, const qdot_poly
 
 /* Integrate a/f^k: Hermite's reduction down to k = 1. */
 static bool
-integrate_over_power(qdot_integral_task *t, qdot_poly a, const qdot_poly *f, long k, qdot_expr x, qdot_primitive *out)
+integrate_over_power(qdot_integral_task *t, qdot_poly a, const qdot_poly *f, int64_t k, qdot_expr x, qdot_primitive *out)
 {
     qdot_pool *pool = t->pool;
     qdot_poly df = qdot_poly_diff(t, f), u, v, w, rest;
@@ -278,7 +278,7 @@ raise_step(const qdot_poly *p, int k)
 }
 
 bool
-qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, const qdot_poly *f, const long *power,
+qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, const qdot_poly *f, const int64_t *power,
                         qdot_poly *whole, qdot_poly *over)
 {
     qdot_poly all = qdot_poly_constant(t, QDOT_ONE), rest, part[QDOT_READING_FACTORS];
@@ -308,7 +308,7 @@ qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, co
 
 /* Integrate n/prod f_i^power_i by partial fractions. */
 static bool
-integrate_fraction(qdot_integral_task *t, const qdot_poly *n, int factors, const qdot_poly *f, const long *power,
+integrate_fraction(qdot_integral_task *t, const qdot_poly *n, int factors, const qdot_poly *f, const int64_t *power,
                    qdot_expr x, qdot_primitive *out)
 {
     qdot_poly whole, over[QDOT_READING_FACTORS];
@@ -330,7 +330,7 @@ qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qdot_pr
 {
     qdot_reading r;
     qdot_poly n, f[QDOT_READING_FACTORS];
-    long power[QDOT_READING_FACTORS];
+    int64_t power[QDOT_READING_FACTORS];
     int step;
 
     *out = (qdot_primitive){.rest = QDOT_ZERO};

@@ -49,7 +49,7 @@ bool qdot_rational_integrate(qdot_integral_task *t, qdot_expr e, qdot_expr x, qd
 qdot_expr qdot_rational_write(qdot_integral_task *t, const qdot_primitive *f, qdot_expr x);
 
 /* n/prod f[i]^power[i] [count] = whole + sum over[i]/f[i]^power[i], the f[i] without common roots; false: too large. */
-bool qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, const qdot_poly *f, const long *power,
+bool qdot_rational_fractions(qdot_integral_task *t, const qdot_poly *n, int count, const qdot_poly *f, const int64_t *power,
                              qdot_poly *whole, qdot_poly *over);
 
 /* int e dw, e rational in the symbol w, with `is` in the place of w; nil: not found. */

@@ -70,7 +70,7 @@ write_polynomial(qdot_field *f, const fmpz_mpoly_t p, const qdot_expr *stands)
         term = qdot_expr_fmpq(f->pool, c);
         for (slong v = 0; v < f->n; v++)
             if (exp[v] > 0)
-                term = qdot_mul(f->pool, term, qdot_pow_int(f->pool, stands[v], (long)exp[v]));
+                term = qdot_mul(f->pool, term, qdot_pow_int(f->pool, stands[v], (int64_t)exp[v]));
         sum = qdot_add(f->pool, sum, term);
     }
     fmpq_clear(c);
@@ -106,13 +106,13 @@ write_factors(struct reader *r, qdot_field *f, const qdot_factors *factors, cons
         qdot_expr base = write_polynomial(f, factors->poly + i, stands);
 
         if (!holds_moving(pool, r, base)) {
-            out->rest = qdot_div(pool, out->rest, qdot_pow_int(pool, base, (long)factors->exp[i]));
+            out->rest = qdot_div(pool, out->rest, qdot_pow_int(pool, base, (int64_t)factors->exp[i]));
             continue;
         }
         if (out->factors == QDOT_READING_FACTORS)
             return false;
         out->factor[out->factors].base = base;
-        out->factor[out->factors++].power = (long)factors->exp[i];
+        out->factor[out->factors++].power = (int64_t)factors->exp[i];
     }
     return true;
 }

@@ -28,7 +28,7 @@ typedef struct {
     int factors;
     struct {
         qdot_expr base;
-        long power;
+        int64_t power;
     } factor[QDOT_READING_FACTORS];
 } qdot_reading;
 

@@ -28,7 +28,7 @@ floor_inside(qdot_span *r, qdot_expr u)
         return whole;
     if (qdot_constant_double(pool, value, &near) != QDOT_OK || !(fabs(near) < 1e9) || fabs(near - round(near)) < 1e-6)
         return QDOT_NIL; /* too near to an integer to be told from it by a double */
-    return qdot_expr_int(pool, (long)floor(near));
+    return qdot_expr_int(pool, (int64_t)floor(near));
 }
 
 /* The largest (or least) of the arguments of max (or min) in the piece, in which their order is the same everywhere. */

@@ -163,7 +163,7 @@ add_zeros_of_sine(qdot_span *r, qdot_expr g)
     if (!find_bounds(r, u, &turns) || turns.hi - turns.lo > QDOT_SPAN_PLACES)
         return false;
     for (double n = ceil(turns.lo); n <= floor(turns.hi); n++)
-        if (!add_zeros(r, qdot_sub(pool, u, qdot_expr_int(pool, (long)n))))
+        if (!add_zeros(r, qdot_sub(pool, u, qdot_expr_int(pool, (int64_t)n))))
             return false;
     return true;
 }
@@ -210,7 +210,7 @@ danger_of(qdot_span *r, qdot_expr e, uint32_t i, bool jumps, bool *real)
     *real = false;
     if (qdot_expr_kind(pool, e) == QDOT_PROD) {
         qdot_expr exponent = qdot_expr_arg(pool, e, i + 1);
-        long k;
+        int64_t k;
 
         u = qdot_expr_arg(pool, e, i);
         if (!qdot_expr_contains(pool, u, r->x))

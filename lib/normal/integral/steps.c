@@ -64,13 +64,13 @@ new_step_symbol(qdot_pool *pool, const char *name, bool fraction)
 
 /* The sum of j^k for j = 0 ... N - 1 by Faulhaber's recursion, k = 0 ... most. */
 static void
-write_power_sums(qdot_pool *pool, qdot_expr N, long most, qdot_expr *sum)
+write_power_sums(qdot_pool *pool, qdot_expr N, int64_t most, qdot_expr *sum)
 {
-    for (long k = 0; k <= most; k++) {
+    for (int64_t k = 0; k <= most; k++) {
         qdot_expr s = qdot_pow_int(pool, N, k + 1);
-        long binomial = 1; /* of k + 1 over i */
+        int64_t binomial = 1; /* of k + 1 over i */
 
-        for (long i = 0; i < k; i++) {
+        for (int64_t i = 0; i < k; i++) {
             s = qdot_sub(pool, s, qdot_mul(pool, qdot_expr_int(pool, binomial), sum[i]));
             binomial = binomial * (k + 1 - i) / (i + 1);
         }
@@ -88,7 +88,7 @@ sum_steps(const steps *s, qdot_expr d)
     if (!qdot_expr_contains(pool, d, s->N))
         return qdot_mul(pool, d, s->N);
     write_power_sums(pool, s->N, MOST_DEGREE, sums);
-    for (long k = 0; k <= MOST_DEGREE && rest != QDOT_ZERO; k++) {
+    for (int64_t k = 0; k <= MOST_DEGREE && rest != QDOT_ZERO; k++) {
         const qdot_expr c = qdot_coefficient(pool, d, s->N, k);
 
         if (c == QDOT_NIL) { /* no polynomial */

@@ -47,7 +47,7 @@ holds_root_of(qdot_pool *pool, qdot_expr e, qdot_expr w)
     for (size_t i = 0; i < walk.n && !found; i++)
         if (qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD)
             for (uint32_t k = 1; k < qdot_expr_count(pool, walk.at[i]) && !found; k += 2) {
-                long n;
+                int64_t n;
 
                 found = qdot_expr_arg(pool, walk.at[i], k) == w &&
                         !qdot_expr_to_int(pool, qdot_expr_arg(pool, walk.at[i], k + 1), &n);
@@ -60,7 +60,7 @@ holds_root_of(qdot_pool *pool, qdot_expr e, qdot_expr w)
 
 /* int e dx over w = x^k, where e/x^(k - 1) holds x by x^k only. */
 static qdot_expr
-substitute_power(qdot_integral_task *t, qdot_expr e, qdot_expr x, long k, int depth)
+substitute_power(qdot_integral_task *t, qdot_expr e, qdot_expr x, int64_t k, int depth)
 {
     qdot_pool *pool = t->pool;
     qdot_expr w = qdot_integral_variable(t, true), v = qdot_integral_variable(t, true), root, f, F, xk = qdot_pow_int(pool, x, k);
@@ -104,7 +104,7 @@ solve_linear_fraction(qdot_pool *pool, const qdot_poly *over, const qdot_poly *u
 
 /* int e dx over w, x put in as a function of w: the root w = base^(1/q) of (a x + b)/(c x + d), or for q = 0 its logarithm. */
 static qdot_expr
-substitute_inverse(qdot_integral_task *t, qdot_expr e, qdot_expr base, long q, qdot_expr x, int depth)
+substitute_inverse(qdot_integral_task *t, qdot_expr e, qdot_expr base, int64_t q, qdot_expr x, int depth)
 {
     qdot_pool *pool = t->pool;
     qdot_expr w, u, of_w, X, f, F;
@@ -151,9 +151,9 @@ substitute_exponential(qdot_integral_task *t, qdot_expr e, qdot_expr u, qdot_exp
     if (slope == QDOT_NIL || slope == QDOT_ZERO)
         return QDOT_NIL;
     w = qdot_integral_variable(t, true);
-    for (long k = 1; k <= MOST; k++)
+    for (int64_t k = 1; k <= MOST; k++)
         for (int i = 0; i < 2; i++) {
-            long n = i == 0 ? k : -k;
+            int64_t n = i == 0 ? k : -k;
 
             from[2 * (k - 1) + i] = qdot_fun1(pool, QDOT_EXP, qdot_mul(pool, qdot_expr_int(pool, n), v));
             to[2 * (k - 1) + i] = qdot_pow_int(pool, w, n);
@@ -190,7 +190,7 @@ qdot_substitution_integrate(qdot_integral_task *t, qdot_expr term, qdot_expr x, 
     for (size_t i = 0; i < n && F == QDOT_NIL && !t->failed && depth <= 1; i++)
         F = qdot_expr_is_function(t->pool, tried[i], QDOT_EXP) ? substitute_exponential(t, term, tried[i], x, depth)
                                                                : substitute_inverses(t, term, tried[i], x, depth);
-    for (long k = 4; k >= 2 && F == QDOT_NIL && !t->failed && depth <= 1 && qdot_expr_contains(t->pool, term, x); k--)
+    for (int64_t k = 4; k >= 2 && F == QDOT_NIL && !t->failed && depth <= 1 && qdot_expr_contains(t->pool, term, x); k--)
         F = substitute_power(t, term, x, k, depth);
     return F;
 }

@@ -19,7 +19,7 @@ typedef struct {
     size_t asked;       /* number of conditions assumed */
     qdot_expr condition[QDOT_INTEGRAL_SIGNS]; /* relations 0 < e */
     bool holds[QDOT_INTEGRAL_SIGNS];          /* how each is assumed */
-    long effort;        /* steps left until the integration is given up */
+    int64_t effort;        /* steps left until the integration is given up */
 } qdot_integral_task;
 
 /* The integral of e over x at a nesting depth; nil: not found. */

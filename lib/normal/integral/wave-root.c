@@ -36,7 +36,7 @@ holds_root_of(qdot_integral_task *t, qdot_expr f, qdot_expr square, qdot_expr w)
         for (uint32_t k = 1; qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, walk.at[i]); k += 2) {
             const qdot_expr base = qdot_expr_arg(pool, walk.at[i], k);
             qdot_expr ratio;
-            long n;
+            int64_t n;
 
             if (found || qdot_expr_to_int(pool, qdot_expr_arg(pool, walk.at[i], k + 1), &n) || !qdot_expr_contains(pool, base, w))
                 continue;

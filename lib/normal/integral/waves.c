@@ -20,7 +20,7 @@ enum { MOST_WAVES = 48, MOST_POWER = 12 };
 /* c x^n E sin V or c x^n E cos V; E a product of exponentials with E'/E = rate. */
 typedef struct {
     qdot_expr c, E, rate, V;
-    long n;
+    int64_t n;
     bool sine;
 } wave;
 
@@ -102,7 +102,7 @@ times_factor(qdot_pool *pool, waves *w, qdot_expr base, qdot_expr exponent, qdot
 {
     qdot_expr slope, u;
     qdot_fun_id id;
-    long k;
+    int64_t k;
 
     slope = qdot_expr_contains(pool, base, x) ? QDOT_NIL : qdot_integral_slope(pool, exponent, x);
     if (slope != QDOT_NIL) {
@@ -179,7 +179,7 @@ integrate_wave(qdot_integral_task *t, const wave *a, qdot_expr x)
     if (norm == QDOT_ZERO) /* the wave is a power of x */
         return qdot_mul(pool, qdot_mul(pool, a->E, qdot_add(pool, qdot_mul(pool, c, f), qdot_mul(pool, d, g))),
                         qdot_div(pool, qdot_pow_int(pool, x, a->n + 1), qdot_expr_int(pool, a->n + 1)));
-    for (long k = a->n; k >= 0 && qdot_integral_goes(t); k--) {
+    for (int64_t k = a->n; k >= 0 && qdot_integral_goes(t); k--) {
         /* a p + w q = c, a q - w p = d */
         p = qdot_sub(pool, qdot_mul(pool, rate, c), qdot_mul(pool, w, d));
         q = qdot_add(pool, qdot_mul(pool, w, c), qdot_mul(pool, rate, d));

@@ -125,12 +125,12 @@ basis_project(struct basis *b, size_t j)
 
 /* Find a fraction n/d with a small denominator close to x; false if there is none. */
 static bool
-small_fraction(double x, long *n, long *d)
+small_fraction(double x, int64_t *n, int64_t *d)
 {
     for (*d = 1; *d <= 24; (*d)++) {
         double near = nearbyint(x * (double)*d);
 
-        *n = (long)near;
+        *n = (int64_t)near;
         if (fabs(near) <= LARGEST && fabs(x * (double)*d - near) < 1e-7)
             return true;
     }
@@ -143,7 +143,7 @@ guess_combination(struct basis *b, size_t j)
 {
     qdot_expr sum = QDOT_ZERO;
     double share[MOST + 1];
-    long n, d;
+    int64_t n, d;
 
     for (size_t k = 0; k < j; k++)
         share[k] = b->share[j][k];
@@ -168,11 +168,11 @@ static qdot_expr
 guess_constant(struct basis *b, size_t j)
 {
     qdot_pool *pool = b->pool;
-    long n, d;
+    int64_t n, d;
 
     for (size_t k = 1; k < j; k++)
-        for (long up = -4; up <= 4 && qdot_expr_is_constant(pool, b->column[k]); up++)
-            for (long down = 1; down <= 4 && up != 0; down++) {
+        for (int64_t up = -4; up <= 4 && qdot_expr_is_constant(pool, b->column[k]); up++)
+            for (int64_t down = 1; down <= 4 && up != 0; down++) {
                 double c = (double)up / (double)down;
                 double q = (b->value[j][0] - c * b->value[k][0]) / M_PI;
 

@@ -37,7 +37,7 @@ struct sum {
 };
 
 static qdot_expr
-times_pi(qdot_pool *pool, long n, long d)
+times_pi(qdot_pool *pool, int64_t n, int64_t d)
 {
     return qdot_mul(pool, qdot_expr_ratio(pool, n, d), QDOT_PI);
 }
@@ -45,7 +45,7 @@ times_pi(qdot_pool *pool, long n, long d)
 /* --- bounds of angles ---------------------------------------------------------------------- */
 
 static void
-add_interval_of_angle(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_expr hi, bool hi_open)
+add_interval_of_angle(struct sum *s, int64_t k, qdot_expr lo, bool lo_open, qdot_expr hi, bool hi_open)
 {
     qdot_pool *pool = s->pool;
     qdot_expr by = qdot_expr_int(pool, k);
@@ -58,13 +58,13 @@ add_interval_of_angle(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_ex
 
 /* Add to the sum the bounds of k times the angle e, in quarter turns, narrowed by the known signs of its arguments. */
 static void
-add_bounds_of_angle(struct sum *s, long k, qdot_expr e)
+add_bounds_of_angle(struct sum *s, int64_t k, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     unsigned op = qdot_expr_node(pool, e)->op;
     uint8_t u = qdot_expr_node(pool, qdot_expr_arg(pool, e, 0))->sign, right = 0;
-    long lo = op == QDOT_ACOS ? 0 : op == QDOT_ATAN2 ? -2 : -1;
-    long hi = op == QDOT_ACOS || op == QDOT_ATAN2 ? 2 : 1;
+    int64_t lo = op == QDOT_ACOS ? 0 : op == QDOT_ATAN2 ? -2 : -1;
+    int64_t hi = op == QDOT_ACOS || op == QDOT_ATAN2 ? 2 : 1;
     bool open = op == QDOT_ATAN, lo_open = open || op == QDOT_ATAN2, hi_open = open;
 
     if (qdot_expr_is_constant(pool, e)) {
@@ -94,7 +94,7 @@ add_bounds_of_angle(struct sum *s, long k, qdot_expr e)
 
 /* Whether the sum of angles lies strictly between -n pi and n pi. */
 static bool
-lies_within_turns(const struct sum *s, long n)
+lies_within_turns(const struct sum *s, int64_t n)
 {
     qdot_pool *pool = s->pool;
     qdot_expr gap[2] = {qdot_add(pool, s->lo, times_pi(pool, n, 1)),
@@ -127,14 +127,14 @@ square(qdot_pool *pool, qdot_expr e)
 
 /* Multiply Z by (re + i im)^k; for k < 0 by powers of the complex conjugate. */
 static void
-sum_multiply(struct sum *s, long k, qdot_expr re, qdot_expr im, qdot_expr modulus)
+sum_multiply(struct sum *s, int64_t k, qdot_expr re, qdot_expr im, qdot_expr modulus)
 {
     qdot_pool *pool = s->pool;
-    long n = k < 0 ? -k : k;
+    int64_t n = k < 0 ? -k : k;
 
     if (k < 0)
         im = qdot_neg(pool, im);
-    for (long i = 0; i < n; i++) {
+    for (int64_t i = 0; i < n; i++) {
         qdot_expr a = s->re, b = s->im;
 
         s->re = qdot_sub(pool, qdot_mul(pool, a, re), qdot_mul(pool, b, im));
@@ -144,7 +144,7 @@ sum_multiply(struct sum *s, long k, qdot_expr re, qdot_expr im, qdot_expr modulu
 }
 
 static void
-add_angle(struct sum *s, long k, qdot_expr e)
+add_angle(struct sum *s, int64_t k, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
     qdot_expr u = qdot_expr_arg(pool, e, 0), other;

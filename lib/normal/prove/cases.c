@@ -69,7 +69,7 @@ split_signs_of_products(qdot_pool *pool, qdot_expr e, void *user)
         result = qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, x, 0));
     for (uint32_t i = 1; i < qdot_expr_count(pool, x) && result != QDOT_NIL; i += 2) {
         qdot_expr b = qdot_expr_arg(pool, x, i), k = qdot_expr_arg(pool, x, i + 1), one;
-        long whole;
+        int64_t whole;
 
         if (sign)
             one = sign_of_power(pool, b, k);

@@ -25,7 +25,7 @@ split_difference_of_squares(struct job *j, qdot_expr g, bool weak, bool *done)
 {
     qdot_pool *pool = j->pool;
     qdot_expr square = QDOT_NIL, c = QDOT_NIL, rest = QDOT_NIL, a;
-    long k;
+    int64_t k;
 
     *done = false;
     if (qdot_expr_kind(pool, g) != QDOT_SUM)
@@ -87,7 +87,7 @@ product_of_unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_
         /* keep a factor that may be 0: where it is 0 the condition tells nothing of the other factors */
         if (weak && !(sign & QDOT_NE0))
             *product = qdot_mul(pool, *product,
-                                qdot_pow_int(pool, b, (long)factors.exp[i]));
+                                qdot_pow_int(pool, b, (int64_t)factors.exp[i]));
         else if (sign & QDOT_LE0)
             *product = qdot_neg(pool, *product);
         else if (!(sign & QDOT_GE0))

@@ -18,7 +18,7 @@ is_inverse_function(const qdot_pool *pool, qdot_expr e, bool circular)
 
 /* Add the relations for h = f/n, where f is an inverse function, once for each h. */
 static qdot_status
-add_nth_part_relations(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot_nth_parts *relations)
+add_nth_part_relations(qdot_pool *pool, qdot_expr f, int64_t n, bool circular, qdot_nth_parts *relations)
 {
     qdot_expr h = qdot_mul(pool, qdot_expr_ratio(pool, 1, n), f);
     qdot_expr c = qdot_fun1(pool, circular ? QDOT_COS : QDOT_COSH, h);
@@ -26,7 +26,7 @@ add_nth_part_relations(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot
     qdot_expr two = qdot_mul(pool, qdot_expr_int(pool, 2), c), T = QDOT_ONE, U = QDOT_ZERO;
     qdot_expr T1 = c, U1 = QDOT_ONE, row[2];
 
-    for (long k = 0; k < n; k++) {
+    for (int64_t k = 0; k < n; k++) {
         qdot_expr more = qdot_sub(pool, qdot_mul(pool, two, T1), T);
 
         T = T1, T1 = more;
@@ -53,7 +53,7 @@ add_relations_of_argument(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nt
 
     for (uint32_t i = 1; i < n && relations->n < MOST; i += 2) {
         qdot_expr f = QDOT_NIL, c = QDOT_ONE;
-        long parts;
+        int64_t parts;
 
         if (sum) {
             f = qdot_expr_arg(pool, arg, i);

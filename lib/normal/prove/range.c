@@ -106,7 +106,7 @@ sign_of_sine(qdot_pool *pool, struct range r)
     if (!qdot_ball_double(pool, r.lo, NULL, NULL, &lo) || fabs(lo) > 1e6)
         return 0;
     n = floor(lo / M_PI + 1e-9);
-    k = qdot_expr_int(pool, (long)n);
+    k = qdot_expr_int(pool, (int64_t)n);
     r.lo = qdot_sub(pool, r.lo, qdot_mul(pool, k, QDOT_PI));
     r.hi = qdot_sub(pool, qdot_mul(pool, qdot_add(pool, k, QDOT_ONE), QDOT_PI), r.hi);
     if (!is_proved_nonnegative(pool, r.lo, &r.lo_open) || !is_proved_nonnegative(pool, r.hi, &r.hi_open))

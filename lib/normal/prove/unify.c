@@ -96,12 +96,12 @@ evaluate_nodes(job *j, size_t n, const qdot_expr *e)
 static bool
 find_small_fraction(fmpq_t c, double x)
 {
-    for (long d = 1; d <= 24; d++) {
+    for (int64_t d = 1; d <= 24; d++) {
         double n = nearbyint(x * (double)d);
 
         if (fabs(n) <= LARGEST_RATIO && n != 0 &&
             fabs(x * (double)d - n) < 1e-10 * (fabs(n) + 1)) {
-            fmpq_set_si(c, (long)n, (ulong)d);
+            fmpq_set_si(c, (slong)n, (ulong)d);
             return true;
         }
     }
@@ -288,7 +288,7 @@ unify_product(job *j, qdot_expr old, qdot_expr *now)
     qdot_status status = QDOT_OK;
     bool any = false;
     fmpq_t c;
-    long k;
+    int64_t k;
 
     if (j->way->only_undefined)
         return QDOT_OK;
@@ -398,7 +398,7 @@ has_comparable_arguments(const job *j)
         for (uint32_t k = 2; !j->way->only_undefined && kind == QDOT_PROD &&
                              k < qdot_expr_count(j->pool, j->walk.at[i]);
              k += 2) {
-            long whole;
+            int64_t whole;
 
             count += !qdot_expr_to_int(j->pool, qdot_expr_arg(j->pool, j->walk.at[i], k),
                                        &whole);

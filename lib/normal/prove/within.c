@@ -12,7 +12,7 @@
 
 /* Whether bound <= n pi/2 (or >= if `below`), for a rational bound or a rational multiple of pi. */
 static bool
-is_bounded_by_quarter_turns(const qdot_pool *pool, qdot_expr bound, long n, bool below)
+is_bounded_by_quarter_turns(const qdot_pool *pool, qdot_expr bound, int n, bool below)
 {
     const fmpq *x = qdot_expr_rational(pool, bound);
     fmpq_t limit, c;
@@ -49,7 +49,7 @@ is_bounded_by_quarter_turns(const qdot_pool *pool, qdot_expr bound, long n, bool
 
 /* Whether x is a symbol declared within [from, to], in units of pi/2 (quarter turns). */
 static bool
-lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
+lies_within(const qdot_pool *pool, qdot_expr x, int64_t from, int64_t to)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 

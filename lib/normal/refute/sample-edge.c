@@ -28,7 +28,7 @@ static bool
 special_value(const qdot_pool *pool, qdot_sample_atom *a, int i, fmpq_t x)
 {
     static const struct {
-        long n;
+        slong n;
         ulong d;
         bool turn;
     } edges[] = {{0, 1, false}, {1, 1, false},  {-1, 1, false}, {1, 2, true},

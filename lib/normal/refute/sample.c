@@ -13,6 +13,7 @@
 #include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
+#include "num/integer.h"
 
 #define SIMPLE 24 /* number of points at first that have small numbers */
 #define FAR 96    /* index of the first point that may have large coordinates */
@@ -23,7 +24,7 @@ static uint32_t
 derivative_order(const qdot_pool *pool, qdot_expr ufun)
 {
     uint32_t n = qdot_expr_count(pool, ufun) / 2, all = 0;
-    long k;
+    int64_t k;
 
     for (uint32_t i = 0; i < n; i++)
         if (qdot_expr_to_int(pool, qdot_expr_arg(pool, ufun, n + i), &k))
@@ -312,17 +313,17 @@ find_rational_between(fmpq_t x, double lo, double hi, double where, double about
 {
     double at = lo + (hi - lo) * where, margin = (hi - lo) * 1e-3;
 
-    for (long d = 1; d <= 4096; d = d < 16 ? d + 1 : d * 2) {
+    for (int64_t d = 1; d <= 4096; d = d < 16 ? d + 1 : d * 2) {
         double n = nearbyint(at * (double)d);
 
         if (n / (double)d > lo + margin && n / (double)d < hi - margin &&
             fabs(n / (double)d - at) < (hi - lo) * about && fabs(n) < 1e15) {
-            fmpq_set_si(x, (long)n, (ulong)d);
+            qdot_rational_set_integers(x, (int64_t)n, (uint64_t)d);
             return;
         }
     }
     if (fabs(at) < 1e12) {
-        fmpq_set_si(x, (long)nearbyint(at * 1048576), 1048576);
+        qdot_rational_set_integers(x, (int64_t)nearbyint(at * 1048576), 1048576);
     } else if (isfinite(at)) { /* the doubles have a spacing above 1/2^20 here: take an integer */
         fmpz_set_d(fmpq_numref(x), at);
         fmpz_one(fmpq_denref(x));

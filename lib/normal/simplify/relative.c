@@ -96,7 +96,7 @@ find_multiples(qdot_pool *pool, const angles *a, qdot_expr argument, int *multip
         const fmpq *c = slope == QDOT_NIL ? NULL : qdot_expr_rational(pool, slope);
 
         if (c == NULL || !fmpz_is_one(fmpq_denref(c)) || !fmpz_fits_si(fmpq_numref(c)) ||
-            labs(fmpz_get_si(fmpq_numref(c))) > MOST_MULTIPLE)
+            llabs(fmpz_get_si(fmpq_numref(c))) > MOST_MULTIPLE)
             return false;
         multiple[k] = (int)fmpz_get_si(fmpq_numref(c));
         rest = qdot_sub(pool, rest, qdot_mul(pool, slope, a->angle[k]));

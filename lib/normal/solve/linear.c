@@ -1,6 +1,7 @@
 /* linear.c -- solves linear systems block by block, by Bareiss' fraction-free elimination over polynomials. */
 #include "normal/solve/linear.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -69,13 +70,13 @@ is_zero_by_rules(qdot_field *f, const fmpz_mpoly_t p)
     return zero;
 }
 
-/* Charge a product of polynomials to the budget; coefficients count by their numbers of machine words. */
+/* Charge a product of polynomials to the budget; coefficients count by their numbers of words of 64 bits. */
 static bool
 charge_product(qdot_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
-    slong bits = labs(fmpz_mpoly_max_bits(a)) + labs(fmpz_mpoly_max_bits(b));
+    const int64_t bits = llabs(fmpz_mpoly_max_bits(a)) + llabs(fmpz_mpoly_max_bits(b));
 
-    return qdot_field_charge(f, fmpz_mpoly_length(a, f->ctx) * (1 + bits / FLINT_BITS),
+    return qdot_field_charge(f, (int64_t)fmpz_mpoly_length(a, f->ctx) * (1 + bits / 64),
                              fmpz_mpoly_length(b, f->ctx));
 }
 
@@ -189,9 +190,9 @@ solve_in_field(qdot_field *f, uint32_t n, const qdot_expr *e, qdot_expr *x,
     regular = eliminate_unknowns(f, n, m, pivot);
     if (f->state == QDOT_FIELD_OVER)
         status = qdot_fail(QDOT_ELIMIT,
-                           "past the work budget: more than %ld terms in a system of "
+                           "past the work budget: more than %" PRId64 " terms in a system of "
                            "%u equations",
-                           (long)terms_of(f, n, m), n);
+                           (int64_t)terms_of(f, n, m), n);
     else if (qdot_field_goes(f) && !regular)
         status = qdot_fail(QDOT_ESINGULAR,
                            "the system has no unique solution (column %u)", *pivot + 1);

@@ -298,7 +298,7 @@ append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
     if (!qdot_expr_contains(pool, values, n) || !find_integer_bounds(s, conditions, n, &lo, &hi))
         return append_to_solutions(s, values, conditions);
     for (double k = lo; k <= hi; k++) {
-        qdot_expr number = qdot_expr_int(pool, (long)k),
+        qdot_expr number = qdot_expr_int(pool, (int64_t)k),
                   there = qdot_conditions_at(pool, conditions, 1, &n, &number, &s->facts);
 
         QDOT_TRY(qdot_pool_check(pool));

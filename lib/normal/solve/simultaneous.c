@@ -200,7 +200,7 @@ continue_with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdo
 /* How many members u = base + k period, k = 0, 1 ..., the circular functions of u in the equations take for
  * different: *members; 0: without end, or more than MOST_MEMBERS. */
 static qdot_status
-count_different_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members)
+count_different_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, int64_t *members)
 {
     qdot_pool *pool = s->pool;
     qdot_expr two_pi = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
@@ -222,7 +222,7 @@ count_different_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, lon
         if (q == NULL || fmpz_cmp_si(fmpq_denref(q), MOST_MEMBERS) > 0) {
             *members = 0;
         } else { /* take the least common multiple of the periods */
-            long d = fmpz_get_si(fmpq_denref(q)), k = *members;
+            int64_t d = fmpz_get_si(fmpq_denref(q)), k = *members;
 
             while (k % d != 0)
                 k += *members;
@@ -242,7 +242,7 @@ continue_with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, q
 {
     qdot_pool *pool = s->pool;
     qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, b->known));
-    long members = 0;
+    int64_t members = 0;
     qdot_status status = QDOT_OK;
 
     *done = false;
@@ -250,7 +250,7 @@ continue_with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, q
         root->members != QDOT_NIL)
         return QDOT_OK;
     QDOT_TRY(count_different_members(s, u, root->period, &members));
-    for (long k = members; k-- > 0 && status == QDOT_OK;) {
+    for (int64_t k = members; k-- > 0 && status == QDOT_OK;) {
         qdot_expr count = qdot_add(pool, qdot_expr_int(pool, k),
                                    qdot_mul(pool, qdot_expr_int(pool, members), n));
 
@@ -271,7 +271,7 @@ continue_with_members(qdot_simultaneous *s, const qdot_simultaneous_branch *b, q
     qdot_window window = qdot_solve_tighten(pool, u, root->members,
                                             qdot_simultaneous_window(s, u, false), &s->facts);
     qdot_expr period, ratio;
-    long members = 0;
+    int64_t members = 0;
     bool done;
     qdot_status status = qdot_simultaneous_period(s, u, &period);
 
@@ -281,7 +281,7 @@ continue_with_members(qdot_simultaneous *s, const qdot_simultaneous_branch *b, q
         if (!qdot_expr_to_int(pool, ratio, &members) || members > MOST_MEMBERS)
             members = 0;
     }
-    for (long k = members; k-- > 0 && status == QDOT_OK;)
+    for (int64_t k = members; k-- > 0 && status == QDOT_OK;)
         status = continue_with_value(s, b, equations, u,
                                      qdot_add(pool, root->value,
                                               qdot_mul(pool, qdot_expr_int(pool, k), root->period)),
@@ -448,8 +448,8 @@ continue_with_solved_integers(qdot_simultaneous *s, const qdot_simultaneous_bran
             s->complete = false;
             continue;
         }
-        k = qdot_expr_int(pool, lround(x));
-        if (fabs(x - (double)lround(x)) > 1e-6)
+        k = qdot_expr_int(pool, llround(x));
+        if (fabs(x - (double)llround(x)) > 1e-6)
             continue;
         if (!qdot_is_zero(pool, qdot_sub(pool, value, k), &s->facts)) {
             s->complete = false;

@@ -296,7 +296,7 @@ count_periods_to(const members *m, qdot_expr end, double *v)
 }
 
 static qdot_expr
-family_member(const members *m, long k)
+family_member(const members *m, int64_t k)
 {
     return qdot_add(m->pool, m->root->value,
                     qdot_mul(m->pool, qdot_expr_int(m->pool, k), m->root->period));
@@ -307,7 +307,7 @@ family_member(const members *m, long k)
 static qdot_status
 append_members_between(const members *m, double first, double last)
 {
-    for (long k = (long)ceil(first - 1e-6); k <= (long)floor(last + 1e-6); k++) {
+    for (int64_t k = (int64_t)ceil(first - 1e-6); k <= (int64_t)floor(last + 1e-6); k++) {
         bool is_near = (double)k - first < 1e-6 || last - (double)k < 1e-6;
 
         QDOT_TRY(append_value(m, family_member(m, k), is_near ? m->window : &window_whole));
@@ -369,14 +369,14 @@ append_members_within_bounds(const members *m, bool *bounded)
     for (double k = ceil(to[0].lo); k <= floor(to[1].hi) && *bounded; k++) {
         bool inside = k > to[0].hi && k < to[1].lo;
 
-        QDOT_TRY(append_value(m, family_member(m, (long)k), inside ? &window_whole : m->window));
+        QDOT_TRY(append_value(m, family_member(m, (int64_t)k), inside ? &window_whole : m->window));
     }
     return QDOT_OK;
 }
 
 /* Whether the member k periods from the base is proved to lie beyond the end of the interval on its side. */
 static bool
-is_beyond_end(const members *m, long k)
+is_beyond_end(const members *m, int64_t k)
 {
     const qdot_window *w = m->window;
     qdot_expr value = family_member(m, k),
@@ -389,8 +389,8 @@ is_beyond_end(const members *m, long k)
 static qdot_status
 append_members_outward(const members *m)
 {
-    for (long direction = 1; direction >= -1; direction -= 2)
-        for (long k = direction > 0 ? 0 : -1; labs(k) < MOST_PERIODS && !(k != 0 && is_beyond_end(m, k)); k += direction)
+    for (int64_t direction = 1; direction >= -1; direction -= 2)
+        for (int64_t k = direction > 0 ? 0 : -1; llabs(k) < MOST_PERIODS && !(k != 0 && is_beyond_end(m, k)); k += direction)
             QDOT_TRY(append_value(m, family_member(m, k), m->window));
     return qdot_pool_check(m->pool);
 }
@@ -404,7 +404,7 @@ append_members_of_turn(const members *m, bool *few)
 
     turn = qdot_simplify(m->pool, qdot_div(m->pool, turn, m->root->period), m->facts);
     *few = constant_as_double(m->pool, turn, &n) && n < MOST_MEMBERS + 0.5;
-    for (long k = 0; *few && k < lround(n); k++) /* the integers in the order 0, -1, 1, -2 ... */
+    for (int64_t k = 0; *few && k < llround(n); k++) /* the integers in the order 0, -1, 1, -2 ... */
         QDOT_TRY(append_value(m, family_member(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
     return qdot_pool_check(m->pool);
 }
@@ -424,7 +424,7 @@ append_family(const members *m)
     if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && count_periods_to(m, w->lo, &at) &&
         qdot_condition(pool, m->root->period, true, m->facts) == QDOT_TRUE) {
         /* number the members so that the first inside the interval has n = 0 */
-        qdot_expr first = family_member(m, (long)ceil(at - 1e-6));
+        qdot_expr first = family_member(m, (int64_t)ceil(at - 1e-6));
 
         if (qdot_condition(pool, qdot_sub(pool, first, w->lo), w->lo_open, m->facts) == QDOT_FALSE)
             first = qdot_add(pool, first, m->root->period);

@@ -24,7 +24,7 @@ enum { WORK = 2000000 };
 
 /* Multiply a product by p in irreducible factors, with their exponents times `turn` (1 or -1), and by its content. */
 static qdot_status
-multiply_by_factors(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
+multiply_by_factors(qdot_field *f, const fmpz_mpoly_t p, int64_t turn, qdot_expr *product,
                     qdot_expr **list, size_t *n, size_t *capacity)
 {
     qdot_pool *pool = f->pool;
@@ -188,8 +188,8 @@ replace_root_by_symbol(qdot_pool *pool, qdot_expr e, struct roots *r)
     snprintf(name, sizeof name, "(root %u)", r->n);
     r->v[r->n] = qdot_symbol_get(pool, QDOT_FORMAL, name);
     qdot_symbol_domain(pool, r->v[r->n], QDOT_ZERO, false, QDOT_NIL, false);
-    r->root[r->n] = qdot_pow(pool, base, qdot_expr_ratio(pool, 1, (long)order));
-    value = qdot_sub(pool, qdot_pow_int(pool, r->v[r->n++], (long)order), qdot_subs(pool, base, 1, &p, &zero));
+    r->root[r->n] = qdot_pow(pool, base, qdot_expr_ratio(pool, 1, (int64_t)order));
+    value = qdot_sub(pool, qdot_pow_int(pool, r->v[r->n++], (int64_t)order), qdot_subs(pool, base, 1, &p, &zero));
     value = qdot_div(pool, value, slope);
     return value == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, e, 1, &p, &value);
 }
@@ -288,12 +288,12 @@ replace_function_by_symbol(qdot_pool *pool, qdot_expr node, void *user)
 
 /* How many factors stand above, each as often as its power says; 0: one of them can be said
  * shorter, as sin(x)^2 + cos(x)^2 can. */
-static long
+static int64_t
 count_factors(qdot_pool *pool, qdot_expr e)
 {
     bool product = qdot_expr_kind(pool, e) == QDOT_PROD;
     uint32_t n = product ? qdot_expr_count(pool, e) : 2;
-    long count = 0, power;
+    int64_t count = 0, power;
 
     for (uint32_t i = 1; i < n; i += 2) {
         qdot_expr base = product ? qdot_expr_arg(pool, e, i) : e,
@@ -316,7 +316,7 @@ find_shortest_product(qdot_pool *pool, qdot_expr e, void *user)
 {
     struct unrelated u = {0};
     qdot_expr related = QDOT_NIL, apart = QDOT_NIL, bare;
-    long more;
+    int64_t more;
 
     (void)user;
     if (find_factors(pool, e, &related, NULL, NULL) != QDOT_OK)

@@ -11,7 +11,7 @@
 
 /* Add the real y for which y^k = v: v^(1/k), and its negative if k is even. */
 static qdot_status
-add_kth_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, qdot_arguments *out)
+add_kth_roots(qdot_solver *s, qdot_expr v, int64_t k, qdot_expr when, qdot_arguments *out)
 {
     qdot_pool *pool = s->pool;
     qdot_expr y, exponent = qdot_expr_ratio(pool, 1, k);
@@ -40,14 +40,14 @@ add_kth_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, qdot_argument
 }
 
 /* The largest k for which the polynomial sum c_i y^i, c [degree + 1], is one in y^k; 0 for a constant. */
-static long
-largest_inner_power(const qdot_expr *c, long degree)
+static int64_t
+largest_inner_power(const qdot_expr *c, int64_t degree)
 {
-    long step = 0;
+    int64_t step = 0;
 
-    for (long k = 1; k <= degree; k++)
-        for (long rest = k; c[k] != QDOT_ZERO && rest > 0;) {
-            long swap = step % rest;
+    for (int64_t k = 1; k <= degree; k++)
+        for (int64_t rest = k; c[k] != QDOT_ZERO && rest > 0;) {
+            int64_t swap = step % rest;
 
             if (step == 0) {
                 step = rest;
@@ -62,23 +62,23 @@ largest_inner_power(const qdot_expr *c, long degree)
 /* The zeros of each factor of the polynomial, among roots of parameters too, which keep the field from factoring:
  * y^3 - 3 sqrt(c) y^2 + 3 c y - c sqrt(c) is (y - sqrt(c))^3. A factor of the full degree cannot be solved. */
 static qdot_status
-add_zeros_of_factors(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, qdot_arguments *out)
+add_zeros_of_factors(qdot_solver *s, const qdot_expr *c, int64_t degree, qdot_expr when, qdot_arguments *out)
 {
     qdot_pool *pool = s->pool;
     qdot_expr y = qdot_symbol_get(pool, QDOT_FORMAL, "(y)"), sum = QDOT_ZERO, list,
               *parts = qdot_calloc((size_t)degree + 1, sizeof *parts);
     qdot_status status = parts == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    for (long k = 0; k <= degree; k++)
+    for (int64_t k = 0; k <= degree; k++)
         sum = qdot_add(pool, sum, qdot_mul(pool, c[k], qdot_pow_int(pool, y, k)));
     list = qdot_solve_factors(pool, sum);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     for (uint32_t i = 0; status == QDOT_OK && i < qdot_expr_count(pool, list); i++) {
         const qdot_expr one = qdot_expr_arg(pool, list, i);
-        long n = 0;
+        int64_t n = 0;
 
-        for (long k = 0; k <= degree; k++) {
+        for (int64_t k = 0; k <= degree; k++) {
             parts[k] = qdot_coefficient(pool, one, y, k);
             n = parts[k] == QDOT_ZERO ? n : k;
         }
@@ -95,10 +95,10 @@ add_zeros_of_factors(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr 
 }
 
 qdot_status
-qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, qdot_arguments *out)
+qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, int64_t degree, qdot_expr when, qdot_arguments *out)
 {
     qdot_pool *pool = s->pool;
-    long step = largest_inner_power(c, degree);
+    int64_t step = largest_inner_power(c, degree);
     qdot_expr a, b, discriminant, root, two_a;
 
     if (step == 0)

@@ -246,7 +246,7 @@ qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr wh
 typedef struct {
     slong var[3];
     size_t n;
-    long degree[3];
+    int64_t degree[3];
     qdot_groups groups;
 } shape;
 
@@ -295,7 +295,7 @@ coefficient_of_second_variable(qdot_field *f, const shape *sh, ulong j)
     qdot_pool *pool = f->pool;
     qdot_expr sum = QDOT_ZERO;
 
-    for (long i = 0; i <= sh->degree[0]; i++)
+    for (int64_t i = 0; i <= sh->degree[0]; i++)
         sum = qdot_add(pool, sum,
                        qdot_mul(pool, coefficient(f, sh, (ulong)i, j),
                                 qdot_pow_int(pool, f->gen[sh->var[0]].expr, i)));
@@ -306,7 +306,7 @@ static void
 exchange_variables(shape *sh)
 {
     slong var = sh->var[0];
-    long degree = sh->degree[0];
+    int64_t degree = sh->degree[0];
 
     sh->var[0] = sh->var[1];
     sh->degree[0] = sh->degree[1];
@@ -446,7 +446,7 @@ solve_in_one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr
     qdot_arguments values = {0};
     qdot_status status = c == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    for (long k = 0; k <= sh->degree[0] && status == QDOT_OK; k++)
+    for (int64_t k = 0; k <= sh->degree[0] && status == QDOT_OK; k++)
         c[k] = coefficient(f, sh, (ulong)k, 0);
     if (status == QDOT_OK)
         status = qdot_solver_polynomial(s, c, sh->degree[0], when, &values);
@@ -551,7 +551,7 @@ count_factors_with_x(const qdot_solver *s, qdot_expr e, bool *repeated)
 
     *repeated = false;
     for (uint32_t i = 1; i + 1 < n; i += 2) {
-        long power;
+        int64_t power;
 
         if (!qdot_expr_contains(s->pool, qdot_expr_arg(s->pool, e, i), s->x))
             continue;

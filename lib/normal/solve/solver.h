@@ -43,7 +43,7 @@ typedef struct {
 typedef qdot_vec(qdot_argument) qdot_arguments;
 
 /* Add all real y for which the polynomial sum c_k y^k = 0, c [degree + 1], to *out (solve-polynomial.c). */
-QDOT_MUST_CHECK qdot_status qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when,
+QDOT_MUST_CHECK qdot_status qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, int64_t degree, qdot_expr when,
                                                    qdot_arguments *out);
 
 /* Solve g(x) = v for an elementary function g of one argument (solve-inverse.c). */

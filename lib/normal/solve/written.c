@@ -70,7 +70,7 @@ factor_if_repeated(qdot_pool *pool, qdot_expr sum, qdot_expr x)
     bool repeated = false;
 
     for (uint32_t i = 1; i + 1 < n && n >= 5; i += 2) {
-        long power;
+        int64_t power;
 
         repeated = repeated || (qdot_expr_to_int(pool, qdot_expr_arg(pool, product, i + 1), &power) && power > 1 &&
                                 qdot_expr_contains(pool, qdot_expr_arg(pool, product, i), x));

@@ -11,9 +11,9 @@ enum { FRACTION = 100000, PART = 120 };
 
 /* Find the fraction p/q with the smallest denominator in lo ... hi; false if no denominator is below `most`. */
 static bool
-find_simplest_fraction(double lo, double hi, long most, long *p, long *q)
+find_simplest_fraction(double lo, double hi, int64_t most, int64_t *p, int64_t *q)
 {
-    long a = 0, b = 1, c = 1,
+    int64_t a = 0, b = 1, c = 1,
          d = 0; /* a/b < x < c/d, neighbours in the tree of fractions (Stern-Brocot) */
     bool minus = hi < 0;
 
@@ -28,7 +28,7 @@ find_simplest_fraction(double lo, double hi, long most, long *p, long *q)
         lo = -hi;
         hi = -was;
     }
-    a = (long)floor(lo);
+    a = (int64_t)floor(lo);
     c = a + 1, d = 1;
     if (a >= lo)
         c = a;
@@ -40,13 +40,13 @@ find_simplest_fraction(double lo, double hi, long most, long *p, long *q)
         double middle = (double)(a + c) / (double)(b + d);
 
         if (middle < lo) {
-            long n = (long)fmin((double)most, ((double)b * lo - (double)a) /
+            int64_t n = (int64_t)fmin((double)most, ((double)b * lo - (double)a) /
                                                   ((double)c - (double)d * lo));
 
             n = n < 1 ? 1 : n;
             a += n * c, b += n * d;
         } else if (middle > hi) {
-            long n = (long)fmin((double)most, ((double)c - (double)d * hi) /
+            int64_t n = (int64_t)fmin((double)most, ((double)c - (double)d * hi) /
                                                   ((double)b * hi - (double)a));
 
             n = n < 1 ? 1 : n;
@@ -64,7 +64,7 @@ qdot_expr
 qdot_zeros_candidate(qdot_pool *pool, qdot_interval X, int k)
 {
     double unit = k == 0 ? 1 : M_PI;
-    long p, q;
+    int64_t p, q;
 
     if (k > 1 || !find_simplest_fraction(X.lo / unit, X.hi / unit, k == 0 ? FRACTION : PART, &p, &q) ||
         (k == 1 && p == 0))

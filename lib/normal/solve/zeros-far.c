@@ -18,10 +18,10 @@ enum { UNIT = 5040, LARGEST = 10000, TERMS = 4, FIRST = 2, LAST = 30, SIZE = 400
 
 /* A scale S(x) = x^power log(x)^logs exp(sum of rate x^exponent), the exponents descending and > 0. */
 typedef struct {
-    long power, logs;
+    int64_t power, logs;
     size_t n;
     struct {
-        long exponent;
+        int64_t exponent;
         qdot_expr rate; /* a constant, not 0 */
         qdot_interval bounds;
     } term[TERMS];
@@ -51,7 +51,7 @@ static const far_form form_nowhere = {.bounds = {-INFINITY, INFINITY}, .nowhere 
 
 /* Multiply the scale s by exp(rate x^exponent). */
 static bool
-scale_add_term(qdot_pool *pool, far_scale *s, long exponent, qdot_expr rate)
+scale_add_term(qdot_pool *pool, far_scale *s, int64_t exponent, qdot_expr rate)
 {
     size_t k = 0;
 
@@ -76,10 +76,10 @@ scale_add_term(qdot_pool *pool, far_scale *s, long exponent, qdot_expr rate)
 
 /* Multiply the scale s by r to the power num / den. */
 static bool
-scale_multiply(qdot_pool *pool, far_scale *s, const far_scale *r, long num, long den)
+scale_multiply(qdot_pool *pool, far_scale *s, const far_scale *r, int64_t num, int64_t den)
 {
     if ((r->power * num) % den != 0 || (r->logs * num) % den != 0 ||
-        labs(r->power) > LARGEST * (long)UNIT || labs(r->logs) > LARGEST * (long)UNIT)
+        llabs(r->power) > LARGEST * (int64_t)UNIT || llabs(r->logs) > LARGEST * (int64_t)UNIT)
         return false;
     s->power += r->power * num / den;
     s->logs += r->logs * num / den;
@@ -95,7 +95,7 @@ scale_multiply(qdot_pool *pool, far_scale *s, const far_scale *r, long num, long
 static int
 scale_growth(const far_scale *s)
 {
-    long leading = s->power != 0 ? s->power : s->logs;
+    int64_t leading = s->power != 0 ? s->power : s->logs;
 
     if (s->n > 0)
         return s->term[0].bounds.lo > 0 ? 1 : -1;
@@ -103,7 +103,7 @@ scale_growth(const far_scale *s)
 }
 
 static qdot_interval
-power_of_R(const far_task *t, long exponent)
+power_of_R(const far_task *t, int64_t exponent)
 {
     double e = (double)exponent / UNIT;
 
@@ -221,7 +221,7 @@ static far_form
 growth_of_power(const far_task *t, const far_form *f, const fmpq *exponent)
 {
     far_form g = {.known = f->known};
-    long num, den;
+    int64_t num, den;
 
     if (!f->known || fmpz_cmp_si(fmpq_denref(exponent), UNIT) > 0 ||
         fmpz_cmp_si(fmpq_numref(exponent), LARGEST) > 0 ||
@@ -268,7 +268,7 @@ add_growth(const far_task *t, const far_form *f, const far_form *g)
 
 /* Whether e is K x^p with a constant K and p > 0; then *rate is K, and *exponent is p in multiples of 1/UNIT. */
 static bool
-is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
+is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, int64_t *exponent)
 {
     qdot_pool *pool = t->pool;
     const qdot_expr x = t->x;
@@ -335,7 +335,7 @@ growth_of_exponential_by_terms(const far_task *t, qdot_expr u, qdot_expr by)
     for (uint32_t i = sum ? 1 : 0; i < n && f.known; i += 2) {
         qdot_expr c = sum ? qdot_mul(pool, by, qdot_expr_arg(pool, u, i + 1)) : by,
                   e = sum ? qdot_expr_arg(pool, u, i) : u, rate;
-        long exponent;
+        int64_t exponent;
         const far_form *part = growth_of_node(t, e);
 
         if (is_power_of_x(t, e, &rate, &exponent))

@@ -77,7 +77,7 @@ is_only_zero(qdot_zeros_system *s, qdot_expr c, qdot_interval X, int *k)
 static qdot_status
 is_only_zero_at_end(qdot_zeros_system *s, qdot_expr c, int side, double reach, bool *yes)
 {
-    static const long orders[] = {2, 3, 4, 6};
+    static const int64_t orders[] = {2, 3, 4, 6};
     qdot_pool *pool = s->pool;
     qdot_expr y = qdot_symbol_get(pool, QDOT_FORMAL, "end#y");
     bool jumps;
@@ -124,7 +124,7 @@ nearest_member(qdot_pool *pool, const qdot_root *root, double v)
         !(fabs(v - at) < 1e9 * fabs(period)))
         return QDOT_NIL;
     return qdot_add(pool, root->value,
-                    qdot_mul(pool, qdot_expr_int(pool, lround((v - at) / period)),
+                    qdot_mul(pool, qdot_expr_int(pool, llround((v - at) / period)),
                              root->period));
 }
 

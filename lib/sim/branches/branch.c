@@ -326,7 +326,7 @@ find_bifurcations_between(qdot_branch_search *s, const qdot_path_point *a, const
     if (known && s->x->dips && (a->growing - b->growing) % 2 != 0)
         /* nothing new: a real eigenvalue passes 0 at a nearby fold or crossing, already reported */
         return QDOT_OK;
-    if (known && labs(a->growing - b->growing) >= s->x->least_jump)
+    if (known && llabs(a->growing - b->growing) >= s->x->least_jump)
         return locate_bifurcation(s, a, length, QDOT_HOPF, NULL, branch);
     return QDOT_OK;
 }

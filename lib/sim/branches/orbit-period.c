@@ -237,7 +237,7 @@ make_period_expression(qdot_pool *pool, qdot_expr rate, qdot_expr p, double at, 
     if (turns >= 1 && fabs(fabs(a) * T / M_PI - turns) < 1e-6 * turns)
         *period = qdot_div(pool,
                            qdot_mul(pool, QDOT_PI,
-                                    qdot_expr_int(pool, (a < 0 ? -1 : 1) * (long)turns)),
+                                    qdot_expr_int(pool, (a < 0 ? -1 : 1) * (int64_t)turns)),
                            rate);
     return qdot_pool_check(pool);
 }

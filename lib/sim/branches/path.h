@@ -24,7 +24,7 @@ enum { QDOT_PATH_REASON = 160 };
 typedef struct {
     double *y, *t;     /* point [width] and tangent [n + 1], in one block, owned */
     double det;        /* determinant of F' extended by the tangent at the previous point as its last row */
-    long growing;      /* dimension of the unstable directions; -1: unknown */
+    int64_t growing;      /* dimension of the unstable directions; -1: unknown */
     int flip;          /* orbits: a number whose sign changes where a multiplier passes -1; 0: unknown */
     bool rests;        /* orbits: the orbit has shrunk to an equilibrium, where the curve ends */
     double phase, growth; /* orbits: sum of the angles of multipliers; sum of the logarithms of growing ones */

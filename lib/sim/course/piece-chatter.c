@@ -60,7 +60,7 @@ find_acceleration_to_surface(held_motion *h, int way, const double *flow, double
 static qdot_status
 make_three_modes(held_motion *h)
 {
-    static const long sides[] = {-1, QDOT_SIDE_SLIDES, 1};
+    static const int64_t sides[] = {-1, QDOT_SIDE_SLIDES, 1};
     qdot_piece *x = h->x;
     const qdot_sliding_rows *rows;
     double moved;
@@ -183,7 +183,7 @@ static qdot_status
 try_to_slide(qdot_piece *x, size_t i, bool *may)
 {
     const size_t n = x->n / 2, mode = x->mode;
-    const long side = x->side[i];
+    const int64_t side = x->side[i];
     held_motion h = {.x = x, .i = i, .n = n};
     qdot_status status;
 

@@ -27,7 +27,7 @@ qdot_piece_stop(qdot_piece *x, bool failed)
 }
 
 void
-qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
+qdot_piece_stop_at(qdot_piece *x, size_t surface, int64_t side, const char *before,
                    const char *behind)
 {
     qdot_text text = {0};

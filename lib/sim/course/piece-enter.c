@@ -395,7 +395,7 @@ static qdot_status
 keeps_other_sides(qdot_piece *x, const double *y, bool *alike)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
-    long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
+    int64_t *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
     qdot_status status = sides ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)

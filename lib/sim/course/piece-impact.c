@@ -151,7 +151,7 @@ is_along_gradient(qdot_piece *x, const double *along, const double *slopes, bool
 {
     const size_t n = x->n / 2, mode = x->mode;
     const qdot_plan *p;
-    long *side = qdot_calloc(x->c->stage->switches.surfaces.n + 1, sizeof *side);
+    int64_t *side = qdot_calloc(x->c->stage->switches.surfaces.n + 1, sizeof *side);
     double *room = NULL, most = 0, off = 0;
     qdot_tape *masses = NULL;
     qdot_status status = side ? QDOT_OK : QDOT_ENOMEM;

@@ -195,7 +195,7 @@ comes_to_rest(qdot_piece *x, size_t i, bool *yes)
     const size_t n = x->n / 2;
     const double h = x->t1 - x->start.t;
     double *y = qdot_malloc(2 * x->n * sizeof *y), *rates = y + x->n;
-    long *side = qdot_calloc(x->c->stage->switches.surfaces.n, sizeof *side);
+    int64_t *side = qdot_calloc(x->c->stage->switches.surfaces.n, sizeof *side);
     qdot_status status = y && side ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)

@@ -145,7 +145,7 @@ static qdot_status
 doubt_changed_switches(qdot_piece *x)
 {
     const qdot_mode *m = qdot_piece_mode(x);
-    const long *old = x->c->stage->modes.at[x->start.from]->side;
+    const int64_t *old = x->c->stage->modes.at[x->start.from]->side;
 
     for (size_t i = 0; i < m->m; i++)
         if (m->watched[i].kind == QDOT_WATCH_SURFACE && old[m->watched[i].index] != m->side[m->watched[i].index])
@@ -233,7 +233,7 @@ qdot_status
 qdot_piece_end_behind(qdot_piece *x)
 {
     const size_t own = qdot_switches_own(&x->c->stage->switches);
-    const long *old = x->c->stage->modes.at[x->start.from]->side;
+    const int64_t *old = x->c->stage->modes.at[x->start.from]->side;
     bool switches = false, can;
 
     if (own == 0 || !qdot_piece_has_massless(x))

@@ -271,7 +271,7 @@ stop_disc_if_held(qdot_piece *x, size_t i, bool *may)
     double *rest = qdot_malloc(x->n * sizeof *rest);
     response r;
     qdot_status status = rest ? QDOT_OK : QDOT_ENOMEM;
-    const long side = x->side[surface];
+    const int64_t side = x->side[surface];
 
     x->side[surface] = 1;
     if (status == QDOT_OK)
@@ -313,7 +313,7 @@ qdot_piece_stop_pucks(qdot_piece *x, bool anew)
 
     for (size_t i = 0; i < x->c->stage->switches.pucks.n; i++) {
         const qdot_puck *puck = puck_at(x, i);
-        long *side = &x->side[puck->surface];
+        int64_t *side = &x->side[puck->surface];
         qdot_puck_state now = {0};
 
         if (puck->radius == 0 || x->direction < 0 ||

@@ -24,7 +24,7 @@ stays_on_side(const qdot_piece *x, const qdot_watched *w, int first)
 }
 
 /* The side of a surface to which the motion went after the start, if it left the present side. */
-static long
+static int64_t
 side_after_start(const qdot_piece *x, const qdot_watched *w, int first)
 {
     return is_between_thresholds(x, w->index) || x->c->stage->switches.surfaces.at[w->index].puck > 0 || qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES
@@ -35,7 +35,7 @@ side_after_start(const qdot_piece *x, const qdot_watched *w, int first)
 qdot_status
 qdot_piece_doubt_side(qdot_piece *x, const qdot_watched *w, int first)
 {
-    const long now = qdot_piece_mode(x)->side[w->index];
+    const int64_t now = qdot_piece_mode(x)->side[w->index];
     qdot_piece_doubt d = {.surface = w->index, .n = 2, .sides = {now}};
 
     for (size_t i = 0; i < x->doubts.n; i++)
@@ -45,7 +45,7 @@ qdot_piece_doubt_side(qdot_piece *x, const qdot_watched *w, int first)
         || x->c->stage->switches.surfaces.at[w->index].puck > 0) {
         d.sides[1] = side_after_start(x, w, first);
     } else {
-        const long others[] = {1, -1, QDOT_SIDE_SLIDES, 0};
+        const int64_t others[] = {1, -1, QDOT_SIDE_SLIDES, 0};
 
         d.n = 1;
         for (size_t i = 0; i < sizeof others / sizeof *others; i++)

@@ -35,7 +35,7 @@ typedef struct {
 /* A surface for which other sides (values of its switch) may have to be tried. */
 typedef struct {
     size_t surface, n;
-    long sides[4]; /* [n] candidate sides, the present one first */
+    int64_t sides[4]; /* [n] candidate sides, the present one first */
 } qdot_piece_doubt;
 
 /* State of the integration of one piece; course.c owns the arrays and the cursor. */
@@ -61,7 +61,7 @@ typedef struct {
         bool followed; /* massless coordinates jumped, because their equations changed */
         bool slipped; /* massless coordinates slipped against dry friction; `bare` is the state after that */
     } start;
-    long *side;         /* [surfaces] side of each surface in this piece */
+    int64_t *side;         /* [surfaces] side of each surface in this piece */
     bool *functions_on; /* [functions] whether the function is 0 at the start of the piece */
     int *before;        /* [functions] sign of the function just before the start; 0: unknown */
     int *signs;         /* [functions] of the previous mode: sign of the function where its piece ended */
@@ -114,7 +114,7 @@ typedef struct {
     int resting_way; /* sign of u on the side to which the motion would leave that contact */
 
     /* all sides tried so far from one start, [tries x surfaces]; surfaces for which others are possible */
-    qdot_vec(long) tried;
+    qdot_vec(int64_t) tried;
     qdot_vec(qdot_piece_doubt) doubts;
     qdot_tape_two **thens; /* [events] assignments `then` in double-double precision; NULL: not needed yet */
     double *largest;       /* [n] largest |y| at the ends of steps so far */
@@ -137,7 +137,7 @@ qdot_piece_watch(const qdot_piece *x)
 /* Decide the sides at the start of a piece, in x->side; old [surfaces]: the sides before; NULL:
  * all are decided anew. Errors as qdot_stage_sides. */
 QDOT_MUST_CHECK static inline qdot_status
-qdot_piece_sides(qdot_piece *x, const long *old)
+qdot_piece_sides(qdot_piece *x, const int64_t *old)
 {
     return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
 }
@@ -333,7 +333,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_way(qdot_piece *x, size_t i, int *way);
 void qdot_piece_stop(qdot_piece *x, bool failed);
 /* End the run here as failed. c->reason becomes `before`, a description of the surface on that
  * side, `behind`. */
-void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
+void qdot_piece_stop_at(qdot_piece *x, size_t surface, int64_t side, const char *before,
                         const char *behind);
 
 /* After a first step: whether the motion leaves all surfaces towards the sides of its equations.

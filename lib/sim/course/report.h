@@ -2,6 +2,8 @@
 #ifndef QDOT_SIM_REPORT_H
 #define QDOT_SIM_REPORT_H
 
+#include <stdint.h>
+
 #include "sim/model/request.h"
 
 typedef enum { QDOT_RUN_DONE, QDOT_RUN_STOPPED, QDOT_RUN_FAILED } qdot_run_status;
@@ -17,7 +19,7 @@ typedef struct {
 /* A group of coordinates that was integrated separately because it is decoupled. */
 typedef struct {
     const char *coordinates; /* names of the coordinates: "x, y" */
-    size_t steps, rejected;
+    uint64_t steps, rejected;
 } qdot_run_part;
 
 typedef struct qdot_run qdot_run;
@@ -25,7 +27,7 @@ typedef struct qdot_run qdot_run;
 typedef struct {
     const char *method;
     double tol, t0, t1;            /* tolerance; start time; time at which the run ended */
-    size_t steps, rejected, evals, jacobians, factorizations;
+    uint64_t steps, rejected, evals, jacobians, factorizations;
     double cpu;                    /* CPU seconds of the integration itself */
     double cpu_total; /* CPU seconds including derivation of the equations, compilation and error estimate */
     double work, estimate_work;    /* counted (ode/meter.h), of the integration, and of all that tells
@@ -61,7 +63,7 @@ typedef struct {
                                       constraints if there are no others; NaN: neither */
     double velocity_drift; /* largest |df/dt| of holonomic and |f| of velocity constraints; NaN: none */
     size_t independent;            /* rank of the constraint Jacobian */
-    size_t projections;            /* number of steps after which the state was projected */
+    uint64_t projections;          /* number of steps after which the state was projected */
     qdot_run_treatment treatment;
     size_t pieces, modes; /* numbers of pieces and modes, 1 if events and switches do not divide the run */
     size_t n_parts;                /* number of decoupled groups; 0: integrated together */

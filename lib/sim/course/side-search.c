@@ -31,7 +31,7 @@ static void
 fail_at_surface(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
     const qdot_mode *m = qdot_piece_mode(x);
-    long side = m->side[surface];
+    int64_t side = m->side[surface];
 
     /* for a switch floor(u): the integer u at which the piece starts */
     for (size_t i = 0; i < m->m; i++)
@@ -210,7 +210,7 @@ integrate_on_sides(qdot_piece *x)
 /* Whether the motion leaves to `side` of a surface as well as to the sides found; a mode that
  * cannot be integrated does not count. */
 static qdot_status
-other_side_fits(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
+other_side_fits(qdot_piece *x, const int64_t *held, size_t surface, int64_t side, bool *too)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     qdot_status status;
@@ -234,14 +234,14 @@ other_side_fits(qdot_piece *x, const long *held, size_t surface, long side, bool
 
 /* Whether u stays 0 with either of two sides of a surface, so that both give the same motion. */
 static bool
-give_same_motion(long side, long other)
+give_same_motion(int64_t side, int64_t other)
 {
     return (side == 0 && other == QDOT_SIDE_SLIDES) || (side == QDOT_SIDE_SLIDES && other == 0);
 }
 
 /* Whether the present sides, held [surfaces], are the only ones that fit; if not, c->reason is set. */
 static qdot_status
-check_sides_are_unique(qdot_piece *x, const long *held)
+check_sides_are_unique(qdot_piece *x, const int64_t *held)
 {
     qdot_vec(qdot_piece_doubt) others = {0};
     qdot_status status = qdot_piece_doubt_open(x);
@@ -269,7 +269,7 @@ static qdot_status
 integrate_with_found_sides(qdot_piece *x)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
-    long *held = qdot_malloc((surfaces + 1) * sizeof *held);
+    int64_t *held = qdot_malloc((surfaces + 1) * sizeof *held);
     double *y = qdot_malloc((3 * x->n + 1) * sizeof *y);
     const bool massless = qdot_piece_has_massless(x), followed = x->start.followed;
     qdot_status status = held && y ? QDOT_OK : QDOT_ENOMEM;
@@ -301,7 +301,7 @@ is_side_decided(const qdot_piece *x, size_t surface)
 {
     const qdot_surface *s = &x->c->stage->switches.surfaces.at[surface];
     const bool slid = x->c->stage->modes.at[x->start.from]->side[surface] == QDOT_SIDE_SLIDES;
-    const long first = x->tried.at[surface];
+    const int64_t first = x->tried.at[surface];
     bool crossed = false;
 
     for (size_t k = 0; k < x->crossed.n; k++)
@@ -372,7 +372,7 @@ is_change_continuous(const qdot_piece *x, bool *is)
 static qdot_status
 refuse_jump_of_the_past(qdot_piece *x)
 {
-    const long *from = x->c->stage->modes.at[x->start.from]->side;
+    const int64_t *from = x->c->stage->modes.at[x->start.from]->side;
     bool is = true;
 
     for (size_t i = 0; i < x->c->stage->switches.surfaces.n && is; i++)

@@ -1,5 +1,6 @@
 /* stage-sides.c -- finds on which side of each surface a state lies; nested surfaces from the inside out. */
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -140,7 +141,7 @@ begin_decision(decision *d, const qdot_stage *s, double t, const double *y)
 
 /* Evaluate the functions of all surfaces at the state d->in, for the given sides, into d->out. */
 static void
-evaluate_surfaces(decision *d, const long *side)
+evaluate_surfaces(decision *d, const int64_t *side)
 {
     for (size_t i = 0; i < d->m; i++)
         d->in[d->n + 1 + i] =
@@ -159,7 +160,7 @@ is_parameter(const decision *d, size_t i)
 
 /* Compute u, its error and whether u is flat, of all surfaces, for the given sides. */
 static void
-measure_surfaces(decision *d, const long *side)
+measure_surfaces(decision *d, const int64_t *side)
 {
     const double forwards = d->s->back ? -1 : 1; /* in time, where tables of data are read on */
 
@@ -188,7 +189,7 @@ measure_surfaces(decision *d, const long *side)
 
 /* Find the surfaces that affect the equations if the other surfaces have the given sides. */
 static void
-find_relevant_surfaces(decision *d, const long *side)
+find_relevant_surfaces(decision *d, const int64_t *side)
 {
     const qdot_gates *gates = &d->s->switches.gates;
 
@@ -206,7 +207,7 @@ is_surface_evaluated(const decision *d, size_t i)
 
 /* Decide the side of surface i from u; if u = 0, it keeps the side `kept`, unless `anew` is set. */
 static qdot_status
-decide_side(const decision *d, size_t i, bool anew, long kept, long *side)
+decide_side(const decision *d, size_t i, bool anew, int64_t kept, int64_t *side)
 {
     const bool steps = d->s->switches.surfaces.at[i].steps;
     const double u = d->u[i], near = steps ? round(u) : 0;
@@ -221,9 +222,9 @@ decide_side(const decision *d, size_t i, bool anew, long kept, long *side)
     if (layer > 0)
         *side = fabs(u) <= layer ? 0 : u > 0 ? 1 : -1;
     else if (!on)
-        *side = steps ? (long)floor(u) : u > 0 ? 1 : -1;
-    else if (d->flat[i] || (steps && (anew || kept != (long)near - 1)))
-        *side = (long)near;
+        *side = steps ? (int64_t)floor(u) : u > 0 ? 1 : -1;
+    else if (d->flat[i] || (steps && (anew || kept != (int64_t)near - 1)))
+        *side = (int64_t)near;
     else if (anew)
         *side = 1;
     return QDOT_OK;
@@ -266,7 +267,7 @@ find_start_accelerations(const decision *d, double *a)
 
 /* Find |du/dt| of all surfaces, rate [m], if each coordinate q_i changes at the rate w[i]. */
 static void
-surface_rates(decision *d, const long *side, const double *w, double *rate)
+surface_rates(decision *d, const int64_t *side, const double *w, double *rate)
 {
     const double h = 0x1p-20;
 
@@ -283,7 +284,7 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
     const size_t m = qdot_switches_own(&s->switches);
     bool some = false;
     decision d;
-    long *side;
+    int64_t *side;
     double *a, *speed, *bend;
     qdot_status status;
 
@@ -316,11 +317,11 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
 }
 
 qdot_status
-qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old, long *side)
+qdot_stage_sides(const qdot_stage *s, double t, const double *y, const int64_t *old, int64_t *side)
 {
     /* surfaces other than contacts; contacts keep their side */
     const size_t m = qdot_switches_own(&s->switches);
-    long *kept;
+    int64_t *kept;
     decision d;
     bool changed = true;
     qdot_status status;
@@ -346,7 +347,7 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
         find_relevant_surfaces(&d, side);
         changed = false;
         for (size_t i = 0; i < m && status == QDOT_OK; i++) {
-            const long was = side[i];
+            const int64_t was = side[i];
 
             if (is_surface_evaluated(&d, i))
                 status = decide_side(&d, i, !old || old[i] == QDOT_SIDE_IDLE || kept[i] == QDOT_SIDE_IDLE,
@@ -362,7 +363,7 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
 }
 
 qdot_status
-qdot_stage_sign_ahead(const qdot_stage *s, size_t surface, double t, double until, const double *y, const long *side, int *sign)
+qdot_stage_sign_ahead(const qdot_stage *s, size_t surface, double t, double until, const double *y, const int64_t *side, int *sign)
 {
     const qdot_expr u = s->switches.surfaces.at[surface].u;
     decision d;
@@ -384,7 +385,7 @@ qdot_stage_sign_ahead(const qdot_stage *s, size_t surface, double t, double unti
 }
 
 qdot_status
-qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *out)
+qdot_stage_describe(const qdot_stage *s, size_t surface, int64_t side, qdot_text *out)
 {
     const qdot_surface *x = &s->switches.surfaces.at[surface];
 
@@ -395,6 +396,6 @@ qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *o
     }
     if (x->puck == 0)
         QDOT_TRY(qdot_print(s->switches.pool, qdot_delay_written(s->switches.pool, x->u), QDOT_PLAIN, out));
-    qdot_text_format(out, " = %ld", x->steps ? side : 0);
+    qdot_text_format(out, " = %" PRId64, x->steps ? side : 0);
     return qdot_text_status(out);
 }

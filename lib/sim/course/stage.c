@@ -89,7 +89,7 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
 
 /* Whether the value u of a surface's function lies on the given side. */
 static bool
-is_on_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
+is_on_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, int64_t side)
 {
     qdot_expr k = qdot_expr_int(pool, side);
 
@@ -105,8 +105,8 @@ is_on_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
 /* Two functions of a surface, e less each of two values, between which e has to stay; `beyond` them
  * are the sides [2]. */
 static void
-watch_interval(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const long *values,
-               const long *beyond)
+watch_interval(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const int64_t *values,
+               const int64_t *beyond)
 {
     for (int k = 0; k < 2; k++) {
         w.inside = k ? -1 : 1;
@@ -120,7 +120,7 @@ static void
 watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
 {
     qdot_pool *pool = m->plan->pool;
-    const long side = m->side[watched.index];
+    const int64_t side = m->side[watched.index];
     const qdot_expr w = qdot_layers_rim(pool, x);
 
     for (int rim = 1; rim >= -1; rim -= 2) {
@@ -138,7 +138,7 @@ static void
 watch_disc(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
 {
     qdot_pool *pool = m->plan->pool;
-    const long side = m->side[w.index];
+    const int64_t side = m->side[w.index];
     const qdot_expr share = qdot_puck_is_held(side) ? m->plan->share[w.index] : QDOT_NIL;
     const qdot_expr two = qdot_expr_int(pool, 2);
     const qdot_expr creep = qdot_pow_int(pool, two, QDOT_PUCK_CREEP_EXPONENT);
@@ -164,7 +164,7 @@ watch_disc(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
 static qdot_status
 watch_surfaces(const qdot_stage *s, qdot_mode *m)
 {
-    static const long ends[] = {-1, 1}, layer[] = {0, 0};
+    static const int64_t ends[] = {-1, 1}, layer[] = {0, 0};
 
     for (size_t i = 0; i < s->switches.surfaces.n; i++) {
         const qdot_surface *x = &s->switches.surfaces.at[i];
@@ -205,8 +205,8 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
             continue;
         }
         if (x->steps) {
-            watch_interval(pool, m, w, u, (long[]){m->side[i], m->side[i] + 1},
-                           (long[]){m->side[i] - 1, m->side[i] + 1});
+            watch_interval(pool, m, w, u, (int64_t[]){m->side[i], m->side[i] + 1},
+                           (int64_t[]){m->side[i] - 1, m->side[i] + 1});
             continue;
         }
         w.inside = (int)m->side[i];
@@ -287,7 +287,7 @@ find_sliding_rows(const qdot_stage *s, qdot_mode *m)
 }
 
 static qdot_status
-make_mode(qdot_stage *s, const long *side, qdot_mode *m)
+make_mode(qdot_stage *s, const int64_t *side, qdot_mode *m)
 {
     size_t surfaces = s->switches.surfaces.n;
     size_t most;
@@ -326,7 +326,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
 }
 
 qdot_status
-qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
+qdot_stage_mode(qdot_stage *s, const int64_t *side, size_t *mode)
 {
     size_t surfaces = s->switches.surfaces.n;
     qdot_mode *m;
@@ -421,7 +421,7 @@ make_side_tape_with_layers(qdot_stage *s)
 /* The sides at y, or at the start before there is a mode: side [surfaces]. Layers are measured
  * first, once. */
 static qdot_status
-find_start_sides(qdot_stage *s, const double *settled, long *side)
+find_start_sides(qdot_stage *s, const double *settled, int64_t *side)
 {
     const size_t n = s->n;
     double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0, t1 = 0;
@@ -482,7 +482,7 @@ begin_stage(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
             const double *settled)
 {
     size_t mode;
-    long *side;
+    int64_t *side;
     qdot_status status = QDOT_OK;
 
     s->scene = scene;
@@ -531,7 +531,7 @@ qdot_stage_settle(qdot_stage *s, const double *y, bool *anew)
     const qdot_run_request *request = s->request;
     size_t m = qdot_switches_own(&s->switches);
     qdot_status status;
-    long *side;
+    int64_t *side;
 
     *anew = false;
     if (m == 0)

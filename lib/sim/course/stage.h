@@ -56,7 +56,7 @@ typedef struct {
     size_t index;   /* index of the event, domain or surface */
     int inside;     /* its sign in this mode; 0: an event, or a surface whose u stays 0. A surface along
                        which the motion slides has s + 1 and s - 1, s its share */
-    long beyond;    /* for a surface: side after a crossing; unused if u stays 0 */
+    int64_t beyond;    /* for a surface: side after a crossing; unused if u stays 0 */
     bool velocity;  /* for a surface: u contains velocities, so du/dt depends on the mode */
     size_t coordinate; /* for a domain: index of the coordinate */
     double bound;
@@ -64,7 +64,7 @@ typedef struct {
 
 typedef struct {
     qdot_plan *plan;
-    long *side; /* [surfaces] the side of each surface in this mode */
+    int64_t *side; /* [surfaces] the side of each surface in this mode */
     size_t m;
     qdot_tape *level; /* from q, q', t: the terms of T - V that switch (sim/model/switch.h); NULL:
                          none */
@@ -110,7 +110,7 @@ void qdot_staged_event_clear(qdot_staged_event *e);
 
 /* The mode with these sides [surfaces], made if it is new. QDOT_EFAILED if it is new and the run
  * has ended (stage->scene is NULL), or as qdot_sliding_freeze. */
-QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
+QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const int64_t *side,
                                             size_t *mode);
 
 /* Write the symbols of q, q', t to in [2n + 1]; returns their number. */
@@ -122,7 +122,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
 /* The sign of u of a surface just behind t, seen before `until`, if u is a function of the time alone, as of delayed values; else, and if
  * u is 0 so long, 0. Sides as below. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_stage_sign_ahead(const qdot_stage *s, size_t surface, double t, double until, const double *y,
-                                                  const long *side, int *sign);
+                                                  const int64_t *side, int *sign);
 /* The sides of all surfaces at a state, the inner ones first, into side [surfaces].
  *   old  [surfaces] the sides before; NULL: all are decided anew. If u has the same value with
  *   the
@@ -133,7 +133,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_sign_ahead(const qdot_stage *s, size_t su
  * which side the motion leaves is not known here. QDOT_EDOMAIN: a floor too large for a long.
  * Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_sides(const qdot_stage *stage, double t,
-                                             const double *y, const long *old, long *side);
+                                             const double *y, const int64_t *old, int64_t *side);
 
 /* Measure the layers of the surfaces (sim/model/layer.h) at the start of a run that looks at times
  * up to `latest` under tol (0: as thin as possible). Allocates. */
@@ -157,6 +157,6 @@ QDOT_MUST_CHECK qdot_status qdot_stage_puck(const qdot_stage *stage, size_t i, d
 
 /* Append a surface as text, such as "x' = 0". */
 QDOT_MUST_CHECK qdot_status qdot_stage_describe(const qdot_stage *stage, size_t surface,
-                                                long side, qdot_text *out);
+                                                int64_t side, qdot_text *out);
 
 #endif

@@ -308,7 +308,7 @@ add_constraint_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
         mpfr_ptr old = h->w[2], step = h->w[3], sum = h->w[0];
 
         mpfr_set(old, x[h->free[j]], RN);
-        mpfr_set_si_2exp(step, 1, -(long)(h->bits / 2), RN);
+        mpfr_set_si_2exp(step, 1, -(mpfr_exp_t)(h->bits / 2), RN);
         mpfr_add(x[h->free[j]], old, step, RN);
         mpfr_sub(step, x[h->free[j]], old, RN);
         evaluate_matrices(h, t, (const mpfr_t *)y, NULL, h->A_moved);

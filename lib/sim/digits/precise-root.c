@@ -60,7 +60,7 @@ has_sign_change_near(qdot_precise_side *s, size_t segment, const qdot_precise_fo
         const int end = side == 0 ? LO : HI, way = mpfr_cmp(at[HI], at[LO]) > 0 ? 2 * side - 1 : 1 - 2 * side;
 
         mpfr_set_d(at[W], way, RN);
-        mpfr_mul_2si(at[W], at[W], (long)ceil(log2_by), RN);
+        mpfr_mul_2si(at[W], at[W], (mpfr_exp_t)ceil(log2_by), RN);
         mpfr_add(at[W], at[W], at[X], RN);
         if (way * mpfr_cmp(at[W], at[end]) < 0)
             QDOT_TRY(qdot_precise_formula_at(s, segment, f, at[W], at[PROBE]));
@@ -162,7 +162,7 @@ qdot_precise_find_root(qdot_precise_side *s, size_t segment, const qdot_precise_
 {
     enum { LEAST = 12 }; /* number of extra digits that suffices for a few roundings */
     mpfr_t *at = s->course->at;
-    long by = LEAST - (long)s->start.bits;
+    mpfr_exp_t by = LEAST - (mpfr_exp_t)s->start.bits;
 
     QDOT_TRY(find_sign_change(s, segment, f, found));
     if (!*found || s->domains)
@@ -178,7 +178,7 @@ qdot_precise_find_root(qdot_precise_side *s, size_t segment, const qdot_precise_
         if (mpfr_cmpabs(at[PROBE], at[NOISE]) > 0)
             break;
     }
-    if (by == LEAST - (long)s->start.bits)
+    if (by == LEAST - (int64_t)s->start.bits)
         mpfr_set(at[X], at[BEFORE], RN);
     return QDOT_OK;
 }

@@ -90,11 +90,11 @@ iterate(level *l, mpfr_prec_t bits)
     double before = INFINITY;
 
     for (double now = find_residual(l); now < before - 4 && now > -(double)bits; now = find_residual(l)) {
-        const long scale = (long)floor(now); /* scale residuals by 2^-now: doubles end at 2^-1074 */
+        const mpfr_exp_t scale = (mpfr_exp_t)floor(now); /* scale residuals by 2^-now: doubles end at 2^-1074 */
 
         QDOT_TRY(qdot_interrupt_check());
         for (size_t k = 0; k < l->m; k++) {
-            long e;
+            mpfr_exp_t e;
             const double part = mpfr_get_d_2exp(&e, qdot_precise_output(l->program, k)[0], RN);
 
             l->b[k] = -ldexp(part, (int)fmax(-2000, (double)(e - scale)));

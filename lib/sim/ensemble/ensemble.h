@@ -12,6 +12,7 @@
 #define QDOT_SIM_ENSEMBLE_H
 
 #include <math.h>
+#include <stdint.h>
 
 #include "ode/companion.h"
 #include "sim/model/equations.h"
@@ -26,7 +27,7 @@ typedef struct {
     qdot_run_status status; /* QDOT_RUN_DONE or QDOT_RUN_FAILED */
     const char *reason;     /* why the run failed; NULL when done; valid until the next qdot_ensemble_run or _free */
     double t;               /* the time at which the member ended */
-    size_t steps, rejected;
+    uint64_t steps, rejected;
     double error; /* error of the end state, relative to max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;
 

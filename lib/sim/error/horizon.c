@@ -145,7 +145,7 @@ measure_distances(search *s)
     double d = 0;
 
     for (size_t from = 0; from < end; from += stride) {
-        size_t k = from + (from * 2654435761U >> 7) % stride;
+        size_t k = from + (size_t)((uint64_t)from * 2654435761U >> 7) % stride;
 
         k = from == 0 ? 0 : k < end ? k : end - 1;
         while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)

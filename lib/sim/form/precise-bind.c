@@ -1,6 +1,7 @@
 /* precise-bind.c -- expands the motion in Taylor series of MPFR numbers, order by order. */
 #include "sim/form/precise-bind.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -341,8 +342,8 @@ make_precise_series(qdot_precise_bind *e, int most, mpfr_prec_t bits)
                               : &e->own;
     if ((double)e->motion->program.rows.n * qdot_reals_size((size_t)most + 3, bits) > most_bytes)
         return qdot_fail(QDOT_ELIMIT,
-                         "Taylor series of order %d with %ld bits do not fit into %g GB",
-                         most, (long)bits, most_bytes / 1e9);
+                         "Taylor series of order %d with %" PRId64 " bits do not fit into %g GB",
+                         most, (int64_t)bits, most_bytes / 1e9);
     QDOT_TRY(qdot_precise_of_motion(p->pool, e->motion, most, bits, &e->series));
     e->stride = qdot_precise_stride(e->series);
     e->q = qdot_precise_input(e->series, 0);

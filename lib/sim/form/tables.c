@@ -77,7 +77,7 @@ qdot_tables_name(const qdot_plan *plan, double handle)
 {
     for (size_t i = 0; i < plan->n_values; i++) {
         qdot_expr lookup;
-        long own;
+        int64_t own;
 
         if (qdot_expr_kind(plan->pool, plan->symbols[i]) != QDOT_UFUN)
             continue;

@@ -145,7 +145,7 @@ measure_residual_rounding(qdot_constrained *h, const part *p)
     static const double far = 0x1p-30;
     const size_t inputs = 2 * h->plan->n + 1, m = p->l->m;
     double *kept = h->in + inputs, *noise = p->l->noise;
-    unsigned long seed = 12345;
+    uint64_t seed = 12345;
 
     memcpy(kept, h->in, inputs * sizeof *kept);
     memset(noise, 0, m * sizeof *noise);

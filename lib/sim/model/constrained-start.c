@@ -50,7 +50,7 @@ static bool
 find_nearby_state(place *p, const double *y, int which)
 {
     const size_t n = p->h->plan->n, m = p->h->c->m;
-    unsigned long seed = 12345 + (unsigned long)which;
+    uint64_t seed = 12345 + (uint64_t)which;
     double length = 0, size = 1, most = INFINITY;
 
     memcpy(p->y, y, 2 * n * sizeof *y);

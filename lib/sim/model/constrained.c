@@ -119,7 +119,7 @@ qdot_constrained_look_beside(const qdot_plan *plan, qdot_saddle *s, const size_t
     const size_t inputs = 2 * plan->n + 1, outputs = qdot_tape_outputs(c->metric);
     double *room = qdot_calloc(inputs + outputs + qdot_tape_work(c->metric) + 1, sizeof *room);
     double *out = room + inputs;
-    unsigned long seed = 12345;
+    uint64_t seed = 12345;
 
     if (!room)
         return QDOT_ENOMEM;

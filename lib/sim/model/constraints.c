@@ -205,7 +205,7 @@ static qdot_status
 list_mass_entries(builder *b)
 {
     const qdot_plan *p = b->plan;
-    const qdot_expr light = qdot_expr_ratio(p->pool, 1, 1L << 60);
+    const qdot_expr light = qdot_expr_ratio(p->pool, 1, INT64_C(1) << 60);
     size_t capacity = 0;
 
     for (size_t i = 0; i < p->n; i++)

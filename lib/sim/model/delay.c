@@ -14,7 +14,7 @@
 static qdot_expr
 lookup(qdot_pool *pool, qdot_expr x, long long handle)
 {
-    return qdot_fun(pool, QDOT_LOOKUP, 2, (qdot_expr[]){x, qdot_expr_int(pool, (long)handle)});
+    return qdot_fun(pool, QDOT_LOOKUP, 2, (qdot_expr[]){x, qdot_expr_int(pool, (int64_t)handle)});
 }
 
 qdot_expr
@@ -32,7 +32,7 @@ qdot_delay_value(qdot_pool *pool, qdot_expr u, bool velocity)
 
 /* Whether a node is a lookup in a history, and its handle. */
 static bool
-is_of_history(const qdot_pool *pool, qdot_expr node, long *handle)
+is_of_history(const qdot_pool *pool, qdot_expr node, int64_t *handle)
 {
     return qdot_expr_kind(pool, node) == QDOT_FUN && qdot_expr_node(pool, node)->op == QDOT_LOOKUP &&
            qdot_expr_to_int(pool, qdot_expr_arg(pool, node, 1), handle) && qdot_past_has((double)*handle);
@@ -44,7 +44,7 @@ value_as_written(qdot_pool *pool, qdot_expr node, void *user)
 {
     qdot_expr piece;
     uint32_t called;
-    long handle;
+    int64_t handle;
 
     (void)user;
     if (!is_of_history(pool, node, &handle))
@@ -72,7 +72,7 @@ rename_history(qdot_pool *pool, qdot_expr node, void *user)
 {
     const names *of = user;
     uint32_t called;
-    long handle;
+    int64_t handle;
 
     if (!is_of_history(pool, node, &handle))
         return QDOT_NIL;
@@ -97,7 +97,7 @@ static qdot_expr
 value_before_start(qdot_pool *pool, qdot_expr node, void *user)
 {
     uint32_t called;
-    long handle;
+    int64_t handle;
 
     (void)user;
     if (!is_of_history(pool, node, &handle))

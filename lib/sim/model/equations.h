@@ -139,14 +139,14 @@ struct qdot_plan {
 
     /* The mode (sides of all switches) for which the plan is being made; NULL later. */
     const struct qdot_switches *mode;
-    const long *side;
+    const int64_t *side;
     /* [surfaces] of that mode: the shares of the surfaces along which the motion slides, functions
      * of q, q', t; NULL: there are none (sim/model/sliding.h). Kept with the plan. */
     qdot_expr *share;
     /* Of the first plan of a run: the switches and, [surfaces], QDOT_SIDE_SLIDES for surfaces along which
      * it slid; NULL: none (qdot_plan_reading). Borrowed and owned. */
     const struct qdot_switches *read_switches;
-    long *read_side;
+    int64_t *read_side;
 };
 
 /* Make an empty plan for n coordinates of another plan, with the same method, and room for inputs

@@ -190,11 +190,11 @@ qdot_gates_find(qdot_pool *pool, size_t m, const qdot_surface *at, size_t n, con
 /* --- finding which gates are open: which of them matter ------------------------------ */
 
 int
-qdot_gates_sign(const qdot_gate_pair *pair, const long *side, const long *corner,
+qdot_gates_sign(const qdot_gate_pair *pair, const int64_t *side, const int64_t *corner,
                 bool *known)
 {
     const uint8_t s = pair->sign;
-    long own;
+    int64_t own;
 
     *known = true;
     if (pair->surface == SIZE_MAX) {
@@ -212,7 +212,7 @@ qdot_gates_sign(const qdot_gate_pair *pair, const long *side, const long *corner
 
 typedef struct {
     const qdot_gates *g;
-    const long *side, *corner;
+    const int64_t *side, *corner;
     uint8_t *open;
     bool again;
 } opening;
@@ -338,7 +338,7 @@ mark_arguments(opening *o, size_t i)
 }
 
 void
-qdot_gates_open(const qdot_gates *g, const long *side, const long *corner, uint8_t *open)
+qdot_gates_open(const qdot_gates *g, const int64_t *side, const int64_t *corner, uint8_t *open)
 {
     opening o = {g, side, corner, open, true};
 

@@ -72,11 +72,11 @@ enum { QDOT_GATE_FALSE = 1, QDOT_GATE_TRUE = 2, QDOT_GATE_OPEN = 4 };
 
 /* The sign of a pair by the sides; *known: there is one. Where the motion slides it is that of corner
  * [surfaces], or unknown without. */
-int qdot_gates_sign(const qdot_gate_pair *pair, const long *side,
-                    const long *corner, bool *known);
+int qdot_gates_sign(const qdot_gate_pair *pair, const int64_t *side,
+                    const int64_t *corner, bool *known);
 
 /* Mark what is open with these sides (NULL: all) into open [gates.n + surfaces], gates and then surfaces.
  * Allocates nothing, and makes no node. */
-void qdot_gates_open(const qdot_gates *gates, const long *side, const long *corner, uint8_t *open);
+void qdot_gates_open(const qdot_gates *gates, const int64_t *side, const int64_t *corner, uint8_t *open);
 
 #endif

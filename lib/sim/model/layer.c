@@ -45,7 +45,7 @@ bool
 qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
 {
     const qdot_expr exponent = qdot_expr_arg(pool, product, k + 1);
-    long whole;
+    int64_t whole;
 
     return (qdot_expr_node(pool, exponent)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0 &&
            !qdot_expr_to_int(pool, exponent, &whole) &&

@@ -18,7 +18,7 @@
 
 /* Find twice the exponent of factor i of a product; false if that is no integer. */
 static bool
-find_twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
+find_twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, int64_t *twice)
 {
     const qdot_expr exponent = qdot_expr_arg(pool, product, i + 1);
 
@@ -229,7 +229,7 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
                              k + 1 < qdot_expr_count(pool, e) && status == QDOT_OK;
              k += 2) {
             const qdot_expr base = qdot_expr_arg(pool, e, k);
-            long twice;
+            int64_t twice;
 
             if (qdot_expr_kind(pool, base) == QDOT_SUM &&
                 contains_kind(pool, base, QDOT_HAS_VELOCITY) &&
@@ -262,7 +262,7 @@ replace_speed_powers(qdot_pool *pool, qdot_expr node, void *user)
 {
     replacement *r = user;
     const qdot_expr square = r->puck->square;
-    long twice = 0;
+    int64_t twice = 0;
     uint32_t at = 0;
     qdot_expr rest;
 
@@ -376,7 +376,7 @@ qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square)
     const qdot_expr more = qdot_sub(pool, square, QDOT_ONE);
     qdot_expr sum = QDOT_ONE;
 
-    for (long n = 5; n >= 1; n--) { /* evaluate the series by Horner's rule: 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
+    for (int64_t n = 5; n >= 1; n--) { /* evaluate the series by Horner's rule: 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
         const qdot_expr c =
             qdot_div(pool, qdot_expr_int(pool, 2 * n - 1), qdot_expr_int(pool, 2 * n));
 

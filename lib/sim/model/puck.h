@@ -53,7 +53,7 @@ qdot_puck_of(const qdot_switches *s, size_t surface)
 
 /* Whether a disc with this side rests or creeps, so that its friction is found from the equations. */
 static inline bool
-qdot_puck_is_held(long side)
+qdot_puck_is_held(int64_t side)
 {
     return side == QDOT_SIDE_SLIDES || side == QDOT_SIDE_CREEPS;
 }

@@ -6,10 +6,10 @@
 #include "expr/node.h"
 
 /* The integer exponent of `base` as a factor of a term; 0 if it is no factor. */
-static long
+static int64_t
 exponent_of_factor(const qdot_pool *pool, qdot_expr term, qdot_expr base)
 {
-    long n;
+    int64_t n;
 
     if (term == base)
         return 1;
@@ -26,13 +26,13 @@ exponent_of_factor(const qdot_pool *pool, qdot_expr term, qdot_expr base)
 static qdot_expr
 cancel_common_factor(qdot_pool *pool, qdot_expr f, qdot_expr base, qdot_expr *M)
 {
-    long shared = exponent_of_factor(pool, *M, base);
+    int64_t shared = exponent_of_factor(pool, *M, base);
     qdot_expr sum = QDOT_ZERO, common;
 
     if (shared <= 0 || qdot_expr_arg(pool, f, 0) != QDOT_ZERO)
         return f;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, f) && shared > 0; i += 2) {
-        long n = exponent_of_factor(pool, qdot_expr_arg(pool, f, i), base);
+        int64_t n = exponent_of_factor(pool, qdot_expr_arg(pool, f, i), base);
 
         shared = n < shared ? n : shared;
     }

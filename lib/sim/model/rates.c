@@ -41,7 +41,7 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
 }
 
 static qdot_expr
-multiply_by_integer(qdot_pool *pool, long n, qdot_expr a)
+multiply_by_integer(qdot_pool *pool, int64_t n, qdot_expr a)
 {
     return qdot_mul(pool, qdot_expr_int(pool, n), a);
 }
@@ -96,7 +96,7 @@ rates_of_power(differentiation *d, rates b, qdot_expr r)
     rates p = {qdot_pow(pool, b.e, r), QDOT_ZERO, QDOT_ZERO};
     const qdot_expr P = qdot_hold(pool, p.e);
     qdot_expr over;
-    long n;
+    int64_t n;
 
     if (qdot_expr_to_int(pool, r, &n) && n > 0) {
         rates whole = b;

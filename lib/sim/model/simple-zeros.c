@@ -8,7 +8,7 @@
 
 /* Whether an exponent is an integer; *n: 1 if it is odd, 2 if even, with the sign of the exponent. */
 static bool
-exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
+exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, int64_t *n)
 {
     const fmpq *q = qdot_expr_rational(pool, exponent);
 
@@ -19,13 +19,13 @@ exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
 }
 
 /* The binary exponent of a number if it is extremely large or small; 0 for other numbers. */
-static long
+static int64_t
 extreme_exponent(const qdot_pool *pool, qdot_expr number)
 {
     enum { FAR = 500 };
     const fmpq *q = qdot_expr_rational(pool, number);
-    const long e = q == NULL || fmpq_is_zero(q) ? 0
-                                                : (long)fmpz_bits(fmpq_numref(q)) - (long)fmpz_bits(fmpq_denref(q));
+    const int64_t e = q == NULL || fmpq_is_zero(q) ? 0
+                                                : (int64_t)fmpz_bits(fmpq_numref(q)) - (int64_t)fmpz_bits(fmpq_denref(q));
 
     return e > FAR || e < -FAR ? e : 0;
 }
@@ -34,11 +34,11 @@ extreme_exponent(const qdot_pool *pool, qdot_expr number)
 static qdot_expr
 scale_extreme_sum(qdot_pool *pool, qdot_expr sum)
 {
-    long most = extreme_exponent(pool, qdot_expr_arg(pool, sum, 0));
+    int64_t most = extreme_exponent(pool, qdot_expr_arg(pool, sum, 0));
     qdot_expr by, e;
 
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, sum); k += 2) {
-        const long here = extreme_exponent(pool, qdot_expr_arg(pool, sum, k + 1));
+        const int64_t here = extreme_exponent(pool, qdot_expr_arg(pool, sum, k + 1));
 
         if (here == 0)
             return sum;
@@ -68,7 +68,7 @@ qdot_simple_zeros(qdot_pool *pool, qdot_expr g)
         e = qdot_expr_is_negative(pool, e) ? qdot_neg(pool, QDOT_ONE) : QDOT_ONE;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, g); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, g, i), exponent = qdot_expr_arg(pool, g, i + 1);
-        long n;
+        int64_t n;
 
         e = qdot_mul(pool, e,
                      exponent_is_whole(pool, exponent, &n) ? qdot_pow_int(pool, base, n)
@@ -89,7 +89,7 @@ qdot_touching_zeros(qdot_pool *pool, qdot_expr g)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, g); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, g, i);
         const bool modulus = qdot_expr_is_function(pool, base, QDOT_ABS);
-        long n;
+        int64_t n;
 
         if (!exponent_is_whole(pool, qdot_expr_arg(pool, g, i + 1), &n) || n < 0 || (n == 1 && !modulus))
             return QDOT_NIL;

@@ -38,7 +38,7 @@ append_condition(const qdot_plan *p, qdot_sliding_rows *rows, int order, qdot_ex
 }
 
 qdot_status
-qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *s, const long *side,
+qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *s, const int64_t *side,
                        const qdot_expr *u, qdot_sliding_rows *rows)
 {
     const size_t surfaces = s->surfaces.n, most = 2 * surfaces + s->n_puck_symbols;

@@ -20,7 +20,7 @@
 enum { MOST_SOLVED = 3 };
 
 bool
-qdot_sliding_is(const qdot_switches *s, const long *side)
+qdot_sliding_is(const qdot_switches *s, const int64_t *side)
 {
     for (size_t i = 0; i < s->surfaces.n && side; i++)
         if (side[i] == QDOT_SIDE_SLIDES

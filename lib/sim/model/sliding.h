@@ -28,7 +28,7 @@
 #include "sim/model/switch.h"
 
 /* Whether in this mode the motion slides along a surface, or a disc rests or creeps. */
-bool qdot_sliding_is(const qdot_switches *switches, const long *side);
+bool qdot_sliding_is(const qdot_switches *switches, const int64_t *side);
 
 /* Freeze p->M and p->f to the mode of the plan; where the motion slides find p->share, and put it
  * into f. Of few coordinates without constraints M q'' = f becomes q'' = M^-1 f, so that what is
@@ -54,7 +54,7 @@ typedef struct {
 /* Of a plan and a mode whose surfaces have the u [surfaces] frozen to it; a puck at rest has a row for
  * each component of w. Start from {0}. */
 QDOT_MUST_CHECK qdot_status qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *switches,
-                                                   const long *side, const qdot_expr *u,
+                                                   const int64_t *side, const qdot_expr *u,
                                                    qdot_sliding_rows *rows);
 void qdot_sliding_rows_clear(qdot_sliding_rows *rows);
 

@@ -51,14 +51,14 @@ apply_derivative(qdot_pool *pool, qdot_expr node, void *user)
         return qdot_pool_fail(pool);
     to = from + arity;
     for (uint32_t i = 0; i < arity; i++) {
-        long order = 0;
+        int64_t order = 0;
 
         from[i] = qdot_expr_arg(pool, formals, i);
         to[i] = qdot_expr_arg(pool, node, i);
         qdot_expr_to_int(pool, qdot_expr_arg(pool, node, arity + i), &order);
         if (order > 0 && qdot_ufun_delayed(pool, qdot_expr_node(pool, node)->op) != QDOT_NIL)
             order--; /* a delayed velocity has a value of its own */
-        for (long k = 0; k < order; k++)
+        for (int64_t k = 0; k < order; k++)
             value = qdot_diff(pool, value, from[i]);
     }
     value = qdot_subs(pool, value, arity, from, to);

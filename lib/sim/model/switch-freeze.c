@@ -12,8 +12,8 @@
 
 typedef struct {
     const qdot_switches *s;
-    const long *side;   /* [surfaces] the sides; NULL: the symbols of sides stay */
-    const long *corner; /* [surfaces] the side to use where `side` is QDOT_SIDE_SLIDES */
+    const int64_t *side;   /* [surfaces] the sides; NULL: the symbols of sides stay */
+    const int64_t *corner; /* [surfaces] the side to use where `side` is QDOT_SIDE_SLIDES */
     qdot_gates gates;   /* gates of the expressions that are rewritten */
     uint8_t *open;
     qdot_expr *to; /* [gates] replacement of each gate */
@@ -28,7 +28,7 @@ frozen_argument(const freezer *f, const qdot_gate *gate, uint32_t k)
     return of == SIZE_MAX ? qdot_expr_arg(f->s->pool, gate->node, k) : f->to[of];
 }
 
-static long
+static int64_t
 side_of_surface(const freezer *f, size_t surface)
 {
     return f->side[surface] == QDOT_SIDE_SLIDES ? f->corner[surface] : f->side[surface];
@@ -58,7 +58,7 @@ side_of_comparison(const freezer *f, const qdot_gate_pair *pair, bool steps)
 static qdot_expr
 rebuild_with_frozen_arguments(const freezer *f, const qdot_gate *gate)
 {
-    qdot_expr few[32], *args = gate->n > 32 ? qdot_malloc(gate->n * sizeof *args) : few, e;
+    qdot_expr few[32] = {0}, *args = gate->n > 32 ? qdot_malloc(gate->n * sizeof *args) : few, e;
 
     if (!args)
         return qdot_pool_fail(f->s->pool);
@@ -92,7 +92,7 @@ freeze_factor(const freezer *f, const qdot_gate *gate, uint32_t k)
 {
     const size_t of = f->gates.arguments.at[gate->first + k];
     const qdot_gate *base = of == SIZE_MAX ? NULL : &f->gates.gates.at[of];
-    long power;
+    int64_t power;
 
     if (base && base->kind == QDOT_GATE_VALUE && base->op == QDOT_ABS
         && is_sliding_comparison(f, &f->gates.pairs.at[base->pair])
@@ -250,7 +250,7 @@ weighted_mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
 /* The mean over both sides of every surface along which the motion slides, from surface `from`
  * on. */
 static qdot_status
-freeze_sliding_means(freezer *f, long *corner, const qdot_expr *share, size_t from, size_t n,
+freeze_sliding_means(freezer *f, int64_t *corner, const qdot_expr *share, size_t from, size_t n,
                      const qdot_expr *e, qdot_expr *frozen)
 {
     size_t i = from;
@@ -276,13 +276,13 @@ freeze_sliding_means(freezer *f, long *corner, const qdot_expr *share, size_t fr
 }
 
 qdot_status
-qdot_switches_freeze(const qdot_switches *s, const long *side, const qdot_expr *share,
+qdot_switches_freeze(const qdot_switches *s, const int64_t *side, const qdot_expr *share,
                      size_t n, const qdot_expr *e, qdot_expr *frozen)
 {
     const size_t m = qdot_switches_own(s);
     freezer f = {.s = s, .side = side};
     qdot_expr *copy;
-    long *corner;
+    int64_t *corner;
     qdot_status status;
 
     if (s->atoms.n == 0) {

@@ -156,7 +156,7 @@ may_switch(const qdot_pool *pool, qdot_expr e)
         return true;
     for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e);
          i += 2) {
-        long power;
+        int64_t power;
 
         if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i), &power))
             return true;

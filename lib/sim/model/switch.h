@@ -71,7 +71,7 @@ void qdot_switches_clear(qdot_switches *switches);
  *   share  [surfaces] the share of each surface along which the motion slides; NULL: none does
  */
 QDOT_MUST_CHECK qdot_status qdot_switches_freeze(const qdot_switches *switches,
-                                                 const long *side, const qdot_expr *share,
+                                                 const int64_t *side, const qdot_expr *share,
                                                  size_t n, const qdot_expr *e,
                                                  qdot_expr *frozen);
 

@@ -372,7 +372,7 @@ qdot_plan_new(qdot_scene *scene, const qdot_run_request *request, qdot_plan **pl
 
 qdot_status
 qdot_plan_in_mode(qdot_scene *scene, const qdot_run_request *request,
-                  const qdot_switches *switches, const long *side, qdot_plan **plan)
+                  const qdot_switches *switches, const int64_t *side, qdot_plan **plan)
 {
     qdot_plan *p;
     qdot_status status;

@@ -19,6 +19,6 @@ QDOT_MUST_CHECK qdot_status qdot_plan_new(qdot_scene *scene,
 QDOT_MUST_CHECK qdot_status qdot_plan_in_mode(qdot_scene *scene,
                                               const qdot_run_request *request,
                                               const struct qdot_switches *switches,
-                                              const long *side, qdot_plan **plan);
+                                              const int64_t *side, qdot_plan **plan);
 
 #endif

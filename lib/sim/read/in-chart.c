@@ -43,7 +43,7 @@ check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
 /* Express them in the coordinates of the run; `quarters` counts turns of the angles, 0 if no angle
  * occurs by itself. */
 static qdot_status
-express_in_chart(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
+express_in_chart(qdot_in_chart *in, const qdot_expr *exprs, const int64_t *quarters)
 {
     const qdot_run_chart *x = in->run->chart;
 
@@ -80,7 +80,7 @@ qdot_in_chart_express(qdot_in_chart *in, qdot_run *run, size_t m, const qdot_exp
 bool
 qdot_in_chart_holds(const qdot_in_chart *in, double t)
 {
-    const long *quarters;
+    const int64_t *quarters;
 
     if (!in->turns)
         return true;

@@ -15,7 +15,7 @@ typedef struct {
     double t; /* a time for which the expressions are valid; so they are until the next change of the angles */
     qdot_expr *exprs;     /* [m] the expressions in the coordinates of the run */
     bool turns;           /* an expression contains an angle outside of sin and cos, or a sign */
-    const long *quarters; /* quarter turns from which the angles are counted; borrowed */
+    const int64_t *quarters; /* quarter turns from which the angles are counted; borrowed */
 } qdot_in_chart;
 
 /* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading;

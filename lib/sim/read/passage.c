@@ -33,8 +33,8 @@ expression_beside_singularity(const qdot_run_chart *x, qdot_expr e, size_t k, bo
 {
     const qdot_chart *c = &x->chart;
     const size_t n = c->moved.n + c->signs.n;
-    const long *quarters = x->quarters.at + x->stretches.at[before ? k - 1 : k].quarters;
-    long *signed_ones = qdot_calloc(n + 1, sizeof *signed_ones);
+    const int64_t *quarters = x->quarters.at + x->stretches.at[before ? k - 1 : k].quarters;
+    int64_t *signed_ones = qdot_calloc(n + 1, sizeof *signed_ones);
     qdot_expr now;
 
     if (!signed_ones)
@@ -53,7 +53,7 @@ static qdot_status
 evaluate_on_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *values, double *error)
 {
     double times[NODES], errors[NODES], read[NODES];
-    const long *quarters;
+    const int64_t *quarters;
     int at[NODES];
     size_t n = 0;
 

@@ -40,7 +40,7 @@ qdot_run_chart_free(qdot_run_chart *x)
 }
 
 qdot_expr
-qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters, bool *turns)
+qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const int64_t *quarters, bool *turns)
 {
     if (e == x->energy && e != QDOT_NIL) {
         if (turns)
@@ -62,7 +62,7 @@ typedef struct {
     double *now;  /* [m] the angles at time t, continued without jumps */
     double *next; /* [m] the angles at the next point that is inspected */
     double *most; /* [m + n] largest distance from a singular place so far; largest squared gradient of each root */
-    long *signs;  /* [n] the signs of distances and square roots at time t */
+    int64_t *signs;  /* [n] the signs of distances and square roots at time t */
     uint64_t passed; /* bits: signs whose singular place is passed exactly at the next point */
     double t;
 } following;
@@ -134,7 +134,7 @@ begin_stretch(following *f, double t, const double *angles)
     const qdot_chart_stretch s = {t, f->passed, f->x->quarters.n};
 
     for (size_t i = 0; i < f->m; i++)
-        QDOT_TRY(qdot_vec_push(&f->x->quarters, lround(4 * angles[i] / turn)));
+        QDOT_TRY(qdot_vec_push(&f->x->quarters, llround(4 * angles[i] / turn)));
     for (size_t i = 0; i < f->n; i++)
         QDOT_TRY(qdot_vec_push(&f->x->quarters, f->signs[i]));
     return qdot_vec_push(&f->x->stretches, s);
@@ -146,7 +146,7 @@ static qdot_status
 advance_angles(following *f, double t, bool jumps)
 {
     const qdot_chart_stretch *s = &f->x->stretches.at[f->x->stretches.n - 1];
-    const long *quarters = f->x->quarters.at + s->quarters;
+    const int64_t *quarters = f->x->quarters.at + s->quarters;
     bool beyond = f->passed != 0;
 
     for (size_t i = 0; i < f->m; i++)
@@ -259,7 +259,7 @@ follow_angles_along(following *f, const qdot_trajectory *tr)
 
 /* Write the expressions of angle i for signs +1 and -1: x and y, or the factor of the sine of half the angle. */
 static void
-write_angle_expressions(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr *xy)
+write_angle_expressions(const qdot_run_chart *x, size_t i, const int64_t *quarters, qdot_expr *xy)
 {
     const qdot_chart_moved *m = x->chart.moved.at + i;
 
@@ -288,7 +288,7 @@ write_all_expressions(const qdot_run_chart *x, qdot_expr *exprs)
 {
     const qdot_chart *c = &x->chart;
     const size_t m = c->moved.n, n = c->signs.n;
-    long *quarters = qdot_calloc(m + n + 1, sizeof *quarters);
+    int64_t *quarters = qdot_calloc(m + n + 1, sizeof *quarters);
 
     if (!quarters)
         return QDOT_ENOMEM;
@@ -371,7 +371,7 @@ qdot_run_chart_follow(qdot_run *run)
 }
 
 qdot_status
-qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
+qdot_run_chart_quarters(qdot_run *run, double t, const int64_t **quarters)
 {
     qdot_run_chart *x = run->chart;
     const bool back = qdot_trajectory_is_backward(&run->course.tr);

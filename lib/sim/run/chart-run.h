@@ -38,13 +38,13 @@ typedef struct qdot_run_chart {
     bool crosses;  /* a square root w with w^2 = P passed a place where this surface crosses itself */
     bool changes;  /* the sign of a distance has changed at a singular place that was passed exactly */
     qdot_vec(qdot_chart_stretch) stretches; /* time intervals with constant signs and quarter turns, in the order of the run */
-    qdot_vec(long) quarters;
+    qdot_vec(int64_t) quarters;
 } qdot_run_chart;
 
 void qdot_run_chart_free(qdot_run_chart *x);
 
 /* An expression of the given scene written in the coordinates of the run (as qdot_chart_express). */
-qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
+qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const int64_t *quarters,
                                  bool *turns);
 
 /* Follow the angles, and the signs of distances and roots, along the run, unless that was done before. */
@@ -53,7 +53,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
 /* The quarters [moved], and the signs behind them, for the stretch of time t; follows the run if that was not done yet, and
  * limits the comparison with companions to the stretch. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
-                                                    const long **quarters);
+                                                    const int64_t **quarters);
 
 /* Limit the comparison with companion runs to the whole run, except for a start at a singularity. */
 void qdot_run_chart_limit(qdot_run *run);

@@ -210,7 +210,7 @@ static qdot_status
 keep_read_sides(qdot_run *run)
 {
     const size_t surfaces = run->stage.switches.surfaces.n;
-    long *side = qdot_calloc(surfaces + 1, sizeof *side);
+    int64_t *side = qdot_calloc(surfaces + 1, sizeof *side);
     bool any = false;
 
     if (!side)

@@ -178,7 +178,7 @@ moved(const orbit *o, qdot_expr e)
 
     for (size_t i = 0; i < 2 * o->n && e != QDOT_NIL; i++) {
         const qdot_expr z = state_symbol(o->scene, i),
-                        by = qdot_div(pool, qdot_expr_int(pool, (long)i + 3),
+                        by = qdot_div(pool, qdot_expr_int(pool, (int64_t)i + 3),
                                       qdot_expr_int(pool, 256)),
                         to = qdot_add(pool, z, by);
 

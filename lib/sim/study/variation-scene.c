@@ -271,8 +271,8 @@ irregular_start_value(qdot_pool *pool, size_t k, size_t i)
     uint64_t x = (k * 1000 + i + 1) * 6364136223846793005u;
 
     x = (x ^ x >> 31) * 1442695040888963407u;
-    return qdot_div(pool, qdot_expr_int(pool, (long)(x >> 40) - (1L << 23)),
-                    qdot_expr_int(pool, 8388608L * 1000000));
+    return qdot_div(pool, qdot_expr_int(pool, (int64_t)(x >> 40) - (1 << 23)),
+                    qdot_expr_int(pool, (INT64_C(1) << 23) * 1000000));
 }
 
 /* Component i < 2n of the derivative in direction k at the start. */

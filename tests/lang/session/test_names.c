@@ -146,7 +146,7 @@ static void
 memory_may_run_out(void **state)
 {
     (void)state;
-    for (long n = 0;; n++) {
+    for (int64_t n = 0;; n++) {
         qdot_status status = QDOT_ENOMEM;
         qdot_names *names;
 

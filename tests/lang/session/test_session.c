@@ -263,7 +263,7 @@ no_memory_is_an_error_everywhere(void **state)
     char *buffer = NULL;
     size_t size = 0;
     FILE *sink = open_memstream(&buffer, &size);
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (int last = 1; last != 0; n += 1 + n / 40) {

@@ -260,15 +260,15 @@ runs_belong_to_their_scene(void **state)
 
 /* Whatever fails, what can still be undone can also be done again. */
 static void
-left_whole(void (*arm)(long n))
+left_whole(void (*arm)(int64_t n))
 {
     static const char text[] = "param a > 0; b = a^2; coord x; undo 2; redo; reset scene; undo";
     int status = 1;
 
-    for (long n = 0; status != 0; n++) {
+    for (int64_t n = 0; status != 0; n++) {
         char *before, *seen;
         talk *k;
-        long back = 0;
+        int64_t back = 0;
 
         assert_int_equal(begin((void **)&k), 0);
         assert_int_equal(say(k, "param m; coord y; R = m*y"), 0);

@@ -227,7 +227,7 @@ memory_may_run_out(void **state)
     qdot_status status = QDOT_ENOMEM;
 
     (void)state;
-    for (long n = 0; status != QDOT_OK; n++) {
+    for (int64_t n = 0; status != QDOT_OK; n++) {
         qdot_source *source;
         size_t at;
 

@@ -211,7 +211,7 @@ a_hole_is_evaluated_as_often_as_one_likes(void **state)
     statement_read(&s, session, "table EXPR", "table k^2 + 1");
     assert_int_equal(s.status, QDOT_OK);
     hole = qdot_record_hole(&s.record, NULL, "EXPR");
-    for (long k = 1; k <= 3; k++) {
+    for (int64_t k = 1; k <= 3; k++) {
         qdot_expr value;
 
         assert_int_equal(qdot_names_push(session->names, "k", qdot_expr_int(session->pool, k)), QDOT_OK);
@@ -287,7 +287,7 @@ memory_may_run_out_while_reading(void **state)
     reading *r = *state;
     qdot_status status = QDOT_ENOMEM;
 
-    for (long n = 0; status != QDOT_OK; n++) {
+    for (int64_t n = 0; status != QDOT_OK; n++) {
         statement s;
 
         assert_true(n < 1000);

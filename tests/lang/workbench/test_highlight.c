@@ -103,7 +103,7 @@ memory_may_run_out(void **state)
     talk *k = *state;
     uint8_t kinds[40];
 
-    for (long i = 0;; i++) {
+    for (int64_t i = 0;; i++) {
         qdot_status status;
 
         qdot_memory_fail_at(i);

@@ -20,7 +20,7 @@ typedef struct {
 static state
 state_of(kit *k)
 {
-    static const long parts[3 * MOST] = {7,  11, 13, 5, 9,  8, -3, 4, 6,
+    static const int64_t parts[3 * MOST] = {7,  11, 13, 5, 9,  8, -3, 4, 6,
                                          -7, 2,  5,  1, -2, 8, 3,  9, -4};
     state s = {.n = k->scene->coordinates.n};
 
@@ -97,14 +97,14 @@ same_motion(kit *k, qdot_chart_kind kind)
     h = qdot_mech_energy(k->scene);
     same_number(number_in_chart(k, &s, &c, qdot_mech_energy(c.scene)), number(k, &s, h));
     for (size_t i = 0; i < 3 * s.n; i++) {
-        long quarters[3 * MOST] = {0};
+        int64_t quarters[3 * MOST] = {0};
         bool turns;
 
         for (size_t j = 0; j < c.moved.n;
              j++) /* two quarters off, less than half a turn */
             if (c.moved.at[j].bare != QDOT_NIL)
-                quarters[j] = lround(number(k, &s, c.moved.at[j].given) / 1.5707963267948966)
-                              + (long)(i % 3) - 1;
+                quarters[j] = llround(number(k, &s, c.moved.at[j].given) / 1.5707963267948966)
+                              + (int64_t)(i % 3) - 1;
         for (size_t j = 0; j < c.signs.n; j++)
             quarters[c.moved.n + j] = 1;
         same_number(number_in_chart(k, &s, &c,

@@ -23,7 +23,7 @@ typedef struct {
 static given
 given_of(kit *k)
 {
-    static const long parts[2 * MOST] = {-7, 11, 13, 5, 9,  8, -3, 4, 6,
+    static const int64_t parts[2 * MOST] = {-7, 11, 13, 5, 9,  8, -3, 4, 6,
                                          -7, 2,  5,  1, -2, 8, 3,  9, -4};
     given g = {.k = k, .n = k->scene->coordinates.n};
     const qdot_expr V = qdot_mech_potential(k->scene);

@@ -155,7 +155,7 @@ slope(world *w, qdot_expr e, size_t i, bool velocity, long double t)
 
 /* d/dt of e, or of dL/dq_i', at 0. */
 static long double
-rate(world *w, qdot_expr e, long i)
+rate(world *w, qdot_expr e, int64_t i)
 {
     long double sum = 0, q[MOST], v[MOST];
 
@@ -358,7 +358,7 @@ static long double
 residual(world *w, size_t i)
 {
     kit *k = &w->k;
-    long double r = rate(w, w->L, (long)i) - slope(w, w->L, i, false, 0);
+    long double r = rate(w, w->L, (int64_t)i) - slope(w, w->L, i, false, 0);
 
     for (size_t f = 0; f < w->forces; f++)
         for (uint32_t d = 0; d < qdot_mech_dimension(k->pool, w->place[f]); d++)

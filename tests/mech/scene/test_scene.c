@@ -1,5 +1,6 @@
 /* Declaring: what is refused, what is left out, what is printed; ranks; the chain's cost.
  * */
+#include <inttypes.h>
 #include <time.h>
 
 #include "expr/build.h"
@@ -330,7 +331,7 @@ running_out_of_memory_anywhere_is_an_error(void **state)
     bool passed = false;
 
     (void)state;
-    for (long n = 0; !passed; n += 1 + n / 8) {
+    for (int64_t n = 0; !passed; n += 1 + n / 8) {
         kit k_, *k = &k_;
         qdot_expr e[6];
         qdot_status status;
@@ -354,7 +355,7 @@ running_out_of_memory_anywhere_is_an_error(void **state)
         if (status == QDOT_OK)
             passed = true;
         else if (status != QDOT_ENOMEM)
-            fail_msg("allocation %ld: status %d: %s", n, (int)status,
+            fail_msg("allocation %" PRId64 ": status %d: %s", n, (int)status,
                      qdot_last_error()->message);
         (void)!qdot_pool_check(k->pool);
         if (k->scene->coordinates.n == 2) {

@@ -147,7 +147,7 @@ static void
 survives_failed_allocations_too_body(kit *k)
 {
     qdot_status status = QDOT_ENOMEM;
-    long n = 0;
+    int64_t n = 0;
 
     coords(k, "x");
     must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - x^2/2 - alpha*cos(x)/beta")));

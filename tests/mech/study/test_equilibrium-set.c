@@ -100,7 +100,7 @@ survives_failed_allocations_body(kit *k)
 {
     qdot_status status = QDOT_ENOMEM;
     qdot_expr alpha;
-    long n = 0;
+    int64_t n = 0;
 
     coords(k, "x");
     alpha = E(k, "alpha");

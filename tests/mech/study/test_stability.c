@@ -76,12 +76,12 @@ static void
 an_energy_law_without_memory_body(kit *k)
 {
     qdot_energy_law law;
-    long n = 0;
+    int64_t n = 0;
 
     coords(k, "x y");
     must(qdot_scene_lagrangian(k->scene, E(k, "(x'^2 + y'^2)/2 - x^2/2 - y^2")));
     torque(k, "-x'", "x");
-    for (long left = -1; left < 0; n++) {
+    for (int64_t left = -1; left < 0; n++) {
         (void)qdot_memory_fail_once_at(n);
         if (qdot_energy_law_of(k->scene, &law) != QDOT_OK)
             assert_int_equal(law, QDOT_ENERGY_UNKNOWN);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <inttypes.h>
 
 #include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_vec.h>
@@ -91,12 +92,12 @@ static const char *const equations[] = {
 /* Run `work` on one after another, the n-th allocation failing, or Ctrl-C pressed there, until it
  * passes; between failures the same pool. The pool is usable afterwards. */
 static void
-at_every_allocation(void (*harm)(long n), qdot_status wanted,
+at_every_allocation(void (*harm)(int64_t n), qdot_status wanted,
                     qdot_status (*work)(qdot_pool *pool, size_t i), size_t i,
                     qdot_pool *pool)
 {
     qdot_status status;
-    long n = 0, failures = 0;
+    int64_t n = 0, failures = 0;
 
     for (;; n += 1 + n / 40) {
         harm(n);
@@ -228,7 +229,7 @@ a_pool_is_usable_after_failures(void **state)
         qdot_expr e = text_read(pool, values[i]);
         char *failed, *clean;
 
-        for (long n = 1; n < 3000; n = 2 * n + 1) {
+        for (int64_t n = 1; n < 3000; n = 2 * n + 1) {
             qdot_memory_fail_at(n);
             (void)qdot_simplify(pool, e, NULL);
             qdot_memory_fail_at(-1);
@@ -328,7 +329,7 @@ enum { MANY = 20000, TIMES = 40 };
 
 struct hoard {
     qdot_pool *pool;
-    unsigned long seed;
+    unsigned seed;
     bool leave;
     qdot_expr kept[2];
 };
@@ -366,9 +367,9 @@ static double
 resident(void)
 {
     FILE *file = fopen("/proc/self/statm", "r");
-    long all, here;
+    int64_t all, here;
 
-    if (file == NULL || fscanf(file, "%ld %ld", &all, &here) != 2)
+    if (file == NULL || fscanf(file, "%" SCNd64 " %" SCNd64, &all, &here) != 2)
         here = -1;
     if (file != NULL)
         fclose(file);
@@ -396,7 +397,7 @@ numbers_outlive_what_made_them(void **state)
     }
     /* raised again, they are found */
     for (h.seed = 1000003; h.seed <= 12 * 1000003; h.seed += 1000003) {
-        qdot_expr n = qdot_expr_int(pool, (long)h.seed);
+        qdot_expr n = qdot_expr_int(pool, (int64_t)h.seed);
         size_t count = qdot_pool_count(pool);
         qdot_expr power = qdot_pow(pool, n, thirty);
 
@@ -479,7 +480,7 @@ ask_often(void *user)
     qdot_expr *answer = user;
 
     for (int i = 0; i < 20; i++) {
-        struct hoard h = {.pool = pool, .seed = 1 + (unsigned long)i};
+        struct hoard h = {.pool = pool, .seed = 1 + (unsigned)i};
 
         if (qdot_flint_run(pool, hoard, &h) != QDOT_OK)
             *answer = QDOT_ONE;

@@ -22,7 +22,7 @@ answer(qdot_pool *pool, size_t n, const qdot_expr *M, const qdot_expr *G, const 
 
 /* G, H of one, times 1 or sqrt(2) and 2: the zeros are multiplied by that, their sides stay. */
 static void
-one(long g, long h, int wanted, bool even)
+one(int64_t g, int64_t h, int wanted, bool even)
 {
     qdot_pool *pool = qdot_pool_new();
     qdot_expr two = qdot_expr_int(pool, 2);

@@ -18,8 +18,8 @@ linear(pairs *g, unsigned symbols)
     qdot_expr sum = QDOT_ZERO;
 
     for (unsigned i = 0; i <= symbols; i++) {
-        const long numerator = (long)pairs_random(g, 7) - 3; /* drawn in this order by every compiler */
-        const long denominator = 1 + (long)pairs_random(g, i == 0 ? 3 : 2);
+        const int64_t numerator = (int64_t)pairs_random(g, 7) - 3; /* drawn in this order by every compiler */
+        const int64_t denominator = 1 + (int64_t)pairs_random(g, i == 0 ? 3 : 2);
         const qdot_expr factor = num(g, numerator, denominator);
 
         sum = add(g, sum, i == 0 ? factor : mul(g, factor, g->any[i - 1]));

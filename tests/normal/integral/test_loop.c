@@ -12,6 +12,7 @@
 #include "expr/exact.h"
 #include "expr/integral.h"
 #include "normal/integral/loop.h"
+#include "num/integer.h"
 
 typedef struct {
     const char *f, *lo, *hi;
@@ -58,7 +59,7 @@ number_of(const known_loop *k)
         qdot_expr there;
 
         fmpq_init(q);
-        fmpq_set_si(q, lround(at*1e15), 1000000000000000);
+        qdot_rational_set_integers(q, llround(at*1e15), 1000000000000000);
         there = qdot_subs(pool, f, 1, &x, (qdot_expr[]){qdot_expr_fmpq(pool, q)});
         fmpq_clear(q);
         assert_int_equal(qdot_constant_double(pool, there, &y), QDOT_OK);

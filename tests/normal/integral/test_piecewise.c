@@ -13,7 +13,7 @@
 #include "normal/integral/piecewise.h"
 
 static double
-value_at(qdot_expr e, qdot_expr x, long i, long n)
+value_at(qdot_expr e, qdot_expr x, int64_t i, int64_t n)
 {
     const qdot_expr at = qdot_expr_ratio(pool, i, n);
     double y = NAN;
@@ -50,7 +50,7 @@ changes_are_areas(void **state)
         if (F == QDOT_NIL)
             fail_msg("%s: not known", known[i]);
         before = value_at(F, x, FROM, 1);
-        for (long k = FROM * PARTS; k < TO * PARTS; k++) {
+        for (int64_t k = FROM * PARTS; k < TO * PARTS; k++) {
             area += value_at(e, x, 2 * k + 1, 2 * PARTS) / PARTS;
             if (fabs(value_at(F, x, k + 1, PARTS) - before - area) > 0.05)
                 fail_msg("%s: %s jumps near %g", known[i], shown(F), (double)k / PARTS);

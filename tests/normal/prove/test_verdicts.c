@@ -10,6 +10,7 @@
 #include <stdio.h>
 
 #include <cmocka.h>
+#include <inttypes.h>
 
 #include "expr/print.h"
 #include "normal/prove/decide.h"
@@ -20,14 +21,14 @@
 enum { POINTS = 10, LARGEST = 400 };
 
 typedef struct {
-    long truths, proved, open, open_inside; /* equal by construction */
-    long falsehoods, refuted,
+    int64_t truths, proved, open, open_inside; /* equal by construction */
+    int64_t falsehoods, refuted,
         hidden; /* that a value shows to differ; hidden: not refuted */
-    long skipped, wrong;
+    int64_t skipped, wrong;
 } tally;
 
-static long
-setting(const char *name, long otherwise)
+static int64_t
+setting(const char *name, int64_t otherwise)
 {
     const char *text = getenv(name);
 
@@ -41,7 +42,7 @@ tell(const qdot_pool *pool, const char *what, uint64_t seed, pair p)
 
     if (qdot_print(pool, p.l, QDOT_PLAIN, &l) == QDOT_OK &&
         qdot_print(pool, p.r, QDOT_PLAIN, &r) == QDOT_OK)
-        fprintf(stderr, "# %s, pair %lu: check %s == %s\n", what, (unsigned long)seed,
+        fprintf(stderr, "# %s, pair %" PRIu64 ": check %s == %s\n", what, (uint64_t)seed,
                 l.at, r.at);
     qdot_text_clear(&l);
     qdot_text_clear(&r);
@@ -246,16 +247,16 @@ one_pair(uint64_t seed, bool learned, tally *n)
 static void
 many_pairs(bool learned)
 {
-    long wanted = setting("QDOT_TEST_PAIRS", 2000), from = setting("QDOT_TEST_SEED", 1);
+    int64_t wanted = setting("QDOT_TEST_PAIRS", 2000), from = setting("QDOT_TEST_SEED", 1);
     tally n = {0};
 
     if (learned)
         wanted /= 4;
-    for (long i = 0; i < wanted; i++)
+    for (int64_t i = 0; i < wanted; i++)
         one_pair((uint64_t)(from + i), learned, &n);
     fprintf(stderr,
-            "# %ld pairs%s: %ld true, proved %ld, undecided %ld (%ld of the class); %ld "
-            "false, refuted %ld, undecided %ld; %ld left out; %ld wrong\n",
+            "# %" PRId64 " pairs%s: %" PRId64 " true, proved %" PRId64 ", undecided %" PRId64 " (%" PRId64 " of the class); %" PRId64 " "
+            "false, refuted %" PRId64 ", undecided %" PRId64 "; %" PRId64 " left out; %" PRId64 " wrong\n",
             wanted, learned ? " with facts" : "", n.truths, n.proved, n.open,
             n.open_inside, n.falsehoods, n.refuted, n.hidden, n.skipped, n.wrong);
     assert_int_equal(n.wrong, 0);

@@ -12,7 +12,7 @@
 enum { MOST = 8 };
 
 static void
-find_roots(size_t n, const long *c, double *re, double *im)
+find_roots(size_t n, const int64_t *c, double *re, double *im)
 {
     qdot_expr e[MOST + 1];
 
@@ -25,7 +25,7 @@ find_roots(size_t n, const long *c, double *re, double *im)
 static void
 multiple_pairs_stand_together(void **state)
 {
-    const long c[] = {200, 300, 230, 145, 68, 22, 6, 1};
+    const int64_t c[] = {200, 300, 230, 145, 68, 22, 6, 1};
     double re[MOST], im[MOST];
     int real = 0;
 
@@ -46,7 +46,7 @@ multiple_pairs_stand_together(void **state)
 static void
 roots_of_unity(void **state)
 {
-    const long c[] = {1, 1, 1, 1, 1};
+    const int64_t c[] = {1, 1, 1, 1, 1};
     double re[MOST], im[MOST], sum = 0;
 
     (void)state;

@@ -14,7 +14,7 @@ enum { MOST = 6 };
 
 /* The eigenvalues of a matrix of small integers, against those known. */
 static void
-check_eigenvalues(size_t n, const long *A, const double *re, const double *im, double error)
+check_eigenvalues(size_t n, const int64_t *A, const double *re, const double *im, double error)
 {
     qdot_expr entries[MOST * MOST];
     double got[3][MOST];
@@ -32,7 +32,7 @@ check_eigenvalues(size_t n, const long *A, const double *re, const double *im, d
 static void
 roots_of_unity(void **state)
 {
-    const long A[] = {0, 1, 0, 0, 0, 1, 1, 0, 0};
+    const int64_t A[] = {0, 1, 0, 0, 0, 1, 1, 0, 0};
 
     (void)state;
     check_eigenvalues(3, A, (double[]){-0.5, -0.5, 1}, (double[]){-sqrt(0.75), sqrt(0.75), 0}, 1e-15);
@@ -41,7 +41,7 @@ roots_of_unity(void **state)
 static void
 coinciding_ones(void **state)
 {
-    const long two[] = {2, 1, 0, 2}, diagonal[] = {3, 0, 0, 3};
+    const int64_t two[] = {2, 1, 0, 2}, diagonal[] = {3, 0, 0, 3};
 
     (void)state;
     check_eigenvalues(2, two, (double[]){2, 2}, (double[]){0, 0}, 1e-15);

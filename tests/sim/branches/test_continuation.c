@@ -2,6 +2,7 @@
 #include "expr/build.h"
 #include "sim/scenes.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -228,7 +229,7 @@ survives_failed_allocations_too(void **state)
     qdot_status status = QDOT_ENOMEM;
     fixture f;
     qdot_expr q;
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     begin(&f);
@@ -270,7 +271,7 @@ keeps_what_is_known(void **state)
     must(qdot_scene_potential(
         f.scene, qdot_sub(f.pool, times(&f, number(&f, "0.25"), qdot_pow_int(f.pool, q, 4)),
                           times(&f, parameter(&f, "mu"), times(&f, q, q)))));
-    for (long n = 0; !whole; n += 1 + n / 60) {
+    for (int64_t n = 0; !whole; n += 1 + n / 60) {
         qdot_equilibrium_curve c = {0};
         qdot_continuation x = {0};
 
@@ -282,7 +283,7 @@ keeps_what_is_known(void **state)
         whole = !x.interrupted;
         some = some || (x.interrupted && x.branches.n > 0);
         if (!x.interrupted && x.branches.n != 2)
-            fail_msg("%ld: %zu branches", n, x.branches.n);
+            fail_msg("%" PRId64 ": %zu branches", n, x.branches.n);
         qdot_continuation_clear(&x);
         qdot_equilibrium_curve_end(&c);
     }

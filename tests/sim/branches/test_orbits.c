@@ -124,7 +124,7 @@ keeps_what_is_known(void **state)
 
     (void)state;
     mu = van_der_pol(&f);
-    for (long n = 0; !whole; n += 1 + n / 5) {
+    for (int64_t n = 0; !whole; n += 1 + n / 5) {
         qdot_continuation x = {0};
         qdot_status status;
 
@@ -148,7 +148,7 @@ survives_failed_allocations_too(void **state)
     qdot_status status = QDOT_ENOMEM;
     fixture f;
     qdot_expr mu;
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     mu = van_der_pol(&f);

@@ -6,22 +6,23 @@
 #include "expr/symbol.h"
 #include "sim/scenes.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 /* What the two events do to the velocity: their order matters. */
-static long
-acted(int event, long v)
+static int64_t
+acted(int event, int64_t v)
 {
     return event == 0 ? -v : v + 1;
 }
 
 /* x at the time `length` hundredths after `since`: it starts at 0, at rest; the periods in hundredths. */
 static double
-place(long since, long length, const long periods[2])
+place(int64_t since, int64_t length, const int64_t periods[2])
 {
-    long x = 0, v = 0;
+    int64_t x = 0, v = 0;
 
-    for (long t = since + 1; t <= since + length; t++) {
+    for (int64_t t = since + 1; t <= since + length; t++) {
         x += v;
         for (int k = 0; k < 2; k++)
             if (t % periods[k] == 0)
@@ -31,14 +32,14 @@ place(long since, long length, const long periods[2])
 }
 
 static qdot_expr
-hundredths(fixture *f, long n)
+hundredths(fixture *f, int64_t n)
 {
     return qdot_div(f->pool, qdot_expr_int(f->pool, n), qdot_expr_int(f->pool, 100));
 }
 
 /* sin(pi t/period) = 0, or as a remainder. */
 static qdot_expr
-clock_of(fixture *f, long period, bool remainder)
+clock_of(fixture *f, int64_t period, bool remainder)
 {
     qdot_expr t = qdot_symbol_get(f->pool, QDOT_TIME, "t"), of[2] = {t, hundredths(f, period)};
 
@@ -64,12 +65,12 @@ add_event(fixture *f, int k, qdot_expr clock, qdot_expr v)
 static void
 clocks_act_once_and_in_order(void **state)
 {
-    static const long periods[][2] = {{30, 10}, {10, 30}, {35, 70}, {300, 100}, {20, 30}, {5, 15}};
+    static const int64_t periods[][2] = {{30, 10}, {10, 30}, {35, 70}, {300, 100}, {20, 30}, {5, 15}};
     static const char *const methods[] = {"auto", "dop853", "radau"};
 
     (void)state;
     for (int k = 0; k < 36; k++) {
-        const long *p = periods[k % 6], since = k % 12 < 6 ? 0 : k < 12 ? 100000000 : 1000000, length = 401;
+        const int64_t *p = periods[k % 6], since = k % 12 < 6 ? 0 : k < 12 ? 100000000 : 1000000, length = 401;
         const double truth = place(since, length, p);
         qdot_expr x;
         fixture f;
@@ -86,7 +87,7 @@ clocks_act_once_and_in_order(void **state)
         r = run(&f);
         assert_int_equal(qdot_run_get_report(r)->status, QDOT_RUN_DONE);
         if (!(fabs(qdot_run_get_report(r)->q[0] - truth) < 1e-9))
-            fail_msg("periods %ld, %ld from %ld by %s: %.17g, truth %.17g", p[0], p[1], since, f.request.method,
+            fail_msg("periods %" PRId64 ", %" PRId64 " from %" PRId64 " by %s: %.17g, truth %.17g", p[0], p[1], since, f.request.method,
                      qdot_run_get_report(r)->q[0], truth);
         qdot_run_free(r);
         end(&f);

@@ -38,7 +38,7 @@ is_near(fixture *f, qdot_expr e, const char *expected, int digits, const char *w
     mpfr_abs(y, y, MPFR_RNDN);
     if (mpfr_cmp_ui(y, 1) > 0)
         mpfr_div(x, x, y, MPFR_RNDN);
-    mpfr_ui_pow_ui(y, 10, (unsigned long)digits, MPFR_RNDN);
+    mpfr_ui_pow_ui(y, 10, (unsigned)digits, MPFR_RNDN);
     mpfr_mul(x, x, y, MPFR_RNDN);
     if (mpfr_cmp_d(x, 0.5) > 0)
         fail_msg("%s is %.3g units of 10^-%d off", what, mpfr_get_d(x, MPFR_RNDN),
@@ -332,9 +332,9 @@ a_rebound(fixture *f)
 /* Out of memory at the n-th allocation of a run, for n up to where it passes, `most` at the
  * highest; past every `thin` of them n goes on by one more. */
 static void
-survives(void (*scene)(fixture *), int digits, long thin, long most)
+survives(void (*scene)(fixture *), int digits, int64_t thin, int64_t most)
 {
-    for (long n = 0;; n += 1 + n / thin) {
+    for (int64_t n = 0;; n += 1 + n / thin) {
         fixture f;
         qdot_run *r = NULL;
         qdot_status status;

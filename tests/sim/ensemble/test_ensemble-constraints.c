@@ -422,7 +422,7 @@ every_failed_allocation_is_survived(void **state)
     bool done = false;
 
     (void)state;
-    for (long k = 0; !done; k += 1 + k / 16) {
+    for (int64_t k = 0; !done; k += 1 + k / 16) {
         double y[2 * 6], g[2] = {9, 10};
         qdot_ensemble_result results[2];
         qdot_ensemble *e = NULL;

@@ -114,7 +114,7 @@ static void
 lives_on_without_memory(void **state)
 {
     (void)state;
-    for (long k = 0;; k++) {
+    for (int64_t k = 0;; k++) {
         double y[MEMBERS * 4];
         qdot_ensemble_result results[MEMBERS];
         qdot_ensemble *ensemble;

@@ -414,7 +414,7 @@ survives(bool cyclic)
 {
     bool done = false;
 
-    for (long k = 0; !done; k += 1 + k / 16) {
+    for (int64_t k = 0; !done; k += 1 + k / 16) {
         double y[3 * 4] = {0.1, 0.2, 0, 0, 0.3, 0.4, 0, 0, 0.5, 0.6, 0, 0};
         qdot_ensemble_result results[3];
         qdot_ensemble *e = NULL;

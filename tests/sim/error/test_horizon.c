@@ -52,7 +52,7 @@ true_horizon(fixture *f, qdot_run *r, double until)
         times[k] = until * (double)k / (LOOKS - 1);
     must(qdot_run_values(r, 2 * n, state, LOOKS, times, own, NULL));
     f->request.digits = 12;
-    f->request.t1 = qdot_expr_int(f->pool, (long)ceil(until));
+    f->request.t1 = qdot_expr_int(f->pool, (int64_t)ceil(until));
     must(qdot_run_new(f->scene, &f->request, &precise));
     must(qdot_run_values(precise, 2 * n, state, LOOKS, times, exact, NULL));
     for (size_t k = 0; k < LOOKS && isnan(found); k++)

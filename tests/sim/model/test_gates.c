@@ -33,7 +33,7 @@ gate(gated *g, size_t m, qdot_expr e)
 }
 
 static void
-expect_open(gated *g, const long *side, const char *which)
+expect_open(gated *g, const int64_t *side, const char *which)
 {
     qdot_gates_open(&g->gates, side, NULL, g->open);
     for (size_t i = 0; which[i]; i++)
@@ -73,11 +73,11 @@ a_branch_is_open_where_it_is_taken(void **state)
                   (qdot_expr[]){qdot_rel(g.pool, QDOT_LT, g.x, QDOT_ZERO),
                                 qdot_fun1(g.pool, QDOT_ABS, g.y), QDOT_ZERO}));
     assert_true(g.gates.branches);
-    expect_open(&g, (long[]){-1, QDOT_SIDE_IDLE}, "oo");
-    expect_open(&g, (long[]){0, 1}, "oc");
-    expect_open(&g, (long[]){1, 1}, "oc");
-    expect_open(&g, (long[]){QDOT_SIDE_SLIDES, 1}, "oo");
-    expect_open(&g, (long[]){QDOT_SIDE_OPEN, 1}, "oo");
+    expect_open(&g, (int64_t[]){-1, QDOT_SIDE_IDLE}, "oo");
+    expect_open(&g, (int64_t[]){0, 1}, "oc");
+    expect_open(&g, (int64_t[]){1, 1}, "oc");
+    expect_open(&g, (int64_t[]){QDOT_SIDE_SLIDES, 1}, "oo");
+    expect_open(&g, (int64_t[]){QDOT_SIDE_OPEN, 1}, "oo");
     expect_open(&g, NULL, "oo");
     gated_end(&g);
 }
@@ -98,8 +98,8 @@ a_condition_is_read_until_it_is_decided(void **state)
                                            (qdot_expr[]){qdot_rel(g.pool, QDOT_LT, QDOT_ZERO, g.x),
                                                          qdot_rel(g.pool, QDOT_LT, QDOT_ZERO, g.y)}),
                                 QDOT_ONE, QDOT_ZERO}));
-    expect_open(&g, (long[]){1, -1}, "oo");
-    expect_open(&g, (long[]){-1, -1}, "oc");
+    expect_open(&g, (int64_t[]){1, -1}, "oo");
+    expect_open(&g, (int64_t[]){-1, -1}, "oc");
     gated_end(&g);
 }
 
@@ -119,7 +119,7 @@ what_is_least_need_not_be_compared(void **state)
     surface(&g, 2, qdot_sub(g.pool, g.x, third));
     surface(&g, 3, qdot_sub(g.pool, g.y, third));
     gate(&g, 4, qdot_fun(g.pool, QDOT_MAX, 3, (qdot_expr[]){g.x, g.y, third}));
-    expect_open(&g, (long[]){1, 1, g.at[2].u == qdot_sub(g.pool, g.x, third) ? 1 : -1, 1}, "oooc");
+    expect_open(&g, (int64_t[]){1, 1, g.at[2].u == qdot_sub(g.pool, g.x, third) ? 1 : -1, 1}, "oooc");
     gated_end(&g);
 }
 
@@ -130,7 +130,7 @@ what_is_closed_is_not_formed(void **state)
     fixture f;
     qdot_switches s = {0};
     qdot_expr x, e, frozen;
-    long side[4] = {0};
+    int64_t side[4] = {0};
 
     (void)state;
     begin(&f);

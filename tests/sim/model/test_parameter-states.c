@@ -310,10 +310,10 @@ draw(uint32_t *random)
 static qdot_expr
 exact(fixture *f, double x)
 {
-    long e;
+    int64_t e;
     int power;
     double m = frexp(x, &power);
-    qdot_expr r = qdot_expr_int(f->pool, (long)ldexp(m, 53));
+    qdot_expr r = qdot_expr_int(f->pool, (int64_t)ldexp(m, 53));
 
     for (e = power - 53; e != 0; e += e < 0 ? 1 : -1)
         r = times(f, r, e < 0 ? QDOT_HALF : qdot_expr_int(f->pool, 2));

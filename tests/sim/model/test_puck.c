@@ -23,7 +23,7 @@ over_root(plane *p, qdot_expr e)
 }
 
 static void
-begin_plane(plane *p, long c)
+begin_plane(plane *p, int64_t c)
 {
     qdot_pool *pool;
 

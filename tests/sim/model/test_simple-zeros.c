@@ -24,7 +24,7 @@ begin_factors(factors *s)
 
 /* -3 a^n b^m */
 static qdot_expr
-product(factors *s, long n, long m)
+product(factors *s, int64_t n, int64_t m)
 {
     return qdot_mul(s->f.pool, s->minus,
                     qdot_mul(s->f.pool, qdot_pow_int(s->f.pool, s->a, n), qdot_pow_int(s->f.pool, s->b, m)));

@@ -107,7 +107,7 @@ states_are_brought_back(void **state)
     fixture f;
     qdot_stage stage = {0};
     qdot_sliding_rows rows = {0};
-    long side[] = {QDOT_SIDE_SLIDES, QDOT_SIDE_SLIDES};
+    int64_t side[] = {QDOT_SIDE_SLIDES, QDOT_SIDE_SLIDES};
     double y[] = {1, 1.0000001, 2.0000003, 1.9999}, moved; /* x, y, x', y' */
     qdot_expr u[2], x, z;
 

@@ -35,7 +35,7 @@ make_long(long_chain *c, size_t n)
 
         snprintf(name, sizeof name, "theta[%zu]", k + 1);
         c->q[k] = coordinate(f, name);
-        c->q0[k] = qdot_expr_int(f->pool, (long)(k % 3));
+        c->q0[k] = qdot_expr_int(f->pool, (int64_t)(k % 3));
         c->v0[k] = QDOT_ZERO;
     }
     for (size_t k = 0; k < n; k++) {

@@ -225,7 +225,7 @@ a_run_back_returns_to_the_start(void **state)
         for (int k = 0; k < 2; k++) {
             double y = k ? qdot_run_get_report(r)->v[i] : qdot_run_get_report(r)->q[i];
             int exponent;
-            long mantissa = (long)ldexp(frexp(y, &exponent), 53);
+            int64_t mantissa = (int64_t)ldexp(frexp(y, &exponent), 53);
 
             *(k ? &f.v0[i] : &f.q0[i]) =
                 qdot_mul(f.pool, qdot_expr_int(f.pool, mantissa),

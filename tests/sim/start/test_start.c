@@ -366,7 +366,7 @@ no_memory_is_an_error(void **state)
     qdot_status status = QDOT_ENOMEM;
 
     (void)state;
-    for (long n = 0; status != QDOT_OK; n++) {
+    for (int64_t n = 0; status != QDOT_OK; n++) {
         start s;
 
         cartesian(&s);

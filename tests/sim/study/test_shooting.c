@@ -195,7 +195,7 @@ survives_failed_allocations_and_interrupts(void **state)
 {
     qdot_status status = QDOT_ENOMEM;
     driven d;
-    long n = 0;
+    int64_t n = 0;
 
     (void)state;
     build(&d, "9");
