@@ -384,8 +384,10 @@ step("hover over a coordinate", async () => {
     return text;
 });
 step("hover over a value shows its formula", async () => {
-    const text = hoverText(await editor.behind("conserved ener").ask("hover"));
-    assert.match(text, /theta|θ/);
+    editor.behind("conserved energy\n");
+    editor.type("T\n");
+    const text = hoverText(await editor.behind("energy\nT").ask("hover"));
+    assert.match(text, /θ̇|theta'/);
     return text;
 });
 step("hover over a function", async () => {
@@ -398,7 +400,7 @@ step("hover over a number", async () => {
     return "nothing";
 });
 step("signature of a function", async () => {
-    editor.behind("energy\n");
+    editor.behind("energy\nT\n");
     editor.type("diff(T, ");
     const help = await editor.ask("signatureHelp");
     assert.match(help.signatures[0].label, /diff\(/);
@@ -484,6 +486,27 @@ step("code lenses", async () => {
     const titles = lenses.map((lens) => lens.command.title);
     assert.ok(lenses.some((lens) => lens.command.command === "qdot.run"), titles.join());
     return titles.join(", ");
+});
+
+/* --- pages of panels ---------------------------------------------------------------------- */
+
+step("nothing in an answer is markup, but formulas and figures", async () => {
+    const {answersPage, wholePage} = require(path.resolve(extensionFolder, "page.js"));
+    const evil = "<script>alert(1)</script>\" onerror=\"alert(2)";
+    const html = answersPage(evil, [
+        {kind: "text", text: evil}, {kind: "expr", name: evil, plain: evil, mathml: `<math><mi>x</mi>${evil}</math>`},
+        {kind: "expr", plain: "x", typeset: {mathml: "<math><mi>x</mi></math>"}},
+        {kind: "number", name: evil, value: 1.25, error: 3e-13}, {kind: "check", verdict: evil, claim: evil},
+        {kind: "columns", columns: [evil]}, {kind: "row", values: [evil, 2]}, {kind: "file", path: evil},
+        {kind: "figure", mime: "image/svg+xml", name: evil, data: evil}, {kind: "notice", message: evil},
+        {kind: "error", file: evil, line: evil, column: 1, message: evil, hint: evil}, {kind: evil, data: evil}]);
+
+    assert.doesNotMatch(html, /<script|<[^>]* onerror="/);
+    assert.match(html, /<math><mi>x<\/mi><\/math>/);
+    assert.match(html, /1\.25\d* ± 3e-13/);
+    const page = wholePage("<!DOCTYPE html><html><head></head><body><script>1</script></body></html>");
+    assert.match(page, /<head><meta http-equiv="Content-Security-Policy"[^>]*><\/head><body><script nonce="/);
+    return `${html.length} characters`;
 });
 
 /* --- it is run -------------------------------------------------------------------------------- */
