@@ -113,6 +113,11 @@ typedef void (*qdot_progress_hook)(void *data, const char *what, double done, do
 /* Set the hook of this system; NULL: none. */
 qdot_result qdot_system_progress(qdot_system *system, qdot_progress_hook hook, void *data);
 
+/* Whether `undo` reaches back over calls, as it does at the prompt, or only to the beginning of its own call
+ * (kept = 0, as it is at first). What it needs for that takes 256 MB at most. A qdot_system_run() and the end of its
+ * motion are no statements: those before them can no longer be undone. */
+void qdot_system_keep_undo(qdot_system *system, int kept);
+
 /* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
  * line is "CALL:LINE:COLUMN: error: ..." where a text is to blame, CALL being `declare`, `ask`,
  * `derive`, `decide`, `number`, `run`, `values`, `over`, `compile` or `variables`; then come the line, a
@@ -125,7 +130,7 @@ const char *qdot_system_notices(const qdot_system *system);
 
 /* Carry out statements: coordinates, particles, forces, constraints, `set`, `start`, ... Their answers
  * are not kept. The first statement that fails ends the call; those before it stay in effect. `undo`
- * reaches back to the beginning of the call. */
+ * reaches back to the beginning of the call (but see qdot_system_keep_undo). */
 qdot_result qdot_system_declare(qdot_system *system, const char *text);
 
 /* The same, with the answers as the program prints them. *answers: the caller's; after a failure the

@@ -41,8 +41,10 @@ qdot_motion_free(qdot_motion *motion)
     if (!motion->named) {
         const size_t i = qdot_api_place(motion);
 
-        if (i < motion->system->session->runs->n)
+        if (i < motion->system->session->runs->n) {
+            qdot_api_delete_undo_records(motion->system->session); /* as after qdot_system_run */
             drop_run_from_session(motion->system->session, i);
+        }
     }
     qdot_named_run_release(&motion->run);
     qdot_api_release(motion->system);
@@ -138,6 +140,7 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
     }
     if (last.run != NULL)
         qdot_named_run_release(&last);
+    qdot_api_delete_undo_records(session); /* they know the runs as they were before */
     return qdot_api_end(system, status);
 }
 

@@ -212,13 +212,25 @@ qdot_api_begin(qdot_system *system)
     return QDOT_OK;
 }
 
-/* Delete the records for `undo` that a call has made, which would keep every past run in memory. */
-static void
-delete_undo_records(qdot_session *session)
+void
+qdot_api_delete_undo_records(qdot_session *session)
 {
     if (session->undo != NULL)
         session->undo_free(session->undo);
     session->undo = NULL;
+}
+
+void
+qdot_system_keep_undo(qdot_system *system, int kept)
+{
+    if (system != NULL)
+        system->keeps_undo = kept != 0;
+}
+
+/* Take back what a call has set of the session: its streams and what became of its statements. */
+static void
+reset_after_call(qdot_session *session)
+{
     session->output->out = session->output->err = session->output->console = NULL;
     session->outcome->quit = session->outcome->refuted = session->outcome->failed = false;
 }
@@ -228,7 +240,9 @@ qdot_api_end(qdot_system *system, qdot_status status)
 {
     if (status != QDOT_OK)
         system->error = *qdot_last_error();
-    delete_undo_records(system->session);
+    if (!system->keeps_undo)
+        qdot_api_delete_undo_records(system->session);
+    reset_after_call(system->session);
     for (int i = 0; i < QDOT_API_STREAMS; i++) {
         FILE *file = system->stream[i].file;
 

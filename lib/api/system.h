@@ -28,6 +28,7 @@ struct qdot_system {
         char *text; /* output of the latest call, from open_memstream; NULL: none */
         size_t length;
     } stream[QDOT_API_STREAMS];
+    bool keeps_undo;  /* also when a call ends */
     qdot_error error; /* failure of the latest call; QDOT_OK: none */
     qdot_interrupt interrupt; /* set by qdot_system_interrupt */
     struct {
@@ -44,6 +45,9 @@ struct qdot_system {
 QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
 /* End a call with this status and return it as a result; QDOT_ENOMEM if its messages found no memory. */
 qdot_result qdot_api_end(qdot_system *system, qdot_status status);
+
+/* Delete the records for `undo`, which would keep every past run in memory. */
+void qdot_api_delete_undo_records(qdot_session *session);
 
 /* The same for a call that returns a text: on success it becomes *out, the caller's; else it is cleared and *out is NULL. */
 qdot_result qdot_api_end_with_text(qdot_system *system, qdot_status status, qdot_text *text, char **out);

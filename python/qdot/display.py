@@ -213,7 +213,7 @@ def _number(answer: Answer, folder: str) -> List[Output]:
 def _belongs_to_formula(text: Answer, last: Answer) -> bool:
     """Whether the text says more of the formula before it in a few words, as "stable" of an equilibrium."""
     same = last.get("kind") == "expr" and last.get("name") == text.get("name")
-    return same and not re.search(r"[\n\\^_{}#$%&]", text["text"].rstrip("\n"))
+    return same and not re.search(r"[\n\\^_{}#$%&:]", text["text"].rstrip("\n"))
 
 
 def _append_words(formula: Output, words: str) -> None:

@@ -106,13 +106,13 @@ class QdotMagics(Magics):
     def _the_system(self, name: Optional[str]) -> System:
         if name is None:
             if self._system is None:
-                self._system = System()
+                self._system = System().keep_undo()
             return self._system
         if not name.isidentifier():
             raise UsageError(f"--system: `{name}` is no name of a variable")
         system = self.shell.user_ns.get(name)
         if system is None:
-            system = self.shell.user_ns[name] = System()
+            system = self.shell.user_ns[name] = System().keep_undo()
         if not isinstance(system, System):
             raise UsageError(
                 f"--system: `{name}` holds no qdot.System but a {type(system).__name__}"

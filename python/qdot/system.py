@@ -441,6 +441,27 @@ class System:
         session = self._session
         session.look(lambda: session.hook_set(hook))
 
+    def keep_undo(self, kept: bool = True) -> System:
+        """Let `undo` reach back over calls, as it does at the prompt; else it does within its own call.
+
+        That takes 256 MB at most. `run` and the end of its motion are no statements: those before them
+        can no longer be undone.
+
+        Examples
+        --------
+        >>> import qdot
+        >>> s = qdot.System().keep_undo().declare("param a = 1").declare("set a = 2").declare("undo")
+        >>> s.number("a")
+        1.0
+        """
+        session = self._session
+
+        def body() -> None:
+            session.library.qdot_system_keep_undo(session.handle, int(kept))
+
+        session.look(body)
+        return self
+
     def interrupt(self) -> None:
         """Stop the computation that another thread has this system do: `Interrupted` is raised there."""
         self._session.interrupt()

@@ -209,6 +209,43 @@ errors_name_the_place(void **state)
 }
 
 static void
+undo_reaches_back_over_calls_where_it_is_kept(void **state)
+{
+    static const double one = 1;
+    qdot_system *s = *state;
+    qdot_motion *m;
+    double x;
+
+    qdot_system_keep_undo(NULL, 1);
+    qdot_system_keep_undo(s, 1);
+    assert_int_equal(qdot_system_declare(s, "set g = 2"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_declare(s, "set g = 3; nonsense +"), QDOT_RESULT_SYNTAX);
+    assert_int_equal(qdot_system_number(s, "g", &x, NULL), QDOT_RESULT_OK);
+    assert_true(x == 3);
+    assert_int_equal(qdot_system_declare(s, "undo"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_number(s, "g", &x, NULL), QDOT_RESULT_OK);
+    assert_true(x == 2);
+    assert_int_equal(qdot_system_declare(s, "redo; undo 2"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_number(s, "g", &x, NULL), QDOT_RESULT_OK);
+    assert_true(x == 9.81);
+    /* a run by its own call is none of the statements, and parts them */
+    assert_int_equal(qdot_system_declare(s, "set g = 2"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_run(s, "0..1 as a", &m), QDOT_RESULT_OK);
+    expect_error(s, qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID, "declare:1:1: error: ");
+    assert_int_equal(qdot_system_declare(s, "set g = 3"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_declare(s, "undo"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_motion_values(m, "theta", 1, &one, 1, &x, NULL), QDOT_RESULT_OK);
+    qdot_motion_free(m);
+    assert_int_equal(qdot_system_run(s, "0..1", &m), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_declare(s, "run 0..1 as b"), QDOT_RESULT_OK);
+    qdot_motion_free(m);
+    expect_error(s, qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID, "declare:1:1: error: ");
+    qdot_system_keep_undo(s, 0);
+    assert_int_equal(qdot_system_declare(s, "set g = 4"), QDOT_RESULT_OK);
+    expect_error(s, qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID, "declare:1:1: error: ");
+}
+
+static void
 values_refuse_what_does_not_fit(void **state)
 {
     static const double times[] = {0, 11};
@@ -430,6 +467,7 @@ main(void)
         IN_A_SCENE(runs_live_as_long_as_said),
         IN_A_SCENE(answers_and_notices_are_apart),
         IN_A_SCENE(interrupted_work_says_so),
+        IN_A_SCENE(undo_reaches_back_over_calls_where_it_is_kept),
         cmocka_unit_test(failing_memory_is_reported),
         cmocka_unit_test(systems_of_two_threads_do_not_meet),
     };

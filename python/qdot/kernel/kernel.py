@@ -36,7 +36,7 @@ class QdotKernel(Kernel):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.system = System()
+        self.system = System().keep_undo()
         self.history = History(_history_path())
 
     # --- carrying out cells -------------------------------------------------------------
@@ -172,7 +172,7 @@ def _until_quit(code: str) -> Tuple[str, bool]:
 
 
 def _interrupted() -> Dict[str, Any]:
-    said = "the computation was stopped; the session is as it was before it"
+    said = "the computation was stopped; the session is kept"
     return {
         "ename": "Interrupted",
         "evalue": said,

@@ -143,6 +143,10 @@ class Session(unittest.TestCase):
         for code in ("", "# only a comment", "\n\n"):
             self.assertEqual(self.plain(code), [])
 
+    def test_undo_reaches_back_over_lines_and_cells(self):
+        self.plain("reset; param a = 1\nset a = 2")
+        self.assertEqual(self.plain("undo\nnumeric(a)")[-1], "numeric(a) = 1")
+
     def test_silence_is_kept(self):
         reply, messages = self.run_cell("print 1", silent=True)
         self.assertEqual((reply["status"], messages), ("ok", []))
