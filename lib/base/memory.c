@@ -93,6 +93,12 @@ qdot_malloc(size_t size)
 }
 
 void *
+qdot_malloc_aligned(size_t alignment, size_t size)
+{
+    return record_block(allocation_must_fail() ? NULL : aligned_alloc(alignment, size), size);
+}
+
+void *
 qdot_calloc(size_t count, size_t size)
 {
     return record_block(allocation_must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),

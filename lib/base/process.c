@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool qdot_threads_are_taken;
+bool qdot_threads_are_taken = !QDOT_MAY_THREAD;
 
 static struct {
     size_t rank, count;

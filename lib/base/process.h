@@ -20,8 +20,15 @@ size_t qdot_ranks_count(void);
 size_t qdot_rank(void);
 void qdot_rank_set(size_t rank, size_t count);
 
+/* Whether this program may begin threads and processes; configure --disable-threads: not. */
+#ifdef QDOT_ONE_THREAD
+enum { QDOT_MAY_THREAD = 0 };
+#else
+enum { QDOT_MAY_THREAD = 1 };
+#endif
+
 /* Whether other processes work beside this one on all processors (parallel/workers.h): threads would only be in
- * each other's way. */
+ * each other's way; always without threads. */
 extern bool qdot_threads_are_taken;
 
 #endif

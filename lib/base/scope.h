@@ -40,4 +40,7 @@ bool qdot_scope_note(void *block, size_t size);
 bool qdot_scope_release(void *block);
 bool qdot_scope_has(const void *block);
 
+/* As aligned_alloc; the block belongs to the scope, as those of memory.h do. */
+void *qdot_malloc_aligned(size_t alignment, size_t size);
+
 #endif

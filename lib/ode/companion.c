@@ -9,6 +9,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/process.h"
 #include "ode/scale.h"
 
 static const double unit = 0x1p-53;
@@ -402,7 +403,7 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
         release_companions(c);
         return status;
     }
-    for (size_t k = 0; k < c->count && request->threaded; k++) {
+    for (size_t k = 0; QDOT_MAY_THREAD && k < c->count && request->threaded; k++) {
         c->at[k].interrupt = qdot_interrupt_own;
         c->at[k].running =
             pthread_create(&c->at[k].thread, NULL, companion_thread, c->at + k) == 0;

@@ -43,10 +43,10 @@ qdot_workers_processors(void)
 #ifdef CPU_COUNT
     cpu_set_t set;
 
-    if (sched_getaffinity(0, sizeof set, &set) == 0)
+    if (QDOT_MAY_THREAD && sched_getaffinity(0, sizeof set, &set) == 0)
         return (size_t)CPU_COUNT(&set);
 #endif
-    n = sysconf(_SC_NPROCESSORS_ONLN);
+    n = QDOT_MAY_THREAD ? sysconf(_SC_NPROCESSORS_ONLN) : 1;
     return n > 0 ? (size_t)n : 1;
 }
 
@@ -381,7 +381,7 @@ qdot_workers_run(const qdot_workers_job *job)
         status = QDOT_ENOMEM;
     fflush(NULL); /* write out buffered output, which otherwise would be written twice after fork */
     if (status == QDOT_OK)
-        status = start_all_workers(&c);
+        status = QDOT_MAY_THREAD ? start_all_workers(&c) : qdot_fail(QDOT_EIO, "no process can be started: this program has one");
     if (status == QDOT_OK)
         status = carry_out_work(&c, polled);
     for (size_t i = 0; c.workers && i < job->workers; i++)

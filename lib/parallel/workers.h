@@ -32,7 +32,7 @@ typedef struct qdot_workers_job {
     qdot_status (*done)(size_t k, const char *bytes, size_t n, void *user);
 } qdot_workers_job;
 
-/* The number of processors that this process may use. */
+/* The number of processors that this process may use; 1 where it may start no processes (base/process.h). */
 size_t qdot_workers_processors(void);
 
 /* Do all items. With several ranks: in rank 0; in the others do what rank 0 hands out, until it shares

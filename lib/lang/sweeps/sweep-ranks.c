@@ -22,6 +22,8 @@ enum { TOGETHER = 1 << 16 }; /* number of rows sent in one message */
 size_t
 qdot_sweep_processes(const qdot_sweep *s)
 {
+    if (!QDOT_MAY_THREAD)
+        return 1;
     if (s->threads > 0)
         return (size_t)s->threads;
     return qdot_ranks_are_there() ? 1 : qdot_workers_processors();

@@ -1,10 +1,14 @@
-/* flint.c -- gives FLINT and GMP our memory functions; contains the only longjmp. */
+/* flint.c -- gives FLINT and GMP our memory functions; contains the only longjmp.
+ *
+ * The functions are given once for all threads, and taken back when no computation is under way. Where there are no threads
+ * (QDOT_ONE_THREAD), a computation that was abandoned leaves FLINT's caches behind in the only thread there is, perhaps while
+ * they were written. FLINT then frees them all (flint_cleanup), and what it still holds of that computation is freed after it.
+ */
 #include "normal/field/flint.h"
 
 #include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 #include <flint/flint.h>
@@ -21,11 +25,11 @@
 
 /* State of a thread whose computation can be abandoned. */
 static _Thread_local struct {
-    bool on;
+    bool on, leaving; /* leaving: abandoned, FLINT's caches are freed */
     qdot_status why;
     jmp_buf out;
     qdot_scope own;     /* blocks allocated through memory.h during this computation */
-    qdot_scope library; /* what FLINT and GMP allocated since the thread began */
+    qdot_scope library; /* what FLINT and GMP allocated since the thread began; without threads, since the computation began */
     size_t cached;      /* size of `library` at the start of the computation, in bytes */
 } guard;
 
@@ -45,6 +49,8 @@ flint_check_budget(size_t size)
     size_t caches = guard.library.bytes < guard.cached ? guard.library.bytes : guard.cached;
     size_t held = guard.own.bytes + guard.library.bytes - caches;
 
+    if (guard.leaving)
+        return;
     if (qdot_interrupt_is_set())
         flint_leave(qdot_interrupt_check());
     if (size > QDOT_FLINT_MEMORY || held > QDOT_FLINT_MEMORY - size)
@@ -140,23 +146,18 @@ gave_up(void)
 
 #if __FLINT_RELEASE >= 30000
 
-/* Allocate aligned memory; the word before it holds the address of the whole block. */
 static void *
 take_aligned(size_t alignment, size_t size)
 {
-    char *block = guarded_malloc(size + alignment + sizeof(void *));
-    uintptr_t past = (uintptr_t)block + sizeof(void *) + alignment - 1;
-    void **at = (void **)(void *)(block + (past - past % alignment - (uintptr_t)block));
+    void *block;
 
-    at[-1] = block;
-    return at;
-}
-
-static void
-give_back_aligned(void *block)
-{
-    if (block != NULL)
-        give_back(((void **)block)[-1]);
+    if (!guard.on)
+        return block_or_abandon(aligned_alloc(alignment, size));
+    flint_check_budget(size);
+    qdot_scope_now = &guard.library;
+    block = qdot_malloc_aligned(alignment, size);
+    qdot_scope_now = &guard.own;
+    return block_or_abandon(block);
 }
 
 #endif
@@ -184,7 +185,7 @@ install_memory_functions(void)
                                          &before.give_back, &before.take_aligned,
                                          &before.give_back_aligned);
         __flint_set_all_memory_functions(guarded_malloc, take_clear, guarded_realloc, give_back, take_aligned,
-                                         give_back_aligned);
+                                         give_back);
 #else
         __flint_get_memory_functions(&before.take, &before.take_clear, &before.enlarge,
                                      &before.give_back);
@@ -217,6 +218,93 @@ restore_memory_functions(void)
     pthread_mutex_unlock(&before.lock);
 }
 
+/* --- one computation --------------------------------------------------------------------- */
+
+#ifdef QDOT_ONE_THREAD
+
+/* Free FLINT's caches, whose blocks are then no longer recorded. */
+static void
+flint_free_caches(void)
+{
+    guard.leaving = true;
+    flint_cleanup();
+    guard.leaving = false;
+}
+
+#else
+
+/* FLINT is not called: it may have been interrupted while it changed its state. Its thread ends. */
+static void
+flint_free_caches(void)
+{
+}
+
+#endif
+
+/* Carry out one computation. QDOT_OK: it was not abandoned. */
+static qdot_status
+run_computation(void (*work)(void *user), void *user)
+{
+    QDOT_TRY(qdot_scope_begin(&guard.own));
+    guard.cached = guard.library.bytes;
+    guard.why = QDOT_OK;
+    guard.on = true;
+    install_memory_functions();
+    if (setjmp(guard.out) == 0) {
+        work(user);
+        guard.on = false;
+        qdot_scope_end(&guard.own);
+    } else {
+        flint_free_caches();
+        guard.on = false;
+        qdot_scope_discard(&guard.own);
+    }
+    restore_memory_functions();
+    return guard.why;
+}
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static pthread_key_t key;
+
+#ifdef QDOT_ONE_THREAD
+
+/* --- in place -------------------------------------------------------------------------------- */
+
+/* What FLINT has cached for a thread ends with the thread. */
+static void
+end_of_thread(void *any)
+{
+    (void)any;
+    flint_cleanup();
+}
+
+static void
+create_thread_key(void)
+{
+    (void)pthread_key_create(&key, end_of_thread);
+}
+
+static qdot_status
+compute(void (*work)(void *user), void *user)
+{
+    qdot_status status;
+
+    pthread_once(&once, create_thread_key);
+    (void)pthread_setspecific(key, &guard);
+    QDOT_TRY(qdot_scope_begin(&guard.library));
+    status = run_computation(work, user);
+    if (status != QDOT_OK) {
+        qdot_scope_discard(&guard.library);
+        return status;
+    }
+    if (guard.library.bytes > KEPT)
+        flint_cleanup();
+    qdot_scope_end(&guard.library);
+    return QDOT_OK;
+}
+
+#else
+
 /* --- the thread that computes ------------------------------------------------------------ */
 
 /* A thread for computations. The lock is held while it computes, so that the caller waits for the end. */
@@ -235,31 +323,6 @@ typedef struct {
 /* This thread's worker. When the thread ends, the destructor of the key ends the worker and frees what FLINT has cached
  * for the thread itself. */
 static _Thread_local worker *mine;
-static pthread_once_t once = PTHREAD_ONCE_INIT;
-static pthread_key_t key;
-
-/* Carry out one computation. False: it was abandoned, so this thread must end with FLINT's caches. */
-static bool
-run_computation(worker *w)
-{
-    w->status = qdot_scope_begin(&guard.own);
-    if (w->status != QDOT_OK)
-        return true;
-    guard.cached = guard.library.bytes;
-    guard.on = true;
-    install_memory_functions();
-    if (setjmp(guard.out) == 0) {
-        w->work(w->user);
-        guard.on = false;
-        qdot_scope_end(&guard.own);
-    } else {
-        guard.on = false;
-        qdot_scope_discard(&guard.own);
-        w->status = guard.why;
-    }
-    restore_memory_functions();
-    return w->status == QDOT_OK;
-}
 
 static void *
 worker_main(void *user)
@@ -276,13 +339,12 @@ worker_main(void *user)
             break;
         (void)qdot_fail_again(&w->error);
         qdot_interrupt_own = w->interrupt;
-        if (!begun)
-            w->status = qdot_fail(QDOT_ENOMEM, "out of memory");
-        w->state = begun && run_computation(w) && guard.library.bytes <= KEPT ? WAITING : ENDING;
+        w->status = begun ? run_computation(w->work, w->user) : qdot_fail(QDOT_ENOMEM, "out of memory");
+        w->state = w->status == QDOT_OK && guard.library.bytes <= KEPT ? WAITING : ENDING;
         w->error = *qdot_last_error();
         pthread_cond_signal(&w->changed);
     }
-    if (begun) /* do not call FLINT: it may have been interrupted while it changed its state */
+    if (begun)
         qdot_scope_discard(&guard.library);
     pthread_mutex_unlock(&w->lock);
     return NULL;
@@ -356,24 +418,16 @@ worker_start_thread(void)
     return w;
 }
 
-qdot_status
-qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
+static qdot_status
+compute(void (*work)(void *user), void *user)
 {
-    uint64_t budget;
     qdot_status status;
     bool ended;
 
-    if (guard.on) {
-        work(user);
-        return QDOT_OK;
-    }
     if (mine == NULL)
         mine = worker_start_thread();
     if (mine == NULL)
         return QDOT_ENOMEM;
-    budget = qdot_pool_budget(pool, UINT64_MAX);
-    (void)qdot_pool_budget(pool, budget);
-
     pthread_mutex_lock(&mine->lock);
     mine->work = work;
     mine->user = user;
@@ -392,6 +446,24 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
         worker_stop(mine);
         mine = NULL;
     }
+    return status;
+}
+
+#endif
+
+qdot_status
+qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
+{
+    uint64_t budget;
+    qdot_status status;
+
+    if (guard.on) {
+        work(user);
+        return QDOT_OK;
+    }
+    budget = qdot_pool_budget(pool, UINT64_MAX);
+    (void)qdot_pool_budget(pool, budget);
+    status = compute(work, user);
     if (status != QDOT_OK)
         (void)qdot_pool_budget(pool, budget);
     return status;

@@ -14,6 +14,9 @@
  * FLINT's and Arb's caches warm, up to 64 MB; it ends with the thread that asked. FLINT and MPFR
  * must keep their caches per thread (configure looks). Not to be used in a child after fork().
  *
+ * Without threads (configure --disable-threads) it runs in the thread that asks. If it is left, FLINT frees all its caches,
+ * and what remains of the computation is freed after that; the thread's own numbers stay. It has the stack that the thread has.
+ *
  * While a guarded computation runs, the memory functions are the process's: not for a program
  * whose other threads compute with GMP under memory functions of their own.
  *
@@ -24,8 +27,8 @@
 
 #include "expr/id.h"
 
-/* The most memory that one computation may use, in bytes. */
-#define QDOT_FLINT_MEMORY ((size_t)2 << 30)
+/* The most memory that one computation may use, in bytes: 2 GB, of an address space of 32 bits 1 GB. */
+#define QDOT_FLINT_MEMORY ((size_t)1 << (sizeof(size_t) > 4 ? 31 : 30))
 
 /* Run work(user), guarded; inside another guarded computation simply run it. QDOT_OK: it
  * returned. QDOT_ENOMEM, QDOT_EINTR, QDOT_ELIMIT (past the bound, or FLINT gave up): it was left;

@@ -7,6 +7,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/process.h"
 #include "base/progress.h"
 #include "expr/constant.h"
 #include "sim/digits/precise-course.h"
@@ -336,7 +337,7 @@ integrate_pair(qdot_precise_pair *pair, double digits, qdot_domains *domains)
     qdot_progress_begin(mpfr_get_d(a->start.at[0], RN), mpfr_get_d(a->start.at[1], RN),
                         "run in %.0f digits", digits);
     b->interrupt = qdot_interrupt_own;
-    running = pthread_create(&thread, NULL, side_thread, b) == 0;
+    running = QDOT_MAY_THREAD && pthread_create(&thread, NULL, side_thread, b) == 0;
     integrate_side(a);
     if (running)
         pthread_join(thread, NULL);

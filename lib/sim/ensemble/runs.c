@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/process.h"
 #include "expr/constant.h"
 #include "ode/companion.h"
 #include "sim/ensemble/parts.h"
@@ -368,13 +369,13 @@ start_passes(qdot_ensemble *e, size_t passes)
 static qdot_status
 run_passes_in_threads(qdot_ensemble *e, size_t passes)
 {
-    pthread_t thread[QDOT_ENSEMBLE_PASSES];
+    pthread_t thread[QDOT_ENSEMBLE_PASSES] = {0};
     bool threaded[QDOT_ENSEMBLE_PASSES] = {false};
 
     for (size_t k = 1; k < passes; k++)
         e->passes[k].interrupt = qdot_interrupt_own;
     for (size_t k = 1; k < passes && !e->watching; k++)
-        threaded[k] = pthread_create(&thread[k], NULL, pass_thread, e->passes + k) == 0;
+        threaded[k] = QDOT_MAY_THREAD && pthread_create(&thread[k], NULL, pass_thread, e->passes + k) == 0;
     run_pass(e->passes);
     for (size_t m = 0; m < e->passes->run.members && e->watching; m++)
         for (size_t k = 1; k < passes && qdot_ensemble_left(e, m); k++)
