@@ -10,10 +10,11 @@
 
 /* --- arrays of numbers -------------------------------------------------------------- */
 
+/* Whole words of 64 bits, so the same precision on all machines: whole limbs, too, which have 64 or 32. */
 static mpfr_prec_t
 round_to_whole_limbs(mpfr_prec_t bits)
 {
-    return (bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS * GMP_NUMB_BITS;
+    return (bits + 63) / 64 * 64;
 }
 
 double
@@ -117,7 +118,7 @@ set_sum(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
         mpfr_set_zero(sum, 1);
         return;
     }
-    zeros = (unsigned)__builtin_clzll(acc[m - 1]);
+    zeros = (unsigned)__builtin_clzll(acc[m - 1]) - (64 - GMP_NUMB_BITS);
     if (zeros > 0)
         mpn_lshift(acc, acc, (mp_size_t)m, zeros);
     if (m >= limbs)

@@ -51,6 +51,7 @@ s/projected after [0-9][0-9]* steps\{0,1\}/projected after N steps/
 # What Taylor series are computed by is a matter of the processor.
 s/machine code for \(SSE2\|AVX2\|AVX-512\), [0-9.]* kB/CODE/
 s/kernels; machine code needs AVX2/CODE/
+s/kernels; machine code is for x86-64/CODE/
 # So is their order.
 s/^order: [0-9][0-9]*, chosen by/order: P, chosen by/
 s/order [0-9][0-9]*, \(.* an order; CODE\)/order P, \1/
