@@ -206,8 +206,8 @@ explain_declared(place *p, bool *found)
 
         for (const qdot_token *t = p->word; t < end; t++)
             qdot_text_add(&whole, t->text);
-        QDOT_TRY(qdot_text_status(&whole));
-        name = qdot_names_find(p->session->names, whole.at);
+        name = whole.failed ? NULL : qdot_names_find(p->session->names, qdot_text_str(&whole));
+        p->out->word.failed |= whole.failed;
         qdot_text_clear(&whole);
         if (name != NULL)
             take_index(p, end);
