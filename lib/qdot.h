@@ -138,7 +138,8 @@ qdot_result qdot_system_declare(qdot_system *system, const char *text);
  *
  * In QDOT_NOTATION_DISPLAY each line is a JSON object. A formula has "plain", "latex", "mathml" (as of those
  * notations) and "typeset", an object with the whole answer `name = formula` in "latex" and "mathml" (an
- * element <math>). What would be shown in a window or go to a file that no statement names is
+ * element <math>). Lines of text in which formulas stand, as those of `derive`, have besides "text" a part of a
+ * page, "html". What would be shown in a window or go to a file that no statement names is
  *     {"kind":"figure","mime":"image/svg+xml","name":"theta","data":"<svg ..."}
  * and `animate` and `report` need no file; then they give
  *     {"kind":"page","mime":"text/html","name":"run1","data":"<!DOCTYPE html>..."}

@@ -89,6 +89,29 @@ formulas_are_typeset(void **state)
     qdot_string_free(text);
 }
 
+/* Lines of text with formulas in them come as the part of a page, too, the same that goes to a file. */
+static void
+texts_are_typeset(void **state)
+{
+    char *text = display(*state, "derive; print \"T is\", T; help run; derive to \"test_display-d.html\"", QDOT_RESULT_OK);
+    char *page = calloc(1, 100000);
+    FILE *file = fopen("test_display-d.html", "r");
+    const char *at = find(text, "{\"kind\":\"text\",\"name\":\"derive\",\"text\":\"1. Positions: r(q, t)\\u000a    r[bob] = ");
+
+    find(at, ",\"html\":\"<h2>1. Positions: <math xmlns=");
+    find(at, "<msub><mrow><mi>r</mi></mrow><mrow><mtext>bob</mtext></mrow></msub></mtd><mtd class=");
+    at = find(at, "\"name\":\"print\",\"text\":\"T is 1/2*theta'^2\",\"html\":\"<p>T is <math");
+    at = find(at, "\"name\":\"help\",\"text\":\"run ");
+    assert_null(strstr(at, "\"html\""));
+    assert_non_null(file);
+    assert_true(fread(page, 1, 99999, file) > 1000);
+    fclose(file);
+    (void)unlink("test_display-d.html");
+    find(page, "<msub><mrow><mi>r</mi></mrow><mrow><mtext>bob</mtext></mrow></msub></mtd><mtd class=");
+    free(page);
+    qdot_string_free(text);
+}
+
 static void
 figures_are_answers_in_their_order(void **state)
 {
@@ -166,6 +189,7 @@ main(void)
 #define IN_A_SCENE(test) cmocka_unit_test_setup_teardown(test, begin, end)
     const struct CMUnitTest tests[] = {
         IN_A_SCENE(formulas_are_typeset),
+        IN_A_SCENE(texts_are_typeset),
         IN_A_SCENE(figures_are_answers_in_their_order),
         IN_A_SCENE(pages_are_answers),
         IN_A_SCENE(named_files_stay_files),

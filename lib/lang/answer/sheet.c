@@ -39,6 +39,19 @@ sheet_begin(qdot_session *session, qdot_sheet_form form, qdot_style style)
     return s;
 }
 
+/* Where a program displays answers: begin the same answer for a page of HTML, too. */
+static void
+begin_typeset(qdot_sheet *s)
+{
+    if (!qdot_write_displays(s->session))
+        return;
+    s->typeset = qdot_malloc(sizeof *s->typeset);
+    if (s->typeset != NULL)
+        *s->typeset = sheet_begin(s->session, QDOT_SHEET_PAGE, QDOT_MATHML);
+    else
+        s->formula.failed = true;
+}
+
 qdot_sheet
 qdot_sheet_begin(qdot_session *session)
 {
@@ -57,6 +70,7 @@ qdot_sheet_begin(qdot_session *session)
     s.broken = !session->output->flat;
     s.columns = columns;
     s.rows = rows;
+    begin_typeset(&s);
     return s;
 }
 
@@ -68,6 +82,7 @@ qdot_sheet_begin_words(qdot_session *session)
                     session->output->style);
 
     s.broken = true;
+    begin_typeset(&s);
     return s;
 }
 
@@ -80,6 +95,10 @@ qdot_sheet_begin_text(qdot_session *session, qdot_style style)
 void
 qdot_sheet_clear(qdot_sheet *s)
 {
+    if (s->typeset != NULL)
+        qdot_formula_clear(&s->typeset->formula);
+    qdot_free(s->typeset);
+    s->typeset = NULL;
     qdot_formula_clear(&s->formula);
 }
 
@@ -106,6 +125,8 @@ add_words_to_sheet(qdot_sheet *s, const char *text, size_t n)
 void
 qdot_sheet_words(qdot_sheet *s, const char *text)
 {
+    if (s->typeset != NULL)
+        qdot_sheet_words(s->typeset, text);
     for (;;) {
         const size_t n = strcspn(text, "\n");
 
@@ -168,24 +189,32 @@ qdot_sheet_known(qdot_sheet *s, double x, double error)
 void
 qdot_sheet_open(qdot_sheet *s)
 {
+    if (s->typeset != NULL)
+        qdot_sheet_open(s->typeset);
     s->at = qdot_formula_add(&s->formula, s->line, QDOT_FORMULA_SPAN, 0, 0);
 }
 
 void
 qdot_sheet_close(qdot_sheet *s)
 {
+    if (s->typeset != NULL)
+        qdot_sheet_close(s->typeset);
     s->at = s->line;
 }
 
 void
 qdot_sheet_sign(qdot_sheet *s, qdot_formula_sign sign)
 {
+    if (s->typeset != NULL)
+        qdot_sheet_sign(s->typeset, sign);
     qdot_formula_add_sign(&s->formula, s->at, sign);
 }
 
 qdot_status
 qdot_sheet_expr(qdot_sheet *s, qdot_expr e)
 {
+    if (s->typeset != NULL)
+        QDOT_TRY(qdot_sheet_expr(s->typeset, e));
     return qdot_expression_add(s->session, e, s->notation, &s->formula, s->at);
 }
 
@@ -208,6 +237,8 @@ add_name_by_words(qdot_sheet *s, const char *name, unsigned flags)
 qdot_status
 qdot_sheet_name(qdot_sheet *s, const char *name, unsigned flags)
 {
+    if (s->typeset != NULL)
+        QDOT_TRY(qdot_sheet_name(s->typeset, name, flags));
     if (s->form == QDOT_SHEET_DRAWN)
         return add_name_by_words(s, name, flags);
     return qdot_typed_name_add(s->session, name, s->style, &s->formula, s->at, flags);
@@ -220,6 +251,20 @@ qdot_sheet_formula(qdot_sheet *s, qdot_expr e)
     QDOT_TRY(qdot_sheet_expr(s, e));
     qdot_sheet_close(s);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_sheet_each(qdot_sheet *s, qdot_status (*write)(qdot_sheet *one, void *data), void *data)
+{
+    struct qdot_sheet *const typeset = s->typeset;
+    qdot_status status;
+
+    s->typeset = NULL; /* what `write` adds to one is not added to the other */
+    status = write(s, data);
+    if (status == QDOT_OK && typeset != NULL)
+        status = write(typeset, data);
+    s->typeset = typeset;
+    return status;
 }
 
 bool
@@ -392,18 +437,39 @@ find_or_make_page_block(qdot_session *session)
 }
 
 static qdot_status
-add_sheet_to_page(const qdot_sheet *s)
+add_lines_to_page(const qdot_sheet *s, qdot_formula_page *page)
 {
-    qdot_formula_page *page = s->page != NULL ? s->page : find_or_make_page_block(s->session);
-
-    if (page == NULL)
-        return QDOT_ENOMEM;
     QDOT_TRY(qdot_formula_status(&s->formula));
     for (qdot_formula_id line = 0;
          (line = qdot_formula_child(&s->formula, s->lines, line)) != 0;)
         if (!is_empty_last_line(s, line))
             qdot_formula_page_line(page, &s->formula, line);
     return page->status;
+}
+
+static qdot_status
+add_sheet_to_page(const qdot_sheet *s)
+{
+    qdot_formula_page *page = s->page != NULL ? s->page : find_or_make_page_block(s->session);
+
+    return page != NULL ? add_lines_to_page(s, page) : QDOT_ENOMEM;
+}
+
+/* Answer lines of text, with the part of a page of HTML in which they are typeset. */
+static qdot_status
+answer_typeset(const qdot_sheet *s, const char *name, const qdot_text *lines)
+{
+    qdot_formula_page page = {.kind = QDOT_PAGE_MATHML};
+    qdot_text html = {0};
+    qdot_status status = add_lines_to_page(s->typeset, &page);
+
+    if (status == QDOT_OK)
+        status = qdot_formula_page_end(&page, &html);
+    qdot_formula_page_clear(&page);
+    if (status == QDOT_OK)
+        status = qdot_answer_typeset(s->session, name, qdot_text_str(lines), qdot_text_str(&html));
+    qdot_text_clear(&html);
+    return status;
 }
 
 qdot_status
@@ -424,7 +490,12 @@ qdot_sheet_end(qdot_sheet *s, const char *name, qdot_status status)
         status = add_sheet_to_page(s);
     else if (status == QDOT_OK && s->form == QDOT_SHEET_DRAWN)
         status = print_sheet(s, name);
-    else if (status == QDOT_OK)
+    else if (status == QDOT_OK && s->typeset != NULL) {
+        status = write_lines(s, false, &lines);
+        if (status == QDOT_OK)
+            status = answer_typeset(s, name, &lines);
+        qdot_text_clear(&lines);
+    } else if (status == QDOT_OK)
         status = (s->broken ? qdot_answer_written : qdot_answer_drawn)(
             s->session, name, write_lines(s, qdot_write_colours(s->session), &lines),
             &lines);

@@ -25,8 +25,9 @@ typedef enum {
     QDOT_SHEET_PAGE   /* as a part of a page, in LaTeX or HTML */
 } qdot_sheet_form;
 
-typedef struct {
+typedef struct qdot_sheet {
     qdot_session *session;
+    struct qdot_sheet *typeset; /* the same answer as a part of a page of HTML, where a program displays answers; NULL: not */
     qdot_sheet_form form;
     qdot_style style; /* style of formulas that are written as text */
     qdot_notation_kind notation;
@@ -68,6 +69,10 @@ QDOT_MUST_CHECK qdot_status qdot_sheet_name(qdot_sheet *sheet, const char *name,
 
 /* Append e to the answer as a formula. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_formula(qdot_sheet *sheet, qdot_expr e);
+
+/* Add parts that the functions above do not have: `write` adds them to the formula of the sheet that it gets, which is
+ * each in which the answer is kept. Returns its first failure. */
+QDOT_MUST_CHECK qdot_status qdot_sheet_each(qdot_sheet *sheet, qdot_status (*write)(qdot_sheet *one, void *data), void *data);
 
 /* _at_begin: whether the present line is empty; _is_empty: whether the whole sheet is. */
 bool qdot_sheet_at_begin(const qdot_sheet *sheet);

@@ -101,26 +101,34 @@ qdot_write_field(qdot_text *line, const char *before, const char *text)
     qdot_text_json(line, text);
 }
 
+/* Write a text as an object of JSON; html: how it is typeset, or NULL. */
+static qdot_status
+write_text_object(qdot_session *session, const char *name, const char *text, const char *html)
+{
+    qdot_text line = {0}, plain = {0};
+
+    qdot_wrap(text, 0, &plain);
+    qdot_write_field(&line, "{\"kind\":\"text\",\"name\":", name);
+    qdot_write_field(&line, ",\"text\":", qdot_text_str(&plain));
+    if (html != NULL)
+        qdot_write_field(&line, ",\"html\":", html);
+    qdot_text_add(&line, "}\n");
+    line.failed = line.failed || plain.failed;
+    qdot_text_clear(&plain);
+    return qdot_write_object(session, session->output->out, &line);
+}
+
 static qdot_status
 write_answer(qdot_session *session, const char *name, const char *text, bool drawn)
 {
-    qdot_text line = {0}, plain = {0};
+    qdot_text line = {0};
     size_t n = strlen(text);
 
-    if (session->output->json) {
-        qdot_wrap(text, 0, &plain);
-        qdot_write_field(&line, "{\"kind\":\"text\",\"name\":", name);
-        qdot_write_field(&line, ",\"text\":", qdot_text_str(&plain));
-        qdot_text_add(&line, "}\n");
-        line.failed = line.failed || plain.failed;
-        qdot_text_clear(&plain);
-    } else {
-        qdot_text_add_n(&line, text, n);
-        if (n == 0 || text[n - 1] != '\n')
-            qdot_text_char(&line, '\n');
-    }
     if (session->output->json)
-        return qdot_write_object(session, session->output->out, &line);
+        return write_text_object(session, name, text, NULL);
+    qdot_text_add_n(&line, text, n);
+    if (n == 0 || text[n - 1] != '\n')
+        qdot_text_char(&line, '\n');
     return drawn ? write_out(session, session->output->out, &line) : qdot_write(session, session->output->out, &line);
 }
 
@@ -128,6 +136,12 @@ qdot_status
 qdot_answer_text(qdot_session *session, const char *name, const char *text)
 {
     return write_answer(session, name, text, false);
+}
+
+qdot_status
+qdot_answer_typeset(qdot_session *session, const char *name, const char *text, const char *html)
+{
+    return write_text_object(session, name, text, html);
 }
 
 /* Write a text if `status` is QDOT_OK; free it in any case. Returns the first failure. */

@@ -40,6 +40,9 @@ void qdot_write_field(qdot_text *line, const char *before, const char *text);
 /* Answer {"kind":"text"}: the text unchanged, with a newline added if it has none at its end. */
 QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
                                              const char *text);
+/* As qdot_answer_text where answers are displayed, with a part of a page of HTML that shows the text typeset. */
+QDOT_MUST_CHECK qdot_status qdot_answer_typeset(qdot_session *session, const char *name, const char *text,
+                                                const char *html);
 /* The same of a text that was written with that status, which is returned if it is none; the text
  * is cleared. */
 QDOT_MUST_CHECK qdot_status qdot_answer_written(qdot_session *session, const char *name,

@@ -11,37 +11,48 @@
 
 /* Whether symbols are written in one line, v[bob]^2, rather than with raised and lowered parts. */
 static bool
-is_written_in_one_line(const qdot_derivation *d)
+is_written_in_one_line(const qdot_sheet *s)
 {
-    return d->sheet.form == QDOT_SHEET_DRAWN || d->sheet.notation != QDOT_NOTATION_DRAWN;
+    return s->form == QDOT_SHEET_DRAWN || s->notation != QDOT_NOTATION_DRAWN;
 }
 
 /* The notation in which the formulas within a line are written. */
 static qdot_notation_kind
-notation_within_line(const qdot_derivation *d)
+notation_within_line(const qdot_sheet *s)
 {
-    return d->sheet.notation == QDOT_NOTATION_SCRIPT ? QDOT_NOTATION_SCRIPT : QDOT_NOTATION_LINE;
+    return s->notation == QDOT_NOTATION_SCRIPT ? QDOT_NOTATION_SCRIPT : QDOT_NOTATION_LINE;
+}
+
+/* Append the formula in the title of a step. */
+static qdot_status
+append_formula_of_step(qdot_sheet *s, void *data)
+{
+    const char *formula = *(const char **)data;
+    qdot_text line = {0};
+
+    if (is_written_in_one_line(s)) {
+        qdot_notation_print(formula, notation_within_line(s), &line);
+        qdot_sheet_words(s, qdot_text_str(&line));
+    } else {
+        qdot_sheet_open(s);
+        qdot_notation_add(&s->formula, s->at, formula, QDOT_NOTATION_DRAWN);
+        qdot_sheet_close(s);
+    }
+    s->formula.failed = s->formula.failed || line.failed;
+    qdot_text_clear(&line);
+    return QDOT_OK;
 }
 
 void
 qdot_derive_step(qdot_derivation *d, const char *title, const char *formula)
 {
     qdot_sheet *s = &d->sheet;
-    qdot_text line = {0};
 
     qdot_sheet_format(s, "%s%d. %s%s", d->step > 0 ? "\n" : "", d->step + 1, title, formula != NULL ? ": " : "");
     d->step++;
-    if (formula != NULL && is_written_in_one_line(d)) {
-        qdot_notation_print(formula, notation_within_line(d), &line);
-        qdot_sheet_words(s, qdot_text_str(&line));
-    } else if (formula != NULL) {
-        qdot_sheet_open(s);
-        qdot_notation_add(&s->formula, s->at, formula, QDOT_NOTATION_DRAWN);
-        qdot_sheet_close(s);
-    }
+    if (formula != NULL)
+        (void)!qdot_sheet_each(s, append_formula_of_step, &formula); /* its failure is kept by the sheet */
     qdot_sheet_words(s, "\n");
-    s->formula.failed = s->formula.failed || line.failed;
-    qdot_text_clear(&line);
 }
 
 void
@@ -64,35 +75,35 @@ write_equal_to(qdot_derivation *d, qdot_expr value)
 
 /* Add a symbol, squared or not, in one line of text: letter, index in brackets, square. */
 static qdot_status
-append_symbol_in_line(qdot_derivation *d, const qdot_derived_symbol *x)
+append_symbol_in_line(qdot_sheet *s, const qdot_derived_symbol *x)
 {
-    const bool script = notation_within_line(d) == QDOT_NOTATION_SCRIPT;
+    const bool script = notation_within_line(s) == QDOT_NOTATION_SCRIPT;
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
-    qdot_notation_print(x->letter, notation_within_line(d), &text);
+    qdot_notation_print(x->letter, notation_within_line(s), &text);
     if (x->of != NULL) {
         qdot_text_char(&text, '[');
         if (x->coordinate != QDOT_NIL)
-            status = qdot_print(d->session->pool, x->coordinate, script ? QDOT_PLAIN : QDOT_UNICODE, &text);
+            status = qdot_print(s->session->pool, x->coordinate, script ? QDOT_PLAIN : QDOT_UNICODE, &text);
         else
             qdot_text_add(&text, x->of);
         qdot_text_char(&text, ']');
     }
     qdot_text_add(&text, !x->square ? "" : script ? "^2" : "²");
     if (status == QDOT_OK)
-        qdot_formula_add_text(&d->sheet.formula, d->sheet.at, QDOT_TEXT_WORDS, qdot_text_str(&text), text.n);
-    d->sheet.formula.failed = d->sheet.formula.failed || text.failed;
+        qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_WORDS, qdot_text_str(&text), text.n);
+    s->formula.failed = s->formula.failed || text.failed;
     qdot_text_clear(&text);
     return status;
 }
 
 /* Add a symbol, squared or not, to a drawn formula: index below, square above. */
 static qdot_status
-append_drawn_symbol(qdot_derivation *d, const qdot_derived_symbol *x)
+append_drawn_symbol(qdot_sheet *s, const qdot_derived_symbol *x)
 {
-    qdot_formula *f = &d->sheet.formula;
-    const qdot_formula_id outer = d->sheet.at,
+    qdot_formula *f = &s->formula;
+    const qdot_formula_id outer = s->at,
                           power = x->square ? qdot_formula_add(f, outer, QDOT_FORMULA_POWER, 0, 0) : outer;
     qdot_formula_id index, row;
     qdot_status status = QDOT_OK;
@@ -103,16 +114,24 @@ append_drawn_symbol(qdot_derivation *d, const qdot_derived_symbol *x)
         index = qdot_formula_add(f, power, QDOT_FORMULA_INDEX, 0, 0);
         row = qdot_formula_add(f, index, QDOT_FORMULA_ROW, 0, 0);
         qdot_notation_add(f, row, x->letter, QDOT_NOTATION_DRAWN);
-        d->sheet.at = qdot_formula_add(f, index, QDOT_FORMULA_ROW, 0, 0);
+        s->at = qdot_formula_add(f, index, QDOT_FORMULA_ROW, 0, 0);
         if (x->coordinate != QDOT_NIL)
-            status = qdot_sheet_expr(&d->sheet, x->coordinate);
+            status = qdot_sheet_expr(s, x->coordinate);
         else
-            qdot_formula_add_text(f, d->sheet.at, QDOT_TEXT_LABEL, x->of, strlen(x->of));
+            qdot_formula_add_text(f, s->at, QDOT_TEXT_LABEL, x->of, strlen(x->of));
     }
     if (x->square)
         qdot_formula_add_text(f, power, QDOT_TEXT_NUMBER, "2", 1);
-    d->sheet.at = outer;
+    s->at = outer;
     return status;
+}
+
+static qdot_status
+append_symbol(qdot_sheet *s, void *data)
+{
+    const qdot_derived_symbol *x = data;
+
+    return is_written_in_one_line(s) ? append_symbol_in_line(s, x) : append_drawn_symbol(s, x);
 }
 
 /* Indent the line if it is still empty. */
@@ -129,24 +148,26 @@ qdot_derive_equation(qdot_derivation *d, qdot_derived_symbol x, qdot_expr value)
     QDOT_TRY(qdot_pool_check(d->session->pool));
     indent_empty_line(d);
     qdot_sheet_open(&d->sheet);
-    QDOT_TRY(is_written_in_one_line(d) ? append_symbol_in_line(d, &x) : append_drawn_symbol(d, &x));
+    QDOT_TRY(qdot_sheet_each(&d->sheet, append_symbol, &x));
     return write_equal_to(d, value);
 }
 
-qdot_status
-qdot_derive_derivative(qdot_derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
-{
-    qdot_session *s = d->session;
-    qdot_sheet *sheet = &d->sheet;
-    qdot_formula *f = &sheet->formula;
-    qdot_expr q = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i], fast);
-    qdot_formula_id outer, fraction;
+/* dF/dq, with d/dt before it. */
+typedef struct {
+    char F;
+    bool total;
+    qdot_expr q;
+} derivative;
 
-    QDOT_TRY(qdot_pool_check(s->pool));
-    qdot_sheet_words(sheet, "    ");
-    qdot_sheet_open(sheet);
-    outer = sheet->at;
-    if (total) {
+static qdot_status
+append_derivative(qdot_sheet *sheet, void *data)
+{
+    const derivative *x = data;
+    qdot_formula *f = &sheet->formula;
+    const qdot_formula_id outer = sheet->at;
+    qdot_formula_id fraction;
+
+    if (x->total) {
         qdot_notation_add(f, outer, "d/dt", sheet->notation);
         qdot_sheet_sign(sheet, QDOT_SIGN_BESIDE);
     }
@@ -156,11 +177,24 @@ qdot_derive_derivative(qdot_derivation *d, char F, bool total, bool fast, size_t
         qdot_sheet_sign(sheet, QDOT_SIGN_PARTIAL);
         qdot_sheet_sign(sheet, QDOT_SIGN_BLANK);
         if (side == 0)
-            qdot_formula_add_text(f, sheet->at, QDOT_TEXT_NAME, &F, 1);
+            qdot_formula_add_text(f, sheet->at, QDOT_TEXT_NAME, &x->F, 1);
         else
-            QDOT_TRY(qdot_sheet_expr(sheet, q));
+            QDOT_TRY(qdot_sheet_expr(sheet, x->q));
     }
     sheet->at = outer;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_derive_derivative(qdot_derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
+{
+    qdot_session *s = d->session;
+    derivative x = {F, total, qdot_symbol_jet(s->pool, s->scene->coordinates.at[i], fast)};
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    qdot_sheet_words(&d->sheet, "    ");
+    qdot_sheet_open(&d->sheet);
+    QDOT_TRY(qdot_sheet_each(&d->sheet, append_derivative, &x));
     return write_equal_to(d, value);
 }
 
