@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "qdot.h"
 
 static const char scene[] = "coord theta\n"
@@ -183,6 +184,27 @@ notices_and_errors_stand_among_the_answers(void **state)
     qdot_system_free(s);
 }
 
+static void
+failing_memory_is_reported(void **state)
+{
+    qdot_system *s = *state;
+
+    for (long n = 0;; n += 1 + n / 20) {
+        qdot_result result;
+        char *text;
+
+        qdot_memory_fail_at(n);
+        result = qdot_system_ask(s, "derive; print \"T is\", T", QDOT_NOTATION_DISPLAY, &text);
+        qdot_memory_fail_at(-1);
+        qdot_string_free(text);
+        if (result == QDOT_RESULT_OK) {
+            assert_true(n > 100);
+            return;
+        }
+        assert_int_equal(result, QDOT_RESULT_NO_MEMORY);
+    }
+}
+
 int
 main(void)
 {
@@ -193,6 +215,7 @@ main(void)
         IN_A_SCENE(figures_are_answers_in_their_order),
         IN_A_SCENE(pages_are_answers),
         IN_A_SCENE(named_files_stay_files),
+        IN_A_SCENE(failing_memory_is_reported),
         cmocka_unit_test(notices_and_errors_stand_among_the_answers),
     };
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "qdot.h"
 
 static const char pendulum[] = "param m, l, g > 0\n"
@@ -137,6 +138,34 @@ errors_name_the_text(void **state)
     assert_int_equal(qdot_system_compile(NULL, "T", "", NULL), QDOT_RESULT_INVALID);
 }
 
+/* Whatever allocation fails, the call says so, and the system can be used again. */
+static void
+failing_memory_is_reported(void **state)
+{
+    qdot_system *s = *state;
+    const double in[] = {0.5, 1};
+    double out;
+
+    for (long n = 0;; n += 1 + n / 50) {
+        qdot_function *f;
+        qdot_result result;
+
+        qdot_memory_fail_at(n);
+        result = qdot_system_compile(s, "T + sin(theta)/m", "theta, theta'", &f);
+        qdot_memory_fail_at(-1);
+        if (result == QDOT_RESULT_OK) {
+            qdot_memory_fail_at(0);
+            assert_int_equal(qdot_function_values(f, 1, in, &out), QDOT_RESULT_NO_MEMORY);
+            qdot_memory_fail_at(-1);
+            qdot_function_free(f);
+            assert_true(n > 20);
+            return;
+        }
+        assert_int_equal(result, QDOT_RESULT_NO_MEMORY);
+        assert_null(f);
+    }
+}
+
 static void *
 evaluate(void *data)
 {
@@ -181,6 +210,7 @@ main(void)
         IN_A_SCENE(momenta_are_variables_or_follow),
         IN_A_SCENE(what_is_undefined_is_no_number),
         IN_A_SCENE(errors_name_the_text),
+        IN_A_SCENE(failing_memory_is_reported),
         cmocka_unit_test(functions_are_shared),
     };
 
