@@ -69,6 +69,12 @@ qdot_interrupt_is_set(void)
            (own != NULL && atomic_load_explicit(&own->state, memory_order_relaxed) == ASKED);
 }
 
+int
+qdot_interrupt_checks_left(void)
+{
+    return atomic_load(&checks_left);
+}
+
 qdot_status
 qdot_interrupt_check(void)
 {

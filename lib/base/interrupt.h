@@ -47,7 +47,9 @@ bool qdot_interrupt_is_set(void);
 /* Return QDOT_EINTR, recorded as a failure, if this thread's computation shall stop. */
 qdot_status qdot_interrupt_check(void);
 
-/* For tests: simulate Ctrl-C at the n-th check from now (n = 0: the next); n < 0: never. */
+/* Simulate Ctrl-C at the n-th check from now (n = 0: the next); n < 0: never. For tests, and for work with a budget. */
 void qdot_interrupt_set_at(int n);
+/* How many checks are left of those; negative: none. */
+int qdot_interrupt_checks_left(void);
 
 #endif
