@@ -57,6 +57,7 @@ typedef struct {
     qdot_vec(frame) frames;
     qdot_vec(qdot_usage *) usages; /* compiled usages of the statements met so far */
     bool naming; /* only the names of the statement are declared, before its loop */
+    const qdot_look *look; /* statements are parsed only, and their expressions handed over; NULL: carried out */
     size_t error_at;
 } engine;
 
@@ -125,10 +126,14 @@ carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
     if (usage == NULL)
         return QDOT_ENOMEM;
     status = qdot_match(c, row, usage, &record);
-    if (status == QDOT_OK && !x->naming)
-        status = qdot_session_refuse_unmade(record.cursor.session, row->word);
-    if (status == QDOT_OK)
-        status = x->naming ? row->names(&record) : qdot_match_handle(row, &record);
+    if (status == QDOT_OK && x->look != NULL) {
+        status = qdot_look_at_record(x->look, &record);
+    } else if (status == QDOT_OK) {
+        if (!x->naming)
+            status = qdot_session_refuse_unmade(record.cursor.session, row->word);
+        if (status == QDOT_OK)
+            status = x->naming ? row->names(&record) : qdot_match_handle(row, &record);
+    }
     c->at = record.cursor.at;
     c->error_at = record.cursor.error_at;
     qdot_record_free(&record);
@@ -154,6 +159,8 @@ dispatch_statement(engine *x, qdot_cursor *c)
 {
     const qdot_form form = qdot_statement_form(c->session, c->at);
 
+    if (x->look != NULL && form != QDOT_FORM_WORD && form != QDOT_FORM_UNKNOWN)
+        return qdot_look_at_wordless(x->look, c, form);
     if (form == QDOT_FORM_DEFINITION) {
         QDOT_TRY(qdot_declare_definition(c));
     } else if (form == QDOT_FORM_WORD) {
@@ -223,6 +230,12 @@ dispatch_with_output_file(engine *x, qdot_cursor *c, size_t to)
     qdot_status status;
 
     c->error_at = x->tokens[to + 1].start;
+    if (x->look != NULL) {
+        kind = qdot_outline_cut(&x->tokens[to]);
+        status = dispatch_statement(x, c);
+        qdot_outline_join(&x->tokens[to], kind);
+        return status;
+    }
     QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
     kind = qdot_outline_cut(&x->tokens[to]);
     status = dispatch_in_loop(x, c);
@@ -339,8 +352,8 @@ static qdot_status
 go_through_passes(engine *x, size_t i, const qdot_token *word, qdot_record *clause)
 {
     qdot_loop loop = {0};
-    bool more = false;
-    qdot_status status = begin_loop(x, &loop, clause, &more);
+    bool more = x->look != NULL;
+    qdot_status status = x->look == NULL ? begin_loop(x, &loop, clause, &more) : QDOT_OK;
 
     while (status == QDOT_OK && more) {
         const qdot_token_kind kind = qdot_outline_cut(word);
@@ -351,7 +364,9 @@ go_through_passes(engine *x, size_t i, const qdot_token *word, qdot_record *clau
             add_loop_values_to_error(x, &loop);
             break;
         }
-        status = qdot_loop_next(&loop, &more);
+        more = false;
+        if (x->look == NULL)
+            status = qdot_loop_next(&loop, &more);
         x->error_at = status != QDOT_OK ? clause->cursor.error_at : x->error_at;
     }
     qdot_loop_end(&loop);
@@ -367,7 +382,7 @@ carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
     qdot_record clause;
     qdot_status status = read_clause(x, &c, &x->tokens[i], word, false, &clause);
 
-    if (status == QDOT_OK && row != NULL && row->names != NULL) {
+    if (status == QDOT_OK && row != NULL && row->names != NULL && x->look == NULL) {
         x->naming = true;
         status = go_through_passes(x, i, word, &clause);
         x->naming = false;
@@ -517,7 +532,9 @@ enter_block(engine *x, size_t i, size_t *next)
     if (f.clause == NULL)
         return QDOT_ENOMEM;
     status = read_clause(x, &c, first, close, true, f.clause);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && x->look != NULL)
+        more = true;
+    else if (status == QDOT_OK)
         status = begin_loop(x, &f.loop, f.clause, &more);
     *next = more ? f.body : f.resume;
     if (status == QDOT_OK && more)
@@ -533,7 +550,7 @@ begin_next_pass(engine *x, size_t *next)
 {
     frame *top = &x->frames.at[x->frames.n - 1];
     bool more = false;
-    qdot_status status = qdot_loop_next(&top->loop, &more);
+    qdot_status status = x->look == NULL ? qdot_loop_next(&top->loop, &more) : QDOT_OK;
 
     if (status != QDOT_OK)
         x->error_at = top->clause->cursor.error_at;
@@ -563,7 +580,7 @@ static qdot_status
 carry_out_statement_or_block(engine *x, size_t *i)
 {
     const qdot_token *first = &x->tokens[*i], *last;
-    size_t begun = qdot_undo_begin(x->session);
+    size_t begun = x->look == NULL ? qdot_undo_begin(x->session) : 0;
     const size_t facts = x->session->units->facts.n;
     qdot_status status;
 
@@ -577,8 +594,8 @@ carry_out_statement_or_block(engine *x, size_t *i)
     last -= last > first;
     if (status != QDOT_OK) /* what a failed statement said of dimensions is not kept */
         qdot_units_back_to(x->session, facts);
-    qdot_undo_end(x->session, begun, x->source->text + first->start,
-                  last->start + last->length - first->start);
+    if (x->look == NULL)
+        qdot_undo_end(x->session, begun, x->source->text + first->start, last->start + last->length - first->start);
     if (status == QDOT_OK) /* after a failure, the statement ends only when its error has been printed */
         qdot_typed_end(x->session, x->source->text + first->start, last->start + last->length - first->start, status);
     return status;
@@ -602,16 +619,19 @@ carry_out_all(engine *x)
 static void
 report_error(engine *x)
 {
+    x->session->outcome->error_at = x->error_at;
     qdot_typed_begin(x->session, x->source, x->error_at);
     qdot_answer_error(x->session, x->source, x->error_at);
 }
 
 /* --- a whole script ----------------------------------------------------------------- */
 
-qdot_status
-qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length)
+/* Carry out a text, or look at it only. */
+static qdot_status
+go_through_text(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length,
+                const qdot_look *look)
 {
-    engine x = {.session = session};
+    engine x = {.session = session, .look = look};
     qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
     size_t outer = qdot_undo_text_begin(session);
 
@@ -619,7 +639,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, 
         x.source->lines_before = before;
     session->typed->texts++;
     (void)qdot_memory_ran_out(); /* clears the flag of earlier failures, which were reported */
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && look == NULL)
         status = qdot_session_remarks_keep(session, text, length);
     if (status == QDOT_OK) {
         x.tokens = x.source->tokens.at;
@@ -648,4 +668,17 @@ qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, 
     qdot_free(x.match);
     qdot_source_free(x.source);
     return status;
+}
+
+qdot_status
+qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length)
+{
+    return go_through_text(session, name, before, text, length, NULL);
+}
+
+qdot_status
+qdot_script_look_at(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length,
+                    const qdot_look *look)
+{
+    return go_through_text(session, name, before, text, length, look);
 }

@@ -6,6 +6,7 @@
 #define QDOT_LANG_SCRIPT_H
 
 #include "lang/session/parts.h"
+#include "lang/workbench/look.h"
 
 /* Carry out a text. `name` is what errors call it ("a.lag", "-e", "prompt"). Stops at the
  * first error, which is reported on err (and as JSON on out). Returns the exit status so far: 0, 1 a
@@ -35,5 +36,11 @@ QDOT_MUST_CHECK qdot_status qdot_script_carry_out(qdot_session *session, const c
  * are not reported yet). */
 QDOT_MUST_CHECK qdot_status qdot_script_carry_out_file(qdot_session *session,
                                                        const char *path, bool *opened);
+
+
+/* As qdot_script_carry_out, but every statement is only parsed by its usage; its loop has no passes, nothing is evaluated
+ * beyond what decides how an expression is read, no file is opened. */
+QDOT_MUST_CHECK qdot_status qdot_script_look_at(qdot_session *session, const char *name, uint32_t before, const char *text,
+                                                size_t length, const qdot_look *look);
 
 #endif
