@@ -21,7 +21,7 @@ _qdot()
     esac
     case $word in
     -*)
-        mapfile -t COMPREPLY < <(compgen -W '-e --execute= -i --interactive --json --no-init -q --quiet
+        mapfile -t COMPREPLY < <(compgen -W '-e --execute= -i --interactive --json --lsp --no-init -q --quiet
             --processor= -h --help -V --version' -- "$word")
         [[ ${COMPREPLY[0]-} != *= ]] || compopt -o nospace
         ;;

@@ -18,6 +18,9 @@
 #include "lang/session/output.h"
 #include "lang/session/session.h"
 #include "lang/workbench/script.h"
+#ifdef HAVE_JANSSON
+# include "lsp/server.h"
+#endif
 #include "num/kinds.h"
 #include "parallel/ranks.h"
 #include "progress-line.h"
@@ -39,6 +42,8 @@ static const char usage[] =
     "  -e, --execute=STATEMENTS  carry out STATEMENTS\n"
     "  -i, --interactive         continue at the prompt afterwards\n"
     "      --json                print a JSON object for each result, nothing else\n"
+    "      --lsp                 serve an editor: the Language Server Protocol on standard\n"
+    "                            input and output\n"
     "      --no-init             do not read the prompt's startup file,\n"
     "                            $XDG_CONFIG_HOME/qdot/init.lag\n"
     "  -q, --quiet               print no banner\n"
@@ -72,7 +77,8 @@ typedef struct {
 
 typedef struct {
     qdot_vec(task) tasks;
-    bool interactive, json, quiet, no_init;
+    bool interactive, json, quiet, no_init, server;
+    const char *task;  /* what the server has this process do; NULL: it is the server */
     const char *print; /* text of --help or --version, printed instead of running anything */
 } options;
 
@@ -80,6 +86,7 @@ static const struct option names[] = {
     {"execute", required_argument, NULL, 'e'},
     {"interactive", no_argument, NULL, 'i'},
     {"json", no_argument, NULL, 'j'},
+    {"lsp", optional_argument, NULL, 'l'}, /* the argument is for processes of the server */
     {"quiet", no_argument, NULL, 'q'},
     {"no-init", no_argument, NULL, 'n'},
     {"processor", required_argument, NULL, 'p'},
@@ -122,6 +129,7 @@ options_read(int argc, char **argv, options *o)
         case 'e': QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, true}))); break;
         case 'i': o->interactive = true; break;
         case 'j': o->json = true; break;
+        case 'l': o->server = true; o->task = optarg; break;
         case 'n': o->no_init = true; break;
         case 'q': o->quiet = true; break;
         case 'h': o->print = o->print != NULL ? o->print : usage; break;
@@ -230,6 +238,21 @@ join_ranks(const options *o)
     return QDOT_EINVAL;
 }
 
+/* Serve an editor until it ends that. */
+static int
+serve_editor(const char *program, const char *task)
+{
+#ifdef HAVE_JANSSON
+    return qdot_lsp_run(program, task);
+#else
+    (void)program, (void)task;
+    fputs("qdot: --lsp: this program was built without jansson, which the language server needs\n"
+          "hint: install it (Debian: libjansson-dev) and build qdot anew\n",
+          stderr);
+    return FAILED;
+#endif
+}
+
 /* Make the session of a rank other than 0, which computes, but whose answers rank 0 gives. */
 static qdot_session *
 make_silent_session(void)
@@ -260,6 +283,10 @@ main(int argc, char **argv)
         if (!qdot_ranks_are_others())
             fputs(o.print, stdout);
         return final_exit_status(DONE);
+    }
+    if (o.server) {
+        qdot_free(o.tasks.at);
+        return serve_editor(argv[0], o.task);
     }
     if (join_ranks(&o) != QDOT_OK) {
         qdot_free(o.tasks.at);
