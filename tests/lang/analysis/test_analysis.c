@@ -33,6 +33,7 @@ what_takes_long_is_parsed_only(void **state)
 {
     says(state, "coord x\nlagrangian x'^2/2 - x^2/2\nrun 0..1e12 as a\nE = value(a.x, 3)\nE + 1\ntable a.(x + thta) every 1\n",
          "88-92 error: unknown name `thta` | `param thta` declares a parameter, `coord thta` a coordinate\n");
+    says(state, "coord x\nspeed w = 2*x'\nlagrangian x'^2/2\nstart x' = 1\nrun 0..1 as a\nstart a\nstart w = 0.25\n", "");
     says(state, "coord x\nsweep x = 0..1 count 3 run 0..1 : x as s\ntable s\nfit x to \"none.csv\" : t, x\n", "");
 }
 
