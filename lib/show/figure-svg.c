@@ -18,13 +18,13 @@ void
 qdot_figure_svg_add(qdot_text *s, double length)
 {
     const double hundredths = fmin(fmax(round(100 * length), -1e9), 1e9);
-    const long whole = (long)fabs(hundredths);
+    const int whole = (int)fabs(hundredths);
 
-    qdot_text_format(s, "%s%ld", hundredths < 0 ? "-" : "", whole / 100);
+    qdot_text_format(s, "%s%d", hundredths < 0 ? "-" : "", whole / 100);
     if (whole % 10 != 0)
-        qdot_text_format(s, ".%02ld", whole % 100);
+        qdot_text_format(s, ".%02d", whole % 100);
     else if (whole % 100 != 0)
-        qdot_text_format(s, ".%ld", whole % 100 / 10);
+        qdot_text_format(s, ".%d", whole % 100 / 10);
 }
 
 void
