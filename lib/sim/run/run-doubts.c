@@ -110,6 +110,25 @@ least_acceleration_exceeds(const qdot_trajectory *tr)
     return moves;
 }
 
+static void
+forget_underflows(void)
+{
+#ifdef FE_UNDERFLOW
+    (void)feclearexcept(FE_UNDERFLOW);
+#endif
+}
+
+/* Whether an operation has underflowed since; perhaps on a machine without the flags of IEEE 754, as WebAssembly is. */
+static bool
+may_have_underflowed(void)
+{
+#ifdef FE_UNDERFLOW
+    return fetestexcept(FE_UNDERFLOW) != 0;
+#else
+    return true;
+#endif
+}
+
 /* Whether at this point of the run a number of the equations underflows in a way that moves a coordinate, or, beside a
  * run so `long_` that any such loss does, underflows at all or has an acceleration so small that its series does.
  *   a [n]  room for q'' and for what it loses */
@@ -120,12 +139,12 @@ check_underflow_at_point(const qdot_course *course, const qdot_ode_system *syste
     const size_t n = tr->n / 2;
     const double *y = tr->y + k * tr->n, least = of_series * DBL_MIN;
 
-    (void)feclearexcept(FE_UNDERFLOW);
+    forget_underflows();
     if (qdot_bind_accelerations(system, tr->t[k], y, a) != QDOT_OK)
         return QDOT_OK;
     for (size_t j = 0; j < n && is_long; j++)
         *found = *found || (a[j] != 0 && fabs(a[j]) < least);
-    if (fetestexcept(FE_UNDERFLOW) == 0 || *found)
+    if (!may_have_underflowed() || *found)
         return QDOT_OK;
     *found = is_long;
     QDOT_TRY(qdot_bind_underflows(system, tr->t[k], y, a, a + n));
