@@ -1,6 +1,7 @@
 /* print-tree.c -- writes expressions as JSON arrays in prefix form. */
 #include "expr/print-tree.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -279,10 +280,10 @@ write_undefined(tree *t, qdot_expr e)
     const bool delayed = qdot_ufun_delayed(t->pool, id) != QDOT_NIL;
     const bool plain = are_different_symbols(t->pool, qdot_expr_args(t->pool, e), n);
     const char *name = qdot_ufun_get(t->pool, id)->name;
-    long total = 0;
+    int64_t total = 0;
 
     for (uint32_t i = 0; i < n; i++) {
-        long order = 0;
+        int64_t order = 0;
 
         (void)qdot_expr_to_int(t->pool, qdot_expr_arg(t->pool, e, n + i), &order);
         total += order;
@@ -291,10 +292,10 @@ write_undefined(tree *t, qdot_expr e)
         open_array(t, "D");
         qdot_text_char(t->out, ',');
         for (uint32_t i = 0; i < n; i++) {
-            long order = 0;
+            int64_t order = 0;
 
             (void)qdot_expr_to_int(t->pool, qdot_expr_arg(t->pool, e, n + i), &order);
-            qdot_text_format(t->out, "%s%ld", i > 0 ? "," : "[", order);
+            qdot_text_format(t->out, "%s%" PRId64, i > 0 ? "," : "[", order);
         }
         qdot_text_add(t->out, "],");
         qdot_text_json(t->out, name);
@@ -304,7 +305,7 @@ write_undefined(tree *t, qdot_expr e)
     }
     if (total > 0 && delayed)
         qdot_text_add(t->out, "[\"'\",");
-    for (long i = 0; i < total && !delayed; i++)
+    for (int64_t i = 0; i < total && !delayed; i++)
         qdot_text_add(t->out, "[\"diff\",");
     open_array(t, "apply");
     qdot_text_char(t->out, ',');
@@ -317,10 +318,10 @@ write_undefined(tree *t, qdot_expr e)
         return;
     }
     for (uint32_t i = 0; i < n; i++) {
-        long order = 0;
+        int64_t order = 0;
 
         (void)qdot_expr_to_int(t->pool, qdot_expr_arg(t->pool, e, n + i), &order);
-        for (long k = 0; k < order; k++) {
+        for (int64_t k = 0; k < order; k++) {
             add_expr(t, qdot_expr_arg(t->pool, e, i));
             add_close(t);
         }

@@ -325,7 +325,7 @@ look_at_clock(int signal_number)
 }
 
 static void
-set_timer(long microseconds)
+set_timer(suseconds_t microseconds)
 {
     const struct itimerval timer = {{0, microseconds}, {0, microseconds}};
     struct sigaction action = {.sa_handler = look_at_clock, .sa_flags = SA_RESTART};

@@ -41,7 +41,7 @@ blank(char *text, size_t from, size_t to)
 }
 
 char *
-qdot_task_statements(const qdot_analysis *a, const char *kind, long line)
+qdot_task_statements(const qdot_analysis *a, const char *kind, int64_t line)
 {
     char *text = qdot_strndup(a->text, a->length), *whole;
     const qdot_token *tokens = a->source->tokens.at;

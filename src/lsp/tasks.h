@@ -30,6 +30,6 @@ int qdot_task_run(const char *kind);
 
 /* The statements of a document that a kind of command wants, the rest left out: `line` < 0, or the line of the one statement
  * that is to be shown. The caller's; NULL if memory runs out. */
-char *qdot_task_statements(const qdot_analysis *a, const char *kind, long line);
+char *qdot_task_statements(const qdot_analysis *a, const char *kind, int64_t line);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <errno.h>
 #include <poll.h>
-#include <stdint.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -23,13 +23,13 @@ read_header(const char *header, size_t n)
 
         if (strncasecmp(line, name, sizeof name - 1) == 0) {
             char *rest;
-            unsigned long value;
+            uintmax_t value;
 
             line += sizeof name - 1;
             line += strspn(line, " \t");
             if (*line < '0' || *line > '9')
                 return SIZE_MAX;
-            value = strtoul(line, &rest, 10);
+            value = strtoumax(line, &rest, 10);
             if (value > QDOT_TRANSPORT_MOST || strspn(rest, " \t\r\n") == 0)
                 return SIZE_MAX;
             found = value;

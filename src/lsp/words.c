@@ -152,7 +152,7 @@ find_call(const qdot_source *source, size_t at, size_t *commas)
 {
     const qdot_token *tokens = source->tokens.at;
     size_t k = source->tokens.n;
-    long depth = 0;
+    int depth = 0;
 
     *commas = 0;
     while (k > 0 && tokens[k - 1].start >= at)
@@ -208,7 +208,7 @@ pack_arguments(const char *label)
 {
     json_t *list = json_array();
     const char *open = strchr(label, '('), *from = open != NULL ? open + 1 : NULL;
-    long depth = 0;
+    int depth = 0;
 
     for (const char *k = from; k != NULL && *k != '\0' && (*k & 0x80) == 0; k++) {
         if ((*k == ',' && depth == 0) || (*k == ')' && depth == 0)) {

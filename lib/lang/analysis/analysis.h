@@ -29,7 +29,7 @@ typedef struct {
     size_t told;     /* number of notices of the session that are given once */
     size_t unknown;  /* number of names whose meaning is not known */
     size_t included; /* number of scripts included */
-    long work;       /* steps of work spent on questions */
+    int64_t work;    /* steps of work spent on questions */
     bool partial;    /* a part of the scene is missing: it was not carried out */
     bool loose;      /* values of parameters come from what was not carried out */
     bool uncertain;  /* `undo`, `quit`: what is declared is not known any more */

@@ -58,7 +58,7 @@ static bool
 holds_range(const qdot_token *open, const qdot_token *to)
 {
     const qdot_token *behind = qdot_statement_behind_bracket(open);
-    long depth = 0;
+    int depth = 0;
     bool one = true;
 
     for (const qdot_token *k = open; k < behind && k < to; k++) {
@@ -135,7 +135,7 @@ is_formal(const qdot_token *from, const qdot_token *k, const qdot_token *to)
 static bool
 is_index_of_sum(const qdot_token *from, const qdot_token *k, const qdot_token *to)
 {
-    long depth = 0;
+    int depth = 0;
     int commas = 0;
 
     if (k + 1 >= to || !qdot_token_is(k + 1, ","))

@@ -94,7 +94,7 @@ is_declared_at(const search *s, const qdot_token *first, const qdot_token *end, 
     const qdot_form form = qdot_statement_form(s->a->session, first);
     const qdot_statement *row = form == QDOT_FORM_WORD ? qdot_statement_row(first) : NULL;
     const qdot_token *from = first + 1;
-    long depth = 0;
+    int depth = 0;
 
     if (row == NULL) {
         const bool call = k + 1 < end && qdot_token_is(k + 1, "(");

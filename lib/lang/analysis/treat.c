@@ -164,7 +164,7 @@ look_at(passage *p, const qdot_piece *piece)
 /* Carry out the text of a piece with a budget of steps; *used: how many it took. Its failure is the returned status, and
  * is not told yet. asks: it only asks, and what is to be known of its answer is no matter here. */
 static qdot_status
-carry_out(passage *p, const qdot_piece *piece, const char *text, bool asks, long budget, long *used)
+carry_out(passage *p, const qdot_piece *piece, const char *text, bool asks, int budget, int *used)
 {
     qdot_session *session = p->a->session;
     char *notices = NULL, *answers = NULL;
@@ -336,14 +336,14 @@ treat(passage *p, const qdot_piece *piece)
 {
     const qdot_token *first = &p->source->tokens.at[piece->first];
     plan work = {.text = text_of(p, piece), .origin = piece->at.from, .block = piece->block};
-    long used = 0;
+    int used = 0;
     qdot_status status;
 
     if (work.text == NULL)
         return QDOT_ENOMEM;
     status = for_statements(p, piece, plan_statement, &work);
     if (status == QDOT_OK && (work.declares || work.asks)) {
-        const long budget = work.declares ? DECLARING : ASKING;
+        const int budget = work.declares ? DECLARING : ASKING;
 
         status = carry_out(p, piece, work.text, !work.declares, budget, &used);
         if (!work.declares)

@@ -45,7 +45,7 @@ holds_byte(const qdot_token *t, size_t at)
 static bool
 find_word(const qdot_token *tokens, size_t n, size_t at, place *p)
 {
-    long depth = 0;
+    int depth = 0;
 
     p->first = tokens;
     for (size_t i = 0; i < n; i++) {
@@ -71,7 +71,7 @@ static const qdot_token *
 find_end_of_index(const qdot_token *word)
 {
     const qdot_token *t = word + 1;
-    long depth = 0;
+    int depth = 0;
 
     if (!t->glued || !qdot_token_is(t, "["))
         return t;
