@@ -1,7 +1,7 @@
 /* builtin.c -- the table of the language's functions, used for calls and for help. */
 #include "lang/functions/builtin.h"
 
-#include <limits.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -100,7 +100,7 @@ qdot_call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
 
     (void)n;
     return qdot_value_kind_give(
-        s->pool, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (int64_t)size), value);
+        s->pool, qdot_expr_int(s->pool, size > INT64_MAX ? INT64_MAX : (int64_t)size), value);
 }
 
 /* Find the LaTeX text of an expression; for a list a list of texts. */

@@ -5,20 +5,20 @@
 #ifndef QDOT_SIM_SURFACE_H
 #define QDOT_SIM_SURFACE_H
 
-#include <limits.h>
+#include <stdint.h>
 
 #include "expr/id.h"
 
 /* Value of a side for a motion that slides along the surface (sim/model/sliding.h): u stays 0. */
-#define QDOT_SIDE_SLIDES LONG_MAX
+#define QDOT_SIDE_SLIDES INT64_MAX
 /* A puck that has begun to move, so slowly that its direction is that of its shares
  * (sim/model/puck.h). Other surfaces have no such mode. */
 #define QDOT_SIDE_CREEPS (-1)
 /* Value of a side if the switches of the surface are not frozen: its side is left open. */
-#define QDOT_SIDE_OPEN LONG_MIN
+#define QDOT_SIDE_OPEN INT64_MIN
 
 /* Value of a side if the surface affects no switch of the equations in this mode (sim/model/gates.h). */
-#define QDOT_SIDE_IDLE (LONG_MIN + 1)
+#define QDOT_SIDE_IDLE (INT64_MIN + 1)
 
 typedef struct {
     qdot_expr u;  /* the surface's function u, as in the equations, with parameter values */
