@@ -53,7 +53,7 @@ class Lifetime(unittest.TestCase):
             import qdot
             from scenes import LONG
             def work():
-                qdot.System(LONG).run("0..1e9")
+                qdot.System(LONG).run("0..1.5e7")
             for i in range(3):
                 threading.Thread(target=work, daemon=True).start()
             time.sleep(0.5)
@@ -66,7 +66,7 @@ class Lifetime(unittest.TestCase):
             from scenes import LONG
             signal.signal(signal.SIGALRM, lambda number, frame: sys.exit(0))
             signal.setitimer(signal.ITIMER_REAL, 0.5)
-            qdot.System(LONG).run("0..1e9")
+            qdot.System(LONG).run("0..1.5e7")
             """)
 
     def test_calls_while_the_interpreter_ends(self):

@@ -27,7 +27,7 @@ class Interruption(unittest.TestCase):
         start = time.monotonic()
         later(0.3, ctrl_c)
         with self.assertRaises(KeyboardInterrupt) as caught:
-            self.s.run("0..1e9")
+            self.s.run("0..1.5e7")
         self.assertLess(time.monotonic() - start, 5)
         self.assertGreater(caught.exception.motion.summary.end, 1)
         self.assertEqual(self.s.run("0..1").summary.end, 1)
@@ -46,7 +46,7 @@ class Interruption(unittest.TestCase):
         timers = [later(0.2 + 0.0005 * i, ctrl_c) for i in range(40)]
         try:
             with self.assertRaises(KeyboardInterrupt):
-                self.s.run("0..1e9")
+                self.s.run("0..1.5e7")
             for timer in timers:
                 timer.join()
         finally:
@@ -57,7 +57,7 @@ class Interruption(unittest.TestCase):
     def test_answers_before_ctrl_c_are_at_the_exception(self):
         later(0.3, ctrl_c)
         with self.assertRaises(KeyboardInterrupt) as caught:
-            self.s.ask("T; run 0..1e9", notation="plain")
+            self.s.ask("T; run 0..1.5e7", notation="plain")
         self.assertIn("x'^2", caught.exception.answers)
 
     def test_what_a_signal_handler_raises_stops_a_run(self):
@@ -68,7 +68,7 @@ class Interruption(unittest.TestCase):
         try:
             signal.setitimer(signal.ITIMER_REAL, 0.3)
             with self.assertRaises(TimeoutError):
-                self.s.run("0..1e9")
+                self.s.run("0..1.5e7")
         finally:
             signal.signal(signal.SIGALRM, before)
 
@@ -86,7 +86,7 @@ class Interruption(unittest.TestCase):
         try:
             signal.setitimer(signal.ITIMER_REAL, 0.3)
             with self.assertRaises(qdot.Interrupted):
-                self.s.run("0..1e9")
+                self.s.run("0..1.5e7")
         finally:
             signal.signal(signal.SIGALRM, before)
         self.assertEqual(len(said), 1)
@@ -94,7 +94,7 @@ class Interruption(unittest.TestCase):
     def test_another_thread_interrupts(self):
         later(0.3, self.s.interrupt)
         with self.assertRaises(qdot.Interrupted) as caught:
-            self.s.run("0..1e9")
+            self.s.run("0..1.5e7")
         self.assertIsNotNone(caught.exception.motion)
 
     def test_an_interruption_concerns_one_system(self):
@@ -102,7 +102,7 @@ class Interruption(unittest.TestCase):
         other.interrupt()
         later(0.3, self.s.interrupt)
         with self.assertRaises(qdot.Interrupted):
-            self.s.run("0..1e9")
+            self.s.run("0..1.5e7")
         self.assertEqual(other.run("0..1").summary.end, 1)
 
 
@@ -140,7 +140,7 @@ class Threads(unittest.TestCase):
         s = qdot.System(LONG)
         motions = [s.run("0..1") for _ in range(10)]
         thread = threading.Thread(target=lambda: self.assertRaises(
-            qdot.Interrupted, s.run, "0..1e9"))
+            qdot.Interrupted, s.run, "0..1.5e7"))
         thread.start()
         time.sleep(0.2)
         motions.clear()
@@ -160,13 +160,13 @@ class Progress(unittest.TestCase):
 
         s.progress(hook)
         with self.assertRaises(qdot.Interrupted):
-            s.run("0..1e9")
+            s.run("0..1.5e7")
         self.assertEqual(told[0][0], "run")
         self.assertTrue(0 <= told[0][1] <= told[1][1] < 0.1)
         s.progress(None)
         later(0.8, s.interrupt)
         with self.assertRaises(qdot.Interrupted):
-            s.run("0..1e9")
+            s.run("0..1.5e7")
         self.assertEqual(len(told), 2)
 
     def test_what_a_hook_raises_is_raised(self):
@@ -177,7 +177,7 @@ class Progress(unittest.TestCase):
 
         s.progress(hook)
         with self.assertRaisesRegex(LookupError, "enough"):
-            s.run("0..1e9")
+            s.run("0..1.5e7")
         self.assertEqual(s.run("0..1").summary.end, 1)
 
 
