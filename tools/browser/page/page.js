@@ -45,23 +45,22 @@ let history = []; /* what was asked after the last run of the script, with that 
 let stale = false; /* the worker is new: the history has to be carried out first */
 const calls = new Map(), files = new Map();
 
-async function offlineFiles() {
-    if (!globalThis.qdotOffline)
-        await new Promise((good, bad) => {
-            const script = document.createElement("script");
-            script.src = "offline.js";
-            script.onload = good;
-            script.onerror = () => bad(new Error("offline.js is missing"));
-            document.head.append(script);
-        });
-    return globalThis.qdotOffline;
+/* What runs in the worker, and the module it calls: module.js brings both as texts, since a page that is opened as a file may
+ * start no worker of a file beside it, nor read one. */
+function moduleFiles() {
+    return new Promise((good, bad) => {
+        if (globalThis.qdotModuleFiles)
+            return good(globalThis.qdotModuleFiles);
+        const script = document.createElement("script");
+        script.src = "module.js";
+        script.onload = () => good(globalThis.qdotModuleFiles);
+        script.onerror = () => bad(new Error("module.js is missing"));
+        document.head.append(script);
+    });
 }
 
-/* A page that is opened as a file may start no worker of a file beside it, nor read one: offline.js brings what it needs. */
 async function newWorker() {
-    if (location.protocol !== "file:")
-        return new Worker("worker.js");
-    const {source, wasm} = await offlineFiles(), packed = Uint8Array.from(atob(wasm), c => c.charCodeAt(0));
+    const {source, wasm} = await moduleFiles(), packed = Uint8Array.from(atob(wasm), c => c.charCodeAt(0));
     const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
     const w = new Worker(URL.createObjectURL(new Blob([`onmessage = event => { self.qdotBytes = event.data;\n${source}\n}`])));
     w.postMessage(bytes, [bytes]);

@@ -127,10 +127,8 @@ function serve(message) {
 
 onmessage = event => qdot ? serve(event.data) : waiting.push(event.data);
 
-/* qdotModule comes from qdot.js; qdotBytes is the module itself where a page from a file brings it. */
-if (typeof qdotModule === "undefined")
-    importScripts("qdot.js");
-qdotModule(typeof qdotBytes === "undefined" ? {} : {wasmBinary: qdotBytes}).then(module => {
+/* qdotModule comes from qdot.js, qdotBytes from the page. */
+qdotModule({wasmBinary: qdotBytes}).then(module => {
     qdot = module;
     begin();
     postMessage({kind: "ready", version: qdot.UTF8ToString(qdot._qdot_version())});
