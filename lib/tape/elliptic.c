@@ -172,7 +172,7 @@ bool
 qdot_code_elliptic(qdot_code *code, qdot_fun_id f, uint32_t n, const qdot_value *x, qdot_value *y)
 {
     const qdot_value m = x[n - 1];
-    qdot_value first, share, waves;
+    qdot_value first, whole, waves;
     means w;
 
     if (!qdot_is_elliptic(f) || n == 3)
@@ -189,11 +189,13 @@ qdot_code_elliptic(qdot_code *code, qdot_fun_id f, uint32_t n, const qdot_value 
         *y = third_kind(&w, x[0]);
         return true;
     }
-    first = n == 1 ? first_kind(&w) : incomplete(&w, x[0], &waves);
-    *y = first;
-    if (f == QDOT_ELLIPTIC_E) {
-        share = times(code, first, share_of_second_kind(&w, m));
-        *y = minus(code, n == 1 ? first : added(code, first, waves), share);
+    if (n == 1) {
+        first = whole = first_kind(&w);
+    } else {
+        first = whole = incomplete(&w, x[0], &waves);
+        if (f == QDOT_ELLIPTIC_E)
+            whole = added(code, first, waves);
     }
+    *y = f == QDOT_ELLIPTIC_E ? minus(code, whole, times(code, first, share_of_second_kind(&w, m))) : first;
     return true;
 }
