@@ -15,6 +15,7 @@
 #include "lang/session/names.h"
 #include "lang/session/units.h"
 #include "lang/source/source.h"
+#include "lang/syntax/form.h"
 #include "lang/syntax/statement.h"
 #include "lang/workbench/highlight.h"
 #include "lang/workbench/topics.h"
@@ -71,16 +72,8 @@ static const qdot_token *
 find_end_of_index(const qdot_token *word)
 {
     const qdot_token *t = word + 1;
-    int depth = 0;
 
-    if (!t->glued || !qdot_token_is(t, "["))
-        return t;
-    for (; t->kind != QDOT_TOKEN_END; t++) {
-        depth += qdot_token_bracket(t);
-        if (depth == 0)
-            return t + 1;
-    }
-    return word + 1;
+    return t->glued && qdot_token_is(t, "[") ? qdot_statement_behind_bracket(t) : t;
 }
 
 /* The word with its index takes the place of the word. */
