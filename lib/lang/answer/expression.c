@@ -5,9 +5,9 @@
 
 #include "expr/node.h"
 #include "expr/print-formula.h"
-#include "expr/print-tree.h"
 #include "expr/print.h"
 #include "expr/walk.h"
+#include "lang/answer/print-tree.h"
 #include "lang/session/history.h"
 
 /* Whether e is the series computed last, or one member of a list of such series. */

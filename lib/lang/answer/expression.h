@@ -17,7 +17,7 @@ QDOT_MUST_CHECK qdot_status qdot_expression_add(qdot_session *session, qdot_expr
 QDOT_MUST_CHECK qdot_status qdot_expression_print(qdot_session *session, qdot_expr e, qdot_style style,
                                                   qdot_text *out);
 
-/* Append e as an array of JSON (expr/print-tree.h). Errors: of it, and as for qdot_expression_add. */
+/* Append e as an array of JSON (lang/answer/print-tree.h). Errors: of it, and as for qdot_expression_add. */
 QDOT_MUST_CHECK qdot_status qdot_expression_tree(qdot_session *session, qdot_expr e, qdot_text *out);
 
 #endif

@@ -14,10 +14,10 @@
  *   ["p","theta"], ["delta","theta"], ["d","theta"]    momentum, virtual displacement, differential of a coordinate
  *   ["wedge",["d","r"],["d","phi"]], ["unit","kg"]
  *
- * Tests  tests/expr/test_print-tree.c
+ * Tests  tests/lang/answer/test_print-tree.c
  */
-#ifndef QDOT_EXPR_PRINT_TREE_H
-#define QDOT_EXPR_PRINT_TREE_H
+#ifndef QDOT_LANG_PRINT_TREE_H
+#define QDOT_LANG_PRINT_TREE_H
 
 #include "base/text.h"
 #include "expr/id.h"

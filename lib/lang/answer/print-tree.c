@@ -1,5 +1,5 @@
 /* print-tree.c -- writes expressions as JSON arrays in prefix form. */
-#include "expr/print-tree.h"
+#include "lang/answer/print-tree.h"
 
 #include <inttypes.h>
 #include <stdio.h>

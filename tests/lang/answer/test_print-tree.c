@@ -11,7 +11,7 @@
 #include "expr/expr.h"
 #include "expr/calculus.h"
 #include "expr/integral.h"
-#include "expr/print-tree.h"
+#include "lang/answer/print-tree.h"
 #include "expr/unit.h"
 
 static void
