@@ -275,6 +275,11 @@ typedef struct qdot_motion qdot_motion;
  * any other error: NULL. */
 qdot_result qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion);
 
+/* A run that the system has by this name, made by a statement: `run 0..20 as a`, or `run1`, ... without a name.
+ * name NULL: the latest. The run stays in the system when its motion is freed. *motion: the caller's, NULL on
+ * failure. NAME: there is no such run. */
+qdot_result qdot_system_motion(qdot_system *system, const char *name, qdot_motion **motion);
+
 /* Free a motion; NULL is allowed. */
 void qdot_motion_free(qdot_motion *motion);
 
@@ -324,11 +329,12 @@ typedef enum {
     QDOT_OVER_MAX = 0,
     QDOT_OVER_MIN = 1,
     QDOT_OVER_MEAN = 2, /* mean of the expression over time */
-    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), where e0 is the value of the expression e at `from` */
+    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), where e0 is the value of the expression e at that of the
+                           two times to which the motion comes first */
 } qdot_over;
 
-/* The largest or least value of a scalar expression between two times, its mean or its drift, with its
- * error; error may be NULL. Extrema between steps are found. Errors as above. */
+/* The largest or least value of a scalar expression between two times of the motion in any order, its mean or its
+ * drift, with its error; error may be NULL. Extrema between steps are found. Errors as above. */
 qdot_result qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, double from,
                              double to, double *value, double *error);
 

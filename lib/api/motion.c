@@ -144,6 +144,48 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
     return qdot_api_end(system, status);
 }
 
+/* The run of this name, of NULL the latest; NULL, with a failure, if there is none. */
+static const qdot_named_run *
+find_run(qdot_session *session, const char *name)
+{
+    qdot_named_run *found;
+
+    if (qdot_runs_find(session, name, &found) == QDOT_OK)
+        return found;
+    if (session->runs->n == 0)
+        (void)qdot_fail(QDOT_ENAME, "motion: there is no run yet");
+    else
+        (void)qdot_fail(QDOT_ENAME, "motion: there is no run `%.100s`", name);
+    return NULL;
+}
+
+qdot_result
+qdot_system_motion(qdot_system *system, const char *name, qdot_motion **motion)
+{
+    const qdot_named_run *run;
+    qdot_motion *m = NULL;
+    qdot_status status;
+
+    if (motion != NULL)
+        *motion = NULL;
+    if (system == NULL)
+        return QDOT_RESULT_INVALID;
+    if (motion == NULL)
+        return qdot_api_refuse(system, "motion: the motion is NULL");
+    status = qdot_api_begin(system);
+    run = status == QDOT_OK ? find_run(system->session, name) : NULL;
+    if (run != NULL)
+        m = qdot_calloc(1, sizeof *m);
+    if (m != NULL && motion_store_run(m, system, run, true) == QDOT_OK) {
+        *motion = m;
+        return qdot_api_end(system, QDOT_OK);
+    }
+    qdot_motion_free(m);
+    if (run != NULL)
+        (void)qdot_fail(QDOT_ENOMEM, "motion: out of memory");
+    return qdot_api_end(system, qdot_last_error()->status);
+}
+
 /* --- a run as a whole ----------------------------------------------------------------- */
 
 const qdot_system *

@@ -9,7 +9,7 @@
 struct qdot_motion {
     qdot_system *system; /* the system to which the run belongs; this counts as one use of it */
     qdot_named_run run;  /* the run; held here even if the session forgets it */
-    bool named;          /* the run got a name by `as NAME`: the session keeps the run, too */
+    bool named;          /* the session keeps the run, too, when the motion is freed */
     qdot_arena *arena;
     const char **coordinates; /* names of the coordinates [qdot_motion_coordinates], in the arena */
 };

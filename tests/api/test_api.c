@@ -156,6 +156,63 @@ extrema_and_conserved_quantities_are_known(void **state)
 }
 
 static void
+a_range_that_is_no_range_is_refused(void **state)
+{
+    static const double ranges[][2] = {{0, NAN}, {NAN, 10}, {NAN, NAN}, {0, INFINITY}, {-1, 5}};
+    qdot_system *s = *state;
+    double value, back, error;
+    qdot_motion *m;
+
+    assert_int_equal(qdot_system_run(s, "0..10", &m), QDOT_RESULT_OK);
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        expect_error(s, qdot_motion_over(m, QDOT_OVER_MAX, "theta", ranges[i][0], ranges[i][1], &value, &error),
+                     QDOT_RESULT_DOMAIN, "over:1:1: error: the range ");
+    for (int what = QDOT_OVER_MAX; what <= QDOT_OVER_DRIFT; what++) { /* ends in any order */
+        assert_int_equal(qdot_motion_over(m, (qdot_over)what, "theta", 2, 8, &value, &error), QDOT_RESULT_OK);
+        assert_int_equal(qdot_motion_over(m, (qdot_over)what, "theta", 8, 2, &back, &error), QDOT_RESULT_OK);
+        assert_true(value == back);
+    }
+    qdot_motion_free(m);
+}
+
+static void
+runs_of_statements_are_motions(void **state)
+{
+    static const double one = 1;
+    qdot_system *s = *state;
+    qdot_motion *a, *again, *latest, *own;
+    double x, y;
+
+    expect_error(s, qdot_system_motion(s, NULL, &a), QDOT_RESULT_NAME, "motion: there is no run yet");
+    assert_null(a);
+    expect_error(s, qdot_system_motion(s, NULL, NULL), QDOT_RESULT_INVALID, "motion: the motion is NULL");
+    assert_int_equal(qdot_system_motion(NULL, NULL, &a), QDOT_RESULT_INVALID);
+    assert_int_equal(qdot_system_declare(s, "run 0..10 as a; run 0..3"), QDOT_RESULT_OK);
+    expect_error(s, qdot_system_motion(s, "b", &a), QDOT_RESULT_NAME, "motion: there is no run `b`");
+    assert_null(a);
+    assert_int_equal(qdot_system_motion(s, "a", &a), QDOT_RESULT_OK);
+    assert_int_equal(qdot_motion_values(a, "theta", 1, &one, 1, &x, NULL), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_motion(s, NULL, &latest), QDOT_RESULT_OK);
+    assert_int_equal(qdot_motion_values(latest, "theta", 1, &one, 1, &y, NULL), QDOT_RESULT_OK);
+    assert_true(fabs(x - y) < 1e-10);
+    qdot_motion_free(latest);
+    qdot_motion_free(a); /* the run stays */
+    assert_int_equal(qdot_system_motion(s, "a", &again), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_motion(s, "run2", &latest), QDOT_RESULT_OK);
+    qdot_motion_free(latest);
+    /* a run that goes with its motion goes, whoever else looks at it */
+    assert_int_equal(qdot_system_run(s, "0..2", &own), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_motion(s, NULL, &latest), QDOT_RESULT_OK);
+    qdot_motion_free(own);
+    assert_int_equal(qdot_motion_coordinates(latest), 1);
+    assert_int_equal(qdot_motion_values(latest, "theta", 1, &one, 1, &x, NULL), QDOT_RESULT_NAME);
+    qdot_motion_free(latest);
+    assert_int_equal(qdot_system_declare(s, "reset"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_motion_values(again, "theta", 1, &one, 1, &x, NULL), QDOT_RESULT_NAME);
+    qdot_motion_free(again);
+}
+
+static void
 events_are_listed(void **state)
 {
     qdot_system *s = *state;
@@ -388,7 +445,7 @@ failing_memory_is_reported(void **state)
     (void)state;
     for (bool done = false; !done; n += 1 + n / 50) {
         qdot_system *s = NULL;
-        qdot_motion *m = NULL;
+        qdot_motion *m = NULL, *again = NULL;
         char *text = NULL;
         double x;
         qdot_result result;
@@ -403,6 +460,8 @@ failing_memory_is_reported(void **state)
             result = qdot_system_run(s, "0..1", &m);
         if (result == QDOT_RESULT_OK)
             result = qdot_motion_values(m, "theta", 1, &t, 1, &x, NULL);
+        if (result == QDOT_RESULT_OK)
+            result = qdot_system_motion(s, NULL, &again);
         qdot_memory_fail_at(-1);
         done = result == QDOT_RESULT_OK;
         if (!done)
@@ -412,6 +471,7 @@ failing_memory_is_reported(void **state)
         if (s != NULL)
             assert_int_equal(qdot_system_declare(s, "param spare"), QDOT_RESULT_OK);
         qdot_string_free(text);
+        qdot_motion_free(again);
         qdot_motion_free(m);
         qdot_system_free(s);
     }
@@ -460,6 +520,8 @@ main(void)
         IN_A_SCENE(claims_are_proved_refuted_or_left_open),
         IN_A_SCENE(values_have_their_errors),
         IN_A_SCENE(extrema_and_conserved_quantities_are_known),
+        IN_A_SCENE(a_range_that_is_no_range_is_refused),
+        IN_A_SCENE(runs_of_statements_are_motions),
         IN_A_SCENE(events_are_listed),
         IN_A_SCENE(errors_name_the_place),
         IN_A_SCENE(values_refuse_what_does_not_fit),

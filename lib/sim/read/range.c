@@ -299,7 +299,7 @@ find_time_limits(const qdot_run_expression *x, const double *given, double *from
     ends[1] = given != NULL ? fmax(given[0], given[1]) : high;
     *from = ends[backward];
     *to = ends[!backward];
-    if (low <= ends[0] && ends[1] <= high)
+    if (low <= ends[0] && ends[1] <= high && (given == NULL || !isnan(given[0] + given[1])))
         return QDOT_OK;
     if (x->n == 1)
         return qdot_fail(QDOT_EDOMAIN,
