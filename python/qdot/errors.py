@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from .motion import Motion
 
 _FIRST_LINE = re.compile(r"(?P<call>.*?):(?P<line>\d+):(?P<column>\d+): error: (?P<message>.*)")
+_FUNCTION = re.compile(r"\bqdot_(system|motion|function)_(\w+)")
 _HINT = re.compile(r"^ *hint: (.*)", re.MULTILINE | re.DOTALL)
 
 
@@ -186,5 +187,11 @@ _CLASSES: Dict[int, Type[Error]] = {
 
 
 def error_of(code: int, text: str) -> Error:
-    """Return the exception that stands for a qdot_result."""
+    """Return the exception that stands for a qdot_result; functions of C are named as methods.
+
+    >>> from qdot.errors import error_of
+    >>> print(error_of(4, "hint: qdot_system_number, or qdot_motion_values for many"))
+    hint: System.number, or Motion.values for many
+    """
+    text = _FUNCTION.sub(lambda found: f"{found[1].capitalize()}.{found[2]}", text)
     return _CLASSES.get(code, Error)(text, code)

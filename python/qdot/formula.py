@@ -4,7 +4,18 @@ from __future__ import annotations
 
 import json
 from ctypes import byref, c_void_p
-from typing import TYPE_CHECKING, Any, FrozenSet, Iterator, Mapping, Optional, Tuple
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    FrozenSet,
+    Iterator,
+    List,
+    Mapping,
+    Optional,
+    Tuple,
+    Union,
+    overload,
+)
 
 from .errors import Error
 from .library import LATEX, MATHML, PLAIN, TREE, UNICODE, utf8
@@ -44,7 +55,7 @@ class Formula:
         if notation not in self._written:
             # what has changed since may have changed the meaning of the expression, not of its value
             same = self._changes == self._session.changes
-            text = self._expression if same else _language(self)
+            text = self._expression if same else self._language()
             self._written[notation] = _derive(self._session, text, notation)
         return self._written[notation]
 
@@ -84,17 +95,44 @@ class Formula:
         return hash(self.plain)
 
     def __len__(self) -> int:
-        return len(self.plain.split("\n"))
+        return len(self._rows())
 
     def __bool__(self) -> bool:
         return True
 
     def __iter__(self) -> Iterator[Formula]:
-        return (self[i] for i in range(len(self)))
+        return (Formula(self._session, row) for row in self._rows())
 
-    def __getitem__(self, i: int) -> Formula:
-        """Return a member of a list as a formula of its own."""
-        return Formula(self._session, self.plain.split("\n")[i])
+    @overload
+    def __getitem__(self, i: int) -> Formula: ...
+
+    @overload
+    def __getitem__(self, i: slice) -> List[Formula]: ...
+
+    def __getitem__(self, i: Union[int, slice]) -> Union[Formula, List[Formula]]:
+        """Return a member of a list as a formula of its own; of a slice, a list of them."""
+        rows = self._rows()[i]
+        if isinstance(rows, list):
+            return [Formula(self._session, row) for row in rows]
+        return Formula(self._session, rows)
+
+    def __copy__(self) -> Formula:
+        return self
+
+    def __deepcopy__(self, copied: Any) -> Formula:
+        return self
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a qdot.Formula cannot be pickled: send str of it")
+
+    def _rows(self) -> List[str]:
+        """Return the members of a list, or the formula as the only one, in the language."""
+        return self.plain.split("\n") if self.plain else []
+
+    def _language(self) -> str:
+        """Return the formula as it stands in a text of the language."""
+        rows = self._rows()
+        return rows[0] if len(rows) == 1 else "[" + ", ".join(rows) + "]"
 
     def _repr_latex_(self) -> str:
         rows = self.latex.split("\n")
@@ -185,12 +223,7 @@ class Formula:
             shape = len(tree) - 1, len(tree[1])
         elif tree[0] in ("list", "vector"):
             shape = (len(tree) - 1,)
-        return Function(self._session, _language(self), [named(a) for a in arguments], shape)
-
-
-def _language(formula: Formula) -> str:
-    rows = formula.plain.split("\n")
-    return rows[0] if len(rows) == 1 else "[" + ", ".join(rows) + "]"
+        return Function(self._session, self._language(), [named(a) for a in arguments], shape)
 
 
 def _derive(session: Session, expression: str, notation: int) -> str:

@@ -6,6 +6,8 @@ import os
 from ctypes import byref, c_void_p
 from typing import TYPE_CHECKING, Any, Sequence, Tuple
 
+from .arrays import floats
+from .errors import InvalidError
 from .library import utf8
 from .session import Session
 
@@ -48,6 +50,9 @@ class Function:
 
         session.call(body)
         session.keep(self, session.library.qdot_function_free, self._handle)
+        if self._library.qdot_function_inputs(self._handle) != len(self.arguments):
+            names = ", ".join(repr(name) for name in self.arguments)
+            raise InvalidError(f"{names}: each argument is a text of its own: lambdify(\"x\", \"y\")")
         outputs = self._library.qdot_function_outputs(self._handle)
         size = 1
         for n in shape:
@@ -64,7 +69,9 @@ class Function:
                 f"values of {', '.join(self.arguments)} are wanted: "
                 f"{len(self.arguments)}, not {len(values)}"
             )
-        arrays = numpy.broadcast_arrays(*(numpy.asarray(v, dtype=float) for v in values))
+        arrays = numpy.broadcast_arrays(
+            *(floats(v, f"values of {name}") for name, v in zip(self.arguments, values))
+        )
         shape = arrays[0].shape if arrays else ()
         n = arrays[0].size if arrays else 1
         inputs = numpy.empty((n, len(arrays)))
@@ -84,12 +91,21 @@ class Function:
             )
         return outputs.T.reshape(self.shape + shape)[()]
 
+    def __copy__(self) -> Function:
+        return self  # what the library holds is freed once
+
+    def __deepcopy__(self, copied: Any) -> Function:
+        return self
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a qdot.Function cannot be pickled: send its text and arguments")
+
     def __repr__(self) -> str:
         return f"<qdot.Function of {', '.join(self.arguments)}: {self.text}>"
 
 
 def named(argument: Any) -> str:
-    """Return the name of an argument: a text, or a symbol, coordinate or velocity of SymPy.
+    """Return the name of what varies: a text, or a symbol, coordinate or velocity of SymPy.
 
     >>> from qdot.function import named
     >>> named("theta'")
@@ -102,4 +118,6 @@ def named(argument: Any) -> str:
         order, argument = argument.derivative_count, argument.expr
     if getattr(argument, "is_Function", False):
         argument = argument.func
+    elif not getattr(argument, "is_Symbol", False):
+        raise TypeError(f"a name is a text or a symbol of SymPy, not {type(argument).__name__}")
     return str(argument) + "'" * order

@@ -61,6 +61,7 @@ _FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "qdot_system_decide": (c_int, [c_void_p, c_char_p, POINTER(c_int)]),
     "qdot_system_number": (c_int, [c_void_p, c_char_p, _numbers, _numbers]),
     "qdot_system_run": (c_int, [c_void_p, c_char_p, POINTER(c_void_p)]),
+    "qdot_system_motion": (c_int, [c_void_p, c_char_p, POINTER(c_void_p)]),
     "qdot_motion_free": (None, [c_void_p]),
     "qdot_motion_system": (c_void_p, [c_void_p]),
     "qdot_motion_summarize": (c_int, [c_void_p, POINTER(Summary), c_size_t]),
@@ -119,12 +120,17 @@ NOTATIONS: Dict[str, int] = {
 
 
 class Library:
-    """The functions of a loaded libqdot, each under its name; `path` is where it was found."""
+    """The functions of a loaded libqdot, each under its name; `path` is where it was found.
+
+    OSError: it cannot be loaded, or is another library.
+    """
 
     def __init__(self, path: str) -> None:
         self.path = path
         self.process = os.getpid()
         library = ctypes.CDLL(path)
+        if not hasattr(library, "qdot_version"):
+            raise OSError(f"{path}: this is no libqdot")
         for name, (returned, arguments) in _FUNCTIONS.items():
             try:
                 function = getattr(library, name)
@@ -157,13 +163,26 @@ class Library:
             raise error_of(result, text.decode())
 
 
-def utf8(text: str) -> bytes:
-    """Return a text as the library takes it."""
-    if not isinstance(text, str):
+def language(text: object) -> str:
+    """Return a text of the language as it is, a formula as it is written in the language."""
+    if isinstance(text, str):
+        return text
+    written = getattr(text, "_language", None)
+    if written is None:
         raise TypeError(f"a text is wanted, not {type(text).__name__}")
-    data = text.encode()
+    return str(written())
+
+
+def utf8(text: object) -> bytes:
+    """Return a text, or a formula, as the library takes it."""
+    text = language(text)
+    try:
+        data = text.encode()
+    except UnicodeEncodeError as error:
+        where = f"character {error.start}, {text[error.start]!r}"
+        raise InvalidError(f"the text is no Unicode: {where} is half a surrogate pair") from None
     if b"\0" in data:
-        raise InvalidError("the text holds a NUL")
+        raise InvalidError(f"the text holds a NUL: character {text.index(chr(0))}")
     return data
 
 
@@ -245,7 +264,9 @@ def _find() -> Library:
         try:
             return Library(given)
         except OSError as error:
-            raise ImportError(f"QDOT_LIBRARY: {error}") from None
+            raise ImportError(
+                f"QDOT_LIBRARY is set to {given!r}: {error}; set it to the path of libqdot.so, or unset it"
+            ) from None
     said = []
     for path in _candidates():
         try:

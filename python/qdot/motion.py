@@ -21,18 +21,24 @@ from typing import (
 )
 
 from . import library
-from .errors import KindError
-from .library import utf8
+from .arrays import floats, number
+from .errors import InvalidError, KindError
+from .library import language, utf8
 from .session import Session
 
 if TYPE_CHECKING:
     import numpy
     import numpy.typing
 
+    from .formula import Formula
+
     Array = numpy.typing.NDArray[numpy.float64]
     Times = numpy.typing.ArrayLike
+    Expression = Union[str, Formula]
+    Expressions = Union[Expression, Sequence[Expression]]
 
-_MAX, _MIN, _MEAN, _DRIFT = range(4)
+#: What `Motion.over` returns, in the order of qdot_over.
+_KINDS = ("max", "min", "mean", "drift")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -124,27 +130,27 @@ class Motion:
 
     @overload
     def values(
-        self, expressions: Union[str, Sequence[str]], times: Times, errors: Literal[False] = False
+        self, expressions: Expressions, times: Times, errors: Literal[False] = False
     ) -> Array: ...
 
     @overload
     def values(
-        self, expressions: Union[str, Sequence[str]], times: Times, errors: Literal[True]
+        self, expressions: Expressions, times: Times, errors: Literal[True]
     ) -> Tuple[Array, Array]: ...
 
     @overload
     def values(
-        self, expressions: Mapping[str, str], times: Times, errors: Literal[False] = False
+        self, expressions: Mapping[str, Expression], times: Times, errors: Literal[False] = False
     ) -> Dict[str, Array]: ...
 
     @overload
     def values(
-        self, expressions: Mapping[str, str], times: Times, errors: Literal[True]
+        self, expressions: Mapping[str, Expression], times: Times, errors: Literal[True]
     ) -> Tuple[Dict[str, Array], Dict[str, Array]]: ...
 
     def values(
         self,
-        expressions: Union[str, Sequence[str], Mapping[str, str]],
+        expressions: Union[Expressions, Mapping[str, Expression]],
         times: Times,
         errors: bool = False,
     ) -> Any:
@@ -152,7 +158,7 @@ class Motion:
 
         Parameters
         ----------
-        expressions : str, sequence of str, or mapping of names to str
+        expressions : str or Formula, a sequence of them, or a mapping of names to them
             Expressions in coordinates, velocities, accelerations, t and parameters, which have the values
             of the run.
         times : array_like
@@ -169,27 +175,39 @@ class Motion:
         """
         import numpy
 
-        at = numpy.ascontiguousarray(times, dtype=numpy.float64)
-        shape = numpy.shape(times)
-        if isinstance(expressions, str):
+        at = floats(times, "times")
+        shape = at.shape
+        if isinstance(expressions, str) or hasattr(expressions, "_language"):
+            expressions = language(expressions)
             values, off = self._values(expressions, at, None)
             if values.shape[1] == 1 and not _is_list(expressions):
                 return _shaped(values[:, 0], off[:, 0], shape, errors)
             return _shaped(values.T, off.T, (values.shape[1], *shape), errors)
-        texts = list(expressions.values() if isinstance(expressions, Mapping) else expressions)
+        if isinstance(expressions, Mapping):
+            both = self._by_name(expressions, at)
+            return both if errors else both[0]
+        texts = [language(text) for text in expressions]
         k = len(texts)
         if k == 0:
             values = off = numpy.empty((at.size, 0))
         else:
-            values, off = self._values("[" + ", ".join(texts) + "]", at, k)
-        if isinstance(expressions, Mapping):
-            names = list(expressions)
-            both = [
-                {name: table[:, i].reshape(shape) for i, name in enumerate(names)}
-                for table in (values, off)
-            ]
-            return (both[0], both[1]) if errors else both[0]
+            values, off = self._values(_list(texts), at, k)
         return _shaped(values.T, off.T, (k, *shape), errors)
+
+    def _by_name(
+        self, expressions: Mapping[str, Expression], times: Array
+    ) -> Tuple[Dict[str, Array], Dict[str, Array]]:
+        """Return values and errors of each; scalars all by one call, vectors each by one."""
+        try:
+            pairs = zip(*self.values(list(expressions.values()), times, errors=True))
+            both = dict(zip(expressions, pairs))
+        except KindError:  # not all are scalars
+            both = {
+                name: self.values(text, times, errors=True) for name, text in expressions.items()
+            }
+        return {name: pair[0] for name, pair in both.items()}, {
+            name: pair[1] for name, pair in both.items()
+        }
 
     def _values(self, text: str, times: Array, k: Optional[int]) -> Tuple[Array, Array]:
         """Return values [n][k] and errors [n][k]; k None: as many components as the expression has."""
@@ -224,33 +242,36 @@ class Motion:
         return tables[0], tables[1]
 
     def max(
-        self, expression: str, start: Optional[float] = None, end: Optional[float] = None
+        self, expression: Expression, start: Optional[float] = None, end: Optional[float] = None
     ) -> float:
         """Return the largest value of an expression, also between steps, from `start` to `end`."""
         return self.over("max", expression, start, end)[0]
 
     def min(
-        self, expression: str, start: Optional[float] = None, end: Optional[float] = None
+        self, expression: Expression, start: Optional[float] = None, end: Optional[float] = None
     ) -> float:
         """Return the least value of an expression, also between steps, from `start` to `end`."""
         return self.over("min", expression, start, end)[0]
 
     def mean(
-        self, expression: str, start: Optional[float] = None, end: Optional[float] = None
+        self, expression: Expression, start: Optional[float] = None, end: Optional[float] = None
     ) -> float:
         """Return the mean of an expression over time."""
         return self.over("mean", expression, start, end)[0]
 
     def drift(
-        self, expression: str, start: Optional[float] = None, end: Optional[float] = None
+        self, expression: Expression, start: Optional[float] = None, end: Optional[float] = None
     ) -> float:
-        """Return max |e - e0| / max(1, |e0|), where e0 is the value of the expression e at `start`."""
+        """Return max |e - e0| / max(1, |e0|), where e0 is the value of the expression e at `start`.
+
+        Of the two times it is that to which the run comes first.
+        """
         return self.over("drift", expression, start, end)[0]
 
     def over(
         self,
         what: str,
-        expression: str,
+        expression: Expression,
         start: Optional[float] = None,
         end: Optional[float] = None,
     ) -> Tuple[float, float]:
@@ -265,14 +286,16 @@ class Motion:
         True
         """
         session, value, error = self._session, c_double(), c_double()
-        kind = ("max", "min", "mean", "drift").index(what)
+        if what not in _KINDS:
+            raise InvalidError(f"over: {what!r} is none of {', '.join(_KINDS)}")
+        kind = _KINDS.index(what)
         summary = self.summary
-        start = summary.start if start is None else start
-        end = summary.end if end is None else end
+        first = summary.start if start is None else number(start, "start")
+        last = summary.end if end is None else number(end, "end")
         session.call(
             lambda: session.check(
                 session.library.qdot_motion_over(
-                    self._handle, kind, utf8(expression), start, end, byref(value), byref(error)
+                    self._handle, kind, utf8(expression), first, last, byref(value), byref(error)
                 )
             )
         )
@@ -376,7 +399,7 @@ class Motion:
 
     def to_dataframe(
         self,
-        expressions: Union[None, str, Sequence[str], Mapping[str, str]] = None,
+        expressions: Union[None, Expressions, Mapping[str, Expression]] = None,
         times: Optional[Times] = None,
         errors: bool = False,
     ) -> Any:
@@ -391,16 +414,15 @@ class Motion:
         errors : bool
             Whether a column "error of NAME" follows each.
         """
-        import numpy
         import pandas
 
         if expressions is None:
             expressions = list(self.end)
-        if isinstance(expressions, str):
-            expressions = [expressions]
+        if isinstance(expressions, str) or hasattr(expressions, "_language"):
+            expressions = [language(expressions)]
         if not isinstance(expressions, Mapping):
-            expressions = {text: text for text in expressions}
-        at = self.steps if times is None else numpy.ravel(numpy.asarray(times, dtype=float))
+            expressions = {text: text for text in map(language, expressions)}
+        at = self.steps if times is None else floats(times, "times").ravel()
         values, off = self.values(expressions, at, errors=True)
         columns = {}
         for name in expressions:
@@ -427,12 +449,17 @@ class Motion:
         return f"<table><caption>{html.escape(head)}</caption>{rows}</table>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("a qdot.Motion cannot be pickled: keep its values")
+        raise TypeError("a qdot.Motion cannot be copied or pickled: keep its values")
 
 
 def _shaped(values: Array, off: Array, shape: Tuple[int, ...], errors: bool) -> Any:
     values = values.reshape(shape)
     return (values, off.reshape(shape)) if errors else values
+
+
+def _list(texts: Sequence[str]) -> str:
+    """Return expressions as a list of the language; a comment ends with its line."""
+    return "[" + ", ".join(text + "\n" if "#" in text else text for text in texts) + "]"
 
 
 def _is_list(text: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import decimal
 import enum
 import fractions
 import json
@@ -28,15 +29,17 @@ from typing import (
 from .errors import Error, InvalidError
 from .figures import Animation, Figure, Report
 from .formula import Formula
-from .library import DISPLAY, JSON, NOTATIONS, utf8
+from .function import named
+from .library import DISPLAY, JSON, NOTATIONS, language, utf8
 from .session import Session, warn
 from .table import Fit, Numbers, Table, copied, fit_of, numbers_of, table_of
+from .tree import of_sympy
 
 if TYPE_CHECKING:
     from .motion import Motion
 
 #: What a parameter or an initial value may be set to: a number or a text of the language.
-Value = Union[float, fractions.Fraction, str, Sequence[Any]]
+Value = Union[float, fractions.Fraction, decimal.Decimal, str, Formula, Sequence[Any]]
 
 
 class Truth(enum.Enum):
@@ -113,7 +116,7 @@ class System:
     def from_file(cls, path: Union[str, os.PathLike[str]]) -> System:
         """Return a system with the statements of a file; files that it includes lie beside it."""
         system = cls()
-        system.declare(f"include {_quoted(os.fspath(path))}")
+        system.declare(f"include {_quoted(os.fsdecode(path))}")
         return system
 
     # --- statements ---------------------------------------------------------------------
@@ -237,17 +240,19 @@ class System:
         return _TRUTHS[truth.value]
 
     @overload
-    def number(self, expression: str, error: Literal[False] = False) -> float: ...
+    def number(self, expression: Union[str, Formula], error: Literal[False] = False) -> float: ...
 
     @overload
-    def number(self, expression: str, error: Literal[True]) -> Tuple[float, float]: ...
+    def number(self, expression: Union[str, Formula], error: Literal[True]) -> Tuple[float, float]: ...
 
-    def number(self, expression: str, error: bool = False) -> Union[float, Tuple[float, float]]:
+    def number(
+        self, expression: Union[str, Formula], error: bool = False
+    ) -> Union[float, Tuple[float, float]]:
         """Return the number that an expression is with the present values of parameters.
 
         Parameters
         ----------
-        expression : str
+        expression : str or Formula
             A scalar; numbers of runs may stand in it: "value(theta, 3)".
         error : bool
             Whether to return (value, error): what the value may be off by where numbers of a run stand
@@ -303,9 +308,32 @@ class System:
         session.changes += 1
         return session.call(body)
 
+    def motion(self, name: Optional[str] = None) -> Motion:
+        """Return a run that a statement has made, by its name: "a" after "run 0..10 as a", else "run1", ...
+
+        Without a name it is the latest. The system keeps the run when the motion goes.
+
+        Examples
+        --------
+        >>> import qdot
+        >>> s = qdot.System("coord x; particle p mass 1 at (x, 0); start x' = 2; run 0..3 as a")
+        >>> s.motion("a").end["x"]
+        6.0
+        """
+        from .motion import Motion
+
+        session, motion = self._session, c_void_p()
+        wanted = None if name is None else utf8(name)
+
+        def body() -> Motion:
+            session.check(session.library.qdot_system_motion(session.handle, wanted, byref(motion)))
+            return Motion(session, motion)
+
+        return session.call(body)
+
     def sweep(self, text: str) -> Table:
         """Carry out `sweep`: "m = 1..3 step 0.1 run 0..20 : value(theta, 20) as res"."""
-        self.declare(f"sweep {text}")
+        self.declare(f"sweep {language(text)}")
         return self.rows()
 
     def rows(self, name: Optional[str] = None) -> Table:
@@ -337,21 +365,27 @@ class System:
         >>> s.table("x, x' every 1")["x"]
         array([0., 2., 4.])
         """
-        table = table_of(self._objects(f"table {text}"))
+        table = table_of(self._objects(f"table {language(text)}"))
         if table is None:
             raise InvalidError(f"table {text}: the answer is no table")
         return table
 
     def numbers(self, text: str) -> Numbers:
-        """Carry out statements that answer with numbers: `find`, `sensitivity`, `lyapunov`, `floquet`, ..."""
-        return numbers_of(self._objects(text))
+        """Carry out statements that answer with numbers: `find`, `sensitivity`, `lyapunov`, `floquet`, ...
+
+        Of numbers of the same name it is the last one.
+        """
+        found = numbers_of(self._objects(text))
+        if not found:
+            raise InvalidError("there are no numbers among the answers; `ask` returns them as a text")
+        return found
 
     def fit(self, text: str) -> Fit:
         """Carry out `fit`: "g, theta to \\"data.csv\\" : t, theta sigma 0.01".
 
         A file is looked for where the process is.
         """
-        return fit_of(self._objects(f"fit {text}"))
+        return fit_of(self._objects(f"fit {language(text)}"))
 
     # --- figures and pages --------------------------------------------------------------
 
@@ -366,17 +400,17 @@ class System:
         >>> s.plot("x")  # doctest: +SKIP
         <qdot.Figure: x>
         """
-        shown = self._shown(f"plot {text}", "figure")
+        shown = self._shown(f"plot {language(text)}", "figure")
         return Figure(shown["data"], shown["name"])
 
     def animate(self, text: str = "") -> Animation:
         """Return the animation of the latest run, or of what may stand behind `animate`."""
-        shown = self._shown(f"animate {text}", "page")
+        shown = self._shown(f"animate {language(text)}", "page")
         return Animation(shown["data"], shown["name"])
 
     def report(self, text: str = "") -> Report:
         """Return the report of all that has been asked: the derivation, the runs, their figures."""
-        shown = self._shown(f"report {text}", "page")
+        shown = self._shown(f"report {language(text)}", "page")
         return Report(shown["data"], shown["name"])
 
     # --- what a prompt or an editor asks ------------------------------------------------
@@ -439,6 +473,8 @@ class System:
             the computation and is raised by the call that computes. None: no hook any more.
         """
         session = self._session
+        if hook is not None and not callable(hook):
+            raise TypeError(f"a function is wanted, not {type(hook).__name__}")
         session.look(lambda: session.hook_set(hook))
 
     def keep_undo(self, kept: bool = True) -> System:
@@ -487,7 +523,7 @@ class System:
         self.close()
 
     def __reduce__(self) -> Any:
-        raise TypeError("a qdot.System cannot be pickled: send the text of its statements")
+        raise TypeError("a qdot.System cannot be copied or pickled: send the text of its statements")
 
     # --- inside -------------------------------------------------------------------------
 
@@ -534,7 +570,7 @@ class System:
     ) -> System:
         all_values = {**(values or {}), **more}
         if all_values:
-            parts = [f"{name} = {written(value)}" for name, value in all_values.items()]
+            parts = [f"{named(name)} = {written(value)}" for name, value in all_values.items()]
             self.declare(f"{word} {', '.join(parts)}")
         return self
 
@@ -546,19 +582,35 @@ def written(value: Value) -> str:
     >>> written(0.1), written([1, -2.5]), written("pi/2")
     ('0.1', '[1, -2.5]', 'pi/2')
     """
-    if isinstance(value, str):
-        return value
+    if isinstance(value, str) or hasattr(value, "_language"):
+        return language(value)
+    if hasattr(value, "tolist"):  # NumPy's: its numbers as those of Python
+        value = value.tolist()
     if isinstance(value, numbers.Rational):
         exact = fractions.Fraction(value)
-        return str(exact) if exact.denominator == 1 else f"({exact})"
+        if exact.denominator == 1:
+            return _digits(exact.numerator)
+        return f"({_digits(exact.numerator)}/{_digits(exact.denominator)})"
     if isinstance(value, numbers.Real):
-        text = repr(float(value))
-        if text in ("inf", "-inf", "nan"):
-            raise InvalidError(f"{text} is no value")
-        return text
-    if hasattr(value, "__iter__"):
+        return _finite(repr(float(value)))
+    if isinstance(value, (list, tuple, range)):
         return "[" + ", ".join(written(member) for member in value) + "]"
-    return str(value)  # an expression of SymPy
+    if hasattr(value, "free_symbols"):
+        return of_sympy(value)
+    if hasattr(value, "__float__") and not isinstance(value, complex):  # of more digits than a float
+        return _finite(str(value))
+    kind = "None" if value is None else type(value).__name__
+    raise TypeError(f"a value is a real number, a list of them, a formula or a text, not {kind}")
+
+
+def _digits(n: int) -> str:
+    return str(decimal.Decimal(n))  # `str` of an int refuses long ones
+
+
+def _finite(text: str) -> str:
+    if text.strip("+-").lower() in ("inf", "infinity", "nan", "snan"):
+        raise InvalidError(f"{text} is no value")
+    return text
 
 
 def _notation(name: str) -> int:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import decimal
 import re
 from typing import AbstractSet, Any, Callable, Dict, FrozenSet, List, Mapping, Optional, Set
 
+from .errors import InvalidError
+
+_INTEGER = re.compile(r"-?[0-9]+$")
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?([eE][-+]?[0-9]+)?$")
 
 
@@ -43,6 +47,40 @@ def to_sympy(
         What stands for a name instead of the symbol or function of that name.
     """
     return _Reader(moving, symbols or {}).read(tree, frozenset())
+
+
+def of_sympy(expression: Any) -> str:
+    """Return an expression of SymPy in the language: functions of t as coordinates, slopes as velocities.
+
+    >>> import sympy
+    >>> from qdot.tree import of_sympy
+    >>> t = sympy.Symbol("t")
+    >>> theta = sympy.Function("theta")(t)
+    >>> of_sympy(theta.diff(t)**2*sympy.Rational(1, 2) + sympy.E)
+    "theta'**2/2 + exp(1)"
+    """
+    from sympy import oo, zoo, nan, I
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):  # type: ignore[misc]
+        def _print_Exp1(self, e: Any) -> str:
+            return "exp(1)"
+
+        def _print_Abs(self, e: Any) -> str:
+            return f"abs({self._print(e.args[0])})"
+
+        def _print_Function(self, e: Any) -> str:
+            if [str(argument) for argument in e.args] == ["t"] and hasattr(e.func, "name"):
+                return str(e.func.name)
+            return str(super()._print_Function(e))
+
+        def _print_Derivative(self, e: Any) -> str:
+            return f"{self._print(e.expr)}{chr(39) * int(e.derivative_count)}"
+
+    for none in (oo, -oo, zoo, nan, I):
+        if expression.has(none):
+            raise InvalidError(f"{expression} is no value")
+    return str(Printer().doprint(expression))
 
 
 _CONSTANTS = {"pi": "pi", "infinity": "oo", "true": "true", "false": "false"}
@@ -121,6 +159,8 @@ class _Reader:
         return lambda parts, bound: make(*self._all(parts, bound))
 
     def _leaf(self, name: str, bound: FrozenSet[str]) -> Any:
+        if _INTEGER.match(name):
+            return self.sympy.Integer(int(decimal.Decimal(name)))  # of any length
         if _NUMBER.match(name):
             return self.sympy.Rational(name)
         if name in _CONSTANTS:

@@ -1,5 +1,7 @@
 """test_formula.py -- formulas in SymPy and compiled, against each other and against SymPy's own mechanics."""
+import copy
 import gc
+import pickle
 import unittest
 
 import numpy
@@ -47,6 +49,40 @@ class Compiled(unittest.TestCase):
             self.assertEqual(f(1, 2).shape, shape)
             self.assertEqual(f([1, 2, 3, 4], 5).shape, (*shape, 4))
         self.assertEqual(s.derive("[x, y; 1, 2]").lambdify("x", "y")(3, 4).tolist(), [[3, 4], [1, 2]])
+
+    def test_arguments_are_names_one_by_one(self):
+        formula = qdot.System("coord x, y").derive("x*y")
+        for arguments in ("x, y",), ("", "x", "y"), ("x", "y", "x"):
+            with self.subTest(arguments=arguments), self.assertRaises(qdot.Error):
+                formula.lambdify(*arguments)
+        for argument in None, 3, 1.5, ["x", "y"]:
+            with self.subTest(argument=argument), self.assertRaises(TypeError):
+                formula.lambdify(argument, "y")
+
+    def test_values_are_real_numbers(self):
+        f = qdot.System("coord x").derive("2*x").lambdify("x")
+        for value in 1j, "1", [1, None], numpy.array(None), numpy.array(["2020"], dtype="M8[D]"):
+            with self.subTest(value=value), self.assertRaisesRegex(TypeError, "values of x are real numbers"):
+                f(value)
+        masked = numpy.ma.array([1.0, 2.0], mask=[False, True])
+        self.assertEqual(numpy.isnan(f(masked)).tolist(), [False, True])
+        for array in numpy.arange(6)[::-2], numpy.asfortranarray(numpy.ones((2, 3))), numpy.float32(3):
+            self.assertTrue((f(array) == 2 * array).all())
+
+    def test_copies_are_the_same_and_pickles_are_refused(self):
+        s = qdot.System("coord x")
+        formula = s.derive("2*x")
+        f = formula.lambdify("x")
+        self.assertIs(copy.deepcopy(formula), formula)
+        with self.assertRaisesRegex(TypeError, "Formula cannot be pickled"):
+            pickle.dumps(formula)
+        with self.assertRaisesRegex(TypeError, "Function cannot be pickled"):
+            pickle.dumps(f)
+        copies = copy.copy(f), copy.deepcopy(f)
+        del f
+        gc.collect()
+        s.number("1")  # what is to be freed is
+        self.assertEqual([g(2) for g in copies], [4, 4])
 
     def test_an_argument_goes_before_a_value(self):
         s = qdot.System("param a = 3; coord x")
@@ -163,6 +199,21 @@ class SymPy(unittest.TestCase):
         theta = sympy.Function("theta")(t)
         f = s.derive("T + V").lambdify(theta, theta.diff(t), sympy.Symbol("m"))
         self.assertAlmostEqual(f(1, 2, 3), 3 * 2 - 3 * 9.81 * numpy.cos(1), 12)
+
+    def test_values_and_names_may_be_sympys(self):
+        s = qdot.System("param a; coord x; particle p mass 1 at (x, 0)")
+        t = sympy.Symbol("t")
+        x = sympy.Function("x")(t)
+        s.set({sympy.Symbol("a"): sympy.E**2 / 3 + sympy.sqrt(2)})
+        s.start({x: sympy.pi, x.diff(t): sympy.Integer(4)})
+        self.assertAlmostEqual(s.number("a"), numpy.e**2 / 3 + numpy.sqrt(2), 14)
+        self.assertEqual(s.run("0..1").values(["x", "x'"], 0).tolist(), [numpy.pi, 4])
+        for value in sympy.oo, sympy.I, sympy.nan, sympy.zoo:
+            with self.subTest(value=value), self.assertRaises(qdot.InvalidError):
+                s.set(a=value)
+
+    def test_integers_of_any_length(self):
+        self.assertEqual(qdot.System().derive("10^5000 + 1").sympy(), sympy.Integer(10) ** 5000 + 1)
 
     def test_parameters_of_another_system_do_not_move(self):
         one = qdot.System("coord x").derive("x")

@@ -1,4 +1,6 @@
 """test_motion.py -- motions as arrays, against closed forms."""
+import decimal
+import fractions
 import gc
 import unittest
 
@@ -50,6 +52,47 @@ class Values(unittest.TestCase):
     def test_times_may_be_any_array(self):
         t = numpy.arange(10)[::-3]
         self.assertTrue(numpy.allclose(self.motion.values("x", t), numpy.cos(t), atol=1e-12))
+
+    def test_times_are_real_numbers(self):
+        masked = numpy.ma.array([1.0, 30.0], mask=[False, True])
+        for times in None, 1j, [1, 1j], "1", ["1", "2"], b"1", [None, 1], {1, 2}, numpy.datetime64("2020"):
+            with self.subTest(times=times):
+                for call in self.motion.values, self.motion.to_dataframe if pandas else self.motion.values:
+                    with self.assertRaisesRegex(TypeError, "times are real numbers, not"):
+                        call("x", numpy.array(times) if times is None else times)
+        for times in masked, float("nan"), [0, float("nan")], float("inf"):
+            with self.assertRaises(qdot.DomainError):
+                self.motion.values("x", times)
+        exact = [1, fractions.Fraction(1, 2), decimal.Decimal("0.25"), numpy.float32(3), True]
+        self.assertTrue(numpy.allclose(self.motion.values("x", exact), numpy.cos([1, 0.5, 0.25, 3, 1])))
+        self.assertAlmostEqual(self.motion.values("x", masked[:1])[0], numpy.cos(1))
+
+    def test_a_range_is_of_real_numbers_in_the_run(self):
+        for bounds in (float("nan"), 5), (0, float("nan")), (-1, 5), (0, float("inf")):
+            for what in "max", "min", "mean", "drift":
+                with self.subTest(bounds=bounds, what=what), self.assertRaises(qdot.DomainError):
+                    self.motion.over(what, "x", *bounds)
+        for bound in [1, 2], "1", 1j, numpy.arange(3):
+            with self.subTest(bound=bound), self.assertRaisesRegex(TypeError, "start is a real number"):
+                self.motion.max("x", bound)
+        self.assertEqual(self.motion.max("x", 2, 8), self.motion.max("x", 8, numpy.float64(2)))
+        with self.assertRaisesRegex(qdot.InvalidError, "'average' is none of max, min, mean, drift"):
+            self.motion.over("average", "x")
+
+    def test_expressions_may_be_formulas_vectors_by_name_and_have_comments(self):
+        s = oscillator()
+        motion, t = s.run("0..2"), [0.5, 1]
+        energy = s.derive("energy")
+        self.assertTrue((motion.values(energy, t) == motion.values("energy", t)).all())
+        self.assertEqual(motion.values([energy, "x"], t).shape, (2, 2))
+        self.assertEqual(motion.max(energy), motion.max("energy"))
+        self.assertEqual(motion.values(["x # place", "x'"], t).shape, (2, 2))
+        values, errors = motion.values({"place": "(x, 0)", "speed": "x'", "E": energy}, t, errors=True)
+        self.assertEqual([v.shape for v in values.values()], [(2, 2), (2,), (2,)])
+        self.assertEqual([v.shape for v in errors.values()], [(2, 2), (2,), (2,)])
+        self.assertTrue(numpy.allclose(values["place"][0], numpy.cos(t)))
+        with self.assertRaisesRegex(TypeError, "a text is wanted, not NoneType"):
+            motion.values([None], t)
 
     def test_what_cannot_be_read_is_an_error(self):
         with self.assertRaises(qdot.DomainError):
@@ -109,6 +152,17 @@ class Wholes(unittest.TestCase):
         s.declare("reset")
         with self.assertRaises(qdot.UnknownNameError):
             motion.values("x", 0)
+
+    def test_a_run_of_a_statement_is_a_motion(self):
+        s = oscillator()
+        with self.assertRaisesRegex(qdot.UnknownNameError, "there is no run yet"):
+            s.motion()
+        s.declare("run 0..10 as a; run 0..2")
+        self.assertEqual([s.motion(name).summary.end for name in ("a", "run2", None)], [10, 2, 2])
+        gc.collect()
+        self.assertAlmostEqual(s.motion("a").values("x", 3), numpy.cos(3))
+        with self.assertRaisesRegex(qdot.UnknownNameError, "there is no run `b`"):
+            s.motion("b")
 
     @unittest.skipUnless(pandas, "no pandas")
     def test_a_dataframe_has_times_as_its_index(self):

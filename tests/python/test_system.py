@@ -1,4 +1,5 @@
 """test_system.py -- statements, answers, errors and notices of a system."""
+import decimal
 import fractions
 import os
 import sys
@@ -60,8 +61,28 @@ class Errors(unittest.TestCase):
     def test_what_is_no_text_is_refused(self):
         with self.assertRaises(TypeError):
             qdot.System().declare(3)
-        with self.assertRaises(qdot.InvalidError):
+        with self.assertRaisesRegex(qdot.InvalidError, "NUL: character 7"):
             qdot.System().declare("param a\0b")
+        for call in "declare", "derive", "run", "check", "rows", "complete", "plot", "sweep":
+            with self.assertRaisesRegex(qdot.InvalidError, "character [0-9]+, .*surrogate"):
+                getattr(qdot.System(), call)("x\ud800")
+        for call in "sweep", "table", "fit", "plot", "animate", "report", "numbers", "rows", "motion":
+            with self.subTest(call), self.assertRaisesRegex(TypeError, "a text is wanted, not float"):
+                getattr(qdot.System(), call)(1.5)
+        with self.assertRaises(TypeError):
+            qdot.System().progress(3)
+
+    def test_hints_name_methods_not_functions_of_c(self):
+        with self.assertRaises(qdot.KindError) as caught:
+            s = oscillator()
+            s.run("0..1 as a")
+            s.derive("value(x, 1)")
+        self.assertEqual(caught.exception.hint, "System.number, or Motion.values for many")
+
+    def test_answers_without_numbers_are_no_numbers(self):
+        for text in "", "x", "print 3":
+            with self.assertRaisesRegex(qdot.InvalidError, "no numbers among the answers"):
+                oscillator().numbers(text)
 
     def test_a_traceback_ends_at_the_call(self):
         try:
@@ -99,9 +120,20 @@ class Asking(unittest.TestCase):
             s.set(a=value)
             self.assertAlmostEqual(s.number("a"), s.number(text), 15)
             self.assertEqual(s.check(f"{written(value)} == {text}"), qdot.Truth.PROVED, text)
-        for value in float("inf"), float("nan"):
+        for value in float("inf"), float("nan"), decimal.Decimal("NaN"), decimal.Decimal("-Infinity"):
             with self.assertRaises(qdot.InvalidError):
                 s.set(a=value)
+        for value in None, 1j, numpy.complex128(1), b"1", {}, object(), len, numpy.array(1j):
+            with self.subTest(value=value), self.assertRaisesRegex(TypeError, "a value is a real number"):
+                s.set(a=value)
+        for name in None, 3, ("a",):
+            with self.subTest(name=name), self.assertRaisesRegex(TypeError, "a name is a text"):
+                s.set({name: 3})
+        for value, number in (numpy.array(3), 3), (numpy.bool_(True), 1), (decimal.Decimal("1E+2"), 100):
+            self.assertEqual(s.set(a=value).number("a"), number)
+        self.assertEqual(s.set(a=s.derive("1/4")).number("a"), 0.25)
+        self.assertEqual(written(10**5000), "1" + 5000 * "0")
+        s.set(a=10**5000)
         s.set({"b[1]": 4, "b[2]": 5})
         self.assertEqual(s.number("b[1]*b[2]"), 20)
 

@@ -119,11 +119,11 @@ def main(arguments: List[str]) -> int:
             from jupyter_client.kernelspec import KernelSpecManager
 
             print(f"removed {KernelSpecManager().remove_kernel_spec(parsed.name)}")
-    except ImportError:
-        print(
-            "python3 -m qdot.kernel: Jupyter's client library is missing (Debian: python3-ipykernel)",
-            file=sys.stderr,
-        )
+    except ImportError as error:
+        said = str(error)
+        if (error.name or "").startswith("jupyter"):
+            said = "Jupyter's client library is missing (Debian: python3-ipykernel)"
+        print(f"python3 -m qdot.kernel: {said}", file=sys.stderr)
         return 1
     except (OSError, KeyError) as error:
         hint = "; `--user` needs no rights" if isinstance(error, PermissionError) else ""
