@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/utf8.h"
+
 static _Thread_local qdot_error last;
 
 qdot_status
@@ -14,6 +16,7 @@ qdot_fail(qdot_status status, const char *format, ...)
     va_start(ap, format);
     vsnprintf(last.message, sizeof last.message, format, ap);
     va_end(ap);
+    qdot_utf8_mend(last.message); /* `%.100s` may have cut a character */
     last.status = status;
     last.hint[0] = '\0';
     return status;
@@ -27,6 +30,7 @@ qdot_hint(const char *format, ...)
     va_start(ap, format);
     vsnprintf(last.hint, sizeof last.hint, format, ap);
     va_end(ap);
+    qdot_utf8_mend(last.hint);
     return last.status;
 }
 

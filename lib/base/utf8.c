@@ -45,3 +45,18 @@ qdot_utf8_columns(const char *text, size_t bytes)
     }
     return columns;
 }
+
+void
+qdot_utf8_mend(char *text)
+{
+    char *to = text;
+
+    while (*text != '\0') {
+        const size_t n = qdot_utf8_length(text);
+
+        for (size_t i = 0; i < n; i++)
+            *to++ = text[i];
+        text += n > 0 ? n : 1;
+    }
+    *to = '\0';
+}

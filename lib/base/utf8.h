@@ -15,4 +15,7 @@ uint32_t qdot_utf8_decode(const char *text, size_t *length);
  * stands over the letter before it. */
 size_t qdot_utf8_columns(const char *text, size_t bytes);
 
+/* Remove the bytes of the NUL-terminated text that are no UTF-8, such as those of a character that has been cut. */
+void qdot_utf8_mend(char *text);
+
 #endif

@@ -102,6 +102,20 @@ columns_count_code_points(void **state)
     assert_int_equal(qdot_utf8_columns("plain", 5), 5);
 }
 
+static void
+bytes_that_are_no_character_are_removed(void **state)
+{
+    char text[] = "\xFF\xCE\xB8\xCE a\xE2\x88.\xE2\x88\x82\xF0\x9D\x9C", plain[] = "plain", none[] = "";
+
+    (void)state;
+    qdot_utf8_mend(text);
+    qdot_utf8_mend(plain);
+    qdot_utf8_mend(none);
+    assert_string_equal(text, "\xCE\xB8 a.\xE2\x88\x82");
+    assert_string_equal(plain, "plain");
+    assert_string_equal(none, "");
+}
+
 int
 main(void)
 {
@@ -110,6 +124,7 @@ main(void)
         cmocka_unit_test(known_letters_decode),
         cmocka_unit_test(what_is_not_well_formed_has_length_0),
         cmocka_unit_test(columns_count_code_points),
+        cmocka_unit_test(bytes_that_are_no_character_are_removed),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
