@@ -1,4 +1,5 @@
 /* diagnostics.c -- publishes what an analysis has to say of a document. */
+#include "base/utf8.h"
 #include "documents.h"
 #include "places.h"
 
@@ -14,6 +15,8 @@ pack_remark(const qdot_server *server, const qdot_analysis *a, const qdot_remark
     qdot_text_add(&text, remark->message);
     if (remark->hint[0] != '\0')
         qdot_text_format(&text, "\nhint: %s", remark->hint);
+    if (text.n > 0)
+        qdot_utf8_mend(text.at); /* it may name a file in other letters */
     diagnostic = json_pack("{s:o, s:i, s:s, s:s}", "range", qdot_place_range(server, a->text, a->length, remark->at), "severity",
                            (int)remark->level, "source", "qdot", "message", qdot_text_str(&text));
     if (diagnostic != NULL && remark->fix != NULL)

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
@@ -53,26 +54,6 @@ qdot_documents_path(const char *uri)
     return path;
 }
 
-char *
-qdot_documents_uri(const char *path)
-{
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
-    char *whole = realpath(path, NULL), *uri;
-    qdot_text text = {0};
-
-    qdot_text_add(&text, "file://");
-    for (const char *k = whole != NULL ? whole : path; *k != '\0'; k++) {
-        if (strchr(plain, *k) != NULL)
-            qdot_text_char(&text, *k);
-        else
-            qdot_text_format(&text, "%%%02X", (unsigned char)*k);
-    }
-    free(whole);
-    uri = text.failed ? NULL : qdot_strdup(qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return uri;
-}
-
 /* --- finding -------------------------------------------------------------------------- */
 
 static qdot_document *
@@ -84,13 +65,67 @@ find_by_uri(const qdot_server *server, const char *uri)
     return NULL;
 }
 
+static bool
+is_same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+
+    return strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
+}
+
 const qdot_document *
 qdot_documents_by_path(const qdot_server *server, const char *path)
 {
     for (size_t i = 0; i < server->documents.n; i++)
-        if (strcmp(server->documents.at[i]->path, path) == 0)
+        if (is_same_file(server->documents.at[i]->path, path))
             return server->documents.at[i];
     return NULL;
+}
+
+/* Take the parts `..` out of a path, with the folder before each. */
+static void
+shorten_path(char *path)
+{
+    char *up, *before;
+
+    while ((up = strstr(path, "/../")) != NULL && up > path) {
+        *up = '\0';
+        before = strrchr(path, '/');
+        if (before == NULL) {
+            *up = '/';
+            return;
+        }
+        memmove(before, up + 3, strlen(up + 3) + 1);
+    }
+}
+
+char *
+qdot_documents_uri(const qdot_server *server, const char *path)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+    const qdot_document *open = qdot_documents_by_path(server, path);
+    char *shorter = qdot_strdup(path), *whole = NULL, *uri;
+    qdot_text text = {0};
+
+    if (shorter != NULL)
+        shorten_path(shorter);
+    if (shorter == NULL || shorter[0] != '/' || !is_same_file(shorter, path)) /* `..` behind a symbolic link is another folder */
+        whole = realpath(path, NULL);
+    if (open != NULL)
+        qdot_text_add(&text, open->uri);
+    else
+        qdot_text_add(&text, "file://");
+    for (const char *k = open != NULL ? "" : whole != NULL ? whole : shorter != NULL ? shorter : path; *k != '\0'; k++) {
+        if (strchr(plain, *k) != NULL)
+            qdot_text_char(&text, *k);
+        else
+            qdot_text_format(&text, "%%%02X", (unsigned char)*k);
+    }
+    free(whole);
+    qdot_free(shorter);
+    uri = text.failed ? NULL : qdot_strdup(qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return uri;
 }
 
 void
@@ -186,20 +221,19 @@ set_text(qdot_document *document, const char *text, size_t length)
     return qdot_follow_text(document->thorough, text, length);
 }
 
-/* Documents that include others are read anew, since another document has changed. */
+/* What the documents read from files is read anew, since a document (NULL: a file) has changed, which itself is analysed anyway. */
 static void
-mark_including(qdot_server *server, const qdot_document *changed)
+read_files_anew(qdot_server *server, const qdot_document *changed)
 {
     for (size_t i = 0; i < server->documents.n; i++) {
-        qdot_document *other = server->documents.at[i];
-        qdot_text text = {0};
+        qdot_document *document = server->documents.at[i];
+        const size_t before = document->analysis->done, thorough = document->thorough->done;
 
-        if (other == changed || other->analysis->included.n == 0)
+        if (document == changed)
             continue;
-        qdot_text_add_n(&text, other->analysis->text, other->analysis->length);
-        if (!text.failed)
-            (void)!set_text(other, qdot_text_str(&text), text.n);
-        qdot_text_clear(&text);
+        (void)!qdot_follow_files(document->analysis);
+        (void)!qdot_follow_files(document->thorough);
+        document->changed = document->changed || document->analysis->done < before || document->thorough->done < thorough;
     }
 }
 
@@ -235,7 +269,7 @@ qdot_lsp_open(qdot_server *server, const json_t *params, qdot_lsp_failure *failu
     document->version = json_integer_value(json_object_get(item, "version"));
     if (set_text(document, json_string_value(text), json_string_length(text)) != QDOT_OK)
         return fail_memory(failure);
-    mark_including(server, document);
+    read_files_anew(server, document);
     return NULL;
 }
 
@@ -281,7 +315,7 @@ qdot_lsp_change(qdot_server *server, const json_t *params, qdot_lsp_failure *fai
     qdot_text_clear(&text);
     if (status != QDOT_OK)
         return fail_memory(failure);
-    mark_including(server, document);
+    read_files_anew(server, document);
     return fine ? NULL : qdot_lsp_fail(failure, QDOT_LSP_INVALID_PARAMS, "a change without text or with a wrong range");
 }
 
@@ -296,18 +330,18 @@ qdot_lsp_close(qdot_server *server, const json_t *params, qdot_lsp_failure *fail
                                json_pack("{s:s, s:[]}", "uri", document->uri, "diagnostics"));
             server->documents.at[i] = server->documents.at[--server->documents.n];
             free_document(document);
+            read_files_anew(server, NULL); /* who includes it reads the file, which may say something else */
             break;
         }
     return NULL;
 }
 
+/* A file has been written: one that is open, or another. */
 json_t *
-qdot_lsp_save(qdot_server *server, const json_t *params, qdot_lsp_failure *failure)
+qdot_lsp_files_changed(qdot_server *server, const json_t *params, qdot_lsp_failure *failure)
 {
-    const qdot_document *document = qdot_documents_find(server, params, false, failure);
-
-    if (document != NULL)
-        mark_including(server, document);
+    (void)params, (void)failure;
+    read_files_anew(server, NULL);
     return NULL;
 }
 

@@ -8,11 +8,12 @@
 qdot_document *qdot_documents_find(qdot_server *server, const json_t *params, bool analysed, qdot_lsp_failure *failure);
 /* The same with the byte of its "position". */
 qdot_document *qdot_documents_find_place(qdot_server *server, const json_t *params, size_t *at, qdot_lsp_failure *failure);
-/* The document with that file; NULL: it is not open. */
+/* The document with that file, by whatever path; NULL: it is not open. */
 const qdot_document *qdot_documents_by_path(const qdot_server *server, const char *path);
-/* The path of a URI file:///a%20b.lag, and back; another URI is its own path. The caller's; NULL if memory runs out. */
+/* The path of a URI file:///a%20b.lag; another URI is its own path. The caller's; NULL if memory runs out. */
 char *qdot_documents_path(const char *uri);
-char *qdot_documents_uri(const char *path);
+/* The URI of a file: as the editor names it if it is open. The caller's; NULL if memory runs out. */
+char *qdot_documents_uri(const qdot_server *server, const char *path);
 
 /* Analyse to the end, although something waits. */
 void qdot_documents_analyse(qdot_analysis *a);

@@ -26,7 +26,7 @@ append_included(const qdot_server *server, const qdot_analysis *a, const char *n
     for (size_t i = 0; i < a->included.n; i++) {
         const qdot_source *source = a->included.at[i].source;
         qdot_occurrence_list list = {0};
-        char *uri = qdot_documents_uri(a->included.at[i].path);
+        char *uri = qdot_documents_uri(server, a->included.at[i].path);
 
         if (uri != NULL && qdot_names_of_source(a, source, &list) == QDOT_OK)
             for (size_t k = 0; k < list.n; k++)

@@ -60,7 +60,9 @@ json_t *qdot_lsp_fail(qdot_lsp_failure *failure, int code, const char *format, .
 /* The handlers of requests. The result is the caller's; NULL: *failure says why. A handler of a notification returns NULL. */
 #define REQUEST(method, function) \
     json_t *function(qdot_server *server, const json_t *params, qdot_lsp_failure *failure);
+#define NOTIFICATION REQUEST
 #include "methods.def"
+#undef NOTIFICATION
 #undef REQUEST
 
 /* Send a notification or an answer; `params`, `result` are taken over. */

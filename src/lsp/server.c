@@ -10,17 +10,22 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/utf8.h"
 #include "documents.h"
+#include "message.h"
 #include "tasks.h"
 
 typedef struct {
     const char *method;
     json_t *(*handle)(qdot_server *server, const json_t *params, qdot_lsp_failure *failure);
+    bool answered; /* it is a request */
 } method;
 
 static const method methods[] = {
-#define REQUEST(name, function) {name, function},
+#define REQUEST(name, function) {name, function, true},
+#define NOTIFICATION(name, function) {name, function, false},
 #include "methods.def"
+#undef NOTIFICATION
 #undef REQUEST
 };
 
@@ -35,6 +40,7 @@ qdot_lsp_fail(qdot_lsp_failure *failure, int code, const char *format, ...)
     va_start(ap, format);
     (void)vsnprintf(failure->message, sizeof failure->message, format, ap);
     va_end(ap);
+    qdot_utf8_mend(failure->message);
     return NULL;
 }
 
@@ -73,8 +79,8 @@ qdot_server_answer(qdot_server *server, const json_t *id, json_t *result, const 
     if (result != NULL)
         send_message(server, json_pack("{s:s, s:o, s:o}", "jsonrpc", "2.0", "id", own, "result", result));
     else
-        send_message(server, json_pack("{s:s, s:o, s:{s:i, s:s%}}", "jsonrpc", "2.0", "id", own, "error", "code", failure->code,
-                                       "message", failure->message, strnlen(failure->message, sizeof failure->message)));
+        send_message(server, json_pack("{s:s, s:o, s:{s:i, s:s}}", "jsonrpc", "2.0", "id", own, "error", "code", failure->code,
+                                       "message", failure->message));
 }
 
 /* --- one message ---------------------------------------------------------------------- */
@@ -104,6 +110,8 @@ handle_request(qdot_server *server, const json_t *message, const char *name)
         (void)qdot_lsp_fail(&failure, QDOT_LSP_NOT_INITIALIZED, "the first request is `initialize`");
     else if (found == NULL)
         (void)qdot_lsp_fail(&failure, QDOT_LSP_UNKNOWN_METHOD, "unknown method `%.200s`", name);
+    else if (found->answered != (id != NULL))
+        (void)qdot_lsp_fail(&failure, QDOT_LSP_INVALID_REQUEST, "`%s` is a notification, which has no id", name);
     else
         result = found->handle(server, json_object_get(message, "params"), &failure);
     server->request = NULL;
@@ -118,7 +126,7 @@ handle_request(qdot_server *server, const json_t *message, const char *name)
 static void
 handle_message(qdot_server *server, const char *text, size_t length)
 {
-    json_t *message = json_loadb(text, length, JSON_ALLOW_NUL | JSON_DECODE_ANY, NULL);
+    json_t *message = qdot_message_read(text, length);
     const json_t *name = json_object_get(message, "method");
     qdot_lsp_failure failure = {QDOT_LSP_PARSE_ERROR, "this is no JSON"};
 

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <unistd.h>
 
 #include "documents.h"
@@ -55,6 +58,9 @@ become_task(const qdot_server *server, const char *kind, const char *path, int i
     for (int fd = STDERR_FILENO + 1; fd < 64; fd++)
         (void)close(fd);
     (void)setpgid(0, 0);
+#ifdef __linux__
+    (void)prctl(PR_SET_PDEATHSIG, SIGKILL); /* the server cannot end it if it is killed itself */
+#endif
     if (n > 0) {
         own[n] = '\0';
         (void)execl(own, "qdot", option, (char *)NULL);
@@ -80,6 +86,8 @@ start_process(const qdot_server *server, qdot_task *task, const char *path, cons
     task->process = fork();
     if (task->process == 0)
         become_task(server, task->kind, path, in[0], out[1]);
+    if (task->process > 0) /* it does so too: whoever is first, the group is there when it is to be interrupted */
+        (void)setpgid(task->process, task->process);
     (void)close(in[0]);
     (void)close(out[1]);
     task->out = out[0];
@@ -263,34 +271,35 @@ answer_task(qdot_server *server, qdot_task *task)
     qdot_server_answer(server, task->id, result, &failure);
 }
 
-/* Tell the progress that the whole lines contain, and drop these; the last whole line stays. */
+/* Tell the progress of a line that the process has written. false: it is its result. */
+static bool
+tell_line(qdot_server *server, const qdot_task *task, const char *text, size_t length)
+{
+    json_t *line = json_loadb(text, length, 0, NULL);
+    const json_t *done = json_object_get(line, "done"), *left = json_object_get(line, "left");
+    const char *what = json_string_value(json_object_get(line, "progress"));
+    char message[80] = "";
+
+    if (json_is_real(left))
+        (void)snprintf(message, sizeof message, ", %.0f s left", json_real_value(left));
+    if (done != NULL)
+        tell_progress(server, task,
+                      json_pack("{s:s, s:s+, s:I}", "kind", "report", "message", what != NULL ? what : "", message, "percentage",
+                                (json_int_t)(100 * json_number_value(done))));
+    json_decref(line);
+    return done != NULL;
+}
+
+/* Tell the progress that the whole lines contain, and drop these; the result stays. */
 static void
 read_progress(qdot_server *server, qdot_task *task)
 {
     char *text = task->written.at, *end;
     size_t taken = 0;
 
-    while (text != NULL && taken < task->written.n && (end = memchr(text + taken, '\n', task->written.n - taken)) != NULL) {
-        json_t *line = json_loadb(text + taken, (size_t)(end - text) - taken, 0, NULL);
-        const json_t *done = json_object_get(line, "done"), *left = json_object_get(line, "left");
-
-        if (done == NULL) {
-            json_decref(line);
-            break;
-        }
-        {
-            char message[80] = "";
-            const char *what = json_string_value(json_object_get(line, "progress"));
-
-            if (json_is_real(left))
-                (void)snprintf(message, sizeof message, ", %.0f s left", json_real_value(left));
-            tell_progress(server, task,
-                          json_pack("{s:s, s:s+, s:I}", "kind", "report", "message", what != NULL ? what : "", message, "percentage",
-                                    (json_int_t)(100 * json_number_value(done))));
-        }
-        json_decref(line);
+    while (text != NULL && taken < task->written.n && (end = memchr(text + taken, '\n', task->written.n - taken)) != NULL &&
+           tell_line(server, task, text + taken, (size_t)(end - text) - taken))
         taken = (size_t)(end - text) + 1;
-    }
     if (taken > 0) {
         memmove(text, text + taken, task->written.n - taken);
         qdot_text_truncate(&task->written, task->written.n - taken);

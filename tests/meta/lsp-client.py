@@ -2,7 +2,7 @@
 """lsp-client.py -- a scripted client of `qdot --lsp`, which edits scripts at random and checks what the server says.
 
     lsp-client.py QDOT edits N SEED FILE...    for lsp.test
-    lsp-client.py QDOT protocol | fuzz N SEED | commands | latency FILE...
+    lsp-client.py QDOT protocol | shapes | fuzz N SEED | files | commands | latency FILE...
 
 Prints a line for each thing that is wrong, and ends with 1 then.
 """
@@ -318,9 +318,6 @@ def run_protocol(qdot):
     client.send_bytes(b"Content-Length: 5\r\n\r\n{{{{{")
     if client.receive()["error"]["code"] != -32700:
         wrong("no JSON is no error")
-    client.send_bytes(b"Content-Length: 9\r\n\r\n{\"a\":\"\xff\"}")
-    if client.receive()["error"]["code"] != -32700:
-        wrong("a text that is no UTF-8 is no error")
     client.send_bytes(b"Content-Length: -3\r\n\r\n")
     if client.receive()["error"]["code"] != -32700:
         wrong("a wrong length is no error")
@@ -358,6 +355,139 @@ def run_protocol(qdot):
         wrong("a closed pipe does not end the server")
     except BrokenPipeError:
         client.process.wait(timeout=20)
+
+
+# A message of each kind, to be changed.
+RANGE = {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 1}}
+WHOLE = {"textDocument": {"uri": "file:///a.lag"}, "position": {"line": 0, "character": 6}, "range": RANGE, "newName": "zz",
+         "context": {"includeDeclaration": True, "diagnostics": []}, "options": {"tabSize": 4, "insertSpaces": True}}
+OPEN = {"textDocument": {"uri": "file:///a.lag", "languageId": "qdot", "version": 1, "text": "coord x\nx\n"}}
+REQUESTS = {"textDocument/" + what: WHOLE for what in [
+    "diagnostic", "completion", "hover", "signatureHelp", "definition", "declaration", "references", "documentHighlight", "prepareRename", "rename",
+    "documentSymbol", "formatting", "rangeFormatting", "foldingRange", "semanticTokens/full", "codeAction", "codeLens"]}
+REQUESTS["workspace/executeCommand"] = {"command": "qdot.run", "arguments": ["file:///a.lag", 0]}
+NOTIFICATIONS = {"textDocument/didOpen": OPEN, "textDocument/didClose": WHOLE, "textDocument/didSave": WHOLE, "$/cancelRequest": {"id": 1},
+                 "textDocument/didChange": {"textDocument": {"uri": "file:///a.lag", "version": 2}, "contentChanges": [{"range": RANGE, "text": "c"}]},
+                 "window/workDoneProgress/cancel": {"token": 1}, "workspace/didChangeWatchedFiles": {"changes": []}}
+OTHERS = [None, True, -1, 2**31 - 1, 2**63 - 1, 1.5, "", "file://", "a\0b", "\u00e9" * 200, [], [1], {}, {"a": {}}, KeyError]
+
+
+def parts_of(value, before=()):
+    yield before
+    for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ():
+        yield from parts_of(value[key], before + (key,))
+
+
+def with_part(value, where, other):
+    """The value with another part there; KeyError: without it."""
+    if not where:
+        return None if other is KeyError else other
+    value = value.copy()
+    if len(where) > 1 or other is not KeyError:
+        value[where[0]] = with_part(value[where[0]], where[1:], other)
+    else:
+        del value[where[0]]
+    return value
+
+
+def run_shapes(qdot):
+    """Every part of every message left out or replaced: each request has an answer, and none is "out of memory"."""
+    client = Client(qdot)
+    client.notify("textDocument/didOpen", OPEN)
+    for method, params in {**REQUESTS, **NOTIFICATIONS}.items():
+        for where in parts_of(params):
+            for other in OTHERS:
+                changed = with_part(params, where, other)
+                if method in REQUESTS:
+                    answer = client.ask(method, changed)
+                    if answer.get("error", {}).get("code") == -32603:
+                        wrong("%s %s: %s" % (method, changed, answer))
+                else:
+                    client.notify(method, changed)
+                    client.notify("textDocument/didOpen", OPEN)
+        client.notes.clear()
+    for method, params in NOTIFICATIONS.items():
+        if client.ask(method, params).get("error", {}).get("code") != -32600:
+            wrong("%s is answered as a request" % method)
+    client.notes.clear()
+    client.notify("shutdown", None)  # a request without id: nothing can be answered, and nothing is done
+    client.notify("textDocument/didOpen", OPEN)
+    client.request("textDocument/hover", WHOLE)
+    if any("method" not in note for note in client.notes):
+        wrong("a request without id is answered: %s" % client.notes)
+    # names that are cut in an error, within a character
+    for k in range(4):
+        name = "b" * k + "\U0001F600" * 200
+        for method, params in [(name, None), ("textDocument/rename", dict(WHOLE, newName=name)), ("workspace/executeCommand", {"command": name})]:
+            if "error" not in client.ask(method, params):
+                wrong("%.40s: no error" % method)
+    # half of a pair of UTF-16, bytes that are no UTF-8: the change is made
+    document = Document(client, "/b.lag", "coord x\n")
+    for said in (b"\\ud83d\\\\ud83d", b"\\ude00", b"\xff\xe9"):
+        body = json.dumps({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": {
+            "textDocument": {"uri": document.uri, "version": 2}, "contentChanges": [{"text": "coord x # SAID \U0001F600\nthta"}]}}).encode().replace(b"SAID", said)
+        client.send_bytes(b"Content-Length: %d\r\n\r\n" % len(body) + body)
+        if [d["message"].split("\n")[0] for d in document.diagnostics()] != ["unknown name `thta`"]:
+            wrong("a change with %s is lost" % said)
+        document.set("coord x\n")
+    # packets
+    client.id += 1
+    body = json.dumps({"jsonrpc": "2.0", "id": client.id, "method": "textDocument/hover", "params": WHOLE}).encode()
+    message = b"Content-Type: application/vscode-jsonrpc; charset=utf-8\r\nContent-Length: %d\r\n\r\n" % len(body) + body
+    for k in range(len(message)):
+        client.send_bytes(message[k:k + 1])
+    client.answer(client.id)
+    client.send_bytes(message * 3)
+    for _ in range(3):
+        client.answer(client.id)
+    if client.end() != 0:
+        wrong("the server ends with an error")
+
+
+def run_files(qdot):
+    """Scripts and data that a document reads: as they are being edited, and as they are on disk once closed or saved."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.mkdir(folder + "/sub \u00fc")
+        os.symlink(folder + "/sub \u00fc", folder + "/link")
+        client = Client(qdot)
+
+        def write(name, text):
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+
+        def expect(document, what, *messages):
+            found = [d["message"] for d in document.diagnostics()]
+            if len(found) != len(messages) or not all(m in f for m, f in zip(messages, found)):
+                wrong("%s: %s" % (what, found))
+
+        write("parts.lag", "param q = 3\n")
+        text = "include \"../parts.lag\"\nq\n"
+        for name in ("sub \u00fc", "link"):
+            document = Document(client, "%s/%s/main.lag" % (folder, name), text)
+            expect(document, "a script is included")
+            other = Document(client, folder + "/parts.lag", "param r\n")
+            expect(document, "what is being edited counts", "unknown name `q`")
+            other.set("param q\n")
+            found = client.request("textDocument/definition", document.at(len(text) - 2))
+            if [f["uri"] for f in found] != [other.uri]:
+                wrong("a definition in an open document: %s" % found)
+            other.set("param r\n")
+            other.close()
+            expect(document, "a closed document is its file")
+            found = client.request("textDocument/definition", document.at(len(text) - 2))
+            if [f["uri"] for f in found] != ["file://" + folder + "/parts.lag"]:
+                wrong("a definition in a file: %s" % found)
+            document.close()
+        document = Document(client, folder + "/late.lag", "include \"new.lag\"\nz\ndata F from \"new.csv\" : t, F\nF(1)\n")
+        document.diagnostics()
+        write("new.lag", "param z\n")
+        write("new.csv", "t,F\n0,1\n2,3\n")
+        client.notify("workspace/didChangeWatchedFiles", {"changes": []})
+        expect(document, "files that are there now")
+        os.remove(folder + "/new.csv")
+        client.notify("textDocument/didSave", document.item)
+        expect(document, "data that is gone", "new.csv")
+        client.end()
 
 
 def run_fuzz(qdot, number, seed):
@@ -434,8 +564,47 @@ def run_commands(qdot):
         client.notify("$/cancelRequest", {"id": number})
         if client.answer(number).get("error", {}).get("code") != -32800:
             wrong("a run is not cancelled")
+        for delay in (0, 0, 0, 0.002, 0.01):  # also before the process has begun
+            numbers = [client.id + 1 + k for k in range(3)]
+            client.id = numbers[-1]
+            for number in numbers:
+                client.send({"jsonrpc": "2.0", "id": number, "method": "workspace/executeCommand", "params": {"command": "qdot.run", "arguments": [document.uri]}})
+            time.sleep(delay)
+            for number in numbers:
+                client.notify("$/cancelRequest", {"id": number})
+            answers = {}
+            while len(answers) < 3:
+                message = client.receive(20)
+                if "method" not in message:
+                    answers[message["id"]] = message.get("error", {}).get("code")
+            if answers != {number: -32800 for number in numbers}:
+                wrong("runs are not cancelled: %s" % answers)
         if client.end() != 0:
             wrong("the server ends with an error")
+        for way in ("exit", "close", "kill"):
+            client = Client(qdot)
+            document = Document(client, os.path.join(folder, "long.lag"), document.text)
+            client.send({"jsonrpc": "2.0", "id": 1000, "method": "workspace/executeCommand", "params": {"command": "qdot.run", "arguments": [document.uri]}})
+            client.request("textDocument/hover", document.at(0))
+            children = "/proc/%d/task/%d/children" % (client.process.pid, client.process.pid)
+            if way == "exit":
+                client.notify("exit", None)
+            elif way == "close":
+                client.process.stdin.close()
+            elif os.path.exists(children):
+                with open(children) as file:
+                    (child,) = file.read().split()
+                client.process.kill()
+                for _ in range(100):
+                    if not os.path.exists("/proc/%s/cmdline" % child) or not open("/proc/%s/cmdline" % child).read():
+                        break
+                    time.sleep(0.05)
+                else:
+                    wrong("a run goes on without its server")
+                    os.kill(int(child), signal.SIGKILL)
+            else:
+                client.process.kill()
+            client.process.wait(timeout=20)
 
 
 def run_latency(qdot, files):
@@ -471,6 +640,10 @@ def main():
         run_protocol(qdot)
     elif what == "fuzz":
         run_fuzz(qdot, int(rest[0]), rest[1])
+    elif what == "shapes":
+        run_shapes(qdot)
+    elif what == "files":
+        run_files(qdot)
     elif what == "commands":
         run_commands(qdot)
     elif what == "latency":

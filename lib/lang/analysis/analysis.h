@@ -32,6 +32,7 @@ typedef struct {
     int64_t work;    /* steps of work spent on questions */
     bool partial;    /* a part of the scene is missing: it was not carried out */
     bool loose;      /* values of parameters come from what was not carried out */
+    bool reads;      /* files have been read: other scripts, data */
     bool uncertain;  /* `undo`, `quit`: what is declared is not known any more */
 } qdot_piece_state;
 

@@ -96,6 +96,16 @@ qdot_follow_text(qdot_analysis *a, const char *text, size_t length)
 }
 
 qdot_status
+qdot_follow_files(qdot_analysis *a)
+{
+    size_t kept = 0;
+
+    while (kept < a->done && !a->pieces.at[kept].behind.reads)
+        kept++;
+    return kept == a->done || go_back(a, kept) ? QDOT_OK : qdot_analysis_begin(a);
+}
+
+qdot_status
 qdot_follow_on(qdot_analysis *a, bool *done)
 {
     qdot_status status;

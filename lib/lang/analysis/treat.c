@@ -240,7 +240,7 @@ choose_way(const passage *p, const qdot_token *first, const qdot_token *end)
 static qdot_status
 note_unknown(passage *p, const qdot_token *first, const qdot_token *end, bool carried)
 {
-    static const char *const values[] = {"set", "start", "find", "fit", "continue", NULL};
+    static const char *const values[] = {"set", "start", "find", "fit", "continue", NULL}, *const files[] = {"include", "data", NULL};
     const qdot_form form = qdot_statement_form(p->a->session, first);
     const qdot_statement *row = form == QDOT_FORM_WORD ? qdot_statement_row(first) : NULL;
 
@@ -251,6 +251,8 @@ note_unknown(passage *p, const qdot_token *first, const qdot_token *end, bool ca
             QDOT_TRY(qdot_meaning_add_unknown(p->a, k[1].text));
     if (is_word_among(first, values) && !carried)
         p->state.loose = true;
+    if (is_word_among(first, files))
+        p->state.reads = true;
     if (qdot_token_is_word(first, "linearize") && !carried)
         p->state.partial = true;
     if (row != NULL && !carried &&
