@@ -173,52 +173,47 @@ class Motion:
             with an axis more in front, so that ``x, y = motion.values(["x", "y"], times)``; for a mapping
             a dictionary of arrays.
         """
-        import numpy
-
         at = floats(times, "times")
-        shape = at.shape
-        if isinstance(expressions, str) or hasattr(expressions, "_language"):
-            expressions = language(expressions)
-            values, off = self._values(expressions, at, None)
-            if values.shape[1] == 1 and not _is_list(expressions):
-                return _shaped(values[:, 0], off[:, 0], shape, errors)
-            return _shaped(values.T, off.T, (values.shape[1], *shape), errors)
+        tables: List[Any]
         if isinstance(expressions, Mapping):
-            both = self._by_name(expressions, at)
-            return both if errors else both[0]
-        texts = [language(text) for text in expressions]
-        k = len(texts)
-        if k == 0:
-            values = off = numpy.empty((at.size, 0))
+            tables = self._read_by_name(expressions, at, bool(errors))
         else:
-            values, off = self._values(_list(texts), at, k)
-        return _shaped(values.T, off.T, (k, *shape), errors)
+            tables = self._read(expressions, at, bool(errors))
+        return tuple(tables) if errors else tables[0]
 
-    def _by_name(
-        self, expressions: Mapping[str, Expression], times: Array
-    ) -> Tuple[Dict[str, Array], Dict[str, Array]]:
-        """Return values and errors of each; scalars all by one call, vectors each by one."""
+    def _read(self, expressions: Expressions, times: Array, errors: bool) -> List[Array]:
+        """Return values and, if they are wanted, errors: arrays with the components in front."""
+        if isinstance(expressions, str) or hasattr(expressions, "_language"):
+            text = language(expressions)
+            tables = self._tables(text, times, None, errors)
+            if tables[0].shape[1] == 1 and not _is_list(text):
+                return [table.reshape(times.shape) for table in tables]
+        else:
+            texts = [language(text) for text in expressions]
+            tables = self._tables(_list(texts), times, len(texts), errors)
+        return [table.T.reshape(table.shape[1], *times.shape) for table in tables]
+
+    def _read_by_name(
+        self, expressions: Mapping[str, Expression], times: Array, errors: bool
+    ) -> List[Dict[str, Array]]:
+        """Return values and, if they are wanted, errors by name: by one call where all are scalars."""
+        texts = list(expressions.values())
         try:
-            pairs = zip(*self.values(list(expressions.values()), times, errors=True))
-            both = dict(zip(expressions, pairs))
-        except KindError:  # not all are scalars
-            both = {
-                name: self.values(text, times, errors=True) for name, text in expressions.items()
-            }
-        return {name: pair[0] for name, pair in both.items()}, {
-            name: pair[1] for name, pair in both.items()
-        }
+            columns = list(zip(*self._read(texts, times, errors)))
+        except KindError:
+            columns = [tuple(self._read(text, times, errors)) for text in texts]
+        return [{name: c[i] for name, c in zip(expressions, columns)} for i in range(1 + errors)]
 
-    def _values(self, text: str, times: Array, k: Optional[int]) -> Tuple[Array, Array]:
-        """Return values [n][k] and errors [n][k]; k None: as many components as the expression has."""
+    def _tables(self, text: str, times: Array, k: Optional[int], errors: bool) -> List[Array]:
+        """Return values [n][k] and, if they are wanted, errors; k None: as many as there are components."""
         import numpy
 
-        tables: List[Array] = []
-
-        def body() -> None:
+        def body() -> List[Array]:
             n, wanted = times.size, 1 if k is None else k
             while True:
-                tables[:] = [numpy.empty((n, wanted)), numpy.empty((n, wanted))]
+                tables = [numpy.empty((n, wanted)) for _ in range(1 + errors)]
+                if wanted == 0:
+                    return tables
                 try:
                     self._session.check(
                         self._session.library.qdot_motion_values(
@@ -228,18 +223,17 @@ class Motion:
                             times.ctypes.data,
                             wanted,
                             tables[0].ctypes.data,
-                            tables[1].ctypes.data,
+                            tables[1].ctypes.data if errors else None,
                         )
                     )
-                    return
+                    return tables
                 except KindError as error:  # before anything was computed: a vector
                     has = _components(error.message)
                     if k is not None or has is None or has == wanted:
                         raise
                     wanted = has
 
-        self._session.call(body)
-        return tables[0], tables[1]
+        return self._session.call(body)
 
     def max(
         self, expression: Expression, start: Optional[float] = None, end: Optional[float] = None
@@ -450,11 +444,6 @@ class Motion:
 
     def __reduce__(self) -> Any:
         raise TypeError("a qdot.Motion cannot be copied or pickled: keep its values")
-
-
-def _shaped(values: Array, off: Array, shape: Tuple[int, ...], errors: bool) -> Any:
-    values = values.reshape(shape)
-    return (values, off.reshape(shape)) if errors else values
 
 
 def _list(texts: Sequence[str]) -> str:

@@ -3,6 +3,7 @@ import decimal
 import fractions
 import gc
 import unittest
+import unittest.mock
 
 import numpy
 import qdot
@@ -48,6 +49,21 @@ class Values(unittest.TestCase):
         values = self.motion.values({"place": "x", "speed": "x'"}, [0, 1])
         self.assertEqual(list(values), ["place", "speed"])
         self.assertTrue((values["place"] == self.motion.values("x", [0, 1])).all())
+
+    def test_errors_are_computed_where_they_are_wanted(self):
+        run, asked = oscillator().run("0..3"), []
+        library = run._session.library
+        values, t = library.qdot_motion_values, numpy.linspace(0, 3, 9)
+
+        def told(*arguments):
+            asked.append(arguments[-1] is not None)
+            return values(*arguments)
+
+        with unittest.mock.patch.object(library, "qdot_motion_values", told):
+            for expressions in "x", ["x", "x'"], {"a": "x"}:
+                run.values(expressions, t)
+                run.values(expressions, t, errors=1)
+        self.assertEqual(asked, 3 * [False, True])
 
     def test_times_may_be_any_array(self):
         t = numpy.arange(10)[::-3]
