@@ -30,6 +30,10 @@ T = TypeVar("T")
 # --- a computation in a thread of its own -----------------------------------------------
 
 
+# How often a waiting main thread hears signals that did not wake it. Seconds.
+_LISTEN = 0.05
+
+
 class _Job(Generic[T]):
     """One call: it is claimed once, by the worker or by who gives it up, then finished."""
 
@@ -55,7 +59,7 @@ class _Job(Generic[T]):
         self.finished = True
         self.done.release()
 
-    def wait(self, timeout: float = -1) -> None:
+    def wait(self, timeout: float) -> None:
         if not self.finished:
             self.done.acquire(timeout=timeout)
 
@@ -108,7 +112,8 @@ def _carry_out(body: Callable[[], T], interrupt: Callable[[], None]) -> T:
             worker = _Worker()
             worker.start()
         worker.give(job)
-        job.wait()
+        while not job.finished:  # a signal may come just before the wait, or to another thread
+            job.wait(_LISTEN)
     except BaseException as stopped:
         if not job.claim.acquire(blocking=False):
             _stop(job, interrupt)
@@ -130,7 +135,7 @@ def _stop(job: _Job[Any], interrupt: Callable[[], None]) -> None:
     while not job.finished:
         try:
             interrupt()
-            job.wait(0.05)
+            job.wait(_LISTEN)
         except BaseException:  # the first one is raised, when the job has ended
             continue
 

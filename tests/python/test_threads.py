@@ -32,6 +32,14 @@ class Interruption(unittest.TestCase):
         self.assertGreater(caught.exception.motion.summary.end, 1)
         self.assertEqual(self.s.run("0..1").summary.end, 1)
 
+    def test_ctrl_c_that_wakes_another_thread_stops_a_run(self):
+        later(0.3, lambda: signal.pthread_kill(threading.get_ident(), signal.SIGINT))
+        guard = later(5, self.s.interrupt)
+        with self.assertRaises(KeyboardInterrupt):
+            self.s.run("0..1.5e7")
+        self.assertTrue(guard.is_alive())
+        guard.cancel()
+
     def test_ctrl_c_again_and_again(self):
         signals = []
 

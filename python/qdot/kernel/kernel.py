@@ -50,11 +50,17 @@ class QdotKernel(Kernel):
         allow_stdin: bool = False,
         **more: Any,
     ) -> Dict[str, Any]:
-        if store_history and not silent and code.strip():
-            self.history.add(self.execution_count, code)
-        code, leaves = _until_quit(code)
         send = _send_nothing if silent else self._sender()
-        failure = self._carry_out(code, send)
+        leaves = False
+        try:
+            if store_history and not silent and code.strip():
+                self.history.add(self.execution_count, code)
+            code, leaves = _until_quit(code)
+            failure = self._carry_out(code, send)
+        except KeyboardInterrupt:
+            failure = _interrupted()
+        except Exception as error:  # a cell is answered whatever happens
+            failure = _refusal(error)
         if failure is not None:
             send("error", failure)
             return {"status": "error", "execution_count": self.execution_count, **failure}
@@ -73,18 +79,14 @@ class QdotKernel(Kernel):
             transient = {"display_id": display_id}
             send(message, {"data": data, "metadata": {}, "transient": transient})
 
-        try:
-            for output in carry_out(
-                self.system, code, f"In[{self.execution_count}]", Progress(draw)
-            ):
-                if output.kind == "error":
-                    return _failure(output)
-                if output.kind == "display":
-                    send("display_data", {"data": output.data, "metadata": {}})
-                else:
-                    send("stream", {"name": output.kind, "text": output.text})
-        except KeyboardInterrupt:
-            return _interrupted()
+        name = f"In[{self.execution_count}]"
+        for output in carry_out(self.system, code, name, Progress(draw)):
+            if output.kind == "error":
+                return _failure(output)
+            if output.kind == "display":
+                send("display_data", {"data": output.data, "metadata": {}})
+            else:
+                send("stream", {"name": output.kind, "text": output.text})
         return None
 
     def _sender(self) -> Send:
@@ -101,7 +103,10 @@ class QdotKernel(Kernel):
 
     def do_complete(self, code: str, cursor_pos: Optional[int]) -> Dict[str, Any]:
         cursor = len(code) if cursor_pos is None else cursor_pos
-        start, words = self.system.complete(code, cursor)
+        try:
+            start, words = self.system.complete(code, cursor)
+        except Error:  # no text of the language: a NUL
+            start, words = cursor, []
         return {
             "status": "ok",
             "matches": list(words),
@@ -113,7 +118,10 @@ class QdotKernel(Kernel):
     def do_inspect(
         self, code: str, cursor_pos: int, detail_level: int = 0, omit_sections: Any = ()
     ) -> Dict[str, Any]:
-        said = self.system.explain(code, cursor_pos)
+        try:
+            said = self.system.explain(code, cursor_pos)
+        except Error:
+            said = {}
         if said.get("formula"):  # in LaTeX; a terminal wants it as it is typed
             try:
                 said["plain"] = self.system.derive(said["word"]).plain
@@ -123,8 +131,11 @@ class QdotKernel(Kernel):
         return {"status": "ok", "found": bool(data), "data": data, "metadata": {}}
 
     def do_is_complete(self, code: str) -> Dict[str, Any]:
-        if not unfinished(code):
-            return {"status": "complete"}
+        try:
+            if not unfinished(code):
+                return {"status": "complete"}
+        except Error:
+            return {"status": "invalid"}
         last = code.rstrip("\n").split("\n")[-1]
         indent = last[: len(last) - len(last.lstrip())]
         return {
@@ -177,6 +188,16 @@ def _interrupted() -> Dict[str, Any]:
         "ename": "Interrupted",
         "evalue": said,
         "traceback": [f"\x1b[31mInterrupted:\x1b[0m {said}"],
+    }
+
+
+def _refusal(error: Exception) -> Dict[str, Any]:
+    """What is wrong with a cell of which nothing can be carried out."""
+    kind = "Error" if isinstance(error, Error) else type(error).__name__
+    return {
+        "ename": kind,
+        "evalue": str(error),
+        "traceback": [f"\x1b[31merror:\x1b[0m {error}"],
     }
 
 

@@ -143,6 +143,17 @@ class Session(unittest.TestCase):
         for code in ("", "# only a comment", "\n\n"):
             self.assertEqual(self.plain(code), [])
 
+    def test_a_cell_that_is_no_text_is_answered(self):
+        for code in 'print "\0"', "print 1\nprint 2 # \0\nprint 3":
+            reply, messages = self.run_cell(code)
+            self.assertEqual(reply["status"], "error")
+            self.assertIn("the text holds a NUL", reply["evalue"])
+            self.assertEqual([kind for kind, _ in messages][-1], "error")
+        self.assertEqual(self.reply(self.client.complete("par\0", 3))["matches"], [])
+        self.assertFalse(self.reply(self.client.inspect("par\0", 2))["found"])
+        self.assertEqual(self.reply(self.client.is_complete("(\0"))["status"], "invalid")
+        self.assertEqual(self.plain("print 1"), ["1\n"])
+
     def test_undo_reaches_back_over_lines_and_cells(self):
         self.plain("reset; param a = 1\nset a = 2")
         self.assertEqual(self.plain("undo\nnumeric(a)")[-1], "numeric(a) = 1")
