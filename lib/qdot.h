@@ -136,17 +136,39 @@ qdot_result qdot_system_declare(qdot_system *system, const char *text);
 /* The same, with the answers as the program prints them. *answers: the caller's; after a failure the
  * answers up to there, or NULL.
  *
- * In QDOT_NOTATION_DISPLAY each line is a JSON object. A formula has "plain", "latex", "mathml" (as of those
- * notations) and "typeset", an object with the whole answer `name = formula` in "latex" and "mathml" (an
- * element <math>). Lines of text in which formulas stand, as those of `derive`, have besides "text" a part of a
- * page, "html". What would be shown in a window or go to a file that no statement names is
+ * In QDOT_NOTATION_DISPLAY each line is a JSON object. Besides the fields of `qdot --json`, which are for programs,
+ * each kind with something to read has
+ *     "text"     what the prompt prints, one or several lines, formulas in Unicode
+ *     "html"     the same as a part of a page: text escaped, formulas in MathML, classes and no style
+ *     "typeset"  expr, number, numbers: an object with the line `name = value ± error [unit]` in "latex" (for
+ *                mathematics mode), "mathml" (an element <math>) and "unicode"
+ *     "cells"    columns, row, unit: the cells of the row as texts, numbers with their errors: "1.25 ± 3e-13"
+ * These are rounded and worded; a program that shows answers places one of them and does nothing more. "html" is
+ *     expr, number, numbers   <math>, a table of equations where the formula is longer than a line
+ *     check                   <div class="check">, besides with the class "holds", "fails" or "undecided"
+ *     run                     <table class="run">: the end state with errors, and what is known of the run
+ *     columns                 <tr> with <th>;  row, unit  <tr> with <td>: to be put into a <table>; a row that failed has
+ *                             a cell more, with the reason; cells of words have the class "words"
+ *     text                    <p>, <h2>, <math> where formulas stand in it, as in those of `derive`; else <pre class="text">
+ *     notice, error, file     <pre> with that class
+ * which looks as it should within an element of the class "qdot" on a page with qdot_display_style(). An expr has
+ * "mathml", too (as of that notation).
+ *
+ * What would be shown in a window or go to a file that no statement names is
  *     {"kind":"figure","mime":"image/svg+xml","name":"theta","data":"<svg ..."}
  * and `animate` and `report` need no file; then they give
  *     {"kind":"page","mime":"text/html","name":"run1","data":"<!DOCTYPE html>..."}
- * Each has "statement", a number that counts over all calls, and "line" of the text. Notices are objects among
+ * Each object has "statement", a number that counts over all calls, and "line" of the text. Notices are objects among
  * the answers, so qdot_system_notices() is empty; the error of a failed text is the last object. */
 qdot_result qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation,
                             char **answers);
+
+/* How the classes of "html" look, as CSS; never NULL. */
+const char *qdot_display_style(void);
+
+/* A number as answers have it: "1.25 ± 3e-13", with the digits that its error leaves; error 0: exact, NaN: unknown.
+ * *text: the caller's. INVALID: NULL. NO_MEMORY. */
+qdot_result qdot_number_write(double value, double error, char **text);
 
 /* The value of one expression: "T", "eom", "H", "diff(L, theta)", "accel[x]". A list is written with a
  * member a line. *formula: the caller's, NULL on failure. TYPE: numbers of a run stand in it.

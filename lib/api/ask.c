@@ -4,9 +4,11 @@
 
 #include "api/system.h"
 #include "base/memory.h"
+#include "base/number-text.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
+#include "lang/answer/shown-text.h"
 #include "lang/ask/ask.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
@@ -72,7 +74,9 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
     status = qdot_api_begin(system);
     session->output->display = notation == QDOT_NOTATION_DISPLAY;
     session->output->json = notation == QDOT_NOTATION_JSON || session->output->display;
-    session->output->style = session->output->json ? QDOT_PLAIN : (qdot_style)notation;
+    session->output->style = session->output->display ? QDOT_UNICODE
+                             : session->output->json  ? QDOT_PLAIN
+                                                      : (qdot_style)notation;
     if (session->output->display) { /* notices stand among the answers */
         session->output->console = session->output->out;
         session->output->console_json = true;
@@ -84,6 +88,29 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
     result = qdot_api_end(system, status);
     *answers = take_answer_text(system);
     return result;
+}
+
+const char *
+qdot_display_style(void)
+{
+    return qdot_shown_style;
+}
+
+qdot_result
+qdot_number_write(double value, double error, char **text)
+{
+    qdot_text number = {0};
+
+    if (text == NULL)
+        return QDOT_RESULT_INVALID;
+    *text = NULL;
+    qdot_number_text_with_error(&number, value, error);
+    if (number.failed) {
+        qdot_text_clear(&number);
+        return QDOT_RESULT_NO_MEMORY;
+    }
+    *text = number.at;
+    return QDOT_RESULT_OK;
 }
 
 /* --- deriving formulas ---------------------------------------------------------------- */

@@ -135,8 +135,6 @@ def _formula(answer: Answer, folder: str) -> List[Output]:
         separator = ":" if _is_relation(answer["plain"]) else " ="
         plain = unicode_name(name) + separator + " " + plain
     latex = answer["typeset"]["latex"] if "typeset" in answer else answer["latex"]
-    if answer.get("unit"):
-        latex = latex.replace(f" [{answer['unit']}]", "") + _latex_unit(answer["unit"])
     return [_display(plain, text_latex=_typeset(latex))]
 
 

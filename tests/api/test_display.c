@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,8 +85,9 @@ formulas_are_typeset(void **state)
 
     find(text, "{\"kind\":\"expr\",\"name\":\"T\",\"plain\":\"1/2*theta'^2\",\"latex\":\"\\\\frac{1}{2} \\\\dot{\\\\theta}^{2}\"");
     find(text, ",\"mathml\":\"<mfrac>");
+    find(text, ",\"text\":\"T = ½ θ̇²\",\"html\":\"<math xmlns=");
     find(text, ",\"typeset\":{\"latex\":\"T = \\\\frac{1}{2}");
-    find(text, ",\"mathml\":\"<math xmlns");
+    find(find(text, ",\"mathml\":\"<math xmlns"), ",\"unicode\":\"T = ½ θ̇²\"}");
     find(text, ",\"statement\":6,\"line\":1}\n");
     qdot_string_free(text);
 }
@@ -101,15 +103,101 @@ texts_are_typeset(void **state)
 
     find(at, ",\"html\":\"<h2>1. Positions: <math xmlns=");
     find(at, "<msub><mrow><mi>r</mi></mrow><mrow><mtext>bob</mtext></mrow></msub></mtd><mtd class=");
-    at = find(at, "\"name\":\"print\",\"text\":\"T is 1/2*theta'^2\",\"html\":\"<p>T is <math");
+    at = find(at, "\"name\":\"print\",\"text\":\"T is ½ θ̇²\",\"html\":\"<p>T is <math");
     at = find(at, "\"name\":\"help\",\"text\":\"run ");
-    assert_null(strstr(at, "\"html\""));
+    find(at, ",\"html\":\"<pre class=\\\"text\\\">run T0..T1 [");
     assert_non_null(file);
     assert_true(fread(page, 1, 99999, file) > 1000);
     fclose(file);
     (void)unlink("test_display-d.html");
     find(page, "<msub><mrow><mi>r</mi></mrow><mrow><mtext>bob</mtext></mrow></msub></mtd><mtd class=");
     free(page);
+    qdot_string_free(text);
+}
+
+/* Numbers have only the digits that their errors leave, powers of ten drawn, units upright. */
+static void
+numbers_are_typeset(void **state)
+{
+    qdot_system *s = *state;
+    char *text = display(s, "value(theta, 5); [value(theta, 0), value(theta', 5)]; run 0..1 digits 30; value(theta, 1)", QDOT_RESULT_OK);
+    const char *at = find(text, "\"text\":\"value(θ, 5) = 1.49");
+
+    at = find(find(at, " ± "), "\"latex\":\"\\\\operatorname{value}\\\\left(\\\\theta, 5\\\\right) = 1.49");
+    at = find(at, " \\\\pm ");
+    at = find(find(at, " \\\\cdot 10^{-"), "<mo>⋅</mo><msup><mrow><mn>10</mn></mrow><mrow><mo>−</mo><mn>1");
+    at = find(at, "\"kind\":\"numbers\"");
+    at = find(at, "\"text\":\"[value(θ, 0), value(θ̇, 5)] = 2");
+    at = find(at, "\"value\":\"");
+    find(find(at, "\"text\":\"value(θ, 1) = "), " ± ");
+    find(find(at, " \\\\pm "), " \\\\cdot 10^{-");
+    qdot_string_free(text);
+}
+
+/* Units are upright in LaTeX; `units` answers with rows of a table. */
+static void
+units_are_typeset(void **state)
+{
+    const char *at;
+    qdot_system *s;
+    char *text;
+
+    (void)state;
+    assert_int_equal(qdot_system_new(&s), QDOT_RESULT_OK);
+    text = display(s, "param c = 2 [m/s^2], k [N*m]; c; k^2; units", QDOT_RESULT_OK);
+    at = find(text, "\"text\":\"c [m/s^2]\"");
+    at = find(at, "\"latex\":\"c\\\\ [\\\\mathrm{m/s^{2}}]\"");
+    at = find(at, "\"text\":\"k² [");
+    find(at, "\"cells\":[\"c\",\"an acceleration\",\"m/s^2\"]");
+    qdot_string_free(text);
+    qdot_system_free(s);
+}
+
+/* A check has the colour of what was wanted: with `not` that is a refutation. */
+static void
+checks_are_worded(void **state)
+{
+    char *text = display(*state, "check T == theta'^2/2; check theta == 2; check not theta == 2; check conserved (T + V)^2", QDOT_RESULT_OK);
+    const char *at = find(text, "\"text\":\"proved\",\"html\":\"<div class=\\\"check holds\\\"><p>✓ proved</p>");
+
+    find(at, "<code>T == theta'^2/2</code></div>");
+    at = find(at, "\"text\":\"refuted at θ = 1: left = 1, right = 2\",\"html\":\"<div class=\\\"check fails\\\"><p>✗ refuted at <math");
+    at = find(at, "<div class=\\\"check holds\\\"><p>✓ refuted at <math");
+    find(at, "\"claim\":\"conserved (T + V)^2\"");
+    qdot_string_free(text);
+}
+
+/* The report of a run is that of the prompt; as a table every number of the end state has its error. */
+static void
+runs_are_worded(void **state)
+{
+    char *text = display(*state, "run 0..10 tol 1e-9; run 0..2000", QDOT_RESULT_OK);
+    const char *at = find(text, "\"text\":\"run2: t = 0..10, method taylor, tol 1e-9, done\\u000a  ");
+    const char *html = find(at, "\"html\":\"<table class=\\\"run\\\">");
+
+    assert_true(find(at, "  end state:\\u000a    θ = 0.0") < html);
+    assert_true(find(at, "  drift: energy ") < html);
+    html = find(html, "<mi>θ</mi></math></th><td>0.0");
+    html = find(find(html, " ± "), "<tr><th>work</th><td>");
+    find(html, "<tr><th>error of the end state</th><td>at most ");
+    qdot_string_free(text);
+}
+
+/* Rows have their cells as texts, with errors; a row that failed has the reason, too. */
+static void
+rows_of_tables_are_worded(void **state)
+{
+    char *text = display(*state, "table theta every 5; param m > 0 = 1; force (-m, 0) on bob; "
+                                 "sweep m = [1, -1] run 0..1 : max(theta, 0..1)", QDOT_RESULT_OK);
+    const char *at = find(text, "\"cells\":[\"t\",\"θ\"]");
+
+    find(at, "\"errors\":[0,");
+    find(at, "\"cells\":[\"5\",\"1.49475111181");
+    at = find(text, "\"cells\":[\"m\",\"max(θ, 0..1)\"],\"text\":\"m  max(θ, 0..1)\",\"html\":\"<tr><th>m</th><th>max(θ, 0..1)</th></tr>");
+
+    at = find(at, "\"cells\":[\"1\",\"2 ± ");
+    at = find(at, "\"cells\":[\"-1\",\"–\",\"m = -1 is outside its domain: m > 0\"]");
+    find(at, "<td class=\\\"words\\\">m = -1 is outside its domain: m &gt; 0</td></tr>");
     qdot_string_free(text);
 }
 
@@ -174,7 +262,10 @@ notices_and_errors_stand_among_the_answers(void **state)
     (void)state;
     assert_int_equal(qdot_system_new(&s), QDOT_RESULT_OK);
     text = display(s, "coord x; particle p mass 1 at (x, 0)\nrun 0..1\nplot x for", QDOT_RESULT_SYNTAX);
-    find(text, "{\"kind\":\"notice\",\"message\":");
+    find(find(text, "{\"kind\":\"notice\",\"message\":"), ",\"text\":\"notice: ");
+    find(text, ",\"text\":\"ask:3:11: error: ");
+    find(text, "\\u000a  plot x for\\u000a            ^");
+    find(text, ",\"html\":\"<pre class=\\\"error\\\">ask:3:11: error: ");
     find(find(text, "{\"kind\":\"run\""), "{\"kind\":\"error\",\"file\":\"ask\",\"line\":3,\"column\":");
     assert_non_null(strstr(qdot_system_error(s), "ask:3:"));
     qdot_string_free(text);
@@ -182,6 +273,28 @@ notices_and_errors_stand_among_the_answers(void **state)
     assert_string_equal(text, "1\n");
     qdot_string_free(text);
     qdot_system_free(s);
+}
+
+static void
+numbers_are_written(void **state)
+{
+    static const struct {
+        double value, error;
+        const char *text;
+    } known[] = {{1.25, 0, "1.25"},
+                 {9.804964259856616, 0.002592760210505143, "9.805 ± 0.003"},
+                 {0.5, NAN, "0.5 (error unknown)"}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        char *text;
+
+        assert_int_equal(qdot_number_write(known[i].value, known[i].error, &text), QDOT_RESULT_OK);
+        assert_string_equal(text, known[i].text);
+        qdot_string_free(text);
+    }
+    assert_int_equal(qdot_number_write(1, 0, NULL), QDOT_RESULT_INVALID);
+    find(qdot_display_style(), ".qdot .check.fails p {");
 }
 
 static void
@@ -194,7 +307,7 @@ failing_memory_is_reported(void **state)
         char *text;
 
         qdot_memory_fail_at(n);
-        result = qdot_system_ask(s, "derive; print \"T is\", T", QDOT_NOTATION_DISPLAY, &text);
+        result = qdot_system_ask(s, "derive; print \"T is\", T; run 0..1; value(theta, 1); check T == 2; table theta every 1", QDOT_NOTATION_DISPLAY, &text);
         qdot_memory_fail_at(-1);
         qdot_string_free(text);
         if (result == QDOT_RESULT_OK) {
@@ -212,10 +325,16 @@ main(void)
     const struct CMUnitTest tests[] = {
         IN_A_SCENE(formulas_are_typeset),
         IN_A_SCENE(texts_are_typeset),
+        IN_A_SCENE(numbers_are_typeset),
+        cmocka_unit_test(units_are_typeset),
+        IN_A_SCENE(checks_are_worded),
+        IN_A_SCENE(runs_are_worded),
+        IN_A_SCENE(rows_of_tables_are_worded),
         IN_A_SCENE(figures_are_answers_in_their_order),
         IN_A_SCENE(pages_are_answers),
         IN_A_SCENE(named_files_stay_files),
         IN_A_SCENE(failing_memory_is_reported),
+        cmocka_unit_test(numbers_are_written),
         cmocka_unit_test(notices_and_errors_stand_among_the_answers),
     };
 

@@ -118,7 +118,7 @@ class Formulas(unittest.TestCase):
         )
         self.assertEqual(
             one(answer).data["text/latex"],
-            r"$\displaystyle p_{x} = m \dot{x}\ \left[\mathrm{kg\,m/s}\right]$",
+            r"$\displaystyle p_{x} = m \dot{x}\ [\mathrm{kg\,m/s}]$",
         )
 
     def test_an_answer_that_is_its_own_name_is_written_once(self):

@@ -37,11 +37,16 @@ QDOT_MUST_CHECK qdot_status qdot_answer_numbers(qdot_session *session, const cha
                                                 size_t n, const double *values,
                                                 const double *errors);
 
-/* {"kind":"number"}, {"kind":"numbers"} of numbers in digits: JSON values and errors with
- * their commas; as text the values with their errors. */
-QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const char *name,
-                                                 bool several, const qdot_text *values,
-                                                 const qdot_text *errors);
+/* Numbers in digits: where JSON is written values and errors are JSON with commas; text is what the prompt prints, the
+ * values with their errors. Start with `qdot_numerals x = {0};`. */
+typedef struct {
+    qdot_text values, errors, text;
+} qdot_numerals;
+
+/* {"kind":"number"}, {"kind":"numbers"} of numbers that were written with that status, which is returned if it is none;
+ * they are cleared. */
+QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const char *name, bool several, qdot_status status,
+                                                 qdot_numerals *numerals);
 
 /* Answer {"kind":"check"}: the verdict, with left and right as they were compared. */
 QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr left,

@@ -194,32 +194,28 @@ qdot_digits_difference(qdot_session *session, qdot_expr left, qdot_expr right,
 /* --- printing answers with `digits` -------------------------------------------------- */
 
 static qdot_status
-append_member_with_error(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
-                         qdot_text *errors)
+append_member_with_error(qdot_session *session, qdot_expr e, int digits, qdot_numerals *x)
 {
-    double x, error;
-    const char *quote;
+    const char *const quote = is_from_double_runs(session, e) ? "" : "\"";
+    qdot_text number = {0};
+    qdot_status status;
+    double value, error;
 
-    QDOT_TRY(qdot_session_number(session, e, &x, &error));
-    if (session->output->json) {
-        quote = is_from_double_runs(session, e) ? "" : "\"";
-        qdot_text_add(values, values->n > 0 ? "," : "");
-        qdot_text_add(values, quote);
-        QDOT_TRY(qdot_digits_number(session, e, digits, &error, values));
-        qdot_text_add(values, quote);
-        qdot_text_add(errors, errors->n > 0 ? "," : "");
-        qdot_number_text_json(errors, error);
-        return QDOT_OK;
-    }
-    qdot_text_add(values, values->n > 0 ? ", " : "");
-    QDOT_TRY(qdot_digits_number(session, e, digits, &error, values));
+    QDOT_TRY(qdot_session_number(session, e, &value, &error));
+    status = qdot_digits_number(session, e, digits, &error, &number);
+    qdot_text_format(&x->values, "%s%s%s%s", x->values.n > 0 ? "," : "", quote, qdot_text_str(&number), quote);
+    qdot_text_add(&x->errors, x->errors.n > 0 ? "," : "");
+    qdot_number_text_json(&x->errors, error);
+    qdot_text_add(&x->text, x->text.n > 0 ? ", " : "");
+    qdot_text_add(&x->text, qdot_text_str(&number));
     if (isnan(error)) {
-        qdot_text_add(values, " (error unknown)");
+        qdot_text_add(&x->text, " (error unknown)");
     } else if (error > 0) {
-        qdot_text_add(values, " ± ");
-        qdot_number_text_bound(values, error);
+        qdot_text_add(&x->text, " ± ");
+        qdot_number_text_bound(&x->text, error);
     }
-    return QDOT_OK;
+    qdot_text_clear(&number);
+    return status;
 }
 
 qdot_status
@@ -227,15 +223,10 @@ qdot_digits_answer(qdot_session *session, const char *name, qdot_expr e, int dig
 {
     const bool several = !qdot_expr_is_scalar(session->pool, e);
     const uint32_t n = several ? qdot_expr_count(session->pool, e) : 1;
-    qdot_text values = {0}, errors = {0};
+    qdot_numerals numerals = {0};
     qdot_status status = QDOT_OK;
 
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
-        status = append_member_with_error(session, several ? qdot_expr_arg(session->pool, e, i) : e,
-                                          digits, &values, &errors);
-    if (status == QDOT_OK)
-        status = qdot_answer_numerals(session, name, several, &values, &errors);
-    qdot_text_clear(&values);
-    qdot_text_clear(&errors);
-    return status;
+        status = append_member_with_error(session, several ? qdot_expr_arg(session->pool, e, i) : e, digits, &numerals);
+    return qdot_answer_numerals(session, name, several, status, &numerals);
 }

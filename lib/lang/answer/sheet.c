@@ -39,6 +39,12 @@ sheet_begin(qdot_session *session, qdot_sheet_form form, qdot_style style)
     return s;
 }
 
+qdot_sheet
+qdot_sheet_begin_html(qdot_session *session)
+{
+    return sheet_begin(session, QDOT_SHEET_PAGE, QDOT_MATHML);
+}
+
 /* Where a program displays answers: begin the same answer for a page of HTML, too. */
 static void
 begin_typeset(qdot_sheet *s)
@@ -47,7 +53,7 @@ begin_typeset(qdot_sheet *s)
         return;
     s->typeset = qdot_malloc(sizeof *s->typeset);
     if (s->typeset != NULL)
-        *s->typeset = sheet_begin(s->session, QDOT_SHEET_PAGE, QDOT_MATHML);
+        *s->typeset = qdot_sheet_begin_html(s->session);
     else
         s->formula.failed = true;
 }
@@ -455,20 +461,38 @@ add_sheet_to_page(const qdot_sheet *s)
     return page != NULL ? add_lines_to_page(s, page) : QDOT_ENOMEM;
 }
 
+/* Append the answer as a part of a page of HTML. */
+static qdot_status
+write_html(const qdot_sheet *s, qdot_text *out)
+{
+    qdot_formula_page page = {.kind = QDOT_PAGE_MATHML};
+    qdot_status status = add_lines_to_page(s, &page);
+
+    if (status == QDOT_OK)
+        status = qdot_formula_page_end(&page, out);
+    qdot_formula_page_clear(&page);
+    return status;
+}
+
 /* Answer lines of text, with the part of a page of HTML in which they are typeset. */
 static qdot_status
 answer_typeset(const qdot_sheet *s, const char *name, const qdot_text *lines)
 {
-    qdot_formula_page page = {.kind = QDOT_PAGE_MATHML};
     qdot_text html = {0};
-    qdot_status status = add_lines_to_page(s->typeset, &page);
+    qdot_status status = write_html(s->typeset, &html);
 
-    if (status == QDOT_OK)
-        status = qdot_formula_page_end(&page, &html);
-    qdot_formula_page_clear(&page);
     if (status == QDOT_OK)
         status = qdot_answer_typeset(s->session, name, qdot_text_str(lines), qdot_text_str(&html));
     qdot_text_clear(&html);
+    return status;
+}
+
+qdot_status
+qdot_sheet_html(qdot_sheet *s, qdot_status status, qdot_text *out)
+{
+    if (status == QDOT_OK)
+        status = write_html(s, out);
+    qdot_sheet_clear(s);
     return status;
 }
 

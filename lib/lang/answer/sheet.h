@@ -46,6 +46,8 @@ qdot_sheet qdot_sheet_begin(qdot_session *session);
 qdot_sheet qdot_sheet_begin_words(qdot_session *session);
 /* Begin a sheet that becomes a text of this style (qdot_sheet_text), without marks around formulas. */
 qdot_sheet qdot_sheet_begin_text(qdot_session *session, qdot_style style);
+/* Begin a sheet that becomes a part of a page of HTML (qdot_sheet_html). */
+qdot_sheet qdot_sheet_begin_html(qdot_session *session);
 
 /* Append text to the answer; \n ends a line. */
 void qdot_sheet_words(qdot_sheet *sheet, const char *text);
@@ -81,8 +83,9 @@ bool qdot_sheet_is_empty(const qdot_sheet *sheet);
 /* Print the answer if status is QDOT_OK (with --json as the text `name`), and free it. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_sheet *sheet, const char *name, qdot_status status);
 
-/* As qdot_sheet_end, but append the answer to a text. */
+/* As qdot_sheet_end, but append the answer to a text; _html: of a sheet that was begun as a part of a page. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_text(qdot_sheet *sheet, qdot_status status, qdot_text *out);
+QDOT_MUST_CHECK qdot_status qdot_sheet_html(qdot_sheet *sheet, qdot_status status, qdot_text *out);
 
 /* Free the answer without printing it. */
 void qdot_sheet_clear(qdot_sheet *sheet);

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "base/wrap.h"
+#include "lang/answer/shown-text.h"
 #include "lang/session/output.h"
 #include "lang/session/typed.h"
 #include "show/formula-page.h"
@@ -73,6 +74,15 @@ qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
     return qdot_write(session, file, object);
 }
 
+qdot_status
+qdot_write_answer(const qdot_session *session, qdot_status status, qdot_text *object)
+{
+    if (status == QDOT_OK)
+        status = qdot_write_object(session, session->output->out, object);
+    qdot_text_clear(object);
+    return status;
+}
+
 bool
 qdot_write_displays(const qdot_session *session)
 {
@@ -109,9 +119,12 @@ write_text_object(qdot_session *session, const char *name, const char *text, con
 
     qdot_wrap(text, 0, &plain);
     qdot_write_field(&line, "{\"kind\":\"text\",\"name\":", name);
-    qdot_write_field(&line, ",\"text\":", qdot_text_str(&plain));
     if (html != NULL)
-        qdot_write_field(&line, ",\"html\":", html);
+        qdot_shown_fields(qdot_text_str(&plain), html, &line);
+    else if (qdot_write_displays(session))
+        qdot_shown_text("text", qdot_text_str(&plain), &line);
+    else
+        qdot_write_field(&line, ",\"text\":", qdot_text_str(&plain));
     qdot_text_add(&line, "}\n");
     line.failed = line.failed || plain.failed;
     qdot_text_clear(&plain);
@@ -183,9 +196,7 @@ qdot_answer_shown(qdot_session *session, const char *kind, const char *mime, con
         qdot_write_field(&line, ",\"name\":", name);
         qdot_write_field(&line, ",\"data\":", qdot_text_str(text));
         qdot_text_add(&line, "}\n");
-        status = qdot_write_object(session, session->output->out, &line);
     }
     qdot_text_clear(text);
-    qdot_text_clear(&line);
-    return status;
+    return qdot_write_answer(session, status, &line);
 }

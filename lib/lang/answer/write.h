@@ -16,6 +16,9 @@ QDOT_MUST_CHECK qdot_status qdot_write(const qdot_session *session, FILE *file, 
 /* Write a JSON object `{...}` and a newline; to an answer add which statement it belongs to. */
 QDOT_MUST_CHECK qdot_status qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object);
 
+/* Write the object of an answer if `status`, that of its parts, is QDOT_OK; it is cleared. Returns the first failure. */
+QDOT_MUST_CHECK qdot_status qdot_write_answer(const qdot_session *session, qdot_status status, qdot_text *object);
+
 /* Whether answers are shown by a program that can draw (output.h, `display`), and do not go to a file now. */
 bool qdot_write_displays(const qdot_session *session);
 

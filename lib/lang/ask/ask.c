@@ -224,34 +224,27 @@ static qdot_status
 answer_matrix_of_results(qdot_session *session, const char *name, qdot_expr M)
 {
     const uint32_t columns = qdot_expr_node(session->pool, M)->op, n = qdot_expr_count(session->pool, M);
-    const bool json = session->output->json;
-    qdot_text values = {0}, errors = {0};
+    qdot_numerals x = {0};
     qdot_status status = QDOT_OK;
 
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
-        const bool begins = i % columns == 0;
-        double x, error;
+        const char *const before = i % columns != 0 ? "," : i == 0 ? "[[" : "],[";
+        double value, error;
 
-        status = qdot_session_number(session, qdot_expr_arg(session->pool, M, i), &x, &error);
+        status = qdot_session_number(session, qdot_expr_arg(session->pool, M, i), &value, &error);
         if (status != QDOT_OK)
             break;
-        if (json) {
-            qdot_text_add(&values, begins ? i == 0 ? "[[" : "],[" : ",");
-            qdot_text_add(&errors, begins ? i == 0 ? "[[" : "],[" : ",");
-            qdot_number_text_json(&values, x);
-            qdot_number_text_json(&errors, error);
-        } else {
-            qdot_text_add(&values, begins ? i == 0 ? "[" : "; " : ", ");
-            qdot_number_text(&values, x, error);
-        }
+        qdot_text_add(&x.values, before);
+        qdot_number_text_json(&x.values, value);
+        qdot_text_add(&x.errors, before);
+        qdot_number_text_json(&x.errors, error);
+        qdot_text_add(&x.text, i % columns != 0 ? ", " : i == 0 ? "[" : "; ");
+        qdot_number_text(&x.text, value, error);
     }
-    qdot_text_add(&values, json ? "]]" : "]");
-    qdot_text_add(&errors, json ? "]]" : "");
-    if (status == QDOT_OK)
-        status = qdot_answer_numerals(session, name, true, &values, &errors);
-    qdot_text_clear(&values);
-    qdot_text_clear(&errors);
-    return status;
+    qdot_text_add(&x.values, "]]");
+    qdot_text_add(&x.errors, "]]");
+    qdot_text_char(&x.text, ']');
+    return qdot_answer_numerals(session, name, true, status, &x);
 }
 
 /* Whether a list contains results of runs and also members that are no such numbers, as sqrt(2), or lists. */
@@ -338,14 +331,11 @@ answer_point(qdot_session *session, const char *name, qdot_expr equations)
 {
     qdot_sheet sheet =
         qdot_sheet_begin_text(session, session->output->style == QDOT_MATHML ? QDOT_UNICODE : session->output->style);
-    qdot_text text = {0}, errors = {0};
-    qdot_status status = qdot_sheet_text(&sheet, qdot_ask_print_point(&sheet, equations), &text);
+    qdot_numerals point = {0};
+    qdot_status status = qdot_sheet_text(&sheet, qdot_ask_print_point(&sheet, equations), &point.text);
 
-    if (status == QDOT_OK)
-        status = session->output->json ? qdot_answer_text(session, name, qdot_text_str(&text))
-                               : qdot_answer_numerals(session, name, false, &text, &errors);
-    qdot_text_clear(&text);
-    return status;
+    return session->output->json ? qdot_answer_written(session, name, status, &point.text)
+                                 : qdot_answer_numerals(session, name, false, status, &point);
 }
 
 /* Answer each of several points (solutions) under its number: solve(...)[1], ... */

@@ -2,6 +2,8 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/shown-text.h"
+#include "lang/answer/typed-name.h"
 #include "lang/answer/write.h"
 #include "lang/language/token-text.h"
 #include "lang/session/names.h"
@@ -42,6 +44,23 @@ add_dimension(qdot_session *session, qdot_expr e, qdot_text *out)
     return qdot_text_status(out);
 }
 
+/* Append what a person reads of it, a row of a table: name, dimension, unit. */
+static qdot_status
+append_shown_unit(qdot_session *session, const char *name, const qdot_text *words, const qdot_text *label, qdot_text *line)
+{
+    qdot_shown_row row = qdot_shown_row_begin(false);
+    qdot_text written = {0};
+    const qdot_status status = qdot_typed_name_print(session, name, QDOT_UNICODE, &written);
+
+    qdot_shown_cell(&row, qdot_text_str(&written), true);
+    qdot_shown_cell(&row, qdot_text_str(words), true);
+    qdot_shown_cell(&row, label->n > 0 ? qdot_text_str(label) : "\u2013", true);
+    qdot_shown_row_end(&row, line);
+    line->failed = line->failed || written.failed;
+    qdot_text_clear(&written);
+    return status;
+}
+
 /* Answer for one name: a line of the text, or an object of JSON. */
 static qdot_status
 answer_dimension(qdot_session *session, const char *name, qdot_expr e, qdot_text *out)
@@ -56,8 +75,10 @@ answer_dimension(qdot_session *session, const char *name, qdot_expr e, qdot_text
         qdot_write_field(&line, ",\"name\":", name);
         qdot_write_field(&line, ",\"dimension\":", qdot_text_str(&words));
         qdot_write_field(&line, ",\"unit\":", qdot_text_str(&label));
+        if (qdot_write_displays(session))
+            status = append_shown_unit(session, name, &words, &label, &line);
         qdot_text_add(&line, "}\n");
-        status = qdot_write_object(session, session->output->out, &line);
+        status = qdot_write_answer(session, status, &line);
     } else if (status == QDOT_OK) {
         qdot_text_format(out, "%s%s: %s", out->n > 0 ? "\n" : "", name, qdot_text_str(&words));
         if (label.n > 0)

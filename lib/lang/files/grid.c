@@ -20,6 +20,7 @@ qdot_grid_free(qdot_grid *g)
     qdot_free(g->labels);
     qdot_free(g->units);
     qdot_free(g->values);
+    qdot_free(g->errors);
     qdot_free(g->table.columns);
 }
 
@@ -36,6 +37,20 @@ allocate_grid(qdot_grid *g, size_t n, size_t rows)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         g->table.columns[i] = (qdot_table_column){.digits = DIGITS, .gap = 2, .values = g->values + i * rows};
+    return QDOT_OK;
+}
+
+/* Let the columns have errors; those of times stay 0. */
+static qdot_status
+allocate_errors(qdot_grid *g, size_t n, size_t rows)
+{
+    g->errors = qdot_calloc(n * rows, sizeof *g->errors);
+    if (g->errors == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        g->table.columns[i].errors = g->errors + i * rows;
+        g->table.columns[i].measured = true;
+    }
     return QDOT_OK;
 }
 
@@ -66,11 +81,14 @@ qdot_grid_fill(qdot_grid *g, const qdot_operands *list, size_t rows, const doubl
         n += list->at[i].columns.n;
     QDOT_TRY(allocate_grid(g, n, rows));
     memcpy(g->values, times, rows * sizeof *times);
+    if (g->measured)
+        QDOT_TRY(allocate_errors(g, n, rows));
     QDOT_TRY(label_column(g, 0, list->at[0].session, QDOT_T, "t", 0, 1));
     for (size_t i = 0; i < list->n; i++) {
         const qdot_operand *o = &list->at[i];
 
-        QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows, NULL));
+        QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows,
+                                      g->errors != NULL ? g->errors + next * rows : NULL));
         for (size_t k = 0; k < o->columns.n; k++)
             QDOT_TRY(label_column(g, next + k, o->session, o->columns.at[k], o->label, k, o->columns.n));
         next += o->columns.n;

@@ -7,7 +7,8 @@
 
 typedef struct {
     qdot_table table;
-    double *values; /* all cells, column by column */
+    bool measured;           /* whether the numbers get errors; set it before the grid is filled */
+    double *values, *errors; /* all cells, column by column; errors NULL: there are none */
     char **labels, **units; /* [table.n]; of a column without a unit: NULL */
 } qdot_grid;
 

@@ -5,6 +5,7 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/write.h"
 #include "lang/runs/data-file.h"
 #include "lang/files/digits-table.h"
 #include "lang/files/grid.h"
@@ -198,6 +199,7 @@ answer_table_along_runs(qdot_record *r)
         qdot_operands_free(&list);
         return status;
     }
+    g.measured = path == NULL && qdot_write_displays(session);
     if (status == QDOT_OK)
         status = qdot_grid_fill(&g, &list, rows, times);
     if (status == QDOT_OK && path == NULL && !session->output->json)

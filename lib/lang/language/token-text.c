@@ -31,6 +31,18 @@ is_spaced_sign(const qdot_token *token)
     return false;
 }
 
+/* Whether the token is a word between claims, behind which a bracket holds a claim or an expression, no argument. */
+static bool
+is_joining_word(const qdot_token *token)
+{
+    static const char *const words[] = {"and", "or", "not", "conserved", "when", "within"};
+
+    for (size_t i = 0; token->kind == QDOT_TOKEN_NAME && i < sizeof words / sizeof *words; i++)
+        if (qdot_token_is_word(token, words[i]))
+            return true;
+    return false;
+}
+
 /* Whether the name is a coordinate to which a loop assigns a value at present. */
 static bool
 is_coordinate_set_by_loop(const qdot_session *session, const char *name)
@@ -119,6 +131,8 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
             words = false;
         if (qdot_token_is(k, "[") && k > from && !k->glued && sign_follows_operand(k - 1))
             words = true; /* a unit */
+        if (qdot_token_is(k, "(") && k > from && !k->glued && is_joining_word(k - 1))
+            words = true;
         if (k > from && qdot_cursor_is_shown_product(session, k, depth > 0))
             qdot_text_char(out, '*');
         else

@@ -35,7 +35,10 @@ static qdot_status
 fill_windows(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
 {
     static const qdot_table_column columns[] = {
-        {.name = "method", .kind = QDOT_CELL_TEXT}, {.name = "tol", .exact = 1}, {.name = "t"}, {.name = "error"}};
+        {.name = "method", .kind = QDOT_CELL_TEXT, .left = true},
+        {.name = "tol", .form = QDOT_NUMBER_SCIENTIFIC, .exact = 1},
+        {.name = "t", .digits = 6},
+        {.name = "error", .form = QDOT_NUMBER_SCIENTIFIC_OR_0, .digits = 1}};
 
     QDOT_TRY(qdot_table_begin(t, sizeof columns / sizeof *columns, columns));
     for (; k < end; k++)

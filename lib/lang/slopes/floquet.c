@@ -29,32 +29,25 @@ static qdot_status
 answer_complex(qdot_session *session, const char *name, double re, double im,
                double error)
 {
-    qdot_text value = {0}, bound = {0};
-    qdot_status status;
+    qdot_numerals x = {0};
 
-    if (session->output->json) {
-        qdot_text_char(&value, '[');
-        qdot_number_text_json(&value, re);
-        qdot_text_char(&value, ',');
-        qdot_number_text_json(&value, im);
-        qdot_text_char(&value, ']');
-        qdot_number_text_json(&bound, error);
+    qdot_text_char(&x.values, '[');
+    qdot_number_text_json(&x.values, re);
+    qdot_text_char(&x.values, ',');
+    qdot_number_text_json(&x.values, im);
+    qdot_text_char(&x.values, ']');
+    qdot_number_text_json(&x.errors, error);
+    qdot_number_text(&x.text, re, error);
+    qdot_text_add(&x.text, im < 0 ? " - " : " + ");
+    qdot_number_text(&x.text, fabs(im), error);
+    qdot_text_add(&x.text, "*i");
+    if (isnan(error)) {
+        qdot_text_add(&x.text, " (error unknown)");
     } else {
-        qdot_number_text(&value, re, error);
-        qdot_text_add(&value, im < 0 ? " - " : " + ");
-        qdot_number_text(&value, fabs(im), error);
-        qdot_text_add(&value, "*i");
-        if (isnan(error)) {
-            qdot_text_add(&value, " (error unknown)");
-        } else {
-            qdot_text_add(&value, " ± ");
-            qdot_number_text_bound(&value, error);
-        }
+        qdot_text_add(&x.text, " ± ");
+        qdot_number_text_bound(&x.text, error);
     }
-    status = qdot_answer_numerals(session, name, false, &value, &bound);
-    qdot_text_clear(&value);
-    qdot_text_clear(&bound);
-    return status;
+    return qdot_answer_numerals(session, name, false, QDOT_OK, &x);
 }
 
 static qdot_status

@@ -12,6 +12,7 @@
 
 /* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
  * words. */
+enum { SHOWN_DIGITS = 6 }; /* significant digits of values in a table */
 static const double small = 1e-9, nothing = 1e-20, digits = 5e-7;
 /* changes smaller than this, relative to the sizes of the coordinates, are not mentioned in the text */
 static const double tiny = 1e-5;
@@ -142,7 +143,7 @@ fill_columns(const qdot_branches *b, const double *y, size_t stride, qdot_table_
         const size_t k = q == 0 ? b->found->n : b->columns[q - 1];
 
         columns[q] = (qdot_table_column){
-            .name = name_of_quantity(b, k), .unit = unit_of_quantity(b, k), .values = y + k, .stride = stride};
+            .name = name_of_quantity(b, k), .unit = unit_of_quantity(b, k), .digits = SHOWN_DIGITS, .values = y + k, .stride = stride};
     }
 }
 
