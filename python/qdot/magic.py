@@ -20,8 +20,9 @@ from IPython.core.error import UsageError
 from IPython.core.magic import Magics, line_cell_magic, magics_class
 
 from .cells import Progress, carry_out
+from .completion import install as install_completion
 from .display import Output
-from .errors import Error, KindError
+from .errors import Error, KindError, UnknownNameError
 from .system import System, written
 
 __all__ = ["CellError", "Number", "QdotMagics", "load"]
@@ -118,6 +119,13 @@ class QdotMagics(Magics):
                 f"--system: `{name}` holds no qdot.System but a {type(system).__name__}"
             )
         return system
+
+    def look(self, line: str) -> Tuple[System, str]:
+        """The system for which a line is, a new one where there is none yet; what is behind the options."""
+        options, rest = _options(line)
+        name = options["system"]
+        system = self._system if name is None else self.shell.user_ns.get(name)
+        return system if isinstance(system, System) else System(), rest
 
     def _carry_out(self, system: System, code: str) -> None:
         publish = self.shell.display_pub.publish
@@ -261,7 +269,7 @@ def _declare(system: System, name: str, statements: List[str]) -> None:
 
 
 def _value(system: System, expression: str) -> Any:
-    """What a name or an expression is in the session: a run, a table, a number or a formula."""
+    """What a name or an expression is in the session: a table, a number, a formula or a run."""
     if re.match(r"run\b", expression):
         return system.run(expression[3:])
     if re.fullmatch(r"\w+(\[\d+\])?", expression):
@@ -273,6 +281,12 @@ def _value(system: System, expression: str) -> Any:
         formula = system.derive(expression)
     except KindError:  # numbers of runs stand in it
         return Number(*system.number(expression, error=True))
+    except UnknownNameError:
+        try:
+            return system.motion(expression)
+        except UnknownNameError:
+            pass  # it is no run's name either
+        raise
     if _A_NUMBER.fullmatch(formula.plain):
         return Number(system.number(expression))
     return formula
@@ -283,4 +297,6 @@ _A_NUMBER = re.compile(r"-?[\d.]+(e-?\d+)?|-?\d+/\d+")
 
 def load(shell: Any) -> None:
     """Make the magics known to IPython, for `%load_ext qdot`."""
-    shell.register_magics(QdotMagics)
+    magics = QdotMagics(shell)
+    shell.register_magics(magics)
+    install_completion(shell, magics.look)

@@ -5,6 +5,7 @@ import re
 import unittest
 
 try:
+    import IPython.core.completer
     from IPython.core.interactiveshell import InteractiveShell
     from IPython.utils.capture import capture_output
 except ImportError as missing:
@@ -64,6 +65,49 @@ class Magic(unittest.TestCase):
         self.names.update(m=1, k=1)
         self.cell('-i m,k -o "a=run 0..10"', SCENE)
         self.assertAlmostEqual(self.names["a"].values("x", [1.0])[0], numpy.cos(1))
+
+    def test_a_run_of_the_session_comes_out_by_its_name(self):
+        self.names.update(m=1, k=1)
+        self.cell("-i m,k -o a,T,run2", SCENE + "run 0..10 as a\nrun 0..2")
+        self.assertAlmostEqual(self.names["a"].values("x", 10), numpy.cos(10))
+        self.assertEqual((self.names["run2"].summary.end, str(self.names["T"])), (2, "1/2*m*x'^2"))
+        self.line("-o again=a")
+        self.assertEqual(self.names["again"].summary.end, 10)
+        self.assertIn("unknown name `b`", self.fails("%qdot -o b"))
+
+    def words(self, text, cursor=None):
+        """Return what Tab offers in a cell, as what it would become, and the rest of the cell."""
+        cursor = len(text) if cursor is None else cursor
+        with IPython.core.completer.provisionalcompleter():
+            found = list(self.shell.Completer.completions(text, cursor))
+        return [text[: one.start] + one.text + text[one.end :] for one in found]
+
+    def test_tab_completes_words_of_the_language(self):
+        self.names.update(mass=1, matrix=2, system=qdot.System("coord theta"), s=3)
+        self.line("coord phi; param omega")
+        for text, wanted in (
+            ("%%qdot\nstart ph", ["%%qdot\nstart phi"]),
+            ("%%qdot -i mass\n# θ\nT\nstart ph", ["%%qdot -i mass\n# θ\nT\nstart phi"]),
+            ("%%qdot --system system\nstart th", ["%%qdot --system system\nstart theta"]),
+            ("%qdot sensitiv", ["%qdot sensitivity"]),
+            ("x = 1\n%qdot -o T,x1=2 start ph", ["x = 1\n%qdot -o T,x1=2 start phi"]),
+            ("%%qdot -i ma", ["%%qdot -i mass", "%%qdot -i matrix"]),
+            ("%%qdot -i s,mas", ["%%qdot -i s,mass"]),
+            ("%%qdot --system sy", ["%%qdot --system system"]),
+            ("%%qdot --sy", ["%%qdot --system"]),
+            ("%%qdot -o x1=ome", ["%%qdot -o x1=omega"]),
+            ("%%qdot\nnowordbeginsso", []),
+            ("%%qdot\n\0", []),
+        ):
+            with self.subTest(repr(text)):
+                self.assertEqual(self.words(text), wanted)
+        self.assertEqual(self.words("%%qdot\nstart ph = 1\nT", 15), ["%%qdot\nstart phi = 1\nT"])
+        self.assertIn("numpy.linspace", self.words("import numpy\nnumpy.linsp")[0].split("\n"))
+        self.shell.run_line_magic("reload_ext", "qdot")
+        self.assertEqual(self.words("%%qdot\nsensitiv"), ["%%qdot\nsensitivity"])
+        for text in "%%qdot -i mass --system s -o T\nrun 0..10\nx", "%qdot -o a run 0..3", "y = 1\n%qdot":
+            for cursor in range(len(text) + 1):
+                self.words(text, cursor)
 
     def test_a_table_is_the_file_of_its_name(self):
         t = numpy.linspace(0, 2, 9)
