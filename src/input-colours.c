@@ -21,7 +21,7 @@
 #include "base/text.h"
 #include "lang/workbench/highlight.h"
 
-static const qdot_session *session; /* the session; global, because readline's callbacks get no argument */
+static qdot_session *session; /* the session; global, because readline's callbacks get no argument */
 static const char *lines = "";
 
 enum { LONG_LINE = 200 }; /* longest line that is coloured, in bytes */
@@ -231,7 +231,7 @@ redisplay(void)
 }
 
 void
-qdot_input_colours_install(const qdot_session *s)
+qdot_input_colours_install(qdot_session *s)
 {
     session = s;
     if (!qdot_terminal_has_colours(rl_outstream))

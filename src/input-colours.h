@@ -8,7 +8,7 @@
 #include "lang/session/parts.h"
 
 /* Colour the line being typed from now on, if rl_outstream shows colours. */
-void qdot_input_colours_install(const qdot_session *session);
+void qdot_input_colours_install(qdot_session *session);
 /* Set the earlier lines of a statement that has several lines. */
 void qdot_input_colours_continue(const char *before);
 

@@ -119,15 +119,12 @@ save_run(qdot_record *r, qdot_run *run, const char *path)
     return status;
 }
 
-/* Whether `name`, `session` or `history`, means statements and not a run: the file is one of scenes, or
- * no run is called that. */
+/* Whether `name` is `session` or `history` and means statements although a run is called that: the file is one of scenes. */
 static bool
-saves_statements(const qdot_record *r, const char *name, const qdot_filled *file)
+saves_statements(const char *name, const qdot_filled *file)
 {
-    qdot_named_run *run;
-
     return name != NULL && (strcmp(name, "session") == 0 || strcmp(name, "history") == 0) &&
-           (qdot_scene_file_is(qdot_record_text(file)) || qdot_runs_find(r->cursor.session, name, &run) != QDOT_OK);
+           qdot_scene_file_is(qdot_record_text(file));
 }
 
 static qdot_status
@@ -135,6 +132,7 @@ carry_out_save(qdot_record *r)
 {
     const qdot_filled *rows = qdot_record_hole(r, "save", "ROWS"), *of = qdot_record_hole(r, "save", "RUN"),
                       *file = qdot_record_hole(r, "to", NULL);
+    const bool session = qdot_record_word(r, "session") != NULL, history = qdot_record_word(r, "history") != NULL;
     const char *name = NULL;
     qdot_named_run *named;
 
@@ -142,9 +140,9 @@ carry_out_save(qdot_record *r)
         return qdot_row_file_answer(r, qdot_row_tables_find(r->cursor.session, rows->from->text));
     if (of != NULL)
         QDOT_TRY(qdot_record_name(r, of, &name));
-    if (saves_statements(r, name, file))
+    if (session || history || saves_statements(name, file))
         return qdot_scene_file_write(&r->cursor, file->from,
-                                     name[0] == 's' ? QDOT_FILE_SESSION : QDOT_FILE_HISTORY);
+                                     session || (name != NULL && name[0] == 's') ? QDOT_FILE_SESSION : QDOT_FILE_HISTORY);
     qdot_record_blame(r, file);
     QDOT_TRY(qdot_data_file_check(qdot_record_text(file)));
     r->cursor.error_at = r->start->start;

@@ -99,14 +99,24 @@ is_declared_value(const qdot_session *s, const char *name)
                      : strcmp(name, "pi") == 0 || strcmp(name, "t") == 0;
 }
 
-/* Whether the name may be a factor: declared, also as a differential, du or δs, or as the member that a subscript denotes,
- * l₃; within brackets one that nobody knows, such as the index of a sum. A word of the language, as `tol` or `size`, is
- * none. */
+/* Whether the word joins operands: `x > 0 and y > 0`, `x in [m]`. */
 static bool
-may_be_factor(const qdot_session *s, const char *name, bool inside)
+is_word_of_expressions(const char *name)
 {
+    return strcmp(name, "and") == 0 || strcmp(name, "or") == 0 || strcmp(name, "not") == 0 || strcmp(name, "in") == 0;
+}
+
+/* Whether the name may be a factor: declared, also as a differential, du or δs, or as the member that a subscript denotes,
+ * l₃; one that nobody knows within brackets, such as the index of a sum, or in a text that is being typed. A word of the
+ * language, as `tol` or `size`, is none. */
+static bool
+may_be_factor(const qdot_cursor *c, const char *name, bool inside)
+{
+    const qdot_session *s = c->session;
+    const bool typed = c->is_word != NULL && !c->is_word(c->usage, name) && !is_word_of_expressions(name);
+    const bool unknown = (inside || typed) && !qdot_cursor_knows(s, name);
     qdot_text member = {0};
-    bool known = is_declared_value(s, name) || (inside && !qdot_cursor_knows(s, name)) || (name[0] == 'd' && is_declared_value(s, name + 1)) ||
+    bool known = unknown || is_declared_value(s, name) || (name[0] == 'd' && is_declared_value(s, name + 1)) ||
                  (strncmp(name, "delta", 5) == 0 && is_declared_value(s, name + 5));
 
     for (unsigned form = 0; !known && qdot_subscript_means(name, form, &member); form++)
@@ -116,15 +126,15 @@ may_be_factor(const qdot_session *s, const char *name, bool inside)
 }
 
 bool
-qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside)
+qdot_cursor_is_shown_product(const qdot_cursor *c, const qdot_token *t, bool inside)
 {
     if (!t->shown || t->glued || !may_end_operand(t - 1) ||
-        (t[-1].kind == QDOT_TOKEN_NAME && !may_be_factor(s, t[-1].text, inside)))
+        (t[-1].kind == QDOT_TOKEN_NAME && !may_be_factor(c, t[-1].text, inside)))
         return false;
     if (t->kind != QDOT_TOKEN_NAME)
         return t->kind != QDOT_TOKEN_NUMBER && token_begins_operand(t);
-    return may_be_factor(s, t->text, inside) ||
-           (qdot_cursor_knows(s, t->text) && t[1].glued &&
+    return may_be_factor(c, t->text, inside) ||
+           (qdot_cursor_knows(c->session, t->text) && t[1].glued &&
             (qdot_token_bracket(t + 1) > 0 || qdot_token_is(t + 1, "^")));
 }
 

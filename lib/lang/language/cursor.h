@@ -11,6 +11,10 @@ typedef struct {
     const qdot_token
         *at;         /* the next token to be read; a statement ends with a token END */
     size_t error_at; /* position of the last error in bytes, set by every reader that fails */
+    /* of a text that is being typed, the names of which need not be declared yet: whether a name is a word of the
+     * statement's usage; else NULL */
+    bool (*is_word)(const void *usage, const char *name);
+    const void *usage;
 } qdot_cursor;
 
 bool qdot_cursor_is_op(const qdot_cursor *c, const char *op);
@@ -25,7 +29,7 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_expect_op(qdot_cursor *c, const char *op
 QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
 /* Whether the blank before this token, which is not the first one, is a product, as in `½ m v²`: between two operands of
  * a statement that is written as the screen shows formulas, of which none is a word of the language. inside: within ( ) or [ ]. */
-bool qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside);
+bool qdot_cursor_is_shown_product(const qdot_cursor *c, const qdot_token *t, bool inside);
 /* The byte after the operand that begins with `t`, including its brackets and primes. */
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
 /* Whether the name is known: declared by the user, or a word of the language, or a label of the scene. */

@@ -543,7 +543,7 @@ parse_after_operand(qdot_parser *p)
             p->c->at++;
             return parse_binary_operator(p, kind, t);
         }
-    if (qdot_cursor_is_shown_product(p->c->session, t, p->depth > 0))
+    if (qdot_cursor_is_shown_product(p->c, t, p->depth > 0))
         return parse_binary_operator(p, QDOT_OP_PRODUCT, t);
     if (p->depth == 0) {
         p->done = true;

@@ -133,7 +133,7 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
             words = true; /* a unit */
         if (qdot_token_is(k, "(") && k > from && !k->glued && is_joining_word(k - 1))
             words = true;
-        if (k > from && qdot_cursor_is_shown_product(session, k, depth > 0))
+        if (k > from && qdot_cursor_is_shown_product(&(qdot_cursor){.session = session}, k, depth > 0))
             qdot_text_char(out, '*');
         else
             qdot_text_add(out, binary || words ? " " : "");

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/text.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/functions/builtin.h"
@@ -156,7 +157,7 @@ begins_operand(const qdot_token *token)
         if (qdot_token_is_word(token, words[i]))
             return false;
     return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER ||
-           (qdot_token_is(token, "(") && !token->glued) || is_unary_minus(token);
+           qdot_token_is(token, "sqrt") || qdot_token_is(token, "%") || (qdot_token_is(token, "(") && !token->glued) || is_unary_minus(token);
 }
 
 bool
@@ -176,7 +177,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
     if (!row->alone && qdot_quantity_find(row->word) != NULL)
         return declared || !begins_operand(next);
     if (row->alone)
-        return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") && !qdot_token_is_word(next, "in") &&
+        return (next->kind != QDOT_TOKEN_END && !(next->kind == QDOT_TOKEN_NAME && qdot_has_word(row->usage, next->text)) &&
                 !(qdot_token_is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
                declared;
     for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)

@@ -213,6 +213,15 @@ read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
     return qdot_cursor_expected(c, comparison ? "`==` and the other side" : "`=` and the other side");
 }
 
+/* Parse SIDE behind `returns after`. */
+static qdot_status
+read_period(const reader *m, qdot_filled *part)
+{
+    QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    m->r->compiled.at[m->r->compiled.n - 1].is_period = true;
+    return QDOT_OK;
+}
+
 /* Parse one condition: SIDE = SIDE, or `returns after SIDE`. */
 static qdot_status
 read_one_condition(const reader *m, const qdot_hole *hole, qdot_filled *part)
@@ -224,14 +233,22 @@ read_one_condition(const reader *m, const qdot_hole *hole, qdot_filled *part)
     if (qdot_cursor_accept_word(c, "returns")) {
         if (!qdot_cursor_accept_word(c, "after"))
             return qdot_cursor_expected(c, "`after` and a time: `returns after T`");
-        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
-        m->r->compiled.at[m->r->compiled.n - 1].is_period = true;
-        return QDOT_OK;
+        return read_period(m, part);
     }
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
     if (!qdot_cursor_accept_op(c, "=") && !qdot_cursor_accept_op(c, "=="))
         return qdot_cursor_expected(c, "`=`: a condition is an equation");
     return read_expression(m, QDOT_PARSE_SIDE, part);
+}
+
+/* Parse conditions joined by `and`; period: the first one begins behind `returns after`. */
+static qdot_status
+read_condition_list(const reader *m, const qdot_hole *hole, bool period, qdot_filled *part)
+{
+    QDOT_TRY(period ? read_period(m, part) : read_one_condition(m, hole, part));
+    while (qdot_cursor_accept_word(m->c, "and"))
+        QDOT_TRY(read_one_condition(m, hole, part));
+    return QDOT_OK;
 }
 
 /* Parse a tuple (SIDE, SIDE) with as many components as the usage names. */
@@ -388,10 +405,7 @@ qdot_hole_read(const qdot_usage *u, qdot_record *r, const qdot_usage_node *node,
     case QDOT_HOLE_SIDE: return read_expression(m, QDOT_PARSE_SIDE, part);
     case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
     case QDOT_HOLE_CONDITION:
-        do
-            QDOT_TRY(read_one_condition(m, hole, part));
-        while (qdot_cursor_accept_word(m->c, "and"));
-        return QDOT_OK;
+    case QDOT_HOLE_PERIOD: return read_condition_list(m, hole, hole->class == QDOT_HOLE_PERIOD, part);
     case QDOT_HOLE_EQUATION:
     case QDOT_HOLE_COMPARISON: return read_equation(m, node, part);
     case QDOT_HOLE_RANGE: return read_range(m, hole, part);

@@ -11,6 +11,7 @@ typedef enum {
     QDOT_HOLE_SIDE,       /* an expression SIDE, which ends before a relation, `and` or `or` */
     QDOT_HOLE_VALUE,      /* an expression, which may contain relations, `and`, `or` */
     QDOT_HOLE_CONDITION,  /* SIDE = SIDE, `returns after SIDE`, or several joined by `and` */
+    QDOT_HOLE_PERIOD,     /* SIDE behind `returns after`, to which conditions may be joined by `and` */
     QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
     QDOT_HOLE_COMPARISON, /* as QDOT_HOLE_EQUATION, also with == < <= > >= */
     QDOT_HOLE_RANGE,      /* a range SIDE..SIDE */

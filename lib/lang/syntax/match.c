@@ -13,6 +13,7 @@
 #include "lang/language/hints.h"
 #include "lang/session/phase.h"
 #include "lang/session/row-tables.h"
+#include "lang/session/runs.h"
 #include "lang/syntax/expected.h"
 #include "lang/syntax/hole-read.h"
 #include "lang/syntax/outline.h"
@@ -29,6 +30,7 @@ typedef struct {
     qdot_cursor *c;
     qdot_vec(place) places;
     size_t first; /* index of the first of the positions in the usage that are possible at the present token */
+    bool begun;   /* the statement is being typed: its operands may be missing */
 } matcher;
 
 /* --- positions in the usage ---------------------------------------------------------- */
@@ -108,10 +110,7 @@ advance_positions(matcher *m, const qdot_filled *part, const qdot_usage_node *ho
 static bool
 is_word_in_usage(const matcher *m, const qdot_token *t)
 {
-    for (int i = 0; i < m->u->n; i++)
-        if (m->u->node[i].kind == QDOT_USAGE_WORD && qdot_token_is_word(t, m->u->node[i].text))
-            return true;
-    return false;
+    return t->kind == QDOT_TOKEN_NAME && qdot_usage_has_word(m->u, t->text);
 }
 
 /* Whether the token is a word of the usage and not a name of the session. */
@@ -139,6 +138,7 @@ may_be_unmarked_factor(const matcher *m)
     case QDOT_HOLE_CURVE:
     case QDOT_HOLE_BODY:
     case QDOT_HOLE_CONDITION:
+    case QDOT_HOLE_PERIOD:
     case QDOT_HOLE_EQUATION:
     case QDOT_HOLE_COMPARISON: return true;
     default: return false;
@@ -186,8 +186,9 @@ is_word_with_operand(const matcher *m, const qdot_token *word)
     const qdot_token *t = word + 1;
 
     return qdot_names_find(m->c->session->names, word->text) == NULL &&
-           (t->kind == QDOT_TOKEN_NAME || t->kind == QDOT_TOKEN_NUMBER || t->kind == QDOT_TOKEN_STRING ||
-            qdot_token_is(t, "(") || qdot_token_is(t, "-") || qdot_token_is(t, "sqrt"));
+           ((m->begun && t->kind == QDOT_TOKEN_END) || t->kind == QDOT_TOKEN_NAME || t->kind == QDOT_TOKEN_NUMBER || t->kind == QDOT_TOKEN_STRING ||
+            qdot_token_is(t, "(") || (qdot_token_is(t, "[") && !t->glued) || qdot_token_is(t, "-") || qdot_token_is(t, "%") ||
+            qdot_token_is(t, "sqrt"));
 }
 
 /* Whether the word is a value, where one may stand: a function before its argument, as in `plot log(x)`, or a name of
@@ -203,8 +204,25 @@ is_word_used_as_value(const matcher *m, const qdot_token *word)
            (next->kind == QDOT_TOKEN_OPERATOR || next->kind == QDOT_TOKEN_END || is_word_in_usage(m, next));
 }
 
+static bool
+is_hole_of_run(const qdot_usage_node *node)
+{
+    return node->kind == QDOT_USAGE_HOLE && strcmp(node->text, "RUN") == 0;
+}
+
+static bool
+is_name_of_run(const matcher *m, const qdot_token *name)
+{
+    const qdot_run_list *runs = m->c->session->runs;
+
+    for (size_t i = 0; i < runs->n; i++)
+        if (qdot_token_is_word(name, runs->at[i].name))
+            return true;
+    return false;
+}
+
 /* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a
- * spring may be called `rest`. */
+ * spring may be called `rest`, a run `session` where there is one. */
 static bool
 is_token_expected(const matcher *m)
 {
@@ -213,7 +231,8 @@ is_token_expected(const matcher *m)
     for (size_t i = m->first; i < m->places.n; i++) {
         const qdot_usage_node *node = node_at_position(m, i);
 
-        if (node->kind == QDOT_USAGE_HOLE && placeholder_class(node) == QDOT_HOLE_NAME && qdot_hole_suits(m->u, m->r, node))
+        if (node->kind == QDOT_USAGE_HOLE && placeholder_class(node) == QDOT_HOLE_NAME && qdot_hole_suits(m->u, m->r, node) &&
+            (!is_hole_of_run(node) || is_name_of_run(m, m->c->at)))
             return false;
         named = named || (node->kind == QDOT_USAGE_HOLE && (placeholder_class(node) == QDOT_HOLE_COMPARISON ||
                                                             placeholder_class(node) == QDOT_HOLE_TOPIC));
@@ -350,28 +369,120 @@ qdot_match(const qdot_cursor *c, const qdot_statement *row, const qdot_usage *u,
     return read_to_end(&m, add_position(&m, 0, 0, 0));
 }
 
+/* Take the first position to that behind the statement's word, which is not among the tokens. */
+static qdot_status
+begin_behind_word(matcher *m)
+{
+    const qdot_token word = {.kind = QDOT_TOKEN_NAME, .text = m->r->row->word};
+    qdot_filled *part;
+
+    QDOT_TRY(add_position(m, 0, 0, 0));
+    QDOT_TRY(advance_positions(m, &(qdot_filled){.from = &word, .to = &word, .primes = &word}, NULL));
+    part = &m->r->parts.at[0];
+    part->from = part->to = part->primes = m->c->at;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_match_operands(const qdot_cursor *c, const qdot_statement *row, qdot_record *record)
 {
-    static const qdot_token none = {.kind = QDOT_TOKEN_NAME};
-    qdot_token word = none;
-    matcher m = {.r = record};
-    qdot_status status;
+    matcher m = {.r = record, .c = &record->cursor};
 
     *record = (qdot_record){.row = row, .cursor = *c, .start = c->at};
-    m.c = &record->cursor;
     record->usage = qdot_malloc(sizeof *record->usage);
-    if (record->usage == NULL || !qdot_usage_compile(record->usage, row->word, row->usage, NULL))
+    if (record->usage == NULL || !qdot_usage_compile(record->usage, row->word, row->usage))
         return QDOT_ENOMEM;
     m.u = record->usage;
-    word.text = row->word;
-    status = add_position(&m, 0, 0, 0);
-    if (status == QDOT_OK)
-        status = advance_positions(&m, &(qdot_filled){.from = &word, .to = &word, .primes = &word}, NULL);
-    if (status == QDOT_OK)
-        m.r->parts.at[0].from = m.r->parts.at[0].to = m.r->parts.at[0].primes = c->at;
-    return read_to_end(&m, status);
+    return read_to_end(&m, begin_behind_word(&m));
 }
+
+/* --- statements that are being typed --------------------------------------------------- */
+
+/* Add what may come at the node; missing: a required clause before it in the usage has not been given. */
+static void
+add_next(const qdot_usage *u, int node, uint64_t taken, bool missing, qdot_next *next)
+{
+    const qdot_usage_node *at = &u->node[node];
+
+    if (missing && at->enters == 0)
+        return; /* behind the clauses */
+    for (int i = 0; i < next->n; i++)
+        if (next->at[i].node == at && next->at[i].taken == taken)
+            return;
+    if (next->n >= QDOT_NEXT)
+        return; /* beyond this number of places some possible continuations are not told */
+    next->at[next->n].node = at;
+    next->at[next->n++].taken = taken;
+    if (at->kind != QDOT_USAGE_FORK)
+        return;
+    taken &= ~at->forgets;
+    if ((taken & (at->enters | at->needs | (next->ordered ? at->later : 0))) == 0)
+        add_next(u, at->next, taken | at->enters, false, next);
+    if (at->other < 0)
+        return;
+    missing = missing || (at->needs != 0 && (taken & at->needs) == 0);
+    if (!(missing && next->ordered && u->node[at->other].needs != at->needs))
+        add_next(u, at->other, taken, missing, next);
+}
+
+/* Whether the last part may be what this node stands for: a declared name that is no run's does not stand for RUN, as
+ * `start x` goes on with `=`. */
+static bool
+is_what_node_stands_for(const matcher *m, const qdot_usage_node *node)
+{
+    const qdot_names *names = m->c->session->names;
+    const qdot_token *name = m->r->parts.at[m->r->parts.n - 1].from;
+
+    return !is_hole_of_run(node) || is_name_of_run(m, name) ||
+           (qdot_names_find(names, name->text) == NULL && !qdot_names_is_family(names, name->text));
+}
+
+static void
+find_next(const matcher *m, qdot_next *next)
+{
+    for (size_t i = m->first; i < m->places.n; i++) {
+        const place *here = &m->places.at[i], *before = &m->places.at[here->from];
+        const bool begins = m->r->parts.n == 0;
+
+        /* the places that follow the last part at once, not those that others lead to */
+        if (begins ? here->node == 0
+                   : here->node == m->u->node[before->node].next && here->taken == before->taken &&
+                         is_what_node_stands_for(m, &m->u->node[before->node]))
+            add_next(m->u, here->node, here->taken, false, next);
+    }
+}
+
+static bool
+is_word_of_usage(const void *usage, const char *name)
+{
+    return qdot_usage_has_word(usage, name);
+}
+
+qdot_status
+qdot_match_begun(const qdot_cursor *c, const qdot_statement *row, const qdot_usage *u, bool word, qdot_next *next,
+                 qdot_record *record)
+{
+    matcher m = {.u = u, .r = record, .c = &record->cursor, .begun = true};
+    qdot_status status;
+    bool end = false;
+
+    *record = (qdot_record){.row = row, .cursor = *c, .start = word ? c->at + 1 : c->at};
+    record->cursor.is_word = is_word_of_usage;
+    record->cursor.usage = u;
+    status = u->word[0] != '\0' && !word ? begin_behind_word(&m) : add_position(&m, 0, 0, 0);
+    while (status == QDOT_OK && !qdot_cursor_is_end(m.c))
+        status = read_next_part(&m, &end);
+    if (next != NULL) {
+        next->n = 0;
+        next->inside = status != QDOT_OK && qdot_cursor_is_end(m.c);
+        if (status == QDOT_OK)
+            find_next(&m, next);
+    }
+    qdot_free(m.places.at);
+    return qdot_grave(status);
+}
+
+/* --- carrying out ------------------------------------------------------------------------ */
 
 qdot_status
 qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end, const qdot_statement *row,

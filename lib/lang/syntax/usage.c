@@ -357,13 +357,14 @@ compile_words(compiler *c, int i, int to)
     return end;
 }
 
-/* Whether the pieces [i, more) contain a word that does not begin an item of a list, as `t` in `Q = A, t = B`. */
+/* Whether the pieces [i, more) contain a word behind the begin of an item of a list: the items of `CONDITION, returns after T`
+ * begin with words, those of `EXPR vs EXPR` do not. */
 static bool
 item_contains_word(const compiler *c, int i, int more)
 {
     for (i = find_piece(c, i, more, WORD, NULL); i < more;
          i = find_piece(c, i + 1, more, WORD, NULL))
-        if (strcmp(c->piece[i - 1].text, ",") != 0)
+        if (strcmp(c->piece[i - 1].text, ",") != 0 && c->piece[i - 1].kind != WORD)
             return true;
     return false;
 }
@@ -532,17 +533,47 @@ compile_text(compiler *c, const char *text)
         compile(c, 0, c->n);
 }
 
-bool
-qdot_usage_compile(qdot_usage *u, const char *word, const char *usage, const char *more)
+static compiler
+begin(qdot_usage *u, const char *word, const char *usage)
 {
     compiler c = {.u = u, .word = word};
 
-    u->n = u->states = 0;
+    u->n = 0;
     u->word = word;
-    u->operand = false;
     compile_text(&c, usage);
-    if (more != NULL)
-        compile_text(&c, more);
-    (void)append_node(&c, QDOT_USAGE_END, "");
-    return !c.failed;
+    return c;
+}
+
+static bool
+end(compiler *c)
+{
+    (void)append_node(c, QDOT_USAGE_END, "");
+    return !c->failed;
+}
+
+bool
+qdot_usage_compile(qdot_usage *u, const char *word, const char *usage)
+{
+    compiler c = begin(u, word, usage);
+
+    return end(&c);
+}
+
+bool
+qdot_usage_compile_with_end(qdot_usage *u, const char *word, const char *usage, bool answers)
+{
+    compiler c = begin(u, word, usage);
+
+    c.word = "for"; /* the clause's own holes */
+    compile_text(&c, answers ? "[to \"FILE\"] [for NAME = A..B, ...]" : "[for NAME = A..B, ...]");
+    return end(&c);
+}
+
+bool
+qdot_usage_has_word(const qdot_usage *u, const char *name)
+{
+    for (int i = 0; i < u->n; i++)
+        if (u->node[i].kind == QDOT_USAGE_WORD && strcmp(u->node[i].text, name) == 0)
+            return true;
+    return false;
 }

@@ -20,7 +20,7 @@
  * one behind options, `[title TEXT] to "FILE"`, or between an operand and options, `EXPR every DT [to "FILE"]`, too. Each must be there; of alternatives that end them,
  * `angle A | rotation MATRIX`, one. TAB offers them as they are written.
  *
- * Every statement may go on with `for NAME = A..B`, and one that answers with `to "FILE"`.
+ * Every statement may go on with `for NAME = A..B, ...`, and one that answers with `to "FILE"`.
  *
  * The text is compiled to a small automaton, as a regular expression would be. A hole takes
  * tokens as the language does: a name, number or string directly after a complete operand does
@@ -33,7 +33,7 @@
 
 #include "lang/source/token.h"
 
-enum { QDOT_USAGE_NODES = 200, QDOT_USAGE_TEXT = 48, QDOT_USAGE_STATES = 96 };
+enum { QDOT_USAGE_NODES = 200, QDOT_USAGE_TEXT = 48 };
 
 /* A node of the automaton for a usage text; `before` is the word that precedes it in that text. */
 typedef struct {
@@ -54,40 +54,20 @@ typedef struct {
     uint64_t forgets; /* for FORK of a list: bits of the options that each item may have anew */
 } qdot_usage_node;
 
-/* A state of the automaton: at a node, or (inside) within the expression of the placeholder that the node is. */
-typedef struct {
-    int node;
-    bool inside;
-    uint64_t taken; /* bits of the options that have been given already */
-} qdot_usage_state;
-
 typedef struct {
     const char *word; /* first word of the statement */
     qdot_usage_node node[QDOT_USAGE_NODES];
     int n;
-    qdot_usage_state state[QDOT_USAGE_STATES]; /* states that are possible after the tokens so far */
-    int states;
-    bool operand; /* the last token ends an operand */
-    /* whether a token may begin a placeholder ("hole"); NULL: any token may */
-    bool (*suits)(const void *user, const qdot_usage_node *hole, const qdot_token *token);
-    const void *user;
 } qdot_usage;
 
-/* Compile; `word` is the statement's, "" where the usage has none; more: a usage of what may follow, NULL: nothing. false:
- * too large, or no usage text; nothing may be asked then. */
-bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage, const char *more);
+/* Compile; `word` is the statement's, "" where the usage has none. false: too large, or no usage text; nothing may be asked
+ * then. */
+bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage);
 
-/* Compile the usage and what may follow any statement, to be read from the first token. answers: `to "FILE"` may follow. */
-bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers);
+/* The same with what may follow any statement; answers: `to "FILE"` may follow, too. */
+bool qdot_usage_compile_with_end(qdot_usage *u, const char *word, const char *usage, bool answers);
 
-/* Advance over the tokens [from, to) of the statement, the first of which is its word. Tokens
- * inside closed brackets are skipped with the opening one. */
-void qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to);
-
-/* Whether that word of the usage text may come next in the statement. */
-bool qdot_usage_takes(const qdot_usage *u, const char *word);
-
-/* Whether the tokens read so far are a complete statement. */
-bool qdot_usage_is_whole(const qdot_usage *u);
+/* Whether the name is a word of the usage. */
+bool qdot_usage_has_word(const qdot_usage *u, const char *name);
 
 #endif

@@ -21,7 +21,7 @@ static qdot_status carry_out_find(qdot_record *r);
 QDOT_STATEMENT(find) = {
     .word = "find",
     .group = QDOT_NUMBERS,
-    .usage = "find NAME = A..B, NAME = GUESS, ... such that CONDITION, ... "
+    .usage = "find NAME = A..B, NAME = GUESS, ... such that CONDITION, returns after T, ... "
              "[run T0..T1 " QDOT_RUN_USAGE "] [as NAME]",
     .summary = "parameters, initial values and times for which conditions on a run hold, each with its error, by "
                "Newton's method with exact slopes, and bisection between bounds; `returns after T`: a periodic orbit. They "
@@ -178,7 +178,7 @@ read_joined_conditions(qdot_find *f, const qdot_filled *part)
             .from = sides[k].from, .side = {&sides[k], &sides[k]}, .returns = sides[k].is_period};
 
         if (x.returns)
-            x.from -= 2; /* the two words `returns after` belong to the condition */
+            x.from -= 2; /* the words `returns after` */
         else
             x.side[1] = &sides[++k];
         f->returns = f->returns || x.returns;
@@ -190,9 +190,11 @@ read_joined_conditions(qdot_find *f, const qdot_filled *part)
 static qdot_status
 read_conditions(qdot_find *f)
 {
-    for (const qdot_filled *part = qdot_record_hole(f->record, "that", "CONDITION"); part != NULL;
-         part = qdot_record_next(f->record, part, "CONDITION"))
-        QDOT_TRY(read_joined_conditions(f, part));
+    const qdot_record *r = f->record;
+
+    for (const qdot_filled *part = qdot_record_word(r, "that"); part < r->parts.at + r->parts.n; part++)
+        if (qdot_filled_is(part, "CONDITION") || qdot_filled_is(part, "T"))
+            QDOT_TRY(read_joined_conditions(f, part));
     return QDOT_OK;
 }
 

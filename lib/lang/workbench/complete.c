@@ -15,8 +15,8 @@
 #include "lang/session/runs.h"
 #include "lang/source/letters.h"
 #include "lang/source/source.h"
-#include "lang/syntax/statement.h"
-#include "lang/syntax/usage.h"
+#include "lang/syntax/form.h"
+#include "lang/syntax/match.h"
 #include "ode/method.h"
 #include "show/figure.h"
 
@@ -50,8 +50,7 @@ enum {
     STATEMENTS = 1 << 15,
     KINDS = 1 << 16, /* words for kinds of things that the statement `remove` accepts */
     TABLES = 1 << 17, /* tables of rows */
-    RETURNS = 1 << 18, /* the word `returns` of `returns after T` */
-    COLOURS = 1 << 19, /* colours of curves */
+    COLOURS = 1 << 18, /* colours of curves */
     NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
     LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
     EXPRESSION =
@@ -164,8 +163,6 @@ offer_language_words(completion *c, unsigned kinds)
     for (size_t i = 0; (kinds & KINDS) != 0 && i < sizeof removable / sizeof *removable;
          i++)
         offer_word(c, removable[i]);
-    if ((kinds & RETURNS) != 0)
-        offer_word(c, "returns");
     if ((kinds & CONSTANTS) != 0) {
         offer_word(c, "pi");
         offer_word(c, "t");
@@ -262,71 +259,78 @@ static const unsigned hole_kinds[] = {
 };
 #undef HOLE
 
-/* Whether the token may begin the placeholder: only the name of a run stands for a run, as `start x` goes on with `=`. */
-static bool
-token_may_begin_placeholder(const void *user, const qdot_usage_node *hole, const qdot_token *token)
-{
-    const qdot_session *session = user;
-
-    if (hole_kinds[hole->hole] != RUNS)
-        return true;
-    for (size_t i = 0; i < session->runs->n; i++)
-        if (strcmp(session->runs->at[i].name, token->text) == 0)
-            return true;
-    return false;
-}
-
 /* Offer the words that may come next according to the usage of the statement; if there are none, `=`. */
 static void
-offer_usage(completion *c, const qdot_usage *u)
+offer_next(completion *c, const qdot_next *next, bool operand)
 {
-    unsigned kinds = 0;
+    unsigned kinds = next->inside && !operand ? EXPRESSION : NOTHING;
     const size_t before = c->words.n;
     bool equal = false;
 
-    for (int i = 0; i < u->states; i++) {
-        const qdot_usage_node *node = &u->node[u->state[i].node];
+    for (int i = 0; i < next->n; i++) {
+        const qdot_usage_node *node = next->at[i].node;
 
-        if (node->kind == QDOT_USAGE_WORD && !u->state[i].inside)
+        if (node->kind == QDOT_USAGE_WORD)
             offer_word(c, node->text);
-        else if (node->kind == QDOT_USAGE_HOLE && !u->state[i].inside)
+        else if (node->kind == QDOT_USAGE_HOLE)
             kinds |= hole_kinds[node->hole];
-        else if (node->kind == QDOT_USAGE_SIGN && !u->state[i].inside)
+        else if (node->kind == QDOT_USAGE_SIGN)
             equal = equal || strcmp(node->text, "=") == 0;
-        else if (node->kind == QDOT_USAGE_HOLE && !u->operand)
-            kinds |= EXPRESSION;
     }
     offer_words_of_kinds(c, kinds);
     if (equal && kinds == 0 && c->words.n == before)
         offer_word(c, "=");
 }
 
+/* Whether an operand ends with the token. */
+static bool
+token_ends_operand(const qdot_token *token)
+{
+    if (qdot_token_is_word(token, "and") || qdot_token_is_word(token, "or") || qdot_token_is_word(token, "not"))
+        return false;
+    return token->kind != QDOT_TOKEN_OPERATOR || strchr(")]}'%", token->text[0]) != NULL;
+}
+
+/* Offer what may come behind the tokens from `first` to the end, read by a usage; row NULL: of an expression. word: the
+ * first token is that of the row. */
+static void
+offer_by_usage(completion *c, const qdot_source *source, const qdot_token *first, const qdot_token *end, const qdot_statement *row,
+               bool word)
+{
+    const qdot_cursor at = {.session = c->session, .source = source, .at = first};
+    qdot_record record;
+    qdot_next next = {.ordered = c->prefix[0] == '\0'}; /* what is typed may be any of them */
+    qdot_usage u;
+    qdot_status status;
+
+    if (!qdot_usage_compile_with_end(&u, row != NULL ? row->word : "", row != NULL ? row->usage : "EXPR", qdot_redirect_answers(row)))
+        return;
+    status = qdot_match_begun(&at, row, &u, word, &next, &record);
+    qdot_record_free(&record);
+    if (status == QDOT_OK)
+        offer_next(c, &next, token_ends_operand(end - 1));
+    else
+        c->status = status;
+}
+
 /* Offer words after the tokens [first, end) of a statement, of which no bracket is open. */
 static void
-offer_in_statement(completion *c, const qdot_token *first, const qdot_token *end)
+offer_in_statement(completion *c, const qdot_source *source, const qdot_token *first, const qdot_token *end)
 {
-    const qdot_statement *row = first < end && first->kind == QDOT_TOKEN_NAME
-                                    ? qdot_statement_find(first->text)
-                                    : NULL;
-    qdot_usage u;
+    const qdot_statement *row = first < end ? qdot_statement_row(first) : NULL;
 
     if (first == end) {
         offer_words_of_kinds(c, STATEMENTS | (c->prefix[0] != '\0' ? EXPRESSION : 0));
         return;
     }
-    if (row != NULL &&
-        qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row))) {
-        u.suits = token_may_begin_placeholder;
-        u.user = c->session;
-        qdot_usage_read(&u, first, end);
-        offer_usage(c, &u);
-    }
-    if ((row == NULL || row->alone ||
-         (end > first + 1 && qdot_token_is(first + 1, "="))) &&
-        qdot_usage_begin(&u, "", "EXPR | NAME = EXPR", true)) {
-        qdot_usage_read(&u, first, end);
-        offer_usage(c, &u);
-    }
+    if (row != NULL)
+        offer_by_usage(c, source, first, end, row, true);
+    if (row != NULL && !row->alone && !(end > first + 1 && qdot_token_is(first + 1, "=")))
+        return;
+    if (qdot_statement_form(c->session, first) == QDOT_FORM_COMPARISON)
+        offer_by_usage(c, source, first, end, qdot_statement_find("check"), false);
+    else
+        offer_by_usage(c, source, first, end, NULL, false);
 }
 
 /* Whether a blank is needed between the token and a word. */
@@ -339,27 +343,27 @@ needs_blank_after(const qdot_token *token)
 
 /* Offer words after the tokens [first, end); `open` is an unclosed bracket among them, NULL: there is none. */
 static void
-offer_after_tokens(completion *c, const qdot_token *first, const qdot_token *open,
+offer_after_tokens(completion *c, const qdot_source *source, const qdot_token *first, const qdot_token *open,
                    const qdot_token *end)
 {
     if (end > first && qdot_token_is(end - 1, ".") && end[-1].glued)
         offer_words_of_kinds(c, EXPRESSION); /* a name after `a.`: an expression along run a */
     else if (open == NULL)
-        offer_in_statement(c, first, end);
+        offer_in_statement(c, source, first, end);
     else if (qdot_token_is(open, "["))
         offer_values_of_index(c, first, open);
     else
         offer_labels_as_argument(c, first, open, end);
 }
 
-/* Find the statement that contains the last token, and its innermost open bracket, and offer words there. */
+/* Find the statement that contains the last of the first n tokens, and its innermost open bracket, and offer words there. */
 static void
-offer_at_end_of_tokens(completion *c, const qdot_token *tokens, size_t n)
+offer_at_end_of_tokens(completion *c, const qdot_source *source, size_t n)
 {
-    const qdot_token *end = tokens + n, *first = tokens, *open = NULL;
+    const qdot_token *end = source->tokens.at + n, *first = source->tokens.at, *open = NULL;
     int64_t depth = 0;
 
-    for (const qdot_token *k = tokens; k < end; k++)
+    for (const qdot_token *k = first; k < end; k++)
         if (k->kind == QDOT_TOKEN_END || qdot_token_is(k, "{"))
             first = k + 1;
     for (const qdot_token *k = end; k > first && open == NULL;) {
@@ -367,7 +371,7 @@ offer_at_end_of_tokens(completion *c, const qdot_token *tokens, size_t n)
         if (depth > 0)
             open = k;
     }
-    offer_after_tokens(c, first, open, end);
+    offer_after_tokens(c, source, first, open, end);
 }
 
 /* --- completion of a text -------------------------------------------------------------- */
@@ -467,11 +471,14 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
         if (c.status == QDOT_OK &&
             !(length > 0 && strchr(";\n{}", before[length - 1]) != NULL))
             tokens--; /* do not count the token END that closes the text */
-        c.status = QDOT_OK;
-        if (tokens == 0 || !needs_blank_after(source->tokens.at + tokens - 1) ||
+        /* the lexer ends a list of tokens with END, except one on which it failed */
+        c.status = qdot_vec_push(&source->tokens, ((qdot_token){.text = "", .start = (uint32_t)length}));
+        if (c.status != QDOT_OK)
+            ;
+        else if (tokens == 0 || !needs_blank_after(source->tokens.at + tokens - 1) ||
             source->tokens.at[tokens - 1].start + source->tokens.at[tokens - 1].length <
                 length)
-            offer_at_end_of_tokens(&c, source->tokens.at, tokens);
+            offer_at_end_of_tokens(&c, source, tokens);
         qdot_source_free(source);
     }
     if (greek)

@@ -25,6 +25,7 @@
 /* The word that is explained, within the tokens of its source. */
 typedef struct {
     qdot_session *session;
+    const qdot_source *source;
     qdot_style style;
     const qdot_token *first, *word; /* first token of the statement; the word */
     bool in_brackets;
@@ -290,13 +291,14 @@ add_formula(place *p)
 static qdot_status
 explain_word(place *p)
 {
-    bool declared = false;
+    bool declared = false, word = false;
 
     qdot_text_add(&p->out->word, p->word->text);
     p->out->from = p->word->start;
     p->out->to = p->word->start + p->word->length;
-    if (p->word->kind == QDOT_TOKEN_NAME &&
-        qdot_highlight_name(p->session, p->first, p->word, p->in_brackets) == QDOT_HIGHLIGHT_WORD) {
+    if (p->word->kind == QDOT_TOKEN_NAME)
+        QDOT_TRY(qdot_highlight_is_word(p->session, p->source, p->first, p->word, p->in_brackets, &word));
+    if (word && (p->word != p->first || qdot_quantity_find(p->word->text) == NULL)) { /* `forces` is explained as a value */
         explain_statement_word(p);
         return QDOT_OK;
     }
@@ -326,6 +328,7 @@ qdot_explain(qdot_session *session, const char *text, size_t length, size_t curs
         /* the lexer ends a list of tokens with END, except one on which it failed */
         status = failed ? qdot_vec_push(&source->tokens, ((qdot_token){.text = "", .start = (uint32_t)at})) : QDOT_OK;
         found = status == QDOT_OK && find_word(source->tokens.at, source->tokens.n, cursor - from, &p);
+        p.source = source;
         if (found)
             status = explain_word(&p);
         qdot_source_free(source);

@@ -5,46 +5,57 @@
 
 #include "base/utf8.h"
 #include "lang/files/redirect.h"
-#include "lang/functions/quantity.h"
 #include "lang/source/source.h"
-#include "lang/syntax/statement.h"
-#include "lang/syntax/usage.h"
+#include "lang/syntax/form.h"
+#include "lang/syntax/match.h"
+#include "lang/syntax/outline.h"
 
-/* --- kinds of names ------------------------------------------------------------------- */
+/* --- the words of a statement ---------------------------------------------------------- */
 
-/* Whether the word of a statement is used as a name here: `run*2`, `gravity = 9.81`. */
-static bool
-is_word_used_as_name(const qdot_token *name)
+/* The token at which the statement ends that begins at `first`, with its loop: its own end, or that of its block. */
+static const qdot_token *
+find_end(const qdot_token *first)
 {
-    static const char *const binary[] = {
-        "=", "*", "/", "^", "'", "==", "<", ">", "<=", ">=", "."};
+    int64_t depth = 0;
 
-    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
-        if (qdot_token_is(name + 1, binary[i]))
-            return true;
-    return qdot_quantity_find(name->text) != NULL;
+    for (const qdot_token *k = first;; k++) {
+        depth += qdot_token_bracket(k);
+        if (k->kind == QDOT_TOKEN_END || depth < 0)
+            return k;
+    }
 }
 
-/* The table row of the statement that begins at this token; NULL: it is an expression or a definition. */
-static const qdot_statement *
-find_statement(const qdot_token *first)
+static qdot_form
+form_without_loop(const qdot_session *session, const qdot_token *first)
 {
-    return first->kind == QDOT_TOKEN_NAME && !is_word_used_as_name(first)
-               ? qdot_statement_find(first->text)
-               : NULL;
+    const qdot_outline parts = qdot_outline_statement(session, first);
+    const qdot_token *end = parts.loop != NULL ? parts.loop : parts.end;
+    const qdot_token_kind kind = qdot_outline_cut(end);
+    const qdot_form form = qdot_statement_form(session, first);
+
+    qdot_outline_join(end, kind);
+    return form;
 }
 
-/* Whether the name is the word of an option of this statement, at a place where it may stand. */
-static bool
-is_option(const qdot_statement *row, const qdot_token *first, const qdot_token *name)
+/* Read the statement that begins at `first`, as far as it goes, into the record: the parts that are words of its usage are
+ * its words. A statement without words has no parts. */
+static qdot_status
+read_statement(qdot_session *session, const qdot_source *source, const qdot_token *first, qdot_usage *u, qdot_record *record)
 {
-    qdot_usage u;
+    const qdot_cursor at = {.session = session, .source = source, .at = first};
+    const qdot_token *end = find_end(first);
+    const qdot_token_kind kind = qdot_outline_cut(end);
+    const qdot_form form = form_without_loop(session, first);
+    const qdot_statement *row = form == QDOT_FORM_WORD         ? qdot_statement_row(first)
+                                : form == QDOT_FORM_COMPARISON ? qdot_statement_find("check")
+                                                               : NULL;
+    qdot_status status = QDOT_OK;
 
-    if (row == NULL || strstr(row->usage, name->text) == NULL ||
-        !qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row)))
-        return false;
-    qdot_usage_read(&u, first, name);
-    return qdot_usage_takes(&u, name->text);
+    *record = (qdot_record){0};
+    if (row != NULL && qdot_usage_compile_with_end(u, row->word, row->usage, qdot_redirect_answers(row)))
+        status = qdot_match_begun(&at, row, u, form == QDOT_FORM_WORD, NULL, record);
+    qdot_outline_join(end, kind);
+    return status;
 }
 
 /* Whether `for k = ...` or `to "FILE"` begins here, which may end any statement. */
@@ -55,33 +66,53 @@ begins_end_of_statement(const qdot_token *name)
            (qdot_token_is_word(name, "to") && name[1].kind == QDOT_TOKEN_STRING);
 }
 
-qdot_highlight
-qdot_highlight_name(const qdot_session *session, const qdot_token *first, const qdot_token *name,
-                    bool in_brackets)
+static bool
+is_word(const qdot_filled *part)
 {
-    const qdot_statement *row = find_statement(first);
+    return part->node->kind == QDOT_USAGE_WORD && part->from < part->to;
+}
 
-    if (name == first && row != NULL)
-        return QDOT_HIGHLIGHT_WORD;
-    if (!in_brackets && name > first &&
-        (begins_end_of_statement(name) || is_option(row, first, name)))
-        return QDOT_HIGHLIGHT_WORD;
-    return qdot_cursor_knows(session, name->text) ? QDOT_HIGHLIGHT_NAME
-                                                  : QDOT_HIGHLIGHT_PLAIN;
+qdot_status
+qdot_highlight_is_word(qdot_session *session, const qdot_source *source, const qdot_token *first, const qdot_token *name,
+                       bool in_brackets, bool *is)
+{
+    qdot_record record;
+    qdot_usage u;
+    const qdot_status status = read_statement(session, source, first, &u, &record);
+
+    *is = !in_brackets && name > first && begins_end_of_statement(name);
+    for (size_t i = 0; i < record.parts.n && !*is; i++)
+        *is = is_word(&record.parts.at[i]) && record.parts.at[i].from == name;
+    qdot_record_free(&record);
+    return status;
 }
 
 /* --- colouring a text ----------------------------------------------------------------- */
 
 static qdot_highlight
-find_kind_of_token(const qdot_session *session, const qdot_token *first, const qdot_token *token,
-                   bool in_brackets)
+find_kind_of_token(const qdot_session *session, const qdot_token *token)
 {
     switch (token->kind) {
-    case QDOT_TOKEN_NAME: return qdot_highlight_name(session, first, token, in_brackets);
+    case QDOT_TOKEN_NAME: return qdot_cursor_knows(session, token->text) ? QDOT_HIGHLIGHT_NAME : QDOT_HIGHLIGHT_PLAIN;
     case QDOT_TOKEN_NUMBER: return QDOT_HIGHLIGHT_NUMBER;
     case QDOT_TOKEN_STRING: return QDOT_HIGHLIGHT_STRING;
     default: return QDOT_HIGHLIGHT_PLAIN;
     }
+}
+
+/* Mark the words of the statement that begins at `first`. */
+static qdot_status
+mark_words(qdot_session *session, const qdot_source *source, const qdot_token *first, uint8_t *kinds)
+{
+    qdot_record record;
+    qdot_usage u;
+    const qdot_status status = read_statement(session, source, first, &u, &record);
+
+    for (size_t i = 0; i < record.parts.n; i++)
+        if (is_word(&record.parts.at[i]))
+            memset(kinds + record.parts.at[i].from->start, QDOT_HIGHLIGHT_WORD, record.parts.at[i].from->length);
+    qdot_record_free(&record);
+    return status;
 }
 
 /* Mark the comments between tokens, which begin with #, for colouring. */
@@ -95,9 +126,8 @@ mark_comments(const char *text, size_t from, size_t to, uint8_t *kinds)
 }
 
 /* Classify the tokens of the text for colouring; *end: the byte up to which they reach. */
-static void
-mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kinds,
-            size_t *end)
+static qdot_status
+mark_tokens(qdot_session *session, const qdot_source *source, uint8_t *kinds, size_t *end)
 {
     const qdot_token *first = source->tokens.at;
     int64_t depth = 0; /* depth of brackets within the statement */
@@ -107,18 +137,20 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
 
         mark_comments(source->text, *end, token->start, kinds);
         if (token->kind == QDOT_TOKEN_END || qdot_token_is(token, "{")) {
+            QDOT_TRY(mark_words(session, source, first, kinds));
             first = token + 1;
             depth = 0;
         } else {
-            const uint8_t kind = (uint8_t)find_kind_of_token(session, first, token, depth > 0);
+            const bool ends = depth <= 0 && token > first && begins_end_of_statement(token);
 
             if (token->start >= *end) /* skip a dot accent, which belongs to the name before it */
-                memset(kinds + token->start, kind, token->length);
+                memset(kinds + token->start, ends ? QDOT_HIGHLIGHT_WORD : find_kind_of_token(session, token), token->length);
             depth += qdot_token_bracket(token);
         }
         if (token->start + token->length > *end)
             *end = token->start + token->length;
     }
+    return QDOT_OK;
 }
 
 /* The byte that is no token: a text without its quote, or what means nothing. Returns how far
@@ -141,7 +173,7 @@ mark_invalid_byte(const char *text, size_t length, size_t at, uint8_t *kinds)
 }
 
 qdot_status
-qdot_highlight_text(const qdot_session *session, const char *text, size_t length,
+qdot_highlight_text(qdot_session *session, const char *text, size_t length,
                     uint8_t *kinds)
 {
     size_t from = 0;
@@ -160,7 +192,7 @@ qdot_highlight_text(const qdot_session *session, const char *text, size_t length
             status = qdot_vec_push(&source->tokens,
                                    ((qdot_token){.text = "", .start = (uint32_t)at}));
         if (status == QDOT_OK)
-            mark_tokens(session, source, kinds + from, &end);
+            status = mark_tokens(session, source, kinds + from, &end);
         end = status != QDOT_OK || at >= length - from || at < end
                   ? length - from /* everything was read, or only a closing bracket is missing */
                   : mark_invalid_byte(text + from, length - from, at, kinds + from);

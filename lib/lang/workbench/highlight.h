@@ -20,12 +20,11 @@ typedef enum {
 
 /* kinds [length], one a byte, of `text` [length] as far as it is typed. Errors: QDOT_ENOMEM; the
  * kinds are those found till then. */
-QDOT_MUST_CHECK qdot_status qdot_highlight_text(const qdot_session *session,
-                                                const char *text, size_t length,
-                                                uint8_t *kinds);
+QDOT_MUST_CHECK qdot_status qdot_highlight_text(qdot_session *session, const char *text, size_t length, uint8_t *kinds);
 
-/* What the name is in the statement that begins at `first`: WORD, NAME or PLAIN; in_brackets: it stands within them. */
-qdot_highlight qdot_highlight_name(const qdot_session *session, const qdot_token *first, const qdot_token *name,
-                                   bool in_brackets);
+/* *is: whether the name is a word of the statement that begins at `first`, or of an option; in_brackets: it stands within
+ * them. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_highlight_is_word(qdot_session *session, const qdot_source *source, const qdot_token *first,
+                                                   const qdot_token *name, bool in_brackets, bool *is);
 
 #endif

@@ -107,7 +107,7 @@ find_usage(engine *x, const qdot_statement *row)
         if (strcmp(x->usages.at[i]->word, row->word) == 0)
             return x->usages.at[i];
     usage = qdot_malloc(sizeof *usage);
-    if (usage == NULL || !qdot_usage_compile(usage, row->word, displayed ? row->displayed : row->usage, NULL) ||
+    if (usage == NULL || !qdot_usage_compile(usage, row->word, displayed ? row->displayed : row->usage) ||
         qdot_vec_push(&x->usages, usage) != QDOT_OK) {
         qdot_free(usage);
         return NULL;

@@ -25,7 +25,7 @@ statement_open(statement *s, qdot_session *session, const char *usage, const cha
     snprintf(s->word, sizeof s->word, "%.*s", (int)strcspn(usage, " "), usage);
     s->row = (qdot_statement){.word = s->word, .usage = usage};
     s->session = session;
-    assert_true(qdot_usage_compile(&s->usage, s->word, usage, NULL));
+    assert_true(qdot_usage_compile(&s->usage, s->word, usage));
     assert_int_equal(qdot_source_new("a test", text, strlen(text), &s->source, &at), QDOT_OK);
 }
 
@@ -265,7 +265,7 @@ clauses_of_things_come_in_any_order(void **state)
         qdot_usage u;
         bool needs = false;
 
-        assert_true(qdot_usage_compile(&u, row->word, row->usage, NULL));
+        assert_true(qdot_usage_compile(&u, row->word, row->usage));
         for (int k = 0; k < u.n; k++)
             needs = needs || u.node[k].needs != 0;
         if (needs != (strcmp(row->word, "particle") == 0 || strcmp(row->word, "body") == 0 ||

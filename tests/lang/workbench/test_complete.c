@@ -5,7 +5,7 @@
 #include "lang/files/redirect.h"
 #include "lang/source/source.h"
 #include "lang/syntax/statement.h"
-#include "lang/syntax/usage.h"
+#include "lang/syntax/match.h"
 #include "lang/workbench/complete.h"
 
 static const char scene[] =
@@ -221,19 +221,27 @@ every_example_follows_its_usage(void **state)
 {
     const qdot_statement *row;
     qdot_usage u;
+    talk *k = *state;
 
-    (void)state;
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++) {
         qdot_source *source;
+        qdot_record record;
+        qdot_next next = {0};
+        bool whole = false;
         size_t at;
 
-        if (!qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row)))
+        if (!qdot_usage_compile_with_end(&u, row->word, row->usage, qdot_redirect_answers(row)))
             fail_msg("the usage of `%s` cannot be read: %s", row->word, row->usage);
         assert_int_equal(
             qdot_source_new("example", row->example, strlen(row->example), &source, &at),
             QDOT_OK);
-        qdot_usage_read(&u, source->tokens.at, source->tokens.at + source->tokens.n - 1);
-        if (!qdot_usage_is_whole(&u))
+        assert_int_equal(qdot_match_begun(&(qdot_cursor){.session = k->session, .source = source, .at = source->tokens.at}, row,
+                                          &u, true, &next, &record),
+                         QDOT_OK);
+        qdot_record_free(&record);
+        for (int n = 0; n < next.n; n++)
+            whole = whole || next.at[n].node->kind == QDOT_USAGE_END;
+        if (!whole)
             fail_msg("`%s` does not follow `%s`", row->example, row->usage);
         qdot_source_free(source);
     }

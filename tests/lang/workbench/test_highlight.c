@@ -36,6 +36,30 @@ statements_and_their_options(void **state)
     is_seen_as(k, "T to \"a.tex\"", "n WW sssssss");
     is_seen_as(k, "print k for k = 1..3", "WWWWW k WWW k = 0..0");
     is_seen_as(k, "{ T; print q } for k = 1..2", "{ n; WWWWW n } WWW k = 0..0");
+    is_seen_as(k, "run 0..10 [s] tol 1e-9 as a", "WWW 0..00 [s] WWW 0000 WW a");
+    is_seen_as(k, "plot ½ m l from 0 to ½ keep", "WWWW 00 n l WWWW 0 WW 00 WWWW");
+    is_seen_as(k, "find q = 1 such that returns after T and q = 1 run 0..1 as c",
+               "WWWW n = 0 WWWW WWWW WWWWWWW WWWWW n and n = 0 WWW 0..0 WW c");
+    is_seen_as(k, "find q = 1 such that q = ½ and q = 2 as c", "WWWW n = 0 WWWW WWWW n = 00 and n = 0 WW c");
+    is_seen_as(k, "T == V when eom", "n == n WWWW nnn");
+    is_seen_as(k, "save session to \"a.lag\"", "WWWW WWWWWWW WW sssssss");
+}
+
+/* The words of some statements are values, too. */
+static void
+words_of_statements_and_values(void **state)
+{
+    talk *k = *state;
+
+    say(k, "param m; coord q");
+    is_seen_as(k, "modes at equilibria[2]", "WWWWW WW nnnnnnnnnn[0]");
+    is_seen_as(k, "modes", "WWWWW");
+    is_seen_as(k, "modes[1]; modes + 1", "nnnnn[0]; nnnnn + 0");
+    is_seen_as(k, "{ forces; dof } for k = 1..2", "{ WWWWWW; WWW } WWW k = 0..0");
+    is_seen_as(k, "equilibria for m = 1..2", "WWWWWWWWWW WWW n = 0..0");
+    is_seen_as(k, "hamiltonian p[q]^2/2", "WWWWWWWWWWW n[n]^0/0");
+    is_seen_as(k, "hamiltonian √2; hamiltonian - T", "WWWWWWWWWWW √0; nnnnnnnnnnn - n");
+    is_seen_as(k, "linearize at equilibria[1]; linearize[A]", "WWWWWWWWW WW nnnnnnnnnn[0]; nnnnnnnnn[A]");
 }
 
 static void
@@ -122,6 +146,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(statements_and_their_options, begin, end),
+        cmocka_unit_test_setup_teardown(words_of_statements_and_values, begin, end),
         cmocka_unit_test_setup_teardown(words_used_as_names_are_no_statements, begin,
                                         end),
         cmocka_unit_test_setup_teardown(names_are_known_or_not, begin, end),
