@@ -29,7 +29,7 @@ csv_add_field(qdot_text *line, const char *field)
 }
 
 static void
-csv_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
+csv_add_cell(const qdot_dataset *t, size_t row, size_t column, qdot_text *out)
 {
     const qdot_table_column *c = &t->columns[column];
     const qdot_table_cell cell = qdot_table_at(t, row, column);
@@ -41,7 +41,7 @@ csv_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
 }
 
 static void
-csv_add_row(const qdot_table *t, size_t row, qdot_text *out)
+csv_add_row(const qdot_dataset *t, size_t row, qdot_text *out)
 {
     for (size_t j = 0; j < t->n; j++) {
         qdot_text_add(out, j > 0 ? "," : "");
@@ -51,7 +51,7 @@ csv_add_row(const qdot_table *t, size_t row, qdot_text *out)
 }
 
 static void
-csv_add_names(const qdot_table *t, qdot_text *out)
+csv_add_names(const qdot_dataset *t, qdot_text *out)
 {
     qdot_text name = {0};
 
@@ -67,7 +67,7 @@ csv_add_names(const qdot_table *t, qdot_text *out)
 }
 
 qdot_status
-qdot_table_csv(const qdot_table *t, const char *path)
+qdot_table_csv(const qdot_dataset *t, const char *path)
 {
     static const qdot_table_format format = {csv_add_names, csv_add_row, NULL};
 

@@ -21,7 +21,7 @@ write_collected_text(qdot_sink *sink, qdot_text *text, size_t least)
 }
 
 static qdot_status
-write_all_rows(const qdot_table *t, const qdot_table_format *format, qdot_sink *sink, qdot_text *text)
+write_all_rows(const qdot_dataset *t, const qdot_table_format *format, qdot_sink *sink, qdot_text *text)
 {
     if (format->head != NULL)
         format->head(t, text);
@@ -35,7 +35,7 @@ write_all_rows(const qdot_table *t, const qdot_table_format *format, qdot_sink *
 }
 
 static qdot_status
-write_table(const qdot_table *t, const qdot_table_format *format, const char *path)
+write_table(const qdot_dataset *t, const qdot_table_format *format, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
@@ -51,9 +51,9 @@ write_table(const qdot_table *t, const qdot_table_format *format, const char *pa
 }
 
 qdot_status
-qdot_table_file(const qdot_table *t, unsigned where, const qdot_table_format *format, const char *path)
+qdot_table_file(const qdot_dataset *t, unsigned where, const qdot_table_format *format, const char *path)
 {
-    qdot_table shown;
+    qdot_dataset shown;
     qdot_status status = qdot_table_select(t, where, &shown);
 
     if (status == QDOT_OK)

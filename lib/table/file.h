@@ -6,14 +6,14 @@
 
 /* The functions by which a format writes the head, each row, and the end of a file; NULL: nothing. */
 typedef struct {
-    void (*head)(const qdot_table *t, qdot_text *out);
-    void (*row)(const qdot_table *t, size_t row, qdot_text *out);
-    void (*foot)(const qdot_table *t, qdot_text *out);
+    void (*head)(const qdot_dataset *t, qdot_text *out);
+    void (*row)(const qdot_dataset *t, size_t row, qdot_text *out);
+    void (*foot)(const qdot_dataset *t, qdot_text *out);
 } qdot_table_format;
 
 /* Write a file of the columns that stand there; path "-": standard output. Errors: those of qdot_table_select, of
  * base/sink.h; QDOT_EINTR. */
-QDOT_MUST_CHECK qdot_status qdot_table_file(const qdot_table *t, unsigned where, const qdot_table_format *format,
+QDOT_MUST_CHECK qdot_status qdot_table_file(const qdot_dataset *t, unsigned where, const qdot_table_format *format,
                                             const char *path);
 
 #endif

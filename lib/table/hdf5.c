@@ -190,13 +190,13 @@ append_group_messages(qdot_text *header)
 }
 
 static bool
-is_text_column(const qdot_table *t, size_t j)
+is_text_column(const qdot_dataset *t, size_t j)
 {
     return t->columns[j].kind == QDOT_CELL_TEXT;
 }
 
 static const char *
-entry_text(const qdot_table *t, size_t j, size_t i)
+entry_text(const qdot_dataset *t, size_t j, size_t i)
 {
     const char *text = qdot_table_at(t, i, j).text;
 
@@ -205,7 +205,7 @@ entry_text(const qdot_table *t, size_t j, size_t i)
 
 /* The number of bytes of an entry of a column: of a double, or of the longest text and its NUL. */
 static size_t
-entry_size(const qdot_table *t, size_t j)
+entry_size(const qdot_dataset *t, size_t j)
 {
     size_t size = 1;
 
@@ -220,7 +220,7 @@ entry_size(const qdot_table *t, size_t j)
 }
 
 static void
-append_data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
+append_data_set(qdot_text *header, const qdot_dataset *t, size_t j, uint64_t address)
 {
     const size_t rows = t->rows, size = entry_size(t, j);
     const bool texts = is_text_column(t, j);
@@ -263,7 +263,7 @@ enum { OBJECT = 14 }; /* bytes of an object header besides its messages */
 /* Append a column's name: its label without forbidden characters, with the column's number if it
  * was used before. */
 static void
-append_column_name(const qdot_table *t, size_t j, qdot_text *out)
+append_column_name(const qdot_dataset *t, size_t j, qdot_text *out)
 {
     const char *label = t->columns[j].name;
 
@@ -288,7 +288,7 @@ typedef struct {
 
 /* Append the messages of the root group: facts, links to the parameters and to the columns. */
 static void
-append_root_messages(const qdot_table *t, const places *at, qdot_text *messages)
+append_root_messages(const qdot_dataset *t, const places *at, qdot_text *messages)
 {
     qdot_text name = {0};
 
@@ -321,7 +321,7 @@ append_superblock(uint64_t end, qdot_text *out)
 /* The header of each column in turn: where it is, and the numbers that it has; out: NULL: only
  * find where. */
 static bool
-append_column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
+append_column_headers(const qdot_dataset *t, places *at, uint64_t *where, qdot_text *out)
 {
     qdot_text messages = {0};
     uint64_t header = at->headers, numbers = at->numbers;
@@ -346,7 +346,7 @@ append_column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_tex
 
 /* Append all object headers; their sizes do not depend on the addresses that they contain. */
 static qdot_status
-append_headers(const qdot_table *t, qdot_text *out)
+append_headers(const qdot_dataset *t, qdot_text *out)
 {
     qdot_text messages = {0}, parameters = {0};
     places at = {0};
@@ -381,7 +381,7 @@ append_headers(const qdot_table *t, qdot_text *out)
 
 /* Append one entry of a column; a text is padded with NULs. */
 static void
-append_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *out)
+append_entry(const qdot_dataset *t, size_t j, size_t i, size_t size, qdot_text *out)
 {
     const char *text;
     size_t n;
@@ -398,7 +398,7 @@ append_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *ou
 }
 
 static qdot_status
-write_entries(const qdot_table *t, qdot_sink *sink, qdot_text *text)
+write_entries(const qdot_dataset *t, qdot_sink *sink, qdot_text *text)
 {
     enum { CHUNK = 8192 };
 
@@ -419,7 +419,7 @@ write_entries(const qdot_table *t, qdot_sink *sink, qdot_text *text)
 }
 
 static qdot_status
-write_file_of_columns(const qdot_table *t, const char *path)
+write_file_of_columns(const qdot_dataset *t, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
@@ -442,9 +442,9 @@ write_file_of_columns(const qdot_table *t, const char *path)
 }
 
 qdot_status
-qdot_table_hdf5(const qdot_table *t, const char *path)
+qdot_table_hdf5(const qdot_dataset *t, const char *path)
 {
-    qdot_table shown;
+    qdot_dataset shown;
     qdot_status status = qdot_table_select(t, QDOT_IN_FILES, &shown);
 
     if (status == QDOT_OK)

@@ -12,6 +12,6 @@
 #include "table/table.h"
 
 /* Write a table as HDF5 to a file; path "-": standard output. Errors as in table/file.h. */
-QDOT_MUST_CHECK qdot_status qdot_table_hdf5(const qdot_table *t, const char *path);
+QDOT_MUST_CHECK qdot_status qdot_table_hdf5(const qdot_dataset *t, const char *path);
 
 #endif

@@ -23,7 +23,7 @@ typedef struct {
 } html_style;
 
 static void
-html_add_heads(const qdot_table *t, const html_style *style, qdot_text *out)
+html_add_heads(const qdot_dataset *t, const html_style *style, qdot_text *out)
 {
     qdot_text head = {0};
 
@@ -41,7 +41,7 @@ html_add_heads(const qdot_table *t, const html_style *style, qdot_text *out)
 }
 
 static void
-html_add_row(const qdot_table *t, const html_style *style, size_t row, qdot_text *out)
+html_add_row(const qdot_dataset *t, const html_style *style, size_t row, qdot_text *out)
 {
     qdot_text cell = {0};
 
@@ -59,10 +59,10 @@ html_add_row(const qdot_table *t, const html_style *style, size_t row, qdot_text
 }
 
 qdot_status
-qdot_table_html_part(const qdot_table *t, qdot_text *out)
+qdot_table_html_part(const qdot_dataset *t, qdot_text *out)
 {
     static const html_style style = {false, 0, "\u2013"};
-    qdot_table shown;
+    qdot_dataset shown;
 
     QDOT_TRY(qdot_table_select(t, QDOT_IN_TERMINAL, &shown));
     qdot_text_add(out, "<table>\n");
@@ -95,7 +95,7 @@ html_add_facts(size_t n, const qdot_table_fact *facts, qdot_text *out)
 }
 
 static void
-html_add_page_head(const qdot_table *t, qdot_text *out)
+html_add_page_head(const qdot_dataset *t, qdot_text *out)
 {
     const char *title = t->title != NULL ? t->title : "";
 
@@ -122,20 +122,20 @@ html_add_page_head(const qdot_table *t, qdot_text *out)
 }
 
 static void
-html_add_page_row(const qdot_table *t, size_t row, qdot_text *out)
+html_add_page_row(const qdot_dataset *t, size_t row, qdot_text *out)
 {
     html_add_row(t, &page_style, row, out);
 }
 
 static void
-html_add_page_foot(const qdot_table *t, qdot_text *out)
+html_add_page_foot(const qdot_dataset *t, qdot_text *out)
 {
     (void)t;
     qdot_text_add(out, "</tbody>\n</table>\n</body>\n</html>\n");
 }
 
 qdot_status
-qdot_table_html(const qdot_table *t, const char *path)
+qdot_table_html(const qdot_dataset *t, const char *path)
 {
     static const qdot_table_format format = {html_add_page_head, html_add_page_row, html_add_page_foot};
 

@@ -9,10 +9,10 @@
 
 /* Append <table> ... </table> with the columns of answers that people read; a dash where there is no number.
  * Errors: those of qdot_table_select. */
-QDOT_MUST_CHECK qdot_status qdot_table_html_part(const qdot_table *t, qdot_text *out);
+QDOT_MUST_CHECK qdot_status qdot_table_html_part(const qdot_dataset *t, qdot_text *out);
 
 /* Write a table as a page, numbers with 12 significant digits; path "-": standard output. Errors as
  * in table/file.h. */
-QDOT_MUST_CHECK qdot_status qdot_table_html(const qdot_table *t, const char *path);
+QDOT_MUST_CHECK qdot_status qdot_table_html(const qdot_dataset *t, const char *path);
 
 #endif

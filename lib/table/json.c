@@ -9,7 +9,7 @@
 /* --- rows as answers -------------------------------------------------------------------- */
 
 static void
-json_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
+json_add_cell(const qdot_dataset *t, size_t row, size_t column, qdot_text *out)
 {
     const qdot_table_cell cell = qdot_table_at(t, row, column);
 
@@ -31,14 +31,14 @@ json_add_cell(const qdot_table *t, size_t row, size_t column, qdot_text *out)
 }
 
 static bool
-json_is_in_values(const qdot_table *t, size_t column)
+json_is_in_values(const qdot_dataset *t, size_t column)
 {
     return qdot_table_shows(t, column, QDOT_IN_ANSWERS) && t->columns[column].field == NULL;
 }
 
 /* Append `"values":[...]`, and `"errors":[...]` if some column has errors. */
 static void
-json_add_values(const qdot_table *t, size_t row, qdot_text *out)
+json_add_values(const qdot_dataset *t, size_t row, qdot_text *out)
 {
     const char *before = ",\"values\":[";
     bool measured = false;
@@ -65,7 +65,7 @@ json_add_values(const qdot_table *t, size_t row, qdot_text *out)
 
 /* Append `,"units":["s","m/s",null]` for the columns that stand there, if some column has a unit. */
 static void
-json_add_units(const qdot_table *t, unsigned where, qdot_text *out)
+json_add_units(const qdot_dataset *t, unsigned where, qdot_text *out)
 {
     const char *before = ",\"units\":[";
     bool some = false;
@@ -86,7 +86,7 @@ json_add_units(const qdot_table *t, unsigned where, qdot_text *out)
 }
 
 void
-qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out)
+qdot_table_json_columns(const qdot_dataset *t, const char *name, qdot_text *out)
 {
     const char *before = "";
 
@@ -106,7 +106,7 @@ qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out)
 }
 
 void
-qdot_table_json_row(const qdot_table *t, size_t row, qdot_text *out)
+qdot_table_json_row(const qdot_dataset *t, size_t row, qdot_text *out)
 {
     bool values = false;
 
@@ -146,7 +146,7 @@ json_add_facts(size_t n, const qdot_table_fact *facts, qdot_text *out)
 }
 
 static void
-json_add_head(const qdot_table *t, qdot_text *out)
+json_add_head(const qdot_dataset *t, qdot_text *out)
 {
     qdot_text_char(out, '{');
     json_add_facts(t->n_facts, t->facts, out);
@@ -163,7 +163,7 @@ json_add_head(const qdot_table *t, qdot_text *out)
 }
 
 static void
-json_add_row(const qdot_table *t, size_t row, qdot_text *out)
+json_add_row(const qdot_dataset *t, size_t row, qdot_text *out)
 {
     qdot_text_add(out, row > 0 ? ",\n[" : "\n[");
     for (size_t j = 0; j < t->n; j++) {
@@ -179,14 +179,14 @@ json_add_row(const qdot_table *t, size_t row, qdot_text *out)
 }
 
 static void
-json_add_foot(const qdot_table *t, qdot_text *out)
+json_add_foot(const qdot_dataset *t, qdot_text *out)
 {
     (void)t;
     qdot_text_add(out, "]}\n");
 }
 
 qdot_status
-qdot_table_json(const qdot_table *t, const char *path)
+qdot_table_json(const qdot_dataset *t, const char *path)
 {
     static const qdot_table_format format = {json_add_head, json_add_row, json_add_foot};
 

@@ -17,12 +17,12 @@
 #include "table/table.h"
 
 /* Append a line before rows that are answers: the names of their `values`; `name` is for unnamed rows. */
-void qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out);
+void qdot_table_json_columns(const qdot_dataset *t, const char *name, qdot_text *out);
 /* Append a row as an answer, with its line's end; columns that are fields of their own stand before `values` or
  * behind, as in the table. */
-void qdot_table_json_row(const qdot_table *t, size_t row, qdot_text *out);
+void qdot_table_json_row(const qdot_dataset *t, size_t row, qdot_text *out);
 
 /* Write a table as JSON to a file; path "-": standard output. Errors as in table/file.h. */
-QDOT_MUST_CHECK qdot_status qdot_table_json(const qdot_table *t, const char *path);
+QDOT_MUST_CHECK qdot_status qdot_table_json(const qdot_dataset *t, const char *path);
 
 #endif

@@ -9,7 +9,7 @@
 /* --- tables that own their rows --------------------------------------------------------- */
 
 qdot_status
-qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns)
+qdot_table_begin(qdot_dataset *t, size_t n, const qdot_table_column *columns)
 {
     t->columns = qdot_calloc(n + 1, sizeof *t->columns);
     if (t->columns == NULL)
@@ -23,7 +23,7 @@ qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns)
 
 /* Allocate memory for more cells, and update the columns' pointers to their cells. */
 static void
-table_enlarge(qdot_table *t)
+table_enlarge(qdot_dataset *t)
 {
     const size_t room = t->own.room == 0 ? 16 * t->n : 2 * t->own.room;
     double *values = qdot_realloc(t->own.values, room * sizeof *values), *errors;
@@ -50,7 +50,7 @@ table_enlarge(qdot_table *t)
 }
 
 static void
-table_append_cell(qdot_table *t, double value, double error, char *text)
+table_append_cell(qdot_dataset *t, double value, double error, char *text)
 {
     if (t->own.n == t->own.room && !t->own.failed)
         table_enlarge(t);
@@ -65,13 +65,13 @@ table_append_cell(qdot_table *t, double value, double error, char *text)
 }
 
 void
-qdot_table_add_number(qdot_table *t, double value, double error)
+qdot_table_add_number(qdot_dataset *t, double value, double error)
 {
     table_append_cell(t, value, error, NULL);
 }
 
 void
-qdot_table_add_text(qdot_table *t, const char *text)
+qdot_table_add_text(qdot_dataset *t, const char *text)
 {
     char *copy = text != NULL ? qdot_strdup(text) : NULL;
 
@@ -80,7 +80,7 @@ qdot_table_add_text(qdot_table *t, const char *text)
 }
 
 void
-qdot_table_add_written(qdot_table *t, qdot_text *text)
+qdot_table_add_written(qdot_dataset *t, qdot_text *text)
 {
     t->own.failed = t->own.failed || text->failed;
     qdot_table_add_text(t, qdot_text_str(text));
@@ -88,13 +88,13 @@ qdot_table_add_written(qdot_table *t, qdot_text *text)
 }
 
 qdot_status
-qdot_table_status(const qdot_table *t)
+qdot_table_status(const qdot_dataset *t)
 {
     return t->own.failed ? QDOT_ENOMEM : QDOT_OK;
 }
 
 void
-qdot_table_clear(qdot_table *t)
+qdot_table_clear(qdot_dataset *t)
 {
     for (size_t i = 0; i < t->own.n; i++)
         qdot_free(t->own.texts[i]);
@@ -102,13 +102,13 @@ qdot_table_clear(qdot_table *t)
     qdot_free(t->own.errors);
     qdot_free(t->own.texts);
     qdot_free(t->columns);
-    *t = (qdot_table){0};
+    *t = (qdot_dataset){0};
 }
 
 /* --- reading cells ---------------------------------------------------------------------- */
 
 qdot_table_cell
-qdot_table_at(const qdot_table *t, size_t row, size_t column)
+qdot_table_at(const qdot_dataset *t, size_t row, size_t column)
 {
     const qdot_table_column *c = &t->columns[column];
     const size_t k = t->order != NULL ? t->order[row] : row;
@@ -129,7 +129,7 @@ qdot_table_at(const qdot_table *t, size_t row, size_t column)
 }
 
 qdot_status
-qdot_table_select(const qdot_table *t, unsigned where, qdot_table *out)
+qdot_table_select(const qdot_dataset *t, unsigned where, qdot_dataset *out)
 {
     *out = *t;
     out->columns = NULL;
@@ -155,7 +155,7 @@ table_add_with_unit(const char *text, const char *unit, qdot_text *out)
 }
 
 void
-qdot_table_add_head(const qdot_table *t, size_t column, qdot_text *out)
+qdot_table_add_head(const qdot_dataset *t, size_t column, qdot_text *out)
 {
     const qdot_table_column *c = &t->columns[column];
 
@@ -163,7 +163,7 @@ qdot_table_add_head(const qdot_table *t, size_t column, qdot_text *out)
 }
 
 void
-qdot_table_add_name(const qdot_table *t, size_t column, qdot_text *out)
+qdot_table_add_name(const qdot_dataset *t, size_t column, qdot_text *out)
 {
     table_add_with_unit(t->columns[column].name, t->columns[column].unit, out);
 }
@@ -189,7 +189,7 @@ table_print_number(const qdot_table_column *c, const qdot_table_cell *cell, int 
 }
 
 void
-qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out)
+qdot_table_print_cell(const qdot_dataset *t, size_t row, size_t column, int digits, const char *none, qdot_text *out)
 {
     const qdot_table_column *c = &t->columns[column];
     const qdot_table_cell cell = qdot_table_at(t, row, column);

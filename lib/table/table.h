@@ -1,4 +1,5 @@
-/* table.h -- a table as data: named columns; rows of numbers with their errors, of texts, of flags.
+/* table.h -- a data set: named columns; rows of numbers with their errors, of texts, of flags. (The qdot_table of qdot.h
+ * is what a program gets of one.)
  *
  * A column says where its cells are: in an array of whoever has them (borrowed; with a stride, so that the entries of
  * a matrix row by row are columns too), or in rows that the table owns, to which cells are added. Nothing is copied to
@@ -90,21 +91,21 @@ typedef struct {
         char **texts;
         bool failed;
     } own; /* cells that the table itself owns; all 0: the columns borrow their arrays */
-} qdot_table;
+} qdot_dataset;
 
 /* --- tables that own their rows --------------------------------------------------------- */
 
 /* Columns [n] are copied, their names borrowed; then cells are added from left to right, row after row. Clear the
  * table in any case. QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns);
-void qdot_table_add_number(qdot_table *t, double value, double error);
+QDOT_MUST_CHECK qdot_status qdot_table_begin(qdot_dataset *t, size_t n, const qdot_table_column *columns);
+void qdot_table_add_number(qdot_dataset *t, double value, double error);
 /* Append a cell with a copy of the text; text NULL: a cell without text. */
-void qdot_table_add_text(qdot_table *t, const char *text);
+void qdot_table_add_text(qdot_dataset *t, const char *text);
 /* Append a cell with the contents of `text`, which is then cleared. */
-void qdot_table_add_written(qdot_table *t, qdot_text *text);
+void qdot_table_add_written(qdot_dataset *t, qdot_text *text);
 /* The status of the table: QDOT_ENOMEM if some cell could not be appended. */
-QDOT_MUST_CHECK qdot_status qdot_table_status(const qdot_table *t);
-void qdot_table_clear(qdot_table *t);
+QDOT_MUST_CHECK qdot_status qdot_table_status(const qdot_dataset *t);
+void qdot_table_clear(qdot_dataset *t);
 
 /* --- reading cells ---------------------------------------------------------------------- */
 
@@ -113,22 +114,22 @@ typedef struct {
     const char *text;    /* text of the cell; NULL: no text */
 } qdot_table_cell;
 
-qdot_table_cell qdot_table_at(const qdot_table *t, size_t row, size_t column);
+qdot_table_cell qdot_table_at(const qdot_dataset *t, size_t row, size_t column);
 
 static inline bool
-qdot_table_shows(const qdot_table *t, size_t column, unsigned where)
+qdot_table_shows(const qdot_dataset *t, size_t column, unsigned where)
 {
     return t->columns[column].in == 0 || (t->columns[column].in & where) != 0;
 }
 
 /* The table with the columns that stand there alone, cells and all else borrowed; free its columns with qdot_free.
  * QDOT_EINVAL: it has no column; QDOT_ENOMEM, also if cells could not be added. */
-QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_table *t, unsigned where, qdot_table *out);
+QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_dataset *t, unsigned where, qdot_dataset *out);
 
 /* Append the heading of a column for a human reader, its name in a file; with its unit: "v [m/s]". */
-void qdot_table_add_head(const qdot_table *t, size_t column, qdot_text *out);
-void qdot_table_add_name(const qdot_table *t, size_t column, qdot_text *out);
+void qdot_table_add_head(const qdot_dataset *t, size_t column, qdot_text *out);
+void qdot_table_add_name(const qdot_dataset *t, size_t column, qdot_text *out);
 /* Append a cell as text for reading, `none` if it has no number; digits 0: as many as the column states. */
-void qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
+void qdot_table_print_cell(const qdot_dataset *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
 
 #endif

@@ -11,7 +11,7 @@
 enum { OFTEN = 1024 };
 
 typedef struct {
-    const qdot_table *t;
+    const qdot_dataset *t;
     const qdot_table_text_options *options;
     size_t *width; /* [columns] width of the cells, not counting the blanks before them */
     qdot_text cell;
@@ -79,7 +79,7 @@ text_add_row(text_writer *w, size_t row, qdot_text *out)
 }
 
 static qdot_status
-text_write(const qdot_table *t, const qdot_table_text_options *options, qdot_text *out)
+text_write(const qdot_dataset *t, const qdot_table_text_options *options, qdot_text *out)
 {
     text_writer w = {.t = t, .options = options, .width = qdot_calloc(t->n + 1, sizeof *w.width)};
     qdot_status status = w.width != NULL ? text_measure_widths(&w) : QDOT_ENOMEM;
@@ -99,9 +99,9 @@ text_write(const qdot_table *t, const qdot_table_text_options *options, qdot_tex
 }
 
 qdot_status
-qdot_table_text(const qdot_table *t, const qdot_table_text_options *options, qdot_text *out)
+qdot_table_text(const qdot_dataset *t, const qdot_table_text_options *options, qdot_text *out)
 {
-    qdot_table shown;
+    qdot_dataset shown;
     qdot_status status = qdot_table_select(t, options->in, &shown);
 
     if (status == QDOT_OK)

@@ -15,7 +15,7 @@ typedef struct {
     const char *mark; /* written before each cell except the first of a row: "" or QDOT_WRAP_CELL (base/wrap.h) */
 } qdot_table_text_options;
 
-QDOT_MUST_CHECK qdot_status qdot_table_text(const qdot_table *t, const qdot_table_text_options *options,
+QDOT_MUST_CHECK qdot_status qdot_table_text(const qdot_dataset *t, const qdot_table_text_options *options,
                                             qdot_text *out);
 
 #endif

@@ -22,7 +22,7 @@ static qdot_table_column columns[4] = {{.name = "t", .values = t},
                                        {.name = "t", .values = x}};
 static const qdot_table_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
                              parameters[1] = {{"m[1]", NULL, 2.5}};
-static const qdot_table data = {.title = "a table",
+static const qdot_dataset data = {.title = "a table",
                                 .n = 4,
                                 .rows = 3,
                                 .columns = columns,
@@ -45,7 +45,7 @@ read_back(const char *path, size_t *n)
     return bytes;
 }
 
-typedef qdot_status writer_of_file(const qdot_table *table, const char *path);
+typedef qdot_status writer_of_file(const qdot_dataset *table, const char *path);
 
 /* Let memory run out at the first, second, ... allocation until none is left to fail. */
 static inline void
@@ -68,7 +68,7 @@ failing_memory_is_told_by(writer_of_file *write, const char *path)
 static inline void
 what_cannot_be_written_is_told_by(writer_of_file *write, const char *path)
 {
-    const qdot_table empty = {.title = ""};
+    const qdot_dataset empty = {.title = ""};
 
     assert_int_equal(write(&data, "/nowhere/file"), QDOT_EIO);
     assert_int_equal(write(&empty, path), QDOT_EINVAL);

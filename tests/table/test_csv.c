@@ -35,7 +35,7 @@ leave(void **state)
 static qdot_status
 csv_write(size_t n, qdot_table_column *columns, size_t rows, const char *path)
 {
-    const qdot_table t = {.n = n, .rows = rows, .columns = columns};
+    const qdot_dataset t = {.n = n, .rows = rows, .columns = columns};
 
     return qdot_table_csv(&t, path);
 }

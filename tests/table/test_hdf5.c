@@ -108,7 +108,7 @@ texts_are_read_back(void **state)
 {
     char fold[] = "fold", saddle[] = "saddle-node", *types[] = {fold, NULL, saddle};
     qdot_table_column all[] = {{.name = "t", .values = t}, {.name = "type", .kind = QDOT_CELL_TEXT, .texts = types}};
-    const qdot_table some = {.n = 2, .rows = 3, .columns = all, .n_facts = 2, .facts = facts};
+    const qdot_dataset some = {.n = 2, .rows = 3, .columns = all, .n_facts = 2, .facts = facts};
     qdot_hdf5_columns c;
 
     (void)state;

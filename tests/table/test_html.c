@@ -33,7 +33,7 @@ a_part_is_what_people_read(void **state)
                                {.name = "tol", .head = "a & b", .values = none, .form = QDOT_NUMBER_BOUND},
                                {.name = "x", .values = half, .errors = error, .form = QDOT_NUMBER_MEASURED},
                                {.name = "data", .values = half, .in = QDOT_IN_DATA}};
-    const qdot_table one = {.n = 4, .rows = 1, .columns = all};
+    const qdot_dataset one = {.n = 4, .rows = 1, .columns = all};
     qdot_text out = {0};
 
     (void)state;

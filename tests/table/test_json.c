@@ -44,7 +44,7 @@ rows_are_answers(void **state)
          .present = "failed", .absent = "done"},
         {.name = "reason", .kind = QDOT_CELL_TEXT, .field = "reason", .texts = reasons}};
     const size_t order[] = {1, 0};
-    qdot_table rows = {.name = "curve", .n = 8, .rows = 2, .columns = all};
+    qdot_dataset rows = {.name = "curve", .n = 8, .rows = 2, .columns = all};
     qdot_text out = {0};
 
     (void)state;
@@ -67,7 +67,7 @@ rows_are_answers(void **state)
                         "\"errors\":[3e-13,null,null],\"stable\":null,\"status\":\"failed\","
                         "\"reason\":\"no \\\"end\\\"\"}\n");
     qdot_text_truncate(&out, 0);
-    rows = (qdot_table){.n = 1, .rows = 2, .columns = columns, .order = order};
+    rows = (qdot_dataset){.n = 1, .rows = 2, .columns = columns, .order = order};
     qdot_table_json_row(&rows, 0, &out);
     assert_string_equal(qdot_text_str(&out), "{\"kind\":\"row\",\"values\":[0.5]}\n");
     qdot_text_clear(&out);

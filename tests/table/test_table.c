@@ -22,7 +22,7 @@ cells_are_read_where_they_are(void **state)
         {.name = "second", .values = matrix + 1, .errors = matrix + 2, .stride = 3},
         {.name = "even", .kind = QDOT_CELL_TEXT, .texts = texts, .text_stride = 2, .absent = "none"},
         {.name = "is", .kind = QDOT_CELL_TEXT, .texts = texts, .text_stride = 1, .present = "yes", .absent = "no"}};
-    qdot_table t = {.n = 3, .rows = 2, .columns = columns};
+    qdot_dataset t = {.n = 3, .rows = 2, .columns = columns};
 
     (void)state;
     assert_true(qdot_table_at(&t, 0, 0).value == 2);
@@ -42,7 +42,7 @@ cells_are_read_where_they_are(void **state)
 static const qdot_table_column own[] = {{.name = "x"}, {.name = "why", .kind = QDOT_CELL_TEXT, .absent = "-"}};
 
 static void
-add_rows(qdot_table *t, size_t n)
+add_rows(qdot_dataset *t, size_t n)
 {
     for (size_t k = 0; k < n; k++) {
         qdot_text text = {0};
@@ -61,7 +61,7 @@ static void
 rows_of_its_own_are_added(void **state)
 {
     enum { N = 1000 };
-    qdot_table t = {.name = "own"};
+    qdot_dataset t = {.name = "own"};
 
     (void)state;
     assert_int_equal(qdot_table_begin(&t, 2, own), QDOT_OK);
@@ -90,7 +90,7 @@ failing_memory_is_told_once(void **state)
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {
-        qdot_table t = {0};
+        qdot_dataset t = {0};
 
         qdot_memory_fail_at(n);
         status = qdot_table_begin(&t, 2, own);

@@ -16,7 +16,7 @@
 static qdot_status
 text_write(size_t n, qdot_table_column *columns, size_t rows, int digits, qdot_text *out)
 {
-    const qdot_table t = {.n = n, .rows = rows, .columns = columns};
+    const qdot_dataset t = {.n = n, .rows = rows, .columns = columns};
     const qdot_table_text_options options = {QDOT_IN_TXT, digits, ""};
 
     return qdot_table_text(&t, &options, out);
@@ -109,7 +109,7 @@ columns_say_how_they_look(void **state)
         {.name = "is", .kind = QDOT_CELL_FLAG, .gap = 1, .values = yes},
         {.name = "", .kind = QDOT_CELL_TEXT, .left = true, .gap = 2, .texts = why},
     };
-    const qdot_table t = {.n = sizeof columns / sizeof *columns, .rows = 2, .columns = columns};
+    const qdot_dataset t = {.n = sizeof columns / sizeof *columns, .rows = 2, .columns = columns};
     const qdot_table_text_options options = {QDOT_IN_TERMINAL, 0, "|"};
     qdot_text out = {0};
 

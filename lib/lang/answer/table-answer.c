@@ -26,7 +26,7 @@ is_reason(const qdot_table_column *c)
 
 /* Append the cell, a number with its error where that is known: 1.25 ± 3e-13. */
 static void
-print_cell_with_error(const qdot_table *t, size_t row, size_t column, qdot_text *out)
+print_cell_with_error(const qdot_dataset *t, size_t row, size_t column, qdot_text *out)
 {
     const qdot_table_column *c = &t->columns[column];
     const qdot_table_cell cell = qdot_table_at(t, row, column);
@@ -41,7 +41,7 @@ print_cell_with_error(const qdot_table *t, size_t row, size_t column, qdot_text 
 
 /* Append what a person reads of a row, or of the heads for row == t->rows, before the end of its object. */
 static qdot_status
-append_shown_row(qdot_session *session, const qdot_table *t, size_t row, qdot_text *object)
+append_shown_row(qdot_session *session, const qdot_dataset *t, size_t row, qdot_text *object)
 {
     const bool heads = row == t->rows;
     qdot_status status = qdot_text_status(object);
@@ -76,7 +76,7 @@ append_shown_row(qdot_session *session, const qdot_table *t, size_t row, qdot_te
 /* --- answers of tables ------------------------------------------------------------------------ */
 
 qdot_status
-qdot_answer_columns(qdot_session *session, const char *name, const qdot_table *t)
+qdot_answer_columns(qdot_session *session, const char *name, const qdot_dataset *t)
 {
     qdot_status status = QDOT_OK;
     qdot_text line = {0};
@@ -88,7 +88,7 @@ qdot_answer_columns(qdot_session *session, const char *name, const qdot_table *t
 }
 
 qdot_status
-qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row)
+qdot_answer_row(qdot_session *session, const qdot_dataset *t, size_t row)
 {
     qdot_status status = QDOT_OK;
     qdot_text line = {0};
@@ -100,7 +100,7 @@ qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row)
 }
 
 qdot_status
-qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t)
+qdot_answer_rows(qdot_session *session, const char *name, const qdot_dataset *t)
 {
     QDOT_TRY(qdot_table_status(t));
     if (t->rows > 0)
@@ -111,7 +111,7 @@ qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t)
 }
 
 qdot_status
-qdot_answer_add_table(const qdot_table *t, qdot_text *out)
+qdot_answer_add_table(const qdot_dataset *t, qdot_text *out)
 {
     static const qdot_table_text_options options = {QDOT_IN_TERMINAL, 0, QDOT_WRAP_CELL};
 
@@ -119,7 +119,7 @@ qdot_answer_add_table(const qdot_table *t, qdot_text *out)
 }
 
 qdot_status
-qdot_answer_table(qdot_session *session, const char *name, const qdot_table *t)
+qdot_answer_table(qdot_session *session, const char *name, const qdot_dataset *t)
 {
     qdot_text text = {0};
     qdot_status status;

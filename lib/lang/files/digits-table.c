@@ -12,7 +12,7 @@
 enum { TIMES = 2 };
 
 typedef struct {
-    qdot_table table;
+    qdot_dataset table;
     size_t n;
     qdot_text *names; /* [n] names of the columns after the time */
 } digits_table;
@@ -93,7 +93,7 @@ typedef struct {
 
 /* Add to a row the values of one operand at the time `at`. */
 static qdot_status
-add_values(qdot_session *session, qdot_table *t, const qdot_operand *o, const place *at, int digits)
+add_values(qdot_session *session, qdot_dataset *t, const qdot_operand *o, const place *at, int digits)
 {
     const size_t n = o->columns.n;
     double *errors = qdot_calloc(n, sizeof *errors);
@@ -116,7 +116,7 @@ add_values(qdot_session *session, qdot_table *t, const qdot_operand *o, const pl
 }
 
 static qdot_status
-add_row(qdot_session *session, qdot_table *t, const qdot_operands *list, const place *at, int digits)
+add_row(qdot_session *session, qdot_dataset *t, const qdot_operands *list, const place *at, int digits)
 {
     qdot_text text = {0};
     double x = qdot_run_get_report(list->at[0].run)->t1;

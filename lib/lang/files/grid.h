@@ -6,7 +6,7 @@
 #include "table/table.h"
 
 typedef struct {
-    qdot_table table;
+    qdot_dataset table;
     bool measured;           /* whether the numbers get errors; set it before the grid is filled */
     double *values, *errors; /* all cells, column by column; errors NULL: there are none */
     char **labels, **units; /* [table.n]; of a column without a unit: NULL */

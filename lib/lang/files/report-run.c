@@ -68,7 +68,7 @@ add_run(const sections *s, size_t i)
 static const double shown = 0.0005;
 
 static void
-add_finite_number(qdot_table *t, double x)
+add_finite_number(qdot_dataset *t, double x)
 {
     qdot_table_add_number(t, isfinite(x) ? x : NAN, shown * fabs(x));
 }
@@ -90,7 +90,7 @@ add_table_of_runs(const sections *s)
         {.name = "error at the end", .form = QDOT_NUMBER_BOUND},
         {.name = "drift of the energy", .form = QDOT_NUMBER_BOUND},
         {.name = "", .kind = QDOT_CELL_TEXT}};
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = qdot_table_begin(&t, sizeof columns / sizeof *columns, columns);
 
     for (size_t i = 0; i < s->n && status == QDOT_OK; i++) {

@@ -25,7 +25,7 @@ add_work_table(const qdot_workprecision *w, qdot_text *page)
         {.name = "median time, s", .form = QDOT_NUMBER_MEASURED},
         {.name = "evaluations", .form = QDOT_NUMBER_FIXED},
         {.name = "", .kind = QDOT_CELL_TEXT}};
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = qdot_table_begin(&t, sizeof columns / sizeof *columns, columns);
 
     for (size_t i = 0; i < w->n && status == QDOT_OK; i++) {

@@ -109,7 +109,7 @@ add_parameter_facts(const qdot_session *session, qdot_run *run, facts *to)
 /* --- writing the file --------------------------------------------------------------------- */
 
 static qdot_status
-write_facts(qdot_session *session, qdot_run *run, type type, qdot_table *table, const char *path)
+write_facts(qdot_session *session, qdot_run *run, type type, qdot_dataset *table, const char *path)
 {
     facts known = {0}, parameters = {0};
     qdot_status status = add_text_fact(&known, "program", PACKAGE_STRING);
@@ -142,7 +142,7 @@ title_from_path(const char *path)
 }
 
 static qdot_status
-write_text(qdot_session *session, const qdot_table *table, const char *path)
+write_text(qdot_session *session, const qdot_dataset *table, const char *path)
 {
     static const qdot_table_text_options options = {QDOT_IN_TXT, TEXT_DIGITS, ""};
     qdot_text text = {0};
@@ -155,7 +155,7 @@ write_text(qdot_session *session, const qdot_table *table, const char *path)
 }
 
 qdot_status
-qdot_data_file_write(qdot_session *session, qdot_run *run, qdot_table *table, const char *path)
+qdot_data_file_write(qdot_session *session, qdot_run *run, qdot_dataset *table, const char *path)
 {
     const type type = file_type_of(path);
 

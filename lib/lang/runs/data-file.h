@@ -13,7 +13,7 @@ QDOT_MUST_CHECK qdot_status qdot_data_file_check(const char *path);
 /* Write a table by the ending of the path: .csv and .txt the columns alone; .json, .html, .h5 also program, run, method,
  * tolerance, error and the values of the parameters. run: the one they are of; NULL: of several, of none, and the
  * parameters are those of the table. Answers `wrote PATH`. Errors: as qdot_data_file_check, those of writing. */
-QDOT_MUST_CHECK qdot_status qdot_data_file_write(qdot_session *session, qdot_run *run, qdot_table *table,
+QDOT_MUST_CHECK qdot_status qdot_data_file_write(qdot_session *session, qdot_run *run, qdot_dataset *table,
                                                  const char *path);
 
 #endif

@@ -107,7 +107,7 @@ static qdot_status
 write_table(const qdot_error_study *of, const char *mark, qdot_text *out)
 {
     const qdot_table_text_options options = {QDOT_IN_TERMINAL, 0, mark};
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = of->table(of->study, &t);
 
     if (status == QDOT_OK)
@@ -133,7 +133,7 @@ static qdot_status
 write_file(qdot_session *session, const qdot_error_study *of, const char *path)
 {
     qdot_text text = {0};
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status;
 
     if (!qdot_ends_in(path, ".txt")) {

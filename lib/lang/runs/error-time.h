@@ -36,9 +36,9 @@ typedef struct {
     const void *study; /* the result of the study, given to the functions below */
     const qdot_methods_left_out *left_out;
     bool interrupted;
-    qdot_status (*table)(const void *study, qdot_table *t); /* fills an empty table with the rows to be shown */
+    qdot_status (*table)(const void *study, qdot_dataset *t); /* fills an empty table with the rows to be shown */
     void (*words)(const void *study, qdot_text *out);       /* writes the text below the table */
-    qdot_status (*data)(const void *study, qdot_table *t);  /* fill the table for a .csv file */
+    qdot_status (*data)(const void *study, qdot_dataset *t);  /* fill the table for a .csv file */
     qdot_status (*rows)(qdot_session *session, const void *study); /* writes the rows as JSON */
     qdot_error_time figure; /* the figure; n, points and note are filled in by `points` */
     size_t most_points;

@@ -32,7 +32,7 @@ typedef struct {
 
 /* Fill a table with the windows (parts of the time span) of methods k .. end - 1 and the rms error in each. */
 static qdot_status
-fill_windows(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
+fill_windows(const qdot_longtime *l, size_t k, size_t end, qdot_dataset *t)
 {
     static const qdot_table_column columns[] = {
         {.name = "method", .kind = QDOT_CELL_TEXT, .left = true},
@@ -52,7 +52,7 @@ fill_windows(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
 }
 
 static qdot_status
-fill_all_windows(const void *study, qdot_table *t)
+fill_all_windows(const void *study, qdot_dataset *t)
 {
     const qdot_longtime *l = study;
 
@@ -61,7 +61,7 @@ fill_all_windows(const void *study, qdot_table *t)
 
 /* Write into a table how the error grows, as a power of t: "t^1.00 +- 0.02". */
 static void
-write_growth(const qdot_longtime_row *r, qdot_table *t)
+write_growth(const qdot_longtime_row *r, qdot_dataset *t)
 {
     qdot_text text = {0};
 
@@ -74,7 +74,7 @@ write_growth(const qdot_longtime_row *r, qdot_table *t)
 
 /* Fill the summary table of `longtime`, with one row for each method. */
 static qdot_status
-fill_summary(const void *study, qdot_table *t)
+fill_summary(const void *study, qdot_dataset *t)
 {
     static const qdot_table_column columns[] = {
         {.name = "method", .kind = QDOT_CELL_TEXT, .left = true, .width = 12},
@@ -132,7 +132,7 @@ static qdot_status
 answer_windows_as_json(qdot_session *session, const qdot_longtime *l, size_t k)
 {
     const qdot_longtime_row *r = l->rows + k;
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = fill_windows(l, k, k + 1, &t);
 
     if (status == QDOT_OK)

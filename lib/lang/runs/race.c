@@ -26,7 +26,7 @@ QDOT_STATEMENT(race) = {
 
 /* Fill the table of a race, with columns formulation, method, tolerance, error, drifts, CPU seconds. */
 static qdot_status
-fill_race_table(const qdot_race *race, qdot_table *t)
+fill_race_table(const qdot_race *race, qdot_dataset *t)
 {
     static const qdot_table_column columns[] = {
         {.name = "formulation", .kind = QDOT_CELL_TEXT, .left = true, .width = 20},
@@ -55,7 +55,7 @@ fill_race_table(const qdot_race *race, qdot_table *t)
 }
 
 static qdot_status
-print_race(const qdot_race *race, const qdot_table *t, qdot_text *out)
+print_race(const qdot_race *race, const qdot_dataset *t, qdot_text *out)
 {
     qdot_text_format(out,
                      "race: end errors against the scene as given, projected, at tol %.0e, "
@@ -113,7 +113,7 @@ answer_race(qdot_session *session, const qdot_race *race, const qdot_figure_choi
             const qdot_panel_choice *panel)
 {
     qdot_text text = {0};
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = fill_race_table(race, &t);
 
     if (status == QDOT_OK && race->notice != NULL)

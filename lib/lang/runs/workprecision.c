@@ -52,7 +52,7 @@ enum { COLUMNS = sizeof columns / sizeof *columns, CONSTRAINT_ERR = 10 };
 
 /* Fill the table of results; the column of constraint errors only exists for scenes with constraints. */
 static qdot_status
-fill_study_table(const void *study, qdot_table *t)
+fill_study_table(const void *study, qdot_dataset *t)
 {
     const qdot_workprecision *w = study;
     qdot_table_column some[COLUMNS];
@@ -93,7 +93,7 @@ write_remarks(const void *study, qdot_text *out)
 static qdot_status
 answer_rows_as_json(qdot_session *session, const void *study)
 {
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = fill_study_table(study, &t);
 
     if (status == QDOT_OK)

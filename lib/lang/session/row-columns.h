@@ -11,7 +11,7 @@
 #include "table/table.h"
 
 typedef struct {
-    qdot_table table; /* its cells are borrowed from the row table; parameters are its facts */
+    qdot_dataset table; /* its cells are borrowed from the row table; parameters are its facts */
     qdot_text *labels; /* [n_labels] labels of the error columns */
     size_t n_labels;
     qdot_table_fact *parameters;

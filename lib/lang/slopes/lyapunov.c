@@ -68,7 +68,7 @@ write_convergence(qdot_session *session, const qdot_exponents *x, const char *pa
 {
     qdot_table_column *columns = qdot_calloc(x->n + 1, sizeof *columns);
     char(*names)[40] = qdot_calloc(x->n, sizeof *names);
-    qdot_table t = {.n = x->n + 1, .rows = x->windows, .columns = columns};
+    qdot_dataset t = {.n = x->n + 1, .rows = x->windows, .columns = columns};
     qdot_status status = columns && names ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)

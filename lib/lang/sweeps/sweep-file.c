@@ -53,7 +53,7 @@ write_signature(const char *said, uint64_t sum, qdot_text *out)
 /* --- writing the file ----------------------------------------------------------------- */
 
 static uint64_t
-checksum_of_table(const qdot_table *t)
+checksum_of_table(const qdot_dataset *t)
 {
     uint64_t sum = sum_of_nothing;
 

@@ -167,7 +167,7 @@ write_branch_as_json(qdot_session *session, const qdot_branches *b, size_t i, qd
     if (status == QDOT_OK)
         status = qdot_text_status(&name);
     if (status == QDOT_OK) {
-        const qdot_table t = {
+        const qdot_dataset t = {
             .name = qdot_text_str(&name), .n = 2 + b->n_columns, .rows = branch->n, .columns = columns};
 
         status = qdot_answer_rows(session, "continue", &t);
@@ -180,7 +180,7 @@ write_branch_as_json(qdot_session *session, const qdot_branches *b, size_t i, qd
 static qdot_status
 write_bifurcations_as_json(qdot_session *session, const qdot_branches *b, qdot_table_column *columns)
 {
-    qdot_table t = {.name = "bifurcation"};
+    qdot_dataset t = {.name = "bifurcation"};
     qdot_status status;
 
     columns[0] = (qdot_table_column){.name = "type", .kind = QDOT_CELL_TEXT, .field = "type"};
@@ -212,7 +212,7 @@ answer_branches_as_json(qdot_session *session, const qdot_branches *b)
         status = write_bifurcations_as_json(session, b, columns);
     if (status == QDOT_OK && !b->orbits) {
         const size_t stride = b->found->n + 1;
-        const qdot_table t = {.name = "not followed",
+        const qdot_dataset t = {.name = "not followed",
                               .n = 1 + b->n_columns,
                               .rows = b->found->left.n / stride,
                               .columns = columns};
@@ -351,7 +351,7 @@ word_for_stability(qdot_stability verdict)
 }
 
 static void
-add_branch(const qdot_branches *b, size_t i, qdot_table *t)
+add_branch(const qdot_branches *b, size_t i, qdot_dataset *t)
 {
     const qdot_branch *branch = &b->found->branches.at[i];
     const size_t n = b->found->n;
@@ -466,7 +466,7 @@ write_value_with_error(double value, double error, double size, qdot_text *out)
 }
 
 static void
-add_bifurcation(const qdot_branches *b, size_t i, qdot_table *t)
+add_bifurcation(const qdot_branches *b, size_t i, qdot_dataset *t)
 {
     const qdot_bifurcation *one = &b->found->bifurcations.at[i];
     const size_t n = b->found->n;
@@ -502,7 +502,7 @@ add_bifurcation(const qdot_branches *b, size_t i, qdot_table *t)
 
 /* Begin a table of texts, with the columns `first`, p, the unknowns that are described, and `last`. */
 static qdot_status
-begin_text_table(const qdot_branches *b, const char *first, const char *last, qdot_table *t)
+begin_text_table(const qdot_branches *b, const char *first, const char *last, qdot_dataset *t)
 {
     const size_t n = b->n_told + 3;
     qdot_table_column *columns = qdot_calloc(n, sizeof *columns);
@@ -528,7 +528,7 @@ begin_text_table(const qdot_branches *b, const char *first, const char *last, qd
 static qdot_status
 write_branches_as_text(const qdot_branches *b, qdot_text *out)
 {
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = begin_text_table(b, "branch", "", &t);
 
     for (size_t i = 0; i < b->found->branches.n && status == QDOT_OK; i++)
@@ -544,7 +544,7 @@ write_branches_as_text(const qdot_branches *b, qdot_text *out)
 static qdot_status
 write_bifurcations_as_text(const qdot_branches *b, qdot_text *out)
 {
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status;
 
     if (b->found->bifurcations.n == 0) {

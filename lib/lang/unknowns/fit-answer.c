@@ -73,7 +73,7 @@ get_correlation(const qdot_fit *f, size_t i, size_t j)
 
 /* Fill the lower triangle of the matrix of correlations; all columns have the same width. */
 static qdot_status
-fill_correlations(const qdot_fit *f, qdot_table_column *columns, qdot_table *t)
+fill_correlations(const qdot_fit *f, qdot_table_column *columns, qdot_dataset *t)
 {
     const size_t k = f->unknowns.names.n;
     size_t width = 6;
@@ -106,7 +106,7 @@ static qdot_status
 write_correlations(const qdot_fit *f, qdot_text *out)
 {
     qdot_table_column *columns = qdot_calloc(f->unknowns.names.n, sizeof *columns);
-    qdot_table t = {0};
+    qdot_dataset t = {0};
     qdot_status status = columns != NULL ? fill_correlations(f, columns, &t) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
