@@ -187,7 +187,7 @@ write_signature(const qdot_analysis *a, const char *name, qdot_text *label, qdot
                               qdot_token_is(k - 1, ",");
 
         if (qdot_token_is_word(k, name) && qdot_token_is(k + 1, "(") && k[1].glued && declares) {
-            const qdot_token *behind = qdot_statement_behind_bracket(k + 1);
+            const qdot_token *behind = qdot_token_behind_bracket(k + 1);
 
             if (behind > k + 1 && (qdot_token_is(behind, "=") || qdot_token_is(behind, ",") || behind->kind == QDOT_TOKEN_END)) {
                 qdot_text_add_n(label, a->text + k->start, behind[-1].start + behind[-1].length - k->start);

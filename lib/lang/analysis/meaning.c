@@ -57,7 +57,7 @@ qdot_meaning_add_unknown(qdot_analysis *a, const char *name)
 static bool
 holds_range(const qdot_token *open, const qdot_token *to)
 {
-    const qdot_token *behind = qdot_statement_behind_bracket(open);
+    const qdot_token *behind = qdot_token_behind_bracket(open);
     int depth = 0;
     bool one = true;
 

@@ -76,13 +76,12 @@ declares_list(const qdot_statement *row, qdot_role *role)
 static const qdot_token *
 label_of(const search *s, const qdot_token *first, const qdot_token *end)
 {
-    const qdot_token *behind = first + 2;
     bool thing = qdot_token_is_word(first, "particle") || qdot_token_is_word(first, "body");
+    const qdot_token *behind;
 
     if (first + 1 >= end || !is_name(s, first + 1))
         return NULL;
-    if (behind < end && qdot_token_is(behind, "[") && behind->glued)
-        behind = qdot_statement_behind_bracket(behind);
+    behind = qdot_token_behind_index(first + 1);
     thing = thing || (behind < end && qdot_token_is_word(behind, "between"));
     return thing || (behind < end && qdot_token_is(behind, ":")) ? first + 1 : NULL;
 }
@@ -152,10 +151,10 @@ is_unit(const search *s, const qdot_token *k)
 {
     const qdot_token *before = k - 1;
 
-    for (const qdot_token *i = k; i < qdot_statement_behind_bracket(k); i++)
+    for (const qdot_token *i = k; i < qdot_token_behind_bracket(k); i++)
         if (qdot_token_is(i, "=") || qdot_token_is(i, ",")) /* a list of values, as behind `at` */
             return false;
-    return qdot_token_is(k, "[") && !k->glued && qdot_statement_behind_bracket(k) > k &&
+    return qdot_token_is(k, "[") && !k->glued && qdot_token_behind_bracket(k) > k &&
            (before->kind == QDOT_TOKEN_NUMBER || is_name(s, before) || qdot_token_is(before, ")") || qdot_token_is(before, "]") ||
             qdot_token_is(before, "'"));
 }
@@ -165,7 +164,7 @@ add_statement(search *s, const qdot_token *first, const qdot_token *end)
 {
     for (const qdot_token *k = first; k < end; k++) {
         if (k > first && is_unit(s, k))
-            k = qdot_statement_behind_bracket(k) - 1;
+            k = qdot_token_behind_bracket(k) - 1;
         else if (is_name(s, k))
             QDOT_TRY(add_occurrence(s, first, end, k));
     }

@@ -385,7 +385,7 @@ write_unit_of_answer(qdot_session *session, const qdot_token *asked, qdot_expr v
     const bool measured = qdot_measured_occurs(session, value);
 
     if (asked != NULL && (measured || qdot_expr_is_constant(pool, value)))
-        qdot_token_text_written(session, asked + 1, qdot_unit_end(asked) - 1, unit);
+        qdot_token_text_written(session, asked + 1, qdot_token_behind_bracket(asked) - 1, unit);
     else if (measured || session->output->json)
         qdot_units_label(session, value, unit);
 }

@@ -12,19 +12,6 @@
 #include "lang/session/measured.h"
 #include "lang/session/units.h"
 
-const qdot_token *
-qdot_unit_end(const qdot_token *open)
-{
-    int64_t depth = 0;
-
-    for (const qdot_token *t = open; t->kind != QDOT_TOKEN_END; t++) {
-        depth += qdot_token_bracket(t);
-        if (depth == 0)
-            return t + 1;
-    }
-    return open;
-}
-
 /* The token of which the byte `at` of the joined texts is one. */
 static const qdot_token *
 token_at(const qdot_token *first, const qdot_token *end, size_t at)
@@ -37,7 +24,7 @@ token_at(const qdot_token *first, const qdot_token *end, size_t at)
 qdot_status
 qdot_read_unit(qdot_session *session, const qdot_token *open, qdot_expr *value, bool *angle, const qdot_token **blame)
 {
-    const qdot_token *end = qdot_unit_end(open) - 1;
+    const qdot_token *end = qdot_token_behind_bracket(open) - 1;
     qdot_pool *pool = session->pool;
     qdot_text text = {0};
     qdot_expr factor;
@@ -75,7 +62,7 @@ append_unit(qdot_cursor *c, qdot_postfix_kind op, uint32_t n, qdot_postfix_list 
 {
     const qdot_token *open = c->at;
 
-    c->at = qdot_unit_end(open);
+    c->at = qdot_token_behind_bracket(open);
     if (c->at == open)
         return qdot_cursor_expected(c, "a unit in brackets, as in [m/s^2]");
     return qdot_vec_push(&program->list, ((qdot_postfix){.op = (uint8_t)op, .n = n, .token = open}));

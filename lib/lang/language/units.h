@@ -14,9 +14,6 @@
  * the token that an error is about. */
 QDOT_MUST_CHECK qdot_status qdot_read_unit(qdot_session *session, const qdot_token *open, qdot_expr *value, bool *angle,
                                            const qdot_token **blame);
-/* The token after the `]` of a bracket that opens here. */
-const qdot_token *qdot_unit_end(const qdot_token *open);
-
 /* Whether the token opens a unit behind `pi` or a bracket. */
 bool qdot_unit_follows(const qdot_token *t);
 /* Parse the unit that opens at the cursor, behind a number, `pi` or a bracket. below: a `/` or `^` stands before that, so

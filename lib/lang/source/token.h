@@ -50,6 +50,33 @@ qdot_token_bracket(const qdot_token *token)
     return (strchr("([{", token->text[0]) != NULL) - (strchr(")]}", token->text[0]) != NULL);
 }
 
+/* The token behind the bracket that opens at `open`; `open` itself if it is not closed within its statement, as where a `for`
+ * inside of it ends that. */
+static inline const qdot_token *
+qdot_token_behind_bracket(const qdot_token *open)
+{
+    int64_t depth = 0;
+
+    for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
+        const int step = qdot_token_bracket(k);
+
+        depth += step;
+        if (step != 0 && depth == 0)
+            return k + 1;
+    }
+    return open;
+}
+
+/* The token behind the name and its index, which follows it without a blank: x, x[1,2]. Of an index that is not closed the
+ * bracket itself. */
+static inline const qdot_token *
+qdot_token_behind_index(const qdot_token *name)
+{
+    const qdot_token *next = name + 1;
+
+    return next->glued && qdot_token_is(next, "[") ? qdot_token_behind_bracket(next) : next;
+}
+
 static inline bool
 qdot_token_is_word(const qdot_token *token, const char *word)
 {

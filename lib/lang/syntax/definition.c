@@ -33,7 +33,7 @@ read_right(qdot_definition *d, const qdot_token *end)
         commas += depth == 1 && qdot_token_is(k, ",");
     }
     d->loop = qdot_token_is_word(d->behind, "for");
-    d->components = bracket && qdot_statement_behind_bracket(from) == d->behind ? commas + 1 : 1;
+    d->components = bracket && qdot_token_behind_bracket(from) == d->behind ? commas + 1 : 1;
 }
 
 bool
@@ -48,7 +48,7 @@ qdot_definition_find(const qdot_token *first, const qdot_token *end, qdot_defini
     d->call = qdot_token_is(k, "(");
     d->apart = (d->member || d->call) && !k->glued;
     if (d->member || d->call)
-        k = qdot_statement_behind_bracket(k);
+        k = qdot_token_behind_bracket(k);
     for (; qdot_token_is(k, "'") && k->glued; k++)
         d->primes++;
     if (!qdot_token_is(k, "="))
@@ -137,7 +137,7 @@ qdot_definition_next_term(const qdot_definition *d, const qdot_token **at)
         if (k->kind != QDOT_TOKEN_NAME)
             continue;
         if (qdot_token_is(k + 1, "(")) {
-            k = qdot_statement_behind_bracket(k + 1) - 1; /* step over the arguments */
+            k = qdot_token_behind_bracket(k + 1) - 1; /* step over the arguments */
         } else if (!qdot_token_is(k + 1, "[")) {
             *at = k + 1;
             return k->text;

@@ -17,21 +17,6 @@ qdot_statement_row(const qdot_token *word)
     return word->kind == QDOT_TOKEN_NAME ? qdot_statement_find(word->text) : NULL;
 }
 
-const qdot_token *
-qdot_statement_behind_bracket(const qdot_token *open)
-{
-    int64_t depth = 0;
-
-    for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
-        const int step = qdot_token_bracket(k);
-
-        depth += step;
-        if (step != 0 && depth == 0)
-            return k + 1;
-    }
-    return open; /* there is no closing bracket when a `for` inside the brackets ends the statement */
-}
-
 /* --- definitions of functions --------------------------------------------------------- */
 
 bool
@@ -134,7 +119,7 @@ is_definition(const qdot_session *session, const qdot_token *name, bool word)
         return false;
     if (qdot_token_is(next, "("))
         return defines_function(session, name);
-    return qdot_token_is(qdot_statement_behind_bracket(next), "=");
+    return qdot_token_is(qdot_token_behind_bracket(next), "=");
 }
 
 /* --- statements that begin with a word -------------------------------------------------- */

@@ -38,7 +38,4 @@ bool qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
 /* Whether a name may be an argument in a function definition; pi, sin and dtheta may not. */
 bool qdot_statement_is_free_argument(const qdot_session *session, const char *name);
 
-/* The token after the bracket that opens at `open`; `open` itself if it is never closed. */
-const qdot_token *qdot_statement_behind_bracket(const qdot_token *open);
-
 #endif

@@ -38,23 +38,6 @@ may_be_followed_by(const qdot_usage *u, int node, const qdot_token *token)
     return may_be_followed_by(u, at->next, token) || (at->other >= 0 && may_be_followed_by(u, at->other, token));
 }
 
-/* The token after the name that begins at t and its brackets. */
-static const qdot_token *
-token_after_name(const qdot_token *t)
-{
-    int64_t depth = 0;
-
-    t++;
-    if (!t->glued || !qdot_token_is(t, "["))
-        return t;
-    for (; t->kind != QDOT_TOKEN_END; t++) {
-        depth += qdot_token_bracket(t);
-        if (depth == 0)
-            return t + 1;
-    }
-    return t;
-}
-
 /* --- parsing one hole ---------------------------------------------------------------- */
 
 /* If it was parsed with QDOT_OK, keep it as the next expression of the part; else free it. */
@@ -123,7 +106,7 @@ is_declared(const reader *m, const char *name)
 static bool
 begins_with_bound(const reader *m)
 {
-    const qdot_token *t = m->c->at, *next = token_after_name(t);
+    const qdot_token *t = m->c->at, *next = qdot_token_behind_index(t);
     const bool more = next->kind != QDOT_TOKEN_END && !qdot_token_is(next, ",") && !qdot_token_is(next, "=") &&
                       !qdot_token_is(next, "["); /* a unit */
 
@@ -370,7 +353,7 @@ qdot_hole_suits(const qdot_usage *u, const qdot_record *r, const qdot_usage_node
     switch (placeholder_class(node)) {
     case QDOT_HOLE_TEXT: return t->kind == QDOT_TOKEN_STRING;
     case QDOT_HOLE_NAME:
-        return t->kind == QDOT_TOKEN_NAME && may_be_followed_by(u, node->next, token_after_name(t));
+        return t->kind == QDOT_TOKEN_NAME && may_be_followed_by(u, node->next, qdot_token_behind_index(t));
     case QDOT_HOLE_CALL: return t->kind == QDOT_TOKEN_NAME && qdot_token_is(t + 1, "(");
     case QDOT_HOLE_COORDINATE: return t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t + 1, "(");
     case QDOT_HOLE_WORD: return t->kind == QDOT_TOKEN_NAME;

@@ -68,15 +68,6 @@ find_word(const qdot_token *tokens, size_t n, size_t at, place *p)
     return false;
 }
 
-/* The token after the index [...] that follows the word at once; the one after the word if there is none. */
-static const qdot_token *
-find_end_of_index(const qdot_token *word)
-{
-    const qdot_token *t = word + 1;
-
-    return t->glued && qdot_token_is(t, "[") ? qdot_statement_behind_bracket(t) : t;
-}
-
 /* The word with its index takes the place of the word. */
 static void
 take_index(place *p, const qdot_token *end)
@@ -192,7 +183,7 @@ static qdot_status
 explain_declared(place *p, bool *found)
 {
     const char *word = p->word->text;
-    const qdot_token *end = find_end_of_index(p->word);
+    const qdot_token *end = qdot_token_behind_index(p->word);
     const qdot_name *name = NULL;
 
     if (end > p->word + 1) {
@@ -273,7 +264,7 @@ add_formula(place *p)
     qdot_explained *x = p->out;
 
     if (x->kind == QDOT_EXPLAINED_QUANTITY && is_derived_at_once(p->session, p->word->text)) {
-        take_index(p, find_end_of_index(p->word));
+        take_index(p, qdot_token_behind_index(p->word));
         QDOT_TRY(qdot_text_status(&x->word));
         QDOT_TRY(find_value(p->session, x));
     }

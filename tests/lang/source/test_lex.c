@@ -240,6 +240,34 @@ memory_may_run_out(void **state)
     }
 }
 
+/* The text of the token behind the name and its index where the statement ends at token `end`; 0: where it ends. */
+static void
+assert_behind_index(const char *text, size_t end, const char *expected)
+{
+    qdot_source *source;
+    size_t at;
+
+    assert_int_equal(qdot_source_new("a.lag", text, strlen(text), &source, &at), QDOT_OK);
+    if (end > 0)
+        source->tokens.at[end].kind = QDOT_TOKEN_END;
+    assert_string_equal(qdot_token_behind_index(source->tokens.at)->text, expected);
+    qdot_source_free(source);
+}
+
+static void
+an_index_ends_with_its_bracket(void **state)
+{
+    (void)state;
+    assert_behind_index("x + 1", 0, "+");
+    assert_behind_index("x[1] + 1", 0, "+");
+    assert_behind_index("x[f(2), y[3]] < 1", 0, "<");
+    assert_behind_index("x[1][2]", 0, "[");
+    assert_behind_index("x [m] > 0", 0, "["); /* a unit */
+    assert_behind_index("x(2)", 0, "(");
+    assert_behind_index("x[k for k]", 3, "["); /* not closed */
+    assert_behind_index("x", 0, "");
+}
+
 int
 main(void)
 {
@@ -250,6 +278,7 @@ main(void)
         cmocka_unit_test(newlines_end_statements_outside_brackets),
         cmocka_unit_test(strings_keep_their_text),
         cmocka_unit_test(gluing_is_seen),
+        cmocka_unit_test(an_index_ends_with_its_bracket),
         cmocka_unit_test(junk_is_refused_at_its_place),
         cmocka_unit_test(brackets_must_match),
         cmocka_unit_test(places_count_characters),
