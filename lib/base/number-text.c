@@ -87,6 +87,28 @@ qdot_number_text_with_error(qdot_text *text, double value, double error)
 }
 
 void
+qdot_number_text_estimate(qdot_text *out, double value, double error)
+{
+    int decimals;
+
+    if (!(error > 0) || !isfinite(error)) {
+        qdot_text_double(out, value, 15);
+        qdot_text_add(out, isnan(error) ? " ± unknown" : "");
+        return;
+    }
+    decimals = 1 - (int)floor(log10(error));
+    if (floor(error * pow(10, decimals) + 0.5) >= 100)
+        decimals--;
+    if (decimals >= 0 && decimals <= 15 && fabs(value) < 1e15) {
+        qdot_text_format(out, "%.*f ± %.*f", decimals, value, decimals, error);
+        return;
+    }
+    qdot_text_double(out, value, 15);
+    qdot_text_add(out, " ± ");
+    qdot_text_double(out, error, 2);
+}
+
+void
 qdot_number_text_json(qdot_text *text, double value)
 {
     if (isfinite(value))

@@ -16,6 +16,8 @@ void qdot_number_text_known(qdot_text *text, double value, double error);
 void qdot_number_text_bound(qdot_text *text, double error);
 /* Append a double with its error behind it, as "1.25 ± 3e-13"; error NaN: " (error unknown)". */
 void qdot_number_text_with_error(qdot_text *text, double value, double error);
+/* Append a double with two digits of its standard error: "2.3855 ± 0.0012"; error NaN: " ± unknown". */
+void qdot_number_text_estimate(qdot_text *text, double value, double error);
 /* Append a double for JSON: the fewest digits that read back the same, null where it is not finite. */
 void qdot_number_text_json(qdot_text *text, double value);
 

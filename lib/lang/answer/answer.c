@@ -282,18 +282,19 @@ append_number(qdot_sheet *s, const char *number, size_t n)
     append_decimal(s, qdot_formula_add(&s->formula, power, QDOT_FORMULA_ROW, 0, 0), e, (size_t)(number + n - e));
 }
 
-/* Append the text as a number or as words, and empty it. */
+/* Append n bytes that are a number, or words: "unknown", " (error unknown)". */
 static void
-append_part(qdot_sheet *s, bool words, qdot_text *text)
+append_part(qdot_sheet *s, const char *text, size_t n)
 {
-    if (words && s->style == QDOT_LATEX && qdot_write_displays(s->session))
-        qdot_sheet_format(s, "\\text{%s}", qdot_text_str(text));
-    else if (words)
-        qdot_sheet_words(s, qdot_text_str(text));
+    const bool shown = qdot_write_displays(s->session);
+    const bool number = strspn(text + (*text == '-'), "0123456789.") > 0 || (!shown && *text != ' ');
+
+    if (number)
+        append_number(s, text, n);
+    else if (shown && s->style == QDOT_LATEX)
+        qdot_sheet_format(s, "\\text{%.*s}", (int)n, text);
     else
-        append_number(s, qdot_text_str(text), text->n);
-    s->formula.failed = s->formula.failed || text->failed;
-    qdot_text_clear(text);
+        qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_WORDS, text, n);
 }
 
 /* Append the sign between a number and its error; in LaTeX for a program that shows it as a command. */
@@ -306,22 +307,38 @@ append_plus_minus(qdot_sheet *s)
         qdot_sheet_sign(s, QDOT_SIGN_PLUS_MINUS);
 }
 
+/* How the numbers of an answer are written: with the digits that a bound of the error leaves, with two digits of a
+ * standard error, or with a few digits without an error. */
+typedef enum { BY_BOUND, BY_STANDARD_ERROR, BY_DIGITS } rounding;
+
+enum { FEW_DIGITS = 4 };
+
 /* Append a number with its error, such as 1.25 ± 3e-13. */
 static void
-append_number_with_error(qdot_sheet *s, double value, double error)
+append_number_with_error(qdot_sheet *s, double value, double error, rounding by)
 {
+    static const char sign[] = " ± ";
     qdot_text number = {0};
+    const char *at;
 
-    qdot_number_text_known(&number, value, error);
-    append_part(s, false, &number);
-    if (isnan(error)) {
-        qdot_text_add(&number, " (error unknown)");
-        append_part(s, true, &number);
-    } else if (error > 0) {
+    if (by == BY_DIGITS)
+        qdot_text_double(&number, value, FEW_DIGITS);
+    else if (by == BY_STANDARD_ERROR)
+        qdot_number_text_estimate(&number, value, error);
+    else
+        qdot_number_text_with_error(&number, value, error);
+    s->formula.failed = s->formula.failed || number.failed;
+    at = strstr(qdot_text_str(&number), sign);
+    if (at == NULL)
+        at = strstr(qdot_text_str(&number), " (");
+    append_part(s, qdot_text_str(&number), at != NULL ? (size_t)(at - number.at) : number.n);
+    if (at != NULL && *(at + 1) != '(') {
         append_plus_minus(s);
-        qdot_number_text_bound(&number, error);
-        append_part(s, false, &number);
+        at += strlen(sign);
     }
+    if (at != NULL)
+        append_part(s, at, strlen(at));
+    qdot_text_clear(&number);
 }
 
 /* Begin a formula with `name = `. */
@@ -341,6 +358,7 @@ typedef struct {
     const char *name;
     size_t n;
     const double *values, *errors;
+    rounding by;
 } named_numbers;
 
 static qdot_status
@@ -353,7 +371,7 @@ append_named_numbers(qdot_sheet *s, const void *answer)
     for (size_t i = 0; i < x->n; i++) {
         if (i > 0)
             qdot_sheet_sign(s, QDOT_SIGN_COMMA);
-        append_number_with_error(s, x->values[i], x->errors[i]);
+        append_number_with_error(s, x->values[i], x->errors[i], x->by);
         append_unit(s, output->units != NULL ? output->units[i] : NULL);
     }
     append_unit(s, output->unit);
@@ -378,7 +396,6 @@ append_numerals(qdot_sheet *s, const char *at)
     while (*at != '\0') {
         const size_t minus = *at == '-', digits = strspn(at + minus, "0123456789.");
         size_t n = digits > 0 ? minus + digits : 0;
-        qdot_text words = {0};
 
         if (n > 0) {
             n += at[n] == 'e' ? 1 + strspn(at + n + 1, "+-0123456789") : 0;
@@ -399,8 +416,7 @@ append_numerals(qdot_sheet *s, const char *at)
         }
         if (n == 0) {
             n = 1 + strcspn(at + 1, "-0123456789,");
-            qdot_text_add_n(&words, at, n);
-            append_part(s, true, &words);
+            append_part(s, at, n);
         }
         at += n;
     }
@@ -447,20 +463,18 @@ answer_numbers_as_json(qdot_session *session, const char *name, bool several, si
 }
 
 static qdot_status
-answer_numbers(qdot_session *session, const char *name, bool several, size_t n,
-               const double *values, const double *errors)
+answer_numbers(qdot_session *session, bool several, const named_numbers *x)
 {
-    const named_numbers x = {name, n, values, errors};
     qdot_text list[2] = {{0}};
     qdot_status status;
 
     if (!session->output->json)
-        return qdot_shown_print(session, append_named_numbers, &x);
-    for (size_t i = 0; i < 2 * n; i++) {
+        return qdot_shown_print(session, append_named_numbers, x);
+    for (size_t i = 0; i < 2 * x->n; i++) {
         qdot_text_add(&list[i % 2], i > 1 ? "," : "");
-        qdot_number_text_json(&list[i % 2], i % 2 == 0 ? values[i / 2] : errors[i / 2]);
+        qdot_number_text_json(&list[i % 2], i % 2 == 0 ? x->values[i / 2] : x->errors[i / 2]);
     }
-    status = answer_numbers_as_json(session, name, several, n, &list[0], &list[1], append_named_numbers, &x);
+    status = answer_numbers_as_json(session, x->name, several, x->n, &list[0], &list[1], append_named_numbers, x);
     qdot_text_clear(&list[0]);
     qdot_text_clear(&list[1]);
     return status;
@@ -469,11 +483,20 @@ answer_numbers(qdot_session *session, const char *name, bool several, size_t n,
 qdot_status
 qdot_answer_number(qdot_session *session, const char *name, double value, double error)
 {
-    return answer_numbers(session, name, false, 1, &value, &error);
+    return answer_numbers(session, false, &(named_numbers){name, 1, &value, &error, BY_BOUND});
 }
 
 qdot_status
-qdot_answer_quantity(qdot_session *session, const char *name, qdot_expr e, double value, double error)
+qdot_answer_statistic(qdot_session *session, const char *name, double value)
+{
+    const double unknown = NAN;
+
+    return answer_numbers(session, false, &(named_numbers){name, 1, &value, &unknown, BY_DIGITS});
+}
+
+/* Answer with a number that e is, with its unit. */
+static qdot_status
+answer_quantity(qdot_session *session, qdot_expr e, const named_numbers *x)
 {
     qdot_text unit = {0};
     qdot_status status;
@@ -483,17 +506,35 @@ qdot_answer_quantity(qdot_session *session, const char *name, qdot_expr e, doubl
     if (status == QDOT_OK && unit.n > 0)
         session->output->unit = qdot_text_str(&unit);
     if (status == QDOT_OK)
-        status = qdot_answer_number(session, name, value, error);
+        status = answer_numbers(session, false, x);
     session->output->unit = NULL;
     qdot_text_clear(&unit);
     return status;
 }
 
 qdot_status
+qdot_answer_quantity(qdot_session *session, const char *name, qdot_expr e, double value, double error)
+{
+    return answer_quantity(session, e, &(named_numbers){name, 1, &value, &error, BY_BOUND});
+}
+
+qdot_status
+qdot_answer_estimate(qdot_session *session, const char *name, qdot_expr e, double value, double error)
+{
+    return answer_quantity(session, e, &(named_numbers){name, 1, &value, &error, BY_STANDARD_ERROR});
+}
+
+qdot_status
 qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
                     const double *values, const double *errors)
 {
-    return answer_numbers(session, name, true, n, values, errors);
+    return answer_numbers(session, true, &(named_numbers){name, n, values, errors, BY_BOUND});
+}
+
+qdot_status
+qdot_answer_statistics(qdot_session *session, const char *name, size_t n, const double *values, const double *errors)
+{
+    return answer_numbers(session, true, &(named_numbers){name, n, values, errors, BY_DIGITS});
 }
 
 qdot_status

@@ -32,7 +32,14 @@ QDOT_MUST_CHECK qdot_status qdot_answer_number(qdot_session *session, const char
 /* The same for a number that e is, such as an unknown that was found: with its unit, where e has a dimension. */
 QDOT_MUST_CHECK qdot_status qdot_answer_quantity(qdot_session *session, const char *name, qdot_expr e, double value,
                                                  double error);
-/* Answer {"kind":"numbers"}: values [n], errors [n]. */
+/* The same for an estimate, whose error is a standard error: a person reads two digits of it, "2.3855 ± 0.0012". */
+QDOT_MUST_CHECK qdot_status qdot_answer_estimate(qdot_session *session, const char *name, qdot_expr e, double value,
+                                                 double error);
+/* Answer {"kind":"number"} without an error: a person reads a few digits. */
+QDOT_MUST_CHECK qdot_status qdot_answer_statistic(qdot_session *session, const char *name, double value);
+/* Answer {"kind":"numbers"}: values [n], errors [n]; _statistics: a person reads a few digits, no errors. */
+QDOT_MUST_CHECK qdot_status qdot_answer_statistics(qdot_session *session, const char *name, size_t n,
+                                                   const double *values, const double *errors);
 QDOT_MUST_CHECK qdot_status qdot_answer_numbers(qdot_session *session, const char *name,
                                                 size_t n, const double *values,
                                                 const double *errors);

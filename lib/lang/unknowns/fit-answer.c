@@ -21,29 +21,6 @@ static const double improbable = 1e-3;
 
 /* --- values and intervals ----------------------------------------------------------------------- */
 
-/* Append a value with two digits of its error, such as "2.3855 ± 0.0012". */
-static void
-write_value_with_error(double value, double error, qdot_text *out)
-{
-    int decimals;
-
-    if (!(error > 0) || !isfinite(error)) {
-        qdot_text_double(out, value, 15);
-        qdot_text_add(out, isnan(error) ? " ± unknown" : "");
-        return;
-    }
-    decimals = 1 - (int)floor(log10(error));
-    if (floor(error * pow(10, decimals) + 0.5) >= 100)
-        decimals--;
-    if (decimals >= 0 && decimals <= 15 && fabs(value) < 1e15) {
-        qdot_text_format(out, "%.*f ± %.*f", decimals, value, decimals, error);
-        return;
-    }
-    qdot_text_double(out, value, 15);
-    qdot_text_add(out, " ± ");
-    qdot_text_double(out, error, 2);
-}
-
 /* The half width of a 95 % confidence interval, in units of the standard error. */
 static double
 half_width_of_interval(const qdot_fit *f)
@@ -59,7 +36,7 @@ write_unknowns(const qdot_fit *f, qdot_text *out)
 {
     for (size_t k = 0; k < f->unknowns.names.n; k++) {
         qdot_text_format(out, "%s = ", f->unknowns.names.at[k].label);
-        write_value_with_error(f->u[k], f->error[k], out);
+        qdot_number_text_estimate(out, f->u[k], f->error[k]);
         qdot_units_in_brackets(f->session, f->unknowns.names.at[k].symbol, out);
         qdot_text_char(out, '\n');
     }
@@ -163,10 +140,10 @@ answer_fit_as_json(qdot_fit *f)
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < k; i++)
-        QDOT_TRY(qdot_answer_quantity(f->session, f->unknowns.names.at[i].label, f->unknowns.names.at[i].symbol, f->u[i],
+        QDOT_TRY(qdot_answer_estimate(f->session, f->unknowns.names.at[i].label, f->unknowns.names.at[i].symbol, f->u[i],
                                       f->error[i]));
     /* no error is given: the numerical error of chi^2 is due to that of the residuals */
-    QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, NAN));
+    QDOT_TRY(qdot_answer_statistic(f->session, "chi^2", f->found.chi2));
     QDOT_TRY(qdot_answer_number(f->session, "degrees of freedom", (double)f->freedom, 0));
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         double *unknown = qdot_calloc(k, sizeof *unknown);
@@ -177,8 +154,7 @@ answer_fit_as_json(qdot_fit *f)
         qdot_text_format(&name, "covariance[%s]", f->unknowns.names.at[i].label);
         status = unknown ? qdot_text_status(&name) : QDOT_ENOMEM;
         if (status == QDOT_OK)
-            status = qdot_answer_numbers(f->session, qdot_text_str(&name), k,
-                                         f->found.covariance + i * k, unknown);
+            status = qdot_answer_statistics(f->session, qdot_text_str(&name), k, f->found.covariance + i * k, unknown);
         qdot_free(unknown);
     }
     qdot_text_clear(&name);
