@@ -217,7 +217,11 @@ figures_are_answers_in_their_order(void **state)
     find(second, ",\"statement\":8,\"line\":3}\n");
     assert_int_equal(count(text, "\"kind\":\"file\""), 0);
     qdot_string_free(text);
+    text = display(*state, "plot theta keep", QDOT_RESULT_OK);
+    find(find(text, "{\"kind\":\"figure\""), "\"kind\":\"notice\",\"message\":\"`keep` keeps");
+    qdot_string_free(text);
     assert_int_not_equal(access("qdot-1.svg", F_OK), 0);
+    assert_int_not_equal(access("qdot-1.gp", F_OK), 0);
 }
 
 static void

@@ -96,7 +96,7 @@ const char qdot_shown_style[] =
     ".qdot mtd.right { text-align: left; padding: 0.35em 0; }\n"
     ".qdot table, table.qdot { border-collapse: collapse; font-variant-numeric: tabular-nums; }\n"
     ".qdot th, .qdot td { padding: 0.15em 0.7em; text-align: right; white-space: nowrap; }\n"
-    ".qdot .words, .qdot .run th, .qdot .run td { text-align: left; }\n"
+    ".qdot td.words, .qdot th.words, .qdot .run th, .qdot .run td { text-align: left; }\n"
     ".qdot .run td { white-space: normal; }\n"
     ".qdot caption { text-align: left; caption-side: top; font-weight: bold; }\n"
     ".qdot .check p { display: inline; }\n"

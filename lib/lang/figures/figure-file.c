@@ -141,6 +141,8 @@ answer_image(qdot_session *session, const qdot_figure *figure)
         status = qdot_text_status(&name);
     status = qdot_answer_shown(session, "figure", "image/svg+xml", qdot_text_str(&name), status, &image);
     qdot_text_clear(&name);
+    if (status == QDOT_OK && figure->keep)
+        status = qdot_answer_notice(session, "`keep` keeps the script and the data beside a file: add `to \"figure.svg\"`");
     return status;
 }
 
@@ -151,7 +153,7 @@ qdot_figure_file_show(qdot_session *session, const qdot_figure *figure, const ch
     qdot_status status = QDOT_OK;
     bool open = false;
 
-    if (path == NULL && !figure->keep && qdot_write_displays(session))
+    if (path == NULL && qdot_write_displays(session))
         return answer_image(session, figure);
     if (path == NULL && !figure->keep && should_open_window(session))
         QDOT_TRY(try_to_open_window(session, figure, &open));
