@@ -103,10 +103,10 @@ def carry_out(system: System, code: str, name: str, progress: Progress) -> Itera
             except KeyboardInterrupt as stopped:
                 ended = "interrupted"
                 so_far = (getattr(stopped, "answers", None) or "").splitlines()
-                shown = outputs(map(json.loads, so_far), code, name)
+                shown = outputs(map(json.loads, so_far), name)
                 yield from (output for output in shown if output.kind != "error")
                 raise
-            for output in outputs(answers, code, name):
+            for output in outputs(answers, name):
                 yield output
                 if output.kind == "error":
                     return

@@ -105,6 +105,8 @@ _FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "qdot_table_errors": (_numbers, [c_void_p, c_size_t]),
     "qdot_table_cell": (c_char_p, [c_void_p, c_size_t, c_size_t]),
     "qdot_table_free": (None, [c_void_p]),
+    "qdot_display_style": (c_char_p, []),
+    "qdot_number_write": (c_int, [c_double, c_double, _text_out]),
 }
 
 PLAIN, UNICODE, LATEX, MATHML, JSON, DISPLAY, TREE = range(7)
@@ -155,6 +157,16 @@ class Library:
         taken = ctypes.string_at(text).decode()
         self.qdot_string_free(text)
         return taken
+
+    def style(self) -> str:
+        """Return the CSS for the parts of pages in answers."""
+        return str(self.qdot_display_style().decode())
+
+    def number_text(self, value: float, error: float) -> str:
+        """Return a number with its error as answers have it: 1.25 ± 3e-13; 0: exact, NaN: unknown."""
+        text = c_void_p()
+        self.check(self.qdot_number_write(value, error, ctypes.byref(text)), None)
+        return self.take_text(text)
 
     def check(self, result: int, system: Optional[c_void_p]) -> None:
         """Raise what the last call on the system did wrong."""

@@ -23,6 +23,7 @@ from .cells import Progress, carry_out
 from .completion import install as install_completion
 from .display import Output
 from .errors import Error, KindError, UnknownNameError
+from .library import load as load_library
 from .system import System, written
 
 __all__ = ["CellError", "Number", "QdotMagics", "load"]
@@ -58,9 +59,7 @@ class Number(float):
         return number
 
     def __repr__(self) -> str:
-        from .notation import number_text
-
-        return number_text(float(self), None if self.error != self.error else self.error)
+        return load_library().number_text(float(self), self.error)
 
 
 _USAGE = """usage: %%qdot [-i NAMES] [-o NAMES] [--system NAME]

@@ -6,7 +6,8 @@ import html
 from ctypes import c_void_p
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Sequence
 
-from .library import Library
+from .display import page_part
+from .library import Library, load
 
 if TYPE_CHECKING:
     import numpy
@@ -91,18 +92,27 @@ class Table:
         return f"<qdot.Table {self.name}: {', '.join(self.columns)}; {len(self)} rows>"
 
     def _repr_html_(self) -> str:
-        head = "".join(f"<th>{html.escape(column)}</th>" for column in self.columns)
-        shown = range(len(self)) if len(self) <= 60 else [*range(30), -1, *range(len(self) - 30, len(self))]
-        rows = "".join(self._html_row(i) for i in shown)
-        return f"<table><caption>{html.escape(self.name)}</caption><tr>{head}</tr>{rows}</table>"
+        heads = [name + (f" [{self.units[name]}]" if name in self.units else "") for name in self.columns]
+        n = len(self)
+        shown = range(n) if n <= 60 else [*range(30), *range(n - 30, n)]
+        rows = [_html_row("td", [self._cell(name, i) for name in self.columns]) for i in shown]
+        if n > 60:
+            rows.insert(30, f'<tr><td colspan="{len(heads)}">… {n - 60} more rows</td></tr>')
+        caption = f"<caption>{html.escape(self.name)}</caption>"
+        return page_part(f"<table>{caption}{_html_row('th', heads)}{''.join(rows)}</table>")
 
-    def _html_row(self, i: int) -> str:
-        if i < 0:
-            return f'<tr><td colspan="{len(self.columns)}">… {len(self) - 60} more rows</td></tr>'
-        pairs = [(self._values[name][i], self._errors.get(name)) for name in self.columns]
-        texts = [shown(value, None if errors is None else errors[i]) for value, errors in pairs]
-        cells = "".join(f"<td>{html.escape(text)}</td>" for text in texts)
-        return f"<tr>{cells}</tr>"
+    def _cell(self, name: str, i: int) -> str:
+        """Return a number with as many digits as its error leaves, or a text."""
+        value, errors = self._values[name][i], self._errors.get(name)
+        if not isinstance(value, float):
+            return str(value)
+        if value != value:
+            return "–"
+        return load().number_text(value, 0.0 if errors is None or errors[i] is None else float(errors[i]))
+
+
+def _html_row(tag: str, cells: Sequence[str]) -> str:
+    return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
 
 class Numbers(Mapping[str, Any]):
@@ -122,9 +132,12 @@ class Numbers(Mapping[str, Any]):
     (2.0, True)
     """
 
-    def __init__(self, values: Mapping[str, Any], errors: Mapping[str, float]) -> None:
+    def __init__(
+        self, values: Mapping[str, Any], errors: Mapping[str, float], answers: Sequence[Mapping[str, Any]]
+    ) -> None:
         self._values = dict(values)
         self.errors = dict(errors)
+        self._answers = list(answers)  # how the library writes the numbers
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -144,15 +157,10 @@ class Numbers(Mapping[str, Any]):
         return pandas.DataFrame(data, index=names)
 
     def __repr__(self) -> str:
-        parts = [f"{name} = {shown(x, self.errors[name])}" for name, x in self._values.items()]
-        return f"<qdot.{type(self).__name__}: {', '.join(parts)}>"
+        return f"<qdot.{type(self).__name__}: {', '.join(answer['text'] for answer in self._answers)}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><th>{html.escape(name)}</th><td>{html.escape(shown(x, self.errors[name]))}</td></tr>"
-            for name, x in self._values.items()
-        )
-        return f"<table>{rows}</table>"
+        return page_part("".join(answer["html"] for answer in self._answers))
 
 
 class Fit(Numbers):
@@ -173,31 +181,12 @@ class Fit(Numbers):
         errors: Mapping[str, float],
         more: Mapping[str, Any],
         covariance: Sequence[Sequence[float]],
+        answers: Sequence[Mapping[str, Any]],
     ) -> None:
-        super().__init__(values, errors)
+        super().__init__(values, errors, answers)
         self.chi2: float = more.get("chi^2", float("nan"))
         self.degrees_of_freedom = int(more.get("degrees of freedom", 0))
         self.covariance: Array = _array(covariance)
-
-
-def shown(value: Any, error: Any) -> str:
-    """Return a number with as many digits as its error leaves.
-
-    >>> from qdot.table import shown
-    >>> shown(9.804964259856616, 0.002592760210505143), shown(2.0, 0.0), shown(0.5, float("nan"))
-    ('9.8050 ± 0.0026', '2', '0.5')
-    """
-    if not isinstance(value, float) or value != value:
-        return "" if value is None or value != value else str(value)
-    if not isinstance(error, float) or not error > 0 or error == float("inf"):
-        return f"{value:.12g}"
-    from decimal import Decimal
-
-    place = Decimal(f"{error:.1e}").adjusted() - 1
-    digits = min(max(0, -place), 400)
-    if place > 0 or digits > 15 or abs(value) >= 1e15:
-        return f"{value:.15g} ± {error:.2g}"
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
 def _array(cells: Sequence[Any]) -> Array:
@@ -232,7 +221,8 @@ def table_of(answers: Sequence[Mapping[str, Any]]) -> Optional[Table]:
     }
     if any(row.get("reason") for row in rows):
         columns["reason"] = _array([row.get("reason") or "" for row in rows])
-    return Table(head.get("name") or "table", columns, errors)
+    units = {name: unit for name, unit in zip(names, head.get("units") or []) if unit}
+    return Table(head.get("name") or "table", columns, errors, units)
 
 
 def copied(library: Library, handle: c_void_p, name: str) -> Table:
@@ -262,12 +252,12 @@ def numbers_of(answers: Sequence[Mapping[str, Any]]) -> Numbers:
     """Return the numbers among the answers."""
     values: Dict[str, Any] = {}
     errors: Dict[str, float] = {}
-    for answer in answers:
-        if answer["kind"] == "number":
-            value, error = answer["value"], answer.get("error")
-            values[answer["name"]] = complex(*value) if isinstance(value, list) else value
-            errors[answer["name"]] = float("nan") if error is None else error
-    return Numbers(values, errors)
+    numbers = [answer for answer in answers if answer["kind"] == "number"]
+    for answer in numbers:
+        value, error = answer["value"], answer.get("error")
+        values[answer["name"]] = complex(*value) if isinstance(value, list) else value
+        errors[answer["name"]] = float("nan") if error is None else error
+    return Numbers(values, errors, numbers)
 
 
 def fit_of(answers: Sequence[Mapping[str, Any]]) -> Fit:
@@ -277,4 +267,5 @@ def fit_of(answers: Sequence[Mapping[str, Any]]) -> Fit:
     names = list(found)[: len(rows)]
     values = {name: found[name] for name in names}
     more = {name: found[name] for name in found if name not in values}
-    return Fit(values, {name: found.errors[name] for name in names}, more, rows)
+    numbers = [answer for answer in answers if answer["kind"] == "number" and answer["name"] in values]
+    return Fit(values, {name: found.errors[name] for name in names}, more, rows, numbers)

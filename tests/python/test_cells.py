@@ -35,7 +35,7 @@ class Pieces(unittest.TestCase):
 class CarryOut(unittest.TestCase):
     def test_answers_come_before_the_next_line_is_begun(self):
         answers = carry_out(qdot.System(), "1/3\n1/0", "In[1]", Progress(lambda *drawn: None))
-        self.assertEqual(next(answers).text, "1/3")
+        self.assertEqual(next(answers).text, "⅓")
         self.assertEqual(next(answers).kind, "error")
         self.assertRaises(StopIteration, next, answers)
 

@@ -11,7 +11,6 @@ from ..cells import Progress, carry_out, pieces
 from ..display import Output
 from ..errors import Error
 from ..library import unfinished, version
-from ..notation import unicode_formula, unicode_name
 from ..system import System
 from .history import History
 
@@ -122,9 +121,9 @@ class QdotKernel(Kernel):
             said = self.system.explain(code, cursor_pos)
         except Error:
             said = {}
-        if said.get("formula"):  # in LaTeX; a terminal wants it as it is typed
+        if said.get("formula"):  # in LaTeX; a terminal wants it as a line
             try:
-                said["plain"] = self.system.derive(said["word"]).plain
+                said["unicode"] = self.system.derive(said["word"]).unicode
             except Error:
                 pass  # an equation, or what has no value of its own
         data = _explanation(said) if said else {}
@@ -215,14 +214,13 @@ def _failure(output: Output) -> Dict[str, Any]:
 def _explanation(said: Dict[str, Any]) -> Dict[str, str]:
     """What is said of a word, as plain text and as Markdown with the formula typeset."""
     parts = []  # each as plain text and as Markdown
-    usage = said.get("usage") or unicode_name(said.get("word") or "")
+    usage = said.get("usage") or said.get("word") or ""
     if usage:
         parts.append((usage, f"```\n{usage}\n```"))
     if said.get("text"):
         parts.append((said["text"], said["text"]))
     if said.get("formula"):
-        plain = unicode_formula(said["plain"]) if "plain" in said else said["formula"]
-        parts.append((plain, rf"$\displaystyle {said['formula']}$"))
+        parts.append((said.get("unicode", said["formula"]), rf"$\displaystyle {said['formula']}$"))
     if said.get("dimension"):
         parts.append(2 * (f"dimension: {said['dimension']}",))
     if said.get("example"):

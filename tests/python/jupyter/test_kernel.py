@@ -152,7 +152,7 @@ class Session(unittest.TestCase):
         self.assertEqual(self.reply(self.client.complete("par\0", 3))["matches"], [])
         self.assertFalse(self.reply(self.client.inspect("par\0", 2))["found"])
         self.assertEqual(self.reply(self.client.is_complete("(\0"))["status"], "invalid")
-        self.assertEqual(self.plain("print 1"), ["1\n"])
+        self.assertEqual(self.plain("print 1"), ["1"])
 
     def test_undo_reaches_back_over_lines_and_cells(self):
         self.plain("reset; param a = 1\nset a = 2")
@@ -184,8 +184,9 @@ class Session(unittest.TestCase):
         reply, messages = self.run_cell("print 1\nrun 0..1.5e7\nprint 2", meanwhile=interrupt)
         self.assertEqual((reply["status"], reply["ename"]), ("error", "Interrupted"))
         self.assertLess(time.monotonic() - began, 30)
-        self.assertEqual(messages[0][1].get("text"), "1\n")
-        self.assertNotIn("2\n", [content.get("text") for _, content in messages])
+        self.assertEqual(messages[0][1]["data"]["text/plain"], "1")
+        shown = [content.get("data", {}).get("text/plain") for _, content in messages]
+        self.assertNotIn("2", shown)
         self.assertIn("potential x^4", self.plain("scene")[0])
 
     def test_completion_and_help_at_the_cursor(self):
@@ -220,7 +221,7 @@ class Session(unittest.TestCase):
     def test_quit_asks_the_front_end_to_leave(self):
         reply, messages = self.run_cell("print 1\nquit\nprint 2")
         self.assertEqual([payload["source"] for payload in reply["payload"]], ["ask_exit"])
-        self.assertEqual([content["text"] for _, content in messages], ["1\n"])
+        self.assertEqual([content["data"]["text/plain"] for _, content in messages], ["1"])
 
 
 if __name__ == "__main__":
