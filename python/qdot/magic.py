@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import csv
 import itertools
+import keyword
 import os
 import re
 import sys
@@ -93,13 +94,18 @@ class QdotMagics(Magics):
             raise UsageError(f"`{rest}` is no option\n{_USAGE}")
         if cell is None and not rest and not options["output"]:
             raise UsageError(_USAGE)
+        outputs = list(_outputs_wanted(options["output"]))
         system = self._the_system(options["system"])
         code = rest if cell is None else cell
         for name in _names(options["input"]):
             code = self._enter(system, name, code)
         self._carry_out(system, code)
-        for name, expression in _outputs_wanted(options["output"]):
-            self.shell.user_ns[name] = _value(system, expression)
+        for name, expression in outputs:
+            try:
+                self.shell.user_ns[name] = _value(system, expression)
+            except Error as error:
+                hint = f"; {error.hint}" if error.hint else ""
+                raise UsageError(f"-o: `{name}`: {error.message}{hint}") from None
 
     # --- the system of a cell -----------------------------------------------------------
 
@@ -108,7 +114,7 @@ class QdotMagics(Magics):
             if self._system is None:
                 self._system = System().keep_undo()
             return self._system
-        if not name.isidentifier():
+        if not _is_variable(name):
             raise UsageError(f"--system: `{name}` is no name of a variable")
         system = self.shell.user_ns.get(name)
         if system is None:
@@ -155,7 +161,7 @@ class QdotMagics(Magics):
             return code.replace(f'"{name}"', f'"{self._file(name, columns)}"')
         if hasattr(value, "tolist"):  # NumPy's
             value = value.tolist()
-        if isinstance(value, (list, tuple)):
+        if isinstance(value, (list, tuple, range)):
             _declare(system, name, [f"{name} = {_list(name, value)}"])
         elif isinstance(value, (bool, complex)) or not hasattr(value, "__float__"):
             if not hasattr(value, "plain") and not hasattr(value, "free_symbols"):
@@ -178,10 +184,13 @@ class QdotMagics(Magics):
         if self._folder is None:
             self._folder = tempfile.TemporaryDirectory(prefix="qdot-")
         path = os.path.join(self._folder.name, name + ".csv")
-        lists = [
-            column.tolist() if hasattr(column, "tolist") else list(column)
-            for column in columns.values()
-        ]
+        try:
+            lists = [
+                column.tolist() if hasattr(column, "tolist") else list(column)
+                for column in columns.values()
+            ]
+        except TypeError:
+            raise UsageError(f"-i: `{name}`: its columns are no lists") from None
         if len({len(column) for column in lists}) > 1:
             raise UsageError(f"-i: the columns of `{name}` have different lengths")
         with open(path, "w", encoding="utf-8", newline="") as file:
@@ -224,9 +233,16 @@ def _outputs_wanted(text: Optional[str]) -> Iterator[Tuple[str, str]]:
     for part in _names(text):
         name, sign, expression = part.partition("=")
         name = name.strip()
-        if not name.isidentifier():
-            raise UsageError(f'-o: `{name}` is no name of a variable; write -o "x1={part}"')
-        yield name, expression.strip() if sign else name
+        expression = expression.strip() if sign else name
+        if not _is_variable(name):
+            raise UsageError(f'-o: `{name}` is no name of a variable; write -o "x1={expression or "T"}"')
+        if not expression:
+            raise UsageError(f'-o: there is no expression for `{name}`; write -o "{name}=T"')
+        yield name, expression
+
+
+def _is_variable(name: str) -> bool:
+    return name.isidentifier() and not keyword.iskeyword(name)
 
 
 def _columns(value: Any) -> Optional[Mapping[str, Any]]:
@@ -254,6 +270,8 @@ def _written(name: str, value: Any) -> str:
         return written(value)
     except Error as error:
         raise UsageError(f"-i: `{name}`: {error.message}") from None
+    except TypeError as error:
+        raise UsageError(f"-i: `{name}`: {error}") from None
 
 
 def _declare(system: System, name: str, statements: List[str]) -> None:

@@ -73,7 +73,7 @@ class Magic(unittest.TestCase):
         self.assertEqual((self.names["run2"].summary.end, str(self.names["T"])), (2, "1/2*m*x'^2"))
         self.line("-o again=a")
         self.assertEqual(self.names["again"].summary.end, 10)
-        self.assertIn("unknown name `b`", self.fails("%qdot -o b"))
+        self.assertIn("UsageError: -o: `b`: unknown name `b`; `param b`", self.fails("%qdot -o b"))
 
     def words(self, text, cursor=None):
         """Return what Tab offers in a cell, as what it would become, and the rest of the cell."""
@@ -161,12 +161,16 @@ class Magic(unittest.TestCase):
             empty=None,
             columns={"t": [1], "x": [1, 2]},
             nan=float("nan"),
+            complexes=numpy.array([1j]),
+            nones=[1, None],
+            cells={"t": 1, "x": 2},
         )
-        for name in ("f", "z", "s", "ragged", "empty", "columns", "nan", "missing"):
+        for name in "f z s ragged empty columns nan missing complexes nones cells".split():
             said = self.fails(f"%%qdot -i {name}\n1\n")
             self.assertIn(f"`{name}`", said)
             self.assertNotIn("Traceback", said)
-        for options in ("--wrong 1", "-o 2x", "--system s", "T"):
+        for options in ("--wrong 1", "-o 2x", "--system s", "T", "-o class=1", "--system class", "-o x=",
+                        "-o =x", "-o x=nonsense", "-o x=1/0", "-o x=run"):
             said = self.fails(f"%%qdot {options}\n1\n")
             self.assertIn("UsageError", said)
             self.assertNotIn("Traceback", said)
