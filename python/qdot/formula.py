@@ -17,7 +17,7 @@ from typing import (
     overload,
 )
 
-from .errors import Error
+from .errors import Error, LimitError
 from .library import LATEX, MATHML, PLAIN, TREE, UNICODE, utf8
 from .session import Session
 
@@ -155,7 +155,10 @@ class Formula:
         >>> qdot.System("coord x").derive("2*x'^2/3").tree()
         ['*', ['/', '2', '3'], ['^', ["'", 'x', 1], '2']]
         """
-        return json.loads(self._in(TREE))
+        try:
+            return json.loads(self._in(TREE))
+        except RecursionError:
+            raise _too_deep() from None
 
     def sympy(self, symbols: Optional[Mapping[str, Any]] = None) -> Any:
         """Return the formula as an expression of SymPy, exact.
@@ -178,7 +181,10 @@ class Formula:
         """
         from .tree import to_sympy
 
-        return to_sympy(self.tree(), self._moving(), symbols)
+        try:
+            return to_sympy(self.tree(), self._moving(), symbols)
+        except RecursionError:
+            raise _too_deep() from None
 
     def _moving(self) -> FrozenSet[str]:
         """Return the names in the formula whose derivatives by time are not 0."""
@@ -217,13 +223,17 @@ class Formula:
         """
         from .function import Function, named
 
-        tree = self.tree()
         shape: Tuple[int, ...] = ()
-        if tree[0] == "matrix":
-            shape = len(tree) - 1, len(tree[1])
-        elif tree[0] in ("list", "vector"):
-            shape = (len(tree) - 1,)
+        if self._in(TREE).startswith(('["matrix"', '["list"', '["vector"')):
+            tree = self.tree()
+            shape = (len(tree) - 1, len(tree[1])) if tree[0] == "matrix" else (len(tree) - 1,)
         return Function(self._session, self._language(), [named(a) for a in arguments], shape)
+
+
+def _too_deep() -> LimitError:
+    return LimitError(
+        "the formula is nested more deeply than Python can follow: sys.setrecursionlimit sets how deeply"
+    )
 
 
 def _derive(session: Session, expression: str, notation: int) -> str:

@@ -69,6 +69,17 @@ class Compiled(unittest.TestCase):
         for array in numpy.arange(6)[::-2], numpy.asfortranarray(numpy.ones((2, 3))), numpy.float32(3):
             self.assertTrue((f(array) == 2 * array).all())
 
+    def test_formulas_may_be_nested_deeply(self):
+        n = 3000
+        formula = qdot.System("coord x").derive(n * "sin(" + "x" + n * ")")
+        value = 1.0
+        for _ in range(n):
+            value = numpy.sin(value)
+        self.assertAlmostEqual(formula.lambdify("x")(1.0), value, 12)
+        for call in formula.tree, formula.sympy if sympy else formula.tree:
+            with self.assertRaisesRegex(qdot.LimitError, "nested more deeply"):
+                call()
+
     def test_copies_are_the_same_and_pickles_are_refused(self):
         s = qdot.System("coord x")
         formula = s.derive("2*x")
