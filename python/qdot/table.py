@@ -77,6 +77,8 @@ class Table:
         """Return the names of the columns, so that ``dict(table)`` has all of it."""
         return list(self.columns)
 
+    _ipython_key_completions_ = keys  # what Tab offers behind table["
+
     def to_dataframe(self, errors: bool = False) -> Any:
         """Return a DataFrame of pandas; `errors`: whether a column "error of NAME" follows each."""
         import pandas
@@ -147,6 +149,9 @@ class Numbers(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(self._values)
+
+    def _ipython_key_completions_(self) -> List[str]:
+        return list(self._values)
 
     def to_dataframe(self) -> Any:
         """Return a DataFrame of pandas with columns "value" and "error"."""

@@ -1,9 +1,12 @@
 """test_cells.py -- the statements of a cell are answered one after the other, in their lines."""
+import os
+import tempfile
 import time
 import unittest
 
 import qdot
 from qdot.cells import Progress, carry_out, pieces
+from qdot.kernel.history import History
 from scenes import LONG
 
 
@@ -30,6 +33,32 @@ class Pieces(unittest.TestCase):
     def test_nothing_to_say_is_nothing_to_do(self):
         for code in ("", "\n\n", "# a comment", "  # one\n\n# two"):
             self.assertEqual(list(pieces(code)), [])
+
+
+class Kept(unittest.TestCase):
+    def test_cells_behind_a_broken_line_are_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "history")
+            for line in '[1, 1, "a"]', '[1, 2, "b', "7", '[1, 2]', "\xff\xfe", '[2, 1, "c"]':
+                with open(path, "ab") as file:
+                    file.write(line.encode("latin-1") + b"\n")
+            kept = History(path)
+            self.assertEqual(kept.tail(9), [(1, 1, "a"), (2, 1, "c")])
+            self.assertEqual(kept.session, 3)
+
+    def test_the_file_does_not_grow_for_ever(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "history")
+            one = History(path)
+            for i in range(2500):
+                one.add(i, f"cell {i}")
+            other = History(path)
+            self.assertEqual([text for _, _, text in other.tail(1)], ["cell 2499"])
+            one.add(2500, "last")  # by a session that began before
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(len(file.readlines()), 1001)
+            self.assertEqual(History(path).tail(1)[0][2], "last")
+            self.assertEqual(os.listdir(folder), ["history"])
 
 
 class CarryOut(unittest.TestCase):

@@ -13,6 +13,15 @@ Entry = Tuple[int, int, str]
 _KEPT = 1000
 
 
+def _entry(line: str) -> Optional[Entry]:
+    """What stands in a line of the file; None: it was not written to its end."""
+    try:
+        session, number, text = json.loads(line)
+        return int(session), int(number), str(text)
+    except (ValueError, TypeError):
+        return None
+
+
 class History:
     """Cells as (session, number of the cell, text); those of earlier sessions are in a file.
 
@@ -28,15 +37,20 @@ class History:
         self.session = self._entries[-1][0] + 1 if self._entries else 1
 
     def _read(self) -> List[Entry]:
-        entries = []
+        """The last cells of the file, which is cut to them where it has many more."""
+        if self._path is None:
+            return []
         try:
-            with open(self._path or os.devnull, encoding="utf-8") as file:
-                for line in file:
-                    session, number, text = json.loads(line)
-                    entries.append((int(session), int(number), str(text)))
-        except (OSError, ValueError, TypeError):
-            pass  # what could be read until there
-        return entries[-_KEPT:]
+            with open(self._path, encoding="utf-8", errors="replace") as file:
+                lines = file.readlines()
+            if len(lines) > 2 * _KEPT:
+                shorter = f"{self._path}.{os.getpid()}"
+                with open(shorter, "w", encoding="utf-8") as file:
+                    file.writelines(lines[-_KEPT:])
+                os.replace(shorter, self._path)
+        except OSError:
+            return []
+        return list(filter(None, map(_entry, lines[-_KEPT:])))
 
     def add(self, number: int, text: str) -> None:
         """Cell `number` of this session was carried out."""
