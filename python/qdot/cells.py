@@ -95,7 +95,7 @@ def carry_out(system: System, code: str, name: str, progress: Progress) -> Itera
         The bar for what takes long.
     """
     ended = "failed"
-    system.progress(progress.report)
+    others = system.progress(progress.report)
     try:
         for piece in pieces(code):
             try:
@@ -112,5 +112,5 @@ def carry_out(system: System, code: str, name: str, progress: Progress) -> Itera
                     return
         ended = "done"
     finally:
-        system.progress(None)
+        system.progress(others)
         progress.end(ended)

@@ -26,6 +26,7 @@ from .errors import Error, Notice, error_of
 from .library import Library, ProgressHook, load
 
 T = TypeVar("T")
+Hook = Callable[[str, float, Optional[float]], object]
 
 # --- a computation in a thread of its own -----------------------------------------------
 
@@ -160,6 +161,7 @@ class Session:
         if result != 0:
             raise error_of(result, self.library.qdot_result_text(result).decode())
         self.changes = 0  # how many calls may have changed the scene
+        self._told: Optional[Hook] = None
         self._hook: Any = None  # the library calls it: it must live as long as it may
         self._hook_failures: List[BaseException] = []
         self._lock = threading.Lock()
@@ -201,12 +203,13 @@ class Session:
         if self._callers and self.process == os.getpid():
             self.library.qdot_system_interrupt(self.handle)
 
-    def hook_set(self, hook: Optional[Callable[[str, float, Optional[float]], object]]) -> None:
-        """Set the progress hook; None: none."""
+    def hook_set(self, hook: Optional[Hook]) -> Optional[Hook]:
+        """Set the progress hook, None: none; return the one that there was."""
+        before, self._told = self._told, hook
         if hook is None:
             self.check(self.library.qdot_system_progress(self.handle, ProgressHook(0), None))
             self._hook = None
-            return
+            return before
         call, system = hook, self.handle  # not the session: it would hold itself
 
         def told(_: Any, what: bytes, done: float, left: float) -> None:
@@ -221,6 +224,7 @@ class Session:
         made = ProgressHook(told)
         self.check(self.library.qdot_system_progress(self.handle, made, None))
         self._hook = made
+        return before
 
     def keep(self, owner: object, free: Callable[[c_void_p], None], handle: c_void_p) -> None:
         """Have what belongs to the system freed when `owner`, which holds this session, is collected."""

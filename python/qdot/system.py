@@ -13,7 +13,6 @@ from types import TracebackType
 from typing import (
     TYPE_CHECKING,
     Any,
-    Callable,
     Dict,
     List,
     Literal,
@@ -31,7 +30,7 @@ from .figures import Animation, Figure, Report
 from .formula import Formula
 from .function import named
 from .library import DISPLAY, JSON, NOTATIONS, language, utf8
-from .session import Session, warn
+from .session import Hook, Session, warn
 from .table import Fit, Numbers, Table, copied, fit_of, numbers_of, table_of
 from .tree import of_sympy
 
@@ -461,7 +460,7 @@ class System:
                 found[key] = _characters(text, found[key])
         return found
 
-    def progress(self, hook: Optional[Callable[[str, float, Optional[float]], object]]) -> None:
+    def progress(self, hook: Optional[Hook]) -> Optional[Hook]:
         """Have a function called a few times a second while runs, sweeps and the like go on.
 
         Parameters
@@ -471,11 +470,16 @@ class System:
             caller: what is computed ("run"), the part that is done, 0 to 1, and the seconds left by
             estimate, None while it is not known. It cannot ask this system. An exception from it stops
             the computation and is raised by the call that computes. None: no hook any more.
+
+        Returns
+        -------
+        callable or None
+            The hook that there was.
         """
         session = self._session
         if hook is not None and not callable(hook):
             raise TypeError(f"a function is wanted, not {type(hook).__name__}")
-        session.look(lambda: session.hook_set(hook))
+        return session.look(lambda: session.hook_set(hook))
 
     def keep_undo(self, kept: bool = True) -> System:
         """Let `undo` reach back over calls, as it does at the prompt; else it does within its own call.

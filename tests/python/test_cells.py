@@ -98,6 +98,19 @@ class CarryOut(unittest.TestCase):
         self.assertIn("75%, 3 s left", drawn[1][0])
         self.assertRegex(drawn[2][0], r"run 0\.\.1: done after 10\.\d s")
 
+    def test_a_hook_of_ones_own_is_there_behind_the_cell(self):
+        system, told = qdot.System(LONG), []
+
+        def hook(what, done, left):
+            told.append(what)
+            system.interrupt()
+
+        self.assertIsNone(system.progress(hook))
+        shown(system, "T\nnothing")
+        self.assertRaises(qdot.Interrupted, system.run, "0..1.5e7")
+        self.assertEqual(told[:1], ["run"])
+        self.assertIs(system.progress(None), hook)
+
     def test_a_long_run_reports_its_progress(self):
         drawn, system = [], qdot.System(LONG)
 
