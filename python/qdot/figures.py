@@ -32,7 +32,7 @@ class Figure:
         return self.svg
 
     def __repr__(self) -> str:
-        return f"<qdot.{type(self).__name__}: {self.name}>"
+        return f"<qdot.{type(self).__name__}: {shortened(self.name)}>"
 
 
 class Page:
@@ -67,7 +67,7 @@ class Page:
         )
 
     def __repr__(self) -> str:
-        return f"<qdot.{type(self).__name__}: {self.name}>"
+        return f"<qdot.{type(self).__name__}: {shortened(self.name)}>"
 
 
 class Animation(Page):
@@ -78,9 +78,21 @@ class Report(Page):
     """The derivation of a scene with its figures."""
 
 
+def shortened(text: str, length: int = 80) -> str:
+    """Return the beginning and the end of a long text.
+
+    >>> from qdot.figures import shortened
+    >>> shortened("0123456789abcdef", 9)
+    '01234...f'
+    """
+    if len(text) <= length:
+        return text
+    return text[: length * 2 // 3 - 1] + "..." + text[len(text) - length // 3 + 2 :]
+
+
 def _write(path: Union[str, os.PathLike[str]], text: str, ending: str) -> None:
-    name = os.fspath(path)
-    if not name.endswith(ending):
-        raise InvalidError(f"{name} does not end in {ending}")
+    name = os.fsdecode(path)
+    if not name.lower().endswith(ending):
+        raise InvalidError(f"the name of the file, {name!r}, does not end in {ending}")
     with open(name, "w", encoding="utf-8") as file:
         file.write(text)

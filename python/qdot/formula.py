@@ -18,6 +18,7 @@ from typing import (
 )
 
 from .errors import Error, LimitError
+from .figures import shortened
 from .library import LATEX, MATHML, PLAIN, TREE, UNICODE, utf8
 from .session import Session
 
@@ -85,7 +86,7 @@ class Formula:
         return self.plain
 
     def __repr__(self) -> str:
-        return f"Formula({self.plain!r})"
+        return f"Formula({shortened(self.plain, 1000)!r})"  # `str` has all of it
 
     def __eq__(self, other: object) -> bool:
         """Whether both are written alike; `System.check` decides whether they are equal."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Sequence, Tuple
 
 from .arrays import floats
 from .errors import InvalidError
+from .figures import shortened
 from .library import utf8
 from .session import Session
 
@@ -101,7 +102,7 @@ class Function:
         raise TypeError("a qdot.Function cannot be pickled: send its text and arguments")
 
     def __repr__(self) -> str:
-        return f"<qdot.Function of {', '.join(self.arguments)}: {self.text}>"
+        return f"<qdot.Function of {', '.join(self.arguments)}: {shortened(self.text)}>"
 
 
 def named(argument: Any) -> str:

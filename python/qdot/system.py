@@ -8,6 +8,7 @@ import fractions
 import json
 import numbers
 import os
+import weakref
 from ctypes import byref, c_double, c_int, c_size_t, c_void_p
 from types import TracebackType
 from typing import (
@@ -108,6 +109,7 @@ class System:
 
     def __init__(self, text: str = "") -> None:
         self._open: Optional[Session] = Session()
+        self._computing = weakref.ref(self._open)  # also when it is closed meanwhile
         if text:
             self.declare(text)
 
@@ -504,7 +506,9 @@ class System:
 
     def interrupt(self) -> None:
         """Stop the computation that another thread has this system do: `Interrupted` is raised there."""
-        self._session.interrupt()
+        session = self._computing()
+        if session is not None:
+            session.interrupt()
 
     def close(self) -> None:
         """Let go of what the library holds, but for motions that are still in use."""

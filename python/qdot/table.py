@@ -60,7 +60,9 @@ class Table:
 
     def errors(self, column: str) -> Array:
         """Return the errors of a column, absolute, estimated; NaN: unknown."""
-        return self._errors[self._known(column)]
+        if self._known(column) not in self._errors:
+            raise KeyError(f"column {column!r} has texts, which have no errors")
+        return self._errors[column]
 
     def _known(self, column: str) -> str:
         if column not in self._values:
@@ -142,6 +144,8 @@ class Numbers(Mapping[str, Any]):
         self._answers = list(answers)  # how the library writes the numbers
 
     def __getitem__(self, name: str) -> Any:
+        if name not in self._values:
+            raise KeyError(f"no number {name!r}: {', '.join(self._values)}")
         return self._values[name]
 
     def __iter__(self) -> Iterator[str]:

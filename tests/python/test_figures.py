@@ -58,6 +58,26 @@ class Figures(unittest.TestCase):
         with self.assertRaises(qdot.Error):
             pendulum().animate()
 
+    def test_files_have_names_of_any_kind_with_the_right_ending(self):
+        figure = qdot.Figure("<svg/>", "x")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in "a.svg", b"b.svg", "ü c.SVG":
+                path = os.path.join(folder if isinstance(name, str) else folder.encode(), name)
+                figure.save(path)
+                self.assertTrue(os.path.exists(path))
+            for name in "", "a.png", "svg":
+                with self.assertRaisesRegex(qdot.InvalidError, f"{name!r}, does not end in .svg"):
+                    figure.save(name)
+            with self.assertRaises(OSError):
+                figure.save(os.path.join(folder, "no", "a.svg"))
+
+    def test_what_stands_at_the_prompt_is_short(self):
+        text = "+".join(f"x^{k}" for k in range(2, 3000))
+        formula = qdot.System("coord x").derive(text)
+        for one in qdot.Figure("<svg/>", text), formula, formula.lambdify("x"):
+            self.assertLess(len(repr(one)), 1100)
+        self.assertGreater(len(str(formula)), 10000)
+
 
 class Tables(unittest.TestCase):
     def test_a_sweep_is_columns_with_errors(self):
@@ -74,6 +94,8 @@ class Tables(unittest.TestCase):
                 self.assertTrue((again[column] == table[column]).all())
                 self.assertTrue((again.errors(column) == table.errors(column)).all())
         self.assertEqual(list(dict(table)), table.columns)
+        with self.assertRaisesRegex(KeyError, "no number 'zz': numeric"):
+            oscillator().numbers("numeric(1/3)")["zz"]
         with self.assertRaisesRegex(KeyError, "value"):
             table["y"]
 
@@ -85,6 +107,8 @@ class Tables(unittest.TestCase):
             self.assertEqual(again["reason"][0], "")
             self.assertIn("singularity", again["reason"][1])
             self.assertIn("singularity", again._repr_html_())
+            with self.assertRaisesRegex(KeyError, "texts"):
+                again.errors("reason")
         with self.assertRaises(qdot.UnknownNameError):
             s.rows("nothing")
 

@@ -105,6 +105,20 @@ class Interruption(unittest.TestCase):
             self.s.run("0..1.5e7")
         self.assertIsNotNone(caught.exception.motion)
 
+    def test_a_system_that_was_closed_meanwhile_is_interrupted(self):
+        s, closed = self.s, []
+
+        def close():
+            s.close()
+            closed.append(True)
+            s.interrupt()
+
+        later(0.3, close)
+        with self.assertRaises(qdot.Interrupted):
+            s.run("0..1.5e7")
+        s.interrupt()
+        self.assertTrue(closed)
+
     def test_an_interruption_concerns_one_system(self):
         other = oscillator()
         other.interrupt()
