@@ -39,6 +39,7 @@ qdot_diagnostics_of(const qdot_server *server, const qdot_analysis *a)
 void
 qdot_diagnostics_publish(qdot_server *server, const qdot_document *document, const qdot_analysis *a)
 {
+    qdot_places_forget(server);
     qdot_server_notify(server, "textDocument/publishDiagnostics",
                        json_pack("{s:s, s:I, s:o}", "uri", document->uri, "version", document->version, "diagnostics",
                                  qdot_diagnostics_of(server, a)));

@@ -54,14 +54,12 @@ qdot_lsp_folding(qdot_server *server, const json_t *params, qdot_lsp_failure *fa
     list = json_array();
     if (qdot_layout_folds(document->analysis, &folds) == QDOT_OK)
         for (size_t i = 0; i < folds.n; i++) {
-            qdot_place_walk walk = {0};
-            size_t first;
+            const qdot_analysis *a = document->analysis;
+            const size_t first = qdot_place_at(server, a->text, a->length, folds.at[i].at.from).line,
+                         last = qdot_place_at(server, a->text, a->length, folds.at[i].at.to).line;
 
-            qdot_place_walk_to(server, document->analysis->text, document->analysis->length, folds.at[i].at.from, &walk);
-            first = walk.line;
-            qdot_place_walk_to(server, document->analysis->text, document->analysis->length, folds.at[i].at.to, &walk);
             (void)json_array_append_new(list, json_pack("{s:I, s:I, s:s}", "startLine", (json_int_t)first, "endLine",
-                                                        (json_int_t)walk.line, "kind", folds.at[i].comment ? "comment" : "region"));
+                                                        (json_int_t)last, "kind", folds.at[i].comment ? "comment" : "region"));
         }
     qdot_free(folds.at);
     return list;

@@ -20,6 +20,7 @@ typedef struct {
 
 /* A script that is being run for a request (tasks.h). */
 typedef struct qdot_task qdot_task;
+typedef struct qdot_place_marks qdot_place_marks;
 
 typedef struct qdot_server {
     const char *program; /* how this program was called */
@@ -34,6 +35,7 @@ typedef struct qdot_server {
     char *folder;  /* of files that commands have made; NULL: there are none */
     size_t files;  /* their number */
     size_t tokens; /* number of progress tokens given */
+    qdot_place_marks *marks; /* of the text whose places were asked for last (places.h) */
 } qdot_server;
 
 /* Why a request has no result: a code of the protocol, and a sentence. */

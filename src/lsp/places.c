@@ -95,6 +95,65 @@ qdot_place_units(const qdot_server *server, const char *text, qdot_stretch at)
     return sum;
 }
 
+/* --- ranges in a long text ------------------------------------------------------------ */
+
+enum { STRIDE = 512 }; /* bytes between two marks */
+
+/* Mark i is the first place at or behind byte i*STRIDE. */
+struct qdot_place_marks {
+    const char *text;
+    qdot_vec(qdot_place_walk) at;
+};
+
+qdot_place_marks *
+qdot_places_new(void)
+{
+    return qdot_calloc(1, sizeof(qdot_place_marks));
+}
+
+void
+qdot_places_free(qdot_place_marks *marks)
+{
+    if (marks != NULL)
+        qdot_free(marks->at.at);
+    qdot_free(marks);
+}
+
+void
+qdot_places_forget(qdot_server *server)
+{
+    server->marks->text = NULL;
+}
+
+static void
+mark_text(const qdot_server *server, const char *text, size_t length)
+{
+    qdot_place_marks *marks = server->marks;
+    qdot_place_walk walk = {0};
+
+    marks->text = text;
+    marks->at.n = 0;
+    while (qdot_vec_push(&marks->at, walk) == QDOT_OK && walk.at < length)
+        qdot_place_walk_to(server, text, length, marks->at.n * STRIDE, &walk);
+}
+
+qdot_place_walk
+qdot_place_at(const qdot_server *server, const char *text, size_t length, size_t at)
+{
+    const qdot_place_marks *marks = server->marks;
+    qdot_place_walk walk = {0};
+
+    if (marks->text != text)
+        mark_text(server, text, length);
+    for (size_t i = at / STRIDE < marks->at.n ? at / STRIDE : marks->at.n - 1; marks->at.n > 0; i--)
+        if (marks->at.at[i].at <= at) { /* the first is 0 */
+            walk = marks->at.at[i];
+            break;
+        }
+    qdot_place_walk_to(server, text, length, at, &walk);
+    return walk;
+}
+
 static json_t *
 pack_place(const qdot_place_walk *walk)
 {
@@ -102,23 +161,9 @@ pack_place(const qdot_place_walk *walk)
 }
 
 json_t *
-qdot_place_of(const qdot_server *server, const char *text, size_t length, size_t at)
-{
-    qdot_place_walk walk = {0};
-
-    qdot_place_walk_to(server, text, length, at, &walk);
-    return pack_place(&walk);
-}
-
-json_t *
 qdot_place_range(const qdot_server *server, const char *text, size_t length, qdot_stretch at)
 {
-    qdot_place_walk walk = {0};
-    json_t *start, *end;
+    const qdot_place_walk start = qdot_place_at(server, text, length, at.from), end = qdot_place_at(server, text, length, at.to);
 
-    qdot_place_walk_to(server, text, length, at.from, &walk);
-    start = pack_place(&walk);
-    qdot_place_walk_to(server, text, length, at.to, &walk);
-    end = pack_place(&walk);
-    return json_pack("{s:o, s:o}", "start", start, "end", end);
+    return json_pack("{s:o, s:o}", "start", pack_place(&start), "end", pack_place(&end));
 }

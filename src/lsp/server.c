@@ -13,6 +13,7 @@
 #include "base/utf8.h"
 #include "documents.h"
 #include "message.h"
+#include "places.h"
 #include "tasks.h"
 
 typedef struct {
@@ -104,6 +105,7 @@ handle_request(qdot_server *server, const json_t *message, const char *name)
     json_t *result = NULL;
 
     server->request = id;
+    qdot_places_forget(server);
     if (server->shut_down && strcmp(name, "exit") != 0)
         (void)qdot_lsp_fail(&failure, QDOT_LSP_INVALID_REQUEST, "the server has been shut down");
     else if (!server->initialized && strcmp(name, "initialize") != 0 && strcmp(name, "exit") != 0)
@@ -185,7 +187,8 @@ qdot_lsp_run(const char *program, const char *task)
     (void)signal(SIGPIPE, SIG_IGN);
     if (task != NULL)
         return qdot_task_run(task);
-    while (!server.ended && !server.transport.ended && !server.transport.broken) {
+    server.marks = qdot_places_new();
+    while (server.marks != NULL && !server.ended && !server.transport.ended && !server.transport.broken) {
         if (wait_for_work(&server)) {
             if (qdot_transport_read(&server.transport) != QDOT_OK)
                 break;
@@ -197,6 +200,7 @@ qdot_lsp_run(const char *program, const char *task)
     }
     qdot_tasks_free(&server);
     qdot_documents_free(&server);
+    qdot_places_free(server.marks);
     qdot_text_clear(&server.transport.pending);
     return server.ended && server.shut_down ? 0 : 1;
 }

@@ -331,6 +331,14 @@ def run_protocol(qdot):
     document.set("coord x\n" * 5000 + "x = (1\n" + "#" * 600000)
     if not document.diagnostics():
         wrong("a long text has no diagnostics")
+    start = time.perf_counter()
+    for long in ("coord x\n" + "y = x + 1\n" * 5000, "coord x\ny = x" + " + x" * 20000 + "\n"):
+        document.set(long)
+        for what in ("documentSymbol", "foldingRange", "semanticTokens/full"):
+            client.request("textDocument/" + what, document.item)
+        client.request("textDocument/references", dict(document.at(6), context={"includeDeclaration": True}))
+    if time.perf_counter() - start > 20:  # 1 s; where each place is counted from the beginning 25 s
+        wrong("long texts take %.1f s" % (time.perf_counter() - start))
     document.set(text)
     client.process.stdin.close()
     client.process.wait(timeout=20)

@@ -11,10 +11,10 @@
 /* --- making and freeing --------------------------------------------------------------- */
 
 static void
-truncate_texts(qdot_text_list *list, size_t n)
+truncate_unknown(qdot_analysis *a, size_t n)
 {
-    while (list->n > n)
-        qdot_free(list->at[--list->n]);
+    while (a->unknown.n > n)
+        qdot_free(a->unknown.at[--a->unknown.n].name);
 }
 
 static void
@@ -27,11 +27,12 @@ truncate_included(qdot_analysis *a, size_t n)
 }
 
 void
-qdot_analysis_truncate(qdot_analysis *a, size_t remarks, size_t unknown, size_t included)
+qdot_analysis_truncate(qdot_analysis *a, const qdot_piece_state *state)
 {
-    qdot_remark_truncate(&a->remarks, remarks);
-    truncate_texts(&a->unknown, unknown);
-    truncate_included(a, included);
+    qdot_remark_truncate(&a->remarks, state->remarks);
+    truncate_unknown(a, state->unknown);
+    a->forgotten = state->forgotten;
+    truncate_included(a, state->included);
 }
 
 qdot_status
@@ -42,7 +43,7 @@ qdot_analysis_begin(qdot_analysis *a)
     qdot_session_free(a->session);
     a->session = qdot_session_new(a->nowhere, a->nowhere);
     a->done = 0;
-    qdot_analysis_truncate(a, 0, 0, 0);
+    qdot_analysis_truncate(a, &(qdot_piece_state){0});
     if (a->session == NULL || own == NULL || qdot_vec_push(a->session->including, own) != QDOT_OK) {
         qdot_free(own);
         return QDOT_ENOMEM;
@@ -79,7 +80,8 @@ qdot_analysis_free(qdot_analysis *a)
     qdot_session_free(a->session);
     qdot_remark_clear(&a->remarks);
     qdot_remark_clear(&a->torn);
-    qdot_text_list_clear(&a->unknown);
+    truncate_unknown(a, 0);
+    qdot_free(a->unknown.at);
     truncate_included(a, 0);
     qdot_free(a->included.at);
     qdot_free(a->pieces.at);
@@ -93,10 +95,45 @@ qdot_analysis_free(qdot_analysis *a)
 
 /* --- asking --------------------------------------------------------------------------- */
 
+/* How many entries of a list have a number up to `bound`; the numbers of its n entries ascend. */
+static size_t
+count_up_to(const void *list, size_t n, size_t bound, size_t (*number)(const void *list, size_t i))
+{
+    size_t low = 0, high = n;
+
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+
+        if (number(list, middle) <= bound)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static size_t
+remarks_up_to(const void *pieces, size_t i)
+{
+    return ((const qdot_piece *)pieces)[i].behind.remarks;
+}
+
+static size_t
+beginning_of_piece(const void *pieces, size_t i)
+{
+    return ((const qdot_piece *)pieces)[i].at.from;
+}
+
+static size_t
+beginning_of_token(const void *tokens, size_t i)
+{
+    return ((const qdot_token *)tokens)[i].start;
+}
+
 bool
 qdot_analysis_remark(const qdot_analysis *a, size_t i, qdot_remark *remark)
 {
-    size_t low = 0, high = a->done;
+    size_t piece;
 
     if (i < a->torn.n) {
         *remark = a->torn.at[i];
@@ -105,53 +142,31 @@ qdot_analysis_remark(const qdot_analysis *a, size_t i, qdot_remark *remark)
     i -= a->torn.n;
     if (i >= a->remarks.n)
         return false;
-    while (low < high) { /* the first piece behind which there are more than i */
-        const size_t middle = (low + high) / 2;
-
-        if (a->pieces.at[middle].behind.remarks <= i)
-            low = middle + 1;
-        else
-            high = middle;
-    }
+    /* the first piece behind which there are more than i */
+    piece = count_up_to(a->pieces.at, a->done, i, remarks_up_to);
     *remark = a->remarks.at[i];
-    remark->at.from += a->pieces.at[low].at.from;
-    remark->at.to += a->pieces.at[low].at.from;
+    remark->at.from += a->pieces.at[piece].at.from;
+    remark->at.to += a->pieces.at[piece].at.from;
     return true;
 }
 
 const qdot_piece *
 qdot_analysis_piece(const qdot_analysis *a, size_t at)
 {
-    size_t low = 0, high = a->pieces.n;
+    const size_t n = count_up_to(a->pieces.at, a->pieces.n, at, beginning_of_piece);
 
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-
-        if (a->pieces.at[middle].at.from <= at)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low > 0 ? &a->pieces.at[low - 1] : NULL;
+    return n > 0 ? &a->pieces.at[n - 1] : NULL;
 }
 
 size_t
 qdot_analysis_token(const qdot_source *source, size_t at)
 {
-    size_t low = 0, high = source->tokens.n;
     const qdot_token *t = source->tokens.at;
+    size_t n = count_up_to(t, source->tokens.n, at, beginning_of_token);
 
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-
-        if (t[middle].start <= at)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    while (low > 0 && t[low - 1].kind == QDOT_TOKEN_END)
-        low--;
-    if (low == 0 || t[low - 1].start > at || t[low - 1].start + t[low - 1].length < at)
+    while (n > 0 && t[n - 1].kind == QDOT_TOKEN_END)
+        n--;
+    if (n == 0 || t[n - 1].start > at || t[n - 1].start + t[n - 1].length < at)
         return SIZE_MAX;
-    return low - 1;
+    return n - 1;
 }

@@ -28,6 +28,7 @@ typedef struct {
     size_t undo;     /* number of records for undo */
     size_t told;     /* number of notices of the session that are given once */
     size_t unknown;  /* number of names whose meaning is not known */
+    size_t forgotten; /* how many of these `reset` has forgotten */
     size_t included; /* number of scripts included */
     int64_t work;    /* steps of work spent on questions */
     bool partial;    /* a part of the scene is missing: it was not carried out */
@@ -52,6 +53,12 @@ typedef struct {
     size_t piece; /* the statement that includes it */
 } qdot_included;
 
+/* A name that is known to stand for something, but not for what. */
+typedef struct {
+    char *name;
+    bool label; /* of a run: any other name hides it */
+} qdot_unknown;
+
 /* What an analysis asks of who makes it; any function may be NULL. */
 typedef struct {
     /* Append the text of a script as it is being edited; false: it is not, the file is read. */
@@ -74,7 +81,8 @@ typedef struct {
     qdot_remark_list torn;    /* on lines that could not be split into tokens */
     qdot_session *session;    /* what is declared by the pieces that are done */
     FILE *nowhere;
-    qdot_text_list unknown; /* names that are known to stand for something: runs, what depends on runs */
+    qdot_vec(qdot_unknown) unknown; /* runs, what depends on runs */
+    size_t forgotten;               /* those before this number are no more, because of `reset` */
     qdot_vec(qdot_included) included;
 } qdot_analysis;
 
@@ -84,8 +92,8 @@ void qdot_analysis_free(qdot_analysis *a);
 
 /* Forget all that has been found out, with a new session. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_analysis_begin(qdot_analysis *a);
-/* Keep the first so many remarks, names without a meaning, scripts included. */
-void qdot_analysis_truncate(qdot_analysis *a, size_t remarks, size_t unknown, size_t included);
+/* Keep of the remarks, names without a meaning, scripts included those that were there in that state. */
+void qdot_analysis_truncate(qdot_analysis *a, const qdot_piece_state *state);
 
 /* Remark i of all, its bytes counted in the text; false: there are fewer. */
 bool qdot_analysis_remark(const qdot_analysis *a, size_t i, qdot_remark *remark);

@@ -34,7 +34,7 @@ go_back(qdot_analysis *a, size_t n)
             return false;
     while (a->session->told->n > state.told)
         qdot_free(a->session->told->at[--a->session->told->n]);
-    qdot_analysis_truncate(a, state.remarks, state.unknown, state.included);
+    qdot_analysis_truncate(a, &state);
     a->done = n;
     return true;
 }

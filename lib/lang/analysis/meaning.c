@@ -5,6 +5,7 @@
 
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/language/enclosing.h"
 #include "lang/language/hints.h"
 #include "lang/session/names.h"
 #include "lang/syntax/form.h"
@@ -30,14 +31,14 @@ qdot_meaning_is_unknown(const qdot_analysis *a, const char *name)
 {
     if (is_given(name) && qdot_names_find(a->session->names, name) == NULL)
         return true;
-    for (size_t i = 0; i < a->unknown.n; i++)
-        if (strcmp(a->unknown.at[i], name) == 0)
+    for (size_t i = a->forgotten; i < a->unknown.n; i++)
+        if (strcmp(a->unknown.at[i].name, name) == 0 && !(a->unknown.at[i].label && qdot_names_find(a->session->names, name) != NULL))
             return true;
     return false;
 }
 
 qdot_status
-qdot_meaning_add_unknown(qdot_analysis *a, const char *name)
+qdot_meaning_add_unknown(qdot_analysis *a, const char *name, bool label)
 {
     char *own;
     qdot_status status;
@@ -47,7 +48,7 @@ qdot_meaning_add_unknown(qdot_analysis *a, const char *name)
     own = qdot_strdup(name);
     if (own == NULL)
         return QDOT_ENOMEM;
-    status = qdot_vec_push(&a->unknown, own);
+    status = qdot_vec_push(&a->unknown, ((qdot_unknown){own, label}));
     if (status != QDOT_OK)
         qdot_free(own);
     return status;
@@ -162,19 +163,23 @@ is_index_of_loop(const qdot_token *from, const qdot_token *k, const qdot_token *
 }
 
 qdot_bound_kind
-qdot_meaning_bound(const qdot_token *from, const qdot_token *to, const char *name)
+qdot_meaning_binds(const qdot_token *from, const qdot_token *to, const qdot_token *k)
 {
-    qdot_bound_kind found = QDOT_BOUND_NOT;
+    if (k <= from || k->kind != QDOT_TOKEN_NAME)
+        return QDOT_BOUND_NOT;
+    if (is_formal(from, k, to) || is_index_of_sum(from, k, to))
+        return QDOT_BOUND_ARGUMENT;
+    return is_index_of_loop(from, k, to) ? QDOT_BOUND_LOOP : QDOT_BOUND_NOT;
+}
 
-    for (const qdot_token *k = from + 1; k < to; k++) {
-        if (!qdot_token_is_word(k, name))
-            continue;
-        if (is_formal(from, k, to) || is_index_of_sum(from, k, to))
-            return QDOT_BOUND_ARGUMENT;
-        if (is_index_of_loop(from, k, to))
-            found = QDOT_BOUND_LOOP;
-    }
-    return found;
+/* Whether the name is bound anywhere within the tokens. */
+static bool
+is_bound(const qdot_token *from, const qdot_token *to, const char *name)
+{
+    for (const qdot_token *k = from + 1; k < to; k++)
+        if (qdot_token_is_word(k, name) && qdot_meaning_binds(from, to, k) != QDOT_BOUND_NOT)
+            return true;
+    return false;
 }
 
 /* Whether the name is a differential or displacement, dtheta, of a name that is known. */
@@ -187,6 +192,23 @@ is_differential(const qdot_analysis *a, const char *name)
                      qdot_meaning_is_unknown(a, name + n));
 }
 
+/* Whether the statement gives the name a meaning of its own. */
+static bool
+is_of_statement(const qdot_meaning *m, const char *name)
+{
+    static const struct {
+        const char *statement, *option, *name;
+    } rows[] = {{"sweep", "sweep", "normal"}, {"sweep", "sweep", "uniform"}, {"plot", "bode", "s"}};
+
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (const qdot_token *k = m->from; k < m->to && strcmp(name, rows[i].name) == 0; k++)
+            if (qdot_token_is_word(k, rows[i].statement) && (k == m->from || k[-1].kind == QDOT_TOKEN_END || qdot_token_is(k - 1, "{")))
+                for (const qdot_token *option = k; option < m->to && option->kind != QDOT_TOKEN_END; option++)
+                    if (qdot_token_is_word(option, rows[i].option))
+                        return true;
+    return false;
+}
+
 static bool
 is_known(const qdot_meaning *m, const char *name)
 {
@@ -196,8 +218,8 @@ is_known(const qdot_meaning *m, const char *name)
         if (strcmp(name, words[i]) == 0)
             return true;
     return qdot_cursor_knows(m->a->session, name) || qdot_scene_is_family(m->a->session->scene, name) ||
-           qdot_meaning_is_unknown(m->a, name) || is_differential(m->a, name) ||
-           qdot_meaning_bound(m->from, m->to, name) != QDOT_BOUND_NOT;
+           qdot_meaning_is_unknown(m->a, name) || is_differential(m->a, name) || is_of_statement(m, name) ||
+           is_bound(m->from, m->to, name);
 }
 
 qdot_status
@@ -211,7 +233,7 @@ qdot_meaning_expression(void *data, qdot_cursor *c, const qdot_compiled *program
         const bool call = code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_RANGE;
 
         if ((!call && code->op != QDOT_POSTFIX_NAME && code->op != QDOT_POSTFIX_INDEX_NAME) || token == NULL ||
-            token->kind != QDOT_TOKEN_NAME || is_known(m, token->text))
+            token->kind != QDOT_TOKEN_NAME || is_known(m, token->text) || qdot_enclosing_binds(c, token))
             continue;
         c->error_at = token->start;
         return call ? qdot_hints_unknown_function(c, token) : qdot_hints_unknown(c, token, NULL);

@@ -20,13 +20,13 @@ QDOT_MUST_CHECK qdot_status qdot_meaning_expression(void *data, qdot_cursor *c, 
 
 /* Whether the name is one whose meaning is not known here. */
 bool qdot_meaning_is_unknown(const qdot_analysis *a, const char *name);
-/* Add a name to those. QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_meaning_add_unknown(qdot_analysis *a, const char *name);
+/* Add a name to those; label: that of a run. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_meaning_add_unknown(qdot_analysis *a, const char *name, bool label);
 /* Whether the tokens depend on what an analysis does not have: runs, names whose meaning is not known, answers %. */
 bool qdot_meaning_depends(const qdot_analysis *a, const qdot_token *from, const qdot_token *to);
-/* How a name is bound within the tokens: as an argument or the index of a sum, f(u) = u^2, sum(k, k, 1, 3); as the index of
- * a loop, k^2 for k = 1..3, which may also be a parameter. */
+/* How the name at k binds itself within the tokens: as an argument or the index of a sum, f(u) = u^2, sum(k, k, 1, 3); as the index
+ * of a loop, k^2 for k = 1..3, which may also be a parameter. */
 typedef enum { QDOT_BOUND_NOT, QDOT_BOUND_ARGUMENT, QDOT_BOUND_LOOP } qdot_bound_kind;
-qdot_bound_kind qdot_meaning_bound(const qdot_token *from, const qdot_token *to, const char *name);
+qdot_bound_kind qdot_meaning_binds(const qdot_token *from, const qdot_token *to, const qdot_token *k);
 
 #endif

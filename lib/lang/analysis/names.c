@@ -5,6 +5,7 @@
 
 #include "lang/analysis/meaning.h"
 #include "lang/analysis/pieces.h"
+#include "lang/language/enclosing.h"
 #include "lang/session/names.h"
 #include "lang/source/source.h"
 #include "lang/syntax/form.h"
@@ -19,6 +20,8 @@ typedef struct {
     const uint8_t *kinds; /* what each byte is (workbench/highlight) */
     const qdot_piece *piece;
     size_t number; /* of the piece */
+    qdot_vec(const qdot_token *) bound; /* names that the piece binds: arguments, indices */
+    bool integrates; /* the piece may bind variables of integrals and limits */
     qdot_occurrence_list *list;
 } search;
 
@@ -128,20 +131,46 @@ is_declared_at(const search *s, const qdot_token *first, const qdot_token *end, 
 
 /* --- places --------------------------------------------------------------------------- */
 
+/* List the names that the piece binds. */
+static qdot_status
+list_bound(search *s)
+{
+    const qdot_token *from = s->source->tokens.at + s->piece->first, *to = s->source->tokens.at + s->piece->end;
+
+    s->bound.n = 0;
+    s->integrates = false;
+    for (const qdot_token *k = from; k < to; k++) {
+        s->integrates = s->integrates || qdot_token_is_word(k, "integral") || qdot_token_is_word(k, "limit");
+        if (qdot_meaning_binds(from, to, k) != QDOT_BOUND_NOT)
+            QDOT_TRY(qdot_vec_push(&s->bound, k));
+    }
+    return QDOT_OK;
+}
+
+/* Whether the name at k is an argument or index; *weak: it may also be a parameter or coordinate. */
+static bool
+is_local(const search *s, const qdot_token *k, bool *weak)
+{
+    const qdot_token *from = s->source->tokens.at + s->piece->first, *to = s->source->tokens.at + s->piece->end;
+
+    *weak = s->integrates && qdot_enclosing_binds(&(qdot_cursor){.source = s->source}, k);
+    for (size_t i = 0; i < s->bound.n; i++)
+        if (strcmp(s->bound.at[i]->text, k->text) == 0) {
+            *weak = qdot_meaning_binds(from, to, s->bound.at[i]) != QDOT_BOUND_ARGUMENT;
+            if (!*weak)
+                return true;
+        }
+    return *weak;
+}
+
 static qdot_status
 add_occurrence(search *s, const qdot_token *first, const qdot_token *end, const qdot_token *k)
 {
-    const qdot_token *tokens = s->source->tokens.at;
     qdot_occurrence o = {.name = k->text, .at = {k->start, k->start + k->length}, .piece = s->number};
 
     o.declares = is_declared_at(s, first, end, k, &o.role);
-    if (!o.declares) {
-        const qdot_bound_kind bound = qdot_meaning_bound(tokens + s->piece->first, tokens + s->piece->end, k->text);
-
-        o.role = bound == QDOT_BOUND_ARGUMENT || (bound == QDOT_BOUND_LOOP && qdot_names_find(s->a->session->names, k->text) == NULL)
-                     ? QDOT_ROLE_LOCAL
-                     : QDOT_ROLE_UNKNOWN;
-    }
+    if (!o.declares)
+        o.role = is_local(s, k, &o.weak) ? QDOT_ROLE_LOCAL : QDOT_ROLE_UNKNOWN;
     return qdot_vec_push(s->list, o);
 }
 
@@ -149,14 +178,16 @@ add_occurrence(search *s, const qdot_token *first, const qdot_token *end, const 
 static bool
 is_unit(const search *s, const qdot_token *k)
 {
-    const qdot_token *before = k - 1;
+    const qdot_token *before = k - 1, *behind;
 
-    for (const qdot_token *i = k; i < qdot_token_behind_bracket(k); i++)
+    if (!qdot_token_is(k, "[") || k->glued)
+        return false;
+    behind = qdot_token_behind_bracket(k);
+    for (const qdot_token *i = k; i < behind; i++)
         if (qdot_token_is(i, "=") || qdot_token_is(i, ",")) /* a list of values, as behind `at` */
             return false;
-    return qdot_token_is(k, "[") && !k->glued && qdot_token_behind_bracket(k) > k &&
-           (before->kind == QDOT_TOKEN_NUMBER || is_name(s, before) || qdot_token_is(before, ")") || qdot_token_is(before, "]") ||
-            qdot_token_is(before, "'"));
+    return behind > k && (before->kind == QDOT_TOKEN_NUMBER || is_name(s, before) || qdot_token_is(before, ")") ||
+                          qdot_token_is(before, "]") || qdot_token_is(before, "'"));
 }
 
 static qdot_status
@@ -176,6 +207,7 @@ add_names_of_piece(search *s)
 {
     const qdot_token *tokens = s->source->tokens.at, *end = tokens + s->piece->end;
 
+    QDOT_TRY(list_bound(s));
     for (const qdot_token *k = tokens + s->piece->first; k < end;) {
         if (k->kind == QDOT_TOKEN_END || qdot_token_is(k, "{") || qdot_token_is(k, "}")) {
             k++;
@@ -263,10 +295,15 @@ find_roles(search *s, const declared *d)
         size_t spelled;
         const size_t prefix = length_of_prefix(s->source->text + o->at.from, o->name, &spelled);
 
-        if (o->declares || o->role == QDOT_ROLE_LOCAL)
+        qdot_role role;
+
+        if (o->declares || (o->role == QDOT_ROLE_LOCAL && !o->weak))
             continue;
         found = find_declared(d, o->name);
-        o->role = found != NULL ? found->role : role_in_session(s->a->session, o->name);
+        role = found != NULL ? found->role : role_in_session(s->a->session, o->name);
+        if (o->weak && (role == QDOT_ROLE_UNKNOWN || role == QDOT_ROLE_LABEL || role == QDOT_ROLE_RUN))
+            continue;
+        o->role = role;
         if (o->role != QDOT_ROLE_UNKNOWN || prefix == 0)
             continue;
         found = find_declared(d, o->name + spelled);
@@ -298,6 +335,7 @@ qdot_names_of_source(const qdot_analysis *a, const qdot_source *source, qdot_occ
         status = list_declared(&d, list);
     if (status == QDOT_OK)
         find_roles(&s, &d);
+    qdot_free(s.bound.at);
     qdot_free(d.first.at);
     qdot_free(d.next.at);
     qdot_free(pieces.at);

@@ -28,6 +28,7 @@ typedef struct {
     size_t piece;      /* the statement in which it stands */
     qdot_role role;
     bool declares;
+    bool weak; /* it is LOCAL only if nothing else has its name: the index of a loop, the variable of an integral */
 } qdot_occurrence;
 
 typedef qdot_vec(qdot_occurrence) qdot_occurrence_list;

@@ -245,12 +245,16 @@ note_unknown(passage *p, const qdot_token *first, const qdot_token *end, bool ca
     const qdot_statement *row = form == QDOT_FORM_WORD ? qdot_statement_row(first) : NULL;
 
     if (form == QDOT_FORM_DEFINITION && !carried)
-        QDOT_TRY(qdot_meaning_add_unknown(p->a, first->text));
+        QDOT_TRY(qdot_meaning_add_unknown(p->a, first->text, false));
     for (const qdot_token *k = first; k + 1 < end; k++)
         if (qdot_token_is_word(k, "as") && k[1].kind == QDOT_TOKEN_NAME && row != NULL && !carried)
-            QDOT_TRY(qdot_meaning_add_unknown(p->a, k[1].text));
+            QDOT_TRY(qdot_meaning_add_unknown(p->a, k[1].text, true));
     if (is_word_among(first, values) && !carried)
         p->state.loose = true;
+    if (carried && row != NULL && strcmp(row->word, "reset") == 0 && (first + 1 == end || qdot_token_is_word(first + 1, "scene"))) {
+        p->a->forgotten = p->a->unknown.n;
+        p->state.partial = p->state.loose = false;
+    }
     if (is_word_among(first, files))
         p->state.reads = true;
     if (qdot_token_is_word(first, "linearize") && !carried)
@@ -263,7 +267,7 @@ note_unknown(passage *p, const qdot_token *first, const qdot_token *end, bool ca
     p->state.partial = true;
     for (const qdot_token *k = first + 1; k < end; k++)
         if (k->kind == QDOT_TOKEN_NAME && !qdot_cursor_knows(p->a->session, k->text))
-            QDOT_TRY(qdot_meaning_add_unknown(p->a, k->text));
+            QDOT_TRY(qdot_meaning_add_unknown(p->a, k->text, false));
     return QDOT_OK;
 }
 
@@ -379,7 +383,7 @@ treat(passage *p, const qdot_piece *piece)
 /* --- scripts that are included -------------------------------------------------------- */
 
 static qdot_status
-read_script(const qdot_analysis *a, const char *path, qdot_text *text)
+read_script(const qdot_analysis *a, const char *name, const char *path, qdot_text *text)
 {
     FILE *file;
     qdot_status status;
@@ -388,7 +392,7 @@ read_script(const qdot_analysis *a, const char *path, qdot_text *text)
         return qdot_text_status(text);
     file = fopen(path, "rb");
     if (file == NULL)
-        return qdot_fail(QDOT_EIO, "`%.300s` cannot be read: %s", path, strerror(errno));
+        return qdot_fail(QDOT_EIO, "`%.300s` cannot be opened: %s", name, strerror(errno));
     status = qdot_text_read(text, file, path, FILE_LIMIT);
     fclose(file);
     return status;
@@ -417,15 +421,15 @@ go_through_pieces(passage *p)
     return status;
 }
 
-/* Read the script at the path and go through it as the passage p, whose source it becomes. */
+/* Read the script at the path, called `name` where it is included, and go through it as the passage p, whose source it becomes. */
 static qdot_status
-go_through_file(passage *p, const qdot_piece *at, const char *path)
+go_through_file(passage *p, const qdot_piece *at, const char *name, const char *path)
 {
     qdot_analysis *a = p->a;
     qdot_remark_list torn = {0};
     qdot_included included = {.path = qdot_strdup(path), .piece = p->piece};
     qdot_text text = {0};
-    qdot_status status = included.path != NULL ? read_script(a, path, &text) : QDOT_ENOMEM;
+    qdot_status status = included.path != NULL ? read_script(a, name, path, &text) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = qdot_torn_source(path, qdot_text_str(&text), text.n, &included.source, &torn);
@@ -460,14 +464,14 @@ go_through_script(passage *from, const qdot_piece *piece)
     status = qdot_text_status(&path);
     for (size_t i = 0; i < a->session->including->n && status == QDOT_OK; i++)
         if (strcmp(a->session->including->at[i], qdot_text_str(&path)) == 0)
-            status = qdot_fail(QDOT_EINVAL, "`%.300s` includes itself", qdot_text_str(&path));
+            status = qdot_fail(QDOT_EINVAL, "`%.300s` includes itself", name->text);
     if (status == QDOT_OK && p.depth > DEEPEST)
         status = qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another", DEEPEST);
     own = status == QDOT_OK ? qdot_strdup(qdot_text_str(&path)) : NULL;
     if (status == QDOT_OK)
         status = own != NULL ? qdot_vec_push(a->session->including, own) : QDOT_ENOMEM;
     if (status == QDOT_OK) {
-        status = go_through_file(&p, piece, own);
+        status = go_through_file(&p, piece, name->text, own);
         a->session->including->n--;
         from->state = p.state;
     }
@@ -499,6 +503,7 @@ qdot_treat_piece(qdot_analysis *a, size_t i)
     p.state.undo = qdot_undo_statements(a->session, false);
     p.state.told = a->session->told->n;
     p.state.unknown = a->unknown.n;
+    p.state.forgotten = a->forgotten;
     p.state.included = a->included.n;
     piece->behind = p.state;
     return QDOT_OK;

@@ -38,6 +38,37 @@ what_takes_long_is_parsed_only(void **state)
 }
 
 static void
+names_that_a_statement_binds_are_known(void **state)
+{
+    static const char scene[] = "coord x, y\nstate z' = y\nlagrangian x'^2/2\nrun 0..1\n";
+    static const char *const lines[] = {"value(integral(x*u, u, 0, 1), 1)\n", "plot limit(sin(u)/u, u = 0)*x\n",
+                                        "sweep x = normal(0, 1) count 3 seed 1 run 0..1 : x\n",
+                                        "sweep x = uniform(0, 1), y = normal(1, 2) count 3 seed 1 run 0..1 : integral(x*u, u, 0, 1)\n",
+                                        "plot bode 1/(s + 1), s for w = 0.1..10\n"};
+
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char text[200];
+
+        (void)snprintf(text, sizeof text, "%s%s", scene, lines[i]);
+        says(state, text, "");
+    }
+    says(state, "coord x\nlagrangian x'^2/2\nrun 0..1\nplot 1/(s + 1)\n",
+         "43-44 error: unknown name `s` | `param s` declares a parameter, `coord s` a coordinate\n");
+}
+
+static void
+reset_forgets_names_of_runs(void **state)
+{
+    says(state, "coord x\nlagrangian x'^2/2\nrun 0..1 as r\nE = value(x, 1)\nreset\ncoord r > 0, E\nlagrangian r'^2/2 + E'^2\ncyclic\nc = r + q1\n",
+         "117-119 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
+    says(state, "coord x\nlagrangian x'^2/2\nrun 0..1 as r\nE = value(r.x, 1)\nE + 1\nreset scene\nE + q1\n",
+         "76-77 error: unknown name `E` | write energy\n");
+    /* the label of a run hides nothing */
+    says(state, "coord x, r\nlagrangian x'^2/2 + r'^2/2\nrun 0..1 as r\nc = r + q1\n",
+         "60-62 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
+}
+
+static void
 no_file_is_written(void **state)
 {
     says(state, "coord x\nlagrangian x'^2/2\nL to \"/nowhere/a.tex\"\nexport c eom to \"/nowhere/a.c\"\n", "");
@@ -134,6 +165,9 @@ names_are_renamed(void **state)
     renamed(*state, "print n1^2 for n1 = 1..3\n", 15, "j", "print j^2 for j = 1..3\n");
     renamed(*state, "coord x\nlagrangian x'^2\nrun 0..1 as a\nvalue(a.x, 1)\n", 36, "b",
             "coord x\nlagrangian x'^2\nrun 0..1 as b\nvalue(b.x, 1)\n");
+    renamed(*state, "coord x\nprint integral(x^2, x)\nprint x^2 for x = 1..2\nsum(x, x, 1, 2)\nreset\n", 6, "z",
+            "coord z\nprint integral(z^2, z)\nprint z^2 for z = 1..2\nsum(x, x, 1, 2)\nreset\n");
+    renamed(*state, "print integral(u^2, u)\nparam m\n", 21, "v", "print integral(v^2, v)\nparam m\n");
     renamed(*state, "param L > 0 [m]\nparam m\n", 22, "mass1", "param L > 0 [m]\nparam mass1\n");
 }
 
@@ -154,6 +188,8 @@ main(void)
         cmocka_unit_test_setup_teardown(each_statement_has_its_fault, begin, end),
         cmocka_unit_test_setup_teardown(the_rest_of_a_torn_text_is_read, begin, end),
         cmocka_unit_test_setup_teardown(what_takes_long_is_parsed_only, begin, end),
+        cmocka_unit_test_setup_teardown(names_that_a_statement_binds_are_known, begin, end),
+        cmocka_unit_test_setup_teardown(reset_forgets_names_of_runs, begin, end),
         cmocka_unit_test_setup_teardown(no_file_is_written, begin, end),
         cmocka_unit_test_setup_teardown(a_refuted_check_is_a_warning, begin, end),
         cmocka_unit_test_setup_teardown(a_fault_has_no_train, begin, end),
