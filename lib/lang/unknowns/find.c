@@ -18,6 +18,8 @@
 
 /* a motion whose extent is below this fraction of that of the guess is considered to have shrunk to rest */
 static const double shrunk = 0.1;
+/* and below this one to be at rest, where the solution of equations of first order is 1e-160 and not 0 */
+static const double at_rest = 1e-9;
 
 typedef struct {
     qdot_find *f;
@@ -411,6 +413,7 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
         QDOT_TRY(find_extent_of_motion(h, r->u, &reach, &rests));
     if (!rests && has_shrunk_to_rest(h, reach, r->rank))
         return report_shrunk_motion(h, r);
+    rests |= reach <= at_rest * h->reach;
     qdot_find_trial_close(&h->now);
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
