@@ -26,6 +26,7 @@
 #include "expr/print.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "num/integer.h"
 
 enum { SYMBOLS = 9, STEPS = 24 };
 
@@ -274,7 +275,7 @@ formula_show(const formula *f, const long double *v)
 static inline long double
 rational_value(const fmpq *x)
 {
-    return (long double)fmpz_get_si(fmpq_numref(x)) / fmpz_get_si(fmpq_denref(x));
+    return (long double)qdot_integer_get(fmpq_numref(x)) / qdot_integer_get(fmpq_denref(x));
 }
 
 static inline long double

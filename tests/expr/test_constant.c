@@ -42,10 +42,11 @@ static void
 rationals_round_to_nearest(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
-    mpfr_t x;
+    mpfr_t x, divisor;
 
     (void)state;
     mpfr_init2(x, 53);
+    mpfr_init2(divisor, 64);
     for (int64_t p = -500; p < 500; p += 7)
         for (int64_t q = 1; q < 1000; q += 31) {
             mpfr_set_si(x, p, MPFR_RNDN);
@@ -62,8 +63,9 @@ rationals_round_to_nearest(void **state)
         assert_int_equal(
             qdot_constant_split(pool, qdot_expr_ratio(pool, p, q), &value, &side, &low), QDOT_OK);
         mpfr_set_prec(x, 300);
-        mpfr_set_si(x, p, MPFR_RNDN);
-        mpfr_div_si(x, x, q, MPFR_RNDN);
+        mpfr_set_sj(x, p, MPFR_RNDN);
+        mpfr_set_sj(divisor, q, MPFR_RNDN);
+        mpfr_div(x, x, divisor, MPFR_RNDN);
         assert_true(value == mpfr_get_d(x, MPFR_RNDN));
         mpfr_sub_d(x, x, value, MPFR_RNDN);
         assert_true(low == mpfr_get_d(x, MPFR_RNDN));
@@ -75,7 +77,7 @@ rationals_round_to_nearest(void **state)
     /* exactly between two doubles: to even */
     assert_true(constant(pool, qdot_expr_decimal(pool, "9007199254740993", 16))
                 == 9007199254740992.0);
-    mpfr_clear(x);
+    mpfr_clears(x, divisor, (mpfr_ptr)NULL);
     qdot_pool_free(pool);
 }
 

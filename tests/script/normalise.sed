@@ -11,12 +11,16 @@ s/^\(  hint: auto\), .*/\1, .../
 s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
 s/"\(steps\|rejected\|evals\|jacobians\|factorizations\)":[0-9][0-9]*/"\1":N/g
 s/^\(fit of .*\), [0-9][0-9]* steps\{0,1\}$/\1, N steps/
+s/\(the fit does not converge: \)[0-9]* steps/\1N steps/
 # Where a run failed or stopped is known to ten digits; how far many steps came, to none.
 / failed: .* steps: at this rate/s/\.\.[0-9.]*\(, .* failed: stopped at t = \)[0-9.]*/..N\1N/
 / \(failed\|stopped\): /s/^\([a-z]*[0-9]*: t = [^ ,]*\.\.[-0-9.]\{12\}\)[0-9]*/\1/
 s/\( at t = [-0-9.]\{12\}\)[0-9]*/\1/g
 s/\(a singularity: [^ ]* = \)[^ ]* there, \([^ ]* = \).*/\1N there, \2N/
 s/\(does not vanish there: it is \).*/\1N/
+# About where rounding hides what happens.
+s/\(about t = \)[0-9.]*\( the event .* within rounding\)/\1N\2/
+s/\( has no direction about t = [0-9]*\.[0-9][0-9]\)[0-9]*/\1/
 # When a contact began is known to ten digits at best.
 s/\(rests on .* from t = [0-9][0-9.]\{9\}\)[0-9]*/\1/
 # What may be anything.

@@ -34,7 +34,7 @@ for name in rates phase course energy drift paths panels exp tan space; do
         /^s*plot/ { s/, /,\n/g; p; }' $name.gp |
         sed 's/\(energy\) − [0-9.]*/\1 − E/; s/(([$]2-([0-9.]*)/(($2-(E)/'
 done 2>&1 | sed '/^--- energy/,/^---/ { /^set ytics/d; s/10^{−[0-9]*}/10^{N}/; s/1e-[0-9]*/1eN/; }
-    /^--- drift/,/^---/ { /^set ytics/d; }; /^--- panels/,/^---/ { /10^{−1[0-9]}/d; }
+    /^--- drift/,/^---/ { /^set ytics/d; }; /^--- panels/,/^---/ { /10^{−1[0-9]}/d; /^set logscale/,/^plot/ { /^set ytics/d; }; }
     s/1:2:(\(-[0-9.]\{6\}\)[0-9]*)/1:2:(\1)/; s/^\(terminal .*cm,[0-9]*\.[0-9][0-9]\)[0-9]*cm/\1cm/'
 # the data: one block a curve, named; enough points that no corner is seen, not many more
 grep '^#' rates.dat exp.dat paths.dat

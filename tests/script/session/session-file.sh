@@ -30,7 +30,7 @@ run 0..1 as last
 value(theta, 1)'
 { cat scene.lag; echo 'save session to "session.lag"'; } >whole.lag
 qdot -q whole.lag >/dev/null || echo 'not saved'
-sed 's/error [0-9.e-]*/error E/' session.lag
+sed 's/error [0-9.e-]*/error E/; s/^\(set g = \)[0-9]*\/[0-9]* #/\1RATIO #/' session.lag
 qdot --json scene.lag -e "$ask" | sed 's/,"statement.*//' | grep -v '"run"\|"notice"' | tail -n 17 >one
 qdot --json session.lag -e "$ask" | sed 's/,"statement.*//' | grep -v '"run"\|"notice"' | tail -n 17 >two
 cmp one two && grep -c . two

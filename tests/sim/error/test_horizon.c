@@ -13,11 +13,12 @@ enum { LOOKS = 800 };
 
 /* A companion starts half an ulp away, and errs as the run does: the horizon stated lies
  * before the true one, by what two such errors more take to grow: how much that is depends on the
- * rounding of the machine, by a sixth in a scene whose distances grow as slowly as here. */
+ * rounding of the machine, by a sixth in a scene whose distances grow as slowly as here. Errors that chance to
+ * be five times as large as what the companion begins with bring the true one forward, by a twentieth. */
 static void
 is_near(double stated, double expected, double tol)
 {
-    if (!(stated <= 1.03 * expected && stated >= 0.83 * expected))
+    if (!(stated <= 1.05 * expected && stated >= 0.83 * expected))
         fail_msg("tol %g: stated %g, found %g", tol, stated, expected);
 }
 
