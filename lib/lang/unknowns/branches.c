@@ -236,25 +236,90 @@ write_rounded_value(const qdot_branches *b, size_t i, double v, qdot_text *out)
     qdot_number_text(out, v, digits * fmax(fabs(v), 1e-3 * size));
 }
 
-/* The value of unknown i at points k ... end of a branch that is farthest outside the range of its
+/* The distance between points j and j + 1 of a branch, each unknown and p relative to its size. */
+static double
+distance_to_next_point(const qdot_branches *b, const qdot_branch *branch, size_t j)
+{
+    const double *y = branch->y + j * b->found->width, *z = y + b->found->width;
+    double sum = 0;
+
+    for (size_t i = 0; i <= b->found->n; i++)
+        if (b->found->size[i] > 0)
+            sum += pow((z[i] - y[i]) / b->found->size[i], 2);
+    return sqrt(sum);
+}
+
+/* The polynomial that is v[k] at s[k], k = 0 ... n - 1. */
+static double
+lagrange_polynomial(size_t n, const double *s, const double *v, double at)
+{
+    double sum = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        double term = v[k];
+
+        for (size_t l = 0; l < n; l++)
+            if (l != k)
+                term *= (at - s[l]) / (s[k] - s[l]);
+        sum += term;
+    }
+    return sum;
+}
+
+/* The extremum of unknown i, a maximum for sign 1, a minimum for -1, beside point j, at which it is farthest of the
+ * points k ... end: that of the polynomial of the length along the branch through up to five points. */
+static double
+extremum_beside_point(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t j, size_t i,
+                      int sign)
+{
+    const size_t from = j > k + 2 ? j - 2 : k, to = j + 2 < end ? j + 2 : end, n = to - from + 1;
+    double s[5], v[5], low, high;
+
+    for (size_t l = from; l <= to; l++) {
+        const double step = l > from ? distance_to_next_point(b, branch, l - 1) : 0;
+
+        s[l - from] = l > from ? s[l - 1 - from] + step : 0;
+        v[l - from] = branch->y[l * b->found->width + i];
+        if (l > from && !(step > 0))
+            return branch->y[j * b->found->width + i];
+    }
+    low = s[j - 1 - from];
+    high = s[j + 1 - from];
+    for (int halvings = 0; halvings < 60; halvings++) {
+        const double third = (high - low) / 3;
+        const double left = lagrange_polynomial(n, s, v, low + third);
+        const double right = lagrange_polynomial(n, s, v, high - third);
+
+        if (sign * left < sign * right)
+            low += third;
+        else
+            high -= third;
+    }
+    return lagrange_polynomial(n, s, v, 0.5 * (low + high));
+}
+
+/* The value of unknown i between points k ... end of a branch that is farthest outside the range of its
  * end values. */
 static double
 farthest_value_outside_ends(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
 {
     const size_t m = b->found->width;
     const double first = branch->y[k * m + i], last = branch->y[end * m + i];
-    double most = tiny * b->found->size[i], at = first;
+    double most = tiny * b->found->size[i];
+    size_t at = k;
 
-    for (size_t j = k; j <= end; j++) {
+    for (size_t j = k + 1; j < end; j++) {
         const double v = branch->y[j * m + i],
                      beyond = fmax(v - fmax(first, last), fmin(first, last) - v);
 
         if (beyond > most) {
             most = beyond;
-            at = v;
+            at = j;
         }
     }
-    return at;
+    if (at == k)
+        return first;
+    return extremum_beside_point(b, branch, k, end, at, i, branch->y[at * m + i] > first ? 1 : -1);
 }
 
 /* Write a range of values: `0..3.132`; `0..0.577..0` if it goes via `turn`; a single number if constant. */
