@@ -150,6 +150,9 @@ units_are_typeset(void **state)
     at = find(at, "\"text\":\"k² [");
     find(at, "\"cells\":[\"c\",\"an acceleration\",\"m/s^2\"]");
     qdot_string_free(text);
+    text = display(s, "coord s [m]; particle p mass 1 [kg] at (s, 0); potential 2 [N/m]*s^2; modes", QDOT_RESULT_OK);
+    find(text, "\"text\":\"modes[1] = 2 [1/s]\"");
+    qdot_string_free(text);
     qdot_system_free(s);
 }
 

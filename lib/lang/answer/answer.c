@@ -9,6 +9,7 @@
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
+#include "expr/unit.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
@@ -139,7 +140,7 @@ append_named_value(qdot_sheet *s, const void *answer)
     if (status == QDOT_OK)
         status = qdot_sheet_expr(s, value);
     qdot_sheet_format(s, quotient ? ")" : "");
-    append_unit(s, session->output->unit);
+    append_unit(s, qdot_expr_has_units(session->pool, value) ? NULL : session->output->unit);
     return status;
 }
 
