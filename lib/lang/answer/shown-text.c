@@ -92,6 +92,8 @@ const char qdot_shown_style[] =
     ".qdot h2 { font-size: 1.1em; margin: 1.4em 0 0.4em; }\n"
     ".qdot math[display=block] { display: block math; width: fit-content; max-width: 100%; margin: 0.6em 0; "
     "overflow-x: auto; overflow-y: hidden; }\n"
+    /* without a font for mathematics the dots of derivatives would touch their letters */
+    ".qdot mover > mo { padding-bottom: 0.1em; }\n"
     ".qdot mtd.left { text-align: right; padding: 0.35em 0; }\n"
     ".qdot mtd.right { text-align: left; padding: 0.35em 0; }\n"
     ".qdot table, table.qdot { border-collapse: collapse; font-variant-numeric: tabular-nums; }\n"
