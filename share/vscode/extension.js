@@ -15,7 +15,7 @@ const commands = {
     "qdot.reportFile": {server: "qdot.report", title: "Writing the report of", page: "report"}
 };
 
-let panels, output, client = null, starting = null;
+let panels, output, watcher, client = null, starting = null;
 
 /* Say that there is no server, and offer what helps. */
 async function complain(message) {
@@ -59,6 +59,7 @@ function newClient(path) {
     return new LanguageClient("qdot", "qdot", {run, debug: run}, {
         documentSelector: [{language: "qdot"}],
         outputChannel: output,
+        synchronize: {fileEvents: watcher}, /* what scripts include, and data */
         middleware: {
             executeCommand: (command, args, next) =>
                 command.startsWith("qdot.") && typeof args[0] === "string" ? answer(command, args) : next(command, args)
@@ -123,7 +124,8 @@ function scriptInFront() {
 async function activate(context) {
     output = vscode.window.createOutputChannel("qdot");
     panels = new Panels(vscode);
-    context.subscriptions.push(output, panels);
+    watcher = vscode.workspace.createFileSystemWatcher("**/*.{lag,csv,dat,txt,h5}");
+    context.subscriptions.push(output, panels, watcher);
     for (const [name, row] of Object.entries(commands))
         context.subscriptions.push(vscode.commands.registerCommand(name, async () => {
             const uri = scriptInFront();

@@ -4,32 +4,10 @@ const fs = require("fs");
 const path = require("path");
 const {answersPage, wholePage} = require("./page");
 
-/* A file that an answer names, as the object that it is. */
-function fileObject(file) {
-    const name = path.basename(file), ending = path.extname(file);
-
-    if (ending === ".svg")
-        return {kind: "figure", mime: "image/svg+xml", name, data: fs.readFileSync(file, "utf8")};
-    if (ending === ".html")
-        return {kind: "page", mime: "text/html", name, data: fs.readFileSync(file, "utf8")};
-    return {kind: "file", path: file};
-}
-
-/* What a command of the server answered, as the objects that a panel shows: those in the answer, or its
- * text, formulas, files and error. */
-function objectsOf(result) {
-    const answer = result || {};
-
-    if (answer.objects)
-        return answer.objects;
-    const formulas = (answer.mathml || []).map((line) => ({kind: "expr", mathml: line}));
-    const objects = [...formulas, ...(answer.files || []).map(fileObject)];
-
-    if (answer.text && formulas.length === 0)
-        objects.unshift({kind: "text", text: answer.text});
-    if (answer.error)
-        objects.push({kind: "failure", text: answer.error});
-    return objects;
+/* The files with that ending, each as {name, data}. */
+function filesOf(answer, ending) {
+    return (answer.files || []).filter((file) => path.extname(file) === ending)
+        .map((file) => ({name: path.basename(file), data: fs.readFileSync(file, "utf8")}));
 }
 
 class Panels {
@@ -39,16 +17,16 @@ class Panels {
     }
 
     /* Show what a command answered for the script: `title`, what it did, and `page`, what its pages are. */
-    show(uri, {title, page}, result) {
-        const objects = objectsOf(result), name = decodeURIComponent(uri.split("/").pop());
-        const pages = objects.filter((object) => object.kind === "page");
+    show(uri, {title, page}, answer) {
+        const name = decodeURIComponent(uri.split("/").pop());
+        const pages = filesOf(answer, ".html"), figures = filesOf(answer, ".svg");
 
-        if (pages.length === 0 || objects.length > pages.length)
-            this.fill(`${uri} answers`, `${name}: answers`, answersPage(`${title} ${name}`, objects), false);
-        pages.forEach((object, i) => {
+        if (pages.length === 0 || figures.length > 0 || answer.html || answer.text || answer.error)
+            this.fill(`${uri} answers`, `${name}: answers`, answersPage(`${title} ${name}`, answer, figures), false);
+        pages.forEach((file, i) => {
             const what = i > 0 ? `${page} ${i + 1}` : page;
 
-            this.fill(`${uri} ${what}`, `${name}: ${what}`, wholePage(object.data), true);
+            this.fill(`${uri} ${what}`, `${name}: ${what}`, wholePage(file.data), true);
         });
     }
 
@@ -74,4 +52,4 @@ class Panels {
     }
 }
 
-module.exports = {Panels, objectsOf};
+module.exports = {Panels};

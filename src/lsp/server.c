@@ -186,7 +186,7 @@ qdot_lsp_run(const char *program, const char *task)
 
     (void)signal(SIGPIPE, SIG_IGN);
     if (task != NULL)
-        return qdot_task_run(task);
+        return qdot_task_run();
     server.marks = qdot_places_new();
     while (server.marks != NULL && !server.ended && !server.transport.ended && !server.transport.broken) {
         if (wait_for_work(&server)) {

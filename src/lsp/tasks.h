@@ -3,7 +3,7 @@
  * The process is this program again, as `qdot --lsp=KIND`; it reads the statements from its standard input and writes lines of JSON:
  *
  *     {"progress": "run", "done": 0.4, "left": 2.5}
- *     {"text": "...", "error": "", "status": 0, "latex": [...], "figures": [{"name": "...", "mime": "...", "data": "..."}]}
+ *     {"text": "...", "html": "...", "style": "...", "error": "", "status": 0, "latex": [...], "figures": [{"name": "...", "mime": "...", "data": "..."}]}
  *
  * the last of which is its result. So a run may be interrupted by a signal, and what goes wrong in it ends nothing else.
  *
@@ -25,8 +25,8 @@ void qdot_tasks_cancel(qdot_server *server, const json_t *id);
 /* End all processes, and remove the files that they have made. */
 void qdot_tasks_free(qdot_server *server);
 
-/* What the process does: carry out standard input as the kind says. Returns the exit status. */
-int qdot_task_run(const char *kind);
+/* What the process does: carry out standard input. Returns the exit status. */
+int qdot_task_run(void);
 
 /* The statements of a document that a kind of command wants, the rest left out: `line` < 0, or the line of the one statement
  * that is to be shown. The caller's; NULL if memory runs out. */

@@ -71,6 +71,7 @@ const vscode = {
         createWebviewPanel: (type, title, column, options) => new Panel(title, options)
     },
     workspace: {
+        createFileSystemWatcher: () => ({dispose: () => {}}),
         getConfiguration: () => ({get: (name, otherwise) => settings[name] || otherwise}),
         onDidChangeConfiguration: (heard) => {
             configured.push(heard);
@@ -490,20 +491,17 @@ step("code lenses", async () => {
 
 /* --- pages of panels ---------------------------------------------------------------------- */
 
-step("nothing in an answer is markup, but formulas and figures", async () => {
+step("what qdot writes is placed as it is, and nothing else is markup", async () => {
     const {answersPage, wholePage} = require(path.resolve(extensionFolder, "page.js"));
     const evil = "<script>alert(1)</script>\" onerror=\"alert(2)";
-    const html = answersPage(evil, [
-        {kind: "text", text: evil}, {kind: "expr", name: evil, plain: evil, mathml: `<math><mi>x</mi>${evil}</math>`},
-        {kind: "expr", plain: "x", typeset: {mathml: "<math><mi>x</mi></math>"}},
-        {kind: "number", name: evil, value: 1.25, error: 3e-13}, {kind: "check", verdict: evil, claim: evil},
-        {kind: "columns", columns: [evil]}, {kind: "row", values: [evil, 2]}, {kind: "file", path: evil},
-        {kind: "figure", mime: "image/svg+xml", name: evil, data: evil}, {kind: "notice", message: evil},
-        {kind: "error", file: evil, line: evil, column: 1, message: evil, hint: evil}, {kind: evil, data: evil}]);
+    const html = answersPage(evil, {html: "<math><mi>x</mi></math>", style: ".qdot p { margin: 0; }"}, [{name: evil, data: evil}]);
+    const old = answersPage(evil, {text: evil, error: evil}, []);
 
-    assert.doesNotMatch(html, /<script|<[^>]* onerror="/);
+    for (const one of [html, old])
+        assert.doesNotMatch(one, /<script|<[^>]* onerror="/);
     assert.match(html, /<math><mi>x<\/mi><\/math>/);
-    assert.match(html, /1\.25\d* ± 3e-13/);
+    assert.match(html, /[.]qdot p /);
+    assert.match(old, /<pre class="error">&lt;script/);
     const page = wholePage("<!DOCTYPE html><html><head></head><body><script>1</script></body></html>");
     assert.match(page, /<head><meta http-equiv="Content-Security-Policy"[^>]*><\/head><body><script nonce="/);
     return `${html.length} characters`;

@@ -548,7 +548,7 @@ def run_commands(qdot):
             return client.request("workspace/executeCommand", {"command": command, "arguments": [document.uri, *arguments]})
 
         equations = execute("qdot.equations")
-        if "theta''" not in equations["text"] or not equations["latex"] or equations["error"]:
+        if "\u03b8\u0308" not in equations["text"] or not equations["latex"] or equations["error"] or "<math" not in equations["html"]:
             wrong("equations: %s" % equations)
         for command, end in (("qdot.plot", ".svg"), ("qdot.animate", ".html"), ("qdot.report", ".html")):
             result = execute(command)
@@ -559,6 +559,16 @@ def run_commands(qdot):
         result = execute("qdot.run")
         if "0." not in result["text"] or result["error"] or result["status"] != 0 or not os.path.exists(os.path.join(folder, "figure.svg")):
             wrong("run: %s %s" % (result, os.listdir(folder)))
+        document.set("coord x\nparticle p mass 2 at x\npotential x^2\nstart x = 1\nrun 0..3\ntable x, x' every 1.5\nprint \"<b>\"\ncheck 1 == 2\n")
+        result = execute("qdot.run")
+        rows = result["text"].split("\n")
+        first = next((k for k, line in enumerate(rows) if re.fullmatch(" *t +x +.*", line)), None)
+        if first is None or len({len(line.replace("\u0307", "")) for line in rows[first:first + 4]}) != 1:
+            wrong("a table has columns of other widths: %s" % result["text"])
+        if result["html"].count("<table>") != 1 or result["html"].count("<tr><td>") < 3 or "&lt;b&gt;" not in result["html"] or ".qdot" not in result["style"]:
+            wrong("html: %s" % result)
+        if "refuted" not in result["text"] or "refuted" not in result["html"]:
+            wrong("run with a refuted check: %s" % result)
         document.set("coord x\nx + thta\n")
         result = execute("qdot.run")
         if "unknown name" not in result["error"] or result["status"] == 0:
