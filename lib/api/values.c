@@ -1,5 +1,11 @@
 /* values.c -- calls that return numbers along a run: values, extrema, means, times of events. */
 #include "api/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
 #include "lang/language/read.h"
 #include "lang/session/member.h"
 #include "lang/session/runs.h"
@@ -46,6 +52,76 @@ typedef struct {
     double *values, *errors;
 } samples;
 
+/* Whether times nowhere turn back, so that each interval of the integration is read once. NaN: whatever is
+ * done with them will be refused. */
+static bool
+are_in_order(size_t n, const double *times)
+{
+    bool rising = true, falling = true;
+
+    for (size_t i = 1; i < n; i++) {
+        rising = rising && !(times[i] < times[i - 1]);
+        falling = falling && !(times[i] > times[i - 1]);
+        if (isnan(times[i]))
+            return true;
+    }
+    return rising || falling || isnan(times[0]);
+}
+
+/* A time, and its index among those of the caller. */
+typedef struct {
+    double t;
+    size_t i;
+} timed;
+
+static int
+compare_times(const void *a, const void *b)
+{
+    const timed *x = a, *y = b;
+
+    return x->t != y->t ? (x->t > y->t) - (x->t < y->t) : (x->i > y->i) - (x->i < y->i);
+}
+
+/* Evaluate the columns in the order of time, with memory from the arena. */
+static qdot_status
+evaluate_sorted(const samples *s, const qdot_expr *columns, qdot_arena *arena)
+{
+    const size_t cells = s->n * s->k;
+    timed *order = qdot_arena_take(arena, s->n * sizeof *order);
+    double *times = qdot_arena_take(arena, s->n * sizeof *times);
+    double *values = qdot_arena_take(arena, cells * sizeof *values);
+    double *errors = s->errors != NULL ? qdot_arena_take(arena, cells * sizeof *errors) : NULL;
+
+    if (order == NULL || times == NULL || values == NULL || (s->errors != NULL && errors == NULL))
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < s->n; i++)
+        order[i] = (timed){s->times[i], i};
+    qsort(order, s->n, sizeof *order, compare_times);
+    for (size_t i = 0; i < s->n; i++)
+        times[i] = order[i].t;
+    QDOT_TRY(qdot_run_values(s->motion->run.run, s->k, columns, s->n, times, values, errors));
+    for (size_t i = 0; i < s->n; i++) {
+        memcpy(s->values + order[i].i * s->k, values + i * s->k, s->k * sizeof *values);
+        if (errors != NULL)
+            memcpy(s->errors + order[i].i * s->k, errors + i * s->k, s->k * sizeof *errors);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+evaluate(const samples *s, const qdot_expr *columns)
+{
+    qdot_arena *arena;
+    qdot_status status;
+
+    if (are_in_order(s->n, s->times))
+        return qdot_run_values(s->motion->run.run, s->k, columns, s->n, s->times, s->values, s->errors);
+    arena = qdot_arena_new();
+    status = arena != NULL ? evaluate_sorted(s, columns, arena) : QDOT_ENOMEM;
+    qdot_arena_free(arena);
+    return status == QDOT_ENOMEM ? qdot_fail(QDOT_ENOMEM, "out of memory") : status;
+}
+
 static qdot_status
 read_and_evaluate(qdot_cursor *c, void *data)
 {
@@ -54,8 +130,7 @@ read_and_evaluate(qdot_cursor *c, void *data)
     qdot_status status = read_value_columns(c, s->k, &columns);
 
     if (status == QDOT_OK && s->n > 0)
-        status = qdot_run_values(s->motion->run.run, s->k, columns.at, s->n, s->times, s->values,
-                                 s->errors);
+        status = evaluate(s, columns.at);
     qdot_free(columns.at);
     return status;
 }

@@ -155,6 +155,38 @@ extrema_and_conserved_quantities_are_known(void **state)
     qdot_motion_free(m);
 }
 
+/* In whatever order times are given, each has its value and error, to the last bit. */
+static void
+times_are_given_in_any_order(void **state)
+{
+    enum { N = 200 };
+    double times[N], values[N][2], errors[N][2], one[2], its_error[2];
+    qdot_system *s = *state;
+    qdot_motion *m;
+    unsigned random = 1;
+
+    for (size_t i = 0; i < N; i++) {
+        random = random * 1103515245u + 12345u;
+        times[i] = i % 17 == 3 ? times[i - 1] : (double)(random >> 8) / (1 << 24) * 10;
+    }
+    for (int backward = 0; backward < 2; backward++) {
+        assert_int_equal(qdot_system_run(s, backward ? "10..0" : "0..10", &m), QDOT_RESULT_OK);
+        assert_int_equal(qdot_motion_values(m, "[theta, theta']", N, times, 2, values[0], errors[0]), QDOT_RESULT_OK);
+        for (size_t i = 0; i < N; i++) {
+            assert_int_equal(qdot_motion_values(m, "[theta, theta']", 1, &times[i], 2, one, its_error), QDOT_RESULT_OK);
+            assert_true(one[0] == values[i][0] && one[1] == values[i][1]);
+            assert_true(its_error[0] == errors[i][0] && its_error[1] == errors[i][1]);
+        }
+        times[5] = NAN;
+        expect_error(s, qdot_motion_values(m, "theta", N, times, 1, values[0], NULL), QDOT_RESULT_DOMAIN, "values:1:1: ");
+        times[5] = 11;
+        expect_error(s, qdot_motion_values(m, "theta", N, times, 1, values[0], NULL), QDOT_RESULT_DOMAIN,
+                     "values:1:1: error: t = 11 is outside");
+        times[5] = 1;
+        qdot_motion_free(m);
+    }
+}
+
 static void
 a_range_that_is_no_range_is_refused(void **state)
 {
@@ -439,7 +471,7 @@ interrupted_work_says_so(void **state)
 static void
 failing_memory_is_reported(void **state)
 {
-    static const double t = 1;
+    static const double t[] = {0.5, 1, 0};
     int64_t n = 0;
 
     (void)state;
@@ -447,7 +479,7 @@ failing_memory_is_reported(void **state)
         qdot_system *s = NULL;
         qdot_motion *m = NULL, *again = NULL;
         char *text = NULL;
-        double x;
+        double x[3];
         qdot_result result;
 
         qdot_memory_fail_at(n);
@@ -459,7 +491,7 @@ failing_memory_is_reported(void **state)
         if (result == QDOT_RESULT_OK)
             result = qdot_system_run(s, "0..1", &m);
         if (result == QDOT_RESULT_OK)
-            result = qdot_motion_values(m, "theta", 1, &t, 1, &x, NULL);
+            result = qdot_motion_values(m, "theta", 3, t, 1, x, NULL);
         if (result == QDOT_RESULT_OK)
             result = qdot_system_motion(s, NULL, &again);
         qdot_memory_fail_at(-1);
@@ -520,6 +552,7 @@ main(void)
         IN_A_SCENE(claims_are_proved_refuted_or_left_open),
         IN_A_SCENE(values_have_their_errors),
         IN_A_SCENE(extrema_and_conserved_quantities_are_known),
+        IN_A_SCENE(times_are_given_in_any_order),
         IN_A_SCENE(a_range_that_is_no_range_is_refused),
         IN_A_SCENE(runs_of_statements_are_motions),
         IN_A_SCENE(events_are_listed),
