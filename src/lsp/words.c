@@ -103,7 +103,8 @@ qdot_lsp_completion(qdot_server *server, const json_t *params, qdot_lsp_failure 
     if (qdot_complete_place(a->text, from) == QDOT_PLACE_PLAIN)
         append_runs(server, a, &list, (qdot_stretch){from, at}, items);
     qdot_free(list.at);
-    return json_pack("{s:b, s:o}", "isIncomplete", 0, "items", items);
+    /* functions are offered once a letter of theirs is typed: then the editor asks again */
+    return json_pack("{s:b, s:o}", "isIncomplete", from == at, "items", items);
 }
 
 /* --- hover ---------------------------------------------------------------------------- */

@@ -35,7 +35,7 @@ enum {
     PARAMETERS = 1 << 1,
     FUNCTIONS = 1 << 2, /* undefined functions declared by the user */
     DEFINED = 1 << 3,   /* expressions and functions defined by the user */
-    BUILTINS = 1 << 4,
+    BUILTINS = 1 << 4, /* functions of the language, once a letter is typed: they are many */
     QUANTITIES = 1 << 5,
     CONSTANTS = 1 << 6, /* the constants pi, t */
     PARTICLES = 1 << 7,
@@ -51,6 +51,7 @@ enum {
     KINDS = 1 << 16, /* words for kinds of things that the statement `remove` accepts */
     TABLES = 1 << 17, /* tables of rows */
     COLOURS = 1 << 18, /* colours of curves */
+    RESTS = 1 << 19,   /* the lists of places of rest and of steady motions */
     NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
     LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
     EXPRESSION =
@@ -146,6 +147,8 @@ offer_language_words(completion *c, unsigned kinds)
     static const char *const removable[] = {"gravity", "potential",   "spring", "damper",
                                             "force",   "dissipation", "torque"};
 
+    if (c->prefix[0] == '\0')
+        kinds &= ~(unsigned)BUILTINS;
     for (size_t i = 0; (kinds & BUILTINS) != 0 && qdot_builtin_at(i) != NULL; i++)
         offer_word(c, qdot_builtin_at(i)->name);
     for (int i = 0; (kinds & BUILTINS) != 0 && i < QDOT_FUNCTION_COUNT; i++)
@@ -163,6 +166,10 @@ offer_language_words(completion *c, unsigned kinds)
     for (size_t i = 0; (kinds & KINDS) != 0 && i < sizeof removable / sizeof *removable;
          i++)
         offer_word(c, removable[i]);
+    if ((kinds & RESTS) != 0) {
+        offer_word(c, "equilibria");
+        offer_word(c, "steady");
+    }
     if ((kinds & CONSTANTS) != 0) {
         offer_word(c, "pi");
         offer_word(c, "t");

@@ -71,6 +71,9 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"remove ", "bob cross damper dissipation force gravity partner potential rod s1 "
                     "spring torque "
                     "well"},
+        {"modes at ", "equilibria steady"},
+        {"run ", "anchor cross f m[ mu part party pi t wire"},
+        {"run s", "scalar_curvature scale_factors sec series sign simplify sin sinh size solve speed2 spin sqrt stability subs sum"},
         {"force (0, 1) ", "at on"},
         {"force (0, 1) on ", "bob partner phi q[ theta"},
         {"force (0, 1) on bob ", "at for"},
@@ -181,8 +184,8 @@ operands_take_no_statements(void **state)
 
         if (!holds(found, "theta"))
             fail_msg("`%s` offers `%s`", places[i], found);
-        assert_true(holds(found, "theta") && holds(found, "sin") &&
-                    holds(found, "energy"));
+        assert_true(holds(found, "theta") && holds(found, "energy"));
+        assert_false(holds(found, "sin")); /* functions are many: a letter of theirs is typed first */
         assert_true(holds(found, "q[") && holds(found, "f") && holds(found, "pi"));
         assert_false(holds(found, "particle") || holds(found, "quit") ||
                      holds(found, "poincare"));
