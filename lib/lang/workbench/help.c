@@ -20,7 +20,8 @@ QDOT_STATEMENT(help) = {
     .word = "help",
     .group = QDOT_WORKBENCH,
     .usage = "help [WORD] | help search WORD ...",
-    .summary = "this list, what a word means, or the words whose help contains a text; at the prompt `?particle` "
+    .summary = "this list, what a word means - where it is none of the language, the words that have to do with it -, or the "
+               "words whose help contains a text; at the prompt `?particle` "
                "and `??energy` are short for `help particle` and `help search energy`",
     .example = "help particle",
     .handler = carry_out_help,
@@ -140,6 +141,13 @@ explain_word(qdot_text *text, const char *word)
     return text->n > 0;
 }
 
+/* Append the words of the language that have to do with the word; false: none has, it is short, or a name of the session. */
+static bool
+list_related(const qdot_session *session, const char *word, qdot_text *text)
+{
+    return strlen(word) > 2 && !qdot_cursor_knows(session, word) && qdot_search(word, text) > 0;
+}
+
 /* Carry out `help search WORD ...` or `help search "TEXT"`. */
 static qdot_status
 carry_out_help_search(qdot_record *r)
@@ -188,7 +196,7 @@ carry_out_help(qdot_record *r)
     r->cursor.error_at = r->start->start;
     if (word == NULL) {
         append_overview(&text, width > 0 ? width : OFF_TERMINAL);
-    } else if (!explain_word(&text, word->from->text)) {
+    } else if (!explain_word(&text, word->from->text) && !list_related(session, word->from->text, &text)) {
         (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word->from->text);
         near = find_nearest_word(session, word->from->text);
         return near != NULL
