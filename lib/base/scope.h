@@ -3,7 +3,7 @@
  *
  * While a scope is the current one of a thread, memory.h adds the blocks that it allocates and
  * removes those that it frees. A block from before stays outside, even if it grows. Used by
- * normal/field/flint.c only.
+ * expr/polynomial/flint.c only.
  */
 #ifndef QDOT_BASE_SCOPE_H
 #define QDOT_BASE_SCOPE_H

@@ -211,8 +211,10 @@ SIDE(residual, DIFFERENCE)
 qdot_status
 qdot_call_expand(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
+    const qdot_status status = qdot_value_kind_give(s->pool, qdot_expand(s->pool, args[0]), value);
+
     (void)n;
-    return qdot_value_kind_give(s->pool, qdot_expand(s->pool, args[0]), value);
+    return status != QDOT_ELIMIT ? status : qdot_hint("left as a product it has values and derivatives; series(e, x = 0, 3) gives its terms up to x^3");
 }
 
 qdot_status

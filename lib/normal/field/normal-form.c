@@ -3,8 +3,8 @@
 #include "normal/field/normal-form.h"
 
 #include "base/memory.h"
+#include "expr/polynomial/flint.h"
 #include "expr/tensor.h"
-#include "normal/field/flint.h"
 #include "normal/field/ideal.h"
 #include "normal/field/prepare.h"
 

@@ -1,5 +1,5 @@
 /* factor-signs.h -- the sign of an expression as that of a product: of its factors, of those that are linear in a sine or
- * cosine at both ends of its range. Within qdot_flint_run (normal/field/flint.h).
+ * cosine at both ends of its range. Within qdot_flint_run (expr/polynomial/flint.h).
  *
  * Tests  tests/normal/inequality/test_less.c
  */

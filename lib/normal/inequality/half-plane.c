@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "expr/exact.h"
 #include "expr/node.h"
-#include "normal/field/flint.h"
+#include "expr/polynomial/flint.h"
 #include "normal/refute/ball.h"
 
 /* Precision in bits at first and at most; SURE bounds loops that are known to end; largest degree of p(s). */

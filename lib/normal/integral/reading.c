@@ -6,11 +6,11 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/exact.h"
+#include "expr/polynomial/flint.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/field/field.h"
-#include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 
 #define WORK 400000

@@ -2,9 +2,9 @@
 #include "normal/simplify/rationalize.h"
 
 #include "base/memory.h"
+#include "expr/polynomial/flint.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
-#include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/simplify/simplify.h"
 

@@ -7,8 +7,8 @@
 #include <flint/fmpz_poly_factor.h>
 
 #include "expr/exact.h"
-#include "normal/field/flint.h"
 #include "num/arb.h"
+#include "expr/polynomial/flint.h"
 
 /* Append the roots of f to re and im, which hold *at roots so far. The roots of f are simple; those of the whole polynomial,
  * of which f is a factor, have the multiplicity `times`, and so often each is written. */

@@ -19,7 +19,7 @@
  * less than 2^-60 of the root. QDOT_EINVAL: a coefficient is no rational number. */
 QDOT_MUST_CHECK qdot_status qdot_complex_roots(qdot_pool *pool, size_t n, const qdot_expr *c, double *re, double *im);
 
-/* The same for a polynomial of FLINT, within a guarded computation (normal/field/flint.h); re as it is found. */
+/* The same for a polynomial of FLINT, within a guarded computation (expr/polynomial/flint.h); re as it is found. */
 void qdot_complex_roots_of(const fmpz_poly_t f, double *re, double *im);
 
 #endif

@@ -7,7 +7,7 @@
 #include <flint/fmpq_poly.h>
 
 #include "expr/exact.h"
-#include "normal/field/flint.h"
+#include "expr/polynomial/flint.h"
 #include "normal/refute/ball.h"
 #include "normal/solve/complex-roots.h"
 

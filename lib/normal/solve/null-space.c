@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/node.h"
+#include "expr/polynomial/flint.h"
 #include "expr/symbol.h"
 #include "normal/field/factor.h"
-#include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/field/root-parts.h"
 

@@ -12,11 +12,11 @@
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/polynomial/flint.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
-#include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/simplify/simplify.h"
 

@@ -4,7 +4,7 @@
  * (QDOT_ONE_THREAD), a computation that was abandoned leaves FLINT's caches behind in the only thread there is, perhaps while
  * they were written. FLINT then frees them all (flint_cleanup), and what it still holds of that computation is freed after it.
  */
-#include "normal/field/flint.h"
+#include "expr/polynomial/flint.h"
 
 #include <pthread.h>
 #include <setjmp.h>
@@ -451,6 +451,14 @@ compute(void (*work)(void *user), void *user)
 
 #endif
 
+static _Thread_local bool ready;
+
+bool
+qdot_flint_is_ready(void)
+{
+    return ready || guard.on;
+}
+
 qdot_status
 qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
 {
@@ -463,6 +471,7 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
     }
     budget = qdot_pool_budget(pool, UINT64_MAX);
     (void)qdot_pool_budget(pool, budget);
+    ready = true;
     status = compute(work, user);
     if (status != QDOT_OK)
         (void)qdot_pool_budget(pool, budget);

@@ -20,10 +20,10 @@
  * While a guarded computation runs, the memory functions are the process's: not for a program
  * whose other threads compute with GMP under memory functions of their own.
  *
- * Tests  tests/normal/field/test_flint.c
+ * Tests  tests/normal/field/test_flint.c, tests/expr/polynomial/test_multiply.c
  */
-#ifndef QDOT_NORMAL_FLINT_H
-#define QDOT_NORMAL_FLINT_H
+#ifndef QDOT_EXPR_FLINT_H
+#define QDOT_EXPR_FLINT_H
 
 #include "expr/id.h"
 
@@ -37,5 +37,8 @@
  * the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_flint_run(qdot_pool *pool, void (*work)(void *user),
                                            void *user);
+
+/* Whether this thread has run a guarded computation, so that the libraries are loaded and the next one begins at once. */
+bool qdot_flint_is_ready(void);
 
 #endif
