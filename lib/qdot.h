@@ -120,8 +120,8 @@ void qdot_system_keep_undo(qdot_system *system, int kept);
 
 /* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
  * line is "CALL:LINE:COLUMN: error: ..." where a text is to blame, CALL being `declare`, `ask`,
- * `derive`, `decide`, `number`, `run`, `values`, `over`, `compile` or `variables`; then come the line, a
- * caret below the place and often a hint. Borrowed until the next such call. */
+ * `derive`, `decide`, `number`, `run`, `motion`, `table`, `values`, `over`, `compile` or `variables`; then come the
+ * line, a caret below the place and often a hint. Borrowed until the next such call. */
 const char *qdot_system_error(const qdot_system *system);
 
 /* What should be known of the last call although it succeeded, a line each: "notice: ...";

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/symbol.h"
+#include "lang/language/read.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/match.h"
 #include "lang/syntax/statement.h"
@@ -144,19 +145,36 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
     return qdot_api_end(system, status);
 }
 
+/* Read the name of a run, "a", "f[2]", and find it. */
+static qdot_status
+read_run_name(qdot_cursor *c, void *data)
+{
+    const qdot_named_run **run = data;
+    qdot_named_run *found;
+    const char *name;
+
+    QDOT_TRY(qdot_read_name(c, &name));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = 0;
+    QDOT_TRY(qdot_runs_find(c->session, name, &found));
+    *run = found;
+    return QDOT_OK;
+}
+
 /* The run of this name, of NULL the latest; NULL, with a failure, if there is none. */
 static const qdot_named_run *
-find_run(qdot_session *session, const char *name)
+find_run(qdot_system *system, const char *name)
 {
-    qdot_named_run *found;
+    const qdot_run_list *runs = system->session->runs;
+    const qdot_named_run *found = NULL;
 
-    if (qdot_runs_find(session, name, &found) == QDOT_OK)
-        return found;
-    if (session->runs->n == 0)
+    if (runs->n == 0) {
         (void)qdot_fail(QDOT_ENAME, "motion: there is no run yet");
-    else
-        (void)qdot_fail(QDOT_ENAME, "motion: there is no run `%.100s`", name);
-    return NULL;
+        return NULL;
+    }
+    if (name == NULL)
+        return &runs->at[runs->n - 1];
+    return qdot_api_read(system, "motion", name, read_run_name, &found) == QDOT_OK ? found : NULL;
 }
 
 qdot_result
@@ -173,7 +191,7 @@ qdot_system_motion(qdot_system *system, const char *name, qdot_motion **motion)
     if (motion == NULL)
         return qdot_api_refuse(system, "motion: the motion is NULL");
     status = qdot_api_begin(system);
-    run = status == QDOT_OK ? find_run(system->session, name) : NULL;
+    run = status == QDOT_OK ? find_run(system, name) : NULL;
     if (run != NULL)
         m = qdot_calloc(1, sizeof *m);
     if (m != NULL && motion_store_run(m, system, run, true) == QDOT_OK) {

@@ -3,6 +3,7 @@
 
 #include "api/system.h"
 #include "base/memory.h"
+#include "lang/language/read.h"
 #include "lang/session/row-tables.h"
 
 /* One column: numbers with their errors, or texts. */
@@ -81,21 +82,33 @@ copy_table(const qdot_row_table *from, qdot_table *to)
     return has_reasons(from) ? copy_reasons(to->arena, from, &to->at[to->columns++]) : QDOT_OK;
 }
 
+/* Read the name of a table and find it. */
+static qdot_status
+read_table_name(qdot_cursor *c, void *data)
+{
+    const qdot_row_table **table = data;
+    const char *name;
+
+    QDOT_TRY(qdot_read_name(c, &name));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = 0;
+    *table = qdot_row_tables_find(c->session, name);
+    return *table != NULL ? QDOT_OK : qdot_fail(QDOT_ENAME, "there is no table `%.100s`", name);
+}
+
 /* The table of this name, of NULL the latest; NULL, with a failure, if there is none. */
 static const qdot_row_table *
-find_table(const qdot_session *session, const char *name)
+find_table(qdot_system *system, const char *name)
 {
+    const qdot_session *session = system->session;
     const qdot_row_table *found = NULL;
 
     if (name != NULL)
-        found = qdot_row_tables_find(session, name);
-    else if (session->tables->n > 0)
-        found = session->tables->at[session->tables->n - 1];
-    if (found == NULL && name != NULL)
-        (void)qdot_fail(QDOT_ENAME, "table: there is no table `%.100s`", name);
-    else if (found == NULL)
-        (void)qdot_fail(QDOT_ENAME, "table: no table has been made");
-    return found;
+        return qdot_api_read(system, "table", name, read_table_name, &found) == QDOT_OK ? found : NULL;
+    if (session->tables->n > 0)
+        return session->tables->at[session->tables->n - 1];
+    (void)qdot_fail(QDOT_ENAME, "table: no table has been made");
+    return NULL;
 }
 
 qdot_result
@@ -113,7 +126,7 @@ qdot_system_table(qdot_system *system, const char *name, qdot_table **table)
         return qdot_api_refuse(system, "table: the table is NULL");
     status = qdot_api_begin(system);
     if (status == QDOT_OK) {
-        from = find_table(system->session, name);
+        from = find_table(system, name);
         status = from != NULL ? QDOT_OK : qdot_last_error()->status;
     }
     if (status == QDOT_OK) {

@@ -220,7 +220,10 @@ runs_of_statements_are_motions(void **state)
     expect_error(s, qdot_system_motion(s, NULL, NULL), QDOT_RESULT_INVALID, "motion: the motion is NULL");
     assert_int_equal(qdot_system_motion(NULL, NULL, &a), QDOT_RESULT_INVALID);
     assert_int_equal(qdot_system_declare(s, "run 0..10 as a; run 0..3"), QDOT_RESULT_OK);
-    expect_error(s, qdot_system_motion(s, "b", &a), QDOT_RESULT_NAME, "motion: there is no run `b`");
+    expect_error(s, qdot_system_motion(s, "b", &a), QDOT_RESULT_NAME,
+                 "motion:1:1: error: there is no run `b`");
+    expect_error(s, qdot_system_motion(s, "a b", &a), QDOT_RESULT_SYNTAX, "motion:1:3: error: ");
+    expect_error(s, qdot_system_motion(s, "", &a), QDOT_RESULT_SYNTAX, "motion:1:1: error: ");
     assert_null(a);
     assert_int_equal(qdot_system_motion(s, "a", &a), QDOT_RESULT_OK);
     assert_int_equal(qdot_motion_values(a, "theta", 1, &one, 1, &x, NULL), QDOT_RESULT_OK);
@@ -231,6 +234,11 @@ runs_of_statements_are_motions(void **state)
     qdot_motion_free(a); /* the run stays */
     assert_int_equal(qdot_system_motion(s, "a", &again), QDOT_RESULT_OK);
     assert_int_equal(qdot_system_motion(s, "run2", &latest), QDOT_RESULT_OK);
+    qdot_motion_free(latest);
+    assert_int_equal(qdot_system_declare(s, "run 0..1 as phi; run 0..k as f[k] for k = 1..3"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_system_motion(s, "φ", &latest), QDOT_RESULT_OK);
+    qdot_motion_free(latest);
+    assert_int_equal(qdot_system_motion(s, "f[1 + 1]", &latest), QDOT_RESULT_OK);
     qdot_motion_free(latest);
     /* a run that goes with its motion goes, whoever else looks at it */
     assert_int_equal(qdot_system_run(s, "0..2", &own), QDOT_RESULT_OK);

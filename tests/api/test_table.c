@@ -109,7 +109,8 @@ what_is_missing_is_an_error(void **state)
     assert_string_equal(qdot_system_error(s), "table: no table has been made");
     assert_null(t);
     assert_int_equal(qdot_system_table(s, "sweep1", &t), QDOT_RESULT_NAME);
-    assert_string_equal(qdot_system_error(s), "table: there is no table `sweep1`");
+    assert_string_equal(qdot_system_error(s), "table:1:1: error: there is no table `sweep1`\n  sweep1\n  ^\n");
+    assert_int_equal(qdot_system_table(s, "a b", &t), QDOT_RESULT_SYNTAX);
     assert_int_equal(qdot_system_table(s, NULL, NULL), QDOT_RESULT_INVALID);
     assert_int_equal(qdot_system_table(NULL, NULL, &t), QDOT_RESULT_INVALID);
     qdot_table_free(NULL);

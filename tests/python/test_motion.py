@@ -175,6 +175,8 @@ class Wholes(unittest.TestCase):
             s.motion()
         s.declare("run 0..10 as a; run 0..2")
         self.assertEqual([s.motion(name).summary.end for name in ("a", "run2", None)], [10, 2, 2])
+        s.declare("run 0..3 as theta; sweep x = [1, 2] run 0..1 : value(x, 1) as phi")
+        self.assertEqual((s.motion("θ").summary.end, len(s.rows("φ"))), (3, 2))
         gc.collect()
         self.assertAlmostEqual(s.motion("a").values("x", 3), numpy.cos(3))
         with self.assertRaisesRegex(qdot.UnknownNameError, "there is no run `b`"):
