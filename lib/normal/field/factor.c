@@ -8,17 +8,19 @@
 
 #include "base/memory.h"
 
-#define MOST_TERMS 80
-#define MOST_VARIABLES 14
-#define MOST_DEGREE 16
+/* What is factored by FLINT; the last row where a person asked for factors (qdot_field.patient). */
+static const struct {
+    slong terms, variables, degree;
+} limits[] = {{80, 14, 16}, {2000, 14, 100}};
 
 static bool
 is_small_enough(qdot_field *f, const fmpz_mpoly_t p)
 {
+    const slong most = limits[f->patient].degree, variables = limits[f->patient].variables;
     slong used = 0, length = fmpz_mpoly_length(p, f->ctx), total = 0;
     slong *degree;
 
-    if (length > MOST_TERMS || !qdot_field_charge(f, 8 * length, length))
+    if (length > limits[f->patient].terms || !qdot_field_charge(f, 8 * length, length))
         return false;
     degree = qdot_malloc(((size_t)f->n + 1) * sizeof *degree);
     if (degree == NULL)
@@ -27,11 +29,11 @@ is_small_enough(qdot_field *f, const fmpz_mpoly_t p)
     for (slong v = 0; v < f->n; v++) {
         used += degree[v] > 0;
         total += degree[v];
-        if (degree[v] > MOST_DEGREE)
-            used = MOST_VARIABLES + 1;
+        if (degree[v] > most)
+            used = variables + 1;
     }
     qdot_free(degree);
-    return used <= MOST_VARIABLES && total <= 3 * MOST_DEGREE;
+    return used <= variables && total <= 3 * most;
 }
 
 static qdot_status

@@ -10,6 +10,7 @@
 /* A gcd that would cost more than this is not computed; the quotient then stays uncancelled, which
  * is correct. */
 #define GCD_COST 60000
+#define GCD_COST_PATIENT 4000000
 #define GCD_VARIABLES 40
 
 bool
@@ -73,7 +74,7 @@ qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_m
 {
     slong la = fmpz_mpoly_length(a, f->ctx), lb = fmpz_mpoly_length(b, f->ctx);
 
-    if (!qdot_field_charge(f, la, lb) || la == 0 || lb == 0 || (int64_t)la * lb > GCD_COST ||
+    if (!qdot_field_charge(f, la, lb) || la == 0 || lb == 0 || (int64_t)la * lb > (f->patient ? GCD_COST_PATIENT : GCD_COST) ||
         f->n > GCD_VARIABLES || !fmpz_mpoly_gcd(g, a, b, f->ctx))
         fmpz_mpoly_one(g, f->ctx);
 }

@@ -64,6 +64,7 @@ typedef struct {
     qdot_ratio *value;
     size_t n_nodes;
     int64_t work;
+    bool patient; /* a person asked for factors: those of long polynomials are found, and long fractions cancelled, too */
     qdot_field_state state;
     qdot_status status;
 } qdot_field;

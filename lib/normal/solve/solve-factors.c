@@ -20,7 +20,7 @@
 #include "normal/field/prepare.h"
 #include "normal/simplify/simplify.h"
 
-enum { WORK = 2000000 };
+enum { WORK = 2000000, WORK_OF_PRODUCT = 100000000 };
 
 /* Multiply a product by p in irreducible factors, with their exponents times `turn` (1 or -1), and by its content. */
 static qdot_status
@@ -65,7 +65,8 @@ find_factors(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list,
 
     QDOT_TRY(status);
     *product = QDOT_NIL;
-    qdot_field_begin(&f, pool, 1, &prepared, WORK);
+    qdot_field_begin(&f, pool, 1, &prepared, list == NULL ? WORK_OF_PRODUCT : WORK);
+    f.patient = list == NULL;
     if (qdot_field_goes(&f)) {
         qdot_expr result = QDOT_ONE;
         qdot_ratio r;
