@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -133,14 +134,14 @@ qdot_gnuplot_is_here(void)
     const char *path = getenv("PATH");
     bool found = false;
 
+    if (path == NULL)
+        path = "/bin:/usr/bin";
     for (size_t n; path != NULL && !found; path = path[n] == ':' ? path + n + 1 : NULL) {
-        qdot_text name = {0};
+        char name[PATH_MAX];
 
         n = strcspn(path, ":");
-        qdot_text_add_n(&name, path, n);
-        qdot_text_add(&name, n > 0 ? "/gnuplot" : "./gnuplot");
-        found = access(qdot_text_str(&name), X_OK) == 0;
-        qdot_text_clear(&name);
+        found = snprintf(name, sizeof name, "%.*s/gnuplot", n > 0 ? (int)n : 1, n > 0 ? path : ".") < (int)sizeof name &&
+                access(name, X_OK) == 0;
     }
     return found;
 }
@@ -162,8 +163,6 @@ start_gnuplot(pid_t *child, const plumbing *p)
     }
     if (failed == 0)
         return QDOT_OK;
-    if (failed == ENOENT)
-        return fail_gnuplot_missing();
     errno = failed;
     return fail_with_errno("start gnuplot");
 }
@@ -263,6 +262,8 @@ qdot_gnuplot_run(const qdot_text *script, const char *end, qdot_text *image)
     qdot_status status;
 
     QDOT_TRY(qdot_text_status(script));
+    if (!qdot_gnuplot_is_here())
+        return fail_gnuplot_missing();
     status = open_streams(&p, script, image != NULL);
     if (status == QDOT_OK)
         status = start_gnuplot(&child, &p);
