@@ -261,6 +261,7 @@ svg_add_scale(const qdot_figure_canvas *c, const qdot_figure_frame *f, const dou
     size_t letters = 0;
     char colour[8];
 
+    qdot_text_add(c->s, "<g shape-rendering=\"crispEdges\">\n"); /* no seams between the shades */
     for (int i = 0; i < SHADES; i++) {
         qdot_figure_map_colour((i + 0.5) / SHADES, colour);
         qdot_text_format(c->s, "<rect fill=\"%s\" x=\"", colour);
@@ -273,6 +274,7 @@ svg_add_scale(const qdot_figure_canvas *c, const qdot_figure_frame *f, const dou
         qdot_figure_svg_add(c->s, tall / SHADES + 0.3);
         qdot_text_add(c->s, "\"/>\n");
     }
+    qdot_text_add(c->s, "</g>\n");
     for (size_t i = 0; i < n; i++) {
         const double y = low - tall * (tics[i].at - axis.least) / (axis.most - axis.least);
 

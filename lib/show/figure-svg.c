@@ -179,6 +179,9 @@ svg_add_tics(const qdot_figure_canvas *c, const qdot_figure_frame *f, int k, con
         qdot_figure_svg_line(c->s, at[0], at[1], at[0] + length * look->out[0], at[1] + length * look->out[1],
                              "stroke=\"#404040\"");
         widest = tics[i].letters > widest ? tics[i].letters : widest;
+        /* a long number at the end of x does not leave the figure; half of it is 0.3 letters wide for each of its own */
+        if (k == 0 && !bare)
+            at[0] = fmin(at[0], c->d->width * c->cm - 0.3 * (double)tics[i].letters * c->letter);
         if (!bare && !tics[i].minor)
             qdot_figure_svg_add_text(c->s, at[0] + length * look->out[0] + look->gap[0] * c->letter,
                                      at[1] + length * look->out[1] + look->gap[1] * c->letter, look->anchor, tics[i].label);

@@ -88,6 +88,23 @@ points_are_where_the_numbers_say(void **state)
     free(svg);
 }
 
+/* Numbers at the end of an axis are whole: a digit is 0.56 letters wide. */
+static void
+long_numbers_stay_in_the_figure(void **state)
+{
+    const double x[] = {0, 70000}, y[] = {0, 1};
+    const qdot_curve curve = {.rows = 2, .x = x, .y = y};
+    const qdot_panel panel = {.curves = &curve, .n = 1, .axis = {{"t", false}, {"y", false}}};
+    char *svg = svg_of(&panel, 1);
+    const double wide = strtod(strstr(svg, "width=\"") + 7, NULL);
+    const double letter = strtod(strstr(svg, "font-size=\"") + 11, NULL);
+
+    (void)state;
+    assert_true(letter > 5);
+    assert_true(place_of_number(svg, "70000", 0) + 2.5 * 0.56 * letter <= wide);
+    free(svg);
+}
+
 static void
 powers_of_ten_are_equally_far_on_a_logarithmic_axis(void **state)
 {
@@ -220,6 +237,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_are_where_the_numbers_say),
+        cmocka_unit_test(long_numbers_stay_in_the_figure),
         cmocka_unit_test(powers_of_ten_are_equally_far_on_a_logarithmic_axis),
         cmocka_unit_test(lines_are_interrupted),
         cmocka_unit_test(labels_are_set_with_greek_letters_dots_and_powers),
