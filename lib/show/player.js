@@ -574,7 +574,7 @@ function Animation(section) {
     scene.canvas.onpointerup = scene.canvas.onpointercancel = () => { held = null; };
     scene.canvas.ondblclick = () => { yaw = -0.6; pitch = 0.32; draw(); };
   }
-  new ResizeObserver(draw).observe(stage);
+  new ResizeObserver(draw).observe(section);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
   window.matchMedia("print").addEventListener("change", draw);
   window.addEventListener("beforeprint", draw);
