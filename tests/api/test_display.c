@@ -325,6 +325,26 @@ failing_memory_is_reported(void **state)
     }
 }
 
+/* What a text says no further object says again: the rows of `race`, the momenta of `cyclic`, the forces of `reactions`. */
+static void
+nothing_is_shown_twice(void **state)
+{
+    qdot_system *s = *state;
+    char *answers = display(s, "race 0..1", QDOT_RESULT_OK);
+
+    assert_int_equal(count(answers, "\"kind\":\"columns\""), 1);
+    assert_null(strstr(answers, "formulation   ")); /* a table in characters */
+    qdot_string_free(answers);
+    answers = display(s, "reset; coord x; param m > 0; particle p mass m at (x, 0); cyclic", QDOT_RESULT_OK);
+    assert_int_equal(count(answers, "\"kind\":\"expr\""), 0);
+    assert_int_equal(count(answers, "is conserved\""), 1);
+    qdot_string_free(answers);
+    answers = display(s, "coord y; constraint rail: y = x; reactions", QDOT_RESULT_OK);
+    assert_int_equal(count(answers, "\"kind\":\"expr\""), 0);
+    assert_int_equal(count(answers, "\"name\":\"reactions\""), 1);
+    qdot_string_free(answers);
+}
+
 int
 main(void)
 {
@@ -333,6 +353,7 @@ main(void)
         IN_A_SCENE(formulas_are_typeset),
         IN_A_SCENE(texts_are_typeset),
         IN_A_SCENE(numbers_are_typeset),
+        IN_A_SCENE(nothing_is_shown_twice),
         cmocka_unit_test(units_are_typeset),
         IN_A_SCENE(checks_are_worded),
         IN_A_SCENE(runs_are_worded),

@@ -76,7 +76,7 @@ carry_out_cyclic(qdot_record *r)
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_sheet_words(&sheet, i > 0 ? "\n" : "");
         status = print_cyclic(&sheet, &list[i]);
-        if (status == QDOT_OK && session->output->json)
+        if (status == QDOT_OK && session->output->json && !session->output->display) /* the lines below say the same */
             status = answer_cyclic(session, &list[i]);
     }
     if (n == 0)

@@ -70,7 +70,7 @@ carry_out_reactions(qdot_record *r)
     value = qdot_mech_reaction_list(session->scene);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_vec_push(&session->history->values, value));
-    if (session->output->json)
+    if (session->output->json && !session->output->display) /* the lines below say the same */
         QDOT_TRY(qdot_answer_expr(session, "reactions", value));
     status = qdot_mech_reactions(session->scene, &list, &n);
     sheet = qdot_sheet_begin(session);

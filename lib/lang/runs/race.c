@@ -54,6 +54,7 @@ fill_race_table(const qdot_race *race, qdot_dataset *t)
     return qdot_table_status(t);
 }
 
+/* Append the words about a race, with its table between them unless t is NULL. */
 static qdot_status
 print_race(const qdot_race *race, const qdot_dataset *t, qdot_text *out)
 {
@@ -66,7 +67,8 @@ print_race(const qdot_race *race, const qdot_dataset *t, qdot_text *out)
         qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
                          race->coordinates, race->minimal);
     qdot_text_char(out, '\n');
-    QDOT_TRY(qdot_answer_add_table(t, out));
+    if (t != NULL)
+        QDOT_TRY(qdot_answer_add_table(t, out));
     for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
         if (race->lane[i].reason != NULL)
             qdot_text_format(out, "not in %s: %s\n",
@@ -119,7 +121,7 @@ answer_race(qdot_session *session, const qdot_race *race, const qdot_figure_choi
     if (status == QDOT_OK && race->notice != NULL)
         status = qdot_answer_notice(session, "%s", race->notice);
     if (status == QDOT_OK)
-        status = print_race(race, &t, &text);
+        status = print_race(race, session->output->display ? NULL : &t, &text); /* rows are shown as a table */
     if (status == QDOT_OK)
         status = qdot_answer_text(session, "race", qdot_text_str(&text));
     if (status == QDOT_OK && session->output->json)
