@@ -27,7 +27,7 @@ fs.writeFileSync(path.join(out, "module.js"), "globalThis.qdotModuleFiles = " + 
 
 /* --- the service worker ---------------------------------------------------------------------------- */
 
-const kept = ["index.html", "page.css", "bundle.js", "module.js", "examples.js", "icon.svg"];
+const kept = ["index.html", "page.css", "bundle.js", "module.js", "examples.js", "icon.svg", "math.woff2"];
 const version = crypto.createHash("sha256");
 kept.forEach(name => version.update(read(name)));
 fs.writeFileSync(path.join(out, "service.js"), fs.readFileSync(path.join(__dirname, "page", "service.js"), "utf8")

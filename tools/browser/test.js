@@ -4,6 +4,7 @@
 const fs = require("fs"), os = require("os"), path = require("path"), http = require("http");
 const {spawnSync} = require("child_process");
 const {chromium} = require("playwright-core");
+const {ready} = require("./test-tools.js"), testPage = require("./test-page.js");
 const [root, program, out] = process.argv.slice(2);
 
 let passed = 0, failed = 0;
@@ -49,9 +50,11 @@ function nativeAnswers(text) {
 
 const apart = new Set(["figure", "page", "file", "notice", "done"]); /* what a page shows and a program writes to a file */
 const unlike = new Set(["cpu", "cpu_total", "steps", "rejected", "evals", "jacobians", "factorizations", "statement", "line", "file",
-    "typeset", "mathml", "drifts", "energy_drift", "constraint_drift", "constraints"]);
+    "typeset", "mathml", "text", "drifts", "energy_drift", "constraint_drift", "constraints"]);
 /* A plan states what its method costs, which here is without machine code. */
 const isPlan = a => a.kind === "text" && a.name === "plan";
+/* What the page has in words alone. */
+const isWorded = a => a.kind === "expr" && /^(cyclic\[|reactions$)/.test(a.name);
 const isError = key => /error/.test(key);
 
 /* Two numbers are equal within the errors that both state, or twelve digits where they state none. */
@@ -102,21 +105,20 @@ function serve() {
     return new Promise(good => server.listen(0, "127.0.0.1", () => good(server)));
 }
 
-const ready = page => page.waitForFunction(() => document.documentElement.dataset.ready, null, {timeout: 60000});
-
 /* The answers of a script in the page's session, from the beginning. */
 function pageAnswers(page, text) {
     return page.evaluate(async script => {
         const all = [];
-        const end = await qdotPage.call({kind: "ask", text: script, first: 0, fresh: true}, data => all.push(...data.answers));
+        const end = await qdotPage.call({kind: "ask", text: script, line: 1, fresh: true}, data => all.push(...(data.answers || [])));
         return {all, end};
     }, text);
 }
 
 async function main() {
     const server = await serve(), address = `http://127.0.0.1:${server.address().port}/`;
+    /* Without a sandbox headless Chromium starts the process of a sandboxed frame only now and then: frames stay in the page's. */
     const browser = await chromium.launch({executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu",
-        "--disable-quic", "--no-first-run", "--disable-background-networking"]});
+        "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-features=IsolateSandboxedIframes"]});
     const context = await browser.newContext(), page = await context.newPage();
     page.on("pageerror", e => expect(false, "the page: " + e.message));
 
@@ -131,7 +133,7 @@ async function main() {
 
     for (const script of scripts()) {
         const before = [passed, failed], start = Date.now();
-        const native = nativeAnswers(script.text).filter(a => !apart.has(a.kind));
+        const native = nativeAnswers(script.text).filter(a => !apart.has(a.kind) && !isWorded(a));
         const took = Date.now() - start, {all, end} = await pageAnswers(page, script.text);
         const here = all.filter(a => !apart.has(a.kind));
         expect(end.kind === "end", `${script.name}: the session was lost: ${end.message}`);
@@ -145,7 +147,7 @@ async function main() {
         }
     }
 
-    /* the page itself: figures and animations are shown, errors marked, a script travels in a link */
+    /* the page itself */
     await page.evaluate(() => qdotPage.editor.setValue("coord x\nparticle p mass 1 at (x, 0)\nspring s between p, (0, 0) stiffness 1\n" +
                                                         "start x = 1\nrun 0..10\nplot x\nanimate\nplt x\n"));
     await page.keyboard.press("Control+Enter");
@@ -153,13 +155,8 @@ async function main() {
     expect(await page.locator(".figure svg").count() > 0, "a figure is shown");
     expect(await page.locator("iframe").count() === 1, "an animation is shown");
     expect((await page.textContent(".error")).includes("did you mean"), "an error has its hint");
-    await page.click("#share");
-    await page.waitForFunction(() => location.hash.length > 20);
-    const linked = await context.newPage();
-    await linked.goto(page.url());
-    await linked.waitForFunction(() => qdotPage.editor.getValue().includes("plt x"), null, {timeout: 5000}).then(() => expect(true, ""),
-        () => expect(false, "a link brings its script"));
-    await linked.close();
+
+    await testPage(context, address, expect);
 
     /* without network: the server is gone */
     await page.evaluate(() => navigator.serviceWorker.ready.then(() => 0));
@@ -167,8 +164,8 @@ async function main() {
     server.close();
     await page.reload();
     await ready(page).then(() => expect(true, ""), () => expect(false, "the page loads without network"));
-    const {all: offline} = await pageAnswers(page, "print 1/3 + 1/6");
-    expect(JSON.stringify(offline).includes("1/2"), "answers without network");
+    const {all: offline} = await pageAnswers(page, "print 2*21");
+    expect(offline.some(a => a.text === "42"), "answers without network");
 
     /* without server */
     const file = await context.newPage();

@@ -1,11 +1,13 @@
-/* page.js -- the page: editor, buttons, the session in worker.js, answers, links, files. */
+/* page.js -- the page: editor, buttons, answers, completion and help. */
 import CodeMirror from "codemirror";
 import "codemirror/addon/hint/show-hint.js";
 import "codemirror/addon/edit/matchbrackets.js";
 import "codemirror/addon/comment/comment.js";
 import "codemirror/addon/selection/active-line.js";
-import {elementsOf} from "./answers.js";
+import {elementsOf, showsStatement} from "./answers.js";
+import {keepScript, keepTheme, keptScript, keptTheme, linkOf, scriptOfLink} from "./keep.js";
 import qdotMode from "./qdot-mode.js"; /* share/codemirror/qdot.js */
+import * as session from "./session.js";
 
 const $ = id => document.getElementById(id);
 const FIRST = `# A pendulum. Ctrl-Enter runs the script.
@@ -23,6 +25,9 @@ run 0..10
 plot theta, theta'
 animate
 `;
+const INTRODUCTION = "<p class='empty'>The script is carried out in this page: nothing is sent anywhere. <b>Ctrl-Enter</b> runs it, " +
+    "<b>Shift-Enter</b> up to the cursor's line, <b>Tab</b> or <b>Ctrl-Space</b> completes a word, <b>F1</b> explains it, <b>Esc</b> stops; " +
+    "<b>Esc</b> and then <b>Tab</b> leaves the editor.</p>";
 
 qdotMode.define(CodeMirror);
 const editor = CodeMirror($("left"), {
@@ -30,206 +35,111 @@ const editor = CodeMirror($("left"), {
     viewportMargin: 50, inputStyle: "contenteditable", hintOptions: {hint: hints, completeSingle: true},
     extraKeys: {
         "Ctrl-Enter": runAll, "Cmd-Enter": runAll, "Shift-Enter": runToCursor, "Ctrl-Space": cm => cm.showHint(),
-        "Ctrl-/": cm => cm.toggleComment({lineComment: "#"}), "F1": explain, "Esc": () => stop(),
-        Tab: cm => /\w/.test(cm.getRange({...cm.getCursor(), ch: cm.getCursor().ch - 1}, cm.getCursor())) && !cm.somethingSelected()
-            ? cm.showHint() : cm.execCommand("indentMore"),
-        "Shift-Tab": "indentLess",
+        "Ctrl-/": cm => cm.toggleComment({lineComment: "#"}), "F1": explain, Tab: tab, "Shift-Tab": "indentLess",
     },
 });
 editor.getInputField().setAttribute("aria-label", "Script");
 
-/* --- the session ---------------------------------------------------------------------------- */
+/* Tab completes a word and indents; after Esc it goes on to the next element, as on any page. */
+let leaving = false;
+editor.on("keydown", (cm, event) => {
+    if (event.key === "Tab")
+        event.codemirrorIgnore = leaving;
+    else if (event.key !== "Shift")
+        leaving = event.key === "Escape";
+});
 
-let worker = null, ready = null, count = 0, running = null;
-let history = []; /* what was asked after the last run of the script, with that before it: what a new worker has to do again */
-let stale = false; /* the worker is new: the history has to be carried out first */
-const calls = new Map(), files = new Map();
-
-/* What runs in the worker, and the module it calls: module.js brings both as texts, since a page that is opened as a file may
- * start no worker of a file beside it, nor read one. */
-function moduleFiles() {
-    return new Promise((good, bad) => {
-        if (globalThis.qdotModuleFiles)
-            return good(globalThis.qdotModuleFiles);
-        const script = document.createElement("script");
-        script.src = "module.js";
-        script.onload = () => good(globalThis.qdotModuleFiles);
-        script.onerror = () => bad(new Error("module.js is missing"));
-        document.head.append(script);
-    });
+function tab(cm) {
+    const {line, ch} = cm.getCursor(), behindWord = /[\p{L}\p{N}_]$/u.test(cm.getLine(line).slice(0, ch));
+    return behindWord && !cm.somethingSelected() ? cm.showHint() : cm.execCommand("indentMore");
 }
 
-async function newWorker() {
-    const {source, wasm} = await moduleFiles(), packed = Uint8Array.from(atob(wasm), c => c.charCodeAt(0));
-    const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    const w = new Worker(URL.createObjectURL(new Blob([`onmessage = event => { self.qdotBytes = event.data;\n${source}\n}`])));
-    w.postMessage(bytes, [bytes]);
-    return w;
-}
+/* --- what is carried out ---------------------------------------------------------------------- */
 
-function start() {
-    status("loading…");
-    ready = newWorker().then(w => new Promise((good, bad) => {
-        worker = w;
-        w.onmessage = ({data}) => {
-            if (data.kind === "ready") {
-                status(`qdot ${data.version}, ready`);
-                document.documentElement.dataset.ready = "yes";
-                for (const [name, bytes] of files)
-                    w.postMessage({id: 0, kind: "write", name, bytes});
-                good();
-            } else if (data.kind === "progress") {
-                $("progress").hidden = false;
-                if (isFinite(data.done))
-                    $("progress").value = data.done;
-                status(data.what + (data.left > 1 ? `, ${Math.ceil(data.left)} s left` : "…"));
-            } else if (data.id === undefined) {
-                bad(new Error(data.message));
-            } else if (calls.has(data.id)) {
-                const call = calls.get(data.id);
-                if (data.kind === "answers")
-                    call.some(data);
-                else {
-                    calls.delete(data.id);
-                    call.end(data);
-                }
-            }
-        };
-        w.onerror = event => bad(new Error(event.message || "the session could not be started"));
-    }));
-    ready.catch(failure => status("not started: " + failure.message));
-}
-
-function call(message, some = () => {}) {
-    return ready.then(() => new Promise(end => {
-        const id = ++count;
-        calls.set(id, {some, end});
-        worker.postMessage({...message, id});
-    }));
-}
-
-/* End the computation with its thread, and begin another; what was asked before is done again when it is needed. */
-function stop() {
-    if (!running)
-        return;
-    worker.terminate();
-    const all = [...calls.values()];
-    calls.clear();
-    stale = history.length > 0;
-    start();
-    all.forEach(c => c.end({kind: "stopped"}));
-}
+let ran = null; /* the script that was run last */
 
 function status(text) {
     $("status").textContent = text;
 }
 
-/* Carry out a text as part of the session; its answers below those that are there. */
-async function carryOut(text, first, fresh, shown) {
-    if (running)
-        return;
-    running = text;
+function setRunning(running) {
     for (const id of ["run", "run-to"])
-        $(id).disabled = true;
-    $("stop").disabled = false;
-    document.documentElement.dataset.running = "yes";
-    status("computing…");
-    const begun = performance.now();
-    if (stale && !fresh)
-        for (const h of history)
-            await call({kind: "ask", ...h});
-    stale = false;
-    if (fresh)
-        history = [];
-    const end = await call({kind: "ask", text, first, fresh}, data => shown(data));
-    if (end.kind === "end")
-        history.push({text, first, fresh});
-    running = null;
-    for (const id of ["run", "run-to"])
-        $(id).disabled = false;
-    $("stop").disabled = true;
+        $(id).disabled = running;
+    $("stop").disabled = !running;
     $("progress").hidden = true;
-    delete document.documentElement.dataset.running;
-    const seconds = ((performance.now() - begun) / 1000).toPrecision(2);
-    status(end.kind === "stopped" ? "stopped" : end.kind === "lost" ? "the session was lost: " + end.message
-        : (end.good ? "done" : "stopped at an error") + ` in ${Number(seconds)} s`);
-    if (end.kind === "stopped")
-        $("answers").append(Object.assign(document.createElement("div"), {className: "answer notice", textContent: "stopped"}));
-    if (end.kind === "lost") {
-        worker.terminate();
-        stale = true;
-        start();
-    }
+    $("progress").removeAttribute("value");
+    if (running)
+        document.documentElement.dataset.running = "yes";
+    else
+        delete document.documentElement.dataset.running;
 }
 
-/* --- answers ---------------------------------------------------------------------------------- */
-
-let marked = [];
-
-function clearAnswers() {
-    $("answers").replaceChildren();
-    marked.splice(0).forEach(line => editor.removeLineClass(line, "background", "wrong"));
-}
-
-function show(data, source, ofScript) {
-    const pane = $("answers"), low = pane.scrollHeight - pane.scrollTop - pane.clientHeight < 80;
-    const box = document.createElement("div"), asked = document.createElement("button");
-    box.className = "answer";
-    asked.className = "asked";
-    asked.textContent = data.text.split("\n")[0].trim();
-    asked.title = ofScript ? `line ${data.line}` : "";
-    if (ofScript)
-        asked.addEventListener("click", () => {
-            editor.setCursor(data.line - 1, 0);
-            editor.focus();
-        });
-    box.append(asked, ...elementsOf(data.answers, source));
-    pane.append(box);
-    for (const a of data.answers)
-        if (a.kind === "error" && ofScript && a.line && (!a.file || a.file === "ask"))
-            marked.push(editor.addLineClass(a.line - 1, "background", "wrong"));
-    if (low && !ofScript)
-        pane.scrollTop = pane.scrollHeight;
+/* Carry out a text; its answers below those that are there. Whether all of it succeeded. */
+async function carryOut(text, ofScript) {
+    const begun = performance.now(), focused = document.activeElement;
+    let waiting = null, timer = 0;
+    setRunning(true);
+    const end = await session.carryOut(text, ofScript, data => {
+        clearTimeout(timer);
+        if (waiting)
+            waiting.remove();
+        waiting = null;
+        if (data.kind === "begin")
+            timer = setTimeout(() => { waiting = box(data, ofScript, said("computing…", "soft")); }, 250);
+        else
+            show(data, ofScript);
+    });
+    clearTimeout(timer);
+    setRunning(false);
+    const seconds = Number(((performance.now() - begun) / 1000).toPrecision(2));
+    const outcome = {
+        end: (end.good ? "done" : "stopped at an error") + ` in ${seconds} s`,
+        stopped: `stopped after ${seconds} s; all that was done before is kept`,
+        lost: "the computation broke off; all that was done before it is kept",
+    }[end.kind];
+    if (waiting)
+        waiting.lastChild.textContent = end.kind === "lost" ? "broke off: " + end.message : "stopped";
+    else if (end.kind === "lost")
+        notice("The computation broke off: " + end.message);
+    status(outcome + (ran !== null && editor.getValue() !== ran && !ofScript ? "; the script was changed since it was run" : ""));
+    if (document.activeElement === document.body || document.activeElement === $("stop"))
+        focused.focus();
+    return end.kind === "end" && end.good;
 }
 
 function runAll() {
-    runText(editor.getValue());
+    return runText(editor.getValue());
 }
 
 function runToCursor() {
-    runText(editor.getRange({line: 0, ch: 0}, {line: editor.getCursor().line, ch: 1e6}));
+    return runText(editor.getRange({line: 0, ch: 0}, {line: editor.getCursor().line, ch: 1e6}));
 }
 
-function runText(text) {
-    if (running)
-        return;
+async function runText(text) {
+    if (session.isRunning())
+        return false;
     clearAnswers();
-    keep();
-    carryOut(text, 0, true, data => show(data, text, true));
+    if (getComputedStyle(document.querySelector("main")).display === "block")
+        $("right").scrollIntoView(); /* narrow windows: answers stand below the script */
+    ran = editor.getValue();
+    return carryOut(text, true);
 }
-
-$("answers").addEventListener("click", async event => {
-    const name = event.target.dataset && event.target.dataset.file;
-    if (name) {
-        const {bytes} = await call({kind: "read", name});
-        give(name.split("/").pop(), bytes);
-    }
-});
 
 const lines = [];
 let lineAt = 0;
-$("ask").addEventListener("submit", event => {
+$("ask").addEventListener("submit", async event => {
     event.preventDefault();
     const text = $("line").value;
-    if (text.trim() === "" || running)
+    if (text.trim() === "" || session.isRunning())
         return;
+    if (session.isNew() && editor.getValue().trim() !== "" && !await runAll())
+        return; /* the line goes on where the script ends */
     lines.push(text);
     lineAt = lines.length;
     $("line").value = "";
     if ($("answers").querySelector(".empty"))
         clearAnswers();
-    const run = history.length === 0 && !stale;
-    carryOut(text, 0, run, data => show(data, text, false));
+    carryOut(text, false);
 });
 $("line").addEventListener("keydown", event => {
     const step = {ArrowUp: -1, ArrowDown: 1}[event.key];
@@ -237,20 +147,84 @@ $("line").addEventListener("keydown", event => {
         lineAt += step;
         $("line").value = lines[lineAt] || "";
         event.preventDefault();
-    } else if (event.key === "Escape") {
-        stop();
     }
+});
+
+/* --- answers ---------------------------------------------------------------------------------- */
+
+const marked = [];
+
+function clearAnswers() {
+    $("answers").replaceChildren();
+    marked.splice(0).forEach(line => editor.removeLineClass(line, "background", "wrong"));
+}
+
+function said(text, kind) {
+    return Object.assign(document.createElement("div"), {className: kind, textContent: text});
+}
+
+function notice(text) {
+    $("answers").append(said(text, "answer notice"));
+}
+
+/* A box among the answers: what was asked, and the elements below it. */
+function box({text, line}, ofScript, ...elements) {
+    const all = document.createElement("div"), asked = document.createElement("button"), [first, ...more] = text.trim().split("\n");
+    all.className = "answer qdot";
+    asked.className = "asked";
+    asked.textContent = first + (more.length > 0 ? " …" : "");
+    asked.title = ofScript ? `line ${line}` : "";
+    asked.addEventListener("click", () => {
+        if (ofScript)
+            editor.setCursor(line - 1, 0);
+        (ofScript ? editor : $("line")).focus();
+    });
+    all.append(asked, ...elements);
+    $("answers").append(all);
+    if (!ofScript)
+        reveal(all);
+    return all;
+}
+
+function reveal(element) {
+    element.scrollIntoView({block: element.offsetHeight > $("answers").clientHeight ? "start" : "nearest"});
+}
+
+function show(data, ofScript) {
+    if (data.answers.length === 0)
+        return;
+    const all = box(data, ofScript, ...elementsOf(data.answers, data.text.trim()));
+    if (data.answers.every(showsStatement) && ofScript)
+        all.firstChild.textContent = `line ${data.answers[0].line}`;
+    else if (data.answers.every(showsStatement))
+        all.firstChild.remove();
+    for (const a of data.answers)
+        if (a.kind === "error" && ofScript && a.line && (!a.file || a.file === "ask"))
+            marked.push(editor.addLineClass(a.line - 1, "background", "wrong"));
+    if (data.answers.some(a => a.kind === "error"))
+        reveal(all);
+}
+
+$("answers").addEventListener("click", async event => {
+    const name = event.target.dataset && event.target.dataset.file;
+    if (!name)
+        return;
+    const {bytes} = await session.call({kind: "read", name});
+    if (bytes)
+        give(name.split("/").pop(), bytes);
+    else
+        status(`${name} is not there any more; run the script again`);
 });
 
 /* --- completion and help ------------------------------------------------------------------------ */
 
 async function hints(cm) {
     const at = cm.getCursor();
-    if (running)
+    if (session.isRunning())
         return null;
     const text = cm.getRange({line: at.line, ch: 0}, at), names = declared(cm.getValue());
-    const {words, start} = await call({kind: "complete", text, cursor: text.length});
-    const word = /[A-Za-z_]\w*$/.exec(text), own = word ? names.filter(n => n.startsWith(word[0]) && n !== word[0]) : [];
+    const {words = [], start} = await session.call({kind: "complete", text, cursor: text.length});
+    const word = /[\p{L}_][\p{L}\p{N}_]*$/u.exec(text), own = word ? names.filter(n => n.startsWith(word[0]) && n !== word[0]) : [];
     const from = words.length > 0 ? start : word ? word.index : at.ch;
     const list = [...new Set([...words.map(w => w.trimEnd()), ...own])];
     return list.length === 0 ? null : {list, from: {line: at.line, ch: from}, to: at};
@@ -261,47 +235,43 @@ function declared(text) {
     const found = new Set();
     for (const m of text.matchAll(/^\s*(?:coord|param|particle|body|function|let|constraint|event|spring|damper|force)\s+([^:=\n#]*)/gm))
         for (const n of m[1].split(",")) {
-            const name = /^\s*([A-Za-z_]\w*)/.exec(n);
+            const name = /^\s*([\p{L}_][\p{L}\p{N}_]*)/u.exec(n);
             if (name)
                 found.add(name[1]);
         }
     return [...found];
 }
 
+function closeHelp() {
+    document.querySelectorAll(".help").forEach(e => e.remove());
+}
+
 async function explain() {
     const at = editor.getCursor(), text = editor.getLine(at.line);
-    if (running)
-        return;
-    const {said} = await call({kind: "explain", text, cursor: at.ch});
-    document.querySelectorAll(".help").forEach(e => e.remove());
-    if (!said || !said.word) {
-        status("nothing is known of what stands at the cursor");
-        return;
-    }
-    const box = document.createElement("div"), place = editor.cursorCoords(true, "window"), head = document.createElement("pre");
-    box.className = "help";
-    head.textContent = said.usage || said.word;
-    box.append(head, said.text || "", ...(said.example ? [Object.assign(document.createElement("pre"), {textContent: said.example})] : []));
-    box.style.left = Math.min(place.left, innerWidth * 0.5) + "px";
-    box.style.top = Math.min(place.bottom + 4, innerHeight - 160) + "px";
-    document.body.append(box);
-    const away = () => box.remove();
-    editor.on("cursorActivity", away);
-    document.addEventListener("mousedown", away, {once: true});
+    if (session.isRunning())
+        return status("words are explained when the computation is done");
+    const {said: known} = await session.call({kind: "explain", text, cursor: at.ch});
+    closeHelp();
+    if (!known || !known.word)
+        return status("there is no help for what stands at the cursor");
+    const help = document.createElement("div"), place = editor.cursorCoords(true, "window"), head = document.createElement("pre");
+    help.className = "help";
+    help.setAttribute("role", "status");
+    head.textContent = known.usage || known.word;
+    help.append(head, known.text || "", ...(known.example ? [Object.assign(document.createElement("pre"), {textContent: known.example})] : []));
+    document.body.append(help);
+    help.style.left = Math.max(4, Math.min(place.left, innerWidth - help.offsetWidth - 8)) + "px";
+    help.style.top = Math.max(4, place.bottom + 4 + help.offsetHeight < innerHeight ? place.bottom + 4 : place.top - help.offsetHeight - 4) + "px";
 }
+editor.on("cursorActivity", closeHelp);
+document.addEventListener("mousedown", closeHelp);
 
 /* --- links, files, looks --------------------------------------------------------------------------- */
 
-const toLink = bytes => btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
-const fromLink = text => Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), c => c.charCodeAt(0));
-
-async function through(stream, bytes) {
-    return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
-}
+let fileName = "script.lag";
 
 $("share").addEventListener("click", async () => {
-    const packed = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(editor.getValue()));
-    location.replace("#script=" + toLink(packed));
+    location.replace(await linkOf(editor.getValue()));
     try {
         await navigator.clipboard.writeText(location.href);
         status("the link is on the clipboard: it holds the script");
@@ -310,21 +280,10 @@ $("share").addEventListener("click", async () => {
     }
 });
 
-/* The script that the address holds, or null. */
-async function scriptOfLink() {
-    const coded = /#script=([\w-]+)/.exec(location.hash);
-    try {
-        return coded && new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), fromLink(coded[1])));
-    } catch {
-        status("the link is damaged: it holds no script");
-        return null;
-    }
-}
-addEventListener("hashchange", async () => {
-    const script = await scriptOfLink();
+addEventListener("hashchange", () => scriptOfLink().then(script => {
     if (script !== null && script !== editor.getValue())
         editor.setValue(script);
-});
+}, failure => notice(failure.message)));
 
 function give(name, bytes) {
     const link = document.createElement("a");
@@ -334,48 +293,68 @@ function give(name, bytes) {
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-$("save").addEventListener("click", () => give("script.lag", editor.getValue()));
-$("open").addEventListener("change", async event => {
-    for (const file of event.target.files) {
-        if (/\.lag$|\.txt$/.test(file.name) && event.target.files.length === 1) {
-            editor.setValue(await file.text());
-            continue;
-        }
-        files.set(file.name, new Uint8Array(await file.arrayBuffer()));
-        await call({kind: "write", name: file.name, bytes: files.get(file.name)});
-        status(`${file.name} can be read by statements`);
+function save() {
+    give(fileName, editor.getValue());
+}
+
+/* A single script goes into the editor; everything else is a file that statements can read. */
+async function openFiles(all) {
+    const scripts = [...all].filter(file => /\.lag$/i.test(file.name)), script = scripts.length === 1 ? scripts[0] : null;
+    const others = [...all].filter(file => file !== script);
+    for (const file of others)
+        await session.write(file.name, new Uint8Array(await file.arrayBuffer()));
+    if (script) {
+        editor.setValue(await script.text());
+        fileName = script.name;
     }
+    status([...(script ? [`${script.name} is in the editor`] : []), ...others.map(file => `statements can read "${file.name}"`)].join("; "));
+}
+
+$("save").addEventListener("click", save);
+$("choose").addEventListener("click", () => $("open").click());
+$("open").addEventListener("change", async event => {
+    await openFiles(event.target.files);
     event.target.value = "";
 });
-
-function keep() {
-    try {
-        localStorage.setItem("qdot-script", editor.getValue());
-    } catch { /* a browser that keeps nothing */ }
-}
+document.addEventListener("dragover", event => event.preventDefault());
+document.addEventListener("drop", event => {
+    if (event.dataTransfer.files.length > 0) {
+        event.preventDefault();
+        event.stopPropagation();
+        openFiles(event.dataTransfer.files);
+    }
+}, true);
 
 function setTheme(dark) {
     document.documentElement.classList.toggle("dark", dark);
-    try {
-        localStorage.setItem("qdot-theme", dark ? "dark" : "light");
-    } catch { /* the same */ }
 }
-
-function kept(key) {
-    try {
-        return localStorage.getItem(key);
-    } catch {
-        return null;
-    }
-}
-setTheme(kept("qdot-theme") ? kept("qdot-theme") === "dark" : matchMedia("(prefers-color-scheme: dark)").matches);
-$("theme").addEventListener("click", () => setTheme(!document.documentElement.classList.contains("dark")));
+setTheme(keptTheme() ? keptTheme() === "dark" : matchMedia("(prefers-color-scheme: dark)").matches);
+$("theme").addEventListener("click", () => {
+    const dark = !document.documentElement.classList.contains("dark");
+    setTheme(dark);
+    keepTheme(dark ? "dark" : "light");
+});
 $("run").addEventListener("click", runAll);
 $("run-to").addEventListener("click", runToCursor);
-$("stop").addEventListener("click", stop);
+$("stop").addEventListener("click", () => session.stop());
 addEventListener("keydown", event => {
-    if ((event.ctrlKey || event.metaKey) && event.key === "Enter" && !event.defaultPrevented)
+    const command = (event.ctrlKey || event.metaKey) && !event.defaultPrevented;
+    if (event.key === "Escape") {
+        closeHelp();
+        session.stop();
+    } else if (command && event.key === "Enter") {
         runAll();
+    } else if (command && event.key.toLowerCase() === "s" && !event.shiftKey) {
+        event.preventDefault();
+        save();
+    }
+});
+
+/* A frame tells how high its page is. */
+addEventListener("message", event => {
+    for (const frame of document.querySelectorAll("iframe"))
+        if (event.source === frame.contentWindow && typeof event.data.height === "number")
+            frame.style.height = Math.min(Math.max(event.data.height, 100), 4000) + "px";
 });
 
 /* Examples: {name, title, text, files: {name: text}}. */
@@ -383,29 +362,48 @@ const script = document.createElement("script");
 script.src = "examples.js";
 script.onload = () => globalThis.qdotExamples.forEach((e, i) => $("examples").append(new Option(e.title, i)));
 document.head.append(script);
-$("examples").addEventListener("change", event => {
+$("examples").addEventListener("change", async event => {
     const example = globalThis.qdotExamples[event.target.value];
     event.target.value = "";
     if (!example)
         return;
-    for (const [name, text] of Object.entries(example.files)) {
-        files.set(name, new TextEncoder().encode(text));
-        call({kind: "write", name, bytes: files.get(name)});
-    }
-    history = [];
+    await session.stop();
+    for (const [name, text] of Object.entries(example.files))
+        session.write(name, new TextEncoder().encode(text));
     editor.setValue(example.text);
+    fileName = example.name;
     runAll();
 });
 
 if (location.protocol.startsWith("http") && "serviceWorker" in navigator)
     navigator.serviceWorker.register("service.js").catch(() => {});
 
-start();
-scriptOfLink().then(linked => {
-    editor.setValue(linked ?? (kept("qdot-script") || FIRST));
-    if ($("answers").children.length === 0)
-        $("answers").innerHTML = "<p class='empty'>The script is carried out in this page: nothing is sent anywhere. <b>Ctrl-Enter</b> runs it, " +
-            "<b>Shift-Enter</b> up to the cursor's line, <b>Tab</b> or <b>Ctrl-Space</b> completes a word, <b>F1</b> explains it, <b>Esc</b> stops.</p>";
+status("loading…");
+session.begin({
+    status,
+    progress({what, done, left}) {
+        $("progress").hidden = false;
+        if (isFinite(done))
+            $("progress").value = done;
+        status(what + (left > 1 ? `, ${Math.ceil(left)} s left` : "…"));
+    },
+}).then(({version, style}) => {
+    document.head.prepend(Object.assign(document.createElement("style"), {textContent: style}));
+    status(`qdot ${version}, ready`);
+    document.documentElement.dataset.ready = "yes";
+}, failure => {
+    status("not started");
+    notice("The page could not be started: " + failure.message);
+});
+
+$("answers").innerHTML = INTRODUCTION;
+scriptOfLink().catch(failure => {
+    notice(failure.message);
+    return null;
+}).then(linked => {
+    editor.setValue(linked ?? keptScript() ?? FIRST);
+    editor.clearHistory();
+    keepScript(editor);
     editor.focus();
 });
-globalThis.qdotPage = {editor, call, runAll};
+globalThis.qdotPage = {editor, call: session.call, runAll};

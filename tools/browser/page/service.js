@@ -2,7 +2,7 @@
 "use strict";
 
 const KEEP = "qdot-@version@";
-const files = ["./", "index.html", "page.css", "bundle.js", "module.js", "examples.js", "icon.svg"];
+const files = ["./", "index.html", "page.css", "bundle.js", "module.js", "examples.js", "icon.svg", "math.woff2"];
 
 self.addEventListener("install", event => event.waitUntil(
     caches.open(KEEP).then(cache => cache.addAll(files)).then(() => self.skipWaiting())));

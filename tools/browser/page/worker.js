@@ -1,8 +1,9 @@
 /* worker.js -- a session of qdot in a thread of its own: the page stays alive while it computes.
  *
  * Messages from the page: {id, kind, ...}; each gets one {id, kind: "end", ...}, answers before it as they come.
- *   ask       text, first (its first line in the script), fresh (from the beginning): statement by statement
- *   complete  text, cursor, declared     explain  text, cursor
+ *   ask       text, line (its first in the script), fresh (from the beginning): statement by statement, each with a message
+ *             {kind: "begin", line, text} and, when it was carried out, {kind: "piece", line, text, answers}
+ *   complete  text, cursor               explain  text, cursor
  *   write     name, bytes: a file that statements read      read  name: one that they wrote
  */
 "use strict";
@@ -56,35 +57,33 @@ function* pieces(text) {
     }
 }
 
-/* Carry out a piece; its answers with the lines of the script. false: it failed. */
-function askPiece(id, piece, first) {
-    const text = allocate(piece.text), slot = qdot._malloc(4);
+/* Carry out a piece that begins in line `line` of the script; false: it failed. Empty lines before it make the lines right that
+ * the library names. */
+function askPiece(id, line, piece) {
+    postMessage({id, kind: "begin", line, text: piece});
+    const text = allocate("\n".repeat(line - 1) + piece), slot = qdot._malloc(4);
     qdot.HEAPU32[slot >> 2] = 0;
     const result = qdot._qdot_system_ask(session, text, DISPLAY, slot);
-    const answers = taken(slot).split("\n").filter(line => line !== "").map(line => JSON.parse(line));
+    const answers = taken(slot).split("\n").filter(answer => answer !== "").map(answer => JSON.parse(answer));
     qdot._free(text);
     qdot._free(slot);
-    for (const answer of answers)
-        if (answer.line && (answer.kind !== "error" || answer.file === "ask" || !answer.file))
-            answer.line += first + piece.line;
     if (result !== 0 && !answers.some(a => a.kind === "error"))
-        answers.push({kind: "error", line: first + piece.line + 1, column: 0, message: qdot.UTF8ToString(qdot._qdot_system_error(session))});
-    if (answers.length > 0)
-        postMessage({id, kind: "answers", answers, line: first + piece.line + 1, text: piece.text});
+        answers.push({kind: "error", line, column: 0, message: qdot.UTF8ToString(qdot._qdot_system_error(session))});
+    postMessage({id, kind: "piece", line, text: piece, answers});
     return result === 0;
 }
 
 const calls = {
-    ask({id, text, first, fresh}) {
+    ask({id, text, line, fresh}) {
         if (fresh)
             begin();
         let good = true;
         for (const piece of pieces(text))
-            if (!(good = askPiece(id, piece, first)))
+            if (!(good = askPiece(id, line + piece.line, piece.text)))
                 break;
         return {good};
     },
-    complete({text, cursor, declared}) {
+    complete({text, cursor}) {
         const before = new TextEncoder().encode(text.slice(0, cursor)).length;
         const at = allocate(text), start = qdot._malloc(8);
         qdot.HEAPU32[(start >> 2) + 1] = 0;
@@ -131,6 +130,6 @@ onmessage = event => qdot ? serve(event.data) : waiting.push(event.data);
 qdotModule({wasmBinary: qdotBytes}).then(module => {
     qdot = module;
     begin();
-    postMessage({kind: "ready", version: qdot.UTF8ToString(qdot._qdot_version())});
+    postMessage({kind: "ready", version: qdot.UTF8ToString(qdot._qdot_version()), style: qdot.UTF8ToString(qdot._qdot_display_style())});
     waiting.splice(0).forEach(serve);
 }, failure => postMessage({kind: "lost", message: String(failure)}));
