@@ -1,9 +1,34 @@
 /* actions.c -- quick fixes, and lenses above lines with what can be done there. */
 #include <string.h>
 
+#include "base/utf8.h"
 #include "documents.h"
+#include "lang/analysis/fix.h"
 #include "lang/source/source.h"
 #include "places.h"
+
+/* Append what mends a remark: a text in place of another, or a line above. */
+static void
+append_fixes(const qdot_server *server, const qdot_document *document, const qdot_remark *remark, json_t *actions)
+{
+    const qdot_analysis *a = document->thorough;
+    qdot_edit_list fixes = {0};
+
+    if (qdot_fix_find(a, remark, &fixes) == QDOT_OK)
+        for (size_t i = 0; i < fixes.n; i++) {
+            const char *text = fixes.at[i].text;
+            const bool line = fixes.at[i].at.from == fixes.at[i].at.to;
+            char title[200];
+
+            (void)snprintf(title, sizeof title, "Write `%.*s`%s", (int)strcspn(text, "\n"), text, line ? " above" : "");
+            qdot_utf8_mend(title);
+            (void)json_array_append_new(
+                actions, json_pack("{s:s, s:s, s:b, s:{s:{s:[{s:o, s:s}]}}}", "title", title, "kind", "quickfix", "isPreferred", i == 0,
+                                   "edit", "changes", document->uri, "range",
+                                   qdot_place_range(server, a->text, a->length, fixes.at[i].at), "newText", text));
+        }
+    qdot_layout_clear(&fixes);
+}
 
 json_t *
 qdot_lsp_code_action(qdot_server *server, const json_t *params, qdot_lsp_failure *failure)
@@ -20,17 +45,9 @@ qdot_lsp_code_action(qdot_server *server, const json_t *params, qdot_lsp_failure
     if (!qdot_place_read_range(server, a->text, a->length, json_object_get(params, "range"), &at))
         return qdot_lsp_fail(failure, QDOT_LSP_INVALID_PARAMS, "no range");
     actions = json_array();
-    for (size_t i = 0; qdot_analysis_remark(document->thorough, i, &remark); i++) {
-        char title[200];
-
-        if (remark.fix == NULL || remark.at.to < at.from || remark.at.from > at.to)
-            continue;
-        (void)snprintf(title, sizeof title, "Write `%.150s`", remark.fix);
-        (void)json_array_append_new(
-            actions, json_pack("{s:s, s:s, s:b, s:{s:{s:[{s:o, s:s}]}}}", "title", title, "kind", "quickfix", "isPreferred", 1, "edit",
-                               "changes", document->uri, "range", qdot_place_range(server, a->text, a->length, remark.at), "newText",
-                               remark.fix));
-    }
+    for (size_t i = 0; qdot_analysis_remark(document->thorough, i, &remark); i++)
+        if (remark.level == QDOT_REMARK_ERROR && remark.at.to >= at.from && remark.at.from <= at.to)
+            append_fixes(server, document, &remark, actions);
     return actions;
 }
 

@@ -438,6 +438,14 @@ def run_shapes(qdot):
         if [d["message"].split("\n")[0] for d in document.diagnostics()] != ["unknown name `thta`"]:
             wrong("a change with %s is lost" % said)
         document.set("coord x\n")
+    # what is offered to mend an error
+    for said, expected in [("y = sin^2(x)\n", "y = sin(x)^2\n"), ("x + k\n", "param k\nx + k\n"), ("2*thet\n", None)]:
+        text = "coord x\n# \U0001F600\n"
+        document.set(text + said)
+        where = document.diagnostics()[0]["range"]
+        actions = client.request("textDocument/codeAction", dict(document.item, range=where, context={"diagnostics": []}))
+        if apply_edits(document.text, actions[0]["edit"]["changes"][document.uri] if actions and expected else []) != text + (expected or said):
+            wrong("%s: %s" % (said, actions))
     # packets
     client.id += 1
     body = json.dumps({"jsonrpc": "2.0", "id": client.id, "method": "textDocument/hover", "params": WHOLE}).encode()

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/utf8.h"
-#include "lang/analysis/follow.h"
+#include "lang/analysis/fix.h"
 #include "lang/analysis/names.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
@@ -84,37 +84,6 @@ qdot_names_renameable(const qdot_analysis *a, size_t at, qdot_occurrence *found)
     return status;
 }
 
-/* The number of errors of a text in which the places have the new name. */
-static qdot_status
-count_errors(const qdot_analysis *a, const qdot_occurrence_list *places, const char *name, size_t *errors)
-{
-    qdot_analysis *other = qdot_analysis_new(a->path, a->quick, &(qdot_analysis_host){.read = a->host.read, .data = a->host.data});
-    qdot_text text = {0};
-    qdot_status status = other != NULL ? QDOT_OK : QDOT_ENOMEM;
-    size_t from = 0;
-    qdot_remark remark;
-    bool done;
-
-    for (size_t i = 0; i < places->n; i++) {
-        qdot_text_add_n(&text, a->text + from, places->at[i].at.from - from);
-        qdot_text_add(&text, name);
-        from = places->at[i].at.to;
-    }
-    qdot_text_add_n(&text, a->text + from, a->length - from);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_follow_text(other, qdot_text_str(&text), text.n);
-    if (status == QDOT_OK)
-        status = qdot_follow_on(other, &done);
-    *errors = 0;
-    for (size_t i = 0; status == QDOT_OK && qdot_analysis_remark(other, i, &remark); i++)
-        *errors += remark.level == QDOT_REMARK_ERROR;
-    qdot_text_clear(&text);
-    qdot_analysis_free(other);
-    return status;
-}
-
 /* Whether the name of `place` stands in the piece. */
 static bool
 stands_in_piece(const qdot_occurrence_list *list, const qdot_occurrence *place, size_t piece)
@@ -145,16 +114,20 @@ static qdot_status
 choose_places(const qdot_analysis *a, const qdot_occurrence_list *list, const qdot_occurrence *place, const char *name,
               qdot_occurrence_list *places)
 {
-    size_t before = 0, after;
-    qdot_remark remark;
+    qdot_edit_list edits = {0};
+    size_t after = 0;
+    qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < list->n; i++)
         if (qdot_names_are_same(&list->at[i], place))
             QDOT_TRY(qdot_vec_push(places, list->at[i]));
-    for (size_t i = 0; qdot_analysis_remark(a, i, &remark); i++)
-        before += remark.level == QDOT_REMARK_ERROR;
-    QDOT_TRY(count_errors(a, places, name, &after));
-    if (after > before)
+    for (size_t i = 0; i < places->n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&edits, ((qdot_edit){places->at[i].at, (char *)name})); /* the name is borrowed */
+    if (status == QDOT_OK)
+        status = qdot_fix_errors_with(a, &edits, &after);
+    qdot_free(edits.at);
+    QDOT_TRY(status);
+    if (after > qdot_fix_errors(a))
         return qdot_fail(QDOT_ENAME, "with `%.100s` in place of `%.100s` the script would not mean the same", name, place->name);
     return QDOT_OK;
 }

@@ -251,7 +251,7 @@ note_unknown(passage *p, const qdot_token *first, const qdot_token *end, bool ca
             QDOT_TRY(qdot_meaning_add_unknown(p->a, k[1].text, true));
     if (is_word_among(first, values) && !carried)
         p->state.loose = true;
-    if (carried && row != NULL && strcmp(row->word, "reset") == 0 && (first + 1 == end || qdot_token_is_word(first + 1, "scene"))) {
+    if (carried && row != NULL && strcmp(row->word, "reset") == 0 && first + 1 == end) { /* `reset scene` keeps numbers */
         p->a->forgotten = p->a->unknown.n;
         p->state.partial = p->state.loose = false;
     }

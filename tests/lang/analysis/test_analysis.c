@@ -62,7 +62,7 @@ reset_forgets_names_of_runs(void **state)
     says(state, "coord x\nlagrangian x'^2/2\nrun 0..1 as r\nE = value(x, 1)\nreset\ncoord r > 0, E\nlagrangian r'^2/2 + E'^2\ncyclic\nc = r + q1\n",
          "117-119 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
     says(state, "coord x\nlagrangian x'^2/2\nrun 0..1 as r\nE = value(r.x, 1)\nE + 1\nreset scene\nE + q1\n",
-         "76-77 error: unknown name `E` | write energy\n");
+         "80-82 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
     /* the label of a run hides nothing */
     says(state, "coord x, r\nlagrangian x'^2/2 + r'^2/2\nrun 0..1 as r\nc = r + q1\n",
          "60-62 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
