@@ -226,6 +226,8 @@ choose_way(const passage *p, const qdot_token *first, const qdot_token *end)
 
     if (p->state.uncertain || qdot_meaning_depends(p->a, first, end))
         return LOOKED_AT;
+    if (qdot_token_is_word(first, "start") && first + 2 == end && p->a->unknown.n > p->a->forgotten) /* at the end of a run */
+        return LOOKED_AT;
     if (p->state.loose && qdot_token_is_word(first, "start")) /* it may follow another start that is not known */
         return LOOKED_AT;
     if (form == QDOT_FORM_DEFINITION || form == QDOT_FORM_UNKNOWN)

@@ -63,6 +63,7 @@ reset_forgets_names_of_runs(void **state)
          "117-119 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
     says(state, "coord x\nlagrangian x'^2/2\nrun 0..1 as r\nE = value(r.x, 1)\nE + 1\nreset scene\nE + q1\n",
          "80-82 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
+    says(state, "param a\ncoord x\nlagrangian x'^2/2\nrun 0..1 as a\nstart a\n", "");
     /* the label of a run hides nothing */
     says(state, "coord x, r\nlagrangian x'^2/2 + r'^2/2\nrun 0..1 as r\nc = r + q1\n",
          "60-62 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
