@@ -38,8 +38,17 @@ class Client:
             self.notify("initialized", {})
 
     def send_bytes(self, data):
-        self.process.stdin.write(data)
-        self.process.stdin.flush()
+        """Send it, and keep meanwhile what the server says: one that nobody listens to would wait, and read nothing."""
+        said = self.process.stdin.fileno()
+        heard = [] if self.process.stdout.closed else [self.process.stdout.fileno()]
+        while data:
+            readable, writable, _ = select.select(heard, [said], [])
+            if readable:
+                block = os.read(heard[0], 1 << 16)
+                self.buffer += block
+                heard = heard if block else []
+            if writable:
+                data = data[os.write(said, data[:select.PIPE_BUF]):]
 
     def send(self, message):
         body = json.dumps(message).encode()
