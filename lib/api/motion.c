@@ -23,17 +23,6 @@ qdot_api_place(const qdot_motion *motion)
     return i;
 }
 
-static void
-drop_run_from_session(qdot_session *session, size_t i)
-{
-    qdot_named_run gone = session->runs->at[i];
-
-    memmove(&session->runs->at[i], &session->runs->at[i + 1],
-            (session->runs->n - i - 1) * sizeof gone);
-    session->runs->n--;
-    qdot_named_run_release(&gone);
-}
-
 void
 qdot_motion_free(qdot_motion *motion)
 {
@@ -44,7 +33,7 @@ qdot_motion_free(qdot_motion *motion)
 
         if (i < motion->system->session->runs->n) {
             qdot_api_delete_undo_records(motion->system->session); /* as after qdot_system_run */
-            drop_run_from_session(motion->system->session, i);
+            qdot_runs_drop(motion->system->session, i);
         }
     }
     qdot_named_run_release(&motion->run);

@@ -57,6 +57,7 @@ typedef struct {
 typedef struct {
     char *name;
     bool label; /* of a run: any other name hides it */
+    bool gone;  /* it was the label of a run or table that `remove` has taken away */
 } qdot_unknown;
 
 /* What an analysis asks of who makes it; any function may be NULL. */

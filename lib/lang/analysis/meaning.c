@@ -26,32 +26,63 @@ is_given(const char *name)
            (run > 0 && name[run] != '\0' && name[run + strspn(name + run, "0123456789")] == '\0');
 }
 
+/* Whether a run may have the name: what it may be in a.x, where no other name hides it. */
+static bool
+may_be_run(const qdot_analysis *a, const char *name)
+{
+    for (size_t i = a->unknown.n; i > a->forgotten; i--)
+        if (strcmp(a->unknown.at[i - 1].name, name) == 0)
+            return !a->unknown.at[i - 1].gone;
+    return is_given(name);
+}
+
 bool
 qdot_meaning_is_unknown(const qdot_analysis *a, const char *name)
 {
-    if (is_given(name) && qdot_names_find(a->session->names, name) == NULL)
-        return true;
-    for (size_t i = a->forgotten; i < a->unknown.n; i++)
-        if (strcmp(a->unknown.at[i].name, name) == 0 && !(a->unknown.at[i].label && qdot_names_find(a->session->names, name) != NULL))
+    const bool declared = qdot_names_find(a->session->names, name) != NULL;
+
+    for (size_t i = a->unknown.n; i > a->forgotten; i--) {
+        const qdot_unknown *unknown = &a->unknown.at[i - 1];
+
+        if (strcmp(unknown->name, name) != 0)
+            continue;
+        if (unknown->gone)
+            return false;
+        if (!unknown->label || !declared)
             return true;
-    return false;
+    }
+    return is_given(name) && !declared;
+}
+
+/* Add a row to the list: the latest of a name holds. */
+static qdot_status
+add_unknown_row(qdot_analysis *a, const char *name, bool label, bool gone)
+{
+    const qdot_unknown row = {qdot_strdup(name), label, gone};
+    const qdot_status status = row.name != NULL ? qdot_vec_push(&a->unknown, row) : QDOT_ENOMEM;
+
+    if (status != QDOT_OK)
+        qdot_free(row.name);
+    return status;
 }
 
 qdot_status
 qdot_meaning_add_unknown(qdot_analysis *a, const char *name, bool label)
 {
-    char *own;
-    qdot_status status;
-
     if (qdot_meaning_is_unknown(a, name))
         return QDOT_OK;
-    own = qdot_strdup(name);
-    if (own == NULL)
-        return QDOT_ENOMEM;
-    status = qdot_vec_push(&a->unknown, ((qdot_unknown){own, label}));
-    if (status != QDOT_OK)
-        qdot_free(own);
-    return status;
+    return add_unknown_row(a, name, label, false);
+}
+
+qdot_status
+qdot_meaning_remove_label(qdot_analysis *a, const char *name, bool *removed)
+{
+    size_t i = a->unknown.n;
+
+    while (i > a->forgotten && strcmp(a->unknown.at[i - 1].name, name) != 0)
+        i--;
+    *removed = i > a->forgotten && a->unknown.at[i - 1].label;
+    return *removed ? add_unknown_row(a, name, false, true) : QDOT_OK;
 }
 
 /* Whether the brackets that open at `open` hold a range a..b, or one argument: max(x) is the largest value along a run. */
@@ -230,8 +261,13 @@ qdot_meaning_expression(void *data, qdot_cursor *c, const qdot_compiled *program
     for (size_t i = 0; i < program->code.list.n && !m->uncertain; i++) {
         const qdot_postfix *code = &program->code.list.at[i];
         const qdot_token *token = code->token;
+        const bool run = code->op == QDOT_POSTFIX_MEMBER;
         const bool call = code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_RANGE;
 
+        if (run && !may_be_run(m->a, token->text)) {
+            c->error_at = token->start;
+            return qdot_hints_unknown_run(token->text);
+        }
         if ((!call && code->op != QDOT_POSTFIX_NAME && code->op != QDOT_POSTFIX_INDEX_NAME) || token == NULL ||
             token->kind != QDOT_TOKEN_NAME || is_known(m, token->text) || qdot_enclosing_binds(c, token))
             continue;

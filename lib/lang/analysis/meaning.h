@@ -20,6 +20,8 @@ QDOT_MUST_CHECK qdot_status qdot_meaning_expression(void *data, qdot_cursor *c, 
 
 /* Whether the name is one whose meaning is not known here. */
 bool qdot_meaning_is_unknown(const qdot_analysis *a, const char *name);
+/* Take the label of a run or table away from those; *removed: whether it was one. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_meaning_remove_label(qdot_analysis *a, const char *name, bool *removed);
 /* Add a name to those; label: that of a run. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_meaning_add_unknown(qdot_analysis *a, const char *name, bool label);
 /* Whether the tokens depend on what an analysis does not have: runs, names whose meaning is not known, answers %. */

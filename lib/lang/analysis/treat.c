@@ -16,6 +16,7 @@
 #include "lang/syntax/definition.h"
 #include "lang/syntax/outline.h"
 #include "lang/workbench/script.h"
+#include "mech/scene/scene.h"
 #include "table/csv-read.h"
 
 /* Steps of work, which are checks for an interrupt: for what declares, for one question, for all questions of a text. */
@@ -245,12 +246,17 @@ note_unknown(passage *p, const qdot_token *first, const qdot_token *end, bool ca
     static const char *const values[] = {"set", "start", "find", "fit", "continue", NULL}, *const files[] = {"include", "data", NULL};
     const qdot_form form = qdot_statement_form(p->a->session, first);
     const qdot_statement *row = form == QDOT_FORM_WORD ? qdot_statement_row(first) : NULL;
+    bool removed = false;
 
     if (form == QDOT_FORM_DEFINITION && !carried)
         QDOT_TRY(qdot_meaning_add_unknown(p->a, first->text, false));
     for (const qdot_token *k = first; k + 1 < end; k++)
         if (qdot_token_is_word(k, "as") && k[1].kind == QDOT_TOKEN_NAME && row != NULL && !carried)
             QDOT_TRY(qdot_meaning_add_unknown(p->a, k[1].text, true));
+    if (qdot_token_is_word(first, "remove") && !carried && first + 2 == end && !qdot_scene_has_label(p->a->session->scene, first[1].text))
+        QDOT_TRY(qdot_meaning_remove_label(p->a, first[1].text, &removed));
+    if (removed)
+        return QDOT_OK;
     if (is_word_among(first, values) && !carried)
         p->state.loose = true;
     if (carried && row != NULL && strcmp(row->word, "reset") == 0 && first + 1 == end) { /* `reset scene` keeps numbers */

@@ -1,4 +1,4 @@
-/* remove.c -- the statement `remove`: removes things from the scene, by label or by kind and number, and states. */
+/* remove.c -- the statement `remove`: things of the scene, by label or by kind and number, states, runs, tables. */
 #include <string.h>
 
 #include "base/spelling.h"
@@ -8,6 +8,8 @@
 #include "lang/language/function.h"
 #include "lang/session/labels.h"
 #include "lang/session/names.h"
+#include "lang/session/row-tables.h"
+#include "lang/session/runs.h"
 #include "lang/session/scales.h"
 #include "lang/session/values.h"
 #include "lang/syntax/record.h"
@@ -19,7 +21,7 @@ QDOT_STATEMENT(remove) = {
     .group = QDOT_DECLARING,
     .usage = "remove NAME | remove KIND [K]",
     .summary = "take a thing out of the scene again: by its label; a state by its name; the only one of its kind (gravity, "
-               "potential, spring, damper, dissipation, force, torque), or the K-th",
+               "potential, spring, damper, dissipation, force, torque), or the K-th; forget a run or table by its name",
     .example = "remove d1",
     .handler = carry_out_remove,
 };
@@ -132,6 +134,9 @@ report_unknown_label(const qdot_session *session, const char *label)
     words.n = 0;
     qdot_labels_add(scene, &words);
     qdot_labels_add_applied(scene, &words);
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (!qdot_scene_has_label(scene, session->runs->at[i].name))
+            (void)qdot_vec_push(&words, session->runs->at[i].name);
     status = nearest != NULL ? qdot_hint("did you mean `%s`?", nearest)
                              : qdot_labels_hint(label, &words);
     qdot_free(words.at);
@@ -189,6 +194,18 @@ remove_state(qdot_session *session, const char *state, qdot_expr z)
     return QDOT_OK;
 }
 
+/* Forget the run or the table of this name; whether there was one. Numbers read from it keep their values. */
+static bool
+forget_run_or_table(qdot_session *session, const char *name)
+{
+    const size_t run = qdot_runs_index(session, name);
+
+    if (run == session->runs->n)
+        return qdot_row_tables_drop(session, name);
+    qdot_runs_drop(session, run);
+    return true;
+}
+
 static qdot_status
 carry_out_remove(qdot_record *r)
 {
@@ -209,7 +226,7 @@ carry_out_remove(qdot_record *r)
     if (!qdot_scene_has_label(scene, label) && name != NULL && qdot_scene_state_of(scene, name->value) != NULL)
         return remove_state(r->cursor.session, label, name->value);
     if (!qdot_scene_has_label(scene, label))
-        return report_unknown_label(r->cursor.session, label);
+        return forget_run_or_table(r->cursor.session, label) ? QDOT_OK : report_unknown_label(r->cursor.session, label);
     QDOT_TRY(qdot_scene_remove(scene, label));
     return give_notice_of_removed(r->cursor.session, label);
 }

@@ -14,6 +14,7 @@
 #include "lang/functions/quantity.h"
 #include "lang/language/condition.h"
 #include "lang/language/forms.h"
+#include "lang/language/hints.h"
 #include "lang/language/partial-sum.h"
 #include "lang/language/units.h"
 #include "lang/session/bind.h"
@@ -162,11 +163,7 @@ run_before_parenthesis(const qdot_machine *m, const qdot_postfix *code)
 static qdot_status
 check_run_exists(const qdot_machine *m, const char *name)
 {
-    for (size_t i = 0; i < m->session->runs->n; i++)
-        if (strcmp(m->session->runs->at[i].name, name) == 0)
-            return QDOT_OK;
-    (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
-    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+    return qdot_runs_index(m->session, name) < m->session->runs->n ? QDOT_OK : qdot_hints_unknown_run(name);
 }
 
 /* Mark the value on top of the stack as one along a run; an error if it belongs to another run already. */

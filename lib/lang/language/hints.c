@@ -286,6 +286,13 @@ qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const cha
 }
 
 qdot_status
+qdot_hints_unknown_run(const char *name)
+{
+    (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
+    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+}
+
+qdot_status
 qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
 {
     const char *name = token->text, *ours = qdot_foreign_word(name), *nearest;

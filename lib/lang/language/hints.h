@@ -26,6 +26,8 @@ qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,
 qdot_status qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member);
 /* As qdot_hints_unknown, for the name of a called function. */
 qdot_status qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token);
+/* "there is no run `a`", in a.theta. QDOT_ENAME. */
+qdot_status qdot_hints_unknown_run(const char *name);
 /* Report that a function's name is not followed by brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
 qdot_status qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token);
 /* The most similar of all known names; NULL if none is similar. Valid until names change. */

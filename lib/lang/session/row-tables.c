@@ -22,18 +22,26 @@ index_of_table(const qdot_session *session, const char *name)
     return i;
 }
 
+bool
+qdot_row_tables_drop(qdot_session *session, const char *name)
+{
+    qdot_row_table_list *tables = session->tables;
+    const size_t i = index_of_table(session, name);
+
+    if (i == tables->n)
+        return false;
+    qdot_row_table_release(tables->at[i]);
+    memmove(&tables->at[i], &tables->at[i + 1], (tables->n - i - 1) * sizeof *tables->at);
+    tables->n--;
+    return true;
+}
+
 qdot_status
 qdot_row_tables_keep(qdot_session *session, qdot_row_table *table)
 {
-    const size_t old = index_of_table(session, table->name);
     qdot_status status;
 
-    if (old < session->tables->n) {
-        qdot_row_table_release(session->tables->at[old]);
-        memmove(&session->tables->at[old], &session->tables->at[old + 1],
-                (session->tables->n - old - 1) * sizeof *session->tables->at);
-        session->tables->n--;
-    }
+    (void)qdot_row_tables_drop(session, table->name);
     status = qdot_vec_push(session->tables, table);
     if (status != QDOT_OK)
         qdot_row_table_release(table);

@@ -18,6 +18,8 @@ typedef struct qdot_row_table_list {
 QDOT_MUST_CHECK qdot_status qdot_row_tables_keep(qdot_session *session, qdot_row_table *table);
 /* The table with this name; NULL if there is none. */
 qdot_row_table *qdot_row_tables_find(const qdot_session *session, const char *name);
+/* Remove the table with this name; whether there was one. */
+bool qdot_row_tables_drop(qdot_session *session, const char *name);
 /* Find the first unused name among sweep1, sweep2, ... */
 void qdot_row_tables_next_name(const qdot_session *session, char *name, size_t size);
 

@@ -29,6 +29,27 @@ qdot_named_run_release(qdot_named_run *run)
     qdot_free(run->uses);
 }
 
+size_t
+qdot_runs_index(const qdot_session *session, const char *name)
+{
+    size_t i = 0;
+
+    while (i < session->runs->n && strcmp(session->runs->at[i].name, name) != 0)
+        i++;
+    return i;
+}
+
+void
+qdot_runs_drop(qdot_session *session, size_t i)
+{
+    qdot_run_list *runs = session->runs;
+    qdot_named_run gone = runs->at[i];
+
+    memmove(&runs->at[i], &runs->at[i + 1], (runs->n - i - 1) * sizeof gone);
+    runs->n--;
+    qdot_named_run_release(&gone);
+}
+
 qdot_status
 qdot_runs_keep(qdot_session *session, const char *name, const char *text,
                const qdot_run_request *request, qdot_run *run)
@@ -38,6 +59,7 @@ qdot_runs_keep(qdot_session *session, const char *name, const char *text,
                             .run = run,
                             .conditions = qdot_calloc(1, sizeof *named.conditions),
                             .uses = qdot_malloc(sizeof *named.uses)};
+    const size_t old = qdot_runs_index(session, name);
     qdot_status status = QDOT_ENOMEM;
 
     if (named.uses == NULL) {
@@ -55,15 +77,8 @@ qdot_runs_keep(qdot_session *session, const char *name, const char *text,
         return status;
     }
 
-    for (size_t i = 0; i < session->runs->n; i++) {
-        if (strcmp(session->runs->at[i].name, name) != 0)
-            continue;
-        qdot_named_run_release(&session->runs->at[i]);
-        memmove(&session->runs->at[i], &session->runs->at[i + 1],
-                (session->runs->n - i - 1) * sizeof named);
-        session->runs->n--;
-        break;
-    }
+    if (old < session->runs->n)
+        qdot_runs_drop(session, old);
     status = qdot_vec_push(session->runs, named);
     if (status != QDOT_OK)
         qdot_named_run_release(&named);
@@ -73,15 +88,11 @@ qdot_runs_keep(qdot_session *session, const char *name, const char *text,
 void
 qdot_runs_next_name(const qdot_session *session, char *name, size_t size)
 {
-    for (size_t k = session->runs->n + 1;; k++) {
-        bool taken = false;
+    size_t k = session->runs->n;
 
-        snprintf(name, size, "run%zu", k);
-        for (size_t i = 0; i < session->runs->n; i++)
-            taken = taken || strcmp(session->runs->at[i].name, name) == 0;
-        if (!taken)
-            return;
-    }
+    do
+        snprintf(name, size, "run%zu", ++k);
+    while (qdot_runs_index(session, name) < session->runs->n);
 }
 
 static qdot_status
@@ -101,19 +112,17 @@ report_unknown_run(const qdot_session *session, const char *name)
 qdot_status
 qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
 {
+    size_t i;
+
     if (session->runs->n == 0) {
         (void)qdot_fail(QDOT_EINVAL, "there is no run yet");
         return qdot_hint("run 0..20");
     }
-    *run = &session->runs->at[session->runs->n - 1];
-    if (name == NULL)
-        return QDOT_OK;
-    for (size_t i = 0; i < session->runs->n; i++)
-        if (strcmp(session->runs->at[i].name, name) == 0) {
-            *run = &session->runs->at[i];
-            return QDOT_OK;
-        }
-    return report_unknown_run(session, name);
+    i = name != NULL ? qdot_runs_index(session, name) : session->runs->n - 1;
+    if (i == session->runs->n)
+        return report_unknown_run(session, name);
+    *run = &session->runs->at[i];
+    return QDOT_OK;
 }
 
 /* The value that the run was made with: of a parameter, or of a coordinate at its start; nil: it is none

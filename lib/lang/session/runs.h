@@ -35,6 +35,10 @@ bool qdot_runs_is_family(const qdot_session *session, const char *name);
 QDOT_MUST_CHECK qdot_status qdot_runs_keep(qdot_session *session, const char *name,
                                            const char *text,
                                            const qdot_run_request *request, qdot_run *run);
+/* Remove run i of session->runs. */
+void qdot_runs_drop(qdot_session *session, size_t i);
+/* The index of the run with that name; session->runs->n if there is none. */
+size_t qdot_runs_index(const qdot_session *session, const char *name);
 /* Find the first unused name among run1, run2, ..., counting from the number of runs. */
 void qdot_runs_next_name(const qdot_session *session, char *name, size_t size);
 

@@ -70,6 +70,16 @@ reset_forgets_names_of_runs(void **state)
 }
 
 static void
+a_removed_run_has_no_values(void **state)
+{
+    says(state, "coord x\nlagrangian x'^2/2\nrun 0..1 as r\nrun 0..1 as s\nvalue(r.x, 1)\nremove r\nvalue(s.x, 1)\nvalue(r.x, 1)\n"
+                "x + q1\nrun 0..1 as r\nvalue(r.x, 1)\n",
+         "97-98 error: there is no run `r` | `a.theta` is theta along the run a; a product is written a*theta\n"
+         "109-111 error: unknown name `q1` | `param q1` declares a parameter, `coord q1` a coordinate\n");
+    says(state, "coord x\nlagrangian x'^2/2\nrun 0..1\nremove run1\n", "");
+}
+
+static void
 no_file_is_written(void **state)
 {
     says(state, "coord x\nlagrangian x'^2/2\nL to \"/nowhere/a.tex\"\nexport c eom to \"/nowhere/a.c\"\n", "");
@@ -191,6 +201,7 @@ main(void)
         cmocka_unit_test_setup_teardown(what_takes_long_is_parsed_only, begin, end),
         cmocka_unit_test_setup_teardown(names_that_a_statement_binds_are_known, begin, end),
         cmocka_unit_test_setup_teardown(reset_forgets_names_of_runs, begin, end),
+        cmocka_unit_test_setup_teardown(a_removed_run_has_no_values, begin, end),
         cmocka_unit_test_setup_teardown(no_file_is_written, begin, end),
         cmocka_unit_test_setup_teardown(a_refuted_check_is_a_warning, begin, end),
         cmocka_unit_test_setup_teardown(a_fault_has_no_train, begin, end),
