@@ -13,7 +13,7 @@ enum { MOST_LISTED = 3 };
 /* A time span in which the motion was held on a switching surface or contact. */
 typedef struct {
     double begin, end;
-    double unsure; /* uncertainty of `begin` beyond that estimated by the companion runs */
+    double unsure, unsure_end; /* uncertainties of `begin` and `end` beyond those estimated by the companion runs */
 } stretch;
 
 typedef qdot_vec(stretch) stretches;
@@ -51,20 +51,34 @@ time_of_rest(const qdot_course *c, size_t surface, double t, double *unsure)
     return t;
 }
 
+/* How far from the root of a surface a piece may have ended at t: the ends of the companions are as far, alike. */
+static double
+error_of_switch(const qdot_course *c, double t)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < c->ends.n; i++)
+        if (c->ends.at[i].t == t && c->ends.at[i].what.kind == QDOT_WATCH_SURFACE)
+            most = fmax(most, c->ends.at[i].late);
+    return most;
+}
+
 static qdot_status
 list_time_spans(const qdot_course *c, size_t surface, stretches *out)
 {
     const qdot_trajectory *tr = &c->tr;
 
     for (size_t k = 0; k < tr->pieces.n; k++) {
-        double unsure;
-        const double begin = time_of_rest(c, surface, tr->t[tr->pieces.at[k].first], &unsure);
+        const double from = tr->t[tr->pieces.at[k].first];
+        double unsure, to;
+        const double begin = time_of_rest(c, surface, from, &unsure);
 
         if (!slides_in_piece(c, k, surface))
             continue;
         while (slides_in_piece(c, k + 1, surface))
             k++;
-        QDOT_TRY(qdot_vec_push(out, ((stretch){begin, tr->t[qdot_trajectory_last_of(tr, k)], unsure})));
+        to = tr->t[qdot_trajectory_last_of(tr, k)];
+        QDOT_TRY(qdot_vec_push(out, ((stretch){begin, to, unsure + error_of_switch(c, from), error_of_switch(c, to)})));
     }
     return QDOT_OK;
 }
@@ -150,7 +164,7 @@ find_span_errors(const qdot_run *run, const stretches all[3], size_t k)
         ends[n++] = all[i].at[k].end;
     }
     return (stretch){own->begin == run->t0 || run->precise ? 0 : spread_of_times(begins, n) + own->unsure,
-                     own->end == run->t1 || run->precise ? 0 : spread_of_times(ends, n), 0};
+                     own->end == run->t1 || run->precise ? 0 : spread_of_times(ends, n) + own->unsure_end, 0, 0};
 }
 
 static qdot_status

@@ -403,6 +403,48 @@ range_around_root(const qdot_watch *w, const qdot_watch_part *p, double t)
                         .ulp = spacing_of_doubles(t)};
 }
 
+/* From the crossing at t to `end`, in doubling steps: where function i has the sign `sign` and exceeds `noise`, or `end`. */
+static qdot_status
+search_sign_beyond_noise(qdot_watch *w, size_t i, double t, double end, int sign, double noise, double *at)
+{
+    const double way = end < t ? -1 : 1;
+    double by = spacing_of_doubles(t);
+
+    for (*at = t; *at != end; by *= 2) {
+        *at = way * (t + way * by - end) < 0 ? t + way * by : end;
+        QDOT_TRY(qdot_watch_value_at(w, *at, w->g));
+        if (sign * w->g[i] > noise)
+            return QDOT_OK;
+    }
+    return QDOT_OK;
+}
+
+/* Make root->blur at least as wide as the time within which rounding of its operations hides function i, in the precision in
+ * which the crossing was found. */
+static qdot_status
+widen_by_operations(qdot_watch *w, const qdot_watch_part *p, qdot_root *root)
+{
+    const size_t i = root->function;
+    const bool others = w->fine, wanted = w->wants[i];
+    double noise, before, behind;
+    qdot_status status;
+
+    w->wants[i] = wanted || qdot_watch_can_two(w, i);
+    w->fine = others || w->wants[i];
+    status = w->reader.read(root->t, w->in, w->reader.user);
+    if (status == QDOT_OK)
+        status = qdot_watch_operations(w, root->t, qdot_watch_is_fine(w, i), i, &noise);
+    if (status == QDOT_OK)
+        status = search_sign_beyond_noise(w, i, root->t, p->a, -root->way, noise, &before);
+    if (status == QDOT_OK)
+        status = search_sign_beyond_noise(w, i, root->t, p->b, root->way, noise, &behind);
+    w->wants[i] = wanted;
+    w->fine = others;
+    if (status == QDOT_OK && fabs(behind - before) > 16 * spacing_of_doubles(root->t))
+        root->blur = fmax(root->blur, fabs(behind - before));
+    return qdot_grave(status);
+}
+
 qdot_status
 qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qdot_root *root, bool *is)
 {
@@ -413,9 +455,10 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
     bool before, behind;
 
     *is = true;
-    if (w->coarse || root->pole || !may_use_multiple_precision(w, i)
-        || slope * length > hardly_any * qdot_chebyshev_size(p->n, p->c))
+    if (w->coarse || root->pole || slope * length > hardly_any * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
+    if (!may_use_multiple_precision(w, i))
+        return widen_by_operations(w, p, root);
     QDOT_TRY(make_multiple_precision_program(w));
     QDOT_TRY(find_state_rounding_effect(w, i, root->t, &noise));
     QDOT_TRY(search_clear_sign(w, i, root->t, of.from, -root->way, noise, &lo, &before));

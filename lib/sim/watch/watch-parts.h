@@ -356,7 +356,8 @@ bool qdot_watch_join_instants(qdot_watch *w);
 /* --- flat roots (watch-flat.c) -------------------------------------------------------- */
 
 /* Where function i has hardly any slope at a crossing that was found, |g'| <= `slope`: locate it in many digits. *is false:
- * it is none, but made by rounding. It may become a touch. */
+ * it is none, but made by rounding. It may become a touch. Where many digits are not used, root->blur becomes as wide as the
+ * time within which rounding of the operations of g, in the precision in which the crossing was found, hides its sign. */
 QDOT_MUST_CHECK qdot_status qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qdot_root *root,
                                                    bool *is);
 /* Likewise a touch, at which g'' is `bend`; `hidden`: rounding of the operations is all that is seen there, however large
