@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "sim/form/derived.h"
+
 /* The motion counts as at rest if its rates of change are below this fraction of their largest values. */
 static const double little = 1e-2;
 
@@ -29,7 +31,7 @@ qdot_standstill_find(const qdot_run *run, double *t)
     double least = little, *f, *most;
 
     *t = NAN;
-    if (tr->pieces.n != 1)
+    if (tr->pieces.n != 1 || qdot_plan_is_driven(run->plan))
         return QDOT_OK;
     if (!(f = qdot_calloc(2 * n, sizeof *f)))
         return QDOT_ENOMEM;

@@ -6,7 +6,8 @@
  *
  * at a point before the horizon: all of the state nearly stands still there. Motions beside it leave
  * to one side or the other, so it is undecided what follows. A chaotic motion seldom has all its
- * slopes that small at once.
+ * slopes that small at once. Only of equations in which time does not occur: a drive pushes a motion on from where it
+ * stands still, and decides the side.
  *
  * Tests  tests/script/studies/chaos.sh
  */

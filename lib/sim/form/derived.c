@@ -4,6 +4,8 @@
 #include "sim/form/canonical.h"
 #include "sim/form/phase-space.h"
 #include "base/memory.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/form/motion-of-equations.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
@@ -101,4 +103,27 @@ qdot_plan_operations(const qdot_plan *p, size_t *calls)
     if (calls)
         *calls = of_calls;
     return operations;
+}
+
+static bool
+holds_time(const qdot_plan *p, qdot_expr e)
+{
+    return (qdot_expr_node(p->pool, e)->holds & QDOT_HAS_TIME) != 0;
+}
+
+bool
+qdot_plan_is_driven(const qdot_plan *p)
+{
+    bool time = false;
+
+    for (size_t i = 0; i < p->n && !p->M; i++)
+        time |= holds_time(p, p->residual->applied[i]); /* only forces need a test: positions do not depend on t */
+    for (size_t i = 0; i < p->n && p->M; i++) {
+        time |= holds_time(p, p->f[i]);
+        for (size_t j = 0; j < p->n; j++)
+            time |= holds_time(p, p->M[i * p->n + j]);
+    }
+    for (size_t i = 0; p->constraints && i < p->constraints->m; i++)
+        time |= holds_time(p, p->constraints->rows[i].f);
+    return time;
 }

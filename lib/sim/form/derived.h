@@ -18,6 +18,9 @@ void qdot_plan_drop_bordered(qdot_plan *plan);
  * reads; *calls (NULL: not wanted) of them of elementary functions. */
 size_t qdot_plan_operations(const qdot_plan *plan, size_t *calls);
 
+/* Whether time occurs in the equations: in M or f, in a constraint, or in an applied force. */
+bool qdot_plan_is_driven(const qdot_plan *plan);
+
 /* Release one reference to a plan; the last one frees the plan with all its equations. */
 void qdot_plan_free(qdot_plan *plan);
 

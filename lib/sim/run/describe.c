@@ -1,5 +1,4 @@
 /* describe.c -- prints a plan in words, for the statement `plan`. */
-#include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
 #include "ode/companion.h"
@@ -85,26 +84,11 @@ describe_mass_matrix(const qdot_plan *p, qdot_text *out)
         qdot_text_format(out, "; factored %s\n", when);
 }
 
-static bool
-holds_time(const qdot_plan *p, qdot_expr e)
-{
-    return (qdot_expr_node(p->pool, e)->holds & QDOT_HAS_TIME) != 0;
-}
-
 static void
 describe_time_dependence(const qdot_plan *p, qdot_text *out)
 {
-    bool time = false;
-
-    for (size_t i = 0; i < p->n && !p->M; i++)
-        time |= holds_time(p, p->residual->applied[i]); /* only forces need a test: positions do not depend on t */
-    for (size_t i = 0; i < p->n && p->M; i++) {
-        time |= holds_time(p, p->f[i]);
-        for (size_t j = 0; j < p->n; j++)
-            time |= holds_time(p, p->M[i * p->n + j]);
-    }
     qdot_text_format(out, "time: %s in the equations\n",
-                     time ? "occurs" : "does not occur");
+                     qdot_plan_is_driven(p) ? "occurs" : "does not occur");
 }
 
 /* Describe the constraints, how they are solved, and how the state is kept on them. */

@@ -30,4 +30,12 @@ potential x^4/4 - x^2/2
 force 3/10*cos(6/5*t) - x'/4 on x
 start x = 1
 run 0..400 tol 1e-9
+# it starts at rest, and the drive decides where it goes
+reset
+coord x
+particle p mass 1 at x
+potential x^4/4 - x^2/2
+force sin(6/5*t)/3 on x
+start x = 0
+run 0..400 tol 1e-9
 END
