@@ -70,9 +70,11 @@ append_runs(const qdot_server *server, const qdot_analysis *a, const qdot_occurr
         const qdot_occurrence *o = &list->at[i];
         bool again = false;
 
-        for (size_t k = 0; k < i; k++)
-            again = again || (list->at[k].declares && strcmp(list->at[k].name, o->name) == 0);
-        if (o->declares && o->role == QDOT_ROLE_RUN && o->at.to < at.from && !again && strncmp(o->name, a->text + at.from, n) == 0)
+        if (!o->declares || o->role != QDOT_ROLE_RUN || o->at.to >= at.from || strncmp(o->name, a->text + at.from, n) != 0)
+            continue;
+        for (size_t k = 0; k < i && !again; k++)
+            again = list->at[k].declares && strcmp(list->at[k].name, o->name) == 0;
+        if (!again)
             append_item(server, a, items, at, o->name);
     }
 }
@@ -117,6 +119,66 @@ append_paragraph(qdot_text *text, const char *paragraph, bool code)
         qdot_text_format(text, code ? "%s```qdot\n%s\n```" : "%s%s", text->n > 0 ? "\n\n" : "", paragraph);
 }
 
+static json_t *
+pack_hover(const qdot_server *server, const qdot_analysis *a, const qdot_text *text, qdot_stretch at)
+{
+    return json_pack("{s:{s:s, s:s}, s:o}", "contents", "kind", "markdown", "value", qdot_text_str(text), "range",
+                     qdot_place_range(server, a->text, a->length, at));
+}
+
+/* The line that holds byte `at`, without the blanks around it. */
+static qdot_stretch
+find_line(const qdot_analysis *a, size_t at)
+{
+    qdot_stretch line = {at, at};
+
+    while (line.from > 0 && a->text[line.from - 1] != '\n')
+        line.from--;
+    while (line.to < a->length && a->text[line.to] != '\n')
+        line.to++;
+    line.from += strspn(a->text + line.from, " \t\r");
+    while (line.to > at && strchr(" \t\r", a->text[line.to - 1]) != NULL)
+        line.to--;
+    return line;
+}
+
+/* The hover of a name that the session does not have, a run or an argument or one that is removed further below: what it is, and the
+ * line that declares it. NULL: nothing declares it. */
+static json_t *
+hover_declaration(const qdot_server *server, const qdot_analysis *a, size_t at)
+{
+    enum { MOST = 200 }; /* bytes of a line that are shown */
+    static const char *const words[] = {
+        [QDOT_ROLE_PARAMETER] = "a parameter", [QDOT_ROLE_COORDINATE] = "a coordinate", [QDOT_ROLE_FUNCTION] = "a function of yours",
+        [QDOT_ROLE_VALUE] = "a name of yours", [QDOT_ROLE_LABEL] = "a label", [QDOT_ROLE_RUN] = "a run or table",
+        [QDOT_ROLE_LOCAL] = "an argument or index"};
+    qdot_occurrence_list list = {0};
+    const qdot_occurrence *place, *declared = NULL;
+    qdot_text text = {0}, code = {0};
+    json_t *hover = NULL;
+
+    if (qdot_names_of_source(a, a->source, &list) != QDOT_OK)
+        return NULL;
+    place = qdot_names_at_byte(&list, at);
+    /* an argument or index is declared where it first stands */
+    for (size_t i = 0; place != NULL && place->role != QDOT_ROLE_UNKNOWN && declared == NULL && i < list.n; i++)
+        if (qdot_names_are_same(&list.at[i], place) && (list.at[i].declares || place->role == QDOT_ROLE_LOCAL))
+            declared = &list.at[i];
+    if (declared != NULL) {
+        const qdot_stretch line = find_line(a, declared->at.from);
+
+        if (line.to - line.from <= MOST)
+            qdot_text_add_n(&code, a->text + line.from, line.to - line.from);
+        append_paragraph(&text, qdot_text_str(&code), true);
+        append_paragraph(&text, words[place->role], false);
+        hover = pack_hover(server, a, &text, place->at);
+    }
+    qdot_text_clear(&code);
+    qdot_text_clear(&text);
+    qdot_free(list.at);
+    return hover;
+}
+
 json_t *
 qdot_lsp_hover(qdot_server *server, const json_t *params, qdot_lsp_failure *failure)
 {
@@ -137,8 +199,9 @@ qdot_lsp_hover(qdot_server *server, const json_t *params, qdot_lsp_failure *fail
         append_paragraph(&text, qdot_text_str(&explained.formula), true);
         append_paragraph(&text, qdot_text_str(&explained.dimension), false);
         append_paragraph(&text, qdot_text_str(&explained.example), true);
-        hover = json_pack("{s:{s:s, s:s}, s:o}", "contents", "kind", "markdown", "value", qdot_text_str(&text), "range",
-                          qdot_place_range(server, a->text, a->length, (qdot_stretch){explained.from, explained.to}));
+        hover = pack_hover(server, a, &text, (qdot_stretch){explained.from, explained.to});
+    } else {
+        hover = hover_declaration(server, a, at);
     }
     qdot_explained_clear(&explained);
     qdot_text_clear(&text);

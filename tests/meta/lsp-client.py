@@ -337,6 +337,15 @@ def run_protocol(qdot):
         wrong("diagnostics: %s" % found)
     if found and found[0]["range"]["start"]["character"] != len("lagrangian m*θ'^2/2 - ".encode()):
         wrong("places are not counted in bytes: %s" % found[0]["range"])
+    text = "coord x\nlagrangian x'^2/2\n  f(u) = [u; 2]\nstart x = 1\nrun 0..1 as long\nvalue(long.x, 1)\nsum(k, k, 1, 3)\nparam gone\nreset\n"
+    document.set(text)
+    for name, line, what in [("u;", "f(u) = [u; 2]", "an argument or index"), ("long.", "run 0..1 as long", "a run or table"),
+                             ("k, 1", "sum(k, k, 1, 3)", "an argument or index"), ("gone", "param gone", "a parameter")]:
+        index = text.index(name)
+        where = {"line": text[:index].count("\n"), "character": index - text.rfind("\n", 0, index) - 1}
+        found = client.request("textDocument/hover", dict(document.item, position=where))
+        if not found or found["contents"]["value"] != "```qdot\n%s\n```\n\n%s" % (line, what):
+            wrong("hover of %s: %s" % (name, found))
     document.set("coord x\n" * 5000 + "x = (1\n" + "#" * 600000)
     if not document.diagnostics():
         wrong("a long text has no diagnostics")
@@ -346,7 +355,9 @@ def run_protocol(qdot):
         for what in ("documentSymbol", "foldingRange", "semanticTokens/full"):
             client.request("textDocument/" + what, document.item)
         client.request("textDocument/references", dict(document.at(6), context={"includeDeclaration": True}))
-    if time.perf_counter() - start > 20:  # 1 s; where each place is counted from the beginning 25 s
+    document.set("coord x\ny = x" + " + x" * 100000)
+    client.request("textDocument/completion", document.at(len(document.text)))
+    if time.perf_counter() - start > 20:  # 1 s; where each place is counted from the beginning, or all names are compared, 25 s
         wrong("long texts take %.1f s" % (time.perf_counter() - start))
     document.set(text)
     client.process.stdin.close()
