@@ -575,6 +575,18 @@ carry_out_next(engine *x, size_t *i)
     }
 }
 
+/* Leave the blocks that a failure or `quit` has ended, which takes the values of their loops out of the session; the error is told
+ * with these values. */
+static void
+leave_blocks(engine *x, qdot_status status)
+{
+    while (x->frames.n > 0) {
+        if (status != QDOT_OK)
+            add_loop_values_to_error(x, &x->frames.at[x->frames.n - 1].loop);
+        leave_block(&x->frames.at[--x->frames.n]);
+    }
+}
+
 /* Carry out the statement or block at *i to its end. */
 static qdot_status
 carry_out_statement_or_block(engine *x, size_t *i)
@@ -592,6 +604,7 @@ carry_out_statement_or_block(engine *x, size_t *i)
            : status == QDOT_OK ? &x->tokens[*i]
                                : qdot_outline_end(first);
     last -= last > first;
+    leave_blocks(x, status); /* before the state is kept for undo, to which values of loops do not belong */
     if (status != QDOT_OK) /* what a failed statement said of dimensions is not kept */
         qdot_units_back_to(x->session, facts);
     if (x->look == NULL)
@@ -649,11 +662,6 @@ go_through_text(qdot_session *session, const char *name, uint32_t before, const 
     if (status == QDOT_OK)
         status = carry_out_all(&x);
     qdot_undo_text_end(session, outer);
-    while (x.frames.n > 0) {
-        if (status != QDOT_OK)
-            add_loop_values_to_error(&x, &x.frames.at[x.frames.n - 1].loop);
-        leave_block(&x.frames.at[--x.frames.n]);
-    }
     if (status != QDOT_OK && x.error_at != QDOT_SCRIPT_REPORTED)
         report_error(&x);
     if (status != QDOT_OK)

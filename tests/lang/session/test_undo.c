@@ -187,6 +187,27 @@ failures_leave_what_they_did(void **state)
     assert_string_equal(heard(k), "undone: a = 1\n");
 }
 
+/* The value that a loop gives to a parameter or coordinate ends with the loop, also by a failure, and is not kept for undo. */
+static void
+values_of_failed_loops_are_not_kept(void **state)
+{
+    talk *k = *state;
+    char *before, *with_set;
+
+    assert_int_equal(say(k, "param m, n\ncoord x"), 0);
+    before = state_of(k);
+    assert_int_equal(say(k, "{ a = m; b = 1/(m - 2) } for m = 1..3"), 1);
+    leads_to(k, "undo", before);
+    assert_int_equal(say(k, "set n = 5"), 0);
+    with_set = state_of(k);
+    assert_int_equal(say(k, "{ { a = m*x; b = 1/(x - 2) } for x = 1..3 } for m = 1..3"), 1);
+    leads_to(k, "undo", with_set);
+    leads_to(k, "undo", before);
+    leads_to(k, "redo", with_set);
+    free(before);
+    free(with_set);
+}
+
 static void
 a_name_declared_anew_has_no_past(void **state)
 {
@@ -426,6 +447,7 @@ main(void)
         cmocka_unit_test_setup_teardown(what_only_asks_is_not_undone, begin, end),
         cmocka_unit_test_setup_teardown(answers_are_counted_back, begin, end),
         cmocka_unit_test_setup_teardown(failures_leave_what_they_did, begin, end),
+        cmocka_unit_test_setup_teardown(values_of_failed_loops_are_not_kept, begin, end),
         cmocka_unit_test_setup_teardown(a_name_declared_anew_has_no_past, begin, end),
         cmocka_unit_test_setup_teardown(runs_come_back, begin, end),
         cmocka_unit_test_setup_teardown(runs_belong_to_their_scene, begin, end),
