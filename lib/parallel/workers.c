@@ -156,7 +156,7 @@ start_worker(qdot_crew *c, worker *w)
 static void
 end_worker(worker *w, bool at_once)
 {
-    if (w->answer < 0)
+    if (w->answer < 0 || w->pid <= 0) /* it was never begun, or has ended */
         return;
     if (at_once)
         kill(w->pid, SIGKILL);

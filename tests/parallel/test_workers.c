@@ -21,6 +21,15 @@
 
 enum { ITEMS = 300 };
 
+/* A build of one process has no workers. */
+static void
+skip_without_processes(void)
+{
+#ifdef QDOT_ONE_THREAD
+    skip();
+#endif
+}
+
 static int64_t writes_left = -1; /* of this process, until one fails; negative: none does */
 static pid_t writer;
 
@@ -88,6 +97,7 @@ static void
 all_items_are_answered_once(void **state)
 {
     (void)state;
+    skip_without_processes();
     for (size_t workers = 1; workers < 6; workers++) {
         world w = {.deadly = ITEMS, .once = ITEMS};
 
@@ -104,6 +114,7 @@ a_worker_that_dies_costs_one_item(void **state)
     world w = {.deadly = 17, .once = 40};
 
     (void)state;
+    skip_without_processes();
     snprintf(w.mark, sizeof w.mark, "workers-%d", (int)getpid());
     assert_int_equal(run(&w, 3, 1e-6), QDOT_OK);
     unlink(w.mark);
@@ -117,6 +128,7 @@ static void
 a_worker_that_cannot_be_told_is_replaced(void **state)
 {
     (void)state;
+    skip_without_processes();
     writer = getpid();
     for (int64_t n = 0; n < 5; n++) {
         world w = {.deadly = ITEMS, .once = ITEMS};
@@ -136,12 +148,27 @@ work_ends_early(void **state)
     world w = {.deadly = ITEMS, .once = ITEMS, .stop_after = 20};
 
     (void)state;
+    skip_without_processes();
     assert_int_equal(run(&w, 2, 1), QDOT_EINVAL);
     assert_int_equal(w.answers, 20);
     w = (world){.deadly = ITEMS, .once = ITEMS, .stop_after = 20, .interrupts = true};
     assert_int_equal(run(&w, 2, 1), QDOT_EINTR);
     qdot_interrupt_clear();
     assert_true(w.answers >= 20);
+}
+
+/* It ends none then: process 0 would be all that were begun with this one. */
+static void
+a_build_of_one_process_refuses(void **state)
+{
+    (void)state;
+#ifdef QDOT_ONE_THREAD
+    world w = {.deadly = ITEMS, .once = ITEMS};
+
+    assert_int_equal(run(&w, 2, 1), QDOT_EIO);
+#else
+    skip();
+#endif
 }
 
 int
@@ -152,6 +179,7 @@ main(void)
         cmocka_unit_test(a_worker_that_dies_costs_one_item),
         cmocka_unit_test(a_worker_that_cannot_be_told_is_replaced),
         cmocka_unit_test(work_ends_early),
+        cmocka_unit_test(a_build_of_one_process_refuses),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
