@@ -8,6 +8,7 @@ import importlib.util
 import os
 import pkgutil
 import re
+import signal
 import sys
 import unittest
 
@@ -85,6 +86,7 @@ def main():
     names = sys.argv[1:]
     suite = unittest.TestSuite()
     sys.path.insert(0, HERE)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it is ignored
     suite.addTests(unittest.defaultTestLoader.discover(HERE, top_level_dir=HERE))
     for module in modules(qdot):
         found = doctest.DocTestFinder().find(module)
