@@ -75,15 +75,21 @@ qdot_number_text_bound(qdot_text *text, double error)
 }
 
 void
-qdot_number_text_with_error(qdot_text *text, double value, double error)
+qdot_number_text_error(qdot_text *text, double error)
 {
-    qdot_number_text_known(text, value, error);
     if (isnan(error)) {
         qdot_text_add(text, " (error unknown)");
     } else if (error > 0) {
         qdot_text_add(text, " ± ");
         qdot_number_text_bound(text, error);
     }
+}
+
+void
+qdot_number_text_with_error(qdot_text *text, double value, double error)
+{
+    qdot_number_text_known(text, value, error);
+    qdot_number_text_error(text, error);
 }
 
 void

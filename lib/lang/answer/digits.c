@@ -208,12 +208,7 @@ append_member_with_error(qdot_session *session, qdot_expr e, int digits, qdot_nu
     qdot_number_text_json(&x->errors, error);
     qdot_text_add(&x->text, x->text.n > 0 ? ", " : "");
     qdot_text_add(&x->text, qdot_text_str(&number));
-    if (isnan(error)) {
-        qdot_text_add(&x->text, " (error unknown)");
-    } else if (error > 0) {
-        qdot_text_add(&x->text, " ± ");
-        qdot_number_text_bound(&x->text, error);
-    }
+    qdot_number_text_error(&x->text, error);
     qdot_text_clear(&number);
     return status;
 }

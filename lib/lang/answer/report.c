@@ -97,10 +97,8 @@ append_end_number(qdot_session *session, const qdot_run_report *report, const en
         QDOT_TRY(append_exact_number(session, report, x->exact, form, &error, number));
     else
         append_double(x->value, error = isfinite(x->error) ? fmax(x->error, 2e-16) * x->size : NAN, form, number);
-    if (form == FORM_ERROR && isfinite(x->value) && error > 0) {
-        qdot_text_add(number, " ± ");
-        qdot_number_text_bound(number, error);
-    }
+    if (form == FORM_ERROR && isfinite(x->value) && error > 0)
+        qdot_number_text_error(number, error);
     return qdot_text_status(number);
 }
 

@@ -524,10 +524,7 @@ write_value_with_error(double value, double error, double size, qdot_text *out)
     if (value == 0 && error < nothing * size)
         error = 0;
     qdot_number_text(out, value, error);
-    if (error > 0) {
-        qdot_text_add(out, " ± ");
-        qdot_number_text_bound(out, error);
-    }
+    qdot_number_text_error(out, error);
 }
 
 static void
