@@ -4,15 +4,17 @@
 #include <math.h>
 #include <stdio.h>
 
+#include <gsl/gsl_poly.h>
+
 #include "base/number-text.h"
 #include "lang/answer/table-answer.h"
 #include "lang/answer/write.h"
 #include "lang/session/output.h"
 #include "lang/session/row-tables.h"
 
+enum { SHOWN_DIGITS = 6 }; /* significant digits of values in a table */
 /* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
  * words. */
-enum { SHOWN_DIGITS = 6 }; /* significant digits of values in a table */
 static const double small = 1e-9, nothing = 1e-20, digits = 5e-7;
 /* changes smaller than this, relative to the sizes of the coordinates, are not mentioned in the text */
 static const double tiny = 1e-5;
@@ -249,23 +251,6 @@ distance_to_next_point(const qdot_branches *b, const qdot_branch *branch, size_t
     return sqrt(sum);
 }
 
-/* The polynomial that is v[k] at s[k], k = 0 ... n - 1. */
-static double
-lagrange_polynomial(size_t n, const double *s, const double *v, double at)
-{
-    double sum = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        double term = v[k];
-
-        for (size_t l = 0; l < n; l++)
-            if (l != k)
-                term *= (at - s[l]) / (s[k] - s[l]);
-        sum += term;
-    }
-    return sum;
-}
-
 /* The extremum of unknown i, a maximum for sign 1, a minimum for -1, beside point j, at which it is farthest of the
  * points k ... end: that of the polynomial of the length along the branch through up to five points. */
 static double
@@ -273,7 +258,7 @@ extremum_beside_point(const qdot_branches *b, const qdot_branch *branch, size_t 
                       int sign)
 {
     const size_t from = j > k + 2 ? j - 2 : k, to = j + 2 < end ? j + 2 : end, n = to - from + 1;
-    double s[5], v[5], low, high;
+    double s[5], v[5], c[5], low, high;
 
     for (size_t l = from; l <= to; l++) {
         const double step = l > from ? distance_to_next_point(b, branch, l - 1) : 0;
@@ -283,19 +268,20 @@ extremum_beside_point(const qdot_branches *b, const qdot_branch *branch, size_t 
         if (l > from && !(step > 0))
             return branch->y[j * b->found->width + i];
     }
+    gsl_poly_dd_init(c, s, v, n);
     low = s[j - 1 - from];
     high = s[j + 1 - from];
     for (int halvings = 0; halvings < 60; halvings++) {
         const double third = (high - low) / 3;
-        const double left = lagrange_polynomial(n, s, v, low + third);
-        const double right = lagrange_polynomial(n, s, v, high - third);
+        const double left = gsl_poly_dd_eval(c, s, n, low + third);
+        const double right = gsl_poly_dd_eval(c, s, n, high - third);
 
         if (sign * left < sign * right)
             low += third;
         else
             high -= third;
     }
-    return lagrange_polynomial(n, s, v, 0.5 * (low + high));
+    return gsl_poly_dd_eval(c, s, n, 0.5 * (low + high));
 }
 
 /* The value of unknown i between points k ... end of a branch that is farthest outside the range of its
