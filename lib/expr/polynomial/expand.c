@@ -309,7 +309,7 @@ has_put_off(const expansion *x, qdot_expr node)
     return false;
 }
 
-/* A node that is no product, with its expanded arguments; args is work space. */
+/* Rebuild a node that is no product from its expanded arguments; args is work space. */
 static qdot_expr
 rebuild_node(expansion *x, qdot_expr node, qdot_expr *args)
 {

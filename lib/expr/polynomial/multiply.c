@@ -65,6 +65,7 @@ find_degrees(const multiplication *m, const fmpz_mpoly_t p, degrees *d)
     d->least = INFINITY;
     d->most = 0;
     if (exp == NULL || d->degree == NULL) {
+        qdot_free(exp);
         qdot_pool_fail(m->pool);
         return false;
     }
@@ -97,6 +98,27 @@ count_monomials(const multiplication *m, const degrees *d)
             below *= (d->least - 1 + used) / used;
         }
     return fmin(box, all - below);
+}
+
+/* The least of `terms`, which bounds the number of terms of p^n q, and the number of monomials within its degrees; q NULL: of p^n.
+ * Degrees are asked for only where `terms` is too many. */
+static double
+bound_by_degrees(const multiplication *m, double terms, const fmpz_mpoly_struct *p, uint64_t n, const fmpz_mpoly_struct *q)
+{
+    degrees d = {0}, more = {0};
+
+    if (terms <= QDOT_MULTIPLY_MOST_TERMS)
+        return terms;
+    if (find_degrees(m, p, &d) && (q == NULL || find_degrees(m, q, &more))) {
+        for (slong k = 0; k < m->v.n; k++)
+            d.degree[k] = (double)n * d.degree[k] + (q != NULL ? more.degree[k] : 0);
+        d.least = (double)n * d.least + more.least;
+        d.most = (double)n * d.most + more.most;
+        terms = fmin(terms, count_monomials(m, &d));
+    }
+    qdot_free(d.degree);
+    qdot_free(more.degree);
+    return terms;
 }
 
 /* Whether to go on to a polynomial of at most `terms` terms by `products` products of terms; counts these as work of the pool. */
@@ -167,23 +189,9 @@ multiply_polynomials(const multiplication *m, fmpz_mpoly_t r, const fmpz_mpoly_t
 {
     const fmpz_mpoly_ctx_struct *ctx = m->v.ctx;
     const double nr = (double)fmpz_mpoly_length(r, ctx), na = (double)fmpz_mpoly_length(a, ctx);
-    double terms = nr * na;
     fmpz_mpoly_geobucket_t sum;
 
-    if (terms > QDOT_MULTIPLY_MOST_TERMS) {
-        degrees dr = {0}, da = {0};
-
-        if (find_degrees(m, r, &dr) && find_degrees(m, a, &da)) {
-            for (slong k = 0; k < m->v.n; k++)
-                dr.degree[k] += da.degree[k];
-            dr.least += da.least;
-            dr.most += da.most;
-            terms = fmin(terms, count_monomials(m, &dr));
-        }
-        qdot_free(dr.degree);
-        qdot_free(da.degree);
-    }
-    if (!may_multiply(m, terms, nr * na))
+    if (!may_multiply(m, bound_by_degrees(m, nr * na, r, 1, a), nr * na))
         return;
     if (nr * na <= PRODUCTS_AT_ONCE) {
         fmpz_mpoly_mul(r, r, a, ctx);
@@ -200,22 +208,11 @@ static void
 raise_polynomial(const multiplication *m, fmpz_mpoly_t p, uint64_t n)
 {
     const double t = (double)fmpz_mpoly_length(p, m->v.ctx);
-    double terms = qdot_multiply_terms_of_power(t, n);
+    double terms;
 
     if (n == 1)
         return;
-    if (terms > QDOT_MULTIPLY_MOST_TERMS) {
-        degrees d = {0};
-
-        if (find_degrees(m, p, &d)) {
-            for (slong k = 0; k < m->v.n; k++)
-                d.degree[k] *= (double)n;
-            d.least *= (double)n;
-            d.most *= (double)n;
-            terms = fmin(terms, count_monomials(m, &d));
-        }
-        qdot_free(d.degree);
-    }
+    terms = bound_by_degrees(m, qdot_multiply_terms_of_power(t, n), p, n, NULL);
     if (!may_multiply(m, terms, terms * t))
         return;
     if ((double)n * fabs((double)_fmpz_vec_max_bits(p->coeffs, p->length)) > 2.0 * QDOT_MAX_BITS)

@@ -19,7 +19,7 @@ number_of_terms(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e)->kind == QDOT_SUM ? (NODE(pool, e)->n + 1) / 2 : 1;
 }
 
-/* Term i: a number and the rest, nil for the rest of a constant. */
+/* Split term i into its number, which is returned, and the rest, which is nil for a constant. */
 static const fmpq *
 split_term(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *rest)
 {
