@@ -25,39 +25,34 @@ write_in_form(qdot_session *session, qdot_shown_writer write, const void *answer
     return form == QDOT_SHEET_PAGE ? qdot_sheet_html(&s, status, out) : qdot_sheet_text(&s, status, out);
 }
 
-/* As write_in_form, into a field of the object. */
-static qdot_status
-write_field(qdot_session *session, const char *before, qdot_shown_writer write, const void *answer, qdot_sheet_form form,
-            qdot_style style, qdot_text *object)
-{
-    qdot_text part = {0};
-    const qdot_status status = write_in_form(session, write, answer, form, style, &part);
-
-    qdot_write_field(object, before, qdot_text_str(&part));
-    object->failed = object->failed || part.failed;
-    qdot_text_clear(&part);
-    return status;
-}
-
 qdot_status
 qdot_shown_formula(qdot_session *session, qdot_shown_writer write, const void *answer, qdot_text *object)
 {
     static const struct {
-        const char *before;
         qdot_sheet_form form;
         qdot_style style;
-    } fields[] = {{",\"text\":", QDOT_SHEET_LINES, QDOT_UNICODE},
-                  {",\"html\":", QDOT_SHEET_PAGE, QDOT_MATHML},
-                  {",\"typeset\":{\"latex\":", QDOT_SHEET_LINES, QDOT_LATEX},
-                  {",\"mathml\":", QDOT_SHEET_LINES, QDOT_MATHML},
-                  {",\"unicode\":", QDOT_SHEET_LINES, QDOT_UNICODE}};
+    } forms[] = {
+        {QDOT_SHEET_LINES, QDOT_UNICODE}, {QDOT_SHEET_PAGE, QDOT_MATHML}, {QDOT_SHEET_LINES, QDOT_LATEX}, {QDOT_SHEET_LINES, QDOT_MATHML}};
+    static const struct {
+        const char *before;
+        size_t form;
+    } fields[] = {
+        {",\"text\":", 0}, {",\"html\":", 1}, {",\"typeset\":{\"latex\":", 2}, {",\"mathml\":", 3}, {",\"unicode\":", 0}};
+    qdot_text parts[sizeof forms / sizeof *forms] = {{0}};
+    qdot_status status = QDOT_OK;
 
     if (!qdot_write_displays(session))
         return QDOT_OK;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms && status == QDOT_OK; i++)
+        status = write_in_form(session, write, answer, forms[i].form, forms[i].style, &parts[i]);
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
-        QDOT_TRY(write_field(session, fields[i].before, write, answer, fields[i].form, fields[i].style, object));
+        qdot_write_field(object, fields[i].before, qdot_text_str(&parts[fields[i].form]));
     qdot_text_char(object, '}');
-    return QDOT_OK;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        object->failed = object->failed || parts[i].failed;
+        qdot_text_clear(&parts[i]);
+    }
+    return status;
 }
 
 qdot_status
