@@ -63,10 +63,9 @@ static bool
 may_end_operand(const qdot_token *t)
 {
     static const char *const closers[] = {")", "]", "'", NULL};
-    static const char *const words[] = {"and", "or", "not", NULL};
 
     return t->kind == QDOT_TOKEN_NUMBER ||
-           (t->kind == QDOT_TOKEN_NAME && !is_one_of(t, words)) ||
+           (t->kind == QDOT_TOKEN_NAME && !qdot_is_connective(t->text)) ||
            (t->kind == QDOT_TOKEN_OPERATOR && is_one_of(t, closers));
 }
 
@@ -99,13 +98,6 @@ is_declared_value(const qdot_session *s, const char *name)
                      : strcmp(name, "pi") == 0 || strcmp(name, "t") == 0;
 }
 
-/* Whether the word joins operands: `x > 0 and y > 0`, `x in [m]`. */
-static bool
-is_word_of_expressions(const char *name)
-{
-    return strcmp(name, "and") == 0 || strcmp(name, "or") == 0 || strcmp(name, "not") == 0 || strcmp(name, "in") == 0;
-}
-
 /* Whether the name may be a factor: declared, also as a differential, du or δs, or as the member that a subscript denotes,
  * l₃; one that nobody knows within brackets, such as the index of a sum, or in a text that is being typed. A word of the
  * language, as `tol` or `size`, is none. */
@@ -113,7 +105,8 @@ static bool
 may_be_factor(const qdot_cursor *c, const char *name, bool inside)
 {
     const qdot_session *s = c->session;
-    const bool typed = c->is_word != NULL && !c->is_word(c->usage, name) && !is_word_of_expressions(name);
+    const bool joins = qdot_is_connective(name) || strcmp(name, "in") == 0; /* `x > 0 and y > 0`, `x in [m]` */
+    const bool typed = c->is_word != NULL && !c->is_word(c->usage, name) && !joins;
     const bool unknown = (inside || typed) && !qdot_cursor_knows(s, name);
     qdot_text member = {0};
     bool known = unknown || is_declared_value(s, name) || (name[0] == 'd' && is_declared_value(s, name + 1)) ||

@@ -149,17 +149,13 @@ may_be_in_expression(const qdot_token *t)
 static bool
 is_operator_missing(const qdot_token *k)
 {
-    static const char *const words[] = {"and", "or", "not"};
     bool ends = k[-1].kind == QDOT_TOKEN_NAME || k[-1].kind == QDOT_TOKEN_NUMBER ||
                 qdot_token_is(k - 1, ")") || qdot_token_is(k - 1, "]") ||
                 qdot_token_is(k - 1, "'");
 
     if (!ends || (k->kind != QDOT_TOKEN_NAME && k->kind != QDOT_TOKEN_NUMBER))
         return false;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (qdot_token_is_word(k, words[i]) || qdot_token_is_word(k - 1, words[i]))
-            return false;
-    return true;
+    return !qdot_is_connective(k->text) && !qdot_is_connective(k[-1].text); /* other tokens are never written so */
 }
 
 /* --- matching a pattern --------------------------------------------------------------- */

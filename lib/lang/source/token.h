@@ -77,6 +77,13 @@ qdot_token_behind_index(const qdot_token *name)
     return next->glued && qdot_token_is(next, "[") ? qdot_token_behind_bracket(next) : next;
 }
 
+/* Whether the name joins claims: `and`, `or`, `not`. */
+static inline bool
+qdot_is_connective(const char *name)
+{
+    return strcmp(name, "and") == 0 || strcmp(name, "or") == 0 || strcmp(name, "not") == 0;
+}
+
 static inline bool
 qdot_token_is_word(const qdot_token *token, const char *word)
 {

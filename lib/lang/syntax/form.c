@@ -187,8 +187,7 @@ is_comparison(const qdot_token *first)
         depth += qdot_token_bracket(k);
         if (depth != 0)
             continue;
-        if (qdot_token_is_word(k, "and") || qdot_token_is_word(k, "or") ||
-            qdot_token_is_word(k, "not"))
+        if (k->kind == QDOT_TOKEN_NAME && qdot_is_connective(k->text))
             return false;
         equal |= qdot_token_is(k, "==");
     }

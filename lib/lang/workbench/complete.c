@@ -293,8 +293,8 @@ offer_next(completion *c, const qdot_next *next, bool operand)
 static bool
 token_ends_operand(const qdot_token *token)
 {
-    if (qdot_token_is_word(token, "and") || qdot_token_is_word(token, "or") || qdot_token_is_word(token, "not"))
-        return false;
+    if (token->kind == QDOT_TOKEN_NAME)
+        return !qdot_is_connective(token->text);
     return token->kind != QDOT_TOKEN_OPERATOR || strchr(")]}'%", token->text[0]) != NULL;
 }
 
