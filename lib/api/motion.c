@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "expr/symbol.h"
-#include "lang/language/read.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/match.h"
 #include "lang/syntax/statement.h"
@@ -142,9 +141,7 @@ read_run_name(qdot_cursor *c, void *data)
     qdot_named_run *found;
     const char *name;
 
-    QDOT_TRY(qdot_read_name(c, &name));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = 0;
+    QDOT_TRY(qdot_api_read_name(c, &name));
     QDOT_TRY(qdot_runs_find(c->session, name, &found));
     *run = found;
     return QDOT_OK;

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "lang/answer/answer.h"
+#include "lang/language/read.h"
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
 #include "lang/session/session.h"
@@ -303,6 +304,15 @@ clear_pool_failure(qdot_pool *pool)
         return;
     (void)!qdot_pool_check(pool);
     (void)qdot_fail_again(&error);
+}
+
+qdot_status
+qdot_api_read_name(qdot_cursor *c, const char **name)
+{
+    QDOT_TRY(qdot_read_name(c, name));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = 0;
+    return QDOT_OK;
 }
 
 qdot_status

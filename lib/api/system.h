@@ -62,6 +62,8 @@ typedef qdot_status (*qdot_api_reader)(qdot_cursor *c, void *data);
 /* Let `reader` read the whole text; an error is reported as an error of the library call named `call`. */
 QDOT_MUST_CHECK qdot_status qdot_api_read(qdot_system *system, const char *call, const char *text,
                                           qdot_api_reader reader, void *data);
+/* For a reader: take a text that is a name, "a", "f[2]", as the language reads it. An error is then of no place in it. */
+QDOT_MUST_CHECK qdot_status qdot_api_read_name(qdot_cursor *c, const char **name);
 
 /* Count one user of the system less; the last one frees it. */
 void qdot_api_release(qdot_system *system);

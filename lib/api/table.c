@@ -3,7 +3,6 @@
 
 #include "api/system.h"
 #include "base/memory.h"
-#include "lang/language/read.h"
 #include "lang/session/row-tables.h"
 
 /* One column: numbers with their errors, or texts. */
@@ -89,9 +88,7 @@ read_table_name(qdot_cursor *c, void *data)
     const qdot_row_table **table = data;
     const char *name;
 
-    QDOT_TRY(qdot_read_name(c, &name));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = 0;
+    QDOT_TRY(qdot_api_read_name(c, &name));
     *table = qdot_row_tables_find(c->session, name);
     return *table != NULL ? QDOT_OK : qdot_fail(QDOT_ENAME, "there is no table `%.100s`", name);
 }
