@@ -26,14 +26,23 @@ is_given(const char *name)
            (run > 0 && name[run] != '\0' && name[run + strspn(name + run, "0123456789")] == '\0');
 }
 
+/* The latest row of the list that has the name; NULL: none has. */
+static const qdot_unknown *
+find_latest(const qdot_analysis *a, const char *name)
+{
+    for (size_t i = a->unknown.n; i > a->forgotten; i--)
+        if (strcmp(a->unknown.at[i - 1].name, name) == 0)
+            return &a->unknown.at[i - 1];
+    return NULL;
+}
+
 /* Whether a run may have the name: what it may be in a.x, where no other name hides it. */
 static bool
 may_be_run(const qdot_analysis *a, const char *name)
 {
-    for (size_t i = a->unknown.n; i > a->forgotten; i--)
-        if (strcmp(a->unknown.at[i - 1].name, name) == 0)
-            return !a->unknown.at[i - 1].gone;
-    return is_given(name);
+    const qdot_unknown *latest = find_latest(a, name);
+
+    return latest != NULL ? !latest->gone : is_given(name);
 }
 
 bool
@@ -77,11 +86,9 @@ qdot_meaning_add_unknown(qdot_analysis *a, const char *name, bool label)
 qdot_status
 qdot_meaning_remove_label(qdot_analysis *a, const char *name, bool *removed)
 {
-    size_t i = a->unknown.n;
+    const qdot_unknown *latest = find_latest(a, name);
 
-    while (i > a->forgotten && strcmp(a->unknown.at[i - 1].name, name) != 0)
-        i--;
-    *removed = i > a->forgotten && a->unknown.at[i - 1].label;
+    *removed = latest != NULL && latest->label;
     return *removed ? add_unknown_row(a, name, false, true) : QDOT_OK;
 }
 
