@@ -6,8 +6,7 @@
 bool
 qdot_ode_is_apart(const qdot_ode_system *system, const qdot_ode_options *options)
 {
-    return system->n_parts > 1
-           && (options->apart || (!options->accepted && !options->expanded));
+    return system->n_parts > 1 && (options->apart || !options->accepted);
 }
 
 void
@@ -29,13 +28,10 @@ qdot_ode_part_options(const qdot_ode_part *part, const qdot_ode_options *whole, 
 {
     qdot_ode_options own = *whole;
 
-    own.expanded = NULL;
     if (whole->carry) {
         qdot_ode_part_gather(part, whole->carry, carry);
         own.carry = carry;
     }
-    own.beyond = NULL;
-    own.end_low = whole->end_low ? carry : NULL;
     return own;
 }
 

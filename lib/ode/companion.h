@@ -134,7 +134,7 @@ typedef struct {
     const double *carry;            /* [n] exact start state minus y0; NULL: 0; borrowed during _start */
     const double *units;            /* [n] in what y0 is moved where it is 0 (qdot_companion_unit);
                                        NULL: the system's scales; likewise */
-    bool alternates; /* the run changes between a stiff method and series (alternate.h) */
+    bool alternates; /* the run changes between a stiff method and series (alternate.c) */
     bool leading;                   /* the run computes the first orders of its series in two doubles (run.h) */
     double t0_low;                  /* exact start time minus its double t0 (run.h) */
     const qdot_ode_meter *meter;    /* of the run, begun (meter.h); NULL: companions may cost what

@@ -4,9 +4,31 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "ode/alternate.h"
 #include "ode/apart.h"
-#include "ode/whole.h"
+#include "ode/step.h"
+
+/* Integrate all components together. */
+static qdot_status
+integrate_whole(const qdot_ode_system *system, const qdot_ode_method *method, const qdot_ode_options *options,
+                double t0, double t1, double *y, qdot_ode_result *result)
+{
+    qdot_ode_controller c;
+    qdot_ode_step step;
+    bool stop = false;
+    qdot_status status = qdot_ode_controller_open(&c, system, method, options, t0, t1, y);
+
+    while (status == QDOT_OK && c.t != t1 && !stop) {
+        status = qdot_ode_controller_next(&c, &step);
+        if (status == QDOT_OK)
+            status = qdot_ode_controller_settle(
+                &c, &step,
+                options->accepted ? options->accepted(step.t_end, step.y_end, &stop, options->user) : QDOT_OK);
+    }
+    qdot_ode_controller_state(&c, y, NULL);
+    qdot_ode_controller_close(&c, status, stop);
+    *result = c.result;
+    return status;
+}
 
 /* An integration of all decoupled parts of a system from y at t0, to the time at which the first of them ends. */
 typedef struct {
@@ -30,11 +52,9 @@ integrate_part(const parts *p, size_t k, qdot_ode_result *result)
     if (p->result->t != p->t1)
         own.t1_low = 0;
     qdot_ode_part_gather(part, p->start, p->room);
-    status = qdot_ode_whole_integrate(part->system, p->method, &own, p->t0, p->result->t,
+    status = integrate_whole(part->system, p->method, &own, p->t0, p->result->t,
                                       p->room, result);
     qdot_ode_part_scatter(part, p->room, p->y);
-    if (p->options->end_low)
-        qdot_ode_part_scatter(part, own.end_low, p->options->end_low);
     qdot_ode_part_add(p->result, result);
     return status;
 }
@@ -108,8 +128,6 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
 
     if (!options)
         options = &defaults;
-    if (qdot_ode_alternates(system, method, options))
-        return qdot_ode_alternate_integrate(system, method, options, t0, t1, y, result);
-    return (qdot_ode_is_apart(system, options) ? integrate_decoupled : qdot_ode_whole_integrate)(
+    return (qdot_ode_is_apart(system, options) ? integrate_decoupled : integrate_whole)(
         system, method, options, t0, t1, y, result);
 }

@@ -25,7 +25,7 @@
 /* Integrate y [n, in/out] from t0 to t1.
  *
  * Whatever is returned, y is the state at result->t, finite, and everything accepted on
- * the way has been passed to options->accepted.
+ * the way has been passed to options->accepted. Who wants to look inside steps goes along a controller (step.h).
  *   options  NULL: all defaults
  * Returns QDOT_OK (done or stopped), or with outcome failed:
  *   QDOT_EINVAL   tolerance, limits or initial state make no sense (t = t0)

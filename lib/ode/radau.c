@@ -580,7 +580,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
         QDOT_TRY(judge_step(s, b, t, h, ratio));
     else
         r->most = shorter * fabs(h), r->cautious = steady;
-    if (!converged && regular && r->rate < 1) /* the step control aims at a tenth of the tolerance (whole.c) */
+    if (!converged && regular && r->rate < 1) /* the step control aims at a tenth of the tolerance (adaptive-steps.c) */
         *ratio = fmax(1.01, 0.1 * pow(0.9 / half, (double)b->stages + 1));
     if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
@@ -591,7 +591,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
         *ratio /= r->rate < fast && *ratio < bounds ? fell : 1;
     }
     r->rejected = !(*ratio <= 1);
-    if (!r->rejected && r->cautious > 0) /* the step control aims at a tenth of the tolerance (whole.c) */
+    if (!r->rejected && r->cautious > 0) /* the step control aims at a tenth of the tolerance (adaptive-steps.c) */
         *ratio = fmin(
             1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
     memcpy(s->z, r->Z + (b->stages - 1) * r->w, r->n * sizeof *s->z);

@@ -37,7 +37,7 @@ qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
     sum->cpu += more->cpu;
 }
 
-/* A step that Taylor series will try, from (t, y [n]) to t_end; the solution at t + unit s is
+/* A step of Taylor series, from (t, y [n]) to t_end; the solution at t + unit s is
  * sum_k x_ik s^k, k <= order, of system->series. */
 typedef struct {
     double t, t_end, unit;
@@ -62,15 +62,11 @@ typedef struct {
                               borrowed */
     double stiff_work; /* by explicit methods: the run ends if stability bounds its steps and so much
                           work is left (stiffness.h); default 5e9 */
-    /* Called after every accepted step, not for the initial state. Set *stop to end the run
-     * here. QDOT_EDOMAIN: the step is rejected and smaller ones are tried, as if f were
+    /* Called with the end of every step, before it is accepted, not for the initial state. Set *stop to end the run
+     * there. QDOT_EDOMAIN: the step is rejected and smaller ones are tried, as if f were
      * undefined; any other failure rejects the step and ends the run. */
     qdot_status (*accepted)(double t, const double *y, bool *stop, void *user);
-    void *user; /* passed to `accepted` and `expanded`; borrowed */
-    /* taylor only: called before a step is tried, when its series has been computed. May bring
-     * t_end nearer. The step is accepted when `accepted` is called for that end. Failures as
-     * those of `accepted`. */
-    qdot_status (*expanded)(qdot_ode_expanded *step, void *user);
+    void *user; /* passed to `accepted`; borrowed */
     bool at_doubles; /* steps that may be of any length end at doubles of t exactly, so that states
                         within them can be located to less than a double */
     double t1_low; /* exact end time minus its double t1; the run ends at the exact time; not for steps of constant length */
@@ -81,21 +77,18 @@ typedef struct {
     double past;       /* taylor only: number of steps in earlier runs of this system (written.h) */
     double term_tol; /* taylor only: rounding errors of the series' terms below this do not count; default: tol */
     /* taylor only: whether the first orders of every step are in two doubles (leading.h), which
-     * the system must support; the exact t0 less t0; where to store, while `accepted` runs, a
-     * pointer to the state less y; [n] out, the end state less y. */
+     * the system must support; the exact t0 less t0. */
     bool leading;
     bool judged; /* end a run with `leading` that finds it harmful with result.unfit (taylor.h) */
     double t0_low;
-    const double **beyond;
-    double *end_low;
-    /* Change from a stiff method to Taylor series where these are faster, and back (alternate.h);
-     * where to store, while `accepted` and `expanded` run, the method of that step; borrowed. */
+    /* Change from a stiff method, if it is a kernel, to Taylor series where these are faster, and back
+     * (alternate.c); the method to begin with, NULL: the stiff one. */
     bool alternates;
-    const qdot_ode_method **now;
+    const qdot_ode_method *now;
     /* continue the solution that was begun last, instead of a new one (system->following) */
     bool goes_on;
     /* For a system of parts: call `accepted` for each part, with its components. Otherwise such a
-     * system is integrated as a whole if `accepted` or `expanded` is set. */
+     * system is integrated as a whole if `accepted` is set. */
     bool apart;
 } qdot_ode_options;
 

@@ -1,5 +1,6 @@
-/* taylor-run.h -- a run by Taylor series from inside. Internal to ode/: for taylor.c, which takes
- * steps, and taylor-length.c, which finds their lengths.
+/* taylor-run.h -- a run by Taylor series from inside. Internal to ode/: for taylor.c, which tries
+ * steps, taylor-length.c, which finds their lengths, taylor-series.c, which expands, and taylor-end.c, which goes to
+ * their ends.
  */
 #ifndef QDOT_ODE_TAYLOR_RUN_H
 #define QDOT_ODE_TAYLOR_RUN_H
@@ -12,6 +13,7 @@
 
 typedef struct {
     const qdot_ode_system *system;
+    const qdot_ode_method *method; /* its name in steps that are offered; NULL: none are */
     const qdot_ode_series *series;
     const qdot_series_kernels *kernels;
     const qdot_ode_options *options;
@@ -53,6 +55,14 @@ typedef struct {
     qdot_series_step step;       /* the present step for qdot_series_step, which refers to the arrays above */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] largest term of each order, padded to full vectors */
     qdot_series_weights weights;
+    qdot_ode_expanded expanded;  /* the step that is offered */
+    struct {
+        int tries;     /* number of attempts at the present point */
+        double most;   /* the longest step that an attempt there has left to try */
+        double h;      /* the length of the last one, positive */
+        double before; /* its defect, if it was defined but was not confirmed; else 0 */
+        double moved;  /* how far a projection has moved the end of it */
+    } attempt;
     qdot_error undefined;      /* the last error of the right-hand side f */
     double undefined_at;       /* end of the step at which f was undefined; NaN: none yet */
     qdot_ode_crawl crawl;
@@ -80,5 +90,24 @@ void qdot_ode_taylor_run_set_order(qdot_ode_taylor_run *r, int p);
  * it. Errors: QDOT_EDOMAIN if the series is not finite in any unit; those of the system. */
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_run_length(qdot_ode_taylor_run *r, double most,
                                                    double *h);
+
+/* --- the end of a step (taylor-end.c) --- */
+
+/* Set the pointers in r->step to the arrays that are in use now. */
+void qdot_ode_taylor_run_set_arrays(qdot_ode_taylor_run *r);
+
+/* Whether the series of a step of the signed length h is confirmed by the equations at two places inside it. */
+QDOT_MUST_CHECK qdot_status qdot_ode_taylor_run_is_confirmed_inside(qdot_ode_taylor_run *r, double h, bool *good);
+
+/* Go to t_end, into r->next, and begin the series there, if *good. Otherwise only the series has changed. */
+QDOT_MUST_CHECK qdot_status qdot_ode_taylor_run_go(qdot_ode_taylor_run *r, double t_end, bool *good);
+
+/* The end becomes the present state. */
+void qdot_ode_taylor_run_accept(qdot_ode_taylor_run *r);
+
+/* Behind an end that was not *good: whether its defect is the rounding of the equations, since it hardly
+ * fell when the step was divided by 4, as truncation would by 4^p. Shorter steps err as much, so the longest to try may
+ * have the length before again. */
+bool qdot_ode_taylor_run_meets_noise(qdot_ode_taylor_run *r);
 
 #endif

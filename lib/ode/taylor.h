@@ -52,12 +52,6 @@
 
 #include "ode/run.h"
 
-/* Integrate as qdot_ode_integrate does, which calls this if system->series exists. */
-QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *system,
-                                                      const qdot_ode_options *options,
-                                                      double t0, double t1, double *y,
-                                                      qdot_ode_result *result);
-
 /* The length *h that a step by series from y [n] at t towards t1 would be tried with; 0: none can be;
  * INFINITY: the series ends. Nothing is changed. QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_first_step(const qdot_ode_system *system,

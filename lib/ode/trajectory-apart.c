@@ -55,18 +55,18 @@ integrate_track(qdot_trajectory *tr, size_t k, const qdot_ode_part *part,
 
 qdot_status
 qdot_trajectory_record_apart(qdot_trajectory *tr, const qdot_ode_system *system,
-                             const qdot_ode_options *options, double t1, const double *y0)
+                             const qdot_ode_options *options, double t1)
 {
     double *room = qdot_malloc(2 * system->n * sizeof *room);
     qdot_status status, ended = QDOT_OK;
     qdot_error failure = {0};
 
-    tr->result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t1};
+    tr->result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t1, .stats = tr->result.stats};
     tr->tracks = qdot_calloc(system->n_parts, sizeof *tr->tracks);
     status = room && tr->tracks ? QDOT_OK : QDOT_ENOMEM;
     tr->n_tracks = tr->tracks ? system->n_parts : 0;
     for (size_t k = 0; k < system->n_parts && status == QDOT_OK; k++) {
-        status = integrate_track(tr, k, system->parts + k, options, y0, room);
+        status = integrate_track(tr, k, system->parts + k, options, tr->y, room);
         if (status != QDOT_OK && status != QDOT_ENOMEM) {
             ended = status;
             failure = *qdot_last_error();

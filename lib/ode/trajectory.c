@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "ode/apart.h"
-#include "ode/integrate.h"
 #include "ode/meter.h"
 
 static const size_t most_bytes = (size_t)2 << 30;
@@ -14,25 +13,6 @@ static const size_t most_bytes = (size_t)2 << 30;
  * largest number allowed is stopped. */
 enum { looks = 1 << 18 };
 static const double hopeless = 5e10;
-
-/* State of the `accepted` callback that records a run. */
-typedef struct {
-    qdot_trajectory *tr;
-    const qdot_ode_options *options;
-    double t1;
-    const double *low; /* [n] exact state minus its double y; NULL: 0 */
-    const qdot_ode_method *now; /* the method in use, if the run changes it; NULL: the trajectory's */
-} recorder;
-
-static qdot_status
-pass_on_expanded(qdot_ode_expanded *step, void *user)
-{
-    recorder *r = user;
-
-    if (r->options->now)
-        *r->options->now = r->now;
-    return r->options->expanded(step, r->options->user);
-}
 
 static void
 clear_tracks(qdot_trajectory *tr)
@@ -117,38 +97,31 @@ store_low(qdot_trajectory *tr, const double *low)
 
 /* Stop a run that has made little progress in many steps, before it reaches the limit of steps. */
 static qdot_status
-stop_hopeless_run(const recorder *r, double t)
+stop_hopeless_run(const qdot_trajectory *tr, double t, double t1)
 {
-    const double steps = (double)r->tr->count, t0 = r->tr->t[0];
-    const double all = steps * ((r->t1 - t0) / (t - t0));
+    const double steps = (double)tr->count, t0 = tr->t[0];
+    const double all = steps * ((t1 - t0) / (t - t0));
 
     if (!(all > hopeless))
         return QDOT_OK;
     qdot_fail(QDOT_ELIMIT,
               "stopped at t = %.6g after %.0f steps: at this rate t = %.3g is %.2g steps away",
-              t, steps, r->t1, all - steps);
+              t, steps, t1, all - steps);
     return qdot_hint("at most 5e7 steps are taken: a shorter run, or other units of time");
 }
 
-static qdot_status
-record_step(double t, const double *y, bool *stop, void *user)
+qdot_status
+qdot_trajectory_add(qdot_trajectory *tr, const qdot_ode_options *options, double t1, const qdot_ode_step *step)
 {
-    recorder *r = user;
-
-    const qdot_ode_meter *meter = r->options->meter;
+    const qdot_ode_meter *meter = options->meter;
 
     /* do not stop a companion run (its meter has a run to compare with), which must go as far as its run */
-    if (r->tr->count % looks == 0 && !(meter && meter->beside))
-        QDOT_TRY(stop_hopeless_run(r, t));
-    if (r->options->now)
-        *r->options->now = r->now;
-    if (r->options->accepted)
-        QDOT_TRY(r->options->accepted(t, y, stop, r->options->user));
-    if (r->now && r->now != qdot_trajectory_method_of(r->tr, r->tr->count - 1))
-        QDOT_TRY(qdot_vec_push(&r->tr->turns,
-                               ((qdot_trajectory_turn){r->tr->count - 1, r->now})));
-    QDOT_TRY(qdot_trajectory_store(r->tr, t, y));
-    return r->tr->leading ? store_low(r->tr, r->low) : QDOT_OK;
+    if (tr->count % looks == 0 && !(meter && meter->beside))
+        QDOT_TRY(stop_hopeless_run(tr, step->t_end, t1));
+    if (step->method != qdot_trajectory_method_of(tr, tr->count - 1))
+        QDOT_TRY(qdot_vec_push(&tr->turns, ((qdot_trajectory_turn){tr->count - 1, step->method})));
+    QDOT_TRY(qdot_trajectory_store(tr, step->t_end, step->y_end));
+    return tr->leading ? store_low(tr, step->low_end) : QDOT_OK;
 }
 
 /* Store the first point of a piece of the run, and the options that are kept with the run. */
@@ -160,89 +133,98 @@ store_first_point(qdot_trajectory *tr, const qdot_ode_options *options, double t
     return tr->leading ? store_low(tr, options->carry) : QDOT_OK;
 }
 
+/* Let the caller look at a step that was taken, and store it. */
+static qdot_status
+observe_step(qdot_trajectory *tr, const qdot_ode_options *options, double t1, const qdot_ode_step *step, bool *stop)
+{
+    if (options->accepted)
+        QDOT_TRY(options->accepted(step->t_end, step->y_end, stop, options->user));
+    return qdot_trajectory_add(tr, options, t1, step);
+}
+
+qdot_status
+qdot_trajectory_begin_piece(qdot_trajectory *tr, size_t mode, bool jumped, const qdot_ode_options *options,
+                            const double *y0)
+{
+    const double t0 = tr->t[tr->count - 1];
+    qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
+    qdot_status status;
+
+    if (tr->pieces.at[tr->pieces.n - 1].first == tr->count - 1) {
+        piece.first = --tr->count;
+        piece.jumped |= tr->pieces.at[--tr->pieces.n].jumped;
+    }
+    clear_tracks(tr);
+    status = qdot_vec_push(&tr->pieces, piece);
+    if (status == QDOT_OK)
+        status = store_first_point(tr, options, t0, y0);
+    if (status != QDOT_OK)
+        memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
+    return status;
+}
+
+void
+qdot_trajectory_end_piece(qdot_trajectory *tr, const qdot_ode_result *result)
+{
+    const qdot_ode_stats before = tr->result.stats;
+
+    tr->result = *result;
+    qdot_ode_stats_add(&tr->result.stats, &before);
+}
+
+qdot_status
+qdot_trajectory_record(qdot_trajectory *tr, const qdot_ode_system *system, const qdot_ode_options *options, double t1)
+{
+    const size_t last = tr->count - 1;
+    qdot_ode_options own = *options;
+    qdot_ode_controller c;
+    qdot_ode_step step;
+    bool stop = false;
+    qdot_status status;
+
+    own.now = qdot_trajectory_method_now(tr);
+    if (tr->pieces.n == 1 && qdot_ode_is_apart(system, options))
+        return qdot_trajectory_record_apart(tr, system, options, t1);
+    status = qdot_ode_controller_open(&c, system, tr->method, &own, tr->t[last], t1, tr->y + last * tr->n);
+    while (status == QDOT_OK && c.t != t1 && !stop) {
+        status = qdot_ode_controller_next(&c, &step);
+        if (status == QDOT_OK)
+            status = qdot_ode_controller_settle(&c, &step, observe_step(tr, options, t1, &step, &stop));
+    }
+    qdot_ode_controller_close(&c, status, stop);
+    qdot_trajectory_end_piece(tr, &c.result);
+    return status;
+}
+
 qdot_status
 qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
                     const qdot_ode_method *method, const qdot_ode_options *options,
                     double t0, double t1, const double *y0)
 {
-    qdot_ode_options own = options ? *options : (qdot_ode_options){0};
-    const qdot_ode_options theirs = own;
+    static const qdot_ode_options defaults = {0};
     const qdot_trajectory_piece whole = {0};
-    recorder r = {.tr = tr, .options = &theirs, .t1 = t1};
     double *y = qdot_malloc(system->n * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
+    if (!options)
+        options = &defaults;
     if (y) /* copy the start first, since y0 may be a stored point that is about to be removed */
         memcpy(y, y0, system->n * sizeof *y);
     qdot_trajectory_clear(tr);
     tr->n = system->n;
     tr->method = method;
-    tr->tol = own.tol != 0 ? own.tol : 1e-12;
-    tr->order_more = own.order_more;
-    tr->leading = own.leading;
-    tr->t0_low = own.t0_low;
+    tr->tol = qdot_ode_tolerance(options);
+    tr->order_more = options->order_more;
+    tr->leading = options->leading;
+    tr->t0_low = options->t0_low;
     tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
-    own.accepted = record_step;
-    own.apart = false;
-    own.expanded = own.expanded ? pass_on_expanded : NULL;
-    own.beyond = &r.low;
-    own.now = &r.now;
-    own.user = &r;
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, whole);
     if (status == QDOT_OK)
-        status = store_first_point(tr, &own, t0, y);
-    if (status == QDOT_OK && qdot_ode_is_apart(system, &theirs))
-        status = qdot_trajectory_record_apart(tr, system, &theirs, t1, y);
-    else if (status == QDOT_OK)
-        status = qdot_ode_integrate(system, method, &own, t0, t1, y, &tr->result);
-    else
-        memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
+        status = store_first_point(tr, options, t0, y);
     qdot_free(y);
-    return status;
-}
-
-qdot_status
-qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_t mode,
-                       bool jumped, const qdot_ode_options *options, double t1,
-                       const double *y0)
-{
-    /* replace the callback `accepted` by the recorder; whether parts are integrated apart depended on the caller's */
-    qdot_ode_options own = *options;
-    qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
-    recorder r = {.tr = tr,
-                  .options = options,
-                  .t1 = t1,
-                  .now = tr->turns.n > 0 ? tr->turns.at[tr->turns.n - 1].method : NULL};
-    qdot_ode_stats before = tr->result.stats;
-    double t0 = tr->t[tr->count - 1];
-    double *y = qdot_malloc(system->n * sizeof *y);
-    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
-
-    own.accepted = record_step;
-    own.apart = false;
-    own.expanded = own.expanded ? pass_on_expanded : NULL;
-    own.beyond = &r.low;
-    own.now = &r.now;
-    own.user = &r;
-    if (y)
-        memcpy(y, y0, system->n * sizeof *y);
-    if (tr->pieces.at[tr->pieces.n - 1].first == tr->count - 1) {
-        piece.first = --tr->count;
-        piece.jumped |= tr->pieces.at[--tr->pieces.n].jumped;
-    }
     if (status == QDOT_OK)
-        status = qdot_vec_push(&tr->pieces, piece);
-    if (status == QDOT_OK)
-        status = store_first_point(tr, &own, t0, y);
-    clear_tracks(tr);
-    if (status == QDOT_OK && piece.first == 0 && qdot_ode_is_apart(system, options))
-        status = qdot_trajectory_record_apart(tr, system, options, t1, y);
-    else if (status == QDOT_OK)
-        status = qdot_ode_integrate(system, tr->method, &own, t0, t1, y, &tr->result);
-    else
-        memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
-    qdot_ode_stats_add(&tr->result.stats, &before);
-    qdot_free(y);
+        return qdot_trajectory_record(tr, system, options, t1);
+    memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
     return status;
 }

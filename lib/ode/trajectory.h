@@ -24,7 +24,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
-#include "ode/run.h"
+#include "ode/step.h"
 
 typedef struct {
     size_t first; /* index of the first point of the piece */
@@ -32,7 +32,7 @@ typedef struct {
     bool jumped;  /* the piece starts from a state other than the end of the piece before */
 } qdot_trajectory_piece;
 
-/* A change of the integration method during a run (alternate.h). */
+/* A change of the integration method during a run (alternate.c). */
 typedef struct {
     size_t first; /* index of the point from which the new method is used */
     const qdot_ode_method *method;
@@ -79,14 +79,18 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_run(qdot_trajectory *tr,
                                                 const qdot_ode_options *options,
                                                 double t0, double t1, const double *y0);
 
-/* Append a piece: from y0 [n] at the time of the last point to t1, by `system`, which has the
- * index `mode` among the systems that the run will be read with. The counts of tr->result are
- * continued. If the last piece has one point only, the new one replaces it. */
-QDOT_MUST_CHECK qdot_status qdot_trajectory_resume(qdot_trajectory *tr,
-                                                   const qdot_ode_system *system,
-                                                   size_t mode, bool jumped,
-                                                   const qdot_ode_options *options,
-                                                   double t1, const double *y0);
+/* Begin a piece at the time of the last point, from y0 [n] (no row of tr->y), by the system with the index `mode`
+ * among those that the run will be read with. If the last piece has one point only, the new one
+ * replaces it. Then either record it to t1, as qdot_trajectory_run does, or add its steps and end it with
+ * the result of their controller. The counts of tr->result are continued. Errors as there. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_begin_piece(qdot_trajectory *tr, size_t mode, bool jumped,
+                                                        const qdot_ode_options *options, const double *y0);
+QDOT_MUST_CHECK qdot_status qdot_trajectory_record(qdot_trajectory *tr, const qdot_ode_system *system,
+                                                   const qdot_ode_options *options, double t1);
+/* Store the end of a step that was taken, before it is accepted, in a run to t1. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_add(qdot_trajectory *tr, const qdot_ode_options *options, double t1,
+                                                const qdot_ode_step *step);
+void qdot_trajectory_end_piece(qdot_trajectory *tr, const qdot_ode_result *result);
 
 /* Replace the last point by (t, y [n]), which lies within the last step. If that is the start of
  * the step, the last point is removed. */
@@ -132,12 +136,12 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c
                                                        size_t piece, double t, double *y);
 
 /* --- for files of trajectories: runs in decoupled parts (trajectory-apart.c) --- */
-/* Continue a trajectory of one point from y0 [n] to t1 with a track for each part; the points of
+/* Continue a trajectory of one point to t1 with a track for each part; the points of
  * the whole become those of the part with the most steps. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_record_apart(qdot_trajectory *tr,
                                                          const qdot_ode_system *system,
                                                          const qdot_ode_options *options,
-                                                         double t1, const double *y0);
+                                                         double t1);
 /* Append a point; qdot_trajectory_read_tracks: read the state from the trajectories of the parts only. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
@@ -163,6 +167,13 @@ size_t qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k);
 
 /* The integration method of the step that begins at stored point k. */
 const qdot_ode_method *qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k);
+
+/* The method of the last step, with which one that changes methods goes on. */
+static inline const qdot_ode_method *
+qdot_trajectory_method_now(const qdot_trajectory *tr)
+{
+    return tr->turns.n > 0 ? tr->turns.at[tr->turns.n - 1].method : tr->method;
+}
 
 /* The index of the last stored point of a piece. */
 size_t qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece);

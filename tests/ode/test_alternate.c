@@ -189,24 +189,36 @@ it_stops_where_it_is_told(void **state)
     (void)state;
     start(&f);
     for (double at = 1; at < 60; at += 7) {
-        const qdot_ode_method *now = NULL;
-        qdot_ode_options o = {.tol = 1e-9,
-                              .alternates = true,
-                              .now = &now,
-                              .accepted = stop_there,
-                              .user = &at};
+        const qdot_ode_options o = {
+            .tol = 1e-9, .alternates = true, .accepted = stop_there, .user = &at};
         double y[N];
         qdot_ode_result r;
 
         memcpy(y, start_of, sizeof y);
         assert_int_equal(qdot_ode_integrate(&f.system, radau(), &o, 0, 100, y, &r), QDOT_OK);
         assert_int_equal(r.outcome, QDOT_ODE_STOPPED);
-        assert_true(r.t > at && now);
-        o.alternates = false;
-        now = NULL;
-        memcpy(y, start_of, sizeof y);
-        assert_int_equal(qdot_ode_integrate(&f.system, radau(), &o, 0, 100, y, &r), QDOT_OK);
-        assert_null(now);
+        assert_true(r.t > at && r.t < at + 20);
+    }
+}
+
+/* The method with which a run begins is that of its first step. */
+static void
+it_begins_as_it_is_told(void **state)
+{
+    fixture f;
+
+    (void)state;
+    start(&f);
+    for (int i = 0; i < 2; i++) {
+        const qdot_ode_method *now = i ? qdot_ode_method_find("taylor") : radau();
+        const qdot_ode_options o = {.tol = 1e-9, .alternates = true, .now = i ? now : NULL};
+        qdot_ode_controller c;
+        qdot_ode_step step;
+
+        assert_int_equal(qdot_ode_controller_open(&c, &f.system, radau(), &o, 0, 100, start_of), QDOT_OK);
+        assert_int_equal(qdot_ode_controller_offer(&c, &step), QDOT_OK);
+        assert_ptr_equal(step.method, now);
+        qdot_ode_controller_close(&c, QDOT_OK, true);
     }
 }
 
@@ -216,6 +228,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_trajectory_goes_there_and_back),
         cmocka_unit_test(it_stops_where_it_is_told),
+        cmocka_unit_test(it_begins_as_it_is_told),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

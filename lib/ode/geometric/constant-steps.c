@@ -5,13 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "num/sum.h"
 #include "ode/meter.h"
 #include "ode/scale.h"
+#include "ode/step.h"
 
 enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16, most_undefined = 60 };
 
@@ -38,6 +38,11 @@ typedef struct {
     double *before, *halves, *full; /* [4n] state with its low part; [2n] each: end of two half steps, of a full step, as (q, q') */
     double work;      /* work already reported to the meter (meter.h) */
     double length; /* length to which the first steps grow after a start near a singularity; 0: they do not */
+    const qdot_ode_method *method;
+    double *all;   /* the block that holds the arrays */
+    struct {
+        double h, t_end, t_low; /* its length, positive; its end is t_end + t_low */
+    } offered;     /* the step that is offered, whose end is g.y and r->full */
     int undefined;    /* number of attempts in a row from this t at which the forces were undefined */
 } run;
 
@@ -322,34 +327,6 @@ handle_undefined_step(run *r, double h, qdot_status status)
     return end_run_with_failure(r);
 }
 
-/* Accept the step just made, unless the caller's callback rejects it. */
-static qdot_status
-accept_step(run *r, double h, bool last, bool *stop)
-{
-    double t = r->t, t_low = r->t_low;
-
-    if (last) {
-        t = r->t1;
-        t_low = 0;
-    } else {
-        qdot_sum_advance(&t, &t_low, r->direction * h);
-    }
-    if (r->options->accepted) {
-        const qdot_status status = r->options->accepted(t, r->full, stop, r->options->user);
-
-        if (status != QDOT_OK)
-            restore_state(r);
-        if (status == QDOT_EDOMAIN)
-            return handle_undefined_step(r, h, status);
-        QDOT_TRY(status);
-    }
-    r->t = t;
-    r->t_low = t_low;
-    r->undefined = 0;
-    r->result->stats.steps++;
-    return QDOT_OK;
-}
-
 /* Make a step of signed length h without an error estimate. */
 static qdot_status
 make_plain_step(run *r, double h)
@@ -374,8 +351,24 @@ let_step_grow(run *r, double h, double ratio)
         r->length = 0;
 }
 
+/* The end of the step just made, of h, which may be the last. */
+static void
+set_end_of_step(run *r, double h, bool last)
+{
+    r->offered.h = h;
+    r->offered.t_end = r->t;
+    r->offered.t_low = r->t_low;
+    if (last) {
+        r->offered.t_end = r->t1;
+        r->offered.t_low = 0;
+    } else {
+        qdot_sum_advance(&r->offered.t_end, &r->offered.t_low, r->direction * h);
+    }
+}
+
+/* Try to make a step; *made: it can be offered. */
 static qdot_status
-make_next_step(run *r, bool *stop)
+try_next_step(run *r, bool *made)
 {
     const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
     const bool last = r->h >= rest * (1 - sliver);
@@ -385,6 +378,7 @@ make_next_step(run *r, bool *stop)
     double ratio = 0;
     qdot_status status;
 
+    *made = false;
     QDOT_TRY(qdot_interrupt_check());
     if (r->result->stats.steps + r->result->stats.rejected >= qdot_ode_most_steps(r->options))
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
@@ -392,10 +386,12 @@ make_next_step(run *r, bool *stop)
     status = look ? measure_step(r, r->direction * h, &ratio) : make_plain_step(r, r->direction * h);
     if (status != QDOT_OK)
         return handle_undefined_step(r, h, status);
-    if (ratio <= 1) {
+    *made = ratio <= 1;
+    if (*made) {
         if (r->length > 0 && !last)
             let_step_grow(r, h, ratio);
-        return accept_step(r, h, last, stop);
+        set_end_of_step(r, h, last);
+        return QDOT_OK;
     }
     restore_state(r);
     r->result->stats.rejected++;
@@ -428,10 +424,19 @@ check_number_of_steps(const run *r)
 }
 
 static qdot_status
-run_steps(run *r)
+look_behind_attempt(run *r)
+{
+    if (r->options->meter)
+        QDOT_TRY(report_work(r));
+    qdot_progress_at(r->t);
+    return QDOT_OK;
+}
+
+/* The constant length, given or by a trial. */
+static qdot_status
+choose_length(run *r)
 {
     const double distance = fabs(r->t1 - r->t);
-    bool stop = false;
 
     if (distance == 0)
         return QDOT_OK;
@@ -439,21 +444,10 @@ run_steps(run *r)
         r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
     else
         QDOT_TRY(find_step_length(r));
-    QDOT_TRY(check_number_of_steps(r));
-    while (r->t != r->t1) {
-        QDOT_TRY(make_next_step(r, &stop));
-        if (r->options->meter)
-            QDOT_TRY(report_work(r));
-        qdot_progress_at(r->t);
-        if (stop) {
-            r->result->outcome = QDOT_ODE_STOPPED;
-            return QDOT_OK;
-        }
-    }
-    return QDOT_OK;
+    return check_number_of_steps(r);
 }
 
-/* --- the whole integration ---------------------------------------------------------- */
+/* --- the controller ------------------------------------------------------------------ */
 
 static qdot_status
 check_arguments(const run *r, double t0, const double *y)
@@ -468,14 +462,14 @@ check_arguments(const run *r, double t0, const double *y)
 
 /* Allocate all arrays in one block. */
 static qdot_status
-constant_steps_allocate(run *r, double **all)
+constant_steps_allocate(run *r)
 {
     const size_t n = r->g.n;
     const size_t m = r->g.system->bonds ? r->g.system->bonds->m : 0;
     const size_t own = r->g.kernel->rows * n + r->g.kernel->more + r->g.kernel->of_bonds * m;
     double *x = qdot_calloc(16 * n + own + 1, sizeof *x);
 
-    *all = x;
+    r->all = x;
     if (!x)
         return QDOT_ENOMEM;
     r->g.y = x;
@@ -502,45 +496,100 @@ begin_at_state(run *r, const double *y)
     return phase->momenta(r->t, y, y + n, r->g.y + n, phase->user);
 }
 
-qdot_status
-qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
-                         const qdot_ode_options *options, double t0, double t1, double *y,
-                         qdot_ode_result *result)
+static qdot_status
+constant_open(const qdot_ode_system *system, const qdot_ode_method *method, const qdot_ode_options *options,
+              double t0, double t1, const double *y, qdot_ode_result *result, void **out)
 {
-    const double cpu_start = qdot_cpu_now();
-    run r = {.g = {.system = system, .kernel = method->geometric, .n = system->n / 2},
-             .options = options,
-             .result = result,
-             .tol = qdot_ode_tolerance(options),
-             .t = t0,
-             .t1 = t1,
-             .direction = t1 < t0 ? -1 : 1};
-    double *all = NULL;
-    qdot_status status;
+    run *r = qdot_malloc(sizeof *r);
 
-    *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    status = check_arguments(&r, t0, y);
-    if (status == QDOT_OK)
-        status = constant_steps_allocate(&r, &all);
-    if (status == QDOT_OK) {
-        memcpy(r.g.y, y, system->n * sizeof *y);
-        if (options->carry)
-            memcpy(r.g.low, options->carry, system->n * sizeof *y);
-        if (r.g.kernel->begin)
-            r.g.kernel->begin(&r.g);
-        status = begin_at_state(&r, y);
-        if (status == QDOT_OK)
-            status = run_steps(&r);
-        if (result->stats.steps > 0) {
-            const qdot_error why = *qdot_last_error();
-
-            if (write_state(&r.g, r.t, y) != QDOT_OK)
-                qdot_fail_again(&why);
-        }
-    }
-    qdot_free(all);
-    result->stats.evaluations = r.g.evaluations;
-    result->stats.cpu = qdot_cpu_now() - cpu_start;
-    qdot_ode_end(result, r.t, status);
-    return status;
+    *out = r;
+    if (!r)
+        return QDOT_ENOMEM;
+    *r = (run){.g = {.system = system, .kernel = method->geometric, .n = system->n / 2},
+               .method = method,
+               .options = options,
+               .result = result,
+               .tol = qdot_ode_tolerance(options),
+               .t = t0,
+               .t1 = t1,
+               .direction = t1 < t0 ? -1 : 1};
+    QDOT_TRY(check_arguments(r, t0, y));
+    QDOT_TRY(constant_steps_allocate(r));
+    memcpy(r->g.y, y, system->n * sizeof *y);
+    if (options->carry)
+        memcpy(r->g.low, options->carry, system->n * sizeof *y);
+    if (r->g.kernel->begin)
+        r->g.kernel->begin(&r->g);
+    QDOT_TRY(begin_at_state(r, y));
+    return choose_length(r);
 }
+
+static qdot_status
+constant_offer(void *run_, qdot_ode_step *step)
+{
+    run *r = run_;
+    bool made;
+
+    for (;;) {
+        QDOT_TRY(try_next_step(r, &made));
+        if (made)
+            break;
+        QDOT_TRY(look_behind_attempt(r));
+    }
+    *step = (qdot_ode_step){.method = r->method, .t_end = r->offered.t_end, .y_end = r->full};
+    return QDOT_OK;
+}
+
+static qdot_status
+constant_accept(void *run_)
+{
+    run *r = run_;
+
+    r->t = r->offered.t_end;
+    r->t_low = r->offered.t_low;
+    r->undefined = 0;
+    r->result->stats.steps++;
+    return look_behind_attempt(r);
+}
+
+static qdot_status
+constant_refuse(void *run_, qdot_status why)
+{
+    run *r = run_;
+
+    restore_state(r);
+    if (why != QDOT_EDOMAIN)
+        return why;
+    QDOT_TRY(handle_undefined_step(r, r->offered.h, why));
+    return look_behind_attempt(r);
+}
+
+/* The state as (q, q'), which is in doubles. */
+static void
+constant_state(void *run_, double *y, double *low)
+{
+    run *r = run_;
+    const qdot_error why = *qdot_last_error();
+
+    if (write_state(&r->g, r->t, y) != QDOT_OK)
+        qdot_fail_again(&why);
+    if (low)
+        memset(low, 0, 2 * r->g.n * sizeof *low);
+}
+
+static void
+constant_close(void *run_)
+{
+    run *r = run_;
+
+    r->result->stats.evaluations = r->g.evaluations;
+    qdot_free(r->all);
+    qdot_free(r);
+}
+
+const qdot_ode_control qdot_ode_constant_steps = {.open = constant_open,
+                                                  .offer = constant_offer,
+                                                  .accept = constant_accept,
+                                                  .refuse = constant_refuse,
+                                                  .state = constant_state,
+                                                  .close = constant_close};

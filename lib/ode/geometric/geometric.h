@@ -70,15 +70,8 @@ QDOT_MUST_CHECK qdot_status qdot_geometric_velocity(qdot_geometric *g, double t,
 QDOT_MUST_CHECK qdot_status qdot_geometric_force(qdot_geometric *g, double t, const double *q,
                                                  const double *v, double *F);
 
-/* As qdot_ode_integrate, by a method with a `geometric` kernel; options not NULL. QDOT_EINVAL: the
- * system is none that the method is for. */
-QDOT_MUST_CHECK qdot_status qdot_geometric_integrate(const qdot_ode_system *system,
-                                                     const qdot_ode_method *method,
-                                                     const qdot_ode_options *options, double t0,
-                                                     double t1, double *y,
-                                                     qdot_ode_result *result);
-
-/* The functions of geometric (structure-preserving) methods, for the table of method.h. */
+/* The functions of geometric (structure-preserving) methods, for the table of method.h; constant-steps.c has the controller
+ * of their steps (ode/step.h), which fails with QDOT_EINVAL if the system is none that the method is for. */
 extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* explicit splitting methods, in splitting.c */
 /* Gauss's collocation methods of order 4, 6, 8 and 12, in gauss.c */
 extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12;

@@ -95,8 +95,8 @@ velocity_may_jump(const qdot_piece *x)
 static qdot_status
 record_final_state(qdot_piece *x)
 {
-    return qdot_trajectory_resume(&x->c->tr, &x->c->systems.at[x->mode], x->mode, true,
-                                  x->options, x->start.t, x->start.y);
+    QDOT_TRY(qdot_trajectory_begin_piece(&x->c->tr, x->mode, true, x->options, x->start.y));
+    return qdot_trajectory_record(&x->c->tr, &x->c->systems.at[x->mode], x->options, x->start.t);
 }
 
 /* What rests where a piece starts; an event that is met there, *over: one that stops the run, is carried

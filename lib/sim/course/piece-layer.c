@@ -341,8 +341,8 @@ go_to_rest(qdot_piece *x, size_t i, const held_motion *held, const remainder_of_
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&c->rests, ((qdot_course_rest){i, x->start.t, after})));
     x->late = left->doubt;
-    QDOT_TRY(qdot_trajectory_resume(&c->tr, &c->systems.at[x->mode], x->mode, true, x->options, after,
-                                    x->start.y));
+    QDOT_TRY(qdot_trajectory_begin_piece(&c->tr, x->mode, true, x->options, x->start.y));
+    QDOT_TRY(qdot_trajectory_record(&c->tr, &c->systems.at[x->mode], x->options, after));
     x->start.t = after;
     x->start.from = x->mode;
     memcpy(x->start.y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *x->start.y);

@@ -300,14 +300,6 @@ end_inside_domain(qdot_piece *x, double t0)
             x->t_act = nextafter(x->t_act, -x->direction * INFINITY);
 }
 
-/* Stop the integration of this piece; the run continues with another piece. */
-static qdot_status
-stop_piece(qdot_piece *x)
-{
-    x->broken_off = true;
-    return qdot_fail(QDOT_ELIMIT, "the piece is over");
-}
-
 /* A run is given up if the last LOOKED_AT parts of steps of a piece, beyond what any step may have, were so short that
  * most_to_come would follow: a function that jumps 1e9 times in a run is never searched to the end. */
 enum { LOOKED_AT = 20000, ORDINARY_PARTS = 8 };
@@ -378,10 +370,11 @@ read_state_at_root(qdot_piece *x)
             x->root[i] = qdot_two_add_double(x->root[i], x->c->early * x->y[i]);
 }
 
+/* Look at a step that is offered with its series. It is shortened to end at what ends the piece; x->over: that
+ * is where it starts, or other sides are to be tried. */
 static qdot_status
-inspect_series_step(qdot_ode_expanded *step, void *user)
+inspect_series_step(qdot_piece *x, qdot_ode_expanded *step)
 {
-    qdot_piece *x = user;
     const qdot_ode_series *s = x->c->systems.at[x->mode].series;
     const qdot_root *roots;
     size_t n;
@@ -402,10 +395,8 @@ inspect_series_step(qdot_ode_expanded *step, void *user)
     QDOT_TRY(record_roots(x, step->t, roots, n));
     if (x->intent == QDOT_PIECE_ENDS)
         end_inside_domain(x, step->t);
-    if (x->intent == QDOT_PIECE_RETRIED ||
-        (x->intent == QDOT_PIECE_ENDS && x->t_act == step->t))
-        return stop_piece(x);
-    if (x->intent == QDOT_PIECE_ENDS) {
+    x->over = x->intent == QDOT_PIECE_RETRIED || (x->intent == QDOT_PIECE_ENDS && x->t_act == step->t);
+    if (x->intent == QDOT_PIECE_ENDS && !x->over) {
         step->t_end = x->t_act;
         read_state_at_root(x);
     }
@@ -425,8 +416,7 @@ inspect_step_ends(qdot_piece *x, double t, const double *y)
     qdot_trajectory_renew(x->cursor);
     QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), t, y, t == x->t1, NULL, &roots, &n));
     QDOT_TRY(record_roots(x, x->step.t[0], roots, n));
-    if (x->intent == QDOT_PIECE_RETRIED)
-        return stop_piece(x);
+    x->over = x->intent == QDOT_PIECE_RETRIED;
     if (x->intent == QDOT_PIECE_ENDS) {
         end_inside_domain(x, x->step.t[0]);
         return qdot_trajectory_read(x->cursor, x->t_act, x->y_act);
@@ -446,10 +436,11 @@ check_accelerations(const qdot_piece *x, double t, const double *y)
     return qdot_constrained_check_accelerations(held, t, y);
 }
 
+/* Look at the end of a step that was taken; *stop: the caller wants the run to end there. */
 static qdot_status
-inspect_accepted_step(double t, const double *y, bool *stop, void *user)
+inspect_end_of_step(qdot_piece *x, const qdot_ode_step *step, bool *stop)
 {
-    qdot_piece *x = user;
+    const double t = step->t_end, *y = step->y_end;
 
     if (x->first_step)
         memset(x->end_low, 0, x->n * sizeof *x->end_low);
@@ -461,13 +452,13 @@ inspect_accepted_step(double t, const double *y, bool *stop, void *user)
         return QDOT_OK;
     for (size_t i = 0; i < x->n; i++)
         x->largest[i] = fmax(x->largest[i], fabs(y[i]));
-    if (!uses_series(x))
+    if (!step->series)
         QDOT_TRY(inspect_step_ends(x, t, y));
+    if (x->over)
+        return QDOT_OK;
     x->first_step = false;
     if (x->intent == QDOT_PIECE_ENDS && !x->far) {
         *stop = true;
-        if (x->beyond && uses_series(x))
-            memcpy(x->end_low, x->beyond, x->n * sizeof *x->end_low);
         return QDOT_OK;
     }
     if (!x->method->series) { /* the next step starts from the state just accepted */
@@ -480,6 +471,14 @@ inspect_accepted_step(double t, const double *y, bool *stop, void *user)
     }
     qdot_watch_take(qdot_piece_watch(x));
     return qdot_piece_take_faded(x, t);
+}
+
+/* Look at the end of a step, and store it. */
+static qdot_status
+judge_step(qdot_piece *x, const qdot_ode_options *options, const qdot_ode_step *step, bool *stop)
+{
+    QDOT_TRY(inspect_end_of_step(x, step, stop));
+    return x->over ? QDOT_OK : qdot_trajectory_add(&x->c->tr, options, x->t1, step);
 }
 
 /* --- integrating a piece -------------------------------------------------------------- */
@@ -525,37 +524,66 @@ qdot_piece_begin(qdot_piece *x)
     return QDOT_OK;
 }
 
+/* Go along one step; *stop: the run ends there. */
+static qdot_status
+advance(qdot_piece *x, qdot_ode_controller *steps, const qdot_ode_options *options, bool *stop)
+{
+    qdot_status status = QDOT_OK;
+    qdot_ode_step step;
+    bool taken = true;
+
+    QDOT_TRY(qdot_ode_controller_offer(steps, &step));
+    x->now = step.method;
+    if (step.series)
+        status = inspect_series_step(x, step.series);
+    if (status != QDOT_OK)
+        return qdot_ode_controller_refuse(steps, status);
+    if (!x->over)
+        QDOT_TRY(qdot_ode_controller_take(steps, &step, &taken));
+    if (x->over || !taken)
+        return QDOT_OK;
+    status = judge_step(x, options, &step, stop);
+    return status == QDOT_OK && x->over ? QDOT_OK : qdot_ode_controller_settle(steps, &step, status);
+}
+
+/* Integrate from the last point until the piece is over. */
+static qdot_status
+go_through_steps(qdot_piece *x, const qdot_ode_system *system, const qdot_ode_options *options)
+{
+    const double t0 = x->c->tr.t[x->c->tr.count - 1];
+    qdot_ode_controller steps;
+    bool stop = false;
+    qdot_status status = qdot_ode_controller_open(&steps, system, x->method, options, t0, x->t1, x->start.y);
+
+    while (status == QDOT_OK && steps.t != x->t1 && !stop && !x->over)
+        status = advance(x, &steps, options, &stop);
+    qdot_ode_controller_close(&steps, status, stop || x->over);
+    qdot_trajectory_end_piece(&x->c->tr, &steps.result);
+    return status;
+}
+
 /* Integrate one piece; the first piece begins the trajectory. */
 qdot_status
 qdot_piece_integrate(qdot_piece *x)
 {
     qdot_course *c = x->c;
     qdot_ode_options options = *x->options;
-    qdot_status status;
     const qdot_ode_system *system = &c->systems.at[x->mode];
+    const bool looks = qdot_piece_mode(x)->m > 0 || x->options->accepted || c->history;
 
-    options.accepted = inspect_accepted_step;
-    options.expanded =
-        (qdot_piece_mode(x)->m > 0 || c->history) && (x->method->series || x->options->alternates)
-            ? inspect_series_step
-            : NULL;
-    options.now = &x->now;
-    options.user = x;
-    options.beyond = &x->beyond;
+    options.now = qdot_trajectory_method_now(&c->tr);
     if (!options.leading) {
         qdot_piece_low(x, x->y);
         options.carry = x->y;
     }
     options.at_doubles = qdot_piece_mode(x)->m > 0;
-    options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted && !c->history;
-    x->beyond = NULL;
     x->has_root = false;
     memset(x->end_low, 0, x->n * sizeof *x->end_low);
     if (x->reader.read_two) /* the low parts at the start: the piece may end there */
         qdot_piece_low(x, x->end_low);
     x->intent = QDOT_PIECE_GOES_ON;
     x->resting = SIZE_MAX;
-    x->broken_off = false;
+    x->over = false;
     x->first_step = true;
     x->far = false;
     x->searched.since = x->start.t;
@@ -563,14 +591,11 @@ qdot_piece_integrate(qdot_piece *x)
     x->noted = c->occurrences.n;
     x->noted_faded = c->faded.n;
     qdot_past_restart(c->history, x->start.t);
-    status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped || x->start.followed, &options, x->t1,
-                                    x->start.y);
-    if (x->broken_off) {
-        c->tr.result.outcome = QDOT_ODE_STOPPED;
-        c->tr.result.reason[0] = '\0';
-        return QDOT_OK;
-    }
-    if (status == QDOT_OK && x->intent == QDOT_PIECE_ENDS && !uses_series(x))
+    QDOT_TRY(qdot_trajectory_begin_piece(&c->tr, x->mode, x->start.jumped || x->start.followed, &options, x->start.y));
+    if (!looks && system->n_parts > 1) /* its parts may go apart */
+        return qdot_trajectory_record(&c->tr, system, &options, x->t1);
+    QDOT_TRY(go_through_steps(x, system, &options));
+    if (x->intent == QDOT_PIECE_ENDS && !x->over && !uses_series(x))
         qdot_trajectory_shorten(&c->tr, x->t_act, x->y_act);
-    return status;
+    return QDOT_OK;
 }

@@ -43,7 +43,7 @@ typedef struct {
     qdot_course *c;
     const qdot_ode_options *options;
     const qdot_ode_method *method;
-    const qdot_ode_method *now; /* the method of the present step, if the run alternates between methods; else NULL */
+    const qdot_ode_method *now; /* the method of the present step; NULL: there was none */
     double t1, direction;
     size_t n;           /* number of components of y */
     size_t mode;        /* index of the mode of this piece */
@@ -88,11 +88,10 @@ typedef struct {
     double t_act;
     double late, blur; /* the piece ends at t_act - late; uncertainty of this time */
     double *y_act;             /* [n] state at t_act, for methods without series */
-    const double *beyond;      /* [n] exact state minus y while a step is accepted; NULL: unknown */
     double *end_low;           /* [n] exact state minus y at the end of the piece */
     qdot_two *root; /* [n] state at the root that ends the piece; if there are constraints, state at t_act */
     bool has_root;             /* `root` has been computed, from a series */
-    bool broken_off;           /* the integration was stopped on purpose, not by a failure */
+    bool over;                 /* the piece is over before the step at hand, which is not taken */
     qdot_vec(qdot_root) roots; /* the roots of watched functions at t_act */
     qdot_vec(qdot_root) fired; /* the roots that ended the previous piece */
     qdot_vec(size_t) pushed; /* lasting contacts against which the event at the start has pushed the motion */
@@ -257,7 +256,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_begin(qdot_piece *x);
 
 /* Integrate from the start, the last point of the trajectory, to x->t1 or to the end of the
  * piece: then x->intent, x->t_act and x->roots say where and why; c->reason for a persistent
- * contact. Errors as qdot_trajectory_resume. */
+ * contact. Errors as qdot_trajectory_record. */
 QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 
 /* The run ends if, at the present rate, more events than this would still follow. */

@@ -25,7 +25,7 @@ typedef struct {
                                      by the run (sim/run/scales.h); NULL: all are */
     const char *method;           /* "auto" or the name of a method (ode/method.h) */
     bool turns;                   /* a method for stiff scenes may change to series and back
-                                     (ode/alternate.h) */
+                                     (ode/alternate.c) */
     qdot_run_treatment treatment; /* how a drift of the state off the constraints is treated */
     size_t n_states;              /* set by the run itself, leave it 0: parameters that events
                                      set, as further coordinates (sim/model/parameter-states.h); */

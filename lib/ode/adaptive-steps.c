@@ -1,20 +1,18 @@
-/* whole.c -- the loop of an integration: tries a step, judges it, accepts it, chooses the next. */
-#include "ode/whole.h"
+/* adaptive-steps.c -- steps under a bound for the error of each: tries one, judges it, chooses the next length. */
+#include "ode/step.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/interrupt.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "num/sum.h"
-#include "ode/geometric/geometric.h"
 #include "ode/meter.h"
 #include "ode/scale.h"
 #include "ode/stiffness.h"
 #include "ode/stepper.h"
-#include "ode/taylor.h"
 
 /* The error that a step aims at, as a fraction of its bound: few steps are then rejected, and for
  * an order of 8 the whole run costs a quarter more and errs eight times less. */
@@ -55,6 +53,10 @@ typedef struct {
     qdot_ode_stiffness stiffness;
     uint64_t looked;           /* evaluations of f used to detect forces that a step would miss */
     int crawled;               /* number of steps in a row that were tiny compared with the rest of the run */
+    struct {
+        double h, ratio;       /* its length, positive, and the ratio of its error to the bound */
+        double end, end_carry; /* the time of its end is end + end_carry */
+    } offered;                 /* the step that is offered */
 } run;
 
 /* A run towards a singular place stops after so many consecutive steps below this fraction of the
@@ -251,38 +253,6 @@ approaches_singularity(run *r)
     return r->crawled >= most_crawled;
 }
 
-/* Accept a step whose error is small enough, unless the caller's callback objects. */
-static qdot_status
-accept_step(run *r, double h, double ratio, bool last, bool *stop)
-{
-    qdot_ode_result *result = r->result;
-    double t = r->t, t_carry = r->t_carry;
-
-    if (last) {
-        t = r->until;
-        t_carry = 0;
-    } else {
-        qdot_sum_advance(&t, &t_carry, r->direction * h);
-    }
-    if (r->options->accepted) {
-        qdot_status status = r->options->accepted(t, r->s->trial, stop, r->options->user);
-
-        if (status == QDOT_EDOMAIN)
-            return handle_undefined_step(r, h, status);
-        QDOT_TRY(status);
-    }
-    r->longest = fmax(r->longest, h);
-    control_step_length(r, h, ratio, true);
-    result->stats.projections += r->s->projected;
-    qdot_ode_stepper_accept(r->s);
-    r->t = t;
-    r->t_carry = t_carry;
-    r->undefined = 0;
-    r->just_rejected = false;
-    result->stats.steps++;
-    return QDOT_OK;
-}
-
 /* Find whether the step passes over a force that acts only for a shorter time; if so, shorten it. */
 static qdot_status
 look_for_missed_forces(run *r, double h, double end, bool *clear)
@@ -309,13 +279,30 @@ look_for_missed_forces(run *r, double h, double end, bool *clear)
     return QDOT_OK;
 }
 
-static qdot_status
-advance_one_step(run *r, bool *stop)
+/* The end of a step of h, whose double is `end` but for the last. */
+static void
+set_end_of_step(run *r, double h, bool last)
 {
-    bool last, clear;
-    double h = choose_step(r, &last), ratio;
+    r->offered.end = r->t;
+    r->offered.end_carry = r->t_carry;
+    if (last) {
+        r->offered.end = r->until;
+        r->offered.end_carry = 0;
+    } else {
+        qdot_sum_advance(&r->offered.end, &r->offered.end_carry, r->direction * h);
+    }
+}
+
+/* Try one step; *good: it can be offered. */
+static qdot_status
+try_step(run *r, bool *good)
+{
+    bool last;
+    const double h = choose_step(r, &last);
+    double ratio, end;
     qdot_status status;
 
+    *good = false;
     QDOT_TRY(qdot_interrupt_check());
     if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
@@ -329,19 +316,18 @@ advance_one_step(run *r, bool *stop)
     status = qdot_ode_stepper_try(r->s, r->t, r->direction * h, &ratio);
     if (status != QDOT_OK)
         return handle_undefined_step(r, h, status);
+    end = last ? r->until : r->t + (r->t_carry + r->direction * h);
     if (ratio <= 1)
-        status = qdot_ode_stepper_project(
-            r->s, last ? r->until : r->t + (r->t_carry + r->direction * h), &ratio);
+        status = qdot_ode_stepper_project(r->s, end, &ratio);
     if (status != QDOT_OK)
         return handle_undefined_step(r, h, status);
     if (r->options->h_fixed > 0 && ratio < INFINITY)
         ratio = fmin(ratio, 1);
     if (ratio <= 1) {
-        QDOT_TRY(look_for_missed_forces(r, h, last ? r->until : r->t + (r->t_carry + r->direction * h), &clear));
-        if (!clear)
-            return QDOT_OK;
-        QDOT_TRY(accept_step(r, h, ratio, last, stop));
-        return r->result->stats.steps % seldom == 0 && approaches_singularity(r) ? fail_with_too_small_step(r) : QDOT_OK;
+        r->offered.h = h;
+        r->offered.ratio = ratio;
+        set_end_of_step(r, h, last);
+        return look_for_missed_forces(r, h, end, good);
     }
     r->result->stats.rejected++;
     r->just_rejected = true;
@@ -384,89 +370,146 @@ look_for_stiffness(run *r)
     return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
 }
 
+/* Behind each attempt: count its work; now and then see whether the run gets anywhere. */
 static qdot_status
-whole_loop(run *r)
+look_behind_attempt(run *r)
 {
-    const bool fixed = r->options->h_fixed > 0;
-    double distance = fabs(r->t1 - r->t);
-    bool stop = false;
-
-    if (fixed) {
-        r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
-    } else if (r->options->h_first > 0) {
-        r->h = fmin(r->options->h_first, distance);
-    } else {
-        qdot_status status = choose_first_step(r, distance);
-
-        if (qdot_ode_may_be_undefined(status)) {
-            r->last_undefined = *qdot_last_error();
-            return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
-                             r->last_undefined.message);
-        }
-        QDOT_TRY(status);
-    }
-    while (r->t != r->t1) {
-        r->until = fixed ? r->t1 : qdot_ode_until(r->s->system, r->t, r->t1);
-        QDOT_TRY(advance_one_step(r, &stop));
-        if (r->options->meter)
-            QDOT_TRY(report_work_of_run(r));
-        if (qdot_ode_stiffness_is_due(&r->stiffness) && r->h > coarse * least_step_length(r))
-            QDOT_TRY(look_for_stiffness(r));
-        qdot_progress_at(r->t);
-        if (stop) {
-            r->result->outcome = QDOT_ODE_STOPPED;
-            return QDOT_OK;
-        }
-    }
+    if (r->options->meter)
+        QDOT_TRY(report_work_of_run(r));
+    if (qdot_ode_stiffness_is_due(&r->stiffness) && r->h > coarse * least_step_length(r))
+        QDOT_TRY(look_for_stiffness(r));
+    qdot_progress_at(r->t);
     return QDOT_OK;
 }
 
-static void
-collect_statistics(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
+static qdot_status
+choose_first_length(run *r)
 {
-    result->stats.evaluations = s->evaluations;
-    result->stats.jacobians = s->jacobians;
-    result->stats.factorisations = s->factorisations;
-    result->stats.raised = s->raised > s->tol ? s->raised : 0;
-    result->stats.cpu = qdot_cpu_now() - cpu_start;
-}
-
-qdot_status
-qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
-                         const qdot_ode_options *options, double t0, double t1, double *y,
-                         qdot_ode_result *result)
-{
-    double cpu_start = qdot_cpu_now();
-    run r = {.options = options,
-             .result = result,
-             .t = t0,
-             .t1 = t1,
-             .undefined_at = NAN,
-             .margin_at = NAN};
-    double tol = qdot_ode_tolerance(options);
+    const double distance = fabs(r->t1 - r->t);
     qdot_status status;
 
-    if (method->series)
-        return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
-    if (method->geometric)
-        return qdot_geometric_integrate(system, method, options, t0, t1, y, result);
-    status = qdot_ode_check_limits(system, t0, t1, y);
-    if (status == QDOT_OK)
-        status = qdot_ode_enter(system, options, t0, y);
-    *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    r.direction = t1 < t0 ? -1 : 1;
-    r.max_steps = qdot_ode_most_steps(options);
-    if (status == QDOT_OK && (t0 != t1 || system->n == 0))
-        status = qdot_ode_stepper_new(system, method, tol, &r.s);
-    if (status == QDOT_OK && r.s) {
-        qdot_ode_stepper_start(r.s, y);
-        status = whole_loop(&r);
-        memcpy(y, r.s->y, system->n * sizeof *y);
-        collect_statistics(result, r.s, cpu_start);
-        result->stats.evaluations += r.looked;
-        qdot_ode_stepper_free(r.s);
-        qdot_ode_stiffness_clear(&r.stiffness);
+    if (r->options->h_fixed > 0) {
+        r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
+        return QDOT_OK;
     }
-    qdot_ode_end(result, r.t, status);
-    return status;
+    if (r->options->h_first > 0) {
+        r->h = fmin(r->options->h_first, distance);
+        return QDOT_OK;
+    }
+    status = choose_first_step(r, distance);
+    if (!qdot_ode_may_be_undefined(status))
+        return status;
+    r->last_undefined = *qdot_last_error();
+    return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, r->last_undefined.message);
 }
+
+/* --- the controller ------------------------------------------------------------------ */
+
+static qdot_status
+adaptive_open(const qdot_ode_system *system, const qdot_ode_method *method, const qdot_ode_options *options,
+              double t0, double t1, const double *y, qdot_ode_result *result, void **out)
+{
+    run *r;
+
+    QDOT_TRY(qdot_ode_check_limits(system, t0, t1, y));
+    QDOT_TRY(qdot_ode_enter(system, options, t0, y));
+    *out = r = qdot_malloc(sizeof *r);
+    if (!r)
+        return QDOT_ENOMEM;
+    *r = (run){.options = options,
+               .result = result,
+               .t = t0,
+               .t1 = t1,
+               .direction = t1 < t0 ? -1 : 1,
+               .max_steps = qdot_ode_most_steps(options),
+               .undefined_at = NAN,
+               .margin_at = NAN};
+    if (t0 == t1 && system->n > 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_ode_stepper_new(system, method, qdot_ode_tolerance(options), &r->s));
+    qdot_ode_stepper_start(r->s, y);
+    return choose_first_length(r);
+}
+
+static qdot_status
+adaptive_offer(void *run_, qdot_ode_step *step)
+{
+    run *r = run_;
+    bool good;
+
+    for (;;) {
+        r->until = r->options->h_fixed > 0 ? r->t1 : qdot_ode_until(r->s->system, r->t, r->t1);
+        QDOT_TRY(try_step(r, &good));
+        if (good)
+            break;
+        QDOT_TRY(look_behind_attempt(r));
+    }
+    *step = (qdot_ode_step){.method = r->s->method, .t_end = r->offered.end, .y_end = r->s->trial};
+    return QDOT_OK;
+}
+
+static qdot_status
+adaptive_accept(void *run_)
+{
+    run *r = run_;
+
+    r->longest = fmax(r->longest, r->offered.h);
+    control_step_length(r, r->offered.h, r->offered.ratio, true);
+    r->result->stats.projections += r->s->projected;
+    qdot_ode_stepper_accept(r->s);
+    r->t = r->offered.end;
+    r->t_carry = r->offered.end_carry;
+    r->undefined = 0;
+    r->just_rejected = false;
+    r->result->stats.steps++;
+    if (r->result->stats.steps % seldom == 0 && approaches_singularity(r))
+        return fail_with_too_small_step(r);
+    return look_behind_attempt(r);
+}
+
+static qdot_status
+adaptive_refuse(void *run_, qdot_status why)
+{
+    run *r = run_;
+
+    if (why != QDOT_EDOMAIN)
+        return why;
+    QDOT_TRY(handle_undefined_step(r, r->offered.h, why));
+    return look_behind_attempt(r);
+}
+
+static void
+adaptive_state(void *run_, double *y, double *low)
+{
+    const qdot_ode_stepper *s = ((const run *)run_)->s;
+
+    if (s)
+        memcpy(y, s->y, s->system->n * sizeof *y);
+    if (s && low)
+        memcpy(low, s->carry, s->system->n * sizeof *low);
+}
+
+static void
+adaptive_close(void *run_)
+{
+    run *r = run_;
+    const qdot_ode_stepper *s = r->s;
+    qdot_ode_stats *stats = &r->result->stats;
+
+    if (s) {
+        stats->evaluations = s->evaluations + r->looked;
+        stats->jacobians = s->jacobians;
+        stats->factorisations = s->factorisations;
+        stats->raised = s->raised > s->tol ? s->raised : 0;
+    }
+    qdot_ode_stepper_free(r->s);
+    qdot_ode_stiffness_clear(&r->stiffness);
+    qdot_free(r);
+}
+
+const qdot_ode_control qdot_ode_adaptive_steps = {.open = adaptive_open,
+                                                  .offer = adaptive_offer,
+                                                  .accept = adaptive_accept,
+                                                  .refuse = adaptive_refuse,
+                                                  .state = adaptive_state,
+                                                  .close = adaptive_close};
