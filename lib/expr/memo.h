@@ -18,7 +18,7 @@
 #define QDOT_MEMO_BYTES 48
 
 /* The kinds of questions with stored answers; the lower 8 bits hold further data on which an answer depends. */
-enum { QDOT_MEMO_LESS = 1 << 8, QDOT_MEMO_SHORTEST = 2 << 8 };
+enum { QDOT_MEMO_LESS = 1 << 8, QDOT_MEMO_SHORTEST = 2 << 8, QDOT_MEMO_ROTATION = 3 << 8 };
 
 /* Copy the stored answer to a question, of `size` bytes, to *answer; false if none is stored. */
 bool qdot_memo_find(const qdot_pool *pool, qdot_expr question, uint32_t asked, void *answer, size_t size);

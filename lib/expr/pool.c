@@ -438,6 +438,7 @@ qdot_pool_free(qdot_pool *pool)
     qdot_free(pool->symbols.at);
     qdot_free(pool->ufuns.at);
     qdot_free(pool->variables.at);
+    qdot_free(pool->factors.at);
     qdot_free(pool->table);
     qdot_arena_free(pool->arena);
     qdot_printed_free(pool->printed);

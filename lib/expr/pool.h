@@ -18,6 +18,11 @@ typedef struct {
     const char *name;
 } qdot_variable;
 
+/* What a square matrix was first made of (expr/factors). */
+typedef struct {
+    qdot_expr matrix, a, b;
+} qdot_factors;
+
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* nodes.at[0] is nil */
     qdot_vec(qdot_expr) args;
@@ -25,6 +30,7 @@ struct qdot_pool {
     qdot_vec(qdot_symbol) symbols;
     qdot_vec(qdot_ufun) ufuns;
     qdot_vec(qdot_variable) variables; /* the names of the variables of integrals, ascending by node */
+    qdot_vec(qdot_factors) factors;     /* what square matrices were made of, ascending by matrix */
     uint32_t *table; /* open hash table of node ids, mask + 1 slots */
     uint32_t mask;
     qdot_arena *arena; /* memory for names and limbs of large numbers */
@@ -89,6 +95,9 @@ uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_
 /* The partial derivative of f(args) with respect to args[i]. */
 qdot_expr qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n,
                               const qdot_expr *args, uint32_t i);
+
+/* Note that a matrix is a b, or for nil b the transpose of a (expr/factors); returns the matrix. Nil on failure. */
+qdot_expr qdot_factors_note(qdot_pool *pool, qdot_expr matrix, qdot_expr a, qdot_expr b);
 
 /* The number of operations in node e, found from those of its children, at most QDOT_SIZE_LARGE. */
 uint32_t qdot_size_kept(const qdot_pool *pool, qdot_expr e);

@@ -171,7 +171,7 @@ matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
                                            ARGS(pool, b)[k * columns + j]);
                 p.at[i * columns + j] = qdot_sum(pool, inner, terms.at);
             }
-        result = !vector    ? qdot_matrix(pool, rows, columns, p.at)
+        result = !vector    ? qdot_factors_note(pool, qdot_matrix(pool, rows, columns, p.at), a, b)
                  : rows > 1 ? qdot_vector(pool, rows, p.at)
                             : p.at[0];
         free_components(&terms);
@@ -385,7 +385,7 @@ qdot_transpose(qdot_pool *pool, qdot_expr a)
             p.at[j * rows + i] = ARGS(pool, a)[i * columns + j];
     result = qdot_matrix(pool, columns, rows, p.at);
     free_components(&p);
-    return result;
+    return qdot_factors_note(pool, result, a, QDOT_NIL);
 }
 
 qdot_expr

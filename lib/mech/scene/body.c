@@ -13,8 +13,7 @@
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "mech/scene/access.h"
-#include "mech/scene/constraint.h"
-#include "normal/prove/decide.h"
+#include "mech/scene/rotation.h"
 #include "normal/simplify/simplify.h"
 
 static qdot_expr
@@ -48,44 +47,6 @@ rotation_in_plane(qdot_pool *pool, qdot_expr angle)
     qdot_expr e[4] = {c, qdot_neg(pool, s), s, c};
 
     return qdot_matrix(pool, 2, 2, e);
-}
-
-/* R^T R = 1 and det R = 1, or the axes are no rigid body's. What is only undecided
- * passes; constraints declared before (of a quaternion's length, say) may be used. */
-static qdot_status
-check_rotation(qdot_scene *s, qdot_expr R)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr RtR = qdot_value_mul(pool, qdot_transpose(pool, R), R);
-    qdot_expr *relations = NULL;
-    qdot_facts facts;
-    qdot_status status = qdot_pool_check(pool);
-
-    if (status == QDOT_OK)
-        status = qdot_constraint_facts(s, &relations, &facts);
-    for (uint32_t i = 0; i < 3 && status == QDOT_OK; i++)
-        for (uint32_t j = i; j < 3 && status == QDOT_OK; j++) {
-            qdot_decision seen;
-
-            status = qdot_decide_equal(pool, qdot_expr_arg(pool, RtR, 3 * i + j),
-                                       i == j ? QDOT_ONE : QDOT_ZERO, &facts, &seen);
-            if (status == QDOT_OK && seen.verdict == QDOT_REFUTED)
-                status = qdot_fail(QDOT_EDOMAIN,
-                                   "not a rotation: columns %u and %u are not %s", i + 1,
-                                   j + 1, i == j ? "of length 1" : "at right angles");
-        }
-    if (status == QDOT_OK) {
-        qdot_expr det = qdot_det(pool, R);
-        qdot_decision seen;
-
-        status = qdot_pool_check(pool);
-        if (status == QDOT_OK)
-            status = qdot_decide_equal(pool, det, QDOT_MINUS_ONE, &facts, &seen);
-        if (status == QDOT_OK && seen.verdict == QDOT_PROVED)
-            status = qdot_fail(QDOT_EDOMAIN, "not a rotation: a reflection");
-    }
-    qdot_free(relations);
-    return status;
 }
 
 qdot_expr
@@ -213,7 +174,7 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
         b.rotation = rotation_in_plane(pool, angle);
     QDOT_TRY(qdot_pool_check(pool));
     if (!plane)
-        QDOT_TRY(check_rotation(s, rotation));
+        QDOT_TRY(qdot_rotation_check(s, rotation));
     QDOT_TRY(qdot_scene_copy_text(s, name, &b.name));
     QDOT_TRY(qdot_vec_push(&s->bodies, b));
     qdot_scene_changed(s);

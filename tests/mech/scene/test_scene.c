@@ -7,6 +7,7 @@
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/tensor.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/kit.h"
 #include "sanitized.h"
@@ -208,6 +209,53 @@ a_matrix_that_is_no_rotation_is_refused(void **state)
             declare_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
                             E(k, "(0, 0, 0)"), QDOT_NIL, R),
             QDOT_EDOMAIN, "not a rotation");
+    kit_close(k);
+}
+
+static qdot_expr
+turned(kit *k, qdot_expr angle, int axis, qdot_expr of_cosine)
+{
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const qdot_expr c = qdot_fun1(k->pool, QDOT_COS, of_cosine), s = qdot_fun1(k->pool, QDOT_SIN, angle);
+    qdot_expr e[9];
+
+    for (int n = 0; n < 9; n++)
+        e[n] = QDOT_ZERO;
+    e[4 * axis] = QDOT_ONE;
+    e[4 * i] = e[4 * j] = c;
+    e[3 * i + j] = qdot_neg(k->pool, s);
+    e[3 * j + i] = s;
+    return qdot_matrix(k->pool, 3, 3, e);
+}
+
+/* The entries of such a product are of degree 40; one factor that is no rotation is found in it all the same. */
+static void
+products_of_rotations_are_rotations_by_their_factors(void **state)
+{
+    kit k_, *k = &k_;
+    qdot_expr R, wrong, A, a, b, mirror[9];
+    size_t before;
+
+    (void)state;
+    kit_open(k);
+    coords(k, "a b");
+    a = E(k, "a");
+    b = E(k, "b");
+    A = turned(k, a, 2, a);
+    R = qdot_value_mul(k->pool, A, turned(k, b, 0, b));
+    wrong = qdot_value_mul(k->pool, A, turned(k, b, 0, a));
+    refused(k, declare_body(k->scene, "w", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL, E(k, "(0, 0, 0)"), QDOT_NIL, wrong),
+            QDOT_EDOMAIN, "not a rotation");
+    for (int i = 0; i < 9; i++)
+        mirror[i] = i % 4 ? QDOT_ZERO : i ? QDOT_ONE : QDOT_MINUS_ONE;
+    wrong = qdot_value_mul(k->pool, R, qdot_matrix(k->pool, 3, 3, mirror));
+    refused(k, declare_body(k->scene, "w", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL, E(k, "(0, 0, 0)"), QDOT_NIL, wrong),
+            QDOT_EDOMAIN, "a reflection");
+    for (int i = 1; i < 20; i++)
+        R = qdot_value_mul(k->pool, qdot_transpose(k->pool, R), qdot_value_mul(k->pool, R, A));
+    before = qdot_pool_count(k->pool);
+    must(declare_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL, E(k, "(0, 0, 0)"), QDOT_NIL, R));
+    assert_true(qdot_pool_count(k->pool) - before < 1000); /* nothing was made of the entries of R */
     kit_close(k);
 }
 
@@ -449,6 +497,7 @@ main(void)
         cmocka_unit_test(things_without_label_go_by_number),
         cmocka_unit_test(scene_prints_as_statements),
         cmocka_unit_test(a_matrix_that_is_no_rotation_is_refused),
+        cmocka_unit_test(products_of_rotations_are_rotations_by_their_factors),
         cmocka_unit_test(redundant_constraints_do_not_count),
         cmocka_unit_test(parallel_cranks_are_redundant),
         cmocka_unit_test(running_out_of_memory_anywhere_is_an_error),
