@@ -63,6 +63,9 @@ static const char version[] =
 #ifdef HAVE_MPI
     "With OpenMPI: mpirun -n RANKS qdot FILE divides sweeps among its ranks.\n"
 #endif
+#ifdef QDOT_ONE_THREAD
+    "With --disable-threads: one thread of one process computes.\n"
+#endif
     "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>.\n"
     "This is free software: you are free to change and redistribute it.\n"
     "There is NO WARRANTY, to the extent permitted by law.\n";

@@ -26,7 +26,9 @@ wait $pid
 grep -v 'process that made the run has ended' of-killed | sort >a
 sort of-one | grep -F -x -f a | wc -l | tr -d ' ' >b
 [ "$(wc -l <a | tr -d ' ')" -ge 592 ] && [ "$(cat b)" = "$(wc -l <a | tr -d ' ')" ] && echo 'the rows are the same'
-[ ! -e /proc/$$/task/$$/children ] || [ "${kills:-0}" -gt 0 ] || echo 'none was there to kill'
+if [ -e /proc/$$/task/$$/children ] && [ "${kills:-0}" = 0 ]; then
+    qdot --version | grep -q 'disable-threads' || echo 'none was there to kill' # such a build has no workers
+fi
 echo '# Ctrl-C keeps what is done'
 sed -i.old 's/ stop$//' scene.lag
 cat >long.lag <<'END'
