@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lang/analysis/follow.h"
+#include "lang/language/hint-place.h"
 #include "lang/source/source.h"
 #include "lang/syntax/outline.h"
 #include "lang/syntax/statement.h"
@@ -79,98 +80,29 @@ try_edit(search *s, qdot_stretch at, const char *text, bool *mends)
 
 /* --- a text in place of what it is made of -------------------------------------------- */
 
-static bool
-is_operand(const qdot_token *k)
-{
-    return k->kind == QDOT_TOKEN_NAME || k->kind == QDOT_TOKEN_NUMBER;
-}
-
-/* How often the token stands among from ... to - 1. */
-static size_t
-count_token(const qdot_token *from, const qdot_token *to, const qdot_token *token)
-{
-    size_t n = 0;
-
-    for (; from < to; from++)
-        n += from->kind == token->kind && strcmp(from->text, token->text) == 0;
-    return n;
-}
-
-/* Whether all names and numbers from ... to - 1 but the first are in the source as often. */
-static bool
-keeps_operands(const qdot_token *from, const qdot_token *to, const qdot_source *source)
-{
-    const qdot_token *own = source->tokens.at, *end = own + source->tokens.n;
-
-    for (const qdot_token *k = from + 1; k < to; k++)
-        if (is_operand(k) && count_token(own, end, k) < count_token(from + 1, to, k))
-            return false;
-    return true;
-}
-
-/* The end of the longest run of tokens from `first` on that the source keeps, with whole brackets, behind an operand. */
-static const qdot_token *
-end_of_kept(const qdot_token *first, const qdot_token *end, const qdot_source *source)
-{
-    const qdot_token *last = first;
-    int depth = 0;
-
-    for (const qdot_token *k = first; k < end && depth >= 0 && keeps_operands(first, k + 1, source); k++) {
-        depth += qdot_token_bracket(k);
-        if (depth == 0 && (is_operand(k) || qdot_token_bracket(k) < 0 || qdot_token_is(k, "'")))
-            last = k;
-    }
-    return last + 1;
-}
-
-static bool
-tokens_are_equal(const qdot_token *a, const qdot_token *b, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (a[i].kind != b[i].kind || strcmp(a[i].text, b[i].text) != 0)
-            return false;
-    return true;
-}
-
-/* Where the text begins: tokens before the one at fault with which it begins, too, are a part of it, as 2 in 2x, `write 2*x`. */
-static const qdot_token *
-begin_of_text(const qdot_token *first, const qdot_token *at, const qdot_source *source)
-{
-    size_t n = (size_t)(at - first) < source->tokens.n ? (size_t)(at - first) : source->tokens.n;
-
-    while (n > 0 && !tokens_are_equal(at - n, source->tokens.at, n))
-        n--;
-    return at - n;
-}
-
 /* Try the text in place of tokens from the one at fault, or from the beginning of its statement. */
 static qdot_status
 try_text(search *s, const qdot_remark *remark, const char *text)
 {
     const size_t at = qdot_analysis_token(s->a->source, remark->at.from);
     const qdot_piece *piece = qdot_analysis_piece(s->a, remark->at.from);
-    const qdot_token *tokens = s->a->source->tokens.at, *first, *end;
+    const qdot_token *tokens = s->a->source->tokens.at;
+    qdot_hint_place places[2];
     qdot_source *source = NULL;
-    size_t wrong;
+    size_t wrong, n = 0;
     bool mends = false;
     qdot_status status = QDOT_OK;
 
     if (at == SIZE_MAX || piece == NULL || piece->block)
         return QDOT_OK;
-    first = &tokens[piece->first];
-    end = &tokens[piece->end];
-    if (qdot_source_new("", text, strlen(text), &source, &wrong) == QDOT_OK) {
-        const qdot_token *const begins[] = {begin_of_text(first, &tokens[at], source), first};
+    if (qdot_source_new("", text, strlen(text), &source, &wrong) == QDOT_OK)
+        n = qdot_hint_places(&tokens[piece->first], &tokens[piece->end], &tokens[at], source, places);
+    for (size_t i = 0; i < n && status == QDOT_OK && !mends; i++) {
+        const qdot_token *from = places[i].from, *to = places[i].to;
 
-        for (size_t i = 0; i < 2 && status == QDOT_OK && !mends; i++) {
-            const qdot_token *from = begins[i], *to = end_of_kept(from, end, source);
-
-            if (i == 1 && (from == begins[0] || to <= begins[0])) /* the fault is to be a part of it */
-                break;
-            status = try_edit(s, (qdot_stretch){from->start, to[-1].start + to[-1].length}, text, &mends);
-            if (status == QDOT_OK && !mends && to > from + 1 && i == 0)
-                status = try_edit(s, (qdot_stretch){from->start, from->start + from->length}, text, &mends);
-        }
+        status = try_edit(s, (qdot_stretch){from->start, to[-1].start + to[-1].length}, text, &mends);
+        if (status == QDOT_OK && !mends && to > from + 1 && i == 0)
+            status = try_edit(s, (qdot_stretch){from->start, from->start + from->length}, text, &mends);
     }
     qdot_source_free(source);
     return status;
@@ -226,7 +158,6 @@ try_quoted(search *s, const qdot_remark *remark)
 qdot_status
 qdot_fix_find(const qdot_analysis *a, const qdot_remark *remark, qdot_edit_list *fixes)
 {
-    static const char write[] = "write ";
     search s = {.a = a, .fixes = fixes, .before = qdot_fix_errors(a), .trials = TRIALS};
 
     if (remark->fix != NULL) { /* a name for a name */
@@ -234,7 +165,7 @@ qdot_fix_find(const qdot_analysis *a, const qdot_remark *remark, qdot_edit_list 
 
         return edit.text != NULL ? qdot_vec_push(fixes, edit) : QDOT_ENOMEM;
     }
-    if (strncmp(remark->hint, write, sizeof write - 1) == 0)
-        return try_text(&s, remark, remark->hint + sizeof write - 1);
+    if (strncmp(remark->hint, QDOT_HINT_WRITE, sizeof QDOT_HINT_WRITE - 1) == 0)
+        return try_text(&s, remark, remark->hint + sizeof QDOT_HINT_WRITE - 1);
     return try_quoted(&s, remark);
 }

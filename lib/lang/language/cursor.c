@@ -150,7 +150,7 @@ hint_at_foreign_syntax(const qdot_token *t)
     };
 
     if (qdot_token_is(t, ":") && qdot_token_is(t + 1, "=") && t[1].glued)
-        return qdot_hint("write =");
+        return qdot_hint("write `=`");
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, foreign[i].text) == 0)
             return qdot_hint("%s", foreign[i].hint);
@@ -223,11 +223,17 @@ report_missing_times(qdot_cursor *c, const qdot_token *before)
     qdot_fail(QDOT_ESYNTAX, "a `*` is missing");
     from = find_operand_start(c, before);
     to = qdot_cursor_operand_end(c, t);
+    left = (int)(before->start + before->length - from->start);
+    if (to - from->start <= 100 && qdot_token_is(t, "(") && from - c->source->tokens.at >= 2 && qdot_token_is(from - 1, "^") && is_function(c, from - 2)) {
+        c->error_at = from[-2].start; /* sin^2(x) */
+        qdot_fail(QDOT_ESYNTAX, "`%s` is a function: its argument goes in ( )", from[-2].text);
+        return qdot_hint("write %s%.*s^%.*s", from[-2].text, (int)(to - t->start), c->source->text + t->start, left,
+                         c->source->text + from->start);
+    }
     if (to - from->start > 100 || !is_factor(c, from, before) || (t->kind == QDOT_TOKEN_NAME && is_function(c, t) && !qdot_token_is(t + 1, "(")))
         return qdot_hint("a product is written with `*`");
     if (from == before && is_function(c, from) && qdot_builtin_find(from->text)->least <= 1) /* momentum bob: also a value by itself */
         return qdot_hint("write %s(%.*s)", from->text, (int)(to - t->start), c->source->text + t->start);
-    left = (int)(before->start + before->length - from->start);
     return qdot_hint("write %.*s*%.*s", left, c->source->text + from->start,
                      (int)(to - t->start), c->source->text + t->start);
 }
@@ -312,7 +318,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         c->error_at = before->start + before->length;
     if (before->kind == QDOT_TOKEN_NUMBER && t->glued && strcmp(t->text, ".") == 0) {
         qdot_fail(QDOT_ESYNTAX, "a decimal point needs a digit after it");
-        return qdot_hint("write %.80s or %.80s.0", before->text, before->text);
+        return qdot_hint("write %.80s.0", before->text);
     }
     if (!may_end_operand(before) || !token_begins_operand(t)) {
         report_unexpected_token(what, t);

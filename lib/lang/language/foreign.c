@@ -72,8 +72,10 @@ find_matching_pattern(const qdot_cursor *c, const form *f, const qdot_token *fro
 static bool
 is_doubtful_match(const qdot_pattern_match *m)
 {
+    const char *hint = qdot_last_error()->hint;
+
     return m->to == m->from + 1 && m->from->length == 1 &&
-           (strstr(qdot_last_error()->hint, "did you mean") != NULL || strncmp(qdot_last_error()->hint, "write param ", 12) == 0);
+           (strstr(hint, "did you mean") != NULL || (strncmp(hint, "`param ", 7) == 0 && qdot_ends_in(hint, "` declares it")));
 }
 
 /* Whether the suggested line is the same as the typed one. */

@@ -258,7 +258,7 @@ hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, b
     if (row != NULL && name[1] != '\0') /* a function whose name may be taken, as `rate` */
         return qdot_hints_bare_function(c, token);
     if (member == NULL && !coordinate && is_beside_separation(c, token))
-        return qdot_hint("write param %.60s", name);
+        return qdot_hint("`param %.60s` declares it", name);
     nearest = coordinate ? qdot_names_nearest(c->session->names, member != NULL ? member : name, 0, NULL)
                          : qdot_hints_nearest(c->session, member != NULL ? member : name);
     if (nearest != NULL && strlen(name) < CLEAR && qdot_builtin_find(nearest) != NULL &&
@@ -312,7 +312,7 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
         return qdot_hint("a power is written a^b");
     if (strcmp(name, "S") == 0 && is_beside_separation(c, token)) {
         copy_bracket_text(c, token + 1, text, sizeof text);
-        return qdot_hint("write function S(%s)", text);
+        return qdot_hint("`function S(%s)` declares it", text);
     }
     nearest = find_nearest_function(c->session, name, count_arguments(token + 1));
     if (nearest != NULL)

@@ -172,7 +172,7 @@ parse_superscript_call(qdot_parser *p, const qdot_token *name)
     if (qdot_token_is(power, "-")) {
         qdot_fail(QDOT_ESYNTAX, "`%s` with a negative power: its inverse, or 1 over it?",
                   name->text);
-        qdot_hint("write a%s(x), or 1/%s(x)", name->text, name->text);
+        qdot_hint("write `a%s(x)`, or `1/%s(x)`", name->text, name->text);
         return fail_at_token(p, power, QDOT_ESYNTAX);
     }
     p->c->at += 2;
@@ -527,7 +527,7 @@ parse_after_operand(qdot_parser *p)
     if (qdot_parser_top(p) != NULL && qdot_parser_top(p)->kind == QDOT_OP_ROOT && qdot_token_is(t, "^") &&
         !qdot_token_is(t - 1, ")")) {
         qdot_fail(QDOT_ESYNTAX, "a root and a power: which comes first?");
-        qdot_hint("write √(x^2) or √(x)^2");
+        qdot_hint("write `√(x^2)` or `√(x)^2`");
         return fail_at_token(p, t, QDOT_ESYNTAX);
     }
     QDOT_TRY(qdot_parser_emit_tighter(p, QDOT_OP_POWER)); /* a root, the run of a member */

@@ -141,7 +141,7 @@ resolve_declared(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_
 
         if (f->arity != 1) {
             qdot_resolve_no_prime(entry->name, "has several arguments: a prime does not say which");
-            return qdot_hint("write diff(%.40s, s) or ddt(%.40s)", entry->name,
+            return qdot_hint("write `diff(%.40s, s)` or `ddt(%.40s)`", entry->name,
                              entry->name);
         }
         return qdot_resolve_undefined(s, entry, primes, 1, &first, value);

@@ -310,9 +310,9 @@ qdot_refuse_text(const char *text, size_t open)
 
     find_line_at(text, open, &from, &to);
     qdot_fail(QDOT_ESYNTAX, "the text has no closing quote");
-    if (to - open > SHOWN)
+    if (to - from > SHOWN)
         return QDOT_ESYNTAX;
-    return qdot_hint("write %.*s\"", (int)(to - open), text + open);
+    return qdot_hint("write %.*s\"", (int)(to - from), text + from);
 }
 
 static bool
@@ -354,11 +354,11 @@ qdot_refuse(const char *text, size_t at)
         return qdot_fail(QDOT_ESYNTAX, "a control character: this is not text");
     if (digit >= 0) {
         qdot_fail(QDOT_ESYNTAX, "a raised digit has no meaning here");
-        return qdot_hint("write ^%d", digit);
+        return qdot_hint("write `^%d`", digit);
     }
     if (c == 0x307 || c == 0x308) {
         qdot_fail(QDOT_ESYNTAX, "a dot over a letter has no meaning here");
-        return qdot_hint("write %s after the name", c == 0x307 ? "'" : "''");
+        return qdot_hint("write `%s` after the name", c == 0x307 ? "'" : "''");
     }
     if (c == 0x201C || c == 0x201D)
         return refuse_quotes(text, at);
@@ -377,7 +377,7 @@ qdot_refuse(const char *text, size_t at)
         qdot_fail(QDOT_ESYNTAX, "`~` has no meaning here");
         if (before > from && text[at + 1] != '=')
             return qdot_hint("an equation is written a = b");
-        return qdot_hint("write not (a = b)");
+        return qdot_hint("write `not (a = b)`");
     }
     if (c == 0x2202)
         return refuse_partial(text, at);

@@ -8,7 +8,7 @@
 qdot_status
 qdot_look_at_record(const qdot_look *look, qdot_record *record)
 {
-    for (size_t i = 0; i < record->compiled.n; i++)
+    for (size_t i = 0; i < record->compiled.n && look->expression != NULL; i++)
         QDOT_TRY(look->expression(look->data, &record->cursor, &record->compiled.at[i]));
     return QDOT_OK;
 }
@@ -19,7 +19,7 @@ look_at_expression(const qdot_look *look, qdot_cursor *c)
     qdot_compiled program = {0};
     qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_VALUE, &program);
 
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && look->expression != NULL)
         status = look->expression(look->data, c, &program);
     qdot_compiled_free(&program);
     QDOT_TRY(status);

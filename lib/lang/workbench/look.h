@@ -9,7 +9,7 @@
 #include "lang/syntax/form.h"
 #include "lang/syntax/record.h"
 
-/* `expression` gets each expression of a statement as it was parsed; it fails with the place in the cursor. */
+/* `expression` gets each expression of a statement as it was parsed; it fails with the place in the cursor. NULL: they are only parsed. */
 typedef struct {
     qdot_status (*expression)(void *data, qdot_cursor *c, const qdot_compiled *program);
     void *data;

@@ -9,7 +9,6 @@
 
 #include <inttypes.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/interrupt.h"
 #include "base/memory-failure.h"
@@ -39,7 +38,9 @@
 #include "lang/syntax/loop-clause.h"
 #include "lang/syntax/match.h"
 #include "lang/syntax/outline.h"
+#include "lang/workbench/hint-check.h"
 #include "lang/workbench/statement-count.h"
+#include "lang/workbench/timing.h"
 
 typedef struct {
     size_t body, close; /* indices of the first token in the block, and of its `}` */
@@ -393,21 +394,6 @@ carry_out_for_loop(engine *x, size_t i, const qdot_token *word)
     return status;
 }
 
-static void
-report_cpu_time(const engine *x, clock_t since)
-{
-    qdot_text text = {0};
-    double s = (double)(clock() - since) / CLOCKS_PER_SEC;
-
-    qdot_text_add(&text, "cpu ");
-    qdot_text_double(&text, s * 1e3, 3);
-    qdot_text_format(&text, " ms; %zu nodes in ", qdot_pool_count(x->session->pool));
-    qdot_text_double(&text, (double)qdot_pool_bytes(x->session->pool) / 1e6, 3);
-    qdot_text_add(&text, " MB");
-    (void)!qdot_answer_text(x->session, "timing", qdot_text_str(&text));
-    qdot_text_clear(&text);
-}
-
 /* Whether an error's hint is empty or declares the name; a mistyped statement word is likelier. */
 static bool
 is_bare_or_declares(const char *hint)
@@ -434,6 +420,8 @@ find_row_with_example(const engine *x, size_t i, size_t end)
     return broken_off || strncmp(error->message, "expected an expression", 22) != 0 ? row : NULL;
 }
 
+static size_t find_fault(qdot_session *session, const char *text, size_t length);
+
 /* Add a hint after statement [i, end) failed, if the statement has the form of a known mistake. */
 static qdot_status
 add_hint_at_mistake(engine *x, size_t i, size_t end, qdot_status status)
@@ -452,6 +440,8 @@ add_hint_at_mistake(engine *x, size_t i, size_t end, qdot_status status)
         else if (near != NULL)
             (void)qdot_hint("did you mean `%s`?", near->word);
     }
+    if (x->look == NULL)
+        qdot_hint_check_in_place(x->session, find_fault, x->source, x->tokens + i, x->tokens + end, x->error_at);
     (void)qdot_foreign_hint(&c, x->tokens + i, x->tokens + end);
     x->error_at = c.error_at;
     example = find_row_with_example(x, i, end);
@@ -497,7 +487,7 @@ carry_out_simple(engine *x, size_t i, size_t *next)
         return add_hint_at_mistake(x, i, *next, status);
     QDOT_TRY(warn_of_rarely_meant(x, i, *next));
     if (timed && x->session->output->timing)
-        report_cpu_time(x, since);
+        qdot_timing_report(x->session, since);
     return QDOT_OK;
 }
 
@@ -628,11 +618,16 @@ carry_out_all(engine *x)
     return QDOT_OK;
 }
 
-/* Report the error of a statement, or of a text that could not be split into statements. */
+/* Report the error of a statement, or of a text that could not be split into statements; of a text that is only looked at, keep
+ * the place. */
 static void
 report_error(engine *x)
 {
+    if (x->look == NULL)
+        qdot_hint_check(x->session, find_fault);
     x->session->outcome->error_at = x->error_at;
+    if (x->look != NULL)
+        return;
     qdot_typed_begin(x->session, x->source, x->error_at);
     qdot_answer_error(x->session, x->source, x->error_at);
 }
@@ -689,4 +684,14 @@ qdot_script_look_at(qdot_session *session, const char *name, uint32_t before, co
                     const qdot_look *look)
 {
     return go_through_text(session, name, before, text, length, look);
+}
+
+/* Parse the text. Returns where it fails, or SIZE_MAX: it does not. */
+static size_t
+find_fault(qdot_session *session, const char *text, size_t length)
+{
+    const qdot_look look = {NULL, NULL};
+    const qdot_status status = go_through_text(session, "", 0, text, length, &look);
+
+    return status == QDOT_OK ? SIZE_MAX : session->outcome->error_at;
 }

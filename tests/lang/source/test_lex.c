@@ -119,7 +119,7 @@ junk_is_refused_at_its_place(void **state)
     assert_no_lex("x = \xD7\x90", 6, 4, "no meaning");
     assert_no_lex("a $ b", 5, 2, "`$`");
     assert_no_lex("+\xC2\xB2", 3, 1, "raised digit");
-    assert_string_equal(qdot_last_error()->hint, "write ^2");
+    assert_string_equal(qdot_last_error()->hint, "write `^2`");
     assert_no_lex("a \\ b", 5, 2, "end of a line");
 }
 
