@@ -11,6 +11,7 @@
 #include "num/sum.h"
 #include "ode/meter.h"
 #include "ode/scale.h"
+#include "ode/step-decisions.h"
 #include "ode/stiffness.h"
 #include "ode/stepper.h"
 
@@ -27,10 +28,6 @@ static const double most_change = 5, most_change_stiff = 25;
 
 /* Steps shorter than this many smallest steps are limited by the resolution of t, not by stability. */
 static const double coarse = 64;
-
-/* Tries at one place that fail because f is undefined: each divides the step by 4, so
- * this many reach the spacing of doubles from any step. */
-static const int max_undefined = 60;
 
 typedef struct {
     qdot_ode_stepper *s;
@@ -159,7 +156,7 @@ choose_step(const run *r, bool *last)
 {
     double rest = remaining_time(r);
 
-    *last = r->h >= rest * (1 - 1e-12) || (rest < 2 * least_step_length(r) && !(r->options->h_fixed > 0));
+    *last = r->h >= rest * (1 - qdot_step_sliver) || (rest < 2 * least_step_length(r) && !(r->options->h_fixed > 0));
     if (*last)
         return rest;
     if (!r->s->method->multistep && !(r->options->h_fixed > 0) && r->h > 0.5 * rest)
@@ -202,8 +199,8 @@ handle_undefined_step(run *r, double h, qdot_status status)
     r->undefined_at = r->t + r->direction * h;
     r->result->stats.rejected++;
     r->just_rejected = true;
-    r->h = 0.25 * h;
-    if (++r->undefined > max_undefined || r->h < least_step_length(r) ||
+    r->h = qdot_step_quarter * h;
+    if (++r->undefined > QDOT_STEP_ATTEMPTS || r->h < least_step_length(r) ||
         r->options->h_fixed > 0) {
         qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                   r->last_undefined.message);
@@ -389,7 +386,7 @@ choose_first_length(run *r)
     qdot_status status;
 
     if (r->options->h_fixed > 0) {
-        r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
+        r->h = distance / ceil(distance / r->options->h_fixed * (1 - qdot_step_sliver));
         return QDOT_OK;
     }
     if (r->options->h_first > 0) {

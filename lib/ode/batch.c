@@ -12,17 +12,11 @@
 #include "base/memory.h"
 #include "num/kinds.h"
 #include "num/series.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 
-enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60, line = 64 };
+enum { L = QDOT_LANES, line = 64 };
 
 static const int64_t max_steps = 50000000;
-
-/* A projection onto the constraints moves a state by about its own rounding error, whatever the tolerance. */
-static const double rounding_of_projection = 1e-13;
-
-/* The fraction of the interval for a first step if the upper half of the solution's Taylor series is 0. */
-static const double part_of_way = 0.31830988618379067;
 
 /* Data of all lanes of a group, one solution in each; counts and flags are integers, a flag has all bits set or none. */
 typedef struct {
@@ -159,12 +153,12 @@ confirm(batch *b)
                                       .next = b->next,
                                       .steps = a->way,
                                       .now = a->now,
-                                      .share = 10 * (b->run->order + 1) * b->run->tol,
-                                      .rounding = 64 * DBL_EPSILON};
+                                      .share = qdot_step_share(b->run->order, b->run->tol),
+                                      .rounding = qdot_step_rounding};
 
     b->kernels->confirm(&series, &defect, a->good, a->defined);
     for (size_t l = 0; b->system->project && l < L; l++)
-        if (!(a->moved[l] <= 100 * b->run->tol + rounding_of_projection))
+        if (!(a->moved[l] <= qdot_step_most_moved(b->run->tol)))
             a->good[l] = 0;
 }
 
@@ -175,10 +169,10 @@ reject(batch *b, size_t l)
     lanes *a = &b->at;
 
     a->rejected[l]++;
-    a->most[l] = 0.25 * fabs(a->h[l]);
+    a->most[l] = qdot_step_quarter * fabs(a->h[l]);
     a->ended[l] = 0;
     a->unit[l] = a->direction[l] * qdot_step_unit(a->most[l]);
-    if (++a->tries[l] > most_tries || a->most[l] < qdot_step_floor(a->t[l]))
+    if (++a->tries[l] > QDOT_STEP_ATTEMPTS || a->most[l] < qdot_step_floor(a->t[l]))
         leave_lane(b, l, QDOT_BATCH_STUCK);
 }
 
@@ -220,18 +214,14 @@ static void
 try_step_in_lane(batch *b, size_t l, double h)
 {
     lanes *a = &b->at;
-    double rest = a->direction[l] * (a->t1[l] - a->t[l]), end = a->t1[l];
+    const double rest = a->direction[l] * (a->t1[l] - a->t[l]);
+    double end;
 
     a->ends[l] = isinf(h) ? -1 : 0;
-    if (isinf(h))
-        h = a->ended[l] ? rest : part_of_way * rest;
+    if (isinf(h)) /* the series may be the whole solution: another place confirms it before the rest is passed over */
+        h = a->ended[l] ? rest : qdot_step_places[0] * rest;
     h = qdot_smaller(h, a->most[l]);
-    if (h < rest * (1 - 1e-12)) {
-        end = a->t[l] + a->direction[l] * (h > 0.5 * rest ? 0.5 * rest : h);
-        if (!(a->direction[l] * (a->t1[l] - end) > 0))
-            end = a->t1[l];
-    }
-    a->end[l] = end;
+    a->end[l] = end = qdot_step_end(a->t[l], a->t1[l], a->direction[l], h, false);
     a->h[l] = h = end - a->t[l];
     if (end != a->t1[l] && qdot_step_is_too_short(a->t[l], fabs(h))) {
         leave_lane(b, l, QDOT_BATCH_STUCK);
@@ -265,7 +255,7 @@ choose_step_of_lane(batch *b, size_t l, double step, const double *weight)
     double far = step;
 
     if (isnan(step)) {
-        far = -10 - 40 * (double)a->rescales[l];
+        far = qdot_step_overflow(a->rescales[l]);
     } else if (isinf(step)) {
         const qdot_batch_series series = series_of_lanes(b);
         double whole[L];
@@ -273,8 +263,8 @@ choose_step_of_lane(batch *b, size_t l, double step, const double *weight)
         b->kernels->log_steps(&series, 1, p, weight, b->inverse, b->nothing, whole);
         far = fmax(0, whole[l] + b->log_aim / p);
     }
-    if (fabs(far) > 8 && !isinf(far) && a->rescales[l] < most_rescales) {
-        a->unit[l] = ldexp(a->unit[l], (int)fmax(-300, fmin(300, floor(far))));
+    if (fabs(far) > QDOT_STEP_UNIT_FAR && !isinf(far) && a->rescales[l] < QDOT_STEP_UNITS) {
+        a->unit[l] = qdot_step_other_unit(a->unit[l], far);
         a->rescales[l]++;
         if (!(fabs(a->unit[l]) >= DBL_MIN && isfinite(a->unit[l])))
             leave_lane(b, l, QDOT_BATCH_STUCK);
@@ -329,7 +319,6 @@ evaluate_ends_in_lanes(batch *b)
 static void
 shorten_near_hidden_parts(batch *b)
 {
-    static const double narrowest = 0x1p-26;
     lanes *a = &b->at;
     double s[L], least[L], near[L];
 
@@ -337,7 +326,7 @@ shorten_near_hidden_parts(batch *b)
         return;
     for (size_t l = 0; l < L; l++) {
         s[l] = a->tried[l] ? fabs(a->h[l] / a->old_unit[l]) : NAN;
-        least[l] = narrowest * fabs(a->t[l] / a->old_unit[l]);
+        least[l] = qdot_step_narrowest * fabs(a->t[l] / a->old_unit[l]);
     }
     b->system->near(b->run->order, s, least, near, b->system->user);
     for (size_t l = 0; l < L; l++) {

@@ -4,7 +4,7 @@
 
 #include "ode/companion.h"
 #include "ode/scale.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 #include "ode/taylor.h"
 
 static const double unit = 0x1p-53;

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "ode/scale.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 
 static bool
 is_derived_component(const qdot_ode_system *system, size_t i)

@@ -8,8 +8,9 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "ode/step-decisions.h"
 
-enum { least_order = 8, max_tries = 60 };
+enum { least_order = 8 };
 
 #define RN MPFR_RNDN
 
@@ -228,7 +229,7 @@ static bool
 is_confirmed_at_end(const state *s)
 {
     const qdot_precise_system *system = s->system;
-    const double share = log2(10.0 * (s->p + 1)) + s->log2_tol;
+    const double share = log2(qdot_step_share(s->p, 1)) + s->log2_tol;
     const double h = qdot_real_log2(s->h), rounding = 8 - (double)system->bits;
 
     for (size_t i = system->checked; i < s->n; i++) {
@@ -257,11 +258,10 @@ keep_first_derivatives(state *s)
 static qdot_status
 is_confirmed_inside(state *s, bool *good)
 {
-    static const double places[] = {0.31830988618379067, 0.70710678118654752};
     qdot_status status = QDOT_OK;
 
-    for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
-        mpfr_mul_d(s->v, s->h, places[k], RN);
+    for (size_t k = 0; k < QDOT_STEP_PLACES && *good && status == QDOT_OK; k++) {
+        mpfr_mul_d(s->v, s->h, qdot_step_places[k], RN);
         precise_evaluate(s->system, s->p, s->v, s->next, s->slope, s->w);
         keep_first_derivatives(s);
         mpfr_add(s->v, s->v, s->t, RN);
@@ -383,26 +383,10 @@ advance_one_step(state *s)
         s->met = status != QDOT_OK;
         if (status != QDOT_OK)
             s->undefined = *qdot_last_error();
-        most = log2_h - 2;
-        if (isnan(most) || tries == max_tries || most < least)
+        most = log2_h + log2(qdot_step_quarter);
+        if (isnan(most) || tries == QDOT_STEP_ATTEMPTS || most < least)
             return fail_with_small_step(s);
     }
-}
-
-/* Stop a run that would need hopelessly many steps, as trajectory.c does. */
-static qdot_status
-stop_hopeless_run(const state *s)
-{
-    const double t0 = mpfr_get_d(qdot_precise_point(s->run, 0)[0], RN);
-    const double t = mpfr_get_d(s->t, RN), t1 = mpfr_get_d(s->t1, RN);
-    const double steps = (double)s->run->count, all = steps * ((t1 - t0) / (t - t0));
-
-    if (!(all > hopeless))
-        return QDOT_OK;
-    qdot_fail(QDOT_ELIMIT,
-              "stopped at t = %.6g after %.0f steps: at this rate t = %.3g is %.2g steps away",
-              t, steps, t1, all - steps);
-    return qdot_hint("a shorter run, or other units of time");
 }
 
 static qdot_status
@@ -435,7 +419,9 @@ precise_loop(state *s)
         qdot_progress_at(mpfr_get_d(s->t, RN));
         store_point(s->run, s->t, s->y);
         if (s->run->count % looks == 0)
-            QDOT_TRY(stop_hopeless_run(s));
+            QDOT_TRY(qdot_ode_check_pace(mpfr_get_d(qdot_precise_point(s->run, 0)[0], RN), mpfr_get_d(s->t, RN),
+                                         mpfr_get_d(s->t1, RN), s->run->count, hopeless,
+                                         "a shorter run, or other units of time"));
         if (s->options->accepted)
             QDOT_TRY(s->options->accepted(s->t, (const mpfr_t *)s->y, &stop,
                                           s->options->user));

@@ -24,6 +24,18 @@ qdot_ode_check_limits(const qdot_ode_system *system, double t0, double t1, const
     return QDOT_OK;
 }
 
+qdot_status
+qdot_ode_check_pace(double t0, double t, double t1, size_t steps, double most, const char *hint)
+{
+    const double all = (double)steps * ((t1 - t0) / (t - t0));
+
+    if (!(all > most))
+        return QDOT_OK;
+    qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %zu steps: at this rate t = %.3g is %.2g steps away", t, steps,
+              t1, all - (double)steps);
+    return qdot_hint("%s", hint);
+}
+
 void
 qdot_ode_end(qdot_ode_result *result, double t, qdot_status status)
 {

@@ -137,6 +137,10 @@ QDOT_MUST_CHECK qdot_status qdot_ode_check_tolerance(double tol);
 QDOT_MUST_CHECK qdot_status qdot_ode_check_limits(const qdot_ode_system *system, double t0,
                                                   double t1, const double *y);
 
+/* QDOT_ELIMIT, with the hint, if a run from t0 that has come to t in so many steps would take more than `most` to t1. */
+QDOT_MUST_CHECK qdot_status qdot_ode_check_pace(double t0, double t, double t1, size_t steps, double most,
+                                                const char *hint);
+
 /* Record in `result` that an integration ended at time t with the given status. */
 void qdot_ode_end(qdot_ode_result *result, double t, qdot_status status);
 

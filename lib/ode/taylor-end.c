@@ -4,13 +4,10 @@
 
 #include "ode/leading.h"
 #include "ode/scale.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 #include "ode/taylor-run.h"
 
 typedef qdot_ode_taylor_run run;
-
-/* A projection onto the constraints moves a state by about its own rounding error, whatever the tolerance. */
-static const double rounding_of_projection = 1e-13;
 
 /* A defect that falls by less than this when the step is divided by 4 is noise, if it is less than
  * this of the state over the step. */
@@ -96,15 +93,14 @@ static bool
 is_confirmed_at_end(const run *r, double h, double part, double old_held)
 {
     const qdot_ode_series *series = r->series;
-    const double now = part * h * r->per_unit, rounding = 64 * DBL_EPSILON;
-    const double share = part * (10 * (r->p + 1) * qdot_larger(r->held, old_held)
-                                 + r->noise * fabs(h));
+    const double now = part * h * r->per_unit;
+    const double share = part * (qdot_step_share(r->p, qdot_larger(r->held, old_held)) + r->noise * fabs(h));
 
     for (size_t k = 0; k < r->n_confirmed; k++) {
         const size_t i = r->confirmed[k];
         const double f = series->x[i * series->stride + 1] * now;
 
-        if (!(fabs(r->slope[i] - f) <= share * r->next_size[i] + rounding * r->terms[i]))
+        if (!(fabs(r->slope[i] - f) <= share * r->next_size[i] + qdot_step_rounding * r->terms[i]))
             return false;
     }
     return derived_components_agree(r, part * h, share);
@@ -140,15 +136,14 @@ is_over_jump(const run *r, double h)
 qdot_status
 qdot_ode_taylor_run_is_confirmed_inside(run *r, double h, bool *good)
 {
-    static const double places[] = {0.31830988618379067, 0.70710678118654752};
     const double old_held = r->held;
     qdot_status status = QDOT_OK;
 
-    for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
-        advance_state(r, r->p, places[k] * h / r->unit);
-        status = qdot_ode_taylor_run_begin(r, r->t + places[k] * h, r->next);
+    for (size_t k = 0; k < QDOT_STEP_PLACES && *good && status == QDOT_OK; k++) {
+        advance_state(r, r->p, qdot_step_places[k] * h / r->unit);
+        status = qdot_ode_taylor_run_begin(r, r->t + qdot_step_places[k] * h, r->next);
         if (status == QDOT_OK) {
-            *good = is_confirmed_at_end(r, h, places[k], old_held);
+            *good = is_confirmed_at_end(r, h, qdot_step_places[k], old_held);
             status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
@@ -263,7 +258,7 @@ qdot_ode_taylor_run_go(run *r, double t_end, bool *good)
     if (r->options->leading)
         QDOT_TRY(advance_in_two_doubles(r, t_end));
     QDOT_TRY(project_end_of_step(r, t_end, &r->attempt.moved));
-    *good = fixed || is_over_jump(r, h) || r->attempt.moved <= 100 * r->held + rounding_of_projection;
+    *good = fixed || is_over_jump(r, h) || r->attempt.moved <= qdot_step_most_moved(r->held);
     if (!*good)
         return QDOT_OK;
     qdot_ode_taylor_run_set_unit(r, qdot_step_unit(h));

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 #include "ode/taylor-run.h"
 
 typedef qdot_ode_taylor_run run;
@@ -109,15 +109,13 @@ avoid_ending_near_singularity(run *r, double *h, double most)
     }
 }
 
-/* As much of a step as no part of f is stepped over in. What would be narrower than so many parts of
- * t is none: a divisor that comes down to 0 there divides 0, a pole that nothing turns about. */
+/* As much of a step as no part of f is stepped over in. */
 static double
 step_before_hidden_parts(const run *r, double h)
 {
-    static const double narrowest = 0x1p-26;
     const double unit = fabs(r->unit);
 
-    return unit * r->series->near(r->p, h / unit, narrowest * fabs(r->t) / unit, r->series->user);
+    return unit * r->series->near(r->p, h / unit, qdot_step_narrowest * fabs(r->t) / unit, r->series->user);
 }
 
 /* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of
@@ -136,11 +134,11 @@ find_step_length(run *r, double most, double *h)
         if (isnan(l) && ends != 0) {
             qdot_ode_taylor_run_set_unit(r, ends);
             QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
-            tries = 8;
+            tries = QDOT_STEP_UNITS;
             continue;
         }
         if (isnan(l)) { /* coefficients overflow, provided that the first orders are finite */
-            far = -10 - 40 * tries;
+            far = qdot_step_overflow(tries);
         } else {
             ends = l < INFINITY ? 0 : r->unit;
             *h = fabs(r->unit) * qdot_rough_exp2(l);
@@ -151,16 +149,15 @@ find_step_length(run *r, double most, double *h)
             far = l < INFINITY ? l : fmax(0, log2_of_step_by_all_orders(r));
             if (r->system->until) /* a step ends there at the latest: no unit of time above that length is of use */
                 far = fmin(far, 1 + log2(fabs(r->until - r->t)) - log2(fabs(r->unit)));
-            if (!(fabs(far) > 8) || isinf(far))
+            if (!(fabs(far) > QDOT_STEP_UNIT_FAR) || isinf(far))
                 return QDOT_OK;
         }
-        if (tries >= 8) {
+        if (tries >= QDOT_STEP_UNITS) {
             if (isnan(l))
                 return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
             return QDOT_OK;
         }
-        qdot_ode_taylor_run_set_unit(
-            r, ldexp(r->unit, (int)fmax(-300, fmin(300, floor(far)))));
+        qdot_ode_taylor_run_set_unit(r, qdot_step_other_unit(r->unit, far));
         if (fabs(r->unit) < DBL_MIN || !isfinite(r->unit))
             return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
         QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));

@@ -3,7 +3,7 @@
 
 #include "num/series.h"
 #include "ode/companion.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 
 /* The lowest order; how many of the highest orders are left to companion runs (companion.h). */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };

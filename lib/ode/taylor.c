@@ -11,7 +11,7 @@
 #include "ode/meter.h"
 #include "ode/scale.h"
 #include "ode/step.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 #include "ode/taylor-run.h"
 
 enum { ARRAYS = 10 };
@@ -20,9 +20,6 @@ typedef qdot_ode_taylor_run run;
 
 /* After this many rejected steps the lowest orders of the series are no longer computed in two doubles. */
 enum { taken_back = 100 };
-
-/* The largest number of attempts at a point beyond which f is undefined, each with a quarter of the step before. */
-static const int max_undefined = 60;
 
 /* --- attempts at a step -------------------------------------------------------------- */
 
@@ -37,19 +34,6 @@ taylor_too_small(const run *r)
               r->t, qdot_step_floor(r->t), r->tol);
     return qdot_hint("the solution has a singularity there, or the tolerance is below "
                      "what double precision can hold");
-}
-
-/* The end of a step of length h, rounded to a double; if it is near r->until, that. */
-static double
-end_of_step(const run *r, double h)
-{
-    double rest = r->direction * (r->until - r->t), end;
-
-    if (h >= rest * (1 - 1e-12))
-        return r->until;
-    end = r->t +
-          r->direction * (h > 0.5 * rest && !(r->options->h_fixed > 0) ? 0.5 * rest : h);
-    return r->direction * (r->until - end) > 0 ? end : r->until;
 }
 
 /* The attempt at a step failed with that status, or QDOT_OK if its end does not confirm it: prepare another one. */
@@ -67,8 +51,8 @@ prepare_another_attempt(run *r, qdot_status status)
     }
     if (status != QDOT_OK || !qdot_ode_taylor_run_meets_noise(r)) {
         r->attempt.before = status == QDOT_OK ? r->defect : 0;
-        r->attempt.most = 0.25 * h;
-        if (r->attempt.tries == max_undefined || r->attempt.most < qdot_step_floor(r->t)
+        r->attempt.most = qdot_step_quarter * h;
+        if (r->attempt.tries == QDOT_STEP_ATTEMPTS || r->attempt.most < qdot_step_floor(r->t)
             || r->options->h_fixed > 0)
             return taylor_too_small(r);
     }
@@ -342,7 +326,7 @@ taylor_offer(void *run_, qdot_ode_step *step)
         r->defect = 0;
         ends = isinf(h);
         h = qdot_smaller(h, r->attempt.most);
-        end = end_of_step(r, h);
+        end = qdot_step_end(r->t, r->until, r->direction, h, fixed);
         r->attempt.h = r->direction * (end - r->t);
         if (end != r->until && qdot_step_is_too_short(r->t, r->attempt.h))
             return taylor_too_small(r);

@@ -7,7 +7,7 @@
 #include "ode/between.h"
 #include "ode/leading.h"
 #include "ode/stepper.h"
-#include "ode/taylor-numbers.h"
+#include "ode/step-decisions.h"
 #include "ode/taylor.h"
 #include "ode/trajectory.h"
 

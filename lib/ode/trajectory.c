@@ -95,21 +95,6 @@ store_low(qdot_trajectory *tr, const double *low)
     return QDOT_OK;
 }
 
-/* Stop a run that has made little progress in many steps, before it reaches the limit of steps. */
-static qdot_status
-stop_hopeless_run(const qdot_trajectory *tr, double t, double t1)
-{
-    const double steps = (double)tr->count, t0 = tr->t[0];
-    const double all = steps * ((t1 - t0) / (t - t0));
-
-    if (!(all > hopeless))
-        return QDOT_OK;
-    qdot_fail(QDOT_ELIMIT,
-              "stopped at t = %.6g after %.0f steps: at this rate t = %.3g is %.2g steps away",
-              t, steps, t1, all - steps);
-    return qdot_hint("at most 5e7 steps are taken: a shorter run, or other units of time");
-}
-
 qdot_status
 qdot_trajectory_add(qdot_trajectory *tr, const qdot_ode_options *options, double t1, const qdot_ode_step *step)
 {
@@ -117,7 +102,8 @@ qdot_trajectory_add(qdot_trajectory *tr, const qdot_ode_options *options, double
 
     /* do not stop a companion run (its meter has a run to compare with), which must go as far as its run */
     if (tr->count % looks == 0 && !(meter && meter->beside))
-        QDOT_TRY(stop_hopeless_run(tr, step->t_end, t1));
+        QDOT_TRY(qdot_ode_check_pace(tr->t[0], step->t_end, t1, tr->count, hopeless,
+                                     "at most 5e7 steps are taken: a shorter run, or other units of time"));
     if (step->method != qdot_trajectory_method_of(tr, tr->count - 1))
         QDOT_TRY(qdot_vec_push(&tr->turns, ((qdot_trajectory_turn){tr->count - 1, step->method})));
     QDOT_TRY(qdot_trajectory_store(tr, step->t_end, step->y_end));

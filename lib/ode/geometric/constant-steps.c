@@ -11,9 +11,10 @@
 #include "num/sum.h"
 #include "ode/meter.h"
 #include "ode/scale.h"
+#include "ode/step-decisions.h"
 #include "ode/step.h"
 
-enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16, most_undefined = 60 };
+enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16 };
 
 /* The trial run aims at this fraction of the tolerance; the step is the shortest one of the trial times `safe`. */
 static const double aim = 0.5, safe = 0.9, most_growth = 5;
@@ -22,9 +23,6 @@ static const double aim = 0.5, safe = 0.9, most_growth = 5;
  * is then taken, and shortened where that place comes. Behind one the trial goes on while the shortest
  * of a window is so much longer than that of the one before. */
 static const double singular = 1e4, of_longest = 0.1, growing = 1.1;
-
-/* A remainder of less than this part of an interval is only rounding of times: no step is made for it. */
-static const double sliver = 1e-12;
 
 /* Differences of states below this, relative to max(1, |y_i|), count as rounding errors. */
 static const double rounding = 8 * DBL_EPSILON;
@@ -247,13 +245,13 @@ make_trial_steps(run *r, lengths *l)
 {
     const double distance = fabs(r->t1 - r->t), t0 = r->t;
 
-    for (int k = 0; fabs(r->t - t0) < distance * (1 - sliver) && trial_goes_on(l, k); k++) {
+    for (int k = 0; fabs(r->t - t0) < distance * (1 - qdot_step_sliver) && trial_goes_on(l, k); k++) {
         const double whole = r->h, h = fmin(whole, distance - fabs(r->t - t0));
         double ratio;
         const qdot_status status = measure_step(r, r->direction * h, &ratio);
 
         if (qdot_ode_may_be_undefined(status) && h > least_step_length(r)) {
-            r->h = 0.25 * h;
+            r->h = qdot_step_quarter * h;
             continue;
         }
         QDOT_TRY(status);
@@ -321,8 +319,8 @@ handle_undefined_step(run *r, double h, qdot_status status)
     if (!qdot_ode_may_be_undefined(status))
         return status;
     r->result->stats.rejected++;
-    r->h = 0.25 * h;
-    if (++r->undefined <= most_undefined && r->h > least_step_length(r) && !(r->options->h_fixed > 0))
+    r->h = qdot_step_quarter * h;
+    if (++r->undefined <= QDOT_STEP_ATTEMPTS && r->h > least_step_length(r) && !(r->options->h_fixed > 0))
         return QDOT_OK;
     return end_run_with_failure(r);
 }
@@ -371,7 +369,7 @@ static qdot_status
 try_next_step(run *r, bool *made)
 {
     const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
-    const bool last = r->h >= rest * (1 - sliver);
+    const bool last = r->h >= rest * (1 - qdot_step_sliver);
     const double h = last ? rest : r->h;
     const bool look = (r->length > 0 || r->result->stats.steps % measured == 0)
                       && !(r->options->h_fixed > 0);
@@ -441,7 +439,7 @@ choose_length(run *r)
     if (distance == 0)
         return QDOT_OK;
     if (r->options->h_fixed > 0)
-        r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
+        r->h = distance / ceil(distance / r->options->h_fixed * (1 - qdot_step_sliver));
     else
         QDOT_TRY(find_step_length(r));
     return check_number_of_steps(r);
