@@ -118,9 +118,14 @@ qdot_result qdot_system_progress(qdot_system *system, qdot_progress_hook hook, v
  * motion are no statements: those before them can no longer be undone. */
 void qdot_system_keep_undo(qdot_system *system, int kept);
 
+/* What errors call the text of a later qdot_system_ask(), and the place of what it declares: with "In[3]", "`x` was declared as a
+ * coordinate at In[3]:2" names a cell of a notebook. The name is copied; NULL: `ask`, as at first. Errors: NO_MEMORY, INVALID. */
+qdot_result qdot_system_source(qdot_system *system, const char *name);
+
 /* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
  * line is "CALL:LINE:COLUMN: error: ..." where a text is to blame, CALL being `declare`, `ask`,
- * `derive`, `decide`, `number`, `run`, `motion`, `table`, `values`, `over`, `compile` or `variables`; then come the
+ * `derive`, `decide`, `number`, `run`, `motion`, `table`, `values`, `over`, `compile` or `variables`, or what
+ * qdot_system_source() has named; then come the
  * line, a caret below the place and often a hint. Borrowed until the next such call. */
 const char *qdot_system_error(const qdot_system *system);
 

@@ -82,7 +82,7 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
         session->output->console_json = true;
     }
     if (status == QDOT_OK)
-        status = qdot_script_carry_out(session, "ask", 0, text, strlen(text));
+        status = qdot_script_carry_out(session, system->source != NULL ? system->source : "ask", 0, text, strlen(text));
     session->output->json = session->output->display = session->output->console_json = false;
     session->output->style = before;
     result = qdot_api_end(system, status);

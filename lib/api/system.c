@@ -104,6 +104,7 @@ qdot_api_release(qdot_system *system)
     qdot_session_free(system->session);
     for (int i = 0; i < QDOT_API_STREAMS; i++)
         free(system->stream[i].text);
+    qdot_free(system->source);
     qdot_free(system);
 }
 
@@ -226,6 +227,20 @@ qdot_system_keep_undo(qdot_system *system, int kept)
 {
     if (system != NULL)
         system->keeps_undo = kept != 0;
+}
+
+qdot_result
+qdot_system_source(qdot_system *system, const char *name)
+{
+    char *copy = name != NULL ? qdot_strdup(name) : NULL;
+
+    if (system == NULL || (name != NULL && copy == NULL)) {
+        qdot_free(copy);
+        return system == NULL ? QDOT_RESULT_INVALID : QDOT_RESULT_NO_MEMORY;
+    }
+    qdot_free(system->source);
+    system->source = copy;
+    return qdot_api_accept(system);
 }
 
 /* Take back what a call has set of the session: its streams and what became of its statements. */

@@ -29,6 +29,7 @@ struct qdot_system {
         size_t length;
     } stream[QDOT_API_STREAMS];
     bool keeps_undo;  /* also when a call ends */
+    char *source;     /* what errors call the text of qdot_system_ask(); NULL: ask */
     qdot_error error; /* failure of the latest call; QDOT_OK: none */
     qdot_interrupt interrupt; /* set by qdot_system_interrupt */
     struct {

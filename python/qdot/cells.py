@@ -99,14 +99,14 @@ def carry_out(system: System, code: str, name: str, progress: Progress) -> Itera
     try:
         for piece in pieces(code):
             try:
-                answers = system.display(piece)
+                answers = system.display(piece, name)
             except KeyboardInterrupt as stopped:
                 ended = "interrupted"
                 so_far = (getattr(stopped, "answers", None) or "").splitlines()
-                shown = outputs(map(json.loads, so_far), name)
+                shown = outputs(map(json.loads, so_far))
                 yield from (output for output in shown if output.kind != "error")
                 raise
-            for output in outputs(answers, name):
+            for output in outputs(answers):
                 yield output
                 if output.kind == "error":
                     return

@@ -43,21 +43,19 @@ class Output:
         return self.data["text/plain"]
 
 
-def outputs(answers: Iterable[Answer], name: str = "", folder: str = ".") -> List[Output]:
+def outputs(answers: Iterable[Answer], folder: str = ".") -> List[Output]:
     """The outputs for the answers, in their order.
 
     Parameters
     ----------
     answers
         The objects, as `System.display` returns them.
-    name
-        What errors call the source: ``In[5]``.
     folder
         Where paths of written files begin.
     """
     shown: List[Output] = []
     for group in _grouped(answers):
-        for output in _outputs_of(group, name, folder):
+        for output in _outputs_of(group, folder):
             last = shown[-1] if shown else None
             if last and output.kind == last.kind and output.kind in ("stdout", "stderr"):
                 last.data["text/plain"] += output.text
@@ -96,7 +94,7 @@ def _has_formulas(answer: Answer) -> bool:
     return "<math" in answer.get("html", "")
 
 
-def _outputs_of(group: List[Answer], name: str, folder: str) -> List[Output]:
+def _outputs_of(group: List[Answer], folder: str) -> List[Output]:
     answer, kind = group[0], group[0]["kind"]
     if kind in _ROWS:
         return [_table(group)]
@@ -108,8 +106,7 @@ def _outputs_of(group: List[Answer], name: str, folder: str) -> List[Output]:
         return []
     text = answer.get("text", str(answer))
     if kind == "error":
-        own = name and text.startswith("ask:")
-        return [Output("error", {"text/plain": name + text[3:] if own else text}, answer)]
+        return [Output("error", {"text/plain": text}, answer)]
     if "typeset" in answer:
         latex = rf"$\displaystyle {answer['typeset']['latex']}$"  # with fractions of full size
         return [Output("display", {"text/plain": text, "text/latex": latex})]

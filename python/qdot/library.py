@@ -86,6 +86,7 @@ _FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "qdot_motion_drift": (c_int, [c_void_p, c_size_t, POINTER(c_char_p), _numbers, _numbers]),
     "qdot_system_interrupt": (None, [c_void_p]),
     "qdot_system_keep_undo": (None, [c_void_p, c_int]),
+    "qdot_system_source": (c_int, [c_void_p, c_char_p]),
     "qdot_system_progress": (c_int, [c_void_p, ProgressHook, c_void_p]),
     "qdot_system_complete": (c_int, [c_void_p, c_char_p, c_size_t, _sizes, _text_out]),
     "qdot_system_explain": (c_int, [c_void_p, c_char_p, c_size_t, c_int, _text_out]),

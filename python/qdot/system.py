@@ -169,7 +169,7 @@ class System:
         """
         return self._answers(text, _notation(notation))
 
-    def display(self, text: str) -> List[Dict[str, Any]]:
+    def display(self, text: str, source: str = "ask") -> List[Dict[str, Any]]:
         """Carry out statements and return their answers as objects, for notebooks and editors.
 
         The objects are those of the program's option --json. Figures, animations and reports come as
@@ -178,14 +178,26 @@ class System:
         {"kind": "error", "line": ..., "column": ..., "message": ..., "hint": ...}, and notices are
         objects, too.
 
+        Parameters
+        ----------
+        text : str
+            Statements.
+        source : str
+            What errors call the text, and the place of what it declares: ``In[5]``.
+
         Examples
         --------
         >>> import qdot
         >>> [answer["kind"] for answer in qdot.System().display("1/3 + 1/6; nonsense +")]
         ['expr', 'error']
+        >>> s = qdot.System()
+        >>> s.display("param a", "In[1]")
+        []
+        >>> s.display("coord a", "In[2]")[0]["message"]
+        '`a` was declared before, at In[1]:1'
         """
         try:
-            lines = self._answers(text, DISPLAY, noted=False)
+            lines = self._answers(text, DISPLAY, noted=False, source=source)
         except Error as error:
             if error.answers is None:
                 raise
@@ -541,10 +553,11 @@ class System:
             raise ValueError("the system is closed")
         return self._open
 
-    def _answers(self, text: str, notation: int, noted: bool = True) -> str:
+    def _answers(self, text: str, notation: int, noted: bool = True, source: str = "ask") -> str:
         session, answers = self._session, c_void_p()
 
         def body() -> str:
+            session.check(session.library.qdot_system_source(session.handle, utf8(source)))
             result = session.library.qdot_system_ask(
                 session.handle, utf8(text), notation, byref(answers)
             )

@@ -138,6 +138,7 @@ qdot_task_run(void)
     if (!qdot_text_add_stream(&script, stdin, MOST) || script.failed || qdot_system_new(&system) != QDOT_RESULT_OK)
         return 1;
     (void)qdot_system_progress(system, tell_progress, NULL);
+    (void)qdot_system_source(system, "script");
     status = qdot_system_ask(system, qdot_text_str(&script), QDOT_NOTATION_DISPLAY, &answers);
     sort_answers(answers, &to);
     write_object(json_pack("{s:s, s:s, s:s, s:s, s:i, s:o, s:o}", "text", qdot_text_str(&to.text), "html", qdot_text_str(&to.html), "style",

@@ -305,6 +305,28 @@ errors_name_the_place(void **state)
     expect_error(s, qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID, "declare:1:1: error: ");
 }
 
+/* A name that was declared in another cell of a notebook is found there. */
+static void
+errors_name_the_source_of_a_text(void **state)
+{
+    qdot_system *s = *state;
+    char name[] = "In[3]", *answers;
+
+    assert_int_equal(qdot_system_source(NULL, name), QDOT_RESULT_INVALID);
+    assert_int_equal(qdot_system_source(s, name), QDOT_RESULT_OK);
+    name[3] = '4'; /* it was copied */
+    assert_int_equal(qdot_system_ask(s, "1\nparam fresh", QDOT_NOTATION_PLAIN, &answers), QDOT_RESULT_OK);
+    qdot_string_free(answers);
+    assert_int_equal(qdot_system_source(s, "In[7]"), QDOT_RESULT_OK);
+    expect_error(s, qdot_system_ask(s, "\ncoord fresh", QDOT_NOTATION_PLAIN, &answers), QDOT_RESULT_NAME, "In[7]:2:7: error: ");
+    qdot_string_free(answers);
+    assert_non_null(strstr(qdot_system_error(s), "at In[3]:2\n"));
+    assert_int_equal(qdot_system_source(s, NULL), QDOT_RESULT_OK);
+    expect_error(s, qdot_system_ask(s, "coord fresh", QDOT_NOTATION_PLAIN, &answers), QDOT_RESULT_NAME, "ask:1:7: error: ");
+    qdot_string_free(answers);
+    assert_int_equal(qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID);
+}
+
 static void
 undo_reaches_back_over_calls_where_it_is_kept(void **state)
 {
@@ -570,6 +592,7 @@ main(void)
         IN_A_SCENE(runs_live_as_long_as_said),
         IN_A_SCENE(answers_and_notices_are_apart),
         IN_A_SCENE(interrupted_work_says_so),
+        IN_A_SCENE(errors_name_the_source_of_a_text),
         IN_A_SCENE(undo_reaches_back_over_calls_where_it_is_kept),
         cmocka_unit_test(failing_memory_is_reported),
         cmocka_unit_test(systems_of_two_threads_do_not_meet),

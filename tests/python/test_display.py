@@ -20,7 +20,7 @@ SCENE = """
 
 def shown(text, scene=SCENE):
     """Return the outputs of statements on a scene."""
-    return outputs(qdot.System(scene).display(text), "In[3]")
+    return outputs(qdot.System(scene).display(text, "In[3]"))
 
 
 def one(text, scene=SCENE):
@@ -213,6 +213,12 @@ class Texts(unittest.TestCase):
             output.text.split("\n")[:3], ["In[3]:1:5: error: unknown name `y`", "  x + y", "      ^"]
         )
         self.assertTrue(output.text.split("\n")[3].startswith("  hint: "))
+
+    def test_a_name_of_another_cell_is_found_there(self):
+        system = qdot.System()
+        self.assertEqual(system.display("param a", "In[3]"), [])
+        (output,) = outputs(system.display("\ncoord a", "In[7]"))
+        self.assertTrue(output.text.startswith("In[7]:2:7: error: `a` was declared before, at In[3]:1\n"))
 
     def test_an_answer_of_a_later_library_is_not_lost(self):
         (output,) = outputs([{"kind": "surprise", "data": 1}])

@@ -96,7 +96,7 @@ const kinds = {
         download(a.name || "page", ".html", a.data, "text/html")),
     error(a) { /* its line stands above it, its file is no file */
         const e = written(a.html), pre = e.querySelector("pre");
-        pre.textContent = pre.textContent.replace(/^ask:\d+:\d+: /, "");
+        pre.textContent = pre.textContent.replace(/^(script|prompt):\d+:\d+: /, "");
         return e;
     },
     file(a) {
@@ -107,7 +107,7 @@ const kinds = {
 };
 
 /* Whether an error shows the statement that was asked. */
-export const showsStatement = a => a.kind === "error" && a.column > 0 && (!a.file || a.file === "ask");
+export const showsStatement = a => a.kind === "error" && a.column > 0 && (!a.file || a.file === "script" || a.file === "prompt");
 
 /* The elements for the answers of a piece; asked: the statement that stands above them, which no answer repeats. */
 export function elementsOf(answers, asked) {

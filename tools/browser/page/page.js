@@ -199,7 +199,7 @@ function show(data, ofScript) {
     else if (data.answers.every(showsStatement))
         all.firstChild.remove();
     for (const a of data.answers)
-        if (a.kind === "error" && ofScript && a.line && (!a.file || a.file === "ask"))
+        if (a.kind === "error" && ofScript && a.line && (!a.file || a.file === "script"))
             marked.push(editor.addLineClass(a.line - 1, "background", "wrong"));
     if (data.answers.some(a => a.kind === "error"))
         reveal(all);

@@ -6,7 +6,8 @@
 
 let worker = null, ready = null, count = 0, stopped = null;
 let stale = false;  /* the worker is new: `done` has to be carried out first */
-const done = [];    /* what was carried out since the session began: {line, text} */
+const done = [];    /* what was carried out since the session began: {line, text, source} */
+let typed = 0;      /* number of lines typed at the prompt since then */
 const calls = new Map(), files = new Map();
 let tell = {status() {}, progress() {}};
 
@@ -121,17 +122,20 @@ async function carryOutPieces(text, fresh, some) {
     if (fresh)
         done.length = 0;
     else if (stale)
-        for (const {line, text: again} of done) {
+        for (const {line, text: again, source} of done) {
             tell.status(`once more: ${again.trim().split("\n")[0]}`);
-            const end = await call({kind: "ask", text: again, line});
+            const end = await call({kind: "ask", text: again, line, source});
             if (end.kind !== "end")
                 return end;
         }
     stale = false;
     tell.status("computing…");
-    return call({kind: "ask", text, line: 1, fresh}, data => {
+    const source = fresh ? "script" : "prompt"; /* what errors call it */
+    const line = fresh ? 1 : typed + 1;
+    typed = fresh ? 0 : typed + text.split("\n").length;
+    return call({kind: "ask", text, line, fresh, source}, data => {
         if (data.kind === "piece")
-            done.push({line: data.line, text: data.text});
+            done.push({line: data.line, text: data.text, source});
         some(data);
     });
 }

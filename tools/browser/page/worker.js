@@ -1,8 +1,9 @@
 /* worker.js -- a session of qdot in a thread of its own: the page stays alive while it computes.
  *
  * Messages from the page: {id, kind, ...}; each gets one {id, kind: "end", ...}, answers before it as they come.
- *   ask       text, line (its first in the script), fresh (from the beginning): statement by statement, each with a message
- *             {kind: "begin", line, text} and, when it was carried out, {kind: "piece", line, text, answers}
+ *   ask       text, line (its first in the source), source (what errors call it), fresh (from the beginning): statement by
+ *             statement, each with a message {kind: "begin", line, text} and, when it was carried out, {kind: "piece", line,
+ *             text, answers}
  *   complete  text, cursor               explain  text, cursor
  *   write     name, bytes: a file that statements read      read  name: one that they wrote
  */
@@ -57,10 +58,13 @@ function* pieces(text) {
     }
 }
 
-/* Carry out a piece that begins in line `line` of the script; false: it failed. Empty lines before it make the lines right that
- * the library names. */
-function askPiece(id, line, piece) {
+/* Carry out a piece that begins in line `line` of the script, or of what was typed at the prompt; false: it failed. Empty lines
+ * before it make the lines right that the library names. */
+function askPiece(id, line, piece, source) {
     postMessage({id, kind: "begin", line, text: piece});
+    const name = allocate(source);
+    qdot._qdot_system_source(session, name);
+    qdot._free(name);
     const text = allocate("\n".repeat(line - 1) + piece), slot = qdot._malloc(4);
     qdot.HEAPU32[slot >> 2] = 0;
     const result = qdot._qdot_system_ask(session, text, DISPLAY, slot);
@@ -74,12 +78,12 @@ function askPiece(id, line, piece) {
 }
 
 const calls = {
-    ask({id, text, line, fresh}) {
+    ask({id, text, line, fresh, source = "script"}) {
         if (fresh)
             begin();
         let good = true;
         for (const piece of pieces(text))
-            if (!(good = askPiece(id, line + piece.line, piece.text)))
+            if (!(good = askPiece(id, line + piece.line, piece.text, source)))
                 break;
         return {good};
     },
