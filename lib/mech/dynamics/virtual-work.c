@@ -19,6 +19,7 @@
 #include "expr/tensor.h"
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/multiplier-forces.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/ostrogradsky.h"
 #include "mech/dynamics/quantity.h"
@@ -294,6 +295,13 @@ static const struct {
 };
 enum { SOURCES = sizeof sources / sizeof *sources };
 
+/* The generalized force on q_i of the k-th source in row a, with the values of multipliers that it holds put in. */
+static qdot_expr
+source_force(qdot_scene *s, size_t a, size_t k, size_t i, bool kane)
+{
+    return qdot_without_multipliers(s, sources[a].force(s, k, i, kane));
+}
+
 qdot_expr
 qdot_force_of_state(qdot_scene *s, size_t i)
 {
@@ -324,7 +332,7 @@ sum_of_sources(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
         if (applied && sources[a].conservative)
             continue;
         for (size_t k = 0; k < sources[a].count(s); k++) {
-            qdot_expr part = sources[a].force(s, k, i, kane);
+            qdot_expr part = source_force(s, a, k, i, kane);
 
             if (part == QDOT_ZERO)
                 continue;
@@ -366,7 +374,7 @@ qdot_force_but_gravity(qdot_scene *s, size_t i)
     for (size_t a = 0; a < SOURCES; a++)
         for (size_t k = 0; sources[a].force != gravity_force && k < sources[a].count(s);
              k++)
-            Q = qdot_add(s->pool, Q, sources[a].force(s, k, i, false));
+            Q = qdot_add(s->pool, Q, source_force(s, a, k, i, false));
     return Q;
 }
 
@@ -376,9 +384,9 @@ qdot_force_declared(qdot_scene *s, size_t i)
     qdot_expr Q = QDOT_ZERO;
 
     for (size_t k = 0; k < s->forces.n; k++)
-        Q = qdot_add(s->pool, Q, applied_force(s, k, i, false));
+        Q = qdot_add(s->pool, Q, qdot_without_multipliers(s, applied_force(s, k, i, false)));
     for (size_t k = 0; k < s->torques.n; k++)
-        Q = qdot_add(s->pool, Q, torque_force(s, k, i, false));
+        Q = qdot_add(s->pool, Q, qdot_without_multipliers(s, torque_force(s, k, i, false)));
     return Q;
 }
 
@@ -444,7 +452,7 @@ qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr
 
     if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
-    return qdot_mech_tidy(s, sources[source->row].force(s, source->k, i, false));
+    return qdot_mech_tidy(s, source_force(s, source->row, source->k, i, false));
 }
 
 qdot_expr

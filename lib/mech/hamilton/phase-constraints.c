@@ -66,7 +66,7 @@ write_system(qdot_scene *s, qdot_expr *a, qdot_expr *b)
     return qdot_pool_check(pool);
 }
 
-/* Refuse forces that hold multipliers, and rates that jump: a state that slides along the jump moves by other multipliers. */
+/* Refuse rates that jump: a state that slides along the jump moves by other multipliers. */
 static qdot_status
 refuse_unsuitable_rates(qdot_scene *s)
 {
@@ -78,8 +78,6 @@ refuse_unsuitable_rates(qdot_scene *s)
                                    qdot_diff(s->pool, s->hamiltonian, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q))};
 
         QDOT_TRY(qdot_pool_check(s->pool));
-        if (qdot_mech_holds(s, Q) & QDOT_HAS_MULTIPLIER)
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: forces that hold multipliers beside an H from which no Lagrangian follows");
         for (size_t k = 0; k < sizeof rates / sizeof *rates; k++) {
             bool jumps;
 

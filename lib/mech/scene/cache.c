@@ -40,6 +40,7 @@ clear_results(qdot_derived *d)
     qdot_free(d->higher);
     qdot_free(d->accel);
     qdot_free(d->lambda);
+    qdot_free(d->friction);
     qdot_free(d->integral);
     qdot_free(d->factor);
     qdot_free(d->integral_known);

@@ -81,6 +81,8 @@ struct qdot_derived {
                         * velocities (mech/dynamics/speeds.h); NULL until requested */
     qdot_expr *higher; /* [n] what is applied to each coordinate so that the equations are those of higher_lagrangian */
     qdot_expr *accel; /* [n] accelerations q'', computed together */
+    qdot_expr *friction; /* values of the multipliers that forces hold, and of their magnitudes (mech/dynamics/multiplier-forces.h) */
+    bool friction_bound; /* these are undefined somewhere: friction acts on the multiplier that it comes from */
     qdot_expr *lambda; /* [constraints] multipliers, computed with accel; nil if not unique */
     qdot_expr numeric_mass, numeric_forcing, numeric_energy;
     /* [constraints] of velocity constraints that are holonomic in disguise: F and mu, mu f = dF/dt

@@ -20,6 +20,7 @@ enum {
     NO_SYMBOLS = NO_VIRTUAL | QDOT_HAS_MOMENTUM,
     NO_RATE = NO_VIRTUAL | QDOT_HAS_ACCELERATION | QDOT_HAS_VELOCITY,
     NO_ACCELERATION = NO_SYMBOLS | QDOT_HAS_ACCELERATION,
+    NOT_IN_FORCES = NO_ACCELERATION & ~QDOT_HAS_MULTIPLIER,
     NO_VELOCITY = NO_ACCELERATION | QDOT_HAS_VELOCITY,
     NO_PLACE = NO_VELOCITY | QDOT_HAS_COORD
 };
@@ -110,15 +111,6 @@ refuse_forbidden_symbols(qdot_scene *s, qdot_expr e, const char *what, uint32_t 
         if (holds & contents[i].flag)
             return qdot_fail(QDOT_EINVAL, "%s cannot contain %s", what, contents[i].words);
     return forbidden & may_be_delayed ? QDOT_OK : qdot_scene_refuse_delays(s, e, what);
-}
-
-/* Refuse friction that depends on Lagrange multipliers: this is not implemented. */
-static qdot_status
-refuse_multipliers_in_friction(qdot_scene *s, qdot_expr e, const char *what)
-{
-    if (!(qdot_mech_holds(s, e) & QDOT_HAS_MULTIPLIER))
-        return QDOT_OK;
-    return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s that holds multipliers", what);
 }
 
 static qdot_status
@@ -272,9 +264,8 @@ require_energy_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
         return require_scalar(s, e, "a potential", NO_ACCELERATION);
     default:
         QDOT_TRY(qdot_scene_refuse_states(s, e, "a dissipation function", 1));
-        QDOT_TRY(refuse_multipliers_in_friction(s, e, "a dissipation function"));
         e = qdot_higher_in_jets(s, e);
-        return require_scalar(s, e, "a dissipation function", NO_ACCELERATION);
+        return require_scalar(s, e, "a dissipation function", NOT_IN_FORCES);
     }
 }
 
@@ -394,8 +385,7 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_scene_need_new_label(s, force->name));
-    QDOT_TRY(refuse_multipliers_in_friction(s, force->force, "a force"));
-    QDOT_TRY(require_vector(s, force->force, "a force", NO_ACCELERATION | may_be_delayed));
+    QDOT_TRY(require_vector(s, force->force, "a force", NOT_IN_FORCES | may_be_delayed));
     QDOT_TRY(require_vector(s, force->point, "the point of a force", NO_VELOCITY));
     if (qdot_mech_dimension(s->pool, force->force) !=
         qdot_mech_dimension(s->pool, force->point))
@@ -421,7 +411,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
     if (torque->coordinate != QDOT_NIL) {
         size_t i;
 
-        QDOT_TRY(require_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION | may_be_delayed));
+        QDOT_TRY(require_scalar(s, torque->torque, "a generalized force", NOT_IN_FORCES | may_be_delayed));
         if (!qdot_mech_index(s, torque->coordinate, &i))
             return qdot_pool_check(s->pool);
         if (qdot_scene_state_of(s, torque->coordinate)) {
@@ -440,7 +430,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
             return qdot_fail(QDOT_ETYPE,
                              wanted == 3 ? "a torque on a body in space has 3 components"
                                          : "a torque on a plane body is a number");
-        QDOT_TRY(refuse_forbidden_symbols(s, torque->torque, "a torque", NO_ACCELERATION | may_be_delayed));
+        QDOT_TRY(refuse_forbidden_symbols(s, torque->torque, "a torque", NOT_IN_FORCES | may_be_delayed));
     }
     QDOT_TRY(qdot_scene_copy_text(s, torque->name, &copy.name));
     QDOT_TRY(qdot_vec_push(&s->torques, copy));

@@ -3,7 +3,5 @@ scene='coord x, y; param mu, k; particle b mass 1 at (x, y); constraint floor: y
 while read -r line; do
     qdot -q -e "$scene" -e "$line" 2>&1 | sed -n '1p;2p'
 done <<'EOF'
-force (-mu*abs(lambda[floor])*sign(x'), 0) on b
-dissipation lambda[floor]*x'^2
 run 0..1 method gauss4
 EOF
